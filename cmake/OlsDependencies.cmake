@@ -1,0 +1,32 @@
+# Stock Debian 12 packages; tools/install-dependencies names them.
+
+# System headers, so that their warnings are not ours.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc calib3d video videoio imgcodecs features2d)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(lcm REQUIRED IMPORTED_TARGET lcm)
+pkg_check_modules(aravis REQUIRED IMPORTED_TARGET aravis-0.8)
+pkg_check_modules(libserialport REQUIRED IMPORTED_TARGET libserialport)
+pkg_check_modules(libsystemd REQUIRED IMPORTED_TARGET libsystemd)
+pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
+find_package(CLI11 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(Threads REQUIRED)
+
+find_library(GeographicLib_LIBRARY NAMES GeographicLib Geographic REQUIRED)
+find_path(GeographicLib_INCLUDE_DIR GeographicLib/Geocentric.hpp REQUIRED)
+add_library(GeographicLib::lib INTERFACE IMPORTED)
+target_link_libraries(GeographicLib::lib INTERFACE ${GeographicLib_LIBRARY})
+target_include_directories(GeographicLib::lib SYSTEM INTERFACE ${GeographicLib_INCLUDE_DIR})
+
+# One interface over OpenCV's variables: its headers as system headers.
+add_library(ols_opencv INTERFACE)
+target_link_libraries(ols_opencv INTERFACE ${OpenCV_LIBS})
+target_include_directories(ols_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
+
+if(OLS_PYTHON)
+  # The interpreter of the distribution, for which the module is built.
+  find_package(Python3 COMPONENTS Interpreter Development.Module REQUIRED)
+  set(PYTHON_EXECUTABLE ${Python3_EXECUTABLE})
+  find_package(pybind11 CONFIG REQUIRED)
+endif()

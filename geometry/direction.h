@@ -1,0 +1,43 @@
+// Directions in a local east-north-up frame and their tangent plane.
+//
+// Azimuth is clockwise from true north, elevation above the local horizontal plane. Small errors of
+// a direction live on its tangent plane with the axes (cross-elevation, elevation): the unit vector
+// of growing azimuth, and that of growing elevation. Cross-elevation is azimuth times cos(elevation).
+#pragma once
+
+#include <Eigen/Core>
+
+namespace ols {
+
+struct AzimuthElevation {
+  double azimuth_rad = 0.0;    // 0..2 pi, clockwise from true north
+  double elevation_rad = 0.0;  // -pi/2..pi/2
+};
+
+// Unit vector, east-north-up.
+Eigen::Vector3d enu_from_azimuth_elevation(const AzimuthElevation& direction);
+
+// The inverse for any non-zero vector; at the zenith and nadir the azimuth is 0.
+AzimuthElevation azimuth_elevation_from_enu(const Eigen::Vector3d& v_enu);
+
+// 3x2: columns are the unit vectors of growing cross-elevation and of growing elevation, both
+// orthogonal to the direction and to each other.
+Eigen::Matrix<double, 3, 2> tangent_basis(const AzimuthElevation& direction);
+
+// Angle between two vectors [rad], exact also when it is tiny.
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
+// A measured line of sight: everything that fusion needs to know of one bearing's geometry.
+struct SightLine {
+  Eigen::Vector3d origin_ecef = Eigen::Vector3d::Zero();  // [m] camera centre
+  AzimuthElevation direction;                             // in the horizon at origin_ecef
+  // [rad^2] on the tangent plane, order (cross-elevation, elevation).
+  Eigen::Matrix2d covariance_white = Eigen::Matrix2d::Zero();       // new with every frame
+  Eigen::Matrix2d covariance_systematic = Eigen::Matrix2d::Zero();  // stays
+  Eigen::Vector3d origin_sd_enu_m = Eigen::Vector3d::Zero();        // [m] stays
+};
+
+// Unit vector of a sight line in ECEF.
+Eigen::Vector3d direction_ecef(const SightLine& sight);
+
+}  // namespace ols

@@ -1,0 +1,79 @@
+// The camera station as a kinematic chain (paper section 3, eq. (1), Figure 2): six joints GROUND,
+// ORIGIN, AZI, ELE, FOCUS, CAMERA and the five links between them,
+//
+//   M_next = M_previous T_next RZ_next RX_next RY_next                                   (1)
+//
+// Frames are right-handed with X forward, Y left, Z up. GROUND is the local east-north-up frame of
+// the station (X east, Y north, Z up). CAMERA is the camera's centre of projection; a last fixed
+// rotation joins the X-forward frame there to OpenCV's camera frame (x right, y down, z forward).
+// Angles are right-handed about the named axis: a positive rotation about Z turns left, a positive
+// rotation about Y turns the nose down, a positive rotation about X rolls clockwise as seen from
+// behind.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+
+namespace ols {
+
+enum class Joint { kGround, kOrigin, kAzi, kEle, kFocus, kCamera };
+inline constexpr int kJoints = 6;
+
+// One link of eq. (1): from the previous joint to this one.
+struct Link {
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+  double rz_rad = 0.0;
+  double rx_rad = 0.0;
+  double ry_rad = 0.0;
+};
+
+// Everything about one station's geometry that calibration finds. Heading is that of the PTU's zero
+// pan direction.
+struct ChainParameters {
+  double heading_rad = 0.0;  // clockwise from true north, the X axis of ORIGIN
+  double tilt_x_rad = 0.0;   // inclination of ORIGIN about its X axis (roll, right side down > 0)
+  double tilt_y_rad = 0.0;   // inclination of ORIGIN about its Y axis (nose down > 0)
+  Eigen::Vector3d ground_to_origin_m{0.0, 0.0, 1.5};   // east, north, up
+  Eigen::Vector3d origin_to_azi_m{0.0, 0.0, 0.09};     // PTU base to the crossing of its axes
+  Eigen::Vector3d azi_to_ele_m{0.0, 0.0, 0.0};         // paper: AZI and ELE share one position
+  Eigen::Vector3d ele_to_focus_m{0.0, 0.0, 0.06};      // in the frame that tilts
+  Eigen::Vector3d focus_to_camera_m{0.05, 0.0, 0.0};   // paper: further along X
+  // Mounting rotation of the camera on the manipulator (paper section 4.2), at FOCUS.
+  double mount_z_rad = 0.0;
+  double mount_x_rad = 0.0;
+  double mount_y_rad = 0.0;
+  // Encoders: shaft angle = sign * reported angle + zero. Positive shaft pan turns left (about +Z),
+  // positive shaft tilt looks up.
+  int pan_sign = 1;
+  int tilt_sign = 1;
+  double pan_zero_rad = 0.0;
+  double tilt_zero_rad = 0.0;
+};
+
+// Pan and tilt as the PTU reports them, in radians.
+struct PanTilt {
+  double pan_rad = 0.0;
+  double tilt_rad = 0.0;
+};
+
+// One step of eq. (1).
+Eigen::Isometry3d next_joint(const Eigen::Isometry3d& M_previous, const Link& link);
+
+// The five links for these parameters at these PTU angles, in the order ORIGIN..CAMERA.
+std::array<Link, kJoints - 1> links(const ChainParameters& chain, const PanTilt& angles);
+
+// Pose of every joint in GROUND (east-north-up at the station), indexed by Joint.
+std::array<Eigen::Isometry3d, kJoints> joints(const ChainParameters& chain, const PanTilt& angles);
+
+// Pose of the camera in GROUND: rotation R_enu_cam takes OpenCV camera components to east-north-up,
+// translation is the camera centre [m].
+Eigen::Isometry3d enu_from_camera(const ChainParameters& chain, const PanTilt& angles);
+
+// The PTU angles that bring a unit direction of the camera frame (OpenCV axes; the optical axis is
+// z) onto a unit direction in GROUND. Of the two solutions the one with the camera upright; tilt in
+// -pi/2..pi/2 of the shaft, pan in -pi..pi. Nothing where none exists (around the pan axis).
+std::optional<PanTilt> aim(const ChainParameters& chain, const Eigen::Vector3d& direction_enu,
+                           const Eigen::Vector3d& direction_cam = Eigen::Vector3d::UnitZ());
+
+}  // namespace ols

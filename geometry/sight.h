@@ -1,0 +1,74 @@
+// Sight: pixel + PTU angles -> line of sight with its covariance, and the way back.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "geometry/direction.h"
+#include "geometry/kinematic_chain.h"
+#include "geometry/pinhole.h"
+#include "geometry/wgs84.h"
+
+namespace ols {
+
+// What is not known of a calibration; 1-sigma, all of it stays from frame to frame.
+struct CalibrationSd {
+  double heading_rad = 0.0;
+  double tilt_rad = 0.0;        // of each of the two axes of ORIGIN
+  double mount_rad = 0.0;       // of the camera on the manipulator, about each of the axes across its optical axis
+  double mount_roll_rad = 0.0;  // about the optical axis
+  double position_m = 0.0;      // of the station, each of east, north, up
+};
+
+// A station's calibrated geometry.
+struct StationGeometry {
+  Geodetic position;  // of GROUND
+  ChainParameters chain;
+  CameraIntrinsics camera;
+  CalibrationSd sd;
+};
+
+// One measured pixel with the PTU angles at its exposure.
+struct PixelSight {
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();             // white
+  Eigen::Matrix2d covariance_systematic_px2 = Eigen::Matrix2d::Zero();  // stays (designation)
+  PanTilt angles;
+  Eigen::Matrix2d angles_covariance_rad2 = Eigen::Matrix2d::Zero();  // white, (pan, tilt)
+};
+
+// The line of sight of a pixel, first-order covariances. Nothing when the pixel cannot be
+// unprojected.
+std::optional<SightLine> sight(const StationGeometry& station, const PixelSight& measurement);
+
+// A point seen by a station.
+struct View {
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  double distance_m = 0.0;  // from the camera centre
+};
+
+// The way back, at given PTU angles: the pixel of a point, or nothing when it is behind the camera.
+std::optional<View> view(const StationGeometry& station, const PanTilt& angles,
+                         const Eigen::Vector3d& p_ecef);
+
+// The way back, free: PTU angles that put the point on the given pixel (default: where the optical
+// axis meets the image). Takes the lever arms of the chain into account. Nothing when out of reach
+// of any pan and tilt.
+std::optional<PanTilt> aim_at(const StationGeometry& station, const Eigen::Vector3d& p_ecef,
+                              const std::optional<Eigen::Vector2d>& pixel = std::nullopt);
+
+// PTU angles for a direction at infinity in the horizon at the camera centre.
+std::optional<PanTilt> aim_along(const StationGeometry& station, const AzimuthElevation& direction);
+
+// Where the optical axis points, in the horizon at the camera centre.
+AzimuthElevation optical_axis(const StationGeometry& station, const PanTilt& angles);
+
+// Camera centre in ECEF [m].
+Eigen::Vector3d camera_centre_ecef(const StationGeometry& station, const PanTilt& angles);
+
+// Homography K R_2 R_1^T K^-1 that takes pixels of a frame exposed at PTU angles `from` to pixels of
+// one exposed at `to`, for points at infinity, without distortion.
+Eigen::Matrix3d rotation_homography(const StationGeometry& station, const PanTilt& from,
+                                    const PanTilt& to);
+
+}  // namespace ols

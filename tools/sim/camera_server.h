@@ -1,0 +1,42 @@
+// A simulated GigE Vision camera: Aravis' fake camera on one local address, its pictures drawn by a
+// callback. One camera an address (the control port is fixed).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <string>
+
+namespace ols::sim {
+
+struct CameraServerConfig {
+  std::string address;          // an address that the interface really has, for example 127.0.0.11
+  std::string serial;           // the device id is "Aravis-Fake-<serial>"
+  int width_px = 1280;
+  int height_px = 960;
+  double exposure_s = 0.005;    // told to the renderer; the station reads it from the camera
+  double readout_s = 0.010;     // the exposure began this much + exposure before the frame is sent
+};
+
+// One exposure to be drawn.
+struct Exposure {
+  std::int64_t start_realtime_ns = 0;  // CLOCK_REALTIME, also the frame's GigE Vision time stamp
+  double exposure_s = 0.0;             // as set by the client at the moment
+  std::uint64_t frame = 0;
+};
+
+class CameraServer {
+ public:
+  // `draw` fills the 8-bit one-channel picture (already of the right size); called in the camera's
+  // own thread, once a frame, while a client streams.
+  CameraServer(const CameraServerConfig& config,
+               std::function<void(const Exposure&, cv::Mat&)> draw);
+  ~CameraServer();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ols::sim

@@ -1,0 +1,51 @@
+// A simulated FLIR PTU-D46-70 behind its serial line: bytes and time in, bytes and true angles out.
+// Pure; tools/sim/ptu_line.* puts it on a pty in real time, the lockstep simulation steps it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "geometry/kinematic_chain.h"
+
+namespace ols::sim {
+
+struct PtuUnitConfig {
+  double resolution_arcsec = 11.5714;  // per count, both axes (D46-70, eighth step)
+  int pan_min_counts = -49467, pan_max_counts = 49467;    // +-159 deg
+  int tilt_min_counts = -14622, tilt_max_counts = 9644;   // -47..+31 deg
+  int max_speed_counts_s = 18700;      // about 60 deg/s
+  int base_speed_counts_s = 57;
+  int acceleration_counts_s2 = 2000;   // factory default; the master raises it
+  int baud = 9600;                     // time a byte takes on the line; 0: none
+  double reply_delay_s = 0.001;        // of the controller
+  double reply_jitter_s = 0.0;         // uniform +-
+  bool echo = true;                    // factory default
+  bool verbose = true;                 // factory default
+  bool home_at_power_up = true;
+  double home_speed_rad_s = 0.7;
+};
+
+class PtuUnit {
+ public:
+  PtuUnit(const PtuUnitConfig& config, std::uint64_t seed, double power_up_s);
+  ~PtuUnit();
+
+  // Bytes from the master; `time_s` is when the first of them begins on the line. Time never goes
+  // back between calls of any method.
+  void receive(std::string_view bytes, double time_s);
+
+  // Bytes whose last bit is on the line by `time_s`.
+  std::string transmit(double time_s);
+
+  // True shaft angles of the mechanism (pan left positive, tilt up positive), continuous, at any
+  // instant from two seconds back up to the latest time given to any method.
+  PanTilt angles_at(double time_s) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ols::sim
