@@ -28,8 +28,8 @@ class ConfigTable {
   ConfigTable(ConfigTable&&) noexcept;
 
   bool has(std::string_view key) const;
-  // Each getter returns `fallback` when the key is absent, and throws ConfigError when the value has
-  // another type, is not finite or is outside least..greatest.
+  // Each getter returns `fallback` when the key is absent, and throws ConfigError when the value
+  // has another type, is not finite or is outside least..greatest.
   double number(std::string_view key, double fallback, double least, double greatest);
   std::int64_t integer(std::string_view key, std::int64_t fallback, std::int64_t least,
                        std::int64_t greatest);

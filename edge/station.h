@@ -52,11 +52,11 @@ struct DesignateCommand {
 };
 
 struct SlewCommand {
-  double effect_s = 0.0;             // the instant at which the direction holds
+  double effect_s = 0.0;  // the instant at which the direction holds
   double received_s = 0.0;
   double lease_s = 0.0;
   std::int64_t target_id = 0;
-  AzimuthElevation direction;        // at the camera centre
+  AzimuthElevation direction;  // at the camera centre
   double azimuth_rate_rad_s = 0.0;
   double elevation_rate_rad_s = 0.0;
   double direction_sd_rad = 0.0;
@@ -70,11 +70,11 @@ struct PointCommand {
 enum class Refusal {
   kNone,
   kNotFinite,
-  kOutOfRange,     // not an angle, a box outside the image, a lease that is not positive or too long
-  kUnreachable,    // outside the unit's travel
-  kNoFrame,        // designation without a frame at that time
-  kTracker,        // the tracker refused the box
-  kPrecedence,     // a slew while the operator has the PTU (manual or stopped)
+  kOutOfRange,   // not an angle, a box outside the image, a lease that is not positive or too long
+  kUnreachable,  // outside the unit's travel
+  kNoFrame,      // designation without a frame at that time
+  kTracker,      // the tracker refused the box
+  kPrecedence,   // a slew while the operator has the PTU (manual or stopped)
 };
 const char* to_string(Refusal refusal);
 

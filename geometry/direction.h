@@ -2,7 +2,8 @@
 //
 // Azimuth is clockwise from true north, elevation above the local horizontal plane. Small errors of
 // a direction live on its tangent plane with the axes (cross-elevation, elevation): the unit vector
-// of growing azimuth, and that of growing elevation. Cross-elevation is azimuth times cos(elevation).
+// of growing azimuth, and that of growing elevation. Cross-elevation is azimuth times
+// cos(elevation).
 #pragma once
 
 #include <Eigen/Core>

@@ -34,11 +34,11 @@ struct ChainParameters {
   double heading_rad = 0.0;  // clockwise from true north, the X axis of ORIGIN
   double tilt_x_rad = 0.0;   // inclination of ORIGIN about its X axis (roll, right side down > 0)
   double tilt_y_rad = 0.0;   // inclination of ORIGIN about its Y axis (nose down > 0)
-  Eigen::Vector3d ground_to_origin_m{0.0, 0.0, 1.5};   // east, north, up
-  Eigen::Vector3d origin_to_azi_m{0.0, 0.0, 0.09};     // PTU base to the crossing of its axes
-  Eigen::Vector3d azi_to_ele_m{0.0, 0.0, 0.0};         // paper: AZI and ELE share one position
-  Eigen::Vector3d ele_to_focus_m{0.0, 0.0, 0.06};      // in the frame that tilts
-  Eigen::Vector3d focus_to_camera_m{0.05, 0.0, 0.0};   // paper: further along X
+  Eigen::Vector3d ground_to_origin_m{0.0, 0.0, 1.5};  // east, north, up
+  Eigen::Vector3d origin_to_azi_m{0.0, 0.0, 0.09};    // PTU base to the crossing of its axes
+  Eigen::Vector3d azi_to_ele_m{0.0, 0.0, 0.0};        // paper: AZI and ELE share one position
+  Eigen::Vector3d ele_to_focus_m{0.0, 0.0, 0.06};     // in the frame that tilts
+  Eigen::Vector3d focus_to_camera_m{0.05, 0.0, 0.0};  // paper: further along X
   // Mounting rotation of the camera on the manipulator (paper section 4.2), at FOCUS.
   double mount_z_rad = 0.0;
   double mount_x_rad = 0.0;

@@ -14,8 +14,9 @@ namespace ols {
 // What is not known of a calibration; 1-sigma, all of it stays from frame to frame.
 struct CalibrationSd {
   double heading_rad = 0.0;
-  double tilt_rad = 0.0;        // of each of the two axes of ORIGIN
-  double mount_rad = 0.0;       // of the camera on the manipulator, about each of the axes across its optical axis
+  double tilt_rad = 0.0;  // of each of the two axes of ORIGIN
+  double mount_rad =
+      0.0;  // of the camera on the manipulator, about each of the axes across its optical axis
   double mount_roll_rad = 0.0;  // about the optical axis
   double position_m = 0.0;      // of the station, each of east, north, up
 };
@@ -66,8 +67,8 @@ AzimuthElevation optical_axis(const StationGeometry& station, const PanTilt& ang
 // Camera centre in ECEF [m].
 Eigen::Vector3d camera_centre_ecef(const StationGeometry& station, const PanTilt& angles);
 
-// Homography K R_2 R_1^T K^-1 that takes pixels of a frame exposed at PTU angles `from` to pixels of
-// one exposed at `to`, for points at infinity, without distortion.
+// Homography K R_2 R_1^T K^-1 that takes pixels of a frame exposed at PTU angles `from` to pixels
+// of one exposed at `to`, for points at infinity, without distortion.
 Eigen::Matrix3d rotation_homography(const StationGeometry& station, const PanTilt& from,
                                     const PanTilt& to);
 

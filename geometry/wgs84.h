@@ -27,8 +27,8 @@ class LocalFrame {
  public:
   explicit LocalFrame(const Geodetic& origin);
 
-  Eigen::Vector3d to_enu(const Eigen::Vector3d& p_ecef) const;    // [m]
-  Eigen::Vector3d to_ecef(const Eigen::Vector3d& p_enu) const;    // [m]
+  Eigen::Vector3d to_enu(const Eigen::Vector3d& p_ecef) const;  // [m]
+  Eigen::Vector3d to_ecef(const Eigen::Vector3d& p_enu) const;  // [m]
   const Eigen::Matrix3d& R_ecef_enu() const { return R_ecef_enu_; }
   const Eigen::Vector3d& origin_ecef() const { return origin_ecef_; }
   const Geodetic& origin() const { return origin_; }

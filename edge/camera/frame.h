@@ -9,11 +9,11 @@ namespace ols {
 enum class StampSource { kCamera, kArrival };
 
 struct Frame {
-  cv::Mat gray;                   // 8-bit, one channel
-  double mid_exposure_s = 0.0;    // station's monotonic clock
-  double stamp_sd_s = 0.0;        // 1-sigma of mid_exposure_s
+  cv::Mat gray;                 // 8-bit, one channel
+  double mid_exposure_s = 0.0;  // station's monotonic clock
+  double stamp_sd_s = 0.0;      // 1-sigma of mid_exposure_s
   StampSource stamp_source = StampSource::kCamera;
-  std::uint64_t number = 0;       // the camera's frame counter, unwrapped
+  std::uint64_t number = 0;  // the camera's frame counter, unwrapped
 };
 
 }  // namespace ols

@@ -17,9 +17,9 @@ struct AngleSample {
 
 struct AngleAt {
   PanTilt angles;
-  PanTilt rate;                 // [rad/s]
-  Eigen::Matrix2d covariance;   // [rad^2] (pan, tilt): encoder step, time jitter, extrapolation
-  bool interpolated = false;    // false: the instant lies after the newest sample
+  PanTilt rate;                // [rad/s]
+  Eigen::Matrix2d covariance;  // [rad^2] (pan, tilt): encoder step, time jitter, extrapolation
+  bool interpolated = false;   // false: the instant lies after the newest sample
 };
 
 class AngleHistory {

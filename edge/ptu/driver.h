@@ -1,6 +1,6 @@
-// The PTU driver as a pure state machine: bytes and time in, bytes and angle samples out. The serial
-// port and the clock are at the edge (edge/ptu/ptu_thread.*); the lockstep simulation drives the same
-// class from simulated time.
+// The PTU driver as a pure state machine: bytes and time in, bytes and angle samples out. The
+// serial port and the clock are at the edge (edge/ptu/ptu_thread.*); the lockstep simulation drives
+// the same class from simulated time.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,13 @@
 namespace ols {
 
 struct PtuConfig {
-  std::string device;             // serial device, for example /dev/ttyUSB0
+  std::string device;  // serial device, for example /dev/ttyUSB0
   int baud = 9600;
-  double poll_interval_s = 0.04;  // one request for both positions, with the servo's command in front
-  double reply_timeout_s = 0.5;   // no reply for so long: the link is down, begin again
-  double acceleration_rad_s2 = 1.0;     // set at start
-  PtuLimits limits;               // narrowed by what the unit reports
+  double poll_interval_s =
+      0.04;  // one request for both positions, with the servo's command in front
+  double reply_timeout_s = 0.5;      // no reply for so long: the link is down, begin again
+  double acceleration_rad_s2 = 1.0;  // set at start
+  PtuLimits limits;                  // narrowed by what the unit reports
   AngleHistory::Config history;
   ServoConfig servo;
 };
@@ -54,8 +55,8 @@ class PtuDriver {
 
   PtuState state() const;
   const PtuCounters& counters() const;
-  const PtuLimits& limits() const;        // those in force; meaningful once ready
-  double pan_resolution_rad() const;      // [rad] per count as queried
+  const PtuLimits& limits() const;    // those in force; meaningful once ready
+  double pan_resolution_rad() const;  // [rad] per count as queried
   double tilt_resolution_rad() const;
   std::string last_error() const;
 

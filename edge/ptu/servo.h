@@ -1,9 +1,9 @@
 // The servo: makes the PTU follow a moving goal smoothly, and come to rest by itself. Pure.
 //
-// A D46 in velocity mode runs on when its master dies. Here it is only ever given *positions*: every
-// cycle the goal a short look-ahead further on, at the speed that arrives there in time. While
-// commands keep coming the unit never reaches the goal and moves smoothly; when they stop it brakes
-// and stands, after at most the look-ahead plus its braking time.
+// A D46 in velocity mode runs on when its master dies. Here it is only ever given *positions*:
+// every cycle the goal a short look-ahead further on, at the speed that arrives there in time.
+// While commands keep coming the unit never reaches the goal and moves smoothly; when they stop it
+// brakes and stands, after at most the look-ahead plus its braking time.
 #pragma once
 
 #include <optional>
@@ -13,28 +13,28 @@
 namespace ols {
 
 struct ServoConfig {
-  double gain_hz = 3.0;             // proportional gain on the position error
-  double look_ahead_s = 0.3;        // the commanded position is this far ahead
-  double max_speed_rad_s = 1.0;     // about 57 deg/s
+  double gain_hz = 3.0;          // proportional gain on the position error
+  double look_ahead_s = 0.3;     // the commanded position is this far ahead
+  double max_speed_rad_s = 1.0;  // about 57 deg/s
   double max_acceleration_rad_s2 = 1.0;
-  double goal_timeout_s = 0.5;      // a goal older than this is stale: halt
+  double goal_timeout_s = 0.5;  // a goal older than this is stale: halt
 };
 
 // Where to be: angles at an instant and their rates.
 struct ServoGoal {
-  double time_s = 0.0;   // station's monotonic clock
+  double time_s = 0.0;  // station's monotonic clock
   PanTilt angles;
-  PanTilt rate;          // [rad/s] feed-forward; 0 for a fixed goal
+  PanTilt rate;                // [rad/s] feed-forward; 0 for a fixed goal
   double valid_until_s = 0.0;  // the servo halts after this
 };
 
 // What to send: for each axis a target position and a speed. Nothing to move means halt.
 struct ServoCommand {
-  PanTilt position;      // [rad]
-  PanTilt speed;         // [rad/s] magnitudes
+  PanTilt position;  // [rad]
+  PanTilt speed;     // [rad/s] magnitudes
 };
 
-struct PtuLimits {       // [rad], as reported by the unit, narrowed by the configuration
+struct PtuLimits {  // [rad], as reported by the unit, narrowed by the configuration
   double pan_min_rad = -2.7, pan_max_rad = 2.7;
   double tilt_min_rad = -0.8, tilt_max_rad = 0.5;
 };

@@ -1,7 +1,8 @@
 // The visual tracker (paper section 5): pixels in, one pixel measurement out.
 //
 // Knows nothing of PTU counts, LCM, files or clocks: an image, its time and, where the caller knows
-// one, the predicted ego-motion go in. Deterministic: the same seed and images give the same output.
+// one, the predicted ego-motion go in. Deterministic: the same seed and images give the same
+// output.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,20 +26,20 @@ struct TrackerInput {
 enum class EgoMotion { kNone, kImage, kPredicted };  // where this frame's homography came from
 
 struct TrackerOutput {
-  cv::Rect2d box;          // [px] in the full frame: top-left corner, width, height
-  Eigen::Vector2d pixel;   // [px] the target's centre; (0, 0) is the centre of the top-left pixel
+  cv::Rect2d box;         // [px] in the full frame: top-left corner, width, height
+  Eigen::Vector2d pixel;  // [px] the target's centre; (0, 0) is the centre of the top-left pixel
   Eigen::Matrix2d covariance_px2;  // of `pixel`, white part
-  double belief = 0.0;     // 0..1
+  double belief = 0.0;             // 0..1
   EgoMotion ego_motion = EgoMotion::kNone;
 };
 
 enum class TrackerError {
   kNotInitialised,
   kEmptyFrame,
-  kFrameFormat,   // not 8-bit single-channel
-  kFrameSize,     // other than that of the frame it was initialised on
-  kTime,          // not later than the previous frame, or not finite
-  kBox,           // initial box outside the image, without area or not finite
+  kFrameFormat,  // not 8-bit single-channel
+  kFrameSize,    // other than that of the frame it was initialised on
+  kTime,         // not later than the previous frame, or not finite
+  kBox,          // initial box outside the image, without area or not finite
 };
 const char* to_string(TrackerError error);
 

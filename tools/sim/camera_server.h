@@ -11,12 +11,12 @@
 namespace ols::sim {
 
 struct CameraServerConfig {
-  std::string address;          // an address that the interface really has, for example 127.0.0.11
-  std::string serial;           // the device id is "Aravis-Fake-<serial>"
+  std::string address;  // an address that the interface really has, for example 127.0.0.11
+  std::string serial;   // the device id is "Aravis-Fake-<serial>"
   int width_px = 1280;
   int height_px = 960;
-  double exposure_s = 0.005;    // told to the renderer; the station reads it from the camera
-  double readout_s = 0.010;     // the exposure began this much + exposure before the frame is sent
+  double exposure_s = 0.005;  // told to the renderer; the station reads it from the camera
+  double readout_s = 0.010;   // the exposure began this much + exposure before the frame is sent
 };
 
 // One exposure to be drawn.

@@ -13,16 +13,16 @@ namespace ols::sim {
 
 struct PtuUnitConfig {
   double resolution_arcsec = 11.5714;  // per count, both axes (D46-70, eighth step)
-  int pan_min_counts = -49467, pan_max_counts = 49467;    // +-159 deg
-  int tilt_min_counts = -14622, tilt_max_counts = 9644;   // -47..+31 deg
-  int max_speed_counts_s = 18700;      // about 60 deg/s
+  int pan_min_counts = -49467, pan_max_counts = 49467;   // +-159 deg
+  int tilt_min_counts = -14622, tilt_max_counts = 9644;  // -47..+31 deg
+  int max_speed_counts_s = 18700;                        // about 60 deg/s
   int base_speed_counts_s = 57;
-  int acceleration_counts_s2 = 2000;   // factory default; the master raises it
-  int baud = 9600;                     // time a byte takes on the line; 0: none
-  double reply_delay_s = 0.001;        // of the controller
-  double reply_jitter_s = 0.0;         // uniform +-
-  bool echo = true;                    // factory default
-  bool verbose = true;                 // factory default
+  int acceleration_counts_s2 = 2000;  // factory default; the master raises it
+  int baud = 9600;                    // time a byte takes on the line; 0: none
+  double reply_delay_s = 0.001;       // of the controller
+  double reply_jitter_s = 0.0;        // uniform +-
+  bool echo = true;                   // factory default
+  bool verbose = true;                // factory default
   bool home_at_power_up = true;
   double home_speed_rad_s = 0.7;
 };

@@ -1,0 +1,53 @@
+// An LCM connection that says what is wrong instead of going deaf.
+//
+// LCM's own self test blocks ten seconds when no multicast route exists, and the subscription is
+// then dead although the object says good(). Here the route is looked up first.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace ols {
+
+class BusError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class LcmBus {
+ public:
+  // Throws BusError with what to do about it when the URL is malformed or has no multicast route.
+  explicit LcmBus(const std::string& url);
+  ~LcmBus();
+
+  // A raw subscription: the handler decodes, so that what it cannot decode is counted by it.
+  using Handler = std::function<void(const std::string& channel, const void* data, int bytes)>;
+  void subscribe(const std::string& channel_regex, Handler handler, int queue_capacity = 1000);
+
+  template <class Message>
+  void publish(const std::string& channel, const Message& message) {
+    lcm_.publish(channel, &message);
+  }
+
+  // Handles everything that has arrived; waits at most timeout_ms for the first. Returns the number
+  // of messages handled.
+  int handle(int timeout_ms);
+
+ private:
+  struct Subscriber;
+  lcm::LCM lcm_;
+  std::vector<std::unique_ptr<Subscriber>> subscribers_;
+};
+
+// True when the whole of a datagram is one message of this type.
+template <class Message>
+bool decode_exactly(const void* data, int bytes, Message& message) {
+  return message.decode(data, 0, bytes) == bytes;
+}
+
+}  // namespace ols

@@ -1,0 +1,101 @@
+#include "base/toml_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace ols {
+namespace {
+
+using testing::HasSubstr;
+
+std::string error_of(std::string_view text, void (*read)(ConfigTable&)) {
+  try {
+    ConfigFile file(text, "station.toml");
+    read(file.root());
+    file.finish();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ConfigFile, ReadsValuesAndFallbacks) {
+  ConfigFile file("a = 1.5\nn = 3\nname = 'x'\n[t]\nv = [1, 2.5]\non = true\n", "f");
+  EXPECT_EQ(file.root().number("a", 0, 0, 2), 1.5);
+  EXPECT_EQ(file.root().number("absent", 7, 0, 2), 7);
+  EXPECT_EQ(file.root().integer("n", 0, 0, 5), 3);
+  EXPECT_EQ(file.root().required_text("name"), "x");
+  EXPECT_EQ(file.root().table("t").numbers("v", {0, 0}, 0, 9), (std::vector<double>{1, 2.5}));
+  EXPECT_TRUE(file.root().table("t").boolean("on", false));
+  file.finish();
+}
+
+TEST(ConfigFile, AnIntegerIsANumber) {
+  ConfigFile file("a = 2\n", "f");
+  EXPECT_EQ(file.root().number("a", 0, 0, 2), 2.0);
+}
+
+TEST(ConfigFile, NamesFileLineAndKeyOfAnUnknownKey) {
+  const auto error = error_of("[ptu]\nbaud = 9600\nbuad = 1\n", [](ConfigTable& root) {
+    root.table("ptu").integer("baud", 0, 0, 99999);
+  });
+  EXPECT_EQ(error, "station.toml:3: ptu.buad: unknown key");
+}
+
+TEST(ConfigFile, NamesAnUnknownTable) {
+  const auto error =
+      error_of("a = 1\n[x]\nb = 2\n", [](ConfigTable& root) { root.integer("a", 0, 0, 9); });
+  EXPECT_THAT(error, HasSubstr("x: unknown key"));
+}
+
+TEST(ConfigFile, RefusesOutOfRangeNonFiniteAndWrongType) {
+  EXPECT_EQ(error_of("a = 3\n", [](ConfigTable& root) { root.number("a", 0, 0, 2); }),
+            "station.toml:1: a: 3 is outside 0..2");
+  EXPECT_EQ(error_of("\na = nan\n", [](ConfigTable& root) { root.number("a", 0, 0, 2); }),
+            "station.toml:2: a: must be finite");
+  EXPECT_EQ(error_of("a = 'x'\n", [](ConfigTable& root) { root.number("a", 0, 0, 2); }),
+            "station.toml:1: a: a number is wanted");
+  EXPECT_EQ(error_of("a = 1.5\n", [](ConfigTable& root) { root.integer("a", 0, 0, 2); }),
+            "station.toml:1: a: an integer is wanted");
+  EXPECT_EQ(error_of("a = [1, 2]\n",
+                     [](ConfigTable& root) {
+                       root.numbers("a", {0, 0, 0}, 0, 2);
+                     }),
+            "station.toml:1: a: an array of 3 numbers is wanted");
+  EXPECT_EQ(error_of("a = 'q'\n",
+                     [](ConfigTable& root) {
+                       root.choice("a", "x", {"x", "y"});
+                     }),
+            "station.toml:1: a: \"q\" is none of x, y");
+}
+
+TEST(ConfigFile, NamesAMissingKey) {
+  EXPECT_THAT(
+      error_of("[s]\n", [](ConfigTable& root) { root.table("s").required_number("lat", 0, 1); }),
+      HasSubstr("s.lat: is missing"));
+}
+
+TEST(ConfigFile, NamesTheLineOfASyntaxError) {
+  EXPECT_THAT(error_of("a = 1\nb = = 2\n", [](ConfigTable&) {}), HasSubstr("station.toml:2: "));
+}
+
+TEST(ConfigFile, NamesAFileThatCannotBeRead) {
+  try {
+    ConfigFile file("/nonexistent/station.toml");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(), "/nonexistent/station.toml: cannot be read");
+  }
+}
+
+TEST(ConfigFile, ReadsArraysOfTables) {
+  ConfigFile file("[[s]]\nid = 'a'\n[[s]]\nid = 'b'\nz = 1\n", "f");
+  const auto tables = file.root().tables("s");
+  ASSERT_EQ(tables.size(), 2u);
+  EXPECT_EQ(tables[1]->required_text("id"), "b");
+  EXPECT_EQ(tables[0]->required_text("id"), "a");
+  EXPECT_THROW(file.finish(), ConfigError);
+}
+
+}  // namespace
+}  // namespace ols
