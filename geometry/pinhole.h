@@ -32,7 +32,9 @@ Eigen::Matrix<double, 3, 4> projection_matrix(const Eigen::Matrix3d& K, const Ei
 // world frame, unit length, pointing from the camera centre to the front of the camera.
 Eigen::Vector3d back_project(const Eigen::Matrix<double, 3, 4>& P, const Eigen::Vector2d& pixel);
 
-// Image of a point given in camera coordinates [m], or nothing when it is not in front (z <= 0).
+// Image of a point given in camera coordinates [m], or nothing when it is not in front (z <= 0) or
+// so far off the axis that the distortion polynomial has folded back: there it would put a point
+// far outside the field of view into the middle of the image.
 std::optional<Eigen::Vector2d> project(const CameraIntrinsics& intrinsics,
                                        const Eigen::Vector3d& p_cam);
 

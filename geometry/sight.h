@@ -14,9 +14,8 @@ namespace ols {
 // What is not known of a calibration; 1-sigma, all of it stays from frame to frame.
 struct CalibrationSd {
   double heading_rad = 0.0;
-  double tilt_rad = 0.0;  // of each of the two axes of ORIGIN
-  double mount_rad =
-      0.0;  // of the camera on the manipulator, about each of the axes across its optical axis
+  double tilt_rad = 0.0;        // of each of the two axes of ORIGIN
+  double mount_rad = 0.0;       // of the camera, about each axis across its optical axis
   double mount_roll_rad = 0.0;  // about the optical axis
   double position_m = 0.0;      // of the station, each of east, north, up
 };
