@@ -37,8 +37,11 @@ struct PtuCounters {  // only go up
 class PtuDriver {
  public:
   explicit PtuDriver(const PtuConfig& config);
+  ~PtuDriver();
+  PtuDriver(PtuDriver&&) noexcept;
 
-  // Bytes that arrived, with the time [s, monotonic] at which the first of them was there.
+  // Bytes that arrived, with an instant [s, monotonic] by which all of them were there: the moment
+  // after the read.
   void receive(std::string_view bytes, double time_s);
 
   // Advances time: returns bytes to write now (may be empty). Call at least every few milliseconds.
@@ -58,11 +61,15 @@ class PtuDriver {
   const PtuLimits& limits() const;    // those in force; meaningful once ready
   double pan_resolution_rad() const;  // [rad] per count as queried
   double tilt_resolution_rad() const;
-  std::string last_error() const;
+  std::string firmware() const;    // answer to V; empty until ready
+  std::string last_error() const;  // empty when there was none
+
+  // Bytes that stop the unit at once, whatever the driver was doing: for the end of the process.
+  static std::string halt_request();
 
  private:
   struct Impl;
-  std::shared_ptr<Impl> impl_;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace ols

@@ -16,6 +16,7 @@ struct ServoConfig {
   double gain_hz = 3.0;          // proportional gain on the position error
   double look_ahead_s = 0.3;     // the commanded position is this far ahead
   double max_speed_rad_s = 1.0;  // about 57 deg/s
+  double min_speed_rad_s = 0.0;  // of the unit (PL, TL), the driver fills it in
   double max_acceleration_rad_s2 = 1.0;
   double goal_timeout_s = 0.5;  // a goal older than this is stale: halt
 };

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,11 +17,13 @@ struct PtuUnitConfig {
   int pan_min_counts = -49467, pan_max_counts = 49467;   // +-159 deg
   int tilt_min_counts = -14622, tilt_max_counts = 9644;  // -47..+31 deg
   int max_speed_counts_s = 18700;                        // about 60 deg/s
+  int min_speed_counts_s = 31;
   int base_speed_counts_s = 57;
   int acceleration_counts_s2 = 2000;  // factory default; the master raises it
   int baud = 9600;                    // time a byte takes on the line; 0: none
   double reply_delay_s = 0.001;       // of the controller
-  double reply_jitter_s = 0.0;        // uniform +-
+  double reply_jitter_s = 0.0;        // uniform +-; the unit reads its counters within the delay
+  double parameter_set_s = 0.0;       // that setting PA, PB, PU, PL takes (seconds on real units)
   bool echo = true;                   // factory default
   bool verbose = true;                // factory default
   bool home_at_power_up = true;
@@ -36,8 +39,12 @@ class PtuUnit {
   // back between calls of any method.
   void receive(std::string_view bytes, double time_s);
 
-  // Bytes whose last bit is on the line by `time_s`.
+  // Bytes whose last bit is on the line by `time_s` and that were not handed out before.
   std::string transmit(double time_s);
+
+  // When transmit() will next have something to give, as far as known now; nothing: the line stays
+  // silent until it receives.
+  std::optional<double> next_output_s() const;
 
   // True shaft angles of the mechanism (pan left positive, tilt up positive), continuous, at any
   // instant from two seconds back up to the latest time given to any method.

@@ -1,0 +1,53 @@
+// The thread that owns one PTU's serial port and driver, in real time. It opens the port (and opens
+// it again with growing pauses when it vanishes), moves bytes, steps the driver, and hands out
+// angle samples and state. All times are CLOCK_MONOTONIC in seconds.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/ptu/driver.h"
+
+namespace ols {
+
+// CLOCK_MONOTONIC [s].
+double monotonic_s();
+
+// What there is to know of a PTU at one moment.
+struct PtuStatus {
+  PtuState state = PtuState::kStarting;
+  bool port_open = false;
+  std::uint64_t port_failures = 0;  // opens that failed and ports that vanished; only goes up
+  PtuCounters counters;
+  PtuLimits limits;  // meaningful once ready
+  double pan_resolution_rad = 0.0;
+  double tilt_resolution_rad = 0.0;
+  std::string firmware;    // the unit's answer to V; empty until ready
+  std::string last_error;  // of the port or of the unit; empty when there was none
+};
+
+// Every method may be called from any thread; none waits for the device.
+class PtuThread {
+ public:
+  explicit PtuThread(const PtuConfig& config);
+  ~PtuThread();  // sends a halt and waits briefly until it is on the line
+  PtuThread(const PtuThread&) = delete;
+  PtuThread& operator=(const PtuThread&) = delete;
+
+  // Where the unit shall go from now on; nothing: halt.
+  void set_goal(const std::optional<ServoGoal>& goal);
+
+  // Angle samples since the last call, oldest first.
+  std::vector<AngleSample> take_samples();
+
+  PtuStatus status() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ols

@@ -1,0 +1,34 @@
+// Puts a simulated PTU on a pseudo terminal in real time: what ols-station opens as its serial
+// device. The line outlives clients: one may close the device and another open it again.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "tools/sim/ptu_unit.h"
+
+namespace ols::sim {
+
+class PtuLine {
+ public:
+  // The unit powers up now. `link`: a symbolic link to the device is made there (an old link is
+  // replaced) and removed at the end; empty: none. Throws std::system_error.
+  PtuLine(const PtuUnitConfig& config, std::uint64_t seed, const std::string& link = "");
+  ~PtuLine();
+  PtuLine(const PtuLine&) = delete;
+  PtuLine& operator=(const PtuLine&) = delete;
+
+  // The pty's slave, for example /dev/pts/3.
+  const std::string& device() const;
+
+  // True shaft angles at an instant of CLOCK_MONOTONIC [s], from two seconds ago to now. From any
+  // thread.
+  PanTilt angles_at(double monotonic_s);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ols::sim
