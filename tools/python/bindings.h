@@ -1,0 +1,50 @@
+// What the files of the module `ols` share: one bind_... function a subject, and data classes.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <string>
+
+namespace ols::python {
+
+namespace py = pybind11;
+
+void bind_geometry(py::module_& m);
+
+// Name(field=value, ...) in the order of the definition.
+inline std::string fields_repr(const py::object& self, const char* name) {
+  std::string text;
+  const py::object property = py::module_::import("builtins").attr("property");
+  for (const auto& [field, member] :
+       py::type::of(self).attr("__dict__").attr("copy")().cast<py::dict>()) {
+    if (!py::isinstance(member, property)) continue;
+    text += (text.empty() ? "" : ", ") + py::cast<std::string>(field) + "=" +
+            py::cast<std::string>(py::repr(self.attr(field)));
+  }
+  return name + ("(" + text + ")");
+}
+
+// A plain struct as a Python class: constructed from keywords (the rest keeps its defaults; an
+// unknown one is a TypeError), copied by copy.copy() and copy.deepcopy().
+template <typename T>
+py::class_<T> data_class(py::module_& m, const char* name, const char* doc) {
+  py::class_<T> bound(m, name, doc);
+  bound.def(py::init([bound, name](const py::kwargs& fields) {
+    T value{};
+    const py::object self = py::cast(&value, py::return_value_policy::reference);
+    for (const auto& [field, given] : fields) {
+      if (!py::hasattr(bound, field)) {
+        throw py::type_error(std::string(name) + " has no field '" + py::cast<std::string>(field) +
+                             "'");
+      }
+      py::setattr(self, field, given);
+    }
+    return value;
+  }));
+  bound.def("__repr__", [name](const py::object& self) { return fields_repr(self, name); });
+  bound.def("__copy__", [](const T& self) { return T(self); });
+  bound.def("__deepcopy__", [](const T& self, const py::dict&) { return T(self); });
+  return bound;
+}
+
+}  // namespace ols::python

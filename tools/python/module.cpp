@@ -1,0 +1,6 @@
+#include "tools/python/bindings.h"
+
+PYBIND11_MODULE(_core, m) {
+  m.doc() = "The C++ mathematics of OLS; import it as `ols`.";
+  ols::python::bind_geometry(m);
+}
