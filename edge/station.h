@@ -6,14 +6,16 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "edge/angular_track.h"
 #include "edge/camera/frame.h"
 #include "edge/ptu/angle_history.h"
 #include "edge/ptu/servo.h"
-#include "edge/tracker/tracker.h"
+#include "edge/target_tracker.h"
 #include "geometry/sight.h"
 
 namespace ols {
@@ -23,17 +25,19 @@ const char* to_string(StationState state);
 
 struct StationConfig {
   StationGeometry geometry;
-  TrackerConfig tracker;
   AngleHistory::Config angles;
   PtuLimits limits;
-  std::uint64_t seed = 1;
-  double designation_sd_px = 1.0;    // how well a designated box is centred on the target
-  double tracking_belief = 0.5;      // at least this to be tracking
-  double coast_s = 1.0;              // on the motion model after the last believed frame
-  int reacquire_frames = 3;          // believed frames in a row that end a search
-  double angle_wait_s = 0.03;        // how long a frame may wait for the PTU sample after it
-  double frame_memory_s = 1.0;       // frames kept for a designation in the past
-  double command_lease_max_s = 5.0;  // a longer lease is refused
+  AngularTrack::Config motion;
+  double designation_sd_px = 1.0;  // how well a designated box is centred on the target
+  double tracking_belief = 0.5;    // at least this to be tracking
+  double coast_s = 0.7;            // on the motion model after the last believed frame
+  int reacquire_frames = 3;        // believed frames in a row that end a search
+  double angle_wait_s = 0.03;      // how long a frame may wait for the PTU sample after it
+  double frame_memory_s = 1.0;     // frames kept for a designation in the past
+  double search_interval_s = 0.5;  // while searching, the tracker is sent to the slew's pixel
+  double search_sd_px = 25.0;      // at least, around that pixel
+  double slew_lease_max_s = 2.0;   // a longer lease is refused
+  double point_time_s = 15.0;      // an operator's move may take this long
 };
 
 // A bearing before it becomes a message.
@@ -70,12 +74,95 @@ struct PointCommand {
 enum class Refusal {
   kNone,
   kNotFinite,
-  kOutOfRange,   // not an angle, a box outside the image, a lease that is not positive or too long
+  kOutOfRange,   // not an angle, a lease that is not positive or too long, an instant far from now
   kUnreachable,  // outside the unit's travel
   kNoFrame,      // designation without a frame at that time
   kTracker,      // the tracker refused the box
   kPrecedence,   // a slew while the operator has the PTU (manual or stopped)
 };
 const char* to_string(Refusal refusal);
+
+// What a person wants to know of a station at a glance.
+struct StationSnapshot {
+  StationState state = StationState::kIdle;
+  std::int64_t track_id = 0;
+  double belief = 0.0;
+  std::optional<AngleSample> angles;
+  std::optional<AzimuthElevation> optical_axis;
+  std::optional<Eigen::Vector2d> target_offset_px;  // from the principal point, newest frame
+  std::optional<cv::Rect2d> box;                    // newest frame
+  double frame_latency_s = 0.0;                     // mid-exposure to bearing, smoothed
+  std::map<std::string, double> counters;           // only go up; state times are "seconds_<state>"
+};
+
+class Station {
+ public:
+  Station(const StationConfig& config, std::unique_ptr<TargetTracker> tracker);
+
+  // What happens to the station. Samples and frames come in time order, each kind for itself.
+  void on_angles(const AngleSample& sample);
+  void on_frame(const Frame& frame);
+  void set_limits(const PtuLimits& limits) { config_.limits = limits; }
+
+  // Commands; what is refused changes nothing but its counter.
+  Refusal designate(const DesignateCommand& command, double now_s);
+  Refusal slew(const SlewCommand& command, double now_s);
+  Refusal point(const PointCommand& command, double now_s);
+  void stop(double now_s);
+  void release(double now_s);
+
+  // Lets time pass: leases and coasting end, state times grow. Returns the bearings whose PTU
+  // angles are known by now.
+  std::vector<Bearing> step(double now_s);
+
+  // Where the PTU shall be; nothing: halt.
+  std::optional<ServoGoal> goal(double now_s) const;
+
+  StationState state() const { return state_; }
+  StationSnapshot snapshot() const;
+
+ private:
+  struct Measured {  // a frame's pixel that waits for the PTU angles of its exposure
+    double arrived_s = 0.0;
+    double mid_exposure_s = 0.0;
+    double stamp_sd_s = 0.0;
+    StampSource stamp_source = StampSource::kCamera;
+    TrackerOutput output;
+    std::int64_t track_id = 0;
+  };
+
+  Refusal count(Refusal refusal, const char* command);
+  void enter(StationState state);
+  bool follows_target() const;
+  const Frame* remembered(const std::optional<double>& time_s) const;
+  TrackerInput tracker_input(const Frame& frame) const;
+  void track(const Frame& frame);
+  void judge(const TrackerOutput& output, double time_s);
+  std::optional<Bearing> bearing(const Measured& measured);
+  void follow(const Bearing& bearing, const PixelSight& pixel);
+  void search_along_slew();
+  void expire(double now_s);
+  std::optional<ServoGoal> slew_goal() const;
+
+  StationConfig config_;
+  std::unique_ptr<TargetTracker> tracker_;
+  AngleHistory history_;
+  AngularTrack motion_;
+  StationState state_ = StationState::kIdle;
+
+  std::deque<Frame> frames_;  // the last frame_memory_s
+  std::deque<Measured> waiting_;
+  std::optional<double> tracked_s_;  // mid-exposure of the last frame given to the tracker
+  std::optional<TrackerOutput> last_output_;
+  double believed_s_ = 0.0;  // mid-exposure of the last believed frame
+  int believed_in_a_row_ = 0;
+  double searched_s_ = 0.0;  // when the tracker was last told where to search
+  std::int64_t track_id_ = 0;
+  std::optional<SlewCommand> slew_;
+  std::optional<ServoGoal> point_;
+  double now_s_ = 0.0;  // of the last step
+  double frame_latency_s_ = 0.0;
+  std::map<std::string, double> counters_;
+};
 
 }  // namespace ols

@@ -1,0 +1,11 @@
+// An orderly end on SIGTERM and SIGINT.
+#pragma once
+
+namespace ols {
+
+// Installs the handlers; call once, first in main.
+void install_shutdown_handler();
+
+bool shutdown_requested();
+
+}  // namespace ols

@@ -1,0 +1,51 @@
+// The target's motion as seen by one station, in PTU angles: a constant-velocity Kalman filter for
+// each axis. It gives the servo its feed-forward and carries the station through short gaps. Pure.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "geometry/kinematic_chain.h"
+
+namespace ols {
+
+class AngularTrack {
+ public:
+  struct Config {
+    double acceleration_sd_rad_s2 =
+        0.15;  // spectral root of the white acceleration [rad/s^2/sqrt(Hz)]
+    double initial_rate_sd_rad_s = 0.3;
+    double measurement_sd_floor_rad = 2e-5;
+  };
+  struct State {
+    double time_s = 0.0;
+    PanTilt angles;
+    PanTilt rate;  // [rad/s]
+  };
+
+  explicit AngularTrack(const Config& config) : config_(config) {}
+
+  // The PTU angles that would put the target on the optical axis, and their 1-sigma. A time that is
+  // not later than the last one is ignored.
+  void update(double time_s, const PanTilt& angles, double sd_rad);
+  void clear() { state_.reset(); }
+
+  // The state of the last update; nothing before the first.
+  std::optional<State> state() const { return state_; }
+
+  // Extrapolated to an instant.
+  std::optional<PanTilt> at(double time_s) const;
+
+ private:
+  struct Axis {
+    double angle = 0.0, rate = 0.0;
+    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  };
+  void update_axis(Axis& axis, double dt, double measured, double sd_rad) const;
+
+  Config config_;
+  std::optional<State> state_;
+  Axis pan_, tilt_;
+};
+
+}  // namespace ols

@@ -1,0 +1,141 @@
+#include "edge/config.h"
+
+#include <cctype>
+
+#include "base/toml_config.h"
+#include "geometry/angles.h"
+
+namespace ols {
+namespace {
+
+constexpr double kLengthMax_m = 100.0;
+
+double angle(ConfigTable& table, const char* key_deg, double fallback_rad, double limit_deg) {
+  return radians(table.number(key_deg, degrees(fallback_rad), -limit_deg, limit_deg));
+}
+
+double angle_sd(ConfigTable& table, const char* key_deg, double fallback_rad) {
+  return radians(table.number(key_deg, degrees(fallback_rad), 0.0, 90.0));
+}
+
+Eigen::Vector3d vector(ConfigTable& table, const char* key, const Eigen::Vector3d& fallback) {
+  const auto v =
+      table.numbers(key, {fallback.x(), fallback.y(), fallback.z()}, -kLengthMax_m, kLengthMax_m);
+  return {v[0], v[1], v[2]};
+}
+
+int sign(ConfigTable& table, const char* key, int fallback) {
+  const auto value = table.integer(key, fallback, -1, 1);
+  if (value == 0) throw table.error(key, "must be 1 or -1");
+  return static_cast<int>(value);
+}
+
+std::string station_id(ConfigTable& root) {
+  const std::string id = root.required_text("id");
+  bool valid = !id.empty() && id.size() <= 32;
+  for (const char c : id) {
+    valid = valid && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_');
+  }
+  if (!valid) throw root.error("id", "1 to 32 letters, digits, - or _ are wanted");
+  return id;
+}
+
+void read_pose(ConfigTable& pose, StationGeometry& geometry) {
+  geometry.position.latitude_rad = radians(pose.required_number("latitude_deg", -90.0, 90.0));
+  geometry.position.longitude_rad = radians(pose.required_number("longitude_deg", -180.0, 360.0));
+  geometry.position.height_m = pose.required_number("height_m", -1000.0, 100000.0);
+  geometry.chain.heading_rad = radians(pose.required_number("heading_deg", -360.0, 360.0));
+  geometry.chain.tilt_x_rad = angle(pose, "tilt_x_deg", 0.0, 45.0);
+  geometry.chain.tilt_y_rad = angle(pose, "tilt_y_deg", 0.0, 45.0);
+}
+
+void read_chain(ConfigTable& table, ChainParameters& chain) {
+  chain.ground_to_origin_m = vector(table, "ground_to_origin_m", chain.ground_to_origin_m);
+  chain.origin_to_azi_m = vector(table, "origin_to_azi_m", chain.origin_to_azi_m);
+  chain.azi_to_ele_m = vector(table, "azi_to_ele_m", chain.azi_to_ele_m);
+  chain.ele_to_focus_m = vector(table, "ele_to_focus_m", chain.ele_to_focus_m);
+  chain.focus_to_camera_m = vector(table, "focus_to_camera_m", chain.focus_to_camera_m);
+  chain.mount_z_rad = angle(table, "mount_z_deg", chain.mount_z_rad, 180.0);
+  chain.mount_x_rad = angle(table, "mount_x_deg", chain.mount_x_rad, 180.0);
+  chain.mount_y_rad = angle(table, "mount_y_deg", chain.mount_y_rad, 180.0);
+  chain.pan_sign = sign(table, "pan_sign", chain.pan_sign);
+  chain.tilt_sign = sign(table, "tilt_sign", chain.tilt_sign);
+  chain.pan_zero_rad = angle(table, "pan_zero_deg", chain.pan_zero_rad, 360.0);
+  chain.tilt_zero_rad = angle(table, "tilt_zero_deg", chain.tilt_zero_rad, 360.0);
+}
+
+void read_lens(ConfigTable& lens, CameraIntrinsics& camera) {
+  camera.fx_px = lens.number("fx_px", camera.fx_px, 1.0, 1e7);
+  camera.fy_px = lens.number("fy_px", camera.fy_px, 1.0, 1e7);
+  camera.cx_px = lens.number("cx_px", (camera.width_px - 1) / 2.0, -1e5, 1e5);
+  camera.cy_px = lens.number("cy_px", (camera.height_px - 1) / 2.0, -1e5, 1e5);
+  camera.skew = lens.number("skew", camera.skew, -1e5, 1e5);
+  camera.k1 = lens.number("k1", camera.k1, -1e3, 1e3);
+  camera.k2 = lens.number("k2", camera.k2, -1e6, 1e6);
+  camera.p1 = lens.number("p1", camera.p1, -1e3, 1e3);
+  camera.p2 = lens.number("p2", camera.p2, -1e3, 1e3);
+  camera.k3 = lens.number("k3", camera.k3, -1e9, 1e9);
+}
+
+void read_calibration_sd(ConfigTable& table, CalibrationSd& sd) {
+  sd.heading_rad = angle_sd(table, "heading_deg", sd.heading_rad);
+  sd.tilt_rad = angle_sd(table, "tilt_deg", sd.tilt_rad);
+  sd.mount_rad = angle_sd(table, "mount_deg", sd.mount_rad);
+  sd.mount_roll_rad = angle_sd(table, "mount_roll_deg", sd.mount_roll_rad);
+  sd.position_m = table.number("position_m", sd.position_m, 0.0, 1e5);
+}
+
+void read_logic(ConfigTable& table, StationConfig& station) {
+  station.designation_sd_px =
+      table.number("designation_sd_px", station.designation_sd_px, 0.0, 100.0);
+  station.tracking_belief = table.number("tracking_belief", station.tracking_belief, 0.0, 1.0);
+  station.coast_s = table.number("coast_s", station.coast_s, 0.0, 60.0);
+  station.reacquire_frames =
+      static_cast<int>(table.integer("reacquire_frames", station.reacquire_frames, 1, 100));
+  station.angle_wait_s = table.number("angle_wait_s", station.angle_wait_s, 0.0, 1.0);
+  station.frame_memory_s = table.number("frame_memory_s", station.frame_memory_s, 0.0, 10.0);
+  station.search_interval_s =
+      table.number("search_interval_s", station.search_interval_s, 0.0, 60.0);
+  station.search_sd_px = table.number("search_sd_px", station.search_sd_px, 1.0, 1000.0);
+  station.slew_lease_max_s = table.number("slew_lease_max_s", station.slew_lease_max_s, 0.1, 5.0);
+  station.point_time_s = table.number("point_time_s", station.point_time_s, 0.1, 60.0);
+  station.motion.acceleration_sd_rad_s2 =
+      angle_sd(table, "target_acceleration_deg_s2", station.motion.acceleration_sd_rad_s2);
+}
+
+}  // namespace
+
+StationSettings load_station_settings(const std::string& path) {
+  ConfigFile file(path);
+  ConfigTable& root = file.root();
+  StationSettings settings;
+  settings.id = station_id(root);
+  settings.lcm_url = root.text("lcm_url", settings.lcm_url);
+  settings.tracker_seed = static_cast<std::uint64_t>(root.integer("tracker_seed", 1, 0, INT64_MAX));
+  settings.status_interval_s =
+      root.number("status_interval_s", settings.status_interval_s, 0.05, 60.0);
+  settings.preview_interval_s =
+      root.number("preview_interval_s", settings.preview_interval_s, 0.0, 60.0);
+
+  StationGeometry& geometry = settings.station.geometry;
+  settings.camera = read_camera_config(root.table("camera"));
+  settings.ptu = read_ptu_config(root.table("ptu"));
+  settings.tracker = read_tracker_config(root.table("tracker"));
+  geometry.camera.width_px = settings.camera.width_px;
+  geometry.camera.height_px = settings.camera.height_px;
+  read_pose(root.table("pose"), geometry);
+  read_chain(root.table("chain"), geometry.chain);
+  read_lens(root.table("lens"), geometry.camera);
+
+  ConfigTable& calibration = root.table("calibration");
+  settings.calibration_id = calibration.integer("id", 0, 0, INT64_MAX);
+  read_calibration_sd(calibration.table("sd"), geometry.sd);
+  settings.clock_sd_s = root.table("clock").number("sd_s", settings.clock_sd_s, 0.0, 1e4);
+  read_logic(root.table("logic"), settings.station);
+  settings.station.angles = settings.ptu.history;
+  settings.station.limits = settings.ptu.limits;
+  file.finish();
+  return settings;
+}
+
+}  // namespace ols

@@ -1,0 +1,56 @@
+// ols-station: one tripod. Parses, loads, wires and loops.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <exception>
+#include <opencv2/core/utility.hpp>
+#include <random>
+
+#include "base/shutdown.h"
+#include "base/toml_config.h"
+#include "edge/station_process.h"
+
+namespace {
+
+constexpr int kExitBadInput = 2;
+
+std::int64_t draw_boot_id() {
+  std::random_device source;
+  return static_cast<std::int64_t>((static_cast<std::uint64_t>(source()) << 31U) ^ source());
+}
+
+int run(const ols::StationSettings& settings) {
+  cv::setNumThreads(1);  // a frame is small; the other core belongs to the camera's stream
+  ols::StationProcess process(settings, draw_boot_id());
+  spdlog::info("station {} ready: camera {}, PTU {}, bus {}", settings.id, settings.camera.device,
+               settings.ptu.device, settings.lcm_url);
+  while (!ols::shutdown_requested()) process.turn();
+  spdlog::info("station {} stops", settings.id);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"One camera station: captures, tracks, servoes and sends bearings over LCM"};
+  std::string config;
+  bool check = false;
+  app.add_option("--config", config, "Configuration file (TOML)")->required();
+  app.add_flag("--check-config", check, "Only read and check the configuration");
+  CLI11_PARSE(app, argc, argv);
+  spdlog::set_default_logger(spdlog::stderr_color_mt("ols-station"));
+  ols::install_shutdown_handler();
+  try {
+    const ols::StationSettings settings = ols::load_station_settings(config);
+    if (check) return 0;
+    return run(settings);
+  } catch (const ols::ConfigError& error) {
+    std::fprintf(stderr, "ols-station: %s\n", error.what());
+    return kExitBadInput;
+  } catch (const std::exception& error) {
+    spdlog::critical("{}", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,415 @@
+#include "edge/station.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/angles.h"
+
+namespace ols {
+namespace {
+
+bool finite(const PanTilt& angles) {
+  return std::isfinite(angles.pan_rad) && std::isfinite(angles.tilt_rad);
+}
+
+bool finite(const SlewCommand& slew) {
+  for (const double value :
+       {slew.effect_s, slew.received_s, slew.lease_s, slew.direction.azimuth_rad,
+        slew.direction.elevation_rad, slew.azimuth_rate_rad_s, slew.elevation_rate_rad_s,
+        slew.direction_sd_rad}) {
+    if (!std::isfinite(value)) return false;
+  }
+  return true;
+}
+
+AzimuthElevation direction_at(const SlewCommand& slew, double time_s) {
+  const double dt = time_s - slew.effect_s;
+  return {wrap_two_pi(slew.direction.azimuth_rad + dt * slew.azimuth_rate_rad_s),
+          slew.direction.elevation_rad + dt * slew.elevation_rate_rad_s};
+}
+
+// The pixel of a direction at infinity.
+std::optional<Eigen::Vector2d> pixel_of(const StationGeometry& geometry, const PanTilt& angles,
+                                        const AzimuthElevation& direction) {
+  constexpr double kFar_m = 1e6;
+  const Eigen::Vector3d centre = camera_centre_ecef(geometry, angles);
+  const Eigen::Vector3d point =
+      centre + kFar_m * (R_ecef_enu(centre) * enu_from_azimuth_elevation(direction));
+  const auto seen = view(geometry, angles, point);
+  if (!seen) return std::nullopt;
+  return seen->pixel;
+}
+
+}  // namespace
+
+const char* to_string(StationState state) {
+  switch (state) {
+    case StationState::kIdle:
+      return "idle";
+    case StationState::kManual:
+      return "manual";
+    case StationState::kTracking:
+      return "tracking";
+    case StationState::kCoasting:
+      return "coasting";
+    case StationState::kLost:
+      return "lost";
+    case StationState::kSlewed:
+      return "slewed";
+    case StationState::kStopped:
+      return "stopped";
+  }
+  return "unknown";
+}
+
+const char* to_string(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::kNone:
+      return "none";
+    case Refusal::kNotFinite:
+      return "not_finite";
+    case Refusal::kOutOfRange:
+      return "out_of_range";
+    case Refusal::kUnreachable:
+      return "unreachable";
+    case Refusal::kNoFrame:
+      return "no_frame";
+    case Refusal::kTracker:
+      return "tracker";
+    case Refusal::kPrecedence:
+      return "precedence";
+  }
+  return "unknown";
+}
+
+Station::Station(const StationConfig& config, std::unique_ptr<TargetTracker> tracker)
+    : config_(config),
+      tracker_(std::move(tracker)),
+      history_(config.angles),
+      motion_(config.motion) {}
+
+Refusal Station::count(Refusal refusal, const char* command) {
+  const bool accepted = refusal == Refusal::kNone;
+  counters_[std::string(command) + (accepted ? "_accepted" : "_refused")] += 1;
+  if (!accepted) counters_[std::string("refused_") + to_string(refusal)] += 1;
+  return refusal;
+}
+
+void Station::enter(StationState state) {
+  if (state == state_) return;
+  state_ = state;
+  counters_[std::string("entered_") + to_string(state)] += 1;
+  believed_in_a_row_ = 0;
+  // At the first frame of a search the tracker is told where to look.
+  searched_s_ = -std::numeric_limits<double>::infinity();
+}
+
+bool Station::follows_target() const {
+  return track_id_ > 0 && state_ != StationState::kIdle && state_ != StationState::kManual &&
+         state_ != StationState::kStopped;
+}
+
+void Station::on_angles(const AngleSample& sample) { history_.add(sample); }
+
+void Station::on_frame(const Frame& frame) {
+  if (!frames_.empty() && frame.mid_exposure_s <= frames_.back().mid_exposure_s) {
+    counters_["frames_out_of_order"] += 1;
+    return;
+  }
+  frames_.push_back(frame);
+  while (frame.mid_exposure_s - frames_.front().mid_exposure_s > config_.frame_memory_s) {
+    frames_.pop_front();
+  }
+  if (follows_target()) track(frame);
+}
+
+TrackerInput Station::tracker_input(const Frame& frame) const {
+  TrackerInput input{frame.gray, frame.mid_exposure_s, std::nullopt};
+  if (tracked_s_) {
+    const auto from = history_.at(*tracked_s_);
+    const auto to = history_.at(frame.mid_exposure_s);
+    if (from && to) {
+      input.predicted_homography = rotation_homography(config_.geometry, from->angles, to->angles);
+    }
+  }
+  return input;
+}
+
+void Station::track(const Frame& frame) {
+  const TrackerInput input = tracker_input(frame);
+  if (state_ == StationState::kSlewed && believed_in_a_row_ == 0 &&
+      frame.mid_exposure_s - searched_s_ > config_.search_interval_s) {
+    search_along_slew();
+  }
+  const TrackerResult result = tracker_->track(input);
+  if (!result.output) {
+    counters_[std::string("frames_refused_") + to_string(*result.error)] += 1;
+    return;
+  }
+  tracked_s_ = frame.mid_exposure_s;
+  last_output_ = result.output;
+  counters_["frames_tracked"] += 1;
+  judge(*result.output, frame.mid_exposure_s);
+  if (state_ == StationState::kTracking && result.output->belief >= config_.tracking_belief) {
+    waiting_.push_back({std::max(now_s_, frame.mid_exposure_s), frame.mid_exposure_s,
+                        frame.stamp_sd_s, frame.stamp_source, *result.output, track_id_});
+  }
+}
+
+// Belief decides: one believed frame ends coasting (the tracker was still near), several in a row
+// end a search.
+void Station::judge(const TrackerOutput& output, double time_s) {
+  const bool believed = output.belief >= config_.tracking_belief;
+  believed_in_a_row_ = believed ? believed_in_a_row_ + 1 : 0;
+  if (believed) believed_s_ = time_s;
+  switch (state_) {
+    case StationState::kTracking:
+      if (!believed) enter(StationState::kCoasting);
+      break;
+    case StationState::kCoasting:
+      if (believed) enter(StationState::kTracking);
+      break;
+    case StationState::kLost:
+    case StationState::kSlewed:
+      if (believed_in_a_row_ >= config_.reacquire_frames) {
+        motion_.clear();
+        enter(StationState::kTracking);
+      }
+      break;
+    default:
+      break;
+  }
+}
+
+void Station::search_along_slew() {
+  if (!slew_ || frames_.empty()) return;
+  const double time_s = frames_.back().mid_exposure_s;
+  const auto angles = history_.at(time_s);
+  if (!angles) return;
+  const auto pixel = pixel_of(config_.geometry, angles->angles, direction_at(*slew_, time_s));
+  const auto& camera = config_.geometry.camera;
+  // The PTU is still on its way: no use in searching yet.
+  if (!pixel || pixel->x() < 0 || pixel->y() < 0 || pixel->x() > camera.width_px ||
+      pixel->y() > camera.height_px) {
+    return;
+  }
+  const double sd_px = slew_->direction_sd_rad * camera.fx_px;
+  tracker_->search_near(*pixel, std::clamp(sd_px, config_.search_sd_px, camera.width_px / 4.0));
+  searched_s_ = time_s;
+}
+
+const Frame* Station::remembered(const std::optional<double>& time_s) const {
+  if (frames_.empty()) return nullptr;
+  if (!time_s) return &frames_.back();
+  const auto nearest =
+      std::min_element(frames_.begin(), frames_.end(), [&](const Frame& a, const Frame& b) {
+        return std::abs(a.mid_exposure_s - *time_s) < std::abs(b.mid_exposure_s - *time_s);
+      });
+  constexpr double kSameFrame_s = 0.02;
+  return std::abs(nearest->mid_exposure_s - *time_s) < kSameFrame_s ? &*nearest : nullptr;
+}
+
+Refusal Station::designate(const DesignateCommand& command, double now_s) {
+  now_s_ = std::max(now_s_, now_s);
+  const Frame* start = remembered(command.frame_time_s);
+  if (start == nullptr) return count(Refusal::kNoFrame, "designate");
+  const TrackerInput first{start->gray, start->mid_exposure_s, std::nullopt};
+  if (tracker_->initialise(first, command.box)) return count(Refusal::kTracker, "designate");
+  track_id_ += 1;
+  tracked_s_ = believed_s_ = start->mid_exposure_s;
+  last_output_.reset();
+  motion_.clear();
+  waiting_.clear();
+  enter(StationState::kTracking);
+  // The operator saw an old frame: catch up with the frames since then.
+  const double start_s = start->mid_exposure_s;
+  for (const Frame& frame : frames_) {
+    if (frame.mid_exposure_s > start_s && follows_target()) track(frame);
+  }
+  return count(Refusal::kNone, "designate");
+}
+
+Refusal Station::slew(const SlewCommand& command, double now_s) {
+  now_s_ = std::max(now_s_, now_s);
+  constexpr double kSane_s = 5.0;
+  constexpr double kMaxRate_rad_s = 3.0;
+  if (!finite(command)) return count(Refusal::kNotFinite, "slew");
+  if (command.lease_s <= 0.0 || command.lease_s > config_.slew_lease_max_s ||
+      std::abs(command.effect_s - now_s) > kSane_s ||
+      std::abs(command.direction.azimuth_rad) > 2.0 * kPi ||
+      std::abs(command.direction.elevation_rad) > kPi / 2.0 ||
+      std::abs(command.azimuth_rate_rad_s) > kMaxRate_rad_s ||
+      std::abs(command.elevation_rate_rad_s) > kMaxRate_rad_s || command.direction_sd_rad < 0.0) {
+    return count(Refusal::kOutOfRange, "slew");
+  }
+  if (state_ == StationState::kManual || state_ == StationState::kStopped) {
+    return count(Refusal::kPrecedence, "slew");
+  }
+  auto angles = aim_along(config_.geometry, command.direction);
+  const auto newest = history_.newest();
+  if (!angles ||
+      reach(config_.limits, newest ? newest->angles : *angles, *angles) == Reach::kUnreachable) {
+    return count(Refusal::kUnreachable, "slew");
+  }
+  slew_ = command;
+  if (state_ == StationState::kIdle || state_ == StationState::kLost) {
+    enter(StationState::kSlewed);
+  }
+  return count(Refusal::kNone, "slew");
+}
+
+Refusal Station::point(const PointCommand& command, double now_s) {
+  now_s_ = std::max(now_s_, now_s);
+  if (!finite(command.angles)) return count(Refusal::kNotFinite, "point");
+  PanTilt angles = command.angles;
+  const auto newest = history_.newest();
+  if (reach(config_.limits, newest ? newest->angles : angles, angles) == Reach::kUnreachable) {
+    return count(Refusal::kUnreachable, "point");
+  }
+  point_ = ServoGoal{now_s, angles, {}, now_s + config_.point_time_s};
+  enter(StationState::kManual);
+  return count(Refusal::kNone, "point");
+}
+
+void Station::stop(double now_s) {
+  now_s_ = std::max(now_s_, now_s);
+  slew_.reset();
+  point_.reset();
+  enter(StationState::kStopped);
+  count(Refusal::kNone, "stop");
+}
+
+void Station::release(double now_s) {
+  now_s_ = std::max(now_s_, now_s);
+  if (state_ == StationState::kManual || state_ == StationState::kStopped) {
+    point_.reset();
+    enter(track_id_ > 0 ? StationState::kLost : StationState::kIdle);
+  }
+  count(Refusal::kNone, "release");
+}
+
+std::vector<Bearing> Station::step(double now_s) {
+  if (now_s_ > 0.0 && now_s > now_s_) {
+    counters_[std::string("seconds_") + to_string(state_)] += now_s - now_s_;
+  }
+  now_s_ = std::max(now_s_, now_s);
+  expire(now_s_);
+  std::vector<Bearing> bearings;
+  while (!waiting_.empty()) {
+    const Measured& measured = waiting_.front();
+    const auto angles = history_.at(measured.mid_exposure_s);
+    const bool bracketed = angles && angles->interpolated;
+    if (!bracketed && now_s_ - measured.arrived_s < config_.angle_wait_s) break;
+    if (auto made = bearing(measured)) {
+      constexpr double kSmoothing = 0.1;
+      frame_latency_s_ += kSmoothing * (now_s_ - made->mid_exposure_s - frame_latency_s_);
+      bearings.push_back(*made);
+    }
+    waiting_.pop_front();
+  }
+  return bearings;
+}
+
+void Station::expire(double now_s) {
+  const bool slew_over = slew_ && now_s > slew_->received_s + slew_->lease_s;
+  if (slew_over) slew_.reset();
+  if (state_ == StationState::kSlewed && !slew_) {
+    enter(track_id_ > 0 ? StationState::kLost : StationState::kIdle);
+  }
+  const bool following = state_ == StationState::kTracking || state_ == StationState::kCoasting;
+  // Also when frames stop coming: no believed frame, no motion.
+  if (following && now_s - believed_s_ > config_.coast_s) {
+    motion_.clear();
+    enter(slew_ ? StationState::kSlewed : StationState::kLost);
+  }
+}
+
+std::optional<Bearing> Station::bearing(const Measured& measured) {
+  const auto angles = history_.at(measured.mid_exposure_s);
+  if (!angles) {
+    counters_["frames_without_angles"] += 1;
+    return std::nullopt;
+  }
+  PixelSight pixel;
+  pixel.pixel = measured.output.pixel;
+  pixel.covariance_px2 = measured.output.covariance_px2;
+  const double sd = config_.designation_sd_px;
+  pixel.covariance_systematic_px2 = Eigen::Matrix2d::Identity() * (sd * sd);
+  pixel.angles = angles->angles;
+  // The frame's own stamp adds to the time jitter of the angles.
+  const Eigen::Vector2d rate(angles->rate.pan_rad, angles->rate.tilt_rad);
+  pixel.angles_covariance_rad2 =
+      angles->covariance + rate * rate.transpose() * std::pow(measured.stamp_sd_s, 2);
+  const auto line = sight(config_.geometry, pixel);
+  if (!line) {
+    counters_["pixels_outside_lens_model"] += 1;
+    return std::nullopt;
+  }
+  Bearing result{measured.mid_exposure_s, *line,
+                 measured.output.belief,  measured.track_id,
+                 measured.stamp_sd_s,     measured.stamp_source};
+  follow(result, pixel);
+  counters_["bearings"] += 1;
+  return result;
+}
+
+void Station::follow(const Bearing& bearing, const PixelSight& pixel) {
+  auto centred = aim_along(config_.geometry, bearing.sight.direction);
+  if (!centred) return;
+  reach(config_.limits, pixel.angles, *centred);
+  motion_.update(bearing.mid_exposure_s, *centred,
+                 std::sqrt(bearing.sight.covariance_white.trace() / 2.0));
+}
+
+std::optional<ServoGoal> Station::slew_goal() const {
+  constexpr double kStep_s = 0.05;
+  auto here = aim_along(config_.geometry, slew_->direction);
+  const auto later = aim_along(config_.geometry, direction_at(*slew_, slew_->effect_s + kStep_s));
+  if (!here || !later) return std::nullopt;
+  const PanTilt rate{wrap_pi(later->pan_rad - here->pan_rad) / kStep_s,
+                     (later->tilt_rad - here->tilt_rad) / kStep_s};
+  const auto newest = history_.newest();
+  reach(config_.limits, newest ? newest->angles : *here, *here);
+  return ServoGoal{slew_->effect_s, *here, rate, slew_->received_s + slew_->lease_s};
+}
+
+std::optional<ServoGoal> Station::goal(double now_s) const {
+  switch (state_) {
+    case StationState::kManual:
+      return point_;
+    case StationState::kTracking:
+    case StationState::kCoasting:
+      if (const auto motion = motion_.state()) {
+        return ServoGoal{motion->time_s, motion->angles, motion->rate,
+                         believed_s_ + config_.coast_s};
+      }
+      return std::nullopt;
+    case StationState::kSlewed:
+      if (slew_ && now_s <= slew_->received_s + slew_->lease_s) return slew_goal();
+      return std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+StationSnapshot Station::snapshot() const {
+  StationSnapshot snapshot;
+  snapshot.state = state_;
+  snapshot.track_id = track_id_;
+  snapshot.angles = history_.newest();
+  if (snapshot.angles) {
+    snapshot.optical_axis = optical_axis(config_.geometry, snapshot.angles->angles);
+  }
+  if (last_output_ && follows_target()) {
+    const auto& camera = config_.geometry.camera;
+    snapshot.belief = last_output_->belief;
+    snapshot.target_offset_px = last_output_->pixel - Eigen::Vector2d(camera.cx_px, camera.cy_px);
+    snapshot.box = last_output_->box;
+  }
+  snapshot.frame_latency_s = frame_latency_s_;
+  snapshot.counters = counters_;
+  return snapshot;
+}
+
+}  // namespace ols

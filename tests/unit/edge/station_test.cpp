@@ -1,0 +1,340 @@
+#include "edge/station.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "geometry/angles.h"
+
+namespace ols {
+namespace {
+
+// A tracker that says what the test wants it to say.
+struct ScriptedTracker : TargetTracker {
+  struct Script {
+    double belief = 0.9;
+    Eigen::Vector2d pixel{639.5, 479.5};
+    bool accept = true;
+    int initialised = 0, searches = 0, tracked = 0;
+    Eigen::Vector2d searched_pixel = Eigen::Vector2d::Zero();
+    std::optional<TrackerInput> last;
+  };
+  explicit ScriptedTracker(Script& script) : s(script) {}
+  std::optional<TrackerError> initialise(const TrackerInput&, const cv::Rect2d&) override {
+    if (!s.accept) return TrackerError::kBox;
+    ++s.initialised;
+    return std::nullopt;
+  }
+  TrackerResult track(const TrackerInput& input) override {
+    ++s.tracked;
+    s.last = input;
+    TrackerOutput output;
+    output.pixel = s.pixel;
+    output.box = {s.pixel.x() - 10, s.pixel.y() - 10, 20, 20};
+    output.covariance_px2 = Eigen::Matrix2d::Identity() * 0.25;
+    output.belief = s.belief;
+    return {output, std::nullopt};
+  }
+  void search_near(const Eigen::Vector2d& pixel, double) override {
+    ++s.searches;
+    s.searched_pixel = pixel;
+  }
+  Script& s;
+};
+
+constexpr double kFrame_s = 1.0 / 15.0;
+
+class StationTest : public testing::Test {
+ protected:
+  StationTest() : station_(config(), std::make_unique<ScriptedTracker>(script_)) {}
+
+  static StationConfig config() {
+    StationConfig config;
+    config.geometry.position = {radians(49.2), radians(16.6), 250.0};
+    config.geometry.chain.heading_rad = radians(30.0);
+    config.geometry.sd.heading_rad = radians(0.02);
+    config.limits = {-radians(159), radians(159), -radians(46), radians(31)};
+    return config;
+  }
+
+  // PTU samples every 20 ms and a frame every 1/15 s until `end_s`; collects the bearings.
+  void run_until(double end_s, bool frames = true) {
+    while (now_ < end_s) {
+      now_ += 0.005;
+      if (now_ >= next_sample_) {
+        station_.on_angles({now_, 1e-4, angles_});
+        next_sample_ += 0.02;
+      }
+      if (frames && now_ >= next_frame_) {
+        Frame frame;
+        frame.mid_exposure_s = now_ - 0.02;
+        station_.on_frame(frame);
+        next_frame_ = now_ + kFrame_s;
+      }
+      for (const auto& bearing : station_.step(now_)) bearings_.push_back(bearing);
+    }
+  }
+
+  SlewCommand slew(double azimuth_deg, double elevation_deg = 0.0) const {
+    SlewCommand command;
+    command.effect_s = now_ + 0.05;
+    command.received_s = now_;
+    command.lease_s = 0.5;
+    command.target_id = 1;
+    command.direction = {radians(azimuth_deg), radians(elevation_deg)};
+    command.direction_sd_rad = 1e-3;
+    return command;
+  }
+
+  void designated() {
+    run_until(now_ + 0.3);
+    ASSERT_EQ(station_.designate({std::nullopt, {629, 469, 20, 20}}, now_), Refusal::kNone);
+  }
+
+  ScriptedTracker::Script script_;
+  Station station_;
+  PanTilt angles_;
+  double now_ = 100.0, next_sample_ = 100.0, next_frame_ = 100.0;
+  std::vector<Bearing> bearings_;
+};
+
+TEST_F(StationTest, IsIdleAndSendsNothing) {
+  run_until(101.0);
+  EXPECT_EQ(station_.state(), StationState::kIdle);
+  EXPECT_TRUE(bearings_.empty());
+  EXPECT_FALSE(station_.goal(now_));
+  EXPECT_EQ(script_.tracked, 0);
+}
+
+TEST_F(StationTest, TracksAfterDesignationAndSendsBearingsAlongTheAxis) {
+  designated();
+  run_until(now_ + 1.0);
+  EXPECT_EQ(station_.state(), StationState::kTracking);
+  ASSERT_GE(bearings_.size(), 13u);
+  const Bearing& bearing = bearings_.back();
+  EXPECT_NEAR(degrees(bearing.sight.direction.azimuth_rad), 30.0, 1e-4);
+  EXPECT_NEAR(degrees(bearing.sight.direction.elevation_rad), 0.0, 1e-4);
+  EXPECT_EQ(bearing.track_id, 1);
+  // White: half a pixel of 75 urad; systematic: heading 0.02 deg and a pixel of designation.
+  EXPECT_NEAR(std::sqrt(bearing.sight.covariance_white(0, 0)), 37.5e-6, 30e-6);
+  EXPECT_NEAR(std::sqrt(bearing.sight.covariance_systematic(0, 0)),
+              std::hypot(radians(0.02), 75e-6), 1e-6);
+}
+
+TEST_F(StationTest, ANewDesignationIsANewTrack) {
+  designated();
+  designated();
+  run_until(now_ + 0.3);
+  EXPECT_EQ(bearings_.back().track_id, 2);
+}
+
+TEST_F(StationTest, DesignationInThePastCatchesUp) {
+  run_until(101.0);
+  const double meant = now_ - 0.5;
+  // The test's frames were exposed 20 ms before they came, every 70 ms or so: find one by trial.
+  Refusal result = Refusal::kNoFrame;
+  for (double t = meant; t < meant + 0.07 && result != Refusal::kNone; t += 0.01) {
+    result = station_.designate({t, {629, 469, 20, 20}}, now_);
+  }
+  ASSERT_EQ(result, Refusal::kNone);
+  EXPECT_GE(script_.tracked, 5);
+  run_until(now_ + 0.1);
+  EXPECT_GE(bearings_.size(), 5u);
+}
+
+TEST_F(StationTest, DesignationOfAFrameLongGoneIsRefused) {
+  run_until(103.0);
+  EXPECT_EQ(station_.designate({100.5, {629, 469, 20, 20}}, now_), Refusal::kNoFrame);
+  EXPECT_EQ(station_.state(), StationState::kIdle);
+  EXPECT_EQ(station_.snapshot().counters.at("refused_no_frame"), 1.0);
+}
+
+TEST_F(StationTest, DesignationThatTheTrackerRefusesChangesNothing) {
+  run_until(100.5);
+  script_.accept = false;
+  EXPECT_EQ(station_.designate({std::nullopt, {0, 0, 0, 0}}, now_), Refusal::kTracker);
+  EXPECT_EQ(station_.state(), StationState::kIdle);
+}
+
+TEST_F(StationTest, CoastsThenLosesThenHalts) {
+  designated();
+  run_until(now_ + 0.5);
+  script_.belief = 0.1;
+  run_until(now_ + 0.2);
+  EXPECT_EQ(station_.state(), StationState::kCoasting);
+  EXPECT_TRUE(station_.goal(now_));
+  const std::size_t before = bearings_.size();
+  run_until(now_ + config().coast_s + 0.2);
+  EXPECT_EQ(station_.state(), StationState::kLost);
+  EXPECT_FALSE(station_.goal(now_));
+  EXPECT_EQ(bearings_.size(), before) << "no bearing without belief";
+}
+
+TEST_F(StationTest, ReturnsFromCoastingAtOnce) {
+  designated();
+  run_until(now_ + 0.5);
+  script_.belief = 0.1;
+  run_until(now_ + 0.2);
+  script_.belief = 0.9;
+  run_until(now_ + 0.1);
+  EXPECT_EQ(station_.state(), StationState::kTracking);
+}
+
+TEST_F(StationTest, LosesTheTargetWhenTheFramesStop) {
+  designated();
+  run_until(now_ + 0.5);
+  run_until(now_ + config().coast_s + 0.3, false);
+  EXPECT_EQ(station_.state(), StationState::kLost);
+  EXPECT_FALSE(station_.goal(now_));
+}
+
+TEST_F(StationTest, GoalOfATargetOffTheAxisLeadsThere) {
+  script_.pixel = {639.5 + 100.0, 479.5};  // to the right: pan is positive to the left
+  designated();
+  run_until(now_ + 0.5);
+  const auto goal = station_.goal(now_);
+  ASSERT_TRUE(goal);
+  EXPECT_NEAR(goal->angles.pan_rad, -100.0 * 75e-6, 2e-6);
+  EXPECT_NEAR(goal->rate.pan_rad, 0.0, 1e-4);
+}
+
+TEST_F(StationTest, ASlewMovesAnIdleStationForItsLease) {
+  run_until(100.5);
+  ASSERT_EQ(station_.slew(slew(20.0), now_), Refusal::kNone);
+  EXPECT_EQ(station_.state(), StationState::kSlewed);
+  const auto goal = station_.goal(now_);
+  ASSERT_TRUE(goal);
+  EXPECT_NEAR(degrees(goal->angles.pan_rad), 10.0, 1e-3);
+  EXPECT_NEAR(goal->valid_until_s, now_ + 0.5, 1e-9);
+  run_until(now_ + 0.6);
+  EXPECT_EQ(station_.state(), StationState::kIdle);
+  EXPECT_FALSE(station_.goal(now_));
+}
+
+TEST_F(StationTest, ASlewCarriesItsRate) {
+  run_until(100.5);
+  auto command = slew(20.0);
+  command.azimuth_rate_rad_s = 0.1;
+  ASSERT_EQ(station_.slew(command, now_), Refusal::kNone);
+  EXPECT_NEAR(station_.goal(now_)->rate.pan_rad, -0.1, 1e-4);
+}
+
+TEST_F(StationTest, ALostStationIsSlewedBackOntoTheTarget) {
+  designated();
+  run_until(now_ + 0.5);
+  script_.belief = 0.1;
+  run_until(now_ + config().coast_s + 0.2);
+  ASSERT_EQ(station_.state(), StationState::kLost);
+  ASSERT_EQ(station_.slew(slew(30.5, 0.4), now_), Refusal::kNone);
+  run_until(now_ + 0.2);
+  EXPECT_EQ(station_.state(), StationState::kSlewed);
+  ASSERT_GE(script_.searches, 1);
+  // The slew points half a degree to the right of the axis and 0.4 above it.
+  EXPECT_NEAR(script_.searched_pixel.x(), 639.5 + std::tan(radians(0.5)) / 75e-6, 2.0);
+  EXPECT_NEAR(script_.searched_pixel.y(), 479.5 - std::tan(radians(0.4)) / 75e-6, 2.0);
+  script_.belief = 0.9;
+  run_until(now_ + 0.1);
+  EXPECT_EQ(station_.state(), StationState::kSlewed) << "one believed frame is not enough";
+  run_until(now_ + 0.2);
+  EXPECT_EQ(station_.state(), StationState::kTracking);
+}
+
+TEST_F(StationTest, RefusesSlewsThatAreNotCommands) {
+  run_until(100.5);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  auto bad = slew(20.0);
+  bad.direction.azimuth_rad = nan;
+  EXPECT_EQ(station_.slew(bad, now_), Refusal::kNotFinite);
+  bad = slew(20.0);
+  bad.lease_s = 1e9;
+  EXPECT_EQ(station_.slew(bad, now_), Refusal::kOutOfRange);
+  bad = slew(20.0);
+  bad.lease_s = 0.0;
+  EXPECT_EQ(station_.slew(bad, now_), Refusal::kOutOfRange);
+  bad = slew(20.0);
+  bad.effect_s = now_ + 100.0;
+  EXPECT_EQ(station_.slew(bad, now_), Refusal::kOutOfRange);
+  EXPECT_EQ(station_.slew(slew(20.0, 60.0), now_), Refusal::kUnreachable);
+  EXPECT_EQ(station_.slew(slew(210.0), now_), Refusal::kUnreachable);  // behind, beyond 159 deg
+  EXPECT_EQ(station_.state(), StationState::kIdle);
+  EXPECT_FALSE(station_.goal(now_));
+  EXPECT_EQ(station_.snapshot().counters.at("slew_refused"), 6.0);
+}
+
+TEST_F(StationTest, TheOperatorHasPrecedenceOverSlews) {
+  run_until(100.5);
+  ASSERT_EQ(station_.point({{0.2, 0.1}}, now_), Refusal::kNone);
+  EXPECT_EQ(station_.state(), StationState::kManual);
+  EXPECT_NEAR(station_.goal(now_)->angles.pan_rad, 0.2, 1e-12);
+  EXPECT_EQ(station_.slew(slew(20.0), now_), Refusal::kPrecedence);
+  station_.stop(now_);
+  EXPECT_EQ(station_.state(), StationState::kStopped);
+  EXPECT_FALSE(station_.goal(now_));
+  EXPECT_EQ(station_.slew(slew(20.0), now_), Refusal::kPrecedence);
+  station_.release(now_);
+  EXPECT_EQ(station_.state(), StationState::kIdle);
+  EXPECT_EQ(station_.slew(slew(20.0), now_), Refusal::kNone);
+}
+
+TEST_F(StationTest, StopEndsTracking) {
+  designated();
+  run_until(now_ + 0.5);
+  station_.stop(now_);
+  const std::size_t before = bearings_.size();
+  run_until(now_ + 1.0);
+  EXPECT_EQ(station_.state(), StationState::kStopped);
+  EXPECT_FALSE(station_.goal(now_));
+  EXPECT_LE(bearings_.size(), before + 1);  // at most the one that waited for its angles
+}
+
+TEST_F(StationTest, RefusesToPointWhereTheUnitCannotReach) {
+  run_until(100.5);
+  EXPECT_EQ(station_.point({{0.0, 1.0}}, now_), Refusal::kUnreachable);
+  EXPECT_EQ(station_.point({{std::nan(""), 0.0}}, now_), Refusal::kNotFinite);
+  EXPECT_EQ(station_.state(), StationState::kIdle);
+}
+
+TEST_F(StationTest, FramesThatGoBackInTimeAreCountedAndLeftOut) {
+  designated();
+  run_until(now_ + 0.2);
+  const int before = script_.tracked;
+  Frame old;
+  old.mid_exposure_s = now_ - 0.5;
+  station_.on_frame(old);
+  EXPECT_EQ(script_.tracked, before);
+  EXPECT_EQ(station_.snapshot().counters.at("frames_out_of_order"), 1.0);
+}
+
+TEST_F(StationTest, PredictsTheHomographyFromThePtu) {
+  designated();
+  run_until(now_ + 0.3);
+  angles_.pan_rad += 0.01;  // to the left: the scene moves right
+  run_until(now_ + 0.15);
+  ASSERT_TRUE(script_.last && script_.last->predicted_homography);
+  run_until(now_ + 0.3);
+  const Eigen::Matrix3d still =
+      *script_.last->predicted_homography / (*script_.last->predicted_homography)(2, 2);
+  EXPECT_NEAR((still - Eigen::Matrix3d::Identity()).norm(), 0.0, 1e-6);
+}
+
+TEST_F(StationTest, CountsTheSecondsInEachState) {
+  run_until(100.5);
+  designated();
+  run_until(now_ + 2.0);
+  EXPECT_NEAR(station_.snapshot().counters.at("seconds_tracking"), 2.0, 0.02);
+}
+
+TEST_F(StationTest, WaitsForTheAnglesAfterTheExposureButNotForever) {
+  designated();
+  run_until(now_ + 0.3);
+  next_sample_ = now_ + 10.0;  // the PTU falls silent
+  const std::size_t before = bearings_.size();
+  run_until(now_ + 0.12);
+  EXPECT_GT(bearings_.size(), before) << "extrapolated for a moment";
+  run_until(now_ + 1.0);
+  EXPECT_GT(station_.snapshot().counters.at("frames_without_angles"), 5.0);
+}
+
+}  // namespace
+}  // namespace ols

@@ -1,0 +1,147 @@
+#include "tools/ctl/operator.h"
+
+#include <random>
+
+#include "base/clocks.h"
+
+namespace ols {
+namespace {
+
+constexpr double kLease_s = 2.0;
+constexpr double kTwoIntervals_s = 1.2;  // stations send their status twice a second
+constexpr int kPoll_ms = 50;
+
+double refused(const ols_msg::station_status_t& status, const std::string& command) {
+  return counter(status, command + "_refused") + counter(status, "messages_refused");
+}
+
+}  // namespace
+
+double counter(const ols_msg::station_status_t& status, const std::string& name) {
+  for (std::size_t i = 0; i < status.counter_name.size(); ++i) {
+    if (status.counter_name[i] == name) return status.counter_value[i];
+  }
+  return 0.0;
+}
+
+const char* state_name(std::int8_t state) {
+  using M = ols_msg::station_status_t;
+  switch (state) {
+    case M::STATE_IDLE:
+      return "idle";
+    case M::STATE_MANUAL:
+      return "manual";
+    case M::STATE_TRACKING:
+      return "tracking";
+    case M::STATE_COASTING:
+      return "coasting";
+    case M::STATE_LOST:
+      return "lost";
+    case M::STATE_SLEWED:
+      return "slewed";
+    case M::STATE_STOPPED:
+      return "stopped";
+    default:
+      return "unknown";
+  }
+}
+
+const char* device_name(std::int8_t device) {
+  using M = ols_msg::station_status_t;
+  switch (device) {
+    case M::DEVICE_ABSENT:
+      return "absent";
+    case M::DEVICE_STARTING:
+      return "starting";
+    case M::DEVICE_OK:
+      return "ok";
+    case M::DEVICE_FAULT:
+      return "fault";
+    default:
+      return "unknown";
+  }
+}
+
+Operator::Operator(const std::string& lcm_url, std::string station)
+    : station_(std::move(station)), bus_(lcm_url) {
+  std::random_device source;
+  boot_id_ = static_cast<std::int64_t>(source());
+  const std::string which = station_ == "all" ? ".*" : station_;
+  bus_.subscribe("OLS_STATUS_" + which, [this](const std::string&, const void* data, int bytes) {
+    ols_msg::station_status_t status;
+    if (decode_exactly(data, bytes, status)) statuses_[status.station] = status;
+  });
+}
+
+const Operator::Statuses& Operator::listen(double timeout_s) {
+  const double start_s = clock_monotonic_s();
+  const bool all = station_ == "all";
+  const double end_s = start_s + (all ? kTwoIntervals_s : timeout_s);
+  while (clock_monotonic_s() < end_s && (all || statuses_.empty())) bus_.handle(kPoll_ms);
+  return statuses_;
+}
+
+template <class Message>
+void Operator::address(Message& message, const std::string& station) {
+  message.utime = clock_utime_us();
+  message.schema_version = Message::SCHEMA_VERSION;
+  message.boot_id = boot_id_;
+  message.sequence = ++sequence_;
+  message.station = station;
+  message.lease_s = kLease_s;
+}
+
+std::optional<std::string> Operator::outcome(const std::string& station,
+                                             const std::string& command) {
+  const ols_msg::station_status_t before = statuses_[station];
+  const double end_s = clock_monotonic_s() + kLease_s;
+  while (clock_monotonic_s() < end_s) {
+    bus_.handle(kPoll_ms);
+    const ols_msg::station_status_t& now = statuses_[station];
+    if (counter(now, command + "_accepted") > counter(before, command + "_accepted")) {
+      return std::nullopt;
+    }
+    if (refused(now, command) > refused(before, command)) return now.last_error;
+  }
+  return "no answer";
+}
+
+std::optional<std::string> Operator::designate(const std::string& station, double x, double y,
+                                               double width, double height) {
+  ols_msg::designate_t message;
+  address(message, station);
+  message.frame_utime = 0;
+  message.x_px = x;
+  message.y_px = y;
+  message.width_px = width;
+  message.height_px = height;
+  bus_.publish("OLS_DESIGNATE_" + station, message);
+  return outcome(station, "designate");
+}
+
+std::optional<std::string> Operator::send_ptu(const std::string& station, std::int8_t command,
+                                              double pan_rad, double tilt_rad,
+                                              const std::string& counter_name) {
+  ols_msg::ptu_command_t message;
+  address(message, station);
+  message.command = command;
+  message.pan_rad = pan_rad;
+  message.tilt_rad = tilt_rad;
+  bus_.publish("OLS_PTU_" + station, message);
+  return outcome(station, counter_name);
+}
+
+std::optional<std::string> Operator::point(const std::string& station, double pan_rad,
+                                           double tilt_rad) {
+  return send_ptu(station, ols_msg::ptu_command_t::COMMAND_POINT, pan_rad, tilt_rad, "point");
+}
+
+std::optional<std::string> Operator::stop(const std::string& station) {
+  return send_ptu(station, ols_msg::ptu_command_t::COMMAND_STOP, 0.0, 0.0, "stop");
+}
+
+std::optional<std::string> Operator::release(const std::string& station) {
+  return send_ptu(station, ols_msg::ptu_command_t::COMMAND_RELEASE, 0.0, 0.0, "release");
+}
+
+}  // namespace ols

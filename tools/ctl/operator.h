@@ -1,0 +1,57 @@
+// The operator's side of the bus: sends one command to one station and learns from the station's
+// status what became of it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "base/lcm_bus.h"
+#include "ols_msg/designate_t.hpp"
+#include "ols_msg/ptu_command_t.hpp"
+#include "ols_msg/station_status_t.hpp"
+
+namespace ols {
+
+class Operator {
+ public:
+  using Statuses = std::map<std::string, ols_msg::station_status_t>;
+
+  // `station` or "all". Throws BusError.
+  Operator(const std::string& lcm_url, std::string station);
+
+  // The newest status of each addressed station, after listening. One named station: until it is
+  // heard, at most timeout_s; all: for two status intervals.
+  const Statuses& listen(double timeout_s);
+
+  // Each sends to the station and waits for the status that counts it. Returns nothing when it was
+  // accepted, otherwise what the station said.
+  std::optional<std::string> designate(const std::string& station, double x, double y, double width,
+                                       double height);
+  std::optional<std::string> point(const std::string& station, double pan_rad, double tilt_rad);
+  std::optional<std::string> stop(const std::string& station);
+  std::optional<std::string> release(const std::string& station);
+
+ private:
+  template <class Message>
+  void address(Message& message, const std::string& station);
+  std::optional<std::string> send_ptu(const std::string& station, std::int8_t command,
+                                      double pan_rad, double tilt_rad, const std::string& counter);
+  std::optional<std::string> outcome(const std::string& station, const std::string& counter);
+
+  std::string station_;
+  LcmBus bus_;
+  Statuses statuses_;
+  std::int64_t boot_id_;
+  std::int64_t sequence_ = 0;
+};
+
+// The value of a counter in a status; 0 when it is not there.
+double counter(const ols_msg::station_status_t& status, const std::string& name);
+
+const char* state_name(std::int8_t state);
+const char* device_name(std::int8_t device);
+
+}  // namespace ols
