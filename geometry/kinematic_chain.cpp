@@ -87,6 +87,7 @@ Eigen::Isometry3d enu_from_camera(const ChainParameters& chain, const PanTilt& a
 
 std::optional<PanTilt> aim(const ChainParameters& chain, const Eigen::Vector3d& direction_enu,
                            const Eigen::Vector3d& direction_cam) {
+  if (!(direction_enu.norm() > 0.0 && direction_cam.norm() > 0.0)) return std::nullopt;
   const auto link = links(chain, {});
   // Wanted: RZ(pan) RY(-tilt) m = d, d in ORIGIN and m in the frame that tilts.
   const Eigen::Vector3d d = link_rotation(link[0]).transpose() * direction_enu.normalized();

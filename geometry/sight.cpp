@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace ols {
@@ -45,15 +46,16 @@ Eigen::Matrix2d tangent_by_angles(const ChainParameters& chain, const Ray& ray) 
   return jacobian;
 }
 
-// The calibration's rotations: heading about the vertical, tilts about the two axes of ORIGIN, the
-// mounting about the camera's. What they move the camera centre by is left out: an arm of 0.2 m
-// times a milliradian is small beside any position_m.
-Eigen::Matrix2d calibration_covariance(const CalibrationSd& sd, const Ray& ray) {
-  const Eigen::Isometry3d& origin = at(ray.poses, Joint::kOrigin);
+// The calibration's rotations: heading about the vertical, tilts about the axes that eq. (1) turns
+// ORIGIN about (X before the turn about Y), the mounting about the camera's. What they move the
+// camera centre by is left out: an arm of 0.2 m times a milliradian is small beside any position_m.
+Eigen::Matrix2d calibration_covariance(const StationGeometry& station, const Ray& ray) {
+  const CalibrationSd& sd = station.sd;
+  const double heading_rad = station.chain.heading_rad;
   const std::array<std::pair<double, Eigen::Vector3d>, 6> rotations{{
       {sd.heading_rad, Eigen::Vector3d::UnitZ()},
-      {sd.tilt_rad, axis_of(origin, 0)},
-      {sd.tilt_rad, axis_of(origin, 1)},
+      {sd.tilt_rad, {std::sin(heading_rad), std::cos(heading_rad), 0.0}},
+      {sd.tilt_rad, axis_of(at(ray.poses, Joint::kOrigin), 1)},
       {sd.mount_rad, ray.R_enu_cam.col(0)},
       {sd.mount_rad, ray.R_enu_cam.col(1)},
       {sd.mount_roll_rad, ray.R_enu_cam.col(2)},
@@ -117,7 +119,7 @@ std::optional<SightLine> sight(const StationGeometry& station, const PixelSight&
       transformed(tangent_by_angles(station.chain, ray), measurement.angles_covariance_rad2);
   line.covariance_systematic =
       transformed(tangent_by_pixel, measurement.covariance_systematic_px2) +
-      calibration_covariance(station.sd, ray);
+      calibration_covariance(station, ray);
   return line;
 }
 
