@@ -1,0 +1,93 @@
+// One opened GigE Vision camera with its stream. Calls block; errors are thrown.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "edge/camera/camera_config.h"
+#include "edge/camera/clock_map.h"
+#include "edge/camera/picture.h"
+
+using ArvBuffer = struct _ArvBuffer;
+using ArvCamera = struct _ArvCamera;
+using ArvDevice = struct _ArvDevice;
+using ArvStream = struct _ArvStream;
+
+namespace ols {
+
+struct CameraAbsent : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+// There, but it does not do what is configured.
+struct CameraUnfit : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Unref {
+  void operator()(void* object) const;  // g_object_unref
+};
+template <typename T>
+using Owned = std::unique_ptr<T, Unref>;
+
+// One buffer as it came from the stream, given back to it at the end of its life.
+struct ReceivedFrame {
+  std::uint64_t id = 0;  // the camera's frame number
+  bool complete = false;
+  RawPicture picture;                     // valid as long as the buffer is
+  std::optional<std::int64_t> device_ns;  // the camera's own stamp
+  double arrival_s = 0.0;                 // CLOCK_MONOTONIC of its first packet
+};
+
+class AravisDevice {
+ public:
+  // Opens, configures and starts.
+  explicit AravisDevice(const CameraConfig& config);
+  ~AravisDevice();
+  AravisDevice(const AravisDevice&) = delete;
+  AravisDevice& operator=(const AravisDevice&) = delete;
+
+  // Waits for the next buffer and calls use(ReceivedFrame); false when none came in time.
+  template <typename Use>
+  bool receive(double timeout_s, Use use) {
+    ArvBuffer* buffer = pop(timeout_s);
+    if (buffer == nullptr) return false;
+    const BufferReturn give_back{stream_.get(), buffer};
+    use(describe(buffer));
+    return true;
+  }
+
+  // Latches the camera's clock; nothing when the camera cannot.
+  std::optional<LatchSample> latch();
+
+  bool control_lost() const { return control_lost_; }
+  double exposure_s() const { return exposure_s_; }  // as the camera has it
+
+ private:
+  struct BufferReturn {
+    ArvStream* stream;
+    ArvBuffer* buffer;
+    ~BufferReturn();
+  };
+  void configure(const CameraConfig& config);
+  void set_transport(const CameraConfig& config);
+  void start(const CameraConfig& config);
+  ArvDevice* device() const;
+  ArvBuffer* pop(double timeout_s);
+  ReceivedFrame describe(ArvBuffer* buffer) const;
+  bool command_latch();
+  std::optional<std::uint64_t> latched_ticks();
+
+  Owned<ArvCamera> camera_;
+  Owned<ArvStream> stream_;
+  std::atomic<bool> control_lost_ = false;
+  double exposure_s_ = 0.0;
+  std::uint64_t tick_hz_ = 0;  // 0: the camera's clock is not to be had
+  bool latch_by_feature_ = false;
+  std::uint64_t last_latch_ticks_ = 0;
+};
+
+}  // namespace ols

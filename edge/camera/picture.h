@@ -1,0 +1,45 @@
+// From the bytes of a frame as the camera sends them to the gray picture of the tracker. Pure.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string_view>
+
+namespace ols {
+
+// GenICam's (PFNC) codes of the pixel formats that a station takes.
+enum class PixelFormat : std::uint32_t {
+  kMono8 = 0x01080001,
+  kBayerGR8 = 0x01080008,
+  kBayerRG8 = 0x01080009,
+  kBayerGB8 = 0x0108000A,
+  kBayerBG8 = 0x0108000B,
+};
+std::optional<PixelFormat> pixel_format(std::string_view genicam_name);
+
+struct RawPicture {
+  const std::uint8_t* data = nullptr;
+  std::size_t bytes = 0;
+  int width_px = 0;
+  int height_px = 0;
+  std::uint32_t format = 0;  // PFNC code
+};
+
+struct PictureFormat {
+  int width_px = 0;
+  int height_px = 0;
+  PixelFormat format = PixelFormat::kMono8;
+};
+
+enum class PictureRefusal { kNone, kWrongSize, kWrongFormat, kTooShort };
+const char* to_string(PictureRefusal refusal);
+
+PictureRefusal check(const RawPicture& raw, const PictureFormat& expected);
+
+// The gray picture, in memory of its own: the camera's is overwritten soon. `raw` has passed
+// check().
+cv::Mat to_gray(const RawPicture& raw);
+
+}  // namespace ols

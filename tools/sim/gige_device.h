@@ -1,0 +1,76 @@
+// The registers of a simulated GigE Vision camera and what its control channel answers.
+//
+// The registers and the GenICam description are those of Aravis' fake camera. Its network half
+// (ArvGvFakeCamera) is not used: it has no time latch, all its cameras expose at the same instant,
+// and drawing a picture blocks its control channel.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/sim/gige_wire.h"
+
+using ArvFakeCamera = struct _ArvFakeCamera;
+
+namespace ols::sim {
+
+struct StreamSettings {
+  std::uint32_t address = 0;  // of the client, network byte order
+  std::uint16_t port = 0;
+  int packet_size = 0;  // [byte] IP packet
+  std::uint32_t width = 0, height = 0;
+  std::uint32_t format = 0;  // PFNC code
+  double exposure_s = 0.0;
+  double period_s = 0.0;
+};
+
+struct ResendRequest {
+  std::uint16_t frame = 0;
+  std::uint32_t first = 0, last = 0;  // packets
+};
+
+struct Answer {
+  std::vector<std::uint8_t> acknowledgement;  // empty: none
+  std::optional<ResendRequest> resend;
+};
+
+class GigeDevice {
+ public:
+  // `address` in network byte order.
+  GigeDevice(const std::string& serial, std::uint32_t address, int width_px, int height_px,
+             double exposure_s);
+  ~GigeDevice();
+
+  // A control packet from the client known by `peer`; the camera's clock and the monotonic one.
+  Answer handle(gige::Bytes packet, std::uint64_t peer, std::int64_t clock_ns, double time_s);
+
+  // What to stream, nothing while no client wants it. A client that is silent for longer than the
+  // heartbeat allows is forgotten.
+  std::optional<StreamSettings> streaming(double time_s);
+
+  // The camera forgets the size that was set, as after a reset.
+  void set_size(int width_px, int height_px);
+
+ private:
+  std::uint32_t read(std::uint32_t address) const;
+  void write(std::uint32_t address, std::uint32_t value);
+  gige::Status write_register(std::uint32_t address, std::uint32_t value, std::int64_t clock_ns);
+  std::vector<std::uint8_t> read_register(const gige::ControlPacket& asked) const;
+  std::vector<std::uint8_t> read_memory(const gige::ControlPacket& asked) const;
+  std::vector<std::uint8_t> write_registers(const gige::ControlPacket& asked,
+                                            std::int64_t clock_ns);
+  std::vector<std::uint8_t> write_memory(const gige::ControlPacket& asked, std::int64_t clock_ns);
+  bool may_write(std::uint64_t peer, double time_s);
+  void release();
+
+  mutable std::mutex mutex_;
+  std::unique_ptr<ArvFakeCamera, void (*)(ArvFakeCamera*)> registers_;
+  std::optional<std::uint64_t> controller_;
+  double heard_s_ = 0.0;  // from the controller, last
+};
+
+}  // namespace ols::sim
