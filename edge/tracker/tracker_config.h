@@ -3,13 +3,42 @@
 
 namespace ols {
 
+class ConfigTable;
+
 struct TrackerConfig {
   int particles = 300;
-  // Standard deviations of the motion model's noise, eq. (2)-(4), per second of frame interval
-  // where the unit says so; pixels of the full frame.
-  double position_sd_px = 2.0;
-  double velocity_sd_px_s = 40.0;
-  double size_sd_fraction = 0.01;  // of the box's width and height, per frame
+
+  // Motion model, eq. (2)-(4): standard deviations of its noise. Pixels are those of the full
+  // frame.
+  double position_sd_px = 1.0;           // per frame
+  double position_sd_fraction = 0.04;    // of the box's size, per frame, added to the above
+  double velocity_sd_px_s = 20.0;        // px/s, per frame
+  double size_sd_fraction = 0.01;        // of the box's width and height, per frame
+  double size_prior_sd_fraction = 0.35;  // how far from its first size the box is believed to go
+  double initial_velocity_sd_px_s = 60.0;
+
+  // Objective, eq. (5): a background patch is exp(-sharpness) as likely as the template.
+  double sharpness = 15.0;
+
+  // Ego-motion between adjacent frames.
+  int ego_motion_width_px = 640;  // reduced image, at most
+  int ego_motion_corners = 120;
+  int ego_motion_least_inliers = 12;
+  double ego_motion_least_inlier_fraction = 0.4;
+  double unknown_motion_sd_px = 2.0;  // more position noise where no homography is known
+
+  // Share of the particles forced onto the maxima of the frame difference without a homography.
+  double difference_fraction = 0.1;
+  // Share redrawn over the search region while the target is not believed in.
+  double search_fraction = 0.4;
+  double search_growth_px_s = 40.0;
+  double search_sd_most_px = 120.0;
+
+  double reference_interval_s = 0.3;  // between images kept for the foreground masks
+  double pixel_sd_floor_px = 0.05;    // of the refined position
 };
+
+// Reads the table `[tracker]` of a configuration. Throws ConfigError.
+TrackerConfig read_tracker_config(ConfigTable& table);
 
 }  // namespace ols

@@ -1,0 +1,219 @@
+#include "edge/tracker/ego_motion.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+#include "edge/tracker/particle.h"
+
+namespace ols {
+namespace {
+
+const cv::Size kWindow(15, 15);
+constexpr int kLevels = 3;
+constexpr double kInlier = 1.5;  // reduced pixels
+
+std::vector<cv::Mat> build_pyramid(const cv::Mat& image) {
+  std::vector<cv::Mat> pyramid;
+  cv::buildOpticalFlowPyramid(image, pyramid, kWindow, kLevels);
+  return pyramid;
+}
+
+// The strongest corners of each cell of a grid, so that they cover the picture.
+std::vector<cv::Point2f> spread(const std::vector<cv::KeyPoint>& corners, const cv::Size& image,
+                                int wanted) {
+  constexpr int kColumns = 12;
+  constexpr int kRows = 9;
+  const auto a_cell = static_cast<std::size_t>(std::max(1, 2 * wanted / (kColumns * kRows)));
+  std::vector<std::vector<const cv::KeyPoint*>> cells(kColumns * kRows);
+  for (const cv::KeyPoint& corner : corners) {
+    const int column = static_cast<int>(corner.pt.x) * kColumns / image.width;
+    const int row = static_cast<int>(corner.pt.y) * kRows / image.height;
+    cells[static_cast<std::size_t>(row * kColumns + column)].push_back(&corner);
+  }
+  std::vector<cv::Point2f> chosen;
+  for (auto& cell : cells) {
+    std::stable_sort(cell.begin(), cell.end(),
+                     [](const auto* a, const auto* b) { return a->response > b->response; });
+    for (std::size_t i = 0; i < std::min(a_cell, cell.size()); ++i) chosen.push_back(cell[i]->pt);
+  }
+  return chosen;
+}
+
+Eigen::Vector2d vector_of(const cv::Point2f& point) {
+  return {static_cast<double>(point.x), static_cast<double>(point.y)};
+}
+
+}  // namespace
+
+Eigen::Matrix3d ReducedFrame::to_full() const {
+  // Pixel centres: full = (reduced + 0.5) * reduction - 0.5.
+  Eigen::Matrix3d scale = Eigen::Matrix3d::Identity();
+  scale(0, 0) = scale(1, 1) = reduction;
+  scale(0, 2) = scale(1, 2) = (reduction - 1.0) / 2.0;
+  return scale;
+}
+
+ReducedFrame reduce_frame(const cv::Mat& gray, int most_width_px) {
+  const int reduction = (gray.cols + most_width_px - 1) / most_width_px;
+  const int width = gray.cols / reduction;
+  const int height = gray.rows / reduction;
+  if (reduction <= 1 || width == 0 || height == 0) return {gray.clone(), 1.0};
+  ReducedFrame reduced{cv::Mat(), static_cast<double>(reduction)};
+  cv::resize(gray(cv::Rect(0, 0, width * reduction, height * reduction)), reduced.image,
+             cv::Size(width, height), 0, 0, cv::INTER_AREA);
+  return reduced;
+}
+
+bool plausible_homography(const Eigen::Matrix3d& homography, const cv::Size& image) {
+  if (!homography.allFinite() || std::abs(homography(2, 2)) < 1e-9) return false;
+  const Eigen::Matrix3d h = homography / homography(2, 2);
+  const double scale = h.topLeftCorner<2, 2>().determinant();
+  if (scale < 0.7 || scale > 1.4) return false;
+  if (std::abs(h(2, 0)) * image.width + std::abs(h(2, 1)) * image.height > 0.3) return false;
+  const Eigen::Vector2d centre(image.width / 2.0, image.height / 2.0);
+  const Eigen::Vector2d moved = transform(h, centre) - centre;
+  return std::abs(moved.x()) < 0.6 * image.width && std::abs(moved.y()) < 0.6 * image.height;
+}
+
+Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,
+                               const std::vector<cv::Point2f>& current,
+                               const Eigen::Matrix3d& guess, const cv::Size& image) {
+  // Coordinates about the picture's centre, half its width being 1.
+  const double unit = image.width / 2.0;
+  Eigen::Matrix3d to_unit;
+  to_unit << 1.0 / unit, 0.0, -1.0, 0.0, 1.0 / unit, -image.height / (2.0 * unit), 0.0, 0.0, 1.0;
+  const double noise = 0.3 / unit;
+  constexpr double kShapeSd = 0.02;  // turn, stretch and perspective between two frames
+  using Vector8 = Eigen::Matrix<double, 8, 1>;
+  Eigen::Matrix<double, 8, 8> normal = Eigen::Matrix<double, 8, 8>::Zero();
+  Vector8 right = Vector8::Zero();
+  const auto add = [&](const Vector8& row, double value) {
+    normal += row * row.transpose() / (noise * noise);
+    right += row * value / (noise * noise);
+  };
+  for (std::size_t i = 0; i < previous.size(); ++i) {
+    const Eigen::Vector2d p = transform(to_unit * guess, vector_of(previous[i]));
+    const Eigen::Vector2d d = transform(to_unit, vector_of(current[i])) - p;
+    // The correction's 3x3 less the unit matrix, row by row, without its last element.
+    Vector8 x_row;
+    x_row << p.x(), p.y(), 1.0, 0.0, 0.0, 0.0, -p.x() * (p.x() + d.x()), -p.y() * (p.x() + d.x());
+    Vector8 y_row;
+    y_row << 0.0, 0.0, 0.0, p.x(), p.y(), 1.0, -p.x() * (p.y() + d.y()), -p.y() * (p.y() + d.y());
+    add(x_row, d.x());
+    add(y_row, d.y());
+  }
+  for (const int shape : {0, 1, 3, 4, 6, 7}) normal(shape, shape) += 1.0 / (kShapeSd * kShapeSd);
+  normal(2, 2) += 1e-6 / (noise * noise);
+  normal(5, 5) += 1e-6 / (noise * noise);
+  const Vector8 found = normal.ldlt().solve(right);
+  Eigen::Matrix3d correction = Eigen::Matrix3d::Identity();
+  correction.row(0) += found.segment<3>(0).transpose();
+  correction.row(1) += found.segment<3>(3).transpose();
+  correction(2, 0) += found(6);
+  correction(2, 1) += found(7);
+  const Eigen::Matrix3d full = to_unit.inverse() * correction * to_unit * guess;
+  return full / full(2, 2);
+}
+
+void EgoMotionEstimator::start(const ReducedFrame& frame) {
+  previous_ = frame;
+  previous_pyramid_ = build_pyramid(frame.image);
+  last_.setIdentity();
+}
+
+std::vector<cv::Point2f> EgoMotionEstimator::detect_corners(const cv::Rect2d& target_box) {
+  constexpr int kLeastThreshold = 6;
+  constexpr int kGreatestThreshold = 60;
+  std::vector<cv::KeyPoint> corners;
+  cv::FAST(previous_.image, corners, corner_threshold_, true);
+  // The next frame's threshold, so that there are enough corners and not too many to sort.
+  const auto found = static_cast<int>(corners.size());
+  if (found < 4 * config_.ego_motion_corners) --corner_threshold_;
+  if (found < config_.ego_motion_corners) corner_threshold_ -= 2;
+  if (found > 12 * config_.ego_motion_corners) corner_threshold_ += 2;
+  corner_threshold_ = std::clamp(corner_threshold_, kLeastThreshold, kGreatestThreshold);
+  const double scale = previous_.reduction;
+  const cv::Rect2d target((target_box.x - target_box.width * 0.25) / scale,
+                          (target_box.y - target_box.height * 0.25) / scale,
+                          1.5 * target_box.width / scale, 1.5 * target_box.height / scale);
+  std::erase_if(
+      corners, [&](const cv::KeyPoint& corner) { return target.contains(cv::Point2d(corner.pt)); });
+  return spread(corners, previous_.image.size(), config_.ego_motion_corners);
+}
+
+EgoMotionEstimator::Matches EgoMotionEstimator::follow(const std::vector<cv::Point2f>& corners,
+                                                       const std::vector<cv::Mat>& pyramid,
+                                                       const Eigen::Matrix3d& guess) const {
+  std::vector<cv::Point2f> flow;
+  flow.reserve(corners.size());
+  for (const cv::Point2f& corner : corners) {
+    const Eigen::Vector2d moved = transform(guess, vector_of(corner));
+    flow.emplace_back(static_cast<float>(moved.x()), static_cast<float>(moved.y()));
+  }
+  std::vector<std::uint8_t> found;
+  std::vector<float> error;
+  const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 15, 0.03);
+  cv::calcOpticalFlowPyrLK(previous_pyramid_, pyramid, corners, flow, found, error, kWindow,
+                           kLevels, until, cv::OPTFLOW_USE_INITIAL_FLOW);
+  const cv::Rect2f inside(0, 0, static_cast<float>(previous_.image.cols),
+                          static_cast<float>(previous_.image.rows));
+  Matches matches;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (found[i] == 0 || !inside.contains(flow[i])) continue;
+    matches.previous.push_back(corners[i]);
+    matches.current.push_back(flow[i]);
+  }
+  return matches;
+}
+
+std::optional<Eigen::Matrix3d> EgoMotionEstimator::fit(const Matches& matches,
+                                                       const Eigen::Matrix3d& guess) const {
+  const auto least = static_cast<std::size_t>(config_.ego_motion_least_inliers);
+  if (matches.previous.size() < std::max<std::size_t>(least, 4)) return std::nullopt;
+  std::vector<std::uint8_t> inlier;
+  // RANSAC's random numbers are its own and start the same each time.
+  const cv::Mat found = cv::findHomography(matches.previous, matches.current, cv::RANSAC, kInlier,
+                                           inlier, 500, 0.995);
+  if (found.empty()) return std::nullopt;
+  Matches kept;
+  for (std::size_t i = 0; i < inlier.size(); ++i) {
+    if (inlier[i] == 0) continue;
+    kept.previous.push_back(matches.previous[i]);
+    kept.current.push_back(matches.current[i]);
+  }
+  const double share =
+      static_cast<double>(kept.previous.size()) / static_cast<double>(matches.previous.size());
+  if (kept.previous.size() < least || share < config_.ego_motion_least_inlier_fraction) {
+    return std::nullopt;
+  }
+  const cv::Size image = previous_.image.size();
+  const Eigen::Matrix3d fitted = fit_homography(kept.previous, kept.current, guess, image);
+  if (!plausible_homography(fitted, image)) return std::nullopt;
+  return fitted;
+}
+
+EgoMotionEstimator::Estimate EgoMotionEstimator::step(
+    const ReducedFrame& frame, const cv::Rect2d& target_box,
+    const std::optional<Eigen::Matrix3d>& predicted) {
+  const Eigen::Matrix3d to_full = frame.to_full();
+  const Eigen::Matrix3d from_full = to_full.inverse();
+  const Eigen::Matrix3d guess = predicted ? from_full * *predicted * to_full : last_;
+  const std::vector<cv::Point2f> corners = detect_corners(target_box);
+  std::vector<cv::Mat> pyramid = build_pyramid(frame.image);
+  Estimate estimate;
+  estimate.featureless = static_cast<int>(corners.size()) < config_.ego_motion_least_inliers;
+  std::optional<Eigen::Matrix3d> found;
+  if (!estimate.featureless) found = fit(follow(corners, pyramid, guess), guess);
+  if (found) estimate.homography = to_full * *found * from_full;
+  last_ = found ? *found : predicted ? guess : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  previous_ = frame;
+  previous_pyramid_ = std::move(pyramid);
+  return estimate;
+}
+
+}  // namespace ols

@@ -1,0 +1,66 @@
+// The camera's own motion: a homography between adjacent frames by KLT and RANSAC.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "edge/tracker/tracker_config.h"
+
+namespace ols {
+
+// A frame made smaller once, for everything that looks at the whole picture.
+struct ReducedFrame {
+  cv::Mat image;
+  double reduction = 1.0;  // full-frame pixels a reduced one
+
+  Eigen::Matrix3d to_full() const;  // reduced pixels to full-frame pixels
+};
+
+ReducedFrame reduce_frame(const cv::Mat& gray, int most_width_px);
+
+class EgoMotionEstimator {
+ public:
+  explicit EgoMotionEstimator(const TrackerConfig& config) : config_(config) {}
+
+  struct Estimate {
+    std::optional<Eigen::Matrix3d> homography;  // full-frame pixels, previous to this frame
+    bool featureless = false;                   // too few corners to tell any motion: blank sky
+  };
+
+  // The first frame: nothing to compare with.
+  void start(const ReducedFrame& frame);
+  // `predicted` is where the flow is looked for first, and what the estimate is drawn to where the
+  // corners leave it open. Corners inside `target_box` of the previous frame are not the scene's.
+  Estimate step(const ReducedFrame& frame, const cv::Rect2d& target_box,
+                const std::optional<Eigen::Matrix3d>& predicted);
+
+ private:
+  struct Matches {
+    std::vector<cv::Point2f> previous;
+    std::vector<cv::Point2f> current;
+  };
+  std::vector<cv::Point2f> detect_corners(const cv::Rect2d& target_box);
+  Matches follow(const std::vector<cv::Point2f>& corners, const std::vector<cv::Mat>& pyramid,
+                 const Eigen::Matrix3d& guess) const;
+  std::optional<Eigen::Matrix3d> fit(const Matches& matches, const Eigen::Matrix3d& guess) const;
+
+  TrackerConfig config_;
+  ReducedFrame previous_;
+  std::vector<cv::Mat> previous_pyramid_;
+  Eigen::Matrix3d last_ = Eigen::Matrix3d::Identity();  // reduced pixels
+  int corner_threshold_ = 15;                           // of FAST [grey levels]
+};
+
+// A small camera rotation: finite, no mirror, little change of scale, most of the picture kept.
+bool plausible_homography(const Eigen::Matrix3d& homography, const cv::Size& image);
+
+// The homography nearest to `guess` that takes `previous` to `current`: least squares in which the
+// correction to `guess` is drawn to a pure shift, because corners on a strip of ground say little
+// of how the sky above it moves.
+Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,
+                               const std::vector<cv::Point2f>& current,
+                               const Eigen::Matrix3d& guess, const cv::Size& image);
+
+}  // namespace ols

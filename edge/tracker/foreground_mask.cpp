@@ -1,0 +1,91 @@
+#include "edge/tracker/foreground_mask.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace ols {
+namespace {
+
+constexpr std::size_t kMost = 8;
+constexpr double kMostMaskPixels = 60000.0;
+
+cv::Rect2d moved_box(const cv::Rect2d& box, const Eigen::Matrix3d& homography) {
+  return box_of(transform(homography, centre_of(box)), size_of(box));
+}
+
+cv::Matx33d mask_to_reference(const View& mask, const Eigen::Matrix3d& to_present) {
+  Eigen::Matrix3d to_frame = Eigen::Matrix3d::Identity();
+  const double offset = (mask.reduction - 1.0) / 2.0;
+  to_frame(0, 0) = to_frame(1, 1) = mask.reduction;
+  to_frame(0, 2) = mask.origin.x + offset;
+  to_frame(1, 2) = mask.origin.y + offset;
+  const Eigen::Matrix3d m = to_present.inverse() * to_frame;
+  return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
+}
+
+}  // namespace
+
+void ReferenceFrames::advance(const Eigen::Matrix3d& homography) {
+  for (Reference& reference : references_) {
+    reference.to_present = homography * reference.to_present;
+    reference.to_present /= reference.to_present(2, 2);
+  }
+}
+
+void ReferenceFrames::offer(const cv::Mat& gray, double time_s, const cv::Rect2d& target_box) {
+  if (!references_.empty() && time_s - references_.back().time_s < interval_s_) return;
+  // The oldest one's memory is used again: a frame is a megabyte.
+  cv::Mat memory;
+  if (references_.size() == kMost) {
+    memory = references_.front().gray;
+    references_.pop_front();
+  }
+  gray.copyTo(memory);
+  references_.push_back({memory, Eigen::Matrix3d::Identity(), target_box, time_s});
+}
+
+const ReferenceFrames::Reference* ReferenceFrames::without_overlap(
+    const cv::Rect2d& target_box) const {
+  const cv::Rect2d wide(target_box.x - 0.15 * target_box.width,
+                        target_box.y - 0.15 * target_box.height, 1.3 * target_box.width,
+                        1.3 * target_box.height);
+  for (auto reference = references_.rbegin(); reference != references_.rend(); ++reference) {
+    const cv::Rect2d there = moved_box(wide, reference->to_present.inverse());
+    const bool seen = there.x >= 0 && there.y >= 0 && there.br().x <= reference->gray.cols &&
+                      there.br().y <= reference->gray.rows;
+    if (seen && (there & reference->target_box).area() <= 0.0) return &*reference;
+  }
+  return nullptr;
+}
+
+View foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference& reference,
+                     const cv::Rect& area, const Template& target) {
+  cv::Rect inside = area & cv::Rect(0, 0, frame.cols, frame.rows);
+  if (inside.empty()) return {};
+  const int reduction =
+      std::max(1, static_cast<int>(std::ceil(std::sqrt(inside.area() / kMostMaskPixels))));
+  const cv::Size size(inside.width / reduction, inside.height / reduction);
+  if (size.empty()) return {};
+  inside.width = size.width * reduction;
+  inside.height = size.height * reduction;
+  View mask{cv::Mat(), inside.tl(), reduction};
+  cv::Mat now;
+  if (reduction == 1) {
+    now = frame(inside);
+  } else {
+    cv::resize(frame(inside), now, size, 0, 0, cv::INTER_LINEAR);
+  }
+  cv::Mat then;
+  cv::warpPerspective(reference.gray, then, mask_to_reference(mask, reference.to_present), size,
+                      cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
+  cv::absdiff(now, then, mask.image);
+  const double nothing = 2.0 * static_cast<double>(target.noise);
+  const double certain = std::max(nothing + 2.0, 0.5 * static_cast<double>(target.contrast));
+  const double gain = 255.0 / (certain - nothing);
+  mask.image.convertTo(mask.image, CV_8U, gain, -nothing * gain);
+  return mask;
+}
+
+}  // namespace ols

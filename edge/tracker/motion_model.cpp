@@ -1,0 +1,67 @@
+#include "edge/tracker/motion_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ols {
+namespace {
+
+constexpr double kLeastSide = 3.0;  // [px] smaller boxes hold no pattern
+
+Eigen::Vector2d noise(Random& random, double sd) {
+  const double x = random.gaussian();
+  const double y = random.gaussian();
+  return {sd * x, sd * y};
+}
+
+}  // namespace
+
+void MotionModel::reset() {
+  motion_ = {};
+  camera_rate_px_s_.setZero();
+  rate_known_ = false;
+}
+
+void MotionModel::begin_frame(const CameraMotion& motion, const Eigen::Vector2d& pixel,
+                              std::vector<Particle>& particles) {
+  motion_ = motion;
+  if (!motion.homography) {
+    rate_known_ = false;
+    return;
+  }
+  const Eigen::Vector2d rate = (transform(*motion.homography, pixel) - pixel) / motion.interval_s;
+  if (!rate_known_) {
+    for (Particle& particle : particles) particle.velocity_px_s += camera_rate_px_s_ - rate;
+  }
+  camera_rate_px_s_ = rate;
+  rate_known_ = true;
+}
+
+Particle MotionModel::advance(const Particle& particle) const {
+  Particle next = particle;
+  const Eigen::Vector2d own = particle.velocity_px_s * motion_.interval_s;
+  if (motion_.homography) {
+    next.pixel = transform(*motion_.homography, particle.pixel) + own;
+  } else {
+    next.pixel = particle.pixel + camera_rate_px_s_ * motion_.interval_s + own;
+  }
+  return next;
+}
+
+double MotionModel::position_sd(const Eigen::Vector2d& size_px) const {
+  const double known =
+      config_.position_sd_px + config_.position_sd_fraction * std::sqrt(size_px.x() * size_px.y());
+  return motion_.homography ? known : std::hypot(known, config_.unknown_motion_sd_px);
+}
+
+Particle MotionModel::predict(const Particle& particle, Random& random) const {
+  Particle next = advance(particle);
+  next.pixel += noise(random, position_sd(particle.size_px));     // eq. (2)
+  next.velocity_px_s += noise(random, config_.velocity_sd_px_s);  // eq. (3)
+  const Eigen::Vector2d growth = noise(random, config_.size_sd_fraction);
+  next.size_px = particle.size_px.cwiseProduct(Eigen::Vector2d::Ones() + growth);  // eq. (4)
+  next.size_px = next.size_px.cwiseMax(kLeastSide);
+  return next;
+}
+
+}  // namespace ols

@@ -1,0 +1,32 @@
+// The filter's state (x, y, vx, vy, h, w) and the plane geometry that its users share.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+
+namespace ols {
+
+struct Particle {
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();          // centre; (0, 0) is a pixel's centre
+  Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  // against the scene, not the image
+  Eigen::Vector2d size_px = Eigen::Vector2d::Zero();        // width, height
+};
+
+// A box's corner lies on pixel edges, the state's position on pixel centres.
+inline cv::Rect2d box_of(const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px) {
+  return {pixel.x() + 0.5 - size_px.x() / 2.0, pixel.y() + 0.5 - size_px.y() / 2.0, size_px.x(),
+          size_px.y()};
+}
+
+inline Eigen::Vector2d centre_of(const cv::Rect2d& box) {
+  return {box.x + box.width / 2.0 - 0.5, box.y + box.height / 2.0 - 0.5};
+}
+
+inline Eigen::Vector2d size_of(const cv::Rect2d& box) { return {box.width, box.height}; }
+
+inline Eigen::Vector2d transform(const Eigen::Matrix3d& homography, const Eigen::Vector2d& pixel) {
+  return (homography * pixel.homogeneous()).hnormalized();
+}
+
+}  // namespace ols

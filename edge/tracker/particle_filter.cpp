@@ -1,0 +1,104 @@
+#include "edge/tracker/particle_filter.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace ols {
+namespace {
+
+// Density of "anywhere" relative to the peak of the prediction: a target that did not follow the
+// motion model is still found, if nothing nearer looks like it.
+constexpr double kAnywhere = 1e-3;
+
+}  // namespace
+
+void ParticleFilter::predict(const MotionModel& motion, Random& random) {
+  const auto count = static_cast<double>(particles_.size());
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  double noise = 0.0;
+  const Eigen::Vector2d origin = motion.advance(particles_.front()).pixel;
+  for (Particle& particle : particles_) {
+    const Eigen::Vector2d offset = motion.advance(particle).pixel - origin;
+    sum += offset;
+    squares += offset * offset.transpose();
+    noise += motion.position_sd(particle.size_px);
+    particle = motion.predict(particle, random);
+  }
+  const Eigen::Vector2d mean = sum / count;
+  const double sd = noise / count;
+  predicted_mean_px_ = origin + mean;
+  predicted_covariance_px2_ = squares / count - mean * mean.transpose();
+  predicted_covariance_px2_ += sd * sd * Eigen::Matrix2d::Identity();
+}
+
+void ParticleFilter::weigh(const std::vector<double>& log_likelihood) {
+  const double greatest = *std::max_element(log_likelihood.begin(), log_likelihood.end());
+  weights_.assign(particles_.size(), 1.0);
+  if (std::isfinite(greatest)) {
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      weights_[i] = std::exp(log_likelihood[i] - greatest);
+    }
+  }
+  double sum = 0.0;
+  for (const double weight : weights_) sum += weight;
+  for (double& weight : weights_) weight /= sum;
+}
+
+std::size_t ParticleFilter::maximum_a_posteriori(const std::vector<double>& log_likelihood) const {
+  const Eigen::Matrix2d information = predicted_covariance_px2_.inverse();
+  std::size_t best = 0;
+  double greatest = -INFINITY;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const Eigen::Vector2d off = particles_[i].pixel - predicted_mean_px_;
+    const double prior = std::log(std::exp(-0.5 * off.dot(information * off)) + kAnywhere);
+    const double posterior = log_likelihood[i] + prior;
+    if (posterior > greatest) {
+      greatest = posterior;
+      best = i;
+    }
+  }
+  return best;
+}
+
+Eigen::Vector2d ParticleFilter::mean_size_px() const {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < particles_.size(); ++i) mean += weights_[i] * particles_[i].size_px;
+  return mean;
+}
+
+Eigen::Vector2d ParticleFilter::mean_velocity_px_s() const {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    mean += weights_[i] * particles_[i].velocity_px_s;
+  }
+  return mean;
+}
+
+Eigen::Matrix2d ParticleFilter::covariance_about(const Eigen::Vector2d& pixel) const {
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const Eigen::Vector2d off = particles_[i].pixel - pixel;
+    covariance += weights_[i] * off * off.transpose();
+  }
+  return covariance;
+}
+
+void ParticleFilter::resample(Random& random) {
+  const std::size_t count = particles_.size();
+  const double step = 1.0 / static_cast<double>(count);
+  double at = random.uniform() * step;
+  double sum = weights_.front();
+  std::size_t source = 0;
+  std::vector<Particle> chosen;
+  chosen.reserve(count);
+  for (std::size_t i = 0; i < count; ++i, at += step) {
+    while (at > sum && source + 1 < count) sum += weights_[++source];
+    chosen.push_back(particles_[source]);
+  }
+  particles_ = std::move(chosen);
+  weights_.assign(count, step);
+}
+
+}  // namespace ols

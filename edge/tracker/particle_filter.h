@@ -1,0 +1,40 @@
+// The bootstrap particle filter's bookkeeping: weights, maximum a posteriori, resampling.
+#pragma once
+
+#include <vector>
+
+#include "edge/tracker/motion_model.h"
+
+namespace ols {
+
+class ParticleFilter {
+ public:
+  std::vector<Particle>& particles() { return particles_; }
+  const std::vector<Particle>& particles() const { return particles_; }
+
+  // Moves every particle by the motion model; remembers where they would be without noise.
+  void predict(const MotionModel& motion, Random& random);
+
+  // Weights from the logarithms of the likelihoods; all equal when none is finite.
+  void weigh(const std::vector<double>& log_likelihood);
+
+  // Index of the maximum a posteriori: likelihood times the density that the motion model predicts
+  // at the particle, which is what tells the target from something that looks like it elsewhere.
+  std::size_t maximum_a_posteriori(const std::vector<double>& log_likelihood) const;
+
+  Eigen::Vector2d mean_size_px() const;
+  Eigen::Vector2d mean_velocity_px_s() const;
+  // Of the particles' positions about `pixel`.
+  Eigen::Matrix2d covariance_about(const Eigen::Vector2d& pixel) const;
+
+  // Systematic resampling.
+  void resample(Random& random);
+
+ private:
+  std::vector<Particle> particles_;
+  std::vector<double> weights_;
+  Eigen::Vector2d predicted_mean_px_ = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d predicted_covariance_px2_ = Eigen::Matrix2d::Identity();
+};
+
+}  // namespace ols

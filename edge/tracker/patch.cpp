@@ -1,0 +1,149 @@
+#include "edge/tracker/patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace ols {
+namespace {
+
+// One axis of the sampling grid: the two neighbours of each sample and the second's weight.
+struct Axis {
+  std::array<int, kPatchSide> low;
+  std::array<int, kPatchSide> high;
+  std::array<float, kPatchSide> weight;
+};
+
+double grid_position(double centre, double length, int index) {
+  return centre + ((index + 0.5) / kPatchSide - 0.5) * length;
+}
+
+Axis make_axis(double centre, double length, int limit) {
+  Axis axis;
+  for (int i = 0; i < kPatchSide; ++i) {
+    const double at = std::clamp(grid_position(centre, length, i), 0.0, limit - 1.0);
+    const int low = static_cast<int>(at);
+    const auto k = static_cast<std::size_t>(i);
+    axis.low[k] = low;
+    axis.high[k] = std::min(low + 1, limit - 1);
+    axis.weight[k] = static_cast<float>(at - low);
+  }
+  return axis;
+}
+
+float median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Grey values around the box, at 0.7 of its size from the centre.
+std::vector<float> surroundings(const View& view, const Eigen::Vector2d& pixel,
+                                const Eigen::Vector2d& size_px) {
+  constexpr int kSamples = 96;
+  std::vector<float> values;
+  for (int i = 0; i < kSamples; ++i) {
+    const double t = 8.0 * i / kSamples;  // once around the square
+    const double along = 2.0 * (t - std::floor(t / 2.0) * 2.0) - 2.0;
+    const int side = static_cast<int>(t / 2.0);
+    const double u = side == 0 ? along + 1.0 : side == 1 ? 1.0 : side == 2 ? -along - 1.0 : -1.0;
+    const double v = side == 0 ? -1.0 : side == 1 ? along + 1.0 : side == 2 ? 1.0 : -along - 1.0;
+    values.push_back(bilinear(view.image, view.x_of(pixel.x() + 0.7 * u * size_px.x()),
+                              view.y_of(pixel.y() + 0.7 * v * size_px.y())));
+  }
+  return values;
+}
+
+}  // namespace
+
+int reduction_for(const Eigen::Vector2d& size_px) {
+  return std::max(1, static_cast<int>(std::min(size_px.x(), size_px.y()) / kPatchSide));
+}
+
+View make_view(const cv::Mat& frame, const cv::Rect& area, int reduction) {
+  const cv::Rect inside = area & cv::Rect(0, 0, frame.cols, frame.rows);
+  const int width = inside.width / reduction * reduction;
+  const int height = inside.height / reduction * reduction;
+  if (reduction <= 1 || width == 0 || height == 0) return {frame, {0, 0}, 1};
+  View view{cv::Mat(), inside.tl(), reduction};
+  cv::resize(frame(cv::Rect(inside.x, inside.y, width, height)), view.image,
+             cv::Size(width / reduction, height / reduction), 0, 0, cv::INTER_AREA);
+  return view;
+}
+
+float bilinear(const cv::Mat& image, double x, double y) {
+  const double inside_x = std::clamp(x, 0.0, image.cols - 1.0);
+  const double inside_y = std::clamp(y, 0.0, image.rows - 1.0);
+  const int column = static_cast<int>(inside_x);
+  const int row = static_cast<int>(inside_y);
+  const auto wx = static_cast<float>(inside_x - column);
+  const auto wy = static_cast<float>(inside_y - row);
+  const auto* upper = image.ptr<std::uint8_t>(row);
+  const auto* lower = image.ptr<std::uint8_t>(std::min(row + 1, image.rows - 1));
+  const int next = std::min(column + 1, image.cols - 1);
+  const float top = static_cast<float>(upper[column]) +
+                    wx * (static_cast<float>(upper[next]) - static_cast<float>(upper[column]));
+  const float bottom = static_cast<float>(lower[column]) +
+                       wx * (static_cast<float>(lower[next]) - static_cast<float>(lower[column]));
+  return top + wy * (bottom - top);
+}
+
+Patch sample_patch(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px) {
+  const double scale = 1.0 / view.reduction;
+  const Axis x = make_axis(view.x_of(pixel.x()), size_px.x() * scale, view.image.cols);
+  const Axis y = make_axis(view.y_of(pixel.y()), size_px.y() * scale, view.image.rows);
+  Patch patch;
+  std::size_t out = 0;
+  for (std::size_t j = 0; j < kPatchSide; ++j) {
+    const auto* upper = view.image.ptr<std::uint8_t>(y.low[j]);
+    const auto* lower = view.image.ptr<std::uint8_t>(y.high[j]);
+    for (std::size_t i = 0; i < kPatchSide; ++i) {
+      const float a = upper[x.low[i]];
+      const float b = lower[x.low[i]];
+      const float top = a + x.weight[i] * (static_cast<float>(upper[x.high[i]]) - a);
+      const float bottom = b + x.weight[i] * (static_cast<float>(lower[x.high[i]]) - b);
+      patch[out++] = top + y.weight[j] * (bottom - top);
+    }
+  }
+  return patch;
+}
+
+MaskPatch sample_mask(const View& mask, const Eigen::Vector2d& pixel,
+                      const Eigen::Vector2d& size_px) {
+  const double scale = 1.0 / mask.reduction;
+  const double x = mask.x_of(pixel.x());
+  const double y = mask.y_of(pixel.y());
+  MaskPatch patch{};
+  for (int j = 0; j < kPatchSide; ++j) {
+    const auto row = static_cast<int>(std::lround(grid_position(y, size_px.y() * scale, j)));
+    if (row < 0 || row >= mask.image.rows) continue;
+    const auto* line = mask.image.ptr<std::uint8_t>(row);
+    for (int i = 0; i < kPatchSide; ++i) {
+      const auto column = static_cast<int>(std::lround(grid_position(x, size_px.x() * scale, i)));
+      if (column < 0 || column >= mask.image.cols) continue;
+      patch[static_cast<std::size_t>(j * kPatchSide + i)] = line[column];
+    }
+  }
+  return patch;
+}
+
+Template make_template(const View& view, const Eigen::Vector2d& pixel,
+                       const Eigen::Vector2d& size_px) {
+  constexpr float kLeastContrast = 8.0F;  // a fainter target would be compared by its noise
+  Template made;
+  made.gray = sample_patch(view, pixel, size_px);
+  std::vector<float> around = surroundings(view, pixel, size_px);
+  const float level = median(around);
+  for (float& value : around) value = std::abs(value - level);
+  made.noise = std::max(0.5F, 1.4826F * median(around));
+  std::array<float, kPatchArea> stands_out;
+  std::transform(made.gray.begin(), made.gray.end(), stands_out.begin(),
+                 [level](float value) { return std::abs(value - level); });
+  const auto ninth = stands_out.begin() + kPatchArea * 9 / 10;
+  std::nth_element(stands_out.begin(), ninth, stands_out.end());
+  made.contrast = std::max(kLeastContrast, *ninth);
+  return made;
+}
+
+}  // namespace ols

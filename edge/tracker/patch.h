@@ -1,0 +1,52 @@
+// Sampling of normalised 24x24 patches, and the template made of one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+#include "edge/tracker/particle.h"
+
+namespace ols {
+
+inline constexpr int kPatchSide = 24;
+inline constexpr int kPatchArea = kPatchSide * kPatchSide;
+using Patch = std::array<float, kPatchArea>;             // grey values 0..255
+using MaskPatch = std::array<std::uint8_t, kPatchArea>;  // foreground, 255 is certain
+
+// A part of a frame, reduced where the target is much larger than a patch, so that patches are
+// sampled without aliasing. Positions asked for are pixels of the full frame.
+struct View {
+  cv::Mat image;  // 8-bit, one channel
+  cv::Point origin{0, 0};
+  int reduction = 1;
+
+  double x_of(double x_px) const { return (x_px - origin.x + 0.5) / reduction - 0.5; }
+  double y_of(double y_px) const { return (y_px - origin.y + 0.5) / reduction - 0.5; }
+};
+
+// How much a target of this size is reduced.
+int reduction_for(const Eigen::Vector2d& size_px);
+// The part of `frame` inside `area`; shares the frame's memory where nothing is reduced.
+View make_view(const cv::Mat& frame, const cv::Rect& area, int reduction);
+
+// Grey value between the pixels, the border continued outside; image coordinates.
+float bilinear(const cv::Mat& image, double x, double y);
+
+// Eq. (5)'s I: the box, brought to 24x24. Bilinear.
+Patch sample_patch(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
+// The same of a foreground mask. Nearest neighbour; nothing is foreground outside the mask.
+MaskPatch sample_mask(const View& mask, const Eigen::Vector2d& pixel,
+                      const Eigen::Vector2d& size_px);
+
+// The target's appearance, made once at initialisation.
+struct Template {
+  Patch gray{};
+  float contrast = 1.0F;  // [grey levels] how far the target stands out of what surrounds it
+  float noise = 1.0F;     // [grey levels] standard deviation of what surrounds it
+};
+
+Template make_template(const View& view, const Eigen::Vector2d& pixel,
+                       const Eigen::Vector2d& size_px);
+
+}  // namespace ols

@@ -1,0 +1,42 @@
+// Sub-pixel position of the target by least squares between the first image of it and this one.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "edge/tracker/patch.h"
+
+namespace ols {
+
+struct RefinedPosition {
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();  // from the image's noise
+  double correlation = 0.0;                                      // -1..1
+};
+
+class PositionRefiner {
+ public:
+  // Keeps the target's image on a grid of the sampling view's own pixels, a little beyond the box.
+  PositionRefiner(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
+
+  // From a start within about a third of the target; nothing when it does not converge there or the
+  // target shows too little structure.
+  std::optional<RefinedPosition> refine(const View& view, const Eigen::Vector2d& start,
+                                        const Eigen::Vector2d& size_px) const;
+
+ private:
+  struct Sample {
+    double u, v;  // position relative to the box, -0.5..0.5 inside
+    double gray;
+    double gradient_u, gradient_v;  // grey levels per unit of u, v
+    double weight;
+  };
+  struct Normal;
+  Normal accumulate(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px,
+                    const Eigen::Vector4d& state, double scale) const;
+
+  std::vector<Sample> samples_;
+};
+
+}  // namespace ols

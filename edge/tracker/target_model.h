@@ -1,0 +1,55 @@
+// Everything that is known of how the target looks, and the judging of particles by it.
+#pragma once
+
+#include <vector>
+
+#include "edge/tracker/foreground_mask.h"
+#include "edge/tracker/objective.h"
+#include "edge/tracker/refinement.h"
+#include "edge/tracker/tracker_config.h"
+
+namespace ols {
+
+// One frame as the objective sees it.
+struct Scene {
+  View view;  // sampled for the candidates
+  View mask;  // foreground; empty image when no earlier frame shows the background alone
+  cv::Size frame;
+};
+
+class TargetModel {
+ public:
+  TargetModel(const TrackerConfig& config, const cv::Mat& gray, const cv::Rect2d& box);
+
+  // `particles` say where it will be looked at; `expected` is where the target should be.
+  Scene make_scene(const cv::Mat& gray, const std::vector<Particle>& particles,
+                   const cv::Rect2d& expected, const ReferenceFrames& references) const;
+
+  // Eq. (5), 0..1, at one box.
+  double similarity(const Scene& scene, const Eigen::Vector2d& pixel,
+                    const Eigen::Vector2d& size_px) const;
+  // What boxes around `box` reach that are not the target: nearly the best of them.
+  double background_similarity(const Scene& scene, const cv::Rect2d& box) const;
+  // Logarithm of a likelihood: similarity against the background's, and the size's prior.
+  double log_likelihood(double similarity, double background, const Eigen::Vector2d& size_px) const;
+
+  // M_t, once: the candidate's foreground while it is surely the target.
+  void learn_mask(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
+
+  std::optional<RefinedPosition> refine(const Scene& scene, const Eigen::Vector2d& start,
+                                        const Eigen::Vector2d& size_px) const {
+    return refiner_.refine(scene.view, start, size_px);
+  }
+  const Eigen::Vector2d& first_size_px() const { return first_size_px_; }
+
+ private:
+  TargetModel(const TrackerConfig& config, const View& view, const cv::Rect2d& box);
+
+  TrackerConfig config_;
+  Eigen::Vector2d first_size_px_;
+  Template template_;
+  Objective objective_;
+  PositionRefiner refiner_;
+};
+
+}  // namespace ols

@@ -1,0 +1,100 @@
+#include "edge/tracker/tracker.h"
+
+#include <cmath>
+#include <utility>
+
+#include "edge/tracker/tracker_core.h"
+
+namespace ols {
+namespace {
+
+constexpr double kLeastBoxSide = 3.0;  // [px] smaller ones hold no pattern
+
+std::optional<TrackerError> check_image(const TrackerInput& frame) {
+  if (frame.gray.empty()) return TrackerError::kEmptyFrame;
+  if (frame.gray.type() != CV_8UC1) return TrackerError::kFrameFormat;
+  if (!std::isfinite(frame.time_s)) return TrackerError::kTime;
+  return std::nullopt;
+}
+
+bool usable_box(const cv::Rect2d& box, const cv::Size& frame) {
+  const bool finite = std::isfinite(box.x) && std::isfinite(box.y) && std::isfinite(box.width) &&
+                      std::isfinite(box.height);
+  if (!finite || box.width < kLeastBoxSide || box.height < kLeastBoxSide) return false;
+  if (box.width > frame.width || box.height > frame.height) return false;
+  // Labels at the border reach over it: the centre counts.
+  const Eigen::Vector2d centre = centre_of(box);
+  return centre.x() >= 0.0 && centre.y() >= 0.0 && centre.x() <= frame.width - 1.0 &&
+         centre.y() <= frame.height - 1.0;
+}
+
+// An unusable prediction is none: the image may still tell.
+TrackerInput with_sane_prediction(const TrackerInput& frame) {
+  TrackerInput checked = frame;
+  if (checked.predicted_homography &&
+      !plausible_homography(*checked.predicted_homography, frame.gray.size())) {
+    checked.predicted_homography.reset();
+  }
+  return checked;
+}
+
+}  // namespace
+
+const char* to_string(TrackerError error) {
+  switch (error) {
+    case TrackerError::kNotInitialised:
+      return "not initialised";
+    case TrackerError::kEmptyFrame:
+      return "empty frame";
+    case TrackerError::kFrameFormat:
+      return "frame is not 8-bit with one channel";
+    case TrackerError::kFrameSize:
+      return "frame has another size";
+    case TrackerError::kTime:
+      return "frame is not later than the previous one";
+    case TrackerError::kBox:
+      return "box is outside the image, too small or not finite";
+  }
+  return "unknown";
+}
+
+struct Tracker::Impl {
+  TrackerConfig config;
+  std::uint64_t seed = 0;
+  std::optional<TrackerCore> core;
+  cv::Size size;
+  double time_s = 0.0;
+};
+
+Tracker::Tracker(const TrackerConfig& config, std::uint64_t seed)
+    : impl_(std::make_unique<Impl>(Impl{config, seed, std::nullopt, {}, 0.0})) {}
+Tracker::~Tracker() = default;
+Tracker::Tracker(Tracker&&) noexcept = default;
+Tracker& Tracker::operator=(Tracker&&) noexcept = default;
+
+std::optional<TrackerError> Tracker::initialise(const TrackerInput& frame, const cv::Rect2d& box) {
+  if (const auto error = check_image(frame)) return error;
+  if (!usable_box(box, frame.gray.size())) return TrackerError::kBox;
+  impl_->core.emplace(impl_->config, impl_->seed, frame, box);
+  impl_->size = frame.gray.size();
+  impl_->time_s = frame.time_s;
+  return std::nullopt;
+}
+
+TrackerResult Tracker::track(const TrackerInput& frame) {
+  if (!impl_->core) return {std::nullopt, TrackerError::kNotInitialised};
+  if (const auto error = check_image(frame)) return {std::nullopt, error};
+  if (frame.gray.size() != impl_->size) return {std::nullopt, TrackerError::kFrameSize};
+  if (frame.time_s <= impl_->time_s) return {std::nullopt, TrackerError::kTime};
+  impl_->time_s = frame.time_s;
+  return {impl_->core->step(with_sane_prediction(frame)), std::nullopt};
+}
+
+void Tracker::search_near(const Eigen::Vector2d& pixel, double sd_px) {
+  const bool usable = pixel.allFinite() && std::isfinite(sd_px) && sd_px >= 0.0;
+  if (impl_->core && usable) impl_->core->search_near(pixel, sd_px);
+}
+
+bool Tracker::initialised() const { return impl_->core.has_value(); }
+
+}  // namespace ols

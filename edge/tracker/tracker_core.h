@@ -1,0 +1,57 @@
+// The tracker once it has a target: one step of the paper's section 5 a frame. Input is checked by
+// the facade, tracker.h.
+#pragma once
+
+#include "edge/tracker/belief.h"
+#include "edge/tracker/ego_motion.h"
+#include "edge/tracker/particle_filter.h"
+#include "edge/tracker/target_model.h"
+#include "edge/tracker/tracker.h"
+
+namespace ols {
+
+class TrackerCore {
+ public:
+  TrackerCore(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
+              const cv::Rect2d& box);
+
+  TrackerOutput step(const TrackerInput& frame);
+  void search_near(const Eigen::Vector2d& pixel, double sd_px);
+
+ private:
+  // Where the target is looked for while it is not believed in; the present frame's pixels.
+  struct Search {
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+    double sd_px = 0.0;
+    double most_sd_px = 0.0;
+  };
+  enum class Velocity { kEstimated, kUnknown };
+
+  EgoMotion move_camera(const TrackerInput& frame, const ReducedFrame& reduced, double interval_s);
+  void predict(EgoMotion ego_motion, const ReducedFrame& reduced, double interval_s);
+  void guess_velocities();
+  void force_onto_differences(const ReducedFrame& reduced);
+  void scatter_over_search(double fraction);
+  TrackerOutput update(const TrackerInput& frame, double interval_s);
+  void after_update(const TrackerOutput& output, double interval_s);
+  Particle drawn_near(const Eigen::Vector2d& pixel, double sd_px);
+
+  TrackerConfig config_;
+  Random random_;
+  EgoMotionEstimator ego_motion_;
+  ReducedFrame reduced_;
+  MotionModel motion_;
+  ParticleFilter filter_;
+  TargetModel target_;
+  ReferenceFrames references_;
+  Belief belief_;
+  std::optional<Search> search_;
+  bool placed_ = false;  // the particles stand in the coming frame already
+  Velocity velocity_ = Velocity::kUnknown;
+  Particle last_;      // best estimate in the newest frame
+  Particle believed_;  // the last one believed in, as far as size and velocity go
+  cv::Size frame_size_;
+  double time_s_ = 0.0;
+};
+
+}  // namespace ols

@@ -1,0 +1,42 @@
+// Pictures from a clip, a folder of images or a printf pattern of them, in order, as grey images.
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace ols {
+
+// One line that names the file.
+class FrameSourceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class FrameSource {
+ public:
+  explicit FrameSource(const std::string& input);  // throws FrameSourceError
+
+  // The next picture; nothing at the end. Throws FrameSourceError when one cannot be read, or when
+  // a clip ends before the number of frames that it announces.
+  std::optional<cv::Mat> next();
+  // As the clip says; 30 where it does not.
+  double frames_per_second() const { return frames_per_second_; }
+
+ private:
+  std::optional<cv::Mat> next_of_clip();
+  std::optional<cv::Mat> next_file();
+
+  std::string input_;
+  std::vector<std::string> files_;  // of a folder or pattern; empty for a clip
+  cv::VideoCapture clip_;
+  double frames_per_second_ = 30.0;
+  long announced_ = 0;
+  long read_ = 0;
+};
+
+}  // namespace ols

@@ -1,0 +1,130 @@
+// ols-track: follows one target through a clip and writes boxes.csv.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/core/utils/logger.hpp>
+
+#include "base/atomic_file.h"
+#include "base/toml_config.h"
+#include "edge/tracker/tracker.h"
+#include "tools/offline/boxes_csv.h"
+#include "tools/offline/frame_source.h"
+
+namespace {
+
+struct Arguments {
+  std::string input;
+  std::vector<double> init;
+  long start_frame = 0;
+  std::string config;
+  std::uint64_t seed = 1;
+  std::string output;
+};
+
+void declare(CLI::App& app, Arguments& arguments) {
+  app.add_option("--input", arguments.input,
+                 "clip, folder of pictures (sorted by name) or pattern such as frames/%06d.png")
+      ->required();
+  app.add_option("--init", arguments.init,
+                 "the target's box in the start frame: X,Y of the top-left corner, W,H [px]")
+      ->required()
+      ->expected(4)
+      ->delimiter(',');
+  app.add_option("--start-frame", arguments.start_frame, "frame of --init, counted from 0")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--config", arguments.config, "TOML file with a table [tracker]");
+  app.add_option("--seed", arguments.seed, "of the random numbers: the same seed, the same boxes")
+      ->capture_default_str();
+  app.add_option("--output", arguments.output,
+                 "boxes.csv: frame,x,y,w,h [px],belief [0..1],state (tracking, coasting, lost)")
+      ->required();
+}
+
+ols::TrackerConfig load_config(const std::string& path) {
+  if (path.empty()) return {};
+  ols::ConfigFile file(path);
+  const ols::TrackerConfig config = ols::read_tracker_config(file.root().table("tracker"));
+  file.finish();
+  return config;
+}
+
+// Tracking while believed, coasting for a second after that, then lost.
+class State {
+ public:
+  ols::BoxRow row(long frame, double time_s, const ols::TrackerOutput& output) {
+    constexpr double kBelieved = 0.5;
+    constexpr double kCoast = 1.0;  // [s]
+    if (output.belief >= kBelieved) believed_s_ = time_s;
+    const bool lost = time_s - believed_s_ > kCoast;
+    ols::BoxRow row{frame, output.box, output.belief, "tracking"};
+    if (output.belief < kBelieved) row.state = lost ? "lost" : "coasting";
+    if (lost) row.box.reset();
+    return row;
+  }
+  void start(double time_s) { believed_s_ = time_s; }
+
+ private:
+  double believed_s_ = 0.0;
+};
+
+[[noreturn]] void refuse(long frame, ols::TrackerError error) {
+  throw std::runtime_error("frame " + std::to_string(frame) + ": " + ols::to_string(error));
+}
+
+void run(const Arguments& arguments) {
+  ols::Tracker tracker(load_config(arguments.config), arguments.seed);
+  ols::FrameSource source(arguments.input);
+  const cv::Rect2d box(arguments.init[0], arguments.init[1], arguments.init[2], arguments.init[3]);
+  ols::AtomicFile file(arguments.output);
+  ols::write_boxes_header(file.stream());
+  State state;
+  long frame = 0;
+  for (auto picture = source.next(); picture; picture = source.next(), ++frame) {
+    if (frame < arguments.start_frame) continue;
+    const double time_s = static_cast<double>(frame) / source.frames_per_second();
+    const ols::TrackerInput input{*picture, time_s, std::nullopt};
+    if (frame == arguments.start_frame) {
+      if (const auto error = tracker.initialise(input, box)) refuse(frame, *error);
+      state.start(time_s);
+      ols::write_box(file.stream(), {frame, box, 1.0, "tracking"});
+      continue;
+    }
+    const ols::TrackerResult result = tracker.track(input);
+    if (result.error) refuse(frame, *result.error);
+    ols::write_box(file.stream(), state.row(frame, time_s, *result.output));
+  }
+  if (frame <= arguments.start_frame) {
+    throw std::runtime_error(arguments.input + ": has " + std::to_string(frame) +
+                             " frames, --start-frame is " + std::to_string(arguments.start_frame));
+  }
+  file.commit();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Follows one target through a clip with the particle filter tracker.", "ols-track");
+  Arguments arguments;
+  declare(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::Error& error) {
+    std::cerr << "ols-track: " << error.what() << '\n';
+    return 2;
+  }
+  // The decoder's own chatter is not the one line that the user needs.
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  cv::setNumThreads(1);
+  try {
+    run(arguments);
+  } catch (const std::exception& error) {
+    std::cerr << "ols-track: " << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}
