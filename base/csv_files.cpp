@@ -1,0 +1,193 @@
+#include "base/csv_files.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <iomanip>
+#include <set>
+#include <sstream>
+#include <string_view>
+#include <tuple>
+
+#include "base/atomic_file.h"
+
+// Rows are few enough for one thread.
+#define CSV_IO_NO_THREAD
+#include <libfccp/csv.h>
+
+namespace ols {
+namespace {
+
+// The column names of a file: required ones first.
+template <std::size_t kColumns>
+struct Header {
+  std::array<const char*, kColumns> names;
+  std::size_t required;
+};
+
+// One row: its place, for errors, and its cells by column; null where the file has no such column.
+template <std::size_t kColumns>
+class Row {
+ public:
+  Row(const std::string& path, unsigned line, const Header<kColumns>& header,
+      const std::array<const char*, kColumns>& cells)
+      : path_(path), line_(line), header_(header), cells_(cells) {}
+
+  [[noreturn]] void fail(std::size_t column, const std::string& what) const {
+    throw CsvError(path_ + ":" + std::to_string(line_) + ": " + header_.names[column] + ": " +
+                   what);
+  }
+  bool has(std::size_t column) const {
+    return cells_[column] != nullptr && *cells_[column] != '\0';
+  }
+  std::string text(std::size_t column) const {
+    if (!has(column)) fail(column, "is empty");
+    return cells_[column];
+  }
+  template <class Number>
+  Number number(std::size_t column, Number least, Number greatest) const {
+    const std::string cell = text(column);
+    const char* end = cell.data() + cell.size();
+    Number value{};
+    const auto [rest, error] = std::from_chars(cell.data(), end, value);
+    if (error != std::errc() || rest != end) fail(column, "'" + cell + "' is not a number");
+    if (!(value >= least && value <= greatest)) {
+      std::ostringstream range;
+      range << cell << " is outside " << least << " .. " << greatest;
+      fail(column, range.str());
+    }
+    return value;
+  }
+  std::optional<double> optional_number(std::size_t column, double least, double greatest) const {
+    if (!has(column)) return std::nullopt;
+    return number<double>(column, least, greatest);
+  }
+
+ private:
+  const std::string& path_;
+  unsigned line_;
+  const Header<kColumns>& header_;
+  const std::array<const char*, kColumns>& cells_;
+};
+
+template <std::size_t kColumns>
+using Reader = io::CSVReader<kColumns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
+                             io::throw_on_overflow, io::empty_line_comment>;
+
+template <std::size_t kColumns>
+void read_header(Reader<kColumns>& reader, const std::string& path,
+                 const Header<kColumns>& header) {
+  std::apply(
+      [&](auto... names) {
+        reader.read_header(io::ignore_extra_column | io::ignore_missing_column, names...);
+      },
+      header.names);
+  for (std::size_t i = 0; i < header.required; ++i) {
+    if (!reader.has_column(header.names[i])) {
+      throw CsvError(path + ":1: " + header.names[i] + ": there is no such column");
+    }
+  }
+}
+
+// Hands each row of the file to `take`; the library's errors become ours.
+template <std::size_t kColumns, class Take>
+void for_each_row(const std::string& path, const Header<kColumns>& header, Take take) {
+  try {
+    Reader<kColumns> reader(path);
+    read_header<kColumns>(reader, path, header);
+    std::array<const char*, kColumns> cells{};
+    const auto next = [&](auto&... cell) { return reader.read_row(cell...); };
+    while (std::apply(next, cells)) {
+      take(Row<kColumns>(path, reader.get_file_line(), header, cells));
+    }
+  } catch (const io::error::can_not_open_file&) {
+    throw CsvError(path + ": cannot be opened");
+  } catch (const io::error::header_missing&) {
+    throw CsvError(path + ":1: header: is missing");
+  } catch (const io::error::with_file_line& error) {
+    throw CsvError(path + ":" + std::to_string(error.file_line) +
+                   ": row: too few or too many columns, or a quote that stays open");
+  } catch (const io::error::base& error) {
+    throw CsvError(path + ":1: header: " + error.what());
+  }
+}
+
+constexpr Header<6> kStations{
+    {"station", "latitude_deg", "longitude_deg", "height_m", "position_sd_m", "pointing_sd_deg"},
+    4};
+constexpr Header<7> kBearings{
+    {"utime_us", "station", "azimuth_deg", "elevation_deg", "sigma_deg", "belief", "target"}, 5};
+
+StationRow station_row(const Row<6>& row) {
+  StationRow station;
+  station.station = row.text(0);
+  station.latitude_deg = row.number<double>(1, -90.0, 90.0);
+  station.longitude_deg = row.number<double>(2, -180.0, 360.0);
+  station.height_m = row.number<double>(3, -10e3, 100e3);
+  station.position_sd_m = row.optional_number(4, 0.0, 1e6);
+  station.pointing_sd_deg = row.optional_number(5, 0.0, 180.0);
+  return station;
+}
+
+BearingRow bearing_row(const Row<7>& row) {
+  constexpr std::int64_t kGreatestUtime = 9'000'000'000'000'000;  // differences do not overflow
+  constexpr double kLeastSigmaDeg = 1e-9;
+  BearingRow bearing;
+  bearing.utime_us = row.number<std::int64_t>(0, 0, kGreatestUtime);
+  bearing.station = row.text(1);
+  bearing.azimuth_deg = row.number<double>(2, -360.0, 360.0);
+  bearing.elevation_deg = row.number<double>(3, -90.0, 90.0);
+  bearing.sigma_deg = row.number<double>(4, kLeastSigmaDeg, 90.0);
+  bearing.belief = row.optional_number(5, 0.0, 1.0).value_or(1.0);
+  if (row.has(6)) bearing.target = row.text(6);
+  return bearing;
+}
+
+}  // namespace
+
+std::vector<StationRow> read_stations(const std::string& path) {
+  std::vector<StationRow> stations;
+  std::set<std::string> ids;
+  for_each_row(path, kStations, [&](const Row<6>& row) {
+    stations.push_back(station_row(row));
+    if (!ids.insert(stations.back().station).second) {
+      row.fail(0, "'" + stations.back().station + "' is there twice");
+    }
+  });
+  if (stations.empty()) throw CsvError(path + ":2: row: there is none");
+  return stations;
+}
+
+std::vector<BearingRow> read_bearings(const std::string& path,
+                                      const std::vector<StationRow>& stations) {
+  std::set<std::string> ids;
+  for (const StationRow& station : stations) ids.insert(station.station);
+  std::vector<BearingRow> bearings;
+  for_each_row(path, kBearings, [&](const Row<7>& row) {
+    bearings.push_back(bearing_row(row));
+    if (!ids.contains(bearings.back().station)) {
+      row.fail(1, "'" + bearings.back().station + "' is not one of the stations");
+    }
+  });
+  return bearings;
+}
+
+void write_fixes(const std::string& path, const std::vector<FixRow>& fixes) {
+  AtomicFile file(path);
+  std::ostream& out = file.stream();
+  out << "utime_us,target,latitude_deg,longitude_deg,height_m,east_sd_m,north_sd_m,up_sd_m,"
+         "stations_used,stations_set_aside,crossing_angle_deg,residual\n"
+      << std::fixed;
+  for (const FixRow& fix : fixes) {
+    // A hundredth of a microdegree is a millimetre.
+    out << fix.utime_us << ',' << fix.target << std::setprecision(9) << ',' << fix.latitude_deg
+        << ',' << fix.longitude_deg << std::setprecision(4) << ',' << fix.height_m << ','
+        << fix.east_sd_m << ',' << fix.north_sd_m << ',' << fix.up_sd_m << ',' << fix.stations_used
+        << ',' << fix.stations_set_aside << ',' << fix.crossing_angle_deg << ',' << fix.residual
+        << '\n';
+  }
+  file.commit();
+}
+
+}  // namespace ols

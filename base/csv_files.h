@@ -1,0 +1,63 @@
+// The offline formats: stations.csv and bearings.csv in, fixes.csv out. Degrees, as in the files.
+//
+// Columns are found by the header's names, in any order; unknown ones are ignored. Numbers must be
+// plain decimal, finite and in range: there is no such thing as an almost good row.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace ols {
+
+// One line: "FILE:LINE: COLUMN: what is wrong"; the header is line 1.
+class CsvError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct StationRow {
+  std::string station;
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+  double height_m = 0.0;                  // above the WGS84 ellipsoid
+  std::optional<double> position_sd_m;    // 1-sigma of each axis
+  std::optional<double> pointing_sd_deg;  // 1-sigma of each axis
+};
+
+struct BearingRow {
+  std::int64_t utime_us = 0;
+  std::string station;
+  double azimuth_deg = 0.0;  // clockwise from true north, -360..360 is taken
+  double elevation_deg = 0.0;
+  double sigma_deg = 0.0;    // 1-sigma of each axis, white
+  double belief = 1.0;       // 1 where the file does not tell
+  std::string target = "1";  // "1" where the file does not tell
+};
+
+struct FixRow {
+  std::int64_t utime_us = 0;
+  std::string target;
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+  double height_m = 0.0;
+  double east_sd_m = 0.0;
+  double north_sd_m = 0.0;
+  double up_sd_m = 0.0;
+  int stations_used = 0;
+  int stations_set_aside = 0;
+  double crossing_angle_deg = 0.0;
+  double residual = 0.0;  // RMS of the normalised residuals
+};
+
+// At least one row; station ids are unique.
+std::vector<StationRow> read_stations(const std::string& path);
+// In the order of the file; every row's station is one of `stations`.
+std::vector<BearingRow> read_bearings(const std::string& path,
+                                      const std::vector<StationRow>& stations);
+// The whole file or, on an error (std::system_error), none of it.
+void write_fixes(const std::string& path, const std::vector<FixRow>& fixes);
+
+}  // namespace ols

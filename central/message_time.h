@@ -1,0 +1,39 @@
+// The fusion's "now", from nothing but the stamps of the messages: the median of the stations'
+// newest stamps. So a replay is as good as the present, and one wrong clock hurts only its owner.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace ols {
+
+class MessageTime {
+ public:
+  // A station counts while the others' stamps have gone on by less than this since its last
+  // message.
+  explicit MessageTime(double silence_s = 0.3) : silence_s_(silence_s) {}
+
+  // Every message's stamp, in order of arrival. True when the station's clock has stepped back:
+  // three stamps in a row more than a second older than its newest.
+  bool hear(const std::string& station, std::int64_t utime_us);
+  // The median of the newest stamps of the stations that still deliver, the lower of the two middle
+  // ones for an even number: a target then is seldom asked for ahead of most stations' bearings.
+  // 0 before the first.
+  std::int64_t now_us() const;
+  // The station's newest stamp, 0 before the first.
+  std::int64_t newest_us(const std::string& station) const;
+
+ private:
+  struct Station {
+    std::int64_t newest_us = 0;
+    int older = 0;            // stamps in a row far before the newest
+    double progress_s = 0.0;  // by its own clock, steps clipped
+    double heard_s = 0.0;     // elapsed_s_ at its last message
+  };
+  double silence_s_;
+  double elapsed_s_ = 0.0;  // the farthest progress of any station: time without a clock
+  std::map<std::string, Station> stations_;
+};
+
+}  // namespace ols

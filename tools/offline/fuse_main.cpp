@@ -1,0 +1,131 @@
+// ols-fuse: positions from recorded bearings.
+#include <CLI/CLI.hpp>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+
+#include "base/csv_files.h"
+#include "central/offline_fusion.h"
+#include "geometry/angles.h"
+#include "geometry/wgs84.h"
+
+namespace {
+
+struct Options {
+  std::string stations;
+  std::string bearings;
+  std::string output;
+  std::string estimator = "least-squares";
+  double rate_hz = 0.0;
+  int moving_average = 1;
+};
+
+ols::Sighting sighting_of(const ols::BearingRow& bearing, const ols::StationRow& station) {
+  ols::Sighting sighting;
+  sighting.station = bearing.station;
+  sighting.utime_us = bearing.utime_us;
+  sighting.belief = bearing.belief;
+  ols::SightLine& sight = sighting.sight;
+  sight.origin_ecef = ols::ecef_from_geodetic(
+      {ols::radians(station.latitude_deg), ols::radians(station.longitude_deg), station.height_m});
+  sight.direction = {ols::wrap_two_pi(ols::radians(bearing.azimuth_deg)),
+                     ols::radians(bearing.elevation_deg)};
+  const double sigma_rad = ols::radians(bearing.sigma_deg);
+  const double pointing_rad = ols::radians(station.pointing_sd_deg.value_or(0.0));
+  sight.covariance_white = Eigen::Matrix2d::Identity() * (sigma_rad * sigma_rad);
+  sight.covariance_systematic = Eigen::Matrix2d::Identity() * (pointing_rad * pointing_rad);
+  sight.origin_sd_enu_m.setConstant(station.position_sd_m.value_or(0.0));
+  return sighting;
+}
+
+// By target id.
+std::map<std::string, std::vector<ols::Sighting>> read_sightings(const Options& options) {
+  const auto stations = ols::read_stations(options.stations);
+  std::map<std::string, ols::StationRow> by_id;
+  for (const auto& station : stations) by_id[station.station] = station;
+  std::map<std::string, std::vector<ols::Sighting>> sightings;
+  for (const auto& bearing : ols::read_bearings(options.bearings, stations)) {
+    sightings[bearing.target].push_back(sighting_of(bearing, by_id.at(bearing.station)));
+  }
+  return sightings;
+}
+
+ols::FixRow fix_of(const ols::FusedTarget& target, const std::string& id) {
+  const ols::Estimate& estimate = target.estimate;
+  const ols::Geodetic place = ols::geodetic_from_ecef(estimate.position_ecef);
+  const Eigen::Matrix3d R = ols::R_ecef_enu(place);
+  const Eigen::Vector3d sd = (R.transpose() * estimate.covariance_ecef * R).diagonal().cwiseSqrt();
+  const auto used = std::ranges::count_if(target.stations, &ols::ContributingStation::used);
+  ols::FixRow fix;
+  fix.utime_us = target.utime_us;
+  fix.target = id;
+  fix.latitude_deg = ols::degrees(place.latitude_rad);
+  fix.longitude_deg = ols::degrees(place.longitude_rad);
+  fix.height_m = place.height_m;
+  fix.east_sd_m = sd.x();
+  fix.north_sd_m = sd.y();
+  fix.up_sd_m = sd.z();
+  fix.stations_used = static_cast<int>(used);
+  fix.stations_set_aside = static_cast<int>(target.stations.size()) - fix.stations_used;
+  fix.crossing_angle_deg = ols::degrees(estimate.crossing_angle_rad);
+  fix.residual = estimate.residual;
+  return fix;
+}
+
+void run(const Options& options) {
+  ols::OfflineConfig config;
+  config.estimator = *ols::offline_estimator(options.estimator);
+  config.rate_hz = options.rate_hz;
+  config.moving_average = options.moving_average;
+  std::vector<ols::FixRow> fixes;
+  for (const auto& [id, sightings] : read_sightings(options)) {
+    for (const auto& target : ols::fuse_offline(sightings, config)) {
+      fixes.push_back(fix_of(target, id));
+    }
+  }
+  std::ranges::stable_sort(fixes, {}, &ols::FixRow::utime_us);
+  ols::write_fixes(options.output, fixes);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Positions (WGS84, metres above the ellipsoid, 1-sigma) from recorded bearings."};
+  Options options;
+  app.add_option("--stations", options.stations,
+                 "CSV: station,latitude_deg,longitude_deg,height_m[,position_sd_m,pointing_sd_deg]")
+      ->required();
+  app.add_option("--bearings", options.bearings,
+                 "CSV: utime_us,station,azimuth_deg,elevation_deg,sigma_deg[,belief,target]")
+      ->required();
+  app.add_option("--output", options.output,
+                 "CSV: utime_us,target,latitude_deg,longitude_deg,height_m,east_sd_m,north_sd_m,"
+                 "up_sd_m,...")
+      ->required();
+  app.add_option("--estimator", options.estimator,
+                 "least-squares, paper (Algorithm 1) or paper-best-baseline")
+      ->check(CLI::IsMember({"least-squares", "paper", "paper-best-baseline"}))
+      ->capture_default_str();
+  app.add_option("--rate", options.rate_hz,
+                 "[Hz] fixes on an even grid in time; 0: at the instant of every bearing")
+      ->check(CLI::Range(0.0, 10000.0))
+      ->capture_default_str();
+  app.add_option("--moving-average", options.moving_average,
+                 "[fixes] mean of the last so many, as in the paper (10); 1: none")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    run(options);
+  } catch (const std::exception& error) {
+    std::cerr << "ols-fuse: " << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}
