@@ -1,0 +1,27 @@
+// Draws a multicopter: body, arms, motors and rotors as ellipsoids, with analytic anti-aliasing, so
+// that it stands sub-pixel exactly where it is. Symmetric about its centre: the centroid of what is
+// drawn is the image of the centre.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace ols::sim {
+
+// How a target's body appears in one picture.
+struct DroneView {
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
+  Eigen::Matrix<double, 2, 3> px_per_m =
+      Eigen::Matrix<double, 2, 3>::Zero();             // from the body frame
+  Eigen::Vector2d smear_px = Eigen::Vector2d::Zero();  // image motion during the exposure
+  double span_m = 1.0;
+  double brightness = 0.2;  // of the body, 0..1
+};
+
+// Smallest upright box around the silhouette, without smear; (0, 0) is the centre of a pixel.
+cv::Rect2d drone_box(const DroneView& view);
+
+void draw_drone(const DroneView& view, cv::Mat& gray);
+
+}  // namespace ols::sim

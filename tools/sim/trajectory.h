@@ -1,0 +1,54 @@
+// Where a simulated target is: position and velocity over the scenario's time. Pure.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+namespace ols::sim {
+
+struct Motion {
+  Eigen::Vector3d p_enu = Eigen::Vector3d::Zero();  // [m] in the site's frame
+  Eigen::Vector3d v_enu = Eigen::Vector3d::Zero();  // [m/s]
+};
+
+class Trajectory {
+ public:
+  virtual ~Trajectory() = default;
+  virtual Motion at(double time_s) const = 0;
+};
+
+// centre + amplitude * sin(2 pi t / period + phase), each axis on its own: a figure-eight when one
+// horizontal period is half of the other, a circle when they are equal and a quarter apart.
+struct Lissajous final : Trajectory {
+  Eigen::Vector3d centre_enu = Eigen::Vector3d::Zero();
+  Eigen::Vector3d amplitude_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d period_s = Eigen::Vector3d::Ones();
+  Eigen::Vector3d phase_rad = Eigen::Vector3d::Zero();
+  Motion at(double time_s) const override;
+};
+
+struct Line final : Trajectory {
+  Eigen::Vector3d start_enu = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_enu = Eigen::Vector3d::Zero();
+  Motion at(double time_s) const override;
+};
+
+// Natural cubic spline through points at given times; at rest before the first and after the last.
+class Spline final : public Trajectory {
+ public:
+  // Needs at least two points and growing times; throws std::invalid_argument otherwise.
+  Spline(std::vector<double> times_s, std::vector<Eigen::Vector3d> points_enu);
+  Motion at(double time_s) const override;
+
+ private:
+  std::vector<double> times_s_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<Eigen::Vector3d> curvature_;  // second derivative at each point
+};
+
+// Spline through waypoints, the legs flown at this mean speed.
+std::unique_ptr<Trajectory> through_waypoints(const std::vector<Eigen::Vector3d>& points_enu,
+                                              double speed_m_s);
+
+}  // namespace ols::sim
