@@ -21,7 +21,9 @@ using Seconds = std::chrono::duration<double>;
 constexpr int kFirstLatches = 10;      // in a row at the start: the first frame shall have its time
 constexpr double kLatchEvery_s = 1.0;  // then
 constexpr double kPoll_s = 0.1;        // how soon a lost control or the end is noticed
-constexpr double kMaxBackOff = 8.0;    // times retry_s
+constexpr const char* kIncomplete =
+    "frame incomplete: packets were lost (no CAP_NET_RAW, or net.core.rmem_max too small?)";
+constexpr double kMaxBackOff = 8.0;  // times retry_s
 
 FrameClock::Config clock_config(const CameraConfig& config) {
   return {.stamp_at = config.stamp_at,
@@ -58,7 +60,6 @@ struct AravisCamera::Impl {
   // Of the camera's thread alone.
   std::optional<FrameClock> clock_;
   FrameNumbers numbers_;
-  Clock::time_point last_frame_;
   bool opened_before_ = false;
 
   mutable std::mutex mutex_;
@@ -120,16 +121,18 @@ void AravisCamera::Impl::stream(AravisDevice& device) {
     if (const auto sample = device.latch()) clock_->map().add_latch(*sample);
   };
   for (int i = 0; i < kFirstLatches; ++i) latch();
-  last_frame_ = Clock::now();
-  auto last_latch = last_frame_;
+  auto last_frame = Clock::now();
+  auto last_latch = last_frame;
   while (!stopped()) {
     const bool received =
         device.receive(kPoll_s, [&](const ReceivedFrame& f) { take(f, device.exposure_s()); });
     const auto now = Clock::now();
-    if (received) last_frame_ = now;
+    if (received) last_frame = now;
     if (device.control_lost()) throw CameraAbsent("camera lost: it no longer answers");
-    if (Seconds(now - last_frame_).count() > config_.no_frame_timeout_s)
+    if (Seconds(now - last_frame).count() > config_.no_frame_timeout_s) {
+      device.give_up();
       throw CameraAbsent("camera lost: no frame arrives");
+    }
     // Right after a frame there is time until the next one.
     if (received && Seconds(now - last_latch).count() >= kLatchEvery_s) {
       latch();
@@ -144,6 +147,7 @@ void AravisCamera::Impl::take(const ReceivedFrame& received, double exposure_s) 
     const std::lock_guard lock(mutex_);
     counters_.frames_lost += step.lost;
     ++counters_.frames_incomplete;
+    last_error_ = kIncomplete;
     return;
   }
   const PictureFormat expected{.width_px = config_.width_px,

@@ -104,8 +104,7 @@ AravisDevice::AravisDevice(const CameraConfig& config) {
 AravisDevice::~AravisDevice() {
   if (camera_ == nullptr) return;
   g_signal_handlers_disconnect_by_data(device(), &control_lost_);
-  // Each command to a camera that is gone waits for its timeouts.
-  if (!control_lost_) arv_camera_stop_acquisition(camera_.get(), Error().out());
+  if (!gone_ && !control_lost_) arv_camera_stop_acquisition(camera_.get(), Error().out());
 }
 
 ArvDevice* AravisDevice::device() const { return arv_camera_get_device(camera_.get()); }

@@ -64,6 +64,8 @@ class AravisDevice {
   std::optional<LatchSample> latch();
 
   bool control_lost() const { return control_lost_; }
+  // Closes without a farewell: each command to a camera that is gone waits for seconds.
+  void give_up() { gone_ = true; }
   double exposure_s() const { return exposure_s_; }  // as the camera has it
 
  private:
@@ -84,6 +86,7 @@ class AravisDevice {
   Owned<ArvCamera> camera_;
   Owned<ArvStream> stream_;
   std::atomic<bool> control_lost_ = false;
+  bool gone_ = false;
   double exposure_s_ = 0.0;
   std::uint64_t tick_hz_ = 0;  // 0: the camera's clock is not to be had
   bool latch_by_feature_ = false;

@@ -103,7 +103,8 @@ Answer GigeDevice::handle(gige::Bytes packet, std::uint64_t peer, std::int64_t c
       answer.acknowledgement = write_memory(*asked, clock_ns);
       break;
     case gige::Command::kResend:
-      if (allowed && asked->data.size() >= 12)
+      // It comes from the client's stream socket: the same host, another port.
+      if (controller_ && *controller_ >> 16 == peer >> 16 && asked->data.size() >= 12)
         answer.resend =
             ResendRequest{.frame = static_cast<std::uint16_t>(gige::big_endian(asked->data)),
                           .first = gige::big_endian(asked->data.subspan(4)) & 0xffffffU,
@@ -154,6 +155,11 @@ gige::Status GigeDevice::write_register(std::uint32_t address, std::uint32_t val
     write(kTimestampLow, static_cast<std::uint32_t>(clock_ns));
     return gige::Status::kSuccess;
   }
+  if ((address == ARV_FAKE_CAMERA_REGISTER_WIDTH &&
+       value > read(ARV_FAKE_CAMERA_REGISTER_SENSOR_WIDTH)) ||
+      (address == ARV_FAKE_CAMERA_REGISTER_HEIGHT &&
+       value > read(ARV_FAKE_CAMERA_REGISTER_SENSOR_HEIGHT)))
+    return gige::Status::kInvalidParameter;
   write(address, value);
   return gige::Status::kSuccess;
 }

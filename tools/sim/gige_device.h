@@ -45,7 +45,8 @@ class GigeDevice {
              double exposure_s);
   ~GigeDevice();
 
-  // A control packet from the client known by `peer`; the camera's clock and the monotonic one.
+  // A control packet from the client known by `peer` (address << 16 | port); the camera's clock and
+  // the monotonic one.
   Answer handle(gige::Bytes packet, std::uint64_t peer, std::int64_t clock_ns, double time_s);
 
   // What to stream, nothing while no client wants it. A client that is silent for longer than the

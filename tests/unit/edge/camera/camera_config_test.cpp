@@ -1,0 +1,84 @@
+#include "edge/camera/camera_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace ols {
+namespace {
+
+CameraConfig read(std::string_view text) {
+  ConfigFile file(text, "station.toml");
+  const CameraConfig config = read_camera_config(file.root());
+  file.finish();
+  return config;
+}
+
+std::string error_of(std::string_view text) {
+  try {
+    read(text);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CameraConfig, OnlyTheDeviceIsNeeded) {
+  const CameraConfig config = read("device = '127.0.0.11'");
+  EXPECT_EQ(config.device, "127.0.0.11");
+  EXPECT_EQ(config.width_px, CameraConfig{}.width_px);
+  EXPECT_EQ(config.pixel_format, "Mono8");
+  EXPECT_EQ(config.stamp_at, StampAt::kExposureStart);
+}
+
+TEST(CameraConfig, ReadsEveryKey) {
+  const CameraConfig config = read(R"(
+device = "Prosilica-1234"
+width_px = 640
+height_px = 480
+pixel_format = "BayerRG8"
+frame_rate_hz = 30
+exposure_us = 800.5
+stamp_at = "exposure-end"
+readout_s = 0.02
+readout_sd_s = 0.003
+no_frame_timeout_s = 1.5
+retry_s = 0.25
+packet_size = 8228
+packet_socket = false
+socket_buffer = 1000000
+packet_resend = false
+buffers = 5
+)");
+  EXPECT_EQ(config.width_px, 640);
+  EXPECT_EQ(config.height_px, 480);
+  EXPECT_EQ(config.pixel_format, "BayerRG8");
+  EXPECT_DOUBLE_EQ(config.frame_rate_hz, 30.0);
+  EXPECT_DOUBLE_EQ(config.exposure_us, 800.5);
+  EXPECT_EQ(config.stamp_at, StampAt::kExposureEnd);
+  EXPECT_DOUBLE_EQ(config.readout_s, 0.02);
+  EXPECT_DOUBLE_EQ(config.readout_sd_s, 0.003);
+  EXPECT_DOUBLE_EQ(config.no_frame_timeout_s, 1.5);
+  EXPECT_DOUBLE_EQ(config.retry_s, 0.25);
+  EXPECT_EQ(config.packet_size, 8228);
+  EXPECT_FALSE(config.packet_socket);
+  EXPECT_EQ(config.socket_buffer, 1000000);
+  EXPECT_FALSE(config.packet_resend);
+  EXPECT_EQ(config.buffers, 5);
+}
+
+TEST(CameraConfig, RefusesNamingTheKey) {
+  using testing::HasSubstr;
+  EXPECT_THAT(error_of("width_px = 640"), HasSubstr("device"));
+  EXPECT_THAT(error_of("device = ''"), HasSubstr("device"));
+  for (const char* bad : {"pixel_format = 'Mono16'", "frame_rate_hz = 0", "exposure_us = -1",
+                          "width_px = 0", "stamp_at = 'middle'", "packet_size = 100",
+                          "packet_size = 70000", "buffers = 1", "expsure_us = 5"}) {
+    const std::string text = std::string("device = 'x'\n") + bad;
+    const std::string key(bad, std::string_view(bad).find(' '));
+    EXPECT_THAT(error_of(text), HasSubstr("station.toml:2")) << bad;
+    EXPECT_THAT(error_of(text), HasSubstr(key)) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace ols

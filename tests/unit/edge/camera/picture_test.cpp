@@ -1,0 +1,90 @@
+#include "edge/camera/picture.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace ols {
+namespace {
+
+constexpr int kWidth = 32, kHeight = 24;
+
+RawPicture raw(const std::vector<std::uint8_t>& bytes, PixelFormat format) {
+  return {.data = bytes.data(),
+          .bytes = bytes.size(),
+          .width_px = kWidth,
+          .height_px = kHeight,
+          .format = static_cast<std::uint32_t>(format)};
+}
+
+PictureFormat expected(PixelFormat format) {
+  return {.width_px = kWidth, .height_px = kHeight, .format = format};
+}
+
+// The mosaic of an evenly coloured scene; `names` are the colours of its first 2 x 2 pixels.
+std::vector<std::uint8_t> mosaic(const char* names, std::uint8_t r, std::uint8_t g,
+                                 std::uint8_t b) {
+  std::vector<std::uint8_t> bytes;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const char name = names[2 * (y % 2) + x % 2];
+      bytes.push_back(name == 'R' ? r : name == 'G' ? g : b);
+    }
+  return bytes;
+}
+
+TEST(Picture, Mono8IsCopiedOnce) {
+  std::vector<std::uint8_t> bytes(kWidth * kHeight);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 7);
+  const cv::Mat gray = to_gray(raw(bytes, PixelFormat::kMono8));
+  ASSERT_EQ(gray.type(), CV_8UC1);
+  ASSERT_EQ(gray.size(), cv::Size(kWidth, kHeight));
+  EXPECT_NE(gray.data, bytes.data());  // the camera will write over its own
+  EXPECT_TRUE(std::equal(bytes.begin(), bytes.end(), gray.data));
+}
+
+TEST(Picture, EachBayerPatternGivesTheBrightnessOfItsColours) {
+  const std::vector<std::tuple<PixelFormat, const char*>> patterns{
+      {PixelFormat::kBayerRG8, "RGGB"},
+      {PixelFormat::kBayerGR8, "GRBG"},
+      {PixelFormat::kBayerGB8, "GBRG"},
+      {PixelFormat::kBayerBG8, "BGGR"}};
+  // Red and blue differ, so that a swapped pattern shows. ITU-R BT.601's brightness.
+  const double brightness = 0.299 * 200 + 0.587 * 100 + 0.114 * 20;
+  for (const auto& [format, names] : patterns) {
+    const auto bytes = mosaic(names, 200, 100, 20);
+    const cv::Mat gray = to_gray(raw(bytes, format));
+    EXPECT_NEAR(gray.at<std::uint8_t>(kHeight / 2, kWidth / 2), brightness, 1.5) << names;
+    EXPECT_NEAR(gray.at<std::uint8_t>(kHeight / 2 + 1, kWidth / 2), brightness, 1.5) << names;
+  }
+}
+
+TEST(Picture, RefusesWithAReason) {
+  const std::vector<std::uint8_t> bytes(kWidth * kHeight);
+  const RawPicture good = raw(bytes, PixelFormat::kMono8);
+  EXPECT_EQ(check(good, expected(PixelFormat::kMono8)), PictureRefusal::kNone);
+  EXPECT_EQ(check(good, expected(PixelFormat::kBayerRG8)), PictureRefusal::kWrongFormat);
+
+  RawPicture wide = good;
+  wide.width_px = kWidth + 1;
+  EXPECT_EQ(check(wide, expected(PixelFormat::kMono8)), PictureRefusal::kWrongSize);
+  RawPicture low = good;
+  low.height_px = kHeight / 2;
+  EXPECT_EQ(check(low, expected(PixelFormat::kMono8)), PictureRefusal::kWrongSize);
+  RawPicture torn = good;
+  torn.bytes -= 1;
+  EXPECT_EQ(check(torn, expected(PixelFormat::kMono8)), PictureRefusal::kTooShort);
+  RawPicture empty = good;
+  empty.data = nullptr;
+  EXPECT_EQ(check(empty, expected(PixelFormat::kMono8)), PictureRefusal::kTooShort);
+}
+
+TEST(Picture, NamesOfFormats) {
+  EXPECT_EQ(pixel_format("Mono8"), PixelFormat::kMono8);
+  EXPECT_EQ(pixel_format("BayerGB8"), PixelFormat::kBayerGB8);
+  EXPECT_FALSE(pixel_format("Mono16"));
+}
+
+}  // namespace
+}  // namespace ols

@@ -1,0 +1,217 @@
+// The simulated camera and the station's camera over the real wire, on 127.0.0.1 alone.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <functional>
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "edge/camera/aravis_camera.h"
+#include "tools/sim/camera_server.h"
+
+namespace ols {
+namespace {
+
+constexpr double kDeadline_s = 60.0;
+constexpr int kWidth = 320, kHeight = 240;
+constexpr double kExposure_s = 0.004;
+
+double clock_s(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// A picture that tells which exposure it is of: its stamp in the first pixels, a ramp below.
+void draw(const sim::Exposure& exposure, cv::Mat& picture) {
+  for (int y = 0; y < picture.rows; ++y)
+    for (int x = 0; x < picture.cols; ++x)
+      picture.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>((x + 2 * y) / 8);
+  std::memcpy(picture.data, &exposure.start_realtime_ns, sizeof exposure.start_realtime_ns);
+}
+
+double true_middle_s(const Frame& frame) {
+  std::int64_t start_ns = 0;
+  std::memcpy(&start_ns, frame.gray.data, sizeof start_ns);
+  const double offset_s = clock_s(CLOCK_MONOTONIC) - clock_s(CLOCK_REALTIME);
+  return 1e-9 * static_cast<double>(start_ns) + offset_s + 0.5 * kExposure_s;
+}
+
+std::unique_ptr<sim::CameraServer> serve(int width_px = kWidth, int height_px = kHeight) {
+  return std::make_unique<sim::CameraServer>(
+      sim::CameraServerConfig{
+          .address = "127.0.0.1", .serial = "T1", .width_px = width_px, .height_px = height_px},
+      draw);
+}
+
+CameraConfig station() {
+  CameraConfig config;
+  config.device = "127.0.0.1";
+  config.width_px = kWidth;
+  config.height_px = kHeight;
+  config.exposure_us = 1e6 * kExposure_s;
+  config.frame_rate_hz = 20.0;
+  config.retry_s = 0.1;
+  config.no_frame_timeout_s = 1.0;
+  return config;
+}
+
+std::optional<Frame> frame_of(AravisCamera& camera) {
+  const double end_s = clock_s(CLOCK_MONOTONIC) + kDeadline_s;
+  while (clock_s(CLOCK_MONOTONIC) < end_s)
+    if (auto frame = camera.next(0.5)) return frame;
+  return std::nullopt;
+}
+
+bool becomes(AravisCamera& camera, const std::function<bool()>& true_now) {
+  const double end_s = clock_s(CLOCK_MONOTONIC) + kDeadline_s;
+  while (clock_s(CLOCK_MONOTONIC) < end_s) {
+    if (true_now()) return true;
+    camera.next(0.05);
+  }
+  return false;
+}
+
+TEST(CameraWire, PicturesArriveAsTheyWereDrawn) {
+  const auto server = serve();
+  AravisCamera camera(station());
+  const auto frame = frame_of(camera);
+  ASSERT_TRUE(frame) << camera.last_error();
+  ASSERT_EQ(frame->gray.size(), cv::Size(kWidth, kHeight));
+  ASSERT_EQ(frame->gray.type(), CV_8UC1);
+  EXPECT_EQ(frame->gray.at<std::uint8_t>(100, 200), (200 + 2 * 100) / 8);
+  EXPECT_EQ(frame->gray.at<std::uint8_t>(kHeight - 1, kWidth - 1),
+            (kWidth - 1 + 2 * (kHeight - 1)) / 8);
+  EXPECT_EQ(camera.state(), CameraState::kStreaming);
+  EXPECT_EQ(camera.counters().frames_refused, 0U);
+}
+
+TEST(CameraWire, MidExposureIsThatOfTheCamera) {
+  const auto server = serve();
+  AravisCamera camera(station());
+  std::uint64_t number = 0;
+  for (int i = 0; i < 10; ++i) {
+    const auto frame = frame_of(camera);
+    ASSERT_TRUE(frame) << camera.last_error();
+    EXPECT_EQ(frame->stamp_source, StampSource::kCamera);
+    EXPECT_LT(std::abs(frame->mid_exposure_s - true_middle_s(*frame)),
+              4.0 * frame->stamp_sd_s + 1e-3);
+    EXPECT_LT(frame->stamp_sd_s, 5e-3);  // bare arrivals would leave 10 ms
+    EXPECT_GT(frame->number, number);
+    number = frame->number;
+  }
+}
+
+TEST(CameraWire, AStampAtTheEndOfTheExposureIsTakenAsSuch) {
+  const auto server = serve();
+  CameraConfig config = station();
+  config.stamp_at = StampAt::kExposureEnd;
+  AravisCamera camera(config);
+  const auto frame = frame_of(camera);
+  ASSERT_TRUE(frame) << camera.last_error();
+  // The simulated camera stamps the start: read as the end, the middle is an exposure earlier.
+  EXPECT_NEAR(true_middle_s(*frame) - frame->mid_exposure_s, kExposure_s,
+              4.0 * frame->stamp_sd_s + 1e-3);
+}
+
+TEST(CameraWire, WithoutThePacketSocketAndWithSmallPackets) {
+  const auto server = serve();
+  CameraConfig config = station();
+  config.packet_socket = false;
+  config.packet_size = 1500;
+  AravisCamera camera(config);
+  const auto frame = frame_of(camera);
+  ASSERT_TRUE(frame) << camera.last_error();
+  EXPECT_EQ(frame->gray.at<std::uint8_t>(100, 200), (200 + 2 * 100) / 8);
+}
+
+TEST(CameraWire, BayerBecomesGray) {
+  const auto server = serve();
+  CameraConfig config = station();
+  config.pixel_format = "BayerRG8";
+  AravisCamera camera(config);
+  const auto frame = frame_of(camera);
+  ASSERT_TRUE(frame) << camera.last_error();
+  ASSERT_EQ(frame->gray.size(), cv::Size(kWidth, kHeight));
+  EXPECT_NEAR(frame->gray.at<std::uint8_t>(100, 200), (200 + 2 * 100) / 8, 1);
+}
+
+TEST(CameraWire, IsFoundByItsName) {
+  const auto server = serve();
+  CameraConfig config = station();
+  config.device = "Aravis-Fake-T1";
+  AravisCamera camera(config);
+  ASSERT_TRUE(frame_of(camera)) << camera.last_error();
+}
+
+TEST(CameraWire, ASensorTooSmallIsAFault) {
+  const auto server = serve(160, 120);
+  AravisCamera camera(station());
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kFault; }));
+  EXPECT_NE(camera.last_error().find("320x240"), std::string::npos) << camera.last_error();
+  EXPECT_EQ(camera.counters().frames_captured, 0U);
+}
+
+TEST(CameraWire, FramesOfAnotherSizeAreRefusedAndCounted) {
+  const auto server = serve();
+  AravisCamera camera(station());
+  ASSERT_TRUE(frame_of(camera)) << camera.last_error();
+  server->set_size(160, 120);
+  EXPECT_TRUE(becomes(camera, [&] { return camera.counters().frames_refused >= 3; }));
+  EXPECT_EQ(camera.state(), CameraState::kFault);
+  EXPECT_EQ(camera.last_error(), "frame refused: wrong size");
+  server->set_size(kWidth, kHeight);
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kStreaming; }));
+}
+
+TEST(CameraWire, FramesThatNobodyTakesAreLateAndOnlyTheNewestIsHandedOut) {
+  const auto server = serve();
+  AravisCamera camera(station());
+  ASSERT_TRUE(frame_of(camera)) << camera.last_error();
+  const double end_s = clock_s(CLOCK_MONOTONIC) + kDeadline_s;
+  while (camera.counters().frames_late < 3 && clock_s(CLOCK_MONOTONIC) < end_s) {
+  }
+  EXPECT_GE(camera.counters().frames_late, 3U);
+  const auto frame = camera.next(0.0);
+  ASSERT_TRUE(frame);
+  EXPECT_GE(frame->number, 4U);
+}
+
+TEST(CameraWire, ACameraThatVanishesIsOpenedAgain) {
+  auto server = serve();
+  AravisCamera camera(station());
+  const auto before = frame_of(camera);
+  ASSERT_TRUE(before) << camera.last_error();
+  server.reset();
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kAbsent; }));
+  EXPECT_NE(camera.last_error(), "");
+  while (camera.next(0.0)) {
+  }
+  server = serve();
+  const auto after = frame_of(camera);
+  ASSERT_TRUE(after) << camera.last_error();
+  EXPECT_GT(after->number, before->number);
+  EXPECT_GE(camera.counters().reconnects, 1U);
+  EXPECT_LT(std::abs(after->mid_exposure_s - true_middle_s(*after)),
+            4.0 * after->stamp_sd_s + 1e-3);
+}
+
+TEST(CameraWire, AnAbsentCameraIsWaitedForAndTheStationCanEnd) {
+  AravisCamera camera(station());
+  EXPECT_FALSE(camera.next(0.0));
+  EXPECT_TRUE(becomes(camera, [&] { return camera.last_error() != ""; }));
+  EXPECT_EQ(camera.state(), CameraState::kAbsent);
+  EXPECT_EQ(camera.counters().reconnects, 0U);
+}
+
+TEST(CameraServer, AnAddressThatIsTakenIsAnError) {
+  const auto server = serve();
+  EXPECT_THROW(serve(), std::system_error);
+}
+
+}  // namespace
+}  // namespace ols
