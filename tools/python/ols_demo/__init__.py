@@ -1,0 +1,1 @@
+"""The demo: a whole simulated site on one computer, run, watched, recorded and judged."""

@@ -1,0 +1,144 @@
+"""tools/demo: runs a simulated site, watches it, and says how well it did."""
+
+import argparse
+import json
+import signal
+import sys
+import time
+from pathlib import Path
+
+from ols_demo import evaluate, plot, recording
+from ols_demo.bus import LIVE_URL, Bus
+from ols_demo.live import Screen
+from ols_demo.observer import Observer
+from ols_demo.operator import Operator
+from ols_demo.site import Site, SiteError, bring_up_loopback
+from ols_demo.wiring import Wiring
+
+DESIGNATION_S = 60.0
+DRAW_S = 0.5
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="tools/demo", description=__doc__)
+    root = Path(__file__).resolve().parents[3]
+    parser.add_argument("--seconds", type=float, default=60.0, help="to run after designation [s]")
+    parser.add_argument("--headless", action="store_true", help="no live picture in the terminal")
+    parser.add_argument("--report", type=Path, help="JSON file; a plot is written beside it")
+    parser.add_argument(
+        "--scenario", type=Path, default=root / "tools/sim/scenarios/fig7.toml", help="TOML file"
+    )
+    parser.add_argument("--seed", type=int, default=1, help="of the simulated errors")
+    parser.add_argument(
+        "--output", type=Path, default=root / "out/demo", help="folder for log, configuration, plot"
+    )
+    parser.add_argument("--bin", type=Path, default=root / "build/release/bin")
+    return parser.parse_args()
+
+
+class Run:
+    """One run of the site, from start to the report."""
+
+    def __init__(self, options: argparse.Namespace):
+        self.options = options
+        self.observer = Observer()
+        self.bus = Bus(LIVE_URL, self.observer.receive)
+        self.operator = Operator(self.bus.lcm, self.observer, options.seed)
+        self.screen = None if options.headless else Screen()
+        self._draw_due = 0.0
+
+    def turn(self, site: Site, title: str) -> None:
+        self.bus.handle(0.05)
+        self.operator.act()
+        site.check()
+        if self.screen and time.monotonic() >= self._draw_due:
+            self._draw_due = time.monotonic() + DRAW_S
+            self.screen.draw(title, self.observer)
+
+    def designate(self, site: Site, stations: list[str]) -> None:
+        print(f"designating the target in {len(stations)} views", flush=True)
+        deadline = time.monotonic() + DESIGNATION_S
+        while not self.operator.tracking.issuperset(stations):
+            self.turn(site, "the operator points the stations and designates the target")
+            if time.monotonic() > deadline:
+                missing = ", ".join(sorted(set(stations) - self.operator.tracking))
+                raise SiteError(f"not tracking after {DESIGNATION_S:.0f} s: {missing}")
+
+    def watch(self, site: Site) -> tuple[int, int]:
+        """Runs for the asked time; the window [us] in which the run is judged."""
+        seconds = self.options.seconds
+        print(f"tracking for {seconds:.0f} s", flush=True)
+        start_us = time.time_ns() // 1000
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            left = end - time.monotonic()
+            self.turn(site, f"tracking, {left:.0f} s left")
+        return start_us, time.time_ns() // 1000
+
+
+def write_report(options: argparse.Namespace, window: tuple[int, int], log: Path) -> dict:
+    recorded = recording.read(log)
+    result = {
+        "scenario": options.scenario.stem,
+        "seed": options.seed,
+        **evaluate.report(recorded, window),
+    }
+    report = options.report or options.output / "report.json"
+    report.parent.mkdir(parents=True, exist_ok=True)
+    report.write_text(json.dumps(result, indent=1) + "\n")
+    title = f"{options.scenario.stem}, seed {options.seed}"
+    if result["fixes"]:
+        title += (
+            f": RMS error {result['rmse_m']:.3f} m, predicted {result['predicted_rmse_m']:.3f} m"
+        )
+        plot.save(report.with_suffix(".png"), recorded, window, title)
+    print(f"report {report}\nplot   {report.with_suffix('.png')}\nlog    {log}")
+    return result
+
+
+def summary(result: dict) -> str:
+    lines = []
+    for name, station in result["stations"].items():
+        lines.append(
+            f"{name:10s} frames {station['frames_captured']} lost {station['frames_lost']}, "
+            f"tracking {100 * station['tracking_fraction']:.1f} % of the time, "
+            f"in the central third {100 * (station['central_third_fraction'] or 0):.1f} %"
+        )
+    if result["fixes"]:
+        paper = result["paper"]["rmse_m"]
+        lines.append(
+            f"{result['fixes']} fixes, RMS error {result['rmse_m']:.3f} m "
+            f"(predicted {result['predicted_rmse_m']:.3f} m"
+            + (f"; the paper's estimator {paper:.3f} m)" if paper is not None else ")")
+        )
+        lines.append(
+            f"exposure to published target: median {1e3 * result['latency']['p50_s']:.0f} ms, "
+            f"95 % {1e3 * result['latency']['p95_s']:.0f} ms"
+        )
+    return "\n".join(lines)
+
+
+def main() -> int:
+    options = arguments()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    wiring = Wiring(options.bin, options.scenario, options.seed, options.output)
+    try:
+        bring_up_loopback(wiring.prepare())
+        with Site(options.output / "logs") as site:
+            wiring.start(site)
+            run = Run(options)
+            run.designate(site, wiring.stations)
+            window = run.watch(site)
+            print("ending the processes")
+        result = write_report(options, window, wiring.log)
+    except SiteError as error:
+        print(f"tools/demo: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
+    print(summary(result))
+    return 0 if result["fixes"] else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,53 @@
+"""What goes over the site's LCM bus, as Python sees it."""
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import lcm
+import ols_msg
+
+LIVE_URL = "udpm://239.255.76.67:7667?ttl=0"
+
+TYPES: list[tuple[str, Any]] = [
+    (r"OLS_BEARING_.+", ols_msg.bearing_t),
+    (r"OLS_STATUS_.+", ols_msg.station_status_t),
+    (r"OLS_TARGET(_PAPER)?", ols_msg.target_t),
+    (r"OLS_FUSION_STATUS", ols_msg.fusion_status_t),
+    (r"OLS_SIM_TRUTH", ols_msg.truth_target_t),
+    (r"OLS_SIM_VIEW_.+", ols_msg.truth_view_t),
+]
+
+
+def decode(channel: str, data: bytes) -> Any | None:
+    """The message, or None for a channel that nobody here reads."""
+    for pattern, kind in TYPES:
+        if re.fullmatch(pattern, channel):
+            return kind.decode(data)
+    return None
+
+
+def counters(status: Any) -> dict[str, float]:
+    """The named counters of a station's or the fusion's status."""
+    return dict(zip(status.counter_name, status.counter_value, strict=True))
+
+
+class Bus:
+    """Calls `handler(channel, message)` for every message that is known."""
+
+    def __init__(self, url: str, handler: Callable[[str, Any], None]):
+        self.lcm = lcm.LCM(url)
+        self._handler = handler
+        for pattern, _ in TYPES:
+            self.lcm.subscribe(pattern, self._receive).set_queue_capacity(1000)
+
+    def _receive(self, channel: str, data: bytes) -> None:
+        message = decode(channel, data)
+        if message is not None:
+            self._handler(channel, message)
+
+    def handle(self, timeout_s: float) -> None:
+        """Handles what has arrived, waiting at most timeout_s for the first."""
+        timeout_ms = int(timeout_s * 1e3)
+        while self.lcm.handle_timeout(timeout_ms) > 0:
+            timeout_ms = 0

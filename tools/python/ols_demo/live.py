@@ -1,0 +1,68 @@
+"""The demo in the terminal: what each station and the fusion are doing, at this moment."""
+
+import shutil
+import sys
+
+import numpy as np
+
+from ols_demo.bus import counters
+from ols_demo.observer import Observer
+
+
+def error_m(observer: Observer, channel: str) -> float:
+    """Distance of the newest target from the newest truth, moved to the same instant; or NaN."""
+    target, truth = observer.target.get(channel), observer.truth
+    if target is None or truth is None:
+        return float("nan")
+    ahead_s = (target.utime - truth.utime) * 1e-6
+    there = np.array(truth.position_ecef_m) + np.array(truth.velocity_ecef_m_s) * ahead_s
+    return float(np.linalg.norm(np.array(target.position_ecef_m) - there))
+
+
+def station_lines(observer: Observer) -> list[str]:
+    lines = ["station    state     belief   azimuth  elev.   offset px   frames  lost   bearings"]
+    for station, status in sorted(observer.status.items()):
+        count = counters(status)
+        offset = ", ".join(
+            f"{v:+5.0f}" if np.isfinite(v) else "    -" for v in status.target_offset_px
+        )
+        lost = count.get("frames_lost", 0) + count.get("frames_incomplete", 0)
+        lines.append(
+            f"{station:10s} {observer.state(station):9s} {status.belief:5.2f}  "
+            f"{np.degrees(status.azimuth_rad):8.2f} {np.degrees(status.elevation_rad):6.2f}  "
+            f"{offset}  {count.get('frames_captured', 0):7.0f} {lost:5.0f}   "
+            f"{count.get('bearings', 0):8.0f}"
+        )
+    return lines
+
+
+def target_lines(observer: Observer) -> list[str]:
+    target = observer.target.get("OLS_TARGET")
+    if target is None:
+        return ["target     none yet"]
+    covariance = target.position_covariance_enu_m2
+    sd = np.sqrt([covariance[0], covariance[3], covariance[5]])
+    used = sum(target.used)
+    return [
+        f"target     {target.latitude_deg:.6f}\u00b0 {target.longitude_deg:.6f}\u00b0 "
+        f"{target.height_m:.1f} m   {used} of {target.stations} stations",
+        f"1-sigma    east {sd[0]:.3f}  north {sd[1]:.3f}  up {sd[2]:.3f} m",
+        f"error      {error_m(observer, 'OLS_TARGET'):.3f} m   "
+        f"(the paper's estimator: {error_m(observer, 'OLS_TARGET_PAPER'):.3f} m)",
+        f"fixes      {observer.targets}",
+    ]
+
+
+class Screen:
+    """Draws over its own last picture."""
+
+    def __init__(self) -> None:
+        self._drawn = 0
+
+    def draw(self, title: str, observer: Observer) -> None:
+        width = shutil.get_terminal_size().columns
+        lines = [title, "", *station_lines(observer), "", *target_lines(observer)]
+        up = f"\x1b[{self._drawn}F" if self._drawn else ""
+        sys.stdout.write(up + "".join(f"\x1b[2K{line[: width - 1]}\n" for line in lines))
+        sys.stdout.flush()
+        self._drawn = len(lines)

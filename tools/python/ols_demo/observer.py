@@ -1,0 +1,44 @@
+"""What the demo knows of the running site: the newest message of each kind."""
+
+from typing import Any
+
+import ols_msg
+
+STATES = {
+    ols_msg.station_status_t.STATE_IDLE: "idle",
+    ols_msg.station_status_t.STATE_MANUAL: "manual",
+    ols_msg.station_status_t.STATE_TRACKING: "tracking",
+    ols_msg.station_status_t.STATE_COASTING: "coasting",
+    ols_msg.station_status_t.STATE_LOST: "lost",
+    ols_msg.station_status_t.STATE_SLEWED: "slewed",
+    ols_msg.station_status_t.STATE_STOPPED: "stopped",
+}
+
+
+class Observer:
+    """Newest messages, by station where they come from one."""
+
+    def __init__(self) -> None:
+        self.status: dict[str, Any] = {}
+        self.view: dict[str, Any] = {}
+        self.truth: Any = None
+        self.target: dict[str, Any] = {}  # by channel
+        self.fusion: Any = None
+        self.targets = 0
+
+    def receive(self, channel: str, message: Any) -> None:
+        if channel.startswith("OLS_STATUS_"):
+            self.status[message.station] = message
+        elif channel.startswith("OLS_SIM_VIEW_"):
+            self.view[message.station] = message
+        elif channel == "OLS_SIM_TRUTH":
+            self.truth = message
+        elif channel == "OLS_FUSION_STATUS":
+            self.fusion = message
+        elif channel.startswith("OLS_TARGET"):
+            self.target[channel] = message
+            self.targets += channel == "OLS_TARGET"
+
+    def state(self, station: str) -> str:
+        status = self.status.get(station)
+        return STATES.get(status.state, "unknown") if status else "silent"

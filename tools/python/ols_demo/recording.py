@@ -1,0 +1,75 @@
+"""Reads a recorded run (lcm-logger) back as arrays."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import lcm
+import numpy as np
+
+from ols_demo.bus import counters, decode
+
+
+@dataclass
+class Recording:
+    """Messages of one run; times in seconds since `start_us`."""
+
+    start_us: int = 0
+    targets: dict[str, list[Any]] = field(default_factory=dict)  # by channel
+    arrivals_us: dict[str, list[int]] = field(default_factory=dict)
+    truth: list[Any] = field(default_factory=list)
+    views: dict[str, list[Any]] = field(default_factory=dict)  # by station
+    statuses: dict[str, list[Any]] = field(default_factory=dict)
+    fusion: list[Any] = field(default_factory=list)
+    bearings: dict[str, list[Any]] = field(default_factory=dict)
+
+    def receive(self, channel: str, message: Any, arrival_us: int) -> None:
+        if channel.startswith("OLS_TARGET"):
+            self.targets.setdefault(channel, []).append(message)
+            self.arrivals_us.setdefault(channel, []).append(arrival_us)
+        elif channel == "OLS_SIM_TRUTH":
+            self.truth.append(message)
+        elif channel.startswith("OLS_SIM_VIEW_"):
+            self.views.setdefault(message.station, []).append(message)
+        elif channel.startswith("OLS_STATUS_"):
+            self.statuses.setdefault(message.station, []).append(message)
+        elif channel.startswith("OLS_BEARING_"):
+            self.bearings.setdefault(message.station, []).append(message)
+        elif channel == "OLS_FUSION_STATUS":
+            self.fusion.append(message)
+
+    def truth_at(self, utimes_us: np.ndarray) -> np.ndarray:
+        """(n, 3) true positions [m, ECEF], by cubic Hermite interpolation; NaN outside the truth."""
+        times = np.array([t.utime for t in self.truth], dtype=np.int64)
+        positions = np.array([t.position_ecef_m for t in self.truth])
+        velocities = np.array([t.velocity_ecef_m_s for t in self.truth])
+        after = np.clip(np.searchsorted(times, utimes_us), 1, len(times) - 1)
+        before = after - 1
+        step = (times[after] - times[before])[:, None] * 1e-6
+        s = (utimes_us - times[before])[:, None] * 1e-6 / step
+        result = (
+            positions[before] * (2 * s**3 - 3 * s**2 + 1)
+            + velocities[before] * step * (s**3 - 2 * s**2 + s)
+            + positions[after] * (3 * s**2 - 2 * s**3)
+            + velocities[after] * step * (s**3 - s**2)
+        )
+        result[(utimes_us < times[0]) | (utimes_us > times[-1])] = np.nan
+        return result
+
+    def station_counters(self, station: str, index: int) -> dict[str, float]:
+        return counters(self.statuses[station][index])
+
+
+def read(path: Path) -> Recording:
+    """The recording in an LCM log. Messages that cannot be decoded are left out."""
+    recording = Recording()
+    for event in lcm.EventLog(str(path), "r"):
+        try:
+            message = decode(event.channel, event.data)
+        except ValueError:
+            continue
+        if message is not None:
+            recording.receive(event.channel, message, event.timestamp)
+    if recording.truth:
+        recording.start_us = recording.truth[0].utime
+    return recording

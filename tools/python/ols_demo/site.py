@@ -1,0 +1,80 @@
+"""The processes of a site on this host: started, watched, ended in order."""
+
+import os
+import select
+import signal
+import subprocess
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+READY_S = 60.0
+END_S = 10.0
+
+
+class SiteError(RuntimeError):
+    """A process of the site did not come up, or died."""
+
+
+def bring_up_loopback(addresses: list[str]) -> None:
+    """Makes the network namespace we are in a site: multicast on lo, an address for each camera."""
+    commands = [
+        "ip link set lo up multicast on",
+        "ip route replace 224.0.0.0/4 dev lo",
+        *(f"ip address replace {address}/8 dev lo" for address in addresses),
+    ]
+    path = os.environ["PATH"] + ":/usr/sbin:/sbin"
+    for command in commands:
+        subprocess.run(command.split(), check=True, env={**os.environ, "PATH": path})
+
+
+@dataclass
+class Site:
+    """Processes by name; each writes what it says to a file of that name in `logs`."""
+
+    logs: Path
+    processes: dict[str, subprocess.Popen] = field(default_factory=dict)
+
+    def start(self, name: str, command: list[str]) -> None:
+        self.logs.mkdir(parents=True, exist_ok=True)
+        with open(self.logs / f"{name}.log", "wb") as out:
+            self.processes[name] = subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT
+            )
+
+    def start_and_wait(self, name: str, command: list[str], ready: str) -> None:
+        """Waits until the process has said a line with `ready`."""
+        self.start(name, command)
+        deadline = time.monotonic() + READY_S
+        log = self.logs / f"{name}.log"
+        while ready not in log.read_text(errors="replace"):
+            self.check()
+            if time.monotonic() > deadline:
+                raise SiteError(f"{name} was not ready after {READY_S:.0f} s; see {log}")
+            select.select([], [], [], 0.05)
+
+    def check(self) -> None:
+        """Raises SiteError when a process has ended by itself."""
+        for name, process in self.processes.items():
+            if process.poll() is not None:
+                tail = (self.logs / f"{name}.log").read_text(errors="replace").strip()
+                last = tail.splitlines()[-1] if tail else "it said nothing"
+                raise SiteError(f"{name} ended with status {process.returncode}: {last}")
+
+    def stop(self, name: str, how: signal.Signals = signal.SIGTERM) -> int:
+        """Ends one process and returns its status."""
+        process = self.processes.pop(name)
+        if process.poll() is None:
+            process.send_signal(how)
+        try:
+            return process.wait(END_S)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            return process.wait()
+
+    def __enter__(self) -> "Site":
+        return self
+
+    def __exit__(self, *_exception: object) -> None:
+        for name in reversed(list(self.processes)):
+            self.stop(name)

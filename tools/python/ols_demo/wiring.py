@@ -1,0 +1,61 @@
+"""Which processes make a site, and with which configuration."""
+
+import shutil
+import subprocess
+import tomllib
+from pathlib import Path
+
+from ols_demo.bus import LIVE_URL
+from ols_demo.site import Site, SiteError
+
+
+class Wiring:
+    """The processes of a scenario: simulator, stations, fusion, logger."""
+
+    def __init__(self, binaries: Path, scenario: Path, seed: int, output: Path):
+        self._bin, self._scenario, self._seed = binaries, scenario, seed
+        self._output = output.resolve()
+        self.configs: dict[str, Path] = {}
+        self.log = self._output / "run.lcmlog"
+
+    @property
+    def stations(self) -> list[str]:
+        return sorted(self.configs)
+
+    def _sim(self, *options: str) -> list[str]:
+        return [
+            str(self._bin / "ols-sim"),
+            *("--scenario", str(self._scenario)),
+            *("--seed", str(self._seed)),
+            *("--lcm-url", LIVE_URL),
+            *options,
+        ]
+
+    def prepare(self) -> list[str]:
+        """Writes the stations' configurations; returns the addresses that the cameras need."""
+        folder = self._output / "config"
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        self.log.unlink(missing_ok=True)
+        done = subprocess.run(
+            self._sim("--write-configs", str(folder)), capture_output=True, text=True, check=False
+        )
+        if done.returncode != 0:
+            raise SiteError(done.stderr.strip() or "ols-sim failed")
+        self.configs = {path.stem: path for path in sorted(folder.glob("*.toml"))}
+        return [
+            tomllib.loads(path.read_text())["camera"]["device"] for path in self.configs.values()
+        ]
+
+    def start(self, site: Site) -> None:
+        """Everything up, the log running; raises SiteError when something does not come up."""
+        print(f"starting simulator, {len(self.configs)} stations, fusion and logger", flush=True)
+        logger = ["lcm-logger", "--lcm-url", LIVE_URL, "--quiet", str(self.log)]
+        site.start("lcm-logger", logger)
+        lines = self._output / "config"
+        site.start_and_wait("ols-sim", self._sim("--lines", str(lines)), "ready")
+        fusion = [str(self._bin / "ols-fusion"), "--lcm-url", LIVE_URL]
+        site.start_and_wait("ols-fusion", fusion, "ready")
+        for name, config in self.configs.items():
+            command = [str(self._bin / "ols-station"), "--config", str(config)]
+            site.start_and_wait(f"ols-station-{name}", command, "ready")
