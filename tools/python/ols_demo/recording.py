@@ -39,7 +39,7 @@ class Recording:
             self.fusion.append(message)
 
     def truth_at(self, utimes_us: np.ndarray) -> np.ndarray:
-        """(n, 3) true positions [m, ECEF], by cubic Hermite interpolation; NaN outside the truth."""
+        """(n, 3) true positions [m, ECEF], cubic Hermite between the truths; NaN outside."""
         times = np.array([t.utime for t in self.truth], dtype=np.int64)
         positions = np.array([t.position_ecef_m for t in self.truth])
         velocities = np.array([t.velocity_ecef_m_s for t in self.truth])
