@@ -1,0 +1,29 @@
+"""Shared by all Python tests: where the built programs are, and the network they may use."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+BIN = Path(os.environ.get("OLS_BIN", ROOT / "build/release/bin"))
+SCENARIO = ROOT / "tools/sim/scenarios/fig7.toml"
+
+
+@pytest.fixture(scope="session")
+def network() -> None:
+    """Multicast on the loopback of a network namespace of our own, which tools/test makes."""
+    if os.environ.get("OLS_NAMESPACE") != "1":
+        pytest.skip("needs a network namespace of its own: run tools/test")
+    from ols_demo.site import bring_up_loopback
+
+    bring_up_loopback([f"127.0.0.{n}" for n in range(11, 15)])
+
+
+@pytest.fixture(scope="session")
+def shared() -> Path:
+    """Evaluation data outside of the project, where OLS_SHARED names it."""
+    folder = os.environ.get("OLS_SHARED")
+    if not folder:
+        pytest.skip("OLS_SHARED names no folder with evaluation data")
+    return Path(folder)

@@ -1,0 +1,69 @@
+"""Talks to running processes as another member of the site's bus would."""
+
+import time
+from typing import Any
+
+import ols_msg
+from ols_demo.bus import LIVE_URL, Bus, counters
+from ols_demo.observer import Observer
+
+DEADLINE_S = 20.0
+
+
+class Listener:
+    """Collects what is on the bus; every wait has a deadline."""
+
+    def __init__(self, url: str = LIVE_URL):
+        self.observer = Observer()
+        self.bus = Bus(url, self.observer.receive)
+
+    def wait(self, condition: Any, what: str, deadline_s: float = DEADLINE_S) -> None:
+        end = time.monotonic() + deadline_s
+        while not condition():
+            assert time.monotonic() < end, f"not within {deadline_s:.0f} s: {what}"
+            self.bus.handle(0.02)
+
+    def wait_for_status(self, station: str) -> Any:
+        """A status that was sent after this call."""
+        before = self.observer.status.get(station)
+        self.wait(
+            lambda: self.observer.status.get(station) not in (None, before),
+            f"status of {station}",
+        )
+        return self.observer.status[station]
+
+    def counter(self, station: str, name: str) -> float:
+        status = self.observer.status.get(station)
+        return counters(status).get(name, 0.0) if status else 0.0
+
+    def wait_for_counter(self, station: str, name: str, value: float) -> None:
+        self.wait(lambda: self.counter(station, name) >= value, f"{name} of {station} >= {value}")
+
+    def publish(self, channel: str, data: bytes) -> None:
+        self.bus.lcm.publish(channel, data)
+
+
+def addressed(message: Any, station: str, sequence: int, boot_id: int = 77) -> Any:
+    """Fills what every command has: fresh, valid, for this station."""
+    message.utime = time.time_ns() // 1000
+    message.schema_version = message.SCHEMA_VERSION
+    message.boot_id = boot_id
+    message.sequence = sequence
+    message.station = station
+    message.lease_s = 1.0
+    return message
+
+
+def point(station: str, sequence: int, pan_rad: float, tilt_rad: float = 0.0) -> Any:
+    message = addressed(ols_msg.ptu_command_t(), station, sequence)
+    message.command = ols_msg.ptu_command_t.COMMAND_POINT
+    message.pan_rad, message.tilt_rad = pan_rad, tilt_rad
+    return message
+
+
+def slew(station: str, sequence: int, azimuth_rad: float, elevation_rad: float = 0.0) -> Any:
+    message = addressed(ols_msg.slew_t(), station, sequence)
+    message.effect_utime = message.utime + 50_000
+    message.lease_s = 0.5
+    message.azimuth_rad, message.elevation_rad = azimuth_rad, elevation_rad
+    return message

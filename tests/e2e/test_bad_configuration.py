@@ -1,0 +1,78 @@
+"""Every program refuses a bad configuration with one line, exit 2, before it touches a device."""
+
+import subprocess
+
+import pytest
+from conftest import BIN, SCENARIO
+
+GOOD = """\
+id = "s1"
+[pose]
+latitude_deg = 49.2
+longitude_deg = 16.6
+height_m = 250.0
+heading_deg = 0.0
+[camera]
+device = "127.0.0.99"
+[ptu]
+device = "/dev/null"
+"""
+
+
+def run(program: str, *arguments: str) -> subprocess.CompletedProcess:
+    return subprocess.run(
+        [str(BIN / program), *arguments], capture_output=True, text=True, timeout=30, check=False
+    )
+
+
+def refused(result: subprocess.CompletedProcess, *parts: str) -> None:
+    assert result.returncode == 2, result.stderr
+    assert len(result.stderr.strip().splitlines()) == 1, result.stderr
+    for part in parts:
+        assert part in result.stderr
+
+
+def test_a_good_configuration_passes(tmp_path):
+    config = tmp_path / "s.toml"
+    config.write_text(GOOD)
+    result = run("ols-station", "--check-config", "--config", str(config))
+    assert result.returncode == 0, result.stderr
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "key"),
+    [
+        ("height_m = 250.0", "heigth_m = 250.0", 2, "height_m"),
+        ("heading_deg = 0.0", "heading_deg = 0.0\nhaeding_deg = 1.0", 7, "haeding_deg"),
+        ("latitude_deg = 49.2", "latitude_deg = 149.2", 3, "latitude_deg"),
+        ("latitude_deg = 49.2", "latitude_deg = nan", 3, "latitude_deg"),
+        ("longitude_deg = 16.6", "longitude_deg = 'east'", 4, "longitude_deg"),
+        ('device = "/dev/null"', 'device = "/dev/null"\nbaud = 12', 11, "baud"),
+        ('id = "s1"', 'id = "s 1"', 1, "id"),
+        ("[pose]", "[pose", 2, ""),
+    ],
+)
+def test_station(tmp_path, old, new, line, key):
+    config = tmp_path / "s.toml"
+    config.write_text(GOOD.replace(old, new))
+    result = run("ols-station", "--config", str(config))
+    refused(result, f"{config}:{line}:", key)
+
+
+def test_missing_files(tmp_path):
+    missing = str(tmp_path / "none.toml")
+    refused(run("ols-station", "--config", missing), missing)
+    refused(run("ols-fusion", "--config", missing), missing)
+    refused(run("ols-sim", "--scenario", missing), missing)
+
+
+def test_fusion_names_file_line_and_key(tmp_path):
+    config = tmp_path / "f.toml"
+    config.write_text("# fusion\nno_such_key = 1\n")
+    refused(run("ols-fusion", "--config", str(config)), f"{config}:2:", "no_such_key")
+
+
+def test_scenario_names_file_line_and_key(tmp_path):
+    scenario = tmp_path / "s.toml"
+    scenario.write_text(SCENARIO.read_text().replace("frame_rate_hz", "frame_rate"))
+    refused(run("ols-sim", "--scenario", str(scenario)), str(scenario), "frame_rate")

@@ -1,0 +1,124 @@
+"""The whole site over its real wires, for a few seconds; then its log, replayed.
+
+Function only: how fast and how exact it is says tools/demo on an idle machine.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import time
+
+import lcm
+import pytest
+from conftest import BIN, ROOT
+from ols_demo import recording
+from ols_demo.bus import decode
+from ols_demo.site import Site
+
+REPLAY_URL = "udpm://239.255.76.77:7777?ttl=0"
+SLEW_URL = "udpm://239.255.76.78:7778?ttl=0"
+RUN_S = 8
+DEADLINE_S = 180.0
+
+
+@pytest.fixture(scope="module")
+def run(network, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("site")
+    report = folder / "r.json"
+    command = [sys.executable, "-m", "ols_demo", "--headless", "--seconds", str(RUN_S)]
+    command += ["--report", str(report), "--output", str(folder), "--bin", str(BIN)]
+    done = subprocess.run(
+        command, capture_output=True, text=True, timeout=DEADLINE_S, check=False, cwd=ROOT
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder
+
+
+@pytest.fixture(scope="module")
+def report(run):
+    return json.loads((run / "r.json").read_text())
+
+
+def test_every_station_tracks_and_sends_bearings(report):
+    assert len(report["stations"]) == 4
+    for station in report["stations"].values():
+        assert station["frames_captured"] > 0
+        assert station["bearings"] > 0
+        assert station["seconds"].get("tracking", 0.0) > 0.0
+
+
+def test_the_target_is_located(report):
+    assert report["fixes"] > 10
+    assert report["rmse_m"] < 5.0  # metres at 200 to 450 m: it is this object and no other
+    assert report["predicted_rmse_m"] > 0.0
+    assert report["paper"]["rmse_m"] is not None
+
+
+def test_report_and_plot_are_whole(run, report):
+    for key in ("scenario", "seed", "latency", "stations", "fixes"):
+        assert key in report
+    assert (run / "r.png").read_bytes().startswith(b"\x89PNG")
+    assert (run / "run.lcmlog").stat().st_size > 0
+
+
+def targets_of(log):
+    """What was published of each target: everything but who sent it."""
+    return [
+        (
+            channel,
+            target.utime,
+            tuple(target.position_ecef_m),
+            tuple(target.velocity_ecef_m_s),
+            tuple(target.position_covariance_enu_m2),
+            tuple(target.station),
+            tuple(target.used),
+        )
+        for channel, messages in sorted(recording.read(log).targets.items())
+        for target in messages
+    ]
+
+
+def replay(source, folder):
+    """Plays the log's bearings and statuses to a fusion of its own; logs what comes out."""
+    out, slews = folder / "replayed.lcmlog", folder / "slews.lcmlog"
+    with Site(folder / "logs") as site:
+        site.start("logger", ["lcm-logger", "-q", "-f", "-l", REPLAY_URL, str(out)])
+        site.start("slew-logger", ["lcm-logger", "-q", "-f", "-l", SLEW_URL, str(slews)])
+        fusion = [str(BIN / "ols-fusion"), "--replay", "--lcm-url", REPLAY_URL]
+        site.start_and_wait("fusion", [*fusion, "--slew-url", SLEW_URL], "ready")
+        player = ["lcm-logplayer", "-l", REPLAY_URL, "-e", "OLS_(BEARING|STATUS)_.*", str(source)]
+        subprocess.run(player, check=True, timeout=DEADLINE_S, stdout=subprocess.DEVNULL)
+        wanted = bearings_in(source)
+        end = time.monotonic() + DEADLINE_S
+        while bearings_in(out) < wanted and time.monotonic() < end:
+            site.check()
+            os.sched_yield()
+        for name in ("fusion", "logger", "slew-logger"):
+            site.stop(name)
+    return out, slews
+
+
+def bearings_in(log):
+    return sum(e.channel.startswith("OLS_BEARING_") for e in lcm.EventLog(str(log), "r"))
+
+
+def channels_in(log):
+    return {event.channel for event in lcm.EventLog(str(log), "r")}
+
+
+def test_a_replay_gives_the_same_targets_and_moves_nothing(run, tmp_path):
+    out, slews = replay(run / "run.lcmlog", tmp_path)
+    live, again = targets_of(run / "run.lcmlog"), targets_of(out)
+    assert len(live) > 10
+    assert set(live) == set(again)
+    assert not any(channel.startswith("OLS_SLEW") for channel in channels_in(out))
+    assert any(channel.startswith("OLS_SLEW") for channel in channels_in(slews))
+
+
+def test_messages_of_the_log_decode(run):
+    seen = set()
+    for event in lcm.EventLog(str(run / "run.lcmlog"), "r"):
+        if decode(event.channel, event.data) is not None:
+            seen.add(event.channel.split("_")[1])
+    assert {"BEARING", "STATUS", "TARGET", "SIM", "FUSION"} <= seen

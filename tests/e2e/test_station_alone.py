@@ -1,0 +1,123 @@
+"""A station without camera and PTU: it comes up, says so, and refuses what it must refuse."""
+
+import math
+import subprocess
+
+import ols_msg
+import pytest
+from conftest import BIN
+from helpers import Listener, addressed, point, slew
+from ols_demo.site import Site
+
+CONFIG = """\
+id = "lone"
+[pose]
+latitude_deg = 49.2
+longitude_deg = 16.6
+height_m = 250.0
+heading_deg = 0.0
+[camera]
+device = "127.0.0.99"
+[ptu]
+device = "/nonexistent/ptu"
+[chain]
+[lens]
+"""
+
+
+@pytest.fixture(scope="module")
+def station(network, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("station")
+    config = folder / "lone.toml"
+    config.write_text(CONFIG)
+    listener = Listener()
+    with Site(folder / "logs") as site:
+        command = [str(BIN / "ols-station"), "--config", str(config)]
+        site.start_and_wait("station", command, "ready")
+        listener.wait_for_status("lone")
+        listener.site = site
+        yield listener
+
+
+def refused(station, name, channel, data):
+    """Publishes and waits until the refusal is counted; nothing else may have happened."""
+    before = station.counter("lone", name)
+    station.publish(channel, data)
+    station.wait_for_counter("lone", name, before + 1)
+    station.site.check()
+    assert station.observer.state("lone") == "idle"
+
+
+def test_absent_devices_are_reported(station):
+    status = station.wait_for_status("lone")
+    assert status.camera_state == ols_msg.station_status_t.DEVICE_ABSENT
+    assert status.ptu_state == ols_msg.station_status_t.DEVICE_ABSENT
+    assert math.isnan(status.pan_rad)
+    assert status.last_error != ""
+
+
+@pytest.mark.parametrize("kind", ["SLEW", "PTU", "DESIGNATE"])
+def test_foreign_and_truncated_messages_are_refused(station, kind):
+    whole = point("lone", 1, 0.1).encode()
+    for data in (b"", b"x", whole[:-1], whole + b"\0", ols_msg.truth_target_t().encode()):
+        refused(station, "messages_refused_malformed", f"OLS_{kind}_lone", data)
+
+
+def test_commands_that_are_not_commands_are_refused(station):
+    nan = slew("lone", 10, math.nan)
+    refused(station, "refused_not_finite", "OLS_SLEW_lone", nan.encode())
+    far = slew("lone", 11, 0.1, 1.2)  # above the unit's travel
+    refused(station, "refused_unreachable", "OLS_SLEW_lone", far.encode())
+    long = slew("lone", 12, 0.1)
+    long.lease_s = 1e6
+    refused(station, "messages_refused_lease", "OLS_SLEW_lone", long.encode())
+    old = slew("lone", 13, 0.1)
+    old.utime -= 10_000_000
+    refused(station, "messages_refused_stale", "OLS_SLEW_lone", old.encode())
+    early = slew("lone", 14, 0.1)
+    early.utime += 10_000_000
+    refused(station, "messages_refused_from_the_future", "OLS_SLEW_lone", early.encode())
+    schema = slew("lone", 15, 0.1)
+    schema.schema_version = 99
+    refused(station, "messages_refused_schema", "OLS_SLEW_lone", schema.encode())
+    other = slew("other", 16, 0.1)
+    refused(station, "messages_refused_other_station", "OLS_SLEW_lone", other.encode())
+    replay = slew("lone", 10, 0.1)  # a sequence that was there before
+    refused(station, "messages_refused_replayed", "OLS_SLEW_lone", replay.encode())
+
+
+def test_designation_without_a_frame_is_refused(station):
+    message = addressed(ols_msg.designate_t(), "lone", 1)
+    message.width_px = message.height_px = 20.0
+    refused(station, "refused_no_frame", "OLS_DESIGNATE_lone", message.encode())
+
+
+def ctl(*arguments: str) -> subprocess.CompletedProcess:
+    return subprocess.run(
+        [str(BIN / "ols-ctl"), *arguments], capture_output=True, text=True, timeout=30, check=False
+    )
+
+
+def test_the_operators_hand(station):
+    shown = ctl("lone", "status")
+    assert shown.returncode == 0, shown.stderr
+    assert "lone" in shown.stdout and "idle" in shown.stdout and "absent" in shown.stdout
+    assert ctl("lone", "manual", "10", "5").stdout == "lone: done\n"
+    station.wait(lambda: station.observer.state("lone") == "manual", "manual")
+    refused_move = ctl("lone", "manual", "0", "80")
+    assert refused_move.returncode == 1
+    assert "unreachable" in refused_move.stdout
+    assert ctl("all", "stop").stdout == "lone: done\n"
+    station.wait(lambda: station.observer.state("lone") == "stopped", "stopped")
+    assert ctl("lone", "release").returncode == 0
+    station.wait(lambda: station.observer.state("lone") == "idle", "idle")
+
+
+def test_ctl_says_when_nobody_answers(station):
+    nobody = ctl("nobody", "stop")
+    assert nobody.returncode == 1
+    assert "no status of nobody" in nobody.stderr
+
+
+def test_it_ends_in_order(station):
+    assert station.site.stop("station") == 0
