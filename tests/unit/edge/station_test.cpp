@@ -63,7 +63,7 @@ class StationTest : public testing::Test {
     while (now_ < end_s) {
       now_ += 0.005;
       if (now_ >= next_sample_) {
-        station_.on_angles({now_, 1e-4, angles_});
+        station_.on_angles(sample());
         next_sample_ += 0.02;
       }
       if (frames && now_ >= next_frame_) {
@@ -74,6 +74,14 @@ class StationTest : public testing::Test {
       }
       for (const auto& bearing : station_.step(now_)) bearings_.push_back(bearing);
     }
+  }
+
+  AngleSample sample() const {
+    AngleSample sample;
+    sample.time_s = now_;
+    sample.time_sd_s = 1e-4;
+    sample.angles = angles_;
+    return sample;
   }
 
   SlewCommand slew(double azimuth_deg, double elevation_deg = 0.0) const {
