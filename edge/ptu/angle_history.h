@@ -13,6 +13,8 @@ struct AngleSample {
   double time_s = 0.0;     // station's monotonic clock: estimate of when the unit read its counters
   double time_sd_s = 0.0;  // 1-sigma of that estimate (white)
   PanTilt angles;
+  std::optional<double>
+      tilt_time_sd_s;  // where the tilt's instant is known less well than the pan's
 };
 
 struct AngleAt {

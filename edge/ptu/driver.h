@@ -18,8 +18,7 @@ namespace ols {
 struct PtuConfig {
   std::string device;  // serial device, for example /dev/ttyUSB0
   int baud = 9600;
-  double poll_interval_s =
-      0.04;  // one request for both positions, with the servo's command in front
+  double poll_interval_s = 0.04;     // one request for both positions and the servo's commands
   double reply_timeout_s = 0.5;      // no reply for so long: the link is down, begin again
   double acceleration_rad_s2 = 1.0;  // set at start
   PtuLimits limits;                  // narrowed by what the unit reports

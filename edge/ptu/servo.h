@@ -3,7 +3,8 @@
 // A D46 in velocity mode runs on when its master dies. Here it is only ever given *positions*:
 // every cycle the goal a short look-ahead further on, at the speed that arrives there in time.
 // While commands keep coming the unit never reaches the goal and moves smoothly; when they stop it
-// brakes and stands, after at most the look-ahead plus its braking time.
+// brakes and stands, after at most the look-ahead (or 1/gain, if that is longer) plus its braking
+// time.
 #pragma once
 
 #include <optional>

@@ -1,0 +1,90 @@
+// The ASCII protocol of the FLIR (Directed Perception) pan-tilt units, as bytes: requests out,
+// replies in. Pure. A request is one or more commands, each ended by a blank; each is answered by
+// one line, `* value`, `*` or `! text`, in order.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ols {
+
+enum class PtuAxis : char { kPan = 'P', kTilt = 'T' };
+
+// What can be asked of an axis; the first six of the list can be set as well.
+enum class PtuQuantity : char {
+  kPosition = 'P',          // [counts]
+  kSpeed = 'S',             // [counts/s] to travel at
+  kAcceleration = 'A',      // [counts/s^2]
+  kBaseSpeed = 'B',         // [counts/s] without a ramp
+  kUpperSpeed = 'U',        // [counts/s] bound of kSpeed
+  kLowerSpeed = 'L',        // [counts/s] bound of kSpeed
+  kTargetPosition = 'O',    // [counts]
+  kCurrentSpeed = 'D',      // [counts/s]
+  kResolution = 'R',        // [arc seconds per count]
+  kLeastPosition = 'N',     // [counts]
+  kGreatestPosition = 'X',  // [counts]
+};
+
+class PtuRequest {
+ public:
+  PtuRequest& query(PtuAxis axis, PtuQuantity quantity);
+  PtuRequest& set(PtuAxis axis, PtuQuantity quantity, std::int32_t value);
+  // A command without an axis: ED FT CI I LE H V and so on.
+  PtuRequest& plain(std::string_view command);
+
+  PtuRequest& append(const PtuRequest& request);
+
+  const std::string& bytes() const { return bytes_; }
+  std::size_t commands() const { return ends_.size(); }
+  bool empty() const { return ends_.empty(); }
+  // Bytes up to and with the delimiter of command `index`: what the unit needs to begin with it.
+  std::size_t end_of(std::size_t index) const { return ends_.at(index); }
+
+ private:
+  PtuRequest& finish();
+  std::string bytes_;
+  std::vector<std::size_t> ends_;
+};
+
+struct PtuReply {
+  bool ok = true;                // `*`; else `!`
+  bool echoed = false;           // an echo stood before it: the unit's echo is on
+  std::string text;              // what follows the mark, trimmed
+  std::optional<double> number;  // the first word of the text that is a number
+  double began_s = 0.0;          // instant by which the mark's byte was complete
+
+  // The number as a count: whole and within 32 bits.
+  std::optional<std::int32_t> count() const;
+};
+
+// Incremental: any split of the bytes gives the same replies. Blanks, echoes and asynchronous
+// tokens
+// (!P !T limit hits; !D #P #T $P $T) are discarded wherever they are glued.
+class PtuReplyParser {
+ public:
+  // `time_s`: an instant by which all of the bytes were there; `byte_s`: what one takes on the line
+  // (for PtuReply::began_s).
+  std::vector<PtuReply> feed(std::string_view bytes, double time_s = 0.0, double byte_s = 0.0);
+
+  // Forgets an unfinished line.
+  void reset();
+
+  std::uint64_t garbled() const { return garbled_; }        // lines that are neither reply nor echo
+  std::uint64_t limit_hits() const { return limit_hits_; }  // !P and !T
+
+ private:
+  std::optional<PtuReply> finish_line();
+  std::string without_tokens(std::string_view line);
+
+  std::string line_;
+  bool overlong_ = false;
+  double mark_s_ = 0.0;  // of the first `*`, or failing that `!`, of this line
+  bool marked_ = false;
+  std::uint64_t garbled_ = 0;
+  std::uint64_t limit_hits_ = 0;
+};
+
+}  // namespace ols

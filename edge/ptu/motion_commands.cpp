@@ -1,0 +1,136 @@
+#include "edge/ptu/motion_commands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ols {
+
+namespace {
+
+// There is no checksum: a command that was changed on its way holds no longer than this.
+constexpr double kRefresh_s = 1.0;
+constexpr double kHaltMargin_s = 0.3;  // on top of the braking time, before a halt is repeated
+constexpr double kStanding_counts_s = 20.0;  // slower than this is standing
+
+}  // namespace
+
+MotionCommands::MotionCommands(const PtuConfig& config, const PtuFacts& facts)
+    : servo_(config.servo),
+      limits_{
+          std::max(config.limits.pan_min_rad, facts.pan.least * facts.pan.resolution_rad),
+          std::min(config.limits.pan_max_rad, facts.pan.greatest * facts.pan.resolution_rad),
+          std::max(config.limits.tilt_min_rad, facts.tilt.least * facts.tilt.resolution_rad),
+          std::min(config.limits.tilt_max_rad, facts.tilt.greatest * facts.tilt.resolution_rad)},
+      pan_(axis(PtuAxis::kPan, facts.pan, limits_.pan_min_rad, limits_.pan_max_rad)),
+      tilt_(axis(PtuAxis::kTilt, facts.tilt, limits_.tilt_min_rad, limits_.tilt_max_rad)) {
+  const auto rad = [](const PtuAxisFacts& axis, std::int32_t counts) {
+    return counts * axis.resolution_rad;
+  };
+  servo_.max_speed_rad_s = std::min({servo_.max_speed_rad_s, rad(facts.pan, facts.pan.upper_speed),
+                                     rad(facts.tilt, facts.tilt.upper_speed)});
+  servo_.min_speed_rad_s = std::max({servo_.min_speed_rad_s, rad(facts.pan, facts.pan.lower_speed),
+                                     rad(facts.tilt, facts.tilt.lower_speed)});
+  // What the unit really does decides where it can stop.
+  servo_.max_acceleration_rad_s2 =
+      std::min(rad(facts.pan, facts.pan.acceleration), rad(facts.tilt, facts.tilt.acceleration));
+  braking_s_ = servo_.max_speed_rad_s / servo_.max_acceleration_rad_s2;
+}
+
+MotionCommands::Axis MotionCommands::axis(PtuAxis name, const PtuAxisFacts& facts, double least_rad,
+                                          double greatest_rad) const {
+  constexpr double kRounding = 1e-6;  // a limit that is a whole count stays that count
+  return {name,
+          facts,
+          static_cast<std::int32_t>(std::ceil(least_rad / facts.resolution_rad - kRounding)),
+          static_cast<std::int32_t>(std::floor(greatest_rad / facts.resolution_rad + kRounding)),
+          {},
+          {},
+          {},
+          0.0};
+}
+
+PtuRequest MotionCommands::next(const std::optional<ServoGoal>& goal, const PanTilt& now,
+                                double time_s) {
+  PtuRequest request;
+  const auto command = servo_step(servo_, limits_, goal, now, time_s);
+  if (!command) {
+    halt(time_s, request);
+    return request;
+  }
+  halted_s_.reset();
+  if (time_s - refreshed_s_ >= kRefresh_s) send_all_again();
+  if (!pan_.position) refreshed_s_ = time_s;
+  add_speed(pan_, command->speed.pan_rad, request);
+  add_speed(tilt_, command->speed.tilt_rad, request);
+  add_position(pan_, command->position.pan_rad, request);
+  add_position(tilt_, command->position.tilt_rad, request);
+  return request;
+}
+
+void MotionCommands::halt(double time_s, PtuRequest& request) {
+  const bool moving = std::abs(pan_.rate_counts_s) > kStanding_counts_s ||
+                      std::abs(tilt_.rate_counts_s) > kStanding_counts_s;
+  const bool again = moving && halted_s_ && time_s - *halted_s_ > braking_s_ + kHaltMargin_s;
+  if (halted_s_ && !again) return;
+  halted_s_ = time_s;
+  request.plain("H");
+  send_all_again();
+}
+
+void MotionCommands::send_all_again() {
+  for (Axis* axis : {&pan_, &tilt_}) {
+    axis->position.reset();
+    axis->speed.reset();
+  }
+}
+
+void MotionCommands::add_speed(Axis& axis, double speed_rad_s, PtuRequest& request) {
+  const auto speed =
+      std::clamp(static_cast<std::int32_t>(std::lround(speed_rad_s / axis.facts.resolution_rad)),
+                 std::max(1, axis.facts.lower_speed), axis.facts.upper_speed);
+  if (axis.speed == speed) return;
+  axis.speed = speed;
+  request.set(axis.name, PtuQuantity::kSpeed, speed);
+}
+
+void MotionCommands::add_position(Axis& axis, double position_rad, PtuRequest& request) {
+  const auto position =
+      std::clamp(static_cast<std::int32_t>(std::lround(position_rad / axis.facts.resolution_rad)),
+                 axis.least, axis.greatest);
+  if (axis.position == position) return;
+  axis.position = position;
+  request.set(axis.name, PtuQuantity::kPosition, position);
+}
+
+// No faster than the unit goes and, when its speed is known, no further from there than it
+// accelerates.
+bool MotionCommands::reachable(const Axis& axis, std::int32_t counts, double dt_s) const {
+  constexpr double kSlack_counts = 60.0;
+  if (!axis.read) return true;
+  const double way = static_cast<double>(counts) - *axis.read;
+  if (std::abs(way) > 1.2 * axis.facts.upper_speed * dt_s + kSlack_counts) return false;
+  if (!axis.rate_known) return true;
+  const double surprise = std::abs(way - axis.rate_counts_s * dt_s);
+  return surprise <= 1.2 * axis.facts.acceleration * dt_s * (dt_s + read_gap_s_) + kSlack_counts;
+}
+
+bool MotionCommands::plausible(std::int32_t pan_counts, std::int32_t tilt_counts, double time_s) {
+  const double dt_s = time_s - read_s_;
+  if (!reachable(pan_, pan_counts, dt_s) || !reachable(tilt_, tilt_counts, dt_s)) {
+    // It may be the last one that was wrong.
+    pan_.rate_known = tilt_.rate_known = false;
+    return false;
+  }
+  for (auto& [axis, counts] : {std::pair(&pan_, pan_counts), std::pair(&tilt_, tilt_counts)}) {
+    axis->rate_known = axis->read && dt_s > 0.0;
+    axis->rate_counts_s =
+        axis->rate_known ? (static_cast<double>(counts) - *axis->read) / dt_s : 0.0;
+    axis->read = counts;
+  }
+  read_gap_s_ = dt_s;
+  read_s_ = time_s;
+  return true;
+}
+
+}  // namespace ols

@@ -1,0 +1,124 @@
+#include "edge/ptu/serial_port.h"
+
+#include <fcntl.h>
+#include <linux/serial.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <system_error>
+
+namespace ols {
+
+namespace {
+
+constexpr double kLongestWrite_s = 0.2;
+
+struct Rate {
+  int baud;
+  speed_t code;
+};
+
+constexpr std::array<Rate, 9> kRates{{{600, B600},
+                                      {1200, B1200},
+                                      {2400, B2400},
+                                      {4800, B4800},
+                                      {9600, B9600},
+                                      {19200, B19200},
+                                      {38400, B38400},
+                                      {57600, B57600},
+                                      {115200, B115200}}};
+
+// Whether the descriptor is ready for `events` before the time is over.
+bool wait_for(int fd, short events, double timeout_s) {
+  pollfd entry{fd, events, 0};
+  const int timeout_ms = static_cast<int>(std::ceil(std::max(0.0, timeout_s) * 1e3));
+  return ::poll(&entry, 1, timeout_ms) > 0;
+}
+
+// USB adapters hold bytes back for up to 16 ms unless told otherwise. Not every device knows this.
+void ask_for_low_latency(int fd) {
+  serial_struct serial{};
+  if (::ioctl(fd, TIOCGSERIAL, &serial) != 0) return;
+  serial.flags |= ASYNC_LOW_LATENCY;
+  ::ioctl(fd, TIOCSSERIAL, &serial);
+}
+
+}  // namespace
+
+SerialPort::SerialPort(const std::string& device, int baud) : device_(device) {
+  fd_ = ::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (fd_ < 0) fail(errno, "cannot be opened");
+  try {
+    configure(baud);
+  } catch (...) {
+    ::close(fd_);
+    throw;
+  }
+}
+
+SerialPort::~SerialPort() { ::close(fd_); }
+
+void SerialPort::fail(int error, const char* what) const {
+  throw std::system_error(error, std::generic_category(), device_ + ": " + what);
+}
+
+void SerialPort::configure(int baud) {
+  const auto rate =
+      std::find_if(kRates.begin(), kRates.end(), [baud](const Rate& r) { return r.baud == baud; });
+  if (rate == kRates.end()) fail(EINVAL, "unknown baud rate");
+  // A lock rather than TIOCEXCL, which outlives us on a pty that others hold open.
+  if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) fail(errno, "is in use");
+  termios settings{};
+  if (::tcgetattr(fd_, &settings) != 0) fail(errno, "is not a serial device");
+  ::cfmakeraw(&settings);
+  settings.c_cflag |= CLOCAL | CREAD;
+  settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | PARENB | CRTSCTS);
+  settings.c_cc[VMIN] = 1;  // so that a read of nothing means a hang-up
+  settings.c_cc[VTIME] = 0;
+  ::cfsetispeed(&settings, rate->code);
+  ::cfsetospeed(&settings, rate->code);
+  if (::tcsetattr(fd_, TCSANOW, &settings) != 0) fail(errno, "cannot be configured");
+  ask_for_low_latency(fd_);
+  ::tcflush(fd_, TCIOFLUSH);
+}
+
+std::string SerialPort::read(double timeout_s) {
+  if (!wait_for(fd_, POLLIN, timeout_s)) return {};
+  std::array<char, 512> buffer;
+  const ssize_t n = ::read(fd_, buffer.data(), buffer.size());
+  if (n > 0) return {buffer.data(), static_cast<std::size_t>(n)};
+  if (n < 0 && (errno == EAGAIN || errno == EINTR)) return {};
+  fail(n == 0 ? EIO : errno, "has vanished");
+}
+
+void SerialPort::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd_, bytes.data(), bytes.size());
+    if (n >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(n));
+    } else if (errno == EAGAIN) {
+      if (!wait_for(fd_, POLLOUT, kLongestWrite_s)) fail(ETIMEDOUT, "takes no bytes");
+    } else if (errno != EINTR) {
+      fail(errno, "cannot be written");
+    }
+  }
+}
+
+bool SerialPort::drain(double timeout_s) {
+  constexpr double kLook_s = 0.002;
+  for (double waited_s = 0.0;; waited_s += kLook_s) {
+    int queued = 0;
+    if (::ioctl(fd_, TIOCOUTQ, &queued) == 0 && queued == 0) return true;
+    if (waited_s >= timeout_s) return false;
+    ::poll(nullptr, 0, static_cast<int>(kLook_s * 1e3));
+  }
+}
+
+}  // namespace ols

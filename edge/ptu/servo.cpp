@@ -1,0 +1,110 @@
+#include "edge/ptu/servo.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/angles.h"
+
+namespace ols {
+
+namespace {
+
+struct AxisGoal {
+  double angle_rad;
+  double rate_rad_s;
+};
+
+struct AxisCommand {
+  double position_rad;
+  double speed_rad_s;
+};
+
+// The goal on one axis at an instant, kept within its limits: at a limit it does not move on.
+AxisGoal goal_at(double angle_rad, double rate_rad_s, double dt_s, double least, double greatest) {
+  const double angle = angle_rad + rate_rad_s * dt_s;
+  const bool outward =
+      (angle >= greatest && rate_rad_s > 0.0) || (angle <= least && rate_rad_s < 0.0);
+  return {std::clamp(angle, least, greatest), outward ? 0.0 : rate_rad_s};
+}
+
+// The speed that closes the error: proportional near the goal, further away what can still be
+// braked with some of the acceleration in hand.
+double closing_speed(const ServoConfig& config, double error_rad) {
+  const double brakable =
+      std::sqrt(2.0 * 0.8 * config.max_acceleration_rad_s2 * std::abs(error_rad));
+  return std::copysign(std::min(config.gain_hz * std::abs(error_rad), brakable), error_rad);
+}
+
+// How far a unit at this speed may be sent: it travels on for the look-ahead and then brakes,
+// v^2/2a.
+double reach_ahead(const ServoConfig& config, double speed_rad_s, double look_ahead_s) {
+  return std::abs(speed_rad_s) * look_ahead_s +
+         speed_rad_s * speed_rad_s / (2.0 * config.max_acceleration_rad_s2);
+}
+
+// The commanded position is where the goal would come to rest if it went on for the look-ahead and
+// then braked. So the unit does not begin to brake as long as commands keep coming, and when they
+// stop it stands after the look-ahead plus v/a. A goal that rests, or creeps below the unit's least
+// speed, is commanded exactly, from far away a stretch at a time.
+AxisCommand axis_step(const ServoConfig& config, const AxisGoal& goal, double now_rad) {
+  const double error_rad = goal.angle_rad - now_rad;
+  const double speed = std::clamp(goal.rate_rad_s + closing_speed(config, error_rad),
+                                  -config.max_speed_rad_s, config.max_speed_rad_s);
+  const double rate = std::clamp(goal.rate_rad_s, -config.max_speed_rad_s, config.max_speed_rad_s);
+  const bool moves = std::abs(rate) > config.min_speed_rad_s;
+  double way_rad = error_rad;
+  if (moves) way_rad += std::copysign(reach_ahead(config, rate, config.look_ahead_s), rate);
+  // Too far ahead of a moving goal: back, or wait for it, along the wanted speed.
+  if (moves && way_rad * speed < 0.0) way_rad = speed * config.look_ahead_s;
+  // Near a resting goal the speed is gain * error, so that 1/gain of travel is the whole way there.
+  const double furthest_rad = reach_ahead(config, std::max(std::abs(speed), config.min_speed_rad_s),
+                                          std::max(config.look_ahead_s, 1.0 / config.gain_hz));
+  way_rad = std::clamp(way_rad, -furthest_rad, furthest_rad);
+  return {now_rad + way_rad, std::max(std::abs(speed), config.min_speed_rad_s)};
+}
+
+}  // namespace
+
+std::optional<ServoCommand> servo_step(const ServoConfig& config, const PtuLimits& limits,
+                                       const std::optional<ServoGoal>& goal, const PanTilt& now,
+                                       double time_s) {
+  if (!goal || !(time_s <= goal->valid_until_s)) return std::nullopt;
+  const double dt_s = time_s - goal->time_s;
+  if (dt_s > config.goal_timeout_s) return std::nullopt;
+  const bool finite = std::isfinite(goal->angles.pan_rad) && std::isfinite(goal->angles.tilt_rad) &&
+                      std::isfinite(goal->rate.pan_rad) && std::isfinite(goal->rate.tilt_rad) &&
+                      std::isfinite(dt_s);
+  if (!finite) return std::nullopt;
+  const AxisCommand pan = axis_step(config,
+                                    goal_at(goal->angles.pan_rad, goal->rate.pan_rad, dt_s,
+                                            limits.pan_min_rad, limits.pan_max_rad),
+                                    now.pan_rad);
+  const AxisCommand tilt = axis_step(config,
+                                     goal_at(goal->angles.tilt_rad, goal->rate.tilt_rad, dt_s,
+                                             limits.tilt_min_rad, limits.tilt_max_rad),
+                                     now.tilt_rad);
+  ServoCommand command;
+  command.position = {std::clamp(pan.position_rad, limits.pan_min_rad, limits.pan_max_rad),
+                      std::clamp(tilt.position_rad, limits.tilt_min_rad, limits.tilt_max_rad)};
+  command.speed = {pan.speed_rad_s, tilt.speed_rad_s};
+  return command;
+}
+
+Reach reach(const PtuLimits& limits, const PanTilt& now, PanTilt& angles) {
+  if (!std::isfinite(angles.pan_rad) || !std::isfinite(angles.tilt_rad)) return Reach::kUnreachable;
+  if (angles.tilt_rad < limits.tilt_min_rad || angles.tilt_rad > limits.tilt_max_rad) {
+    return Reach::kUnreachable;
+  }
+  const double nearest_rad = now.pan_rad + wrap_pi(angles.pan_rad - now.pan_rad);
+  std::optional<double> best;
+  for (const double turn : {0.0, -2.0 * kPi, 2.0 * kPi}) {
+    const double pan_rad = nearest_rad + turn;
+    if (pan_rad < limits.pan_min_rad || pan_rad > limits.pan_max_rad) continue;
+    if (!best || std::abs(pan_rad - now.pan_rad) < std::abs(*best - now.pan_rad)) best = pan_rad;
+  }
+  if (!best) return Reach::kUnreachable;
+  angles.pan_rad = *best;
+  return *best == nearest_rad ? Reach::kDirect : Reach::kLongWayRound;
+}
+
+}  // namespace ols

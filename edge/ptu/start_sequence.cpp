@@ -1,0 +1,99 @@
+#include "edge/ptu/start_sequence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/angles.h"
+
+namespace ols {
+
+namespace {
+
+constexpr double kSlowReply_s = 10.0;
+constexpr double kFinestResolution_arcsec = 0.1;
+constexpr double kCoarsestResolution_arcsec = 3600.0;
+
+bool sensible(const PtuAxisFacts& facts) {
+  return facts.least < facts.greatest && facts.lower_speed >= 0 &&
+         facts.upper_speed > facts.lower_speed && facts.acceleration > 0;
+}
+
+}  // namespace
+
+PtuStartSequence::PtuStartSequence(double acceleration_rad_s2)
+    : acceleration_rad_s2_(acceleration_rad_s2) {
+  add("ED");  // no echo
+  add("FT");  // short replies
+  add("H");   // whatever a former master had begun
+  add("CI");  // speeds are bounds of position moves, never velocities
+  add("I");   // moves begin at once
+  add("LE");  // soft limits
+  add("A", true);
+  steps_.push_back({[] { return PtuRequest().plain("V"); },
+                    [this](const PtuReply& reply) {
+                      if (reply.ok) facts_.firmware = reply.text;
+                      return true;
+                    }});
+  add_axis(PtuAxis::kPan, &PtuFacts::pan);
+  add_axis(PtuAxis::kTilt, &PtuFacts::tilt);
+}
+
+double PtuStartSequence::timeout_s(double normal_s) const {
+  return steps_.at(next_).slow ? std::max(normal_s, kSlowReply_s) : normal_s;
+}
+
+bool PtuStartSequence::take(const PtuReply& reply) {
+  if (!steps_.at(next_).take(reply)) return false;
+  ++next_;
+  return true;
+}
+
+// A mode that some firmware does not know is no reason to give up.
+void PtuStartSequence::add(std::string_view command, bool slow) {
+  steps_.push_back({[text = std::string(command)] { return PtuRequest().plain(text); },
+                    [](const PtuReply&) { return true; }, slow});
+}
+
+void PtuStartSequence::add_count(PtuAxis axis, PtuAxisFacts PtuFacts::*facts, PtuQuantity quantity,
+                                 std::int32_t PtuAxisFacts::*value) {
+  steps_.push_back({[=] { return PtuRequest().query(axis, quantity); },
+                    [=, this](const PtuReply& reply) {
+                      const auto count = reply.count();
+                      if (!reply.ok || !count) return false;
+                      facts_.*facts.*value = *count;
+                      return true;
+                    }});
+}
+
+void PtuStartSequence::add_axis(PtuAxis axis, PtuAxisFacts PtuFacts::*facts) {
+  steps_.push_back({[=] { return PtuRequest().query(axis, PtuQuantity::kResolution); },
+                    [=, this](const PtuReply& reply) {
+                      const double arcsec = reply.number.value_or(0.0);
+                      (facts_.*facts).resolution_rad = radians(arcsec / 3600.0);
+                      return reply.ok && arcsec >= kFinestResolution_arcsec &&
+                             arcsec <= kCoarsestResolution_arcsec;
+                    }});
+  add_count(axis, facts, PtuQuantity::kLeastPosition, &PtuAxisFacts::least);
+  add_count(axis, facts, PtuQuantity::kGreatestPosition, &PtuAxisFacts::greatest);
+  add_count(axis, facts, PtuQuantity::kLowerSpeed, &PtuAxisFacts::lower_speed);
+  add_count(axis, facts, PtuQuantity::kUpperSpeed, &PtuAxisFacts::upper_speed);
+  add_count(axis, facts, PtuQuantity::kAcceleration, &PtuAxisFacts::acceleration);
+  steps_.push_back({[=, this] {
+                      const PtuAxisFacts& known = facts_.*facts;
+                      const auto wanted = static_cast<std::int32_t>(
+                          std::lround(acceleration_rad_s2_ / known.resolution_rad));
+                      // Setting takes a real unit seconds: not when it is right already.
+                      if (wanted == known.acceleration) {
+                        return PtuRequest().query(axis, PtuQuantity::kAcceleration);
+                      }
+                      return PtuRequest().set(axis, PtuQuantity::kAcceleration, wanted);
+                    },
+                    [](const PtuReply&) { return true; }, true});
+  add_count(axis, facts, PtuQuantity::kAcceleration, &PtuAxisFacts::acceleration);
+  const auto& check = steps_.back().take;
+  steps_.back().take = [=, this, previous = check](const PtuReply& reply) {
+    return previous(reply) && sensible(facts_.*facts);
+  };
+}
+
+}  // namespace ols

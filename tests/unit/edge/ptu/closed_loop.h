@@ -1,0 +1,79 @@
+// The driver and the simulated unit joined by a line, in simulated time.
+#pragma once
+
+#include <functional>
+#include <random>
+#include <string>
+
+#include "edge/ptu/driver.h"
+#include "geometry/angles.h"
+#include "tools/sim/ptu_unit.h"
+
+namespace ols {
+
+inline sim::PtuUnitConfig quick_unit(int baud = 38400) {
+  sim::PtuUnitConfig config;
+  config.baud = baud;
+  config.home_at_power_up = false;
+  return config;
+}
+
+inline PtuConfig quick_driver(int baud = 38400) {
+  PtuConfig config;
+  config.baud = baud;
+  config.poll_interval_s = 0.025;
+  return config;
+}
+
+class ClosedLoop {
+ public:
+  static constexpr double kTick_s = 1e-3;
+
+  ClosedLoop(const PtuConfig& driver_config, const sim::PtuUnitConfig& unit_config,
+             double power_up_s = 10.0)
+      : unit(unit_config, 7, power_up_s), driver(driver_config), time_s(power_up_s) {}
+
+  // One millisecond.
+  void tick() {
+    time_s += kTick_s;
+    const double now_s = time_s;
+    std::string request = driver.step(now_s);
+    if (cut) request.clear();
+    sent += request;
+    if (!request.empty()) unit.receive(request, now_s);
+    std::string reply = unit.transmit(now_s);
+    if (garble) garble(reply);
+    driver.receive(reply, now_s);
+  }
+
+  void run(double duration_s, const std::function<void()>& each = {}) {
+    const double end_s = time_s + duration_s;
+    while (time_s < end_s) {
+      if (each) each();
+      tick();
+    }
+  }
+
+  // Until ready, at most `limit_s`.
+  bool start(double limit_s = 5.0) {
+    const double end_s = time_s + limit_s;
+    while (driver.state() != PtuState::kReady && time_s < end_s) tick();
+    return driver.state() == PtuState::kReady;
+  }
+
+  // A goal that is fresh now.
+  ServoGoal goal(const PanTilt& angles, const PanTilt& rate = {}) const {
+    return {time_s, angles, rate, time_s + 0.5};
+  }
+
+  PanTilt truth() const { return unit.angles_at(time_s); }
+
+  sim::PtuUnit unit;
+  PtuDriver driver;
+  double time_s;
+  bool cut = false;                          // requests do not arrive
+  std::function<void(std::string&)> garble;  // what happens to the unit's bytes
+  std::string sent;
+};
+
+}  // namespace ols

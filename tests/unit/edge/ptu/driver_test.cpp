@@ -1,0 +1,188 @@
+// The driver against the simulated unit: start, faults of the line, halts.
+#include "edge/ptu/driver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/unit/edge/ptu/closed_loop.h"
+
+namespace ols {
+namespace {
+
+TEST(PtuDriver, StartsAUnitWithFactorySettings) {
+  ClosedLoop loop(quick_driver(9600), quick_unit(9600));
+  ASSERT_TRUE(loop.start());
+  EXPECT_NEAR(loop.driver.pan_resolution_rad(), radians(11.5714 / 3600.0), 1e-12);
+  EXPECT_NEAR(degrees(loop.driver.limits().pan_max_rad), 2.7 * 180.0 / kPi, 1e-6);
+  EXPECT_NEAR(degrees(loop.driver.limits().tilt_max_rad), 0.5 * 180.0 / kPi, 1e-6);
+  EXPECT_NE(loop.driver.firmware().find("Pan-Tilt Controller v2"), std::string::npos);
+  EXPECT_EQ(loop.driver.counters().errors, 0u);
+  EXPECT_EQ(loop.driver.counters().restarts, 0u);
+  EXPECT_EQ(loop.sent.substr(0, 4), " ED ");
+}
+
+TEST(PtuDriver, NarrowsItsLimitsToTheUnits) {
+  PtuConfig config = quick_driver();
+  config.limits = {-10.0, 10.0, -10.0, 10.0};
+  ClosedLoop loop(config, quick_unit());
+  ASSERT_TRUE(loop.start());
+  EXPECT_NEAR(degrees(loop.driver.limits().pan_min_rad), -159.0, 0.01);
+  EXPECT_NEAR(degrees(loop.driver.limits().tilt_max_rad), 31.0, 0.01);
+}
+
+TEST(PtuDriver, WaitsForAUnitThatHomesFirst) {
+  sim::PtuUnitConfig unit = quick_unit();
+  unit.home_at_power_up = true;
+  ClosedLoop loop(quick_driver(), unit);
+  EXPECT_FALSE(loop.start(2.0));
+  EXPECT_TRUE(loop.start(40.0));
+  EXPECT_GE(loop.driver.counters().restarts, 1u);
+}
+
+// At 9600 baud, in motion, the line carries a cycle in about 48 ms; at rest in 26 ms.
+TEST(PtuDriver, PollsAsFastAsTheLineAllows) {
+  ClosedLoop loop(quick_driver(9600), quick_unit(9600));
+  ASSERT_TRUE(loop.start());
+  loop.run(0.2);
+  loop.driver.take_samples();
+  loop.run(2.0);
+  EXPECT_NEAR(static_cast<double>(loop.driver.take_samples().size()), 2.0 / 0.027, 4.0);
+  const double begin_s = loop.time_s;
+  loop.run(2.0, [&] {
+    const double t = loop.time_s - begin_s;
+    loop.driver.set_goal(loop.goal({0.3 * t, -0.2 * t}, {0.3, -0.2}));
+  });
+  const auto moving = loop.driver.take_samples().size();
+  EXPECT_GT(moving, 38u);
+  EXPECT_LT(moving, 52u);
+  EXPECT_EQ(loop.driver.counters().timeouts, 0u);
+  EXPECT_EQ(loop.driver.counters().garbled, 0u);
+}
+
+TEST(PtuDriver, SendsOneHaltWhenTheGoalIsWithdrawn) {
+  ClosedLoop loop(quick_driver(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  loop.driver.set_goal(loop.goal({1.0, 0.0}));
+  loop.run(0.4);
+  loop.sent.clear();
+  loop.driver.set_goal(std::nullopt);
+  loop.run(0.8);
+  EXPECT_EQ(std::count(loop.sent.begin(), loop.sent.end(), 'H'), 1);
+  EXPECT_EQ(loop.sent.find("PP0"), std::string::npos);
+  const double at = loop.truth().pan_rad;
+  loop.run(0.5);
+  EXPECT_DOUBLE_EQ(loop.truth().pan_rad, at);
+}
+
+TEST(PtuDriver, HaltsWhenTheGoalIsStale) {
+  ClosedLoop loop(quick_driver(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  ServoGoal goal = loop.goal({2.0, 0.0});
+  goal.valid_until_s = loop.time_s + 0.2;
+  loop.driver.set_goal(goal);
+  while (loop.time_s < goal.valid_until_s) loop.tick();
+  loop.sent.clear();
+  loop.run(1.0);
+  EXPECT_EQ(loop.sent.substr(loop.sent.find_first_not_of("PT "), 1), "H");
+  EXPECT_EQ(loop.sent.find("PP1"), std::string::npos);
+  EXPECT_EQ(loop.sent.find("PS"), std::string::npos);
+}
+
+TEST(PtuDriver, GetsThroughLostAndFlippedBytes) {
+  ClosedLoop loop(quick_driver(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> dice(0, 599), any(0, 255);
+  loop.garble = [&](std::string& bytes) {
+    std::string kept;
+    for (const char byte : bytes) {
+      const int roll = dice(random);
+      if (roll > 1) kept.push_back(byte);
+      if (roll == 1) kept.push_back(static_cast<char>(any(random)));
+    }
+    bytes = kept;
+  };
+  std::vector<AngleSample> samples;
+  double worst_rad = 0.0;
+  loop.run(20.0, [&] {
+    const double phase = 0.5 * loop.time_s;
+    loop.driver.set_goal(loop.goal({0.3 * std::sin(phase), 0.0}, {0.15 * std::cos(phase), 0.0}));
+    for (const AngleSample& sample : loop.driver.take_samples()) {
+      if (sample.time_s < loop.time_s - 1.5) continue;
+      worst_rad = std::max(
+          worst_rad, std::abs(sample.angles.pan_rad - loop.unit.angles_at(sample.time_s).pan_rad));
+      samples.push_back(sample);
+    }
+  });
+  EXPECT_GT(samples.size(), 300u);
+  EXPECT_GT(loop.driver.counters().timeouts + loop.driver.counters().garbled, 5u);
+  loop.garble = {};
+  ASSERT_TRUE(loop.start());
+  EXPECT_LT(degrees(worst_rad),
+            1.5);  // a lost or wrong digit goes unnoticed when it is a small one
+}
+
+TEST(PtuDriver, FaultsWhenTheUnitFallsSilentAndComesBack) {
+  ClosedLoop loop(quick_driver(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  loop.cut = true;
+  loop.run(1.5);
+  EXPECT_NE(loop.driver.state(), PtuState::kReady);
+  EXPECT_GE(loop.driver.counters().restarts, 1u);
+  EXPECT_GE(loop.driver.counters().timeouts, 1u);
+  EXPECT_FALSE(loop.driver.last_error().empty());
+  loop.cut = false;
+  EXPECT_TRUE(loop.start(10.0));
+}
+
+TEST(PtuDriver, BacksOffFromADeadLine) {
+  ClosedLoop loop(quick_driver(), quick_unit());
+  loop.cut = true;
+  loop.run(60.0);
+  EXPECT_LT(loop.driver.counters().restarts, 20u);
+  EXPECT_GE(loop.driver.counters().restarts, 8u);
+}
+
+TEST(PtuDriver, BeginsAgainWhenTheUnitWasSwitchedOffAndOn) {
+  ClosedLoop loop(quick_driver(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  loop.run(0.3);
+  // Echo and verbose replies are on again.
+  loop.unit.receive("EE FV ", loop.time_s);
+  loop.run(0.3);
+  EXPECT_GE(loop.driver.counters().restarts, 1u);
+  ASSERT_TRUE(loop.start());
+  loop.driver.take_samples();
+  loop.run(0.5);
+  EXPECT_GT(loop.driver.take_samples().size(), 15u);
+}
+
+TEST(PtuDriver, GivesUpOnAUnitWithoutAResolution) {
+  PtuDriver driver(quick_driver());
+  std::string line;
+  double t = 1.0;
+  bool faulted = false;
+  for (int i = 0; i < 3000; ++i, t += 1e-3) {
+    const std::string request = driver.step(t);
+    const auto commands = std::count_if(request.begin() + (request.empty() ? 0 : 1), request.end(),
+                                        [](char c) { return c == ' '; });
+    for (auto n = commands; n > 0; --n) driver.receive("* 0\r\n", t);
+    faulted = faulted || driver.state() == PtuState::kFault;
+  }
+  EXPECT_TRUE(faulted);
+  EXPECT_NE(driver.last_error().find("PR"), std::string::npos);
+}
+
+TEST(PtuDriver, CountsLimitHits) {
+  ClosedLoop loop(quick_driver(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  loop.driver.receive("!P!P", loop.time_s);
+  loop.run(0.3);
+  EXPECT_EQ(loop.driver.counters().limit_hits, 2u);
+  EXPECT_EQ(loop.driver.counters().garbled, 0u);
+}
+
+}  // namespace
+}  // namespace ols

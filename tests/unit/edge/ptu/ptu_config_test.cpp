@@ -1,0 +1,54 @@
+#include "edge/ptu/ptu_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/angles.h"
+
+namespace ols {
+namespace {
+
+PtuConfig read(const std::string& text) {
+  ConfigFile file("[ptu]\n" + text, "station.toml");
+  const PtuConfig config = read_ptu_config(file.root().table("ptu"));
+  file.finish();
+  return config;
+}
+
+TEST(PtuConfigFile, ReadsDegreesAndKeepsDefaults) {
+  const PtuConfig config = read(
+      "device = '/dev/ttyUSB0'\nbaud = 38400\nacceleration_deg_s2 = 60\ntilt_max_deg = 20\n"
+      "[ptu.servo]\nmax_speed_deg_s = 30\n[ptu.angles]\nmax_gap_s = 0.2\n");
+  EXPECT_EQ(config.device, "/dev/ttyUSB0");
+  EXPECT_EQ(config.baud, 38400);
+  EXPECT_NEAR(config.acceleration_rad_s2, radians(60.0), 1e-12);
+  EXPECT_NEAR(config.limits.tilt_max_rad, radians(20.0), 1e-12);
+  EXPECT_NEAR(config.servo.max_speed_rad_s, radians(30.0), 1e-12);
+  EXPECT_EQ(config.history.max_gap_s, 0.2);
+  EXPECT_NEAR(config.limits.pan_min_rad, PtuLimits{}.pan_min_rad, 1e-12);
+  EXPECT_EQ(config.poll_interval_s, PtuConfig{}.poll_interval_s);
+}
+
+TEST(PtuConfigFile, RefusesWhatIsWrongAndNamesIt) {
+  const auto refused = [](const std::string& text, const std::string& key) {
+    try {
+      read(text);
+      ADD_FAILURE() << "accepted: " << text;
+    } catch (const ConfigError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("station.toml"));
+      EXPECT_THAT(error.what(), testing::HasSubstr(key));
+    }
+  };
+  refused("baud = 9600\n", "device");
+  refused("device = ''\n", "device");
+  refused("device = 'x'\nbaud = 9601\n", "baud");
+  refused("device = 'x'\npoll_interval_s = 0.0\n", "poll_interval_s");
+  refused("device = 'x'\nacceleration_deg_s2 = inf\n", "acceleration_deg_s2");
+  refused("device = 'x'\npan_min_deg = 10\npan_max_deg = 5\n", "pan_max_deg");
+  refused("device = 'x'\ntilt_min_deg = 10\ntilt_max_deg = 10\n", "tilt_max_deg");
+  refused("device = 'x'\npoll_intervall_s = 0.1\n", "poll_intervall_s");
+  refused("device = 'x'\n[ptu.servo]\ngain_hz = 'fast'\n", "gain_hz");
+}
+
+}  // namespace
+}  // namespace ols

@@ -1,0 +1,125 @@
+#include "edge/ptu/servo.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "geometry/angles.h"
+
+namespace ols {
+namespace {
+
+constexpr PtuLimits kLimits{-2.7, 2.7, -0.8, 0.5};
+
+ServoConfig config() {
+  ServoConfig servo;
+  servo.min_speed_rad_s = 0.0017;
+  servo.max_acceleration_rad_s2 = 1.05;
+  return servo;
+}
+
+ServoGoal goal(const PanTilt& angles, const PanTilt& rate = {}) {
+  return {100.0, angles, rate, 100.4};
+}
+
+TEST(Servo, CommandsAFixedGoalExactly) {
+  const auto command = servo_step(config(), kLimits, goal({0.5, 0.1}), {0.0, 0.2}, 100.0);
+  ASSERT_TRUE(command);
+  EXPECT_DOUBLE_EQ(command->position.pan_rad, 0.5);
+  EXPECT_DOUBLE_EQ(command->position.tilt_rad, 0.1);
+  EXPECT_GT(command->speed.pan_rad, command->speed.tilt_rad);
+}
+
+TEST(Servo, AsksForNoLessThanTheLeastSpeed) {
+  const auto command = servo_step(config(), kLimits, goal({0.5, 0.1}), {0.5, 0.1}, 100.0);
+  ASSERT_TRUE(command);
+  EXPECT_DOUBLE_EQ(command->speed.pan_rad, 0.0017);
+}
+
+// The unit must not begin to brake before the next commands come: its braking distance fits, and
+// the look-ahead's travel with it, at every speed.
+TEST(Servo, BrakingDistanceFitsInTheLookAhead) {
+  const ServoConfig servo = config();
+  for (const double rate : {-1.0, -0.3, -0.05, 0.01, 0.1, 0.5, 1.0}) {
+    const auto command =
+        servo_step(servo, kLimits, goal({0.2, 0.0}, {rate, 0.0}), {0.2, 0.0}, 100.0);
+    ASSERT_TRUE(command);
+    const double speed = command->speed.pan_rad;
+    EXPECT_NEAR(speed, std::abs(rate), 1e-12);
+    const double way = (command->position.pan_rad - 0.2) * std::copysign(1.0, rate);
+    const double braking = speed * speed / (2.0 * servo.max_acceleration_rad_s2);
+    EXPECT_NEAR(way, braking + speed * servo.look_ahead_s, 1e-12);
+  }
+}
+
+TEST(Servo, WaitsForAGoalThatComesTowardsIt) {
+  const auto command =
+      servo_step(config(), kLimits, goal({0.2, 0.0}, {0.1, 0.0}), {0.5, 0.0}, 100.0);
+  ASSERT_TRUE(command);
+  EXPECT_LT(command->position.pan_rad, 0.5);
+  EXPECT_GE(command->position.pan_rad, 0.2);
+}
+
+TEST(Servo, StaysWithinLimits) {
+  const auto beyond =
+      servo_step(config(), kLimits, goal({3.0, -2.0}, {0.5, -0.5}), {2.6, -0.7}, 100.0);
+  ASSERT_TRUE(beyond);
+  EXPECT_DOUBLE_EQ(beyond->position.pan_rad, 2.7);
+  EXPECT_DOUBLE_EQ(beyond->position.tilt_rad, -0.8);
+  const auto towards =
+      servo_step(config(), kLimits, goal({2.69, 0.49}, {1.0, 1.0}), {2.6, 0.4}, 100.0);
+  ASSERT_TRUE(towards);
+  EXPECT_LE(towards->position.pan_rad, 2.7);
+  EXPECT_LE(towards->position.tilt_rad, 0.5);
+}
+
+TEST(Servo, HaltsWithoutAUsableGoal) {
+  const PanTilt now;
+  EXPECT_FALSE(servo_step(config(), kLimits, std::nullopt, now, 100.0));
+  EXPECT_TRUE(servo_step(config(), kLimits, goal({0.1, 0.0}), now, 100.4));
+  EXPECT_FALSE(servo_step(config(), kLimits, goal({0.1, 0.0}), now, 100.401));
+  ServoGoal old = goal({0.1, 0.0});
+  old.valid_until_s = 200.0;
+  EXPECT_TRUE(servo_step(config(), kLimits, old, now, 100.5));
+  EXPECT_FALSE(servo_step(config(), kLimits, old, now, 100.501));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(servo_step(config(), kLimits, goal({nan, 0.0}), now, 100.0));
+  EXPECT_FALSE(servo_step(config(), kLimits, goal({0.0, 0.0}, {0.0, nan}), now, 100.0));
+  ServoGoal unbounded = goal({0.0, 0.0});
+  unbounded.valid_until_s = nan;
+  EXPECT_FALSE(servo_step(config(), kLimits, unbounded, now, 100.0));
+}
+
+struct ReachCase {
+  double now_deg, pan_deg, tilt_deg;
+  Reach reach;
+  double chosen_deg;
+};
+
+TEST(Reach, DirectLongWayRoundOrNotAtAll) {
+  const PtuLimits d46{radians(-159.0), radians(159.0), radians(-47.0), radians(31.0)};
+  const PtuLimits wide{radians(-300.0), radians(300.0), radians(-47.0), radians(31.0)};
+  for (const ReachCase& c :
+       {ReachCase{0, 100, 10, Reach::kDirect, 100}, ReachCase{0, 460, 10, Reach::kDirect, 100},
+        ReachCase{150, -150, 0, Reach::kLongWayRound, -150},
+        ReachCase{-150, 150, 0, Reach::kLongWayRound, 150},
+        ReachCase{0, 170, 0, Reach::kUnreachable, 170},
+        ReachCase{0, 0, 31.1, Reach::kUnreachable, 0},
+        ReachCase{0, 0, -47.1, Reach::kUnreachable, 0}}) {
+    PanTilt angles{radians(c.pan_deg), radians(c.tilt_deg)};
+    EXPECT_EQ(reach(d46, {radians(c.now_deg), 0.0}, angles), c.reach) << c.now_deg << c.pan_deg;
+    EXPECT_NEAR(degrees(angles.pan_rad), c.chosen_deg, 1e-9);
+  }
+  PanTilt angles{radians(-170.0), 0.0};
+  EXPECT_EQ(reach(wide, {radians(150.0), 0.0}, angles), Reach::kDirect);
+  EXPECT_NEAR(degrees(angles.pan_rad), 190.0, 1e-9);
+  angles = {radians(40.0), 0.0};
+  EXPECT_EQ(reach(wide, {radians(290.0), 0.0}, angles), Reach::kLongWayRound);
+  EXPECT_NEAR(degrees(angles.pan_rad), 40.0, 1e-9);
+  angles = {std::nan(""), 0.0};
+  EXPECT_EQ(reach(wide, {}, angles), Reach::kUnreachable);
+}
+
+}  // namespace
+}  // namespace ols

@@ -1,0 +1,238 @@
+// Servo, driver and angle history against the simulated unit: how well it follows, how it stops,
+// how well its angles are known.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "tests/unit/edge/ptu/closed_loop.h"
+
+namespace ols {
+namespace {
+
+PtuConfig brisk() {  // 60 deg/s^2
+  PtuConfig config = quick_driver();
+  config.acceleration_rad_s2 = radians(60.0);
+  return config;
+}
+
+using Trajectory = std::function<ServoGoal(double)>;
+
+// Runs the trajectory (seconds since now -> angles and rate) with a goal every 1/15 s, as a camera
+// gives them; returns the largest pan error after `settle_s` [deg].
+double follow(ClosedLoop& loop, double duration_s, double settle_s, const Trajectory& trajectory) {
+  const double begin_s = loop.time_s;
+  double next_goal_s = begin_s;
+  double worst_rad = 0.0;
+  loop.run(duration_s, [&] {
+    const double t = loop.time_s - begin_s;
+    ServoGoal now = trajectory(t);
+    if (loop.time_s >= next_goal_s) {
+      now.time_s = loop.time_s;
+      now.valid_until_s = loop.time_s + 0.5;
+      loop.driver.set_goal(now);
+      next_goal_s += 1.0 / 15.0;
+    }
+    if (t > settle_s) {
+      worst_rad = std::max(worst_rad, std::abs(loop.truth().pan_rad - now.angles.pan_rad));
+    }
+  });
+  return degrees(worst_rad);
+}
+
+Trajectory ramp(double from_rad, double rate_rad_s) {
+  return [=](double t) {
+    return ServoGoal{0.0, {from_rad + rate_rad_s * t, 0.0}, {rate_rad_s, 0.0}, 0.0};
+  };
+}
+
+TEST(Tracking, StepArrivesWithoutOvershootAndStands) {
+  ClosedLoop loop(brisk(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  double furthest_rad = 0.0;
+  loop.run(4.0, [&] {
+    loop.driver.set_goal(loop.goal({radians(30.0), radians(-10.0)}));
+    furthest_rad = std::max(furthest_rad, loop.truth().pan_rad);
+  });
+  EXPECT_NEAR(degrees(loop.truth().pan_rad), 30.0, 0.0033);
+  EXPECT_NEAR(degrees(loop.truth().tilt_rad), -10.0, 0.0033);
+  EXPECT_LT(degrees(furthest_rad), 30.0 + 0.0033);
+  // Standing: it does not dither about the goal.
+  const PanTilt at = loop.truth();
+  loop.run(1.0, [&] {
+    loop.driver.set_goal(loop.goal({radians(30.0), radians(-10.0)}));
+    ASSERT_DOUBLE_EQ(loop.truth().pan_rad, at.pan_rad);
+  });
+}
+
+TEST(Tracking, RampIsFollowedClosely) {
+  ClosedLoop loop(brisk(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  EXPECT_LT(follow(loop, 8.0, 2.5, ramp(0.0, radians(10.0))), 0.05);
+}
+
+TEST(Tracking, RampIsFollowedCloselyAt9600Baud) {
+  PtuConfig config = brisk();
+  config.baud = 9600;
+  ClosedLoop loop(config, quick_unit(9600));
+  ASSERT_TRUE(loop.start());
+  EXPECT_LT(follow(loop, 8.0, 2.5, ramp(0.0, radians(10.0))), 0.05);
+}
+
+TEST(Tracking, SpeedOnARampIsSmooth) {
+  ClosedLoop loop(brisk(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  follow(loop, 3.0, 3.0, ramp(0.0, radians(10.0)));
+  double slowest = 1e9, fastest = 0.0;
+  double last = loop.truth().pan_rad;
+  const auto ramp_on = ramp(loop.truth().pan_rad, radians(10.0));
+  const double begin_s = loop.time_s;
+  loop.run(3.0, [&] {
+    ServoGoal goal = ramp_on(loop.time_s - begin_s);
+    goal.time_s = loop.time_s;
+    goal.valid_until_s = loop.time_s + 0.5;
+    loop.driver.set_goal(goal);
+    if (loop.time_s == begin_s) return;
+    const double speed = degrees(loop.truth().pan_rad - last) / ClosedLoop::kTick_s;
+    last = loop.truth().pan_rad;
+    slowest = std::min(slowest, speed);
+    fastest = std::max(fastest, speed);
+  });
+  EXPECT_GT(slowest, 9.0);
+  EXPECT_LT(fastest, 11.0);
+}
+
+// 10 deg/s at the peak and back, over 20 degrees: turning points and a crossing of zero speed.
+TEST(Tracking, SinusoidStaysNearTheMiddleOfThePicture) {
+  for (const int baud : {9600, 38400}) {
+    PtuConfig config = brisk();
+    config.baud = baud;
+    ClosedLoop loop(config, quick_unit(baud));
+    ASSERT_TRUE(loop.start());
+    const double amplitude = radians(10.0);
+    const double omega = 1.0;  // [rad/s]
+    const double worst_deg = follow(loop, 16.0, 3.0, [&](double t) {
+      return ServoGoal{0.0,
+                       {amplitude * std::sin(omega * t), 0.0},
+                       {amplitude * omega * std::cos(omega * t), 0.0},
+                       0.0};
+    });
+    EXPECT_LT(worst_deg, 0.35) << baud;
+  }
+}
+
+TEST(Tracking, CreepsAlongWithASlowGoal) {
+  ClosedLoop loop(brisk(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  EXPECT_LT(follow(loop, 6.0, 1.0, ramp(0.0, radians(0.05))), 0.02);
+  EXPECT_LT(follow(loop, 6.0, 1.0, ramp(loop.truth().pan_rad, radians(0.2))), 0.03);
+}
+
+TEST(Tracking, StopsAtTheLimitOfItsTravel) {
+  PtuConfig config = brisk();
+  config.limits.pan_max_rad = radians(20.0);
+  ClosedLoop loop(config, quick_unit());
+  ASSERT_TRUE(loop.start());
+  double furthest_rad = 0.0;
+  follow(loop, 4.0, 0.0, [&](double t) {
+    furthest_rad = std::max(furthest_rad, loop.truth().pan_rad);
+    return ServoGoal{0.0, {radians(10.0) * t, 0.0}, {radians(10.0), 0.0}, 0.0};
+  });
+  EXPECT_NEAR(degrees(loop.truth().pan_rad), 20.0, 0.0033);
+  EXPECT_LE(degrees(furthest_rad), 20.0 + 1e-9);
+  EXPECT_EQ(loop.driver.counters().errors, 0u);
+}
+
+// The master dies: nothing is sent any more, not even a halt. How long the unit still moves [s].
+double moves_on(ClosedLoop& loop) {
+  const double died_s = loop.time_s;
+  double moved_until_s = died_s;
+  double last = loop.truth().pan_rad;
+  while (loop.time_s < died_s + 2.0) {
+    loop.time_s += ClosedLoop::kTick_s;
+    loop.unit.transmit(loop.time_s);
+    if (loop.truth().pan_rad != last) moved_until_s = loop.time_s;
+    last = loop.truth().pan_rad;
+  }
+  return moved_until_s - died_s;
+}
+
+TEST(Tracking, StopsByItselfWhenTheMasterDies) {
+  ClosedLoop loop(brisk(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  follow(loop, 4.0, 4.0, ramp(0.0, radians(20.0)));
+  const double moved_s = moves_on(loop);
+  EXPECT_GT(moved_s, 0.3);  // was moving
+  EXPECT_LE(moved_s, 1.0);
+  EXPECT_LE(moved_s, ServoConfig{}.look_ahead_s + 20.0 / 60.0 + 0.05);
+}
+
+TEST(Tracking, StopsByItselfOnALongWayToARestingGoal) {
+  ClosedLoop loop(brisk(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  loop.run(1.8, [&] { loop.driver.set_goal(loop.goal({radians(150.0), 0.0})); });
+  const double at_deg = degrees(loop.truth().pan_rad);
+  EXPECT_GT(at_deg, 40.0);
+  EXPECT_LE(moves_on(loop), 1.0 / 3.0 + degrees(1.0) / 60.0 + 0.05);
+  EXPECT_LT(degrees(loop.truth().pan_rad), at_deg + 50.0);
+}
+
+struct Accuracy {
+  double rms_deg = 0.0;
+  double nees = 0.0;  // a degree of freedom, mean of both axes
+};
+
+// What the history says between samples against where the unit was.
+Accuracy angle_accuracy(int baud, double tilt_share) {
+  constexpr double kRate_deg_s = 20.0;
+  sim::PtuUnitConfig unit = quick_unit(baud);
+  unit.reply_jitter_s = 0.003;
+  PtuConfig config = brisk();
+  config.baud = baud;
+  ClosedLoop loop(config, unit);
+  EXPECT_TRUE(loop.start());
+  AngleHistory history(config.history);
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> late_s(0.03, 0.2);
+  Accuracy sum;
+  int n = 0;
+  const double begin_s = loop.time_s;
+  loop.run(11.0, [&] {
+    const double t = loop.time_s - begin_s;
+    const double rate = radians(kRate_deg_s);
+    const double tilt_rate = tilt_share * rate;
+    loop.driver.set_goal(loop.goal({rate * (t - 5.5), tilt_rate * (t - 9.0)}, {rate, tilt_rate}));
+    for (const AngleSample& sample : loop.driver.take_samples()) EXPECT_TRUE(history.add(sample));
+    if (t < 5.0) return;
+    const double when_s = loop.time_s - late_s(random);
+    const auto at = history.at(when_s);
+    ASSERT_TRUE(at);
+    if (!at->interpolated) return;
+    const PanTilt truth = loop.unit.angles_at(when_s);
+    const Eigen::Vector2d error(at->angles.pan_rad - truth.pan_rad,
+                                at->angles.tilt_rad - truth.tilt_rad);
+    sum.rms_deg += error.x() * error.x();
+    sum.nees += 0.5 * error.dot(at->covariance.inverse() * error);
+    ++n;
+  });
+  EXPECT_GT(n, 5000);
+  return {degrees(std::sqrt(sum.rms_deg / n)), sum.nees / n};
+}
+
+TEST(Tracking, AnglesAreKnownAt20DegreesASecond) {
+  for (const int baud : {9600, 38400}) {
+    for (const double tilt_share : {0.05, 0.3}) {
+      const Accuracy accuracy = angle_accuracy(baud, tilt_share);
+      EXPECT_LT(accuracy.rms_deg, 0.02);
+      EXPECT_GT(accuracy.nees, 0.6);
+      EXPECT_LT(accuracy.nees, 1.4);
+      std::printf("%d baud, tilt at %.0f deg/s: rms %.4f deg, NEES %.2f\n", baud, 20.0 * tilt_share,
+                  accuracy.rms_deg, accuracy.nees);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ols

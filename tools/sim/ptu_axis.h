@@ -1,0 +1,47 @@
+// One axis of the simulated PTU: a stepper motor that follows trapezoids of speed, in encoder
+// counts. Motion is kept as closed-form segments, so that any instant can be asked for without
+// stepping.
+#pragma once
+
+#include <deque>
+
+namespace ols::sim {
+
+class PtuAxis {
+ public:
+  // What shapes a move; all [counts/s] and [counts/s^2], positive.
+  struct Profile {
+    double speed = 0.0;
+    double acceleration = 0.0;
+    double base_speed = 0.0;  // starts and stops at this speed without a ramp
+  };
+
+  PtuAxis(double position_counts, double time_s);
+
+  // From now on towards `target_counts`, whatever the axis is doing; it ends there at rest.
+  // `time_s` may lie in the future; what was planned after it is dropped.
+  void move(double target_counts, const Profile& profile, double time_s);
+
+  // Brakes to rest on the next whole count.
+  void halt(const Profile& profile, double time_s);
+
+  double position(double time_s) const;                       // [counts], continuous
+  double velocity(double time_s) const;                       // [counts/s]
+  double rest_s() const { return segments_.back().start_s; }  // since or from when it stands
+  double target() const { return segments_.back().position; }
+
+  // Drops the history before this instant.
+  void forget(double before_s);
+
+ private:
+  struct Segment {  // constant acceleration from start_s to the next segment's start
+    double start_s, position, velocity, acceleration;
+  };
+  const Segment& segment(double time_s) const;
+  void append(double duration_s, double velocity, double acceleration);
+  void travel(double target_counts, double entry_speed, const Profile& profile);
+
+  std::deque<Segment> segments_;  // never empty; the last one stands still
+};
+
+}  // namespace ols::sim
