@@ -1,6 +1,5 @@
 #include "central/fusion.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -39,13 +38,18 @@ bool in_range(const Sighting& s) {
          from_centre_m < kHighestM && s.sight.origin_sd_enu_m.minCoeff() >= 0.0;
 }
 
+// Determinant; an asymmetric matrix counts with the worse of its two off-diagonal elements.
+double determinant(const Eigen::Matrix2d& m) {
+  const double off = std::max(std::abs(m(0, 1)), std::abs(m(1, 0)));
+  return m(0, 0) * m(1, 1) - off * off;
+}
+
 bool covariances_hold(const SightLine& sight) {
   const Eigen::Matrix2d& white = sight.covariance_white;
   const Eigen::Matrix2d& stays = sight.covariance_systematic;
-  const bool white_positive = white(0, 0) > 0.0 && white(1, 1) > 0.0 && white.determinant() > 0.0;
   const double slack = 1e-9 * stays(0, 0) * stays(1, 1);  // rounding of a singular one
-  return white_positive && stays(0, 0) >= 0.0 && stays(1, 1) >= 0.0 &&
-         stays.determinant() >= -slack;
+  return white(0, 0) > 0.0 && white(1, 1) > 0.0 && determinant(white) > 0.0 && stays(0, 0) >= 0.0 &&
+         stays(1, 1) >= 0.0 && determinant(stays) >= -slack;
 }
 
 FusedTarget target_of(std::int64_t epoch_us, const char* estimator, const std::vector<Ray>& rays,
@@ -82,6 +86,8 @@ const char* to_string(SightingRefusal refusal) {
       return "refused_duplicate";
     case SightingRefusal::kLowBelief:
       return "unused_low_belief";
+    case SightingRefusal::kTooManyStations:
+      return "refused_too_many_stations";
   }
   return "unknown";
 }
@@ -102,12 +108,13 @@ Fusion::Fusion(const FusionConfig& config)
                            "slews", "clock_stepped_back", "time_stepped_back"}) {
     counters_[name] = 0.0;
   }
-  for (int i = 1; i <= static_cast<int>(SightingRefusal::kLowBelief); ++i) {
+  for (int i = 1; i <= static_cast<int>(SightingRefusal::kTooManyStations); ++i) {
     counters_[to_string(static_cast<SightingRefusal>(i))] = 0.0;
   }
 }
 
 void Fusion::know_station(const std::string& station, const Eigen::Vector3d& camera_ecef) {
+  if (full(station)) return;
   Station& known = stations_[station];
   if (known.bearings == 0) known.camera_ecef = camera_ecef;
 }
@@ -124,9 +131,15 @@ FusionOutput Fusion::add(const Sighting& sighting) {
   return output;
 }
 
+bool Fusion::full(const std::string& station) const {
+  return !stations_.contains(station) &&
+         stations_.size() >= static_cast<std::size_t>(config_.max_stations);
+}
+
 SightingRefusal Fusion::admit(const Sighting& sighting) {
   const SightingRefusal broken = check(sighting);
   if (broken != SightingRefusal::kNone) return broken;
+  if (full(sighting.station)) return SightingRefusal::kTooManyStations;
   Station& station = stations_[sighting.station];
   if (time_.hear(sighting.station, sighting.utime_us)) {
     station.sightings.clear();

@@ -25,11 +25,12 @@ struct FusionConfig {
   double stale_s = 1.0;     // older than "now" by more is refused
   double future_s = 0.5;    // newer than "now" by more is refused
   int paper_average = 10;   // h of the paper's moving average
-  AlignmentConfig alignment;
-  LeastSquaresConfig least_squares;
-  PaperConfig paper;
-  ResidualConfig residuals;
-  SlewConfig slew;
+  int max_stations = 64;    // more are refused: their ids come from outside
+  AlignmentConfig alignment{};
+  LeastSquaresConfig least_squares{};
+  PaperConfig paper{};
+  ResidualConfig residuals{};
+  SlewConfig slew{};
 };
 
 // Why a bearing was not used; to_string() is the name of its counter.
@@ -42,6 +43,7 @@ enum class SightingRefusal {
   kFuture,
   kDuplicate,
   kLowBelief,
+  kTooManyStations,
 };
 const char* to_string(SightingRefusal refusal);
 
@@ -105,6 +107,7 @@ class Fusion {
     double rate_hz = 0.0;
   };
 
+  bool full(const std::string& station) const;
   SightingRefusal admit(const Sighting& sighting);
   SightingRefusal store(const Sighting& sighting);
   void refuse(SightingRefusal refusal, const Sighting& sighting);

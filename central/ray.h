@@ -74,7 +74,7 @@ struct Estimate {
   Eigen::Matrix3d velocity_covariance_ecef = nan_matrix();  // [m^2/s^2]
   double crossing_angle_rad = std::numeric_limits<double>::quiet_NaN();  // 0..pi/2
   double residual = std::numeric_limits<double>::quiet_NaN();  // sqrt(chi^2 / degrees of freedom)
-  std::vector<RayUse> rays;                                    // as the rays that were given
+  std::vector<RayUse> rays{};                                    // as the rays that were given
 };
 
 // Greatest angle between two of the rays that are used, folded to 0..pi/2; 0 for fewer than two.

@@ -1,0 +1,55 @@
+// The fusion on the bus: bearings and station status in; targets, slews and the fusion's own status
+// out. Counts whatever it refuses.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "base/lcm_bus.h"
+#include "central/fusion_settings.h"
+#include "central/messages.h"
+
+namespace ols {
+
+struct FusionProcessOptions {
+  std::string slew_url;  // where slews go
+  bool replay = false;   // the messages' time need not be the present
+  std::int64_t boot_id = 0;
+};
+
+class FusionProcess {
+ public:
+  // Throws BusError.
+  FusionProcess(const FusionSettings& settings, const FusionProcessOptions& options);
+
+  // Handles what has arrived, waiting a little for the first message; publishes what follows.
+  void turn();
+
+ private:
+  void on_bearing(const std::string& channel, const void* data, int bytes);
+  void on_status(const std::string& channel, const void* data, int bytes);
+  void refuse(MessageRefusal refusal, const std::string& channel);
+  void publish(const FusionOutput& output);
+  void publish_slews(const std::vector<Slew>& slews);
+  void publish_status_when_due();
+  double median_latency_s() const;
+  MessageStamp next_stamp(std::string_view channel);
+
+  FusionSettings settings_;
+  FusionProcessOptions options_;
+  Fusion fusion_;
+  LcmBus bus_;
+  std::optional<LcmBus> slew_bus_;  // nothing: slews go on the same bus
+  std::map<std::string, std::int64_t, std::less<>> sequences_;
+  std::map<std::string, double> counters_;
+  std::string last_error_;
+  std::deque<double> latencies_s_;
+  std::int64_t status_message_us_ = 0;  // "now" of the last status
+  double status_s_ = 0.0;               // this host's monotonic clock at the last status
+  bool said_withheld_ = false;
+};
+
+}  // namespace ols

@@ -1,0 +1,302 @@
+#include "central/fusion.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "scene.h"
+
+namespace ols {
+namespace {
+
+using Eigen::Vector3d;
+using test::ray_to;
+using test::sighting_of;
+using test::site;
+using test::square;
+
+constexpr std::int64_t kStart = 1'700'000'000'000'000;
+constexpr std::int64_t kHour = 3'600'000'000;
+
+Vector3d path(double t_s) { return {-100.0 + 20.0 * t_s, 150.0 - 5.0 * t_s, 120.0 + 2.0 * t_s}; }
+
+// Four stations at 15 frames a second, their frames evenly staggered: in order of time.
+std::vector<Sighting> flight(double seconds, double sigma_rad = 1e-5, double noise = 0.0) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  std::vector<Sighting> sightings;
+  for (int i = 0; i < static_cast<int>(60.0 * seconds); ++i) {
+    const double t_s = i / 60.0;
+    const auto station = static_cast<std::size_t>(i % 4);
+    Ray ray = ray_to(std::string(1, static_cast<char>('a' + i % 4)), square()[station], path(t_s),
+                     sigma_rad);
+    ray = test::turned(ray, noise * normal(random), noise * normal(random));
+    sightings.push_back(sighting_of(ray, kStart + std::llround(t_s * 1e6)));
+  }
+  return sightings;
+}
+
+std::vector<FusedTarget> targets_of(Fusion& fusion, const std::vector<Sighting>& sightings) {
+  std::vector<FusedTarget> targets;
+  for (const Sighting& sighting : sightings) {
+    const FusionOutput output = fusion.add(sighting);
+    if (output.target) targets.push_back(*output.target);
+  }
+  return targets;
+}
+
+double error_m(const FusedTarget& target) {
+  const double t_s = static_cast<double>(target.utime_us - kStart) * 1e-6;
+  return (target.estimate.position_ecef - site().to_ecef(path(t_s))).norm();
+}
+
+TEST(Fusion, FollowsAMovingTargetWithStaggeredStations) {
+  Fusion fusion{FusionConfig{}};
+  const auto targets = targets_of(fusion, flight(4.0));
+  ASSERT_GT(targets.size(), 40U);
+  EXPECT_LE(targets.size(), 67U);
+  for (std::size_t i = 10; i < targets.size(); ++i) {
+    ASSERT_EQ(targets[i].estimate.solution, Solution::kOk);
+    EXPECT_EQ(targets[i].stations.size(), 4U);
+    EXPECT_LT(error_m(targets[i]), 0.02);
+    const Vector3d velocity = site().R_ecef_enu().transpose() * targets[i].estimate.velocity_ecef;
+    EXPECT_LT((velocity - Vector3d(20, -5, 2)).norm(), 0.3);
+  }
+}
+
+TEST(Fusion, ReplayGivesTheSameToTheLastDigit) {
+  const auto sightings = flight(3.0, 1e-4, 1e-4);
+  Fusion first{FusionConfig{}}, second{FusionConfig{}};
+  const auto a = targets_of(first, sightings), b = targets_of(second, sightings);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].utime_us, b[i].utime_us);
+    if (a[i].estimate.solution != Solution::kOk) continue;
+    EXPECT_EQ(a[i].estimate.position_ecef, b[i].estimate.position_ecef);
+    EXPECT_EQ(a[i].estimate.covariance_ecef, b[i].estimate.covariance_ecef);
+  }
+}
+
+TEST(Fusion, PaperEstimateStandsBesideTheJointOne) {
+  Fusion fusion{FusionConfig{}};
+  int both = 0;
+  for (const Sighting& sighting : flight(3.0)) {
+    const FusionOutput output = fusion.add(sighting);
+    ASSERT_EQ(output.target.has_value(), output.target_paper.has_value());
+    if (!output.target || output.target->estimate.solution != Solution::kOk) continue;
+    ++both;
+    ASSERT_EQ(output.target_paper->estimate.solution, Solution::kOk);
+    // Trails by the moving average: at most ten targets' time, and says so.
+    const double off_m = error_m(*output.target_paper);
+    EXPECT_LT(off_m, 21.0 * 10 / 12.0);
+    EXPECT_LT(off_m, 3.0 * std::sqrt(output.target_paper->estimate.covariance_ecef.trace()) + 0.1);
+  }
+  EXPECT_GT(both, 30);
+}
+
+TEST(Fusion, RefusesWhatIsNotABearing) {
+  Fusion fusion{FusionConfig{}};
+  const Sighting good = flight(0.1).front();
+  const auto refusal = [&](const std::function<void(Sighting&)>& spoil) {
+    Sighting bad = good;
+    spoil(bad);
+    return fusion.add(bad).refusal;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  using enum SightingRefusal;
+  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.direction.azimuth_rad = nan; }), kNotFinite);
+  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.origin_ecef.x() = nan; }), kNotFinite);
+  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.direction.azimuth_rad = 7.0; }), kOutOfRange);
+  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.direction.elevation_rad = -1.6; }), kOutOfRange);
+  EXPECT_EQ(refusal([&](Sighting& s) { s.belief = 1.5; }), kOutOfRange);
+  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.origin_ecef.setZero(); }), kOutOfRange);
+  EXPECT_EQ(refusal([&](Sighting& s) { s.utime_us = 0; }), kOutOfRange);
+  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_white.setZero(); }), kCovariance);
+  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_white(0, 1) = 1.0; }), kCovariance);
+  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_systematic(1, 1) = -1e-9; }),
+            kCovariance);
+  EXPECT_EQ(refusal([&](Sighting& s) { s.belief = 0.1; }), kLowBelief);
+  EXPECT_EQ(refusal([&](Sighting&) {}), kNone);
+  EXPECT_EQ(refusal([&](Sighting&) {}), kDuplicate);
+  const auto counters = fusion.health().counters;
+  EXPECT_EQ(counters.at("refused_not_finite"), 2.0);
+  EXPECT_EQ(counters.at("refused_out_of_range"), 5.0);
+  EXPECT_EQ(counters.at("refused_covariance"), 3.0);
+  EXPECT_EQ(counters.at("refused_duplicate"), 1.0);
+  EXPECT_EQ(counters.at("unused_low_belief"), 1.0);
+  EXPECT_EQ(counters.at("bearings"), 1.0);
+}
+
+// One wrong clock hurts only its owner, whichever station it is and whichever way it is wrong, also
+// when it is the first to be heard.
+TEST(Fusion, OneWrongClockHurtsOnlyItsOwner) {
+  for (const std::string wrong : {"a", "b", "d"}) {
+    for (const std::int64_t offset : {kHour, -kHour, std::int64_t{5'000'000}}) {
+      Fusion fusion{FusionConfig{}};
+      auto sightings = flight(4.0);
+      for (Sighting& sighting : sightings) {
+        if (sighting.station == wrong) sighting.utime_us += offset;
+      }
+      const auto targets = targets_of(fusion, sightings);
+      const auto good = std::ranges::count_if(targets, [&](const FusedTarget& target) {
+        return target.estimate.solution == Solution::kOk && target.stations.size() == 3;
+      });
+      EXPECT_GT(good, 40) << wrong << " " << offset;
+      const auto health = fusion.health();
+      const char* counter = offset > 0 ? "refused_future" : "refused_stale";
+      EXPECT_GT(health.counters.at(counter), 55.0) << wrong << " " << offset;
+      EXPECT_NE(health.last_error.find("station " + wrong), std::string::npos);
+      for (const FusedTarget& target : targets) {
+        // Before the others are heard, the wrong clock alone is the time: no position then.
+        const bool warm = target.utime_us > kStart + 1'000'000;
+        if (warm && target.estimate.solution == Solution::kOk) {
+          EXPECT_LT(error_m(target), 0.05);
+        }
+      }
+    }
+  }
+}
+
+TEST(Fusion, TakesLateAndDoubledBearings) {
+  auto sightings = flight(3.0);
+  for (std::size_t i = 20; i + 3 < sightings.size(); i += 10) {
+    std::swap(sightings[i], sightings[i + 3]);
+  }
+  std::vector<Sighting> doubled;
+  for (const Sighting& sighting : sightings) {
+    doubled.push_back(sighting);
+    doubled.push_back(sighting);
+  }
+  Fusion fusion{FusionConfig{}};
+  const auto targets = targets_of(fusion, doubled);
+  EXPECT_EQ(fusion.health().counters.at("refused_duplicate"),
+            static_cast<double>(sightings.size()));
+  for (std::size_t i = 10; i < targets.size(); ++i) EXPECT_LT(error_m(targets[i]), 0.05);
+}
+
+TEST(Fusion, GoesOnWhenStationsDropOutAndReturn) {
+  auto sightings = flight(6.0);
+  std::erase_if(sightings, [](const Sighting& sighting) {
+    const double t_s = static_cast<double>(sighting.utime_us - kStart) * 1e-6;
+    return sighting.station > "b" && t_s > 2.0 && t_s < 4.0;  // two of four at once
+  });
+  Fusion fusion{FusionConfig{}};
+  const auto targets = targets_of(fusion, sightings);
+  std::int64_t longest_us = 0;
+  for (std::size_t i = 1; i < targets.size(); ++i) {
+    longest_us = std::max(longest_us, targets[i].utime_us - targets[i - 1].utime_us);
+    const double t_s = static_cast<double>(targets[i].utime_us - kStart) * 1e-6;
+    if (t_s > 2.5 && t_s < 4.0) {
+      EXPECT_EQ(targets[i].stations.size(), 2U);
+    }
+    if (t_s > 0.5) {
+      ASSERT_EQ(targets[i].estimate.solution, Solution::kOk) << t_s;
+      EXPECT_LT(error_m(targets[i]), 0.3) << t_s;
+    }
+  }
+  EXPECT_LT(longest_us, 500'000);
+  EXPECT_EQ(fusion.health().counters.at("refused_future"), 0.0);
+}
+
+TEST(Fusion, StartsAnewWhenTheReplayIsStartedAgain) {
+  const auto sightings = flight(5.0);
+  Fusion fusion{FusionConfig{}};
+  const auto first = targets_of(fusion, sightings);
+  const auto second = targets_of(fusion, sightings);
+  EXPECT_GT(second.size(), first.size() - 10);
+  EXPECT_LT(error_m(second.back()), 0.02);
+  EXPECT_EQ(fusion.health().counters.at("time_stepped_back"), 1.0);
+}
+
+TEST(Fusion, ANewTrackIsAnotherObject) {
+  auto sightings = flight(2.0);
+  for (Sighting& sighting : sightings) {
+    const bool later = sighting.utime_us > kStart + 1'000'000;
+    if (sighting.station != "a" || !later) continue;
+    sighting.track_id = 2;
+    sighting.sight.direction.azimuth_rad = wrap_two_pi(sighting.sight.direction.azimuth_rad + 0.2);
+  }
+  Fusion fusion{FusionConfig{}};
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    if (target.utime_us < kStart + 500'000) continue;
+    ASSERT_EQ(target.estimate.solution, Solution::kOk);
+    EXPECT_LT(error_m(target), 0.05);
+    if (target.utime_us > kStart + 1'200'000) {
+      EXPECT_FALSE(target.stations[0].used);
+      EXPECT_TRUE(target.stations[1].used);
+    }
+  }
+}
+
+TEST(Fusion, SlewsEveryKnownStationAheadOfTheTarget) {
+  FusionConfig config;
+  Fusion fusion{config};
+  const Vector3d lookout(0.0, 0.0, 30.0);
+  fusion.know_station("lookout", site().to_ecef(lookout));
+  std::int64_t last_us = 0;
+  int slews = 0;
+  for (const Sighting& sighting : flight(4.0)) {
+    const FusionOutput output = fusion.add(sighting);
+    if (output.slews.empty()) continue;
+    EXPECT_GE(output.slews[0].utime_us - last_us, 90'000);
+    last_us = output.slews[0].utime_us;
+    if (last_us < kStart + 1'000'000) continue;
+    ++slews;
+    ASSERT_EQ(output.slews.size(), 5U);
+    const Slew& slew = output.slews.back();
+    ASSERT_EQ(slew.station, "lookout");
+    EXPECT_EQ(slew.effect_utime_us, slew.utime_us + 150'000);
+    const double t_s = static_cast<double>(slew.effect_utime_us - kStart) * 1e-6;
+    const Sighting there = sighting_of(ray_to("lookout", lookout, path(t_s)), 0);
+    const Sighting next = sighting_of(ray_to("lookout", lookout, path(t_s + 0.01)), 0);
+    const auto& now = there.sight.direction;
+    EXPECT_NEAR(wrap_pi(slew.direction.azimuth_rad - now.azimuth_rad), 0.0, 1e-3);
+    EXPECT_NEAR(slew.direction.elevation_rad, now.elevation_rad, 1e-3);
+    EXPECT_NEAR(slew.azimuth_rate_rad_s,
+                wrap_pi(next.sight.direction.azimuth_rad - now.azimuth_rad) / 0.01, 5e-3);
+    EXPECT_NEAR(slew.elevation_rate_rad_s,
+                (next.sight.direction.elevation_rad - now.elevation_rad) / 0.01, 5e-3);
+    EXPECT_GT(slew.direction_sd_rad, 0.0);
+    EXPECT_LT(slew.direction_sd_rad, 0.01);
+    EXPECT_EQ(slew.lease_s, config.slew.lease_s);
+  }
+  EXPECT_GT(slews, 20);
+}
+
+TEST(Fusion, StopsSlewingSomeTimeAfterTheLastPosition) {
+  FusionConfig config;
+  Fusion fusion{config};
+  auto sightings = flight(6.0);
+  std::erase_if(sightings, [](const Sighting& sighting) {
+    return sighting.station != "a" && sighting.utime_us > kStart + 2'000'000;
+  });
+  std::int64_t last_slew_us = 0;
+  bool without_position = false;
+  for (const Sighting& sighting : sightings) {
+    const FusionOutput output = fusion.add(sighting);
+    if (!output.slews.empty()) last_slew_us = output.slews[0].utime_us;
+    if (output.target && output.target->utime_us > kStart + 3'000'000) {
+      EXPECT_EQ(output.target->estimate.solution, Solution::kTooFewRays);
+      without_position = true;
+    }
+  }
+  EXPECT_TRUE(without_position);
+  EXPECT_GT(last_slew_us, kStart + 3'500'000);
+  EXPECT_LT(last_slew_us, kStart + 4'500'000);
+}
+
+TEST(Fusion, DoesNotGrowWithStrangeStations) {
+  Fusion fusion{FusionConfig{.max_stations = 4}};
+  targets_of(fusion, flight(0.5));
+  Sighting stranger = flight(0.1).front();
+  stranger.station = "stranger";
+  EXPECT_EQ(fusion.add(stranger).refusal, SightingRefusal::kTooManyStations);
+  EXPECT_EQ(fusion.health().stations.size(), 4U);
+}
+
+}  // namespace
+}  // namespace ols
