@@ -12,7 +12,7 @@ namespace ols::sim {
 namespace {
 
 constexpr double kHistory_s = 2.5;
-constexpr std::size_t kInputBuffer_bytes = 512;  // what comes on top is lost, as on the real thing
+constexpr std::size_t kInputBuffer_bytes = 512;
 constexpr std::size_t kLongestCommand_bytes = 80;
 
 double byte_time_s(int baud) { return baud > 0 ? 10.0 / baud : 0.0; }
@@ -132,8 +132,9 @@ void PtuUnit::receive(std::string_view bytes, double time_s) {
   impl_->advance(time_s);
   for (const char byte : bytes) {
     impl_->input_free_s = std::max(impl_->input_free_s, time_s) + impl_->byte_s;
-    if (impl_->input.size() < kInputBuffer_bytes)
-      impl_->input.push_back({byte, impl_->input_free_s});
+    // A full buffer loses its last byte, so that a delimiter always gets in.
+    if (impl_->input.size() == kInputBuffer_bytes) impl_->input.pop_back();
+    impl_->input.push_back({byte, impl_->input_free_s});
   }
 }
 
