@@ -70,20 +70,20 @@ int control_socket(in_addr_t address, bool shared) {
   return -1;
 }
 
-// The broadcast address of the network that the interface with this address is on.
-in_addr_t broadcast_of(in_addr_t address) {
-  in_addr_t broadcast = INADDR_BROADCAST;
+// The mask of the network that the interface with this address is on.
+in_addr_t network_mask(in_addr_t address) {
   ifaddrs* list = nullptr;
-  if (getifaddrs(&list) != 0) return broadcast;
+  if (getifaddrs(&list) != 0) return INADDR_BROADCAST;
+  in_addr_t found = INADDR_BROADCAST;
   for (const ifaddrs* i = list; i != nullptr; i = i->ifa_next) {
     if (i->ifa_addr == nullptr || i->ifa_addr->sa_family != AF_INET || i->ifa_netmask == nullptr)
       continue;
     const auto own = reinterpret_cast<const sockaddr_in*>(i->ifa_addr)->sin_addr.s_addr;
     const auto mask = reinterpret_cast<const sockaddr_in*>(i->ifa_netmask)->sin_addr.s_addr;
-    if ((own & mask) == (address & mask)) broadcast = own | ~mask;
+    if ((own & mask) == (address & mask)) found = mask;
   }
   freeifaddrs(list);
-  return broadcast;
+  return found;
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ struct CameraServer::Impl {
 
   const CameraServerConfig config_;
   const std::function<void(const Exposure&, cv::Mat&)> draw_;
-  const in_addr_t address_;
+  const in_addr_t address_, mask_;
   GigeDevice device_;
   GigeStream stream_;
   std::vector<int> control_;  // the own address first; the others hear broadcasts
@@ -121,13 +121,14 @@ CameraServer::Impl::Impl(const CameraServerConfig& config,
     : config_(config),
       draw_(std::move(draw)),
       address_(parse_address(config.address)),
+      mask_(network_mask(address_)),
       device_(config.serial, address_, config.width_px, config.height_px, config.exposure_s),
       stream_(address_) {
   const int own = control_socket(address_, false);
   if (own < 0)
     throw std::system_error(errno, std::generic_category(), "camera address " + config.address);
   control_.push_back(own);
-  for (const in_addr_t address : {in_addr_t{INADDR_BROADCAST}, broadcast_of(address_)}) {
+  for (const in_addr_t address : {in_addr_t{INADDR_BROADCAST}, address_ | ~mask_}) {
     const int fd = control_socket(address, true);
     if (fd >= 0) control_.push_back(fd);
   }
@@ -167,6 +168,8 @@ void CameraServer::Impl::receive(int fd) {
   const ssize_t size =
       recvfrom(fd, packet.data(), packet.size(), 0, reinterpret_cast<sockaddr*>(&from), &from_size);
   if (size <= 0) return;
+  // The host's other interfaces hear broadcasts that a camera on this network would not.
+  if ((from.sin_addr.s_addr & mask_) != (address_ & mask_)) return;
   const std::uint64_t peer = std::uint64_t{from.sin_addr.s_addr} << 16 | from.sin_port;
   const Answer answer = device_.handle(gige::Bytes(packet).first(static_cast<std::size_t>(size)),
                                        peer, realtime_ns(), seconds(Clock::now()));
