@@ -11,13 +11,15 @@ struct FrameEvidence {
   double correlation = 0.0;
 };
 
-double frame_belief(const FrameEvidence& evidence);
+// `typical_correlation` is what the target had of late: something that suddenly looks much less
+// like it is something else.
+double frame_belief(const FrameEvidence& evidence, double typical_correlation);
 
 // Smoothed over time, so that one poor frame does not lose the target; falls below a half within a
 // third of a second without it.
 class Belief {
  public:
-  void start() { value_ = 1.0; }
+  void start() { value_ = typical_correlation_ = 1.0; }
   void doubt() { value_ = value_ < kDoubt ? value_ : kDoubt; }
   void update(const FrameEvidence& evidence, double interval_s);
   double value() const { return value_; }
@@ -25,6 +27,7 @@ class Belief {
  private:
   static constexpr double kDoubt = 0.2;
   double value_ = 0.0;
+  double typical_correlation_ = 1.0;
 };
 
 }  // namespace ols

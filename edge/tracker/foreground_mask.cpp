@@ -25,6 +25,29 @@ cv::Matx33d mask_to_reference(const View& mask, const Eigen::Matrix3d& to_presen
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
 }
 
+// The part of the frame, smaller where it is large: the mask is coarse anyway.
+View reduced_part(const cv::Mat& frame, const cv::Rect& area) {
+  cv::Rect inside = area & cv::Rect(0, 0, frame.cols, frame.rows);
+  if (inside.empty()) return {};
+  const int reduction =
+      std::max(1, static_cast<int>(std::ceil(std::sqrt(inside.area() / kMostMaskPixels))));
+  const cv::Size size(inside.width / reduction, inside.height / reduction);
+  if (size.empty()) return {};
+  inside.width = size.width * reduction;
+  inside.height = size.height * reduction;
+  View part{cv::Mat(), inside.tl(), reduction};
+  cv::resize(frame(inside), part.image, size, 0, 0, cv::INTER_LINEAR);
+  return part;
+}
+
+// Grey levels of difference to 0..255.
+void scale_to_mask(cv::Mat& difference, const Template& target) {
+  const double nothing = 2.0 * static_cast<double>(target.noise);
+  const double certain = std::max(nothing + 2.0, 0.5 * static_cast<double>(target.contrast));
+  const double gain = 255.0 / (certain - nothing);
+  difference.convertTo(difference, CV_8U, gain, -nothing * gain);
+}
+
 }  // namespace
 
 void ReferenceFrames::advance(const Eigen::Matrix3d& homography) {
@@ -60,31 +83,25 @@ const ReferenceFrames::Reference* ReferenceFrames::without_overlap(
   return nullptr;
 }
 
+View foreground_mask(const cv::Mat& frame, double level, const cv::Rect& area,
+                     const Template& target) {
+  View mask = reduced_part(frame, area);
+  if (mask.image.empty()) return mask;
+  cv::absdiff(mask.image, cv::Scalar(level), mask.image);
+  scale_to_mask(mask.image, target);
+  return mask;
+}
+
 View foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference& reference,
                      const cv::Rect& area, const Template& target) {
-  cv::Rect inside = area & cv::Rect(0, 0, frame.cols, frame.rows);
-  if (inside.empty()) return {};
-  const int reduction =
-      std::max(1, static_cast<int>(std::ceil(std::sqrt(inside.area() / kMostMaskPixels))));
-  const cv::Size size(inside.width / reduction, inside.height / reduction);
-  if (size.empty()) return {};
-  inside.width = size.width * reduction;
-  inside.height = size.height * reduction;
-  View mask{cv::Mat(), inside.tl(), reduction};
-  cv::Mat now;
-  if (reduction == 1) {
-    now = frame(inside);
-  } else {
-    cv::resize(frame(inside), now, size, 0, 0, cv::INTER_LINEAR);
-  }
+  View mask = reduced_part(frame, area);
+  if (mask.image.empty()) return mask;
   cv::Mat then;
-  cv::warpPerspective(reference.gray, then, mask_to_reference(mask, reference.to_present), size,
-                      cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
-  cv::absdiff(now, then, mask.image);
-  const double nothing = 2.0 * static_cast<double>(target.noise);
-  const double certain = std::max(nothing + 2.0, 0.5 * static_cast<double>(target.contrast));
-  const double gain = 255.0 / (certain - nothing);
-  mask.image.convertTo(mask.image, CV_8U, gain, -nothing * gain);
+  cv::warpPerspective(reference.gray, then, mask_to_reference(mask, reference.to_present),
+                      mask.image.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
+                      cv::BORDER_REPLICATE);
+  cv::absdiff(mask.image, then, mask.image);
+  scale_to_mask(mask.image, target);
   return mask;
 }
 

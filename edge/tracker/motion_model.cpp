@@ -55,9 +55,15 @@ double MotionModel::position_sd(const Eigen::Vector2d& size_px) const {
 }
 
 Particle MotionModel::predict(const Particle& particle, Random& random) const {
+  const bool surprised = random.uniform() < config_.surprise_fraction;
+  const double sd = position_sd(particle.size_px) * (surprised ? config_.surprise_scale : 1.0);
+  const Eigen::Vector2d moved = noise(random, sd);
   Particle next = advance(particle);
-  next.pixel += noise(random, position_sd(particle.size_px));     // eq. (2)
-  next.velocity_px_s += noise(random, config_.velocity_sd_px_s);  // eq. (3)
+  next.pixel += moved;  // eq. (2)
+  // Eq. (3): what moves a target off its course is an acceleration, so that the two noises belong
+  // together, and choosing among positions chooses among velocities.
+  next.velocity_px_s +=
+      config_.velocity_gain * moved / motion_.interval_s + noise(random, config_.velocity_sd_px_s);
   const Eigen::Vector2d growth = noise(random, config_.size_sd_fraction);
   next.size_px = particle.size_px.cwiseProduct(Eigen::Vector2d::Ones() + growth);  // eq. (4)
   next.size_px = next.size_px.cwiseMax(kLeastSide);

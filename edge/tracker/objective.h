@@ -5,6 +5,11 @@
 
 namespace ols {
 
+struct Likeness {
+  double similarity = 0.0;   // eq. (5), 0..1
+  double correlation = 0.0;  // of the grey values, -1..1
+};
+
 // Eq. (5) divided by the greatest value it can take for this template, so 0..1. Each patch's
 // intensities are counted from their mean in units of their deviation, as long as that does not
 // fall far below the template's: a faint target is told from the sky as a strong one is, exposure
@@ -14,12 +19,9 @@ class Objective {
  public:
   explicit Objective(const Template& target);
 
-  // M_t, estimated once.
-  void set_mask(const MaskPatch& mask);
-  bool has_mask() const { return has_mask_; }
-  const MaskPatch& mask() const { return mask_; }
+  void set_mask(const MaskPatch& mask);  // M_t
 
-  double operator()(const Patch& candidate, const MaskPatch& candidate_mask) const;
+  Likeness operator()(const Patch& gray, const MaskPatch& candidate_mask) const;
 
  private:
   static constexpr float kUnit = 2.0F;  // deviations that are the difference 1 of eq. (5)
@@ -27,7 +29,6 @@ class Objective {
   Patch template_{};  // normalised
   float least_deviation_ = 1.0F;
   MaskPatch mask_{};
-  bool has_mask_ = false;
   double greatest_ = kPatchArea;
 };
 

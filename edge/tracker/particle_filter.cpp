@@ -9,7 +9,7 @@ namespace {
 
 // Density of "anywhere" relative to the peak of the prediction: a target that did not follow the
 // motion model is still found, if nothing nearer looks like it.
-constexpr double kAnywhere = 1e-3;
+constexpr double kAnywhere = 1e-4;
 
 }  // namespace
 

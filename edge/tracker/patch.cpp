@@ -128,6 +128,10 @@ MaskPatch sample_mask(const View& mask, const Eigen::Vector2d& pixel,
   return patch;
 }
 
+float level_around(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px) {
+  return median(surroundings(view, pixel, size_px));
+}
+
 Template make_template(const View& view, const Eigen::Vector2d& pixel,
                        const Eigen::Vector2d& size_px) {
   constexpr float kLeastContrast = 8.0F;  // a fainter target would be compared by its noise

@@ -46,6 +46,9 @@ struct Template {
   float noise = 1.0F;     // [grey levels] standard deviation of what surrounds it
 };
 
+// Median grey level around a box.
+float level_around(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
+
 Template make_template(const View& view, const Eigen::Vector2d& pixel,
                        const Eigen::Vector2d& size_px);
 

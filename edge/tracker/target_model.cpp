@@ -25,7 +25,11 @@ cv::Rect looked_at(const std::vector<Particle>& particles, const cv::Rect2d& exp
 }  // namespace
 
 TargetModel::TargetModel(const TrackerConfig& config, const cv::Mat& gray, const cv::Rect2d& box)
-    : TargetModel(config, make_view(gray, widened(box, 3.0), reduction_for(size_of(box))), box) {}
+    : TargetModel(config, make_view(gray, widened(box, 3.0), reduction_for(size_of(box))), box) {
+  // M_t until an earlier image shows the background alone.
+  const Scene scene = make_scene(gray, {}, box, ReferenceFrames(config.reference_interval_s));
+  objective_.set_mask(sample_mask(scene.mask, centre_of(box), size_of(box)));
+}
 
 TargetModel::TargetModel(const TrackerConfig& config, const View& view, const cv::Rect2d& box)
     : config_(config),
@@ -42,21 +46,20 @@ Scene TargetModel::make_scene(const cv::Mat& gray, const std::vector<Particle>& 
   scene.view = make_view(gray, area, reduction_for(first_size_px_));
   if (const auto* reference = references.without_overlap(expected)) {
     scene.mask = foreground_mask(gray, *reference, area, template_);
+    scene.mask_by_subtraction = true;
+  } else {
+    const float level = level_around(scene.view, centre_of(expected), size_of(expected));
+    scene.mask = foreground_mask(gray, static_cast<double>(level), area, template_);
   }
   return scene;
 }
 
-double TargetModel::similarity(const Scene& scene, const Eigen::Vector2d& pixel,
+Likeness TargetModel::likeness(const Scene& scene, const Eigen::Vector2d& pixel,
                                const Eigen::Vector2d& size_px) const {
   const bool seen = pixel.x() > -0.5 && pixel.y() > -0.5 && pixel.x() < scene.frame.width - 0.5 &&
                     pixel.y() < scene.frame.height - 0.5;
-  if (!seen) return 0.0;
-  MaskPatch mask{};
-  if (scene.mask.image.empty()) {
-    mask = objective_.mask();  // nothing is known: as if it were the target's
-  } else if (objective_.has_mask()) {
-    mask = sample_mask(scene.mask, pixel, size_px);
-  }
+  if (!seen) return {0.0, 0.0};
+  const MaskPatch mask = sample_mask(scene.mask, pixel, size_px);
   return objective_(sample_patch(scene.view, pixel, size_px), mask);
 }
 
@@ -68,17 +71,18 @@ double TargetModel::background_similarity(const Scene& scene, const cv::Rect2d& 
     const double far = i < kDirections ? 1.5 : 2.3;
     const Eigen::Vector2d off(far * box.width * std::cos(angle),
                               far * box.height * std::sin(angle));
-    reached.push_back(similarity(scene, centre_of(box) + off, size_of(box)));
+    reached.push_back(likeness(scene, centre_of(box) + off, size_of(box)).similarity);
   }
   const auto high = reached.begin() + static_cast<std::ptrdiff_t>(reached.size() * 3 / 4);
   std::nth_element(reached.begin(), high, reached.end());
   return *high;
 }
 
-double TargetModel::log_likelihood(double similarity, double background,
+double TargetModel::log_likelihood(const Likeness& likeness, double background,
                                    const Eigen::Vector2d& size_px) const {
   const double room = std::max(0.02, 1.0 - background);
-  const double alike = config_.sharpness * (similarity - 1.0) / room;
+  const double alike = config_.sharpness * (likeness.similarity - 1.0) / room +
+                       config_.correlation_sharpness * (likeness.correlation - 1.0);
   const double wider = std::log(size_px.x() / first_size_px_.x());
   const double higher = std::log(size_px.y() / first_size_px_.y());
   const double sd = config_.size_prior_sd_fraction;
@@ -87,7 +91,8 @@ double TargetModel::log_likelihood(double similarity, double background,
 
 void TargetModel::learn_mask(const Scene& scene, const Eigen::Vector2d& pixel,
                              const Eigen::Vector2d& size_px) {
-  if (objective_.has_mask() || scene.mask.image.empty()) return;
+  if (mask_learnt_ || !scene.mask_by_subtraction) return;
+  mask_learnt_ = true;
   objective_.set_mask(sample_mask(scene.mask, pixel, size_px));
 }
 

@@ -12,8 +12,9 @@ namespace ols {
 
 // One frame as the objective sees it.
 struct Scene {
-  View view;  // sampled for the candidates
-  View mask;  // foreground; empty image when no earlier frame shows the background alone
+  View view;                         // sampled for the candidates
+  View mask;                         // foreground
+  bool mask_by_subtraction = false;  // of an earlier image, not of the surroundings' level
   cv::Size frame;
 };
 
@@ -25,13 +26,14 @@ class TargetModel {
   Scene make_scene(const cv::Mat& gray, const std::vector<Particle>& particles,
                    const cv::Rect2d& expected, const ReferenceFrames& references) const;
 
-  // Eq. (5), 0..1, at one box.
-  double similarity(const Scene& scene, const Eigen::Vector2d& pixel,
+  Likeness likeness(const Scene& scene, const Eigen::Vector2d& pixel,
                     const Eigen::Vector2d& size_px) const;
   // What boxes around `box` reach that are not the target: nearly the best of them.
   double background_similarity(const Scene& scene, const cv::Rect2d& box) const;
-  // Logarithm of a likelihood: similarity against the background's, and the size's prior.
-  double log_likelihood(double similarity, double background, const Eigen::Vector2d& size_px) const;
+  // Logarithm of a likelihood: similarity against the background's, correlation, and the size's
+  // prior.
+  double log_likelihood(const Likeness& likeness, double background,
+                        const Eigen::Vector2d& size_px) const;
 
   // M_t, once: the candidate's foreground while it is surely the target.
   void learn_mask(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
@@ -50,6 +52,7 @@ class TargetModel {
   Template template_;
   Objective objective_;
   PositionRefiner refiner_;
+  bool mask_learnt_ = false;
 };
 
 }  // namespace ols

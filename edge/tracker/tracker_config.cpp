@@ -15,11 +15,15 @@ TrackerConfig read_tracker_config(ConfigTable& table) {
   integer("particles", c.particles, 20, 20000);
   number("position_sd_px", c.position_sd_px, 0.01, 100.0);
   number("position_sd_fraction", c.position_sd_fraction, 0.0, 1.0);
+  number("velocity_gain", c.velocity_gain, 0.0, 2.0);
+  number("surprise_fraction", c.surprise_fraction, 0.0, 1.0);
+  number("surprise_scale", c.surprise_scale, 1.0, 100.0);
   number("velocity_sd_px_s", c.velocity_sd_px_s, 0.0, 10000.0);
   number("size_sd_fraction", c.size_sd_fraction, 0.0, 0.5);
   number("size_prior_sd_fraction", c.size_prior_sd_fraction, 0.01, 10.0);
   number("initial_velocity_sd_px_s", c.initial_velocity_sd_px_s, 0.0, 10000.0);
   number("sharpness", c.sharpness, 0.1, 1000.0);
+  number("correlation_sharpness", c.correlation_sharpness, 0.0, 1000.0);
   integer("ego_motion_width_px", c.ego_motion_width_px, 80, 4096);
   integer("ego_motion_corners", c.ego_motion_corners, 8, 2000);
   integer("ego_motion_least_inliers", c.ego_motion_least_inliers, 4, 2000);

@@ -12,13 +12,19 @@ struct TrackerConfig {
   // frame.
   double position_sd_px = 1.0;           // per frame
   double position_sd_fraction = 0.04;    // of the box's size, per frame, added to the above
-  double velocity_sd_px_s = 20.0;        // px/s, per frame
+  double velocity_gain = 0.4;            // part of the position's noise that the velocity shares
+  double velocity_sd_px_s = 5.0;         // px/s, per frame, the rest
+  double surprise_fraction = 0.2;        // of the particles: their position's noise is larger,
+  double surprise_scale = 4.0;           // by this
   double size_sd_fraction = 0.01;        // of the box's width and height, per frame
   double size_prior_sd_fraction = 0.35;  // how far from its first size the box is believed to go
   double initial_velocity_sd_px_s = 60.0;
 
   // Objective, eq. (5): a background patch is exp(-sharpness) as likely as the template.
-  double sharpness = 15.0;
+  double sharpness = 8.0;
+  // The same for an uncorrelated patch. Eq. (5) sums over the whole box: of a target that fills a
+  // tenth of it, nine tenths are sky that fits everywhere, and only the correlation tells.
+  double correlation_sharpness = 20.0;
 
   // Ego-motion between adjacent frames.
   int ego_motion_width_px = 640;  // reduced image, at most

@@ -141,12 +141,10 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s) 
   const cv::Rect2d expected = box_of(motion_.advance(last_).pixel, last_.size_px);
   const Scene scene = target_.make_scene(frame.gray, filter_.particles(), expected, references_);
   const double background = target_.background_similarity(scene, expected);
-  std::vector<double> similarity;
   std::vector<double> log_likelihood;
   for (const Particle& particle : filter_.particles()) {
-    similarity.push_back(target_.similarity(scene, particle.pixel, particle.size_px));
-    log_likelihood.push_back(
-        target_.log_likelihood(similarity.back(), background, particle.size_px));
+    const Likeness likeness = target_.likeness(scene, particle.pixel, particle.size_px);
+    log_likelihood.push_back(target_.log_likelihood(likeness, background, particle.size_px));
   }
   filter_.weigh(log_likelihood);
   const std::size_t best = filter_.maximum_a_posteriori(log_likelihood);
@@ -163,7 +161,8 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s) 
     output.covariance_px2 = refined->covariance_px2;
   }
   output.covariance_px2 += floor * Eigen::Matrix2d::Identity();
-  belief_.update({similarity[best], background, refined ? refined->correlation : 0.0}, interval_s);
+  const Likeness found = target_.likeness(scene, last_.pixel, last_.size_px);
+  belief_.update({found.similarity, background, found.correlation}, interval_s);
   if (belief_.value() > kSureEnoughForMask) target_.learn_mask(scene, last_.pixel, last_.size_px);
   output.box = box_of(last_.pixel, last_.size_px);
   output.pixel = last_.pixel;
