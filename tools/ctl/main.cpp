@@ -3,7 +3,9 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <iomanip>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -16,20 +18,28 @@ constexpr int kExitRefused = 1;
 constexpr int kExitBadInput = 2;
 constexpr double kPatience_s = 3.0;
 
+// "-" for what is not known.
+std::string shown(double value, int decimals) {
+  if (!std::isfinite(value)) return "-";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(decimals) << value;
+  return text.str();
+}
+
+std::string shown_deg(double rad, int decimals) { return shown(ols::degrees(rad), decimals); }
+
 void print_status(const ols::Operator::Statuses& statuses) {
-  std::printf("%-12s %-9s %6s %9s %9s %8s %8s  %-8s %-8s %8s %6s  %s\n", "station", "state",
-              "belief", "azimuth", "elevation", "pan", "tilt", "camera", "ptu", "frames", "lost",
-              "last error");
-  for (const auto& [id, status] : statuses) {
-    std::printf(
-        "%-12s %-9s %6.2f %8.3f\u00b0 %8.3f\u00b0 %7.2f\u00b0 %7.2f\u00b0  %-8s %-8s %8.0f %6.0f  "
-        "%s\n",
-        id.c_str(), ols::state_name(status.state), status.belief, ols::degrees(status.azimuth_rad),
-        ols::degrees(status.elevation_rad), ols::degrees(status.pan_rad),
-        ols::degrees(status.tilt_rad), ols::device_name(status.camera_state),
-        ols::device_name(status.ptu_state), ols::counter(status, "frames_captured"),
-        ols::counter(status, "frames_lost") + ols::counter(status, "frames_incomplete"),
-        status.last_error.c_str());
+  const char* format = "%-12s %-9s %6s %9s %9s %8s %8s  %-8s %-8s %8s %6s  %s\n";
+  std::printf(format, "station", "state", "belief", "azim deg", "elev deg", "pan deg", "tilt deg",
+              "camera", "ptu", "frames", "lost", "last error");
+  for (const auto& [id, s] : statuses) {
+    const double lost = ols::counter(s, "frames_lost") + ols::counter(s, "frames_incomplete");
+    std::printf(format, id.c_str(), ols::state_name(s.state), shown(s.belief, 2).c_str(),
+                shown_deg(s.azimuth_rad, 3).c_str(), shown_deg(s.elevation_rad, 3).c_str(),
+                shown_deg(s.pan_rad, 2).c_str(), shown_deg(s.tilt_rad, 2).c_str(),
+                ols::device_name(s.camera_state), ols::device_name(s.ptu_state),
+                shown(ols::counter(s, "frames_captured"), 0).c_str(), shown(lost, 0).c_str(),
+                s.last_error.c_str());
   }
 }
 

@@ -11,8 +11,17 @@ constexpr double kLease_s = 2.0;
 constexpr double kTwoIntervals_s = 1.2;  // stations send their status twice a second
 constexpr int kPoll_ms = 50;
 
-double refused(const ols_msg::station_status_t& status, const std::string& command) {
-  return counter(status, command + "_refused") + counter(status, "messages_refused");
+// The reason whose counter has grown; nothing when none has.
+std::optional<std::string> new_refusal(const ols_msg::station_status_t& before,
+                                       const ols_msg::station_status_t& now) {
+  for (const auto& name : now.counter_name) {
+    for (const std::string prefix : {"refused_", "messages_refused_"}) {
+      if (name.starts_with(prefix) && counter(now, name) > counter(before, name)) {
+        return "refused: " + name.substr(prefix.size());
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -101,7 +110,7 @@ std::optional<std::string> Operator::outcome(const std::string& station,
     if (counter(now, command + "_accepted") > counter(before, command + "_accepted")) {
       return std::nullopt;
     }
-    if (refused(now, command) > refused(before, command)) return now.last_error;
+    if (const auto refusal = new_refusal(before, now)) return refusal;
   }
   return "no answer";
 }
