@@ -167,7 +167,8 @@ struct PtuDriver::Impl {
   void finish_cycle(double time_s) {
     const PollCycle done = std::move(*cycle);
     cycle.reset();
-    if (!commands->plausible(done.pan_counts(), done.tilt_counts(), done.sent_s())) {
+    if (!commands->plausible(done.pan_counts(), done.tilt_counts(), done.read_s(),
+                             done.latency_s())) {
       ++counters.garbled;
       wrong(time_s, "a jump of the position");
       return;

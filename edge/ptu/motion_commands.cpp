@@ -104,20 +104,26 @@ void MotionCommands::add_position(Axis& axis, double position_rad, PtuRequest& r
 }
 
 // No faster than the unit goes and, when its speed is known, no further from there than it
-// accelerates.
-bool MotionCommands::reachable(const Axis& axis, std::int32_t counts, double dt_s) const {
+// accelerates, and than it goes within the doubt about the two instants (which also is in the
+// speed).
+bool MotionCommands::reachable(const Axis& axis, std::int32_t counts, double dt_s,
+                               double doubt_s) const {
   constexpr double kSlack_counts = 60.0;
   if (!axis.read) return true;
   const double way = static_cast<double>(counts) - *axis.read;
-  if (std::abs(way) > 1.2 * axis.facts.upper_speed * dt_s + kSlack_counts) return false;
+  const double fastest = 1.2 * axis.facts.upper_speed;
+  if (std::abs(way) > fastest * (dt_s + doubt_s) + kSlack_counts) return false;
   if (!axis.rate_known) return true;
   const double surprise = std::abs(way - axis.rate_counts_s * dt_s);
-  return surprise <= 1.2 * axis.facts.acceleration * dt_s * (dt_s + read_gap_s_) + kSlack_counts;
+  const double accelerated = 1.2 * axis.facts.acceleration * dt_s * (dt_s + read_gap_s_);
+  return surprise <= accelerated + 2.0 * std::abs(axis.rate_counts_s) * doubt_s + kSlack_counts;
 }
 
-bool MotionCommands::plausible(std::int32_t pan_counts, std::int32_t tilt_counts, double time_s) {
+bool MotionCommands::plausible(std::int32_t pan_counts, std::int32_t tilt_counts, double time_s,
+                               double doubt_s) {
   const double dt_s = time_s - read_s_;
-  if (!reachable(pan_, pan_counts, dt_s) || !reachable(tilt_, tilt_counts, dt_s)) {
+  const double both_s = doubt_s + doubt_s_;
+  if (!reachable(pan_, pan_counts, dt_s, both_s) || !reachable(tilt_, tilt_counts, dt_s, both_s)) {
     // It may be the last one that was wrong.
     pan_.rate_known = tilt_.rate_known = false;
     return false;
@@ -130,6 +136,7 @@ bool MotionCommands::plausible(std::int32_t pan_counts, std::int32_t tilt_counts
   }
   read_gap_s_ = dt_s;
   read_s_ = time_s;
+  doubt_s_ = doubt_s;
   return true;
 }
 

@@ -23,7 +23,8 @@ class MotionCommands {
 
   // Whether the unit can have got to these positions since the last ones; remembers them then. A
   // lost digit has no other mark: replies carry no checksum.
-  bool plausible(std::int32_t pan_counts, std::int32_t tilt_counts, double time_s);
+  // `time_s`: when they were read, known to within about `doubt_s`.
+  bool plausible(std::int32_t pan_counts, std::int32_t tilt_counts, double time_s, double doubt_s);
 
   double tilt_rate_rad_s() const { return tilt_.rate_counts_s * tilt_.facts.resolution_rad; }
   const PtuLimits& limits() const { return limits_; }
@@ -42,7 +43,7 @@ class MotionCommands {
   void halt(double time_s, PtuRequest& request);
   static void add_speed(Axis& axis, double speed_rad_s, PtuRequest& request);
   static void add_position(Axis& axis, double position_rad, PtuRequest& request);
-  bool reachable(const Axis& axis, std::int32_t counts, double dt_s) const;
+  bool reachable(const Axis& axis, std::int32_t counts, double dt_s, double doubt_s) const;
 
   ServoConfig servo_;
   PtuLimits limits_;
@@ -50,6 +51,7 @@ class MotionCommands {
   double braking_s_ = 0.0;    // from full speed
   double refreshed_s_ = 0.0;  // when everything was sent
   double read_s_ = 0.0;
+  double doubt_s_ = 0.0;     // of read_s_
   double read_gap_s_ = 0.0;  // between the last two readings
   std::optional<double> halted_s_;
 };

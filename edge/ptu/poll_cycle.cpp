@@ -53,7 +53,6 @@ bool PollCycle::read(const PtuReply& reply, std::size_t index, Reading& reading)
 AngleSample PollCycle::sample(const PtuFacts& facts, double tilt_rate_rad_s,
                               double usual_latency_s) const {
   const double uniform = 1.0 / std::sqrt(12.0);
-  const double pan_s = 0.5 * (pan_.earliest_s + pan_.latest_s);
   double tilt_s = 0.5 * (tilt_.earliest_s + tilt_.latest_s);
   double tilt_sd_s = uniform * (tilt_.latest_s - tilt_.earliest_s);
   // A reply that had to wait for the end of the pan's says nothing of when the unit read its
@@ -67,12 +66,12 @@ AngleSample PollCycle::sample(const PtuFacts& facts, double tilt_rate_rad_s,
     tilt_sd_s = std::min(tilt_sd_s, std::sqrt(2.0 / 3.0 - 1.0 / 4.0) * usual_latency_s);
   }
   AngleSample sample;
-  sample.time_s = pan_s;
+  sample.time_s = read_s();
   sample.time_sd_s = std::max(kLeastTimeSd_s, uniform * latency_s());
   sample.tilt_time_sd_s = std::max(kLeastTimeSd_s, tilt_sd_s);
   sample.angles.pan_rad = pan_.counts * facts.pan.resolution_rad;
   sample.angles.tilt_rad =
-      tilt_.counts * facts.tilt.resolution_rad - tilt_rate_rad_s * (tilt_s - pan_s);
+      tilt_.counts * facts.tilt.resolution_rad - tilt_rate_rad_s * (tilt_s - read_s());
   return sample;
 }
 

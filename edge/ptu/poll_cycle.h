@@ -17,7 +17,6 @@ class PollCycle {
   PollCycle(const PtuRequest& commands, double sent_s, double byte_s);
 
   const std::string& bytes() const { return request_.bytes(); }
-  double sent_s() const { return sent_s_; }
   // All replies are there by then, if the unit takes no longer than `slack_s` over them.
   double due_s(double slack_s) const;
 
@@ -29,6 +28,8 @@ class PollCycle {
   std::int32_t pan_counts() const { return pan_.counts; }
   std::int32_t tilt_counts() const { return tilt_.counts; }
 
+  // About when the unit read its pan position.
+  double read_s() const { return 0.5 * (pan_.earliest_s + pan_.latest_s); }
   // Between the pan query's last byte and the begin of its reply: what the unit (and this host's
   // reading) took over it.
   double latency_s() const { return pan_.latest_s - pan_.earliest_s; }

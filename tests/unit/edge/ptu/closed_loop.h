@@ -37,10 +37,16 @@ class ClosedLoop {
   void tick() {
     time_s += kTick_s;
     const double now_s = time_s;
-    std::string request = driver.step(now_s);
-    if (cut) request.clear();
-    sent += request;
-    if (!request.empty()) unit.receive(request, now_s);
+    const std::string request = driver.step(now_s);
+    if (!request.empty() && !cut) {
+      sent += request;
+      underway_ = request;
+      arrives_s_ = now_s + (late_s ? late_s() : 0.0);
+    }
+    if (!underway_.empty() && now_s >= arrives_s_) {
+      unit.receive(underway_, now_s);
+      underway_.clear();
+    }
     std::string reply = unit.transmit(now_s);
     if (garble) garble(reply);
     driver.receive(reply, now_s);
@@ -73,7 +79,12 @@ class ClosedLoop {
   double time_s;
   bool cut = false;                          // requests do not arrive
   std::function<void(std::string&)> garble;  // what happens to the unit's bytes
+  std::function<double()> late_s;            // how long this host keeps a request back
   std::string sent;
+
+ private:
+  std::string underway_;
+  double arrives_s_ = 0.0;
 };
 
 }  // namespace ols

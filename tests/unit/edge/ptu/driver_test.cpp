@@ -124,6 +124,24 @@ TEST(PtuDriver, GetsThroughLostAndFlippedBytes) {
             1.5);  // a lost or wrong digit goes unnoticed when it is a small one
 }
 
+// On a loaded host requests go out up to 15 ms late: no reason to doubt the positions.
+TEST(PtuDriver, IsNotDisturbedByALoadedHost) {
+  for (const int baud : {9600, 38400}) {
+    ClosedLoop loop(quick_driver(baud), quick_unit(baud));
+    ASSERT_TRUE(loop.start());
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> late_s(0.0, 0.015);
+    loop.late_s = [&] { return late_s(random); };
+    const double begin_s = loop.time_s;
+    loop.run(6.0, [&] {
+      const double pan_rad = radians(20.0) * (loop.time_s - begin_s);
+      loop.driver.set_goal(loop.goal({pan_rad, 0.0}, {radians(20.0), 0.0}));
+    });
+    EXPECT_EQ(loop.driver.counters().garbled, 0u) << loop.driver.last_error();
+    EXPECT_EQ(loop.driver.counters().timeouts, 0u);
+  }
+}
+
 TEST(PtuDriver, FaultsWhenTheUnitFallsSilentAndComesBack) {
   ClosedLoop loop(quick_driver(), quick_unit());
   ASSERT_TRUE(loop.start());
