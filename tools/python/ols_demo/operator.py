@@ -13,6 +13,7 @@ import ols
 import ols_msg
 
 from ols_demo.observer import Observer
+from ols_demo.places import geodetic
 
 POINT_INTERVAL_S = 0.6
 PATIENCE_S = 2.0  # after a designation, before the next attempt
@@ -90,9 +91,7 @@ class Operator:
         position = np.array(truth.position_ecef_m)
         ahead_s = time.time() - truth.utime * 1e-6 + POINT_INTERVAL_S / 2
         position = position + np.array(truth.velocity_ecef_m_s) * ahead_s
-        place = ols.Geodetic(
-            np.radians(status.latitude_deg), np.radians(status.longitude_deg), status.height_m
-        )
+        place = geodetic(status.latitude_deg, status.longitude_deg, status.height_m)
         seen = ols.azimuth_elevation_from_enu(ols.LocalFrame(place).to_enu(position))
         turn = np.angle(np.exp(1j * (seen.azimuth_rad - status.azimuth_rad)))
         message = self._address(ols_msg.ptu_command_t(), station)

@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Ellipse
 
 from ols_demo.evaluate import JOINT, PAPER, covariance_matrix, errors_enu, solved
+from ols_demo.places import geodetic
 from ols_demo.recording import Recording
 
 TRUTH, FIX, PAPER_COLOUR, STATION = "#222222", "#0b6fb8", "#d9822b", "#b3261e"
@@ -24,7 +25,7 @@ def site_frame(recording: Recording) -> ols.LocalFrame:
     """East-north-up at the mean of the stations."""
     places = [s[-1] for s in recording.statuses.values()]
     mean = np.mean([[p.latitude_deg, p.longitude_deg, p.height_m] for p in places], axis=0)
-    return ols.LocalFrame(ols.Geodetic(np.radians(mean[0]), np.radians(mean[1]), mean[2]))
+    return ols.LocalFrame(geodetic(*mean))
 
 
 def enu(frame: ols.LocalFrame, positions: np.ndarray) -> np.ndarray:
@@ -33,11 +34,9 @@ def enu(frame: ols.LocalFrame, positions: np.ndarray) -> np.ndarray:
 
 def draw_stations(axes: Axes, frame: ols.LocalFrame, recording: Recording) -> None:
     for station, statuses in sorted(recording.statuses.items()):
-        place = statuses[-1]
-        geodetic = ols.Geodetic(
-            np.radians(place.latitude_deg), np.radians(place.longitude_deg), place.height_m
-        )
-        east, north, _ = frame.to_enu(ols.ecef_from_geodetic(geodetic))
+        last = statuses[-1]
+        place = geodetic(last.latitude_deg, last.longitude_deg, last.height_m)
+        east, north, _ = frame.to_enu(ols.ecef_from_geodetic(place))
         axes.plot(east, north, "^", color=STATION, markersize=9)
         axes.annotate(station, (east, north), (6, 6), textcoords="offset points", color=STATION)
 

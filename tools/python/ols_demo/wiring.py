@@ -28,6 +28,7 @@ class Wiring:
             *("--scenario", str(self._scenario)),
             *("--seed", str(self._seed)),
             *("--lcm-url", LIVE_URL),
+            *("--directory", str(self._output / "lines")),
             *options,
         ]
 
@@ -36,6 +37,7 @@ class Wiring:
         folder = self._output / "config"
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
+        (self._output / "lines").mkdir(exist_ok=True)
         self.log.unlink(missing_ok=True)
         done = subprocess.run(
             self._sim("--write-configs", str(folder)), capture_output=True, text=True, check=False
@@ -52,8 +54,7 @@ class Wiring:
         print(f"starting simulator, {len(self.configs)} stations, fusion and logger", flush=True)
         logger = ["lcm-logger", "--lcm-url", LIVE_URL, "--quiet", str(self.log)]
         site.start("lcm-logger", logger)
-        lines = self._output / "config"
-        site.start_and_wait("ols-sim", self._sim("--lines", str(lines)), "ready")
+        site.start_and_wait("ols-sim", self._sim(), "ready")
         fusion = [str(self._bin / "ols-fusion"), "--lcm-url", LIVE_URL]
         site.start_and_wait("ols-fusion", fusion, "ready")
         for name, config in self.configs.items():
