@@ -110,7 +110,7 @@ std::string PtuController::power(int axis, std::string_view what) {
 }
 
 std::optional<std::string> PtuController::mode(std::string_view command, double time_s) {
-  if (const auto answer = toggles(command)) return answer;
+  if (auto answer = toggles(command)) return answer;
   if (command == "C") {
     if (settings_.verbose) {
       return velocity_mode_ ? "* PTU is in Pure Velocity Mode" : "* PTU is in Independent Mode";
