@@ -4,22 +4,31 @@
 namespace ols {
 
 // What one frame says for the target: the best candidate's similarity (eq. (5), 0..1) against what
-// the background around it reaches by chance, and how the refined image correlates with the first.
+// the background around it reaches by chance, and the candidate's correlation and contrast with the
+// target's first image.
 struct FrameEvidence {
   double similarity = 0.0;
   double background_similarity = 0.0;
   double correlation = 0.0;
+  double contrast = 1.0;
 };
 
-// `typical_correlation` is what the target had of late: something that suddenly looks much less
-// like it is something else.
-double frame_belief(const FrameEvidence& evidence, double typical_correlation);
+// What the target had of late: what suddenly looks much less like it is something else.
+struct Typical {
+  double correlation = 1.0;
+  double contrast = 1.0;
+};
+
+double frame_belief(const FrameEvidence& evidence, const Typical& typical);
 
 // Smoothed over time, so that one poor frame does not lose the target; falls below a half within a
 // third of a second without it.
 class Belief {
  public:
-  void start() { value_ = typical_correlation_ = 1.0; }
+  void start() {
+    value_ = 1.0;
+    typical_ = {};
+  }
   void doubt() { value_ = value_ < kDoubt ? value_ : kDoubt; }
   void update(const FrameEvidence& evidence, double interval_s);
   double value() const { return value_; }
@@ -27,7 +36,7 @@ class Belief {
  private:
   static constexpr double kDoubt = 0.2;
   double value_ = 0.0;
-  double typical_correlation_ = 1.0;
+  Typical typical_;
 };
 
 }  // namespace ols

@@ -8,13 +8,14 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
-#include "edge/tracker/particle.h"
+#include "edge/tracker/patch.h"
 
 namespace ols {
 namespace {
 
 const cv::Size kWindow(15, 15);
 constexpr int kLevels = 3;
+constexpr double kAlike = 0.7;   // correlation of a corner's surroundings
 constexpr double kInlier = 1.5;  // reduced pixels
 
 std::vector<cv::Mat> build_pyramid(const cv::Mat& image) {
@@ -42,6 +43,48 @@ std::vector<cv::Point2f> spread(const std::vector<cv::KeyPoint>& corners, const 
     for (std::size_t i = 0; i < std::min(a_cell, cell.size()); ++i) chosen.push_back(cell[i]->pt);
   }
   return chosen;
+}
+
+// Standard deviation of the noise [grey levels], from what a plane leaves over in 3x3 pixels; the
+// median, so that edges do not count.
+double noise_of(const cv::Mat& image) {
+  constexpr int kStep = 7;
+  std::vector<int> left;
+  for (int row = 1; row + 1 < image.rows; row += kStep) {
+    const auto* a = image.ptr<std::uint8_t>(row - 1);
+    const auto* b = image.ptr<std::uint8_t>(row);
+    const auto* c = image.ptr<std::uint8_t>(row + 1);
+    for (int i = 1; i + 1 < image.cols; i += kStep) {
+      left.push_back(std::abs(a[i - 1] - 2 * a[i] + a[i + 1] -
+                              2 * (b[i - 1] - 2 * b[i] + b[i + 1]) + c[i - 1] - 2 * c[i] +
+                              c[i + 1]));
+    }
+  }
+  if (left.empty()) return 0.0;
+  const auto middle = left.begin() + static_cast<std::ptrdiff_t>(left.size() / 2);
+  std::nth_element(left.begin(), middle, left.end());
+  return 1.4826 * *middle / 6.0;  // the kernel's norm is 6
+}
+
+// How well the pixels around `a` of one image correlate with those around `b` of the other.
+double correlation(const cv::Mat& one, const cv::Point2f& a, const cv::Mat& other,
+                   const cv::Point2f& b) {
+  constexpr int kReach = 4;
+  double n = 0.0, p = 0.0, q = 0.0, pp = 0.0, qq = 0.0, pq = 0.0;
+  for (int y = -kReach; y <= kReach; ++y) {
+    for (int x = -kReach; x <= kReach; ++x) {
+      const auto u = static_cast<double>(bilinear(one, a.x + x, a.y + y));
+      const auto v = static_cast<double>(bilinear(other, b.x + x, b.y + y));
+      n += 1.0;
+      p += u;
+      q += v;
+      pp += u * u;
+      qq += v * v;
+      pq += u * v;
+    }
+  }
+  const double spread = (pp - p * p / n) * (qq - q * q / n);
+  return spread > 0.0 ? (pq - p * q / n) / std::sqrt(spread) : 0.0;
 }
 
 Eigen::Vector2d vector_of(const cv::Point2f& point) {
@@ -88,7 +131,6 @@ Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,
   Eigen::Matrix3d to_unit;
   to_unit << 1.0 / unit, 0.0, -1.0, 0.0, 1.0 / unit, -image.height / (2.0 * unit), 0.0, 0.0, 1.0;
   const double noise = 0.3 / unit;
-  constexpr double kShapeSd = 0.02;  // turn, stretch and perspective between two frames
   using Vector8 = Eigen::Matrix<double, 8, 1>;
   Eigen::Matrix<double, 8, 8> normal = Eigen::Matrix<double, 8, 8>::Zero();
   Vector8 right = Vector8::Zero();
@@ -107,7 +149,19 @@ Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,
     add(x_row, d.x());
     add(y_row, d.y());
   }
-  for (const int shape : {0, 1, 3, 4, 6, 7}) normal(shape, shape) += 1.0 / (kShapeSd * kShapeSd);
+  const auto draw = [&](int i, int j, double sign, double sd) {
+    Vector8 row = Vector8::Zero();
+    row(i) = 1.0;
+    if (j >= 0) row(j) = sign;
+    normal += row * row.transpose() / (sd * sd);
+  };
+  // Between two frames a camera rolls and zooms a little; it hardly shears.
+  draw(3, 1, -1.0, 0.02);   // twice the roll
+  draw(0, 4, 1.0, 0.01);    // twice the scale
+  draw(3, 1, 1.0, 0.002);   // shear
+  draw(0, 4, -1.0, 0.002);  // stretch
+  draw(6, -1, 0.0, 0.005);  // perspective
+  draw(7, -1, 0.0, 0.005);
   normal(2, 2) += 1e-6 / (noise * noise);
   normal(5, 5) += 1e-6 / (noise * noise);
   const Vector8 found = normal.ldlt().solve(right);
@@ -127,8 +181,9 @@ void EgoMotionEstimator::start(const ReducedFrame& frame) {
 }
 
 std::vector<cv::Point2f> EgoMotionEstimator::detect_corners(const cv::Rect2d& target_box) {
-  constexpr int kLeastThreshold = 6;
   constexpr int kGreatestThreshold = 60;
+  const int least = std::max(6, static_cast<int>(std::ceil(5.0 * noise_of(previous_.image))));
+  corner_threshold_ = std::clamp(corner_threshold_, least, std::max(least, kGreatestThreshold));
   std::vector<cv::KeyPoint> corners;
   cv::FAST(previous_.image, corners, corner_threshold_, true);
   // The next frame's threshold, so that there are enough corners and not too many to sort.
@@ -136,7 +191,6 @@ std::vector<cv::Point2f> EgoMotionEstimator::detect_corners(const cv::Rect2d& ta
   if (found < 4 * config_.ego_motion_corners) --corner_threshold_;
   if (found < config_.ego_motion_corners) corner_threshold_ -= 2;
   if (found > 12 * config_.ego_motion_corners) corner_threshold_ += 2;
-  corner_threshold_ = std::clamp(corner_threshold_, kLeastThreshold, kGreatestThreshold);
   const double scale = previous_.reduction;
   const cv::Rect2d target((target_box.x - target_box.width * 0.25) / scale,
                           (target_box.y - target_box.height * 0.25) / scale,
@@ -147,6 +201,7 @@ std::vector<cv::Point2f> EgoMotionEstimator::detect_corners(const cv::Rect2d& ta
 }
 
 EgoMotionEstimator::Matches EgoMotionEstimator::follow(const std::vector<cv::Point2f>& corners,
+                                                       const cv::Mat& image,
                                                        const std::vector<cv::Mat>& pyramid,
                                                        const Eigen::Matrix3d& guess) const {
   std::vector<cv::Point2f> flow;
@@ -165,6 +220,8 @@ EgoMotionEstimator::Matches EgoMotionEstimator::follow(const std::vector<cv::Poi
   Matches matches;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (found[i] == 0 || !inside.contains(flow[i])) continue;
+    // A corner of noise stays where it was looked for, and would agree with any guess.
+    if (correlation(previous_.image, corners[i], image, flow[i]) < kAlike) continue;
     matches.previous.push_back(corners[i]);
     matches.current.push_back(flow[i]);
   }
@@ -208,7 +265,7 @@ EgoMotionEstimator::Estimate EgoMotionEstimator::step(
   Estimate estimate;
   estimate.featureless = static_cast<int>(corners.size()) < config_.ego_motion_least_inliers;
   std::optional<Eigen::Matrix3d> found;
-  if (!estimate.featureless) found = fit(follow(corners, pyramid, guess), guess);
+  if (!estimate.featureless) found = fit(follow(corners, frame.image, pyramid, guess), guess);
   if (found) estimate.homography = to_full * *found * from_full;
   last_ = found ? *found : predicted ? guess : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
   previous_ = frame;

@@ -42,8 +42,8 @@ class EgoMotionEstimator {
     std::vector<cv::Point2f> current;
   };
   std::vector<cv::Point2f> detect_corners(const cv::Rect2d& target_box);
-  Matches follow(const std::vector<cv::Point2f>& corners, const std::vector<cv::Mat>& pyramid,
-                 const Eigen::Matrix3d& guess) const;
+  Matches follow(const std::vector<cv::Point2f>& corners, const cv::Mat& image,
+                 const std::vector<cv::Mat>& pyramid, const Eigen::Matrix3d& guess) const;
   std::optional<Eigen::Matrix3d> fit(const Matches& matches, const Eigen::Matrix3d& guess) const;
 
   TrackerConfig config_;

@@ -71,9 +71,9 @@ Objective::Objective(const Template& target) {
   const Patch gray = smoothed(target.gray);
   const Level level = level_of(gray);
   least_deviation_ = std::max(0.5F * target.noise, kLeastGain * level.deviation);
-  const float deviation = std::max(0.5F * target.noise, level.deviation);
+  deviation_ = std::max(0.5F * target.noise, level.deviation);
   for (std::size_t i = 0; i < kPatchArea; ++i) {
-    template_[i] = (gray[i] - level.mean) / (kUnit * deviation);
+    template_[i] = (gray[i] - level.mean) / (kUnit * deviation_);
   }
 }
 
@@ -98,7 +98,8 @@ Likeness Objective::operator()(const Patch& gray, const MaskPatch& candidate_mas
   }
   // The template's deviation is 1 / kUnit, the candidate's at most that.
   const float correlation = product * kUnit * kUnit / kPatchArea;
-  return {static_cast<double>(sum) / greatest_, static_cast<double>(correlation)};
+  return {static_cast<double>(sum) / greatest_, static_cast<double>(correlation),
+          static_cast<double>(level.deviation / deviation_)};
 }
 
 }  // namespace ols

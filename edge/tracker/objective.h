@@ -8,6 +8,7 @@ namespace ols {
 struct Likeness {
   double similarity = 0.0;   // eq. (5), 0..1
   double correlation = 0.0;  // of the grey values, -1..1
+  double contrast = 0.0;     // deviation of the grey values, the template's being 1
 };
 
 // Eq. (5) divided by the greatest value it can take for this template, so 0..1. Each patch's
@@ -26,7 +27,8 @@ class Objective {
  private:
   static constexpr float kUnit = 2.0F;  // deviations that are the difference 1 of eq. (5)
 
-  Patch template_{};  // normalised
+  Patch template_{};        // normalised
+  float deviation_ = 1.0F;  // the template's [grey levels]
   float least_deviation_ = 1.0F;
   MaskPatch mask_{};
   double greatest_ = kPatchArea;

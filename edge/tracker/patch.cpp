@@ -112,18 +112,20 @@ Patch sample_patch(const View& view, const Eigen::Vector2d& pixel, const Eigen::
 MaskPatch sample_mask(const View& mask, const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& size_px) {
   const double scale = 1.0 / mask.reduction;
-  const double x = mask.x_of(pixel.x());
-  const double y = mask.y_of(pixel.y());
+  // Nearest neighbour by truncation, which rounds down only where it is not negative.
+  const auto nearest = [](double at) { return at < -0.5 ? -1 : static_cast<int>(at + 0.5); };
+  std::array<int, kPatchSide> columns;
+  for (int i = 0; i < kPatchSide; ++i) {
+    const int column = nearest(grid_position(mask.x_of(pixel.x()), size_px.x() * scale, i));
+    columns[static_cast<std::size_t>(i)] = column < mask.image.cols ? column : -1;
+  }
   MaskPatch patch{};
   for (int j = 0; j < kPatchSide; ++j) {
-    const auto row = static_cast<int>(std::lround(grid_position(y, size_px.y() * scale, j)));
+    const int row = nearest(grid_position(mask.y_of(pixel.y()), size_px.y() * scale, j));
     if (row < 0 || row >= mask.image.rows) continue;
     const auto* line = mask.image.ptr<std::uint8_t>(row);
-    for (int i = 0; i < kPatchSide; ++i) {
-      const auto column = static_cast<int>(std::lround(grid_position(x, size_px.x() * scale, i)));
-      if (column < 0 || column >= mask.image.cols) continue;
-      patch[static_cast<std::size_t>(j * kPatchSide + i)] = line[column];
-    }
+    auto* out = &patch[static_cast<std::size_t>(j) * kPatchSide];
+    for (const int column : columns) *out++ = column < 0 ? std::uint8_t{0} : line[column];
   }
   return patch;
 }

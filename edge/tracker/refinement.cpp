@@ -75,6 +75,22 @@ PositionRefiner::PositionRefiner(const View& view, const Eigen::Vector2d& pixel,
   }
 }
 
+void PositionRefiner::set_mask(const MaskPatch& mask) {
+  constexpr double kBackground = 0.1;
+  for (Sample& sample : samples_) {
+    // The mask's pixels within one of the sample's place: the target's edge tells most.
+    const int column = static_cast<int>(std::floor((sample.u + 0.5) * kPatchSide));
+    const int row = static_cast<int>(std::floor((sample.v + 0.5) * kPatchSide));
+    int most = 0;
+    for (int j = std::max(0, row - 1); j <= std::min(kPatchSide - 1, row + 1); ++j) {
+      for (int i = std::max(0, column - 1); i <= std::min(kPatchSide - 1, column + 1); ++i) {
+        most = std::max<int>(most, mask[static_cast<std::size_t>(j * kPatchSide + i)]);
+      }
+    }
+    sample.weight = kBackground + (1.0 - kBackground) * most / 255.0;
+  }
+}
+
 PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const Eigen::Vector2d& pixel,
                                                     const Eigen::Vector2d& size_px,
                                                     const Eigen::Vector4d& state,

@@ -20,6 +20,9 @@ class PositionRefiner {
   // Keeps the target's image on a grid of the sampling view's own pixels, a little beyond the box.
   PositionRefiner(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
 
+  // M_t: what is not foreground moves otherwise, and counts little from now on.
+  void set_mask(const MaskPatch& mask);
+
   // From a start within about a third of the target; nothing when it does not converge there or the
   // target shows too little structure.
   std::optional<RefinedPosition> refine(const View& view, const Eigen::Vector2d& start,

@@ -58,7 +58,7 @@ Likeness TargetModel::likeness(const Scene& scene, const Eigen::Vector2d& pixel,
                                const Eigen::Vector2d& size_px) const {
   const bool seen = pixel.x() > -0.5 && pixel.y() > -0.5 && pixel.x() < scene.frame.width - 0.5 &&
                     pixel.y() < scene.frame.height - 0.5;
-  if (!seen) return {0.0, 0.0};
+  if (!seen) return {};
   const MaskPatch mask = sample_mask(scene.mask, pixel, size_px);
   return objective_(sample_patch(scene.view, pixel, size_px), mask);
 }
@@ -93,7 +93,9 @@ void TargetModel::learn_mask(const Scene& scene, const Eigen::Vector2d& pixel,
                              const Eigen::Vector2d& size_px) {
   if (mask_learnt_ || !scene.mask_by_subtraction) return;
   mask_learnt_ = true;
-  objective_.set_mask(sample_mask(scene.mask, pixel, size_px));
+  const MaskPatch mask = sample_mask(scene.mask, pixel, size_px);
+  objective_.set_mask(mask);
+  refiner_.set_mask(mask);
 }
 
 }  // namespace ols

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
@@ -117,7 +118,8 @@ int main(int argc, char** argv) {
     std::cerr << "ols-track: " << error.what() << '\n';
     return 2;
   }
-  // The decoder's own chatter is not the one line that the user needs.
+  // The decoder's own chatter is not the one line that the user needs; a value already set stays.
+  ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::setNumThreads(1);
   try {

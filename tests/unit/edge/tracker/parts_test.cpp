@@ -1,0 +1,276 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "base/toml_config.h"
+#include "edge/tracker/belief.h"
+#include "edge/tracker/difference_candidates.h"
+#include "edge/tracker/ego_motion.h"
+#include "edge/tracker/foreground_mask.h"
+#include "edge/tracker/objective.h"
+#include "edge/tracker/particle_filter.h"
+#include "tests/unit/edge/tracker/synthetic.h"
+
+namespace ols {
+namespace {
+
+using testing::Backdrop;
+using testing::shift_homography;
+using testing::SyntheticScene;
+
+TEST(Random, IsStandardNormalAndFixed) {
+  Random random(1);
+  double sum = 0.0;
+  double squares = 0.0;
+  constexpr int kDraws = 20000;
+  for (int i = 0; i < kDraws; ++i) {
+    const double value = random.gaussian();
+    sum += value;
+    squares += value * value;
+  }
+  EXPECT_NEAR(sum / kDraws, 0.0, 0.03);
+  EXPECT_NEAR(squares / kDraws, 1.0, 0.05);
+  Random a(3);
+  Random b(3);
+  EXPECT_EQ(a.gaussian(), b.gaussian());
+}
+
+TEST(Patch, SamplesPixelCentres) {
+  cv::Mat ramp(60, 60, CV_8U);
+  for (int row = 0; row < 60; ++row) {
+    for (int column = 0; column < 60; ++column) {
+      ramp.at<std::uint8_t>(row, column) = static_cast<std::uint8_t>(2 * column + row);
+    }
+  }
+  // A box of 24x24 around (20, 30): its samples lie half a pixel off the centre.
+  const Patch patch = sample_patch({ramp, {0, 0}, 1}, {20.0, 30.0}, {24.0, 24.0});
+  EXPECT_NEAR(patch[0], 2 * (20 - 11.5) + (30 - 11.5), 1e-4);
+  EXPECT_NEAR(patch[1] - patch[0], 2.0, 1e-4);
+  EXPECT_NEAR(patch[kPatchSide] - patch[0], 1.0, 1e-4);
+  // Reduced by two, the same place has the same grey value.
+  const View half = make_view(ramp, {10, 10, 40, 40}, 2);
+  EXPECT_EQ(half.image.cols, 20);
+  EXPECT_NEAR(bilinear(half.image, half.x_of(30.0), half.y_of(30.0)), 90.0, 1.0);
+}
+
+Template pattern() {
+  Template made;
+  for (std::size_t i = 0; i < kPatchArea; ++i) {
+    const bool inside =
+        i % kPatchSide > 7 && i % kPatchSide < 16 && i / kPatchSide > 7 && i / kPatchSide < 16;
+    made.gray[i] = inside ? 40.0F : 150.0F;
+  }
+  made.contrast = 110.0F;
+  return made;
+}
+
+TEST(Objective, IsOneForTheTemplateWhateverTheExposure) {
+  const Template target = pattern();
+  Objective objective(target);
+  MaskPatch all;
+  all.fill(255);
+  objective.set_mask(all);
+  Patch brighter = target.gray;
+  for (float& value : brighter) value = 0.8F * value + 30.0F;
+  for (const Patch& patch : {target.gray, brighter}) {
+    EXPECT_NEAR(objective(patch, all).similarity, 1.0, 1e-4);
+    EXPECT_NEAR(objective(patch, all).correlation, 1.0, 1e-4);
+  }
+  Patch blank;
+  blank.fill(150.0F);
+  EXPECT_LT(objective(blank, all).similarity, 0.8);
+  EXPECT_NEAR(objective(blank, all).correlation, 0.0, 1e-6);
+}
+
+// Eq. (5): only where both masks say foreground does a pixel count e-fold.
+TEST(Objective, WeighsByTheLesserOfBothMasks) {
+  const Template target = pattern();
+  Objective objective(target);
+  MaskPatch all;
+  all.fill(255);
+  objective.set_mask(all);
+  const MaskPatch none{};
+  EXPECT_NEAR(objective(target.gray, none).similarity, std::exp(-1.0), 1e-3);
+  objective.set_mask(none);
+  EXPECT_NEAR(objective(target.gray, all).similarity, 1.0, 1e-4);
+}
+
+TEST(MotionModel, MovesByHomographyAndOwnVelocity) {
+  MotionModel motion{TrackerConfig{}};
+  std::vector<Particle> particles(1);
+  particles[0].pixel = {100.0, 50.0};
+  particles[0].size_px = {20.0, 10.0};
+  motion.begin_frame({shift_homography(30.0, -4.0), 0.1}, particles[0].pixel, particles);
+  // Nothing was known of the camera before: the particle goes on as it did in the image.
+  EXPECT_NEAR(particles[0].velocity_px_s.x(), -300.0, 1e-9);
+  EXPECT_NEAR((motion.advance(particles[0]).pixel - particles[0].pixel).norm(), 0.0, 1e-9);
+  particles[0].velocity_px_s = {50.0, 0.0};
+  EXPECT_NEAR(motion.advance(particles[0]).pixel.x(), 135.0, 1e-9);
+  EXPECT_NEAR(motion.advance(particles[0]).pixel.y(), 46.0, 1e-9);
+  EXPECT_NEAR(motion.image_fixed_velocity().x(), -300.0, 1e-9);
+}
+
+// A homography that goes and comes back, at another rate of the camera, leaves the motion in the
+// image as it was.
+TEST(MotionModel, KeepsImageMotionWhenHomographyComesAndGoes) {
+  MotionModel motion{TrackerConfig{}};
+  std::vector<Particle> particles(1);
+  particles[0].size_px = {20.0, 10.0};
+  motion.begin_frame({shift_homography(30.0, 0.0), 0.1}, {0, 0}, particles);
+  particles[0].velocity_px_s = {50.0, 0.0};
+  const auto step = [&] { return (motion.advance(particles[0]).pixel - particles[0].pixel).x(); };
+  EXPECT_NEAR(step(), 35.0, 1e-9);
+  motion.begin_frame({std::nullopt, 0.1}, {0, 0}, particles);
+  EXPECT_NEAR(step(), 35.0, 1e-9);
+  motion.begin_frame({shift_homography(10.0, 0.0), 0.1}, {0, 0}, particles);
+  EXPECT_NEAR(step(), 35.0, 1e-9);
+  EXPECT_NEAR(particles[0].velocity_px_s.x(), 250.0, 1e-9);
+}
+
+TEST(ParticleFilter, ResamplesInProportionAndStandsBadWeights) {
+  ParticleFilter filter;
+  filter.particles().resize(100);
+  for (std::size_t i = 0; i < 100; ++i) filter.particles()[i].pixel.x() = i < 50 ? 0.0 : 1.0;
+  std::vector<double> logs(100);
+  for (std::size_t i = 0; i < 100; ++i) logs[i] = i < 50 ? std::log(3.0) - 900.0 : -900.0;
+  filter.weigh(logs);
+  Random random(1);
+  filter.resample(random);
+  double ones = 0.0;
+  for (const Particle& particle : filter.particles()) ones += particle.pixel.x();
+  EXPECT_NEAR(ones, 25.0, 1.0);
+  filter.weigh(std::vector<double>(100, -std::numeric_limits<double>::infinity()));
+  EXPECT_TRUE(filter.covariance_about({0.0, 0.0}).allFinite());
+}
+
+TEST(EgoMotion, MeasuresTheShiftOfTexture) {
+  SyntheticScene scene(Backdrop::kTextured, 1);
+  EgoMotionEstimator ego{TrackerConfig{}};
+  ego.start(reduce_frame(scene.picture({400, 300}, std::nullopt), 640));
+  const auto estimate = ego.step(reduce_frame(scene.picture({412.5, 295}, std::nullopt), 640),
+                                 cv::Rect2d(), std::nullopt);
+  ASSERT_TRUE(estimate.homography.has_value());
+  for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(20, 20), Eigen::Vector2d(600, 400)}) {
+    const Eigen::Vector2d moved = transform(*estimate.homography, pixel) - pixel;
+    EXPECT_NEAR(moved.x(), -12.5, 0.3);
+    EXPECT_NEAR(moved.y(), 5.0, 0.3);
+  }
+}
+
+TEST(EgoMotion, FindsAFastTurnFromThePrediction) {
+  SyntheticScene scene(Backdrop::kTextured, 2);
+  EgoMotionEstimator ego{TrackerConfig{}};
+  ego.start(reduce_frame(scene.picture({400, 300}, std::nullopt), 640));
+  const auto estimate = ego.step(reduce_frame(scene.picture({600, 300}, std::nullopt), 640),
+                                 cv::Rect2d(), shift_homography(-196.0, 2.0));
+  ASSERT_TRUE(estimate.homography.has_value());
+  EXPECT_NEAR(transform(*estimate.homography, {400, 200}).x(), 200.0, 0.3);
+}
+
+TEST(EgoMotion, HasNoneBeforeBlankSky) {
+  SyntheticScene scene(Backdrop::kSky, 3, 0.0);
+  EgoMotionEstimator ego{TrackerConfig{}};
+  ego.start(reduce_frame(scene.picture({400, 300}, std::nullopt), 640));
+  const auto estimate = ego.step(reduce_frame(scene.picture({400, 300}, std::nullopt), 640),
+                                 cv::Rect2d(), std::nullopt);
+  EXPECT_FALSE(estimate.homography.has_value());
+  EXPECT_TRUE(estimate.featureless);
+}
+
+// Corners on a strip of ground say nothing of the sky: the fit must not fling it about.
+TEST(EgoMotion, FitFromAStripStaysCalmElsewhere) {
+  cv::RNG random(4);
+  std::vector<cv::Point2f> previous;
+  std::vector<cv::Point2f> current;
+  for (int i = 0; i < 40; ++i) {
+    const cv::Point2f p(random.uniform(0.0F, 640.0F), random.uniform(440.0F, 470.0F));
+    previous.push_back(p);
+    current.push_back(p + cv::Point2f(8.0F + static_cast<float>(random.gaussian(0.3)),
+                                      -3.0F + static_cast<float>(random.gaussian(0.3))));
+  }
+  const Eigen::Matrix3d fitted =
+      fit_homography(previous, current, Eigen::Matrix3d::Identity(), {640, 480});
+  const Eigen::Vector2d sky = transform(fitted, {320, 50});
+  EXPECT_NEAR(sky.x(), 328.0, 3.0);
+  EXPECT_NEAR(sky.y(), 47.0, 3.0);
+}
+
+TEST(EgoMotion, TellsSenselessHomographies) {
+  EXPECT_TRUE(plausible_homography(shift_homography(50, 20), {640, 480}));
+  EXPECT_FALSE(plausible_homography(shift_homography(5000, 0), {640, 480}));
+  EXPECT_FALSE(plausible_homography(Eigen::Matrix3d::Zero(), {640, 480}));
+  Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity();
+  mirror(0, 0) = -1.0;
+  EXPECT_FALSE(plausible_homography(mirror, {640, 480}));
+}
+
+TEST(DifferenceCandidates, AreWhereSomethingMoved) {
+  SyntheticScene scene(Backdrop::kSky, 5);
+  const auto before = reduce_frame(scene.picture({400, 300}, cv::Point2d(100, 100)), 320);
+  const auto after = reduce_frame(scene.picture({400, 300}, cv::Point2d(500, 200)), 320);
+  EXPECT_EQ(after.reduction, 2.0);
+  const auto found = difference_candidates(before, after, {24.0, 18.0}, 4);
+  ASSERT_GE(found.size(), 2U);
+  for (const Eigen::Vector2d& truth : {Eigen::Vector2d(100, 100), Eigen::Vector2d(500, 200)}) {
+    EXPECT_LT(std::min((found[0] - truth).norm(), (found[1] - truth).norm()), 8.0);
+  }
+  EXPECT_TRUE(difference_candidates(after, after, {24.0, 18.0}, 4).empty());
+}
+
+TEST(ForegroundMask, ShowsTheTargetByAnEarlierAlignedImage) {
+  SyntheticScene scene(Backdrop::kTextured, 6);
+  const cv::Point2d then(100.0, 100.0);
+  const cv::Point2d now(300.0, 240.0);
+  ReferenceFrames references(0.1);
+  references.offer(scene.picture({400, 300}, then), 0.0, SyntheticScene::box_around(then));
+  references.advance(shift_homography(-20.0, 5.0));
+  const cv::Mat frame = scene.picture({420, 295}, now);
+  const cv::Rect2d box = SyntheticScene::box_around(now);
+  EXPECT_EQ(references.without_overlap(SyntheticScene::box_around({80.0, 105.0})), nullptr);
+  const auto* reference = references.without_overlap(box);
+  ASSERT_NE(reference, nullptr);
+  Template target;
+  target.contrast = 100.0F;
+  target.noise = 3.0F;
+  const View mask = foreground_mask(frame, *reference, cv::Rect(200, 150, 200, 180), target);
+  const MaskPatch at_target = sample_mask(mask, {now.x, now.y}, {12.0, 8.0});
+  const MaskPatch beside = sample_mask(mask, {now.x - 60.0, now.y}, {12.0, 8.0});
+  const auto mean = [](const MaskPatch& patch) {
+    double sum = 0.0;
+    for (const auto value : patch) sum += value;
+    return sum / kPatchArea;
+  };
+  EXPECT_GT(mean(at_target), 150.0);
+  EXPECT_LT(mean(beside), 40.0);
+}
+
+TEST(Belief, FallsAndRisesOverSomeFrames) {
+  Belief belief;
+  belief.start();
+  const FrameEvidence good{0.9, 0.6, 0.95, 1.0};
+  const FrameEvidence gone{0.6, 0.6, 0.1, 0.3};
+  for (int i = 0; i < 5; ++i) belief.update(good, 1.0 / 15.0);
+  EXPECT_GT(belief.value(), 0.9);
+  belief.update(gone, 1.0 / 30.0);
+  EXPECT_GT(belief.value(), 0.5);
+  for (int i = 0; i < 4; ++i) belief.update(gone, 1.0 / 15.0);
+  EXPECT_LT(belief.value(), 0.2);
+  belief.update(good, 1.0 / 30.0);
+  EXPECT_LT(belief.value(), 0.5);
+}
+
+TEST(TrackerConfig, IsReadStrictly) {
+  ConfigFile file("[tracker]\nparticles = 500\nsharpness = 9.5\n", "t.toml");
+  const TrackerConfig config = read_tracker_config(file.root().table("tracker"));
+  EXPECT_EQ(config.particles, 500);
+  EXPECT_EQ(config.sharpness, 9.5);
+  EXPECT_NO_THROW(file.finish());
+  ConfigFile few("[tracker]\nparticles = 3\n", "t.toml");
+  EXPECT_THROW(read_tracker_config(few.root().table("tracker")), ConfigError);
+  ConfigFile unknown("[tracker]\nparticle = 300\n", "t.toml");
+  read_tracker_config(unknown.root().table("tracker"));
+  EXPECT_THROW(unknown.finish(), ConfigError);
+}
+
+}  // namespace
+}  // namespace ols

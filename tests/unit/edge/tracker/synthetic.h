@@ -1,0 +1,85 @@
+// Pictures of a known target before a known background, for the tracker's tests.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "edge/tracker/tracker.h"
+
+namespace ols::testing {
+
+enum class Backdrop { kTextured, kSky };
+
+// A world larger than the picture; the camera looks at a shifted part of it.
+class SyntheticScene {
+ public:
+  SyntheticScene(Backdrop backdrop, std::uint64_t seed, double noise_sd = 2.0)
+      : noise_(seed), noise_sd_(noise_sd) {
+    world_ = cv::Mat(1400, 2600, CV_32F, cv::Scalar(150.0));
+    if (backdrop == Backdrop::kTextured) {
+      cv::RNG texture(7);
+      cv::Mat rough(world_.size(), CV_32F);
+      texture.fill(rough, cv::RNG::NORMAL, 0.0, 1.0);
+      cv::GaussianBlur(rough, rough, cv::Size(0, 0), 2.5);
+      cv::normalize(rough, rough, -50.0, 50.0, cv::NORM_MINMAX);
+      world_ += rough;
+    }
+  }
+
+  // `camera`: the world's position of the picture's top-left pixel. `target`: its centre in the
+  // picture; nothing when it is away.
+  cv::Mat picture(const cv::Point2d& camera, const std::optional<cv::Point2d>& target) {
+    cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, -camera.x, 0, 1, -camera.y);
+    cv::Mat image;
+    cv::warpAffine(world_, image, shift, kSize, cv::INTER_LINEAR);
+    if (target) draw(image, *target);
+    cv::Mat noise(kSize, CV_32F);
+    noise_.fill(noise, cv::RNG::NORMAL, 0.0, noise_sd_);
+    image += noise;
+    cv::Mat gray;
+    image.convertTo(gray, CV_8U);
+    return gray;
+  }
+
+  static cv::Rect2d box_around(const cv::Point2d& centre) {
+    return {centre.x + 0.5 - 12.0, centre.y + 0.5 - 9.0, 24.0, 18.0};
+  }
+
+  static inline const cv::Size kSize{640, 480};
+
+ private:
+  // A dark body with a bright spot, smooth enough to have a position between the pixels.
+  static void draw(cv::Mat& image, const cv::Point2d& centre) {
+    for (int row = 0; row < image.rows; ++row) {
+      for (int column = 0; column < image.cols; ++column) {
+        const double x = column - centre.x;
+        const double y = row - centre.y;
+        if (std::abs(x) > 30.0 || std::abs(y) > 30.0) continue;
+        const double body = std::exp(-0.5 * (x * x / 25.0 + y * y / 9.0));
+        const double spot = std::exp(-0.5 * ((x - 4.0) * (x - 4.0) + y * y) / 3.0);
+        float& value = image.at<float>(row, column);
+        value += static_cast<float>(body * (40.0 - static_cast<double>(value)) + 90.0 * spot);
+      }
+    }
+  }
+
+  cv::Mat world_;
+  cv::RNG noise_;
+  double noise_sd_;
+};
+
+inline double distance(const Eigen::Vector2d& a, const cv::Point2d& b) {
+  return std::hypot(a.x() - b.x, a.y() - b.y);
+}
+
+inline Eigen::Matrix3d shift_homography(double x, double y) {
+  Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
+  shift(0, 2) = x;
+  shift(1, 2) = y;
+  return shift;
+}
+
+}  // namespace ols::testing

@@ -1,0 +1,286 @@
+#include "edge/tracker/tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <limits>
+#include <opencv2/core/utility.hpp>
+
+#include "tests/unit/edge/tracker/synthetic.h"
+
+namespace ols {
+namespace {
+
+using testing::Backdrop;
+using testing::distance;
+using testing::shift_homography;
+using testing::SyntheticScene;
+
+constexpr double kInterval = 1.0 / 15.0;
+const cv::Point2d kStart(300.0, 220.0);
+
+TrackerInput frame_at(int frame, const cv::Mat& gray) {
+  return {gray, 100.0 + kInterval * frame, std::nullopt};
+}
+
+Tracker started(SyntheticScene& scene, const TrackerConfig& config = {}) {
+  Tracker tracker(config, 5);
+  const auto error = tracker.initialise(frame_at(0, scene.picture({400, 300}, kStart)),
+                                        SyntheticScene::box_around(kStart));
+  EXPECT_FALSE(error.has_value());
+  return tracker;
+}
+
+TEST(Tracker, FollowsBeforeMovingBackground) {
+  SyntheticScene scene(Backdrop::kTextured, 1);
+  Tracker tracker = started(scene);
+  for (int k = 1; k < 40; ++k) {
+    const cv::Point2d camera(400.0 + 11.0 * k, 300.0 + 3.0 * k);
+    const cv::Point2d truth(300.0 + 2.5 * k, 220.0 + 1.5 * k);
+    const TrackerResult result = tracker.track(frame_at(k, scene.picture(camera, truth)));
+    ASSERT_TRUE(result.output.has_value());
+    EXPECT_EQ(result.output->ego_motion, EgoMotion::kImage) << k;
+    EXPECT_LT(distance(result.output->pixel, truth), 1.0) << k;
+    EXPECT_GT(result.output->belief, 0.8) << k;
+    EXPECT_NEAR(result.output->box.width, 24.0, 5.0);
+  }
+}
+
+TEST(Tracker, FollowsBeforeBlankSkyWithoutPrediction) {
+  SyntheticScene scene(Backdrop::kSky, 2);
+  Tracker tracker = started(scene);
+  for (int k = 1; k < 40; ++k) {
+    const cv::Point2d truth(300.0 + 6.0 * k, 220.0 - 2.0 * k);
+    const TrackerResult result = tracker.track(frame_at(k, scene.picture({400, 300}, truth)));
+    ASSERT_TRUE(result.output.has_value());
+    EXPECT_EQ(result.output->ego_motion, EgoMotion::kNone) << k;
+    EXPECT_LT(distance(result.output->pixel, truth), 1.0) << k;
+    EXPECT_GT(result.output->belief, 0.8) << k;
+  }
+}
+
+// Paper, section 5: without a homography, particles forced onto the frame difference find a target
+// that the motion model lost.
+TEST(Tracker, DifferenceParticlesCatchALeapBeforeSky) {
+  SyntheticScene scene(Backdrop::kSky, 3);
+  Tracker with = started(scene);
+  TrackerConfig config;
+  config.difference_fraction = 0.0;
+  config.search_fraction = 0.0;
+  SyntheticScene same(Backdrop::kSky, 3);
+  Tracker without = started(same, config);
+  const cv::Point2d leapt(480.0, 330.0);
+  double off_with = 0.0;
+  double off_without = 0.0;
+  for (int k = 1; k < 4; ++k) {
+    const cv::Mat gray = scene.picture({400, 300}, leapt);
+    off_with = distance(with.track(frame_at(k, gray)).output->pixel, leapt);
+    off_without = distance(without.track(frame_at(k, gray)).output->pixel, leapt);
+  }
+  EXPECT_LT(off_with, 1.0);
+  EXPECT_GT(off_without, 50.0);
+}
+
+// A camera that turns 150 px a frame before blank sky; only the PTU knows.
+TEST(Tracker, FollowsFastTurnByPredictedHomography) {
+  SyntheticScene scene(Backdrop::kSky, 4);
+  Tracker tracker = started(scene);
+  for (int k = 1; k < 12; ++k) {
+    // To and fro, faster than the motion model could follow.
+    const double turn = k % 2 == 0 ? -150.0 : 150.0;
+    const cv::Point2d truth(300.0 + (k % 2 == 0 ? 0.0 : 150.0) + 1.0 * k, 220.0);
+    TrackerInput input = frame_at(k, scene.picture({400, 300}, truth));
+    input.predicted_homography = shift_homography(turn, 0.0);
+    const TrackerResult result = tracker.track(input);
+    ASSERT_TRUE(result.output.has_value());
+    EXPECT_EQ(result.output->ego_motion, EgoMotion::kPredicted) << k;
+    EXPECT_LT(distance(result.output->pixel, truth), 1.0) << k;
+    EXPECT_GT(result.output->belief, 0.7) << k;
+  }
+}
+
+TEST(Tracker, CoastsThroughOcclusionAndFindsAgain) {
+  SyntheticScene scene(Backdrop::kTextured, 5);
+  Tracker tracker = started(scene);
+  double lowest = 1.0;
+  for (int k = 1; k < 40; ++k) {
+    const cv::Point2d truth(300.0 + 2.0 * k, 220.0);
+    const bool hidden = k >= 15 && k < 22;
+    const cv::Mat gray =
+        scene.picture({400, 300}, hidden ? std::nullopt : std::optional<cv::Point2d>(truth));
+    const TrackerResult result = tracker.track(frame_at(k, gray));
+    ASSERT_TRUE(result.output.has_value());
+    lowest = std::min(lowest, result.output->belief);
+    if (k >= 34) {
+      EXPECT_LT(distance(result.output->pixel, truth), 1.5) << k;
+      EXPECT_GT(result.output->belief, 0.5) << k;
+    }
+  }
+  EXPECT_LT(lowest, 0.5);
+}
+
+TEST(Tracker, BeliefDropsWithinAThirdOfASecond) {
+  for (const Backdrop backdrop : {Backdrop::kTextured, Backdrop::kSky}) {
+    SyntheticScene scene(backdrop, 6);
+    Tracker tracker = started(scene);
+    double belief = 1.0;
+    for (int k = 1; k < 15; ++k) {
+      belief = tracker.track(frame_at(k, scene.picture({400, 300}, kStart))).output->belief;
+      EXPECT_GT(belief, 0.8);
+    }
+    for (int k = 15; k < 20; ++k) {
+      belief = tracker.track(frame_at(k, scene.picture({400, 300}, std::nullopt))).output->belief;
+    }
+    EXPECT_LT(belief, 0.5);
+    for (int k = 20; k < 60; ++k) {
+      belief = tracker.track(frame_at(k, scene.picture({400, 300}, std::nullopt))).output->belief;
+      EXPECT_LT(belief, 0.5) << k;
+    }
+  }
+}
+
+TEST(Tracker, SearchNearFindsTheTargetAndOnlyTheTarget) {
+  for (const bool there : {true, false}) {
+    SyntheticScene scene(Backdrop::kTextured, 7);
+    Tracker tracker = started(scene);
+    int k = 1;
+    for (; k < 20; ++k) tracker.track(frame_at(k, scene.picture({400, 300}, std::nullopt)));
+    const cv::Point2d truth(150.0, 360.0);
+    tracker.search_near({165.0, 345.0}, 20.0);
+    double belief = 0.0;
+    Eigen::Vector2d pixel;
+    for (const int until = k + 15; k < until; ++k) {
+      const auto target = there ? std::optional<cv::Point2d>(truth) : std::nullopt;
+      const TrackerResult result = tracker.track(frame_at(k, scene.picture({400, 300}, target)));
+      belief = result.output->belief;
+      pixel = result.output->pixel;
+    }
+    if (there) {
+      EXPECT_GT(belief, 0.5);
+      EXPECT_LT(distance(pixel, truth), 1.5);
+    } else {
+      EXPECT_LT(belief, 0.5);
+    }
+  }
+}
+
+TEST(Tracker, IsTheSameTwiceToTheBit) {
+  std::vector<TrackerOutput> runs[2];
+  for (auto& run : runs) {
+    // The library's own threads and random numbers must not matter.
+    cv::setNumThreads(&run == &runs[0] ? 1 : 4);
+    cv::theRNG().state = &run == &runs[0] ? 1 : 99;
+    SyntheticScene scene(Backdrop::kTextured, 8);
+    Tracker tracker = started(scene);
+    for (int k = 1; k < 25; ++k) {
+      const cv::Point2d truth(300.0 + 3.0 * k, 220.0);
+      run.push_back(
+          *tracker.track(frame_at(k, scene.picture({400.0 + 5.0 * k, 300.0}, truth))).output);
+    }
+  }
+  for (std::size_t i = 0; i < runs[0].size(); ++i) {
+    EXPECT_EQ(runs[0][i].pixel, runs[1][i].pixel);
+    EXPECT_EQ(runs[0][i].covariance_px2, runs[1][i].covariance_px2);
+    EXPECT_EQ(runs[0][i].belief, runs[1][i].belief);
+    EXPECT_EQ(runs[0][i].box, runs[1][i].box);
+  }
+}
+
+TEST(Tracker, CovarianceIsHonest) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SyntheticScene scene(Backdrop::kSky, seed, 6.0);
+    Tracker tracker = started(scene);
+    for (int k = 1; k <= 6; ++k) {
+      // Fractions of a pixel of every size.
+      const cv::Point2d truth(300.0 + 1.37 * k, 220.0 + 0.73 * k);
+      const auto result = tracker.track(frame_at(k, scene.picture({400, 300}, truth)));
+      const Eigen::Vector2d error(result.output->pixel.x() - truth.x,
+                                  result.output->pixel.y() - truth.y);
+      sum += error.dot(result.output->covariance_px2.inverse() * error) / 2.0;
+      ++count;
+    }
+  }
+  const double nees = sum / count;
+  RecordProperty("nees", std::to_string(nees));
+  EXPECT_GT(nees, 0.5);
+  EXPECT_LT(nees, 2.0);
+}
+
+TEST(Tracker, RefusesWhatItCannotUse) {
+  SyntheticScene scene(Backdrop::kSky, 9);
+  const cv::Mat good = scene.picture({400, 300}, kStart);
+  const cv::Rect2d box = SyntheticScene::box_around(kStart);
+  Tracker tracker(TrackerConfig{}, 1);
+  EXPECT_EQ(tracker.track(frame_at(0, good)).error, TrackerError::kNotInitialised);
+  EXPECT_EQ(tracker.initialise(frame_at(0, {}), box), TrackerError::kEmptyFrame);
+  EXPECT_EQ(tracker.initialise(frame_at(0, cv::Mat(480, 640, CV_8UC3)), box),
+            TrackerError::kFrameFormat);
+  EXPECT_EQ(tracker.initialise(frame_at(0, cv::Mat(480, 640, CV_16U)), box),
+            TrackerError::kFrameFormat);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const cv::Rect2d& wrong :
+       {cv::Rect2d(700, 10, 20, 20), cv::Rect2d(10, 10, 0, 20), cv::Rect2d(10, 10, 20, -5),
+        cv::Rect2d(nan, 10, 20, 20), cv::Rect2d(-40, 10, 20, 20), cv::Rect2d(0, 0, 900, 900)}) {
+    EXPECT_EQ(tracker.initialise(frame_at(0, good), wrong), TrackerError::kBox);
+  }
+  EXPECT_FALSE(tracker.initialised());
+  ASSERT_EQ(tracker.initialise(frame_at(0, good), box), std::nullopt);
+  EXPECT_EQ(tracker.track(frame_at(1, {})).error, TrackerError::kEmptyFrame);
+  EXPECT_EQ(tracker.track(frame_at(1, cv::Mat(480, 640, CV_8UC3))).error,
+            TrackerError::kFrameFormat);
+  EXPECT_EQ(tracker.track(frame_at(1, cv::Mat(400, 640, CV_8U))).error, TrackerError::kFrameSize);
+  EXPECT_EQ(tracker.track(frame_at(0, good)).error, TrackerError::kTime);
+  EXPECT_EQ(tracker.track({good, nan, std::nullopt}).error, TrackerError::kTime);
+  for (const auto error :
+       {TrackerError::kNotInitialised, TrackerError::kEmptyFrame, TrackerError::kFrameFormat,
+        TrackerError::kFrameSize, TrackerError::kTime, TrackerError::kBox}) {
+    EXPECT_STRNE(to_string(error), "unknown");
+  }
+}
+
+TEST(Tracker, IsAsItWasAfterARefusedFrame) {
+  std::vector<TrackerOutput> outputs;
+  for (const bool disturbed : {false, true}) {
+    SyntheticScene scene(Backdrop::kSky, 10);
+    Tracker tracker = started(scene);
+    if (disturbed) {
+      tracker.track(frame_at(1, {}));
+      tracker.track(frame_at(0, scene.kSize.area() > 0 ? cv::Mat(480, 640, CV_8U) : cv::Mat()));
+      tracker.initialise(frame_at(1, cv::Mat(480, 640, CV_8U, cv::Scalar(0))), {0, 0, -1, -1});
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      tracker.search_near({nan, 0.0}, 1.0);
+    }
+    outputs.push_back(*tracker.track(frame_at(1, scene.picture({400, 300}, kStart))).output);
+  }
+  EXPECT_EQ(outputs[0].pixel, outputs[1].pixel);
+  EXPECT_EQ(outputs[0].belief, outputs[1].belief);
+}
+
+// Pictures and predictions that mean nothing give an output that is finite nevertheless.
+TEST(Tracker, GivesFiniteOutputForSenselessInput) {
+  SyntheticScene scene(Backdrop::kTextured, 11);
+  Tracker tracker = started(scene);
+  cv::RNG noise(3);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int k = 1; k < 60; ++k) {
+    cv::Mat gray(480, 640, CV_8U, cv::Scalar(k % 3 == 0 ? 0 : 255));
+    if (k % 3 == 1) noise.fill(gray, cv::RNG::UNIFORM, 0, 256);
+    TrackerInput input = frame_at(k, gray);
+    if (k % 4 == 0) input.predicted_homography = Eigen::Matrix3d::Constant(nan);
+    if (k % 4 == 1) input.predicted_homography = Eigen::Matrix3d::Zero();
+    if (k % 4 == 2) input.predicted_homography = shift_homography(200.0, -100.0);
+    const TrackerResult result = tracker.track(input);
+    ASSERT_TRUE(result.output.has_value());
+    EXPECT_TRUE(result.output->pixel.allFinite());
+    EXPECT_TRUE(result.output->covariance_px2.allFinite());
+    EXPECT_GT(result.output->covariance_px2.determinant(), 0.0);
+    EXPECT_TRUE(std::isfinite(result.output->box.width) && result.output->box.width > 0.0);
+    EXPECT_GE(result.output->belief, 0.0);
+    EXPECT_LE(result.output->belief, 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace ols
