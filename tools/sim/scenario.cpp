@@ -45,6 +45,12 @@ void read_camera(ConfigTable& table, Scenario& s) {
   s.readout_s = 1e-3 * table.number("readout_ms", 1e3 * s.readout_s, 0, 100);
 }
 
+void read_ptu(ConfigTable& table, PtuScenario& p) {
+  p.baud = static_cast<int>(table.integer("baud", p.baud, 600, 115200));
+  p.poll_interval_s = 1e-3 * table.number("poll_interval_ms", 1e3 * p.poll_interval_s, 5, 1000);
+  p.home_at_power_up = table.boolean("home_at_power_up", p.home_at_power_up);
+}
+
 void read_landscape(ConfigTable& table, Landscape& l) {
   l.ridge_mean_rad = degrees_of(table, "ridge_mean_deg", l.ridge_mean_rad, -10, 40);
   l.ridge_relief_rad = degrees_of(table, "ridge_relief_deg", l.ridge_relief_rad, 0, 30);
@@ -198,6 +204,7 @@ Scenario read_scenario(ConfigFile& file, const std::string& folder) {
   s.name = root.required_text("name");
   read_site(root.table("site"), s);
   read_camera(root.table("camera"), s);
+  read_ptu(root.table("ptu"), s.ptu);
   read_landscape(root.table("landscape"), s.landscape);
   ConfigTable& errors = root.table("errors");
   read_pose_errors(errors, s.errors);

@@ -77,6 +77,13 @@ struct TargetScenario {
   double brightness = 0.22;  // 0 black .. 1 as bright as the sky
 };
 
+// How the stations' PTUs are set up.
+struct PtuScenario {
+  int baud = 9600;
+  double poll_interval_s = 0.04;
+  bool home_at_power_up = true;  // for about twenty seconds, in which it answers nothing
+};
+
 // What stands around the site, seen at infinity.
 struct Landscape {
   double ridge_mean_rad = radians(8.0);
@@ -92,6 +99,7 @@ struct Scenario {
   double frame_rate_hz = 15.0;
   double exposure_s = 0.002;
   double readout_s = 0.010;
+  PtuScenario ptu;
   Errors errors;
   Landscape landscape;
   std::vector<StationScenario> stations;

@@ -105,8 +105,11 @@ PtuUnitConfig World::ptu_unit_config() const {
   c.tilt_min_counts = scaled(c.tilt_min_counts);
   c.tilt_max_counts = scaled(c.tilt_max_counts);
   c.max_speed_counts_s = scaled(c.max_speed_counts_s);
+  c.min_speed_counts_s = scaled(c.min_speed_counts_s);
   c.base_speed_counts_s = scaled(c.base_speed_counts_s);
   c.acceleration_counts_s2 = scaled(c.acceleration_counts_s2);
+  c.baud = scenario_.ptu.baud;
+  c.home_at_power_up = scenario_.ptu.home_at_power_up;
   c.reply_jitter_s = e.ptu_reply.on ? e.ptu_reply.jitter_s : 0.0;
   return c;
 }

@@ -1,0 +1,41 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "edge/config.h"
+#include "tools/sim/station_files.h"
+
+namespace ols::sim {
+namespace {
+
+TEST(StationFiles, AreReadByTheStationAsTheNominalGeometry) {
+  const World world(load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml"), 5);
+  const auto folder =
+      std::filesystem::path(::testing::TempDir()) / ("files_" + std::to_string(::getpid()));
+  write_station_files(world, {"udpm://239.255.76.67:7667?ttl=0", "/tmp/lines"}, folder);
+  for (const StationTruth& truth : world.stations()) {
+    const StationSettings read = load_station_settings(folder / (truth.id + ".toml"));
+    const StationGeometry& g = read.station.geometry;
+    EXPECT_EQ(read.id, truth.id);
+    EXPECT_LT((ecef_from_geodetic(g.position) - ecef_from_geodetic(truth.nominal.position)).norm(),
+              1e-6);
+    const PanTilt angles{0.3, 0.2};
+    const Eigen::Isometry3d told = enu_from_camera(g.chain, angles);
+    EXPECT_LT((told.matrix() - enu_from_camera(truth.nominal.chain, angles).matrix()).norm(),
+              1e-12);
+    EXPECT_GT((told.matrix() - enu_from_camera(truth.truth.chain, angles).matrix()).norm(), 1e-6)
+        << "the truth must not leak";
+    EXPECT_NEAR(g.camera.k1, truth.nominal.camera.k1, 1e-15);
+    EXPECT_NEAR(g.camera.fx_px, truth.nominal.camera.fx_px, 1e-9);
+    EXPECT_NEAR(g.sd.heading_rad, truth.nominal.sd.heading_rad, 1e-15);
+    EXPECT_NEAR(g.sd.mount_roll_rad, truth.nominal.sd.mount_roll_rad, 1e-15);
+    EXPECT_EQ(g.sd.position_m, truth.nominal.sd.position_m);
+    EXPECT_EQ(read.clock_sd_s, truth.clock_sd_s);
+    EXPECT_EQ(read.ptu.device, "/tmp/lines/" + truth.id + ".ptu");
+    EXPECT_NEAR(read.camera.exposure_us, 2000.0, 1e-9);
+  }
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace ols::sim

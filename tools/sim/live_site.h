@@ -1,0 +1,45 @@
+// The world in real time, behind real wires: a GigE Vision camera and a PTU on a pty for every
+// station. The truth goes out on channels that no product process reads.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "base/lcm_bus.h"
+#include "tools/sim/camera_server.h"
+#include "tools/sim/ptu_line.h"
+#include "tools/sim/renderer.h"
+#include "tools/sim/world.h"
+
+namespace ols::sim {
+
+class LiveSite {
+ public:
+  // The scenario's time 0 is now. `line_folder`: where the PTUs' lines are linked. Throws
+  // std::system_error when an address or a link cannot be had.
+  LiveSite(const World& world, const std::string& line_folder, LcmBus& bus);
+  ~LiveSite();
+
+  // OLS_SIM_TRUTH: the targets as they are now.
+  void publish_truth();
+
+ private:
+  struct Device;
+
+  void draw(Device& device, const Exposure& exposure, cv::Mat& gray);
+  void publish_view(const Device& device, const ExposureTruth& exposure, const ViewTruth& view,
+                    std::int64_t stamp_us);
+  std::int64_t true_utime_us(double scenario_s) const;
+
+  const World& world_;
+  LcmBus& bus_;
+  std::mutex bus_mutex_;
+  std::int64_t start_realtime_ns_;
+  std::vector<std::unique_ptr<Device>> devices_;
+};
+
+}  // namespace ols::sim

@@ -1,0 +1,173 @@
+#include "tools/sim/lockstep_station.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ols::sim {
+namespace {
+
+constexpr double kBoot_s = 100.0;         // of the monotonic clock at the scenario's start
+constexpr double kStampSd_s = 20e-6;      // of the camera's time stamps
+constexpr double kTransport_s = 0.004;    // of a frame over the wire
+constexpr double kOperatorDelay_s = 0.3;  // what the operator sees is as old as this
+constexpr double kPointInterval_s = 1.0, kPointLead_s = 0.7;
+constexpr double kSettle_s = 1.5;  // from the PTU's readiness to the first look
+constexpr std::uint64_t kStationTag = 5000, kUnitTag = 6000, kTrackerTag = 7000;
+
+PtuConfig driver_config(const World& world) {
+  PtuConfig config;
+  config.baud = world.scenario().ptu.baud;
+  config.poll_interval_s = world.scenario().ptu.poll_interval_s;
+  return config;
+}
+
+StationConfig station_config(const World& world, std::size_t index) {
+  StationConfig config;
+  config.geometry = world.stations()[index].nominal;
+  config.angles.step_rad = radians(world.ptu_unit_config().resolution_arcsec / 3600.0);
+  return config;
+}
+
+std::unique_ptr<TargetTracker> make_tracker(const Fidelity& fidelity, const ViewMemory& views,
+                                            std::uint64_t seed) {
+  if (!fidelity.pictures) return std::make_unique<ViewTracker>(views, fidelity.pixel_sd_px, seed);
+  return std::make_unique<ParticleFilterTracker>(TrackerConfig{}, seed);
+}
+
+bool inside_third(const CameraIntrinsics& camera, const ViewTruth& view) {
+  return view.visible && std::abs(view.centre_px.x() - camera.cx_px) < camera.width_px / 6.0 &&
+         std::abs(view.centre_px.y() - camera.cy_px) < camera.height_px / 6.0;
+}
+
+}  // namespace
+
+double LockstepStation::monotonic_s(double time_s) { return kBoot_s + time_s; }
+
+LockstepStation::LockstepStation(const World& world, std::size_t index, const Fidelity& fidelity,
+                                 std::unique_ptr<Renderer> renderer)
+    : world_(world),
+      index_(index),
+      fidelity_(fidelity),
+      renderer_(std::move(renderer)),
+      generator_(derived_seed(world.seed(), kStationTag + index)),
+      unit_(world.ptu_unit_config(), derived_seed(world.seed(), kUnitTag + index), kBoot_s),
+      driver_(driver_config(world)),
+      config_(station_config(world, index)),
+      station_(config_,
+               make_tracker(fidelity, views_, derived_seed(world.seed(), kTrackerTag + index))) {
+  std::uniform_real_distribution<double> uniform;
+  phase_s_ = uniform(generator_) / world.scenario().frame_rate_hz;
+  constexpr double kRoughly_rad = 0.3 * kPi / 180.0;
+  aiming_error_.pan_rad = kRoughly_rad * (2.0 * uniform(generator_) - 1.0);
+  aiming_error_.tilt_rad = kRoughly_rad * (2.0 * uniform(generator_) - 1.0);
+}
+
+std::vector<Bearing> LockstepStation::advance(double time_s) {
+  exchange_bytes(time_s);
+  for (const AngleSample& sample : driver_.take_samples()) station_.on_angles(sample);
+  expose(time_s);
+  operate(time_s);
+  const double now_s = monotonic_s(time_s);
+  std::vector<Bearing> bearings = station_.step(now_s);
+  driver_.set_goal(station_.goal(now_s));
+  return bearings;
+}
+
+void LockstepStation::exchange_bytes(double time_s) {
+  const double now_s = monotonic_s(time_s);
+  const double first_s = std::min(unit_.next_output_s().value_or(now_s), now_s);
+  const std::string answer = unit_.transmit(now_s);
+  if (!answer.empty()) driver_.receive(answer, first_s);
+  const std::string request = driver_.step(now_s);
+  if (!request.empty()) unit_.receive(request, now_s);
+}
+
+void LockstepStation::expose(double time_s) {
+  const Scenario& s = world_.scenario();
+  const double mid_s = phase_s_ + static_cast<double>(next_frame_) / s.frame_rate_hz;
+  if (time_s < mid_s + 0.5 * s.exposure_s + s.readout_s + kTransport_s) return;
+  const std::int64_t number = next_frame_++;
+  const bool lost = std::uniform_real_distribution<double>()(generator_) < s.errors.frames.lost;
+  const double stamp_s = monotonic_s(mid_s) + kStampSd_s * normal_(generator_);
+  ExposureTruth exposure;
+  exposure.mid_s = mid_s;
+  exposure.exposure_s = s.exposure_s;
+  exposure.frame = static_cast<std::uint64_t>(number);
+  exposure.start = unit_.angles_at(monotonic_s(mid_s - 0.5 * s.exposure_s));
+  exposure.mid = unit_.angles_at(monotonic_s(mid_s));
+  exposure.end = unit_.angles_at(monotonic_s(mid_s + 0.5 * s.exposure_s));
+  if (s.errors.frames.on && lost) {
+    record_.frames_lost += 1;
+    return;
+  }
+  Frame frame;
+  frame.mid_exposure_s = stamp_s;
+  frame.stamp_sd_s = kStampSd_s;
+  frame.number = exposure.frame;
+  const ViewTruth view =
+      renderer_ ? renderer_->draw(exposure, frame.gray) : view_truth(world_, index_, exposure);
+  views_.add(stamp_s, view);
+  seen_.push_back({mid_s, stamp_s, view});
+  if (mid_s - seen_.front().mid_s > 1.0) seen_.pop_front();
+  station_.on_frame(frame);
+  if (designated_) take_note(view);
+}
+
+void LockstepStation::take_note(const ViewTruth& view) {
+  record_.frames += 1;
+  record_.frames_in_state[to_string(station_.state())] += 1;
+  record_.frames_inside_third += inside_third(config_.geometry.camera, view) ? 1 : 0;
+  const StationSnapshot snapshot = station_.snapshot();
+  if (station_.state() != StationState::kTracking || !snapshot.target_offset_px) return;
+  const auto& camera = config_.geometry.camera;
+  const Eigen::Vector2d error_px =
+      *snapshot.target_offset_px + Eigen::Vector2d(camera.cx_px, camera.cy_px) - view.centre_px;
+  record_.pixels += 1;
+  record_.error_px += error_px;
+  record_.squared_error_px2 += error_px.cwiseAbs2();
+}
+
+void LockstepStation::operate(double time_s) {
+  if (designated_ || driver_.state() != PtuState::kReady) return;
+  if (ready_s_ < 0.0) {
+    ready_s_ = time_s;
+    station_.set_limits(driver_.limits());
+  }
+  if (pointed_s_ < 0.0 || time_s - pointed_s_ > kPointInterval_s) point_roughly(time_s);
+  if (time_s - ready_s_ > kSettle_s) designate_seen(time_s);
+}
+
+void LockstepStation::point_roughly(double time_s) {
+  const TargetTruth target = world_.target(0, time_s + kPointLead_s);
+  auto angles = aim_at(config_.geometry, target.p_ecef);
+  if (!angles) return;
+  angles->pan_rad += aiming_error_.pan_rad;
+  angles->tilt_rad += aiming_error_.tilt_rad;
+  station_.point({*angles}, monotonic_s(time_s));
+  pointed_s_ = time_s;
+}
+
+void LockstepStation::designate_seen(double time_s) {
+  constexpr double kMargin_px = 60.0;
+  const auto frame = std::find_if(seen_.rbegin(), seen_.rend(), [&](const Seen& seen) {
+    return time_s - seen.mid_s >= kOperatorDelay_s;
+  });
+  if (frame == seen_.rend() || !frame->view.visible || !seen_.back().view.visible) return;
+  const Eigen::Vector2d c = frame->view.centre_px;
+  const auto& camera = config_.geometry.camera;
+  if (c.x() < kMargin_px || c.y() < kMargin_px || c.x() > camera.width_px - kMargin_px ||
+      c.y() > camera.height_px - kMargin_px) {
+    return;
+  }
+  cv::Rect2d box = frame->view.box;
+  box.x += config_.designation_sd_px * normal_(generator_);
+  box.y += config_.designation_sd_px * normal_(generator_);
+  designated_ = station_.designate({frame->stamp_s, box}, monotonic_s(time_s)) == Refusal::kNone;
+}
+
+Refusal LockstepStation::slew(SlewCommand command, double time_s) {
+  command.received_s = monotonic_s(time_s);
+  return station_.slew(command, command.received_s);
+}
+
+}  // namespace ols::sim

@@ -1,0 +1,91 @@
+// One station in simulated time: the product's Station and PTU driver, joined to a simulated unit
+// by bytes and to a simulated camera by frames.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "edge/ptu/driver.h"
+#include "edge/station.h"
+#include "edge/tracker/tracker_config.h"
+#include "tools/sim/ptu_unit.h"
+#include "tools/sim/renderer.h"
+#include "tools/sim/view_tracker.h"
+#include "tools/sim/world.h"
+
+namespace ols::sim {
+
+struct Fidelity {
+  bool pictures = true;  // false: the pixel is the truth with noise of this deviation
+  double pixel_sd_px = 0.3;
+};
+
+// What a station's frames have shown since the designation.
+struct StationRecord {
+  std::map<std::string, int> frames_in_state;
+  int frames = 0;  // exposed since the designation
+  int frames_lost = 0;
+  int frames_inside_third = 0;  // target's centre inside the central third, both ways
+  int pixels = 0;               // believed measurements, and their errors' sums [px, px^2]
+  Eigen::Vector2d error_px = Eigen::Vector2d::Zero();
+  Eigen::Vector2d squared_error_px2 = Eigen::Vector2d::Zero();
+};
+
+class LockstepStation {
+ public:
+  // `renderer` is null without pictures; `world` must outlive the station.
+  LockstepStation(const World& world, std::size_t index, const Fidelity& fidelity,
+                  std::unique_ptr<Renderer> renderer);
+
+  // Goes on to this instant of true time (by a millisecond or so); returns the bearings made.
+  std::vector<Bearing> advance(double time_s);
+
+  Refusal slew(SlewCommand command, double time_s);
+  // The station's monotonic clock at an instant of true time.
+  static double monotonic_s(double time_s);
+
+  const Station& station() const { return station_; }
+  const StationRecord& record() const { return record_; }
+  const PtuCounters& ptu_counters() const { return driver_.counters(); }
+  bool designated() const { return designated_; }
+
+ private:
+  void exchange_bytes(double time_s);
+  void expose(double time_s);
+  void take_note(const ViewTruth& view);
+  void operate(double time_s);
+  void point_roughly(double time_s);
+  void designate_seen(double time_s);
+
+  const World& world_;
+  std::size_t index_;
+  Fidelity fidelity_;
+  std::unique_ptr<Renderer> renderer_;
+  std::mt19937_64 generator_;
+  std::normal_distribution<double> normal_;
+  PtuUnit unit_;
+  PtuDriver driver_;
+  ViewMemory views_;
+  StationConfig config_;
+  Station station_;
+  StationRecord record_;
+  double phase_s_;  // of the exposures
+  std::int64_t next_frame_ = 0;
+
+  // The operator.
+  struct Seen {
+    double mid_s = 0.0, stamp_s = 0.0;
+    ViewTruth view;
+  };
+  std::deque<Seen> seen_;
+  PanTilt aiming_error_;
+  double ready_s_ = -1.0, pointed_s_ = -1.0;
+  bool designated_ = false;
+};
+
+}  // namespace ols::sim
