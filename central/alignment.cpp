@@ -152,6 +152,7 @@ std::optional<Ray> align(std::span<const Sighting> sightings, std::int64_t epoch
   const auto samples = samples_of(window, epoch_us, reference, frame);
   Ray ray =
       ray_of(reference, frame, fit(samples, range_m.value_or(config.range_unknown_m), config));
+  ray.bearing_variance_rad2 = reference.sight.covariance_white.trace() / 2.0;
   ray.clock_sd_s = reference.clock_sd_s;
   ray.age_s = seconds_between(epoch_us, sightings.back().utime_us);
   ray.belief = 0.0;

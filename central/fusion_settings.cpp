@@ -23,6 +23,8 @@ void read_least_squares(ConfigTable& table, LeastSquaresConfig& config) {
 
 void read_residuals(ConfigTable& table, ResidualConfig& config) {
   config.memory_s = table.number("memory_s", config.memory_s, 0.1, 1e5);
+  config.independence_s = table.number("independence_s", config.independence_s, 1e-3, 1e4);
+  config.common_weight = table.number("common_weight", config.common_weight, 0.0, 1e6);
   config.prior_weight = table.number("prior_weight", config.prior_weight, 0.1, 1e6);
   config.systematic_margin = table.number("systematic_margin", config.systematic_margin, 1.0, 1e6);
   config.clip = table.number("clip", config.clip, 1.0, 1e6);

@@ -257,11 +257,13 @@ RayUse use_of(const Problem& problem, const Fit& fit, std::size_t i) {
   RayUse use{.used = fit.weights[i] > 0.0, .weight = fit.weights[i]};
   if (problem.ahead(i, fit.x) <= 0.0) return use;
   const Linear linear = linearise(problem, i, fit.x);
-  const double leverage =
-      (linear.information * linear.jacobian * fit.covariance * linear.jacobian.transpose()).trace();
+  const Eigen::Matrix2d position = linear.jacobian * fit.covariance * linear.jacobian.transpose();
+  const double sign = use.used ? -use.weight : 1.0;
   use.squared = linear.residual.dot(linear.information * linear.residual);
-  use.expected = use.used ? std::max(0.0, 2.0 - use.weight * leverage) : 2.0 + leverage;
-  use.variance_rad2 = linear.covariance.trace() / 2.0;
+  use.expected = std::max(0.0, 2.0 + sign * (linear.information * position).trace());
+  use.residual_rad = linear.residual;
+  use.variance_rad2 = linear.covariance.diagonal();
+  use.redundancy = (1.0 + sign * position.diagonal().array() / use.variance_rad2.array()).max(0.0);
   return use;
 }
 

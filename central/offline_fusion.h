@@ -20,7 +20,7 @@ struct OfflineConfig {
   double rate_hz = 0.0;    // epochs on an even grid; 0: at the instant of every bearing
   int moving_average = 1;  // estimates that are averaged; 1: none, the paper's is 10
   int passes = 3;          // the first ones learn what the bearings' covariances leave out
-  FusionConfig fusion{};     // what it shares with the live one
+  FusionConfig fusion{};   // what it shares with the live one
 };
 
 // One target's bearings, in any order. Targets with a position only, in order of time. Bearings

@@ -17,7 +17,8 @@ struct Ray {
   // On the tangent plane (cross-elevation, elevation): how the direction moves.
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();
   Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();  // [rad^2/s^2] white
-  double clock_sd_s = 0.0;                                    // stays
+  double bearing_variance_rad2 = 0.0;  // white, of one bearing before alignment, mean of two axes
+  double clock_sd_s = 0.0;             // stays
   double belief = 1.0;
   double age_s = 0.0;  // epoch minus the newest bearing of the station (< 0: newer)
 };
@@ -49,12 +50,16 @@ const char* to_string(Solution solution);
 struct RayUse {
   bool used = false;    // false: set aside as an outlier
   double weight = 0.0;  // 0..1, robust weight
-  // For the judgement of stations over many epochs: the squared normalised residual (two
-  // components), its expectation if all covariances are true, and the mean variance [rad^2] it was
-  // normalised by.
+  // For the judgement of stations over many epochs: the squared normalised residual of both
+  // components, and its expectation if all covariances are true.
   double squared = 0.0;
   double expected = 0.0;
-  double variance_rad2 = 0.0;
+  // The same by component (cross-elevation, elevation): the residual, the variance that it was
+  // weighted by, and the share of that variance that a residual shows (0..1; above 1 when set
+  // aside, because the position's own error comes on top).
+  Eigen::Vector2d residual_rad = Eigen::Vector2d::Zero();
+  Eigen::Vector2d variance_rad2 = Eigen::Vector2d::Zero();
+  Eigen::Vector2d redundancy = Eigen::Vector2d::Zero();
 };
 
 inline Eigen::Vector3d nan_vector() {
@@ -74,7 +79,7 @@ struct Estimate {
   Eigen::Matrix3d velocity_covariance_ecef = nan_matrix();  // [m^2/s^2]
   double crossing_angle_rad = std::numeric_limits<double>::quiet_NaN();  // 0..pi/2
   double residual = std::numeric_limits<double>::quiet_NaN();  // sqrt(chi^2 / degrees of freedom)
-  std::vector<RayUse> rays{};                                    // as the rays that were given
+  std::vector<RayUse> rays{};                                  // as the rays that were given
 };
 
 // Greatest angle between two of the rays that are used, folded to 0..pi/2; 0 for fewer than two.

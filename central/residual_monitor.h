@@ -3,9 +3,9 @@
 //
 // One epoch's residuals are too few to tell. Over many, the squared residuals against their
 // expectation (variance components by redundancy, after Foerstner) give each station's true mean
-// variance. What it has beyond its statement is added to its rays as an error that stays. A station
-// that states what is not known of its pose is believed up to a margin: one constant error is one
-// draw, however often it is seen. A station that states nothing of that kind is not.
+// variance. What it has beyond its white noise is added to its rays as an error that stays. A
+// station that states what is not known of its pose is believed up to a margin: one constant error
+// is one draw, however often it is seen. A station that states nothing of that kind is not.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,10 @@
 namespace ols {
 
 struct ResidualConfig {
-  double memory_s = 30.0;          // residuals older than this count less than 1/e
-  double prior_weight = 4.0;       // residual components' worth of trust in the statement
+  double memory_s = 120.0;         // residuals older than this count less than 1/e
+  double independence_s = 3.0;     // residuals nearer to each other are no news: such errors stay
+  double prior_weight = 2.0;       // residuals' worth of trust in the statements
+  double common_weight = 10.0;     // residuals' worth that a station is taken to be like the rest
   double systematic_margin = 9.0;  // stated systematic variance is believed up to this many times
   double clip = 16.0;              // greatest squared residual over its expectation in one epoch
 };
@@ -36,11 +38,15 @@ class ResidualMonitor {
   double rms(const std::string& station) const;
 
  private:
+  Eigen::Array2d common_excess() const;
+
   struct Station {
     std::int64_t epoch_us = 0;
-    double weight = 0.0;    // sum of expectations
-    double variance = 0.0;  // sum of squared residuals [rad^2]
-    double squared = 0.0;   // sum of squared normalised residuals
+    // By component (cross-elevation, elevation), decaying sums:
+    Eigen::Array2d weight = Eigen::Array2d::Zero();       // of redundancies
+    Eigen::Array2d excess_rad2 = Eigen::Array2d::Zero();  // of squared residuals beyond white noise
+    double squared = 0.0;                                 // of squared normalised residuals
+    double expected = 0.0;                                // of their expectations
   };
   ResidualConfig config_;
   std::map<std::string, Station> stations_;
