@@ -1,0 +1,109 @@
+"""ols-fuse as its users meet it: good and bad files, and real recordings where there are some."""
+
+import csv
+import json
+import subprocess
+import sys
+
+import pytest
+from conftest import BIN
+
+STATIONS = """\
+station,latitude_deg,longitude_deg,height_m
+west,49.2,16.598,250
+east,49.2,16.602,250
+"""
+BEARINGS = """\
+utime_us,station,azimuth_deg,elevation_deg,sigma_deg
+1600000000000000,west,45,10,0.01
+1600000000000000,east,315,10,0.01
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "stations.csv").write_text(STATIONS)
+    (tmp_path / "bearings.csv").write_text(BEARINGS)
+    return tmp_path
+
+
+def fuse(stations, bearings, output, *options):
+    command = [BIN / "ols-fuse", "--stations", stations, "--bearings", bearings, "--output", output]
+    return subprocess.run(
+        [*map(str, command), *options], capture_output=True, text=True, timeout=300, check=False
+    )
+
+
+def fuse_in(folder, *options):
+    files = (folder / name for name in ("stations.csv", "bearings.csv", "fixes.csv"))
+    return fuse(*files, *options)
+
+
+@pytest.mark.parametrize("estimator", ["least-squares", "paper", "paper-best-baseline"])
+def test_a_symmetric_pair(folder, estimator):
+    result = fuse_in(folder, "--estimator", estimator)
+    assert result.returncode == 0, result.stderr
+    (fix,) = csv.DictReader((folder / "fixes.csv").open())
+    assert fix["utime_us"] == "1600000000000000"
+    assert float(fix["longitude_deg"]) == pytest.approx(16.6, abs=1e-6)
+    # The stations are 291.5 m apart: the target is half of that north, at 206 m tan(10 deg).
+    assert float(fix["latitude_deg"]) == pytest.approx(49.2 + 145.7 / 111_200, abs=2e-5)
+    assert float(fix["height_m"]) == pytest.approx(250 + 36.3, abs=0.2)
+    assert float(fix["up_sd_m"]) > 0
+
+
+def test_targets_are_kept_apart(folder):
+    header, first, second = BEARINGS.splitlines()
+    rows = [header + ",target", first + ",a", second + ",a", first + ",b", second + ",b"]
+    (folder / "bearings.csv").write_text("\n".join(rows))
+    assert fuse_in(folder).returncode == 0
+    assert [fix["target"] for fix in csv.DictReader((folder / "fixes.csv").open())] == ["a", "b"]
+
+
+@pytest.mark.parametrize(
+    ("name", "row", "expected"),
+    [
+        ("bearings.csv", "1600000000000000,west,45,ten,0.01", "bearings.csv:4: elevation_deg"),
+        ("bearings.csv", "1600000000000000,south,45,10,0.01", "bearings.csv:4: station"),
+        ("bearings.csv", "1600000000000000,west,45", "bearings.csv:4: row"),
+        ("stations.csv", "north,149.2,16.6,250", "stations.csv:4: latitude_deg"),
+        ("stations.csv", "north,49.2,16.6,nan", "stations.csv:4: height_m"),
+    ],
+)
+def test_a_bad_row_is_named_and_nothing_is_written(folder, name, row, expected):
+    (folder / "fixes.csv").write_text("what was there before\n")
+    with (folder / name).open("a") as file:
+        file.write(row + "\n")
+    result = fuse_in(folder)
+    assert result.returncode == 2
+    assert len(result.stderr.strip().splitlines()) == 1
+    assert expected in result.stderr
+    assert (folder / "fixes.csv").read_text() == "what was there before\n"
+    assert len(list(folder.iterdir())) == 3
+
+
+def test_bad_options_and_files(folder):
+    assert fuse_in(folder, "--estimator", "guess").returncode == 2
+    assert fuse_in(folder, "--rate", "-1").returncode == 2
+    assert fuse(folder / "no.csv", folder / "bearings.csv", folder / "f.csv").returncode == 2
+    result = fuse(folder / "stations.csv", folder / "bearings.csv", folder / "no" / "f.csv")
+    assert result.returncode == 2
+    assert "f.csv" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("recording", "median_m", "coverage"), [("drone4", 0.20, 0.95), ("meteor_wmpl", 80.0, 0.95)]
+)
+def test_real_recordings(shared, tmp_path, recording, median_m, coverage):
+    data = shared / "data/fusion" / recording
+    fixes = tmp_path / "fixes.csv"
+    result = fuse(data / "stations.csv", data / "bearings.csv", fixes)
+    assert result.returncode == 0, result.stderr
+    scorer = shared / "tools/score_fixes.py"
+    files = [data / "truth.csv", fixes, data / "stations.csv"]
+    command = [sys.executable, str(scorer), *map(str, files), "--json"]
+    score = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
+    assert score["error_3d"]["median"] <= median_m
+    assert score["coverage"] >= coverage
+    for axis in ("east", "north", "up"):
+        assert 0.25 < score["consistency"][axis] < 4.0

@@ -1,0 +1,169 @@
+#include "base/csv_files.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace ols {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const kStations = "station,latitude_deg,longitude_deg,height_m\n";
+const char* const kBearings = "utime_us,station,azimuth_deg,elevation_deg,sigma_deg\n";
+
+class CsvFilesTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              (std::string("csv_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+  // The error's text without the folder.
+  std::string error_of_stations(const std::string& text) const {
+    try {
+      read_stations(write("s.csv", text));
+    } catch (const CsvError& error) {
+      return std::string(error.what()).substr(folder_.string().size() + 1);
+    }
+    return "none";
+  }
+  std::string error_of_bearings(const std::string& text) const {
+    const auto stations = read_stations(write("s.csv", std::string(kStations) + "a,1,2,3\n"));
+    try {
+      read_bearings(write("b.csv", text), stations);
+    } catch (const CsvError& error) {
+      return std::string(error.what()).substr(folder_.string().size() + 1);
+    }
+    return "none";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(CsvFilesTest, ReadsStations) {
+  const auto stations = read_stations(
+      write("s.csv", std::string(kStations) + "north,49.199461378,16.600180669,233.0887\n"
+                                              "\"a, b\",-1,-179,-5e0\n"));
+  ASSERT_EQ(stations.size(), 2U);
+  EXPECT_EQ(stations[0].station, "north");
+  EXPECT_EQ(stations[0].latitude_deg, 49.199461378);
+  EXPECT_EQ(stations[0].longitude_deg, 16.600180669);
+  EXPECT_EQ(stations[0].height_m, 233.0887);
+  EXPECT_FALSE(stations[0].position_sd_m);
+  EXPECT_EQ(stations[1].station, "a, b");
+  EXPECT_EQ(stations[1].height_m, -5.0);
+}
+
+// Columns in any order, strange ones beside them, optional ones given or left empty, a byte order
+// mark, line ends of another system, empty lines, no line end at the end.
+TEST_F(CsvFilesTest, FindsColumnsByName) {
+  const auto stations = read_stations(
+      write("s.csv",
+            "\xEF\xBB\xBFheight_m,note,station,pointing_sd_deg,longitude_deg,latitude_deg,"
+            "position_sd_m\r\n10,x, a ,0.5,20,30,\r\n\r\n11,y,b,,21,31,0.25"));
+  ASSERT_EQ(stations.size(), 2U);
+  EXPECT_EQ(stations[0].station, "a");
+  EXPECT_EQ(stations[0].latitude_deg, 30.0);
+  EXPECT_EQ(stations[0].longitude_deg, 20.0);
+  EXPECT_EQ(stations[0].pointing_sd_deg, 0.5);
+  EXPECT_FALSE(stations[0].position_sd_m);
+  EXPECT_EQ(stations[1].position_sd_m, 0.25);
+  EXPECT_FALSE(stations[1].pointing_sd_deg);
+}
+
+TEST_F(CsvFilesTest, ReadsBearingsExactly) {
+  const auto stations = read_stations(write("s.csv", std::string(kStations) + "a,1,2,3\n"));
+  const auto bearings =
+      read_bearings(write("b.csv",
+                          "utime_us,station,azimuth_deg,elevation_deg,sigma_deg,belief,target\n"
+                          "1600000018965925,a,239.154728,1.666608,0.025952,0.75,drone\n"
+                          "1600000018965926,a,-12,0,1,,\n"),
+                    stations);
+  ASSERT_EQ(bearings.size(), 2U);
+  EXPECT_EQ(bearings[0].utime_us, 1600000018965925);
+  EXPECT_EQ(bearings[0].azimuth_deg, 239.154728);
+  EXPECT_EQ(bearings[0].sigma_deg, 0.025952);
+  EXPECT_EQ(bearings[0].belief, 0.75);
+  EXPECT_EQ(bearings[0].target, "drone");
+  EXPECT_EQ(bearings[1].belief, 1.0);
+  EXPECT_EQ(bearings[1].target, "1");
+}
+
+TEST_F(CsvFilesTest, NamesTheBadStation) {
+  const std::string head = kStations;
+  EXPECT_EQ(error_of_stations(""), "s.csv:1: header: is missing");
+  EXPECT_EQ(error_of_stations("station,latitude_deg,height_m\na,1,2\n"),
+            "s.csv:1: longitude_deg: there is no such column");
+  EXPECT_EQ(error_of_stations(head), "s.csv:2: row: there is none");
+  EXPECT_EQ(error_of_stations(head + "a,1,2,3\nb,91,2,3\n"),
+            "s.csv:3: latitude_deg: 91 is outside -90 .. 90");
+  EXPECT_EQ(error_of_stations(head + "a,1,2,3\n\nb,1,2,3m\n"),
+            "s.csv:4: height_m: '3m' is not a number");
+  EXPECT_EQ(error_of_stations(head + "a,nan,2,3\n"),
+            "s.csv:2: latitude_deg: nan is outside -90 .. 90");
+  EXPECT_EQ(error_of_stations(head + "a,1,inf,3\n"),
+            "s.csv:2: longitude_deg: inf is outside -180 .. 360");
+  EXPECT_EQ(error_of_stations(head + "a,,2,3\n"), "s.csv:2: latitude_deg: is empty");
+  EXPECT_EQ(error_of_stations(head + ",1,2,3\n"), "s.csv:2: station: is empty");
+  EXPECT_EQ(error_of_stations(head + "a,1,2,3\na,1,2,3\n"), "s.csv:3: station: 'a' is there twice");
+  for (const char* row : {"a,1,2\n", "a,1,2,3,4\n", "\"a,1,2,3\n"}) {
+    EXPECT_EQ(error_of_stations(head + row),
+              "s.csv:2: row: too few or too many columns, or a quote that stays open")
+        << row;
+  }
+  EXPECT_NE(error_of_stations("station,station,latitude_deg,longitude_deg,height_m\n"), "none");
+  EXPECT_THROW(read_stations(folder_ / "absent.csv"), CsvError);
+  EXPECT_THROW(read_stations(folder_), CsvError);
+}
+
+TEST_F(CsvFilesTest, NamesTheBadBearing) {
+  const std::string head = kBearings;
+  EXPECT_EQ(error_of_bearings(head + "5,a,0,0,1\n"), "none");
+  EXPECT_EQ(error_of_bearings(head + "5,a,0,0,1\n1.5,a,0,0,1\n"),
+            "b.csv:3: utime_us: '1.5' is not a number");
+  EXPECT_EQ(error_of_bearings(head + "99999999999999999999,a,0,0,1\n"),
+            "b.csv:2: utime_us: '99999999999999999999' is not a number");
+  EXPECT_EQ(error_of_bearings(head + "-5,a,0,0,1\n"),
+            "b.csv:2: utime_us: -5 is outside 0 .. 9000000000000000");
+  EXPECT_EQ(error_of_bearings(head + "5,b,0,0,1\n"),
+            "b.csv:2: station: 'b' is not one of the stations");
+  EXPECT_EQ(error_of_bearings(head + "5,a,361,0,1\n"),
+            "b.csv:2: azimuth_deg: 361 is outside -360 .. 360");
+  EXPECT_EQ(error_of_bearings(head + "5,a,0,90.1,1\n"),
+            "b.csv:2: elevation_deg: 90.1 is outside -90 .. 90");
+  EXPECT_EQ(error_of_bearings(head + "5,a,0,0,0\n"),
+            "b.csv:2: sigma_deg: 0 is outside 1e-09 .. 90");
+}
+
+TEST_F(CsvFilesTest, WritesFixesWhole) {
+  FixRow fix;
+  fix.utime_us = 1600000000200000;
+  fix.target = "1";
+  fix.latitude_deg = 49.1234567894;
+  fix.longitude_deg = -16.5;
+  fix.height_m = 266.63494;
+  fix.east_sd_m = 0.13;
+  fix.stations_used = 3;
+  const std::string path = folder_ / "fixes.csv";
+  write_fixes(path, {fix});
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  EXPECT_EQ(text.str(),
+            "utime_us,target,latitude_deg,longitude_deg,height_m,east_sd_m,north_sd_m,up_sd_m,"
+            "stations_used,stations_set_aside,crossing_angle_deg,residual\n"
+            "1600000000200000,1,49.123456789,-16.500000000,266.6349,0.1300,0.0000,0.0000,3,0,"
+            "0.0000,0.0000\n");
+  EXPECT_ANY_THROW(write_fixes(folder_ / "absent" / "fixes.csv", {fix}));
+}
+
+}  // namespace
+}  // namespace ols

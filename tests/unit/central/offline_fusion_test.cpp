@@ -1,0 +1,114 @@
+#include "central/offline_fusion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "scene.h"
+
+namespace ols {
+namespace {
+
+using Eigen::Vector3d;
+using test::ray_to;
+using test::sighting_of;
+using test::site;
+using test::square;
+
+constexpr std::int64_t kStart = 1'600'000'000'000'000;
+
+Vector3d path(double t_s) {
+  return {100.0 * std::sin(0.2 * t_s), 80.0 * std::cos(0.2 * t_s), 100.0 + t_s};
+}
+
+// Four stations with rates and phases of their own; "c" sees the target only in the first half.
+std::vector<Sighting> recording(double seconds, double sigma_rad, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  std::vector<Sighting> sightings;
+  const double rates_hz[] = {25.0, 30.0, 50.0, 27.3};
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (double t_s = 0.007 * static_cast<double>(k); t_s < seconds; t_s += 1.0 / rates_hz[k]) {
+      if (k == 2 && t_s > seconds / 2.0) break;
+      Ray ray =
+          ray_to(std::string(1, static_cast<char>('a' + k)), square()[k], path(t_s), sigma_rad);
+      ray = test::turned(ray, sigma_rad * normal(random), sigma_rad * normal(random));
+      sightings.push_back(sighting_of(ray, kStart + std::llround(t_s * 1e6)));
+    }
+  }
+  return sightings;
+}
+
+Vector3d error(const FusedTarget& target) {
+  const double t_s = static_cast<double>(target.utime_us - kStart) * 1e-6;
+  return target.estimate.position_ecef - site().to_ecef(path(t_s));
+}
+
+TEST(OfflineFusion, InterpolatesAndIsHonest) {
+  OfflineConfig config;
+  config.rate_hz = 10.0;
+  const auto targets = fuse_offline(recording(40.0, 2e-4, 3), config);
+  ASSERT_GT(targets.size(), 395U);
+  double normalised = 0.0;
+  for (const FusedTarget& target : targets) {
+    const Vector3d e = error(target);
+    normalised += e.squaredNorm() / target.estimate.covariance_ecef.trace();
+    EXPECT_LT(e.norm(), 0.4);
+  }
+  normalised /= static_cast<double>(targets.size());
+  EXPECT_GT(normalised, 0.6);
+  EXPECT_LT(normalised, 1.4);
+  EXPECT_EQ(targets.front().utime_us, kStart);
+  EXPECT_EQ(targets[1].utime_us, kStart + 100'000);
+  EXPECT_EQ(targets[10].stations.size(), 4U);
+  EXPECT_EQ(targets.back().stations.size(), 3U);
+}
+
+TEST(OfflineFusion, DoesNotDependOnTheOrderOfRows) {
+  auto sightings = recording(3.0, 1e-4, 4);
+  const auto first = fuse_offline(sightings, {});
+  std::mt19937_64 random(1);
+  std::ranges::shuffle(sightings, random);
+  const auto second = fuse_offline(sightings, {});
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].utime_us, second[i].utime_us);
+    EXPECT_EQ(first[i].estimate.position_ecef, second[i].estimate.position_ecef);
+  }
+}
+
+TEST(OfflineFusion, EveryEstimatorFollows) {
+  const auto sightings = recording(5.0, 1e-5, 5);
+  for (const char* name : {"least-squares", "paper", "paper-best-baseline"}) {
+    OfflineConfig config;
+    config.estimator = offline_estimator(name).value();
+    config.rate_hz = 20.0;
+    const auto targets = fuse_offline(sightings, config);
+    ASSERT_GT(targets.size(), 95U) << name;
+    for (const FusedTarget& target : targets) {
+      EXPECT_EQ(target.estimator, name);
+      EXPECT_LT(error(target).norm(), 0.1) << name;
+    }
+  }
+  EXPECT_FALSE(offline_estimator("guess"));
+}
+
+TEST(OfflineFusion, MovingAverageTrails) {
+  OfflineConfig config;
+  config.rate_hz = 10.0;
+  config.moving_average = 10;
+  const auto targets = fuse_offline(recording(5.0, 1e-5, 6), config);
+  // 0.45 s behind at about 20 m/s.
+  EXPECT_NEAR(error(targets[30]).norm(), 0.45 * 18.0, 2.5);
+}
+
+TEST(OfflineFusion, NothingGivesNothing) {
+  EXPECT_TRUE(fuse_offline({}, {}).empty());
+  auto alone = recording(2.0, 1e-4, 7);
+  std::erase_if(alone, [](const Sighting& sighting) { return sighting.station != "a"; });
+  EXPECT_TRUE(fuse_offline(alone, {}).empty());
+}
+
+}  // namespace
+}  // namespace ols
