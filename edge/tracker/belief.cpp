@@ -9,6 +9,7 @@ namespace {
 constexpr double kFallTime = 0.12;  // [s]
 constexpr double kRiseTime = 0.15;
 constexpr double kTypicalTime = 1.0;
+constexpr double kSimilarityShare = 0.2;
 constexpr double kMostContrastRatio = 0.8;  // natural logarithm of the ratio
 
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
@@ -18,10 +19,11 @@ double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 double frame_belief(const FrameEvidence& evidence, const Typical& typical) {
   const double least = std::clamp(typical.correlation - 0.3, 0.4, 0.65);
   const double room = std::max(0.02, 1.0 - evidence.background_similarity);
-  const double above = (evidence.similarity - evidence.background_similarity) / room;
+  const double above =
+      std::clamp((evidence.similarity - evidence.background_similarity) / room, -0.5, 0.5);
   const double contrast =
       std::abs(std::log(std::max(evidence.contrast, 1e-3) / std::max(typical.contrast, 1e-3)));
-  return logistic(20.0 * (above - 0.12)) * logistic(14.0 * (evidence.correlation - least)) *
+  return logistic(14.0 * (evidence.correlation + kSimilarityShare * above - least)) *
          logistic(8.0 * (kMostContrastRatio - contrast));
 }
 
