@@ -1,0 +1,149 @@
+"""The fusion with stations that exist only as messages: what it takes, refuses and withholds."""
+
+import itertools
+import math
+import time
+
+import lcm
+import numpy as np
+import ols
+import ols_msg
+import pytest
+from conftest import BIN
+from ols_demo.bus import LIVE_URL, counters, decode
+from ols_demo.observer import Observer
+from ols_demo.site import Site
+
+PLACE = ols.Geodetic(
+    latitude_rad=math.radians(49.2), longitude_rad=math.radians(16.6), height_m=250.0
+)
+SITE = ols.LocalFrame(PLACE)
+CAMERAS = {"a": (-200.0, 0.0, 0.0), "b": (200.0, 0.0, 2.0), "c": (0.0, 250.0, -1.0)}
+TARGET_ENU = (30.0, 60.0, 90.0)
+HOUR_US = 3_600_000_000
+
+
+def bearing(station, utime_us):
+    camera = SITE.to_ecef(np.array(CAMERAS[station]))
+    line = ols.R_ecef_enu(camera).T @ (SITE.to_ecef(np.array(TARGET_ENU)) - camera)
+    direction = ols.azimuth_elevation_from_enu(line)
+    message = ols_msg.bearing_t()
+    message.utime = utime_us
+    message.schema_version = message.SCHEMA_VERSION
+    message.station = station
+    message.belief = 0.9
+    message.camera_ecef_m = list(camera)
+    message.azimuth_rad, message.elevation_rad = direction.azimuth_rad, direction.elevation_rad
+    message.covariance_white_rad2 = [1e-8, 0.0, 1e-8]
+    message.covariance_systematic_rad2 = [1e-8, 0.0, 1e-8]
+    return message
+
+
+class FusionAlone:
+    """Feeds bearings while it waits: the fusion's time is that of its messages."""
+
+    def __init__(self):
+        self.offset_us = 0  # of all stamps from the present
+        self.wrong_us = {}  # of one station's stamps from the others'
+        self.slews = 0
+        self.observer = Observer()
+        self.lcm = lcm.LCM(LIVE_URL)
+        # Not the bearings: some of them cannot be decoded.
+        self.lcm.subscribe("OLS_(TARGET.*|FUSION_STATUS)", self.receive)
+        self.lcm.subscribe("OLS_SLEW_.+", self.count_slew)
+
+    def receive(self, channel, data):
+        self.observer.receive(channel, decode(channel, data))
+
+    def count_slew(self, _channel, _data):
+        self.slews += 1
+
+    def publish(self, channel, data):
+        self.lcm.publish(channel, data)
+
+    def feed_until(self, condition, what):
+        stations = itertools.cycle(CAMERAS)
+        deadline = time.monotonic() + 20.0
+        while not condition():
+            assert time.monotonic() < deadline, what
+            station = next(stations)
+            utime = time.time_ns() // 1000 + self.offset_us + self.wrong_us.get(station, 0)
+            self.publish(f"OLS_BEARING_{station}", bearing(station, utime).encode())
+            timeout_ms = 20
+            while self.lcm.handle_timeout(timeout_ms) > 0:
+                timeout_ms = 0
+
+    def count(self, name):
+        return counters(self.observer.fusion).get(name, 0.0) if self.observer.fusion else 0.0
+
+    def located(self):
+        target = self.observer.target.get("OLS_TARGET")
+        return target is not None and target.solution == ols_msg.target_t.SOLUTION_OK
+
+
+@pytest.fixture
+def fusion(network, tmp_path):
+    listener = FusionAlone()
+    with Site(tmp_path) as site:
+        site.start_and_wait("fusion", [str(BIN / "ols-fusion"), "--lcm-url", LIVE_URL], "ready")
+        listener.site = site
+        yield listener
+        site.check()
+        assert site.stop("fusion") == 0
+
+
+def test_locates_and_slews(fusion):
+    fusion.feed_until(lambda: fusion.located() and fusion.slews > 3, "a target and slews")
+    target = fusion.observer.target["OLS_TARGET"]
+    error = SITE.to_enu(np.array(target.position_ecef_m)) - np.array(TARGET_ENU)
+    assert np.linalg.norm(error) < 0.05
+    assert list(target.station) == ["a", "b", "c"]
+    fusion.feed_until(lambda: "OLS_TARGET_PAPER" in fusion.observer.target, "the paper's target")
+
+
+def test_damaged_and_foreign_messages_are_counted(fusion):
+    whole = bearing("a", time.time_ns() // 1000).encode()
+    for size in (0, 3, 20, len(whole) - 1):
+        fusion.publish("OLS_BEARING_a", whole[:size])
+    fusion.publish("OLS_BEARING_a", whole[:20] + b"\0\0\0\0" + whole[24:])  # absurd length
+    fusion.publish("OLS_STATUS_a", whole)
+    fusion.publish("OLS_BEARING_b", whole)
+    fusion.feed_until(lambda: fusion.count("messages_malformed") == 6, "six malformed messages")
+    assert fusion.count("messages_other_station") == 1
+    fusion.feed_until(fusion.located, "a target all the same")
+
+
+def test_a_bearing_from_the_future_hurts_only_its_station(fusion):
+    fusion.wrong_us["b"] = HOUR_US
+    fusion.feed_until(lambda: fusion.count("refused_future") > 10, "bearings from the future")
+    assert "station b" in fusion.observer.fusion.last_error
+    fusion.feed_until(fusion.located, "a target from the others")
+    assert list(fusion.observer.target["OLS_TARGET"].station) == ["a", "c"]
+
+
+def test_old_messages_move_nothing(fusion):
+    """Without --replay, what is an hour old is located but nobody is slewed by it."""
+    fusion.offset_us = -HOUR_US
+    fusion.feed_until(lambda: fusion.count("slews_withheld") > 10, "slews withheld")
+    assert fusion.located()
+    assert fusion.slews == 0
+    log = (fusion.site.logs / "fusion.log").read_text()
+    assert log.count("use --replay") == 1
+
+
+def test_replay_slews_on_a_bus_of_its_own(network, tmp_path):
+    listener = FusionAlone()
+    listener.offset_us = -HOUR_US
+    elsewhere = lcm.LCM("udpm://239.255.76.68:7668?ttl=0")
+    slews = []
+    elsewhere.subscribe("OLS_SLEW_.+", lambda channel, _data: slews.append(channel))
+
+    def slewed():
+        while elsewhere.handle_timeout(0) > 0:
+            pass
+        return set(slews) == {"OLS_SLEW_a", "OLS_SLEW_b", "OLS_SLEW_c"}
+
+    with Site(tmp_path) as site:
+        site.start_and_wait("fusion", [str(BIN / "ols-fusion"), "--replay"], "ready")
+        listener.feed_until(slewed, "slews on the other bus")
+    assert listener.slews == 0
