@@ -377,12 +377,16 @@ std::optional<ServoGoal> Station::slew_goal() const {
 std::optional<ServoGoal> Station::goal(double now_s) const {
   switch (state_) {
     case StationState::kManual:
-      return point_;
+      if (point_) {
+        ServoGoal here = *point_;  // does not move: as good now as when it was given
+        here.time_s = now_s;
+        return here;
+      }
+      return std::nullopt;
     case StationState::kTracking:
     case StationState::kCoasting:
-      if (const auto motion = motion_.state()) {
-        return ServoGoal{motion->time_s, motion->angles, motion->rate,
-                         believed_s_ + config_.coast_s};
+      if (const auto angles = motion_.at(now_s)) {
+        return ServoGoal{now_s, *angles, motion_.state()->rate, believed_s_ + config_.coast_s};
       }
       return std::nullopt;
     case StationState::kSlewed:

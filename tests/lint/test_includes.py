@@ -58,7 +58,7 @@ CLOCK_OR_GLOBAL = re.compile(
 )
 GENERATED = re.compile(r"^(ols_msg/|lcm/)")
 MAY_SEE_MESSAGES = re.compile(r"(^|/)(messages[a-z_]*\.(h|cpp)|main\.cpp|lcm_bus\.(h|cpp))$")
-ARAVIS_ONLY_IN = re.compile(r"(aravis_camera|camera_server)[a-z_]*\.(h|cpp)$")
+ARAVIS_ONLY_IN = re.compile(r"/(aravis_|gige_|camera_server)[a-z_]*\.(h|cpp)$")
 
 
 def relative(path: Path) -> str:

@@ -285,6 +285,16 @@ TEST_F(StationTest, TheOperatorHasPrecedenceOverSlews) {
   EXPECT_EQ(station_.slew(slew(20.0), now_), Refusal::kNone);
 }
 
+TEST_F(StationTest, AManualGoalStaysFreshUntilItsTimeIsOver) {
+  run_until(100.5);
+  ASSERT_EQ(station_.point({{0.2, 0.1}}, now_), Refusal::kNone);
+  run_until(now_ + 3.0);
+  const auto goal = station_.goal(now_);
+  ASSERT_TRUE(goal);
+  EXPECT_EQ(goal->time_s, now_);
+  EXPECT_LT(goal->valid_until_s, now_ + config().point_time_s);
+}
+
 TEST_F(StationTest, StopEndsTracking) {
   designated();
   run_until(now_ + 0.5);
