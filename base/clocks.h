@@ -6,17 +6,21 @@
 
 namespace ols {
 
-inline double clock_monotonic_s() {
+namespace detail {
+
+inline std::int64_t clock_ns(clockid_t clock) {
   timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+  clock_gettime(clock, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
-// UTC since 1970 [us].
-inline std::int64_t clock_utime_us() {
-  timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
-  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000 + now.tv_nsec / 1000;
-}
+}  // namespace detail
+
+inline std::int64_t clock_monotonic_ns() { return detail::clock_ns(CLOCK_MONOTONIC); }
+inline double clock_monotonic_s() { return 1e-9 * static_cast<double>(clock_monotonic_ns()); }
+
+// UTC since 1970, as this computer has it.
+inline std::int64_t clock_utc_ns() { return detail::clock_ns(CLOCK_REALTIME); }
+inline std::int64_t clock_utime_us() { return clock_utc_ns() / 1000; }
 
 }  // namespace ols

@@ -10,6 +10,8 @@
 #include <cstring>
 #include <ctime>
 
+#include "base/clocks.h"
+
 namespace ols {
 namespace {
 
@@ -43,12 +45,6 @@ class Error {
   void clear() { g_clear_error(&error_); }
   GError* error_ = nullptr;
 };
-
-double clock_s(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // As Aravis does it for a frame's stamp, so that both are on the same line.
 std::int64_t ticks_to_ns(std::uint64_t ticks, std::uint64_t hz) {
@@ -202,8 +198,9 @@ ReceivedFrame AravisDevice::describe(ArvBuffer* buffer) const {
   if (tick_hz_ != 0 && stamp_ns != system_ns && stamp_ns != 0)
     frame.device_ns = static_cast<std::int64_t>(stamp_ns);
   // Aravis takes the arrival on CLOCK_REALTIME; a step since then is a matter of milliseconds.
-  const double age_s = clock_s(CLOCK_REALTIME) - 1e-9 * static_cast<double>(system_ns);
-  frame.arrival_s = clock_s(CLOCK_MONOTONIC) - std::clamp(age_s, 0.0, 1.0);
+  const double age_s =
+      1e-9 * static_cast<double>(clock_utc_ns()) - 1e-9 * static_cast<double>(system_ns);
+  frame.arrival_s = clock_monotonic_s() - std::clamp(age_s, 0.0, 1.0);
   return frame;
 }
 
@@ -232,9 +229,9 @@ std::optional<std::uint64_t> AravisDevice::latched_ticks() {
 
 std::optional<LatchSample> AravisDevice::latch() {
   if (tick_hz_ == 0) return std::nullopt;
-  const double before_s = clock_s(CLOCK_MONOTONIC);
+  const double before_s = clock_monotonic_s();
   if (!command_latch()) return std::nullopt;
-  const double after_s = clock_s(CLOCK_MONOTONIC);
+  const double after_s = clock_monotonic_s();
   const auto ticks = latched_ticks();
   // A camera without the latch leaves its register as it was.
   if (!ticks || *ticks == last_latch_ticks_) return std::nullopt;

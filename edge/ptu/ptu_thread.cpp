@@ -10,6 +10,7 @@
 #include <stop_token>
 #include <thread>
 
+#include "base/clocks.h"
 #include "edge/ptu/serial_port.h"
 
 namespace ols {
@@ -22,12 +23,6 @@ constexpr double kLongestPause_s = 2.0;
 constexpr double kHaltOut_s = 0.25;  // for the last halt, behind a whole request at 9600 baud
 
 }  // namespace
-
-double monotonic_s() {
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct PtuThread::Impl {
   explicit Impl(const PtuConfig& ptu_config) : config(ptu_config), driver(ptu_config) {}
@@ -59,8 +54,8 @@ struct PtuThread::Impl {
       std::string request;
       {
         const std::lock_guard lock(mutex);
-        driver.receive(arrived, monotonic_s());
-        request = driver.step(monotonic_s());
+        driver.receive(arrived, clock_monotonic_s());
+        request = driver.step(clock_monotonic_s());
       }
       if (!request.empty()) port.write(request);
     }
@@ -69,7 +64,7 @@ struct PtuThread::Impl {
   void set_open(bool is_open) {
     const std::lock_guard lock(mutex);
     open = is_open;
-    if (is_open) driver.restart(monotonic_s());
+    if (is_open) driver.restart(clock_monotonic_s());
   }
 
   void note_failure(const std::string& what) {

@@ -13,9 +13,6 @@
 
 namespace ols {
 
-// CLOCK_MONOTONIC [s].
-double monotonic_s();
-
 // What there is to know of a PTU at one moment.
 struct PtuStatus {
   PtuState state = PtuState::kStarting;

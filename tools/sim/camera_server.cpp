@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/clocks.h"
 #include "tools/sim/gige_device.h"
 #include "tools/sim/gige_stream.h"
 
@@ -32,12 +33,6 @@ constexpr std::uint16_t kControlPort = 3956;
 constexpr auto kHeartbeatCheck = std::chrono::milliseconds(200);
 constexpr std::uint64_t kFrameIds = 65535;
 constexpr std::uint64_t kFirstId = 65400;  // soon wraps: what cannot stand that shall show early
-
-std::int64_t realtime_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
 
 double seconds(Clock::time_point time) {
   return std::chrono::duration<double>(time.time_since_epoch()).count();
@@ -172,7 +167,7 @@ void CameraServer::Impl::receive(int fd) {
   if ((from.sin_addr.s_addr & mask_) != (address_ & mask_)) return;
   const std::uint64_t peer = std::uint64_t{from.sin_addr.s_addr} << 16 | from.sin_port;
   const Answer answer = device_.handle(gige::Bytes(packet).first(static_cast<std::size_t>(size)),
-                                       peer, realtime_ns(), seconds(Clock::now()));
+                                       peer, clock_utc_ns(), seconds(Clock::now()));
   if (!answer.acknowledgement.empty())
     sendto(control_.front(), answer.acknowledgement.data(), answer.acknowledgement.size(), 0,
            reinterpret_cast<const sockaddr*>(&from), from_size);
@@ -212,7 +207,7 @@ void CameraServer::Impl::run_stream() {
 void CameraServer::Impl::expose(const StreamSettings& settings, Clock::time_point start) {
   const auto ago =
       std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
-  const Exposure exposure{.start_realtime_ns = realtime_ns() - ago,
+  const Exposure exposure{.start_realtime_ns = clock_utc_ns() - ago,
                           .exposure_s = settings.exposure_s,
                           .frame = frames_};
   cv::Mat picture =

@@ -4,19 +4,12 @@
 #include <ctime>
 #include <filesystem>
 
+#include "base/clocks.h"
 #include "ols_msg/truth_target_t.hpp"
 #include "ols_msg/truth_view_t.hpp"
 
 namespace ols::sim {
-namespace {
-
-std::int64_t clock_ns(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 // One station's devices. The camera's thread draws, so it ends before what it draws with.
 struct LiveSite::Device {
@@ -30,7 +23,7 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
     : world_(world), bus_(bus) {
   auto renderers = make_renderers(world);
   std::filesystem::create_directories(line_folder);
-  start_realtime_ns_ = clock_ns(CLOCK_REALTIME);
+  start_realtime_ns_ = clock_utc_ns();
   const Scenario& s = world.scenario();
   for (std::size_t i = 0; i < s.stations.size(); ++i) {
     auto device = std::make_unique<Device>();
@@ -65,8 +58,8 @@ void LiveSite::draw(Device& device, const Exposure& exposure, cv::Mat& gray) {
   const double offset_s = world_.stations()[device.station].clock_offset_s;
   const std::int64_t mid_ns =
       exposure.start_realtime_ns + std::llround(0.5e9 * exposure.exposure_s);
-  const std::int64_t ago_ns = clock_ns(CLOCK_REALTIME) - mid_ns;
-  const double mid_monotonic_s = 1e-9 * static_cast<double>(clock_ns(CLOCK_MONOTONIC) - ago_ns);
+  const std::int64_t ago_ns = clock_utc_ns() - mid_ns;
+  const double mid_monotonic_s = 1e-9 * static_cast<double>(clock_monotonic_ns() - ago_ns);
   const double half_s = 0.5 * exposure.exposure_s;
   ExposureTruth truth;
   truth.mid_s = 1e-9 * static_cast<double>(mid_ns - start_realtime_ns_) - offset_s;
@@ -100,7 +93,7 @@ void LiveSite::publish_view(const Device& device, const ExposureTruth& exposure,
 }
 
 void LiveSite::publish_truth() {
-  const std::int64_t now_ns = clock_ns(CLOCK_REALTIME);
+  const std::int64_t now_ns = clock_utc_ns();
   for (std::size_t i = 0; i < world_.scenario().targets.size(); ++i) {
     const TargetTruth target =
         world_.target(i, 1e-9 * static_cast<double>(now_ns - start_realtime_ns_));

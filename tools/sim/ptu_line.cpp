@@ -16,18 +16,14 @@
 #include <system_error>
 #include <thread>
 
+#include "base/clocks.h"
+
 namespace ols::sim {
 
 namespace {
 
 constexpr double kLongestSleep_s = 0.02;  // so that an end is noticed
 constexpr double kBatch_s = 1e-3;         // bytes that come within this are handed on together
-
-double monotonic_s() {
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 [[noreturn]] void fail(const std::string& what) {
   throw std::system_error(errno, std::generic_category(), what);
@@ -65,7 +61,7 @@ void make_raw(int slave) {
 
 struct PtuLine::Impl {
   Impl(const PtuUnitConfig& config, std::uint64_t seed, const std::string& link_path)
-      : unit(config, seed, monotonic_s()),
+      : unit(config, seed, clock_monotonic_s()),
         master(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)),
         device(slave_name(master.get())),
         slave(::open(device.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)),
@@ -91,7 +87,7 @@ struct PtuLine::Impl {
       wait();
       std::array<char, 512> buffer;
       const ssize_t n = ::read(master.get(), buffer.data(), buffer.size());
-      const double now_s = monotonic_s();
+      const double now_s = clock_monotonic_s();
       std::string out;
       {
         const std::lock_guard lock(mutex);
@@ -111,7 +107,7 @@ struct PtuLine::Impl {
     {
       const std::lock_guard lock(mutex);
       if (const auto next_s = unit.next_output_s()) {
-        sleep_s = std::clamp(*next_s + kBatch_s - monotonic_s(), 0.0, kLongestSleep_s);
+        sleep_s = std::clamp(*next_s + kBatch_s - clock_monotonic_s(), 0.0, kLongestSleep_s);
       }
     }
     pollfd entry{master.get(), POLLIN, 0};
@@ -140,7 +136,7 @@ const std::string& PtuLine::device() const { return impl_->device; }
 PanTilt PtuLine::angles_at(double monotonic_time_s) {
   const std::lock_guard lock(impl_->mutex);
   // What the unit has received by now takes effect first.
-  impl_->latest_s = std::max(impl_->latest_s, monotonic_s());
+  impl_->latest_s = std::max(impl_->latest_s, clock_monotonic_s());
   impl_->pending += impl_->unit.transmit(impl_->latest_s);
   return impl_->unit.angles_at(monotonic_time_s);
 }

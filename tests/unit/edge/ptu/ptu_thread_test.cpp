@@ -12,6 +12,7 @@
 #include <system_error>
 #include <thread>
 
+#include "base/clocks.h"
 #include "edge/ptu/serial_port.h"
 #include "geometry/angles.h"
 #include "tools/sim/ptu_line.h"
@@ -38,9 +39,9 @@ PtuConfig config(const std::string& device) {
 
 // Looks again and again until it is so; false after 30 s.
 bool eventually(const std::function<bool()>& condition) {
-  const double deadline_s = monotonic_s() + 30.0;
+  const double deadline_s = clock_monotonic_s() + 30.0;
   while (!condition()) {
-    if (monotonic_s() > deadline_s) return false;
+    if (clock_monotonic_s() > deadline_s) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   return true;
@@ -49,7 +50,7 @@ bool eventually(const std::function<bool()>& condition) {
 bool ready(const PtuThread& ptu) { return ptu.status().state == PtuState::kReady; }
 
 ServoGoal fixed_goal(double pan_deg, double tilt_deg) {
-  const double now_s = monotonic_s();
+  const double now_s = clock_monotonic_s();
   return {now_s, {radians(pan_deg), radians(tilt_deg)}, {}, now_s + 5.0};
 }
 
@@ -57,7 +58,7 @@ ServoGoal fixed_goal(double pan_deg, double tilt_deg) {
 bool arrives(PtuThread& ptu, PtuLine& line, double pan_deg, double tilt_deg) {
   return eventually([&] {
     ptu.set_goal(fixed_goal(pan_deg, tilt_deg));
-    const PanTilt at = line.angles_at(monotonic_s());
+    const PanTilt at = line.angles_at(clock_monotonic_s());
     return std::abs(degrees(at.pan_rad) - pan_deg) < 0.01 &&
            std::abs(degrees(at.tilt_rad) - tilt_deg) < 0.01;
   });
@@ -65,13 +66,13 @@ bool arrives(PtuThread& ptu, PtuLine& line, double pan_deg, double tilt_deg) {
 
 // No motion over three looks, more than the time of a poll apart.
 bool stands(PtuLine& line) {
-  double last = line.angles_at(monotonic_s()).pan_rad;
-  double since_s = monotonic_s();
+  double last = line.angles_at(clock_monotonic_s()).pan_rad;
+  double since_s = clock_monotonic_s();
   return eventually([&] {
-    const double now = line.angles_at(monotonic_s()).pan_rad;
-    if (now != last) since_s = monotonic_s();
+    const double now = line.angles_at(clock_monotonic_s()).pan_rad;
+    if (now != last) since_s = clock_monotonic_s();
     last = now;
-    return monotonic_s() - since_s > 0.3;
+    return clock_monotonic_s() - since_s > 0.3;
   });
 }
 
@@ -109,11 +110,11 @@ TEST(PtuThread, HaltsTheUnitWhenItEnds) {
   // On a long way; without the halt it would go on for a look-ahead at full speed, to about 50.
   ASSERT_TRUE(eventually([&] {
     ptu->set_goal(fixed_goal(100.0, 0.0));
-    return line.angles_at(monotonic_s()).pan_rad > radians(3.0);
+    return line.angles_at(clock_monotonic_s()).pan_rad > radians(3.0);
   }));
   ptu.reset();
   ASSERT_TRUE(stands(line));
-  EXPECT_LT(degrees(line.angles_at(monotonic_s()).pan_rad), 30.0);
+  EXPECT_LT(degrees(line.angles_at(clock_monotonic_s()).pan_rad), 30.0);
 }
 
 TEST(PtuThread, OneClientAfterAnotherOnTheSameLine) {
