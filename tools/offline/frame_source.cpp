@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <regex>
 
 namespace ols {
 namespace {
@@ -30,14 +29,32 @@ std::vector<std::string> pictures_of_folder(const fs::path& folder) {
   return files;
 }
 
+// A name with one %d, %6d or %06d in it.
+struct Pattern {
+  std::string before;
+  std::size_t digits = 0;
+  std::string after;
+};
+
+std::optional<Pattern> parse_pattern(const std::string& text) {
+  const std::size_t percent = text.find('%');
+  if (percent == std::string::npos) return std::nullopt;
+  std::size_t end = percent + 1;
+  std::size_t digits = 0;
+  for (; end < text.size() && text[end] >= '0' && text[end] <= '9' && digits < 100; ++end) {
+    digits = 10 * digits + static_cast<std::size_t>(text[end] - '0');
+  }
+  if (end == text.size() || text[end] != 'd') return std::nullopt;
+  return Pattern{text.substr(0, percent), digits, text.substr(end + 1)};
+}
+
 // The files of `frames/%06d.png`, from the first number that there is, without a gap.
-std::vector<std::string> pictures_of_pattern(const std::string& before, std::size_t digits,
-                                             const std::string& after) {
+std::vector<std::string> pictures_of_pattern(const Pattern& pattern) {
   constexpr int kLatestFirst = 100000;
   const auto name = [&](int number) {
     std::string text = std::to_string(number);
-    if (text.size() < digits) text.insert(0, digits - text.size(), '0');
-    return before + text + after;
+    if (text.size() < pattern.digits) text.insert(0, pattern.digits - text.size(), '0');
+    return pattern.before + text + pattern.after;
   };
   int number = 0;
   while (number < kLatestFirst && !fs::exists(name(number))) ++number;
@@ -56,14 +73,12 @@ cv::Mat to_gray(const cv::Mat& picture) {
 }  // namespace
 
 FrameSource::FrameSource(const std::string& input) : input_(input) {
-  static const std::regex pattern("(.*)%0?([0-9]*)d(.*)");
-  std::smatch parts;
+  const std::optional<Pattern> pattern = parse_pattern(input);
   if (fs::is_directory(input)) {
     files_ = pictures_of_folder(input);
     if (files_.empty()) throw FrameSourceError(input + ": no pictures in this folder");
-  } else if (!fs::exists(input) && std::regex_match(input, parts, pattern)) {
-    const std::string digits = parts[2].str();
-    files_ = pictures_of_pattern(parts[1], digits.empty() ? 0 : std::stoul(digits), parts[3]);
+  } else if (!fs::exists(input) && pattern) {
+    files_ = pictures_of_pattern(*pattern);
     if (files_.empty()) throw FrameSourceError(input + ": no picture matches this pattern");
   } else if (!fs::exists(input)) {
     throw FrameSourceError(input + ": no such file or folder");
