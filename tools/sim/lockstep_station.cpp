@@ -10,7 +10,8 @@ constexpr double kBoot_s = 100.0;         // of the monotonic clock at the scena
 constexpr double kStampSd_s = 20e-6;      // of the camera's time stamps
 constexpr double kTransport_s = 0.004;    // of a frame over the wire
 constexpr double kOperatorDelay_s = 0.3;  // what the operator sees is as old as this
-constexpr double kPointInterval_s = 1.0, kPointLead_s = 0.7;
+constexpr double kPointInterval_s = 2.0, kPointLead_s = 1.2;
+constexpr double kStill_s = 0.1;   // nobody marks a target in a sweeping picture
 constexpr double kSettle_s = 1.5;  // from the PTU's readiness to the first look
 constexpr std::uint64_t kStationTag = 5000, kUnitTag = 6000, kTrackerTag = 7000;
 
@@ -110,21 +111,19 @@ void LockstepStation::expose(double time_s) {
   seen_.push_back({mid_s, stamp_s, view});
   if (mid_s - seen_.front().mid_s > 1.0) seen_.pop_front();
   station_.on_frame(frame);
-  if (designated_) take_note(view);
+  if (designated_) take_note(mid_s, view);
 }
 
-void LockstepStation::take_note(const ViewTruth& view) {
-  record_.frames += 1;
-  record_.frames_in_state[to_string(station_.state())] += 1;
-  record_.frames_inside_third += inside_third(config_.geometry.camera, view) ? 1 : 0;
+void LockstepStation::take_note(double mid_s, const ViewTruth& view) {
+  const CameraIntrinsics& camera = config_.geometry.camera;
   const StationSnapshot snapshot = station_.snapshot();
-  if (station_.state() != StationState::kTracking || !snapshot.target_offset_px) return;
-  const auto& camera = config_.geometry.camera;
-  const Eigen::Vector2d error_px =
-      *snapshot.target_offset_px + Eigen::Vector2d(camera.cx_px, camera.cy_px) - view.centre_px;
-  record_.pixels += 1;
-  record_.error_px += error_px;
-  record_.squared_error_px2 += error_px.cwiseAbs2();
+  FrameNote note{mid_s,       snapshot.state, snapshot.belief, view, inside_third(camera, view),
+                 std::nullopt};
+  if (snapshot.state == StationState::kTracking && snapshot.target_offset_px) {
+    note.error_px =
+        *snapshot.target_offset_px + Eigen::Vector2d(camera.cx_px, camera.cy_px) - view.centre_px;
+  }
+  record_.frames.push_back(note);
 }
 
 void LockstepStation::operate(double time_s) {
@@ -147,12 +146,20 @@ void LockstepStation::point_roughly(double time_s) {
   pointed_s_ = time_s;
 }
 
+bool LockstepStation::stands_since(double from_s, double time_s) const {
+  constexpr double kStanding_rad = 1e-3;
+  const PanTilt then = unit_.angles_at(monotonic_s(from_s));
+  const PanTilt now = unit_.angles_at(monotonic_s(time_s));
+  return std::hypot(now.pan_rad - then.pan_rad, now.tilt_rad - then.tilt_rad) < kStanding_rad;
+}
+
 void LockstepStation::designate_seen(double time_s) {
   constexpr double kMargin_px = 60.0;
   const auto frame = std::find_if(seen_.rbegin(), seen_.rend(), [&](const Seen& seen) {
     return time_s - seen.mid_s >= kOperatorDelay_s;
   });
   if (frame == seen_.rend() || !frame->view.visible || !seen_.back().view.visible) return;
+  if (!stands_since(frame->mid_s - kStill_s, time_s)) return;
   const Eigen::Vector2d c = frame->view.centre_px;
   const auto& camera = config_.geometry.camera;
   if (c.x() < kMargin_px || c.y() < kMargin_px || c.x() > camera.width_px - kMargin_px ||

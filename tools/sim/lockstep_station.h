@@ -25,15 +25,19 @@ struct Fidelity {
   double pixel_sd_px = 0.3;
 };
 
-// What a station's frames have shown since the designation.
+// One frame after the designation: what the station made of it, beside the truth.
+struct FrameNote {
+  double mid_s = 0.0;  // true time since the scenario's start
+  StationState state = StationState::kIdle;
+  double belief = 0.0;
+  ViewTruth view;
+  bool inside_third = false;                // the target is inside the central third, both ways
+  std::optional<Eigen::Vector2d> error_px;  // of the pixel measured, while tracking
+};
+
 struct StationRecord {
-  std::map<std::string, int> frames_in_state;
-  int frames = 0;  // exposed since the designation
+  std::vector<FrameNote> frames;
   int frames_lost = 0;
-  int frames_inside_third = 0;  // target's centre inside the central third, both ways
-  int pixels = 0;               // believed measurements, and their errors' sums [px, px^2]
-  Eigen::Vector2d error_px = Eigen::Vector2d::Zero();
-  Eigen::Vector2d squared_error_px2 = Eigen::Vector2d::Zero();
 };
 
 class LockstepStation {
@@ -57,10 +61,11 @@ class LockstepStation {
  private:
   void exchange_bytes(double time_s);
   void expose(double time_s);
-  void take_note(const ViewTruth& view);
+  void take_note(double mid_s, const ViewTruth& view);
   void operate(double time_s);
   void point_roughly(double time_s);
   void designate_seen(double time_s);
+  bool stands_since(double from_s, double time_s) const;
 
   const World& world_;
   std::size_t index_;

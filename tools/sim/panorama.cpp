@@ -11,8 +11,9 @@
 namespace ols::sim {
 namespace {
 
-constexpr int kCell = 32;      // [px] of the coarse grid; bilinear in between errs < 0.01 px
-constexpr int kPeriod = 2048;  // [texel] of the slopes' texture
+constexpr int kCell = 32;            // [px] of the coarse grid; bilinear in between errs < 0.01 px
+constexpr int kPeriod = 2048;        // [texel] of the slopes' texture
+constexpr double kAirLight = 190.0;  // [gray] far slopes fade into this
 constexpr double kSkyTexel = radians(0.1);
 constexpr double kSkyBottom = radians(-10.0), kSkyTop = radians(70.0);
 
@@ -62,6 +63,7 @@ cv::Mat slopes_texture(const Landscape& landscape, const CameraIntrinsics& camer
   const int copies = 2 + static_cast<int>(std::floor(2.0 * reach_px(camera) / kPeriod));
   cv::Mat slopes;
   cv::repeat(wood(kPeriod, generator), copies, copies, slopes);
+  slopes.convertTo(slopes, CV_8U, 1.0 - landscape.haze, landscape.haze * kAirLight);
   return slopes;
 }
 

@@ -1,8 +1,10 @@
 #include "tools/sim/report.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <iomanip>
 
 #include "base/atomic_file.h"
@@ -65,18 +67,45 @@ void write_estimator(std::ostream& out, const char* name, const EstimatorSummary
       << Number{s.nees_axis.z()} << "], \"nees\": " << Number{s.nees} << "},\n";
 }
 
+double share(const StationRecord& record, const std::function<bool(const FrameNote&)>& of) {
+  const auto count = std::count_if(record.frames.begin(), record.frames.end(), of);
+  return static_cast<double>(count) / static_cast<double>(record.frames.size());
+}
+
 void write_station(std::ostream& out, const std::string& id, const StationRecord& record) {
-  const double frames = record.frames;
-  out << "    {\"id\": \"" << id << "\", \"frames\": " << record.frames
-      << ", \"frames_lost\": " << record.frames_lost
-      << ", \"central_third\": " << Number{record.frames_inside_third / frames}
+  out << "    {\"id\": \"" << id << "\", \"frames\": " << record.frames.size()
+      << ", \"frames_lost\": " << record.frames_lost << ", \"central_third\": "
+      << Number{share(record, [](const FrameNote& note) { return note.inside_third; })}
       << ", \"states\": {";
   const char* comma = "";
-  for (const auto& [state, count] : record.frames_in_state) {
-    out << comma << "\"" << state << "\": " << Number{count / frames};
+  for (const StationState state : {StationState::kTracking, StationState::kCoasting,
+                                   StationState::kLost, StationState::kSlewed}) {
+    out << comma << "\"" << to_string(state) << "\": "
+        << Number{share(record, [&](const FrameNote& note) { return note.state == state; })};
     comma = ", ";
   }
   out << "}}";
+}
+
+void write_frames(const World& world, const LockstepResult& result, const std::string& path) {
+  AtomicFile file(path);
+  std::ostream& out = file.stream();
+  out << "station,time_s,state,belief,true_x_px,true_y_px,width_px,height_px,error_x_px,"
+         "error_y_px\n";
+  for (std::size_t i = 0; i < result.stations.size(); ++i) {
+    for (const FrameNote& note : result.stations[i].frames) {
+      out << world.stations()[i].id << "," << std::setprecision(9) << note.mid_s
+          << std::setprecision(6) << "," << to_string(note.state) << "," << note.belief << ","
+          << note.view.centre_px.x() << "," << note.view.centre_px.y() << "," << note.view.box.width
+          << "," << note.view.box.height << ",";
+      if (note.error_px)
+        out << note.error_px->x() << "," << note.error_px->y();
+      else
+        out << ",";
+      out << "\n";
+    }
+  }
+  file.commit();
 }
 
 void write_summary(const World& world, const LockstepResult& result, double duration_s,
@@ -147,11 +176,19 @@ PixelSummary summarise_pixels(const std::vector<StationRecord>& stations) {
   double white = 0.0, mean = 0.0;
   int pixels = 0, counted = 0;
   for (const StationRecord& station : stations) {
-    if (station.pixels == 0) continue;
-    const Eigen::Vector2d average = station.error_px / station.pixels;
-    white += (station.squared_error_px2 - station.pixels * average.cwiseAbs2()).sum();
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero(), squared = Eigen::Vector2d::Zero();
+    int own = 0;
+    for (const FrameNote& note : station.frames) {
+      if (!note.error_px) continue;
+      sum += *note.error_px;
+      squared += note.error_px->cwiseAbs2();
+      ++own;
+    }
+    if (own == 0) continue;
+    const Eigen::Vector2d average = sum / own;
+    white += (squared - own * average.cwiseAbs2()).sum();
     mean += average.squaredNorm();
-    pixels += station.pixels;
+    pixels += own;
     counted += 1;
   }
   return {std::sqrt(white / (2.0 * pixels)), std::sqrt(mean / (2.0 * counted))};
@@ -163,6 +200,7 @@ void write_report(const World& world, const LockstepResult& result, double durat
   write_truth(world, duration_s, folder + "/truth.csv");
   write_fixes(result.joint, folder + "/fixes.csv");
   write_fixes(result.paper, folder + "/fixes_paper.csv");
+  write_frames(world, result, folder + "/frames.csv");
   write_summary(world, result, duration_s, folder + "/summary.json");
 }
 

@@ -55,6 +55,7 @@ void read_landscape(ConfigTable& table, Landscape& l) {
   l.ridge_mean_rad = degrees_of(table, "ridge_mean_deg", l.ridge_mean_rad, -10, 40);
   l.ridge_relief_rad = degrees_of(table, "ridge_relief_deg", l.ridge_relief_rad, 0, 30);
   l.cloudiness = table.number("cloudiness", l.cloudiness, 0, 2);
+  l.haze = table.number("haze", l.haze, 0, 1);
   l.seed = static_cast<int>(table.integer("seed", l.seed, 0, 1 << 30));
 }
 

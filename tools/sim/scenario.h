@@ -89,6 +89,7 @@ struct Landscape {
   double ridge_mean_rad = radians(8.0);
   double ridge_relief_rad = radians(6.0);  // the ridge line stays within mean +- relief
   double cloudiness = 1.0;                 // 0: clear sky
+  double haze = 0.4;                       // share of air light before the slopes
   int seed = 7;
 };
 
