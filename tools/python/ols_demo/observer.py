@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import numpy as np
 import ols_msg
 
 STATES = {
@@ -21,6 +22,7 @@ class Observer:
     def __init__(self) -> None:
         self.status: dict[str, Any] = {}
         self.view: dict[str, Any] = {}
+        self.turning_rad_s: dict[str, float] = {}  # rate of the camera between the newest views
         self.truth: Any = None
         self.target: dict[str, Any] = {}  # by channel
         self.fusion: Any = None
@@ -30,6 +32,7 @@ class Observer:
         if channel.startswith("OLS_STATUS_"):
             self.status[message.station] = message
         elif channel.startswith("OLS_SIM_VIEW_"):
+            self._notice_turning(message)
             self.view[message.station] = message
         elif channel == "OLS_SIM_TRUTH":
             self.truth = message
@@ -38,6 +41,12 @@ class Observer:
         elif channel.startswith("OLS_TARGET"):
             self.target[channel] = message
             self.targets += channel == "OLS_TARGET"
+
+    def _notice_turning(self, view: Any) -> None:
+        before = self.view.get(view.station)
+        if before is not None and view.utime > before.utime:
+            turned = np.hypot(view.pan_rad - before.pan_rad, view.tilt_rad - before.tilt_rad)
+            self.turning_rad_s[view.station] = turned / ((view.utime - before.utime) * 1e-6)
 
     def state(self, station: str) -> str:
         status = self.status.get(station)

@@ -15,7 +15,8 @@ import ols_msg
 from ols_demo.observer import Observer
 from ols_demo.places import geodetic
 
-POINT_INTERVAL_S = 0.6
+POINT_INTERVAL_S = 1.5  # time for the unit to arrive and stand
+AT_REST_RAD_S = np.radians(0.3)
 PATIENCE_S = 2.0  # after a designation, before the next attempt
 MARGIN = 0.12  # of the picture: no designation so near to its edge
 LEASE_S = 2.0
@@ -30,8 +31,9 @@ class Operator:
         self._random = random.Random(seed)
         self._boot_id = seed + 1
         self._sequence = 0
-        self._due: dict[str, float] = {}
-        self._aim_error = {}
+        self._pointed: dict[str, float] = {}  # when, by the monotonic clock
+        self._designated: dict[str, float] = {}
+        self._aim_error: dict[str, list[float]] = {}
         self.tracking: set[str] = set()  # stations that have tracked since they were designated
 
     def act(self) -> None:
@@ -39,16 +41,19 @@ class Operator:
         for station in list(self._observer.status):
             if self._observer.state(station) == "tracking":
                 self.tracking.add(station)
-            if station not in self.tracking and time.monotonic() >= self._due.get(station, 0.0):
+            elif station not in self.tracking:
                 self._attend(station)
 
     def _attend(self, station: str) -> None:
+        now = time.monotonic()
+        if now < self._designated.get(station, -np.inf) + PATIENCE_S:
+            return
         if self._sees_target(station):
             self._designate(station)
-            self._due[station] = time.monotonic() + PATIENCE_S
-        else:
+            self._designated[station] = now
+        elif now >= self._pointed.get(station, -np.inf) + POINT_INTERVAL_S:
             self._point(station)
-            self._due[station] = time.monotonic() + POINT_INTERVAL_S
+            self._pointed[station] = now
 
     def _sees_target(self, station: str) -> bool:
         view = self._observer.view.get(station)
@@ -56,6 +61,9 @@ class Operator:
         if view is None or not view.visible or status.image_width_px == 0:
             return False
         if time.time() - view.utime * 1e-6 > FRESH_S:
+            return False
+        # Nobody draws a box into a picture that is rushing by.
+        if self._observer.turning_rad_s.get(station, np.inf) > AT_REST_RAD_S:
             return False
         x, y = view.centre_px[0] / status.image_width_px, view.centre_px[1] / status.image_height_px
         return MARGIN < x < 1 - MARGIN and MARGIN < y < 1 - MARGIN
