@@ -13,7 +13,17 @@
 namespace ols {
 namespace {
 
-// LCM's generated decoders throw where a length in the message is absurd.
+// Fingerprint, utime and schema_version stand before the station's id in every station's message.
+// LCM's generated decoders subtract from a string's length before they look at it.
+bool station_id_fits(const void* data, int bytes) {
+  constexpr int kLengthAt = 8 + 8 + 4;
+  std::int32_t length = 0;
+  const int left = bytes - kLengthAt;
+  const int taken = __int32_t_decode_array(data, kLengthAt, left, &length, 1);
+  return taken > 0 && length >= 1 && length <= left - taken;
+}
+
+// The decoders throw where another length in the message is absurd.
 template <class Message>
 bool decode_safely(const void* data, int bytes, Message& message) {
   try {
@@ -28,7 +38,9 @@ template <class Message>
 std::optional<MessageRefusal> decode_from_station(std::string_view prefix,
                                                   const std::string& channel, const void* data,
                                                   int bytes, Message& message) {
-  if (!decode_safely(data, bytes, message)) return MessageRefusal::kMalformed;
+  if (!station_id_fits(data, bytes) || !decode_safely(data, bytes, message)) {
+    return MessageRefusal::kMalformed;
+  }
   if (message.schema_version != Message::SCHEMA_VERSION) return MessageRefusal::kSchema;
   if (message.station.empty() || channel != std::string(prefix) + message.station) {
     return MessageRefusal::kOtherStation;
