@@ -6,17 +6,24 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
-#include <regex>
+#include <string_view>
+#include <system_error>
 
 namespace ols {
 namespace {
 
 // A datagram socket connected to the group has a route or fails at once; nothing is sent.
 void require_route(const std::string& address, const std::string& port, const std::string& url) {
+  std::uint16_t number = 0;
+  const auto parsed = std::from_chars(port.data(), port.data() + port.size(), number);
+  if (parsed.ec != std::errc() || parsed.ptr != port.data() + port.size()) {
+    throw BusError(url + ": " + port + " is not a port");
+  }
   sockaddr_in group{};
   group.sin_family = AF_INET;
-  group.sin_port = htons(static_cast<std::uint16_t>(std::stoi(port)));
+  group.sin_port = htons(number);
   if (inet_pton(AF_INET, address.c_str(), &group.sin_addr) != 1) {
     throw BusError(url + ": " + address + " is not an IPv4 address");
   }
@@ -32,13 +39,15 @@ void require_route(const std::string& address, const std::string& port, const st
   }
 }
 
+// Of "udpm://ADDRESS:PORT?options"; what is left out is LCM's default.
 std::string checked(const std::string& url) {
-  static const std::regex udpm("udpm://([0-9.]*):?([0-9]{1,5})?(\\?.*)?");
-  std::smatch parts;
-  if (std::regex_match(url, parts, udpm)) {
-    const std::string address = parts[1].length() > 0 ? parts[1].str() : "239.255.76.67";
-    require_route(address, parts[2].matched ? parts[2].str() : "7667", url);
-  }
+  constexpr std::string_view kMulticast = "udpm://";
+  if (!url.starts_with(kMulticast)) return url;
+  const std::string place = url.substr(kMulticast.size(), url.find('?') - kMulticast.size());
+  const std::size_t colon = place.find(':');
+  const std::string address = place.substr(0, colon);
+  const std::string port = colon == std::string::npos ? "" : place.substr(colon + 1);
+  require_route(address.empty() ? "239.255.76.67" : address, port.empty() ? "7667" : port, url);
   return url;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
@@ -44,10 +45,15 @@ class LcmBus {
   std::vector<std::unique_ptr<Subscriber>> subscribers_;
 };
 
-// True when the whole of a datagram is one message of this type.
+// True when the whole of a datagram is one message of this type. Generated decoders throw on a
+// damaged length (std::length_error, std::bad_alloc); that is no message either.
 template <class Message>
 bool decode_exactly(const void* data, int bytes, Message& message) {
-  return message.decode(data, 0, bytes) == bytes;
+  try {
+    return message.decode(data, 0, bytes) == bytes;
+  } catch (const std::exception&) {
+    return false;
+  }
 }
 
 }  // namespace ols

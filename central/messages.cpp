@@ -1,7 +1,6 @@
 #include "central/messages.h"
 
 #include <cmath>
-#include <exception>
 #include <iterator>
 
 #include "base/lcm_bus.h"
@@ -13,34 +12,12 @@
 namespace ols {
 namespace {
 
-// Fingerprint, utime and schema_version stand before the station's id in every station's message.
-// LCM's generated decoders subtract from a string's length before they look at it.
-bool station_id_fits(const void* data, int bytes) {
-  constexpr int kLengthAt = 8 + 8 + 4;
-  std::int32_t length = 0;
-  const int left = bytes - kLengthAt;
-  const int taken = __int32_t_decode_array(data, kLengthAt, left, &length, 1);
-  return taken > 0 && length >= 1 && length <= left - taken;
-}
-
-// The decoders throw where another length in the message is absurd.
-template <class Message>
-bool decode_safely(const void* data, int bytes, Message& message) {
-  try {
-    return decode_exactly(data, bytes, message);
-  } catch (const std::exception&) {
-    return false;
-  }
-}
-
 // What every message of a station must fulfil.
 template <class Message>
 std::optional<MessageRefusal> decode_from_station(std::string_view prefix,
                                                   const std::string& channel, const void* data,
                                                   int bytes, Message& message) {
-  if (!station_id_fits(data, bytes) || !decode_safely(data, bytes, message)) {
-    return MessageRefusal::kMalformed;
-  }
+  if (!decode_exactly(data, bytes, message)) return MessageRefusal::kMalformed;
   if (message.schema_version != Message::SCHEMA_VERSION) return MessageRefusal::kSchema;
   if (message.station.empty() || channel != std::string(prefix) + message.station) {
     return MessageRefusal::kOtherStation;

@@ -59,7 +59,10 @@ def test_absent_devices_are_reported(station):
 @pytest.mark.parametrize("kind", ["SLEW", "PTU", "DESIGNATE"])
 def test_foreign_and_truncated_messages_are_refused(station, kind):
     whole = point("lone", 1, 0.1).encode()
-    for data in (b"", b"x", whole[:-1], whole + b"\0", ols_msg.truth_target_t().encode()):
+    # The station's id begins behind fingerprint, utime, version, boot id and sequence.
+    no_string = whole[:36] + b"\0\0\0\0" + whole[40:]
+    damaged = (b"", b"x", whole[:-1], whole + b"\0", no_string)
+    for data in (*damaged, ols_msg.truth_target_t().encode()):
         refused(station, "messages_refused_malformed", f"OLS_{kind}_lone", data)
 
 
