@@ -37,14 +37,14 @@ void MotionModel::begin_frame(const CameraMotion& motion, const Eigen::Vector2d&
   rate_known_ = true;
 }
 
+Eigen::Vector2d MotionModel::still(const Eigen::Vector2d& pixel) const {
+  if (motion_.homography) return transform(*motion_.homography, pixel);
+  return pixel + camera_rate_px_s_ * motion_.interval_s;
+}
+
 Particle MotionModel::advance(const Particle& particle) const {
   Particle next = particle;
-  const Eigen::Vector2d own = particle.velocity_px_s * motion_.interval_s;
-  if (motion_.homography) {
-    next.pixel = transform(*motion_.homography, particle.pixel) + own;
-  } else {
-    next.pixel = particle.pixel + camera_rate_px_s_ * motion_.interval_s + own;
-  }
+  next.pixel = still(particle.pixel) + particle.velocity_px_s * motion_.interval_s;
   return next;
 }
 

@@ -14,6 +14,10 @@ class ParticleFilter {
 
   // Moves every particle by the motion model; remembers where they would be without noise.
   void predict(const MotionModel& motion, Random& random);
+  // The prediction is uncertain by this standard deviation more than its particles are.
+  void widen_prediction(double sd_px) {
+    predicted_covariance_px2_ += sd_px * sd_px * Eigen::Matrix2d::Identity();
+  }
 
   // Weights from the logarithms of the likelihoods; all equal when none is finite.
   void weigh(const std::vector<double>& log_likelihood);

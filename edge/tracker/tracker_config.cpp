@@ -30,6 +30,7 @@ TrackerConfig read_tracker_config(ConfigTable& table) {
   number("ego_motion_least_inlier_fraction", c.ego_motion_least_inlier_fraction, 0.0, 1.0);
   number("unknown_motion_sd_px", c.unknown_motion_sd_px, 0.0, 1000.0);
   number("difference_fraction", c.difference_fraction, 0.0, 0.9);
+  number("leap_most_px_s", c.leap_most_px_s, 0.0, 100000.0);
   number("search_fraction", c.search_fraction, 0.0, 1.0);
   number("search_growth_px_s", c.search_growth_px_s, 0.0, 10000.0);
   number("search_sd_most_px", c.search_sd_most_px, 1.0, 10000.0);

@@ -33,8 +33,10 @@ struct TrackerConfig {
   double ego_motion_least_inlier_fraction = 0.4;
   double unknown_motion_sd_px = 2.0;  // more position noise where no homography is known
 
-  // Share of the particles forced onto the maxima of the frame difference without a homography.
-  double difference_fraction = 0.1;
+  // Share of the particles forced onto the maxima of the frame difference without a homography, or
+  // while the target's velocity is not known, as far as it could leap.
+  double difference_fraction = 0.2;
+  double leap_most_px_s = 1500.0;
   // Share redrawn over the search region while the target is not believed in.
   double search_fraction = 0.4;
   double search_growth_px_s = 40.0;

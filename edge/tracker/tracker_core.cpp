@@ -77,20 +77,36 @@ void TrackerCore::predict(EgoMotion ego_motion, const ReducedFrame& reduced, dou
     for (Particle& particle : filter_.particles()) step_back(particle);
     step_back(last_);
   }
-  velocity_ = Velocity::kEstimated;
   filter_.predict(motion_, random_);
-  if (search_) {
-    Particle centre = believed_;
-    centre.pixel = search_->pixel;
-    if (!placed_) search_->pixel = motion_.advance(centre).pixel;
-    search_->pixel = search_->pixel.cwiseMax(0.0).cwiseMin(
-        Eigen::Vector2d(frame_size_.width - 1.0, frame_size_.height - 1.0));
-    search_->sd_px =
-        std::min(search_->sd_px + config_.search_growth_px_s * interval_s, search_->most_sd_px);
-    scatter_over_search(config_.search_fraction);
+  if (search_) predict_search(interval_s);
+  if (ego_motion == EgoMotion::kNone) {
+    force_onto_differences(reduced, {{0.0, 0.0}, cv::Size2d(frame_size_)});
+  } else if (search_ || velocity_ == Velocity::kUnknown) {
+    force_onto_differences(reduced, reachable_area(interval_s));
   }
+  if (velocity_ == Velocity::kUnknown) {
+    filter_.widen_prediction(config_.leap_most_px_s * interval_s / 3.0);
+  }
+  velocity_ = Velocity::kEstimated;
   placed_ = false;
-  if (ego_motion == EgoMotion::kNone) force_onto_differences(reduced);
+}
+
+void TrackerCore::predict_search(double interval_s) {
+  Particle centre = believed_;
+  centre.pixel = search_->pixel;
+  if (!placed_) search_->pixel = motion_.advance(centre).pixel;
+  search_->pixel = search_->pixel.cwiseMax(0.0).cwiseMin(
+      Eigen::Vector2d(frame_size_.width - 1.0, frame_size_.height - 1.0));
+  search_->sd_px =
+      std::min(search_->sd_px + config_.search_growth_px_s * interval_s, search_->most_sd_px);
+  scatter_over_search(config_.search_fraction);
+}
+
+// Where a target of unknown velocity may be found.
+cv::Rect2d TrackerCore::reachable_area(double interval_s) const {
+  const Eigen::Vector2d centre = search_ ? search_->pixel : motion_.still(last_.pixel);
+  const double reach = config_.leap_most_px_s * interval_s + (search_ ? 2.0 * search_->sd_px : 0.0);
+  return box_of(centre, last_.size_px + Eigen::Vector2d::Constant(2.0 * reach));
 }
 
 // A new target either stands against the scene, or was being followed and stands in the image.
@@ -124,16 +140,25 @@ void TrackerCore::scatter_over_search(double fraction) {
   }
 }
 
-void TrackerCore::force_onto_differences(const ReducedFrame& reduced) {
+void TrackerCore::force_onto_differences(const ReducedFrame& reduced, const cv::Rect2d& area) {
   constexpr int kMaxima = 5;
-  const auto maxima = difference_candidates(reduced_, reduced, last_.size_px, kMaxima);
+  const bool moves_unknown = search_ || velocity_ == Velocity::kUnknown;
+  const auto maxima =
+      difference_candidates(reduced_, reduced, motion_.homography(), area, last_.size_px, kMaxima);
   if (maxima.empty()) return;
   auto& particles = filter_.particles();
   const auto count =
       static_cast<std::size_t>(config_.difference_fraction * static_cast<double>(particles.size()));
   for (std::size_t i = 0; i < count; ++i) {
     Particle& particle = particles[i * particles.size() / count];
-    particle.pixel = drawn_near(maxima[i % maxima.size()], 0.15 * particle.size_px.norm()).pixel;
+    const double x = random_.gaussian();
+    const double y = random_.gaussian();
+    particle.pixel =
+        maxima[i % maxima.size()] + 0.1 * Eigen::Vector2d(x, y).cwiseProduct(particle.size_px);
+    // The leap since the last frame tells the velocity, if the target was there then.
+    if (moves_unknown && random_.uniform() < 0.5) {
+      particle.velocity_px_s = motion_.velocity_between(last_.pixel, particle.pixel);
+    }
   }
 }
 

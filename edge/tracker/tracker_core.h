@@ -29,8 +29,10 @@ class TrackerCore {
 
   EgoMotion move_camera(const TrackerInput& frame, const ReducedFrame& reduced, double interval_s);
   void predict(EgoMotion ego_motion, const ReducedFrame& reduced, double interval_s);
+  void predict_search(double interval_s);
   void guess_velocities();
-  void force_onto_differences(const ReducedFrame& reduced);
+  void force_onto_differences(const ReducedFrame& reduced, const cv::Rect2d& area);
+  cv::Rect2d reachable_area(double interval_s) const;
   void scatter_over_search(double fraction);
   TrackerOutput update(const TrackerInput& frame, double interval_s);
   void after_update(const TrackerOutput& output, double interval_s);

@@ -99,6 +99,21 @@ TEST(Tracker, FollowsFastTurnByPredictedHomography) {
   }
 }
 
+// Nobody knows the velocity of a target just designated, here in a camera that stands still.
+TEST(Tracker, CatchesAFastTargetFromItsFirstFrame) {
+  for (const Backdrop backdrop : {Backdrop::kTextured, Backdrop::kSky}) {
+    SyntheticScene scene(backdrop, 12);
+    Tracker tracker = started(scene);
+    for (int k = 1; k < 10; ++k) {
+      const cv::Point2d truth(300.0 - 30.0 * k, 220.0 + 14.0 * k);
+      const TrackerResult result = tracker.track(frame_at(k, scene.picture({400, 300}, truth)));
+      ASSERT_TRUE(result.output.has_value());
+      EXPECT_LT(distance(result.output->pixel, truth), 1.0) << k;
+      EXPECT_GT(result.output->belief, 0.8) << k;
+    }
+  }
+}
+
 TEST(Tracker, CoastsThroughOcclusionAndFindsAgain) {
   SyntheticScene scene(Backdrop::kTextured, 5);
   Tracker tracker = started(scene);
