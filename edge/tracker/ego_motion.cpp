@@ -45,27 +45,6 @@ std::vector<cv::Point2f> spread(const std::vector<cv::KeyPoint>& corners, const 
   return chosen;
 }
 
-// Standard deviation of the noise [grey levels], from what a plane leaves over in 3x3 pixels; the
-// median, so that edges do not count.
-double noise_of(const cv::Mat& image) {
-  constexpr int kStep = 7;
-  std::vector<int> left;
-  for (int row = 1; row + 1 < image.rows; row += kStep) {
-    const auto* a = image.ptr<std::uint8_t>(row - 1);
-    const auto* b = image.ptr<std::uint8_t>(row);
-    const auto* c = image.ptr<std::uint8_t>(row + 1);
-    for (int i = 1; i + 1 < image.cols; i += kStep) {
-      left.push_back(std::abs(a[i - 1] - 2 * a[i] + a[i + 1] -
-                              2 * (b[i - 1] - 2 * b[i] + b[i + 1]) + c[i - 1] - 2 * c[i] +
-                              c[i + 1]));
-    }
-  }
-  if (left.empty()) return 0.0;
-  const auto middle = left.begin() + static_cast<std::ptrdiff_t>(left.size() / 2);
-  std::nth_element(left.begin(), middle, left.end());
-  return 1.4826 * *middle / 6.0;  // the kernel's norm is 6
-}
-
 // How well the pixels around `a` of one image correlate with those around `b` of the other.
 double correlation(const cv::Mat& one, const cv::Point2f& a, const cv::Mat& other,
                    const cv::Point2f& b) {
@@ -182,7 +161,7 @@ void EgoMotionEstimator::start(const ReducedFrame& frame) {
 
 std::vector<cv::Point2f> EgoMotionEstimator::detect_corners(const cv::Rect2d& target_box) {
   constexpr int kGreatestThreshold = 60;
-  const int least = std::max(6, static_cast<int>(std::ceil(5.0 * noise_of(previous_.image))));
+  const int least = std::max(6, static_cast<int>(std::ceil(5.0 * pixel_noise(previous_.image))));
   corner_threshold_ = std::clamp(corner_threshold_, least, std::max(least, kGreatestThreshold));
   std::vector<cv::KeyPoint> corners;
   cv::FAST(previous_.image, corners, corner_threshold_, true);

@@ -55,7 +55,48 @@ std::vector<float> surroundings(const View& view, const Eigen::Vector2d& pixel,
   return values;
 }
 
+// The greatest deviation from the plane through the patch: a sky's gradient is no structure.
+float structure_of(const Patch& gray) {
+  constexpr float kMiddle = (kPatchSide - 1) / 2.0F;
+  float sum = 0.0F, along_x = 0.0F, along_y = 0.0F, squares = 0.0F;
+  for (std::size_t i = 0; i < kPatchArea; ++i) {
+    const float x = static_cast<float>(i % kPatchSide) - kMiddle;
+    const float y = static_cast<float>(i / kPatchSide) - kMiddle;
+    sum += gray[i];
+    along_x += x * gray[i];
+    along_y += y * gray[i];
+    squares += x * x;
+  }
+  float greatest = 0.0F;
+  for (std::size_t i = 0; i < kPatchArea; ++i) {
+    const float x = static_cast<float>(i % kPatchSide) - kMiddle;
+    const float y = static_cast<float>(i / kPatchSide) - kMiddle;
+    const float plane = sum / kPatchArea + (along_x * x + along_y * y) / squares;
+    greatest = std::max(greatest, std::abs(gray[i] - plane));
+  }
+  return greatest;
+}
+
 }  // namespace
+
+double pixel_noise(const cv::Mat& image) {
+  constexpr int kStep = 7;
+  std::vector<int> left;
+  for (int row = 1; row + 1 < image.rows; row += kStep) {
+    const auto* a = image.ptr<std::uint8_t>(row - 1);
+    const auto* b = image.ptr<std::uint8_t>(row);
+    const auto* c = image.ptr<std::uint8_t>(row + 1);
+    for (int i = 1; i + 1 < image.cols; i += kStep) {
+      left.push_back(std::abs(a[i - 1] - 2 * a[i] + a[i + 1] -
+                              2 * (b[i - 1] - 2 * b[i] + b[i + 1]) + c[i - 1] - 2 * c[i] +
+                              c[i + 1]));
+    }
+  }
+  if (left.empty()) return 0.0;
+  const auto middle = left.begin() + static_cast<std::ptrdiff_t>(left.size() / 2);
+  std::nth_element(left.begin(), middle, left.end());
+  return 1.4826 * *middle / 6.0;  // the kernel's norm is 6
+}
 
 int reduction_for(const Eigen::Vector2d& size_px) {
   return std::max(1, static_cast<int>(std::min(size_px.x(), size_px.y()) / kPatchSide));
@@ -149,6 +190,11 @@ Template make_template(const View& view, const Eigen::Vector2d& pixel,
   const auto ninth = stands_out.begin() + kPatchArea * 9 / 10;
   std::nth_element(stands_out.begin(), ninth, stands_out.end());
   made.contrast = std::max(kLeastContrast, *ninth);
+  constexpr double kLeastNoise = 0.6;  // [grey levels] of the digits alone
+  constexpr double kMostNoise = 5.0;   // more is texture everywhere
+  constexpr double kCertain = 4.5;     // standard deviations that none of 576 pixels reaches
+  const double pixel_sd = std::clamp(pixel_noise(view.image), kLeastNoise, kMostNoise);
+  made.empty = static_cast<double>(structure_of(made.gray)) < kCertain * pixel_sd;
   return made;
 }
 

@@ -44,7 +44,12 @@ struct Template {
   Patch gray{};
   float contrast = 1.0F;  // [grey levels] how far the target stands out of what surrounds it
   float noise = 1.0F;     // [grey levels] standard deviation of what surrounds it
+  bool empty = false;     // noise and nothing else: any patch of sky is as much like it
 };
+
+// Standard deviation of the noise [grey levels], from what a plane leaves over in 3x3 pixels; the
+// median, so that edges do not count.
+double pixel_noise(const cv::Mat& image);
 
 // Median grey level around a box.
 float level_around(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);

@@ -43,6 +43,8 @@ class TargetModel {
     return refiner_.refine(scene.view, start, size_px);
   }
   const Eigen::Vector2d& first_size_px() const { return first_size_px_; }
+  // Nothing stood out in the first box: there is nothing to recognise.
+  bool empty() const { return template_.empty; }
 
  private:
   TargetModel(const TrackerConfig& config, const View& view, const cv::Rect2d& box);

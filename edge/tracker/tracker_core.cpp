@@ -188,6 +188,7 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s) 
   output.covariance_px2 += floor * Eigen::Matrix2d::Identity();
   const Likeness found = target_.likeness(scene, last_.pixel, last_.size_px);
   belief_.update({found.similarity, background, found.correlation, found.contrast}, interval_s);
+  if (target_.empty()) belief_.doubt();
   if (belief_.value() > kSureEnoughForMask) target_.learn_mask(scene, last_.pixel, last_.size_px);
   output.box = box_of(last_.pixel, last_.size_px);
   output.pixel = last_.pixel;

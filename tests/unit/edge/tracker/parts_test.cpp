@@ -53,6 +53,32 @@ TEST(Patch, SamplesPixelCentres) {
   EXPECT_NEAR(bilinear(half.image, half.x_of(30.0), half.y_of(30.0)), 90.0, 1.0);
 }
 
+TEST(Template, IsEmptyWithoutStructureBeyondNoiseAndGradient) {
+  cv::RNG random(6);
+  for (const double contrast : {0.0, 12.0}) {
+    cv::Mat sky(200, 200, CV_8U);
+    for (int row = 0; row < 200; ++row) {
+      for (int column = 0; column < 200; ++column) {
+        const bool target = std::abs(row - 100) < 3 && std::abs(column - 100) < 4;
+        sky.at<std::uint8_t>(row, column) = cv::saturate_cast<std::uint8_t>(
+            80.0 + 0.5 * row + random.gaussian(1.5) - (target ? contrast : 0.0));
+      }
+    }
+    const View view{sky, {0, 0}, 1};
+    EXPECT_NEAR(pixel_noise(sky), 1.5, 0.3);
+    EXPECT_EQ(make_template(view, {100.0, 100.0}, {24.0, 18.0}).empty, contrast == 0.0);
+  }
+}
+
+// Rough ground all over the picture is no noise that hides a target.
+TEST(Template, IsNotEmptyOnRoughGround) {
+  cv::RNG random(6);
+  cv::Mat ground(200, 200, CV_8U);
+  random.fill(ground, cv::RNG::NORMAL, 120.0, 25.0);
+  ground(cv::Rect(96, 97, 8, 6)) = 20;
+  EXPECT_FALSE(make_template({ground, {0, 0}, 1}, {100.0, 100.0}, {24.0, 18.0}).empty);
+}
+
 Template pattern() {
   Template made;
   for (std::size_t i = 0; i < kPatchArea; ++i) {

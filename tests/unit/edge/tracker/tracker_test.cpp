@@ -99,6 +99,20 @@ TEST(Tracker, FollowsFastTurnByPredictedHomography) {
   }
 }
 
+// What was designated on an empty sky is found again anywhere in it.
+TEST(Tracker, DoesNotBelieveInADesignationOfNothing) {
+  for (const double noise_sd : {0.0, 2.0}) {
+    SyntheticScene scene(Backdrop::kSky, 13, noise_sd);
+    Tracker tracker(TrackerConfig{}, 5);
+    const cv::Mat blank = scene.picture({400, 300}, std::nullopt);
+    ASSERT_FALSE(tracker.initialise(frame_at(0, blank), SyntheticScene::box_around(kStart)));
+    for (int k = 1; k < 10; ++k) {
+      const cv::Mat gray = scene.picture({400, 300}, std::nullopt);
+      EXPECT_LT(tracker.track(frame_at(k, gray)).output->belief, 0.5) << k;
+    }
+  }
+}
+
 // Nobody knows the velocity of a target just designated, here in a camera that stands still.
 TEST(Tracker, CatchesAFastTargetFromItsFirstFrame) {
   for (const Backdrop backdrop : {Backdrop::kTextured, Backdrop::kSky}) {
