@@ -17,7 +17,8 @@ from ols_demo.places import geodetic
 from ols_demo.recording import Recording
 
 TRUTH, FIX, PAPER_COLOUR, STATION = "#222222", "#0b6fb8", "#d9822b", "#b3261e"
-ELLIPSES = 40  # at most; more would hide the path
+ELLIPSES = 30  # at most; more would hide the path
+ENLARGED = 60.0
 CHI2_95 = 5.991  # two axes
 
 
@@ -62,11 +63,18 @@ def draw_plan(axes: Axes, recording: Recording, window: tuple[int, int]) -> None
     path = enu(frame, np.array([t.position_ecef_m for t in truth]))
     indices = solved(recording, JOINT, window)
     fixes = enu(frame, np.array([recording.targets[JOINT][i].position_ecef_m for i in indices]))
-    axes.plot(path[:, 0], path[:, 1], "-", color=TRUTH, linewidth=1, label="truth")
+    axes.plot(path[:, 0], path[:, 1], "-", color=TRUTH, linewidth=1, label="truth", zorder=3)
     axes.plot(fixes[:, 0], fixes[:, 1], ".", color=FIX, markersize=3, label="fixes")
-    draw_ellipses(axes, recording, indices, fixes, scale=20.0)
+    draw_ellipses(axes, recording, indices, fixes, ENLARGED)
     draw_stations(axes, frame, recording)
-    axes.plot([], [], "o", fillstyle="none", color=FIX, label="95 % ellipses, 20 times enlarged")
+    axes.plot(
+        [],
+        [],
+        "o",
+        fillstyle="none",
+        color=FIX,
+        label=f"95 % ellipses, {ENLARGED:.0f} times enlarged",
+    )
     axes.set(xlabel="east, m", ylabel="north, m", title="Plan", aspect="equal")
     axes.legend(loc="lower center", fontsize=8)
     axes.grid(alpha=0.3)
