@@ -35,8 +35,8 @@ class LcmBus {
     lcm_.publish(channel, &message);
   }
 
-  // Handles everything that has arrived; waits at most timeout_ms for the first. Returns the number
-  // of messages handled.
+  // Handles what has arrived, a few hundred messages at most, so that a flood cannot keep the
+  // caller; waits at most timeout_ms for the first. Returns the number of messages handled.
   int handle(int timeout_ms);
 
  private:

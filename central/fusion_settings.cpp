@@ -1,5 +1,6 @@
 #include "central/fusion_settings.h"
 
+#include "base/lcm_url.h"
 #include "base/toml_config.h"
 
 namespace ols {
@@ -45,7 +46,7 @@ FusionSettings load_fusion_settings(const std::string& path) {
   ConfigFile file(path);
   ConfigTable& root = file.root();
   FusionSettings settings;
-  settings.lcm_url = root.text("lcm_url", settings.lcm_url);
+  settings.lcm_url = read_lcm_url(root, "lcm_url", settings.lcm_url);
   settings.status_interval_s =
       root.number("status_interval_s", settings.status_interval_s, 0.05, 60.0);
   settings.slew_clock_tolerance_s =

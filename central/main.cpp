@@ -2,19 +2,18 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <random>
 
+#include "base/command_line.h"
 #include "base/shutdown.h"
 #include "base/toml_config.h"
 #include "central/fusion_process.h"
 
 namespace {
 
-constexpr int kExitBadInput = 2;
 // Another group and port than any site's bus.
 constexpr const char* kReplaySlewUrl = "udpm://239.255.76.68:7668?ttl=0";
 
@@ -62,18 +61,14 @@ int main(int argc, char** argv) {
       "--slew-url", arguments.slew_url,
       std::string("Bus for slews; default: the same, or with --replay ") + kReplaySlewUrl);
   app.add_flag("--check-config", arguments.check_config, "Only read and check the configuration");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kExitBadInput;
-  }
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-fusion")) return *status;
   spdlog::set_default_logger(spdlog::stderr_color_mt("ols-fusion"));
   ols::install_shutdown_handler();
   try {
     return run(arguments);
   } catch (const ols::ConfigError& error) {
     std::fprintf(stderr, "ols-fusion: %s\n", error.what());
-    return kExitBadInput;
+    return ols::kExitBadInput;
   } catch (const std::exception& error) {
     spdlog::critical("{}", error.what());
     return 1;

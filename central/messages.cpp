@@ -124,7 +124,7 @@ ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stam
   fill_position(target.estimate, message);
   message.crossing_angle_rad = target.estimate.crossing_angle_rad;
   message.residual = target.estimate.residual;
-  message.stations = static_cast<std::int32_t>(target.stations.size());
+  message.stations = static_cast<std::int16_t>(target.stations.size());
   for (const ContributingStation& station : target.stations) {
     message.station.push_back(station.station);
     message.used.push_back(static_cast<std::int8_t>(station.used));
@@ -159,7 +159,7 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
   message.schema_version = ols_msg::fusion_status_t::SCHEMA_VERSION;
   message.boot_id = stamp.boot_id;
   message.sequence = stamp.sequence;
-  message.stations = static_cast<std::int32_t>(health.stations.size());
+  message.stations = static_cast<std::int16_t>(health.stations.size());
   for (const StationHealth& station : health.stations) {
     message.station.push_back(station.station);
     message.bearings.push_back(station.bearings);
@@ -168,7 +168,7 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
     message.residual.push_back(station.residual);
   }
   message.latency_s = latency_s;
-  message.counters = static_cast<std::int32_t>(health.counters.size());
+  message.counters = static_cast<std::int16_t>(health.counters.size());
   for (const auto& [name, value] : health.counters) {
     message.counter_name.push_back(name);
     message.counter_value.push_back(value);

@@ -35,7 +35,7 @@ RayFrame ray_frame(const SightLine& sight);
 // distance.
 Eigen::Matrix2d systematic_covariance(const Ray& ray, double range_m);
 
-// Why there is no position. The numbers are those of ols_msg::target_t.
+// Why there is no position. The numbers are those of target_t.
 enum class Solution {
   kOk,
   kTooFewRays,

@@ -2,6 +2,7 @@
 
 #include <cctype>
 
+#include "base/lcm_url.h"
 #include "base/toml_config.h"
 #include "geometry/angles.h"
 
@@ -110,7 +111,7 @@ StationSettings load_station_settings(const std::string& path) {
   ConfigTable& root = file.root();
   StationSettings settings;
   settings.id = station_id(root);
-  settings.lcm_url = root.text("lcm_url", settings.lcm_url);
+  settings.lcm_url = read_lcm_url(root, "lcm_url", settings.lcm_url);
   settings.tracker_seed = static_cast<std::uint64_t>(root.integer("tracker_seed", 1, 0, INT64_MAX));
   settings.status_interval_s =
       root.number("status_interval_s", settings.status_interval_s, 0.05, 60.0);

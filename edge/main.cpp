@@ -2,19 +2,17 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <exception>
 #include <opencv2/core/utility.hpp>
 #include <random>
 
+#include "base/command_line.h"
 #include "base/shutdown.h"
 #include "base/toml_config.h"
 #include "edge/station_process.h"
 
 namespace {
-
-constexpr int kExitBadInput = 2;
 
 std::int64_t draw_boot_id() {
   std::random_device source;
@@ -39,7 +37,7 @@ int main(int argc, char** argv) {
   bool check = false;
   app.add_option("--config", config, "Configuration file (TOML)")->required();
   app.add_flag("--check-config", check, "Only read and check the configuration");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-station")) return *status;
   spdlog::set_default_logger(spdlog::stderr_color_mt("ols-station"));
   ols::install_shutdown_handler();
   try {
@@ -48,7 +46,7 @@ int main(int argc, char** argv) {
     return run(settings);
   } catch (const ols::ConfigError& error) {
     std::fprintf(stderr, "ols-station: %s\n", error.what());
-    return kExitBadInput;
+    return ols::kExitBadInput;
   } catch (const std::exception& error) {
     spdlog::critical("{}", error.what());
     return 1;

@@ -72,6 +72,35 @@ std::int8_t state_code(StationState state) {
 
 }  // namespace
 
+std::int8_t device_code(CameraState state) {
+  using M = ols_msg::station_status_t;
+  switch (state) {
+    case CameraState::kAbsent:
+      return M::DEVICE_ABSENT;
+    case CameraState::kStarting:
+      return M::DEVICE_STARTING;
+    case CameraState::kStreaming:
+      return M::DEVICE_OK;
+    case CameraState::kFault:
+      return M::DEVICE_FAULT;
+  }
+  return M::DEVICE_FAULT;
+}
+
+std::int8_t device_code(const PtuStatus& status) {
+  using M = ols_msg::station_status_t;
+  if (!status.port_open) return M::DEVICE_ABSENT;
+  switch (status.state) {
+    case PtuState::kStarting:
+      return M::DEVICE_STARTING;
+    case PtuState::kReady:
+      return M::DEVICE_OK;
+    case PtuState::kFault:
+      return M::DEVICE_FAULT;
+  }
+  return M::DEVICE_FAULT;
+}
+
 std::int64_t Sender::utime_us(double monotonic_s) const {
   return std::llround(monotonic_s * 1e6) + utc_minus_monotonic_us;
 }
@@ -133,7 +162,7 @@ ols_msg::station_status_t to_message(const StationSnapshot& snapshot, const Send
     message.counter_name.push_back(name);
     message.counter_value.push_back(value);
   }
-  message.counters = static_cast<std::int32_t>(message.counter_name.size());
+  message.counters = static_cast<std::int16_t>(message.counter_name.size());
   return message;
 }
 

@@ -5,7 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "edge/camera/aravis_camera.h"
 #include "edge/config.h"
+#include "edge/ptu/ptu_thread.h"
 #include "edge/station.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/designate_t.hpp"
@@ -30,6 +32,9 @@ struct DeviceStates {
   std::int8_t camera = ols_msg::station_status_t::DEVICE_ABSENT;
   std::int8_t ptu = ols_msg::station_status_t::DEVICE_ABSENT;
 };
+
+std::int8_t device_code(CameraState state);
+std::int8_t device_code(const PtuStatus& status);
 
 ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
                               const StationSettings& settings, std::int64_t sequence);

@@ -23,15 +23,23 @@ class StationBus {
   // Hands the waiting commands to the station.
   void receive();
 
+  // The last refused command in words, and how many there were.
+  const std::string& last_refusal() const { return last_refusal_; }
+  std::uint64_t refusals() const { return refusals_; }
+
   void send(const Bearing& bearing);
   void send_status(StationSnapshot snapshot, const PtuLimits& limits, const DeviceStates& devices,
                    const std::string& last_error);
   void send_preview(const Frame& frame, const std::optional<cv::Rect2d>& box);
 
  private:
+  // Messages that `passes` is true for need not be fresh.
   template <class Message>
-  void on_command(const std::string& kind, const std::function<Refusal(const Message&)>& execute);
+  void on_command(const std::string& kind, const std::function<Refusal(const Message&)>& execute,
+                  const std::function<bool(const Message&)>& passes);
+  Refusal command_ptu(const ols_msg::ptu_command_t& message);
   void refuse(const std::string& kind, const std::string& why);
+  void trouble(const std::string& what);
 
   const StationSettings& settings_;
   Station& station_;
@@ -42,6 +50,7 @@ class StationBus {
   std::map<std::string, double> counters_;  // refusals before the station
   std::map<std::string, std::int64_t> sequences_;
   std::string last_refusal_;
+  std::uint64_t refusals_ = 0;
 };
 
 }  // namespace ols

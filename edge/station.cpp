@@ -87,7 +87,11 @@ Station::Station(const StationConfig& config, std::unique_ptr<TargetTracker> tra
     : config_(config),
       tracker_(std::move(tracker)),
       history_(config.angles),
-      motion_(config.motion) {}
+      motion_(config.motion) {
+  for (int i = 0; i <= static_cast<int>(StationState::kStopped); ++i) {
+    counters_[std::string("seconds_") + to_string(static_cast<StationState>(i))] = 0.0;
+  }
+}
 
 Refusal Station::count(Refusal refusal, const char* command) {
   const bool accepted = refusal == Refusal::kNone;
@@ -230,10 +234,19 @@ Refusal Station::designate(const DesignateCommand& command, double now_s) {
   return count(Refusal::kNone, "designate");
 }
 
+std::optional<PanTilt> Station::reachable(const AzimuthElevation& direction) const {
+  auto angles = aim_along(config_.geometry, direction);
+  if (!angles) return std::nullopt;
+  const auto newest = history_.newest();
+  const PanTilt here = newest ? newest->angles : *angles;
+  if (reach(config_.limits, here, *angles) == Reach::kUnreachable) return std::nullopt;
+  return angles;
+}
+
 Refusal Station::slew(const SlewCommand& command, double now_s) {
   now_s_ = std::max(now_s_, now_s);
-  constexpr double kSane_s = 5.0;
-  constexpr double kMaxRate_rad_s = 3.0;
+  constexpr double kSane_s = 1.0;  // the fusion's lead and the difference of two clocks
+  constexpr double kMaxRate_rad_s = 1.5;
   if (!finite(command)) return count(Refusal::kNotFinite, "slew");
   if (command.lease_s <= 0.0 || command.lease_s > config_.slew_lease_max_s ||
       std::abs(command.effect_s - now_s) > kSane_s ||
@@ -246,11 +259,9 @@ Refusal Station::slew(const SlewCommand& command, double now_s) {
   if (state_ == StationState::kManual || state_ == StationState::kStopped) {
     return count(Refusal::kPrecedence, "slew");
   }
-  auto angles = aim_along(config_.geometry, command.direction);
-  const auto newest = history_.newest();
-  if (!angles ||
-      reach(config_.limits, newest ? newest->angles : *angles, *angles) == Reach::kUnreachable) {
-    return count(Refusal::kUnreachable, "slew");
+  // On the whole way that this one command can lead, not only where it says it is.
+  for (const double time_s : {now_s, command.effect_s, command.received_s + command.lease_s}) {
+    if (!reachable(direction_at(command, time_s))) return count(Refusal::kUnreachable, "slew");
   }
   slew_ = command;
   if (state_ == StationState::kIdle || state_ == StationState::kLost) {
@@ -357,20 +368,20 @@ std::optional<Bearing> Station::bearing(const Measured& measured) {
 void Station::follow(const Bearing& bearing, const PixelSight& pixel) {
   auto centred = aim_along(config_.geometry, bearing.sight.direction);
   if (!centred) return;
-  reach(config_.limits, pixel.angles, *centred);
+  if (reach(config_.limits, pixel.angles, *centred) == Reach::kUnreachable) {
+    counters_["target_beyond_travel"] += 1;  // the servo goes as far as it may
+  }
   motion_.update(bearing.mid_exposure_s, *centred,
                  std::sqrt(bearing.sight.covariance_white.trace() / 2.0));
 }
 
 std::optional<ServoGoal> Station::slew_goal() const {
   constexpr double kStep_s = 0.05;
-  auto here = aim_along(config_.geometry, slew_->direction);
+  const auto here = reachable(slew_->direction);
   const auto later = aim_along(config_.geometry, direction_at(*slew_, slew_->effect_s + kStep_s));
   if (!here || !later) return std::nullopt;
   const PanTilt rate{wrap_pi(later->pan_rad - here->pan_rad) / kStep_s,
                      (later->tilt_rad - here->tilt_rad) / kStep_s};
-  const auto newest = history_.newest();
-  reach(config_.limits, newest ? newest->angles : *here, *here);
   return ServoGoal{slew_->effect_s, *here, rate, slew_->received_s + slew_->lease_s};
 }
 

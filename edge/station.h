@@ -141,6 +141,8 @@ class Station {
   std::optional<Bearing> bearing(const Measured& measured);
   void follow(const Bearing& bearing, const PixelSight& pixel);
   void search_along_slew();
+  // The PTU angles for a direction, or nothing when the unit cannot point there.
+  std::optional<PanTilt> reachable(const AzimuthElevation& direction) const;
   void expire(double now_s);
   std::optional<ServoGoal> slew_goal() const;
 

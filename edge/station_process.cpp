@@ -9,35 +9,6 @@ namespace {
 
 constexpr double kFrameWait_s = 0.004;
 
-std::int8_t device_code(CameraState state) {
-  using M = ols_msg::station_status_t;
-  switch (state) {
-    case CameraState::kAbsent:
-      return M::DEVICE_ABSENT;
-    case CameraState::kStarting:
-      return M::DEVICE_STARTING;
-    case CameraState::kStreaming:
-      return M::DEVICE_OK;
-    case CameraState::kFault:
-      return M::DEVICE_FAULT;
-  }
-  return M::DEVICE_FAULT;
-}
-
-std::int8_t device_code(const PtuStatus& status) {
-  using M = ols_msg::station_status_t;
-  if (!status.port_open) return M::DEVICE_ABSENT;
-  switch (status.state) {
-    case PtuState::kStarting:
-      return M::DEVICE_STARTING;
-    case PtuState::kReady:
-      return M::DEVICE_OK;
-    case PtuState::kFault:
-      return M::DEVICE_FAULT;
-  }
-  return M::DEVICE_FAULT;
-}
-
 }  // namespace
 
 StationProcess::StationProcess(const StationSettings& settings, std::int64_t boot_id)
@@ -45,8 +16,8 @@ StationProcess::StationProcess(const StationSettings& settings, std::int64_t boo
       station_(settings_.station,
                std::make_unique<ParticleFilterTracker>(settings_.tracker, settings_.tracker_seed)),
       bus_(settings_, boot_id, station_),
-      ptu_(settings_.ptu),
-      camera_(settings_.camera) {}
+      camera_(settings_.camera),
+      ptu_(settings_.ptu) {}
 
 void StationProcess::turn() {
   bus_.set_time(clock_monotonic_s(), clock_utime_us());
@@ -69,14 +40,24 @@ void StationProcess::send_reports(double now_s) {
     status_due_s_ = now_s + settings_.status_interval_s;
     const PtuStatus ptu = ptu_.status();
     if (ptu.state == PtuState::kReady) station_.set_limits(ptu.limits);
-    const std::string error = ptu.last_error.empty() ? camera_.last_error() : ptu.last_error;
+    note("camera", camera_.last_error(), 0);
+    note("ptu", ptu.last_error, ptu.port_failures + ptu.counters.errors + ptu.counters.timeouts);
+    note("command", bus_.last_refusal(), bus_.refusals());
     bus_.send_status(snapshot_with_devices(), ptu.limits,
-                     {device_code(camera_.state()), device_code(ptu)}, error);
+                     {device_code(camera_.state()), device_code(ptu)}, last_error_);
   }
   if (settings_.preview_interval_s > 0.0 && now_s >= preview_due_s_ && newest_) {
     preview_due_s_ = now_s + settings_.preview_interval_s;
     bus_.send_preview(*newest_, station_.snapshot().box);
   }
+}
+
+// What has changed since the last look is the newest trouble.
+void StationProcess::note(const std::string& source, const std::string& what,
+                          std::uint64_t number) {
+  const std::pair trouble{what, number};
+  if (!what.empty() && noted_[source] != trouble) last_error_ = what;
+  noted_[source] = trouble;
 }
 
 StationSnapshot StationProcess::snapshot_with_devices() const {

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "edge/camera/aravis_camera.h"
 #include "edge/messages_bus.h"
@@ -22,13 +25,16 @@ class StationProcess {
  private:
   void send_reports(double now_s);
   StationSnapshot snapshot_with_devices() const;
+  void note(const std::string& source, const std::string& what, std::uint64_t number);
 
   const StationSettings settings_;
   Station station_;
   StationBus bus_;
-  PtuThread ptu_;
   AravisCamera camera_;
+  PtuThread ptu_;  // the first to end, whatever the camera is waiting for: it halts the unit
   std::optional<Frame> newest_;
+  std::map<std::string, std::pair<std::string, std::uint64_t>> noted_;  // by source
+  std::string last_error_;                                              // the newest of all sources
   double status_due_s_ = 0.0;
   double preview_due_s_ = 0.0;
 };

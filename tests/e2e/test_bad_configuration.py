@@ -49,6 +49,8 @@ def test_a_good_configuration_passes(tmp_path):
         ("longitude_deg = 16.6", "longitude_deg = 'east'", 4, "longitude_deg"),
         ('device = "/dev/null"', 'device = "/dev/null"\nbaud = 12', 11, "baud"),
         ('id = "s1"', 'id = "s 1"', 1, "id"),
+        ('id = "s1"', 'id = "s1"\nlcm_url = "bogus://x"', 2, "lcm_url"),
+        ('id = "s1"', 'id = "s1"\nlcm_url = "udpm://300.1.1.1:99"', 2, "lcm_url"),
         ("[pose]", "[pose", 2, ""),
     ],
 )
@@ -64,6 +66,11 @@ def test_missing_files(tmp_path):
     refused(run("ols-station", "--config", missing), missing)
     refused(run("ols-fusion", "--config", missing), missing)
     refused(run("ols-sim", "--scenario", missing), missing)
+
+
+@pytest.mark.parametrize("program", ["ols-station", "ols-fusion", "ols-sim", "ols-ctl"])
+def test_unknown_options(program):
+    refused(run(program, "--no-such-option"), program)
 
 
 def test_fusion_names_file_line_and_key(tmp_path):

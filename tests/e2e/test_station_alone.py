@@ -2,6 +2,7 @@
 
 import math
 import subprocess
+import time
 
 import ols_msg
 import pytest
@@ -93,6 +94,22 @@ def test_designation_without_a_frame_is_refused(station):
     message = addressed(ols_msg.designate_t(), "lone", 1)
     message.width_px = message.height_px = 20.0
     refused(station, "refused_no_frame", "OLS_DESIGNATE_lone", message.encode())
+
+
+def test_a_stop_needs_neither_age_nor_order(station):
+    for sequence, shift_us in ((1, 0), (1, 0), (0, -60_000_000), (0, 60_000_000)):
+        move = point("lone", time.time_ns(), 0.1)
+        station.publish("OLS_PTU_lone", move.encode())
+        station.wait(lambda: station.observer.state("lone") == "manual", "manual")
+        stop = point("lone", sequence, 0.0)
+        stop.command = ols_msg.ptu_command_t.COMMAND_STOP
+        stop.utime += shift_us
+        station.publish("OLS_PTU_lone", stop.encode())
+        station.wait(lambda: station.observer.state("lone") == "stopped", "stopped")
+    release = point("lone", time.time_ns(), 0.0)
+    release.command = ols_msg.ptu_command_t.COMMAND_RELEASE
+    station.publish("OLS_PTU_lone", release.encode())
+    station.wait(lambda: station.observer.state("lone") == "idle", "idle")
 
 
 def ctl(*arguments: str) -> subprocess.CompletedProcess:

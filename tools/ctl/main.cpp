@@ -1,5 +1,4 @@
 // ols-ctl: the operator's hand on the command line.
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -9,13 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "base/command_line.h"
 #include "geometry/angles.h"
 #include "tools/ctl/operator.h"
 
 namespace {
 
 constexpr int kExitRefused = 1;
-constexpr int kExitBadInput = 2;
 constexpr double kPatience_s = 3.0;
 
 // "-" for what is not known.
@@ -93,7 +92,7 @@ int main(int argc, char** argv) {
   auto* stop = app.add_subcommand("stop", "Halt the PTU, and stay stopped until told otherwise");
   auto* release = app.add_subcommand("release", "Give the PTU back to automatic control");
   app.add_subcommand("status", "Show how it is");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-ctl")) return *status;
 
   std::optional<Send> send;
   if (designate->parsed()) {
@@ -113,6 +112,6 @@ int main(int argc, char** argv) {
     return run(url, station, send);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "ols-ctl: %s\n", error.what());
-    return kExitBadInput;
+    return ols::kExitBadInput;
   }
 }

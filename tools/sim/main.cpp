@@ -1,11 +1,11 @@
 // ols-sim: the simulated site, live behind real wires or in lockstep without any.
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <iostream>
 #include <opencv2/core.hpp>
 #include <thread>
 
+#include "base/command_line.h"
 #include "base/lcm_bus.h"
 #include "base/shutdown.h"
 #include "tools/sim/live_site.h"
@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
       "degrees, lengths in metres.");
   Options options;
   define(app, options);
-  CLI11_PARSE(app, argc, argv);
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-sim")) return *status;
   try {
     run(options);
   } catch (const std::exception& problem) {

@@ -270,6 +270,19 @@ TEST_F(StationTest, RefusesSlewsThatAreNotCommands) {
   EXPECT_EQ(station_.snapshot().counters.at("slew_refused"), 6.0);
 }
 
+TEST_F(StationTest, RefusesASlewThatWouldLeadOutOfTheTravelWithinItsLease) {
+  run_until(100.5);
+  auto command = slew(30.0, 28.0);  // inside, but on its way out: the unit tilts to 31 degrees
+  command.elevation_rate_rad_s = 0.05;
+  EXPECT_EQ(station_.slew(command, now_), Refusal::kNone);
+  command.elevation_rate_rad_s = 0.4;
+  EXPECT_EQ(station_.slew(command, now_), Refusal::kUnreachable);
+  command = slew(30.0);
+  command.effect_s = now_ + 4.5;  // far ahead, at a rate that would swing the unit now
+  command.azimuth_rate_rad_s = 1.4;
+  EXPECT_EQ(station_.slew(command, now_), Refusal::kOutOfRange);
+}
+
 TEST_F(StationTest, TheOperatorHasPrecedenceOverSlews) {
   run_until(100.5);
   ASSERT_EQ(station_.point({{0.2, 0.1}}, now_), Refusal::kNone);
