@@ -107,11 +107,14 @@ struct PtuDriver::Impl {
     if (!outstanding) return;
     outstanding = false;
     if (!reply.ok) ++counters.errors;
-    const std::string asked = start->request().bytes();
-    if (!start->take(reply)) fault(time_s, "unusable reply to " + asked + ": " + reply.text);
+    if (!start->take(reply)) fault(time_s, start->refusal(reply));
   }
 
   void become_ready(double time_s) {
+    if (std::string conflict = limits_conflict(config.limits, start->facts()); !conflict.empty()) {
+      fault(time_s, std::move(conflict));
+      return;
+    }
     commands.emplace(config, start->facts());
     history = AngleHistory([this] {
       AngleHistory::Config history_config = config.history;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
+
+#include "geometry/angles.h"
 
 namespace ols {
 
@@ -13,15 +16,58 @@ constexpr double kRefresh_s = 1.0;
 constexpr double kHaltMargin_s = 0.3;  // on top of the braking time, before a halt is repeated
 constexpr double kStanding_counts_s = 20.0;  // slower than this is standing
 
+constexpr double kRounding_counts = 1e-6;  // a limit that is a whole count stays that count
+
+double least_within(const PtuAxisFacts& facts, double least_rad) {
+  return std::ceil(least_rad / facts.resolution_rad - kRounding_counts);
+}
+
+double greatest_within(const PtuAxisFacts& facts, double greatest_rad) {
+  return std::floor(greatest_rad / facts.resolution_rad + kRounding_counts);
+}
+
+PtuLimits narrowed(const PtuLimits& configured, const PtuFacts& facts) {
+  return {std::max(configured.pan_min_rad, facts.pan.least * facts.pan.resolution_rad),
+          std::min(configured.pan_max_rad, facts.pan.greatest * facts.pan.resolution_rad),
+          std::max(configured.tilt_min_rad, facts.tilt.least * facts.tilt.resolution_rad),
+          std::min(configured.tilt_max_rad, facts.tilt.greatest * facts.tilt.resolution_rad)};
+}
+
+struct Range {
+  double least_rad, greatest_rad;
+};
+
+std::string axis_conflict(const char* name, const PtuAxisFacts& facts, const Range& configured,
+                          const Range& both) {
+  const bool room =
+      both.least_rad < both.greatest_rad &&
+      least_within(facts, both.least_rad) <= greatest_within(facts, both.greatest_rad);
+  if (room) return {};
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "no %s lies within both the configured limits, %.2f to %.2f deg, and the unit's, "
+                "%.2f to %.2f deg",
+                name, degrees(configured.least_rad), degrees(configured.greatest_rad),
+                degrees(facts.least * facts.resolution_rad),
+                degrees(facts.greatest * facts.resolution_rad));
+  return text;
+}
+
 }  // namespace
+
+std::string limits_conflict(const PtuLimits& configured, const PtuFacts& facts) {
+  const PtuLimits both = narrowed(configured, facts);
+  std::string pan =
+      axis_conflict("pan", facts.pan, {configured.pan_min_rad, configured.pan_max_rad},
+                    {both.pan_min_rad, both.pan_max_rad});
+  if (!pan.empty()) return pan;
+  return axis_conflict("tilt", facts.tilt, {configured.tilt_min_rad, configured.tilt_max_rad},
+                       {both.tilt_min_rad, both.tilt_max_rad});
+}
 
 MotionCommands::MotionCommands(const PtuConfig& config, const PtuFacts& facts)
     : servo_(config.servo),
-      limits_{
-          std::max(config.limits.pan_min_rad, facts.pan.least * facts.pan.resolution_rad),
-          std::min(config.limits.pan_max_rad, facts.pan.greatest * facts.pan.resolution_rad),
-          std::max(config.limits.tilt_min_rad, facts.tilt.least * facts.tilt.resolution_rad),
-          std::min(config.limits.tilt_max_rad, facts.tilt.greatest * facts.tilt.resolution_rad)},
+      limits_(narrowed(config.limits, facts)),
       pan_(axis(PtuAxis::kPan, facts.pan, limits_.pan_min_rad, limits_.pan_max_rad)),
       tilt_(axis(PtuAxis::kTilt, facts.tilt, limits_.tilt_min_rad, limits_.tilt_max_rad)) {
   const auto rad = [](const PtuAxisFacts& axis, std::int32_t counts) {
@@ -38,12 +84,11 @@ MotionCommands::MotionCommands(const PtuConfig& config, const PtuFacts& facts)
 }
 
 MotionCommands::Axis MotionCommands::axis(PtuAxis name, const PtuAxisFacts& facts, double least_rad,
-                                          double greatest_rad) const {
-  constexpr double kRounding = 1e-6;  // a limit that is a whole count stays that count
+                                          double greatest_rad) {
   return {name,
           facts,
-          static_cast<std::int32_t>(std::ceil(least_rad / facts.resolution_rad - kRounding)),
-          static_cast<std::int32_t>(std::floor(greatest_rad / facts.resolution_rad + kRounding)),
+          static_cast<std::int32_t>(least_within(facts, least_rad)),
+          static_cast<std::int32_t>(greatest_within(facts, greatest_rad)),
           {},
           {},
           {},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "edge/ptu/codec.h"
 #include "edge/ptu/driver.h"
@@ -10,9 +11,13 @@
 
 namespace ols {
 
+// Why no axis position satisfies both configuration and unit, in words; empty when there are such.
+std::string limits_conflict(const PtuLimits& configured, const PtuFacts& facts);
+
 class MotionCommands {
  public:
-  // The servo's bounds become the narrower ones of configuration and unit.
+  // The servo's bounds become the narrower ones of configuration and unit, between which there must
+  // be room: no limits_conflict().
   MotionCommands(const PtuConfig& config, const PtuFacts& facts);
 
   // What to send at `time_s`, with the unit at `now`.
@@ -39,7 +44,7 @@ class MotionCommands {
     double rate_counts_s = 0.0;                   // and how fast it moved
     bool rate_known = false;
   };
-  Axis axis(PtuAxis name, const PtuAxisFacts& facts, double least_rad, double greatest_rad) const;
+  static Axis axis(PtuAxis name, const PtuAxisFacts& facts, double least_rad, double greatest_rad);
   void halt(double time_s, PtuRequest& request);
   static void add_speed(Axis& axis, double speed_rad_s, PtuRequest& request);
   static void add_position(Axis& axis, double position_rad, PtuRequest& request);

@@ -63,6 +63,11 @@ AxisCommand axis_step(const ServoConfig& config, const AxisGoal& goal, double no
   return {now_rad + way_rad, std::max(std::abs(speed), config.min_speed_rad_s)};
 }
 
+// Limits that contradict each other leave nowhere to go.
+bool room_within(const PtuLimits& limits) {
+  return limits.pan_min_rad <= limits.pan_max_rad && limits.tilt_min_rad <= limits.tilt_max_rad;
+}
+
 }  // namespace
 
 std::optional<ServoCommand> servo_step(const ServoConfig& config, const PtuLimits& limits,
@@ -74,7 +79,7 @@ std::optional<ServoCommand> servo_step(const ServoConfig& config, const PtuLimit
   const bool finite = std::isfinite(goal->angles.pan_rad) && std::isfinite(goal->angles.tilt_rad) &&
                       std::isfinite(goal->rate.pan_rad) && std::isfinite(goal->rate.tilt_rad) &&
                       std::isfinite(dt_s);
-  if (!finite) return std::nullopt;
+  if (!finite || !room_within(limits)) return std::nullopt;
   const AxisCommand pan = axis_step(config,
                                     goal_at(goal->angles.pan_rad, goal->rate.pan_rad, dt_s,
                                             limits.pan_min_rad, limits.pan_max_rad),

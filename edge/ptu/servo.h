@@ -41,7 +41,8 @@ struct PtuLimits {  // [rad], as reported by the unit, narrowed by the configura
   double tilt_min_rad = -0.8, tilt_max_rad = 0.5;
 };
 
-// One cycle: goal, where the unit is now, time. Nothing = halt (no goal, stale goal).
+// One cycle: goal, where the unit is now, time. Nothing = halt (no goal, stale goal, limits without
+// room between them).
 std::optional<ServoCommand> servo_step(const ServoConfig& config, const PtuLimits& limits,
                                        const std::optional<ServoGoal>& goal, const PanTilt& now,
                                        double time_s);

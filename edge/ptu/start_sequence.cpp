@@ -1,7 +1,9 @@
 #include "edge/ptu/start_sequence.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <utility>
 
 #include "geometry/angles.h"
 
@@ -18,6 +20,17 @@ bool sensible(const PtuAxisFacts& facts) {
          facts.upper_speed > facts.lower_speed && facts.acceleration > 0;
 }
 
+bool accepted(const PtuReply& reply) { return reply.ok; }
+
+// The answer to C: `i`, or verbose "PTU is in Independent Mode" or "Independent speed control
+// mode"; the case of the letter differs between units.
+bool independent(const PtuReply& reply) {
+  std::string text = reply.text;
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return reply.ok && (text == "i" || text.find("independent") != std::string::npos);
+}
+
 }  // namespace
 
 PtuStartSequence::PtuStartSequence(double acceleration_rad_s2)
@@ -25,9 +38,13 @@ PtuStartSequence::PtuStartSequence(double acceleration_rad_s2)
   add("ED");  // no echo
   add("FT");  // short replies
   add("H");   // whatever a former master had begun
-  add("CI");  // speeds are bounds of position moves, never velocities
-  add("I");   // moves begin at once
-  add("LE");  // soft limits
+  // Speeds are bounds of position moves. As velocities they would run on when this master dies, so
+  // an answer of `*` is not enough.
+  constexpr std::string_view kVelocities = "the unit may take speeds for velocities";
+  require("CI", accepted, kVelocities);
+  require("C", independent, kVelocities);
+  add("I");  // moves begin at once
+  require("LE", accepted, "the unit's soft limits are not known to be on");
   add("A", true);
   steps_.push_back({[] { return PtuRequest().plain("V"); },
                     [this](const PtuReply& reply) {
@@ -48,10 +65,24 @@ bool PtuStartSequence::take(const PtuReply& reply) {
   return true;
 }
 
+std::string PtuStartSequence::refusal(const PtuReply& reply) const {
+  const Step& step = steps_.at(next_);
+  std::string reason = "unusable reply to " + step.request().bytes();
+  reason.back() = ':';  // in place of the delimiter
+  reason += (reply.ok ? " * " : " ! ") + reply.text;
+  return step.without.empty() ? reason : step.without + ": " + reason;
+}
+
 // A mode that some firmware does not know is no reason to give up.
 void PtuStartSequence::add(std::string_view command, bool slow) {
   steps_.push_back({[text = std::string(command)] { return PtuRequest().plain(text); },
                     [](const PtuReply&) { return true; }, slow});
+}
+
+void PtuStartSequence::require(std::string_view command, std::function<bool(const PtuReply&)> take,
+                               std::string_view without) {
+  steps_.push_back({[text = std::string(command)] { return PtuRequest().plain(text); },
+                    std::move(take), false, std::string(without)});
 }
 
 void PtuStartSequence::add_count(PtuAxis axis, PtuAxisFacts PtuFacts::*facts, PtuQuantity quantity,

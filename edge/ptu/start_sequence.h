@@ -37,6 +37,8 @@ class PtuStartSequence {
 
   // The answer to request(). False: without it the unit cannot be driven.
   bool take(const PtuReply& reply);
+  // Why it cannot, after take() gave false for `reply`.
+  std::string refusal(const PtuReply& reply) const;
 
   const PtuFacts& facts() const { return facts_; }
 
@@ -45,8 +47,11 @@ class PtuStartSequence {
     std::function<PtuRequest()> request;
     std::function<bool(const PtuReply&)> take;
     bool slow = false;
+    std::string without = {};  // what it means when the reply will not do
   };
   void add(std::string_view command, bool slow = false);
+  void require(std::string_view command, std::function<bool(const PtuReply&)> take,
+               std::string_view without);
   void add_axis(PtuAxis axis, PtuAxisFacts PtuFacts::*facts);
   void add_count(PtuAxis axis, PtuAxisFacts PtuFacts::*facts, PtuQuantity quantity,
                  std::int32_t PtuAxisFacts::*value);

@@ -186,11 +186,94 @@ TEST(PtuDriver, GivesUpOnAUnitWithoutAResolution) {
     const std::string request = driver.step(t);
     const auto commands = std::count_if(request.begin() + (request.empty() ? 0 : 1), request.end(),
                                         [](char c) { return c == ' '; });
-    for (auto n = commands; n > 0; --n) driver.receive("* 0\r\n", t);
+    const char* reply = request == "C " ? "* i\r\n" : "* 0\r\n";
+    for (auto n = commands; n > 0; --n) driver.receive(reply, t);
     faulted = faulted || driver.state() == PtuState::kFault;
   }
   EXPECT_TRUE(faulted);
   EXPECT_NE(driver.last_error().find("PR"), std::string::npos);
+}
+
+// The unit is in velocity mode, as another master may have left it, and one command does not reach
+// it or gets another answer.
+struct StartCase {
+  const char* command;
+  const char* answer;  // the command is kept from the unit and answered so; empty: not so
+  const char* reason;  // within last_error(); empty: the unit is to become ready
+};
+
+void start_from_velocity_mode(const StartCase& c) {
+  sim::PtuUnit unit(quick_unit(), 7, 10.0);
+  PtuDriver driver(quick_driver());
+  bool faulted = false, ready = false, moved = false;
+  const std::string tampered = std::string(c.command) + " ";
+  for (double t = 10.0; t < 14.0; t += 1e-3) {
+    if (t < 10.0005) unit.receive("CV ", t);
+    const std::string request = driver.step(t);
+    if (request == tampered && *c.answer != '\0') {
+      driver.receive(c.answer, t + 5e-4);
+    } else if (!request.empty()) {
+      unit.receive(request, t);
+    }
+    driver.receive(unit.transmit(t), t);
+    faulted = faulted || driver.state() == PtuState::kFault;
+    ready = ready || driver.state() == PtuState::kReady;
+    driver.set_goal(ServoGoal{t, {1.0, 0.0}, {}, t + 0.5});
+    moved = moved || std::abs(unit.angles_at(t).pan_rad) > 1e-3;
+  }
+  const bool drives = *c.reason == '\0';
+  EXPECT_EQ(ready, drives) << c.command << c.answer;
+  EXPECT_EQ(moved, drives) << c.command << c.answer;
+  EXPECT_EQ(faulted, !drives) << c.command << c.answer;
+  EXPECT_NE(driver.last_error().find(c.reason), std::string::npos) << driver.last_error();
+}
+
+TEST(PtuDriver, DrivesNoUnitThatMayTakeSpeedsForVelocities) {
+  constexpr const char* kReason = "may take speeds for velocities";
+  for (const StartCase& c :
+       {StartCase{"CI", "! Illegal Command Entered\r\n", kReason},
+        StartCase{"CI", "*\r\n", kReason}, StartCase{"C", "* p\r\n", kReason},
+        StartCase{"C", "*\r\n", kReason},
+        StartCase{"C", "* PTU is in Pure Velocity Mode\r\n", kReason},
+        StartCase{"C", "! Illegal Command Entered\r\n", kReason}, StartCase{"C", "", ""},
+        StartCase{"C", "* I\r\n", ""}, StartCase{"C", "* PTU is in Independent Mode\r\n", ""},
+        StartCase{"C", "* Independent speed control mode\r\n", ""}}) {
+    start_from_velocity_mode(c);
+  }
+}
+
+TEST(PtuDriver, DrivesNoUnitThatRefusesItsSoftLimits) {
+  start_from_velocity_mode({"LE", "! Illegal Command Entered\r\n", "soft limits"});
+}
+
+TEST(PtuDriver, FaultsWhenNoPositionIsWithinBothLimits) {
+  struct Case {
+    PtuLimits limits;
+    const char* axis;
+  };
+  const double count = radians(11.5714 / 3600.0);
+  for (const auto& [limits, axis] :
+       {Case{{-2.7, 2.7, radians(40.0), radians(60.0)}, "tilt"},
+        Case{{-2.7, 2.7, radians(-90.0), radians(-60.0)}, "tilt"},
+        Case{{radians(170.0), radians(300.0), -0.8, 0.5}, "pan"},
+        Case{{1e9, 2e9, -0.8, 0.5}, "pan"},
+        Case{{10.2 * count, 10.8 * count, -0.8, 0.5}, "pan"}}) {  // between two counts
+    PtuConfig config = quick_driver();
+    config.limits = limits;
+    ClosedLoop loop(config, quick_unit());
+    bool faulted = false;
+    loop.run(3.0, [&] {
+      loop.driver.set_goal(loop.goal({1.0, 0.3}));
+      faulted = faulted || loop.driver.state() == PtuState::kFault;
+      ASSERT_NE(loop.driver.state(), PtuState::kReady);
+    });
+    EXPECT_TRUE(faulted);
+    EXPECT_NE(loop.driver.last_error().find(std::string("no ") + axis + " lies within both"),
+              std::string::npos)
+        << loop.driver.last_error();
+    EXPECT_DOUBLE_EQ(loop.truth().pan_rad, 0.0);
+    EXPECT_DOUBLE_EQ(loop.truth().tilt_rad, 0.0);
+  }
 }
 
 TEST(PtuDriver, CountsLimitHits) {

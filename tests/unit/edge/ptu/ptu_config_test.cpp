@@ -45,7 +45,10 @@ TEST(PtuConfigFile, RefusesWhatIsWrongAndNamesIt) {
   refused("device = 'x'\npoll_interval_s = 0.0\n", "poll_interval_s");
   refused("device = 'x'\nacceleration_deg_s2 = inf\n", "acceleration_deg_s2");
   refused("device = 'x'\npan_min_deg = 10\npan_max_deg = 5\n", "pan_max_deg");
+  refused("device = 'x'\npan_min_deg = 10\npan_max_deg = 10\n", "pan_max_deg");
   refused("device = 'x'\ntilt_min_deg = 10\ntilt_max_deg = 10\n", "tilt_max_deg");
+  refused("device = 'x'\ntilt_min_deg = 10\ntilt_max_deg = 5\n", "tilt_max_deg");
+  refused("device = 'x'\ntilt_min_deg = 60\n", "tilt_max_deg");  // beyond the default
   refused("device = 'x'\npoll_intervall_s = 0.1\n", "poll_intervall_s");
   refused("device = 'x'\n[ptu.servo]\ngain_hz = 'fast'\n", "gain_hz");
 }

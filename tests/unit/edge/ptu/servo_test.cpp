@@ -91,6 +91,14 @@ TEST(Servo, HaltsWithoutAUsableGoal) {
   EXPECT_FALSE(servo_step(config(), kLimits, unbounded, now, 100.0));
 }
 
+TEST(Servo, CommandsNothingWithinLimitsThatContradictEachOther) {
+  const PtuLimits tilt_empty{-2.7, 2.7, 0.7, 0.5}, pan_empty{1.0, 0.9, -0.8, 0.5};
+  const PtuLimits unknown{-2.7, 2.7, -0.8, std::nan("")};
+  for (const PtuLimits& limits : {tilt_empty, pan_empty, unknown}) {
+    EXPECT_FALSE(servo_step(config(), limits, goal({0.5, 0.1}), {0.0, 0.2}, 100.0));
+  }
+}
+
 struct ReachCase {
   double now_deg, pan_deg, tilt_deg;
   Reach reach;
