@@ -1,5 +1,6 @@
 #include "base/csv_files.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -44,6 +45,14 @@ class Row {
   std::string text(std::size_t column) const {
     if (!has(column)) fail(column, "is empty");
     return cells_[column];
+  }
+  // Ids are written to other files as they are.
+  std::string id(std::size_t column) const {
+    const std::string cell = text(column);
+    const bool plain = std::ranges::none_of(
+        cell, [](unsigned char c) { return c == ',' || c == '"' || c < 0x20 || c == 0x7f; });
+    if (!plain) fail(column, "has a comma, a quote or a control character");
+    return cell;
   }
   template <class Number>
   Number number(std::size_t column, Number least, Number greatest) const {
@@ -121,7 +130,7 @@ constexpr Header<7> kBearings{
 
 StationRow station_row(const Row<6>& row) {
   StationRow station;
-  station.station = row.text(0);
+  station.station = row.id(0);
   station.latitude_deg = row.number<double>(1, -90.0, 90.0);
   station.longitude_deg = row.number<double>(2, -180.0, 360.0);
   station.height_m = row.number<double>(3, -10e3, 100e3);
@@ -132,15 +141,15 @@ StationRow station_row(const Row<6>& row) {
 
 BearingRow bearing_row(const Row<7>& row) {
   constexpr std::int64_t kGreatestUtime = 9'000'000'000'000'000;  // differences do not overflow
-  constexpr double kLeastSigmaDeg = 1e-9;
+  constexpr double kLeastSigmaDeg = 1e-7;
   BearingRow bearing;
   bearing.utime_us = row.number<std::int64_t>(0, 0, kGreatestUtime);
-  bearing.station = row.text(1);
+  bearing.station = row.id(1);
   bearing.azimuth_deg = row.number<double>(2, -360.0, 360.0);
   bearing.elevation_deg = row.number<double>(3, -90.0, 90.0);
   bearing.sigma_deg = row.number<double>(4, kLeastSigmaDeg, 90.0);
   bearing.belief = row.optional_number(5, 0.0, 1.0).value_or(1.0);
-  if (row.has(6)) bearing.target = row.text(6);
+  if (row.has(6)) bearing.target = row.id(6);
   return bearing;
 }
 
@@ -170,6 +179,7 @@ std::vector<BearingRow> read_bearings(const std::string& path,
       row.fail(1, "'" + bearings.back().station + "' is not one of the stations");
     }
   });
+  if (bearings.empty()) throw CsvError(path + ":2: row: there is none");
   return bearings;
 }
 
@@ -184,8 +194,9 @@ void write_fixes(const std::string& path, const std::vector<FixRow>& fixes) {
     out << fix.utime_us << ',' << fix.target << std::setprecision(9) << ',' << fix.latitude_deg
         << ',' << fix.longitude_deg << std::setprecision(4) << ',' << fix.height_m << ','
         << fix.east_sd_m << ',' << fix.north_sd_m << ',' << fix.up_sd_m << ',' << fix.stations_used
-        << ',' << fix.stations_set_aside << ',' << fix.crossing_angle_deg << ',' << fix.residual
-        << '\n';
+        << ',' << fix.stations_set_aside << ',' << fix.crossing_angle_deg << ',';
+    if (!std::isnan(fix.residual)) out << fix.residual;
+    out << '\n';
   }
   file.commit();
 }

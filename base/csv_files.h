@@ -1,7 +1,8 @@
 // The offline formats: stations.csv and bearings.csv in, fixes.csv out. Degrees, as in the files.
 //
 // Columns are found by the header's names, in any order; unknown ones are ignored. Numbers must be
-// plain decimal, finite and in range: there is no such thing as an almost good row.
+// plain decimal, finite and in range, ids without commas, quotes and control characters: there is
+// no such thing as an almost good row.
 #pragma once
 
 #include <cstdint>
@@ -49,12 +50,12 @@ struct FixRow {
   int stations_used = 0;
   int stations_set_aside = 0;
   double crossing_angle_deg = 0.0;
-  double residual = 0.0;  // RMS of the normalised residuals
+  double residual = 0.0;  // RMS of the normalised residuals; NaN, an empty cell: there is none
 };
 
 // At least one row; station ids are unique.
 std::vector<StationRow> read_stations(const std::string& path);
-// In the order of the file; every row's station is one of `stations`.
+// At least one row, in the order of the file; every row's station is one of `stations`.
 std::vector<BearingRow> read_bearings(const std::string& path,
                                       const std::vector<StationRow>& stations);
 // The whole file or, on an error (std::system_error), none of it.

@@ -3,23 +3,42 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
+#include <stdexcept>
 
 namespace ols {
 namespace {
 
 using Recording = std::map<std::string, std::vector<Sighting>>;  // by station, in order of time
 
-Recording recording_of(const std::vector<Sighting>& sightings, double min_belief) {
+Recording recording_of(const std::vector<Sighting>& sightings, double min_belief,
+                       UnusedBearings& unused) {
   Recording recording;
   for (const Sighting& sighting : sightings) {
-    if (sighting.belief >= min_belief) recording[sighting.station].push_back(sighting);
+    if (sighting.belief >= min_belief) {
+      recording[sighting.station].push_back(sighting);
+    } else {
+      ++unused.low_belief;
+    }
   }
   for (auto& [name, all] : recording) {
     std::ranges::stable_sort(all, {}, &Sighting::utime_us);
     const auto doubled = std::ranges::unique(all, {}, &Sighting::utime_us);
+    unused.duplicate += doubled.size();
     all.erase(doubled.begin(), doubled.end());
   }
   return recording;
+}
+
+void require_reasonable(double rate_hz, double span_s) {
+  constexpr double kMostEpochs = 10e6;
+  if (!std::isfinite(rate_hz)) throw std::invalid_argument("the rate is not a finite number");
+  if (rate_hz > 0.0 && span_s * rate_hz > kMostEpochs) {
+    std::ostringstream what;
+    what << "a rate of " << rate_hz << " Hz over " << span_s << " s makes more than " << kMostEpochs
+         << " epochs";
+    throw std::invalid_argument(what.str());
+  }
 }
 
 std::vector<std::int64_t> epochs_of(const Recording& recording, double rate_hz) {
@@ -30,7 +49,9 @@ std::vector<std::int64_t> epochs_of(const Recording& recording, double rate_hz) 
   std::ranges::sort(epochs);
   const auto doubled = std::ranges::unique(epochs);
   epochs.erase(doubled.begin(), doubled.end());
-  if (rate_hz <= 0.0 || epochs.empty()) return epochs;
+  if (epochs.empty()) return epochs;
+  require_reasonable(rate_hz, static_cast<double>(epochs.back() - epochs.front()) * 1e-6);
+  if (rate_hz <= 0.0) return epochs;
   std::vector<std::int64_t> grid;
   for (std::int64_t i = 0;; ++i) {
     const auto offset_us = std::llround(static_cast<double>(i) * 1e6 / rate_hz);
@@ -119,9 +140,17 @@ std::optional<OfflineEstimator> offline_estimator(std::string_view name) {
   return std::nullopt;
 }
 
+UnusedBearings unused_bearings(const std::vector<Sighting>& sightings,
+                               const OfflineConfig& config) {
+  UnusedBearings unused;
+  recording_of(sightings, config.fusion.min_belief, unused);
+  return unused;
+}
+
 std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
                                       const OfflineConfig& config) {
-  const Recording recording = recording_of(sightings, config.fusion.min_belief);
+  UnusedBearings unused;
+  const Recording recording = recording_of(sightings, config.fusion.min_belief, unused);
   const std::vector<std::int64_t> epochs = epochs_of(recording, config.rate_hz);
   ResidualMonitor monitor(config.fusion.residuals);
   std::vector<FusedTarget> targets;

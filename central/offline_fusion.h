@@ -2,6 +2,7 @@
 // bearings on both sides of it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -23,8 +24,16 @@ struct OfflineConfig {
   FusionConfig fusion{};   // what it shares with the live one
 };
 
+// What fuse_offline leaves out before it looks at the geometry.
+struct UnusedBearings {
+  std::size_t low_belief = 0;
+  std::size_t duplicate = 0;  // the same station and stamp: the first is taken
+};
+UnusedBearings unused_bearings(const std::vector<Sighting>& sightings, const OfflineConfig& config);
+
 // One target's bearings, in any order. Targets with a position only, in order of time. Bearings
-// that check() refuses must not be among them.
+// that check() refuses must not be among them. std::invalid_argument for a rate that is not finite
+// or makes more than ten million epochs.
 std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
                                       const OfflineConfig& config);
 

@@ -50,6 +50,8 @@ def test_a_symmetric_pair(folder, estimator):
     assert float(fix["latitude_deg"]) == pytest.approx(49.2 + 145.7 / 111_200, abs=2e-5)
     assert float(fix["height_m"]) == pytest.approx(250 + 36.3, abs=0.2)
     assert float(fix["up_sd_m"]) > 0
+    assert (fix["residual"] == "") == (estimator != "least-squares")
+    assert result.stderr == ""
 
 
 def test_targets_are_kept_apart(folder):
@@ -66,6 +68,8 @@ def test_targets_are_kept_apart(folder):
         ("bearings.csv", "1600000000000000,west,45,ten,0.01", "bearings.csv:4: elevation_deg"),
         ("bearings.csv", "1600000000000000,south,45,10,0.01", "bearings.csv:4: station"),
         ("bearings.csv", "1600000000000000,west,45", "bearings.csv:4: row"),
+        ("bearings.csv", '1600000000000000,"we,st",45,10,0.01', "bearings.csv:4: station"),
+        ("stations.csv", '"no,rth",49.2,16.6,250', "stations.csv:4: station"),
         ("stations.csv", "north,149.2,16.6,250", "stations.csv:4: latitude_deg"),
         ("stations.csv", "north,49.2,16.6,nan", "stations.csv:4: height_m"),
     ],
@@ -80,6 +84,35 @@ def test_a_bad_row_is_named_and_nothing_is_written(folder, name, row, expected):
     assert expected in result.stderr
     assert (folder / "fixes.csv").read_text() == "what was there before\n"
     assert len(list(folder.iterdir())) == 3
+
+
+def test_tells_what_was_not_used(folder):
+    header, first, second = BEARINGS.splitlines()
+    rows = [header + ",belief", first + ",1", second + ",1", second + ",1", second + ",0.1"]
+    (folder / "bearings.csv").write_text("\n".join(rows))
+    result = fuse_in(folder)
+    assert result.returncode == 0
+    assert result.stderr == (
+        "ols-fuse: 2 of 4 bearings not used: 1 of low belief, 1 a station and time given before\n"
+    )
+
+
+def test_bearings_without_rows(folder):
+    (folder / "bearings.csv").write_text(BEARINGS.splitlines()[0] + "\n")
+    result = fuse_in(folder)
+    assert result.returncode == 2
+    assert len(result.stderr.strip().splitlines()) == 1
+    assert "bearings.csv:2: row: there is none" in result.stderr
+
+
+@pytest.mark.parametrize("rate", ["nan", "10000"])
+def test_a_rate_without_an_end_is_refused(folder, rate):
+    late = "1600003600000000,west,45,10,0.01\n"  # an hour later
+    (folder / "bearings.csv").write_text(BEARINGS + late)
+    result = fuse_in(folder, "--rate", rate)
+    assert result.returncode == 2
+    assert len(result.stderr.strip().splitlines()) == 1
+    assert not (folder / "fixes.csv").exists()
 
 
 def test_bad_options_and_files(folder):

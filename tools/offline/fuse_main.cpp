@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <utility>
 
 #include "base/csv_files.h"
 #include "central/offline_fusion.h"
@@ -74,19 +75,41 @@ ols::FixRow fix_of(const ols::FusedTarget& target, const std::string& id) {
   return fix;
 }
 
+void tell_unused(const ols::UnusedBearings& unused, std::size_t bearings) {
+  const std::size_t all = unused.low_belief + unused.duplicate;
+  if (all == 0) return;
+  std::cerr << "ols-fuse: " << all << " of " << bearings << " bearings not used:";
+  const char* separator = " ";
+  for (const auto& [count, why] :
+       {std::pair(unused.low_belief, "of low belief"),
+        std::pair(unused.duplicate, "a station and time given before")}) {
+    if (count == 0) continue;
+    std::cerr << separator << count << ' ' << why;
+    separator = ", ";
+  }
+  std::cerr << '\n';
+}
+
 void run(const Options& options) {
   ols::OfflineConfig config;
   config.estimator = *ols::offline_estimator(options.estimator);
   config.rate_hz = options.rate_hz;
   config.moving_average = options.moving_average;
   std::vector<ols::FixRow> fixes;
+  ols::UnusedBearings unused;
+  std::size_t bearings = 0;
   for (const auto& [id, sightings] : read_sightings(options)) {
+    bearings += sightings.size();
+    const ols::UnusedBearings here = ols::unused_bearings(sightings, config);
+    unused.low_belief += here.low_belief;
+    unused.duplicate += here.duplicate;
     for (const auto& target : ols::fuse_offline(sightings, config)) {
       fixes.push_back(fix_of(target, id));
     }
   }
   std::ranges::stable_sort(fixes, {}, &ols::FixRow::utime_us);
   ols::write_fixes(options.output, fixes);
+  tell_unused(unused, bearings);
 }
 
 }  // namespace

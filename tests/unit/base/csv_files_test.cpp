@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 namespace ols {
@@ -52,14 +53,14 @@ class CsvFilesTest : public testing::Test {
 TEST_F(CsvFilesTest, ReadsStations) {
   const auto stations = read_stations(
       write("s.csv", std::string(kStations) + "north,49.199461378,16.600180669,233.0887\n"
-                                              "\"a, b\",-1,-179,-5e0\n"));
+                                              "\"a b\",-1,-179,-5e0\n"));
   ASSERT_EQ(stations.size(), 2U);
   EXPECT_EQ(stations[0].station, "north");
   EXPECT_EQ(stations[0].latitude_deg, 49.199461378);
   EXPECT_EQ(stations[0].longitude_deg, 16.600180669);
   EXPECT_EQ(stations[0].height_m, 233.0887);
   EXPECT_FALSE(stations[0].position_sd_m);
-  EXPECT_EQ(stations[1].station, "a, b");
+  EXPECT_EQ(stations[1].station, "a b");
   EXPECT_EQ(stations[1].height_m, -5.0);
 }
 
@@ -114,6 +115,11 @@ TEST_F(CsvFilesTest, NamesTheBadStation) {
             "s.csv:2: longitude_deg: inf is outside -180 .. 360");
   EXPECT_EQ(error_of_stations(head + "a,,2,3\n"), "s.csv:2: latitude_deg: is empty");
   EXPECT_EQ(error_of_stations(head + ",1,2,3\n"), "s.csv:2: station: is empty");
+  for (const char* id : {"\"a,b\"", "\"a\"\"b\"", "a\tb", "a\x1b[0m", "a\x7f"}) {
+    EXPECT_EQ(error_of_stations(head + "b,1,2,3\n" + id + ",1,2,3\n"),
+              "s.csv:3: station: has a comma, a quote or a control character")
+        << id;
+  }
   EXPECT_EQ(error_of_stations(head + "a,1,2,3\na,1,2,3\n"), "s.csv:3: station: 'a' is there twice");
   for (const char* row : {"a,1,2\n", "a,1,2,3,4\n", "\"a,1,2,3\n"}) {
     EXPECT_EQ(error_of_stations(head + row),
@@ -141,7 +147,27 @@ TEST_F(CsvFilesTest, NamesTheBadBearing) {
   EXPECT_EQ(error_of_bearings(head + "5,a,0,90.1,1\n"),
             "b.csv:2: elevation_deg: 90.1 is outside -90 .. 90");
   EXPECT_EQ(error_of_bearings(head + "5,a,0,0,0\n"),
-            "b.csv:2: sigma_deg: 0 is outside 1e-09 .. 90");
+            "b.csv:2: sigma_deg: 0 is outside 1e-07 .. 90");
+  EXPECT_EQ(error_of_bearings(head), "b.csv:2: row: there is none");
+  EXPECT_EQ(error_of_bearings(head + "5,\"a,b\",0,0,1\n"),
+            "b.csv:2: station: has a comma, a quote or a control character");
+  const std::string with_target = head.substr(0, head.size() - 1) + ",target\n";
+  for (const char* id : {"\"a,b\"", "\"a\"\"b\"", "a\tb", "a\rb"}) {
+    EXPECT_EQ(error_of_bearings(with_target + "5,a,0,0,1," + id + "\n"),
+              "b.csv:2: target: has a comma, a quote or a control character")
+        << id;
+  }
+}
+
+TEST_F(CsvFilesTest, LeavesAResidualThatIsNoneEmpty) {
+  FixRow fix;
+  fix.target = "1";
+  fix.residual = std::numeric_limits<double>::quiet_NaN();
+  const std::string path = folder_ / "fixes.csv";
+  write_fixes(path, {fix});
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  EXPECT_TRUE(text.str().ends_with(",0.0000,\n")) << text.str();
 }
 
 TEST_F(CsvFilesTest, WritesFixesWhole) {

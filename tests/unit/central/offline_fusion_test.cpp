@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
+#include <stdexcept>
 
 #include "scene.h"
 
@@ -101,6 +103,27 @@ TEST(OfflineFusion, MovingAverageTrails) {
   const auto targets = fuse_offline(recording(5.0, 1e-5, 6), config);
   // 0.45 s behind at about 20 m/s.
   EXPECT_NEAR(error(targets[30]).norm(), 0.45 * 18.0, 2.5);
+}
+
+TEST(OfflineFusion, RefusesARateWithoutAnEnd) {
+  const auto sightings = recording(2.0, 1e-4, 7);
+  for (const double rate_hz :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e7}) {
+    OfflineConfig config;
+    config.rate_hz = rate_hz;
+    EXPECT_THROW(fuse_offline(sightings, config), std::invalid_argument) << rate_hz;
+  }
+}
+
+TEST(OfflineFusion, CountsWhatItDoesNotUse) {
+  auto sightings = recording(2.0, 1e-4, 7);
+  EXPECT_EQ(unused_bearings(sightings, {}).low_belief, 0U);
+  EXPECT_EQ(unused_bearings(sightings, {}).duplicate, 0U);
+  sightings.push_back(sightings[3]);
+  sightings.push_back(sightings[3]);
+  sightings[7].belief = 0.2;
+  EXPECT_EQ(unused_bearings(sightings, {}).low_belief, 1U);
+  EXPECT_EQ(unused_bearings(sightings, {}).duplicate, 2U);
 }
 
 TEST(OfflineFusion, NothingGivesNothing) {
