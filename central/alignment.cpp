@@ -137,6 +137,13 @@ Ray ray_of(const Sighting& reference, const RayFrame& frame, const Fit& fitted) 
   return ray;
 }
 
+bool all_finite(const Ray& ray) {
+  return ray.sight.origin_ecef.allFinite() && std::isfinite(ray.sight.direction.azimuth_rad) &&
+         std::isfinite(ray.sight.direction.elevation_rad) &&
+         ray.sight.covariance_white.allFinite() && ray.sight.covariance_systematic.allFinite() &&
+         ray.rate_rad_s.allFinite() && ray.rate_covariance.allFinite();
+}
+
 }  // namespace
 
 std::optional<Ray> align(std::span<const Sighting> sightings, std::int64_t epoch_us,
@@ -157,6 +164,7 @@ std::optional<Ray> align(std::span<const Sighting> sightings, std::int64_t epoch
   ray.age_s = seconds_between(epoch_us, sightings.back().utime_us);
   ray.belief = 0.0;
   for (const Sighting& s : window) ray.belief += s.belief / static_cast<double>(window.size());
+  if (!all_finite(ray)) return std::nullopt;  // one such ray would spoil the fit of all
   return ray;
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::int64_t kTargetId = 1;
 constexpr double kMemoryS = 1.0;      // bearings kept for alignment
+constexpr double kForgottenS = 10.0;  // silent for longer: gives its place to any other
 constexpr double kStepBackS = 1.0;    // "now" going back by more is another time line
 constexpr double kAverageGapS = 1.0;  // the moving average starts anew after a gap
 
@@ -30,12 +31,15 @@ bool all_finite(const Sighting& s) {
 
 bool in_range(const Sighting& s) {
   constexpr double kDeepestM = 6.3e6, kHighestM = 7.0e6;  // from the Earth's centre
+  constexpr double kGreatestClockSdS = 1e4, kGreatestOriginSdM = 1e6;
   const double from_centre_m = s.sight.origin_ecef.norm();
   const AzimuthElevation& d = s.sight.direction;
   return !s.station.empty() && s.utime_us > 0 && d.azimuth_rad >= 0.0 &&
          d.azimuth_rad <= 2.0 * kPi && std::abs(d.elevation_rad) <= kPi / 2.0 && s.belief >= 0.0 &&
-         s.belief <= 1.0 && s.clock_sd_s >= 0.0 && from_centre_m > kDeepestM &&
-         from_centre_m < kHighestM && s.sight.origin_sd_enu_m.minCoeff() >= 0.0;
+         s.belief <= 1.0 && s.clock_sd_s >= 0.0 && s.clock_sd_s <= kGreatestClockSdS &&
+         from_centre_m > kDeepestM && from_centre_m < kHighestM &&
+         s.sight.origin_sd_enu_m.minCoeff() >= 0.0 &&
+         s.sight.origin_sd_enu_m.maxCoeff() <= kGreatestOriginSdM;
 }
 
 // Determinant; an asymmetric matrix counts with the worse of its two off-diagonal elements.
@@ -44,12 +48,22 @@ double determinant(const Eigen::Matrix2d& m) {
   return m(0, 0) * m(1, 1) - off * off;
 }
 
+bool variances_within(const Eigen::Matrix2d& m, double least_rad2) {
+  constexpr double kGreatestRad2 = 10.0;  // about (180 deg)^2: nothing is known
+  return m.diagonal().minCoeff() >= least_rad2 && m.diagonal().maxCoeff() <= kGreatestRad2;
+}
+
+// The bounds are far beyond any camera's; outside of them one bearing would upset the arithmetic
+// of the whole fit.
 bool covariances_hold(const SightLine& sight) {
+  constexpr double kLeastWhiteRad2 = 1e-18;
+  constexpr double kWorstCondition = 1e8;  // of the white one: greatest eigenvalue over least
   const Eigen::Matrix2d& white = sight.covariance_white;
   const Eigen::Matrix2d& stays = sight.covariance_systematic;
   const double slack = 1e-9 * stays(0, 0) * stays(1, 1);  // rounding of a singular one
-  return white(0, 0) > 0.0 && white(1, 1) > 0.0 && determinant(white) > 0.0 && stays(0, 0) >= 0.0 &&
-         stays(1, 1) >= 0.0 && determinant(stays) >= -slack;
+  return variances_within(white, kLeastWhiteRad2) && variances_within(stays, 0.0) &&
+         determinant(white) >= white.trace() * white.trace() / kWorstCondition &&
+         determinant(stays) >= -slack;
 }
 
 FusedTarget target_of(std::int64_t epoch_us, const char* estimator, const std::vector<Ray>& rays,
@@ -86,8 +100,6 @@ const char* to_string(SightingRefusal refusal) {
       return "refused_duplicate";
     case SightingRefusal::kLowBelief:
       return "unused_low_belief";
-    case SightingRefusal::kTooManyStations:
-      return "refused_too_many_stations";
   }
   return "unknown";
 }
@@ -104,19 +116,27 @@ Fusion::Fusion(const FusionConfig& config)
       time_(config.alignment.max_age_s),
       monitor_(config.residuals),
       average_(config.paper_average) {
-  for (const char* name : {"bearings", "targets", "targets_without_position", "rays_set_aside",
-                           "slews", "clock_stepped_back", "time_stepped_back"}) {
+  for (const char* name :
+       {"bearings", "targets", "targets_without_position", "rays_set_aside", "slews",
+        "clock_stepped_back", "time_stepped_back", "stations_evicted"}) {
     counters_[name] = 0.0;
   }
-  for (int i = 1; i <= static_cast<int>(SightingRefusal::kTooManyStations); ++i) {
+  for (int i = 1; i <= static_cast<int>(SightingRefusal::kLowBelief); ++i) {
     counters_[to_string(static_cast<SightingRefusal>(i))] = 0.0;
   }
 }
 
 void Fusion::know_station(const std::string& station, const Eigen::Vector3d& camera_ecef) {
-  if (full(station)) return;
+  if (full(station)) {
+    const auto longest = longest_silent();
+    const bool delivers = longest->second.delivered && time_.silent_s(longest->first) < kForgottenS;
+    if (delivers) return;
+    evict(longest);
+  }
   Station& known = stations_[station];
-  if (known.bearings == 0) known.camera_ecef = camera_ecef;
+  if (known.delivered) return;
+  known.camera_ecef = camera_ecef;
+  known.heard = ++messages_;
 }
 
 FusionOutput Fusion::add(const Sighting& sighting) {
@@ -136,11 +156,29 @@ bool Fusion::full(const std::string& station) const {
          stations_.size() >= static_cast<std::size_t>(config_.max_stations);
 }
 
+// By messages, not by stamps: a station's clock may be wrong. Those without a bearing come first.
+std::map<std::string, Fusion::Station>::iterator Fusion::longest_silent() {
+  return std::ranges::min_element(stations_, {}, [](const auto& entry) {
+    return std::pair(entry.second.delivered, entry.second.heard);
+  });
+}
+
+void Fusion::evict(std::map<std::string, Station>::iterator station) {
+  ++counters_["stations_evicted"];
+  last_error_ = "station " + station->first + ": forgotten, too many stations";
+  time_.forget(station->first);
+  monitor_.forget(station->first);
+  stations_.erase(station);
+}
+
 SightingRefusal Fusion::admit(const Sighting& sighting) {
   const SightingRefusal broken = check(sighting);
   if (broken != SightingRefusal::kNone) return broken;
-  if (full(sighting.station)) return SightingRefusal::kTooManyStations;
+  if (full(sighting.station)) evict(longest_silent());
   Station& station = stations_[sighting.station];
+  if (!station.delivered) station.camera_ecef = sighting.sight.origin_ecef;
+  station.delivered = true;
+  station.heard = ++messages_;
   if (time_.hear(sighting.station, sighting.utime_us)) {
     station.sightings.clear();
     ++counters_["clock_stepped_back"];
@@ -156,7 +194,11 @@ SightingRefusal Fusion::admit(const Sighting& sighting) {
 SightingRefusal Fusion::store(const Sighting& sighting) {
   Station& station = stations_[sighting.station];
   auto& kept = station.sightings;
-  if (!kept.empty() && kept.back().track_id != sighting.track_id) kept.clear();
+  if (!kept.empty() && kept.back().track_id != sighting.track_id) {
+    // A late one of the track before must not end the new track.
+    if (sighting.utime_us <= kept.back().utime_us) return SightingRefusal::kStale;
+    kept.clear();
+  }
   const auto place = std::ranges::lower_bound(kept, sighting.utime_us, {}, &Sighting::utime_us);
   if (place != kept.end() && place->utime_us == sighting.utime_us) {
     return SightingRefusal::kDuplicate;
@@ -187,6 +229,7 @@ void Fusion::notice_step_back() {
   last_slew_us_.reset();
   last_average_us_.reset();
   last_target_.reset();
+  monitor_ = ResidualMonitor(config_.residuals);
 }
 
 std::vector<Ray> Fusion::rays_at(std::int64_t epoch_us) const {

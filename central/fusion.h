@@ -25,7 +25,7 @@ struct FusionConfig {
   double stale_s = 1.0;     // older than "now" by more is refused
   double future_s = 0.5;    // newer than "now" by more is refused
   int paper_average = 10;   // h of the paper's moving average
-  int max_stations = 64;    // more are refused: their ids come from outside
+  int max_stations = 64;    // one more takes the place of the one that is silent longest
   AlignmentConfig alignment{};
   LeastSquaresConfig least_squares{};
   PaperConfig paper{};
@@ -38,12 +38,11 @@ enum class SightingRefusal {
   kNone,
   kNotFinite,
   kOutOfRange,
-  kCovariance,  // white not positive definite, or systematic not positive semidefinite
+  kCovariance,  // out of range, or white not well conditioned, or systematic not semidefinite
   kStale,
   kFuture,
   kDuplicate,
   kLowBelief,
-  kTooManyStations,
 };
 const char* to_string(SightingRefusal refusal);
 
@@ -105,9 +104,13 @@ class Fusion {
     std::vector<Sighting> sightings;  // by utime
     std::int64_t bearings = 0;
     double rate_hz = 0.0;
+    bool delivered = false;  // a bearing, if only one that was refused
+    std::int64_t heard = 0;  // messages_ at its last message
   };
 
   bool full(const std::string& station) const;
+  std::map<std::string, Station>::iterator longest_silent();
+  void evict(std::map<std::string, Station>::iterator station);
   SightingRefusal admit(const Sighting& sighting);
   SightingRefusal store(const Sighting& sighting);
   void refuse(SightingRefusal refusal, const Sighting& sighting);
@@ -121,6 +124,7 @@ class Fusion {
   ResidualMonitor monitor_;
   MovingAverage average_;
   std::map<std::string, Station> stations_;
+  std::int64_t messages_ = 0;
   std::map<std::string, double> counters_;
   std::string last_error_;
   std::optional<std::int64_t> last_epoch_us_;

@@ -47,4 +47,9 @@ std::int64_t MessageTime::newest_us(const std::string& station) const {
   return found == stations_.end() ? 0 : found->second.newest_us;
 }
 
+double MessageTime::silent_s(const std::string& station) const {
+  const auto found = stations_.find(station);
+  return found == stations_.end() ? 0.0 : elapsed_s_ - found->second.heard_s;
+}
+
 }  // namespace ols

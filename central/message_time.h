@@ -23,6 +23,9 @@ class MessageTime {
   std::int64_t now_us() const;
   // The station's newest stamp, 0 before the first.
   std::int64_t newest_us(const std::string& station) const;
+  // How far the others' stamps have gone on since the station's last message, 0 before the first.
+  double silent_s(const std::string& station) const;
+  void forget(const std::string& station) { stations_.erase(station); }
 
  private:
   struct Station {

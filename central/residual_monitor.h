@@ -36,6 +36,7 @@ class ResidualMonitor {
   void observe(const std::vector<Ray>& rays, const Estimate& estimate, std::int64_t epoch_us);
   // RMS of a station's normalised residuals lately; NaN if there are none.
   double rms(const std::string& station) const;
+  void forget(const std::string& station) { stations_.erase(station); }
 
  private:
   Eigen::Array2d common_excess() const;

@@ -49,6 +49,12 @@ double miss_rad(const Ray& ray, const Path& path) {
   return angle_between(direction_ecef(ray.sight), truth);
 }
 
+TEST(Alignment, GivesNoRayThatIsNotFinite) {
+  for (const double sigma_rad : {1e-160, 1e160}) {
+    EXPECT_FALSE(align(seen(straight, frames(-0.5, 0.0, 30.0), sigma_rad), kEpoch, 250.0));
+  }
+}
+
 TEST(Alignment, InterpolatesAndExtrapolatesStraightMotion) {
   // Whole window before the epoch, across it, and 66 ms beyond the last bearing.
   for (const double last_s : {0.0, 0.2, -0.066}) {

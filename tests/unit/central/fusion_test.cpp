@@ -119,13 +119,29 @@ TEST(Fusion, RefusesWhatIsNotABearing) {
   EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_white(0, 1) = 1.0; }), kCovariance);
   EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_systematic(1, 1) = -1e-9; }),
             kCovariance);
+  for (const double rad2 : {1e308, 1e-160, 11.0, 0.9e-18}) {
+    EXPECT_EQ(refusal([&](Sighting& s) {
+                s.sight.covariance_white = Eigen::Matrix2d::Identity() * rad2;
+              }),
+              kCovariance);
+  }
+  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_white.diagonal() << 1e-17, 1.0; }),
+            kCovariance);
+  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_white << 1.0, 1.0, 1.0, 1.0 + 1e-9; }),
+            kCovariance);
+  for (const double rad2 : {1e308, 11.0}) {
+    EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_systematic(0, 0) = rad2; }),
+              kCovariance);
+  }
+  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.origin_sd_enu_m.x() = 1.1e6; }), kOutOfRange);
+  EXPECT_EQ(refusal([&](Sighting& s) { s.clock_sd_s = 1.1e4; }), kOutOfRange);
   EXPECT_EQ(refusal([&](Sighting& s) { s.belief = 0.1; }), kLowBelief);
   EXPECT_EQ(refusal([&](Sighting&) {}), kNone);
   EXPECT_EQ(refusal([&](Sighting&) {}), kDuplicate);
   const auto counters = fusion.health().counters;
   EXPECT_EQ(counters.at("refused_not_finite"), 2.0);
-  EXPECT_EQ(counters.at("refused_out_of_range"), 5.0);
-  EXPECT_EQ(counters.at("refused_covariance"), 3.0);
+  EXPECT_EQ(counters.at("refused_out_of_range"), 7.0);
+  EXPECT_EQ(counters.at("refused_covariance"), 11.0);
   EXPECT_EQ(counters.at("refused_duplicate"), 1.0);
   EXPECT_EQ(counters.at("unused_low_belief"), 1.0);
   EXPECT_EQ(counters.at("bearings"), 1.0);
@@ -212,6 +228,28 @@ TEST(Fusion, StartsAnewWhenTheReplayIsStartedAgain) {
   EXPECT_EQ(fusion.health().counters.at("time_stepped_back"), 1.0);
 }
 
+// What the first replay taught about the stations is not known in the second one.
+TEST(Fusion, EveryFurtherReplayGivesTheSameTargets) {
+  const auto sightings = flight(5.0, 1e-4, 1e-3);  // worse than they state
+  Fusion fusion{FusionConfig{}};
+  const auto first = targets_of(fusion, sightings);
+  const auto second = targets_of(fusion, sightings);
+  const auto third = targets_of(fusion, sightings);
+  ASSERT_EQ(second.size(), third.size());
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < second.size(); ++i) {
+    ASSERT_EQ(second[i].utime_us, third[i].utime_us);
+    if (second[i].estimate.solution != Solution::kOk) continue;
+    EXPECT_EQ(second[i].estimate.position_ecef, third[i].estimate.position_ecef);
+    EXPECT_EQ(second[i].estimate.covariance_ecef, third[i].estimate.covariance_ecef);
+    ++compared;
+  }
+  EXPECT_GT(compared, 60U);
+  // The first one differs by the bearings that it takes to notice the step.
+  const double was = first.back().estimate.covariance_ecef.trace();
+  EXPECT_NEAR(second.back().estimate.covariance_ecef.trace() / was, 1.0, 0.3);
+}
+
 TEST(Fusion, ANewTrackIsAnotherObject) {
   auto sightings = flight(2.0);
   for (Sighting& sighting : sightings) {
@@ -230,6 +268,29 @@ TEST(Fusion, ANewTrackIsAnotherObject) {
       EXPECT_TRUE(target.stations[1].used);
     }
   }
+}
+
+TEST(Fusion, ALateBearingOfAnOldTrackDoesNotEndTheNewOne) {
+  auto sightings = flight(2.0);
+  std::vector<Sighting> with_late;
+  std::size_t late = 0;
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const bool later = sightings[i].utime_us > kStart + 1'000'000;
+    if (later && sightings[i].station == "a") sightings[i].track_id = 2;
+    with_late.push_back(sightings[i]);
+    if (later && sightings[i].station == "a") {
+      with_late.push_back(sightings[i]);
+      with_late.back().track_id = 0;
+      with_late.back().utime_us -= 100'000;
+      ++late;
+    }
+  }
+  Fusion plain{FusionConfig{}}, disturbed{FusionConfig{}};
+  const auto expected = targets_of(plain, sightings);
+  const auto targets = targets_of(disturbed, with_late);
+  EXPECT_EQ(disturbed.health().counters.at("refused_stale"), static_cast<double>(late));
+  ASSERT_EQ(targets.size(), expected.size());
+  EXPECT_EQ(targets.back().estimate.position_ecef, expected.back().estimate.position_ecef);
 }
 
 TEST(Fusion, SlewsEveryKnownStationAheadOfTheTarget) {
@@ -289,13 +350,83 @@ TEST(Fusion, StopsSlewingSomeTimeAfterTheLastPosition) {
   EXPECT_LT(last_slew_us, kStart + 4'500'000);
 }
 
-TEST(Fusion, DoesNotGrowWithStrangeStations) {
-  Fusion fusion{FusionConfig{.max_stations = 4}};
-  targets_of(fusion, flight(0.5));
+// The least and the greatest variances that are taken, in every combination, from a station that
+// sees nothing of the target: the others' position stays.
+TEST(Fusion, NoStatementOfOneStationKeepsTheOthersFromAPosition) {
+  for (const double white : {1e-18, 10.0}) {
+    for (const double stays : {0.0, 10.0}) {
+      for (const double large : {0.0, 1.0}) {
+        auto sightings = flight(3.0);
+        for (Sighting& sighting : sightings) {
+          if (sighting.station != "b") continue;
+          sighting.sight.direction = {3.0, -0.5};
+          sighting.sight.covariance_white = Eigen::Matrix2d::Identity() * white;
+          sighting.sight.covariance_systematic = Eigen::Matrix2d::Identity() * stays;
+          sighting.sight.origin_sd_enu_m.setConstant(large * 1e6);
+          sighting.clock_sd_s = large * 1e4;
+          ASSERT_EQ(check(sighting), SightingRefusal::kNone);
+        }
+        Fusion fusion{FusionConfig{}};
+        for (const FusedTarget& target : targets_of(fusion, sightings)) {
+          if (target.utime_us < kStart + 1'000'000) continue;
+          ASSERT_EQ(target.estimate.solution, Solution::kOk)
+              << white << " " << stays << " " << large;
+          EXPECT_LT(error_m(target), 0.1) << white << " " << stays << " " << large;
+        }
+      }
+    }
+  }
+}
+
+TEST(Fusion, StrangeStationsNeitherFillThePlacesNorMakeItGrow) {
+  Fusion fusion{FusionConfig{}};
   Sighting stranger = flight(0.1).front();
-  stranger.station = "stranger";
-  EXPECT_EQ(fusion.add(stranger).refusal, SightingRefusal::kTooManyStations);
-  EXPECT_EQ(fusion.health().stations.size(), 4U);
+  for (int i = 0; i < 80; ++i) {
+    stranger.station = "stranger" + std::to_string(i);
+    fusion.add(stranger);
+  }
+  EXPECT_EQ(fusion.health().stations.size(), 64U);
+  const auto targets = targets_of(fusion, flight(3.0));
+  ASSERT_GT(targets.size(), 30U);
+  EXPECT_EQ(targets.back().estimate.solution, Solution::kOk);
+  EXPECT_EQ(targets.back().stations.size(), 4U);
+  EXPECT_LT(error_m(targets.back()), 0.05);
+  EXPECT_EQ(fusion.health().stations.size(), 64U);
+  EXPECT_EQ(fusion.health().counters.at("stations_evicted"), 20.0);
+}
+
+std::vector<std::string> names(const Fusion& fusion) {
+  std::vector<std::string> all;
+  for (const StationHealth& station : fusion.health().stations) all.push_back(station.station);
+  return all;
+}
+
+TEST(Fusion, ForgetsTheStationThatIsSilentLongest) {
+  Fusion fusion{FusionConfig{.max_stations = 5}};
+  fusion.know_station("lookout", site().to_ecef({0.0, 0.0, 30.0}));
+  auto sightings = flight(1.0);
+  std::erase_if(sightings, [](const Sighting& sighting) {
+    return sighting.station == "a" && sighting.utime_us > kStart + 500'000;
+  });
+  targets_of(fusion, sightings);
+  Sighting next = sightings.back();
+  next.station = "x";
+  EXPECT_EQ(fusion.add(next).refusal, SightingRefusal::kNone);
+  EXPECT_EQ(names(fusion), (std::vector<std::string>{"a", "b", "c", "d", "x"}));
+  next.station = "y";
+  EXPECT_EQ(fusion.add(next).refusal, SightingRefusal::kNone);
+  EXPECT_EQ(names(fusion), (std::vector<std::string>{"b", "c", "d", "x", "y"}));
+  // A status alone takes no place of a station that was heard a moment ago...
+  fusion.know_station("lookout", site().to_ecef({0.0, 0.0, 30.0}));
+  EXPECT_EQ(names(fusion), (std::vector<std::string>{"b", "c", "d", "x", "y"}));
+  // ... but that of one long silent.
+  auto later = flight(13.0);
+  std::erase_if(later, [&](const Sighting& sighting) {
+    return sighting.station == "a" || sighting.utime_us <= next.utime_us;
+  });
+  targets_of(fusion, later);
+  fusion.know_station("lookout", site().to_ecef({0.0, 0.0, 30.0}));
+  EXPECT_EQ(names(fusion), (std::vector<std::string>{"b", "c", "d", "lookout", "y"}));
 }
 
 }  // namespace
