@@ -83,3 +83,14 @@ def test_scenario_names_file_line_and_key(tmp_path):
     scenario = tmp_path / "s.toml"
     scenario.write_text(SCENARIO.read_text().replace("frame_rate_hz", "frame_rate"))
     refused(run("ols-sim", "--scenario", str(scenario)), str(scenario), "frame_rate")
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [("--seconds", "nan"), ("--seconds", "inf"), ("--pixel-sd", "nan"), ("--seed", "-1")],
+)
+def test_simulator_refuses_absurd_numbers(tmp_path, option, value):
+    output = tmp_path / "run"
+    lockstep = ["--lockstep", "--pixels", "--output", str(output)]
+    refused(run("ols-sim", "--scenario", str(SCENARIO), *lockstep, option, value), option)
+    assert not output.exists()

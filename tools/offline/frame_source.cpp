@@ -1,10 +1,15 @@
 #include "tools/offline/frame_source.h"
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <set>
+#include <string_view>
 
 namespace ols {
 namespace {
@@ -20,12 +25,39 @@ bool is_picture(const fs::path& path) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
+// The digits that `text` begins with.
+std::string_view leading_digits(std::string_view text) {
+  return text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
+}
+
+// Numbers in names count as numbers: 2.png comes before 10.png. As text where all else is equal.
+bool before_in_order(std::string_view a, std::string_view b) {
+  const std::string_view whole_a = a, whole_b = b;
+  while (!a.empty() && !b.empty()) {
+    std::string_view number_a = leading_digits(a), number_b = leading_digits(b);
+    if (number_a.empty() || number_b.empty()) {
+      if (a.front() != b.front()) return a.front() < b.front();
+      a.remove_prefix(1);
+      b.remove_prefix(1);
+      continue;
+    }
+    a.remove_prefix(number_a.size());
+    b.remove_prefix(number_b.size());
+    number_a.remove_prefix(std::min(number_a.find_first_not_of('0'), number_a.size()));
+    number_b.remove_prefix(std::min(number_b.find_first_not_of('0'), number_b.size()));
+    if (number_a.size() != number_b.size()) return number_a.size() < number_b.size();
+    if (number_a != number_b) return number_a < number_b;
+  }
+  if (a.empty() != b.empty()) return a.empty();
+  return whole_a < whole_b;
+}
+
 std::vector<std::string> pictures_of_folder(const fs::path& folder) {
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.is_regular_file() && is_picture(entry.path())) files.push_back(entry.path().string());
   }
-  std::sort(files.begin(), files.end());
+  std::sort(files.begin(), files.end(), before_in_order);
   return files;
 }
 
@@ -48,19 +80,61 @@ std::optional<Pattern> parse_pattern(const std::string& text) {
   return Pattern{text.substr(0, percent), digits, text.substr(end + 1)};
 }
 
-// The files of `frames/%06d.png`, from the first number that there is, without a gap.
+std::string name_of(const Pattern& pattern, long number) {
+  std::string text = std::to_string(number);
+  if (text.size() < pattern.digits) text.insert(0, pattern.digits - text.size(), '0');
+  return pattern.before + text + pattern.after;
+}
+
+std::set<long> numbers_of_pattern(const Pattern& pattern) {
+  const fs::path before(pattern.before);
+  const fs::path folder = before.has_parent_path() ? before.parent_path() : fs::path(".");
+  const std::string prefix = before.filename().string();
+  std::set<long> numbers;
+  if (!fs::is_directory(folder)) return numbers;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.compare(0, prefix.size(), prefix) != 0) continue;
+    const std::string_view digits = leading_digits(std::string_view(name).substr(prefix.size()));
+    long number = 0;
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (read.ec == std::errc() && fs::exists(name_of(pattern, number))) numbers.insert(number);
+  }
+  return numbers;
+}
+
+// The files of `frames/%06d.png`, from the first number that there is to the last one. A tracker
+// that skips a lost picture silently would give every later box the wrong frame: a gap is refused.
 std::vector<std::string> pictures_of_pattern(const Pattern& pattern) {
-  constexpr int kLatestFirst = 100000;
-  const auto name = [&](int number) {
-    std::string text = std::to_string(number);
-    if (text.size() < pattern.digits) text.insert(0, pattern.digits - text.size(), '0');
-    return pattern.before + text + pattern.after;
-  };
-  int number = 0;
-  while (number < kLatestFirst && !fs::exists(name(number))) ++number;
+  const std::set<long> numbers = numbers_of_pattern(pattern);
   std::vector<std::string> files;
-  for (; fs::exists(name(number)); ++number) files.push_back(name(number));
+  for (const long number : numbers) {
+    const long expected = *numbers.begin() + static_cast<long>(files.size());
+    if (number != expected) {
+      throw FrameSourceError(name_of(pattern, expected) + ": number " + std::to_string(expected) +
+                             " is missing, there are later ones");
+    }
+    files.push_back(name_of(pattern, number));
+  }
   return files;
+}
+
+// OpenCV tells std::cerr about a damaged picture, whatever its log level is; the user gets one
+// line.
+class QuietErrors {
+ public:
+  QuietErrors() : buffer_(std::cerr.rdbuf(nullptr)) {}
+  ~QuietErrors() { std::cerr.rdbuf(buffer_); }
+  QuietErrors(const QuietErrors&) = delete;
+  QuietErrors& operator=(const QuietErrors&) = delete;
+
+ private:
+  std::streambuf* buffer_;
+};
+
+cv::Mat read_picture(const std::string& file) {
+  const QuietErrors quiet;
+  return cv::imread(file, cv::IMREAD_GRAYSCALE);
 }
 
 cv::Mat to_gray(const cv::Mat& picture) {
@@ -112,7 +186,7 @@ std::optional<cv::Mat> FrameSource::next_of_clip() {
 std::optional<cv::Mat> FrameSource::next_file() {
   const auto index = static_cast<std::size_t>(read_);
   if (index >= files_.size()) return std::nullopt;
-  const cv::Mat picture = cv::imread(files_[index], cv::IMREAD_GRAYSCALE);
+  const cv::Mat picture = read_picture(files_[index]);
   if (picture.empty()) throw FrameSourceError(files_[index] + ": cannot be read as a picture");
   return picture;
 }

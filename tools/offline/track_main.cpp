@@ -26,7 +26,8 @@ struct Arguments {
 
 void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--input", arguments.input,
-                 "clip, folder of pictures (sorted by name) or pattern such as frames/%06d.png")
+                 "clip, folder of pictures (by name, numbers as numbers) or pattern such as "
+                 "frames/%06d.png")
       ->required();
   app.add_option("--init", arguments.init,
                  "the target's box in the start frame: X,Y of the top-left corner, W,H [px]")
@@ -38,6 +39,7 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--config", arguments.config, "TOML file with a table [tracker]");
   app.add_option("--seed", arguments.seed, "of the random numbers: the same seed, the same boxes")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--output", arguments.output,
                  "boxes.csv: frame,x,y,w,h [px],belief [0..1],state (tracking, coasting, lost)")

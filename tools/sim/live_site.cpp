@@ -1,7 +1,6 @@
 #include "tools/sim/live_site.h"
 
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 
 #include "base/clocks.h"
@@ -9,7 +8,6 @@
 #include "ols_msg/truth_view_t.hpp"
 
 namespace ols::sim {
-namespace {}  // namespace
 
 // One station's devices. The camera's thread draws, so it ends before what it draws with.
 struct LiveSite::Device {
@@ -23,7 +21,8 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
     : world_(world), bus_(bus) {
   auto renderers = make_renderers(world);
   std::filesystem::create_directories(line_folder);
-  start_realtime_ns_ = clock_utc_ns();
+  start_monotonic_ns_ = clock_monotonic_ns();
+  start_utc_ns_ = clock_utc_ns();
   const Scenario& s = world.scenario();
   for (std::size_t i = 0; i < s.stations.size(); ++i) {
     auto device = std::make_unique<Device>();
@@ -49,20 +48,25 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
 
 LiveSite::~LiveSite() = default;
 
+double LiveSite::scenario_s(std::int64_t monotonic_ns) const {
+  return 1e-9 * static_cast<double>(monotonic_ns - start_monotonic_ns_);
+}
+
 std::int64_t LiveSite::true_utime_us(double scenario_s) const {
-  return start_realtime_ns_ / 1000 + std::llround(scenario_s * 1e6);
+  return start_utc_ns_ / 1000 + std::llround(scenario_s * 1e6);
 }
 
 void LiveSite::draw(Device& device, const Exposure& exposure, cv::Mat& gray) {
   // The host's clock is the station's clock; the world is seen at the true time of that instant.
+  // The exposure's stamp is a moment old: a step of the host's clock before that is in both.
   const double offset_s = world_.stations()[device.station].clock_offset_s;
   const std::int64_t mid_ns =
       exposure.start_realtime_ns + std::llround(0.5e9 * exposure.exposure_s);
-  const std::int64_t ago_ns = clock_utc_ns() - mid_ns;
-  const double mid_monotonic_s = 1e-9 * static_cast<double>(clock_monotonic_ns() - ago_ns);
+  const std::int64_t mid_monotonic_ns = clock_monotonic_ns() - (clock_utc_ns() - mid_ns);
+  const double mid_monotonic_s = 1e-9 * static_cast<double>(mid_monotonic_ns);
   const double half_s = 0.5 * exposure.exposure_s;
   ExposureTruth truth;
-  truth.mid_s = 1e-9 * static_cast<double>(mid_ns - start_realtime_ns_) - offset_s;
+  truth.mid_s = scenario_s(mid_monotonic_ns) - offset_s;
   truth.exposure_s = exposure.exposure_s;
   truth.start = device.ptu->angles_at(mid_monotonic_s - half_s);
   truth.mid = device.ptu->angles_at(mid_monotonic_s);
@@ -93,12 +97,11 @@ void LiveSite::publish_view(const Device& device, const ExposureTruth& exposure,
 }
 
 void LiveSite::publish_truth() {
-  const std::int64_t now_ns = clock_utc_ns();
+  const double now_s = scenario_s(clock_monotonic_ns());
   for (std::size_t i = 0; i < world_.scenario().targets.size(); ++i) {
-    const TargetTruth target =
-        world_.target(i, 1e-9 * static_cast<double>(now_ns - start_realtime_ns_));
+    const TargetTruth target = world_.target(i, now_s);
     ols_msg::truth_target_t message;
-    message.utime = now_ns / 1000;
+    message.utime = true_utime_us(now_s);
     message.target_id = static_cast<std::int64_t>(i);
     for (int axis = 0; axis < 3; ++axis) {
       message.position_ecef_m[axis] = target.p_ecef[axis];

@@ -19,8 +19,10 @@ namespace ols::sim {
 
 class LiveSite {
  public:
-  // The scenario's time 0 is now. `line_folder`: where the PTUs' lines are linked. Throws
-  // std::system_error when an address or a link cannot be had.
+  // The scenario's time 0 is now, and true UTC is what the host's clock says now; from here on the
+  // monotonic clock counts, so that a step of the host's clock does not move the targets.
+  // `line_folder`: where the PTUs' lines are linked. Throws std::system_error when an address or a
+  // link cannot be had.
   LiveSite(const World& world, const std::string& line_folder, LcmBus& bus);
   ~LiveSite();
 
@@ -33,12 +35,14 @@ class LiveSite {
   void draw(Device& device, const Exposure& exposure, cv::Mat& gray);
   void publish_view(const Device& device, const ExposureTruth& exposure, const ViewTruth& view,
                     std::int64_t stamp_us);
+  double scenario_s(std::int64_t monotonic_ns) const;
   std::int64_t true_utime_us(double scenario_s) const;
 
   const World& world_;
   LcmBus& bus_;
   std::mutex bus_mutex_;
-  std::int64_t start_realtime_ns_;
+  std::int64_t start_monotonic_ns_;
+  std::int64_t start_utc_ns_;  // true UTC of that instant
   std::vector<std::unique_ptr<Device>> devices_;
 };
 

@@ -1,6 +1,7 @@
 // ols-sim: the simulated site, live behind real wires or in lockstep without any.
 
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <opencv2/core.hpp>
 #include <thread>
@@ -30,9 +31,18 @@ struct Options {
   std::string output;
 };
 
+// CLI::Range lets it through: it compares.
+std::string refuse_nan(const std::string& text) {
+  double value = 0.0;
+  const bool is_nan = CLI::detail::lexical_cast(text, value) && std::isnan(value);
+  return is_nan ? "Value " + text + " is not a number" : std::string();
+}
+
 void define(CLI::App& app, Options& o) {
   app.add_option("--scenario", o.scenario, "scenario file (TOML)")->required();
-  app.add_option("--seed", o.seed, "seed of everything that is drawn")->capture_default_str();
+  app.add_option("--seed", o.seed, "seed of everything that is drawn")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_option("--lcm-url", o.lcm_url, "LCM network of the stations and of the truth")
       ->capture_default_str();
   app.add_option("--directory", o.line_folder, "folder for the links to the PTUs' serial lines")
@@ -45,7 +55,8 @@ void define(CLI::App& app, Options& o) {
       app.add_flag("--lockstep", o.lockstep, "simulated time, stations and fusion in this process");
   app.add_option("--seconds", o.seconds, "[s] length of the lockstep run")
       ->capture_default_str()
-      ->check(CLI::Range(1.0, 86400.0));
+      ->check(CLI::Range(1.0, 86400.0))
+      ->check(refuse_nan);
   app.add_option("--output", o.output, "folder for the lockstep run's files")->needs(lockstep);
   lockstep->needs("--output");
   app.add_flag("--pixels", o.pixels,
@@ -53,7 +64,8 @@ void define(CLI::App& app, Options& o) {
       ->needs(lockstep);
   app.add_option("--pixel-sd", o.pixel_sd_px, "[px] deviation of that noise, each coordinate")
       ->capture_default_str()
-      ->check(CLI::Range(0.001, 100.0));
+      ->check(CLI::Range(0.001, 100.0))
+      ->check(refuse_nan);
 }
 
 void list(const ols::sim::Scenario& scenario, const std::string& line_folder) {
