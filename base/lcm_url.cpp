@@ -44,7 +44,7 @@ std::optional<sockaddr_in> multicast_group(const std::string& url) {
 }
 
 std::string read_lcm_url(ConfigTable& table, const std::string& key, const std::string& fallback) {
-  const std::string url = table.text(key, fallback);
+  std::string url = table.text(key, fallback);
   try {
     multicast_group(url);
   } catch (const std::invalid_argument& problem) {

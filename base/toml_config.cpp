@@ -149,7 +149,7 @@ std::string ConfigTable::text(std::string_view key, std::string_view fallback) {
 
 std::string ConfigTable::choice(std::string_view key, std::string_view fallback,
                                 const std::vector<std::string>& choices) {
-  const std::string value = text(key, fallback);
+  std::string value = text(key, fallback);
   if (std::find(choices.begin(), choices.end(), value) == choices.end()) {
     throw error(key, "\"" + value + "\" is none of " + joined(choices));
   }

@@ -32,7 +32,7 @@ int sign(ConfigTable& table, const char* key, int fallback) {
 }
 
 std::string station_id(ConfigTable& root) {
-  const std::string id = root.required_text("id");
+  std::string id = root.required_text("id");
   bool valid = !id.empty() && id.size() <= 32;
   for (const char c : id) {
     valid = valid && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_');

@@ -44,10 +44,9 @@ void print_status(const ols::Operator::Statuses& statuses) {
 
 using Send = std::function<std::optional<std::string>(ols::Operator&, const std::string&)>;
 
-int send_to_each(ols::Operator& hand, const ols::Operator::Statuses& statuses, const Send& send) {
+int send_to_each(ols::Operator& hand, const std::vector<std::string>& ids, const Send& send) {
   int result = 0;
-  const ols::Operator::Statuses addressed = statuses;
-  for (const auto& [id, status] : addressed) {
+  for (const auto& id : ids) {
     const auto refusal = send(hand, id);
     std::printf("%s: %s\n", id.c_str(), refusal ? refusal->c_str() : "done");
     if (refusal) result = kExitRefused;
@@ -63,7 +62,11 @@ int run(const std::string& url, const std::string& station, const std::optional<
                  station == "all" ? "any station" : station.c_str(), url.c_str());
     return kExitRefused;
   }
-  if (send) return send_to_each(hand, statuses, *send);
+  if (send) {
+    std::vector<std::string> ids;  // of now: the hand goes on listening while it sends
+    for (const auto& [id, status] : statuses) ids.push_back(id);
+    return send_to_each(hand, ids, *send);
+  }
   print_status(statuses);
   return 0;
 }

@@ -110,7 +110,7 @@ std::optional<std::string> Operator::outcome(const std::string& station,
     if (counter(now, command + "_accepted") > counter(before, command + "_accepted")) {
       return std::nullopt;
     }
-    if (const auto refusal = new_refusal(before, now)) return refusal;
+    if (auto refusal = new_refusal(before, now)) return refusal;
   }
   return "no answer";
 }
