@@ -1,5 +1,4 @@
 // ols-fuse: positions from recorded bearings.
-#include <CLI/CLI.hpp>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "base/command_line.h"
 #include "base/csv_files.h"
 #include "central/offline_fusion.h"
 #include "geometry/angles.h"
@@ -139,16 +139,12 @@ int main(int argc, char** argv) {
                  "[fixes] mean of the last so many, as in the paper (10); 1: none")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-fuse")) return *status;
   try {
     run(options);
   } catch (const std::exception& error) {
     std::cerr << "ols-fuse: " << error.what() << '\n';
-    return 2;
+    return ols::kExitBadInput;
   }
   return 0;
 }
