@@ -1,5 +1,4 @@
 // ols-track: follows one target through a clip and writes boxes.csv.
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -8,6 +7,7 @@
 #include <opencv2/core/utils/logger.hpp>
 
 #include "base/atomic_file.h"
+#include "base/command_line.h"
 #include "base/toml_config.h"
 #include "edge/tracker/tracker.h"
 #include "tools/offline/boxes_csv.h"
@@ -112,14 +112,7 @@ int main(int argc, char** argv) {
   CLI::App app("Follows one target through a clip with the particle filter tracker.", "ols-track");
   Arguments arguments;
   declare(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::Error& error) {
-    std::cerr << "ols-track: " << error.what() << '\n';
-    return 2;
-  }
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-track")) return *status;
   // The decoder's own chatter is not the one line that the user needs; a value already set stays.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
@@ -128,7 +121,7 @@ int main(int argc, char** argv) {
     run(arguments);
   } catch (const std::exception& error) {
     std::cerr << "ols-track: " << error.what() << '\n';
-    return 2;
+    return ols::kExitBadInput;
   }
   return 0;
 }
