@@ -27,3 +27,9 @@ def shared() -> Path:
     if not folder:
         pytest.skip("OLS_SHARED names no folder with evaluation data")
     return Path(folder)
+
+
+def lines_said(stderr: str) -> list[str]:
+    """The lines that a program of ours wrote. Where memory cannot be locked (containers), libgcrypt,
+    which OpenCV's video input brings along, says so before main begins."""
+    return [line for line in stderr.splitlines() if line != "Warning: using insecure memory!"]

@@ -3,7 +3,7 @@
 import subprocess
 
 import pytest
-from conftest import BIN, SCENARIO
+from conftest import BIN, SCENARIO, lines_said
 
 GOOD = """\
 id = "s1"
@@ -27,7 +27,7 @@ def run(program: str, *arguments: str) -> subprocess.CompletedProcess:
 
 def refused(result: subprocess.CompletedProcess, *parts: str) -> None:
     assert result.returncode == 2, result.stderr
-    assert len(result.stderr.strip().splitlines()) == 1, result.stderr
+    assert len(lines_said(result.stderr)) == 1, result.stderr
     for part in parts:
         assert part in result.stderr
 

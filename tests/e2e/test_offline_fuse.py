@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from conftest import BIN
+from conftest import BIN, lines_said
 
 STATIONS = """\
 station,latitude_deg,longitude_deg,height_m
@@ -80,7 +80,7 @@ def test_a_bad_row_is_named_and_nothing_is_written(folder, name, row, expected):
         file.write(row + "\n")
     result = fuse_in(folder)
     assert result.returncode == 2
-    assert len(result.stderr.strip().splitlines()) == 1
+    assert len(lines_said(result.stderr)) == 1
     assert expected in result.stderr
     assert (folder / "fixes.csv").read_text() == "what was there before\n"
     assert len(list(folder.iterdir())) == 3
@@ -101,7 +101,7 @@ def test_bearings_without_rows(folder):
     (folder / "bearings.csv").write_text(BEARINGS.splitlines()[0] + "\n")
     result = fuse_in(folder)
     assert result.returncode == 2
-    assert len(result.stderr.strip().splitlines()) == 1
+    assert len(lines_said(result.stderr)) == 1
     assert "bearings.csv:2: row: there is none" in result.stderr
 
 
@@ -111,7 +111,7 @@ def test_a_rate_without_an_end_is_refused(folder, rate):
     (folder / "bearings.csv").write_text(BEARINGS + late)
     result = fuse_in(folder, "--rate", rate)
     assert result.returncode == 2
-    assert len(result.stderr.strip().splitlines()) == 1
+    assert len(lines_said(result.stderr)) == 1
     assert not (folder / "fixes.csv").exists()
 
 

@@ -5,7 +5,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from conftest import BIN
+from conftest import BIN, lines_said
 
 FRAMES = 24
 SIDE = 12  # [px]
@@ -64,7 +64,7 @@ def track(source, output, *options, box: str = init(0)) -> subprocess.CompletedP
 
 def refused(result: subprocess.CompletedProcess, output, *parts: str) -> None:
     assert result.returncode == 2, result.stderr
-    assert len(result.stderr.strip().splitlines()) == 1, result.stderr
+    assert len(lines_said(result.stderr)) == 1, result.stderr
     for part in parts:
         assert part in result.stderr
     assert not list(output.parent.glob(output.name + "*"))
