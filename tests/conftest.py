@@ -30,6 +30,6 @@ def shared() -> Path:
 
 
 def lines_said(stderr: str) -> list[str]:
-    """The lines that a program of ours wrote. Where memory cannot be locked (containers), libgcrypt,
+    """What a program of ours wrote. Where memory cannot be locked (containers), libgcrypt,
     which OpenCV's video input brings along, says so before main begins."""
     return [line for line in stderr.splitlines() if line != "Warning: using insecure memory!"]
