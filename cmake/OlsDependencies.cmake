@@ -6,8 +6,6 @@ find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc calib3d video videoio i
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(lcm REQUIRED IMPORTED_TARGET lcm)
 pkg_check_modules(aravis REQUIRED IMPORTED_TARGET aravis-0.8)
-pkg_check_modules(libserialport REQUIRED IMPORTED_TARGET libserialport)
-pkg_check_modules(libsystemd REQUIRED IMPORTED_TARGET libsystemd)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
