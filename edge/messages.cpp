@@ -1,5 +1,6 @@
 #include "edge/messages.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
@@ -28,6 +29,13 @@ void fill_pose(const StationSettings& settings, ols_msg::station_status_t& messa
   message.longitude_deg = degrees(geometry.position.longitude_rad);
   message.height_m = geometry.position.height_m;
   for (double& sd : message.position_sd_m) sd = geometry.sd.position_m;
+  message.heading_rad = geometry.chain.heading_rad;
+  message.tilt_x_rad = geometry.chain.tilt_x_rad;
+  message.tilt_y_rad = geometry.chain.tilt_y_rad;
+  message.heading_sd_rad = geometry.sd.heading_rad;
+  message.tilt_sd_rad = geometry.sd.tilt_rad;
+  message.position_source = ols_msg::station_status_t::POSE_SURVEYED;
+  message.tilt_source = ols_msg::station_status_t::POSE_SURVEYED;
   const Eigen::Vector2d field = field_of_view(geometry.camera);
   message.field_of_view_rad[0] = field.x();
   message.field_of_view_rad[1] = field.y();
@@ -70,35 +78,66 @@ std::int8_t state_code(StationState state) {
   return M::STATE_IDLE;
 }
 
-}  // namespace
-
-std::int8_t device_code(CameraState state) {
+std::int8_t device_code(DeviceState state) {
   using M = ols_msg::station_status_t;
   switch (state) {
-    case CameraState::kAbsent:
+    case DeviceState::kAbsent:
       return M::DEVICE_ABSENT;
-    case CameraState::kStarting:
+    case DeviceState::kStarting:
       return M::DEVICE_STARTING;
-    case CameraState::kStreaming:
+    case DeviceState::kOk:
       return M::DEVICE_OK;
-    case CameraState::kFault:
+    case DeviceState::kFault:
       return M::DEVICE_FAULT;
   }
   return M::DEVICE_FAULT;
 }
 
-std::int8_t device_code(const PtuStatus& status) {
-  using M = ols_msg::station_status_t;
-  if (!status.port_open) return M::DEVICE_ABSENT;
+void fill_devices(const std::vector<DeviceReport>& devices, double now_s,
+                  ols_msg::station_status_t& message) {
+  for (const DeviceReport& device : devices) {
+    message.device_name.push_back(device.name);
+    message.device_state.push_back(device_code(device.state));
+    message.device_text.push_back(device.text);
+    message.device_age_s.push_back(device.last_good_s ? now_s - *device.last_good_s : kNaN);
+    message.alarm.insert(message.alarm.end(), device.alarms.begin(), device.alarms.end());
+    for (const auto& [name, value] : device.readings) {
+      message.reading_name.push_back(name);
+      message.reading_value.push_back(value);
+    }
+  }
+  message.devices = static_cast<std::int16_t>(message.device_name.size());
+  message.alarms = static_cast<std::int16_t>(message.alarm.size());
+  message.readings = static_cast<std::int16_t>(message.reading_name.size());
+}
+
+}  // namespace
+
+DeviceState device_state(CameraState state) {
+  switch (state) {
+    case CameraState::kAbsent:
+      return DeviceState::kAbsent;
+    case CameraState::kStarting:
+      return DeviceState::kStarting;
+    case CameraState::kStreaming:
+      return DeviceState::kOk;
+    case CameraState::kFault:
+      return DeviceState::kFault;
+  }
+  return DeviceState::kFault;
+}
+
+DeviceState device_state(const PtuStatus& status) {
+  if (!status.port_open) return DeviceState::kAbsent;
   switch (status.state) {
     case PtuState::kStarting:
-      return M::DEVICE_STARTING;
+      return DeviceState::kStarting;
     case PtuState::kReady:
-      return M::DEVICE_OK;
+      return DeviceState::kOk;
     case PtuState::kFault:
-      return M::DEVICE_FAULT;
+      return DeviceState::kFault;
   }
-  return M::DEVICE_FAULT;
+  return DeviceState::kFault;
 }
 
 std::int64_t Sender::utime_us(double monotonic_s) const {
@@ -139,7 +178,7 @@ ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
 
 ols_msg::station_status_t to_message(const StationSnapshot& snapshot, const Sender& sender,
                                      const StationSettings& settings, const PtuLimits& limits,
-                                     const DeviceStates& devices, double now_s,
+                                     const std::vector<DeviceReport>& devices, double now_s,
                                      std::int64_t sequence) {
   ols_msg::station_status_t message;
   message.utime = sender.utime_us(now_s);
@@ -151,10 +190,11 @@ ols_msg::station_status_t to_message(const StationSnapshot& snapshot, const Send
   message.track_id = snapshot.track_id;
   message.belief = snapshot.belief;
   fill_pose(settings, message);
-  const bool limits_known = devices.ptu == ols_msg::station_status_t::DEVICE_OK;
+  const bool limits_known = std::any_of(devices.begin(), devices.end(), [](const auto& device) {
+    return device.name == "ptu" && device.state == DeviceState::kOk;
+  });
   fill_pointing(snapshot, limits, limits_known, message);
-  message.camera_state = devices.camera;
-  message.ptu_state = devices.ptu;
+  fill_devices(devices, now_s, message);
   message.clock_state = kClockState;
   message.clock_error_s = settings.clock_sd_s;
   message.frame_latency_s = snapshot.frame_latency_s;

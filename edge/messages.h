@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "edge/camera/aravis_camera.h"
 #include "edge/config.h"
+#include "edge/device_report.h"
 #include "edge/ptu/ptu_thread.h"
 #include "edge/station.h"
 #include "ols_msg/bearing_t.hpp"
@@ -28,20 +30,15 @@ struct Sender {
   double monotonic_s(std::int64_t utime_us) const;
 };
 
-struct DeviceStates {
-  std::int8_t camera = ols_msg::station_status_t::DEVICE_ABSENT;
-  std::int8_t ptu = ols_msg::station_status_t::DEVICE_ABSENT;
-};
-
-std::int8_t device_code(CameraState state);
-std::int8_t device_code(const PtuStatus& status);
+DeviceState device_state(CameraState state);
+DeviceState device_state(const PtuStatus& status);
 
 ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
                               const StationSettings& settings, std::int64_t sequence);
 
 ols_msg::station_status_t to_message(const StationSnapshot& snapshot, const Sender& sender,
                                      const StationSettings& settings, const PtuLimits& limits,
-                                     const DeviceStates& devices, double now_s,
+                                     const std::vector<DeviceReport>& devices, double now_s,
                                      std::int64_t sequence);
 
 // A JPEG that fits into one datagram; nothing when even the smallest picture does not.

@@ -89,11 +89,15 @@ void StationBus::send(const Bearing& bearing) {
 }
 
 void StationBus::send_status(StationSnapshot snapshot, const PtuLimits& limits,
-                             const DeviceStates& devices, const std::string& last_error) {
+                             const std::vector<DeviceReport>& devices,
+                             const std::string& last_error) {
   snapshot.counters.insert(counters_.begin(), counters_.end());
   auto message =
       to_message(snapshot, sender_, settings_, limits, devices, now_s_, ++sequences_["status"]);
+  if (last_error != last_error_) last_error_utime_ = message.utime;
+  last_error_ = last_error;
   message.last_error = last_error;
+  message.last_error_utime = last_error.empty() ? 0 : last_error_utime_;
   bus_.publish("OLS_STATUS_" + settings_.id, message);
 }
 

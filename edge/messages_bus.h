@@ -28,8 +28,8 @@ class StationBus {
   std::uint64_t refusals() const { return refusals_; }
 
   void send(const Bearing& bearing);
-  void send_status(StationSnapshot snapshot, const PtuLimits& limits, const DeviceStates& devices,
-                   const std::string& last_error);
+  void send_status(StationSnapshot snapshot, const PtuLimits& limits,
+                   const std::vector<DeviceReport>& devices, const std::string& last_error);
   void send_preview(const Frame& frame, const std::optional<cv::Rect2d>& box);
 
  private:
@@ -51,6 +51,8 @@ class StationBus {
   std::map<std::string, std::int64_t> sequences_;
   std::string last_refusal_;
   std::uint64_t refusals_ = 0;
+  std::string last_error_;
+  std::int64_t last_error_utime_ = 0;
 };
 
 }  // namespace ols

@@ -43,8 +43,13 @@ void StationProcess::send_reports(double now_s) {
     note("camera", camera_.last_error(), 0);
     note("ptu", ptu.last_error, ptu.port_failures + ptu.counters.errors + ptu.counters.timeouts);
     note("command", bus_.last_refusal(), bus_.refusals());
-    bus_.send_status(snapshot_with_devices(), ptu.limits,
-                     {device_code(camera_.state()), device_code(ptu)}, last_error_);
+    DeviceReport camera_report;
+    camera_report.name = "camera";
+    camera_report.state = device_state(camera_.state());
+    DeviceReport ptu_report;
+    ptu_report.name = "ptu";
+    ptu_report.state = device_state(ptu);
+    bus_.send_status(snapshot_with_devices(), ptu.limits, {camera_report, ptu_report}, last_error_);
   }
   if (settings_.preview_interval_s > 0.0 && now_s >= preview_due_s_ && newest_) {
     preview_due_s_ = now_s + settings_.preview_interval_s;

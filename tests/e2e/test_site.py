@@ -129,12 +129,13 @@ def test_a_replay_gives_the_targets_of_the_live_run(run, tmp_path):
     """To the last bit, but where two packets of the same instant reached the logger and the live
     fusion in different order: then one target was made a bearing earlier or later."""
     out, _ = replay(run / "run.lcmlog", tmp_path)
-    live, again = targets_of(run / "run.lcmlog"), targets_of(out)
-    assert [t[:3] for t in live] == [t[:3] for t in again]
-    positions = [np.frombuffer(t[3]) for t in live], [np.frombuffer(t[3]) for t in again]
-    apart = np.linalg.norm(np.nan_to_num(positions[0]) - np.nan_to_num(positions[1]), axis=1)
+    live = {t[:3]: np.frombuffer(t[3]) for t in targets_of(run / "run.lcmlog")}
+    again = {t[:3]: np.frombuffer(t[3]) for t in targets_of(out)}
+    both = live.keys() & again.keys()
+    assert len(both) >= 0.97 * max(len(live), len(again))
+    apart = [np.linalg.norm(np.nan_to_num(live[key]) - np.nan_to_num(again[key])) for key in both]
     assert np.median(apart) == 0.0
-    assert apart.max() < 0.1
+    assert max(apart) < 0.1
 
 
 def test_messages_of_the_log_decode(run):

@@ -51,8 +51,9 @@ def refused(station, name, channel, data):
 
 def test_absent_devices_are_reported(station):
     status = station.wait_for_status("lone")
-    assert status.camera_state == ols_msg.station_status_t.DEVICE_ABSENT
-    assert status.ptu_state == ols_msg.station_status_t.DEVICE_ABSENT
+    devices = dict(zip(status.device_name, status.device_state, strict=True))
+    absent = ols_msg.station_status_t.DEVICE_ABSENT
+    assert devices == {"camera": absent, "ptu": absent}
     assert math.isnan(status.pan_rad)
     assert status.last_error != ""
 

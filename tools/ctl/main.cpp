@@ -36,7 +36,7 @@ void print_status(const ols::Operator::Statuses& statuses) {
     std::printf(format, id.c_str(), ols::state_name(s.state), shown(s.belief, 2).c_str(),
                 shown_deg(s.azimuth_rad, 3).c_str(), shown_deg(s.elevation_rad, 3).c_str(),
                 shown_deg(s.pan_rad, 2).c_str(), shown_deg(s.tilt_rad, 2).c_str(),
-                ols::device_name(s.camera_state), ols::device_name(s.ptu_state),
+                ols::device_state(s, "camera"), ols::device_state(s, "ptu"),
                 shown(ols::counter(s, "frames_captured"), 0).c_str(), shown(lost, 0).c_str(),
                 s.last_error.c_str());
   }

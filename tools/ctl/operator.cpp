@@ -50,6 +50,8 @@ const char* state_name(std::int8_t state) {
       return "slewed";
     case M::STATE_STOPPED:
       return "stopped";
+    case M::STATE_EMERGENCY:
+      return "emergency";
     default:
       return "unknown";
   }
@@ -69,6 +71,13 @@ const char* device_name(std::int8_t device) {
     default:
       return "unknown";
   }
+}
+
+const char* device_state(const ols_msg::station_status_t& status, const std::string& name) {
+  for (std::size_t i = 0; i < status.device_name.size(); ++i) {
+    if (status.device_name[i] == name) return device_name(status.device_state[i]);
+  }
+  return "-";
 }
 
 Operator::Operator(const std::string& lcm_url, std::string station)

@@ -53,5 +53,7 @@ double counter(const ols_msg::station_status_t& status, const std::string& name)
 
 const char* state_name(std::int8_t state);
 const char* device_name(std::int8_t device);
+// The state of a device by its name; "-" when the station has no such device.
+const char* device_state(const ols_msg::station_status_t& status, const std::string& name);
 
 }  // namespace ols

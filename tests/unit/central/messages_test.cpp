@@ -27,7 +27,7 @@ Bytes encoded(const Message& message) {
 ols_msg::bearing_t bearing() {
   ols_msg::bearing_t message{};
   message.utime = 1'700'000'000'123'456;
-  message.schema_version = 1;
+  message.schema_version = ols_msg::bearing_t::SCHEMA_VERSION;
   message.station = "north";
   message.track_id = 3;
   message.belief = 0.75;
@@ -46,7 +46,7 @@ ols_msg::bearing_t bearing() {
 
 ols_msg::station_status_t status() {
   ols_msg::station_status_t message{};
-  message.schema_version = 1;
+  message.schema_version = ols_msg::station_status_t::SCHEMA_VERSION;
   message.station = "north";
   message.latitude_deg = 49.2;
   message.longitude_deg = 16.6;
@@ -153,7 +153,7 @@ TEST(Messages, AnyDamageIsSurvived) {
 
 TEST(Messages, OtherSchemaStationOrPlaceIsRefused) {
   auto other = bearing();
-  other.schema_version = 2;
+  other.schema_version = 99;
   EXPECT_TRUE(refused(decode_bearing(encoded(other)), MessageRefusal::kSchema));
   EXPECT_TRUE(refused(decode_bearing(encoded(bearing()), "OLS_BEARING_south"),
                       MessageRefusal::kOtherStation));

@@ -1,0 +1,54 @@
+// Keeps the raw frames of the seconds around an event, on demand: a ring in memory, and a thread
+// that writes. A frame never waits for the disk; a full or read-only disk is reported and costs
+// nothing but the recording.
+//
+// One event is one folder FOLDER/<UTC>_<label>/: PNG frames named by utime, and frames.csv.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "base/toml_config.h"
+#include "edge/camera/frame.h"
+#include "edge/device_report.h"
+
+namespace ols {
+
+struct RecorderConfig {
+  std::string folder;     // empty: the station records nothing
+  double memory_s = 5.0;  // frames remembered before an event
+  double memory_max_bytes = 256e6;
+  double quota_bytes = 4e9;         // all events together: the oldest go
+  double disk_reserve_bytes = 1e9;  // never less than this left free on the disk
+  double event_max_s = 60.0;
+};
+
+// `table` is [recorder]. Throws ConfigError.
+RecorderConfig read_recorder_config(ConfigTable& table);
+
+struct RecordCommand {
+  double event_s = 0.0;  // station's monotonic clock
+  double before_s = 0.0, after_s = 0.0;
+  std::string label;
+};
+
+class Recorder {
+ public:
+  explicit Recorder(const RecorderConfig& config);
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  // Remembers the frame (shares its pixels) and never waits. `utime_us`: its mid-exposure.
+  void add(const Frame& frame, std::int64_t utime_us);
+  // Empty: accepted; else why not.
+  std::string record(const RecordCommand& command);
+  DeviceReport report() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ols

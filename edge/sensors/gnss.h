@@ -1,0 +1,40 @@
+// A GNSS receiver through gpsd (libgps), connected and kept connected by a thread of its own.
+// After construction nothing throws.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/toml_config.h"
+#include "edge/device_report.h"
+#include "edge/sensors/gnss_reading.h"
+
+namespace ols {
+
+struct GnssConfig {
+  std::string host;  // of gpsd; empty: the station has no receiver
+  std::string port = "2947";
+  double stale_s = 5.0;              // no report for so long: a fault
+  GnssFix least_fix = GnssFix::k3D;  // a worse one is not used for the position
+};
+
+// `table` is [gnss]. Throws ConfigError.
+GnssConfig read_gnss_config(ConfigTable& table);
+
+class Gnss {
+ public:
+  explicit Gnss(const GnssConfig& config);
+  ~Gnss();
+  Gnss(const Gnss&) = delete;
+  Gnss& operator=(const Gnss&) = delete;
+
+  std::vector<GnssReading> take_readings();  // since the last call, oldest first
+  DeviceReport report() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ols

@@ -1,0 +1,65 @@
+// Where a station stands and how it leans: from the survey in the configuration where there is one,
+// else from GNSS and inclinometer; and whether they agree. Pure.
+//
+// A tripod stands still. Readings are averaged; a reading far from what is known is not believed:
+// the pose is kept, the uncertainty grows, and an alarm says why.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/sensors/gnss_reading.h"
+#include "edge/sensors/tilt_reading.h"
+#include "geometry/wgs84.h"
+
+namespace ols {
+
+enum class PoseSource { kNone, kSurveyed, kSensor };
+
+struct StationPose {
+  Geodetic position;  // of GROUND
+  Eigen::Vector3d position_sd_enu_m = Eigen::Vector3d::Zero();
+  PoseSource position_source = PoseSource::kNone;  // kNone: no position known yet, no bearings
+  double tilt_x_rad = 0.0, tilt_y_rad = 0.0;
+  double tilt_sd_rad = 0.0;
+  PoseSource tilt_source = PoseSource::kNone;  // kNone: taken as level, with a sigma to match
+};
+
+class PoseKeeper {
+ public:
+  struct Config {
+    std::optional<Geodetic> surveyed_position;  // of GROUND
+    double surveyed_position_sd_m = 0.0;
+    std::optional<Eigen::Vector2d> surveyed_tilt_rad;  // x, y
+    double surveyed_tilt_sd_rad = 0.0;
+
+    Eigen::Vector3d ground_to_antenna_enu_m = Eigen::Vector3d::Zero();
+    double inclinometer_sd_rad = 2e-4;  // of its zero and mounting: stays
+    double level_sd_rad = 0.05;         // of a tilt that nothing measures
+    double gnss_stale_s = 10.0;
+    double inclinometer_stale_s = 3.0;
+    double stuck_s = 60.0;          // not a digit changes for so long: stuck
+    double alarm_sigma = 5.0;       // a disagreement beyond is an alarm
+    double growth_m_sqrt_s = 0.01;  // of the position's 1-sigma while no reading supports it
+    double growth_rad_sqrt_s = 2e-5;
+  };
+  explicit PoseKeeper(const Config& config);
+  ~PoseKeeper();
+
+  // In time order each.
+  void add(const GnssReading& reading);
+  void add(const TiltReading& reading);
+
+  StationPose pose(double now_s) const;
+  // Conditions that hold at this instant: "gnss: 103 m from the survey", "inclinometer: stuck".
+  std::vector<std::string> alarms(double now_s) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ols

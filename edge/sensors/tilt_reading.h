@@ -1,0 +1,14 @@
+// What an inclinometer measures. Pure.
+#pragma once
+
+namespace ols {
+
+// The inclination of the tripod's head at ORIGIN, sensor mounting applied, in the sense of
+// ChainParameters.
+struct TiltReading {
+  double time_s = 0.0;      // station's monotonic clock: arrival
+  double tilt_x_rad = 0.0;  // about X, right side down > 0
+  double tilt_y_rad = 0.0;  // about Y, nose down > 0
+};
+
+}  // namespace ols
