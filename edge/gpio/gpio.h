@@ -11,6 +11,7 @@
 
 #include "base/toml_config.h"
 #include "edge/device_report.h"
+#include "edge/gpio/led_pattern.h"
 
 namespace ols {
 
@@ -19,22 +20,16 @@ struct GpioConfig {
                        // process; empty: the station has none
   int led_line = -1;   // -1: none
   int stop_line = -1;  // emergency stop; normally closed: a broken wire is a stop
+  // Whether the contact opens to a high level (it closes to ground, the line is pulled up) or to a
+  // low one (it closes to the supply, the line is pulled down).
   bool stop_active_low = false;
-  int trigger_line = -1;  // camera trigger, one pulse a frame
+  double stop_release_s = 0.05;   // a release counts when stable for so long; a press at once
+  int trigger_line = -1;          // camera trigger, one pulse a frame
+  double trigger_pulse_s = 1e-3;  // its length
 };
 
 // `table` is [gpio]. Throws ConfigError.
 GpioConfig read_gpio_config(ConfigTable& table);
-
-// What the LED tells from across a field.
-enum class LedPattern {
-  kOff,
-  kStarting,   // slow even blink
-  kReady,      // short flash every two seconds
-  kTracking,   // steady
-  kTrouble,    // fast blink: an alarm holds
-  kEmergency,  // double flash
-};
 
 class Gpio {
  public:
@@ -46,8 +41,10 @@ class Gpio {
   Gpio(const Gpio&) = delete;
   Gpio& operator=(const Gpio&) = delete;
 
+  // These may be called from any thread; none waits for the device.
   void show(LedPattern pattern);
   void trigger();  // a pulse on trigger_line
+  // True also as long as the first level is not known; false without a stop_line.
   bool stop_pressed() const;
   DeviceReport report() const;
 

@@ -1,0 +1,286 @@
+#include "edge/gpio/gpio.h"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+#include "base/clocks.h"
+#include "edge/gpio/gpio_lines.h"
+#include "edge/gpio/stop_input.h"
+
+namespace ols {
+namespace {
+
+constexpr double kRefresh_s = 0.1;  // the stop's level is read at least so often, edges or not
+constexpr double kReopen_s = 0.5;
+constexpr double kNever_s = std::numeric_limits<double>::infinity();
+
+LineUse line_use(const GpioConfig& config) {
+  LineUse use;
+  use.input = config.stop_line;
+  // Towards "pressed": a broken wire then reads as an opened contact.
+  use.input_bias = config.stop_active_low ? LineBias::kPullDown : LineBias::kPullUp;
+  for (const int line : {config.led_line, config.trigger_line}) {
+    if (line >= 0) use.outputs.push_back(line);
+  }
+  return use;
+}
+
+// Wakes a poll() from another thread.
+class Bell {
+ public:
+  Bell() : fd_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+  ~Bell() { ::close(fd_); }
+  Bell(const Bell&) = delete;
+  Bell& operator=(const Bell&) = delete;
+  int fd() const { return fd_; }
+  void ring() const { ::eventfd_write(fd_, 1); }
+  void silence() const {
+    eventfd_t rung;
+    ::eventfd_read(fd_, &rung);
+  }
+
+ private:
+  int fd_;
+};
+
+}  // namespace
+
+struct Gpio::Impl {
+  Impl(const GpioConfig& gpio_config, std::function<void(bool)> callback)
+      : config(gpio_config), on_stop(std::move(callback)), stop(gpio_config.stop_release_s) {}
+
+  void run(const std::stop_token& ended) {
+    const std::stop_callback wake(ended, [this] { bell.ring(); });
+    while (!ended.stop_requested()) {
+      try {
+        const auto lines = open_gpio_lines(config.chip, line_use(config));
+        opened();
+        serve(*lines, ended);
+        if (config.led_line >= 0) lines->write(config.led_line, false);
+      } catch (const std::exception& failure) {
+        note_failure(failure.what());
+      }
+      sleep_until(clock_monotonic_s() + kReopen_s, ended);
+    }
+  }
+
+  void serve(GpioLines& lines, const std::stop_token& ended) {
+    double refresh_s = 0.0;
+    std::optional<bool> lit;          // as written to the line
+    double trigger_end_s = kNever_s;  // a pulse is on the line until then
+    while (!ended.stop_requested()) {
+      double now_s = clock_monotonic_s();
+      if (now_s >= refresh_s) {
+        lines.refresh();
+        refresh_s = now_s + kRefresh_s;
+      }
+      take_levels(lines);
+      tell_stop();
+      drive_led(lines, lit);
+      drive_trigger(lines, trigger_end_s);
+      now_s = clock_monotonic_s();
+      double until_s = std::min({refresh_s, next_led_slot_s(now_s), trigger_end_s});
+      // (Only this thread writes `told`.)
+      if (const auto due_s = stop.due_s(); due_s && told != false) {
+        until_s = std::min(until_s, *due_s);
+      }
+      wait(lines.fd(), until_s - now_s);
+    }
+  }
+
+  void take_levels(GpioLines& lines) {
+    const std::vector<LineLevel> levels = lines.receive();
+    for (const LineLevel& level : levels) {
+      const bool pressed = level.high != config.stop_active_low;
+      stop.level(pressed, level.time_s);
+      // Told edge by edge: a press that was over before this thread woke is a press all the same.
+      if (pressed) tell_stop();
+    }
+    const std::lock_guard lock(mutex);
+    if (!levels.empty() || config.stop_line < 0) {
+      last_good_s = clock_monotonic_s();
+      readable = true;
+    }
+  }
+
+  // Calls back when the answer has changed.
+  void tell_stop() {
+    if (config.stop_line < 0) return;
+    if (const auto pressed = stop.pressed(clock_monotonic_s())) tell(*pressed);
+  }
+
+  void tell(bool pressed) {
+    {
+      const std::lock_guard lock(mutex);
+      if (told == pressed) return;
+      told = pressed;
+      if (pressed) ++presses;
+    }
+    if (on_stop) on_stop(pressed);
+  }
+
+  double next_led_slot_s(double now_s) {
+    const std::lock_guard lock(mutex);
+    const double slots = std::floor((now_s - pattern_began_s) / kLedSlot_s + 1e-6) + 1.0;
+    return pattern_began_s + slots * kLedSlot_s;
+  }
+
+  void drive_led(GpioLines& lines, std::optional<bool>& lit) {
+    if (config.led_line < 0) return;
+    bool wanted = false;
+    {
+      const std::lock_guard lock(mutex);
+      wanted = led_lit(pattern, clock_monotonic_s() - pattern_began_s);
+    }
+    if (lit == wanted) return;
+    lines.write(config.led_line, wanted);
+    lit = wanted;
+  }
+
+  void drive_trigger(GpioLines& lines, double& end_s) {
+    const double now_s = clock_monotonic_s();
+    if (now_s >= end_s) {
+      lines.write(config.trigger_line, false);
+      end_s = kNever_s;
+    }
+    {
+      const std::lock_guard lock(mutex);
+      if (end_s != kNever_s || !std::exchange(trigger_wanted, false)) return;
+      ++triggers;
+    }
+    lines.write(config.trigger_line, true);
+    end_s = clock_monotonic_s() + config.trigger_pulse_s;
+  }
+
+  // Until an edge, the bell or the time.
+  void wait(int fd, double timeout_s) {
+    std::array<pollfd, 2> entries{{{bell.fd(), POLLIN, 0}, {fd, POLLIN, 0}}};  // fd -1: ignored
+    const double bounded_s = std::clamp(timeout_s, 0.0, 1.0);
+    const timespec timeout{static_cast<time_t>(bounded_s),
+                           static_cast<long>(std::fmod(bounded_s, 1.0) * 1e9)};
+    ::ppoll(entries.data(), entries.size(), &timeout, nullptr);
+    bell.silence();
+  }
+
+  void sleep_until(double end_s, const std::stop_token& ended) {
+    while (!ended.stop_requested() && clock_monotonic_s() < end_s) {
+      wait(-1, end_s - clock_monotonic_s());
+    }
+  }
+
+  void opened() {
+    const std::lock_guard lock(mutex);
+    open = true;
+    readable = false;
+    trigger_wanted = false;  // of frames long past
+  }
+
+  void note_failure(const std::string& what) {
+    stop.lost();
+    {
+      const std::lock_guard lock(mutex);
+      open = readable = false;
+      ++failures;
+      error = what;
+    }
+    if (config.stop_line >= 0) tell(true);
+  }
+
+  const GpioConfig config;
+  const std::function<void(bool)> on_stop;
+  StopInput stop;  // of the thread alone
+  Bell bell;
+
+  mutable std::mutex mutex;  // of everything below
+  bool open = false;
+  bool readable = false;     // a level has come since the lines were opened
+  std::optional<bool> told;  // pressed, as last called back
+  LedPattern pattern = LedPattern::kOff;
+  double pattern_began_s = 0.0;
+  bool trigger_wanted = false;
+  std::optional<double> last_good_s;
+  std::string error;
+  std::uint64_t failures = 0, presses = 0, triggers = 0;
+  std::jthread thread;  // last: it uses the rest
+};
+
+Gpio::Gpio(const GpioConfig& config, std::function<void(bool pressed)> on_stop)
+    : impl_(std::make_unique<Impl>(config, std::move(on_stop))) {
+  if (config.chip.empty()) return;
+  impl_->thread = std::jthread([impl = impl_.get()](const std::stop_token& t) { impl->run(t); });
+}
+
+Gpio::~Gpio() = default;  // the jthread asks to stop and joins
+
+void Gpio::show(LedPattern pattern) {
+  {
+    const std::lock_guard lock(impl_->mutex);
+    if (impl_->pattern == pattern) return;
+    impl_->pattern = pattern;
+    impl_->pattern_began_s = clock_monotonic_s();
+  }
+  impl_->bell.ring();
+}
+
+void Gpio::trigger() {
+  if (impl_->config.trigger_line < 0) return;
+  {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->trigger_wanted = impl_->open;
+  }
+  impl_->bell.ring();
+}
+
+bool Gpio::stop_pressed() const {
+  if (impl_->config.stop_line < 0) return false;
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->told.value_or(true);
+}
+
+DeviceReport Gpio::report() const {
+  const bool stop_pressed_now = stop_pressed();
+  const GpioConfig& config = impl_->config;
+  const std::lock_guard lock(impl_->mutex);
+  DeviceReport report;
+  report.name = "gpio";
+  report.last_good_s = impl_->last_good_s;
+  report.last_error = impl_->error;
+  report.errors = impl_->failures;
+  report.counters = {{"gpio_failures", impl_->failures},
+                     {"gpio_stop_presses", impl_->presses},
+                     {"gpio_triggers", impl_->triggers}};
+  if (impl_->open && impl_->readable) {
+    report.state = DeviceState::kOk;
+    report.text = config.chip;
+    if (config.stop_line >= 0)
+      report.text += stop_pressed_now ? ", stop pressed" : ", stop released";
+    if (config.stop_line >= 0 && stop_pressed_now) {
+      report.alarms.push_back("gpio: emergency stop pressed");
+    }
+  } else if (impl_->open || impl_->failures == 0) {
+    report.state = DeviceState::kStarting;
+    report.text = config.chip + ": waiting for the first level";
+  } else {
+    report.state = DeviceState::kAbsent;
+    report.text = impl_->error;
+    report.alarms.push_back(config.stop_line >= 0
+                                ? "gpio: stop unreadable, taken as pressed: " + impl_->error
+                                : "gpio: " + impl_->error);
+  }
+  return report;
+}
+
+}  // namespace ols

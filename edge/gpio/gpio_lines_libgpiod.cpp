@@ -1,0 +1,112 @@
+// libgpiod 1.6. For 2.x rewrite this file: gpiod_line_settings, gpiod_chip_request_lines,
+// gpiod_line_request_read_edge_events.
+#include <fcntl.h>
+#include <gpiod.h>
+
+#include <array>
+#include <cerrno>
+#include <map>
+#include <system_error>
+
+#include "base/clocks.h"
+#include "edge/gpio/gpio_lines.h"
+
+namespace ols {
+namespace {
+
+constexpr const char* kConsumer = "ols-station";
+
+class ChipLines : public GpioLines {
+ public:
+  ChipLines(const std::string& chip, const LineUse& use)
+      : name_(chip), chip_(gpiod_chip_open(chip.c_str())) {
+    if (!chip_) fail("cannot be opened");
+    for (const int line : use.outputs) request_output(line);
+    if (use.input >= 0) request_input(use);
+  }
+
+  int fd() const override { return fd_; }
+
+  std::vector<LineLevel> receive() override {
+    std::vector<LineLevel> levels = std::move(fresh_);
+    fresh_.clear();
+    std::array<gpiod_line_event, 16> events;
+    while (input_) {
+      const int n = gpiod_line_event_read_fd_multiple(fd_, events.data(), events.size());
+      if (n < 0 && errno == EAGAIN) break;
+      if (n <= 0) fail("has vanished");
+      for (int i = 0; i < n; ++i) levels.push_back(level_of(events[static_cast<std::size_t>(i)]));
+    }
+    return levels;
+  }
+
+  void refresh() override {
+    if (!input_) return;
+    const int value = gpiod_line_get_value(input_);
+    if (value < 0) fail("cannot be read");
+    // Edges that came before this reading must not overtake it.
+    std::vector<LineLevel> edges = receive();
+    edges.push_back({value != 0, clock_monotonic_s()});
+    fresh_ = std::move(edges);
+  }
+
+  void write(int line, bool high) override {
+    if (gpiod_line_set_value(outputs_.at(line), high ? 1 : 0) != 0) fail("cannot be written");
+  }
+
+ private:
+  struct CloseChip {
+    void operator()(gpiod_chip* chip) const { gpiod_chip_close(chip); }  // releases its lines too
+  };
+
+  // The kernel stamps edges by CLOCK_MONOTONIC since 5.7.
+  static LineLevel level_of(const gpiod_line_event& event) {
+    return {event.event_type == GPIOD_LINE_EVENT_RISING_EDGE,
+            static_cast<double>(event.ts.tv_sec) + 1e-9 * static_cast<double>(event.ts.tv_nsec)};
+  }
+
+  gpiod_line* line(int offset) {
+    gpiod_line* found = gpiod_chip_get_line(chip_.get(), static_cast<unsigned>(offset));
+    if (found == nullptr) fail("has no line " + std::to_string(offset));
+    return found;
+  }
+
+  void request_output(int offset) {
+    gpiod_line* output = line(offset);
+    if (gpiod_line_request_output(output, kConsumer, 0) != 0) {
+      fail("line " + std::to_string(offset) + " cannot be had as an output");
+    }
+    outputs_[offset] = output;
+  }
+
+  void request_input(const LineUse& use) {
+    gpiod_line* input = line(use.input);
+    const int bias = use.input_bias == LineBias::kPullUp ? GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_UP
+                                                         : GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_DOWN;
+    if (gpiod_line_request_both_edges_events_flags(input, kConsumer, bias) != 0) {
+      fail("line " + std::to_string(use.input) + " cannot be watched");
+    }
+    fd_ = gpiod_line_event_get_fd(input);
+    ::fcntl(fd_, F_SETFL, ::fcntl(fd_, F_GETFL) | O_NONBLOCK);
+    input_ = input;
+  }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::system_error(errno, std::generic_category(), name_ + ": " + what);
+  }
+
+  std::string name_;
+  std::unique_ptr<gpiod_chip, CloseChip> chip_;
+  gpiod_line* input_ = nullptr;
+  int fd_ = -1;
+  std::map<int, gpiod_line*> outputs_;
+  std::vector<LineLevel> fresh_;
+};
+
+}  // namespace
+
+std::unique_ptr<GpioLines> open_chip_lines(const std::string& chip, const LineUse& use) {
+  return std::make_unique<ChipLines>(chip, use);
+}
+
+}  // namespace ols

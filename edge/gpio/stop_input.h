@@ -1,0 +1,31 @@
+// The emergency stop's input: a press counts at once, a release only when it has been stable, and a
+// line that cannot be read is pressed. Pure.
+#pragma once
+
+#include <optional>
+
+namespace ols {
+
+class StopInput {
+ public:
+  // A release counts when the line has been quiet for `release_s`.
+  explicit StopInput(double release_s) : release_s_(release_s) {}
+
+  // The line as it is or has become, with the time of the edge. In time order.
+  void level(bool pressed, double time_s);
+  // The line cannot be read: pressed, until a stable release is seen.
+  void lost();
+
+  // Nothing as long as it is not known: before the first level, and while that is a release which
+  // has not been stable yet.
+  std::optional<bool> pressed(double now_s) const;
+  // When pressed() turns false by itself; nothing when it will not.
+  std::optional<double> due_s() const;
+
+ private:
+  double release_s_;
+  bool was_pressed_ = false;          // ever, or lost
+  std::optional<double> released_s_;  // since when the line has been quietly released
+};
+
+}  // namespace ols

@@ -1,0 +1,52 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "edge/gpio/gpio.h"
+
+namespace ols {
+namespace {
+
+GpioConfig read(const std::string& text) {
+  ConfigFile file(text, "station.toml");
+  const GpioConfig config = read_gpio_config(file.root());
+  file.finish();
+  return config;
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    read(text);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(GpioConfig, IsEmptyWithoutKeys) {
+  const GpioConfig config = read("");
+  EXPECT_EQ(config.chip, "");
+  EXPECT_EQ(config.stop_line, -1);
+}
+
+TEST(GpioConfig, ReadsEachKey) {
+  const GpioConfig config = read(
+      "chip = '/dev/gpiochip0'\nled_line = 22\nstop_line = 17\nstop_active_low = true\n"
+      "stop_release_s = 0.1\ntrigger_line = 27\ntrigger_pulse_s = 0.002\n");
+  EXPECT_EQ(config.chip, "/dev/gpiochip0");
+  EXPECT_EQ(config.led_line, 22);
+  EXPECT_EQ(config.stop_line, 17);
+  EXPECT_TRUE(config.stop_active_low);
+  EXPECT_EQ(config.stop_release_s, 0.1);
+  EXPECT_EQ(config.trigger_line, 27);
+  EXPECT_EQ(config.trigger_pulse_s, 0.002);
+}
+
+TEST(GpioConfig, RefusesALineWithoutAChipAndALineUsedTwice) {
+  EXPECT_THAT(error_of("stop_line = 17\n"), testing::HasSubstr("stop_line: is given, but no chip"));
+  EXPECT_THAT(error_of("chip = 'x'\nled_line = 17\nstop_line = 17\n"),
+              testing::HasSubstr("stop_line: is used twice"));
+  EXPECT_NE(error_of("chip = 'x'\nled_line = -2\n"), "accepted");
+}
+
+}  // namespace
+}  // namespace ols

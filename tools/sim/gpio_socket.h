@@ -1,0 +1,40 @@
+// GPIO lines on a Unix socket, as edge/gpio/gpio_lines.h has its protocol: an emergency stop to
+// press, a status LED and a camera trigger to look at. Thread-safe.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace ols::sim {
+
+struct GpioServerConfig {
+  std::string path;  // of the socket; a leftover there is replaced
+  int stop_line = 17;
+  bool stop_active_low = false;  // as in GpioConfig
+  int led_line = 22;
+  int trigger_line = 27;
+};
+
+class GpioServer {
+ public:
+  explicit GpioServer(const GpioServerConfig& config);  // throws std::system_error
+  ~GpioServer();
+  GpioServer(const GpioServer&) = delete;
+  GpioServer& operator=(const GpioServer&) = delete;
+
+  void set_pressed(bool pressed);
+  // Connections stay open and nothing is answered: a process that hangs.
+  void set_silent(bool silent);
+
+  bool led() const;
+  std::uint64_t led_changes() const;
+  std::uint64_t triggers() const;  // rising edges of trigger_line
+  int clients() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ols::sim
