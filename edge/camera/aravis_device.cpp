@@ -110,6 +110,12 @@ void AravisDevice::configure(const CameraConfig& config) {
   Error error;
   arv_camera_set_pixel_format_from_string(camera, config.pixel_format.c_str(), error.out());
   error.check<CameraUnfit>("camera refuses pixel format " + config.pixel_format);
+  // Some take a value without a word and keep their own.
+  const char* format = arv_camera_get_pixel_format_as_string(camera, error.out());
+  error.check<CameraAbsent>("camera does not tell its pixel format");
+  if (format == nullptr || config.pixel_format != format)
+    throw CameraUnfit("camera wants pixel format " + std::string(format ? format : "unknown") +
+                      " instead of " + config.pixel_format);
   const std::string size = std::to_string(config.width_px) + "x" + std::to_string(config.height_px);
   arv_camera_set_region(camera, 0, 0, config.width_px, config.height_px, error.out());
   error.check<CameraUnfit>("camera refuses size " + size);

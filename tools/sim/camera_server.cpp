@@ -103,6 +103,7 @@ struct CameraServer::Impl {
   int wake_ = -1;
   std::uint64_t frames_ = 0;  // of the stream thread
   std::atomic<std::uint64_t> skipped_ = 0;
+  std::atomic<bool> gone_ = false;
 
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -162,7 +163,7 @@ void CameraServer::Impl::receive(int fd) {
   socklen_t from_size = sizeof from;
   const ssize_t size =
       recvfrom(fd, packet.data(), packet.size(), 0, reinterpret_cast<sockaddr*>(&from), &from_size);
-  if (size <= 0) return;
+  if (size <= 0 || gone_) return;
   // The host's other interfaces hear broadcasts that a camera on this network would not.
   if ((from.sin_addr.s_addr & mask_) != (address_ & mask_)) return;
   const std::uint64_t peer = std::uint64_t{from.sin_addr.s_addr} << 16 | from.sin_port;
@@ -205,6 +206,10 @@ void CameraServer::Impl::run_stream() {
 }
 
 void CameraServer::Impl::expose(const StreamSettings& settings, Clock::time_point start) {
+  if (gone_) {
+    ++frames_;  // the camera goes on behind the cut line until its heartbeat runs out
+    return;
+  }
   const auto ago =
       std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
   const Exposure exposure{.start_realtime_ns = clock_utc_ns() - ago,
@@ -231,6 +236,12 @@ CameraServer::~CameraServer() = default;
 
 void CameraServer::set_size(int width_px, int height_px) {
   impl_->device_.set_size(width_px, height_px);
+}
+
+void CameraServer::set_faults(const CameraFaults& faults) {
+  impl_->gone_ = faults.gone;
+  impl_->stream_.set_loss(faults.packet_loss, !faults.no_resend);
+  impl_->device_.set_faults(!faults.no_resend, faults.pixel_format);
 }
 
 std::uint64_t CameraServer::skipped() const { return impl_->skipped_; }

@@ -8,6 +8,8 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "tools/sim/faults.h"
+
 namespace ols::sim {
 
 struct CameraServerConfig {
@@ -37,6 +39,9 @@ class CameraServer {
 
   // The camera forgets the size that the client has set, as after a reset.
   void set_size(int width_px, int height_px);
+
+  // What is wrong with the camera from now on; from any thread.
+  void set_faults(const CameraFaults& faults);
 
   // Exposures that were never made because drawing took too long. Only goes up.
   std::uint64_t skipped() const;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <stdexcept>
 
 namespace ols::sim {
 namespace {
@@ -24,6 +26,18 @@ constexpr std::uint32_t kStreamPort = 0x0d00, kPacketSize = 0x0d04, kStreamAddre
 constexpr std::uint32_t kMaxBlock = 512;  // of a memory command
 
 gige::Bytes no_data() { return {}; }
+
+std::uint32_t pfnc(const std::string& name) {
+  static const std::map<std::string, std::uint32_t> kCodes = {
+      {"Mono8", ARV_PIXEL_FORMAT_MONO_8},
+      {"BayerGR8", ARV_PIXEL_FORMAT_BAYER_GR_8},
+      {"BayerRG8", ARV_PIXEL_FORMAT_BAYER_RG_8},
+      {"BayerGB8", ARV_PIXEL_FORMAT_BAYER_GB_8},
+      {"BayerBG8", ARV_PIXEL_FORMAT_BAYER_BG_8}};
+  const auto found = kCodes.find(name);
+  if (found == kCodes.end()) throw std::invalid_argument("no such pixel format: " + name);
+  return found->second;
+}
 
 }  // namespace
 
@@ -56,6 +70,20 @@ void GigeDevice::set_size(int width_px, int height_px) {
   const std::lock_guard lock(mutex_);
   write(ARV_FAKE_CAMERA_REGISTER_WIDTH, static_cast<std::uint32_t>(width_px));
   write(ARV_FAKE_CAMERA_REGISTER_HEIGHT, static_cast<std::uint32_t>(height_px));
+}
+
+void GigeDevice::set_faults(bool can_resend, const std::string& pixel_format) {
+  const std::lock_guard lock(mutex_);
+  write(kCapability, kCanWriteMemory | (can_resend ? kCanResend : 0U));
+  kept_format_next_.reset();
+  if (!pixel_format.empty()) kept_format_next_ = pfnc(pixel_format);
+}
+
+void GigeDevice::take_control(std::uint64_t peer, double time_s) {
+  controller_ = peer;
+  heard_s_ = time_s;
+  kept_format_ = kept_format_next_;
+  if (kept_format_) write(ARV_FAKE_CAMERA_REGISTER_PIXEL_FORMAT, *kept_format_);
 }
 
 void GigeDevice::release() {
@@ -115,8 +143,7 @@ Answer GigeDevice::handle(gige::Bytes packet, std::uint64_t peer, std::int64_t c
   }
   const bool controlled = read(kPrivilege) != 0;
   if (controlled && !controller_) {
-    controller_ = peer;
-    heard_s_ = time_s;
+    take_control(peer, time_s);
   } else if (!controlled && controller_) {
     release();
   }
@@ -160,6 +187,7 @@ gige::Status GigeDevice::write_register(std::uint32_t address, std::uint32_t val
       (address == ARV_FAKE_CAMERA_REGISTER_HEIGHT &&
        value > read(ARV_FAKE_CAMERA_REGISTER_SENSOR_HEIGHT)))
     return gige::Status::kInvalidParameter;
+  if (address == ARV_FAKE_CAMERA_REGISTER_PIXEL_FORMAT && kept_format_) value = *kept_format_;
   write(address, value);
   return gige::Status::kSuccess;
 }

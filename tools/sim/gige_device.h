@@ -56,6 +56,11 @@ class GigeDevice {
   // The camera forgets the size that was set, as after a reset.
   void set_size(int width_px, int height_px);
 
+  // Whether the camera says that it can send lost packets again; and the pixel format (by its
+  // GenICam name) that it keeps from the next connection on, whatever a client writes; empty: none.
+  // Throws std::invalid_argument on an unknown name.
+  void set_faults(bool can_resend, const std::string& pixel_format);
+
  private:
   std::uint32_t read(std::uint32_t address) const;
   void write(std::uint32_t address, std::uint32_t value);
@@ -66,12 +71,14 @@ class GigeDevice {
                                             std::int64_t clock_ns);
   std::vector<std::uint8_t> write_memory(const gige::ControlPacket& asked, std::int64_t clock_ns);
   bool may_write(std::uint64_t peer, double time_s);
+  void take_control(std::uint64_t peer, double time_s);
   void release();
 
   mutable std::mutex mutex_;
   std::unique_ptr<ArvFakeCamera, void (*)(ArvFakeCamera*)> registers_;
   std::optional<std::uint64_t> controller_;
-  double heard_s_ = 0.0;  // from the controller, last
+  double heard_s_ = 0.0;                                         // from the controller, last
+  std::optional<std::uint32_t> kept_format_, kept_format_next_;  // PFNC; now, and once opened again
 };
 
 }  // namespace ols::sim

@@ -93,10 +93,25 @@ void GigeStream::send(const StreamSettings& settings, const gige::Picture& descr
   }
   const std::uint32_t last = gige::payload_packets(bytes(picture), per_packet(settings)) + 1;
   for (std::uint32_t packet = 0; packet <= last; ++packet)
-    send_packet(*sent, packet, gige::Status::kSuccess);
+    if (!loses_one()) send_packet(*sent, packet, gige::Status::kSuccess);
+}
+
+void GigeStream::set_loss(double share, bool can_resend) {
+  const std::lock_guard lock(loss_mutex_);
+  loss_ = share;
+  can_resend_ = can_resend;
+}
+
+bool GigeStream::loses_one() {
+  const std::lock_guard lock(loss_mutex_);
+  return loss_ > 0.0 && std::uniform_real_distribution<double>()(generator_) < loss_;
 }
 
 void GigeStream::resend(const ResendRequest& request) {
+  {
+    const std::lock_guard lock(loss_mutex_);
+    if (!can_resend_) return;
+  }
   const std::lock_guard lock(mutex_);
   const auto found = std::find_if(sent_.begin(), sent_.end(), [&](const auto& sent) {
     return sent->description.id == request.frame;
@@ -106,7 +121,7 @@ void GigeStream::resend(const ResendRequest& request) {
   const std::uint32_t last =
       gige::payload_packets(bytes(sent.picture), per_packet(sent.settings)) + 1;
   for (std::uint32_t packet = request.first; packet <= std::min(request.last, last); ++packet)
-    send_packet(sent, packet, gige::Status::kSuccess);
+    if (!loses_one()) send_packet(sent, packet, gige::Status::kSuccess);
 }
 
 }  // namespace ols::sim

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <opencv2/core.hpp>
+#include <random>
 
 #include "tools/sim/gige_device.h"
 #include "tools/sim/gige_wire.h"
@@ -28,6 +29,9 @@ class GigeStream {
             const cv::Mat& picture);
   void resend(const ResendRequest& request);
 
+  // From now on this share of packets gets lost; and whether lost ones are sent again.
+  void set_loss(double share, bool can_resend);
+
  private:
   struct Sent {
     StreamSettings settings;
@@ -35,10 +39,16 @@ class GigeStream {
     cv::Mat picture;
   };
   void send_packet(const Sent& sent, std::uint32_t packet, gige::Status status) const;
+  bool loses_one();
 
   int fd_ = -1;
   std::mutex mutex_;
   std::deque<std::shared_ptr<const Sent>> sent_;  // the newest last
+
+  std::mutex loss_mutex_;
+  std::mt19937_64 generator_;
+  double loss_ = 0.0;
+  bool can_resend_ = true;
 };
 
 }  // namespace ols::sim

@@ -208,6 +208,53 @@ TEST(CameraWire, AnAbsentCameraIsWaitedForAndTheStationCanEnd) {
   EXPECT_EQ(camera.counters().reconnects, 0U);
 }
 
+TEST(CameraWire, ACameraThatIsCutOffComesBack) {
+  const auto server = serve();
+  AravisCamera camera(station());
+  ASSERT_TRUE(frame_of(camera)) << camera.last_error();
+  server->set_faults({.gone = true, .pixel_format = {}});
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kAbsent; }));
+  server->set_faults({});
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kStreaming; }));
+  EXPECT_GE(camera.counters().reconnects, 1U);
+}
+
+TEST(CameraWire, LostPacketsSpoilFramesOnlyWhereTheyCannotBeSentAgain) {
+  const auto server = serve();
+  CameraConfig config = station();
+  config.packet_size = 1500;  // 53 packets a frame
+  server->set_faults({.packet_loss = 0.01, .no_resend = true, .pixel_format = {}});
+  AravisCamera camera(config);
+  EXPECT_TRUE(becomes(camera, [&] { return camera.counters().frames_incomplete >= 3; }));
+  EXPECT_TRUE(becomes(camera, [&] { return camera.counters().frames_captured >= 3; }));
+  EXPECT_NE(camera.last_error().find("incomplete"), std::string::npos) << camera.last_error();
+}
+
+TEST(CameraWire, LostPacketsAreAskedForAgain) {
+  const auto server = serve();
+  CameraConfig config = station();
+  config.packet_size = 1500;
+  server->set_faults({.packet_loss = 0.01, .pixel_format = {}});
+  AravisCamera camera(config);
+  ASSERT_TRUE(becomes(camera, [&] { return camera.counters().frames_captured >= 20; }));
+  EXPECT_LE(camera.counters().frames_incomplete, camera.counters().frames_captured / 5);
+}
+
+TEST(CameraServer, KeepsThePixelFormatOfItsFaultFromTheNextConnectionOn) {
+  const auto server = serve();
+  AravisCamera camera(station());
+  ASSERT_TRUE(frame_of(camera)) << camera.last_error();
+  server->set_faults({.pixel_format = "BayerRG8"});
+  EXPECT_TRUE(frame_of(camera)) << camera.last_error();
+  server->set_faults({.gone = true, .pixel_format = "BayerRG8"});
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kAbsent; }));
+  server->set_faults({.pixel_format = "BayerRG8"});
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kFault; }));
+  server->set_faults({});
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kStreaming; }))
+      << camera.last_error();
+}
+
 TEST(CameraServer, AnAddressThatIsTakenIsAnError) {
   const auto server = serve();
   EXPECT_THROW(serve(), std::system_error);
