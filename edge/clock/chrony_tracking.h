@@ -1,0 +1,26 @@
+// The words of `chronyc -c tracking`. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ols {
+
+struct ChronyTracking {
+  std::string reference;  // name or address: "PPS", "192.168.1.1"; empty: none yet
+  bool synchronised = false;
+  double measured_utc_s = 0.0;  // "Ref time"
+  double offset_s = 0.0;        // system clock minus NTP time: > 0 is fast
+  double root_delay_s = 0.0, root_dispersion_s = 0.0;
+  int leap_s = 0;  // announced: +1 inserted, -1 deleted
+
+  // 1-sigma. chrony's manual has the bound |offset| + root dispersion + root delay / 2; taken as
+  // the half-width of a rectangle.
+  double error_s() const;
+};
+
+// Nothing when it is not such a line (chronyd is not there: "506 Cannot talk to daemon").
+std::optional<ChronyTracking> parse_chrony_tracking(std::string_view line);
+
+}  // namespace ols

@@ -1,0 +1,16 @@
+// Both clocks at one instant.
+#pragma once
+
+#include <cstdint>
+
+namespace ols {
+
+struct ClockPair {
+  double monotonic_s = 0.0;
+  std::int64_t utime_us = 0;
+};
+
+// Reads again when the process was interrupted between the two: that would look like a step.
+ClockPair read_clock_pair();
+
+}  // namespace ols

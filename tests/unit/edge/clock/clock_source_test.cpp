@@ -1,0 +1,60 @@
+#include "edge/clock/clock_source.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "base/clocks.h"
+#include "edge/clock/clock_pair.h"
+
+namespace ols {
+namespace {
+
+// The next reading; fails after 30 s.
+ClockReading next(ClockSource& source) {
+  const double deadline_s = clock_monotonic_s() + 30.0;
+  while (clock_monotonic_s() < deadline_s) {
+    if (auto reading = source.take()) return *reading;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  ADD_FAILURE() << "no reading";
+  return {};
+}
+
+TEST(ClockSource, TellsOfChronyWhenItAnswers) {
+  ClockSource source(0.01, {"echo",
+                            "50505300,PPS,1,1713528723.5,-0.000000072,0,0,0,0,0,0.0,0.00001,"
+                            "16.0,Normal"});
+  const double before_s = clock_monotonic_s();
+  next(source);
+  const ClockReading reading = next(source);
+  EXPECT_TRUE(reading.synchronised);
+  EXPECT_EQ(reading.source, "chrony: PPS");
+  EXPECT_GE(reading.monotonic_s, before_s);
+  EXPECT_LE(reading.monotonic_s, clock_monotonic_s());
+  EXPECT_NE(reading.utime_us, 0);
+}
+
+TEST(ClockSource, IsContentWithoutChrony) {
+  ClockSource source(0.01, {"ols-no-such-program"});
+  const ClockReading reading = next(source);
+  EXPECT_NE(reading.source.substr(0, 6), "chrony");
+  // What this machine's kernel says is not ours to know; only that it is consistent.
+  EXPECT_TRUE(reading.service || !reading.synchronised);
+}
+
+TEST(ClockSource, DoesWithoutAChronyThatHangs) {
+  ClockSource source(0.01, {"sleep", "1000"});
+  EXPECT_NE(next(source).source.substr(0, 6), "chrony");
+}
+
+TEST(ClockPair, IsOfOneInstant) {
+  const double before = 1e-6 * static_cast<double>(clock_utime_us()) - clock_monotonic_s();
+  const ClockPair pair = read_clock_pair();
+  EXPECT_NEAR(1e-6 * static_cast<double>(pair.utime_us) - pair.monotonic_s, before, 1.0);
+}
+
+}  // namespace
+}  // namespace ols
