@@ -74,6 +74,8 @@ std::int8_t state_code(StationState state) {
       return M::STATE_SLEWED;
     case StationState::kStopped:
       return M::STATE_STOPPED;
+    case StationState::kEmergency:
+      return M::STATE_EMERGENCY;
   }
   return M::STATE_IDLE;
 }

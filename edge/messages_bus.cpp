@@ -36,8 +36,9 @@ Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
       station_.stop(now_s_);
       return Refusal::kNone;
     case ols_msg::ptu_command_t::COMMAND_RELEASE:
-      station_.release(now_s_);
-      return Refusal::kNone;
+      return station_.release(now_s_);
+    case ols_msg::ptu_command_t::COMMAND_REARM:
+      return station_.rearm(now_s_);
     default:
       refuse("PTU", "unknown_command");
       return Refusal::kNone;

@@ -9,26 +9,6 @@
 namespace ols {
 namespace {
 
-bool finite(const PanTilt& angles) {
-  return std::isfinite(angles.pan_rad) && std::isfinite(angles.tilt_rad);
-}
-
-bool finite(const SlewCommand& slew) {
-  for (const double value :
-       {slew.effect_s, slew.received_s, slew.lease_s, slew.direction.azimuth_rad,
-        slew.direction.elevation_rad, slew.azimuth_rate_rad_s, slew.elevation_rate_rad_s,
-        slew.direction_sd_rad}) {
-    if (!std::isfinite(value)) return false;
-  }
-  return true;
-}
-
-AzimuthElevation direction_at(const SlewCommand& slew, double time_s) {
-  const double dt = time_s - slew.effect_s;
-  return {wrap_two_pi(slew.direction.azimuth_rad + dt * slew.azimuth_rate_rad_s),
-          slew.direction.elevation_rad + dt * slew.elevation_rate_rad_s};
-}
-
 // The pixel of a direction at infinity.
 std::optional<Eigen::Vector2d> pixel_of(const StationGeometry& geometry, const PanTilt& angles,
                                         const AzimuthElevation& direction) {
@@ -43,61 +23,36 @@ std::optional<Eigen::Vector2d> pixel_of(const StationGeometry& geometry, const P
 
 }  // namespace
 
-const char* to_string(StationState state) {
-  switch (state) {
-    case StationState::kIdle:
-      return "idle";
-    case StationState::kManual:
-      return "manual";
-    case StationState::kTracking:
-      return "tracking";
-    case StationState::kCoasting:
-      return "coasting";
-    case StationState::kLost:
-      return "lost";
-    case StationState::kSlewed:
-      return "slewed";
-    case StationState::kStopped:
-      return "stopped";
-  }
-  return "unknown";
-}
-
-const char* to_string(Refusal refusal) {
-  switch (refusal) {
-    case Refusal::kNone:
-      return "none";
-    case Refusal::kNotFinite:
-      return "not_finite";
-    case Refusal::kOutOfRange:
-      return "out_of_range";
-    case Refusal::kUnreachable:
-      return "unreachable";
-    case Refusal::kNoFrame:
-      return "no_frame";
-    case Refusal::kTracker:
-      return "tracker";
-    case Refusal::kPrecedence:
-      return "precedence";
-  }
-  return "unknown";
-}
-
 Station::Station(const StationConfig& config, std::unique_ptr<TargetTracker> tracker)
     : config_(config),
       tracker_(std::move(tracker)),
       history_(config.angles),
       motion_(config.motion) {
-  for (int i = 0; i <= static_cast<int>(StationState::kStopped); ++i) {
+  for (int i = 0; i <= static_cast<int>(StationState::kEmergency); ++i) {
     counters_[std::string("seconds_") + to_string(static_cast<StationState>(i))] = 0.0;
   }
+  const StationGeometry& geometry = config_.geometry;
+  pose_.position = geometry.position;
+  pose_.position_sd_enu_m.setConstant(geometry.sd.position_m);
+  pose_.position_source = pose_.tilt_source = PoseSource::kSurveyed;
+  pose_.tilt_x_rad = geometry.chain.tilt_x_rad;
+  pose_.tilt_y_rad = geometry.chain.tilt_y_rad;
+  pose_.tilt_sd_rad = geometry.sd.tilt_rad;
 }
 
-Refusal Station::count(Refusal refusal, const char* command) {
-  const bool accepted = refusal == Refusal::kNone;
-  counters_[std::string(command) + (accepted ? "_accepted" : "_refused")] += 1;
-  if (!accepted) counters_[std::string("refused_") + to_string(refusal)] += 1;
-  return refusal;
+void Station::set_pose(const StationPose& pose) {
+  if (!revision_pose_) {
+    revision_pose_ = pose;
+  } else if (differs(*revision_pose_, pose)) {
+    revision_pose_ = pose;
+    ++pose_revision_;
+    counters_["pose_revisions"] += 1;
+  }
+  pose_ = pose;
+  config_.geometry.position = pose.position;
+  config_.geometry.chain.tilt_x_rad = pose.tilt_x_rad;
+  config_.geometry.chain.tilt_y_rad = pose.tilt_y_rad;
+  config_.geometry.sd.tilt_rad = pose.tilt_sd_rad;
 }
 
 void Station::enter(StationState state) {
@@ -111,12 +66,16 @@ void Station::enter(StationState state) {
 
 bool Station::follows_target() const {
   return track_id_ > 0 && state_ != StationState::kIdle && state_ != StationState::kManual &&
-         state_ != StationState::kStopped;
+         state_ != StationState::kStopped && state_ != StationState::kEmergency;
 }
 
 void Station::on_angles(const AngleSample& sample) { history_.add(sample); }
 
-void Station::on_frame(const Frame& frame) {
+void Station::on_frame(const Frame& frame, double now_s) {
+  if (now_s - frame.mid_exposure_s > config_.max_age_s) {
+    counters_["frames_too_old"] += 1;
+    return;
+  }
   if (!frames_.empty() && frame.mid_exposure_s <= frames_.back().mid_exposure_s) {
     counters_["frames_out_of_order"] += 1;
     return;
@@ -214,26 +173,6 @@ const Frame* Station::remembered(const std::optional<double>& time_s) const {
   return std::abs(nearest->mid_exposure_s - *time_s) < kSameFrame_s ? &*nearest : nullptr;
 }
 
-Refusal Station::designate(const DesignateCommand& command, double now_s) {
-  now_s_ = std::max(now_s_, now_s);
-  const Frame* start = remembered(command.frame_time_s);
-  if (start == nullptr) return count(Refusal::kNoFrame, "designate");
-  const TrackerInput first{start->gray, start->mid_exposure_s, std::nullopt};
-  if (tracker_->initialise(first, command.box)) return count(Refusal::kTracker, "designate");
-  track_id_ += 1;
-  tracked_s_ = believed_s_ = start->mid_exposure_s;
-  last_output_.reset();
-  motion_.clear();
-  waiting_.clear();
-  enter(StationState::kTracking);
-  // The operator saw an old frame: catch up with the frames since then.
-  const double start_s = start->mid_exposure_s;
-  for (const Frame& frame : frames_) {
-    if (frame.mid_exposure_s > start_s && follows_target()) track(frame);
-  }
-  return count(Refusal::kNone, "designate");
-}
-
 std::optional<PanTilt> Station::reachable(const AzimuthElevation& direction) const {
   auto angles = aim_along(config_.geometry, direction);
   if (!angles) return std::nullopt;
@@ -241,63 +180,6 @@ std::optional<PanTilt> Station::reachable(const AzimuthElevation& direction) con
   const PanTilt here = newest ? newest->angles : *angles;
   if (reach(config_.limits, here, *angles) == Reach::kUnreachable) return std::nullopt;
   return angles;
-}
-
-Refusal Station::slew(const SlewCommand& command, double now_s) {
-  now_s_ = std::max(now_s_, now_s);
-  constexpr double kSane_s = 1.0;  // the fusion's lead and the difference of two clocks
-  constexpr double kMaxRate_rad_s = 1.5;
-  if (!finite(command)) return count(Refusal::kNotFinite, "slew");
-  if (command.lease_s <= 0.0 || command.lease_s > config_.slew_lease_max_s ||
-      std::abs(command.effect_s - now_s) > kSane_s ||
-      std::abs(command.direction.azimuth_rad) > 2.0 * kPi ||
-      std::abs(command.direction.elevation_rad) > kPi / 2.0 ||
-      std::abs(command.azimuth_rate_rad_s) > kMaxRate_rad_s ||
-      std::abs(command.elevation_rate_rad_s) > kMaxRate_rad_s || command.direction_sd_rad < 0.0) {
-    return count(Refusal::kOutOfRange, "slew");
-  }
-  if (state_ == StationState::kManual || state_ == StationState::kStopped) {
-    return count(Refusal::kPrecedence, "slew");
-  }
-  // On the whole way that this one command can lead, not only where it says it is.
-  for (const double time_s : {now_s, command.effect_s, command.received_s + command.lease_s}) {
-    if (!reachable(direction_at(command, time_s))) return count(Refusal::kUnreachable, "slew");
-  }
-  slew_ = command;
-  if (state_ == StationState::kIdle || state_ == StationState::kLost) {
-    enter(StationState::kSlewed);
-  }
-  return count(Refusal::kNone, "slew");
-}
-
-Refusal Station::point(const PointCommand& command, double now_s) {
-  now_s_ = std::max(now_s_, now_s);
-  if (!finite(command.angles)) return count(Refusal::kNotFinite, "point");
-  PanTilt angles = command.angles;
-  const auto newest = history_.newest();
-  if (reach(config_.limits, newest ? newest->angles : angles, angles) == Reach::kUnreachable) {
-    return count(Refusal::kUnreachable, "point");
-  }
-  point_ = ServoGoal{now_s, angles, {}, now_s + config_.point_time_s};
-  enter(StationState::kManual);
-  return count(Refusal::kNone, "point");
-}
-
-void Station::stop(double now_s) {
-  now_s_ = std::max(now_s_, now_s);
-  slew_.reset();
-  point_.reset();
-  enter(StationState::kStopped);
-  count(Refusal::kNone, "stop");
-}
-
-void Station::release(double now_s) {
-  now_s_ = std::max(now_s_, now_s);
-  if (state_ == StationState::kManual || state_ == StationState::kStopped) {
-    point_.reset();
-    enter(track_id_ > 0 ? StationState::kLost : StationState::kIdle);
-  }
-  count(Refusal::kNone, "release");
 }
 
 std::vector<Bearing> Station::step(double now_s) {
@@ -312,7 +194,7 @@ std::vector<Bearing> Station::step(double now_s) {
     const auto angles = history_.at(measured.mid_exposure_s);
     const bool bracketed = angles && angles->interpolated;
     if (!bracketed && now_s_ - measured.arrived_s < config_.angle_wait_s) break;
-    if (auto made = bearing(measured)) {
+    if (auto made = bearing(measured); made && worth_sending(*made)) {
       constexpr double kSmoothing = 0.1;
       frame_latency_s_ += kSmoothing * (now_s_ - made->mid_exposure_s - frame_latency_s_);
       bearings.push_back(*made);
@@ -360,9 +242,23 @@ std::optional<Bearing> Station::bearing(const Measured& measured) {
   Bearing result{measured.mid_exposure_s, *line,
                  measured.output.belief,  measured.track_id,
                  measured.stamp_sd_s,     measured.stamp_source};
+  result.pose_revision = pose_revision_;
+  result.sight.origin_sd_enu_m = pose_.position_sd_enu_m;
   follow(result, pixel);
-  counters_["bearings"] += 1;
   return result;
+}
+
+bool Station::worth_sending(const Bearing& bearing) {
+  if (pose_.position_source == PoseSource::kNone) {
+    counters_["bearings_without_pose"] += 1;
+    return false;
+  }
+  if (now_s_ - bearing.mid_exposure_s > config_.max_age_s) {
+    counters_["bearings_too_old"] += 1;
+    return false;
+  }
+  counters_["bearings"] += 1;
+  return true;
 }
 
 void Station::follow(const Bearing& bearing, const PixelSight& pixel) {
@@ -423,6 +319,7 @@ StationSnapshot Station::snapshot() const {
     snapshot.box = last_output_->box;
   }
   snapshot.frame_latency_s = frame_latency_s_;
+  snapshot.pose = pose_;
   snapshot.counters = counters_;
   return snapshot;
 }

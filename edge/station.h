@@ -1,6 +1,6 @@
 // What a station does, decided without devices, clocks or messages: designate, track, coast, lose,
-// be slewed, manual, stopped. Times are the station's monotonic clock [s]. One instance a station,
-// called from one thread.
+// be slewed, manual, stopped, emergency. Times are the station's monotonic clock [s]. One instance
+// a station, called from one thread.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,12 @@
 #include <vector>
 
 #include "edge/angular_track.h"
-#include "edge/camera/frame.h"
 #include "edge/ptu/angle_history.h"
 #include "edge/ptu/servo.h"
+#include "edge/station_types.h"
 #include "edge/target_tracker.h"
-#include "geometry/sight.h"
 
 namespace ols {
-
-enum class StationState { kIdle, kManual, kTracking, kCoasting, kLost, kSlewed, kStopped };
-const char* to_string(StationState state);
 
 struct StationConfig {
   StationGeometry geometry;
@@ -38,61 +34,7 @@ struct StationConfig {
   double search_sd_px = 25.0;      // at least, around that pixel
   double slew_lease_max_s = 2.0;   // a longer lease is refused
   double point_time_s = 15.0;      // an operator's move may take this long
-};
-
-// A bearing before it becomes a message.
-struct Bearing {
-  double mid_exposure_s = 0.0;
-  SightLine sight;
-  double belief = 0.0;
-  std::int64_t track_id = 0;
-  double stamp_sd_s = 0.0;
-  StampSource stamp_source = StampSource::kCamera;
-};
-
-struct DesignateCommand {
-  std::optional<double> frame_time_s;  // mid-exposure of the frame meant; nothing: the newest
-  cv::Rect2d box;                      // [px]
-};
-
-struct SlewCommand {
-  double effect_s = 0.0;  // the instant at which the direction holds
-  double received_s = 0.0;
-  double lease_s = 0.0;
-  std::int64_t target_id = 0;
-  AzimuthElevation direction;  // at the camera centre
-  double azimuth_rate_rad_s = 0.0;
-  double elevation_rate_rad_s = 0.0;
-  double direction_sd_rad = 0.0;
-};
-
-struct PointCommand {
-  PanTilt angles;
-};
-
-// Why a command was refused; also the name of its counter.
-enum class Refusal {
-  kNone,
-  kNotFinite,
-  kOutOfRange,   // not an angle, a lease that is not positive or too long, an instant far from now
-  kUnreachable,  // outside the unit's travel
-  kNoFrame,      // designation without a frame at that time
-  kTracker,      // the tracker refused the box
-  kPrecedence,   // a slew while the operator has the PTU (manual or stopped)
-};
-const char* to_string(Refusal refusal);
-
-// What a person wants to know of a station at a glance.
-struct StationSnapshot {
-  StationState state = StationState::kIdle;
-  std::int64_t track_id = 0;
-  double belief = 0.0;
-  std::optional<AngleSample> angles;
-  std::optional<AzimuthElevation> optical_axis;
-  std::optional<Eigen::Vector2d> target_offset_px;  // from the principal point, newest frame
-  std::optional<cv::Rect2d> box;                    // newest frame
-  double frame_latency_s = 0.0;                     // mid-exposure to bearing, smoothed
-  std::map<std::string, double> counters;           // only go up; state times are "seconds_<state>"
+  double max_age_s = 1.0;          // older frames are not tracked, older bearings not sent
 };
 
 class Station {
@@ -101,15 +43,25 @@ class Station {
 
   // What happens to the station. Samples and frames come in time order, each kind for itself.
   void on_angles(const AngleSample& sample);
-  void on_frame(const Frame& frame);
+  void on_frame(const Frame& frame) { on_frame(frame, now_s_); }
+  // A frame that is older than max_age_s at now_s is dropped: the tracker gets no backlog.
+  void on_frame(const Frame& frame, double now_s);
   void set_limits(const PtuLimits& limits) { config_.limits = limits; }
+  // Before the first call the pose is that of the configured geometry. Without a position there
+  // are no bearings.
+  void set_pose(const StationPose& pose);
+  // The emergency stop's level, also when it has not changed. Pressed once, nothing moves until it
+  // is released, rearm() was accepted, and a command came after that.
+  void emergency_stop(bool pressed, double now_s);
 
   // Commands; what is refused changes nothing but its counter.
   Refusal designate(const DesignateCommand& command, double now_s);
   Refusal slew(const SlewCommand& command, double now_s);
   Refusal point(const PointCommand& command, double now_s);
   void stop(double now_s);
-  void release(double now_s);
+  Refusal release(double now_s);
+  // After an emergency stop: leads to kStopped, from where the operator goes on.
+  Refusal rearm(double now_s);
 
   // Lets time pass: leases and coasting end, state times grow. Returns the bearings whose PTU
   // angles are known by now.
@@ -132,6 +84,7 @@ class Station {
   };
 
   Refusal count(Refusal refusal, const char* command);
+  Refusal judge(const SlewCommand& command, double now_s) const;
   void enter(StationState state);
   bool follows_target() const;
   const Frame* remembered(const std::optional<double>& time_s) const;
@@ -139,6 +92,7 @@ class Station {
   void track(const Frame& frame);
   void judge(const TrackerOutput& output, double time_s);
   std::optional<Bearing> bearing(const Measured& measured);
+  bool worth_sending(const Bearing& bearing);
   void follow(const Bearing& bearing, const PixelSight& pixel);
   void search_along_slew();
   // The PTU angles for a direction, or nothing when the unit cannot point there.
@@ -151,6 +105,10 @@ class Station {
   AngleHistory history_;
   AngularTrack motion_;
   StationState state_ = StationState::kIdle;
+  bool stop_pressed_ = false;
+  StationPose pose_;
+  std::optional<StationPose> revision_pose_;  // of which the bearings' pose_revision speaks
+  std::int64_t pose_revision_ = 0;
 
   std::deque<Frame> frames_;  // the last frame_memory_s
   std::deque<Measured> waiting_;

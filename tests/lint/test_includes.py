@@ -26,6 +26,8 @@ ALLOWED = {
 PURE = [
     "geometry/*",
     "edge/station.*",
+    "edge/station_commands.*",
+    "edge/station_types.*",
     "edge/angular_track.*",
     "edge/command_gate.*",
     "edge/target_tracker.h",

@@ -1,0 +1,247 @@
+// What must never move a PTU, and what must never leave a station.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "station_fixture.h"
+
+namespace ols {
+namespace {
+
+using test::StationTest;
+
+class StationSafetyTest : public StationTest {
+ protected:
+  double counter(const std::string& name) const {
+    const auto counters = station_.snapshot().counters;
+    const auto found = counters.find(name);
+    return found == counters.end() ? 0.0 : found->second;
+  }
+  void press() { station_.emergency_stop(true, now_); }
+  void let_go() { station_.emergency_stop(false, now_); }
+  StationPose pose(double east_m = 0.0, double sd_m = 0.5) const {
+    const StationGeometry geometry = config().geometry;
+    const LocalFrame site(geometry.position);
+    StationPose pose;
+    pose.position = geodetic_from_ecef(site.to_ecef({east_m, 0.0, 0.0}));
+    pose.position_sd_enu_m = {sd_m, sd_m, 2.0 * sd_m};
+    pose.position_source = pose.tilt_source = PoseSource::kSensor;
+    pose.tilt_sd_rad = 1e-3;
+    return pose;
+  }
+};
+
+const double kNaN = std::numeric_limits<double>::quiet_NaN();
+const double kInf = std::numeric_limits<double>::infinity();
+
+// Every field of a slew, each spoilt in every way it can be.
+TEST_F(StationSafetyTest, NoSpoiltFieldOfASlewMoves) {
+  run_until(100.5);
+  using Field = std::function<double&(SlewCommand&)>;
+  struct Spoil {
+    const char* name;
+    Field field;
+    std::vector<double> out_of_range;
+  };
+  const std::vector<Spoil> spoils = {
+      {"effect", [](auto& s) -> double& { return s.effect_s; }, {0.0, now_ - 2, now_ + 2, 1e300}},
+      {"received", [](auto& s) -> double& { return s.received_s; }, {}},
+      {"lease", [](auto& s) -> double& { return s.lease_s; }, {0.0, -1.0, 2.1, 1e300}},
+      {"azimuth", [](auto& s) -> double& { return s.direction.azimuth_rad; }, {-7.0, 7.0, 1e300}},
+      {"elevation", [](auto& s) -> double& { return s.direction.elevation_rad; }, {-1.6, 1.6, 1e9}},
+      {"azimuth rate", [](auto& s) -> double& { return s.azimuth_rate_rad_s; }, {-1.6, 1.6, 1e9}},
+      {"elevation rate",
+       [](auto& s) -> double& { return s.elevation_rate_rad_s; },
+       {-1.6, 1.6, 1e9}},
+      {"sd", [](auto& s) -> double& { return s.direction_sd_rad; }, {-1e-9, 4.0, 1e300}}};
+  double refused = 0;
+  for (const Spoil& spoil : spoils) {
+    for (const double value : {kNaN, kInf, -kInf}) {
+      SlewCommand command = slew(20.0);
+      spoil.field(command) = value;
+      EXPECT_EQ(station_.slew(command, now_), Refusal::kNotFinite) << spoil.name << " " << value;
+      EXPECT_EQ(counter("refused_not_finite"), ++refused);
+    }
+    for (const double value : spoil.out_of_range) {
+      SlewCommand command = slew(20.0);
+      spoil.field(command) = value;
+      EXPECT_EQ(station_.slew(command, now_), Refusal::kOutOfRange) << spoil.name << " " << value;
+    }
+  }
+  EXPECT_EQ(station_.state(), StationState::kIdle);
+  EXPECT_FALSE(station_.goal(now_));
+  EXPECT_EQ(counter("slew_accepted"), 0.0);
+  EXPECT_EQ(station_.slew(slew(20.0), now_), Refusal::kNone) << "and a good one is taken after all";
+}
+
+TEST_F(StationSafetyTest, NoSpoiltPointMoves) {
+  run_until(100.5);
+  for (const double value : {kNaN, kInf, -kInf}) {
+    EXPECT_EQ(station_.point({{value, 0.0}}, now_), Refusal::kNotFinite);
+    EXPECT_EQ(station_.point({{0.0, value}}, now_), Refusal::kNotFinite);
+  }
+  for (const double tilt_deg : {-46.1, 31.1, 90.0, -90.0, 1e6, -1e6}) {
+    EXPECT_EQ(station_.point({{0.0, radians(tilt_deg)}}, now_), Refusal::kUnreachable) << tilt_deg;
+  }
+  for (const double pan_deg : {159.1, -159.1, 180.0}) {
+    EXPECT_EQ(station_.point({{radians(pan_deg), 0.0}}, now_), Refusal::kUnreachable) << pan_deg;
+  }
+  EXPECT_EQ(station_.state(), StationState::kIdle);
+  EXPECT_FALSE(station_.goal(now_));
+  EXPECT_EQ(counter("point_refused"), 15.0);
+}
+
+TEST_F(StationSafetyTest, NoSpoiltDesignationTracks) {
+  run_until(100.5);
+  for (const double value : {kNaN, kInf, -kInf}) {
+    EXPECT_EQ(station_.designate({value, {629, 469, 20, 20}}, now_), Refusal::kNotFinite);
+    EXPECT_EQ(station_.designate({{}, {value, 469, 20, 20}}, now_), Refusal::kNotFinite);
+    EXPECT_EQ(station_.designate({{}, {629, value, 20, 20}}, now_), Refusal::kNotFinite);
+    EXPECT_EQ(station_.designate({{}, {629, 469, value, 20}}, now_), Refusal::kNotFinite);
+    EXPECT_EQ(station_.designate({{}, {629, 469, 20, value}}, now_), Refusal::kNotFinite);
+  }
+  EXPECT_EQ(station_.designate({now_ + 1e9, {629, 469, 20, 20}}, now_), Refusal::kNoFrame);
+  EXPECT_EQ(script_.initialised, 0);
+  EXPECT_EQ(station_.state(), StationState::kIdle);
+  EXPECT_EQ(counter("designate_refused"), 16.0);
+}
+
+TEST_F(StationSafetyTest, InAnEmergencyOnlyStopAndRearmAreHeard) {
+  designated();
+  run_until(now_ + 0.5);
+  ASSERT_TRUE(station_.goal(now_));
+  press();
+  EXPECT_EQ(station_.state(), StationState::kEmergency);
+  EXPECT_FALSE(station_.goal(now_));
+  EXPECT_EQ(station_.slew(slew(20.0), now_), Refusal::kEmergency);
+  EXPECT_EQ(station_.point({{0.2, 0.1}}, now_), Refusal::kEmergency);
+  EXPECT_EQ(station_.designate({std::nullopt, {629, 469, 20, 20}}, now_), Refusal::kEmergency);
+  EXPECT_EQ(station_.release(now_), Refusal::kEmergency);
+  station_.stop(now_);
+  EXPECT_EQ(station_.rearm(now_), Refusal::kEmergency) << "still pressed";
+  EXPECT_EQ(counter("refused_emergency"), 5.0);
+  const std::size_t before = bearings_.size();
+  run_until(now_ + 1.0);
+  EXPECT_EQ(station_.state(), StationState::kEmergency);
+  EXPECT_FALSE(station_.goal(now_));
+  EXPECT_EQ(bearings_.size(), before);
+  EXPECT_NEAR(counter("seconds_emergency"), 1.0, 0.02);
+}
+
+TEST_F(StationSafetyTest, LettingGoOfTheEmergencyStopMovesNothing) {
+  designated();
+  run_until(now_ + 0.5);
+  press();
+  let_go();
+  run_until(now_ + 1.0);
+  EXPECT_EQ(station_.state(), StationState::kEmergency);
+  EXPECT_EQ(station_.slew(slew(20.0), now_), Refusal::kEmergency);
+  EXPECT_FALSE(station_.goal(now_));
+}
+
+TEST_F(StationSafetyTest, AfterRearmingOnlyANewCommandOfTheOperatorMoves) {
+  designated();
+  run_until(now_ + 0.5);
+  press();
+  let_go();
+  EXPECT_EQ(station_.rearm(now_), Refusal::kNone);
+  run_until(now_ + 1.0);
+  EXPECT_EQ(station_.state(), StationState::kStopped);
+  EXPECT_EQ(station_.slew(slew(20.0), now_), Refusal::kPrecedence);
+  EXPECT_FALSE(station_.goal(now_));
+  EXPECT_EQ(station_.point({{0.2, 0.1}}, now_), Refusal::kNone);
+  EXPECT_TRUE(station_.goal(now_));
+}
+
+TEST_F(StationSafetyTest, RearmingAStationInOrderChangesNothing) {
+  designated();
+  run_until(now_ + 0.5);
+  EXPECT_EQ(station_.rearm(now_), Refusal::kNone);
+  EXPECT_EQ(station_.state(), StationState::kTracking);
+}
+
+TEST_F(StationSafetyTest, PressedAgainBeforeRearmingItStays) {
+  press();
+  let_go();
+  press();
+  EXPECT_EQ(station_.rearm(now_), Refusal::kEmergency);
+  let_go();
+  EXPECT_EQ(station_.rearm(now_), Refusal::kNone);
+}
+
+TEST_F(StationSafetyTest, WithoutAPositionItFollowsButSendsNoBearing) {
+  StationPose unknown = pose();
+  unknown.position_source = PoseSource::kNone;
+  station_.set_pose(unknown);
+  designated();
+  run_until(now_ + 0.5);
+  EXPECT_TRUE(bearings_.empty());
+  EXPECT_GT(counter("bearings_without_pose"), 5.0);
+  EXPECT_TRUE(station_.goal(now_)) << "the target is followed all the same";
+  station_.set_pose(pose());
+  run_until(now_ + 0.5);
+  EXPECT_FALSE(bearings_.empty());
+}
+
+TEST_F(StationSafetyTest, ThePoseAndItsSigmasAreInTheBearings) {
+  StationPose leaning = pose(10.0, 0.5);
+  leaning.tilt_sd_rad = radians(1.0);
+  station_.set_pose(leaning);
+  designated();
+  run_until(now_ + 0.5);
+  ASSERT_FALSE(bearings_.empty());
+  const SightLine& sight = bearings_.back().sight;
+  EXPECT_EQ(sight.origin_sd_enu_m, Eigen::Vector3d(0.5, 0.5, 1.0));
+  EXPECT_NEAR(std::sqrt(sight.covariance_systematic(1, 1)), radians(1.0), 1e-4);
+  const Eigen::Vector3d moved = LocalFrame(config().geometry.position).to_enu(sight.origin_ecef);
+  EXPECT_NEAR(moved.x(), 10.0, 0.1);
+}
+
+TEST_F(StationSafetyTest, OnlyAPoseOutsideOfItsSigmasIsAnotherCalibration) {
+  station_.set_pose(pose(0.0, 0.5));
+  station_.set_pose(pose(0.4, 0.1));
+  designated();
+  run_until(now_ + 0.3);
+  EXPECT_EQ(bearings_.back().pose_revision, 0);
+  station_.set_pose(pose(0.6, 0.1));
+  run_until(now_ + 0.3);
+  EXPECT_EQ(bearings_.back().pose_revision, 1);
+  StationPose leaning = pose(0.6, 0.1);
+  leaning.tilt_x_rad = 1.1e-3;
+  station_.set_pose(leaning);
+  run_until(now_ + 0.3);
+  EXPECT_EQ(bearings_.back().pose_revision, 2);
+}
+
+// The computer stood still for two seconds: what lay waiting is dropped, not worked off.
+TEST_F(StationSafetyTest, AfterAStandstillThereIsNoBacklog) {
+  designated();
+  run_until(now_ + 0.5);
+  next_sample_ = now_ + 10.0;  // the angles after the last frame never come
+  const int tracked = script_.tracked;
+  Frame waiting;
+  waiting.mid_exposure_s = now_ + 0.01;
+  station_.on_frame(waiting, now_ + 0.02);
+  EXPECT_EQ(script_.tracked, tracked + 1);
+  now_ += 2.0;
+  for (int i = 1; i <= 10; ++i) {
+    Frame late;
+    late.mid_exposure_s = now_ - 2.0 + 0.09 * i;
+    station_.on_frame(late, now_);
+  }
+  EXPECT_EQ(script_.tracked, tracked + 1);
+  EXPECT_EQ(counter("frames_too_old"), 10.0);
+  EXPECT_TRUE(station_.step(now_).empty());
+  EXPECT_EQ(counter("bearings_too_old") + counter("frames_without_angles"), 1.0);
+  EXPECT_FALSE(station_.goal(now_)) << "nothing moves on what was known two seconds ago";
+  next_sample_ = next_frame_ = now_;
+  run_until(now_ + 1.0);
+  EXPECT_EQ(station_.state(), StationState::kTracking) << "and it recovers";
+}
+
+}  // namespace
+}  // namespace ols
