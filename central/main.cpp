@@ -7,7 +7,9 @@
 #include <exception>
 #include <random>
 
+#include "base/clocks.h"
 #include "base/command_line.h"
+#include "base/service_notifier.h"
 #include "base/shutdown.h"
 #include "base/toml_config.h"
 #include "central/fusion_process.h"
@@ -42,7 +44,13 @@ int run(const Arguments& arguments) {
   if (!arguments.slew_url.empty()) options.slew_url = arguments.slew_url;
   ols::FusionProcess process(settings, options);
   spdlog::info("ready: bus {}, slews to {}", settings.lcm_url, options.slew_url);
-  while (!ols::shutdown_requested()) process.turn();
+  ols::ServiceNotifier service_manager;
+  service_manager.ready("bus " + settings.lcm_url);
+  while (!ols::shutdown_requested()) {
+    process.turn();
+    service_manager.alive(ols::clock_monotonic_s());
+  }
+  service_manager.stopping();
   spdlog::info("stops");
   return 0;
 }

@@ -1,0 +1,22 @@
+# `cmake --install BUILD --prefix /usr` (DESTDIR is honoured): programs, units and what they need,
+# examples, documents. The units find the programs in /usr/bin and /usr/local/bin.
+include(GNUInstallDirs)
+
+# Outside lib/<architecture>: systemd and udev look there.
+set(OLS_SYSTEM_LIBDIR lib)
+
+# Some programs come with their folder; all of them are installed.
+foreach(program IN ITEMS ols-station ols-fusion ols-ctl ols-doctor ols-logger ols-track ols-fuse ols-sim)
+  if(TARGET ${program})
+    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
+endforeach()
+
+install(DIRECTORY systemd/units/ DESTINATION ${OLS_SYSTEM_LIBDIR}/systemd/system)
+install(DIRECTORY systemd/sysusers.d systemd/tmpfiles.d systemd/sysctl.d
+        DESTINATION ${OLS_SYSTEM_LIBDIR})
+install(DIRECTORY systemd/udev/ DESTINATION ${OLS_SYSTEM_LIBDIR}/udev/rules.d)
+install(DIRECTORY systemd/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/ols/examples)
+install(DIRECTORY tools/sim/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/ols)
+install(FILES README.md LICENSE docs/accuracy.md docs/architecture.md docs/operations.md
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ols)

@@ -1,0 +1,149 @@
+"""The units of systemd/: systemd itself understands them, and they give away little."""
+
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = ROOT / "systemd"
+UNITS = sorted((FOLDER / "units").iterdir())
+SERVICES = [unit for unit in UNITS if unit.suffix == ".service"]
+EXPOSURE_LIMIT = 2.0
+needs_analyze = pytest.mark.skipif(
+    shutil.which("systemd-analyze") is None, reason="systemd-analyze is not installed"
+)
+
+
+def run(*command, **options):
+    return subprocess.run(
+        [str(part) for part in command], capture_output=True, text=True, check=False, **options
+    )
+
+
+def instance(name: str) -> str:
+    return name.replace("@.", "@alfa.")
+
+
+@pytest.fixture(name="units")
+def fixture_units(tmp_path):
+    """The units as installed, but for the programs, which need not be on this machine."""
+    for unit in UNITS:
+        text = re.sub(r"^(Exec\w+=)(ols-\S+|chronyc)", r"\1/bin/true", unit.read_text(), flags=re.M)
+        (tmp_path / unit.name).write_text(text)
+    return tmp_path
+
+
+@needs_analyze
+@pytest.mark.parametrize("name", [unit.name for unit in UNITS])
+def test_systemd_understands_the_unit(units, name):
+    target = units / instance(name)
+    if target.name != name:
+        (units / name).rename(target)
+    done = run("systemd-analyze", "verify", "--man=no", "--recursive-errors=no", target)
+    complaints = [line for line in done.stderr.splitlines() if "ols-" in line]
+    assert complaints == []
+
+
+@needs_analyze
+def test_a_wrong_unit_is_found(units):
+    unit = units / "ols-fusion.service"
+    unit.write_text(unit.read_text() + "\nWatchdogSeconds=5\n")
+    done = run("systemd-analyze", "verify", "--man=no", "--recursive-errors=no", unit)
+    assert "WatchdogSeconds" in done.stderr
+
+
+@needs_analyze
+@pytest.mark.parametrize("service", SERVICES, ids=lambda path: path.name)
+def test_a_service_exposes_little(service):
+    done = run("systemd-analyze", "security", "--offline=yes", "--json=short", service)
+    assert json.loads(done.stdout), done.stderr
+    limit = int(EXPOSURE_LIMIT * 10)
+    done = run("systemd-analyze", "security", "--offline=yes", f"--threshold={limit}", service)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("service", SERVICES, ids=lambda path: path.name)
+def test_a_service_never_opens_packet_sockets(service):
+    text = service.read_text()
+    families = re.findall(r"^RestrictAddressFamilies=(.*)$", text, flags=re.M)
+    assert families and "AF_PACKET" not in " ".join(families)
+    capabilities = re.findall(r"^CapabilityBoundingSet=(.*)$", text, flags=re.M)
+    assert capabilities and "CAP_NET_RAW" not in " ".join(capabilities)
+
+
+@pytest.mark.parametrize("name", ["ols-station@.service", "ols-fusion.service"])
+def test_a_control_loop_is_watched_and_comes_back(name):
+    text = (FOLDER / "units" / name).read_text()
+    for line in ("Type=notify", "WatchdogSec=5", "Restart=always", "OnFailure=ols-retry@%n.timer"):
+        assert f"\n{line}\n" in text
+    assert "time-sync.target" not in text and "network-online.target" not in text
+
+
+@needs_analyze
+def test_the_clock_can_be_asked_by_the_station():
+    """ProtectClock=, and a filter without these calls, would make every clock look bad."""
+    text = (FOLDER / "units" / "ols-station@.service").read_text()
+    assert "\nProtectClock=yes" not in text
+    assert text.rindex("SystemCallFilter=adjtimex clock_adjtime") > text.rindex("~@privileged")
+
+
+@pytest.mark.skipif(shutil.which("udevadm") is None, reason="udevadm is not installed")
+def test_udev_understands_its_rules():
+    if "verify" not in run("udevadm", "--help").stdout:  # systemd 254 and later have it
+        quotes = re.compile(r'^(\w+(\{[^}]+\})?(==|!=|\+=|=)"[^"]*"(, )?)+$')
+        for rules in [FOLDER / "udev/60-ols.rules", FOLDER / "examples/61-ols-site.rules"]:
+            for line in rules.read_text().splitlines():
+                rule = line.removeprefix("#").strip()
+                if "==" in rule or "!=" in rule or rule.startswith(("ENV", "LABEL")):
+                    assert quotes.match(rule), f"{rules.name}: {rule}"
+        return
+    done = run("udevadm", "verify", FOLDER / "udev/60-ols.rules")
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.skipif(shutil.which("systemd-sysusers") is None, reason="no systemd-sysusers")
+def test_users_groups_and_folders_can_be_made(tmp_path):
+    etc = tmp_path / "etc"
+    etc.mkdir()
+    done = run("systemd-sysusers", f"--root={tmp_path}", FOLDER / "sysusers.d/ols.conf")
+    assert done.returncode == 0, done.stderr
+    groups = dict(line.split(":", 1) for line in (etc / "group").read_text().splitlines())
+    assert groups["dialout"].endswith("ols") and groups["gpio"].endswith("ols")
+    for line in (FOLDER / "tmpfiles.d/ols.conf").read_text().splitlines():
+        if not line.startswith("#"):
+            kind, path, mode, user, group = line.split()
+            assert (kind, mode, user, group) == ("d", "0750", "ols", "ols"), path
+
+
+def test_the_installed_tree_is_complete(tmp_path):
+    build = ROOT / "build" / "release"
+    if not (build / "bin" / "ols-station").exists():
+        pytest.skip("nothing is built in build/release")
+    done = run(
+        *("cmake", "--install", build, "--prefix", "/usr"),
+        env={"DESTDIR": str(tmp_path), "PATH": "/usr/bin:/bin"},
+    )
+    assert done.returncode == 0, done.stderr
+    usr = tmp_path / "usr"
+    for unit in UNITS:
+        installed = usr / "lib/systemd/system" / unit.name
+        assert installed.read_text() == unit.read_text()
+        for program in re.findall(r"^Exec\w+=(ols-\S+)", unit.read_text(), flags=re.M):
+            assert (usr / "bin" / program).exists(), f"{unit.name} runs {program}"
+    for path in (
+        "lib/sysusers.d/ols.conf",
+        "lib/tmpfiles.d/ols.conf",
+        "lib/sysctl.d/60-ols.conf",
+        "lib/udev/rules.d/60-ols.rules",
+        "share/ols/scenarios/fig7.toml",
+        "share/doc/ols/operations.md",
+    ):
+        assert (usr / path).exists(), path
+    for program, example in (("ols-station", "station.toml"), ("ols-fusion", "fusion.toml")):
+        config = usr / "share/ols/examples" / example
+        done = run(usr / "bin" / program, "--config", config, "--check-config")
+        assert done.returncode == 0, done.stderr
