@@ -25,7 +25,7 @@ def run(*command, **options):
 
 
 def instance(name: str) -> str:
-    return name.replace("@.", "@alfa.")
+    return name.replace("@.", "@ols-fusion.service." if "retry" in name else "@alfa.")
 
 
 @pytest.fixture(name="units")
@@ -91,18 +91,17 @@ def test_the_clock_can_be_asked_by_the_station():
     assert text.rindex("SystemCallFilter=adjtimex clock_adjtime") > text.rindex("~@privileged")
 
 
-@pytest.mark.skipif(shutil.which("udevadm") is None, reason="udevadm is not installed")
-def test_udev_understands_its_rules():
-    if "verify" not in run("udevadm", "--help").stdout:  # systemd 254 and later have it
-        quotes = re.compile(r'^(\w+(\{[^}]+\})?(==|!=|\+=|=)"[^"]*"(, )?)+$')
-        for rules in [FOLDER / "udev/60-ols.rules", FOLDER / "examples/61-ols-site.rules"]:
-            for line in rules.read_text().splitlines():
-                rule = line.removeprefix("#").strip()
-                if "==" in rule or "!=" in rule or rule.startswith(("ENV", "LABEL")):
-                    assert quotes.match(rule), f"{rules.name}: {rule}"
-        return
-    done = run("udevadm", "verify", FOLDER / "udev/60-ols.rules")
-    assert done.returncode == 0, done.stderr
+@pytest.mark.parametrize("rules", ["udev/60-ols.rules", "examples/61-ols-site.rules"])
+def test_udev_rules_are_well_formed(rules):
+    """udevadm of Debian 12 cannot verify rules: each is a list of key, operator, quoted value."""
+    rule_line = re.compile(r'^(\w+(\{[^}]+\})?(==|!=|\+=|=)"[^"]*"(, |$))+$')
+    rules_seen = 0
+    for line in (FOLDER / rules).read_text().splitlines():
+        rule = re.sub(r"^#(?=\w)", "", line)
+        if rule and not rule.startswith("#"):
+            assert rule_line.match(rule), rule
+            rules_seen += 1
+    assert rules_seen >= 3
 
 
 @pytest.mark.skipif(shutil.which("systemd-sysusers") is None, reason="no systemd-sysusers")
