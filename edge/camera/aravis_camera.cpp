@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <future>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -23,7 +24,7 @@ constexpr double kLatchEvery_s = 1.0;  // then
 constexpr double kPoll_s = 0.1;        // how soon a lost control or the end is noticed
 constexpr const char* kIncomplete =
     "frame incomplete: packets were lost (no CAP_NET_RAW, or net.core.rmem_max too small?)";
-constexpr double kMaxBackOff = 8.0;  // times retry_s
+constexpr double kLongestTurn_s = 2.0 * kPoll_s;  // what of a turn counts as silence
 
 FrameClock::Config clock_config(const CameraConfig& config) {
   return {.stamp_at = config.stamp_at,
@@ -49,6 +50,7 @@ struct AravisCamera::Impl {
 
   void run();
   void stream(AravisDevice& device);
+  void close(std::unique_ptr<AravisDevice> device);
   void take(const ReceivedFrame& received, double exposure_s);
   void opened();
   void failed(CameraState state, const std::string& error);
@@ -61,6 +63,7 @@ struct AravisCamera::Impl {
   std::optional<FrameClock> clock_;
   FrameNumbers numbers_;
   bool opened_before_ = false;
+  std::future<void> closing_;  // the last device's end, which may take seconds
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -97,21 +100,27 @@ void AravisCamera::Impl::failed(CameraState state, const std::string& error) {
 }
 
 void AravisCamera::Impl::run() {
-  double back_off = 1.0;
   while (!stopped()) {
+    std::unique_ptr<AravisDevice> device;
     try {
-      AravisDevice device(config_);
+      device = std::make_unique<AravisDevice>(config_);
       opened();
-      back_off = 1.0;
-      stream(device);
+      stream(*device);
     } catch (const CameraUnfit& error) {
       failed(CameraState::kFault, error.what());
     } catch (const std::exception& error) {
       failed(CameraState::kAbsent, error.what());
     }
-    wait(config_.retry_s * back_off);
-    back_off = std::min(2.0 * back_off, kMaxBackOff);
+    if (device) close(std::move(device));
+    // A camera that does not answer is asked again and again by Aravis itself, for 2.5 s.
+    wait(config_.retry_s);
   }
+}
+
+// In a thread of its own: a camera that has come back is not to wait for the farewell to the one
+// that was gone. One at a time.
+void AravisCamera::Impl::close(std::unique_ptr<AravisDevice> device) {
+  closing_ = std::async(std::launch::async, [gone = std::move(device)]() mutable { gone.reset(); });
 }
 
 void AravisCamera::Impl::stream(AravisDevice& device) {
@@ -121,17 +130,23 @@ void AravisCamera::Impl::stream(AravisDevice& device) {
     if (const auto sample = device.latch()) clock_->map().add_latch(*sample);
   };
   for (int i = 0; i < kFirstLatches; ++i) latch();
-  auto last_frame = Clock::now();
-  auto last_latch = last_frame;
+  const double patience_s = config_.no_frame_timeout_s + 2.0 / config_.frame_rate_hz;
+  double silence_s = 0.0;
+  auto last_turn = Clock::now();
+  auto last_latch = last_turn;
   while (!stopped()) {
     const bool received =
         device.receive(kPoll_s, [&](const ReceivedFrame& f) { take(f, device.exposure_s()); });
     const auto now = Clock::now();
-    if (received) last_frame = now;
-    if (device.control_lost()) throw CameraAbsent("camera lost: it no longer answers");
-    if (Seconds(now - last_frame).count() > config_.no_frame_timeout_s) {
+    // A turn that took longer was this process's own sleep, not the camera's.
+    silence_s += std::min(Seconds(now - last_turn).count(), kLongestTurn_s);
+    last_turn = now;
+    if (received) silence_s = 0.0;
+    const bool silent = silence_s > patience_s;
+    if (silent || device.control_lost()) {
       device.give_up();
-      throw CameraAbsent("camera lost: no frame arrives");
+      throw CameraAbsent(silent ? "camera lost: no frame arrives"
+                                : "camera lost: it no longer answers");
     }
     // Right after a frame there is time until the next one.
     if (received && Seconds(now - last_latch).count() >= kLatchEvery_s) {

@@ -87,6 +87,9 @@ AravisDevice::AravisDevice(const CameraConfig& config) {
     throw CameraAbsent("camera " + config.device + " does not answer: " + error.text());
   if (arv_camera_is_gv_device(camera_.get()) == 0)
     throw CameraUnfit("camera " + config.device + " is not a GigE Vision camera");
+  // Aravis goes on without control, and then every setting is refused.
+  if (arv_gv_device_is_controller(ARV_GV_DEVICE(device())) == 0)
+    throw CameraAbsent("camera is under the control of another, or still of the last connection");
   g_signal_connect(device(), "control-lost",
                    G_CALLBACK(+[](ArvDevice*, std::atomic<bool>* lost) { *lost = true; }),
                    &control_lost_);

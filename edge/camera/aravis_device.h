@@ -64,7 +64,8 @@ class AravisDevice {
   std::optional<LatchSample> latch();
 
   bool control_lost() const { return control_lost_; }
-  // Closes without a farewell: each command to a camera that is gone waits for seconds.
+  // It is gone: its end asks it for nothing more. That end may take seconds all the same, because
+  // Aravis tells a camera of its leave and repeats it (5 times 0.5 s each).
   void give_up() { gone_ = true; }
   double exposure_s() const { return exposure_s_; }  // as the camera has it
 

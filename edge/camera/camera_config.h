@@ -24,8 +24,9 @@ struct CameraConfig {
   double readout_s = 0.010;
   double readout_sd_s = 0.010;
 
-  double no_frame_timeout_s = 2.0;  // as long without a frame: closed and opened again
-  double retry_s = 0.5;             // between attempts to open, doubled up to 8 times as much
+  // As long without a frame, and two frame periods: closed and opened again.
+  double no_frame_timeout_s = 1.0;
+  double retry_s = 0.5;  // between attempts to open
 
   int packet_size = 0;          // [byte] IP packet of the stream; 0: what the path allows
   bool packet_socket = true;    // ring buffer of the kernel where CAP_NET_RAW allows it
