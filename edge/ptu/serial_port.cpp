@@ -52,11 +52,11 @@ void ask_for_low_latency(int fd) {
 
 }  // namespace
 
-SerialPort::SerialPort(const std::string& device, int baud) : device_(device) {
+SerialPort::SerialPort(const std::string& device, int baud, Parity parity) : device_(device) {
   fd_ = ::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (fd_ < 0) fail(errno, "cannot be opened");
   try {
-    configure(baud);
+    configure(baud, parity);
   } catch (...) {
     ::close(fd_);
     throw;
@@ -69,7 +69,7 @@ void SerialPort::fail(int error, const char* what) const {
   throw std::system_error(error, std::generic_category(), device_ + ": " + what);
 }
 
-void SerialPort::configure(int baud) {
+void SerialPort::configure(int baud, Parity parity) {
   const auto rate =
       std::find_if(kRates.begin(), kRates.end(), [baud](const Rate& r) { return r.baud == baud; });
   if (rate == kRates.end()) fail(EINVAL, "unknown baud rate");
@@ -79,7 +79,11 @@ void SerialPort::configure(int baud) {
   if (::tcgetattr(fd_, &settings) != 0) fail(errno, "is not a serial device");
   ::cfmakeraw(&settings);
   settings.c_cflag |= CLOCAL | CREAD;
-  settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | PARENB | CRTSCTS);
+  settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | PARENB | PARODD | CRTSCTS);
+  if (parity == Parity::kEven) {
+    settings.c_cflag |= PARENB;
+    settings.c_iflag |= INPCK;  // a byte of wrong parity is read as 0, which no protocol has
+  }
   settings.c_cc[VMIN] = 1;  // so that a read of nothing means a hang-up
   settings.c_cc[VTIME] = 0;
   ::cfsetispeed(&settings, rate->code);

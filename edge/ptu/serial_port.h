@@ -1,5 +1,5 @@
-// A serial device, 8N1 and raw, without handshake. Plain termios: libserialport refuses what is not
-// in sysfs, pseudo terminals among it.
+// A serial device, 8N1 or 8E1 and raw, without handshake. Plain termios: libserialport refuses what
+// is not in sysfs, pseudo terminals among it.
 #pragma once
 
 #include <string>
@@ -7,11 +7,13 @@
 
 namespace ols {
 
+enum class Parity { kNone, kEven };
+
 class SerialPort {
  public:
   // Opens and locks the device; what stood in its buffers is dropped. Throws std::system_error with
   // the device's name: not there, no right to it, not a terminal, in use, unknown rate.
-  SerialPort(const std::string& device, int baud);
+  SerialPort(const std::string& device, int baud, Parity parity = Parity::kNone);
   ~SerialPort();
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
@@ -26,7 +28,7 @@ class SerialPort {
   bool drain(double timeout_s);
 
  private:
-  void configure(int baud);
+  void configure(int baud, Parity parity);
   [[noreturn]] void fail(int error, const char* what) const;
 
   std::string device_;

@@ -2,6 +2,7 @@
 // After construction nothing throws.
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,10 @@ struct GnssConfig {
   std::string port = "2947";
   double stale_s = 5.0;              // no report for so long: a fault
   GnssFix least_fix = GnssFix::k3D;  // a worse one is not used for the position
+  Eigen::Vector3d ground_to_antenna_enu_m = Eigen::Vector3d::Zero();
+  double sd_floor_m = 0.01;    // no stated 1-sigma is believed to be smaller
+  double error_sigmas = 1.0;   // gpsd's own errors are so many sigmas; only where there is no GST
+  double accept_move_s = 0.0;  // a new position that holds for so long is taken; 0: never
 };
 
 // `table` is [gnss]. Throws ConfigError.

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/toml_config.h"
 #include "edge/device_report.h"
+#include "edge/sensors/dpg2.h"
 #include "edge/sensors/tilt_reading.h"
 
 namespace ols {
@@ -16,15 +18,23 @@ struct InclinometerConfig {
   int baud = 9600;
   bool even_parity = false;  // BEI and AGS variants: 8E1
   double stale_s = 3.0;      // no good reading for so long: a fault
-  // Sensor to ORIGIN: which way the sensor's axes run, and what it shows when ORIGIN is level.
+  double stuck_s = 60.0;     // not a digit changes for so long: stuck
+  // Sensor to ORIGIN: first the axes are swapped, then the zero of ORIGIN's axis (what is shown
+  // when ORIGIN is level) is taken off, then the sign is applied.
   int x_sign = 1, y_sign = 1;
   bool swap_axes = false;
   double x_zero_rad = 0.0, y_zero_rad = 0.0;
   double range_rad = 0.7;  // a reading beyond is refused
+  double sd_rad = 2e-4;    // 1-sigma of its zero and mounting; averaging does not make it smaller
 };
 
 // `table` is [inclinometer]. Throws ConfigError.
 InclinometerConfig read_inclinometer_config(ConfigTable& table);
+
+// What the sensor's axes show, as the tilt of ORIGIN. Each axis of the sensor shows the inclination
+// of that axis to the horizontal, while tilt_y is applied after tilt_x in the chain: at 10 degrees
+// of tilt_x the difference is 1.5 % of tilt_y. Pure.
+TiltReading origin_tilt(const InclinometerConfig& config, const AxisAngles& shown);
 
 class Inclinometer {
  public:

@@ -2,7 +2,10 @@
 // else from GNSS and inclinometer; and whether they agree. Pure.
 //
 // A tripod stands still. Readings are averaged; a reading far from what is known is not believed:
-// the pose is kept, the uncertainty grows, and an alarm says why.
+// the pose is kept, the uncertainty grows, and an alarm says why. It grows from the last reading
+// that supported the pose until the next one does; a pose that no sensor ever watched does not
+// grow. A tripod that was really moved has lost its heading too, so a new place is not taken over
+// by itself (unless accept_move_s says so): the alarm asks for the station to be set up anew.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,19 +40,27 @@ class PoseKeeper {
     double surveyed_tilt_sd_rad = 0.0;
 
     Eigen::Vector3d ground_to_antenna_enu_m = Eigen::Vector3d::Zero();
+    GnssFix least_fix = GnssFix::k3D;   // a worse one is not used
+    double gnss_sd_floor_m = 0.01;      // no stated 1-sigma is believed to be smaller
+    double gnss_memory_s = 3600.0;      // of the average
     double inclinometer_sd_rad = 2e-4;  // of its zero and mounting: stays
-    double level_sd_rad = 0.05;         // of a tilt that nothing measures
+    double inclinometer_memory_s =
+        60.0;                    // short: legs sink into soft ground, and that is to be seen
+    double level_sd_rad = 0.05;  // of a tilt that nothing measures
     double gnss_stale_s = 10.0;
     double inclinometer_stale_s = 3.0;
-    double stuck_s = 60.0;          // not a digit changes for so long: stuck
-    double alarm_sigma = 5.0;       // a disagreement beyond is an alarm
+    double stuck_s = 60.0;       // not a digit changes for so long: stuck
+    double alarm_sigma = 5.0;    // a disagreement beyond is not believed,
+    double alarm_after_s = 2.0;  // and is an alarm when it lasts: gusts and lone outliers are not
+    double restation_s = 300.0;  // lasting so long, the tripod was moved
+    double accept_move_s = 0.0;  // a new position that holds for so long is taken; 0: never
     double growth_m_sqrt_s = 0.01;  // of the position's 1-sigma while no reading supports it
     double growth_rad_sqrt_s = 2e-5;
   };
   explicit PoseKeeper(const Config& config);
   ~PoseKeeper();
 
-  // In time order each.
+  // In time order each; what is older than the one before, or not finite, is left out.
   void add(const GnssReading& reading);
   void add(const TiltReading& reading);
 

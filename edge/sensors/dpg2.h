@@ -1,0 +1,63 @@
+// The output of a TE (MEAS) DPG2 inclinometer: lines "X=+00.430" and "Y=-00.084", in degrees, with
+// neither checksum nor time. What can be checked is checked: the form to the last digit, that Y
+// follows its X at once, the range. Pure: bytes and their arrival in, angles out; how the bytes are
+// cut into pieces makes no difference to the values.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ols {
+
+// What the sensor's two axes show.
+struct AxisAngles {
+  double time_s = 0.0;  // arrival of the line that completed the pair
+  double x_rad = 0.0;
+  double y_rad = 0.0;
+};
+
+// Only go up.
+struct Dpg2Counters {
+  std::uint64_t readings = 0;
+  std::uint64_t garbled = 0;       // lines that are neither X nor Y nor awaited
+  std::uint64_t unpaired = 0;      // an X without its Y or a Y without its X
+  std::uint64_t out_of_range = 0;  // pairs
+};
+
+class Dpg2Parser {
+ public:
+  explicit Dpg2Parser(double range_rad) : range_rad_(range_rad) {}
+
+  // Bytes that arrived at `now_s`; the pairs that they complete.
+  std::vector<AxisAngles> receive(std::string_view bytes, double now_s);
+
+  // The next line of text that is no reading is the answer to V.
+  void expect_version() { version_awaited_ = true; }
+  const std::string& version() const { return version_; }
+
+  const Dpg2Counters& counters() const { return counters_; }
+
+ private:
+  struct HalfPair {
+    double time_s;
+    double x_rad;
+  };
+
+  void take_line(double now_s, std::vector<AxisAngles>& out);
+  void take_y(double y_rad, double now_s, std::vector<AxisAngles>& out);
+  void take_other_line();
+  void drop_half();
+
+  double range_rad_;
+  std::string line_;
+  bool line_too_long_ = false;
+  std::optional<HalfPair> half_;
+  bool version_awaited_ = false;
+  std::string version_;
+  Dpg2Counters counters_;
+};
+
+}  // namespace ols

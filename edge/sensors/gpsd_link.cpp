@@ -1,0 +1,55 @@
+#include "edge/sensors/gpsd_link.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <stdexcept>
+
+namespace ols {
+
+namespace {
+
+bool is_active(const devconfig_t& device) { return device.activated.tv_sec > 0; }
+
+}  // namespace
+
+GpsdLink::GpsdLink(const std::string& host, const std::string& port)
+    : data_(std::make_unique<gps_data_t>()) {
+  const std::string where = host + ":" + port;
+  if (gps_open(host.c_str(), port.c_str(), data_.get()) != 0) {
+    throw std::runtime_error("no gpsd at " + where + ": " + gps_errstr(errno));
+  }
+  if (gps_stream(data_.get(), WATCH_ENABLE | WATCH_JSON, nullptr) < 0) {
+    gps_close(data_.get());
+    throw std::runtime_error("gpsd at " + where + " takes no request");
+  }
+}
+
+GpsdLink::~GpsdLink() { gps_close(data_.get()); }
+
+bool GpsdLink::read(double timeout_s) {
+  errno = 0;
+  if (!gps_waiting(data_.get(), static_cast<int>(timeout_s * 1e6))) return false;
+  data_->set = 0;  // libgps adds to it
+  errno = 0;
+  if (gps_read(data_.get(), nullptr, 0) < 0) {
+    // A message that libgps does not understand is not the end of the connection.
+    if ((data_->set & PACKET_SET) != 0) return false;
+    throw std::runtime_error("gpsd has gone");
+  }
+  if ((data_->set & PACKET_SET) == 0) return false;
+  note_devices();
+  return true;
+}
+
+void GpsdLink::note_devices() {
+  if ((data_->set & DEVICELIST_SET) != 0) {
+    const int n = std::clamp(data_->devices.ndevices, 0, MAXUSERDEVS);
+    has_receiver_ = std::any_of(data_->devices.list, data_->devices.list + n, is_active);
+  } else if ((data_->set & DEVICE_SET) != 0) {
+    has_receiver_ = is_active(data_->dev);
+  } else if ((data_->set & STATUS_SET) != 0) {
+    has_receiver_ = true;
+  }
+}
+
+}  // namespace ols

@@ -1,0 +1,34 @@
+// One connection to gpsd: libgps with its C structure kept in order.
+#pragma once
+
+#include <gps.h>
+
+#include <memory>
+#include <string>
+
+namespace ols {
+
+class GpsdLink {
+ public:
+  // Connects and asks for reports. Throws std::runtime_error in words.
+  GpsdLink(const std::string& host, const std::string& port);
+  ~GpsdLink();
+  GpsdLink(const GpsdLink&) = delete;
+  GpsdLink& operator=(const GpsdLink&) = delete;
+
+  // The next message, after waiting for it at most `timeout_s`; data().set tells which came. False:
+  // none came. Throws std::runtime_error when gpsd has gone.
+  bool read(double timeout_s);
+  const gps_data_t& data() const { return *data_; }
+
+  // Whether gpsd has a receiver that it reads, as far as it has said.
+  bool has_receiver() const { return has_receiver_; }
+
+ private:
+  void note_devices();
+
+  std::unique_ptr<gps_data_t> data_;
+  bool has_receiver_ = false;
+};
+
+}  // namespace ols

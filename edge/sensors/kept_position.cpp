@@ -1,0 +1,114 @@
+#include "edge/sensors/kept_position.h"
+
+#include <cmath>
+
+#include "edge/sensors/alarm_words.h"
+
+namespace ols {
+
+namespace {
+
+using Eigen::Vector3d;
+
+bool is_usable(const GnssReading& r) {
+  // An antenna on the Earth and sds that say something; comparisons with NaN are false.
+  const bool on_earth = std::abs(r.antenna.latitude_rad) <= 1.5708 &&
+                        std::abs(r.antenna.longitude_rad) <= 7.0 &&
+                        std::abs(r.antenna.height_m) < 1e5;
+  const bool sd_finite = r.sd_enu_m.allFinite() && (r.sd_enu_m.array() >= 0.0).all() &&
+                         (r.sd_enu_m.array() < 1e6).all();
+  return on_earth && sd_finite;
+}
+
+}  // namespace
+
+KeptPosition::KeptPosition(const PoseKeeper::Config& config) : config_(config) {
+  StandingValue<3>::Config standing;
+  standing.gate_sigma = config.alarm_sigma;
+  standing.memory_s = config.gnss_memory_s;
+  standing.accept_move_s = config.accept_move_s;
+  if (!config.surveyed_position) {
+    place_.emplace(standing, std::nullopt);
+    return;
+  }
+  frame_.emplace(*config.surveyed_position);
+  place_.emplace(standing,
+                 StandingValue<3>::Estimate{config.ground_to_antenna_enu_m,
+                                            Vector3d::Constant(config.surveyed_position_sd_m)});
+}
+
+void KeptPosition::add(const GnssReading& reading) {
+  if (!std::isfinite(reading.time_s) || (last_ && reading.time_s < last_->time_s)) return;
+  const bool used = reading.fix >= config_.least_fix && is_usable(reading);
+  last_ = reading;
+  if (!used) {
+    last_->fix = GnssFix::kNone;
+    return;
+  }
+  if (!frame_) frame_.emplace(reading.antenna);
+  place_->add(reading.time_s, frame_->to_enu(ecef_from_geodetic(reading.antenna)),
+              reading.sd_enu_m.cwiseMax(config_.gnss_sd_floor_m));
+}
+
+bool KeptPosition::is_disbelieved(double now_s) const {
+  const auto since_s = place_->disagrees_since_s();
+  return since_s && now_s - *since_s >= config_.alarm_after_s;
+}
+
+bool KeptPosition::is_lost(double now_s) const {
+  if (!last_) return false;
+  const auto until_s = place_->supported_until_s();
+  const bool stale = until_s && now_s - *until_s > config_.gnss_stale_s;
+  return stale || is_disbelieved(now_s) || last_->fix < config_.least_fix;
+}
+
+void KeptPosition::fill(StationPose& pose, double now_s) const {
+  const auto kept = place_->estimate();
+  if (!kept) return;
+  if (config_.surveyed_position) {
+    pose.position = *config_.surveyed_position;
+    pose.position_source = PoseSource::kSurveyed;
+  } else {
+    pose.position =
+        geodetic_from_ecef(frame_->to_ecef(kept->value - config_.ground_to_antenna_enu_m));
+    pose.position_source = PoseSource::kSensor;
+  }
+  double grown_m2 = 0.0;
+  const auto until_s = place_->supported_until_s();
+  if (until_s && is_lost(now_s)) {
+    grown_m2 = std::pow(config_.growth_m_sqrt_s, 2) * std::max(0.0, now_s - *until_s);
+  }
+  pose.position_sd_enu_m = (kept->sd.cwiseAbs2().array() + grown_m2).sqrt();
+}
+
+std::string KeptPosition::disagreement(double now_s) const {
+  std::string text = "gnss: " + length_in_words(place_->distance().norm()) + " from the " +
+                     (config_.surveyed_position ? "survey" : "kept position");
+  const double lasts_s = now_s - *place_->disagrees_since_s();
+  if (lasts_s >= config_.restation_s) {
+    text += " for " + time_in_words(lasts_s) + ": set the station up anew";
+  }
+  return text;
+}
+
+void KeptPosition::add_alarms(std::vector<std::string>& alarms, double now_s) const {
+  if (const auto moved_m = place_->moved()) {
+    alarms.push_back("gnss: position taken anew, " + length_in_words(*moved_m) +
+                     " from before: check the heading");
+  }
+  if (!last_) return;
+  const bool kept = place_->estimate().has_value();
+  const char* consequence = kept ? ", position kept" : ", no position yet";
+  const auto until_s = place_->supported_until_s();
+  if (now_s - last_->time_s > config_.gnss_stale_s) {
+    alarms.push_back("gnss: silent for " + time_in_words(now_s - last_->time_s) + consequence);
+  } else if (last_->fix < config_.least_fix) {
+    const std::string lasts =
+        until_s ? " for " + time_in_words(now_s - *until_s) : std::string(" yet");
+    alarms.push_back("gnss: no fix" + lasts + consequence);
+  } else if (kept && is_disbelieved(now_s)) {
+    alarms.push_back(disagreement(now_s));
+  }
+}
+
+}  // namespace ols

@@ -1,0 +1,99 @@
+#include "edge/sensors/kept_tilt.h"
+
+#include <cmath>
+
+#include "edge/sensors/alarm_words.h"
+#include "geometry/angles.h"
+
+namespace ols {
+
+namespace {
+
+using Eigen::Vector2d;
+
+StandingValue<2>::Config standing(const PoseKeeper::Config& config) {
+  StandingValue<2>::Config c;
+  c.gate_sigma = config.alarm_sigma;
+  c.memory_s = config.inclinometer_memory_s;
+  c.settle_readings = 5;
+  return c;
+}
+
+std::optional<StandingValue<2>::Estimate> survey(const PoseKeeper::Config& config) {
+  if (!config.surveyed_tilt_rad) return std::nullopt;
+  return StandingValue<2>::Estimate{*config.surveyed_tilt_rad,
+                                    Vector2d::Constant(config.surveyed_tilt_sd_rad)};
+}
+
+bool is_usable(const TiltReading& r) {
+  return std::isfinite(r.time_s) && std::abs(r.tilt_x_rad) < 1.6 && std::abs(r.tilt_y_rad) < 1.6;
+}
+
+}  // namespace
+
+KeptTilt::KeptTilt(const PoseKeeper::Config& config)
+    : config_(config), tilt_(standing(config), survey(config)) {}
+
+void KeptTilt::add(const TiltReading& reading) {
+  if (!is_usable(reading) || (last_ && reading.time_s < last_->time_s)) return;
+  const bool changed =
+      !last_ || reading.tilt_x_rad != last_->tilt_x_rad || reading.tilt_y_rad != last_->tilt_y_rad;
+  if (changed) changed_s_ = reading.time_s;
+  last_ = reading;
+  if (is_stuck(reading.time_s)) return;
+  tilt_.add(reading.time_s, {reading.tilt_x_rad, reading.tilt_y_rad},
+            Vector2d::Constant(config_.inclinometer_sd_rad));
+}
+
+bool KeptTilt::is_stuck(double time_s) const {
+  return last_ && time_s - changed_s_ >= config_.stuck_s;
+}
+
+bool KeptTilt::is_disbelieved(double now_s) const {
+  const auto since_s = tilt_.disagrees_since_s();
+  return since_s && now_s - *since_s >= config_.alarm_after_s;
+}
+
+bool KeptTilt::is_lost(double now_s) const {
+  const auto until_s = tilt_.supported_until_s();
+  const bool stale = until_s && now_s - *until_s > config_.inclinometer_stale_s;
+  return last_ && (stale || is_disbelieved(now_s) || is_stuck(last_->time_s));
+}
+
+void KeptTilt::fill(StationPose& pose, double now_s) const {
+  const auto kept = tilt_.estimate();
+  if (!kept) {
+    pose.tilt_sd_rad = config_.level_sd_rad;
+    return;
+  }
+  pose.tilt_source = config_.surveyed_tilt_rad ? PoseSource::kSurveyed : PoseSource::kSensor;
+  pose.tilt_x_rad = kept->value.x();
+  pose.tilt_y_rad = kept->value.y();
+  double grown_rad2 = 0.0;
+  const auto until_s = tilt_.supported_until_s();
+  if (until_s && is_lost(now_s)) {
+    grown_rad2 = std::pow(config_.growth_rad_sqrt_s, 2) * std::max(0.0, now_s - *until_s);
+  }
+  pose.tilt_sd_rad = std::sqrt(kept->sd.cwiseAbs2().maxCoeff() + grown_rad2);
+}
+
+void KeptTilt::add_alarms(std::vector<std::string>& alarms, double now_s) const {
+  if (!last_) return;
+  const char* consequence = tilt_.estimate() ? ", tilt kept" : ", no tilt yet";
+  if (now_s - last_->time_s > config_.inclinometer_stale_s) {
+    alarms.push_back("inclinometer: silent for " + time_in_words(now_s - last_->time_s) +
+                     consequence);
+  } else if (is_stuck(last_->time_s)) {
+    alarms.push_back("inclinometer: stuck for " + time_in_words(now_s - changed_s_) + consequence);
+  } else if (is_disbelieved(now_s)) {
+    std::string text = "inclinometer: " + angle_in_words(tilt_.distance().norm()) + " from the " +
+                       (config_.surveyed_tilt_rad ? "survey" : "kept tilt");
+    const double lasts_s = now_s - *tilt_.disagrees_since_s();
+    if (lasts_s >= config_.restation_s) {
+      text += " for " + time_in_words(lasts_s) + ": set the station up anew";
+    }
+    alarms.push_back(text);
+  }
+}
+
+}  // namespace ols

@@ -1,0 +1,19 @@
+#include "edge/sensors/pose_keeper_config.h"
+
+namespace ols {
+
+PoseKeeper::Config pose_keeper_config(const InclinometerConfig& inclinometer,
+                                      const GnssConfig& gnss) {
+  PoseKeeper::Config c;
+  c.ground_to_antenna_enu_m = gnss.ground_to_antenna_enu_m;
+  c.least_fix = gnss.least_fix;
+  c.gnss_sd_floor_m = gnss.sd_floor_m;
+  c.gnss_stale_s = gnss.stale_s;
+  c.accept_move_s = gnss.accept_move_s;
+  c.inclinometer_sd_rad = inclinometer.sd_rad;
+  c.inclinometer_stale_s = inclinometer.stale_s;
+  c.stuck_s = inclinometer.stuck_s;
+  return c;
+}
+
+}  // namespace ols

@@ -1,0 +1,124 @@
+// Something that stands still and is measured again and again: a tripod's place, its tilt. Pure.
+//
+// Readings are averaged with weights 1/sd^2. Their errors are taken as wholly correlated (multipath
+// and a sensor's zero stay for hours), so that the average's sd is the weighted mean of the
+// readings' sds and does not shrink with their number. A reading far from what is kept is not
+// believed; readings that disagree with it but agree with each other are averaged apart, and take
+// its place only where that is asked for.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace ols {
+
+template <int N>
+class StandingValue {
+ public:
+  using Vector = Eigen::Matrix<double, N, 1>;
+
+  struct Config {
+    double gate_sigma = 5.0;     // on each axis
+    double memory_s = 3600.0;    // older readings weigh less by e in such a time
+    int settle_readings = 3;     // that agree, before there is a value
+    double accept_move_s = 0.0;  // a new value that holds for so long is taken; 0: never
+  };
+  struct Estimate {
+    Vector value = Vector::Zero();
+    Vector sd = Vector::Zero();
+  };
+
+  // `survey`: what is known otherwise; it is kept whatever the readings say.
+  StandingValue(const Config& config, const std::optional<Estimate>& survey)
+      : config_(config), survey_(survey) {}
+
+  // In time order; finite, sd > 0.
+  void add(double time_s, const Vector& value, const Vector& sd) {
+    if (!first_s_) first_s_ = time_s;
+    const std::optional<Estimate> kept = estimate();
+    if (!kept) {
+      gather(time_s, value, sd);
+      if (apart_.count >= config_.settle_readings) adopt(time_s);
+    } else if (agrees(*kept, value, sd)) {
+      if (!survey_) average_.add(time_s, value, sd, config_.memory_s);
+      support(time_s);
+    } else {
+      distance_ = value - kept->value;
+      if (!disagrees_since_s_) disagrees_since_s_ = time_s;
+      gather(time_s, value, sd);
+      const bool held = time_s - apart_.since_s >= config_.accept_move_s;
+      if (!survey_ && config_.accept_move_s > 0.0 && held) {
+        moved_ = distance_.norm();
+        adopt(time_s);
+      }
+    }
+  }
+
+  std::optional<Estimate> estimate() const {
+    if (survey_) return survey_;
+    if (average_.count == 0) return std::nullopt;
+    return average_.estimate();
+  }
+
+  // The last reading that agreed, else the first at all; nothing when there was none.
+  std::optional<double> supported_until_s() const { return support_s_ ? support_s_ : first_s_; }
+  // Since when the readings, without exception, have not been believed.
+  std::optional<double> disagrees_since_s() const { return disagrees_since_s_; }
+  const Vector& distance() const { return distance_; }  // of the last reading not believed
+  // How far the value was moved because a new one had held long enough.
+  std::optional<double> moved() const { return moved_; }
+
+ private:
+  struct Average {
+    Vector weight = Vector::Zero(), value_sum = Vector::Zero(), sd_sum = Vector::Zero();
+    double since_s = 0.0, time_s = 0.0;
+    int count = 0;
+
+    void add(double now_s, const Vector& value, const Vector& sd, double memory_s) {
+      if (count == 0) since_s = now_s;
+      const double kept = std::exp(-std::max(0.0, now_s - time_s) / memory_s);
+      const Vector w = sd.cwiseAbs2().cwiseInverse();
+      weight = kept * weight + w;
+      value_sum = kept * value_sum + w.cwiseProduct(value);
+      sd_sum = kept * sd_sum + w.cwiseProduct(sd);
+      time_s = now_s;
+      count = std::min(count + 1, 1'000'000);
+    }
+    Estimate estimate() const {
+      return {value_sum.cwiseQuotient(weight), sd_sum.cwiseQuotient(weight)};
+    }
+  };
+
+  bool agrees(const Estimate& kept, const Vector& value, const Vector& sd) const {
+    const Vector gate = config_.gate_sigma * (sd.cwiseAbs2() + kept.sd.cwiseAbs2()).cwiseSqrt();
+    return ((value - kept.value).cwiseAbs().array() <= gate.array()).all();
+  }
+
+  // Into the average of those that are not believed (yet).
+  void gather(double time_s, const Vector& value, const Vector& sd) {
+    if (apart_.count > 0 && !agrees(apart_.estimate(), value, sd)) apart_ = {};
+    apart_.add(time_s, value, sd, config_.memory_s);
+  }
+
+  void adopt(double time_s) {
+    average_ = apart_;
+    support(time_s);
+  }
+
+  void support(double time_s) {
+    support_s_ = time_s;
+    disagrees_since_s_.reset();
+    apart_ = {};
+  }
+
+  Config config_;
+  std::optional<Estimate> survey_;
+  Average average_, apart_;
+  std::optional<double> first_s_, support_s_, disagrees_since_s_;
+  std::optional<double> moved_;
+  Vector distance_ = Vector::Zero();
+};
+
+}  // namespace ols

@@ -1,0 +1,329 @@
+#include "edge/sensors/pose_keeper.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "geometry/angles.h"
+
+namespace ols {
+namespace {
+
+using Eigen::Vector3d;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const Geodetic kGround{radians(49.2266), radians(16.5969), 310.0};
+const Vector3d kAntenna_enu_m{0.1, -0.2, 1.9};
+constexpr double kSd_m = 0.02;
+
+Geodetic moved(const Geodetic& from, const Vector3d& by_enu_m) {
+  return geodetic_from_ecef(LocalFrame(from).to_ecef(by_enu_m));
+}
+
+double distance_m(const Geodetic& a, const Geodetic& b) {
+  return (ecef_from_geodetic(a) - ecef_from_geodetic(b)).norm();
+}
+
+GnssReading fix(double time_s, const Vector3d& error_enu_m = Vector3d::Zero(),
+                double sd_m = kSd_m) {
+  GnssReading r;
+  r.time_s = time_s;
+  r.fix = GnssFix::kRtkFixed;
+  r.antenna = moved(kGround, kAntenna_enu_m + error_enu_m);
+  r.sd_enu_m.setConstant(sd_m);
+  r.satellites_used = 14;
+  return r;
+}
+
+GnssReading no_fix(double time_s) {
+  GnssReading r;
+  r.time_s = time_s;
+  return r;
+}
+
+// A tilt whose last digits move, as they do.
+TiltReading tilt(double time_s, double x_deg = 0.12, double y_deg = -0.08) {
+  const double flicker_deg = 0.0005 * std::sin(7.3 * time_s);
+  return {time_s, radians(x_deg + flicker_deg), radians(y_deg)};
+}
+
+PoseKeeper::Config sensors_only() {
+  PoseKeeper::Config c;
+  c.ground_to_antenna_enu_m = kAntenna_enu_m;
+  return c;
+}
+
+PoseKeeper::Config surveyed() {
+  PoseKeeper::Config c = sensors_only();
+  c.surveyed_position = kGround;
+  c.surveyed_position_sd_m = 0.015;
+  c.surveyed_tilt_rad = Eigen::Vector2d(radians(0.12), radians(-0.08));
+  c.surveyed_tilt_sd_rad = 1e-4;
+  return c;
+}
+
+// Feeds both sensors from..to, ten tilts and one fix a second.
+void feed(PoseKeeper& keeper, double from_s, double to_s,
+          const Vector3d& error_enu_m = Vector3d::Zero()) {
+  for (int i = 0; from_s + 0.1 * i < to_s; ++i) {
+    const double now_s = from_s + 0.1 * i;
+    keeper.add(tilt(now_s));
+    if (i % 10 == 0) keeper.add(fix(now_s, error_enu_m));
+  }
+}
+
+TEST(PoseKeeper, KnowsNothingBeforeAnythingWasMeasured) {
+  const PoseKeeper keeper(sensors_only());
+  const StationPose pose = keeper.pose(5.0);
+  EXPECT_EQ(pose.position_source, PoseSource::kNone);
+  EXPECT_EQ(pose.tilt_source, PoseSource::kNone);
+  EXPECT_EQ(pose.tilt_x_rad, 0.0);
+  EXPECT_EQ(pose.tilt_sd_rad, PoseKeeper::Config{}.level_sd_rad);
+  EXPECT_THAT(keeper.alarms(5.0), IsEmpty());
+}
+
+TEST(PoseKeeper, ASurveyWithoutSensorsStaysAsItIs) {
+  const PoseKeeper keeper(surveyed());
+  const StationPose pose = keeper.pose(1e6);
+  EXPECT_EQ(pose.position_source, PoseSource::kSurveyed);
+  EXPECT_EQ(pose.position.latitude_rad, kGround.latitude_rad);
+  EXPECT_EQ(pose.position.height_m, kGround.height_m);
+  EXPECT_NEAR(pose.position_sd_enu_m.x(), 0.015, 1e-12);
+  EXPECT_NEAR(pose.tilt_sd_rad, 1e-4, 1e-12);
+  EXPECT_THAT(keeper.alarms(1e6), IsEmpty());
+}
+
+TEST(PoseKeeper, SensorsGiveThePoseOfGround) {
+  PoseKeeper keeper(sensors_only());
+  feed(keeper, 0.0, 20.0);
+  const StationPose pose = keeper.pose(20.0);
+  EXPECT_EQ(pose.position_source, PoseSource::kSensor);
+  EXPECT_LT(distance_m(pose.position, kGround), 1e-3);
+  EXPECT_NEAR(pose.position.height_m, 310.0, 1e-3);  // above the ellipsoid, the antenna taken off
+  EXPECT_NEAR(degrees(pose.tilt_x_rad), 0.12, 1e-3);
+  EXPECT_NEAR(degrees(pose.tilt_y_rad), -0.08, 1e-9);
+  EXPECT_EQ(pose.tilt_source, PoseSource::kSensor);
+  EXPECT_THAT(keeper.alarms(20.0), IsEmpty());
+}
+
+TEST(PoseKeeper, ASurveyOverridesTheSensors) {
+  PoseKeeper keeper(surveyed());
+  feed(keeper, 0.0, 20.0, Vector3d(0.03, 0.03, -0.03));
+  const StationPose pose = keeper.pose(20.0);
+  EXPECT_EQ(pose.position.longitude_rad, kGround.longitude_rad);
+  EXPECT_NEAR(pose.position_sd_enu_m.x(), 0.015, 1e-12);
+  EXPECT_EQ(pose.tilt_source, PoseSource::kSurveyed);
+  EXPECT_THAT(keeper.alarms(20.0), IsEmpty());
+}
+
+// Errors of GNSS stay for minutes: a thousand readings are not thirty times better than one.
+TEST(PoseKeeper, AnAverageIsNeverBetterThanItsReadingsSay) {
+  PoseKeeper keeper(sensors_only());
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0.0, kSd_m);
+  for (int i = 0; i < 2000; ++i) {
+    keeper.add(fix(i, {normal(random), normal(random), normal(random)}));
+    keeper.add(tilt(i));
+  }
+  const StationPose pose = keeper.pose(2000.0);
+  EXPECT_NEAR(pose.position_sd_enu_m.z(), kSd_m, 1e-9);
+  EXPECT_LT(distance_m(pose.position, kGround), 0.25 * kSd_m);  // and yet it was averaged
+  EXPECT_NEAR(pose.tilt_sd_rad, sensors_only().inclinometer_sd_rad, 1e-12);
+}
+
+TEST(PoseKeeper, NoStatedSdIsBelievedBelowTheFloor) {
+  PoseKeeper keeper(sensors_only());
+  for (int i = 0; i < 10; ++i) keeper.add(fix(i, Vector3d::Zero(), 1e-6));
+  EXPECT_NEAR(keeper.pose(10.0).position_sd_enu_m.x(), 0.01, 1e-9);
+}
+
+TEST(PoseKeeper, BetterFixesTakeOver) {
+  PoseKeeper keeper(sensors_only());
+  for (int i = 0; i < 60; ++i) keeper.add(fix(i, {1.5, -1.0, 2.0}, 2.0));
+  EXPECT_NEAR(keeper.pose(60.0).position_sd_enu_m.x(), 2.0, 1e-6);
+  for (int i = 60; i < 120; ++i) keeper.add(fix(i));
+  EXPECT_LT(distance_m(keeper.pose(120.0).position, kGround), 0.02);
+  EXPECT_LT(keeper.pose(120.0).position_sd_enu_m.x(), 0.03);
+}
+
+class PoseKeeperFaults : public testing::TestWithParam<bool> {
+ protected:
+  PoseKeeper keeper_{GetParam() ? surveyed() : sensors_only()};
+  const char* reference_ = GetParam() ? "survey" : "kept position";
+};
+INSTANTIATE_TEST_SUITE_P(SurveyedOrNot, PoseKeeperFaults, testing::Bool());
+
+TEST_P(PoseKeeperFaults, FixLost) {
+  feed(keeper_, 0.0, 60.0);
+  const StationPose before = keeper_.pose(60.0);
+  for (int i = 0; i <= 100; ++i) {
+    keeper_.add(no_fix(60.0 + i));
+    keeper_.add(tilt(60.0 + i));
+  }
+  const StationPose after = keeper_.pose(160.0);
+  EXPECT_EQ(distance_m(after.position, before.position), 0.0);
+  EXPECT_EQ(after.position_source, before.position_source);
+  EXPECT_NEAR(after.position_sd_enu_m.x(), std::hypot(before.position_sd_enu_m.x(), 0.1), 1e-3);
+  EXPECT_THAT(keeper_.alarms(160.0), ElementsAre("gnss: no fix for 101 s, position kept"));
+
+  feed(keeper_, 161.0, 170.0);
+  EXPECT_THAT(keeper_.alarms(170.0), IsEmpty());
+  EXPECT_NEAR(keeper_.pose(170.0).position_sd_enu_m.x(), before.position_sd_enu_m.x(), 1e-6);
+}
+
+TEST_P(PoseKeeperFaults, ReceiverSilent) {
+  feed(keeper_, 0.0, 60.0);
+  const StationPose before = keeper_.pose(60.0);
+  EXPECT_THAT(keeper_.alarms(68.0), ElementsAre(HasSubstr("inclinometer: silent")));
+  EXPECT_THAT(keeper_.alarms(75.0), ElementsAre("gnss: silent for 16 s, position kept",
+                                                "inclinometer: silent for 15 s, tilt kept"));
+  const StationPose after = keeper_.pose(460.0);
+  EXPECT_EQ(distance_m(after.position, before.position), 0.0);
+  EXPECT_GT(after.position_sd_enu_m.x(), 0.19);
+  EXPECT_EQ(after.tilt_x_rad, before.tilt_x_rad);
+  EXPECT_GT(after.tilt_sd_rad, 3e-4);
+}
+
+TEST_P(PoseKeeperFaults, PositionJump) {
+  feed(keeper_, 0.0, 60.0);
+  const StationPose before = keeper_.pose(60.0);
+  feed(keeper_, 60.0, 120.0, {103.0, 0.0, 0.0});
+  const StationPose after = keeper_.pose(120.0);
+  EXPECT_EQ(distance_m(after.position, before.position), 0.0);
+  EXPECT_GT(after.position_sd_enu_m.x(), 0.07);
+  EXPECT_THAT(keeper_.alarms(120.0),
+              ElementsAre(std::string("gnss: 103 m from the ") + reference_));
+
+  feed(keeper_, 120.0, 480.0, {103.0, 0.0, 0.0});
+  EXPECT_THAT(keeper_.alarms(480.0), ElementsAre(std::string("gnss: 103 m from the ") + reference_ +
+                                                 " for 7 min: set the station up anew"));
+  EXPECT_LT(distance_m(keeper_.pose(480.0).position, before.position), 1e-9);
+
+  feed(keeper_, 480.0, 490.0);
+  EXPECT_THAT(keeper_.alarms(490.0), IsEmpty());
+}
+
+TEST_P(PoseKeeperFaults, ALoneOutlierIsNeitherBelievedNorAnAlarm) {
+  feed(keeper_, 0.0, 60.0);
+  const StationPose before = keeper_.pose(60.0);
+  keeper_.add(fix(60.0, {5.0, 0.0, 0.0}));
+  keeper_.add({60.0, radians(2.0), 0.0});
+  EXPECT_THAT(keeper_.alarms(60.5), IsEmpty());
+  EXPECT_EQ(distance_m(keeper_.pose(60.5).position, before.position), 0.0);
+  feed(keeper_, 61.0, 70.0);
+  EXPECT_THAT(keeper_.alarms(70.0), IsEmpty());
+}
+
+TEST_P(PoseKeeperFaults, InclinometerStuck) {
+  feed(keeper_, 0.0, 60.0);
+  const StationPose before = keeper_.pose(60.0);
+  for (int i = 0; i < 1600; ++i) {
+    TiltReading same = tilt(59.9);
+    same.time_s = 60.0 + 0.1 * i;
+    keeper_.add(same);
+    if (i % 10 == 0) keeper_.add(fix(60.0 + 0.1 * i));
+  }
+  EXPECT_THAT(keeper_.alarms(220.0), ElementsAre("inclinometer: stuck for 3 min, tilt kept"));
+  EXPECT_NEAR(keeper_.pose(220.0).tilt_x_rad, before.tilt_x_rad, radians(0.001));
+  EXPECT_GT(keeper_.pose(220.0).tilt_sd_rad, before.tilt_sd_rad + 3e-5);
+}
+
+TEST_P(PoseKeeperFaults, InclinometerDisagrees) {
+  feed(keeper_, 0.0, 60.0);
+  const StationPose before = keeper_.pose(60.0);
+  for (int i = 0; i < 300; ++i) {
+    keeper_.add(tilt(60.0 + 0.1 * i, 0.42, -0.08));
+    if (i % 10 == 0) keeper_.add(fix(60.0 + 0.1 * i));
+  }
+  EXPECT_THAT(keeper_.alarms(90.0), ElementsAre(std::string("inclinometer: 0.30 deg from the ") +
+                                                (GetParam() ? "survey" : "kept tilt")));
+  EXPECT_EQ(keeper_.pose(90.0).tilt_x_rad, before.tilt_x_rad);
+  EXPECT_GT(keeper_.pose(90.0).tilt_sd_rad, before.tilt_sd_rad);
+}
+
+TEST(PoseKeeper, AWrongSurveyIsAnAlarmFromTheStart) {
+  PoseKeeper keeper(surveyed());
+  feed(keeper, 0.0, 10.0, {0.0, 2.5, 0.0});
+  EXPECT_THAT(keeper.alarms(10.0), ElementsAre("gnss: 2.50 m from the survey"));
+  EXPECT_GT(keeper.pose(10.0).position_sd_enu_m.x(), 0.03);
+}
+
+TEST(PoseKeeper, ANewPlaceIsTakenOnlyWhereThatIsConfigured) {
+  PoseKeeper::Config config = sensors_only();
+  config.accept_move_s = 600.0;
+  PoseKeeper keeper(config);
+  feed(keeper, 0.0, 60.0);
+  feed(keeper, 60.0, 600.0, {8.0, 0.0, 0.0});
+  EXPECT_LT(distance_m(keeper.pose(600.0).position, kGround), 1e-3);
+  feed(keeper, 600.0, 700.0, {8.0, 0.0, 0.0});
+  EXPECT_LT(distance_m(keeper.pose(700.0).position, moved(kGround, {8.0, 0.0, 0.0})), 1e-3);
+  EXPECT_THAT(keeper.alarms(700.0),
+              ElementsAre("gnss: position taken anew, 8.00 m from before: check the heading"));
+}
+
+TEST(PoseKeeper, ASlowSettlingOfTheTripodIsFollowed) {
+  PoseKeeper keeper(sensors_only());
+  for (int i = 0; i < 36000; ++i) keeper.add(tilt(0.1 * i, 0.12 + 0.3 * i / 36000.0));
+  EXPECT_NEAR(degrees(keeper.pose(3600.0).tilt_x_rad), 0.42, 0.01);
+  EXPECT_THAT(keeper.alarms(3600.0), IsEmpty());
+}
+
+TEST(PoseKeeper, FixesWorseThanAskedForAreNotUsed) {
+  PoseKeeper::Config config = sensors_only();
+  config.least_fix = GnssFix::kRtkFloat;
+  PoseKeeper keeper(config);
+  for (int i = 0; i < 10; ++i) {
+    GnssReading r = fix(i);
+    r.fix = GnssFix::kDifferential;
+    keeper.add(r);
+  }
+  EXPECT_EQ(keeper.pose(10.0).position_source, PoseSource::kNone);
+  EXPECT_THAT(keeper.alarms(10.0), ElementsAre("gnss: no fix yet, no position yet"));
+}
+
+// Whatever comes, the pose is finite, the survey is never given up, and no sd is below what it was
+// at the start.
+TEST(PoseKeeper, HoldsWhateverComes) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    std::mt19937 random(seed);
+    const bool with_survey = seed % 2 == 0;
+    PoseKeeper keeper(with_survey ? surveyed() : sensors_only());
+    const double odd[] = {std::nan(""), std::numeric_limits<double>::infinity(), 1e300, -1.0, 0.0};
+    const auto spoil = [&](double& value) {
+      if (random() % 20 == 0) value = odd[random() % std::size(odd)];
+    };
+    std::normal_distribution<double> normal;
+    double now_s = 0.0;
+    for (int i = 0; i < 3000; ++i) {
+      now_s += 0.1;
+      const double scale_m = random() % 10 == 0 ? 1e3 : kSd_m;
+      GnssReading r = fix(now_s, scale_m * Vector3d(normal(random), normal(random), 0.0));
+      r.fix = static_cast<GnssFix>(random() % 6);
+      spoil(r.antenna.latitude_rad), spoil(r.antenna.height_m), spoil(r.time_s);
+      spoil(r.sd_enu_m.x());
+      keeper.add(r);
+      TiltReading t = tilt(now_s, normal(random), normal(random));
+      spoil(t.tilt_x_rad), spoil(t.time_s);
+      keeper.add(t);
+      const StationPose pose = keeper.pose(now_s);
+      ASSERT_TRUE(std::isfinite(pose.position.latitude_rad + pose.position.height_m));
+      ASSERT_TRUE(pose.position_sd_enu_m.allFinite());
+      ASSERT_TRUE(std::isfinite(pose.tilt_x_rad + pose.tilt_y_rad + pose.tilt_sd_rad));
+      if (pose.position_source != PoseSource::kNone) {
+        ASSERT_GE(pose.position_sd_enu_m.minCoeff(), 0.01 - 1e-9);
+      }
+      if (with_survey) {
+        ASSERT_EQ(distance_m(pose.position, kGround), 0.0);
+      }
+      keeper.alarms(now_s);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ols

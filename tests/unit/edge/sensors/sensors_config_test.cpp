@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include "edge/sensors/pose_keeper_config.h"
+#include "geometry/angles.h"
+
+namespace ols {
+namespace {
+
+InclinometerConfig inclinometer(const std::string& text) {
+  ConfigFile file(text, "t.toml");
+  const auto config = read_inclinometer_config(file.root().table("inclinometer"));
+  file.finish();
+  return config;
+}
+
+GnssConfig gnss(const std::string& text) {
+  ConfigFile file(text, "t.toml");
+  const auto config = read_gnss_config(file.root().table("gnss"));
+  file.finish();
+  return config;
+}
+
+std::string error_of(auto&& read) {
+  try {
+    read();
+  } catch (const ConfigError& problem) {
+    return problem.what();
+  }
+  return "none";
+}
+
+TEST(SensorsConfig, NothingIsConfiguredByDefault) {
+  EXPECT_TRUE(inclinometer("").device.empty());
+  EXPECT_TRUE(gnss("").host.empty());
+}
+
+TEST(SensorsConfig, EveryKeyArrives) {
+  const auto i = inclinometer(R"([inclinometer]
+device = "/dev/ttyUSB1"
+baud = 19200
+parity = "even"
+stale_s = 2.5
+stuck_s = 30.0
+swap_axes = true
+x_sign = -1
+y_sign = 1
+x_zero_deg = 0.5
+y_zero_deg = -0.25
+range_deg = 20.0
+sd_deg = 0.02
+)");
+  EXPECT_EQ(i.device, "/dev/ttyUSB1");
+  EXPECT_EQ(i.baud, 19200);
+  EXPECT_TRUE(i.even_parity);
+  EXPECT_TRUE(i.swap_axes);
+  EXPECT_EQ(i.x_sign, -1);
+  EXPECT_NEAR(i.x_zero_rad, radians(0.5), 1e-15);
+  EXPECT_NEAR(i.y_zero_rad, radians(-0.25), 1e-15);
+  const auto g = gnss(R"([gnss]
+host = "127.0.0.1"
+port = 2950
+stale_s = 4.0
+least_fix = "rtk-float"
+ground_to_antenna_enu_m = [0.1, -0.2, 1.8]
+sd_floor_m = 0.03
+error_sigmas = 2.0
+accept_move_s = 900.0
+)");
+  EXPECT_EQ(g.host, "127.0.0.1");
+  EXPECT_EQ(g.port, "2950");
+  EXPECT_EQ(g.error_sigmas, 2.0);
+  const auto keeper = pose_keeper_config(i, g);
+  EXPECT_EQ(keeper.stuck_s, 30.0);
+  EXPECT_EQ(keeper.inclinometer_stale_s, 2.5);
+  EXPECT_NEAR(keeper.inclinometer_sd_rad, radians(0.02), 1e-15);
+  EXPECT_EQ(keeper.gnss_stale_s, 4.0);
+  EXPECT_EQ(keeper.least_fix, GnssFix::kRtkFloat);
+  EXPECT_EQ(keeper.ground_to_antenna_enu_m, Eigen::Vector3d(0.1, -0.2, 1.8));
+  EXPECT_EQ(keeper.gnss_sd_floor_m, 0.03);
+  EXPECT_EQ(keeper.accept_move_s, 900.0);
+}
+
+TEST(SensorsConfig, ErrorsNameFileLineAndKey) {
+  EXPECT_EQ(error_of([] {
+              inclinometer("[inclinometer]\nx_sign = 0\n");
+            }).rfind("t.toml:2: inclinometer.x_sign", 0),
+            0U);
+  for (const char* line : {"baud = 9601", "parity = \"odd\"", "stale_s = 0", "range_deg = 100",
+                           "sd_deg = 0", "devise = \"/dev/ttyUSB0\"", "device = 3"}) {
+    const std::string text = std::string("[inclinometer]\n") + line + "\n";
+    EXPECT_EQ(error_of([&] { inclinometer(text); }).rfind("t.toml:2: ", 0), 0U) << line;
+  }
+  for (const char* line : {"port = 0", "port = \"2947\"", "least_fix = \"4\"", "stale_s = nan",
+                           "ground_to_antenna_enu_m = [1, 2]", "sd_floor_m = 0", "hosst = \"a\""}) {
+    const std::string text = std::string("[gnss]\n") + line + "\n";
+    EXPECT_EQ(error_of([&] { gnss(text); }).rfind("t.toml:2: ", 0), 0U) << line;
+  }
+}
+
+}  // namespace
+}  // namespace ols
