@@ -1,13 +1,24 @@
 #include "tools/sim/live_site.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
+#include <stdexcept>
 
 #include "base/clocks.h"
+#include "ols_msg/sim_fault_t.hpp"
+#include "ols_msg/truth_ptu_t.hpp"
 #include "ols_msg/truth_target_t.hpp"
 #include "ols_msg/truth_view_t.hpp"
 
 namespace ols::sim {
+namespace {
+
+constexpr double kPtuSample_s = 0.0025;
+constexpr std::int64_t kMostPtuSamples = 400;  // a line remembers two seconds
+
+}  // namespace
 
 // One station's devices. The camera's thread draws, so it ends before what it draws with.
 struct LiveSite::Device {
@@ -15,6 +26,9 @@ struct LiveSite::Device {
   std::unique_ptr<Renderer> renderer;
   std::unique_ptr<PtuLine> ptu;
   std::unique_ptr<CameraServer> camera;
+  StationFaults faults;              // as applied
+  std::int64_t stop_edge_utime = 0;  // true UTC
+  std::int64_t ptu_samples = 0;      // published, since the scenario's start
 };
 
 LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& bus)
@@ -44,6 +58,10 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
         });
     devices_.push_back(std::move(device));
   }
+  for (const Fault& fault : s.faults) faults_.add(fault);
+  bus.subscribe("OLS_SIM_FAULT", [this](const std::string&, const void* data, int bytes) {
+    receive_fault(data, bytes);
+  });
 }
 
 LiveSite::~LiveSite() = default;
@@ -96,19 +114,71 @@ void LiveSite::publish_view(const Device& device, const ExposureTruth& exposure,
   bus_.publish("OLS_SIM_VIEW_" + message.station, message);
 }
 
+void LiveSite::publish_target(std::size_t index, double now_s) {
+  const TargetTruth target = world_.target(index, now_s);
+  ols_msg::truth_target_t message;
+  message.utime = true_utime_us(now_s);
+  message.target_id = static_cast<std::int64_t>(index);
+  for (int axis = 0; axis < 3; ++axis) {
+    message.position_ecef_m[axis] = target.p_ecef[axis];
+    message.velocity_ecef_m_s[axis] = target.v_ecef[axis];
+  }
+  const std::lock_guard lock(bus_mutex_);
+  bus_.publish("OLS_SIM_TRUTH", message);
+}
+
+void LiveSite::publish_ptu(Device& device, double now_s) {
+  const auto due = static_cast<std::int64_t>(now_s / kPtuSample_s);
+  // After a pause of this process only what the line still remembers.
+  device.ptu_samples = std::max(device.ptu_samples, due - kMostPtuSamples);
+  ols_msg::truth_ptu_t message;
+  message.utime = true_utime_us(static_cast<double>(device.ptu_samples) * kPtuSample_s);
+  message.station = world_.stations()[device.station].id;
+  message.interval_s = kPtuSample_s;
+  for (; device.ptu_samples < due; ++device.ptu_samples) {
+    const double at_s = static_cast<double>(device.ptu_samples) * kPtuSample_s;
+    const PanTilt angles =
+        device.ptu->angles_at(at_s + 1e-9 * static_cast<double>(start_monotonic_ns_));
+    message.pan_rad.push_back(angles.pan_rad);
+    message.tilt_rad.push_back(angles.tilt_rad);
+  }
+  message.samples = static_cast<std::int16_t>(message.pan_rad.size());
+  message.stop_pressed = static_cast<std::int8_t>(device.faults.stop_pressed);
+  message.stop_edge_utime = device.stop_edge_utime;
+  const std::lock_guard lock(bus_mutex_);
+  bus_.publish("OLS_SIM_PTU_" + message.station, message);
+}
+
 void LiveSite::publish_truth() {
   const double now_s = scenario_s(clock_monotonic_ns());
-  for (std::size_t i = 0; i < world_.scenario().targets.size(); ++i) {
-    const TargetTruth target = world_.target(i, now_s);
-    ols_msg::truth_target_t message;
-    message.utime = true_utime_us(now_s);
-    message.target_id = static_cast<std::int64_t>(i);
-    for (int axis = 0; axis < 3; ++axis) {
-      message.position_ecef_m[axis] = target.p_ecef[axis];
-      message.velocity_ecef_m_s[axis] = target.v_ecef[axis];
+  for (std::size_t i = 0; i < world_.scenario().targets.size(); ++i) publish_target(i, now_s);
+  for (const auto& device : devices_) publish_ptu(*device, now_s);
+}
+
+void LiveSite::receive_fault(const void* data, int bytes) {
+  ols_msg::sim_fault_t message;
+  if (!decode_exactly(data, bytes, message)) return;
+  const double now_s = scenario_s(clock_monotonic_ns());
+  try {
+    faults_.command({message.kind, message.station, now_s, message.duration_s, message.value},
+                    now_s);
+    std::cout << now_s << " s: " << message.kind << " at "
+              << (message.station.empty() ? "all stations" : message.station) << " for "
+              << message.duration_s << " s, value " << message.value << std::endl;
+  } catch (const std::invalid_argument& problem) {
+    std::cerr << "ols-sim: OLS_SIM_FAULT refused: " << problem.what() << std::endl;
+  }
+}
+
+void LiveSite::apply_faults() {
+  const double now_s = scenario_s(clock_monotonic_ns());
+  for (const auto& device : devices_) {
+    const StationFaults now = faults_.at(world_.stations()[device->station].id, now_s);
+    if (now == device->faults) continue;
+    if (now.stop_pressed != device->faults.stop_pressed) {
+      device->stop_edge_utime = true_utime_us(scenario_s(clock_monotonic_ns()));
     }
-    const std::lock_guard lock(bus_mutex_);
-    bus_.publish("OLS_SIM_TRUTH", message);
+    device->faults = now;
   }
 }
 

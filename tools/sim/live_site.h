@@ -1,5 +1,6 @@
 // The world in real time, behind real wires: a GigE Vision camera and a PTU on a pty for every
-// station. The truth goes out on channels that no product process reads.
+// station. The truth goes out on channels that no product process reads; faults come from the
+// scenario and by OLS_SIM_FAULT.
 #pragma once
 
 #include <atomic>
@@ -11,6 +12,7 @@
 
 #include "base/lcm_bus.h"
 #include "tools/sim/camera_server.h"
+#include "tools/sim/fault_plan.h"
 #include "tools/sim/ptu_line.h"
 #include "tools/sim/renderer.h"
 #include "tools/sim/world.h"
@@ -26,12 +28,20 @@ class LiveSite {
   LiveSite(const World& world, const std::string& line_folder, LcmBus& bus);
   ~LiveSite();
 
-  // OLS_SIM_TRUTH: the targets as they are now.
+  // OLS_SIM_TRUTH and OLS_SIM_PTU_<station>: targets and PTUs as they are now, and have been since
+  // the last call.
   void publish_truth();
+
+  // Gives every device the faults that hold now. Call it every few milliseconds, in the thread that
+  // handles the bus.
+  void apply_faults();
 
  private:
   struct Device;
 
+  void receive_fault(const void* data, int bytes);
+  void publish_target(std::size_t index, double now_s);
+  void publish_ptu(Device& device, double now_s);
   void draw(Device& device, const Exposure& exposure, cv::Mat& gray);
   void publish_view(const Device& device, const ExposureTruth& exposure, const ViewTruth& view,
                     std::int64_t stamp_us);
@@ -43,6 +53,7 @@ class LiveSite {
   std::mutex bus_mutex_;
   std::int64_t start_monotonic_ns_;
   std::int64_t start_utc_ns_;  // true UTC of that instant
+  FaultPlan faults_;
   std::vector<std::unique_ptr<Device>> devices_;
 };
 

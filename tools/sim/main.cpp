@@ -1,10 +1,10 @@
 // ols-sim: the simulated site, live behind real wires or in lockstep without any.
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
 #include <opencv2/core.hpp>
-#include <thread>
 
 #include "base/command_line.h"
 #include "base/lcm_bus.h"
@@ -77,13 +77,19 @@ void list(const ols::sim::Scenario& scenario, const std::string& line_folder) {
 
 void run_live(const ols::sim::World& world, const Options& options) {
   constexpr auto kTruthInterval = std::chrono::milliseconds(33);
+  constexpr int kTurn_ms = 5;
   cv::setNumThreads(1);  // the cameras' threads are the parallelism
   ols::LcmBus bus(options.lcm_url);
   ols::sim::LiveSite site(world, options.line_folder, bus);
   std::cout << "ready" << std::endl;
+  auto truth_due = std::chrono::steady_clock::now();
   while (!ols::shutdown_requested()) {
+    bus.handle(kTurn_ms);
+    site.apply_faults();
+    const auto now = std::chrono::steady_clock::now();
+    if (now < truth_due) continue;
+    truth_due = std::max(truth_due + kTruthInterval, now);
     site.publish_truth();
-    std::this_thread::sleep_for(kTruthInterval);
   }
 }
 

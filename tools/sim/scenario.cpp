@@ -1,5 +1,6 @@
 #include "tools/sim/scenario.h"
 
+#include <algorithm>
 #include <set>
 
 #include "base/toml_config.h"
@@ -199,6 +200,21 @@ void read_stations(ConfigTable& root, Scenario& s) {
   if (s.stations.empty()) throw root.error("station", "at least one is needed");
 }
 
+Fault read_fault(ConfigTable& table, const std::vector<StationScenario>& stations) {
+  Fault f;
+  f.kind = table.required_text("kind");
+  f.station = table.text("station", "");
+  f.at_s = table.required_number("at_s", 0.0, 1e9);
+  if (table.has("for_s")) f.for_s = table.required_number("for_s", 0.0, 1e9);
+  if (table.has("value")) f.value = table.required_number("value", -1e9, 1e9);
+  const FaultProblem problem = check(f);
+  if (!problem.key.empty()) throw table.error(problem.key, problem.what);
+  const bool known = std::any_of(stations.begin(), stations.end(),
+                                 [&f](const StationScenario& s) { return s.id == f.station; });
+  if (!f.station.empty() && !known) throw table.error("station", "there is none of this id");
+  return f;
+}
+
 Scenario read_scenario(ConfigFile& file, const std::string& folder) {
   ConfigTable& root = file.root();
   Scenario s;
@@ -217,6 +233,9 @@ Scenario read_scenario(ConfigFile& file, const std::string& folder) {
     s.targets.push_back(read_target(*table, site, folder));
   }
   if (s.targets.empty()) throw root.error("target", "at least one is needed");
+  for (ConfigTable* table : root.tables("fault")) {
+    s.faults.push_back(read_fault(*table, s.stations));
+  }
   file.finish();
   return s;
 }

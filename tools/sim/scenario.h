@@ -9,6 +9,7 @@
 
 #include "geometry/angles.h"
 #include "geometry/sight.h"
+#include "tools/sim/fault_plan.h"
 #include "tools/sim/trajectory.h"
 
 namespace ols::sim {
@@ -105,6 +106,7 @@ struct Scenario {
   Landscape landscape;
   std::vector<StationScenario> stations;
   std::vector<TargetScenario> targets;
+  std::vector<Fault> faults;
 };
 
 // Throws ConfigError naming file, line and key.

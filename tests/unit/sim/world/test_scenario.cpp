@@ -33,7 +33,7 @@ std::string error_of(const std::string& text) {
 }
 
 TEST(Scenario, ShippedOnesLoad) {
-  for (const std::string name : {"fig7", "servo", "skyline"}) {
+  for (const std::string name : {"fig7", "servo", "skyline", "faults"}) {
     const Scenario s = load_scenario(std::string(OLS_SCENARIOS) + "/" + name + ".toml");
     EXPECT_EQ(s.name, name);
     EXPECT_EQ(s.stations.size(), 4U);

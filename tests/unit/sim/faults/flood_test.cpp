@@ -1,0 +1,57 @@
+#include "tools/sim/flood.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "ols_msg/slew_t.hpp"
+
+namespace ols::sim {
+namespace {
+
+TEST(Flood, ComesByForeignAndOwnChannelsOfABoundedNumberOfNames) {
+  Flood flood({"alfa"}, 50, 1);
+  std::set<std::string> names;
+  int own = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Packet packet = flood.next();
+    EXPECT_LE(packet.channel.size(), 63U);
+    names.insert(packet.channel);
+    own += packet.channel.starts_with("OLS_") ? 1 : 0;
+  }
+  EXPECT_NEAR(own, 10000, 500);
+  EXPECT_LE(names.size(), 50U + 9U + 7U * 50U);
+  EXPECT_TRUE(names.contains("OLS_PTU_alfa"));
+  EXPECT_TRUE(names.contains("OLS_TARGET"));
+}
+
+TEST(Flood, SomeHaveTheRightFingerprintSomeNot) {
+  Flood flood({"alfa"}, 50, 1);
+  const ols_msg::slew_t slew{};
+  std::vector<std::uint8_t> encoded(static_cast<std::size_t>(slew.getEncodedSize()));
+  slew.encode(encoded.data(), 0, slew.getEncodedSize());
+  encoded.resize(8);
+  int right = 0, wrong = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Packet packet = flood.next();
+    if (packet.channel != "OLS_SLEW_alfa") continue;
+    const bool same =
+        packet.data.size() >= 8 && std::equal(encoded.begin(), encoded.end(), packet.data.begin());
+    ++(same ? right : wrong);
+  }
+  EXPECT_GT(right, 100);
+  EXPECT_GT(wrong, 100);
+}
+
+TEST(Flood, TheSameSeedGivesTheSameMessages) {
+  Flood one({"alfa", "bravo"}, 50, 4), two({"alfa", "bravo"}, 50, 4);
+  for (int i = 0; i < 1000; ++i) {
+    const Packet a = one.next(), b = two.next();
+    EXPECT_EQ(a.channel, b.channel);
+    EXPECT_EQ(a.data, b.data);
+  }
+}
+
+}  // namespace
+}  // namespace ols::sim
