@@ -11,6 +11,7 @@
 #include "ols_msg/truth_ptu_t.hpp"
 #include "ols_msg/truth_target_t.hpp"
 #include "ols_msg/truth_view_t.hpp"
+#include "tools/sim/gpio_socket.h"
 
 namespace ols::sim {
 namespace {
@@ -26,6 +27,7 @@ struct LiveSite::Device {
   std::unique_ptr<Renderer> renderer;
   std::unique_ptr<PtuLine> ptu;
   std::unique_ptr<CameraServer> camera;
+  std::unique_ptr<GpioServer> gpio;
   StationFaults faults;              // as applied
   std::int64_t stop_edge_utime = 0;  // true UTC
   std::int64_t ptu_samples = 0;      // published, since the scenario's start
@@ -45,6 +47,9 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
     device->ptu =
         std::make_unique<PtuLine>(world.ptu_unit_config(), derived_seed(world.seed(), 4000 + i),
                                   line_folder + "/" + s.stations[i].ptu_line);
+    GpioServerConfig gpio;
+    gpio.path = line_folder + "/" + s.stations[i].id + ".gpio";
+    device->gpio = std::make_unique<GpioServer>(gpio);
     CameraServerConfig camera;
     camera.address = s.stations[i].camera_address;
     camera.serial = s.stations[i].id;
@@ -175,7 +180,9 @@ void LiveSite::apply_faults() {
   for (const auto& device : devices_) {
     const StationFaults now = faults_.at(world_.stations()[device->station].id, now_s);
     if (now == device->faults) continue;
+    device->camera->set_faults(now.camera);
     if (now.stop_pressed != device->faults.stop_pressed) {
+      device->gpio->set_pressed(now.stop_pressed);
       device->stop_edge_utime = true_utime_us(scenario_s(clock_monotonic_ns()));
     }
     device->faults = now;
