@@ -53,6 +53,7 @@ PURE = [
     "edge/sensors/kept_*",
     "edge/sensors/pose_keeper.*",
     "edge/sensors/standing_value.h",
+    "edge/recorder/frame_memory.*",
     "edge/tracker/*",
     "central/*",
     "tools/sim/world.*",

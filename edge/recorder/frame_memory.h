@@ -1,0 +1,39 @@
+// The frames of the last seconds, within a bound of bytes. Pure.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace ols {
+
+struct RecordedFrame {
+  cv::Mat gray;
+  std::int64_t utime_us = 0;    // mid-exposure
+  double mid_exposure_s = 0.0;  // station's monotonic clock
+  double sd_s = 0.0;            // 1-sigma of mid_exposure_s
+  std::uint64_t number = 0;
+};
+
+std::size_t bytes_of(const RecordedFrame& frame);
+
+class FrameMemory {
+ public:
+  FrameMemory(double span_s, double most_bytes) : span_s_(span_s), most_bytes_(most_bytes) {}
+
+  void add(const RecordedFrame& frame);
+  // Oldest first, both ends included.
+  std::vector<RecordedFrame> between(double from_s, double to_s) const;
+  const std::deque<RecordedFrame>& frames() const { return frames_; }
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  double span_s_;
+  double most_bytes_;
+  std::deque<RecordedFrame> frames_;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace ols

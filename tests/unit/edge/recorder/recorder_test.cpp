@@ -1,0 +1,231 @@
+// The recorder with its thread and a real folder. Nothing is judged by how long it took.
+#include "edge/recorder/recorder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <thread>
+
+#include "base/clocks.h"
+#include "tests/unit/edge/recorder/temporary_folder.h"
+
+namespace ols {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+bool eventually(const std::function<bool()>& condition) {
+  const double deadline_s = clock_monotonic_s() + 30.0;
+  while (!condition()) {
+    if (clock_monotonic_s() > deadline_s) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+class RecorderTest : public testing::Test {
+ protected:
+  RecorderTest() {
+    config.folder = (folder / "events").string();
+    config.disk_reserve_bytes = 0.0;
+  }
+
+  // The camera: a frame every 0.1 s of the past, then of the future, as if time flew.
+  void film(Recorder& recorder, int frames, int side_px = 64) {
+    for (int i = 0; i < frames; ++i, ++number) {
+      const RecordedFrame r =
+          noisy_frame(number, start_s + 0.1 * static_cast<double>(number), side_px);
+      Frame frame;
+      frame.gray = r.gray;
+      frame.mid_exposure_s = r.mid_exposure_s;
+      frame.stamp_sd_s = r.sd_s;
+      frame.number = number;
+      recorder.add(frame, r.utime_us);
+    }
+  }
+  double time_of(int frame) const { return start_s + 0.1 * frame; }
+
+  std::set<std::string> events() const { return names_in(config.folder); }
+  bool has_events(std::size_t count) {
+    return eventually([&] {
+      const auto names = events();
+      return names.size() == count &&
+             std::ranges::none_of(names, [](const auto& n) { return n.ends_with(".partial"); });
+    });
+  }
+  std::uint64_t count(const Recorder& recorder, const char* name) const {
+    return recorder.report().counters.at(name);
+  }
+  bool counts(const Recorder& recorder, const char* name, std::uint64_t value) const {
+    return eventually([&] { return count(recorder, name) == value; });
+  }
+  // Numbers of the frames in the table of the only event.
+  std::string table() const {
+    return content_of(std::filesystem::path(config.folder) / *events().begin() / "frames.csv");
+  }
+  static std::size_t rows(const std::string& table) {
+    return static_cast<std::size_t>(std::ranges::count(table, '\n')) - 1;
+  }
+
+  const TemporaryFolder folder;
+  RecorderConfig config;
+  double start_s = clock_monotonic_s() - 20.0;
+  std::uint64_t number = 0;
+};
+
+TEST_F(RecorderTest, KeepsTheFramesAroundAnEvent) {
+  Recorder recorder(config);
+  film(recorder, 100);
+  EXPECT_EQ(recorder.record({time_of(80), 2.05, 3.05, "gust"}), "");
+  film(recorder, 100);  // the event ends with the first frame after it
+  ASSERT_TRUE(has_events(1));
+  EXPECT_THAT(*events().begin(), HasSubstr("Z_gust"));
+  const std::string rows_text = table();
+  EXPECT_EQ(rows(rows_text), 51U);  // 60..110
+  EXPECT_THAT(rows_text, HasSubstr(",60,"));
+  EXPECT_THAT(rows_text, HasSubstr(",110,"));
+  EXPECT_THAT(rows_text, testing::Not(HasSubstr(",59,")));
+  EXPECT_THAT(rows_text, testing::Not(HasSubstr(",111,")));
+  EXPECT_TRUE(counts(recorder, "recorder_events_written", 1));
+  EXPECT_EQ(count(recorder, "recorder_frames_written"), 51U);
+  EXPECT_EQ(count(recorder, "recorder_frames_dropped"), 0U);
+  EXPECT_TRUE(eventually([&] { return recorder.report().readings.at("recorder_events") == 1.0; }));
+  EXPECT_GT(recorder.report().readings.at("disk_free_bytes"), 0.0);
+}
+
+TEST_F(RecorderTest, AnEventOfThePastEndsWithoutFurtherFrames) {
+  Recorder recorder(config);
+  film(recorder, 100);
+  EXPECT_EQ(recorder.record({time_of(90), 1.0, 0.5, ""}), "");
+  EXPECT_TRUE(has_events(1));
+}
+
+TEST_F(RecorderTest, TwoEventsThatOverlapBothHaveAll) {
+  Recorder recorder(config);
+  film(recorder, 100);
+  EXPECT_EQ(recorder.record({time_of(90), 1.0, 2.0, "a"}), "");
+  EXPECT_EQ(recorder.record({time_of(95), 1.0, 2.0, "b"}), "");
+  film(recorder, 50);
+  EXPECT_TRUE(counts(recorder, "recorder_events_written", 2));
+  EXPECT_TRUE(has_events(2));
+}
+
+TEST_F(RecorderTest, RefusesWhatItCannotDo) {
+  Recorder recorder(config);
+  film(recorder, 100);
+  const double now_s = clock_monotonic_s();
+  EXPECT_THAT(recorder.record({now_s, 1.0, 1.0, "a b"}), HasSubstr("label"));
+  EXPECT_THAT(recorder.record({now_s, 1.0, 1.0, "../x"}), HasSubstr("label"));
+  EXPECT_THAT(recorder.record({now_s, 1.0, 1.0, std::string(41, 'x')}), HasSubstr("label"));
+  EXPECT_THAT(recorder.record({now_s, -1.0, 1.0, ""}), HasSubstr("at most"));
+  EXPECT_THAT(recorder.record({now_s, 30.0, 31.0, ""}), HasSubstr("together 60 s at most"));
+  EXPECT_THAT(recorder.record({now_s, std::nan(""), 1.0, ""}), HasSubstr("at most"));
+  EXPECT_THAT(recorder.record({std::nan(""), 1.0, 1.0, ""}), HasSubstr("at most"));
+  EXPECT_THAT(recorder.record({now_s + 100.0, 1.0, 1.0, ""}), HasSubstr("future"));
+  EXPECT_THAT(recorder.record({now_s - 1000.0, 1.0, 1.0, ""}), HasSubstr("remembered"));
+  EXPECT_EQ(count(recorder, "recorder_commands_refused"), 9U);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(recorder.record({now_s, 1.0, 50.0, ""}), "");
+  EXPECT_THAT(recorder.record({now_s, 1.0, 50.0, ""}), HasSubstr("busy"));
+}
+
+TEST_F(RecorderTest, WithoutAFolderItRefuses) {
+  Recorder recorder(RecorderConfig{});
+  EXPECT_THAT(recorder.record({clock_monotonic_s(), 1.0, 1.0, ""}), HasSubstr("no recorder"));
+}
+
+TEST_F(RecorderTest, AnEventWithoutAFrameLeavesNothingAndIsCounted) {
+  Recorder recorder(config);
+  EXPECT_EQ(recorder.record({clock_monotonic_s(), 1.0, 0.3, ""}), "");
+  EXPECT_TRUE(counts(recorder, "recorder_events_failed", 1));
+  EXPECT_THAT(events(), ElementsAre());
+}
+
+TEST_F(RecorderTest, TheOldestEventsGo) {
+  config.quota_bytes = 4096.0 * 25;  // two events of ten frames of 4 kB and a little
+  Recorder recorder(config);
+  film(recorder, 100);
+  for (int i = 0; i < 4; ++i) {
+    const std::string label{'e', static_cast<char>('0' + i)};
+    EXPECT_EQ(recorder.record({time_of(60 + 10 * i), 0.45, 0.45, label}), "");
+    ASSERT_TRUE(counts(recorder, "recorder_events_written", static_cast<std::uint64_t>(i) + 1));
+  }
+  ASSERT_TRUE(has_events(2));
+  EXPECT_THAT(*events().begin(), HasSubstr("_e2"));
+  EXPECT_EQ(count(recorder, "recorder_events_removed"), 2U);
+}
+
+TEST_F(RecorderTest, AFullDiskIsReportedAndNothingIsWritten) {
+  config.disk_reserve_bytes = 1e18;
+  Recorder recorder(config);
+  film(recorder, 50);
+  ASSERT_TRUE(eventually([&] { return !recorder.report().alarms.empty(); }));
+  const DeviceReport report = recorder.report();
+  EXPECT_EQ(report.state, DeviceState::kFault);
+  EXPECT_THAT(report.alarms[0], testing::MatchesRegex("recorder: disk full \\(.* GB free\\)"));
+  EXPECT_THAT(report.last_error, HasSubstr("disk full"));
+  EXPECT_THAT(recorder.record({time_of(40), 1.0, 1.0, ""}), HasSubstr("disk full"));
+  EXPECT_THAT(events(), ElementsAre());
+}
+
+TEST_F(RecorderTest, AFolderThatCannotBeWrittenHealsByItself) {
+  std::ofstream(config.folder) << "in the way";
+  Recorder recorder(config);
+  film(recorder, 50);
+  ASSERT_TRUE(eventually([&] { return !recorder.report().alarms.empty(); }));
+  EXPECT_NE(recorder.record({time_of(40), 1.0, 1.0, ""}), "");
+  std::filesystem::remove(config.folder);
+  ASSERT_TRUE(eventually([&] { return recorder.report().alarms.empty(); }));
+  EXPECT_EQ(recorder.record({time_of(40), 1.0, 1.0, ""}), "");
+  EXPECT_TRUE(has_events(1));
+  EXPECT_NE(recorder.report().last_error, "");
+}
+
+TEST_F(RecorderTest, AFolderThatVanishesInAnEventCostsFramesOnly) {
+  Recorder recorder(config);
+  film(recorder, 190);
+  EXPECT_EQ(recorder.record({clock_monotonic_s(), 2.0, 20.0, ""}), "");
+  ASSERT_TRUE(eventually([&] { return count(recorder, "recorder_frames_written") > 0; }));
+  ASSERT_TRUE(eventually([&] {  // while frames come in, so that it may take more than one try
+    std::error_code ignored;
+    std::filesystem::remove_all(config.folder, ignored);
+    std::ofstream(config.folder) << "in the way";
+    return std::filesystem::is_regular_file(config.folder);
+  }));
+  film(recorder, 20);
+  ASSERT_TRUE(eventually([&] { return count(recorder, "recorder_frames_dropped") > 0; }));
+  std::filesystem::remove(config.folder);
+  ASSERT_TRUE(eventually([&] { return recorder.report().alarms.empty(); }));
+  film(recorder, 10);
+  film(recorder, 300);  // beyond the event
+  EXPECT_TRUE(has_events(1));
+}
+
+TEST_F(RecorderTest, WhatTheDiskCannotKeepUpWithIsDropped) {
+  constexpr int kSide_px = 1024;
+  config.memory_max_bytes = 3.5 * kSide_px * kSide_px;
+  Recorder recorder(config);
+  EXPECT_EQ(recorder.record({clock_monotonic_s(), 30.0, 30.0, ""}), "");
+  ASSERT_TRUE(eventually([&] {
+    film(recorder, 1, kSide_px);
+    return count(recorder, "recorder_frames_dropped") > 0;
+  }));
+  EXPECT_EQ(recorder.report().last_error, "the disk is too slow");
+}
+
+TEST_F(RecorderTest, WhatIsRecordedWhenTheStationStopsIsKept) {
+  {
+    Recorder recorder(config);
+    film(recorder, 195);
+    EXPECT_EQ(recorder.record({clock_monotonic_s(), 2.0, 50.0, ""}), "");
+  }
+  ASSERT_TRUE(has_events(1));
+  EXPECT_GE(rows(table()), 10U);
+}
+
+}  // namespace
+}  // namespace ols

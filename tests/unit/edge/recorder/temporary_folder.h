@@ -1,0 +1,66 @@
+// A folder of one test's own, removed at its end.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <opencv2/core.hpp>
+#include <set>
+#include <string>
+
+#include "edge/recorder/frame_memory.h"
+
+namespace ols {
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    path_ = std::filesystem::temp_directory_path() /
+            ("ols_" + std::string(test->name()) + "_" + std::to_string(::getpid()));
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::string path() const { return path_.string(); }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::set<std::string> names_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    names.insert(entry.path().filename().string());
+  }
+  return names;
+}
+
+inline std::string content_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Noise, so that a PNG of it is no smaller than the picture.
+inline RecordedFrame noisy_frame(std::uint64_t number, double time_s, int side_px = 64) {
+  RecordedFrame frame;
+  frame.gray = cv::Mat(side_px, side_px, CV_8UC1);
+  cv::RNG generator(number + 1);
+  generator.fill(frame.gray, cv::RNG::UNIFORM, 0, 256);
+  frame.number = number;
+  frame.mid_exposure_s = time_s;
+  frame.utime_us = 1'700'000'000'000'000 + static_cast<std::int64_t>(time_s * 1e6);
+  frame.sd_s = 1e-5;
+  return frame;
+}
+
+}  // namespace ols
