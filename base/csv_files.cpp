@@ -5,7 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <iomanip>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -99,19 +101,27 @@ void read_header(Reader<kColumns>& reader, const std::string& path,
   }
 }
 
+// The whole file, its last line ended: the library reads past the end of one that is not.
+std::string content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string content{std::istreambuf_iterator<char>(file), {}};
+  if (!file.is_open() || file.bad()) throw CsvError(path + ": cannot be read");
+  if (!content.empty() && content.back() != '\n') content += '\n';
+  return content;
+}
+
 // Hands each row of the file to `take`; the library's errors become ours.
 template <std::size_t kColumns, class Take>
 void for_each_row(const std::string& path, const Header<kColumns>& header, Take take) {
   try {
-    Reader<kColumns> reader(path);
+    const std::string content = content_of(path);
+    Reader<kColumns> reader(path, content.data(), content.data() + content.size());
     read_header<kColumns>(reader, path, header);
     std::array<const char*, kColumns> cells{};
     const auto next = [&](auto&... cell) { return reader.read_row(cell...); };
     while (std::apply(next, cells)) {
       take(Row<kColumns>(path, reader.get_file_line(), header, cells));
     }
-  } catch (const io::error::can_not_open_file&) {
-    throw CsvError(path + ": cannot be opened");
   } catch (const io::error::header_missing&) {
     throw CsvError(path + ":1: header: is missing");
   } catch (const io::error::with_file_line& error) {

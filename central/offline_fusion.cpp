@@ -23,9 +23,12 @@ Recording recording_of(const std::vector<Sighting>& sightings, double min_belief
   }
   for (auto& [name, all] : recording) {
     std::ranges::stable_sort(all, {}, &Sighting::utime_us);
-    const auto doubled = std::ranges::unique(all, {}, &Sighting::utime_us);
-    unused.duplicate += doubled.size();
-    all.erase(doubled.begin(), doubled.end());
+    const auto same_instant = [](const Sighting& a, const Sighting& b) {
+      return a.utime_us == b.utime_us;
+    };
+    const auto first_doubled = std::unique(all.begin(), all.end(), same_instant);
+    unused.duplicate += static_cast<std::size_t>(all.end() - first_doubled);
+    all.erase(first_doubled, all.end());
   }
   return recording;
 }
@@ -47,8 +50,7 @@ std::vector<std::int64_t> epochs_of(const Recording& recording, double rate_hz) 
     for (const Sighting& sighting : all) epochs.push_back(sighting.utime_us);
   }
   std::ranges::sort(epochs);
-  const auto doubled = std::ranges::unique(epochs);
-  epochs.erase(doubled.begin(), doubled.end());
+  epochs.erase(std::unique(epochs.begin(), epochs.end()), epochs.end());
   if (epochs.empty()) return epochs;
   require_reasonable(rate_hz, static_cast<double>(epochs.back() - epochs.front()) * 1e-6);
   if (rate_hz <= 0.0) return epochs;

@@ -19,6 +19,10 @@ target_compile_options(
             -Werror
             # Bit-for-bit the same arithmetic on every machine of one architecture.
             -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  # Debian's libfccp hands on an option that only GCC knows.
+  target_compile_options(ols_options INTERFACE -Wno-unknown-warning-option)
+endif()
 if(OLS_SANITIZE)
   target_compile_options(ols_options INTERFACE -fsanitize=${OLS_SANITIZE} -fno-omit-frame-pointer
                                                -fno-sanitize-recover=all)

@@ -1,0 +1,79 @@
+// The offline formats. The first byte chooses: stations, bearings of two known stations, a
+// trajectory.
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <sstream>
+
+#include "base/csv_files.h"
+#include "base/toml_config.h"
+#include "tests/fuzz/fuzz_input.h"
+#include "tools/sim/trajectory_file.h"
+
+static void* large_buffer = nullptr;
+
+// libfccp takes a buffer of 48 MB for every file: one for all of them, or the address sanitizer
+// does little else than paint it.
+void* operator new[](std::size_t bytes) {
+  static constexpr std::size_t kLarge = std::size_t{3} << 24U;
+  static char* const buffer = static_cast<char*>(std::malloc(kLarge));
+  void* const memory = bytes == kLarge ? buffer : std::malloc(bytes);
+  if (memory == nullptr) throw std::bad_alloc();
+  large_buffer = buffer;
+  return memory;
+}
+void operator delete[](void* memory) noexcept {
+  if (memory != large_buffer) std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept { operator delete[](memory); }
+
+namespace {
+
+void stations(std::string_view content) {
+  const ols::fuzz::MemoryFile file(content);
+  for (const auto& row : ols::read_stations(file.path())) {
+    ols::fuzz::require(!row.station.empty() && std::abs(row.latitude_deg) <= 90.0,
+                       "a station stands on the Earth");
+  }
+}
+
+void bearings(std::string_view content) {
+  std::vector<ols::StationRow> known(2);
+  known[0].station = "alfa";
+  known[1].station = "bravo";
+  const ols::fuzz::MemoryFile file(content);
+  for (const auto& row : ols::read_bearings(file.path(), known)) {
+    ols::fuzz::require(row.station == "alfa" || row.station == "bravo", "the station is known");
+    ols::fuzz::require(std::isfinite(row.azimuth_deg) && row.sigma_deg > 0.0, "numbers are good");
+  }
+}
+
+void trajectory(std::string_view content) {
+  std::istringstream stream{std::string(content)};
+  const ols::LocalFrame site(ols::Geodetic{0.85, 0.29, 300.0});
+  const auto path = ols::sim::read_trajectory_file(stream, "fuzz", site);
+  ols::fuzz::require(path->at(1.0).p_enu.allFinite(), "a trajectory is finite");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  ols::fuzz::Input input(data, size);
+  const std::uint8_t kind = input.byte();
+  try {
+    switch (kind % 3) {
+      case 0:
+        stations(input.rest());
+        break;
+      case 1:
+        bearings(input.rest());
+        break;
+      default:
+        trajectory(input.rest());
+    }
+  } catch (const ols::CsvError&) {
+    // Refused by name.
+  } catch (const ols::ConfigError&) {
+  }
+  return 0;
+}

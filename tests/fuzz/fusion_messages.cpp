@@ -1,0 +1,53 @@
+// What reaches the fusion from the bus: a run of datagrams, each with its channel's kind and
+// length. Whatever they say, targets are finite or named as no solution.
+#include <cmath>
+
+#include "central/fusion.h"
+#include "central/messages.h"
+#include "tests/fuzz/fuzz_input.h"
+
+namespace {
+
+void check_target(const ols::FusedTarget& target) {
+  if (target.estimate.solution != ols::Solution::kOk) return;
+  ols::fuzz::require(
+      target.estimate.position_ecef.allFinite() && target.estimate.covariance_ecef.allFinite(),
+      "a solution is finite");
+}
+
+void receive(ols::Fusion& fusion, bool is_status, const std::string& station,
+             std::string_view bytes) {
+  const int size = static_cast<int>(bytes.size());
+  if (is_status) {
+    const auto place = ols::station_place_from("OLS_STATUS_" + station, bytes.data(), size);
+    if (const auto* known = std::get_if<ols::StationPlace>(&place)) {
+      fusion.know_station(known->station, known->position_ecef);
+    }
+    return;
+  }
+  const auto sighting = ols::sighting_from("OLS_BEARING_" + station, bytes.data(), size);
+  if (const auto* seen = std::get_if<ols::Sighting>(&sighting)) {
+    const ols::FusionOutput output = fusion.add(*seen);
+    if (output.target) check_target(*output.target);
+    if (output.target_paper) check_target(*output.target_paper);
+    for (const auto& slew : output.slews) static_cast<void>(ols::to_message(slew, {}));
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > 8192) return 0;
+  ols::fuzz::Input input(data, size);
+  ols::FusionConfig config;
+  config.max_stations = 4;
+  ols::Fusion fusion(config);
+  while (!input.empty()) {
+    const std::uint8_t kind = input.byte();
+    const std::size_t length = input.byte();
+    const char station[] = {"abcdefgh"[(kind >> 1) & 7], '\0'};
+    receive(fusion, (kind & 1) != 0, station, input.take(length));
+  }
+  static_cast<void>(fusion.health());
+  return 0;
+}

@@ -1,0 +1,142 @@
+// What a PTU's line may say. The replies must not depend on how the bytes are split; the driver
+// must stay within the limits, whatever it hears.
+#include <cmath>
+
+#include "edge/ptu/codec.h"
+#include "edge/ptu/driver.h"
+#include "tests/fuzz/fuzz_input.h"
+#include "tools/sim/ptu_unit.h"
+
+namespace {
+
+std::string said(const std::vector<ols::PtuReply>& replies) {
+  std::string all;
+  for (const auto& reply : replies) {
+    all += reply.ok ? '*' : '!';
+    all += reply.text + '\n';
+  }
+  return all;
+}
+
+void parse(std::string_view bytes) {
+  ols::PtuReplyParser whole, split;
+  std::vector<ols::PtuReply> by_byte;
+  for (const char byte : bytes) {
+    const auto replies = split.feed({&byte, 1});
+    by_byte.insert(by_byte.end(), replies.begin(), replies.end());
+  }
+  ols::fuzz::require(said(whole.feed(bytes)) == said(by_byte), "split bytes give the same replies");
+  ols::fuzz::require(whole.garbled() == split.garbled(), "and the same count of garbled lines");
+}
+
+void check(const std::vector<ols::AngleSample>& samples) {
+  for (const auto& sample : samples) {
+    ols::fuzz::require(std::isfinite(sample.angles.pan_rad) &&
+                           std::isfinite(sample.angles.tilt_rad) && sample.time_sd_s >= 0.0,
+                       "samples are finite");
+  }
+}
+
+ols::PtuConfig config() {
+  ols::PtuConfig made;
+  made.baud = 38400;
+  made.poll_interval_s = 0.025;
+  return made;
+}
+
+// A line on which each request is answered by the next piece of the input; pieces end at a zero.
+void drive(std::string_view rest) {
+  ols::PtuDriver driver(config());
+  driver.restart(0.0);
+  double now_s = 0.0;
+  for (int step = 0; step < 400 && !rest.empty(); ++step) {
+    now_s += 0.01;
+    driver.set_goal(ols::ServoGoal{now_s, {0.3, 0.1}, {0.2, 0.0}, now_s + 0.5});
+    const std::string request = driver.step(now_s);
+    ols::fuzz::require(request.size() < 512, "requests are short");
+    if (request.empty() && step % 8 != 7) continue;
+    const auto end = rest.find('\0');
+    driver.receive(rest.substr(0, end), now_s + 0.005);
+    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+    check(driver.take_samples());
+  }
+}
+
+// A real dialogue with a simulated unit, whose bytes the input damages: 0 to 127 leaves so many as
+// they are; 128 to 191 loses the next, more puts a byte in its place or before it.
+class DamagedLine {
+ public:
+  explicit DamagedLine(ols::fuzz::Input input) : input_(input) {}
+  std::string through(std::string_view bytes) {
+    std::string out;
+    for (const char byte : bytes) {
+      if (untouched_ == 0) choose();
+      if (untouched_ > 0) {
+        --untouched_;
+        out += byte;
+      } else {
+        out += damage_ == Damage::kLost ? "" : std::string(1, with_);
+        if (damage_ == Damage::kInserted) out += byte;
+        untouched_ = 1;
+      }
+    }
+    return out;
+  }
+
+ private:
+  enum class Damage { kLost, kReplaced, kInserted };
+  void choose() {
+    if (input_.empty()) {
+      untouched_ = 1 << 20;
+      return;
+    }
+    const std::uint8_t what = input_.byte();
+    untouched_ = what < 128 ? what + 1 : 0;
+    damage_ = what < 192 ? Damage::kLost : what < 224 ? Damage::kReplaced : Damage::kInserted;
+    if (what >= 192) with_ = static_cast<char>(input_.byte());
+  }
+  ols::fuzz::Input input_;
+  int untouched_ = 0;
+  Damage damage_ = Damage::kLost;
+  char with_ = 0;
+};
+
+void dialogue(ols::fuzz::Input input) {
+  ols::sim::PtuUnitConfig unit_config;
+  unit_config.home_at_power_up = false;
+  unit_config.baud = 0;
+  ols::sim::PtuUnit unit(unit_config, 1, 0.0);
+  DamagedLine line(input);
+  ols::PtuConfig driver_config = config();
+  driver_config.limits = {-0.5, 0.5, -0.3, 0.3};
+  ols::PtuDriver driver(driver_config);
+  driver.restart(0.0);
+  for (double now_s = 0.0; now_s < 1.5; now_s += 0.01) {
+    driver.set_goal(ols::ServoGoal{now_s, {2.0 * now_s, 0.1}, {2.0, 0.0}, now_s + 0.5});
+    if (const std::string request = driver.step(now_s); !request.empty()) {
+      unit.receive(request, now_s);
+    }
+    driver.receive(line.through(unit.transmit(now_s + 0.005)), now_s + 0.005);
+    check(driver.take_samples());
+  }
+  const double pan_rad = unit.angles_at(1.4).pan_rad;
+  ols::fuzz::require(std::abs(pan_rad) < 0.51, "the unit never leaves the configured limits");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > 4096) return 0;
+  ols::fuzz::Input input(data, size);
+  switch (input.byte() % 3) {
+    case 0:
+      parse(input.rest());
+      break;
+    case 1:
+      drive(input.rest());
+      break;
+    default:
+      dialogue(input);
+  }
+  return 0;
+}

@@ -1,0 +1,159 @@
+// Writes valid LCM messages as seeds: fuzz_seeds FOLDER makes FOLDER/messages,
+// FOLDER/fusion_messages and FOLDER/station_commands.
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "ols_msg/bearing_t.hpp"
+#include "ols_msg/designate_t.hpp"
+#include "ols_msg/fusion_status_t.hpp"
+#include "ols_msg/preview_t.hpp"
+#include "ols_msg/ptu_command_t.hpp"
+#include "ols_msg/record_t.hpp"
+#include "ols_msg/sim_fault_t.hpp"
+#include "ols_msg/slew_t.hpp"
+#include "ols_msg/station_status_t.hpp"
+#include "ols_msg/target_t.hpp"
+
+namespace {
+
+constexpr std::int64_t kUtime = 1'700'000'000'000'000;
+
+template <class Message>
+std::string encoded(const Message& message) {
+  std::vector<char> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return {bytes.begin(), bytes.end()};
+}
+
+template <class Message>
+Message from_station() {
+  Message message{};
+  message.utime = kUtime;
+  message.schema_version = Message::SCHEMA_VERSION;
+  message.station = "a";
+  message.boot_id = 1;
+  message.sequence = 1;
+  return message;
+}
+
+template <class Message>
+Message command() {
+  auto message = from_station<Message>();
+  message.lease_s = 1.0;
+  return message;
+}
+
+ols_msg::bearing_t bearing(const char* station, double azimuth_rad, double north_m) {
+  auto message = from_station<ols_msg::bearing_t>();
+  message.station = station;
+  message.belief = 0.9;
+  message.camera_ecef_m[0] = 6378137.0;
+  message.camera_ecef_m[2] = north_m;
+  message.azimuth_rad = azimuth_rad;
+  message.elevation_rad = 0.1;
+  message.covariance_white_rad2[0] = message.covariance_white_rad2[2] = 1e-8;
+  message.covariance_systematic_rad2[0] = message.covariance_systematic_rad2[2] = 1e-8;
+  message.clock_error_s = 1e-3;
+  return message;
+}
+
+ols_msg::station_status_t status() {
+  auto message = from_station<ols_msg::station_status_t>();
+  message.latitude_deg = 49.0;
+  message.longitude_deg = 16.0;
+  message.devices = 1;
+  message.device_name = {"ptu"};
+  message.device_state = {2};
+  message.device_text = {"well"};
+  message.device_age_s = {0.1};
+  message.counters = 1;
+  message.counter_name = {"frames"};
+  message.counter_value = {1.0};
+  return message;
+}
+
+ols_msg::slew_t slew() {
+  auto message = command<ols_msg::slew_t>();
+  message.effect_utime = kUtime + 100'000;
+  message.azimuth_rad = 1.5;
+  message.elevation_rad = 0.1;
+  message.direction_sd_rad = 1e-3;
+  return message;
+}
+
+ols_msg::designate_t designation() {
+  auto message = command<ols_msg::designate_t>();
+  message.x_px = message.y_px = 100.0;
+  message.width_px = message.height_px = 24.0;
+  return message;
+}
+
+ols_msg::fusion_status_t fusion_status() {
+  ols_msg::fusion_status_t message{};
+  message.schema_version = ols_msg::fusion_status_t::SCHEMA_VERSION;
+  message.counters = 1;
+  message.counter_name = {"targets"};
+  message.counter_value = {3.0};
+  return message;
+}
+
+ols_msg::target_t target() {
+  ols_msg::target_t message{};
+  message.schema_version = ols_msg::target_t::SCHEMA_VERSION;
+  message.stations = 1;
+  message.station = {"a"};
+  message.used = {1};
+  message.weight = {1.0};
+  message.age_s = {0.0};
+  return message;
+}
+
+void write(const std::filesystem::path& file, const std::string& content) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << content;
+}
+
+// A datagram of `fuzz_fusion_messages`: kind and station, length, bytes.
+std::string framed(char kind, const std::string& bytes) {
+  return {kind + std::string(1, static_cast<char>(bytes.size() & 255U)) + bytes};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: fuzz_seeds FOLDER\n");
+    return 2;
+  }
+  const std::filesystem::path folder = argv[1];
+  const std::vector<std::string> all = {encoded(bearing("a", 0.5, 0.0)),
+                                        encoded(designation()),
+                                        encoded(fusion_status()),
+                                        encoded(from_station<ols_msg::preview_t>()),
+
+                                        encoded(command<ols_msg::ptu_command_t>()),
+                                        encoded(command<ols_msg::record_t>()),
+                                        encoded(ols_msg::sim_fault_t{}),
+                                        encoded(slew()),
+                                        encoded(status()),
+                                        encoded(target())};
+  for (std::size_t kind = 0; kind < all.size(); ++kind) {
+    write(folder / "messages" / std::to_string(kind), static_cast<char>(kind) + all[kind]);
+  }
+  const std::string from_a = encoded(bearing("a", 0.5, 0.0));
+  const std::string from_b = encoded(bearing("b", 2.0, 500.0));
+  write(folder / "fusion_messages" / "two", framed('\0', from_a) + framed('\2', from_b));
+  write(folder / "fusion_messages" / "status", framed('\1', encoded(status())));
+  int kind = 0;
+  for (const auto& bytes : {encoded(slew()), encoded(command<ols_msg::ptu_command_t>()),
+                            encoded(designation()), encoded(command<ols_msg::record_t>())}) {
+    write(folder / "station_commands" / std::to_string(kind),
+          framed(static_cast<char>(kind), bytes));
+    ++kind;
+  }
+  return 0;
+}
