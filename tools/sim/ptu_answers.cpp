@@ -1,8 +1,7 @@
-// What the simulated PTU says: the texts of queries, modes and settings, as in the PTU-D46's manual
-// and in transcripts of real units.
+// What the simulated PTU says to queries: the texts of the PTU-D46's manual and of transcripts of
+// real units.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
@@ -12,9 +11,9 @@ namespace ols::sim {
 
 namespace {
 
-constexpr const char* kIllegal = "! Illegal Command Entered";
-constexpr const char* kVersion =
-    "Pan-Tilt Controller v2.12.1d1(C14/E), (C)2003 Directed Perception, Inc., All Rights Reserved";
+// What a D46 takes its resolution for as long as it has not found its gears at a reset: the
+// coarsest of the family.
+constexpr double kUnknownGears_arcsec = 185.1428;
 
 struct Phrase {  // `before` holds % for the name of the axis
   char what;
@@ -41,169 +40,142 @@ std::string with_name(std::string text, const std::string& name) {
   return place == std::string::npos ? text : text.replace(place, 1, name);
 }
 
-const char* level(char power) {
-  switch (power) {
-    case 'H':
-      return "HIGH";
-    case 'L':
-      return "LOW";
-    case 'O':
-      return "OFF";
-    default:
-      return "REGULAR";
-  }
+std::string star(std::string_view text) {
+  std::string answer = "* ";
+  answer += text;
+  return answer;
 }
 
+std::string rounded(double value) { return std::to_string(std::lround(value)); }
+
 }  // namespace
+
+// `command` without the letter of the axis.
+std::string PtuController::axis_command(int axis, std::string_view command, double time_s) {
+  const char what = command[0];
+  const std::string_view rest = command.substr(1);
+  if (what == 'H' || what == 'M') return power(axis, command);
+  if (std::string_view("PORNXSDABUL").find(what) == std::string_view::npos) return kIllegalCommand;
+  const bool of_place = std::string_view("PONX").find(what) != std::string_view::npos;
+  if (e_series() && of_place && !axes_[at(axis)].homed) return kAxisError;
+  if (rest.empty()) return query(axis, what, time_s);
+  if (e_series() && (what == 'N' || what == 'X') && rest[0] == 'U') {
+    return user_limit(axis, command);
+  }
+  const auto value = whole_number(rest);
+  if (!value) return kIllegalArgument;
+  const Axis& a = axes_[at(axis)];
+  switch (what) {
+    case 'P':
+      return set_position(axis, *value, time_s);
+    case 'O':
+      return set_position(
+          axis, static_cast<int>(std::lround(counts(a, a.motion.position(time_s)))) + *value,
+          time_s);
+    case 'S':
+      return set_speed(axis, *value, time_s);
+    case 'D':
+      return set_speed(
+          axis, static_cast<int>(std::lround(a.motion.velocity(time_s) / a.divisor)) + *value,
+          time_s);
+    case 'A':
+    case 'B':
+    case 'U':
+    case 'L':
+      return set_parameter(axis, what, *value, time_s);
+    default:
+      return kIllegalArgument;
+  }
+}
 
 std::string PtuController::query(int axis, char what, double time_s) const {
   const auto phrase = std::find_if(kPhrases.begin(), kPhrases.end(),
                                    [what](const Phrase& p) { return p.what == what; });
-  if (phrase == kPhrases.end()) return kIllegal;
+  if (!verbose()) return star(number(axis, what, time_s));
+  return star(with_name(phrase->before, axes_[at(axis)].name) + number(axis, what, time_s) +
+              phrase->after);
+}
+
+std::string PtuController::number(int axis, char what, double time_s) const {
   const Axis& a = axes_[at(axis)];
   const AxisSettings& s = settings_.axes[at(axis)];
   char resolution[32];
-  std::snprintf(resolution, sizeof resolution, "%.4f", config_.resolution_arcsec);
-  const auto number = [&]() -> std::string {
-    switch (what) {
-      case 'P':
-        return std::to_string(std::lround(a.motion.position(time_s)));
-      case 'O':
-        return std::to_string(a.slaved ? *a.slaved : std::lround(a.motion.target()));
-      case 'R':
-        return resolution;
-      case 'N':
-        return std::to_string(a.least);
-      case 'X':
-        return std::to_string(a.greatest);
-      case 'S':
-        return std::to_string(s.speed);
-      case 'D':
-        return std::to_string(std::lround(a.motion.velocity(time_s)));
-      case 'A':
-        return std::to_string(s.acceleration);
-      case 'B':
-        return std::to_string(s.base_speed);
-      case 'U':
-        return std::to_string(s.upper_speed);
-      default:
-        return std::to_string(s.lower_speed);
-    }
-  }();
-  if (!settings_.verbose) return "* " + number;
-  return "* " + with_name(phrase->before, a.name) + number + phrase->after;
+  const double arcsec =
+      a.homed || e_series() ? config_.resolution_arcsec * a.divisor : kUnknownGears_arcsec;
+  std::snprintf(resolution, sizeof resolution, e_series() ? "%.6f" : "%.4f", arcsec);
+  switch (what) {
+    case 'P':
+      return rounded(counts(a, a.motion.position(time_s)));
+    case 'O':
+      return rounded(counts(a, a.slaved.value_or(a.motion.target())));
+    case 'R':
+      return resolution;
+    case 'N':
+      return std::to_string(least(axis));
+    case 'X':
+      return std::to_string(greatest(axis));
+    case 'S':
+      return std::to_string(s.speed);
+    case 'D':
+      return rounded(a.motion.velocity(time_s) / a.divisor);
+    case 'A':
+      return std::to_string(s.acceleration);
+    case 'B':
+      return std::to_string(s.base_speed);
+    case 'U':
+      return std::to_string(s.upper_speed);
+    default:
+      return std::to_string(s.lower_speed);
+  }
 }
 
-std::string PtuController::power(int axis, std::string_view what) {
-  AxisSettings& s = settings_.axes[at(axis)];
-  const bool hold = what[0] == 'H';
-  char& power = hold ? s.hold_power : s.move_power;
-  if (what.size() == 1) {
-    const std::string name = level(power);
-    if (!settings_.verbose) return "* " + (name == "REGULAR" ? "REG" : name);
-    return "* " + axes_[at(axis)].name + " in " + name + (hold ? " hold" : " move") + " power mode";
-  }
-  const std::string_view levels = hold ? "RLO" : "HRL";
-  if (what.size() != 2 || levels.find(what[1]) == std::string_view::npos) return kIllegal;
-  power = what[1];
-  return "*";
+// Both wordings are of real units.
+std::string PtuController::refuse_speed(int axis, int fastest) const {
+  return std::string("! ") + axes_[at(axis)].name + " speed cannot exceed " +
+         std::to_string(fastest) + (e_series() ? " positions/sec" : " pos/sec");
 }
 
-std::optional<std::string> PtuController::mode(std::string_view command, double time_s) {
-  if (auto answer = toggles(command)) return answer;
-  if (command == "C") {
-    if (settings_.verbose) {
-      return velocity_mode_ ? "* PTU is in Pure Velocity Mode" : "* PTU is in Independent Mode";
-    }
-    return velocity_mode_ ? "* p" : "* i";
+std::string PtuController::firmware() const {
+  if (!config_.firmware.empty()) return config_.firmware;
+  return e_series() ? "3.3.0" : "2.14.0";
+}
+
+// From 2.12.11 on.
+bool PtuController::has_presets() const {
+  std::array<int, 3> version{};
+  static_cast<void>(
+      std::sscanf(firmware().c_str(), "%d.%d.%d", &version[0], &version[1], &version[2]));
+  return version >= std::array<int, 3>{2, 12, 11};
+}
+
+std::string PtuController::version() const {
+  return std::string("v") + firmware() +
+         (e_series() ? ", (C)2010-2011 FLIR Commercial Systems, Inc., All Rights Reserved"
+                     : "(C14/E), (C)2003 Directed Perception, Inc., All Rights Reserved");
+}
+
+std::string PtuController::banner() const {
+  if (!selected_) return {};
+  return std::string("\r\n### PAN-TILT CONTROLLER\r\n### ") + version() + "\r\n" +
+         (e_series() ? "Initializing..." : "");
+}
+
+std::optional<std::string> PtuController::information(std::string_view command, double) {
+  if (command == "V") return std::string("* Pan-Tilt Controller ") + version();
+  // Supply, and the temperatures of head, pan and tilt motor in degrees Fahrenheit.
+  if (command == "O") return e_series() ? "* 13.2,99,97,104" : "* Input 30 VDC @ 86 degF";
+  if (command == "?") {
+    return "PP TP PO TO PS TS PD TD PA TA PB TB PU TU PL TL PR TR PN TN PX TX\r\n"
+           "I S A H L C M X R D E F V O P U\r\n*";
   }
-  if (command == "CI" || command == "CV") {
-    const bool velocity = command == "CV";
-    if (velocity != velocity_mode_) {
-      for (int axis = 0; axis < 2; ++axis) {
-        axes_[at(axis)].motion.halt(profile(axis), time_s);
-        axes_[at(axis)].hit_s.reset();
-        int& speed = settings_.axes[at(axis)].speed;
-        speed = std::max(std::abs(speed), settings_.axes[at(axis)].lower_speed);
-      }
-    }
-    velocity_mode_ = velocity;
-    return "*";
-  }
-  if (command == "I") {
-    immediate_ = true;
-    start_slaved(time_s);
-    return "*";
-  }
-  if (command == "S") {
-    immediate_ = false;
-    return "*";
-  }
-  if (command == "V") return std::string("* ") + kVersion;
-  if (command == "O") return "* Input 30 VDC @ 86 degF";
-  if (command.size() == 2 && command[0] == 'D') return defaults(command);
+  if (!e_series()) return std::nullopt;
+  if (command == "VV") return star(firmware());
+  if (command == "VM") return "* PTU-E46-70";
+  if (command == "VS") return "* E46-000001";
+  if (command == "NI") return "* IP: 0.0.0.0";
+  if (command == "NM") return "* Netmask: 255.255.255.0";
+  if (command == "NG") return "* Gateway: 0.0.0.0";
   return std::nullopt;
-}
-
-// Switches that have two positions and can be asked for.
-std::optional<std::string> PtuController::toggles(std::string_view command) {
-  if (command == "E") return settings_.echo ? "* Echoing ON" : "* Echoing OFF";
-  if (command == "F") return settings_.verbose ? "* ASCII verbose mode" : "* ASCII terse mode";
-  if (command == "L") {
-    return limits_ ? "* Limit bounds are ENABLED (soft limits enabled)"
-                   : "* Limit bounds are DISABLED (hard limits only: use care)";
-  }
-  if (command == "EE" || command == "ED") {
-    settings_.echo = command == "EE";
-  } else if (command == "FV" || command == "FT") {
-    settings_.verbose = command == "FV";
-  } else if (command == "LE" || command == "LD") {
-    limits_ = command == "LE";
-  } else {
-    // On a D46 RP, RT, RE and RD choose the axes to be homed at the next power-up, and move
-    // nothing.
-    const bool homing = command == "RP" || command == "RT" || command == "RE" || command == "RD";
-    if (!homing) return std::nullopt;
-  }
-  return "*";
-}
-
-std::optional<std::string> PtuController::halts(std::string_view command, double time_s) {
-  if (command != "H" && command != "HP" && command != "HT") return std::nullopt;
-  for (int axis = 0; axis < 2; ++axis) {
-    if (command == (axis == 0 ? "HT" : "HP")) continue;
-    Axis& a = axes_[at(axis)];
-    a.slaved.reset();
-    a.hit_s.reset();
-    a.motion.halt(profile(axis), time_s);
-  }
-  return "*";
-}
-
-std::string PtuController::defaults(std::string_view command) {
-  if (command == "DS") {
-    saved_ = settings_;
-  } else if (command == "DR") {
-    settings_ = saved_;
-  } else if (command == "DF") {
-    settings_ = PtuController(config_, 0.0).settings_;
-    settings_.echo = settings_.verbose = true;
-  } else {
-    return kIllegal;
-  }
-  return "*";
-}
-
-// @(rate,delay,flag)
-std::string PtuController::change_baud(std::string_view command) {
-  constexpr std::array<int, 8> kRates{600, 1200, 2400, 4800, 9600, 19200, 38400, 115200};
-  const char* begin = command.data() + 2;
-  int rate = 0;
-  const auto [end, error] = std::from_chars(begin, command.data() + command.size(), rate);
-  const bool closed = error == std::errc{} && *end == ',' && command.back() == ')';
-  if (!closed || std::find(kRates.begin(), kRates.end(), rate) == kRates.end()) return kIllegal;
-  baud_ = rate;
-  return "*";
 }
 
 }  // namespace ols::sim

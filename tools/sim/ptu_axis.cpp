@@ -105,6 +105,18 @@ void PtuAxis::halt(const Profile& profile, double time_s) {
   move(end, profile, time_s);
 }
 
+void PtuAxis::shift(double counts, double time_s) {
+  Segment from_now = segment(time_s);
+  from_now.position = position(time_s);
+  from_now.velocity = velocity(time_s);
+  from_now.start_s = std::max(time_s, segments_.front().start_s);
+  auto after =
+      std::upper_bound(segments_.begin(), segments_.end(), from_now.start_s,
+                       [](double time, const Segment& segment) { return time < segment.start_s; });
+  after = segments_.insert(after, from_now);
+  for (; after != segments_.end(); ++after) after->position += counts;
+}
+
 void PtuAxis::forget(double before_s) {
   while (segments_.size() > 1 && segments_[1].start_s <= before_s) segments_.pop_front();
 }

@@ -25,6 +25,9 @@ class PtuAxis {
   // Brakes to rest on the next whole count.
   void halt(const Profile& profile, double time_s);
 
+  // The axis gives way at this instant, and goes on from there as it would have.
+  void shift(double counts, double time_s);
+
   double position(double time_s) const;                       // [counts], continuous
   double velocity(double time_s) const;                       // [counts/s]
   double rest_s() const { return segments_.back().start_s; }  // since or from when it stands

@@ -5,20 +5,17 @@
 #include <charconv>
 #include <cmath>
 
-#include "geometry/angles.h"
-
 namespace ols::sim {
 
 namespace {
-
-constexpr const char* kIllegal = "! Illegal Command Entered";
-constexpr int kHardStopMargin_counts = 300;  // mechanical stops lie beyond the soft limits
 
 std::string upper(std::string_view text) {
   std::string result(text);
   for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return result;
 }
+
+}  // namespace
 
 std::optional<int> whole_number(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
@@ -28,204 +25,123 @@ std::optional<int> whole_number(std::string_view text) {
   return value;
 }
 
-}  // namespace
+std::optional<std::vector<int>> whole_numbers(std::string_view text) {
+  std::vector<int> values;
+  while (true) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    const auto value = whole_number(text.substr(0, comma));
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+    if (comma == text.size()) return values;
+    text.remove_prefix(comma + 1);
+  }
+}
 
 PtuController::PtuController(const PtuUnitConfig& config, double power_up_s)
     : config_(config),
-      settings_{config.echo,
-                config.verbose,
-                {{{1000, config.acceleration_counts_s2, config.base_speed_counts_s,
-                   config.max_speed_counts_s, config.min_speed_counts_s, 'R', 'R'},
-                  {1000, config.acceleration_counts_s2, config.base_speed_counts_s,
-                   config.max_speed_counts_s, config.min_speed_counts_s, 'R', 'R'}}}},
-      saved_(settings_),
-      axes_{
-          {{PtuAxis(0.0, power_up_s), "Pan", config.pan_min_counts, config.pan_max_counts, {}, {}},
-           {PtuAxis(0.0, power_up_s),
-            "Tilt",
-            config.tilt_min_counts,
-            config.tilt_max_counts,
-            {},
-            {}}}},
-      baud_(config.baud) {}
+      settings_(factory_settings()),
+      axes_{{{PtuAxis(0.0, power_up_s),
+              "Pan",
+              config.pan_min_counts,
+              config.pan_max_counts,
+              1,
+              0.0,
+              config.homed_before,
+              {},
+              {},
+              {}},
+             {PtuAxis(0.0, power_up_s),
+              "Tilt",
+              config.tilt_min_counts,
+              config.tilt_max_counts,
+              1,
+              0.0,
+              config.homed_before,
+              {},
+              {},
+              {}}}},
+      homes_{config.home_at_power_up, config.home_at_power_up},
+      baud_(config.baud),
+      baud_at_power_up_(config.baud) {
+  settings_.echo = config.echo;
+  settings_.feedback = config.verbose ? Feedback::kVerbose : Feedback::kTerse;
+  saved_ = settings_;
+}
 
 PtuAnswer PtuController::power_up(double time_s) {
-  return {"*", config_.home_at_power_up ? home(time_s) : time_s};
+  settings_ = saved_;
+  velocity_mode_ = false;
+  immediate_ = true;
+  limits_ = Limits::kFactory;
+  selected_ = settings_.unit_id == 0;
+  baud_ = baud_at_power_up_;
+  tokens_.clear();
+  scan_ends_.clear();
+  for (Axis& axis : axes_) {
+    axis.slaved.reset();
+    axis.hit_s.reset();
+    axis.sweep.reset();
+  }
+  PtuAnswer answer{"*", home(homes_[0], homes_[1], time_s)};
+  if (settings_.scan_at_power_up) start_scan({}, answer.ready_s);
+  if (!selected_) answer.text.clear();
+  return answer;
+}
+
+PtuAnswer PtuController::power_cycle(double time_s) {
+  for (int axis = 0; axis < 2; ++axis) {
+    Axis& a = axes_[at(axis)];
+    a.motion.halt(profile(axis), time_s);
+    a.origin = a.motion.target();
+    a.homed = false;
+  }
+  return power_up(time_s);
 }
 
 PtuAnswer PtuController::execute(std::string_view command_text, double time_s) {
-  const std::string command = upper(command_text);
+  PtuAnswer answer = dispatch(upper(command_text), time_s);
+  if (!selected_ || settings_.feedback == Feedback::kOff) answer.text.clear();
+  return answer;
+}
+
+PtuAnswer PtuController::dispatch(const std::string& command, double time_s) {
+  if (!selected_ && command[0] != '_') return {"", time_s};
+  if (const auto answer = blocking(command, time_s)) return *answer;
+  constexpr std::array<Handler, 12> kHandlers{
+      &PtuController::modes,         &PtuController::toggles,     &PtuController::limit_modes,
+      &PtuController::halts,         &PtuController::information, &PtuController::homing_choice,
+      &PtuController::keeping,       &PtuController::host_port,   &PtuController::unit_id,
+      &PtuController::e_series_only, &PtuController::scan,        &PtuController::preset};
+  for (const Handler handler : kHandlers) {
+    if (const auto answer = (this->*handler)(command, time_s)) return {*answer, time_s};
+  }
   const bool of_axis = command.size() >= 2 && (command[0] == 'P' || command[0] == 'T');
-  if (command == "R") return {"*", home(time_s)};
+  if (!of_axis) return {kIllegalCommand, time_s};
+  const bool slow = std::string_view("ABUL").find(command[1]) != std::string_view::npos;
+  const bool sets = command.size() > 2;
+  return {axis_command(command[0] == 'P' ? 0 : 1, command.substr(1), time_s),
+          time_s + (slow && sets ? config_.parameter_set_s : 0.0)};
+}
+
+// What is answered when the motion is over.
+std::optional<PtuAnswer> PtuController::blocking(std::string_view command, double time_s) {
   if (command == "A") {
     start_slaved(time_s);
-    return {"*", std::max({time_s, axes_[0].motion.rest_s(), axes_[1].motion.rest_s()})};
+    return PtuAnswer{"*", std::max({time_s, axes_[0].motion.rest_s(), axes_[1].motion.rest_s()})};
   }
-  if (const auto answer = mode(command, time_s)) return {*answer, time_s};
-  if (const auto answer = halts(command, time_s)) return {*answer, time_s};
-  if (command.starts_with("@(")) return {change_baud(command), time_s};
-  if (!of_axis) return {kIllegal, time_s};
-
-  const int axis = command[0] == 'P' ? 0 : 1;
-  const char what = command[1];
-  if (what == 'H' || what == 'M') return {power(axis, command.substr(1)), time_s};
-  if (command.size() == 2) return {query(axis, what, time_s), time_s};
-  const auto value = whole_number(std::string_view(command).substr(2));
-  if (!value) return {kIllegal, time_s};
-  const bool slow = std::string_view("ABUL").find(what) != std::string_view::npos;
-  return {set(axis, what, *value, time_s), time_s + (slow ? config_.parameter_set_s : 0.0)};
+  if (command == "R") return PtuAnswer{"*", home(true, true, time_s)};
+  if (!e_series()) return std::nullopt;
+  // On a D46 these choose what is homed at power-up.
+  if (command == "RP") return PtuAnswer{"*", home(true, false, time_s)};
+  if (command == "RT") return PtuAnswer{"*", home(false, true, time_s)};
+  if (command == "RE" || command == "RS") return PtuAnswer{"*", home(true, true, time_s)};
+  return std::nullopt;
 }
 
-PtuAxis::Profile PtuController::profile(int axis) const {
-  const AxisSettings& s = settings_.axes[at(axis)];
-  return {std::max(1.0, std::abs(static_cast<double>(s.speed))),
-          static_cast<double>(s.acceleration), static_cast<double>(s.base_speed)};
-}
-
-std::string PtuController::set(int axis, char what, int value, double time_s) {
-  const PtuAxis& motion = axes_[at(axis)].motion;
-  switch (what) {
-    case 'P':
-      return set_position(axis, value, time_s);
-    case 'O':
-      return set_position(axis, static_cast<int>(std::lround(motion.position(time_s))) + value,
-                          time_s);
-    case 'S':
-      return set_speed(axis, value, time_s);
-    case 'D':
-      return set_speed(axis, static_cast<int>(std::lround(motion.velocity(time_s))) + value,
-                       time_s);
-    case 'A':
-    case 'B':
-    case 'U':
-    case 'L':
-      return set_parameter(axis, what, value, time_s);
-    default:
-      return kIllegal;
-  }
-}
-
-std::string PtuController::set_position(int axis, int target, double time_s) {
+void PtuController::slip(int axis, int slipped_counts, double time_s) {
   Axis& a = axes_[at(axis)];
-  if (velocity_mode_) return kIllegal;
-  if (limits_ && target > a.greatest) {
-    return "! Maximum allowable " + a.name + " position is " + std::to_string(a.greatest);
-  }
-  if (limits_ && target < a.least) {
-    return "! Minimum allowable " + a.name + " position is " + std::to_string(a.least);
-  }
-  if (immediate_) {
-    start(axis, target, time_s);
-  } else {
-    a.slaved = target;
-  }
-  return "*";
-}
-
-std::string PtuController::set_speed(int axis, int speed, double time_s) {
-  AxisSettings& s = settings_.axes[at(axis)];
-  Axis& a = axes_[at(axis)];
-  if (std::abs(speed) > s.upper_speed) {
-    return "! " + a.name + " speed cannot exceed " + std::to_string(s.upper_speed) +
-           " positions/sec";
-  }
-  const bool stop = velocity_mode_ && speed == 0;
-  const int least = velocity_mode_ ? std::abs(speed) : speed;
-  if (!stop && least < s.lower_speed) {
-    return "! Motor speed cannot be less than " + std::to_string(s.lower_speed) + " pos/sec";
-  }
-  if (stop) {
-    a.motion.halt(profile(axis), time_s);
-    s.speed = 0;
-    return "*";
-  }
-  s.speed = speed;
-  if (velocity_mode_) {
-    start(axis, speed > 0 ? a.greatest : a.least, time_s);
-    a.hit_s = a.motion.rest_s();
-  } else if (a.motion.rest_s() > time_s) {
-    start(axis, static_cast<int>(std::lround(a.motion.target())), time_s);
-  }
-  return "*";
-}
-
-// Not in motion. What a unit says then is not documented; this is the only refusal seen anywhere.
-std::string PtuController::set_parameter(int axis, char what, int value, double time_s) {
-  AxisSettings& s = settings_.axes[at(axis)];
-  const bool moving = axes_[at(axis)].motion.rest_s() > time_s;
-  if (moving || value <= 0) return kIllegal;
-  if (what == 'U' && value > config_.max_speed_counts_s) {
-    return "! " + axes_[at(axis)].name + " speed cannot exceed " +
-           std::to_string(config_.max_speed_counts_s) + " positions/sec";
-  }
-  int& parameter = what == 'A'   ? s.acceleration
-                   : what == 'B' ? s.base_speed
-                   : what == 'U' ? s.upper_speed
-                                 : s.lower_speed;
-  parameter = value;
-  return "*";
-}
-
-// Without soft limits the axis runs into its mechanical stop and loses nothing but the way beyond.
-void PtuController::start(int axis, int target, double time_s) {
-  Axis& a = axes_[at(axis)];
-  const int reached =
-      std::clamp(target, a.least - kHardStopMargin_counts, a.greatest + kHardStopMargin_counts);
-  a.slaved.reset();
-  a.motion.move(reached, profile(axis), time_s);
-  a.hit_s = reached == target ? std::nullopt : std::optional(a.motion.rest_s());
-}
-
-void PtuController::start_slaved(double time_s) {
-  for (int axis = 0; axis < 2; ++axis) {
-    if (const auto target = axes_[at(axis)].slaved) start(axis, *target, time_s);
-  }
-}
-
-// Tilt, then pan, to both ends; then both to zero. Returns when that is over.
-double PtuController::home(double time_s) {
-  const double speed_counts_s =
-      config_.home_speed_rad_s / radians(config_.resolution_arcsec / 3600.0);
-  double end_s = time_s;
-  for (const int axis : {1, 0}) {
-    Axis& a = axes_[at(axis)];
-    PtuAxis::Profile homing = profile(axis);
-    homing.speed = speed_counts_s;
-    homing.acceleration = 2.0 * speed_counts_s;
-    a.slaved.reset();
-    a.hit_s.reset();
-    for (const int end : {a.least, a.greatest}) {
-      a.motion.move(end, homing, end_s);
-      end_s = a.motion.rest_s();
-      tokens_.push_back({end_s, axis == 0 ? "!P" : "!T"});
-    }
-    a.motion.move(0.0, homing, end_s);
-    if (axis == 0) end_s = std::max(axes_[1].motion.rest_s(), a.motion.rest_s());
-  }
-  return end_s;
-}
-
-std::vector<PtuToken> PtuController::take_tokens(double time_s) {
-  std::vector<PtuToken> due;
-  while (!tokens_.empty() && tokens_.front().time_s <= time_s) {
-    due.push_back(tokens_.front());
-    tokens_.erase(tokens_.begin());
-  }
-  for (Axis& axis : axes_) {
-    if (!axis.hit_s || *axis.hit_s > time_s) continue;
-    due.push_back({*axis.hit_s, axis.name == "Pan" ? "!P" : "!T"});
-    axis.hit_s.reset();
-  }
-  return due;
-}
-
-std::optional<double> PtuController::next_token_s() const {
-  std::optional<double> next;
-  if (!tokens_.empty()) next = tokens_.front().time_s;
-  for (const Axis& axis : axes_) {
-    if (axis.hit_s && (!next || *axis.hit_s < *next)) next = axis.hit_s;
-  }
-  return next;
+  a.motion.shift(slipped_counts, time_s);
+  a.origin += slipped_counts;
 }
 
 void PtuController::forget(double before_s) {

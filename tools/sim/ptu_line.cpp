@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "base/clocks.h"
+#include "tools/sim/ptu_faults.h"
 #include "tools/sim/pty.h"
 
 namespace ols::sim {
@@ -18,8 +19,8 @@ constexpr double kBatch_s = 1e-3;         // bytes that come within this are han
 }  // namespace
 
 struct PtuLine::Impl {
-  Impl(const PtuUnitConfig& config, std::uint64_t seed, const std::string& link_path)
-      : unit(config, seed, clock_monotonic_s()), pty(link_path), device(pty.device()) {
+  Impl(const PtuUnitConfig& config, std::uint64_t seed, const std::string& link)
+      : unit(config, seed, clock_monotonic_s()), pty(link), device(pty.device()) {
     thread = std::jthread([this](const std::stop_token& stop) { run(stop); });
   }
 
@@ -27,17 +28,31 @@ struct PtuLine::Impl {
     while (!stop.stop_requested()) {
       wait();
       const std::string arrived = pty.read();
-      const double now_s = clock_monotonic_s();
+      const int baud = pty.client_baud();
       std::string out;
+      bool gone = false;
       {
         const std::lock_guard lock(mutex);
-        latest_s = std::max(latest_s, now_s);
+        advance();
+        unit.set_master_baud(baud);
         if (!arrived.empty()) unit.receive(arrived, latest_s);
         pending += unit.transmit(latest_s);
         out.swap(pending);
+        gone = unit.line_gone();
       }
       pty.write(out);
+      if (gone == pty.plugged()) replug(gone);
     }
+  }
+
+  void replug(bool gone) {
+    if (gone) {
+      pty.unplug();
+    } else {
+      pty.plug();
+    }
+    const std::lock_guard lock(mutex);
+    device = pty.device();
   }
 
   // Until bytes arrive or the unit has some.
@@ -52,11 +67,13 @@ struct PtuLine::Impl {
     pty.wait(sleep_s);
   }
 
-  std::mutex mutex;  // of unit, pending, latest_s
-  PtuUnit unit;
+  void advance() { latest_s = std::max(latest_s, clock_monotonic_s()); }
+
+  std::mutex mutex;  // of all but the pty, which is the thread's
+  FaultyPtuUnit unit;
   std::string pending;
   double latest_s = 0.0;
-  Pty pty;  // of the thread
+  Pty pty;
   std::string device;
   std::jthread thread;  // last: it uses the rest
 };
@@ -66,12 +83,21 @@ PtuLine::PtuLine(const PtuUnitConfig& config, std::uint64_t seed, const std::str
 
 PtuLine::~PtuLine() = default;
 
-const std::string& PtuLine::device() const { return impl_->device; }
+std::string PtuLine::device() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->device;
+}
+
+void PtuLine::set_faults(const PtuFaults& faults) {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->advance();
+  impl_->unit.set_faults(faults, impl_->latest_s);
+}
 
 PanTilt PtuLine::angles_at(double monotonic_time_s) {
   const std::lock_guard lock(impl_->mutex);
   // What the unit has received by now takes effect first.
-  impl_->latest_s = std::max(impl_->latest_s, clock_monotonic_s());
+  impl_->advance();
   impl_->pending += impl_->unit.transmit(impl_->latest_s);
   return impl_->unit.angles_at(monotonic_time_s);
 }

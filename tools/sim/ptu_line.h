@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "tools/sim/faults.h"
 #include "tools/sim/ptu_unit.h"
 
 namespace ols::sim {
@@ -19,8 +20,11 @@ class PtuLine {
   PtuLine(const PtuLine&) = delete;
   PtuLine& operator=(const PtuLine&) = delete;
 
-  // The pty's slave, for example /dev/pts/3.
-  const std::string& device() const;
+  // The pty's slave, for example /dev/pts/3; empty while the line is gone.
+  std::string device() const;
+
+  // From any thread.
+  void set_faults(const PtuFaults& faults);
 
   // True shaft angles at an instant of CLOCK_MONOTONIC [s], from two seconds ago to now. From any
   // thread.

@@ -1,6 +1,7 @@
 #include "tools/sim/ptu_unit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <random>
 
@@ -20,24 +21,48 @@ double byte_time_s(int baud) { return baud > 0 ? 10.0 / baud : 0.0; }
 struct TimedByte {
   char byte;
   double time_s;  // its last bit was on the line
+  int baud;
 };
 
 }  // namespace
 
 struct PtuUnit::Impl {
   Impl(const PtuUnitConfig& unit_config, std::uint64_t seed, double power_up_s)
-      : config(unit_config), controller(unit_config, power_up_s), random(seed), now_s(power_up_s) {
-    const PtuAnswer ready = controller.power_up(power_up_s);
+      : config(unit_config),
+        controller(unit_config, power_up_s),
+        random(seed),
+        now_s(power_up_s),
+        noise(seed + 1) {
+    begin(controller.power_up(power_up_s), power_up_s);
+  }
+
+  // The power has come.
+  void begin(const PtuAnswer& ready, double time_s) {
+    input.clear();
+    output.clear();
+    delay_drawn = false;
+    line_free_s = input_free_s = time_s;
     busy_until_s = ready.ready_s;
-    pending_answer = PtuAnswer{ready.text, ready.ready_s};
-    say("\r\n### PAN-TILT CONTROLLER\r\n", power_up_s);
+    pending_answer = ready;
+    take_rate();
+    say(controller.banner(), time_s);
+  }
+
+  void take_rate() {
+    baud = controller.baud();
+    byte_s = byte_time_s(baud);
+  }
+
+  char on_the_line(char byte, int byte_baud) {
+    const bool right = master_baud == 0 || byte_baud == 0 || master_baud == byte_baud;
+    return right ? byte : static_cast<char>(noise());
   }
 
   // Queues text for the line, not before `time_s`, in order.
   void say(const std::string& text, double time_s) {
     for (const char byte : text) {
       line_free_s = std::max(line_free_s, time_s) + byte_s;
-      output.push_back({byte, line_free_s});
+      output.push_back({byte, line_free_s, baud});
     }
   }
 
@@ -66,6 +91,7 @@ struct PtuUnit::Impl {
     while (true) {
       const auto event = next_event_s();
       if (!event || *event > now_s) break;
+      hear(*event);
       say_tokens(*event);
       if (pending_answer) {
         answer();
@@ -73,8 +99,18 @@ struct PtuUnit::Impl {
         take_command(*event);
       }
     }
+    hear(now_s);
     say_tokens(now_s);
     controller.forget(now_s - kHistory_s);
+  }
+
+  // Every byte that has come by then, understood or not, ends a scan.
+  void hear(double time_s) {
+    controller.advance(time_s);
+    if (!controller.scanning()) return;
+    for (const TimedByte& byte : input) {
+      if (byte.time_s <= time_s) controller.interrupt(byte.time_s);
+    }
   }
 
   void say_tokens(double time_s) {
@@ -84,7 +120,7 @@ struct PtuUnit::Impl {
   void answer() {
     if (!pending_answer->text.empty()) say(pending_answer->text + "\r\n", pending_answer->ready_s);
     busy_until_s = std::max(busy_until_s, pending_answer->ready_s);
-    byte_s = byte_time_s(controller.baud());  // the answer to `@(` was still at the old rate
+    take_rate();  // the answer to `@(` was still at the old rate
     pending_answer.reset();
   }
 
@@ -102,18 +138,31 @@ struct PtuUnit::Impl {
     }
     delay_drawn = false;
     if (command.empty()) return;
-    if (controller.echo()) say(command + (delimiter == ' ' ? " " : "\r\n"), time_s);
+    if (controller.echo()) {
+      say(command + (delimiter == ' ' ? " " : "\r\n"), time_s);
+    } else if (new_line_after(delimiter)) {
+      say("\n", time_s);
+    }
     // A new rate holds from the byte after the answer on: the answer itself is still at the old
     // one.
     pending_answer = controller.execute(command, time_s);
     pending_answer->ready_s = std::max(pending_answer->ready_s, time_s + (delay_s - read_s));
   }
 
+  // With its echo off an E-series unit begins a new line after a bare CR, and none after CR LF:
+  // transcripts of two such units.
+  bool new_line_after(char delimiter) const {
+    const bool bare = delimiter == '\r' && (input.empty() || input.front().byte != '\n');
+    return bare && config.model == PtuModel::kE46 && controller.talks();
+  }
+
   PtuUnitConfig config;
   PtuController controller;
   std::mt19937_64 random;
   double now_s;
-  double byte_s = byte_time_s(config.baud);
+  std::mt19937_64 noise;
+  int baud = 0, master_baud = 0;
+  double byte_s = 0.0;
   double line_free_s = 0.0;   // our transmitter
   double input_free_s = 0.0;  // the master's
   double busy_until_s = 0.0;  // no command is taken before
@@ -134,7 +183,8 @@ void PtuUnit::receive(std::string_view bytes, double time_s) {
     impl_->input_free_s = std::max(impl_->input_free_s, time_s) + impl_->byte_s;
     // A full buffer loses its last byte, so that a delimiter always gets in.
     if (impl_->input.size() == kInputBuffer_bytes) impl_->input.pop_back();
-    impl_->input.push_back({byte, impl_->input_free_s});
+    impl_->input.push_back(
+        {impl_->on_the_line(byte, impl_->baud), impl_->input_free_s, impl_->baud});
   }
 }
 
@@ -143,7 +193,7 @@ std::string PtuUnit::transmit(double time_s) {
   std::string bytes;
   auto& output = impl_->output;
   while (!output.empty() && output.front().time_s <= time_s) {
-    bytes.push_back(output.front().byte);
+    bytes.push_back(impl_->on_the_line(output.front().byte, output.front().baud));
     output.pop_front();
   }
   return bytes;
@@ -156,6 +206,24 @@ std::optional<double> PtuUnit::next_output_s() const {
   if (const auto token_s = impl_->controller.next_token_s()) sooner(*token_s);
   return next;
 }
+
+void PtuUnit::power_cycle(double time_s) {
+  impl_->advance(time_s);
+  impl_->begin(impl_->controller.power_cycle(time_s), time_s);
+}
+
+void PtuUnit::switch_echo_on(double time_s) {
+  impl_->advance(time_s);
+  impl_->controller.switch_echo_on();
+}
+
+void PtuUnit::slip(double pan_rad, double time_s) {
+  impl_->advance(time_s);
+  const double step_rad = radians(impl_->config.resolution_arcsec / 3600.0);
+  impl_->controller.slip(0, static_cast<int>(std::lround(pan_rad / step_rad)), time_s);
+}
+
+void PtuUnit::set_master_baud(int baud) { impl_->master_baud = baud; }
 
 PanTilt PtuUnit::angles_at(double time_s) const {
   const double step_rad = radians(impl_->config.resolution_arcsec / 3600.0);

@@ -55,6 +55,21 @@ timespec to_timespec(double duration_s) {
   return {static_cast<time_t>(whole_s), static_cast<long>((duration_s - whole_s) * 1e9)};
 }
 
+struct Rate {
+  speed_t code;
+  int baud;
+};
+
+constexpr std::array<Rate, 9> kRates{{{B600, 600},
+                                      {B1200, 1200},
+                                      {B2400, 2400},
+                                      {B4800, 4800},
+                                      {B9600, 9600},
+                                      {B19200, 19200},
+                                      {B38400, 38400},
+                                      {B57600, 57600},
+                                      {B115200, 115200}}};
+
 }  // namespace
 
 struct Pty::Terminal {
@@ -114,6 +129,15 @@ std::string Pty::read() {
   const ssize_t n =
       terminal_ ? ::read(terminal_->master.get(), buffer.data(), buffer.size()) : ssize_t{0};
   return n > 0 ? std::string(buffer.data(), static_cast<std::size_t>(n)) : std::string();
+}
+
+int Pty::client_baud() const {
+  termios settings{};
+  if (!terminal_ || ::tcgetattr(terminal_->master.get(), &settings) != 0) return 0;
+  const speed_t code = ::cfgetospeed(&settings);
+  const auto rate =
+      std::find_if(kRates.begin(), kRates.end(), [code](const Rate& r) { return r.code == code; });
+  return rate == kRates.end() ? 0 : rate->baud;
 }
 
 void Pty::write(std::string_view bytes) {

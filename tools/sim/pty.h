@@ -32,6 +32,10 @@ class Pty {
   // What clients have written by now; does not wait. Empty while unplugged.
   std::string read();
 
+  // The rate that the client has set on its port, or who had it open last; 0 while unplugged or
+  // when it is none that serial ports usually have.
+  int client_baud() const;
+
   // For whoever has the device open. A line that nobody reads loses its bytes, here once the
   // terminal's buffer is full; so does one that is unplugged.
   void write(std::string_view bytes);

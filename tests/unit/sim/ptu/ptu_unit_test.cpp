@@ -6,40 +6,10 @@
 
 #include <cmath>
 
-#include "geometry/angles.h"
+#include "tests/unit/sim/ptu/ptu_master.h"
 
 namespace ols::sim {
 namespace {
-
-PtuUnitConfig ready_unit() {
-  PtuUnitConfig config;
-  config.home_at_power_up = false;
-  config.echo = false;
-  config.verbose = false;
-  return config;
-}
-
-class Master {
- public:
-  explicit Master(const PtuUnitConfig& config) : unit(config, 1, 0.0) { wait(0.5); }
-
-  // Everything that the unit says within `duration_s` of sending.
-  std::string ask(const std::string& request, double duration_s = 0.5) {
-    unit.receive(request, time_s);
-    return wait(duration_s);
-  }
-  std::string wait(double duration_s) {
-    std::string said;
-    for (const double end_s = time_s + duration_s; time_s < end_s; time_s += 1e-3) {
-      said += unit.transmit(time_s);
-    }
-    return said;
-  }
-  double pan_counts() const { return unit.angles_at(time_s).pan_rad / radians(11.5714 / 3600.0); }
-
-  PtuUnit unit;
-  double time_s = 0.0;
-};
 
 TEST(PtuUnit, AnswersTersely) {
   Master master(ready_unit());
@@ -87,11 +57,16 @@ TEST(PtuUnit, RefusesAndSaysWhy) {
   Master master(ready_unit());
   EXPECT_EQ(master.ask("PP49468 "), "! Maximum allowable Pan position is 49467\r\n");
   EXPECT_EQ(master.ask("TP-14623 "), "! Minimum allowable Tilt position is -14622\r\n");
-  EXPECT_EQ(master.ask("PS18701 "), "! Pan speed cannot exceed 18700 positions/sec\r\n");
+  EXPECT_EQ(master.ask("PS18701 "), "! Pan speed cannot exceed 18700 pos/sec\r\n");
   EXPECT_EQ(master.ask("PS30 "), "! Motor speed cannot be less than 31 pos/sec\r\n");
-  for (const char* nonsense : {"XYZ ", "PQ ", "PP1x ", "PP99999999999 ", "PP1.5 ", "P ",
-                               "@(1,0,F) ", "@(x ", "PHX ", "DX ", "PA0 "}) {
-    EXPECT_EQ(master.ask(nonsense), "! Illegal Command Entered\r\n") << nonsense;
+  for (const char* nonsense : {"XYZ ", "PQ ", "P ", "DX ", "PA0 ", "POSITION? ", "RX ", "LU "}) {
+    const char* reply =
+        nonsense[1] == 'O' ? "! Illegal argument\r\n" : "! Illegal Command Entered\r\n";
+    EXPECT_EQ(master.ask(nonsense), reply) << nonsense;
+  }
+  for (const char* nonsense : {"POS ", "PP1x ", "PP99999999999 ", "PP1.5 ", "@(1,0,F) ", "@(x ",
+                               "@(9600,0) ", "PHX ", "PNU "}) {
+    EXPECT_EQ(master.ask(nonsense), "! Illegal argument\r\n") << nonsense;
   }
   EXPECT_DOUBLE_EQ(master.pan_counts(), 0.0);
 }

@@ -1,0 +1,42 @@
+// What a bad line does to a unit's replies: one byte of some is wrong, and some never come. Pure.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <string>
+#include <string_view>
+
+namespace ols::sim {
+
+class PtuReplyFaults {
+ public:
+  explicit PtuReplyFaults(std::uint64_t seed) : random_(seed) {}
+
+  // Share of the replies (lines) of which one byte is flipped in one bit, lost, or has another one
+  // before it; and one reply lost each so many seconds from `time_s` on (0: none). What stays as it
+  // was before goes on undisturbed.
+  void set(double garble_share, double lost_every_s, double time_s);
+
+  // The bytes as they arrive. A reply may come in any number of pieces.
+  std::string pass(std::string_view bytes, double time_s);
+
+  std::uint64_t garbled() const { return garbled_; }
+  std::uint64_t lost() const { return lost_; }
+
+ private:
+  void begin_reply(double time_s);
+  void garble(char byte, std::string& out);
+  double draw() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
+
+  std::mt19937_64 random_;
+  double garble_share_ = 0.0;
+  double lost_every_s_ = 0.0;
+  double next_loss_s_ = 0.0;
+  bool within_reply_ = false;
+  bool losing_ = false;
+  std::optional<int> bytes_to_error_;  // of this reply
+  std::uint64_t garbled_ = 0, lost_ = 0;
+};
+
+}  // namespace ols::sim
