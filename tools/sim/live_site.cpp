@@ -180,6 +180,7 @@ void LiveSite::apply_faults() {
   for (const auto& device : devices_) {
     const StationFaults now = faults_.at(world_.stations()[device->station].id, now_s);
     if (now == device->faults) continue;
+    device->ptu->set_faults(now.ptu);
     device->camera->set_faults(now.camera);
     if (now.stop_pressed != device->faults.stop_pressed) {
       device->gpio->set_pressed(now.stop_pressed);
