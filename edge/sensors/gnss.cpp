@@ -28,7 +28,7 @@ constexpr std::size_t kMostReadings = 1000;   // kept for a caller that does not
 std::string in_words(const GnssReading& reading) {
   char text[96];
   if (reading.fix >= GnssFix::k3D) {
-    std::snprintf(text, sizeof text, "%s, %d satellites, %.2f m", to_string(reading.fix),
+    std::snprintf(text, sizeof text, "%s, %d satellites, %.3f m", to_string(reading.fix),
                   reading.satellites_used, reading.sd_enu_m.maxCoeff());
   } else {
     std::snprintf(text, sizeof text, "%s, %d satellites", to_string(reading.fix),
