@@ -1,0 +1,254 @@
+"""The site's logger with the real lcm-logger: quota, full and read-only disks, death and end."""
+
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import time
+from pathlib import Path
+
+import lcm
+import pytest
+from conftest import BIN
+from ols_demo.bus import LIVE_URL
+
+DEADLINE_S = 30.0
+SPLIT_BYTES = 50_000
+QUOTA_BYTES = 300_000
+
+pytestmark = pytest.mark.skipif(shutil.which("lcm-logger") is None, reason="no lcm-logger")
+
+
+def wait(condition, what):
+    end = time.monotonic() + DEADLINE_S
+    while not condition():
+        assert time.monotonic() < end, f"not within {DEADLINE_S:.0f} s: {what}"
+        time.sleep(0.01)
+
+
+class Shell:
+    """A shell in a mount namespace of its own, where it may have a small disk for the logs."""
+
+    def __init__(self):
+        pipe = subprocess.PIPE
+        command = ["unshare", "--mount", "sh"]
+        self.process = subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True)
+
+    def run(self, command):
+        self.process.stdin.write(f"{command}\necho; echo :end\n")
+        self.process.stdin.flush()
+        lines = []
+        while (line := self.process.stdout.readline()) != ":end\n":
+            assert line, f"the shell ended: {command}"
+            lines.append(line)
+        return "".join(lines).strip()
+
+    def end(self):
+        self.process.communicate(timeout=DEADLINE_S)
+
+
+class Logger:
+    """One ols-logger; on a small tmpfs when a size is given."""
+
+    def __init__(self, folder, disk_bytes=None, reserve_bytes=0, mount="rw", **keys):
+        self.logs, self.status_file = folder / "logs", folder / "status.json"
+        self.errors, self.ended = folder / "errors", False
+        self.logs.mkdir()
+        keys = {"quota_gb": QUOTA_BYTES * 1e-9, "split_mb": SPLIT_BYTES * 1e-6} | keys
+        config = folder / "logger.toml"
+        config.write_text(
+            f'folder = "{self.logs}"\nstatus_file = "{self.status_file}"\nlcm_url = "{LIVE_URL}"\n'
+            f"disk_reserve_gb = {reserve_bytes * 1e-9:.9f}\n"
+            + "".join(f"{key} = {value:.9f}\n" for key, value in keys.items())
+        )
+        self.shell = Shell()
+        if disk_bytes is not None:
+            self.shell.run(f"mount -t tmpfs -o size={disk_bytes},{mount} tmpfs {self.logs}")
+        program = f"{BIN / 'ols-logger'} --config {config}"
+        self.pid = int(self.shell.run(f"{program} </dev/null >/dev/null 2>{self.errors} & echo $!"))
+        self.bus = lcm.LCM(LIVE_URL)
+
+    def status(self):
+        try:
+            return json.loads(self.status_file.read_text())
+        except FileNotFoundError:
+            return {}
+
+    def wait_for(self, what, condition):
+        wait(lambda: (s := self.status()) and condition(s), what)
+
+    def wait_recording(self):
+        """It records indeed: what is published now is in a log soon."""
+
+        def grows():
+            self.bus.publish("FLOOD", b"x" * 2000)
+            sizes = self.sizes()
+            return sizes and (sum(sizes.values()) > before or sizes.keys() != names)
+
+        names = self.sizes().keys()
+        before = sum(self.sizes().values())
+        wait(grows, "a log that grows")
+
+    def sizes(self):
+        listed = self.shell.run(f"stat -c '%n %s' {self.logs}/*.lcmlog.* 2>/dev/null")
+        pairs = (line.split() for line in listed.splitlines())
+        return {Path(name).name: int(size) for name, size in pairs}
+
+    def free_bytes(self):
+        blocks, size = self.shell.run(f"stat -f -c '%a %S' {self.logs}").split()
+        return int(blocks) * int(size)
+
+    def end(self, sent=signal.SIGTERM):
+        self.ended = True
+        os.kill(self.pid, sent)
+        code = int(self.shell.run(f"wait {self.pid}; echo $?"))
+        return code, self.errors.read_text()
+
+    def clean_up(self):
+        if not self.ended:
+            self.end()
+        self.shell.end()
+
+
+@pytest.fixture
+def start(tmp_path, network):
+    started = []
+
+    def make(**options):
+        started.append(Logger(tmp_path, **options))
+        return started[-1]
+
+    yield make
+    for logger in started:
+        logger.clean_up()
+
+
+def test_a_flood_stays_within_the_quota_and_the_oldest_go_first(start):
+    logger = start()
+    logger.wait_recording()
+    order, greatest = [], 0
+    while logger.status().get("files_removed", 0) < 8:
+        for _ in range(5):
+            logger.bus.publish("FLOOD", b"x" * 2000)
+        sizes = logger.sizes()
+        greatest = max(greatest, sum(sizes.values()))
+        order += sorted(set(sizes) - set(order))
+        time.sleep(0.01)
+    logger.end()
+    left = sorted(logger.sizes())
+    assert greatest <= QUOTA_BYTES
+    assert len(left) >= 2
+    assert left == sorted(order[-len(left) :])
+    # What is left can be read to its end.
+    events = [event for name in left for event in lcm.EventLog(str(logger.logs / name))]
+    assert {event.channel for event in events} == {"FLOOD"}
+
+
+def test_waits_while_the_disk_is_full_of_other_things_and_records_again(start):
+    logger = start(disk_bytes=1_000_000, reserve_bytes=200_000)
+    logger.wait_recording()
+    filler = logger.logs / "filler"
+    logger.shell.run(f"head -c 850000 /dev/zero > {filler}")
+    logger.wait_for("a full disk", lambda s: not s["recording"] and "disk full" in s["text"])
+    logger.shell.run(f"rm {filler}")
+    logger.wait_for("recording", lambda s: s["recording"])
+    logger.wait_recording()
+    code, error = logger.end()
+    assert code == 0
+    assert "nothing is recorded: disk full" in error
+
+
+def test_its_own_logs_never_fill_the_disk(start):
+    logger = start(disk_bytes=400_000, reserve_bytes=100_000, quota_gb=1e-3)
+    logger.wait_recording()
+    least = 1e9
+    while logger.status().get("files_removed", 0) < 5:
+        for _ in range(5):
+            logger.bus.publish("FLOOD", b"x" * 2000)
+        least = min(least, logger.free_bytes())
+        time.sleep(0.01)
+    assert least >= 100_000
+    assert logger.status()["failures"] == 0
+
+
+def test_a_disk_without_any_room_ends_only_lcm_logger(start):
+    """ENOSPC under lcm-logger's hands: it dies of it."""
+    logger = start(disk_bytes=300_000)
+    logger.wait_recording()
+    filler = logger.logs / "filler"
+    logger.shell.run(f"head -c 1000000 /dev/zero > {filler} 2>/dev/null")
+    wait(lambda: logger.bus.publish("FLOOD", b"x" * 2000) or logger.status()["failures"], "trouble")
+    logger.shell.run(f"rm {filler}")
+    logger.wait_for("recording", lambda s: s["recording"])
+    logger.wait_recording()
+
+
+def test_waits_for_a_read_only_folder_to_become_writable(start):
+    logger = start(disk_bytes=1_000_000, mount="ro")
+    logger.wait_for("trouble", lambda s: "Read-only" in s["text"] and not s["recording"])
+    logger.shell.run(f"mount -o remount,rw {logger.logs}")
+    logger.wait_for("recording", lambda s: s["recording"])
+    logger.wait_recording()
+
+
+def test_lcm_logger_killed_is_started_again(start):
+    logger = start()
+    logger.wait_recording()
+    child = logger.status()["logger_pid"]
+    os.kill(child, signal.SIGKILL)
+    logger.wait_for("a second start", lambda s: s["starts"] == 2 and s["recording"])
+    logger.wait_recording()
+    code, error = logger.end()
+    assert code == 0
+    assert "was ended by signal 9" in error
+
+
+@pytest.mark.parametrize("sent", [signal.SIGTERM, signal.SIGKILL])
+def test_leaves_no_lcm_logger_behind(start, sent):
+    logger = start()
+    logger.wait_recording()
+    child = logger.status()["logger_pid"]
+    logger.end(sent)
+
+    def gone():
+        try:
+            os.kill(child, 0)
+        except ProcessLookupError:
+            return True
+        # Without its parent it is this process's to reap: the first of the namespace.
+        return os.getpid() == 1 and os.waitpid(child, os.WNOHANG)[0] == child
+
+    wait(gone, "the end of lcm-logger")
+
+
+def test_tells_the_service_manager(start, tmp_path, monkeypatch):
+    path = tmp_path / "notify"
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
+        manager.bind(str(path))
+        manager.settimeout(DEADLINE_S)
+        monkeypatch.setenv("NOTIFY_SOCKET", str(path))
+        start()
+        heard = manager.recv(4096).decode()
+        assert "READY=1" in heard
+        while "STATUS=recording" not in heard:
+            heard = manager.recv(4096).decode()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (["--config", "/nonexistent.toml"], "/nonexistent.toml"),
+        (["--lcm-url", "udpm://nowhere"], "--lcm-url"),
+        (["--speed", "9"], "--speed"),
+    ],
+)
+def test_bad_input_is_one_line_and_status_2(arguments, text):
+    done = subprocess.run(
+        [str(BIN / "ols-logger"), *arguments], capture_output=True, text=True, timeout=30
+    )
+    assert done.returncode == 2
+    assert done.stderr.startswith("ols-logger: ")
+    assert text in done.stderr
+    assert len(done.stderr.splitlines()) == 1

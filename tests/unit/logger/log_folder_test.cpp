@@ -1,0 +1,79 @@
+#include "tools/logger/log_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <system_error>
+
+#include "tests/unit/logger/temporary_folder.h"
+
+namespace ols {
+namespace {
+
+using testing::ElementsAre;
+
+const std::string kOld = "site-20260101T000000Z.lcmlog.00",
+                  kMiddle = "site-20260101T000000Z.lcmlog.01",
+                  kNew = "site-20260102T000000Z.lcmlog.00";
+
+TEST(LogFolder, CountsItsLogsOldestFirst) {
+  const TemporaryFolder folder;
+  folder.put(kNew, 10, 3);
+  folder.put(kOld, 20, 1);
+  folder.put(kMiddle, 30, 2);
+  folder.put("flight.lcmlog", 1000, 0);
+  folder.put("other-20260101T000000Z.lcmlog.00", 1000, 0);
+  LogFolder logs(folder.path(), "site");
+  logs.survey();
+  ASSERT_EQ(logs.files().size(), 3U);
+  EXPECT_EQ(logs.files()[0].path, folder / kOld);
+  EXPECT_EQ(logs.files()[2].path, folder / kNew);
+  EXPECT_EQ(logs.bytes(), 60.0);
+  EXPECT_GT(logs.free_bytes(), 0.0);
+}
+
+TEST(LogFolder, TheOldestGoFirstAndNoMoreThanMust) {
+  const TemporaryFolder folder;
+  folder.put(kOld, 100, 1);
+  folder.put(kMiddle, 100, 2);
+  folder.put(kNew, 100, 3);
+  LogFolder logs(folder.path(), "site");
+  logs.survey();
+  logs.make_room(400.0, 0.0, 100.0, "");
+  EXPECT_EQ(logs.removed(), 0U);
+  logs.make_room(399.0, 0.0, 100.0, "");
+  EXPECT_THAT(folder.names(), ElementsAre(kMiddle, kNew));
+  EXPECT_EQ(logs.removed(), 1U);
+  EXPECT_EQ(logs.bytes(), 200.0);
+}
+
+TEST(LogFolder, TheFileThatIsWrittenStaysEvenWhenItLooksOldest) {
+  const TemporaryFolder folder;
+  folder.put(kOld, 100, 1);
+  folder.put(kMiddle, 100, 2);
+  LogFolder logs(folder.path(), "site");
+  logs.survey();
+  logs.make_room(0.0, 0.0, 0.0, folder / kOld);
+  EXPECT_THAT(folder.names(), ElementsAre(kOld));
+}
+
+TEST(LogFolder, TheOldestGoForTheDisksReserveToo) {
+  const TemporaryFolder folder;
+  folder.put(kOld, 100, 1);
+  folder.put("flight.lcmlog", 100, 0);
+  LogFolder logs(folder.path(), "site");
+  logs.survey();
+  logs.make_room(1e18, 1e18, 0.0, "");
+  EXPECT_THAT(folder.names(), ElementsAre("flight.lcmlog"));
+}
+
+TEST(LogFolder, MakesItsFolderAndNamesOneThatIsNone) {
+  const TemporaryFolder folder;
+  LogFolder(folder / "a/b", "site").survey();
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a/b"));
+  folder.put("file", 1, 0);
+  EXPECT_THROW(LogFolder(folder / "file", "site").survey(), std::system_error);
+}
+
+}  // namespace
+}  // namespace ols

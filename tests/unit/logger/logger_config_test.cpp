@@ -1,0 +1,54 @@
+#include "tools/logger/logger_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/toml_config.h"
+
+namespace ols {
+namespace {
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_logger_config(text, "logger.toml");
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(LoggerConfig, AllKeysHaveDefaults) {
+  const LoggerConfig config = parse_logger_config("", "logger.toml");
+  EXPECT_EQ(config.folder, "/var/log/ols");
+  EXPECT_EQ(config.quota_bytes, 20e9);
+}
+
+TEST(LoggerConfig, ReadsEachKey) {
+  const LoggerConfig config = parse_logger_config(
+      "folder = '/a'\nname = 'x-1'\nlcm_url = 'udpm://239.255.76.67:7668'\nchannels = 'A.*'\n"
+      "invert = true\nsplit_mb = 10\nquota_gb = 1\ndisk_reserve_gb = 0.5\nmax_unwritten_mb = 5\n"
+      "status_file = '/b'\n",
+      "logger.toml");
+  EXPECT_EQ(config.folder, "/a");
+  EXPECT_EQ(config.name, "x-1");
+  EXPECT_EQ(config.lcm_url, "udpm://239.255.76.67:7668");
+  EXPECT_EQ(config.channels, "A.*");
+  EXPECT_TRUE(config.invert);
+  EXPECT_EQ(config.split_bytes, 10e6);
+  EXPECT_EQ(config.quota_bytes, 1e9);
+  EXPECT_EQ(config.disk_reserve_bytes, 0.5e9);
+  EXPECT_EQ(config.max_unwritten_mb, 5.0);
+  EXPECT_EQ(config.status_file, "/b");
+}
+
+TEST(LoggerConfig, RefusesWhatCannotWork) {
+  using testing::HasSubstr;
+  EXPECT_THAT(error_of("split_mb = 100\nquota_gb = 0.3\n"), HasSubstr("quota_gb: must be four"));
+  EXPECT_THAT(error_of("name = 'a/b'\n"), HasSubstr("name: may have"));
+  EXPECT_THAT(error_of("channels = '('\n"), HasSubstr("channels: is no regular expression"));
+  EXPECT_THAT(error_of("lcm_url = 'udpm://nowhere'\n"), HasSubstr("lcm_url"));
+  EXPECT_THAT(error_of("colour = 1\n"), HasSubstr("colour"));
+}
+
+}  // namespace
+}  // namespace ols

@@ -1,0 +1,42 @@
+// The folder of the logs: what there is, and making room. Only files NAME-*.lcmlog.* are looked at.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ols {
+
+struct LogFile {
+  std::string path;
+  double bytes = 0.0;
+  std::int64_t modified_ns = 0;
+};
+
+class LogFolder {
+ public:
+  LogFolder(const std::string& folder, const std::string& name);
+
+  // Takes stock. Makes the folder where it is missing; throws std::system_error when it is none or
+  // cannot be written.
+  void survey();
+  // Removes the oldest until the logs leave `headroom_bytes` of the quota, and of the disk above
+  // its reserve; never `keep`. Throws std::system_error when a file cannot be removed.
+  void make_room(double quota_bytes, double reserve_bytes, double headroom_bytes,
+                 const std::string& keep);
+
+  double bytes() const;
+  double free_bytes() const { return free_bytes_; }
+  const std::vector<LogFile>& files() const { return files_; }  // oldest first
+  std::uint64_t removed() const { return removed_; }
+
+ private:
+  void measure_room();
+
+  std::string folder_, name_;
+  std::vector<LogFile> files_;
+  double free_bytes_ = 0.0;
+  std::uint64_t removed_ = 0;
+};
+
+}  // namespace ols

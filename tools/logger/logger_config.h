@@ -1,0 +1,26 @@
+// What ols-logger's configuration file holds. docs/operations.md explains each key.
+#pragma once
+
+#include <string>
+
+namespace ols {
+
+struct LoggerConfig {
+  std::string folder = "/var/log/ols";
+  std::string name = "site";  // files are NAME-<UTC>.lcmlog.NN
+  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string channels = ".*";  // regular expression
+  bool invert = false;          // record all but those channels
+  double split_bytes = 100e6;   // a new file is begun beyond it
+  double quota_bytes = 20e9;    // of all files together: the oldest go
+  double disk_reserve_bytes = 2e9;
+  double max_unwritten_mb = 50.0;  // in memory, when the disk is slow; more is lost
+  std::string status_file;         // JSON, written again and again; empty: none
+};
+
+// Throws ConfigError.
+LoggerConfig load_logger_config(const std::string& path);
+// The same from text, `name` standing for the path in errors.
+LoggerConfig parse_logger_config(const std::string& text, const std::string& name);
+
+}  // namespace ols

@@ -1,0 +1,102 @@
+// ols-logger: records the bus with lcm-logger, under a quota. Parses, loads, wires and loops.
+#include <poll.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+#include "base/atomic_file.h"
+#include "base/clocks.h"
+#include "base/command_line.h"
+#include "base/lcm_url.h"
+#include "base/service_notifier.h"
+#include "base/shutdown.h"
+#include "base/toml_config.h"
+#include "tools/logger/supervisor.h"
+
+namespace {
+
+constexpr int kTurn_ms = 100;
+constexpr double kStatus_s = 1.0;
+
+std::string in_words(const ols::LoggerStatus& status) {
+  char room[96];
+  std::snprintf(room, sizeof room, "; %.1f GB in %zu files, %.1f GB free", status.bytes * 1e-9,
+                status.files, status.free_bytes * 1e-9);
+  return (status.recording ? "recording " : "NOT recording: ") + status.text + room;
+}
+
+// A status that cannot be written must not end what it tells of.
+void write_status(const std::string& path, const ols::LoggerStatus& status) {
+  if (path.empty()) return;
+  static bool told = false;
+  try {
+    ols::AtomicFile file(path);
+    file.stream() << ols::to_json(status, ols::clock_utime_us()) << '\n';
+    file.commit();
+    told = false;
+  } catch (const std::exception& failure) {
+    if (!told) spdlog::warn("status: {}", failure.what());
+    told = true;
+  }
+}
+
+int run(const ols::LoggerConfig& config) {
+  ols::Supervisor supervisor(config);
+  ols::ServiceNotifier service_manager;
+  double status_due_s = 0.0;
+  bool ready = false;
+  while (!ols::shutdown_requested()) {
+    const double now_s = ols::clock_monotonic_s();
+    supervisor.turn(now_s);
+    if (now_s >= status_due_s) {
+      const ols::LoggerStatus status = supervisor.status();
+      // A disk that is not to be had is no reason not to start: it is waited for, and said.
+      ready ? service_manager.status(in_words(status)) : service_manager.ready(in_words(status));
+      ready = true;
+      write_status(config.status_file, status);
+      status_due_s = now_s + kStatus_s;
+    }
+    service_manager.alive(now_s);
+    ::poll(nullptr, 0, kTurn_ms);
+  }
+  service_manager.stopping();
+  spdlog::info("stops");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Records the bus with lcm-logger: the oldest files go when the quota (GB) is used up or the "
+      "disk has less than its reserve (GB) left"};
+  std::string config_path, folder, lcm_url;
+  bool check = false;
+  app.add_option("--config", config_path, "Configuration file (TOML); all keys have defaults");
+  app.add_option("--folder", folder, "Folder of the logs, in place of the configuration's");
+  app.add_option("--lcm-url", lcm_url, "Bus, in place of the configuration's");
+  app.add_flag("--check-config", check, "Only read and check the configuration");
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-logger")) return *status;
+  spdlog::set_default_logger(spdlog::stderr_color_mt("ols-logger"));
+  ols::install_shutdown_handler();
+  try {
+    ols::LoggerConfig config;
+    if (!config_path.empty()) config = ols::load_logger_config(config_path);
+    if (!folder.empty()) config.folder = folder;
+    if (!lcm_url.empty()) config.lcm_url = lcm_url;
+    ols::multicast_group(config.lcm_url);  // throws when it is malformed
+    return check ? 0 : run(config);
+  } catch (const ols::ConfigError& error) {
+    std::fprintf(stderr, "ols-logger: %s\n", error.what());
+    return ols::kExitBadInput;
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "ols-logger: --lcm-url: %s\n", error.what());
+    return ols::kExitBadInput;
+  } catch (const std::exception& error) {
+    spdlog::critical("{}", error.what());
+    return 1;
+  }
+}
