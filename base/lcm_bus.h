@@ -30,9 +30,10 @@ class LcmBus {
   using Handler = std::function<void(const std::string& channel, const void* data, int bytes)>;
   void subscribe(const std::string& channel_regex, Handler handler, int queue_capacity = 1000);
 
+  // False when the network takes it no longer.
   template <class Message>
-  void publish(const std::string& channel, const Message& message) {
-    lcm_.publish(channel, &message);
+  bool publish(const std::string& channel, const Message& message) {
+    return lcm_.publish(channel, &message) == 0;
   }
 
   // Handles what has arrived, a few hundred messages at most, so that a flood cannot keep the

@@ -1,9 +1,12 @@
 #include "edge/config.h"
 
 #include <cctype>
+#include <string>
+#include <utility>
 
 #include "base/lcm_url.h"
 #include "base/toml_config.h"
+#include "edge/sensors/pose_keeper_config.h"
 #include "geometry/angles.h"
 
 namespace ols {
@@ -41,13 +44,38 @@ std::string station_id(ConfigTable& root) {
   return id;
 }
 
-void read_pose(ConfigTable& pose, StationGeometry& geometry) {
-  geometry.position.latitude_rad = radians(pose.required_number("latitude_deg", -90.0, 90.0));
-  geometry.position.longitude_rad = radians(pose.required_number("longitude_deg", -180.0, 360.0));
-  geometry.position.height_m = pose.required_number("height_m", -1000.0, 100000.0);
+Geodetic read_position(ConfigTable& pose) {
+  Geodetic position;
+  position.latitude_rad = radians(pose.required_number("latitude_deg", -90.0, 90.0));
+  position.longitude_rad = radians(pose.required_number("longitude_deg", -180.0, 360.0));
+  position.height_m = pose.required_number("height_m", -1000.0, 100000.0);
+  return position;
+}
+
+// The survey overrides the sensors; what it leaves out is theirs. Without position and receiver the
+// position is asked for, without tilt and inclinometer the head is taken as level, roughly: unless
+// [calibration.sd] says how well it was levelled.
+void read_pose(ConfigTable& pose, ConfigTable& calibration_sd, StationSettings& settings) {
+  StationGeometry& geometry = settings.station.geometry;
+  PoseKeeper::Config& keeper = settings.pose;
   geometry.chain.heading_rad = radians(pose.required_number("heading_deg", -360.0, 360.0));
-  geometry.chain.tilt_x_rad = angle(pose, "tilt_x_deg", 0.0, 45.0);
-  geometry.chain.tilt_y_rad = angle(pose, "tilt_y_deg", 0.0, 45.0);
+  const bool any = pose.has("latitude_deg") || pose.has("longitude_deg") || pose.has("height_m");
+  if (any || settings.gnss.host.empty()) {
+    keeper.surveyed_position = geometry.position = read_position(pose);
+    keeper.surveyed_position_sd_m = geometry.sd.position_m;
+  }
+  const bool levelled = settings.inclinometer.device.empty() && calibration_sd.has("tilt_deg");
+  if (pose.has("tilt_x_deg") || pose.has("tilt_y_deg") || levelled) {
+    geometry.chain.tilt_x_rad = angle(pose, "tilt_x_deg", 0.0, 45.0);
+    geometry.chain.tilt_y_rad = angle(pose, "tilt_y_deg", 0.0, 45.0);
+    keeper.surveyed_tilt_rad =
+        Eigen::Vector2d(geometry.chain.tilt_x_rad, geometry.chain.tilt_y_rad);
+    keeper.surveyed_tilt_sd_rad = geometry.sd.tilt_rad;
+  }
+  keeper.level_sd_rad = angle_sd(pose, "level_sd_deg", keeper.level_sd_rad);
+  keeper.alarm_sigma = pose.number("alarm_sigma", keeper.alarm_sigma, 1.0, 100.0);
+  keeper.growth_m_sqrt_s = pose.number("growth_m_sqrt_s", keeper.growth_m_sqrt_s, 0.0, 10.0);
+  keeper.growth_rad_sqrt_s = angle_sd(pose, "growth_deg_sqrt_s", keeper.growth_rad_sqrt_s);
 }
 
 void read_chain(ConfigTable& table, ChainParameters& chain) {
@@ -86,6 +114,44 @@ void read_calibration_sd(ConfigTable& table, CalibrationSd& sd) {
   sd.position_m = table.number("position_m", sd.position_m, 0.0, 1e5);
 }
 
+void read_clock(ConfigTable& table, StationSettings& settings) {
+  ClockWatch::Config& clock = settings.clock;
+  clock.assumed_sd_s = table.number("sd_s", clock.assumed_sd_s, 0.0, 1e4);
+  clock.never_set_sd_s = table.number("never_set_sd_s", clock.never_set_sd_s, 0.0, 1e4);
+  clock.step_s = table.number("step_s", clock.step_s, 1e-3, 10.0);
+  clock.distrust_s = table.number("distrust_s", clock.distrust_s, 0.0, 1e5);
+  clock.drift_per_s = table.number("drift_per_s", clock.drift_per_s, 0.0, 1e-2);
+  clock.silence_s = table.number("silence_s", clock.silence_s, 1.0, 1e5);
+  settings.clock_interval_s = table.number("interval_s", settings.clock_interval_s, 0.1, 600.0);
+}
+
+void read_watchdog(ConfigTable& table, StationSettings& settings) {
+  HostConfig& host = settings.host;
+  if (!settings.recorder.folder.empty()) host.disk_folder = settings.recorder.folder;
+  host.disk_folder = table.text("disk_folder", host.disk_folder);
+  host.disk_alarm_bytes = table.number("disk_alarm_bytes", host.disk_alarm_bytes, 0.0, 1e15);
+  host.cpu_alarm_C = table.number("cpu_alarm_C", host.cpu_alarm_C, 0.0, 200.0);
+  host.slow_turn_s = table.number("slow_turn_s", host.slow_turn_s, 0.01, 60.0);
+}
+
+void read_devices(ConfigTable& root, StationSettings& settings) {
+  settings.camera = read_camera_config(root.table("camera"));
+  settings.ptu = read_ptu_config(root.table("ptu"));
+  settings.inclinometer = read_inclinometer_config(root.table("inclinometer"));
+  settings.gnss = read_gnss_config(root.table("gnss"));
+  settings.gpio = read_gpio_config(root.table("gpio"));
+  settings.recorder = read_recorder_config(root.table("recorder"));
+  settings.pose = pose_keeper_config(settings.inclinometer, settings.gnss);
+  // An empty text says that there is none; a section that leaves it out is a mistake.
+  for (const auto& [name, key] : {std::pair("inclinometer", "device"),
+                                  {"gnss", "host"},
+                                  {"gpio", "chip"},
+                                  {"recorder", "folder"}}) {
+    if (root.has(name) && !root.table(name).has(key))
+      throw root.error(name, "lacks its " + std::string(key));
+  }
+}
+
 void read_logic(ConfigTable& table, StationConfig& station) {
   station.designation_sd_px =
       table.number("designation_sd_px", station.designation_sd_px, 0.0, 100.0);
@@ -100,6 +166,7 @@ void read_logic(ConfigTable& table, StationConfig& station) {
   station.search_sd_px = table.number("search_sd_px", station.search_sd_px, 1.0, 1000.0);
   station.slew_lease_max_s = table.number("slew_lease_max_s", station.slew_lease_max_s, 0.1, 5.0);
   station.point_time_s = table.number("point_time_s", station.point_time_s, 0.1, 60.0);
+  station.max_age_s = table.number("max_age_s", station.max_age_s, 0.1, 10.0);
   station.motion.acceleration_sd_rad_s2 =
       angle_sd(table, "target_acceleration_deg_s2", station.motion.acceleration_sd_rad_s2);
 }
@@ -119,19 +186,19 @@ StationSettings load_station_settings(const std::string& path) {
       root.number("preview_interval_s", settings.preview_interval_s, 0.0, 60.0);
 
   StationGeometry& geometry = settings.station.geometry;
-  settings.camera = read_camera_config(root.table("camera"));
-  settings.ptu = read_ptu_config(root.table("ptu"));
+  read_devices(root, settings);
   settings.tracker = read_tracker_config(root.table("tracker"));
   geometry.camera.width_px = settings.camera.width_px;
   geometry.camera.height_px = settings.camera.height_px;
-  read_pose(root.table("pose"), geometry);
   read_chain(root.table("chain"), geometry.chain);
   read_lens(root.table("lens"), geometry.camera);
 
   ConfigTable& calibration = root.table("calibration");
   settings.calibration_id = calibration.integer("id", 0, 0, INT64_MAX);
   read_calibration_sd(calibration.table("sd"), geometry.sd);
-  settings.clock_sd_s = root.table("clock").number("sd_s", settings.clock_sd_s, 0.0, 1e4);
+  read_pose(root.table("pose"), calibration.table("sd"), settings);
+  read_clock(root.table("clock"), settings);
+  read_watchdog(root.table("watchdog"), settings);
   read_logic(root.table("logic"), settings.station);
   settings.station.angles = settings.ptu.history;
   settings.station.limits = settings.ptu.limits;

@@ -3,10 +3,18 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "edge/camera/camera_config.h"
+#include "edge/clock/clock_watch.h"
 #include "edge/command_gate.h"
+#include "edge/gpio/gpio.h"
+#include "edge/host_watch.h"
 #include "edge/ptu/ptu_config.h"
+#include "edge/recorder/recorder.h"
+#include "edge/sensors/gnss.h"
+#include "edge/sensors/inclinometer.h"
+#include "edge/sensors/pose_keeper.h"
 #include "edge/station.h"
 #include "edge/tracker/tracker_config.h"
 
@@ -16,18 +24,28 @@ struct StationSettings {
   std::string id;  // letters, digits, - and _; at most 32, because it is part of the channel names
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::int64_t calibration_id = 0;
-  double clock_sd_s = 1e-3;  // 1-sigma of this computer's UTC, until it is measured
   std::uint64_t tracker_seed = 1;
   double status_interval_s = 0.5;
   double preview_interval_s = 1.0;  // 0: none
   StationConfig station;
+  PoseKeeper::Config pose;
   CameraConfig camera;
   PtuConfig ptu;
+  InclinometerConfig inclinometer;
+  GnssConfig gnss;
+  GpioConfig gpio;
+  RecorderConfig recorder;
+  ClockWatch::Config clock;
+  double clock_interval_s = 5.0;  // between two questions to kernel and chrony
+  HostConfig host;
   TrackerConfig tracker;
   CommandGate::Config gate;
 };
 
 // Throws ConfigError ("file:line: key: what").
 StationSettings load_station_settings(const std::string& path);
+
+// What is configured, one line a subject, for --check-config.
+std::vector<std::string> describe(const StationSettings& settings);
 
 }  // namespace ols

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdint>
+#include <cstdio>
 #include <exception>
 #include <opencv2/core/utility.hpp>
 #include <random>
@@ -24,7 +25,7 @@ int run(const ols::StationSettings& settings) {
   ols::StationProcess process(settings, draw_boot_id());
   spdlog::info("station {} ready: camera {}, PTU {}, bus {}", settings.id, settings.camera.device,
                settings.ptu.device, settings.lcm_url);
-  while (!ols::shutdown_requested()) process.turn();
+  process.run(ols::shutdown_requested);
   spdlog::info("station {} stops", settings.id);
   return 0;
 }
@@ -42,7 +43,10 @@ int main(int argc, char** argv) {
   ols::install_shutdown_handler();
   try {
     const ols::StationSettings settings = ols::load_station_settings(config);
-    if (check) return 0;
+    if (check) {
+      for (const auto& line : ols::describe(settings)) std::printf("ok %s\n", line.c_str());
+      return 0;
+    }
     return run(settings);
   } catch (const ols::ConfigError& error) {
     std::fprintf(stderr, "ols-station: %s\n", error.what());

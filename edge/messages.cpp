@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -20,22 +21,60 @@ void symmetric(const Eigen::Matrix2d& matrix, double (&out)[3]) {
   out[2] = matrix(1, 1);
 }
 
-// The station's UTC is as good as the configuration says; its quality is not measured yet.
-constexpr std::int8_t kClockState = ols_msg::bearing_t::CLOCK_UNKNOWN;
+std::int8_t clock_code(ClockState state) {
+  using M = ols_msg::bearing_t;
+  switch (state) {
+    case ClockState::kUnknown:
+      return M::CLOCK_UNKNOWN;
+    case ClockState::kSynchronised:
+      return M::CLOCK_SYNCHRONISED;
+    case ClockState::kUnsynchronised:
+      return M::CLOCK_UNSYNCHRONISED;
+  }
+  return M::CLOCK_UNKNOWN;
+}
 
-void fill_pose(const StationSettings& settings, ols_msg::station_status_t& message) {
-  const StationGeometry& geometry = settings.station.geometry;
-  message.latitude_deg = degrees(geometry.position.latitude_rad);
-  message.longitude_deg = degrees(geometry.position.longitude_rad);
-  message.height_m = geometry.position.height_m;
-  for (double& sd : message.position_sd_m) sd = geometry.sd.position_m;
+std::int8_t pose_code(PoseSource source) {
+  using M = ols_msg::station_status_t;
+  switch (source) {
+    case PoseSource::kNone:
+      return M::POSE_NONE;
+    case PoseSource::kSurveyed:
+      return M::POSE_SURVEYED;
+    case PoseSource::kSensor:
+      return M::POSE_SENSOR;
+  }
+  return M::POSE_NONE;
+}
+
+// The id of the configured calibration, or another one for each pose that the sensors gave in this
+// boot. (Steps of splitmix64.)
+std::int64_t calibration_id(std::int64_t configured, std::int64_t boot_id, std::int64_t revision) {
+  if (revision == 0) return configured;
+  auto bits = static_cast<std::uint64_t>(configured);
+  for (const std::int64_t part : {boot_id, revision}) {
+    bits = (bits ^ static_cast<std::uint64_t>(part)) + 0x9E3779B97F4A7C15U;
+    bits = (bits ^ (bits >> 30U)) * 0xBF58476D1CE4E5B9U;
+    bits = (bits ^ (bits >> 27U)) * 0x94D049BB133111EBU;
+    bits ^= bits >> 31U;
+  }
+  return static_cast<std::int64_t>(bits >> 1U);
+}
+
+void fill_pose(const StationPose& pose, const StationGeometry& geometry,
+               ols_msg::station_status_t& message) {
+  const bool known = pose.position_source != PoseSource::kNone;
+  message.latitude_deg = known ? degrees(pose.position.latitude_rad) : kNaN;
+  message.longitude_deg = known ? degrees(pose.position.longitude_rad) : kNaN;
+  message.height_m = known ? pose.position.height_m : kNaN;
+  for (int i = 0; i < 3; ++i) message.position_sd_m[i] = known ? pose.position_sd_enu_m[i] : kNaN;
   message.heading_rad = geometry.chain.heading_rad;
-  message.tilt_x_rad = geometry.chain.tilt_x_rad;
-  message.tilt_y_rad = geometry.chain.tilt_y_rad;
+  message.tilt_x_rad = pose.tilt_x_rad;
+  message.tilt_y_rad = pose.tilt_y_rad;
   message.heading_sd_rad = geometry.sd.heading_rad;
-  message.tilt_sd_rad = geometry.sd.tilt_rad;
-  message.position_source = ols_msg::station_status_t::POSE_SURVEYED;
-  message.tilt_source = ols_msg::station_status_t::POSE_SURVEYED;
+  message.tilt_sd_rad = pose.tilt_sd_rad;
+  message.position_source = pose_code(pose.position_source);
+  message.tilt_source = pose_code(pose.tilt_source);
   const Eigen::Vector2d field = field_of_view(geometry.camera);
   message.field_of_view_rad[0] = field.x();
   message.field_of_view_rad[1] = field.y();
@@ -43,8 +82,10 @@ void fill_pose(const StationSettings& settings, ols_msg::station_status_t& messa
   message.image_height_px = geometry.camera.height_px;
 }
 
-void fill_pointing(const StationSnapshot& snapshot, const PtuLimits& limits, bool limits_known,
-                   ols_msg::station_status_t& message) {
+void fill_pointing(const StationReport& report, ols_msg::station_status_t& message) {
+  const StationSnapshot& snapshot = report.snapshot;
+  const PtuLimits& limits = report.limits;
+  const bool limits_known = report.limits_known;
   message.pan_rad = snapshot.angles ? snapshot.angles->angles.pan_rad : kNaN;
   message.tilt_rad = snapshot.angles ? snapshot.angles->angles.tilt_rad : kNaN;
   message.pan_limits_rad[0] = limits_known ? limits.pan_min_rad : kNaN;
@@ -95,52 +136,41 @@ std::int8_t device_code(DeviceState state) {
   return M::DEVICE_FAULT;
 }
 
-void fill_devices(const std::vector<DeviceReport>& devices, double now_s,
-                  ols_msg::station_status_t& message) {
-  for (const DeviceReport& device : devices) {
+void fill_devices(const StationReport& report, double now_s, ols_msg::station_status_t& message) {
+  for (const DeviceReport& device : report.devices) {
     message.device_name.push_back(device.name);
     message.device_state.push_back(device_code(device.state));
     message.device_text.push_back(device.text);
     message.device_age_s.push_back(device.last_good_s ? now_s - *device.last_good_s : kNaN);
-    message.alarm.insert(message.alarm.end(), device.alarms.begin(), device.alarms.end());
-    for (const auto& [name, value] : device.readings) {
-      message.reading_name.push_back(name);
-      message.reading_value.push_back(value);
-    }
   }
   message.devices = static_cast<std::int16_t>(message.device_name.size());
+  message.alarm = all_alarms(report);
   message.alarms = static_cast<std::int16_t>(message.alarm.size());
+}
+
+void fill_numbers(const StationReport& report, ols_msg::station_status_t& message) {
+  std::map<std::string, double> readings = report.readings;
+  std::map<std::string, double> counters = report.counters;
+  counters.insert(report.snapshot.counters.begin(), report.snapshot.counters.end());
+  for (const DeviceReport& device : report.devices) {
+    readings.insert(device.readings.begin(), device.readings.end());
+    for (const auto& [name, value] : device.counters) {
+      counters.emplace(name, static_cast<double>(value));
+    }
+  }
+  for (const auto& [name, value] : readings) {
+    message.reading_name.push_back(name);
+    message.reading_value.push_back(value);
+  }
   message.readings = static_cast<std::int16_t>(message.reading_name.size());
+  for (const auto& [name, value] : counters) {
+    message.counter_name.push_back(name);
+    message.counter_value.push_back(value);
+  }
+  message.counters = static_cast<std::int16_t>(message.counter_name.size());
 }
 
 }  // namespace
-
-DeviceState device_state(CameraState state) {
-  switch (state) {
-    case CameraState::kAbsent:
-      return DeviceState::kAbsent;
-    case CameraState::kStarting:
-      return DeviceState::kStarting;
-    case CameraState::kStreaming:
-      return DeviceState::kOk;
-    case CameraState::kFault:
-      return DeviceState::kFault;
-  }
-  return DeviceState::kFault;
-}
-
-DeviceState device_state(const PtuStatus& status) {
-  if (!status.port_open) return DeviceState::kAbsent;
-  switch (status.state) {
-    case PtuState::kStarting:
-      return DeviceState::kStarting;
-    case PtuState::kReady:
-      return DeviceState::kOk;
-    case PtuState::kFault:
-      return DeviceState::kFault;
-  }
-  return DeviceState::kFault;
-}
 
 std::int64_t Sender::utime_us(double monotonic_s) const {
   return std::llround(monotonic_s * 1e6) + utc_minus_monotonic_us;
@@ -169,19 +199,20 @@ ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
   message.elevation_rad = bearing.sight.direction.elevation_rad;
   symmetric(bearing.sight.covariance_white, message.covariance_white_rad2);
   symmetric(bearing.sight.covariance_systematic, message.covariance_systematic_rad2);
-  message.calibration_id = settings.calibration_id;
-  message.clock_state = kClockState;
+  message.calibration_id =
+      calibration_id(settings.calibration_id, sender.boot_id, bearing.pose_revision);
+  message.clock_state = clock_code(sender.clock.state);
   message.stamp_source = bearing.stamp_source == StampSource::kCamera
                              ? ols_msg::bearing_t::STAMP_CAMERA
                              : ols_msg::bearing_t::STAMP_ARRIVAL;
-  message.clock_error_s = settings.clock_sd_s;
+  message.clock_error_s = sender.clock.error_s;
   return message;
 }
 
-ols_msg::station_status_t to_message(const StationSnapshot& snapshot, const Sender& sender,
-                                     const StationSettings& settings, const PtuLimits& limits,
-                                     const std::vector<DeviceReport>& devices, double now_s,
+ols_msg::station_status_t to_message(const StationReport& report, const Sender& sender,
+                                     const StationSettings& settings, double now_s,
                                      std::int64_t sequence) {
+  const StationSnapshot& snapshot = report.snapshot;
   ols_msg::station_status_t message;
   message.utime = sender.utime_us(now_s);
   message.schema_version = ols_msg::station_status_t::SCHEMA_VERSION;
@@ -191,20 +222,15 @@ ols_msg::station_status_t to_message(const StationSnapshot& snapshot, const Send
   message.state = state_code(snapshot.state);
   message.track_id = snapshot.track_id;
   message.belief = snapshot.belief;
-  fill_pose(settings, message);
-  const bool limits_known = std::any_of(devices.begin(), devices.end(), [](const auto& device) {
-    return device.name == "ptu" && device.state == DeviceState::kOk;
-  });
-  fill_pointing(snapshot, limits, limits_known, message);
-  fill_devices(devices, now_s, message);
-  message.clock_state = kClockState;
-  message.clock_error_s = settings.clock_sd_s;
+  fill_pose(snapshot.pose, settings.station.geometry, message);
+  fill_pointing(report, message);
+  fill_devices(report, now_s, message);
+  message.clock_state = clock_code(sender.clock.state);
+  message.clock_error_s = sender.clock.error_s;
   message.frame_latency_s = snapshot.frame_latency_s;
-  for (const auto& [name, value] : snapshot.counters) {
-    message.counter_name.push_back(name);
-    message.counter_value.push_back(value);
-  }
-  message.counters = static_cast<std::int16_t>(message.counter_name.size());
+  fill_numbers(report, message);
+  message.last_error = report.last_error;
+  message.last_error_utime = report.last_error_utime_us;
   return message;
 }
 
@@ -258,6 +284,20 @@ SlewCommand from_message(const ols_msg::slew_t& message, const Sender& sender, d
 
 PointCommand from_message(const ols_msg::ptu_command_t& message) {
   return {{message.pan_rad, message.tilt_rad}};
+}
+
+std::optional<RecordCommand> from_message(const ols_msg::record_t& message, const Sender& sender,
+                                          double now_s) {
+  constexpr double kMost_s = 3600.0;
+  RecordCommand command;
+  command.event_s = message.event_utime == 0 ? now_s : sender.monotonic_s(message.event_utime);
+  command.before_s = message.before_s;
+  command.after_s = message.after_s;
+  command.label = message.label;
+  const auto is_span = [](double s) { return s >= 0.0 && s <= kMost_s; };  // false for NaN
+  if (!is_span(command.before_s) || !is_span(command.after_s)) return std::nullopt;
+  if (!(std::abs(command.event_s - now_s) <= kMost_s)) return std::nullopt;
+  return command;
 }
 
 }  // namespace ols

@@ -3,9 +3,15 @@
 #include <cmath>
 
 namespace ols {
+namespace {
 
-StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station)
-    : settings_(settings), station_(station), bus_(settings.lcm_url) {
+constexpr int kQueue = 400;  // commands of one kind that wait for a turn; LCM drops the others
+
+}  // namespace
+
+StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
+                       Record recorder)
+    : settings_(settings), station_(station), record_(std::move(recorder)) {
   sender_.station = settings.id;
   sender_.boot_id = boot_id;
   on_command<ols_msg::designate_t>(
@@ -26,6 +32,41 @@ StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, St
       [](const ols_msg::ptu_command_t& message) {
         return message.command == ols_msg::ptu_command_t::COMMAND_STOP;
       });
+  on_command<ols_msg::record_t>(
+      "RECORD",
+      [this](const ols_msg::record_t& message) {
+        record(message);
+        return Refusal::kNone;
+      },
+      [](const ols_msg::record_t&) { return false; });
+}
+
+// A bus without a route is deaf for ever, so that it is only made when there is one.
+void StationBus::connect() {
+  constexpr double kRetry_s = 1.0;
+  if (now_s_ < connect_due_s_) return;
+  connect_due_s_ = now_s_ + kRetry_s;
+  try {
+    bus_.emplace(settings_.lcm_url);
+    for (const auto& [channel, handler] : subscriptions_) {
+      bus_->subscribe(channel, handler, kQueue);
+    }
+    trouble_.clear();
+    counters_["bus_connects"] += 1;
+  } catch (const BusError& error) {
+    bus_.reset();
+    trouble_ = error.what();
+  }
+}
+
+// What cannot be sent is not kept: a bearing of yesterday is of no use to anybody.
+template <class Message>
+void StationBus::publish(const std::string& channel, const Message& message) {
+  if (bus_ && bus_->publish(channel, message)) return;
+  counters_["messages_not_sent"] += 1;
+  if (!bus_) return;
+  bus_.reset();
+  trouble_ = "the network takes no messages";
 }
 
 Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
@@ -61,51 +102,60 @@ void StationBus::on_command(const std::string& kind,
       if (refusal) return refuse(kind, to_string(*refusal));
     }
     const Refusal result = execute(message);
-    if (result != Refusal::kNone) trouble(kind + " refused: " + to_string(result));
+    if (result != Refusal::kNone) note_refusal(kind + " refused: " + to_string(result));
   };
-  bus_.subscribe("OLS_" + kind + "_" + settings_.id, receive);
+  subscriptions_.emplace_back("OLS_" + kind + "_" + settings_.id, receive);
+}
+
+void StationBus::record(const ols_msg::record_t& message) {
+  const auto command = from_message(message, sender_, now_s_);
+  const std::string refusal = command ? record_(*command) : "not a span of time";
+  if (refusal.empty()) {
+    counters_["record_accepted"] += 1;
+  } else {
+    refuse("RECORD", "recorder");
+    note_refusal("RECORD refused: " + refusal);
+  }
 }
 
 void StationBus::refuse(const std::string& kind, const std::string& why) {
   counters_["messages_refused"] += 1;
   counters_["messages_refused_" + why] += 1;
-  trouble(kind + " refused: " + why);
+  note_refusal(kind + " refused: " + why);
 }
 
-void StationBus::trouble(const std::string& what) {
+void StationBus::note_refusal(const std::string& what) {
   last_refusal_ = what;
   ++refusals_;
 }
 
-void StationBus::set_time(double monotonic_s, std::int64_t utime_us) {
-  now_s_ = monotonic_s;
-  sender_.utc_minus_monotonic_us = utime_us - std::llround(monotonic_s * 1e6);
+void StationBus::set_time(const ClockPair& now, const ClockQuality& quality) {
+  now_s_ = now.monotonic_s;
+  sender_.utc_minus_monotonic_us = now.utime_us - std::llround(now.monotonic_s * 1e6);
+  sender_.clock = quality;
 }
 
-void StationBus::receive() { bus_.handle(0); }
+// A bounded number of messages: a flood costs messages, not the control loop.
+void StationBus::receive() {
+  if (!bus_) connect();
+  if (bus_) bus_->handle(0);
+}
 
 void StationBus::send(const Bearing& bearing) {
-  bus_.publish("OLS_BEARING_" + settings_.id,
-               to_message(bearing, sender_, settings_, ++sequences_["bearing"]));
+  publish("OLS_BEARING_" + settings_.id,
+          to_message(bearing, sender_, settings_, ++sequences_["bearing"]));
 }
 
-void StationBus::send_status(StationSnapshot snapshot, const PtuLimits& limits,
-                             const std::vector<DeviceReport>& devices,
-                             const std::string& last_error) {
-  snapshot.counters.insert(counters_.begin(), counters_.end());
-  auto message =
-      to_message(snapshot, sender_, settings_, limits, devices, now_s_, ++sequences_["status"]);
-  if (last_error != last_error_) last_error_utime_ = message.utime;
-  last_error_ = last_error;
-  message.last_error = last_error;
-  message.last_error_utime = last_error.empty() ? 0 : last_error_utime_;
-  bus_.publish("OLS_STATUS_" + settings_.id, message);
+void StationBus::send(StationReport report) {
+  report.counters.insert(counters_.begin(), counters_.end());
+  publish("OLS_STATUS_" + settings_.id,
+          to_message(report, sender_, settings_, now_s_, ++sequences_["status"]));
 }
 
 void StationBus::send_preview(const Frame& frame, const std::optional<cv::Rect2d>& box) {
   const auto message = to_preview(frame, box, sender_, ++sequences_["preview"]);
   if (message) {
-    bus_.publish("OLS_PREVIEW_" + settings_.id, *message);
+    publish("OLS_PREVIEW_" + settings_.id, *message);
   } else {
     counters_["previews_too_large"] += 1;
   }

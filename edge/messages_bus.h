@@ -1,12 +1,18 @@
 // A station on the bus: takes commands in, sends bearings, status and previews out. Decodes, checks
-// who is meant and whether the command is fresh, and counts whatever it refuses.
+// who is meant and whether the command is fresh, and counts whatever it refuses. Without a network
+// the station runs all the same: the connection is tried again once a second.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/lcm_bus.h"
+#include "edge/clock/clock_pair.h"
 #include "edge/config.h"
 #include "edge/messages.h"
 
@@ -14,45 +20,56 @@ namespace ols {
 
 class StationBus {
  public:
-  // Throws BusError. The references must outlive the bus.
-  StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station);
+  // Empty: accepted; else why not.
+  using Record = std::function<std::string(const RecordCommand&)>;
+
+  // The references must outlive the bus.
+  StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
+             Record recorder);
 
   // The clocks of this moment, for everything until the next call.
-  void set_time(double monotonic_s, std::int64_t utime_us);
+  void set_time(const ClockPair& now, const ClockQuality& quality);
 
-  // Hands the waiting commands to the station.
+  // Hands the waiting commands to the station; connects first where there is no connection.
   void receive();
 
+  // Why there is no connection; empty when there is one.
+  const std::string& trouble() const { return trouble_; }
   // The last refused command in words, and how many there were.
   const std::string& last_refusal() const { return last_refusal_; }
   std::uint64_t refusals() const { return refusals_; }
 
   void send(const Bearing& bearing);
-  void send_status(StationSnapshot snapshot, const PtuLimits& limits,
-                   const std::vector<DeviceReport>& devices, const std::string& last_error);
+  void send(StationReport report);
   void send_preview(const Frame& frame, const std::optional<cv::Rect2d>& box);
 
  private:
+  void connect();
+  template <class Message>
+  void publish(const std::string& channel, const Message& message);
   // Messages that `passes` is true for need not be fresh.
   template <class Message>
   void on_command(const std::string& kind, const std::function<Refusal(const Message&)>& execute,
                   const std::function<bool(const Message&)>& passes);
   Refusal command_ptu(const ols_msg::ptu_command_t& message);
+  void record(const ols_msg::record_t& message);
   void refuse(const std::string& kind, const std::string& why);
-  void trouble(const std::string& what);
+  void note_refusal(const std::string& what);
 
   const StationSettings& settings_;
   Station& station_;
+  Record record_;
   Sender sender_;
   double now_s_ = 0.0;
-  LcmBus bus_;
+  std::vector<std::pair<std::string, LcmBus::Handler>> subscriptions_;
+  std::optional<LcmBus> bus_;
+  double connect_due_s_ = 0.0;
+  std::string trouble_ = "not connected yet";
   std::map<std::string, CommandGate> gates_;
-  std::map<std::string, double> counters_;  // refusals before the station
+  std::map<std::string, double> counters_;  // refusals before the station, messages not sent
   std::map<std::string, std::int64_t> sequences_;
   std::string last_refusal_;
   std::uint64_t refusals_ = 0;
-  std::string last_error_;
-  std::int64_t last_error_utime_ = 0;
 };
 
 }  // namespace ols

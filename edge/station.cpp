@@ -38,12 +38,11 @@ Station::Station(const StationConfig& config, std::unique_ptr<TargetTracker> tra
   pose_.tilt_x_rad = geometry.chain.tilt_x_rad;
   pose_.tilt_y_rad = geometry.chain.tilt_y_rad;
   pose_.tilt_sd_rad = geometry.sd.tilt_rad;
+  revision_pose_ = pose_;
 }
 
 void Station::set_pose(const StationPose& pose) {
-  if (!revision_pose_) {
-    revision_pose_ = pose;
-  } else if (differs(*revision_pose_, pose)) {
+  if (differs(revision_pose_, pose)) {
     revision_pose_ = pose;
     ++pose_revision_;
     counters_["pose_revisions"] += 1;

@@ -107,7 +107,7 @@ class Station {
   StationState state_ = StationState::kIdle;
   bool stop_pressed_ = false;
   StationPose pose_;
-  std::optional<StationPose> revision_pose_;  // of which the bearings' pose_revision speaks
+  StationPose revision_pose_;  // of which the bearings' pose_revision speaks
   std::int64_t pose_revision_ = 0;
 
   std::deque<Frame> frames_;  // the last frame_memory_s

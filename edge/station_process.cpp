@@ -1,92 +1,208 @@
 #include "edge/station_process.h"
 
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "base/clocks.h"
+#include "edge/clock/clock_pair.h"
 
 namespace ols {
 namespace {
 
 constexpr double kFrameWait_s = 0.004;
+constexpr double kPoseInterval_s = 0.1;
+
+LedPattern led_pattern(const StationReport& report) {
+  if (report.snapshot.state == StationState::kEmergency) return LedPattern::kEmergency;
+  const auto starts = [](const DeviceReport& device) {
+    return device.state == DeviceState::kStarting;
+  };
+  if (std::ranges::any_of(report.devices, starts)) return LedPattern::kStarting;
+  if (!all_alarms(report).empty()) return LedPattern::kTrouble;
+  const auto ails = [](const DeviceReport& device) { return device.state != DeviceState::kOk; };
+  if (std::ranges::any_of(report.devices, ails)) return LedPattern::kTrouble;
+  return report.snapshot.state == StationState::kTracking ? LedPattern::kTracking
+                                                          : LedPattern::kReady;
+}
 
 }  // namespace
 
 StationProcess::StationProcess(const StationSettings& settings, std::int64_t boot_id)
     : settings_(settings),
+      clock_(settings_.clock),
+      clock_source_(settings_.clock_interval_s),
+      pose_(settings_.pose),
       station_(settings_.station,
                std::make_unique<ParticleFilterTracker>(settings_.tracker, settings_.tracker_seed)),
-      bus_(settings_, boot_id, station_),
-      camera_(settings_.camera),
-      ptu_(settings_.ptu) {}
-
-void StationProcess::turn() {
-  bus_.set_time(clock_monotonic_s(), clock_utime_us());
-  bus_.receive();
-  if (auto frame = camera_.next(kFrameWait_s)) {
-    // The angles first: the frame's homography is predicted from them.
-    for (const auto& sample : ptu_.take_samples()) station_.on_angles(sample);
-    station_.on_frame(*frame);
-    newest_ = std::move(frame);
-  }
-  for (const auto& sample : ptu_.take_samples()) station_.on_angles(sample);
-  const double now_s = clock_monotonic_s();
-  for (const auto& bearing : station_.step(now_s)) bus_.send(bearing);
-  ptu_.set_goal(station_.goal(now_s));
-  send_reports(now_s);
+      bus_(settings_, boot_id, station_,
+           [this](const RecordCommand& command) { return record(command); }),
+      host_(settings_.host),
+      devices_(settings_) {
+  station_.set_pose(pose_.pose(clock_monotonic_s()));
 }
 
-void StationProcess::send_reports(double now_s) {
-  if (now_s >= status_due_s_) {
-    status_due_s_ = now_s + settings_.status_interval_s;
-    const PtuStatus ptu = ptu_.status();
-    if (ptu.state == PtuState::kReady) station_.set_limits(ptu.limits);
-    note("camera", camera_.last_error(), 0);
-    note("ptu", ptu.last_error, ptu.port_failures + ptu.counters.errors + ptu.counters.timeouts);
-    note("command", bus_.last_refusal(), bus_.refusals());
-    DeviceReport camera_report;
-    camera_report.name = "camera";
-    camera_report.state = device_state(camera_.state());
-    DeviceReport ptu_report;
-    ptu_report.name = "ptu";
-    ptu_report.state = device_state(ptu);
-    bus_.send_status(snapshot_with_devices(), ptu.limits, {camera_report, ptu_report}, last_error_);
+void StationProcess::run(const std::function<bool()>& ends) {
+  bool ready = false;
+  while (!ends()) {
+    turn();
+    if (!ready) service_.ready("station " + settings_.id + " begins");
+    ready = true;
   }
-  if (settings_.preview_interval_s > 0.0 && now_s >= preview_due_s_ && newest_) {
-    preview_due_s_ = now_s + settings_.preview_interval_s;
+  service_.stopping();
+}
+
+void StationProcess::turn() {
+  const ClockPair start = look_at_clocks();
+  heed_emergency_stop(start.monotonic_s);
+  receive_commands();
+  keep_pose(start.monotonic_s);
+  take_frame();
+  take_angles();
+  // Again, because the tracker takes its time: what is published is stamped by the clocks of now.
+  const ClockPair now = look_at_clocks();
+  for (const Bearing& bearing : station_.step(now.monotonic_s)) bus_.send(bearing);
+  devices_.ptu().set_goal(station_.goal(now.monotonic_s));
+  trigger_camera(now.monotonic_s);
+  send_reports(now);
+  host_.note_turn(now.monotonic_s - start.monotonic_s);
+  service_.alive(now.monotonic_s);
+}
+
+ClockPair StationProcess::look_at_clocks() {
+  const ClockPair now = read_clock_pair();
+  clock_.tick(now.monotonic_s, now.utime_us);
+  if (const auto reading = clock_source_.take()) clock_.add(*reading);
+  bus_.set_time(now, clock_.quality(now.monotonic_s));
+  utc_minus_monotonic_us_ = now.utime_us - std::llround(now.monotonic_s * 1e6);
+  return now;
+}
+
+// The GPIO's thread has halted the unit already; here the station learns of it.
+void StationProcess::heed_emergency_stop(double now_s) {
+  StopLatch& stop = devices_.stop();
+  if (stop.take_press()) station_.emergency_stop(true, now_s);
+  station_.emergency_stop(stop.pressed(), now_s);
+  halted_ = halted_ || station_.state() == StationState::kEmergency;
+}
+
+void StationProcess::receive_commands() {
+  bus_.receive();
+  if (halted_ && station_.state() != StationState::kEmergency) {
+    halted_ = false;
+    devices_.rearm();
+  }
+  const bool well = bus_.trouble().empty();
+  if (well != bus_was_well_) {
+    bus_was_well_ = well;
+    if (well) {
+      spdlog::info("connected to {}", settings_.lcm_url);
+    } else {
+      spdlog::warn("no bus, tried again each second: {}", bus_.trouble());
+    }
+  }
+}
+
+void StationProcess::keep_pose(double now_s) {
+  if (now_s < pose_due_s_) return;
+  pose_due_s_ = now_s + kPoseInterval_s;
+  devices_.feed(pose_);
+  station_.set_pose(pose_.pose(now_s));
+}
+
+void StationProcess::take_frame() {
+  auto frame = devices_.camera().next(kFrameWait_s);
+  if (!frame) return;
+  if (auto& recorder = devices_.recorder()) {
+    recorder->add(*frame, std::llround(frame->mid_exposure_s * 1e6) + utc_minus_monotonic_us_);
+  }
+  take_angles();  // first: the frame's homography is predicted from them
+  station_.on_frame(*frame, clock_monotonic_s());
+  newest_ = std::move(frame);
+}
+
+void StationProcess::take_angles() {
+  for (const AngleSample& sample : devices_.ptu().take_samples()) station_.on_angles(sample);
+}
+
+void StationProcess::trigger_camera(double now_s) {
+  if (settings_.gpio.trigger_line < 0 || now_s < trigger_due_s_) return;
+  const double period_s = 1.0 / settings_.camera.frame_rate_hz;
+  // In step with the rate, but without a burst after a pause.
+  trigger_due_s_ = std::max(trigger_due_s_ + period_s, now_s);
+  devices_.gpio()->trigger();
+}
+
+void StationProcess::send_reports(const ClockPair& now) {
+  if (now.monotonic_s >= status_due_s_) {
+    status_due_s_ = now.monotonic_s + settings_.status_interval_s;
+    StationReport status = report(now);
+    show(status);
+    bus_.send(std::move(status));
+  }
+  if (settings_.preview_interval_s > 0.0 && now.monotonic_s >= preview_due_s_ && newest_) {
+    preview_due_s_ = now.monotonic_s + settings_.preview_interval_s;
     bus_.send_preview(*newest_, station_.snapshot().box);
   }
 }
 
-// What has changed since the last look is the newest trouble.
-void StationProcess::note(const std::string& source, const std::string& what,
-                          std::uint64_t number) {
-  const std::pair trouble{what, number};
-  if (!what.empty() && noted_[source] != trouble) last_error_ = what;
-  noted_[source] = trouble;
+StationReport StationProcess::report(const ClockPair& now) {
+  StationReport report;
+  const PtuStatus ptu = devices_.ptu().status();
+  if (ptu.state == PtuState::kReady) station_.set_limits(ptu.limits);
+  report.limits = ptu.limits;
+  report.limits_known = ptu.port_open && ptu.state == PtuState::kReady;
+  report.snapshot = station_.snapshot();
+  report.devices = devices_.reports();
+  if (report.snapshot.state == StationState::kEmergency) {
+    report.alarms.emplace_back(devices_.stop().pressed() ? "emergency stop: pressed"
+                                                         : "emergency stop: not rearmed yet");
+  }
+  add_pose_and_clock(now.monotonic_s, report);
+  add_host(report);
+  note_troubles(now.utime_us, report);
+  return report;
 }
 
-StationSnapshot StationProcess::snapshot_with_devices() const {
-  StationSnapshot snapshot = station_.snapshot();
-  const CameraCounters camera = camera_.counters();
-  const PtuStatus ptu = ptu_.status();
-  const auto put = [&](const char* name, std::uint64_t value) {
-    snapshot.counters[name] = static_cast<double>(value);
-  };
-  put("frames_captured", camera.frames_captured);
-  put("frames_lost", camera.frames_lost);
-  put("frames_incomplete", camera.frames_incomplete);
-  put("frames_late", camera.frames_late);
-  put("frames_refused", camera.frames_refused);
-  put("camera_reconnects", camera.reconnects);
-  put("ptu_requests", ptu.counters.requests);
-  put("ptu_replies", ptu.counters.replies);
-  put("ptu_timeouts", ptu.counters.timeouts);
-  put("ptu_errors", ptu.counters.errors);
-  put("ptu_garbled", ptu.counters.garbled);
-  put("ptu_restarts", ptu.counters.restarts);
-  put("ptu_limit_hits", ptu.counters.limit_hits);
-  put("ptu_port_failures", ptu.port_failures);
-  return snapshot;
+void StationProcess::add_pose_and_clock(double now_s, StationReport& report) const {
+  for (const std::string& alarm : pose_.alarms(now_s)) report.alarms.push_back(alarm);
+  if (report.snapshot.pose.position_source == PoseSource::kNone) {
+    report.alarms.emplace_back("pose: no position yet, no bearings");
+  }
+  const ClockQuality clock = clock_.quality(now_s);
+  if (!clock.alarm.empty()) report.alarms.push_back(clock.alarm);
+  report.counters["clock_steps"] = static_cast<double>(clock.steps);
+  if (clock.offset_s) report.readings["clock_offset_s"] = *clock.offset_s;
+}
+
+void StationProcess::add_host(StationReport& report) {
+  HostReport host = host_.look();
+  report.alarms.insert(report.alarms.end(), host.alarms.begin(), host.alarms.end());
+  report.readings.merge(host.readings);
+  report.counters["slow_turns"] = static_cast<double>(host_.slow_turns());
+}
+
+void StationProcess::note_troubles(std::int64_t utime_us, StationReport& report) {
+  for (const DeviceReport& device : report.devices) {
+    troubles_.note(device.name, device.last_error, device.errors, utime_us);
+  }
+  troubles_.note_alarms(all_alarms(report), utime_us);
+  troubles_.note_event("command", bus_.last_refusal(), bus_.refusals(), utime_us);
+  troubles_.note("bus", bus_.trouble(), 0, utime_us);
+  report.last_error = troubles_.text();
+  report.last_error_utime_us = troubles_.utime_us();
+}
+
+void StationProcess::show(const StationReport& report) {
+  if (auto& gpio = devices_.gpio()) gpio->show(led_pattern(report));
+  service_.status((bus_.trouble().empty() ? "" : "no bus; ") + in_one_line(report));
+}
+
+std::string StationProcess::record(const RecordCommand& command) {
+  auto& recorder = devices_.recorder();
+  return recorder ? recorder->record(command) : "this station records nothing";
 }
 
 }  // namespace ols

@@ -2,41 +2,66 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <functional>
+#include <optional>
 #include <string>
-#include <utility>
 
-#include "edge/camera/aravis_camera.h"
+#include "base/service_notifier.h"
+#include "edge/clock/clock_source.h"
+#include "edge/clock/clock_watch.h"
+#include "edge/device_set.h"
+#include "edge/host_watch.h"
 #include "edge/messages_bus.h"
-#include "edge/ptu/ptu_thread.h"
+#include "edge/trouble_log.h"
 
 namespace ols {
 
 class StationProcess {
  public:
-  // Throws BusError. Devices that are absent are waited for.
+  // Network and devices that are absent are waited for.
   StationProcess(const StationSettings& settings, std::int64_t boot_id);
 
+  // Turns until `ends` says so; tells systemd. Ready is who turns, whatever devices there are.
+  void run(const std::function<bool()>& ends);
+
+ private:
   // One turn of the control loop: commands, PTU angles, the newest frame, bearings, the PTU's goal,
   // and now and then a status and a preview. Returns within a few milliseconds, or as long as the
   // tracker takes for a frame.
   void turn();
-
- private:
-  void send_reports(double now_s);
-  StationSnapshot snapshot_with_devices() const;
-  void note(const std::string& source, const std::string& what, std::uint64_t number);
+  ClockPair look_at_clocks();
+  void heed_emergency_stop(double now_s);
+  void receive_commands();
+  void keep_pose(double now_s);
+  void take_frame();
+  void take_angles();
+  void trigger_camera(double now_s);
+  void send_reports(const ClockPair& now);
+  StationReport report(const ClockPair& now);
+  void add_pose_and_clock(double now_s, StationReport& report) const;
+  void add_host(StationReport& report);
+  void note_troubles(std::int64_t utime_us, StationReport& report);
+  void show(const StationReport& report);
+  std::string record(const RecordCommand& command);
 
   const StationSettings settings_;
+  ServiceNotifier service_;
+  ClockWatch clock_;
+  ClockSource clock_source_;
+  PoseKeeper pose_;
   Station station_;
   StationBus bus_;
-  AravisCamera camera_;
-  PtuThread ptu_;  // the first to end, whatever the camera is waiting for: it halts the unit
+  HostWatch host_;
+  TroubleLog troubles_;
+  DeviceSet devices_;
   std::optional<Frame> newest_;
-  std::map<std::string, std::pair<std::string, std::uint64_t>> noted_;  // by source
-  std::string last_error_;                                              // the newest of all sources
+  std::int64_t utc_minus_monotonic_us_ = 0;
+  bool halted_ = false;  // the PTU refuses to move until it is rearmed
+  double pose_due_s_ = 0.0;
+  double trigger_due_s_ = 0.0;
   double status_due_s_ = 0.0;
   double preview_due_s_ = 0.0;
+  bool bus_was_well_ = true;
 };
 
 }  // namespace ols

@@ -36,7 +36,8 @@ struct Bearing {
   std::int64_t track_id = 0;
   double stamp_sd_s = 0.0;
   StampSource stamp_source = StampSource::kCamera;
-  std::int64_t pose_revision = 0;  // another one: the pose has changed by more than its sigmas
+  // Grows when the pose has changed by more than its sigmas; 0: as configured.
+  std::int64_t pose_revision = 0;
 };
 
 struct DesignateCommand {

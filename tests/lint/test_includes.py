@@ -27,6 +27,8 @@ PURE = [
     "geometry/*",
     "edge/station.*",
     "edge/station_commands.*",
+    "edge/station_report.*",
+    "edge/trouble_log.*",
     "edge/station_types.*",
     "edge/angular_track.*",
     "edge/command_gate.*",

@@ -17,7 +17,10 @@ std::optional<std::string> new_refusal(const ols_msg::station_status_t& before,
   for (const auto& name : now.counter_name) {
     for (const std::string prefix : {"refused_", "messages_refused_"}) {
       if (name.starts_with(prefix) && counter(now, name) > counter(before, name)) {
-        return "refused: " + name.substr(prefix.size());
+        // The station's own words where it has more to say ("RECORD refused: disk full").
+        const std::string why = name.substr(prefix.size());
+        return "refused: " + why +
+               (now.last_error != before.last_error ? " (" + now.last_error + ")" : "");
       }
     }
   }
@@ -160,6 +163,22 @@ std::optional<std::string> Operator::stop(const std::string& station) {
 
 std::optional<std::string> Operator::release(const std::string& station) {
   return send_ptu(station, ols_msg::ptu_command_t::COMMAND_RELEASE, 0.0, 0.0, "release");
+}
+
+std::optional<std::string> Operator::rearm(const std::string& station) {
+  return send_ptu(station, ols_msg::ptu_command_t::COMMAND_REARM, 0.0, 0.0, "rearm");
+}
+
+std::optional<std::string> Operator::record(const std::string& station, double before_s,
+                                            double after_s, const std::string& label) {
+  ols_msg::record_t message;
+  address(message, station);
+  message.event_utime = 0;
+  message.before_s = before_s;
+  message.after_s = after_s;
+  message.label = label;
+  bus_.publish("OLS_RECORD_" + station, message);
+  return outcome(station, "record");
 }
 
 }  // namespace ols

@@ -11,6 +11,7 @@
 #include "base/lcm_bus.h"
 #include "ols_msg/designate_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
+#include "ols_msg/record_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 
 namespace ols {
@@ -33,6 +34,10 @@ class Operator {
   std::optional<std::string> point(const std::string& station, double pan_rad, double tilt_rad);
   std::optional<std::string> stop(const std::string& station);
   std::optional<std::string> release(const std::string& station);
+  std::optional<std::string> rearm(const std::string& station);
+  // The raw frames around now.
+  std::optional<std::string> record(const std::string& station, double before_s, double after_s,
+                                    const std::string& label);
 
  private:
   template <class Message>

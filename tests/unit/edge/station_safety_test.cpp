@@ -201,20 +201,29 @@ TEST_F(StationSafetyTest, ThePoseAndItsSigmasAreInTheBearings) {
   EXPECT_NEAR(moved.x(), 10.0, 0.1);
 }
 
+TEST_F(StationSafetyTest, AConfiguredPoseIsNoRevision) {
+  StationPose surveyed = pose(0.0, 0.0);
+  surveyed.position_source = surveyed.tilt_source = PoseSource::kSurveyed;
+  station_.set_pose(surveyed);
+  designated();
+  run_until(now_ + 0.3);
+  EXPECT_EQ(bearings_.back().pose_revision, 0);
+}
+
 TEST_F(StationSafetyTest, OnlyAPoseOutsideOfItsSigmasIsAnotherCalibration) {
   station_.set_pose(pose(0.0, 0.5));
   station_.set_pose(pose(0.4, 0.1));
   designated();
   run_until(now_ + 0.3);
-  EXPECT_EQ(bearings_.back().pose_revision, 0);
+  EXPECT_EQ(bearings_.back().pose_revision, 1) << "no longer the configured one";
   station_.set_pose(pose(0.6, 0.1));
   run_until(now_ + 0.3);
-  EXPECT_EQ(bearings_.back().pose_revision, 1);
+  EXPECT_EQ(bearings_.back().pose_revision, 2);
   StationPose leaning = pose(0.6, 0.1);
   leaning.tilt_x_rad = 1.1e-3;
   station_.set_pose(leaning);
   run_until(now_ + 0.3);
-  EXPECT_EQ(bearings_.back().pose_revision, 2);
+  EXPECT_EQ(bearings_.back().pose_revision, 3);
 }
 
 // The computer stood still for two seconds: what lay waiting is dropped, not worked off.

@@ -30,7 +30,7 @@ TEST(StationFiles, AreReadByTheStationAsTheNominalGeometry) {
     EXPECT_NEAR(g.sd.heading_rad, truth.nominal.sd.heading_rad, 1e-15);
     EXPECT_NEAR(g.sd.mount_roll_rad, truth.nominal.sd.mount_roll_rad, 1e-15);
     EXPECT_EQ(g.sd.position_m, truth.nominal.sd.position_m);
-    EXPECT_EQ(read.clock_sd_s, truth.clock_sd_s);
+    EXPECT_EQ(read.clock.assumed_sd_s, truth.clock_sd_s);
     EXPECT_EQ(read.ptu.device, "/tmp/lines/" + truth.id + ".ptu");
     EXPECT_NEAR(read.camera.exposure_us, 2000.0, 1e-9);
   }

@@ -1,0 +1,55 @@
+// The devices of a station, each with a thread of its own and each perhaps absent.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "edge/camera/aravis_camera.h"
+#include "edge/config.h"
+#include "edge/device_report.h"
+#include "edge/gpio/gpio.h"
+#include "edge/ptu/ptu_thread.h"
+#include "edge/recorder/recorder.h"
+#include "edge/sensors/gnss.h"
+#include "edge/sensors/inclinometer.h"
+#include "edge/sensors/pose_keeper.h"
+#include "edge/stop_latch.h"
+
+namespace ols {
+
+class DeviceSet {
+ public:
+  explicit DeviceSet(const StationSettings& settings);
+  DeviceSet(const DeviceSet&) = delete;
+  DeviceSet& operator=(const DeviceSet&) = delete;
+
+  AravisCamera& camera() { return camera_; }
+  PtuThread& ptu() { return ptu_; }
+  // Nothing where none is configured.
+  std::optional<Gpio>& gpio() { return gpio_; }
+  std::optional<Recorder>& recorder() { return recorder_; }
+  StopLatch& stop() { return stop_; }
+
+  // What the sensors have read since the last call.
+  void feed(PoseKeeper& keeper);
+  // Lets the PTU move again after an emergency, unless the stop has been pressed meanwhile.
+  void rearm();
+
+  // Of every configured device, camera and PTU first.
+  std::vector<DeviceReport> reports() const;
+
+ private:
+  void on_stop(bool pressed);
+
+  StopLatch stop_;
+  std::optional<Recorder> recorder_;
+  std::optional<Inclinometer> inclinometer_;
+  std::optional<Gnss> gnss_;
+  AravisCamera camera_;
+  // Before the camera ends, whatever it is waiting for: the PTU's end halts the unit. The GPIO's
+  // thread speaks to the PTU and ends before it.
+  PtuThread ptu_;
+  std::optional<Gpio> gpio_;
+};
+
+}  // namespace ols

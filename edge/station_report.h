@@ -1,0 +1,35 @@
+// Everything that a station's status tells. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "edge/device_report.h"
+#include "edge/ptu/servo.h"
+#include "edge/station_types.h"
+
+namespace ols {
+
+struct StationReport {
+  StationSnapshot snapshot;
+  PtuLimits limits;
+  bool limits_known = false;
+  std::vector<DeviceReport> devices;
+  // Beside those of the devices.
+  std::vector<std::string> alarms;
+  std::map<std::string, double> readings;
+  std::map<std::string, double> counters;
+
+  std::string last_error;  // empty when there was none
+  std::int64_t last_error_utime_us = 0;
+};
+
+// The alarms of the report and of its devices, each once.
+std::vector<std::string> all_alarms(const StationReport& report);
+
+// One line for a person: the state, the devices that are not well, the first alarm.
+std::string in_one_line(const StationReport& report);
+
+}  // namespace ols

@@ -1,0 +1,32 @@
+// Carries the emergency stop from the thread that sees its edges to the control loop. A press that
+// is shorter than a turn of the loop is not missed.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace ols {
+
+class StopLatch {
+ public:
+  // From the thread that sees the edges; before it halts the unit.
+  void set(bool pressed) {
+    if (pressed) ++presses_;
+    pressed_ = pressed;
+  }
+  bool pressed() const { return pressed_; }
+  // Whether it was pressed since the last call, if only for a moment.
+  bool take_press() {
+    const std::uint64_t presses = presses_;
+    const bool news = presses != seen_;
+    seen_ = presses;
+    return news;
+  }
+
+ private:
+  std::atomic<bool> pressed_ = false;
+  std::atomic<std::uint64_t> presses_ = 0;
+  std::uint64_t seen_ = 0;  // of the control loop
+};
+
+}  // namespace ols

@@ -1,0 +1,50 @@
+#include "edge/trouble_log.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace ols {
+namespace {
+
+std::string without_digits(std::string text) {
+  std::erase_if(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+  return text;
+}
+
+}  // namespace
+
+void TroubleLog::set(const std::string& what, std::int64_t utime_us) {
+  text_ = what;
+  utime_us_ = utime_us;
+}
+
+void TroubleLog::note(const std::string& source, const std::string& what, std::uint64_t number,
+                      std::int64_t utime_us) {
+  constexpr std::int64_t kQuiet_us = 60'000'000;
+  if (what.empty()) return;
+  Noted& last = noted_[source];
+  if (last.what == what && last.number == number) return;
+  if (last.what != what || utime_us - last.utime_us > kQuiet_us) set(what, utime_us);
+  last = {what, number, utime_us};
+}
+
+void TroubleLog::note_event(const std::string& source, const std::string& what,
+                            std::uint64_t number, std::int64_t utime_us) {
+  if (what.empty()) return;
+  Noted& last = noted_[source];
+  if (last.what == what && last.number == number) return;
+  set(what, utime_us);
+  last = {what, number, utime_us};
+}
+
+void TroubleLog::note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us) {
+  std::set<std::string> now;
+  for (const std::string& alarm : alarms) {
+    const std::string key = without_digits(alarm);
+    if (!alarms_.contains(key)) set(alarm, utime_us);
+    now.insert(key);
+  }
+  alarms_ = std::move(now);
+}
+
+}  // namespace ols

@@ -1,0 +1,101 @@
+#include "edge/config.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include "base/toml_config.h"
+#include "geometry/angles.h"
+
+namespace ols {
+namespace {
+
+const std::string kStart = "id = \"s\"\n[camera]\ndevice = \"c\"\n[ptu]\ndevice = \"p\"\n";
+const std::string kPlace = "latitude_deg = 49.2\nlongitude_deg = 16.6\nheight_m = 250.0\n";
+const std::string kGnss = "[gnss]\nhost = \"127.0.0.1\"\n";
+const std::string kTilt = "[inclinometer]\ndevice = \"t\"\n";
+
+class StationConfigFile : public testing::Test {
+ protected:
+  StationSettings load(const std::string& text) {
+    std::ofstream(path_) << text;
+    return load_station_settings(path_);
+  }
+  // The error without the file's name.
+  std::string error(const std::string& text) {
+    try {
+      load(text);
+    } catch (const ConfigError& error) {
+      return std::string(error.what()).substr(path_.size());
+    }
+    return "none";
+  }
+  ~StationConfigFile() override { std::remove(path_.c_str()); }
+
+  const std::string path_ = testing::TempDir() + "station_config_test.toml";
+};
+
+TEST_F(StationConfigFile, ASurveyIsEnough) {
+  const auto settings = load(kStart + "[pose]\nheading_deg = 10\ntilt_x_deg = 1.0\n" + kPlace +
+                             "[calibration.sd]\nposition_m = 0.5\ntilt_deg = 0.1\n");
+  ASSERT_TRUE(settings.pose.surveyed_position);
+  EXPECT_NEAR(settings.pose.surveyed_position->latitude_rad, radians(49.2), 1e-12);
+  EXPECT_EQ(settings.pose.surveyed_position_sd_m, 0.5);
+  ASSERT_TRUE(settings.pose.surveyed_tilt_rad);
+  EXPECT_NEAR(settings.pose.surveyed_tilt_rad->x(), radians(1.0), 1e-12);
+  EXPECT_NEAR(settings.pose.surveyed_tilt_sd_rad, radians(0.1), 1e-12);
+}
+
+TEST_F(StationConfigFile, SensorsMaySupplyThePose) {
+  const auto settings = load(kStart + kGnss + kTilt + "[pose]\nheading_deg = 10\n");
+  EXPECT_FALSE(settings.pose.surveyed_position);
+  EXPECT_FALSE(settings.pose.surveyed_tilt_rad);
+  EXPECT_EQ(settings.gnss.host, "127.0.0.1");
+}
+
+TEST_F(StationConfigFile, TheSurveyOverridesTheSensors) {
+  const auto settings =
+      load(kStart + kGnss + kTilt + "[pose]\nheading_deg = 10\ntilt_y_deg = 0\n" + kPlace);
+  EXPECT_TRUE(settings.pose.surveyed_position);
+  EXPECT_TRUE(settings.pose.surveyed_tilt_rad);
+}
+
+TEST_F(StationConfigFile, ATiltThatNobodyToldIsNotTakenAsExact) {
+  const std::string untold = kStart + "[pose]\nheading_deg = 10\n" + kPlace;
+  EXPECT_FALSE(load(untold).pose.surveyed_tilt_rad);
+  EXPECT_TRUE(load(untold + "[calibration.sd]\ntilt_deg = 0.2\n").pose.surveyed_tilt_rad)
+      << "levelled, and somebody says how well";
+}
+
+TEST_F(StationConfigFile, NamesWhatIsMissing) {
+  EXPECT_EQ(error(kStart + "[pose]\nheading_deg = 10\n"), ":6: pose.latitude_deg: is missing");
+  EXPECT_EQ(error(kStart + kGnss + "[pose]\nheading_deg = 10\nheight_m = 1\n"),
+            ":8: pose.latitude_deg: is missing");
+  EXPECT_EQ(error(kStart + "[pose]\n" + kPlace), ":6: pose.heading_deg: is missing");
+  EXPECT_NE(error(kStart + "[gnss]\nport = 2947\n[pose]\nheading_deg = 1\n" + kPlace), "none");
+  EXPECT_NE(error(kStart + "[gpio]\n[pose]\nheading_deg = 1\n" + kPlace), "none");
+  EXPECT_EQ(error(kStart + "[gnss]\nhost = \"\"\n[pose]\nheading_deg = 1\n" + kPlace), "none");
+}
+
+TEST_F(StationConfigFile, RefusesKeysThatNobodyKnows) {
+  const std::string good = kStart + "[pose]\nheading_deg = 10\n" + kPlace;
+  for (const char* section : {"gnss", "inclinometer", "gpio", "recorder", "clock", "watchdog",
+                              "pose.x", "logic", "lens", "chain"}) {
+    const std::string text = good + "[" + section + "]\nno_such_key = 1\n";
+    EXPECT_NE(error(text), "none") << section;
+  }
+}
+
+TEST_F(StationConfigFile, DescribesWhatIsConfigured) {
+  const auto lines = describe(load(kStart + kGnss + "[pose]\nheading_deg = 10\n"));
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_EQ(
+      lines[1],
+      "pose: position from GNSS; tilt unknown: taken as level to 2.9 deg; heading 10.000 deg");
+  EXPECT_EQ(lines[4], "gnss: gpsd at 127.0.0.1:2947");
+}
+
+}  // namespace
+}  // namespace ols

@@ -1,0 +1,55 @@
+#include "edge/trouble_log.h"
+
+#include <gtest/gtest.h>
+
+namespace ols {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000;
+
+TEST(TroubleLog, KeepsTheNewestWithItsTime) {
+  TroubleLog log;
+  EXPECT_EQ(log.text(), "");
+  EXPECT_EQ(log.utime_us(), 0);
+  log.note("camera", "gone", 1, 10 * kSecond);
+  log.note("ptu", "silent", 1, 20 * kSecond);
+  log.note("camera", "gone", 1, 30 * kSecond);  // the same one, still there
+  EXPECT_EQ(log.text(), "silent");
+  EXPECT_EQ(log.utime_us(), 20 * kSecond);
+  log.note("ptu", "", 0, 40 * kSecond);
+  EXPECT_EQ(log.text(), "silent") << "it stays when it is over";
+}
+
+TEST(TroubleLog, ARetryInTheSameWordsHidesNothing) {
+  TroubleLog log;
+  log.note("ptu", "cannot be opened", 1, kSecond);
+  log.note_event("command", "slew refused: stale", 1, 2 * kSecond);
+  for (int i = 2; i < 50; ++i) log.note("ptu", "cannot be opened", i, (1 + i) * kSecond);
+  EXPECT_EQ(log.text(), "slew refused: stale");
+  log.note("ptu", "cannot be opened", 60, 200 * kSecond);
+  EXPECT_EQ(log.text(), "cannot be opened") << "after a while it is another one";
+}
+
+TEST(TroubleLog, EachRefusedCommandCounts) {
+  TroubleLog log;
+  log.note_event("command", "point refused: unreachable", 1, kSecond);
+  log.note("ptu", "reset", 1, 2 * kSecond);
+  log.note_event("command", "point refused: unreachable", 2, 3 * kSecond);
+  EXPECT_EQ(log.text(), "point refused: unreachable");
+  EXPECT_EQ(log.utime_us(), 3 * kSecond);
+}
+
+TEST(TroubleLog, AnAlarmIsATroubleWhenItBegins) {
+  TroubleLog log;
+  log.note_alarms({"gnss: silent for 5 s"}, kSecond);
+  log.note("ptu", "reset", 1, 2 * kSecond);
+  log.note_alarms({"gnss: silent for 6 s"}, 3 * kSecond);
+  EXPECT_EQ(log.text(), "reset") << "the same alarm, a second older";
+  log.note_alarms({}, 4 * kSecond);
+  EXPECT_EQ(log.text(), "reset");
+  log.note_alarms({"gnss: silent for 5 s"}, 5 * kSecond);
+  EXPECT_EQ(log.text(), "gnss: silent for 5 s");
+}
+
+}  // namespace
+}  // namespace ols

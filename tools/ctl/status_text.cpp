@@ -1,0 +1,119 @@
+#include "tools/ctl/status_text.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "geometry/angles.h"
+#include "ols_msg/bearing_t.hpp"
+
+namespace ols {
+namespace {
+
+template <class... Values>
+std::string line(const char* format, Values... values) {
+  char text[400];
+  std::snprintf(text, sizeof text, format, values...);
+  return std::string(text) + "\n";
+}
+
+// "-" for what is not known.
+std::string shown(double value, int decimals) {
+  if (!std::isfinite(value)) return "-";
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+std::string shown_deg(double rad, int decimals) { return shown(degrees(rad), decimals); }
+
+const char* source_name(std::int8_t source) {
+  using M = ols_msg::station_status_t;
+  return source == M::POSE_SURVEYED ? "surveyed" : source == M::POSE_SENSOR ? "sensor" : "unknown";
+}
+
+const char* clock_name(std::int8_t state) {
+  using M = ols_msg::bearing_t;
+  return state == M::CLOCK_SYNCHRONISED     ? "synchronised"
+         : state == M::CLOCK_UNSYNCHRONISED ? "unsynchronised"
+                                            : "unknown";
+}
+
+std::string pose_text(const ols_msg::station_status_t& s) {
+  std::string text;
+  text += line("position   %s %s deg, %s m, +- %s %s %s m east north up (%s)",
+               shown(s.latitude_deg, 7).c_str(), shown(s.longitude_deg, 7).c_str(),
+               shown(s.height_m, 2).c_str(), shown(s.position_sd_m[0], 3).c_str(),
+               shown(s.position_sd_m[1], 3).c_str(), shown(s.position_sd_m[2], 3).c_str(),
+               source_name(s.position_source));
+  text += line("heading    %s +- %s deg", shown_deg(s.heading_rad, 3).c_str(),
+               shown_deg(s.heading_sd_rad, 4).c_str());
+  text += line("tilt       %s %s +- %s deg (%s)", shown_deg(s.tilt_x_rad, 4).c_str(),
+               shown_deg(s.tilt_y_rad, 4).c_str(), shown_deg(s.tilt_sd_rad, 4).c_str(),
+               source_name(s.tilt_source));
+  text += line("looks to   azimuth %s, elevation %s deg; pan %s, tilt %s deg",
+               shown_deg(s.azimuth_rad, 3).c_str(), shown_deg(s.elevation_rad, 3).c_str(),
+               shown_deg(s.pan_rad, 2).c_str(), shown_deg(s.tilt_rad, 2).c_str());
+  return text;
+}
+
+std::string device_text(const ols_msg::station_status_t& s) {
+  std::string text = "devices\n";
+  for (std::size_t i = 0; i < s.device_name.size(); ++i) {
+    const std::string age =
+        std::isfinite(s.device_age_s[i]) ? shown(s.device_age_s[i], 1) + " s ago" : "never";
+    text += line("  %-12s %-9s %-12s %s", s.device_name[i].c_str(), device_name(s.device_state[i]),
+                 age.c_str(), s.device_text[i].c_str());
+  }
+  return text;
+}
+
+std::string named_numbers(const char* heading, const std::vector<std::string>& names,
+                          const std::vector<double>& values) {
+  std::string text = std::string(heading) + "\n";
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    text += line("  %-36s %.10g", names[i].c_str(), values[i]);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string status_table(const Operator::Statuses& statuses) {
+  const char* format = "%-12s %-9s %6s %9s %9s %8s %8s  %-8s %-8s %8s %6s %6s  %s";
+  std::string text = line(format, "station", "state", "belief", "azim deg", "elev deg", "pan deg",
+                          "tilt deg", "camera", "ptu", "frames", "lost", "alarms", "last error");
+  for (const auto& [id, s] : statuses) {
+    const double lost = counter(s, "frames_lost") + counter(s, "frames_incomplete");
+    text += line(format, id.c_str(), state_name(s.state), shown(s.belief, 2).c_str(),
+                 shown_deg(s.azimuth_rad, 3).c_str(), shown_deg(s.elevation_rad, 3).c_str(),
+                 shown_deg(s.pan_rad, 2).c_str(), shown_deg(s.tilt_rad, 2).c_str(),
+                 device_state(s, "camera"), device_state(s, "ptu"),
+                 shown(counter(s, "frames_captured"), 0).c_str(), shown(lost, 0).c_str(),
+                 std::to_string(s.alarm.size()).c_str(), s.last_error.c_str());
+  }
+  return text;
+}
+
+std::string full_status(const ols_msg::station_status_t& s, std::int64_t now_utime_us) {
+  const auto ago_s = [now_utime_us](std::int64_t utime_us) {
+    return shown(1e-6 * static_cast<double>(now_utime_us - utime_us), 0);
+  };
+  std::string text =
+      line("station    %s, boot %lld", s.station.c_str(), static_cast<long long>(s.boot_id));
+  text += line("state      %s, track %lld, belief %s", state_name(s.state),
+               static_cast<long long>(s.track_id), shown(s.belief, 2).c_str());
+  text += pose_text(s);
+  text += line("clock      %s, +- %.3g s; frame to bearing %s s", clock_name(s.clock_state),
+               s.clock_error_s, shown(s.frame_latency_s, 3).c_str());
+  text += device_text(s);
+  text += s.alarm.empty() ? "no alarm\n" : "alarms\n";
+  for (const std::string& alarm : s.alarm) text += "  " + alarm + "\n";
+  if (!s.last_error.empty()) {
+    text += "last error, " + ago_s(s.last_error_utime) + " s ago: " + s.last_error + "\n";
+  }
+  text += named_numbers("readings", s.reading_name, s.reading_value);
+  text += named_numbers("counters", s.counter_name, s.counter_value);
+  return text;
+}
+
+}  // namespace ols
