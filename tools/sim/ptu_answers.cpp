@@ -29,7 +29,7 @@ constexpr std::array<Phrase, 11> kPhrases{{
     {'X', "Maximum % position is ", ""},
     {'S', "Target % speed is ", " positions/sec"},
     {'D', "Current % speed is ", " positions/sec"},
-    {'A', "% acceleration is ", " positions/sec^2"},
+    {'A', "% acceleration is ", " positions/sec/sec"},
     {'B', "Current % base speed is ", " positions/sec"},
     {'U', "Maximum % speed is ", " positions/sec"},
     {'L', "Minimum % speed is ", " positions/sec"},
@@ -40,15 +40,15 @@ std::string with_name(std::string text, const std::string& name) {
   return place == std::string::npos ? text : text.replace(place, 1, name);
 }
 
+std::string rounded(double value) { return std::to_string(std::lround(value)); }
+
+}  // namespace
+
 std::string star(std::string_view text) {
   std::string answer = "* ";
   answer += text;
   return answer;
 }
-
-std::string rounded(double value) { return std::to_string(std::lround(value)); }
-
-}  // namespace
 
 // `command` without the letter of the axis.
 std::string PtuController::axis_command(int axis, std::string_view command, double time_s) {
@@ -171,7 +171,7 @@ std::optional<std::string> PtuController::information(std::string_view command, 
   if (!e_series()) return std::nullopt;
   if (command == "VV") return star(firmware());
   if (command == "VM") return "* PTU-E46-70";
-  if (command == "VS") return "* E46-000001";
+  if (command == "VS") return "* 46000001";
   if (command == "NI") return "* IP: 0.0.0.0";
   if (command == "NM") return "* Netmask: 255.255.255.0";
   if (command == "NG") return "* Gateway: 0.0.0.0";

@@ -72,7 +72,7 @@ class PtuController {
     int speed, acceleration, base_speed, upper_speed, lower_speed;
     char hold_power, move_power, step_mode;
     int user_least, user_greatest;
-    int home_speed;  // of RPS, RTS; 0: its own
+    int home_speed;  // of RPS, RTS [counts/s]
   };
   struct Settings {  // what DS keeps
     bool echo;
@@ -154,6 +154,7 @@ class PtuController {
   std::optional<std::string> step_mode(std::string_view command);
   std::optional<std::string> move_both(std::string_view command, double time_s);
   std::string power(int axis, std::string_view what);
+  std::string homing_speed(int axis, std::string_view wanted);
   std::string user_limit(int axis, std::string_view what);
   Settings factory_settings() const;
 
@@ -175,6 +176,9 @@ class PtuController {
 constexpr const char* kIllegalCommand = "! Illegal Command Entered";
 constexpr const char* kIllegalArgument = "! Illegal argument";
 constexpr const char* kAxisError = "! Axis Error";
+
+// The answer to a query.
+std::string star(std::string_view text);
 
 // All of the text, or nothing.
 std::optional<int> whole_number(std::string_view text);

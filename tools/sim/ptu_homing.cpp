@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/angles.h"
 #include "tools/sim/ptu_controller.h"
 
 namespace ols::sim {
@@ -28,11 +27,8 @@ double PtuController::home(bool pan, bool tilt, double time_s) {
 double PtuController::home_axis(int axis, double time_s) {
   Axis& a = axes_[at(axis)];
   take_step_mode(axis);
-  const int wanted = settings_.axes[at(axis)].home_speed;
   PtuAxis::Profile homing = profile(axis);
-  homing.speed = wanted > 0
-                     ? static_cast<double>(wanted) * a.divisor
-                     : config_.home_speed_rad_s / radians(config_.resolution_arcsec / 3600.0);
+  homing.speed = static_cast<double>(settings_.axes[at(axis)].home_speed) * a.divisor;
   homing.acceleration = 2.0 * homing.speed;
   a.slaved.reset();
   a.hit_s.reset();
@@ -53,7 +49,7 @@ double PtuController::home_axis(int axis, double time_s) {
 void PtuController::take_step_mode(int axis) {
   Axis& a = axes_[at(axis)];
   AxisSettings& s = settings_.axes[at(axis)];
-  const int divisor = s.step_mode == 'H' ? 4 : s.step_mode == 'Q' ? 2 : 1;
+  const int divisor = s.step_mode == 'F' ? 8 : s.step_mode == 'H' ? 4 : s.step_mode == 'Q' ? 2 : 1;
   if (divisor == a.divisor) return;
   for (int* value : {&s.speed, &s.acceleration, &s.base_speed, &s.upper_speed, &s.lower_speed,
                      &s.user_least, &s.user_greatest, &s.home_speed}) {

@@ -3,11 +3,14 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/angles.h"
 #include "tools/sim/ptu_controller.h"
 
 namespace ols::sim {
 
 namespace {
+
+constexpr double kClock_hz = 90e6;  // of an E-series unit's time stamps
 
 const char* level(char power) {
   switch (power) {
@@ -25,7 +28,9 @@ const char* level(char power) {
 }  // namespace
 
 PtuController::Settings PtuController::factory_settings() const {
-  const auto axis = [this](int least_counts, int greatest_counts) {
+  const auto home_speed = static_cast<int>(
+      std::lround(config_.home_speed_rad_s / radians(config_.resolution_arcsec / 3600.0)));
+  const auto axis = [this, home_speed](int least_counts, int greatest_counts) {
     return AxisSettings{1000,
                         config_.acceleration_counts_s2,
                         config_.base_speed_counts_s,
@@ -36,7 +41,7 @@ PtuController::Settings PtuController::factory_settings() const {
                         'E',
                         least_counts,
                         greatest_counts,
-                        0};
+                        home_speed};
   };
   return {true,
           Feedback::kVerbose,
@@ -49,12 +54,12 @@ PtuController::Settings PtuController::factory_settings() const {
 
 std::optional<std::string> PtuController::modes(std::string_view command, double time_s) {
   if (command == "C") {
-    if (!verbose()) return velocity_mode_ ? "* p" : "* i";
-    if (e_series()) {
-      return velocity_mode_ ? "* Pure velocity speed control mode"
+    if (e_series()) {  // tersely, too
+      return velocity_mode_ ? "* Pure Velocity speed control mode"
                             : "* Independent speed control mode";
     }
-    return velocity_mode_ ? "* PTU is in Pure Velocity Mode" : "* PTU is in Independent Mode";
+    if (!verbose()) return velocity_mode_ ? "* p" : "* i";
+    return velocity_mode_ ? "* PTU is in pure velocity mode" : "* PTU is in independent mode";
   }
   if (command == "CI" || command == "CV") {
     enter_velocity_mode(command == "CV", time_s);
@@ -111,23 +116,29 @@ std::optional<std::string> PtuController::halts(std::string_view command, double
   return "*";
 }
 
-// Kept at once. On an E-series unit the others of these move: see blocking().
+// Kept at once. On an E-series unit RP and RT home instead: see blocking().
 std::optional<std::string> PtuController::homing_choice(std::string_view command, double) {
-  if (e_series()) {
-    if (command == "RQ") {
-      return homes_[0] ? "* Reset on power up is ENABLED" : "* Reset on power up is DISABLED";
-    }
-    const bool speed = command.starts_with("RPS") || command.starts_with("RTS");
-    if (speed) {
-      const auto value = whole_number(command.substr(3));
-      if (!value || *value <= 0) return kIllegalArgument;
-      settings_.axes[command[1] == 'P' ? 0 : 1].home_speed = *value;
-      return "*";
-    }
+  if (e_series() && command == "RQ") {
+    if (homes_[0]) return homes_[1] ? "* E" : "* P";
+    return homes_[1] ? "* T" : "* D";
+  }
+  if (e_series() && (command.starts_with("RPS") || command.starts_with("RTS"))) {
+    return homing_speed(command[1] == 'P' ? 0 : 1, command.substr(3));
   }
   const bool chosen = command == "RP" || command == "RT" || command == "RE" || command == "RD";
   if (!chosen) return std::nullopt;
   homes_ = {command == "RP" || command == "RE", command == "RT" || command == "RE"};
+  return "*";
+}
+
+std::string PtuController::homing_speed(int axis, std::string_view wanted) {
+  AxisSettings& s = settings_.axes[at(axis)];
+  if (wanted.empty()) {
+    return star(std::to_string(s.home_speed));
+  }
+  const auto value = whole_number(wanted);
+  if (!value || *value <= 0) return kIllegalArgument;
+  s.home_speed = *value;
   return "*";
 }
 
@@ -186,8 +197,8 @@ std::string PtuController::power(int axis, std::string_view what) {
   char& power = hold ? s.hold_power : s.move_power;
   if (what.size() == 1) {
     const std::string name = level(power);
-    if (!verbose()) return "* " + (name == "REGULAR" ? "REG" : name);
-    return "* " + axes_[at(axis)].name + " in " + name + (hold ? " hold" : " move") + " power mode";
+    if (!verbose()) return star(name == "REGULAR" ? "REG" : name);
+    return star(axes_[at(axis)].name + " in " + name + (hold ? " hold" : " move") + " power mode");
   }
   const std::string_view levels = hold ? "RLO" : "HRL";
   if (what.size() != 2 || levels.find(what[1]) == std::string_view::npos) return kIllegalArgument;
@@ -199,7 +210,7 @@ std::optional<std::string> PtuController::e_series_only(std::string_view command
   if (!e_series()) return std::nullopt;
   if (auto answer = step_mode(command)) return answer;
   if (auto answer = move_both(command, time_s)) return answer;
-  if (command == "IQ") return immediate_ ? "* Immediate execution mode" : "* Slaved execution mode";
+  if (command == "IQ") return immediate_ ? "* I" : "* S";
   if (command == "CT") {
     return settings_.encoder_correction ? "* Encoder correction is ENABLED"
                                         : "* Encoder correction is DISABLED";
@@ -208,40 +219,42 @@ std::optional<std::string> PtuController::e_series_only(std::string_view command
     settings_.encoder_correction = command == "CEC";
     return "*";
   }
-  if (command == "CNT" || command == "CNF") return "*";
+  if (command == "CNF") return star(std::to_string(std::llround(kClock_hz)));
+  if (command == "CNT") return star(std::to_string(std::llround(kClock_hz * time_s)));
   return std::nullopt;
 }
 
-// WP, WT: half, quarter, eighth or automatic steps, from the next reset on.
+// WP, WT: full, half, quarter, eighth or automatic steps, from the next reset on.
 std::optional<std::string> PtuController::step_mode(std::string_view command) {
   if (!command.starts_with("WP") && !command.starts_with("WT")) return std::nullopt;
   const int axis = command[1] == 'P' ? 0 : 1;
   char& mode = settings_.axes[at(axis)].step_mode;
   if (command.size() == 2) {
-    if (!verbose()) return std::string("* ") + mode;
-    const char* name = mode == 'H'   ? "HALF"
+    if (!verbose()) return star(std::string(1, mode));
+    const char* name = mode == 'F'   ? "FULL"
+                       : mode == 'H' ? "HALF"
                        : mode == 'Q' ? "QUARTER"
                        : mode == 'E' ? "EIGHTH"
                                      : "AUTO";
-    return "* " + axes_[at(axis)].name + " in " + name + " step mode";
+    return star(axes_[at(axis)].name + " in " + name + " step mode");
   }
-  if (command.size() != 3 || std::string_view("HQEA").find(command[2]) == std::string_view::npos) {
+  if (command.size() != 3 || std::string_view("FHQEA").find(command[2]) == std::string_view::npos) {
     return kIllegalArgument;
   }
   mode = command[2];
   return "*";
 }
 
-// B: positions and speeds of both axes, asked for or set; BT: with the unit's clock [ms] in front.
+// B: positions and speeds of both axes, asked for or set; BT: with a time stamp behind them [ms].
 std::optional<std::string> PtuController::move_both(std::string_view command, double time_s) {
-  const bool stamped = command == "BT";
-  if (command == "B" || stamped) {
+  if (command == "B" || command == "BT") {
     if (!axes_[0].homed || !axes_[1].homed) return kAxisError;
-    std::string text = "* ";
-    if (stamped) text += std::to_string(std::lround(1e3 * time_s)) + ",";
+    std::string text = "*";
     for (const char what : {'P', 'D'}) {
-      text += number(0, what, time_s) + "," + number(1, what, time_s) + (what == 'P' ? "," : "");
+      text += what == 'P' ? " P(" : " S(";
+      text += number(0, what, time_s) + "," + number(1, what, time_s) + ")";
     }
+    if (command == "BT") text.append(" ").append(std::to_string(std::lround(1e3 * time_s)));
     return text;
   }
   if (command.empty() || command[0] != 'B') return std::nullopt;
@@ -268,7 +281,7 @@ std::string PtuController::user_limit(int axis, std::string_view what) {
   const bool low = what[0] == 'N';
   int& limit = low ? s.user_least : s.user_greatest;
   if (what.size() == 2) {
-    if (!verbose()) return "* " + std::to_string(limit);
+    if (!verbose()) return star(std::to_string(limit));
     return std::string(low ? "* Minimum " : "* Maximum ") + a.name + " position is " +
            std::to_string(limit);
   }

@@ -46,9 +46,9 @@ TEST(PtuUnit, AnswersVerbosely) {
   EXPECT_EQ(master.ask("TX "), "* Maximum Tilt position is 9644\r\n");
   EXPECT_EQ(master.ask("PS "), "* Target Pan speed is 1000 positions/sec\r\n");
   EXPECT_EQ(master.ask("PD "), "* Current Pan speed is 0 positions/sec\r\n");
-  EXPECT_EQ(master.ask("PA "), "* Pan acceleration is 2000 positions/sec^2\r\n");
+  EXPECT_EQ(master.ask("PA "), "* Pan acceleration is 2000 positions/sec/sec\r\n");
   EXPECT_EQ(master.ask("PB "), "* Current Pan base speed is 57 positions/sec\r\n");
-  EXPECT_EQ(master.ask("C "), "* PTU is in Independent Mode\r\n");
+  EXPECT_EQ(master.ask("C "), "* PTU is in independent mode\r\n");
   EXPECT_EQ(master.ask("PH "), "* Pan in REGULAR hold power mode\r\n");
   EXPECT_EQ(master.ask("FT F "), "*\r\n* ASCII terse mode\r\n");
 }
