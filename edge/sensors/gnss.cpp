@@ -97,17 +97,16 @@ struct Gnss::Impl {
 
   // A trouble is counted when it begins.
   void note_new_troubles(double now_s) {
-    const std::string trouble = trouble_in_words(now_s);
-    if (!trouble.empty() && last_trouble.empty()) {
+    const std::string now = trouble_in_words(now_s);
+    if (!now.empty() && trouble.empty()) {
       ++errors;
-      last_error = trouble;
+      last_error = now;
     }
-    last_trouble = trouble;
+    trouble = now;
   }
 
   std::string trouble_in_words(double now_s) const {
-    const double heard_s = std::max(last ? last->time_s : 0.0, connected_s);
-    const double silent_s = now_s - heard_s;
+    const double silent_s = now_s - (last ? last->time_s : first_connected_s);
     if (silent_s > config.stale_s) {
       return silence(has_receiver) + " for " + std::to_string(static_cast<int>(silent_s)) + " s";
     }
@@ -117,10 +116,13 @@ struct Gnss::Impl {
 
   void note_connected() {
     const std::lock_guard lock(mutex);
-    if (ever_connected) ++reconnects;
+    if (ever_connected) {
+      ++reconnects;
+    } else {
+      first_connected_s = clock_monotonic_s();
+    }
     connected = ever_connected = true;
     has_receiver = false;
-    connected_s = clock_monotonic_s();
   }
 
   void note_failure(const std::string& what) {
@@ -134,7 +136,7 @@ struct Gnss::Impl {
     const std::lock_guard lock(mutex);
     DeviceReport r;
     r.name = "gnss";
-    describe(r, clock_monotonic_s());
+    describe(r);
     r.last_error = last_error;
     r.errors = errors;
     r.last_good_s = last_fix_s;
@@ -147,7 +149,7 @@ struct Gnss::Impl {
     return r;
   }
 
-  void describe(DeviceReport& r, double now_s) const {
+  void describe(DeviceReport& r) const {
     if (config.host.empty()) {
       r.text = "not configured";
       return;
@@ -158,7 +160,6 @@ struct Gnss::Impl {
       if (errors > 0) r.alarms.push_back("gnss: " + link_error);
       return;
     }
-    const std::string trouble = trouble_in_words(now_s);
     if (!trouble.empty()) {
       r.state = has_receiver ? DeviceState::kFault : DeviceState::kAbsent;
       r.text = trouble;
@@ -179,9 +180,10 @@ struct Gnss::Impl {
   std::optional<GnssReading> last;
   std::optional<double> last_fix_s;
   bool connected = false, ever_connected = false, has_receiver = false;
-  double connected_s = 0.0;
+  double first_connected_s = 0.0;
   std::uint64_t reports = 0, fixes = 0, reconnects = 0, errors = 0;
-  std::string link_error, last_error, last_trouble;
+  std::string link_error, last_error;
+  std::string trouble;  // what is wrong now, as the thread last saw it
   std::jthread thread;  // last: it uses the rest
 };
 

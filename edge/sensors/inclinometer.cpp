@@ -97,21 +97,21 @@ struct Inclinometer::Impl {
 
   // A trouble is counted when it begins.
   void note_new_troubles(double now_s) {
-    const std::string trouble = trouble_in_words(now_s);
-    if (!trouble.empty() && last_trouble.empty()) {
+    const std::string now = trouble_in_words(now_s);
+    if (!now.empty() && trouble.empty()) {
       ++errors;
-      last_error = trouble;
+      last_error = now;
     }
-    last_trouble = trouble;
+    trouble = now;
   }
 
   std::string trouble_in_words(double now_s) const {
-    const double silent_s = now_s - std::max(shown ? shown->time_s : 0.0, opened_s);
+    const double silent_s = now_s - (shown ? shown->time_s : first_opened_s);
     if (silent_s > config.stale_s) {
       return "no reading for " + std::to_string(static_cast<int>(silent_s)) + " s";
     }
     const double unchanged_s = now_s - changed_s;
-    if (shown && shown->time_s > opened_s && unchanged_s > config.stuck_s) {
+    if (shown && unchanged_s > config.stuck_s) {
       return "stuck at " + in_degrees(*shown);
     }
     return {};
@@ -119,9 +119,12 @@ struct Inclinometer::Impl {
 
   void note_open() {
     const std::lock_guard lock(mutex);
-    if (ever_open) ++reopened;
+    if (ever_open) {
+      ++reopened;
+    } else {
+      first_opened_s = clock_monotonic_s();
+    }
     open = ever_open = true;
-    opened_s = clock_monotonic_s();
     parser.expect_version();
   }
 
@@ -136,7 +139,7 @@ struct Inclinometer::Impl {
     const std::lock_guard lock(mutex);
     DeviceReport r;
     r.name = "inclinometer";
-    describe(r, clock_monotonic_s());
+    describe(r);
     r.last_error = last_error;
     r.errors = errors;
     if (shown) {
@@ -152,7 +155,7 @@ struct Inclinometer::Impl {
     return r;
   }
 
-  void describe(DeviceReport& r, double now_s) const {
+  void describe(DeviceReport& r) const {
     if (config.device.empty()) {
       r.text = "not configured";
       return;
@@ -163,12 +166,11 @@ struct Inclinometer::Impl {
       if (errors > 0) r.alarms.push_back("inclinometer: " + port_error);
       return;
     }
-    const std::string trouble = trouble_in_words(now_s);
     if (!trouble.empty()) {
       r.state = DeviceState::kFault;
       r.text = trouble;
       if (!shown) r.alarms.push_back("inclinometer: " + trouble);
-    } else if (!shown || shown->time_s < opened_s) {
+    } else if (!shown) {
       r.state = DeviceState::kStarting;
       r.text = "waiting for readings";
     } else {
@@ -185,10 +187,11 @@ struct Inclinometer::Impl {
   std::vector<TiltReading> readings;
   std::optional<AxisAngles> shown;  // the last good pair
   double changed_s = 0.0;           // last time a digit changed
-  double opened_s = 0.0;
+  double first_opened_s = 0.0;
   bool open = false, ever_open = false;
   std::uint64_t reopened = 0, starts_sent = 0, errors = 0;
-  std::string port_error, last_error, last_trouble;
+  std::string port_error, last_error;
+  std::string trouble;  // what is wrong now, as the thread last saw it
   std::jthread thread;  // last: it uses the rest
 };
 
