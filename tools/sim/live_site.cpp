@@ -11,7 +11,9 @@
 #include "ols_msg/truth_ptu_t.hpp"
 #include "ols_msg/truth_target_t.hpp"
 #include "ols_msg/truth_view_t.hpp"
+#include "tools/sim/gnss_line.h"
 #include "tools/sim/gpio_socket.h"
+#include "tools/sim/inclinometer_line.h"
 
 namespace ols::sim {
 namespace {
@@ -28,6 +30,8 @@ struct LiveSite::Device {
   std::unique_ptr<PtuLine> ptu;
   std::unique_ptr<CameraServer> camera;
   std::unique_ptr<GpioServer> gpio;
+  std::unique_ptr<InclinometerLine> inclinometer;  // nothing: the scenario has none
+  std::unique_ptr<GnssLine> gnss;
   StationFaults faults;              // as applied
   std::int64_t stop_edge_utime = 0;  // true UTC
   std::int64_t ptu_samples = 0;      // published, since the scenario's start
@@ -50,6 +54,7 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
     GpioServerConfig gpio;
     gpio.path = line_folder + "/" + s.stations[i].id + ".gpio";
     device->gpio = std::make_unique<GpioServer>(gpio);
+    connect_sensors(*device, line_folder + "/" + s.stations[i].id);
     CameraServerConfig camera;
     camera.address = s.stations[i].camera_address;
     camera.serial = s.stations[i].id;
@@ -70,6 +75,30 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
 }
 
 LiveSite::~LiveSite() = default;
+
+void LiveSite::connect_sensors(Device& device, const std::string& link_stem) {
+  const Scenario& s = world_.scenario();
+  const StationGeometry& truth = world_.stations()[device.station].truth;
+  if (s.inclinometer.on) {
+    InclinometerLineConfig c;
+    c.tilt_x_rad = truth.chain.tilt_x_rad;
+    c.tilt_y_rad = truth.chain.tilt_y_rad;
+    c.zero_sd_rad = s.inclinometer.zero_sd_rad;
+    c.noise_sd_rad = s.inclinometer.noise_sd_rad;
+    device.inclinometer = std::make_unique<InclinometerLine>(
+        c, derived_seed(world_.seed(), 5000 + device.station), link_stem + ".inclinometer");
+  }
+  if (s.gnss.on) {
+    GnssLineConfig c;
+    c.antenna =
+        geodetic_from_ecef(LocalFrame(truth.position).to_ecef(s.gnss.ground_to_antenna_enu_m));
+    c.sd_horizontal_m = s.gnss.sd_m;
+    c.sd_up_m = 1.5 * s.gnss.sd_m;
+    const auto utime_us = [this] { return true_utime_us(scenario_s(clock_monotonic_ns())); };
+    device.gnss = std::make_unique<GnssLine>(
+        c, utime_us, derived_seed(world_.seed(), 6000 + device.station), link_stem + ".gnss");
+  }
+}
 
 double LiveSite::scenario_s(std::int64_t monotonic_ns) const {
   return 1e-9 * static_cast<double>(monotonic_ns - start_monotonic_ns_);
@@ -182,6 +211,8 @@ void LiveSite::apply_faults() {
     if (now == device->faults) continue;
     device->ptu->set_faults(now.ptu);
     device->camera->set_faults(now.camera);
+    if (device->inclinometer) device->inclinometer->set_faults(now.inclinometer);
+    if (device->gnss) device->gnss->set_faults(now.gnss);
     if (now.stop_pressed != device->faults.stop_pressed) {
       device->gpio->set_pressed(now.stop_pressed);
       device->stop_edge_utime = true_utime_us(scenario_s(clock_monotonic_ns()));

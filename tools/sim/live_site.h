@@ -1,6 +1,6 @@
-// The world in real time, behind real wires: a GigE Vision camera and a PTU on a pty for every
-// station. The truth goes out on channels that no product process reads; faults come from the
-// scenario and by OLS_SIM_FAULT.
+// The world in real time, behind real wires: a GigE Vision camera, and PTU, inclinometer and GNSS
+// receiver on ptys, for every station. The truth goes out on channels that no product process
+// reads; faults come from the scenario and by OLS_SIM_FAULT.
 #pragma once
 
 #include <atomic>
@@ -23,7 +23,7 @@ class LiveSite {
  public:
   // The scenario's time 0 is now, and true UTC is what the host's clock says now; from here on the
   // monotonic clock counts, so that a step of the host's clock does not move the targets.
-  // `line_folder`: where the PTUs' lines are linked. Throws std::system_error when an address or a
+  // `line_folder`: where the serial lines are linked. Throws std::system_error when an address or a
   // link cannot be had.
   LiveSite(const World& world, const std::string& line_folder, LcmBus& bus);
   ~LiveSite();
@@ -39,6 +39,7 @@ class LiveSite {
  private:
   struct Device;
 
+  void connect_sensors(Device& device, const std::string& link_stem);
   void receive_fault(const void* data, int bytes);
   void publish_target(std::size_t index, double now_s);
   void publish_ptu(Device& device, double now_s);

@@ -52,6 +52,20 @@ void read_ptu(ConfigTable& table, PtuScenario& p) {
   p.home_at_power_up = table.boolean("home_at_power_up", p.home_at_power_up);
 }
 
+void read_inclinometer(ConfigTable& table, InclinometerScenario& i) {
+  i.on = table.boolean("on", i.on);
+  i.zero_sd_rad = degrees_of(table, "zero_sd_deg", i.zero_sd_rad, 0, 5);
+  i.noise_sd_rad = degrees_of(table, "noise_sd_deg", i.noise_sd_rad, 0, 5);
+}
+
+void read_gnss(ConfigTable& table, GnssScenario& g) {
+  g.on = table.boolean("on", g.on);
+  g.sd_m = table.number("sd_m", g.sd_m, 1e-3, 100);
+  g.ground_to_antenna_enu_m =
+      vector3(table, "ground_to_antenna_enu_m", g.ground_to_antenna_enu_m, -100, 100);
+  g.gpsd_port = static_cast<int>(table.integer("gpsd_port", g.gpsd_port, 1024, 65000));
+}
+
 void read_landscape(ConfigTable& table, Landscape& l) {
   l.ridge_mean_rad = degrees_of(table, "ridge_mean_deg", l.ridge_mean_rad, -10, 40);
   l.ridge_relief_rad = degrees_of(table, "ridge_relief_deg", l.ridge_relief_rad, 0, 30);
@@ -222,6 +236,8 @@ Scenario read_scenario(ConfigFile& file, const std::string& folder) {
   read_site(root.table("site"), s);
   read_camera(root.table("camera"), s);
   read_ptu(root.table("ptu"), s.ptu);
+  read_inclinometer(root.table("inclinometer"), s.inclinometer);
+  read_gnss(root.table("gnss"), s.gnss);
   read_landscape(root.table("landscape"), s.landscape);
   ConfigTable& errors = root.table("errors");
   read_pose_errors(errors, s.errors);

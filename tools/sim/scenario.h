@@ -85,6 +85,21 @@ struct PtuScenario {
   bool home_at_power_up = true;  // for about twenty seconds, in which it answers nothing
 };
 
+// The inclinometer of every station.
+struct InclinometerScenario {
+  bool on = true;
+  double zero_sd_rad = radians(0.005);  // of each axis
+  double noise_sd_rad = radians(0.002);
+};
+
+// The GNSS receiver of every station.
+struct GnssScenario {
+  bool on = true;
+  double sd_m = 0.01;  // of each of east and north; half as much again of up
+  Eigen::Vector3d ground_to_antenna_enu_m{0.1, -0.2, 1.9};
+  int gpsd_port = 2950;  // of the first station's gpsd; the others' follow
+};
+
 // What stands around the site, seen at infinity.
 struct Landscape {
   double ridge_mean_rad = radians(8.0);
@@ -102,6 +117,8 @@ struct Scenario {
   double exposure_s = 0.002;
   double readout_s = 0.010;
   PtuScenario ptu;
+  InclinometerScenario inclinometer;
+  GnssScenario gnss;
   Errors errors;
   Landscape landscape;
   std::vector<StationScenario> stations;
