@@ -1,8 +1,9 @@
 #include "tools/logger/logger_config.h"
 
+#include <regex.h>
+
 #include <algorithm>
 #include <cctype>
-#include <regex>
 
 #include "base/lcm_url.h"
 #include "base/toml_config.h"
@@ -22,11 +23,11 @@ void check_name(ConfigTable& table, const std::string& name) {
 }
 
 void check_channels(ConfigTable& table, const std::string& channels) {
-  try {
-    const std::regex compiled(channels);
-  } catch (const std::regex_error&) {
+  regex_t compiled;
+  if (::regcomp(&compiled, channels.c_str(), REG_EXTENDED | REG_NOSUB) != 0) {
     throw table.error("channels", "is no regular expression");
   }
+  ::regfree(&compiled);
 }
 
 LoggerConfig read(ConfigFile& file) {
