@@ -1,6 +1,7 @@
 """What goes over the site's LCM bus, as Python sees it."""
 
 import re
+import struct
 from collections.abc import Callable
 from typing import Any
 
@@ -16,6 +17,7 @@ TYPES: list[tuple[str, Any]] = [
     (r"OLS_FUSION_STATUS", ols_msg.fusion_status_t),
     (r"OLS_SIM_TRUTH", ols_msg.truth_target_t),
     (r"OLS_SIM_VIEW_.+", ols_msg.truth_view_t),
+    (r"OLS_SIM_PTU_.+", ols_msg.truth_ptu_t),
 ]
 
 
@@ -38,11 +40,16 @@ class Bus:
     def __init__(self, url: str, handler: Callable[[str, Any], None]):
         self.lcm = lcm.LCM(url)
         self._handler = handler
+        self.undecodable = 0
         for pattern, _ in TYPES:
             self.lcm.subscribe(pattern, self._receive).set_queue_capacity(1000)
 
     def _receive(self, channel: str, data: bytes) -> None:
-        message = decode(channel, data)
+        try:
+            message = decode(channel, data)
+        except (ValueError, struct.error):  # anybody may send anything on any channel
+            self.undecodable += 1
+            return
         if message is not None:
             self._handler(channel, message)
 

@@ -13,6 +13,7 @@ STATES = {
     ols_msg.station_status_t.STATE_LOST: "lost",
     ols_msg.station_status_t.STATE_SLEWED: "slewed",
     ols_msg.station_status_t.STATE_STOPPED: "stopped",
+    ols_msg.station_status_t.STATE_EMERGENCY: "emergency",
 }
 
 

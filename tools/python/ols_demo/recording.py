@@ -1,5 +1,6 @@
 """Reads a recorded run (lcm-logger) back as arrays."""
 
+import struct
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,21 +17,24 @@ class Recording:
 
     start_us: int = 0
     targets: dict[str, list[Any]] = field(default_factory=dict)  # by channel
-    arrivals_us: dict[str, list[int]] = field(default_factory=dict)
+    arrivals_us: dict[str, list[int]] = field(default_factory=dict)  # by channel, all of them
     truth: list[Any] = field(default_factory=list)
     views: dict[str, list[Any]] = field(default_factory=dict)  # by station
+    ptus: dict[str, list[Any]] = field(default_factory=dict)  # true shaft angles
     statuses: dict[str, list[Any]] = field(default_factory=dict)
     fusion: list[Any] = field(default_factory=list)
     bearings: dict[str, list[Any]] = field(default_factory=dict)
 
     def receive(self, channel: str, message: Any, arrival_us: int) -> None:
+        self.arrivals_us.setdefault(channel, []).append(arrival_us)
         if channel.startswith("OLS_TARGET"):
             self.targets.setdefault(channel, []).append(message)
-            self.arrivals_us.setdefault(channel, []).append(arrival_us)
         elif channel == "OLS_SIM_TRUTH":
             self.truth.append(message)
         elif channel.startswith("OLS_SIM_VIEW_"):
             self.views.setdefault(message.station, []).append(message)
+        elif channel.startswith("OLS_SIM_PTU_"):
+            self.ptus.setdefault(message.station, []).append(message)
         elif channel.startswith("OLS_STATUS_"):
             self.statuses.setdefault(message.station, []).append(message)
         elif channel.startswith("OLS_BEARING_"):
@@ -66,7 +70,7 @@ def read(path: Path) -> Recording:
     for event in lcm.EventLog(str(path), "r"):
         try:
             message = decode(event.channel, event.data)
-        except ValueError:
+        except (ValueError, struct.error):
             continue
         if message is not None:
             recording.receive(event.channel, message, event.timestamp)

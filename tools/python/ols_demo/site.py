@@ -30,24 +30,39 @@ def bring_up_loopback(addresses: list[str]) -> None:
 
 @dataclass
 class Site:
-    """Processes by name; each writes what it says to a file of that name in `logs`."""
+    """Processes by name; each appends what it says to a file of that name in `logs`."""
 
     logs: Path
     processes: dict[str, subprocess.Popen] = field(default_factory=dict)
 
-    def start(self, name: str, command: list[str]) -> None:
+    def start(
+        self, name: str, command: list[str], environment: dict[str, str] | None = None
+    ) -> int:
+        """Returns how long the log was before."""
         self.logs.mkdir(parents=True, exist_ok=True)
-        with open(self.logs / f"{name}.log", "wb") as out:
+        with open(self.logs / f"{name}.log", "ab") as out:
+            before = out.tell()
             self.processes[name] = subprocess.Popen(
-                command, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+                env={**os.environ, **(environment or {})},
             )
+        return before
 
-    def start_and_wait(self, name: str, command: list[str], ready: str) -> None:
+    def start_and_wait(
+        self,
+        name: str,
+        command: list[str],
+        ready: str,
+        environment: dict[str, str] | None = None,
+    ) -> None:
         """Waits until the process has said a line with `ready`."""
-        self.start(name, command)
+        before = self.start(name, command, environment)
         deadline = time.monotonic() + READY_S
         log = self.logs / f"{name}.log"
-        while ready not in log.read_text(errors="replace"):
+        while ready not in log.read_bytes()[before:].decode(errors="replace"):
             self.check()
             if time.monotonic() > deadline:
                 raise SiteError(f"{name} was not ready after {READY_S:.0f} s; see {log}")

@@ -36,6 +36,7 @@ class Wiring:
         """Writes the stations' configurations; returns the addresses that the cameras need."""
         folder = self._output / "config"
         shutil.rmtree(folder, ignore_errors=True)
+        shutil.rmtree(self._output / "logs", ignore_errors=True)
         folder.mkdir(parents=True)
         (self._output / "lines").mkdir(exist_ok=True)
         self.log.unlink(missing_ok=True)
@@ -55,8 +56,19 @@ class Wiring:
         logger = ["lcm-logger", "--lcm-url", LIVE_URL, "--quiet", str(self.log)]
         site.start("lcm-logger", logger)
         site.start_and_wait("ols-sim", self._sim(), "ready")
-        fusion = [str(self._bin / "ols-fusion"), "--lcm-url", LIVE_URL]
-        site.start_and_wait("ols-fusion", fusion, "ready")
-        for name, config in self.configs.items():
-            command = [str(self._bin / "ols-station"), "--config", str(config)]
-            site.start_and_wait(f"ols-station-{name}", command, "ready")
+        self.start_fusion(site)
+        for name in self.configs:
+            self.start_station(site, name)
+
+    def start_fusion(self, site: Site, url: str = LIVE_URL) -> None:
+        command = [str(self._bin / "ols-fusion"), "--lcm-url", url]
+        site.start_and_wait("ols-fusion", command, "ready")
+
+    def start_station(
+        self, site: Site, name: str, environment: dict[str, str] | None = None
+    ) -> None:
+        command = [str(self._bin / "ols-station"), "--config", str(self.configs[name])]
+        site.start_and_wait(f"ols-station-{name}", command, "ready", environment)
+
+    def program(self, name: str) -> str:
+        return str(self._bin / name)

@@ -1,0 +1,114 @@
+"""tools/fault-run: does every fault of the table to a simulated site, and judges what happens."""
+
+import argparse
+import signal
+import sys
+import time
+import traceback
+from pathlib import Path
+
+from ols_demo.site import Site, SiteError, bring_up_loopback
+from ols_demo.wiring import Wiring
+
+# Importing a module of cases registers them, in the order of the run.
+from ols_faults import (  # noqa: F401
+    cases_baseline,
+    cases_camera,
+    cases_commands,
+    cases_network,
+    cases_processes,
+    cases_ptu,
+    report,
+)
+from ols_faults.case import CASES, Outcome
+from ols_faults.session import Session
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="tools/fault-run", description=__doc__)
+    root = Path(__file__).resolve().parents[3]
+    parser.add_argument(
+        "--only", action="append", default=[], metavar="NAME", help="this case; may be repeated"
+    )
+    parser.add_argument("--list", action="store_true", help="print the cases, and end")
+    parser.add_argument("--seed", type=int, default=1, help="of everything that is drawn")
+    parser.add_argument(
+        "--scenario", type=Path, default=root / "tools/sim/scenarios/faults.toml", help="TOML file"
+    )
+    parser.add_argument(
+        "--output", type=Path, default=root / "out/faults", help="folder for table and logs"
+    )
+    parser.add_argument("--bin", type=Path, default=root / "build/release/bin")
+    options = parser.parse_args()
+    unknown = set(options.only) - CASES.keys()
+    if unknown:
+        parser.error(f"no such case: {', '.join(sorted(unknown))}; --list names them")
+    return options
+
+
+def run_case(session: Session, name: str) -> Outcome:
+    outcome = Outcome()
+    start = time.monotonic()
+    try:
+        session.restore()
+        CASES[name].run(session, outcome)
+    except SiteError as error:
+        outcome.error = str(error)
+    except Exception as error:  # a case that fails in a new way must not end the run
+        traceback.print_exc()
+        outcome.error = f"{type(error).__name__}: {error}"
+    outcome.seconds = time.monotonic() - start
+    return outcome
+
+
+def run_cases(options: argparse.Namespace, names: list[str]) -> dict[str, Outcome]:
+    wiring = Wiring(options.bin, options.scenario, options.seed, options.output)
+    bring_up_loopback(wiring.prepare())
+    outcomes: dict[str, Outcome] = {}
+    remaining = list(names)
+    # A site that a fault has broken for good fails its case; the rest get a new one.
+    while remaining:
+        with Site(options.output / "logs") as site:
+            wiring.start(site)
+            session = Session(wiring, site, options.seed)
+            while remaining:
+                name = remaining.pop(0)
+                print(f"{name}: {CASES[name].fault}", flush=True)
+                outcome = outcomes[name] = run_case(session, name)
+                for check in outcome.checks:
+                    mark = "  " if check.passed else "! "
+                    print(f"  {mark}{check.what}: {check.measured} ({check.limit})", flush=True)
+                print(f"  {report.verdict(outcome)} {outcome.error}", flush=True)
+                if outcome.error:
+                    break
+    return outcomes
+
+
+def main() -> int:
+    options = arguments()
+    if options.list:
+        for name, case in CASES.items():
+            print(f"{name:22s} {case.fault}")
+        return 0
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    names = [name for name in CASES if not options.only or name in options.only]
+    start = time.monotonic()
+    try:
+        outcomes = run_cases(options, names)
+    except SiteError as error:
+        print(f"tools/fault-run: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    about = {
+        "scenario": options.scenario.stem,
+        "seed": options.seed,
+        "seconds": round(time.monotonic() - start),
+    }
+    path = report.write(options.output, about, outcomes)
+    print(f"\n{report.table(outcomes)}\n\ntable {path}")
+    return 0 if all(outcome.passed for outcome in outcomes.values()) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,56 @@
+"""The table of a fault run: Markdown to read, JSON to compare."""
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+from ols_faults.case import CASES, Outcome
+
+
+def seconds(value: float | None) -> str:
+    return "-" if value is None else f"{value:.1f} s"
+
+
+def verdict(outcome: Outcome) -> str:
+    return "pass" if outcome.passed else "FAIL"
+
+
+def details(outcome: Outcome) -> str:
+    texts = [
+        f"{check.what}: {check.measured}" + ("" if check.passed else f" **not {check.limit}**")
+        for check in outcome.checks
+    ]
+    return "; ".join(texts + ([f"**{outcome.error}**"] if outcome.error else []))
+
+
+def table(outcomes: dict[str, Outcome]) -> str:
+    rows = ["| case | fault | must happen | measured | recovery | |", "|---|---|---|---|---|---|"]
+    for name, outcome in outcomes.items():
+        case = CASES[name]
+        cells = [name, case.fault, case.criterion, details(outcome)]
+        cells += [seconds(outcome.recovery_s), verdict(outcome)]
+        rows.append("| " + " | ".join(cell.replace("|", "/") for cell in cells) + " |")
+    return "\n".join(rows)
+
+
+def write(folder: Path, about: dict[str, object], outcomes: dict[str, Outcome]) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    passed = sum(outcome.passed for outcome in outcomes.values())
+    facts = ", ".join(f"{name} {value}" for name, value in about.items())
+    text = f"# Fault run\n\n{facts}; {passed} of {len(outcomes)} pass\n\n{table(outcomes)}\n"
+    (folder / "faults.md").write_text(text)
+    result = {
+        **about,
+        "passed": passed,
+        "cases": {
+            name: {
+                "fault": CASES[name].fault,
+                "criterion": CASES[name].criterion,
+                "passed": outcome.passed,
+                **asdict(outcome),
+            }
+            for name, outcome in outcomes.items()
+        },
+    }
+    (folder / "faults.json").write_text(json.dumps(result, indent=1) + "\n")
+    return folder / "faults.md"

@@ -1,0 +1,231 @@
+"""The site that faults are done to: its processes, its bus, what was heard, and its recovery."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Callable
+from typing import Any
+
+import ols_msg
+from ols_demo.bus import LIVE_URL, Bus, counters
+from ols_demo.observer import STATES, Observer
+from ols_demo.operator import Operator
+from ols_demo.recording import Recording
+from ols_demo.site import Site, SiteError
+from ols_demo.wiring import Wiring
+
+RESTORE_S = 90.0
+BY_SLEWS_S = 8.0  # after that the operator designates again
+
+
+class Session:
+    """One simulated site. Nothing here judges."""
+
+    def __init__(self, wiring: Wiring, site: Site, seed: int):
+        self.wiring, self.site, self.seed = wiring, site, seed
+        self.heard = Recording()
+        self.observer = Observer()
+        self.bus = Bus(LIVE_URL, self.hear)
+        self.operator = Operator(self.bus.lcm, self.observer, seed)
+        self._sequence = 0
+        self._handlers: list[Callable[[], None]] = []
+
+    def add_handler(self, handler: Callable[[], None]) -> None:
+        """Called at every turn."""
+        self._handlers.append(handler)
+
+    def remove_handler(self, handler: Callable[[], None]) -> None:
+        self._handlers.remove(handler)
+
+    def hear(self, channel: str, message: Any) -> None:
+        self.heard.receive(channel, message, self.now_us())
+        self.observer.receive(channel, message)
+
+    @property
+    def stations(self) -> list[str]:
+        return self.wiring.stations
+
+    @staticmethod
+    def now_us() -> int:
+        return time.time_ns() // 1000
+
+    def turn(self, timeout_s: float = 0.02) -> None:
+        self.bus.handle(timeout_s)
+        for handler in self._handlers:
+            handler()
+
+    def run(self, seconds: float) -> tuple[int, int]:
+        """Lets the site run; the window [us] of that time."""
+        start_us, end = self.now_us(), time.monotonic() + seconds
+        while time.monotonic() < end:
+            self.turn()
+        return start_us, self.now_us()
+
+    def wait(self, condition: Callable[[], bool], deadline_s: float) -> float | None:
+        """Seconds until the condition held, or None when it did not within the deadline."""
+        start = time.monotonic()
+        while not condition():
+            if time.monotonic() - start > deadline_s:
+                return None
+            self.turn()
+        return time.monotonic() - start
+
+    # What stations say.
+
+    def status(self, station: str) -> Any:
+        return self.observer.status.get(station)
+
+    def statuses_since(self, station: str, since_us: int) -> list[Any]:
+        arrivals = self.heard.arrivals_us.get(f"OLS_STATUS_{station}", [])
+        both = zip(self.heard.statuses.get(station, []), arrivals, strict=True)
+        return [status for status, at in both if at >= since_us]
+
+    def state(self, station: str) -> str:
+        return self.observer.state(station)
+
+    def state_since(self, station: str, since_us: int) -> set[str]:
+        return {STATES.get(s.state, "unknown") for s in self.statuses_since(station, since_us)}
+
+    def counter(self, station: str, name: str) -> float:
+        status = self.status(station)
+        return counters(status).get(name, 0.0) if status else 0.0
+
+    def fresh_status(self, station: str, deadline_s: float = 3.0) -> Any:
+        """A status that was sent from now on, or None."""
+        since_us = self.now_us()
+        if self.wait(lambda: bool(self.statuses_since(station, since_us)), deadline_s) is None:
+            return None
+        return self.status(station)
+
+    def tracks(self, station: str, since_us: int = 0) -> bool:
+        """Whether its newest status since then says so."""
+        recent = self.statuses_since(station, since_us)
+        return bool(recent) and STATES.get(recent[-1].state) == "tracking"
+
+    def tracking_again_s(self, station: str, since_us: int, deadline_s: float) -> float | None:
+        """Seconds from then to its first bearing of a picture taken since, or None."""
+        channel = f"OLS_BEARING_{station}"
+
+        def first() -> int | None:
+            both = zip(
+                reversed(self.heard.bearings.get(station, [])),
+                reversed(self.heard.arrivals_us.get(channel, [])),
+                strict=True,
+            )
+            found = None
+            for bearing, at in both:
+                if at < since_us:
+                    break
+                found = at if bearing.utime >= since_us else found
+            return found
+
+        self.wait(lambda: first() is not None, deadline_s)
+        at_us = first()
+        return None if at_us is None else (at_us - since_us) * 1e-6
+
+    # What is done to the site.
+
+    def publish(self, channel: str, message: Any) -> None:
+        self.bus.lcm.publish(channel, message.encode())
+
+    def fault(self, kind: str, station: str, duration_s: float, value: float = float("nan")) -> int:
+        """Done from now on; returns now."""
+        message = ols_msg.sim_fault_t()
+        message.utime, message.kind, message.station = self.now_us(), kind, station
+        message.duration_s, message.value = duration_s, value
+        self.publish("OLS_SIM_FAULT", message)
+        return message.utime
+
+    def address(self, message: Any, station: str) -> Any:
+        """Fills what every command has: fresh, valid, for this station."""
+        self._sequence += 1
+        message.utime = self.now_us()
+        message.schema_version = message.SCHEMA_VERSION
+        message.boot_id = 1_000_000 + os.getpid()
+        message.sequence = self._sequence
+        message.station = station
+        message.lease_s = 1.0
+        return message
+
+    def command(self, station: str, what: int, pan_rad: float = 0.0, tilt_rad: float = 0.0) -> None:
+        message = self.address(ols_msg.ptu_command_t(), station)
+        message.command, message.pan_rad, message.tilt_rad = what, pan_rad, tilt_rad
+        self.publish(f"OLS_PTU_{station}", message)
+
+    def process(self, station: str) -> str:
+        return f"ols-station-{station}"
+
+    def pid(self, name: str) -> int:
+        return self.site.processes[name].pid
+
+    def kill(self, name: str) -> int:
+        """SIGKILL; returns now."""
+        at_us = self.now_us()
+        self.site.stop(name, signal.SIGKILL)
+        return at_us
+
+    def send_signal(self, name: str, how: signal.Signals) -> int:
+        at_us = self.now_us()
+        self.site.processes[name].send_signal(how)
+        return at_us
+
+    def start_station(self, station: str, environment: dict[str, str] | None = None) -> int:
+        """Returns when its process was started, without having heard anything since."""
+        at_us = self.now_us()
+        self.observer.status.pop(station, None)
+        self.wiring.start_station(self.site, station, environment)
+        return at_us
+
+    def start_fusion(self, url: str = LIVE_URL) -> int:
+        at_us = self.now_us()
+        self.wiring.start_fusion(self.site, url)
+        return at_us
+
+    # Back to normal.
+
+    def restore(self) -> None:
+        """Every process runs, every station tracks, targets come. Raises SiteError when not."""
+        self.fault_ends()
+        if "ols-fusion" not in self.site.processes:
+            self.start_fusion()
+        for station in self.stations:
+            if self.process(station) not in self.site.processes:
+                self.start_station(station)
+        self.site.check()
+        start = time.monotonic()
+        freed = 0.0
+        while not self.well():
+            now = time.monotonic()
+            if now - start > RESTORE_S:
+                missing = [s for s in self.stations if self.state(s) != "tracking"]
+                raise SiteError(f"not back to normal after {RESTORE_S:.0f} s: {missing}")
+            if now - freed > 1.0:
+                freed = now
+                self._free()
+            if now - start > BY_SLEWS_S or not self.operator.tracking:
+                self._designate()
+            self.turn()
+
+    def fault_ends(self) -> None:
+        self.fault("all", "", 0.0)
+
+    def well(self) -> bool:
+        since_us = self.now_us() - 1_500_000
+        recent = self.heard.targets.get("OLS_TARGET", [])[-1:]
+        located = bool(recent) and recent[0].utime > since_us and sum(recent[0].used) >= 3
+        return located and all(self.tracks(s, since_us) for s in self.stations)
+
+    def _free(self) -> None:
+        for station in self.stations:
+            if self.state(station) == "emergency":
+                self.command(station, ols_msg.ptu_command_t.COMMAND_REARM)
+            elif self.state(station) in ("manual", "stopped"):
+                self.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
+
+    def _designate(self) -> None:
+        for station in self.stations:
+            if self.state(station) != "tracking":
+                self.operator.tracking.discard(station)
+        self.operator.act()
