@@ -36,9 +36,12 @@ class Operator:
         self._aim_error: dict[str, list[float]] = {}
         self.tracking: set[str] = set()  # stations that have tracked since they were designated
 
-    def act(self) -> None:
-        """One look at every station that has never tracked; later losses are the fusion's task."""
+    def act(self, stations: set[str] | None = None) -> None:
+        """One look at every station, or at these: those that have never tracked are attended to;
+        later losses are the fusion's task."""
         for station in list(self._observer.status):
+            if stations is not None and station not in stations:
+                continue
             if self._observer.state(station) == "tracking":
                 self.tracking.add(station)
             elif station not in self.tracking:

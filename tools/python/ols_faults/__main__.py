@@ -68,6 +68,8 @@ def run_cases(options: argparse.Namespace, names: list[str]) -> dict[str, Outcom
     remaining = list(names)
     # A site that a fault has broken for good fails its case; the rest get a new one.
     while remaining:
+        if wiring.log.exists():
+            wiring.log.rename(wiring.log.with_stem(f"run-{len(outcomes)}"))
         with Site(options.output / "logs") as site:
             wiring.start(site)
             session = Session(wiring, site, options.seed)

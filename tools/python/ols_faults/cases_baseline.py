@@ -2,7 +2,7 @@
 
 from ols_faults import measure
 from ols_faults.case import Outcome, case
-from ols_faults.cases_ptu import judge_angles, judge_motion
+from ols_faults.judges import judge_angles, judge_motion
 from ols_faults.session import Session
 
 JUDGED_S = 10.0

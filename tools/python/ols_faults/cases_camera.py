@@ -4,7 +4,7 @@ from ols_demo.bus import counters
 
 from ols_faults import measure
 from ols_faults.case import Outcome, case
-from ols_faults.cases_ptu import judge_motion
+from ols_faults.judges import judge_motion
 from ols_faults.session import Session
 
 OK = 2  # station_status_t.DEVICE_OK

@@ -144,9 +144,7 @@ def bad_manual_commands(session: Session, outcome: Outcome) -> None:
     home.pan_rad = status.pan_rad
     session.publish(channel, home)
     session.run(2.0)
-    good.utime = (
-        session.now_us() + 500_000
-    )  # made fresh by one who has recorded it: the sequence tells
+    good.utime = session.now_us() + 500_000
     judge_refused(session, outcome, station, "played-again command", [lambda: good], channel)
     session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
     outcome.recovered("tracking again", session.wait(lambda: session.tracks(station), 15.0), 15.0)

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import ols_msg
 from ols_demo.bus import LIVE_URL, Bus, counters
 from ols_demo.observer import STATES, Observer
@@ -16,8 +17,11 @@ from ols_demo.recording import Recording
 from ols_demo.site import Site, SiteError
 from ols_demo.wiring import Wiring
 
+from ols_faults import measure
+
 RESTORE_S = 90.0
 BY_SLEWS_S = 8.0  # after that the operator designates again
+OTHER_OBJECT_DEG = 0.5
 
 
 class Session:
@@ -195,17 +199,20 @@ class Session:
                 self.start_station(station)
         self.site.check()
         start = time.monotonic()
-        freed = 0.0
+        looked = 0.0
+        by_hand: set[str] = set()
         while not self.well():
             now = time.monotonic()
             if now - start > RESTORE_S:
-                missing = [s for s in self.stations if self.state(s) != "tracking"]
+                missing = [s for s in self.stations if not self.on_target(s)]
                 raise SiteError(f"not back to normal after {RESTORE_S:.0f} s: {missing}")
-            if now - freed > 1.0:
-                freed = now
-                self._free()
-            if now - start > BY_SLEWS_S or not self.operator.tracking:
-                self._designate()
+            if now - looked > 1.0:
+                looked = now
+                self._free(by_hand)
+                if now - start > BY_SLEWS_S or not self.operator.tracking:
+                    by_hand |= self._take_in_hand()
+            if by_hand:
+                self.operator.act(by_hand)
             self.turn()
 
     def fault_ends(self) -> None:
@@ -215,17 +222,28 @@ class Session:
         since_us = self.now_us() - 1_500_000
         recent = self.heard.targets.get("OLS_TARGET", [])[-1:]
         located = bool(recent) and recent[0].utime > since_us and sum(recent[0].used) >= 3
-        return located and all(self.tracks(s, since_us) for s in self.stations)
+        return located and all(self.on_target(s) for s in self.stations)
 
-    def _free(self) -> None:
+    def on_target(self, station: str) -> bool:
+        """Whether it tracks, now, and the target at that: any other object is believed as well."""
+        now_us = self.now_us()
+        if not self.tracks(station, now_us - 1_500_000):
+            return False
+        errors, _ = measure.bearing_errors(self.heard, station, now_us - 1_000_000, now_us)
+        return len(errors) > 0 and bool(np.hypot(*errors[-1]) < np.radians(OTHER_OBJECT_DEG))
+
+    def _free(self, by_hand: set[str]) -> None:
         for station in self.stations:
             if self.state(station) == "emergency":
                 self.command(station, ols_msg.ptu_command_t.COMMAND_REARM)
-            elif self.state(station) in ("manual", "stopped"):
+            elif self.state(station) in ("manual", "stopped") and station not in by_hand:
                 self.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
 
-    def _designate(self) -> None:
-        for station in self.stations:
-            if self.state(station) != "tracking":
-                self.operator.tracking.discard(station)
-        self.operator.act()
+    def _take_in_hand(self) -> set[str]:
+        """Stations that the operator has to point and designate anew."""
+        astray = {s for s in self.stations if not self.on_target(s)}
+        for station in astray:
+            self.operator.tracking.discard(station)
+            if self.state(station) == "tracking":  # something else
+                self.command(station, ols_msg.ptu_command_t.COMMAND_STOP)
+        return astray
