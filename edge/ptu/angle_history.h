@@ -13,25 +13,31 @@ struct AngleSample {
   double time_s = 0.0;     // station's monotonic clock: estimate of when the unit read its counters
   double time_sd_s = 0.0;  // 1-sigma of that estimate (white)
   PanTilt angles;
-  std::optional<double>
-      tilt_time_sd_s;  // where the tilt's instant is known less well than the pan's
+  // Where the tilt's instant is known otherwise than the pan's, and how much later it is.
+  std::optional<double> tilt_time_sd_s = {};
+  double tilt_delay_s = 0.0;
+  PanTilt doubt = {};  // [rad] 1-sigma of what else may be wrong with each angle
 };
 
 struct AngleAt {
   PanTilt angles;
   PanTilt rate;                // [rad/s]
-  Eigen::Matrix2d covariance;  // [rad^2] (pan, tilt): encoder step, time jitter, extrapolation
+  Eigen::Matrix2d covariance;  // [rad^2] (pan, tilt): encoder step, time jitter, bends of the way
   bool interpolated = false;   // false: the instant lies after the newest sample
 };
 
 class AngleHistory {
  public:
   struct Config {
-    double span_s = 5.0;                  // kept
-    double max_gap_s = 0.25;              // no interpolation across more than this
-    double max_extrapolation_s = 0.15;    // no answer further than this after the newest sample
-    double step_rad = 5.61e-5;            // one encoder step: 11.5714 arc seconds
-    double acceleration_sd_rad_s2 = 0.2;  // what the motion between samples may do
+    double span_s = 5.0;                // kept
+    double max_gap_s = 0.25;            // no interpolation across more than this
+    double max_extrapolation_s = 0.15;  // no answer further than this after the newest sample
+    double step_rad = 5.61e-5;          // one encoder step: 11.5714 arc seconds
+    // What the motion between two samples may do besides going straight: this much for certain,
+    // more where the samples around show a bend; and after the newest sample up to what the unit is
+    // capable of.
+    double acceleration_sd_rad_s2 = 0.125;
+    double acceleration_max_rad_s2 = 1.0;
   };
   explicit AngleHistory(const Config& config) : config_(config) {}
 
@@ -44,6 +50,26 @@ class AngleHistory {
   std::optional<AngleSample> newest() const;
 
  private:
+  // One axis at one sample.
+  struct Knot {
+    double time_s, time_sd_s, angle_rad, doubt_rad;
+  };
+  struct AxisAt {
+    double angle_rad, rate_rad_s, variance_rad2;
+    bool interpolated;
+  };
+  static Knot pan_knot(const AngleSample& sample);
+  static Knot tilt_knot(const AngleSample& sample);
+  using KnotOf = Knot (*)(const AngleSample&);
+
+  std::optional<AxisAt> axis_at(double time_s, KnotOf knot) const;
+  // Variance of the measured angle at a knot passed at this rate.
+  double knot_variance(const Knot& knot, double rate_rad_s) const;
+  // Square of the acceleration that the samples about samples_[b-1]..samples_[b] show beyond their
+  // noise.
+  double bend2(std::size_t b, KnotOf knot) const;
+  double bend2_at(std::size_t middle, KnotOf knot) const;
+
   Config config_;
   std::deque<AngleSample> samples_;
 };

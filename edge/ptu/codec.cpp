@@ -21,6 +21,17 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+// A value that has lost its mark: an echo has letters.
+bool bare_value(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("+-.0123456789 ") == std::string_view::npos;
+}
+
 // Echoes repeat commands: letters, digits and a few signs.
 bool could_be_echo(std::string_view text) {
   return text.size() <= kLongestEcho && std::all_of(text.begin(), text.end(), [](char c) {
@@ -71,6 +82,16 @@ PtuRequest& PtuRequest::append(const PtuRequest& request) {
   return *this;
 }
 
+PtuRequest& PtuRequest::delimiter() {
+  bytes_ += ' ';
+  return *this;
+}
+
+std::string_view PtuRequest::command(std::size_t index) const {
+  const std::size_t begin = index == 0 ? 0 : ends_.at(index - 1);
+  return std::string_view(bytes_).substr(begin, ends_.at(index) - begin);
+}
+
 PtuRequest& PtuRequest::finish() {
   bytes_ += ' ';
   ends_.push_back(bytes_.size());
@@ -90,13 +111,14 @@ std::vector<PtuReply> PtuReplyParser::feed(std::string_view bytes, double time_s
   std::vector<PtuReply> replies;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const char byte = bytes[i];
+    const double when_s = time_s - static_cast<double>(bytes.size() - 1 - i) * byte_s;
     if (byte == '\r' || byte == '\n') {
-      if (auto reply = finish_line()) replies.push_back(std::move(*reply));
+      if (auto reply = finish_line(when_s)) replies.push_back(std::move(*reply));
       continue;
     }
     const bool star = byte == '*' && line_.find('*') == std::string::npos;
     if (star || (byte == '!' && !marked_)) {
-      mark_s_ = time_s - static_cast<double>(bytes.size() - 1 - i) * byte_s;
+      mark_s_ = when_s;
       marked_ = true;
     }
     if (line_.size() < kLongestLine) {
@@ -132,7 +154,14 @@ std::string PtuReplyParser::without_tokens(std::string_view line) {
   return rest;
 }
 
-std::optional<PtuReply> PtuReplyParser::finish_line() {
+// The head of `### PAN-TILT CONTROLLER`, `### v3.3.0, (C)2010-2011 FLIR`, `Initializing...*`.
+bool PtuReplyParser::is_banner(std::string_view line) {
+  const bool banner = line.starts_with("###") || line.find("nitializing") != std::string_view::npos;
+  banners_ += banner ? 1 : 0;
+  return banner;
+}
+
+std::optional<PtuReply> PtuReplyParser::finish_line(double end_s) {
   const std::string raw = std::move(line_);
   const bool clean = !overlong_ && std::all_of(raw.begin(), raw.end(), printable);
   const double mark_s = mark_s_;
@@ -141,12 +170,14 @@ std::optional<PtuReply> PtuReplyParser::finish_line() {
     ++garbled_;
     return std::nullopt;
   }
+  const std::uint64_t hits = limit_hits_;
   const std::string line = without_tokens(raw);
+  if (is_banner(line)) return std::nullopt;
   const std::size_t mark = line.find_first_of("*!");
   const std::string_view before = trimmed(std::string_view(line).substr(0, mark));
   const bool single =
       mark == std::string::npos || line.find_first_of("*!", mark + 1) == std::string::npos;
-  if (!could_be_echo(before) || !single) {
+  if (!could_be_echo(before) || !single || (mark == std::string::npos && bare_value(before))) {
     ++garbled_;
     return std::nullopt;
   }
@@ -154,10 +185,22 @@ std::optional<PtuReply> PtuReplyParser::finish_line() {
   PtuReply reply;
   reply.ok = line[mark] == '*';
   reply.echoed = !before.empty();
+  reply.limit_hits = static_cast<int>(limit_hits_ - hits);
   reply.text = trimmed(std::string_view(line).substr(mark + 1));
   reply.number = first_number(reply.text);
   reply.began_s = mark_s;
+  reply.ended_s = end_s;
   return reply;
+}
+
+PtuComplaint complaint(std::string_view text) {
+  const std::string words = lower(text);
+  const auto says = [&words](const char* what) { return words.find(what) != std::string::npos; };
+  if (says("allowable") && says("position")) return PtuComplaint::kPositionLimit;
+  if (says("speed cannot")) return PtuComplaint::kSpeedLimit;
+  if (says("axis error")) return PtuComplaint::kNotReferenced;
+  if (says("illegal")) return PtuComplaint::kIllegal;
+  return PtuComplaint::kOther;
 }
 
 }  // namespace ols

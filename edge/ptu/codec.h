@@ -36,9 +36,13 @@ class PtuRequest {
   PtuRequest& plain(std::string_view command);
 
   PtuRequest& append(const PtuRequest& request);
+  // A delimiter of its own: ends whatever half a command stands in the unit's buffer. Not answered.
+  PtuRequest& delimiter();
 
   const std::string& bytes() const { return bytes_; }
   std::size_t commands() const { return ends_.size(); }
+  // Command `index` with its delimiter.
+  std::string_view command(std::size_t index) const;
   bool empty() const { return ends_.empty(); }
   // Bytes up to and with the delimiter of command `index`: what the unit needs to begin with it.
   std::size_t end_of(std::size_t index) const { return ends_.at(index); }
@@ -52,17 +56,28 @@ class PtuRequest {
 struct PtuReply {
   bool ok = true;                // `*`; else `!`
   bool echoed = false;           // an echo stood before it: the unit's echo is on
+  int limit_hits = 0;            // !P and !T in its line; homing leaves several: !T!T!P!P*
   std::string text;              // what follows the mark, trimmed
   std::optional<double> number;  // the first word of the text that is a number
   double began_s = 0.0;          // instant by which the mark's byte was complete
+  double ended_s = 0.0;          // and by which the first byte of the line's end was
 
   // The number as a count: whole and within 32 bits.
   std::optional<std::int32_t> count() const;
 };
 
+// What a unit means by `! text`.
+enum class PtuComplaint {
+  kPositionLimit,  // Maximum, Minimum allowable Pan position is N: its travel is not what was read
+  kSpeedLimit,     // Pan speed cannot exceed N; Motor speed cannot be less than N
+  kNotReferenced,  // Axis Error: the axis was not homed since power-up
+  kIllegal,        // Illegal Command Entered: changed on its way, or unknown to this firmware
+  kOther,
+};
+PtuComplaint complaint(std::string_view text);
+
 // Incremental: any split of the bytes gives the same replies. Blanks, echoes and asynchronous
-// tokens
-// (!P !T limit hits; !D #P #T $P $T) are discarded wherever they are glued.
+// tokens (!P !T limit hits; !D #P #T $P $T) are discarded wherever they are glued.
 class PtuReplyParser {
  public:
   // `time_s`: an instant by which all of the bytes were there; `byte_s`: what one takes on the line
@@ -73,17 +88,20 @@ class PtuReplyParser {
   void reset();
 
   std::uint64_t garbled() const { return garbled_; }        // lines that are neither reply nor echo
+  std::uint64_t banners() const { return banners_; }        // lines of a unit that begins anew
   std::uint64_t limit_hits() const { return limit_hits_; }  // !P and !T
 
  private:
-  std::optional<PtuReply> finish_line();
+  std::optional<PtuReply> finish_line(double end_s);
   std::string without_tokens(std::string_view line);
+  bool is_banner(std::string_view line);
 
   std::string line_;
   bool overlong_ = false;
   double mark_s_ = 0.0;  // of the first `*`, or failing that `!`, of this line
   bool marked_ = false;
   std::uint64_t garbled_ = 0;
+  std::uint64_t banners_ = 0;
   std::uint64_t limit_hits_ = 0;
 };
 

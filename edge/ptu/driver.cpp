@@ -1,26 +1,15 @@
-// The line's budget in steady state, one cycle:
-//
-//   PP TP PS18700 TS18700 PP-49467 TP-14622        out, 42 bytes
-//      * -49467  * -14622  *  *  *  *              in, 32 bytes, the last 3 after the request's end
-//
-//   baud      request    cycle in motion, 1 ms of the unit's own    at rest (6 bytes, 20 bytes)
-//   9600      43.8 ms    48 ms                                      26 ms
-//   38400     10.9 ms    13 ms                                      7 ms
-//   115200    3.6 ms     5 ms                                       3 ms
-//
-// One request is under way at a time, so that replies can be matched and a position's instant is
-// known; the period is poll_interval_s or what the line takes, whichever is longer. Only commands
-// that changed are sent. 25 ms in motion need 38400 baud.
+// The way to a unit that is ready, and back to it when it was lost. What happens then is in
+// edge/ptu/steady_state.*, the line's budget in edge/ptu/budget.h.
 #include "edge/ptu/driver.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "edge/ptu/budget.h"
 #include "edge/ptu/codec.h"
 #include "edge/ptu/motion_commands.h"
-#include "edge/ptu/poll_cycle.h"
 #include "edge/ptu/start_sequence.h"
+#include "edge/ptu/steady_state.h"
 
 namespace ols {
 
@@ -28,59 +17,70 @@ namespace {
 
 constexpr double kQuiet_s = 0.06;        // silence that ends a flush
 constexpr double kLongestFlush_s = 2.0;  // a line that is not silent after so long is not a PTU's
-constexpr double kReplySlack_s = 0.08;   // what a unit may take over one cycle
 constexpr double kFirstPause_s = 0.25;   // after a fault; doubles
 constexpr double kLongestPause_s = 4.0;
-constexpr int kStrikes = 3;                 // wrong cycles in a row: the unit is not what it was
-constexpr double kLatencyShare = 0.05;      // of a new one in the running average
-constexpr std::size_t kSamplesKept = 1000;  // when nobody takes them
+constexpr double kLongestHoming_s = 90.0;
+constexpr int kRetries = 2;  // of a question of the start that was not answered
 
 }  // namespace
 
 struct PtuDriver::Impl {
-  enum class Phase { kFlush, kStart, kReady, kResync, kPause };
+  enum class Phase { kFlush, kStart, kHoming, kReady, kPause };
 
-  explicit Impl(const PtuConfig& ptu_config)
-      : config(ptu_config),
-        byte_s(config.baud > 0 ? 10.0 / config.baud : 0.0),
-        history(config.history) {}
+  explicit Impl(const PtuConfig& ptu_config) : config(ptu_config), baud(ptu_config.baud) {}
+
+  double byte_s() const { return byte_time_s(baud); }
 
   // --- the way to ready -----------------------------------------------------------------------
-  void begin_flush(Phase flush_phase, double time_s) {
-    phase = flush_phase;
+  void begin(double time_s) {
+    steady.reset();
+    goal.reset();
+    const bool wanted_rate = baud == config.baud;
+    start = std::make_unique<PtuStartSequence>(
+        PtuStartOptions{config.acceleration_rad_s2, wanted_rate ? 0 : config.baud, config.step_mode,
+                        config.hold_power, config.move_power});
+    answered = false;
+    retries = 0;
+    begin_flush(time_s);
+  }
+
+  void begin_flush(double time_s) {
+    phase = Phase::kFlush;
     parser.reset();
-    cycle.reset();
     outstanding = false;
     flush_sent = false;
     flush_began_s = last_byte_s = time_s;
   }
 
-  void begin(double time_s) {
-    begin_flush(Phase::kFlush, time_s);
-    start.emplace(config.acceleration_rad_s2);
-    history.clear();
-    strikes = 0;
-  }
-
+  // Once, at the first of several failures in a row, the unit is told to stand.
   void fault(double time_s, std::string reason) {
     error = std::move(reason);
     ++counters.restarts;
+    if (steady) urgent = halt_request();
+    steady.reset();
+    goal.reset();
     phase = Phase::kPause;
     resume_s = time_s + pause_s;
     pause_s = std::min(2.0 * pause_s, kLongestPause_s);
+  }
+
+  // Nobody answers at this rate: the other one is tried next.
+  void change_rate() {
+    if (!answered) baud = baud == config.baud ? config.line_baud : config.baud;
   }
 
   std::string step_flush(double time_s) {
     if (!flush_sent) {
       flush_sent = true;
       last_byte_s = time_s;
-      return " ";  // ends whatever half a command stands in the unit's buffer
+      return emergency ? halt_request() : " ";  // ends half a command in the unit's buffer
     }
-    if (time_s - last_byte_s >= kQuiet_s + byte_s) {
+    if (time_s - last_byte_s >= kQuiet_s + byte_s()) {
       parser.reset();
-      phase = phase == Phase::kFlush ? Phase::kStart : Phase::kReady;
+      phase = Phase::kStart;
     } else if (time_s - flush_began_s > kLongestFlush_s) {
       fault(time_s, "the line does not fall silent");
+      change_rate();
     }
     return {};
   }
@@ -96,9 +96,15 @@ struct PtuDriver::Impl {
       ++counters.requests;
       return start->request().bytes();
     }
-    if (time_s - sent_s > start->timeout_s(config.reply_timeout_s)) {
-      ++counters.timeouts;
-      fault(time_s, "no reply to " + start->request().bytes());
+    if (time_s - sent_s <= start->timeout_s(config.reply_timeout_s)) return {};
+    ++counters.timeouts;
+    if (answered && !start->slow() && retries++ < kRetries) {
+      begin_flush(time_s);
+    } else {
+      const std::string asked = start->request().bytes();
+      fault(time_s, "no reply to " + asked.substr(0, asked.size() - 1));
+      link_lost = true;
+      change_rate();
     }
     return {};
   }
@@ -106,8 +112,16 @@ struct PtuDriver::Impl {
   void take_start_reply(const PtuReply& reply, double time_s) {
     if (!outstanding) return;
     outstanding = false;
+    answered = true;
     if (!reply.ok) ++counters.errors;
-    if (!start->take(reply)) fault(time_s, start->refusal(reply));
+    if (!start->take(reply)) {
+      fault(time_s, start->refusal(reply));
+      unreferenced = start->not_referenced();
+      if (unreferenced) consider_homing(time_s);
+    } else if (start->changed_baud()) {
+      baud = config.baud;
+      begin_flush(time_s);
+    }
   }
 
   void become_ready(double time_s) {
@@ -115,121 +129,105 @@ struct PtuDriver::Impl {
       fault(time_s, std::move(conflict));
       return;
     }
-    commands.emplace(config, start->facts());
-    history = AngleHistory([this] {
-      AngleHistory::Config history_config = config.history;
-      history_config.step_rad = start->facts().pan.resolution_rad;
-      return history_config;
-    }());
+    steady = std::make_unique<PtuSteadyState>(config, start->facts(), byte_s(), time_s, counters);
     phase = Phase::kReady;
     pause_s = kFirstPause_s;
-    last_good_s = next_poll_s = time_s;
+    unreferenced = homed = false;
+    limit_hits_at_start = parser.limit_hits();
+    banners_at_start = parser.banners();
   }
 
-  // --- steady state ---------------------------------------------------------------------------
+  // --- homing -----------------------------------------------------------------------------------
+  void consider_homing(double time_s) {
+    if (config.rehome != PtuRehome::kWhenUnreferenced || homed || emergency) return;
+    homed = true;
+    ++counters.homings;
+    phase = Phase::kHoming;
+    outstanding = false;
+    sent_s = time_s;
+  }
+
+  std::string step_homing(double time_s) {
+    if (!outstanding) {
+      outstanding = true;
+      sent_s = time_s;
+      return " R ";
+    }
+    if (time_s - sent_s > kLongestHoming_s) fault(time_s, "homing does not end");
+    return {};
+  }
+
+  // --- ready ------------------------------------------------------------------------------------
   std::string step_ready(double time_s) {
-    if (cycle) {
-      if (time_s > cycle->due_s(kReplySlack_s)) {
-        ++counters.timeouts;
-        wrong(time_s, "replies are missing");
-      }
-      return {};
-    }
-    if (time_s < next_poll_s) return {};
-    next_poll_s = time_s + config.poll_interval_s;
-    const auto now = history.at(time_s);
-    const auto newest = history.newest();
-    const PtuRequest request = now      ? commands->next(goal, now->angles, time_s)
-                               : newest ? commands->next(goal, newest->angles, time_s)
-                                        : PtuRequest();
-    cycle.emplace(request, time_s, byte_s);
-    ++counters.requests;
-    return cycle->bytes();
+    std::string bytes = steady->step(goal, emergency, time_s);
+    heed_trouble(time_s);
+    return bytes;
   }
 
-  void take_cycle_reply(const PtuReply& reply, double time_s) {
-    if (!cycle) {
-      wrong(time_s, "a reply to nothing");
-      return;
-    }
-    // An echo: the unit was switched off and on, and has forgotten its modes.
-    const auto outcome = reply.echoed ? PollCycle::Outcome::kWrong : cycle->take(reply);
-    if (outcome == PollCycle::Outcome::kWrong) {
-      ++counters.garbled;
-      wrong(time_s, "reply out of step: " + reply.text);
-      return;
-    }
-    if (outcome == PollCycle::Outcome::kRefused) {
-      ++counters.errors;
-      error = reply.text;
-      commands->send_all_again();
-    }
-    if (cycle->complete()) finish_cycle(time_s);
-  }
-
-  void finish_cycle(double time_s) {
-    const PollCycle done = std::move(*cycle);
-    cycle.reset();
-    if (!commands->plausible(done.pan_counts(), done.tilt_counts(), done.read_s(),
-                             done.latency_s())) {
-      ++counters.garbled;
-      wrong(time_s, "a jump of the position");
-      return;
-    }
-    strikes = 0;
-    last_good_s = time_s;
-    latency_s += (latency_s == 0.0 ? 1.0 : kLatencyShare) * (done.latency_s() - latency_s);
-    const AngleSample sample = done.sample(start->facts(), commands->tilt_rate_rad_s(), latency_s);
-    if (!history.add(sample)) return;
-    if (samples.size() >= kSamplesKept) samples.erase(samples.begin());
-    samples.push_back(sample);
-  }
-
-  // A cycle went wrong: drop what is under way; several in a row or too long a silence: begin
-  // again.
-  void wrong(double time_s, std::string reason) {
-    error = std::move(reason);
-    commands->send_all_again();
-    if (++strikes >= kStrikes || time_s - last_good_s > config.reply_timeout_s) {
-      fault(time_s, std::move(error));
-    } else {
-      begin_flush(Phase::kResync, time_s);
-    }
+  void heed_trouble(double time_s) {
+    if (!steady || !steady->trouble()) return;
+    using Kind = PtuSteadyState::Trouble::Kind;
+    const PtuSteadyState::Trouble trouble = *steady->trouble();
+    fault(time_s, trouble.reason);
+    link_lost = link_lost || trouble.kind == Kind::kNoReply;
+    unreferenced = trouble.kind == Kind::kNotReferenced;
+    if (unreferenced) consider_homing(time_s);
   }
 
   std::string step(double time_s) {
+    if (!urgent.empty()) return std::exchange(urgent, {});
     switch (phase) {
       case Phase::kPause:
         if (time_s >= resume_s) begin(time_s);
         return {};
       case Phase::kFlush:
-      case Phase::kResync:
         return step_flush(time_s);
       case Phase::kStart:
         return step_start(time_s);
+      case Phase::kHoming:
+        return step_homing(time_s);
       case Phase::kReady:
         return step_ready(time_s);
     }
     return {};
   }
 
+  void note_call(double time_s) {
+    const double unread_s = std::max(0.0, time_s - called_s);
+    late_s = std::max(unread_s, std::exchange(last_unread_s, unread_s));
+    called_s = time_s;
+  }
+
+  void take(const PtuReply& reply, double time_s) {
+    ++counters.replies;
+    if (phase == Phase::kStart) {
+      take_start_reply(reply, time_s);
+    } else if (phase == Phase::kHoming) {
+      if (outstanding) begin(time_s);
+    } else if (phase == Phase::kReady) {
+      steady->take(reply, time_s, late_s);
+    }
+  }
+
   PtuConfig config;
-  double byte_s;
+  int baud;
   Phase phase = Phase::kPause;
   PtuReplyParser parser;
-  std::optional<PtuStartSequence> start;
-  std::optional<MotionCommands> commands;
-  std::optional<PollCycle> cycle;
-  AngleHistory history;
+  std::unique_ptr<PtuStartSequence> start;
+  std::unique_ptr<PtuSteadyState> steady;
   std::optional<ServoGoal> goal;
-  std::vector<AngleSample> samples;
   PtuCounters counters;
-  std::string error;
+  std::string error, urgent;
+  bool emergency = false, link_lost = false, unreferenced = false, homed = false;
   bool outstanding = false, flush_sent = false;
-  int strikes = 0;
-  double sent_s = 0.0, flush_began_s = 0.0, last_byte_s = 0.0, last_good_s = 0.0;
-  double latency_s = 0.0;  // running average of PollCycle::latency_s()
-  double next_poll_s = 0.0, resume_s = 0.0, pause_s = kFirstPause_s;
+  bool answered = false;  // since begin(), at this rate
+  int retries = 0;
+  double called_s = 0.0;  // all bytes of before were read then
+  double last_unread_s = 0.0;
+  double late_s = 0.0;  // so long bytes may lie unread: the last two pauses between calls
+  double sent_s = 0.0, flush_began_s = 0.0, last_byte_s = 0.0;
+  double resume_s = 0.0, pause_s = kFirstPause_s;
+  std::uint64_t limit_hits_at_start = 0, banners_at_start = 0;
 };
 
 PtuDriver::PtuDriver(const PtuConfig& config) : impl_(std::make_unique<Impl>(config)) {}
@@ -237,35 +235,60 @@ PtuDriver::~PtuDriver() = default;
 PtuDriver::PtuDriver(PtuDriver&&) noexcept = default;
 
 void PtuDriver::receive(std::string_view bytes, double time_s) {
-  if (bytes.empty()) return;
   Impl& d = *impl_;
+  d.note_call(time_s);
+  if (bytes.empty()) return;
   d.last_byte_s = std::max(d.last_byte_s, time_s);
+  if (d.steady) d.steady->bytes_came(time_s);
   const std::uint64_t garbled = d.parser.garbled();
-  for (const PtuReply& reply : d.parser.feed(bytes, time_s, d.byte_s)) {
-    ++d.counters.replies;
-    if (d.phase == Impl::Phase::kStart) d.take_start_reply(reply, time_s);
-    if (d.phase == Impl::Phase::kReady) d.take_cycle_reply(reply, time_s);
-  }
+  for (const PtuReply& reply : d.parser.feed(bytes, time_s, d.byte_s())) d.take(reply, time_s);
+  const std::uint64_t more = d.parser.garbled() - garbled;
   // What stands in the line at the start, a banner for example, is nobody's fault.
-  if (d.phase != Impl::Phase::kFlush) d.counters.garbled += d.parser.garbled() - garbled;
+  if (d.phase != Impl::Phase::kFlush) d.counters.garbled += more;
+  if (d.steady && more > 0) d.steady->line_was_garbled();
+  if (d.steady && d.parser.banners() != d.banners_at_start) d.steady->unit_began_anew();
   d.counters.limit_hits = d.parser.limit_hits();
+  d.heed_trouble(time_s);
 }
 
 std::string PtuDriver::step(double time_s) { return impl_->step(time_s); }
 
-void PtuDriver::set_goal(const std::optional<ServoGoal>& goal) { impl_->goal = goal; }
+int PtuDriver::line_baud() const { return impl_->baud; }
+
+void PtuDriver::set_goal(const std::optional<ServoGoal>& goal) {
+  const bool heeded = impl_->steady && !impl_->emergency;
+  impl_->goal = heeded ? goal : std::nullopt;
+}
+
+std::string PtuDriver::emergency_halt(double time_s) {
+  if (!impl_->emergency) ++impl_->counters.emergencies;
+  impl_->emergency = true;
+  impl_->goal.reset();
+  impl_->urgent.clear();
+  if (impl_->steady) impl_->steady->abandon(time_s);
+  if (impl_->phase == Impl::Phase::kStart) impl_->begin_flush(time_s);
+  if (impl_->phase == Impl::Phase::kHoming) impl_->begin(time_s);
+  return halt_request();
+}
+
+void PtuDriver::clear_emergency() { impl_->emergency = false; }
+
+bool PtuDriver::in_emergency() const { return impl_->emergency; }
 
 void PtuDriver::restart(double time_s) {
   if (impl_->start) ++impl_->counters.restarts;
   impl_->begin(time_s);
 }
 
-std::vector<AngleSample> PtuDriver::take_samples() { return std::exchange(impl_->samples, {}); }
+bool PtuDriver::take_link_loss() { return std::exchange(impl_->link_lost, false); }
+
+std::vector<AngleSample> PtuDriver::take_samples() {
+  return impl_->steady ? impl_->steady->take_samples() : std::vector<AngleSample>{};
+}
 
 PtuState PtuDriver::state() const {
   switch (impl_->phase) {
     case Impl::Phase::kReady:
-    case Impl::Phase::kResync:
       return PtuState::kReady;
     case Impl::Phase::kPause:
       return impl_->start ? PtuState::kFault : PtuState::kStarting;
@@ -277,7 +300,7 @@ PtuState PtuDriver::state() const {
 const PtuCounters& PtuDriver::counters() const { return impl_->counters; }
 
 const PtuLimits& PtuDriver::limits() const {
-  return impl_->commands ? impl_->commands->limits() : impl_->config.limits;
+  return impl_->steady ? impl_->steady->limits() : impl_->config.limits;
 }
 
 double PtuDriver::pan_resolution_rad() const {
@@ -292,7 +315,26 @@ std::string PtuDriver::firmware() const {
   return impl_->start ? impl_->start->facts().firmware : std::string();
 }
 
-std::string PtuDriver::last_error() const { return impl_->error; }
+std::string PtuDriver::last_error() const {
+  const std::string mended = impl_->steady ? impl_->steady->last_error() : std::string();
+  return mended.empty() ? impl_->error : mended;
+}
+
+std::optional<PtuEnvironment> PtuDriver::environment() const {
+  return impl_->steady ? impl_->steady->environment() : std::nullopt;
+}
+
+std::optional<double> PtuDriver::last_good_s() const {
+  return impl_->steady ? impl_->steady->last_good_s() : std::nullopt;
+}
+
+bool PtuDriver::not_referenced() const { return impl_->unreferenced; }
+
+bool PtuDriver::ran_into_limit() const {
+  return impl_->steady && impl_->parser.limit_hits() != impl_->limit_hits_at_start;
+}
+
+bool PtuDriver::standing() const { return impl_->steady && impl_->steady->standing(); }
 
 std::string PtuDriver::halt_request() {
   return " " + PtuRequest().plain("H").bytes();  // the blank ends half a command

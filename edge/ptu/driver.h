@@ -12,16 +12,30 @@
 
 #include "edge/ptu/angle_history.h"
 #include "edge/ptu/servo.h"
+#include "edge/ptu/unit_model.h"
 
 namespace ols {
 
+// What happens when a unit does not know where it is. Homing sweeps the whole travel, whatever
+// stands there, so that nobody but the configuration can allow it.
+enum class PtuRehome {
+  kNever,             // the unit is a fault until somebody homed it
+  kWhenUnreferenced,  // R, once after each loss
+};
+
 struct PtuConfig {
-  std::string device;  // serial device, for example /dev/ttyUSB0
-  int baud = 9600;
-  double poll_interval_s = 0.04;     // one request for both positions and the servo's commands
-  double reply_timeout_s = 0.5;      // no reply for so long: the link is down, begin again
-  double acceleration_rad_s2 = 1.0;  // set at start
-  PtuLimits limits;                  // narrowed by what the unit reports
+  std::string device;              // serial device, for example /dev/ttyUSB0
+  int baud = 38400;                // to be used
+  int line_baud = 9600;            // at which a unit may answer that was just switched on
+  double poll_interval_s = 0.025;  // one request for both positions and the servo's commands
+  double reply_timeout_s =
+      0.5;  // nothing to be believed for so long: the link is down, begin again
+  double acceleration_rad_s2 = 1.0;     // set at start
+  double environment_interval_s = 5.0;  // supply voltage and temperatures; 0: never
+  double supply_min_V = 11.5;           // an alarm below
+  PtuRehome rehome = PtuRehome::kNever;
+  char step_mode = 0, hold_power = 0, move_power = 0;  // PtuStartOptions
+  PtuLimits limits;                                    // narrowed by what the unit reports
   AngleHistory::Config history;
   ServoConfig servo;
 };
@@ -31,6 +45,11 @@ enum class PtuState { kStarting, kReady, kFault };
 struct PtuCounters {  // only go up
   std::uint64_t requests = 0, replies = 0, timeouts = 0, errors = 0, garbled = 0, restarts = 0;
   std::uint64_t limit_hits = 0;
+  std::uint64_t refused_positions = 0;  // pairs that contradicted each other or the motion
+  std::uint64_t echoes = 0;             // echo or verbose replies that came on in mid-run
+  std::uint64_t power_cycles = 0;       // noticed in mid-run
+  std::uint64_t homings = 0;            // sent from here
+  std::uint64_t emergencies = 0;
 };
 
 class PtuDriver {
@@ -46,11 +65,26 @@ class PtuDriver {
   // Advances time: returns bytes to write now (may be empty). Call at least every few milliseconds.
   std::string step(double time_s);
 
-  // Where the unit shall go from now on; nothing: halt. Takes effect with the next poll.
+  // Rate of the line, at which step()'s bytes are to be written. Changes while the unit is searched
+  // for and when it was told another one.
+  int line_baud() const;
+
+  // Where the unit shall go from now on; nothing: halt. Takes effect with the next poll. Forgotten
+  // in an emergency and whenever the unit is lost.
   void set_goal(const std::optional<ServoGoal>& goal);
+
+  // From now on nothing moves: halts go out, again and again until the unit was seen to stand, and
+  // no other command of motion until clear_emergency(). Returns what to write at once, whatever is
+  // under way; bytes that are not on the line yet are better thrown away before.
+  std::string emergency_halt(double time_s);
+  void clear_emergency();
+  bool in_emergency() const;
 
   // Begins again from power-up, for example when the port was reopened.
   void restart(double time_s);
+
+  // True once after the unit had stopped answering: the port is better opened anew.
+  bool take_link_loss();
 
   // Angle samples since the last call.
   std::vector<AngleSample> take_samples();
@@ -62,6 +96,11 @@ class PtuDriver {
   double tilt_resolution_rad() const;
   std::string firmware() const;    // answer to V; empty until ready
   std::string last_error() const;  // empty when there was none
+  std::optional<PtuEnvironment> environment() const;
+  std::optional<double> last_good_s() const;  // when the last angle was taken in
+  bool not_referenced() const;                // the unit does not know where it is
+  bool ran_into_limit() const;                // since it became ready: steps may be lost
+  bool standing() const;                      // seen not to move
 
   // Bytes that stop the unit at once, whatever the driver was doing: for the end of the process.
   static std::string halt_request();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <utility>
 
 #include "geometry/angles.h"
 
@@ -14,7 +13,6 @@ namespace {
 // There is no checksum: a command that was changed on its way holds no longer than this.
 constexpr double kRefresh_s = 1.0;
 constexpr double kHaltMargin_s = 0.3;  // on top of the braking time, before a halt is repeated
-constexpr double kStanding_counts_s = 20.0;  // slower than this is standing
 
 constexpr double kRounding_counts = 1e-6;  // a limit that is a whole count stays that count
 
@@ -27,10 +25,12 @@ double greatest_within(const PtuAxisFacts& facts, double greatest_rad) {
 }
 
 PtuLimits narrowed(const PtuLimits& configured, const PtuFacts& facts) {
-  return {std::max(configured.pan_min_rad, facts.pan.least * facts.pan.resolution_rad),
-          std::min(configured.pan_max_rad, facts.pan.greatest * facts.pan.resolution_rad),
-          std::max(configured.tilt_min_rad, facts.tilt.least * facts.tilt.resolution_rad),
-          std::min(configured.tilt_max_rad, facts.tilt.greatest * facts.tilt.resolution_rad)};
+  PtuLimits both = configured;
+  both.pan_min_rad = std::max(both.pan_min_rad, facts.pan.least * facts.pan.resolution_rad);
+  both.pan_max_rad = std::min(both.pan_max_rad, facts.pan.greatest * facts.pan.resolution_rad);
+  both.tilt_min_rad = std::max(both.tilt_min_rad, facts.tilt.least * facts.tilt.resolution_rad);
+  both.tilt_max_rad = std::min(both.tilt_max_rad, facts.tilt.greatest * facts.tilt.resolution_rad);
+  return both;
 }
 
 struct Range {
@@ -85,24 +85,15 @@ MotionCommands::MotionCommands(const PtuConfig& config, const PtuFacts& facts)
 
 MotionCommands::Axis MotionCommands::axis(PtuAxis name, const PtuAxisFacts& facts, double least_rad,
                                           double greatest_rad) {
-  return {name,
-          facts,
-          static_cast<std::int32_t>(least_within(facts, least_rad)),
-          static_cast<std::int32_t>(greatest_within(facts, greatest_rad)),
-          {},
-          {},
-          {},
-          0.0};
+  return {name, facts, static_cast<std::int32_t>(least_within(facts, least_rad)),
+          static_cast<std::int32_t>(greatest_within(facts, greatest_rad))};
 }
 
-PtuRequest MotionCommands::next(const std::optional<ServoGoal>& goal, const PanTilt& now,
+PtuRequest MotionCommands::next(const std::optional<ServoGoal>& goal, const Now& now,
                                 double time_s) {
+  const auto command = servo_step(servo_, limits_, goal, now.angles, time_s, now.rate_rad_s);
+  if (!command) return halt(now, time_s);
   PtuRequest request;
-  const auto command = servo_step(servo_, limits_, goal, now, time_s);
-  if (!command) {
-    halt(time_s, request);
-    return request;
-  }
   halted_s_.reset();
   if (time_s - refreshed_s_ >= kRefresh_s) send_all_again();
   if (!pan_.position) refreshed_s_ = time_s;
@@ -113,14 +104,15 @@ PtuRequest MotionCommands::next(const std::optional<ServoGoal>& goal, const PanT
   return request;
 }
 
-void MotionCommands::halt(double time_s, PtuRequest& request) {
-  const bool moving = std::abs(pan_.rate_counts_s) > kStanding_counts_s ||
-                      std::abs(tilt_.rate_counts_s) > kStanding_counts_s;
-  const bool again = moving && halted_s_ && time_s - *halted_s_ > braking_s_ + kHaltMargin_s;
-  if (halted_s_ && !again) return;
+PtuRequest MotionCommands::halt(const Now& now, double time_s) {
+  const bool again = !now.standing && halted_s_ && time_s - *halted_s_ > braking_s_ + kHaltMargin_s;
+  return halted_s_ && !again ? PtuRequest() : halt_anew(time_s);
+}
+
+PtuRequest MotionCommands::halt_anew(double time_s) {
   halted_s_ = time_s;
-  request.plain("H");
   send_all_again();
+  return PtuRequest().plain("H");
 }
 
 void MotionCommands::send_all_again() {
@@ -146,43 +138,6 @@ void MotionCommands::add_position(Axis& axis, double position_rad, PtuRequest& r
   if (axis.position == position) return;
   axis.position = position;
   request.set(axis.name, PtuQuantity::kPosition, position);
-}
-
-// No faster than the unit goes and, when its speed is known, no further from there than it
-// accelerates, and than it goes within the doubt about the two instants (which also is in the
-// speed).
-bool MotionCommands::reachable(const Axis& axis, std::int32_t counts, double dt_s,
-                               double doubt_s) const {
-  constexpr double kSlack_counts = 60.0;
-  if (!axis.read) return true;
-  const double way = static_cast<double>(counts) - *axis.read;
-  const double fastest = 1.2 * axis.facts.upper_speed;
-  if (std::abs(way) > fastest * (dt_s + doubt_s) + kSlack_counts) return false;
-  if (!axis.rate_known) return true;
-  const double surprise = std::abs(way - axis.rate_counts_s * dt_s);
-  const double accelerated = 1.2 * axis.facts.acceleration * dt_s * (dt_s + read_gap_s_);
-  return surprise <= accelerated + 2.0 * std::abs(axis.rate_counts_s) * doubt_s + kSlack_counts;
-}
-
-bool MotionCommands::plausible(std::int32_t pan_counts, std::int32_t tilt_counts, double time_s,
-                               double doubt_s) {
-  const double dt_s = time_s - read_s_;
-  const double both_s = doubt_s + doubt_s_;
-  if (!reachable(pan_, pan_counts, dt_s, both_s) || !reachable(tilt_, tilt_counts, dt_s, both_s)) {
-    // It may be the last one that was wrong.
-    pan_.rate_known = tilt_.rate_known = false;
-    return false;
-  }
-  for (auto& [axis, counts] : {std::pair(&pan_, pan_counts), std::pair(&tilt_, tilt_counts)}) {
-    axis->rate_known = axis->read && dt_s > 0.0;
-    axis->rate_counts_s =
-        axis->rate_known ? (static_cast<double>(counts) - *axis->read) / dt_s : 0.0;
-    axis->read = counts;
-  }
-  read_gap_s_ = dt_s;
-  read_s_ = time_s;
-  doubt_s_ = doubt_s;
-  return true;
 }
 
 }  // namespace ols

@@ -1,78 +1,131 @@
 #include "edge/ptu/poll_cycle.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace ols {
 
 namespace {
 
-constexpr double kReplyBytes = 14.0;     // `* -12345`, CR LF and something for a longer number
-constexpr double kTimely_s = 1e-3;       // reading a byte may be late by this
-constexpr double kLeastTimeSd_s = 1e-4;  // scheduling of this host
+constexpr double kReplyBytes = 14.0;  // `* -12345`, CR LF and something for a longer number
+
+bool is_terse(const PtuReply& reply) {
+  return reply.text.empty() || std::isalpha(static_cast<unsigned char>(reply.text[0])) == 0;
+}
 
 }  // namespace
 
-PollCycle::PollCycle(const PtuRequest& commands, double sent_s, double byte_s)
-    : sent_s_(sent_s), byte_s_(byte_s) {
-  request_.query(PtuAxis::kPan, PtuQuantity::kPosition);
-  request_.query(PtuAxis::kTilt, PtuQuantity::kPosition);
-  request_.append(commands);
+PollCycle::PollCycle(const PtuRequest& commands, const PtuRequest& questions, double sent_s,
+                     double byte_s, double usual_latency_s)
+    : sent_s_(sent_s), byte_s_(byte_s), usual_latency_s_(usual_latency_s) {
+  const std::size_t n = commands.commands();
+  request_.delimiter();
+  ask(PtuAxis::kPan);
+  give(commands, 0, (n + 2) / 3);
+  ask(PtuAxis::kTilt);
+  give(commands, (n + 2) / 3, (2 * n + 2) / 3);
+  ask(PtuAxis::kTilt);
+  give(commands, (2 * n + 2) / 3, n);
+  ask(PtuAxis::kPan);
+  request_.append(questions);
+  slots_.insert(slots_.end(), questions.commands(), Slot::kQuestion);
+}
+
+void PollCycle::ask(PtuAxis axis) {
+  request_.query(axis, PtuQuantity::kPosition);
+  slots_.push_back(axis == PtuAxis::kPan ? Slot::kPan : Slot::kTilt);
+}
+
+void PollCycle::give(const PtuRequest& commands, std::size_t from, std::size_t to) {
+  for (std::size_t i = from; i < to; ++i) {
+    std::string_view command = commands.command(i);
+    command.remove_suffix(1);  // plain() adds the delimiter
+    request_.plain(command);
+    slots_.push_back(Slot::kCommand);
+  }
+}
+
+double PollCycle::sent_out_s() const {
+  return sent_s_ + static_cast<double>(request_.bytes().size()) * byte_s_;
 }
 
 double PollCycle::due_s(double slack_s) const {
-  const double bytes = static_cast<double>(request_.bytes().size()) +
-                       kReplyBytes * static_cast<double>(request_.commands());
-  return sent_s_ + bytes * byte_s_ + slack_s;
+  return sent_out_s() + kReplyBytes * static_cast<double>(request_.commands()) * byte_s_ + slack_s;
 }
 
-PollCycle::Outcome PollCycle::take(const PtuReply& reply) {
-  if (complete()) return Outcome::kWrong;
-  const std::size_t index = taken_++;
-  if (index < 2) {
-    const bool good = read(reply, index, index == 0 ? pan_ : tilt_);
-    return good ? Outcome::kTaken : Outcome::kWrong;
+bool PollCycle::stands_for_position(const PtuReply& reply) const {
+  return reply.ok && reply.count().has_value();
+}
+
+void PollCycle::take(const PtuReply& reply, double late_s) {
+  modes_forgotten_ = modes_forgotten_ || reply.echoed;
+  if (complete()) {
+    spoilt_ = true;
+    return;
   }
-  // A set command is answered without a value; a value means that replies are out of step.
-  if (reply.ok) return reply.text.empty() ? Outcome::kTaken : Outcome::kWrong;
-  return Outcome::kRefused;
-}
-
-// The unit cannot have read its counter before the command's last byte was on the line, nor after
-// the reply began.
-bool PollCycle::read(const PtuReply& reply, std::size_t index, Reading& reading) const {
-  const auto counts = reply.count();
-  if (!reply.ok || !counts) return false;
-  reading.counts = *counts;
-  reading.reply_bytes = reply.text.size() + 4;  // with `* `, CR and LF
-  reading.earliest_s = sent_s_ + static_cast<double>(request_.end_of(index)) * byte_s_;
-  reading.latest_s = std::max(reading.earliest_s, reply.began_s - byte_s_);
-  return true;
-}
-
-AngleSample PollCycle::sample(const PtuFacts& facts, double tilt_rate_rad_s,
-                              double usual_latency_s) const {
-  const double uniform = 1.0 / std::sqrt(12.0);
-  double tilt_s = 0.5 * (tilt_.earliest_s + tilt_.latest_s);
-  double tilt_sd_s = uniform * (tilt_.latest_s - tilt_.earliest_s);
-  // A reply that had to wait for the end of the pan's says nothing of when the unit read its
-  // counter. Then it began when it had both the query and the pan's reply behind it, and took as
-  // long as usual: a moment drawn from a latency that is distributed exponentially is half its mean
-  // away and has this standard deviation.
-  const double end_of_pan_s = pan_.latest_s + static_cast<double>(pan_.reply_bytes) * byte_s_;
-  if (tilt_.latest_s < end_of_pan_s + 1.5 * byte_s_ + kTimely_s) {
-    const double begin_s = std::max(tilt_.earliest_s, pan_.latest_s);
-    tilt_s = std::min(tilt_.latest_s, begin_s + 0.5 * usual_latency_s);
-    tilt_sd_s = std::min(tilt_sd_s, std::sqrt(2.0 / 3.0 - 1.0 / 4.0) * usual_latency_s);
+  late_s_ = late_s;
+  // A value where `*` should be: the replies between them were lost.
+  while (!complete() && slots_[taken_] == Slot::kCommand && stands_for_position(reply)) {
+    command_lost_ = true;
+    ++taken_;
   }
-  AngleSample sample;
-  sample.time_s = read_s();
-  sample.time_sd_s = std::max(kLeastTimeSd_s, uniform * latency_s());
-  sample.tilt_time_sd_s = std::max(kLeastTimeSd_s, tilt_sd_s);
-  sample.angles.pan_rad = pan_.counts * facts.pan.resolution_rad;
-  sample.angles.tilt_rad =
-      tilt_.counts * facts.tilt.resolution_rad - tilt_rate_rad_s * (tilt_s - read_s());
-  return sample;
+  if (complete()) {
+    spoilt_ = true;
+    return;
+  }
+  const Slot slot = slots_[taken_++];
+  if (slot == Slot::kQuestion) {
+    answers_.push_back(reply);
+  } else if (slot != Slot::kCommand) {
+    take_position(reply, slot);
+  } else if (!reply.ok) {
+    refusals_.push_back(reply.text);
+  } else {
+    command_lost_ = command_lost_ || !reply.text.empty();
+  }
+  if (!waited(reply)) {  // it began when the unit was done
+    unit_busy_s_ = reply.began_s - byte_s_ - late_s;
+    busy_doubt_s_ = late_s;
+  }
+  line_busy_s_ = reply.ended_s;
+}
+
+// Whether the reply may have had to wait for the one before it to be out.
+bool PollCycle::waited(const PtuReply& reply) const {
+  return line_busy_s_ && reply.began_s - byte_s_ < *line_busy_s_ + 1.5 * byte_s_ + late_s_;
+}
+
+void PollCycle::take_position(const PtuReply& reply, Slot slot) {
+  if (!stands_for_position(reply)) {
+    spoilt_ = true;
+    return;
+  }
+  modes_forgotten_ = modes_forgotten_ || !is_terse(reply);
+  const double asked_s = sent_s_ + static_cast<double>(request_.end_of(taken_ - 1)) * byte_s_;
+  if (taken_ == 1) latency_s_ = std::max(0.0, reply.began_s - byte_s_ - asked_s);
+  (slot == Slot::kPan ? pan_[pans_++] : tilt_[tilts_++]) = read_at(reply, asked_s);
+}
+
+// The unit cannot have read its counter before the query's last byte was on the line, nor before it
+// was done with the command before, nor after the reply began: any moment between them is as good.
+// But a reply that had to wait for the end of another says nothing of when the counter was read:
+// then the usual latency decides, half of it on the average.
+PtuReading PollCycle::read_at(const PtuReply& reply, double asked_s) const {
+  const double latest_s = std::max(asked_s, reply.began_s - byte_s_);
+  const double earliest_s = std::clamp(unit_busy_s_, asked_s, latest_s);
+  PtuReading reading;
+  reading.counts = *reply.count();
+  reading.half_s = 0.5 * (latest_s - earliest_s);
+  reading.time_s = earliest_s + reading.half_s;
+  reading.time_sd_s = reading.half_s / std::sqrt(3.0);
+  if (!waited(reply)) return reading;
+  const double doubt_s = earliest_s > asked_s ? busy_doubt_s_ : 0.0;
+  const double usual_s = 0.5 * (doubt_s + usual_latency_s_);
+  if (usual_s >= reading.half_s) return reading;
+  reading.time_s = earliest_s + usual_s;
+  reading.half_s = latest_s - reading.time_s;
+  return reading;
 }
 
 }  // namespace ols

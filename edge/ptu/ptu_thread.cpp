@@ -1,8 +1,7 @@
 #include "edge/ptu/ptu_thread.h"
 
-#include <time.h>
-
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -11,6 +10,7 @@
 #include <thread>
 
 #include "base/clocks.h"
+#include "edge/ptu/ptu_report.h"
 #include "edge/ptu/serial_port.h"
 
 namespace ols {
@@ -31,12 +31,12 @@ struct PtuThread::Impl {
     double pause_s = kFirstPause_s;
     while (!stop.stop_requested()) {
       try {
-        SerialPort port(config.device, config.baud);
-        set_open(true);
+        SerialPort port(config.device, line_baud(), Parity::kNone, &wakeup);
+        set_open();
         pause_s = kFirstPause_s;
         serve(port, stop);
-        // The process ends: the unit stands before its master is gone.
-        port.write(PtuDriver::halt_request());
+        // The process ends, or the port is opened anew: the unit stands meanwhile.
+        port.write_first(PtuDriver::halt_request());
         port.drain(kHaltOut_s);
       } catch (const std::exception& failure) {
         note_failure(failure.what());
@@ -47,24 +47,53 @@ struct PtuThread::Impl {
     }
   }
 
-  // Until the port fails, which throws, or the thread is to stop.
+  // Until the port fails, which throws, or is to be opened anew, or the thread is to stop.
   void serve(SerialPort& port, const std::stop_token& stop) {
+    int rate = line_baud();
     while (!stop.stop_requested()) {
+      heed_emergency(port);
       const std::string arrived = port.read(kTick_s);
       std::string request;
+      bool link_lost = false;
+      int wanted_rate = rate;
       {
         const std::lock_guard lock(mutex);
         driver.receive(arrived, clock_monotonic_s());
-        request = driver.step(clock_monotonic_s());
+        if (!halt_wanted) request = driver.step(clock_monotonic_s());
+        wanted_rate = driver.line_baud();
+        link_lost = driver.take_link_loss();
+        reopens += link_lost ? 1 : 0;
       }
+      if (wanted_rate != rate) port.set_baud(rate = wanted_rate);
       if (!request.empty()) port.write(request);
+      if (link_lost) return;
     }
   }
 
-  void set_open(bool is_open) {
+  // Only this thread writes, so that no motion command slips in behind the halt.
+  void heed_emergency(SerialPort& port) {
+    wakeup.clear();
+    if (!halt_wanted.exchange(false)) return;
+    std::string halt;
+    {
+      const std::lock_guard lock(mutex);
+      halt = driver.emergency_halt(clock_monotonic_s());
+      if (!emergency)
+        driver.clear_emergency();  // called off already; the halt goes out all the same
+    }
+    if (!port.write_first(halt)) port.write(halt);
+  }
+
+  int line_baud() const {
     const std::lock_guard lock(mutex);
-    open = is_open;
-    if (is_open) driver.restart(clock_monotonic_s());
+    return driver.line_baud();
+  }
+
+  void set_open() {
+    const std::lock_guard lock(mutex);
+    // After a mere silence the driver goes on with its own pauses.
+    if (!open) driver.restart(clock_monotonic_s());
+    open = true;
   }
 
   void note_failure(const std::string& what) {
@@ -75,11 +104,14 @@ struct PtuThread::Impl {
   }
 
   const PtuConfig config;
-  mutable std::mutex mutex;  // of everything below
+  Wakeup wakeup;
+  std::atomic<bool> emergency = false;
+  std::atomic<bool> halt_wanted = false;  // not on the line yet
+  mutable std::mutex mutex;               // of everything below
   std::condition_variable_any wake;
   PtuDriver driver;
   bool open = false;
-  std::uint64_t port_failures = 0;
+  std::uint64_t port_failures = 0, reopens = 0;
   std::string port_error;
   std::jthread thread;  // last: it uses the rest
 };
@@ -92,12 +124,25 @@ PtuThread::~PtuThread() = default;  // the jthread asks to stop and joins
 
 void PtuThread::set_goal(const std::optional<ServoGoal>& goal) {
   const std::lock_guard lock(impl_->mutex);
-  impl_->driver.set_goal(goal);
+  impl_->driver.set_goal(impl_->emergency ? std::nullopt : goal);
 }
 
 std::vector<AngleSample> PtuThread::take_samples() {
   const std::lock_guard lock(impl_->mutex);
   return impl_->driver.take_samples();
+}
+
+// Without the lock: it must not wait for whatever the thread is doing.
+void PtuThread::emergency_halt() {
+  impl_->emergency = true;
+  impl_->halt_wanted = true;
+  impl_->wakeup.set();
+}
+
+void PtuThread::clear_emergency() {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->emergency = false;
+  impl_->driver.clear_emergency();
 }
 
 PtuStatus PtuThread::status() const {
@@ -107,6 +152,14 @@ PtuStatus PtuThread::status() const {
   status.port_open = impl_->open;
   status.state = impl_->open || impl_->port_failures == 0 ? driver.state() : PtuState::kFault;
   status.port_failures = impl_->port_failures;
+  status.reopens = impl_->reopens;
+  status.emergency = impl_->emergency;
+  status.standing = driver.standing();
+  status.not_referenced = driver.not_referenced();
+  status.ran_into_limit = driver.ran_into_limit();
+  status.line_baud = driver.line_baud();
+  status.last_good_s = driver.last_good_s();
+  status.environment = driver.environment();
   status.counters = driver.counters();
   status.limits = driver.limits();
   status.pan_resolution_rad = driver.pan_resolution_rad();
@@ -114,6 +167,10 @@ PtuStatus PtuThread::status() const {
   status.firmware = driver.firmware();
   status.last_error = impl_->open ? driver.last_error() : impl_->port_error;
   return status;
+}
+
+DeviceReport PtuThread::report() const {
+  return ptu_report(impl_->config, status(), clock_monotonic_s());
 }
 
 }  // namespace ols

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "edge/device_report.h"
 #include "edge/ptu/driver.h"
 
 namespace ols {
@@ -18,6 +19,14 @@ struct PtuStatus {
   PtuState state = PtuState::kStarting;
   bool port_open = false;
   std::uint64_t port_failures = 0;  // opens that failed and ports that vanished; only goes up
+  std::uint64_t reopens = 0;        // of the port because the unit did not answer
+  bool emergency = false;           // nothing moves until clear_emergency()
+  bool standing = false;            // seen not to move
+  bool not_referenced = false;      // must be homed
+  bool ran_into_limit = false;      // steps may be lost
+  int line_baud = 0;
+  std::optional<double> last_good_s;  // CLOCK_MONOTONIC of the last angle
+  std::optional<PtuEnvironment> environment;
   PtuCounters counters;
   PtuLimits limits;  // meaningful once ready
   double pan_resolution_rad = 0.0;
@@ -40,7 +49,14 @@ class PtuThread {
   // Angle samples since the last call, oldest first.
   std::vector<AngleSample> take_samples();
 
+  // Halts the unit at once, whatever is under way: what waits in the output queue is thrown away, H
+  // goes first. From now on nothing moves until clear_emergency(); halts are repeated until the
+  // unit was seen to stand. In software it only assists a stop in hardware.
+  void emergency_halt();
+  void clear_emergency();
+
   PtuStatus status() const;
+  DeviceReport report() const;
 
  private:
   struct Impl;

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <linux/serial.h>
 #include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -12,6 +13,7 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <system_error>
 
 namespace ols {
@@ -35,13 +37,6 @@ constexpr std::array<Rate, 9> kRates{{{600, B600},
                                       {57600, B57600},
                                       {115200, B115200}}};
 
-// Whether the descriptor is ready for `events` before the time is over.
-bool wait_for(int fd, short events, double timeout_s) {
-  pollfd entry{fd, events, 0};
-  const int timeout_ms = static_cast<int>(std::ceil(std::max(0.0, timeout_s) * 1e3));
-  return ::poll(&entry, 1, timeout_ms) > 0;
-}
-
 // USB adapters hold bytes back for up to 16 ms unless told otherwise. Not every device knows this.
 void ask_for_low_latency(int fd) {
   serial_struct serial{};
@@ -52,7 +47,25 @@ void ask_for_low_latency(int fd) {
 
 }  // namespace
 
-SerialPort::SerialPort(const std::string& device, int baud, Parity parity) : device_(device) {
+Wakeup::Wakeup() : fd_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  if (fd_ < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
+}
+
+Wakeup::~Wakeup() { ::close(fd_); }
+
+void Wakeup::set() {
+  const std::uint64_t one = 1;
+  // It cannot fail but for a counter that is full, and then it is set.
+  static_cast<void>(!::write(fd_, &one, sizeof one));
+}
+
+void Wakeup::clear() {
+  std::uint64_t count = 0;
+  static_cast<void>(!::read(fd_, &count, sizeof count));
+}
+
+SerialPort::SerialPort(const std::string& device, int baud, Parity parity, const Wakeup* wakeup)
+    : device_(device), wakeup_(wakeup) {
   fd_ = ::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (fd_ < 0) fail(errno, "cannot be opened");
   try {
@@ -70,9 +83,6 @@ void SerialPort::fail(int error, const char* what) const {
 }
 
 void SerialPort::configure(int baud, Parity parity) {
-  const auto rate =
-      std::find_if(kRates.begin(), kRates.end(), [baud](const Rate& r) { return r.baud == baud; });
-  if (rate == kRates.end()) fail(EINVAL, "unknown baud rate");
   // A lock rather than TIOCEXCL, which outlives us on a pty that others hold open.
   if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) fail(errno, "is in use");
   termios settings{};
@@ -86,15 +96,39 @@ void SerialPort::configure(int baud, Parity parity) {
   }
   settings.c_cc[VMIN] = 1;  // so that a read of nothing means a hang-up
   settings.c_cc[VTIME] = 0;
-  ::cfsetispeed(&settings, rate->code);
-  ::cfsetospeed(&settings, rate->code);
   if (::tcsetattr(fd_, TCSANOW, &settings) != 0) fail(errno, "cannot be configured");
+  set_rate(baud);
   ask_for_low_latency(fd_);
   ::tcflush(fd_, TCIOFLUSH);
 }
 
+void SerialPort::set_rate(int baud) {
+  const auto rate =
+      std::find_if(kRates.begin(), kRates.end(), [baud](const Rate& r) { return r.baud == baud; });
+  if (rate == kRates.end()) fail(EINVAL, "unknown baud rate");
+  termios settings{};
+  if (::tcgetattr(fd_, &settings) != 0) fail(errno, "is not a serial device");
+  ::cfsetispeed(&settings, rate->code);
+  ::cfsetospeed(&settings, rate->code);
+  if (::tcsetattr(fd_, TCSANOW, &settings) != 0) fail(errno, "cannot be configured");
+}
+
+void SerialPort::set_baud(int baud) {
+  constexpr double kLongestRequest_s = 0.3;
+  drain(kLongestRequest_s);
+  set_rate(baud);
+}
+
+// Whether the port is ready for `events` before the time is over or somebody wakes us up.
+bool SerialPort::wait_for(short events, double timeout_s) const {
+  std::array<pollfd, 2> entries{
+      {{fd_, events, 0}, {wakeup_ != nullptr ? wakeup_->descriptor() : -1, POLLIN, 0}}};
+  const int timeout_ms = static_cast<int>(std::ceil(std::max(0.0, timeout_s) * 1e3));
+  return ::poll(entries.data(), entries.size(), timeout_ms) > 0 && entries[0].revents != 0;
+}
+
 std::string SerialPort::read(double timeout_s) {
-  if (!wait_for(fd_, POLLIN, timeout_s)) return {};
+  if (!wait_for(POLLIN, timeout_s)) return {};
   std::array<char, 512> buffer;
   const ssize_t n = ::read(fd_, buffer.data(), buffer.size());
   if (n > 0) return {buffer.data(), static_cast<std::size_t>(n)};
@@ -108,11 +142,19 @@ void SerialPort::write(std::string_view bytes) {
     if (n >= 0) {
       bytes.remove_prefix(static_cast<std::size_t>(n));
     } else if (errno == EAGAIN) {
-      if (!wait_for(fd_, POLLOUT, kLongestWrite_s)) fail(ETIMEDOUT, "takes no bytes");
+      pollfd woken{wakeup_ != nullptr ? wakeup_->descriptor() : -1, POLLIN, 0};
+      if (wait_for(POLLOUT, kLongestWrite_s)) continue;
+      if (::poll(&woken, 1, 0) > 0) return;
+      fail(ETIMEDOUT, "takes no bytes");
     } else if (errno != EINTR) {
       fail(errno, "cannot be written");
     }
   }
+}
+
+bool SerialPort::write_first(std::string_view bytes) {
+  ::tcflush(fd_, TCOFLUSH);
+  return ::write(fd_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
 }
 
 bool SerialPort::drain(double timeout_s) {

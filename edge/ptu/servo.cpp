@@ -68,32 +68,96 @@ bool room_within(const PtuLimits& limits) {
   return limits.pan_min_rad <= limits.pan_max_rad && limits.tilt_min_rad <= limits.tilt_max_rad;
 }
 
+AngleBox travel(const PtuLimits& limits) {
+  return {limits.pan_min_rad, limits.pan_max_rad, limits.tilt_min_rad, limits.tilt_max_rad};
+}
+
+PanTilt clamped(const PtuLimits& limits, const PanTilt& p) {
+  return {std::clamp(p.pan_rad, limits.pan_min_rad, limits.pan_max_rad),
+          std::clamp(p.tilt_rad, limits.tilt_min_rad, limits.tilt_max_rad)};
+}
+
+bool usable(const ServoGoal& goal) {
+  return std::isfinite(goal.time_s) && std::isfinite(goal.angles.pan_rad) &&
+         std::isfinite(goal.angles.tilt_rad) && std::isfinite(goal.rate.pan_rad) &&
+         std::isfinite(goal.rate.tilt_rad);
+}
+
+// Where a unit that brakes now comes to rest, with some of its reaction time.
+PanTilt stopping_place(const ServoConfig& config, const PanTilt& now, const PanTilt& rate) {
+  constexpr double kReaction_s = 0.03;
+  const auto stop = [&config](double at, double speed) {
+    const double way =
+        std::abs(speed) * kReaction_s + speed * speed / (2.0 * config.max_acceleration_rad_s2);
+    return at + std::copysign(way, speed);
+  };
+  return {stop(now.pan_rad, rate.pan_rad), stop(now.tilt_rad, rate.tilt_rad)};
+}
+
+// The next corner of the way round the keep-outs, or nothing when the way is free or there is none.
+std::optional<PanTilt> corner(const PtuLimits& limits, const PanTilt& now, const PanTilt& to) {
+  if (limits.keep_out.empty()) return std::nullopt;
+  const auto way = way_round(travel(limits), limits.keep_out, now, to);
+  return way && way->size() > 1 ? std::optional(way->front()) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<ServoCommand> servo_step(const ServoConfig& config, const PtuLimits& limits,
                                        const std::optional<ServoGoal>& goal, const PanTilt& now,
-                                       double time_s) {
+                                       double time_s, const PanTilt& now_rate) {
   if (!goal || !(time_s <= goal->valid_until_s)) return std::nullopt;
   const double dt_s = time_s - goal->time_s;
-  if (dt_s > config.goal_timeout_s) return std::nullopt;
-  const bool finite = std::isfinite(goal->angles.pan_rad) && std::isfinite(goal->angles.tilt_rad) &&
-                      std::isfinite(goal->rate.pan_rad) && std::isfinite(goal->rate.tilt_rad) &&
-                      std::isfinite(dt_s);
-  if (!finite || !room_within(limits)) return std::nullopt;
-  const AxisCommand pan = axis_step(config,
-                                    goal_at(goal->angles.pan_rad, goal->rate.pan_rad, dt_s,
-                                            limits.pan_min_rad, limits.pan_max_rad),
-                                    now.pan_rad);
-  const AxisCommand tilt = axis_step(config,
-                                     goal_at(goal->angles.tilt_rad, goal->rate.tilt_rad, dt_s,
-                                             limits.tilt_min_rad, limits.tilt_max_rad),
-                                     now.tilt_rad);
+  if (!(dt_s <= config.goal_timeout_s)) return std::nullopt;
+  if (!usable(*goal) || !std::isfinite(dt_s) || !room_within(limits)) return std::nullopt;
+  AxisGoal pan_goal = goal_at(goal->angles.pan_rad, goal->rate.pan_rad, dt_s, limits.pan_min_rad,
+                              limits.pan_max_rad);
+  AxisGoal tilt_goal = goal_at(goal->angles.tilt_rad, goal->rate.tilt_rad, dt_s,
+                               limits.tilt_min_rad, limits.tilt_max_rad);
+  const auto turn = corner(limits, now, {pan_goal.angle_rad, tilt_goal.angle_rad});
+  if (turn) {
+    pan_goal = {turn->pan_rad, 0.0};
+    tilt_goal = {turn->tilt_rad, 0.0};
+  }
+  const AxisCommand pan = axis_step(config, pan_goal, now.pan_rad);
+  const AxisCommand tilt = axis_step(config, tilt_goal, now.tilt_rad);
   ServoCommand command;
-  command.position = {std::clamp(pan.position_rad, limits.pan_min_rad, limits.pan_max_rad),
-                      std::clamp(tilt.position_rad, limits.tilt_min_rad, limits.tilt_max_rad)};
+  command.position = clamped(limits, {pan.position_rad, tilt.position_rad});
   command.speed = {pan.speed_rad_s, tilt.speed_rad_s};
+  // Out of a region that the unit stands in it may go, nowhere else.
+  if (!blocked(limits.keep_out, now)) {
+    command.position =
+        cut_short(limits.keep_out, now, stopping_place(config, now, now_rate), command.position);
+  } else if (!turn) {
+    return std::nullopt;
+  }
   return command;
 }
+
+double runs_on_s(const ServoConfig& config, double speed_rad_s) {
+  // On the way to a resting goal it is up to 1/gain of travel ahead, at a proportional speed.
+  return std::max(config.look_ahead_s, 1.0 / config.gain_hz) +
+         std::abs(speed_rad_s) / config.max_acceleration_rad_s2;
+}
+
+namespace {
+
+// How far it is to go there; nothing: no way.
+std::optional<double> way_length(const PtuLimits& limits, const PanTilt& now, const PanTilt& to) {
+  if (to.pan_rad < limits.pan_min_rad || to.pan_rad > limits.pan_max_rad) return std::nullopt;
+  if (limits.keep_out.empty()) return std::abs(to.pan_rad - now.pan_rad);
+  const auto way = way_round(travel(limits), limits.keep_out, now, to);
+  if (!way) return std::nullopt;
+  double sum = 0.0;
+  PanTilt at = now;
+  for (const PanTilt& next : *way) {
+    sum += std::abs(next.pan_rad - at.pan_rad) + std::abs(next.tilt_rad - at.tilt_rad);
+    at = next;
+  }
+  return sum;
+}
+
+}  // namespace
 
 Reach reach(const PtuLimits& limits, const PanTilt& now, PanTilt& angles) {
   if (!std::isfinite(angles.pan_rad) || !std::isfinite(angles.tilt_rad)) return Reach::kUnreachable;
@@ -101,15 +165,18 @@ Reach reach(const PtuLimits& limits, const PanTilt& now, PanTilt& angles) {
     return Reach::kUnreachable;
   }
   const double nearest_rad = now.pan_rad + wrap_pi(angles.pan_rad - now.pan_rad);
-  std::optional<double> best;
+  std::optional<double> best_rad, shortest;
   for (const double turn : {0.0, -2.0 * kPi, 2.0 * kPi}) {
-    const double pan_rad = nearest_rad + turn;
-    if (pan_rad < limits.pan_min_rad || pan_rad > limits.pan_max_rad) continue;
-    if (!best || std::abs(pan_rad - now.pan_rad) < std::abs(*best - now.pan_rad)) best = pan_rad;
+    const PanTilt there{nearest_rad + turn, angles.tilt_rad};
+    const auto way = way_length(limits, now, there);
+    if (!way || (shortest && *way >= *shortest)) continue;
+    shortest = way;
+    best_rad = there.pan_rad;
   }
-  if (!best) return Reach::kUnreachable;
-  angles.pan_rad = *best;
-  return *best == nearest_rad ? Reach::kDirect : Reach::kLongWayRound;
+  if (!best_rad) return Reach::kUnreachable;
+  angles.pan_rad = *best_rad;
+  const bool straight = *best_rad == nearest_rad && !blocked(limits.keep_out, spanned(now, angles));
+  return straight ? Reach::kDirect : Reach::kLongWayRound;
 }
 
 }  // namespace ols

@@ -8,7 +8,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "edge/ptu/keep_out.h"
 #include "geometry/kinematic_chain.h"
 
 namespace ols {
@@ -39,18 +41,24 @@ struct ServoCommand {
 struct PtuLimits {  // [rad], as reported by the unit, narrowed by the configuration
   double pan_min_rad = -2.7, pan_max_rad = 2.7;
   double tilt_min_rad = -0.8, tilt_max_rad = 0.5;
+  std::vector<KeepOut> keep_out = {};  // never entered, never swept across
 };
 
-// One cycle: goal, where the unit is now, time. Nothing = halt (no goal, stale goal, limits without
-// room between them).
+// One cycle: goal, where the unit is now and how fast it moves, time. Nothing = halt (no goal,
+// stale goal, limits without room between them). A goal behind a keep-out is gone to the way round,
+// a corner at a time; one within is approached up to the border.
 std::optional<ServoCommand> servo_step(const ServoConfig& config, const PtuLimits& limits,
                                        const std::optional<ServoGoal>& goal, const PanTilt& now,
-                                       double time_s);
+                                       double time_s, const PanTilt& now_rate = {});
+
+// How long the unit goes on at most when its master dies while it moves at this speed.
+double runs_on_s(const ServoConfig& config, double speed_rad_s);
 
 enum class Reach { kDirect, kLongWayRound, kUnreachable };
 
 // Whether the unit can point there. Pan angles that differ by 2 pi are the same direction: of the
-// reachable ones the nearest to `now` is chosen; `angles` is changed to it.
+// reachable ones the one with the shortest way from `now` is chosen; `angles` is changed to it.
+// kLongWayRound: a turn the other way, or round a keep-out.
 Reach reach(const PtuLimits& limits, const PanTilt& now, PanTilt& angles);
 
 }  // namespace ols

@@ -14,38 +14,43 @@ namespace {
 constexpr double kSlowReply_s = 10.0;
 constexpr double kFinestResolution_arcsec = 0.1;
 constexpr double kCoarsestResolution_arcsec = 3600.0;
-
-bool sensible(const PtuAxisFacts& facts) {
-  return facts.least < facts.greatest && facts.lower_speed >= 0 &&
-         facts.upper_speed > facts.lower_speed && facts.acceleration > 0;
-}
+constexpr int kAskedAtMost = 8;  // until two answers in a row agree
 
 bool accepted(const PtuReply& reply) { return reply.ok; }
 
-// The answer to C: `i`, or verbose "PTU is in Independent Mode" or "Independent speed control
-// mode"; the case of the letter differs between units.
-bool independent(const PtuReply& reply) {
+std::string with_letter(std::string_view command, char letter) {
+  return std::string(command) + letter;
+}
+
+}  // namespace
+
+// `i`, or verbose "PTU is in Independent Mode" or "Independent speed control mode"; the case of the
+// letter differs between units.
+bool says_independent(const PtuReply& reply) {
   std::string text = reply.text;
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return reply.ok && (text == "i" || text.find("independent") != std::string::npos);
 }
 
-}  // namespace
-
-PtuStartSequence::PtuStartSequence(double acceleration_rad_s2)
-    : acceleration_rad_s2_(acceleration_rad_s2) {
+PtuStartSequence::PtuStartSequence(const PtuStartOptions& options)
+    : acceleration_rad_s2_(options.acceleration_rad_s2) {
   add("ED");  // no echo
   add("FT");  // short replies
   add("H");   // whatever a former master had begun
+  if (options.change_baud_to > 0) {
+    add("@(" + std::to_string(options.change_baud_to) + ",0,F)");
+    steps_.back().changes_baud = true;
+  }
   // Speeds are bounds of position moves. As velocities they would run on when this master dies, so
   // an answer of `*` is not enough.
   constexpr std::string_view kVelocities = "the unit may take speeds for velocities";
-  require("CI", accepted, kVelocities);
-  require("C", independent, kVelocities);
+  require("CI", accepted, kVelocities, false);
+  require("C", says_independent, kVelocities, true);
   add("I");  // moves begin at once
-  require("LE", accepted, "the unit's soft limits are not known to be on");
+  require("LE", accepted, "the unit's soft limits are not known to be on", false);
   add("A", true);
+  add_modes(options);
   steps_.push_back({[] { return PtuRequest().plain("V"); },
                     [this](const PtuReply& reply) {
                       if (reply.ok) facts_.firmware = reply.text;
@@ -55,12 +60,30 @@ PtuStartSequence::PtuStartSequence(double acceleration_rad_s2)
   add_axis(PtuAxis::kTilt, &PtuFacts::tilt);
 }
 
+void PtuStartSequence::add_modes(const PtuStartOptions& options) {
+  for (const char axis : {'P', 'T'}) {
+    if (options.step_mode != 0) add(with_letter(std::string("W") + axis, options.step_mode));
+    if (options.hold_power != 0) add(with_letter(std::string(1, axis) + "H", options.hold_power));
+    if (options.move_power != 0) add(with_letter(std::string(1, axis) + "M", options.move_power));
+  }
+}
+
 double PtuStartSequence::timeout_s(double normal_s) const {
-  return steps_.at(next_).slow ? std::max(normal_s, kSlowReply_s) : normal_s;
+  return slow() ? std::max(normal_s, kSlowReply_s) : normal_s;
 }
 
 bool PtuStartSequence::take(const PtuReply& reply) {
-  if (!steps_.at(next_).take(reply)) return false;
+  const Step& step = steps_.at(next_);
+  changed_baud_ = false;
+  if (step.twice) {
+    const std::string answer = (reply.ok ? "*" : "!") + reply.text;
+    const bool agreed = asked_ > 0 && answer == previous_;
+    previous_ = answer;
+    if (!agreed) return ++asked_ < kAskedAtMost;  // once more
+  }
+  if (!step.take(reply)) return false;
+  changed_baud_ = step.changes_baud && reply.ok;
+  asked_ = 0;
   ++next_;
   return true;
 }
@@ -80,9 +103,9 @@ void PtuStartSequence::add(std::string_view command, bool slow) {
 }
 
 void PtuStartSequence::require(std::string_view command, std::function<bool(const PtuReply&)> take,
-                               std::string_view without) {
+                               std::string_view without, bool twice) {
   steps_.push_back({[text = std::string(command)] { return PtuRequest().plain(text); },
-                    std::move(take), false, std::string(without)});
+                    std::move(take), false, twice, std::string(without)});
 }
 
 void PtuStartSequence::add_count(PtuAxis axis, PtuAxisFacts PtuFacts::*facts, PtuQuantity quantity,
@@ -90,10 +113,14 @@ void PtuStartSequence::add_count(PtuAxis axis, PtuAxisFacts PtuFacts::*facts, Pt
   steps_.push_back({[=] { return PtuRequest().query(axis, quantity); },
                     [=, this](const PtuReply& reply) {
                       const auto count = reply.count();
+                      if (complaint(reply.text) == PtuComplaint::kNotReferenced) {
+                        not_referenced_ = true;
+                      }
                       if (!reply.ok || !count) return false;
                       facts_.*facts.*value = *count;
                       return true;
-                    }});
+                    },
+                    false, true});
 }
 
 void PtuStartSequence::add_axis(PtuAxis axis, PtuAxisFacts PtuFacts::*facts) {
@@ -103,11 +130,16 @@ void PtuStartSequence::add_axis(PtuAxis axis, PtuAxisFacts PtuFacts::*facts) {
                       (facts_.*facts).resolution_rad = radians(arcsec / 3600.0);
                       return reply.ok && arcsec >= kFinestResolution_arcsec &&
                              arcsec <= kCoarsestResolution_arcsec;
-                    }});
+                    },
+                    false, true});
   add_count(axis, facts, PtuQuantity::kLeastPosition, &PtuAxisFacts::least);
   add_count(axis, facts, PtuQuantity::kGreatestPosition, &PtuAxisFacts::greatest);
   add_count(axis, facts, PtuQuantity::kLowerSpeed, &PtuAxisFacts::lower_speed);
   add_count(axis, facts, PtuQuantity::kUpperSpeed, &PtuAxisFacts::upper_speed);
+  add_acceleration(axis, facts);
+}
+
+void PtuStartSequence::add_acceleration(PtuAxis axis, PtuAxisFacts PtuFacts::*facts) {
   add_count(axis, facts, PtuQuantity::kAcceleration, &PtuAxisFacts::acceleration);
   steps_.push_back({[=, this] {
                       const PtuAxisFacts& known = facts_.*facts;
@@ -125,6 +157,13 @@ void PtuStartSequence::add_axis(PtuAxis axis, PtuAxisFacts PtuFacts::*facts) {
   steps_.back().take = [=, this, previous = check](const PtuReply& reply) {
     return previous(reply) && sensible(facts_.*facts);
   };
+}
+
+// Before it was homed a unit does not know its travel.
+bool PtuStartSequence::sensible(const PtuAxisFacts& facts) {
+  if (facts.least >= facts.greatest) not_referenced_ = true;
+  return facts.least < facts.greatest && facts.lower_speed >= 0 &&
+         facts.upper_speed > facts.lower_speed && facts.acceleration > 0;
 }
 
 }  // namespace ols

@@ -1,4 +1,7 @@
 // What the driver asks and sets before it may move a PTU: one command at a time. Pure.
+//
+// Everything that later decides what a count means or where the unit may go is asked until two
+// answers in a row agree: there is no checksum.
 #pragma once
 
 #include <array>
@@ -7,6 +10,7 @@
 #include <vector>
 
 #include "edge/ptu/codec.h"
+#include "edge/ptu/unit_model.h"
 
 namespace ols {
 
@@ -23,10 +27,18 @@ struct PtuFacts {
   std::string firmware;
 };
 
+struct PtuStartOptions {
+  double acceleration_rad_s2 = 1.0;  // of both axes; a unit that refuses keeps its own
+  int change_baud_to = 0;            // 0: stays as it is
+  // The letter of the mode, 0: as the unit has it.
+  char step_mode = 0;   // E-series: H, Q, E (half, quarter, eighth) or A (automatic)
+  char hold_power = 0;  // R, L, O: regular, low, off
+  char move_power = 0;  // H, R, L: high, regular, low
+};
+
 class PtuStartSequence {
  public:
-  // The acceleration is to be set on both axes; a unit that refuses keeps its own.
-  explicit PtuStartSequence(double acceleration_rad_s2);
+  explicit PtuStartSequence(const PtuStartOptions& options);
   PtuStartSequence(const PtuStartSequence&) = delete;  // its steps refer to it
   PtuStartSequence& operator=(const PtuStartSequence&) = delete;
 
@@ -34,11 +46,16 @@ class PtuStartSequence {
   PtuRequest request() const { return steps_.at(next_).request(); }
   // Setting an acceleration or waiting for a motion's end takes long.
   double timeout_s(double normal_s) const;
+  bool slow() const { return steps_.at(next_).slow; }
+  // The answer that was just taken was the last at the old rate of the line.
+  bool changed_baud() const { return changed_baud_; }
 
   // The answer to request(). False: without it the unit cannot be driven.
   bool take(const PtuReply& reply);
   // Why it cannot, after take() gave false for `reply`.
   std::string refusal(const PtuReply& reply) const;
+  // That was because the unit does not know where it is: it must be homed.
+  bool not_referenced() const { return not_referenced_; }
 
   const PtuFacts& facts() const { return facts_; }
 
@@ -47,19 +64,30 @@ class PtuStartSequence {
     std::function<PtuRequest()> request;
     std::function<bool(const PtuReply&)> take;
     bool slow = false;
-    std::string without = {};  // what it means when the reply will not do
+    bool twice = false;         // until two answers agree
+    std::string without = {};   // what it means when the reply will not do
+    bool changes_baud = false;  // when it is granted
   };
   void add(std::string_view command, bool slow = false);
   void require(std::string_view command, std::function<bool(const PtuReply&)> take,
-               std::string_view without);
+               std::string_view without, bool twice);
+  void add_modes(const PtuStartOptions& options);
   void add_axis(PtuAxis axis, PtuAxisFacts PtuFacts::*facts);
+  void add_acceleration(PtuAxis axis, PtuAxisFacts PtuFacts::*facts);
   void add_count(PtuAxis axis, PtuAxisFacts PtuFacts::*facts, PtuQuantity quantity,
                  std::int32_t PtuAxisFacts::*value);
+  bool sensible(const PtuAxisFacts& facts);
 
   double acceleration_rad_s2_;
   PtuFacts facts_;
   std::vector<Step> steps_;
   std::size_t next_ = 0;
+  std::string previous_;  // answer to the same question
+  int asked_ = 0;         // so often already
+  bool changed_baud_ = false, not_referenced_ = false;
 };
+
+// The answer to C says that speeds are bounds of position moves.
+bool says_independent(const PtuReply& reply);
 
 }  // namespace ols

@@ -65,6 +65,7 @@ TEST(AngleHistory, ForgetsWhatIsOlderThanItsSpan) {
 TEST(AngleHistory, CovarianceIsHonest) {
   AngleHistory::Config config;
   config.acceleration_sd_rad_s2 = 0.0;
+  config.acceleration_max_rad_s2 = 0.0;
   std::mt19937_64 random(11);
   std::normal_distribution<double> gauss;
   std::uniform_real_distribution<double> uniform(0.0, 1.0);

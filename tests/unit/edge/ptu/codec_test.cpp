@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Lines, Garbage,
                                          GarbageCase{"high_byte", "\xff* 12"},
                                          GarbageCase{"nul", std::string("* 1\0", 4)},
                                          GarbageCase{"two_marks", "* 100* 200"},
-                                         GarbageCase{"banner", "### PAN-TILT CONTROLLER"},
+                                         GarbageCase{"value_without_its_mark", " -4946"},
                                          GarbageCase{"overlong", "* " + std::string(5000, '7')},
                                          GarbageCase{"overlong_echo", std::string(200, 'A') + "*"}),
                          [](const auto& test) { return test.param.name; });

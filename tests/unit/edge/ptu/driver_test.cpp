@@ -41,22 +41,23 @@ TEST(PtuDriver, WaitsForAUnitThatHomesFirst) {
   EXPECT_GE(loop.driver.counters().restarts, 1u);
 }
 
-// At 9600 baud, in motion, the line carries a cycle in about 48 ms; at rest in 26 ms.
+// edge/ptu/budget.h: at 9600 baud, in motion, the line carries a cycle in 74 ms at most; at rest in
+// 48 ms.
 TEST(PtuDriver, PollsAsFastAsTheLineAllows) {
   ClosedLoop loop(quick_driver(9600), quick_unit(9600));
   ASSERT_TRUE(loop.start());
   loop.run(0.2);
   loop.driver.take_samples();
   loop.run(2.0);
-  EXPECT_NEAR(static_cast<double>(loop.driver.take_samples().size()), 2.0 / 0.027, 4.0);
+  EXPECT_GT(loop.driver.take_samples().size(), 40u);  // 2 s / 48 ms; numbers are short at zero
   const double begin_s = loop.time_s;
   loop.run(2.0, [&] {
     const double t = loop.time_s - begin_s;
     loop.driver.set_goal(loop.goal({0.3 * t, -0.2 * t}, {0.3, -0.2}));
   });
   const auto moving = loop.driver.take_samples().size();
-  EXPECT_GT(moving, 38u);
-  EXPECT_LT(moving, 52u);
+  EXPECT_GE(moving, 27u);  // 2 s / 74 ms
+  EXPECT_LT(moving, 42u);
   EXPECT_EQ(loop.driver.counters().timeouts, 0u);
   EXPECT_EQ(loop.driver.counters().garbled, 0u);
 }
@@ -163,13 +164,38 @@ TEST(PtuDriver, BacksOffFromADeadLine) {
   EXPECT_GE(loop.driver.counters().restarts, 8u);
 }
 
-TEST(PtuDriver, BeginsAgainWhenTheUnitWasSwitchedOffAndOn) {
+// Echo and verbose replies come on in mid-run: switched off again, and nothing else happens.
+TEST(PtuDriver, SwitchesEchoOffAgainWithoutANewStart) {
+  ClosedLoop loop(quick_driver(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  const double begin_s = loop.time_s;
+  const auto follow = [&] {
+    const double t = loop.time_s - begin_s;
+    loop.driver.set_goal(loop.goal({0.3 * t, 0.0}, {0.3, 0.0}));
+  };
+  loop.run(2.0, follow);
+  loop.unit.receive("EE FV ", loop.time_s);
+  loop.sent.clear();
+  loop.run(0.5, follow);
+  EXPECT_NE(loop.sent.find("ED "), std::string::npos);
+  EXPECT_NE(loop.sent.find("FT "), std::string::npos);
+  EXPECT_EQ(loop.driver.counters().echoes, 1u);
+  EXPECT_EQ(loop.driver.counters().restarts, 0u);
+  loop.driver.take_samples();
+  loop.sent.clear();
+  loop.run(1.0, follow);
+  EXPECT_EQ(loop.sent.find("ED"), std::string::npos);
+  EXPECT_GT(loop.driver.take_samples().size(), 35u);
+  EXPECT_NEAR(loop.truth().pan_rad, 0.3 * (loop.time_s - begin_s), radians(0.1));
+}
+
+// The same, but the unit has also lost its acceleration: it was switched off and on, unnoticed.
+TEST(PtuDriver, BeginsAgainWhenTheUnitHasForgottenMoreThanItsEcho) {
   ClosedLoop loop(quick_driver(), quick_unit());
   ASSERT_TRUE(loop.start());
   loop.run(0.3);
-  // Echo and verbose replies are on again.
-  loop.unit.receive("EE FV ", loop.time_s);
-  loop.run(0.3);
+  loop.unit.receive("EE FV PA2000 ", loop.time_s);
+  loop.run(0.8);
   EXPECT_GE(loop.driver.counters().restarts, 1u);
   ASSERT_TRUE(loop.start());
   loop.driver.take_samples();

@@ -29,6 +29,24 @@ TEST(PtuConfigFile, ReadsDegreesAndKeepsDefaults) {
   EXPECT_EQ(config.poll_interval_s, PtuConfig{}.poll_interval_s);
 }
 
+TEST(PtuConfigFile, ReadsModesAndRegions) {
+  const PtuConfig config = read(
+      "device = 'x'\nbaud = 9600\npoll_interval_s = 0.08\nstep_mode = 'quarter'\n"
+      "hold_power = 'low'\nmove_power = 'high'\n"
+      "[[ptu.keep_out]]\npan_min_deg = 10\npan_max_deg = 20\ntilt_min_deg = -47\ntilt_max_deg = 5\n"
+      "[[ptu.keep_out]]\npan_min_deg = -90\npan_max_deg = -80\ntilt_min_deg = 0\n"
+      "tilt_max_deg = 31\n");
+  EXPECT_EQ(config.step_mode, 'Q');
+  EXPECT_EQ(config.hold_power, 'L');
+  EXPECT_EQ(config.move_power, 'H');
+  EXPECT_EQ(config.rehome, PtuRehome::kNever);
+  ASSERT_EQ(config.limits.keep_out.size(), 2u);
+  EXPECT_NEAR(config.limits.keep_out[0].tilt_min_rad, radians(-47.0), 1e-12);
+  EXPECT_NEAR(config.limits.keep_out[1].pan_max_rad, radians(-80.0), 1e-12);
+  EXPECT_EQ(read("device = 'x'\nrehome = 'when-unreferenced'\n").rehome,
+            PtuRehome::kWhenUnreferenced);
+}
+
 TEST(PtuConfigFile, RefusesWhatIsWrongAndNamesIt) {
   const auto refused = [](const std::string& text, const std::string& key) {
     try {
@@ -51,6 +69,18 @@ TEST(PtuConfigFile, RefusesWhatIsWrongAndNamesIt) {
   refused("device = 'x'\ntilt_min_deg = 60\n", "tilt_max_deg");  // beyond the default
   refused("device = 'x'\npoll_intervall_s = 0.1\n", "poll_intervall_s");
   refused("device = 'x'\n[ptu.servo]\ngain_hz = 'fast'\n", "gain_hz");
+  refused("device = 'x'\nbaud = 9600\npoll_interval_s = 0.025\n",
+          "9600 baud carry a poll in 0.074 s");
+  refused("device = 'x'\nreply_timeout_s = 0.06\n", "reply_timeout_s");
+  refused("device = 'x'\nrehome = 'often'\n", "rehome");
+  refused("device = 'x'\nstep_mode = 'sixteenth'\n", "step_mode");
+  refused("device = 'x'\n[ptu.servo]\nlook_ahead_s = 0.8\n", "run on for 1.1");
+  refused("device = 'x'\nacceleration_deg_s2 = 20\n", "look_ahead_s");
+  const std::string region =
+      "[[ptu.keep_out]]\npan_min_deg = 1\npan_max_deg = 2\ntilt_min_deg = -3\n";
+  refused("device = 'x'\n" + region, "ptu.keep_out[0].tilt_max_deg");
+  refused("device = 'x'\n" + region + "tilt_max_deg = -4\n", "ptu.keep_out[0].tilt_max_deg");
+  refused("device = 'x'\nrehome = 'when-unreferenced'\n" + region + "tilt_max_deg = 4\n", "rehome");
 }
 
 }  // namespace

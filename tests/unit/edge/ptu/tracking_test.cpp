@@ -217,7 +217,7 @@ Accuracy angle_accuracy(int baud, double tilt_share) {
     sum.nees += 0.5 * error.dot(at->covariance.inverse() * error);
     ++n;
   });
-  EXPECT_GT(n, 5000);
+  EXPECT_GT(n, 4000);
   return {degrees(std::sqrt(sum.rms_deg / n)), sum.nees / n};
 }
 

@@ -1,0 +1,27 @@
+// What a serial line carries: how long a poll takes at a rate. Pure.
+//
+// One cycle in motion, with both positions asked for twice (edge/ptu/poll_cycle.h):
+//
+//    PP PS18700 TS18700 TP PP-49467 TP TP-14622 PP        out, 49 bytes
+//   * -49467  *  *  * -14622  *  * -14622  *  * -49467    in, 50 bytes; the last two positions, 20
+//                                                         bytes, after the request's end at worst
+//
+//   baud      cycle in motion, 2 ms of the unit's own    at rest (13 bytes out, 40 in)
+//   9600      74 ms                                      48 ms
+//   19200     38 ms                                      25 ms
+//   38400     20 ms                                      14 ms
+//   115200    8 ms                                       6 ms
+//
+// One request is under way at a time, so that replies can be matched and a position's instant is
+// known; the period is poll_interval_s or what the line takes, whichever is longer. Only commands
+// that changed are sent. 25 ms need 38400 baud. With one reading of each position 9600 baud would
+// carry 21 cycles a second instead of 13, but a wrong digit would go unnoticed.
+#pragma once
+
+namespace ols {
+
+double byte_time_s(int baud);      // start bit, eight, stop bit
+double longest_cycle_s(int baud);  // in motion
+double resting_cycle_s(int baud);  // nothing to command
+
+}  // namespace ols

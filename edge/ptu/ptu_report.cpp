@@ -1,0 +1,93 @@
+#include "edge/ptu/ptu_report.h"
+
+#include <cstdio>
+
+namespace ols {
+
+namespace {
+
+std::string with_number(const char* format, double number) {
+  char text[120];
+  std::snprintf(text, sizeof text, format, number);
+  return text;
+}
+
+DeviceState state_of(const PtuStatus& status) {
+  if (!status.port_open) return DeviceState::kAbsent;
+  switch (status.state) {
+    case PtuState::kStarting:
+      return DeviceState::kStarting;
+    case PtuState::kReady:
+      return DeviceState::kOk;
+    case PtuState::kFault:
+      break;
+  }
+  return DeviceState::kFault;
+}
+
+std::string text_of(const PtuStatus& status, DeviceState state) {
+  const std::string rate = std::to_string(status.line_baud) + " baud";
+  if (state == DeviceState::kOk) return ptu_name(status.firmware) + ", " + rate;
+  if (state == DeviceState::kStarting) return "starting, " + rate;
+  return status.last_error.empty() ? "no unit" : status.last_error;
+}
+
+void add_alarms(const PtuConfig& config, const PtuStatus& status, double now_s,
+                DeviceReport& report) {
+  constexpr double kOld_s = 1.0;
+  const auto alarm = [&report](const std::string& what) {
+    report.alarms.push_back("ptu: " + what);
+  };
+  if (status.emergency) alarm(status.standing ? "emergency stop" : "emergency stop, still moving");
+  if (report.state == DeviceState::kAbsent) alarm("no serial port: " + status.last_error);
+  if (report.state == DeviceState::kFault) alarm("halted, " + status.last_error);
+  if (status.not_referenced) alarm("does not know where it is: home it");
+  if (status.ran_into_limit) alarm("ran into a limit: it may have lost steps, home it");
+  const bool silent = !status.last_good_s || now_s - *status.last_good_s > kOld_s;
+  if (report.state == DeviceState::kOk && silent) alarm("no angles");
+  if (status.environment && status.environment->supply_V < config.supply_min_V) {
+    alarm(with_number("supply voltage low (%.1f V)", status.environment->supply_V));
+  }
+}
+
+void add_readings(const PtuStatus& status, DeviceReport& report) {
+  report.readings["ptu_line_baud"] = status.line_baud;
+  if (!status.environment) return;
+  const PtuEnvironment& environment = *status.environment;
+  report.readings["ptu_supply_V"] = environment.supply_V;
+  if (environment.head_degC) report.readings["ptu_head_degC"] = *environment.head_degC;
+  if (environment.pan_degC) report.readings["ptu_pan_degC"] = *environment.pan_degC;
+  if (environment.tilt_degC) report.readings["ptu_tilt_degC"] = *environment.tilt_degC;
+}
+
+void add_counters(const PtuStatus& status, DeviceReport& report) {
+  const PtuCounters& c = status.counters;
+  report.counters = {
+      {"ptu_requests", c.requests},     {"ptu_replies", c.replies},
+      {"ptu_timeouts", c.timeouts},     {"ptu_errors", c.errors},
+      {"ptu_garbled", c.garbled},       {"ptu_restarts", c.restarts},
+      {"ptu_limit_hits", c.limit_hits}, {"ptu_refused_positions", c.refused_positions},
+      {"ptu_echoes", c.echoes},         {"ptu_power_cycles", c.power_cycles},
+      {"ptu_homings", c.homings},       {"ptu_emergencies", c.emergencies},
+      {"ptu_reopens", status.reopens},  {"ptu_port_failures", status.port_failures}};
+}
+
+}  // namespace
+
+DeviceReport ptu_report(const PtuConfig& config, const PtuStatus& status, double now_s) {
+  const PtuCounters& c = status.counters;
+  DeviceReport report;
+  report.name = "ptu";
+  report.state = state_of(status);
+  report.text = text_of(status, report.state);
+  report.last_good_s = status.last_good_s;
+  report.last_error = status.last_error;
+  report.errors = status.port_failures + c.timeouts + c.errors + c.garbled + c.restarts +
+                  c.refused_positions + c.echoes;
+  add_alarms(config, status, now_s, report);
+  add_readings(status, report);
+  add_counters(status, report);
+  return report;
+}
+
+}  // namespace ols

@@ -1,0 +1,10 @@
+// A PTU in the words of every device. Pure.
+#pragma once
+
+#include "edge/ptu/ptu_thread.h"
+
+namespace ols {
+
+DeviceReport ptu_report(const PtuConfig& config, const PtuStatus& status, double now_s);
+
+}  // namespace ols

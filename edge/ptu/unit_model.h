@@ -1,0 +1,30 @@
+// What kind of unit answers, and what it says of its supply and temperatures. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ols {
+
+enum class PtuModel {
+  kUnknown,
+  kClassic,  // PTU-D46 and its kin, firmware 1 and 2
+  kESeries,  // PTU-E46 and its kin, firmware 3
+};
+
+// From the answer to V.
+PtuModel ptu_model(std::string_view version_text);
+// "PTU-D46 v2.12.1d1(C14/E)", "PTU-E46 v3.3.0", or what the unit said when it is neither.
+std::string ptu_name(std::string_view version_text);
+
+struct PtuEnvironment {
+  double supply_V = 0.0;
+  std::optional<double> head_degC, pan_degC, tilt_degC;  // a D46 has one, of its controller: head
+};
+
+// The answer to O: `Input 30 VDC @ 86 degF` of a D46, `13.2,99,97,104` (volts; head, pan, tilt in
+// degF) of an E46.
+std::optional<PtuEnvironment> ptu_environment(std::string_view text);
+
+}  // namespace ols
