@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "edge/camera/camera_config.h"
+#include "edge/camera/camera_errors.h"
 #include "edge/camera/clock_map.h"
 #include "edge/camera/picture.h"
+#include "edge/camera/ptp.h"
 
 using ArvBuffer = struct _ArvBuffer;
 using ArvCamera = struct _ArvCamera;
@@ -18,14 +19,6 @@ using ArvDevice = struct _ArvDevice;
 using ArvStream = struct _ArvStream;
 
 namespace ols {
-
-struct CameraAbsent : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-// There, but it does not do what is configured.
-struct CameraUnfit : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 struct Unref {
   void operator()(void* object) const;  // g_object_unref
@@ -37,6 +30,7 @@ using Owned = std::unique_ptr<T, Unref>;
 struct ReceivedFrame {
   std::uint64_t id = 0;  // the camera's frame number
   bool complete = false;
+  bool overtaken = false;                 // a newer one is waiting behind it
   RawPicture picture;                     // valid as long as the buffer is
   std::optional<std::int64_t> device_ns;  // the camera's own stamp
   double arrival_s = 0.0;                 // CLOCK_MONOTONIC of its first packet
@@ -44,7 +38,7 @@ struct ReceivedFrame {
 
 class AravisDevice {
  public:
-  // Opens, configures and starts.
+  // Opens, configures and starts. Throws CameraAbsent, CameraUnfit.
   explicit AravisDevice(const CameraConfig& config);
   ~AravisDevice();
   AravisDevice(const AravisDevice&) = delete;
@@ -60,14 +54,27 @@ class AravisDevice {
     return true;
   }
 
+  std::string identity() const;  // "AVT GT1290C 1234"
+
   // Latches the camera's clock; nothing when the camera cannot.
   std::optional<LatchSample> latch();
+  // Whether it still answers.
+  bool answers();
+  void trigger();  // by software
+
+  // Exposure and gain as the camera has them, and how far they go.
+  const ExposureSetting& exposure() const { return exposure_; }
+  const ExposureLimits& limits() const { return limits_; }
+  // Throws CameraUnfit.
+  void set_exposure(const ExposureSetting& setting);
+
+  std::optional<double> temperature_degC() const;  // nothing when the camera does not tell
+  std::optional<PtpState> ptp() const;
 
   bool control_lost() const { return control_lost_; }
   // It is gone: its end asks it for nothing more. That end may take seconds all the same, because
   // Aravis tells a camera of its leave and repeats it (5 times 0.5 s each).
   void give_up() { gone_ = true; }
-  double exposure_s() const { return exposure_s_; }  // as the camera has it
 
  private:
   struct BufferReturn {
@@ -75,8 +82,6 @@ class AravisDevice {
     ArvBuffer* buffer;
     ~BufferReturn();
   };
-  void configure(const CameraConfig& config);
-  void set_transport(const CameraConfig& config);
   void start(const CameraConfig& config);
   ArvDevice* device() const;
   ArvBuffer* pop(double timeout_s);
@@ -88,7 +93,8 @@ class AravisDevice {
   Owned<ArvStream> stream_;
   std::atomic<bool> control_lost_ = false;
   bool gone_ = false;
-  double exposure_s_ = 0.0;
+  ExposureSetting exposure_;
+  ExposureLimits limits_;
   std::uint64_t tick_hz_ = 0;  // 0: the camera's clock is not to be had
   bool latch_by_feature_ = false;
   std::uint64_t last_latch_ticks_ = 0;

@@ -1,16 +1,50 @@
 #include "edge/camera/picture.h"
 
+#include <array>
+#include <cstdio>
 #include <opencv2/imgproc.hpp>
 
 namespace ols {
 
+namespace {
+
+struct FormatRow {
+  std::string_view name;
+  PixelFormat format;
+  int channels;
+  int to_gray;  // OpenCV's conversion; of a mosaic it interpolates and weights in one step
+};
+
+// OpenCV names a Bayer pattern, GRBG here, by its first row in the newer names.
+constexpr std::array<FormatRow, 7> kFormats{{
+    {"Mono8", PixelFormat::kMono8, 1, -1},
+    {"BayerGR8", PixelFormat::kBayerGR8, 1, cv::COLOR_BayerGRBG2GRAY},
+    {"BayerRG8", PixelFormat::kBayerRG8, 1, cv::COLOR_BayerRGGB2GRAY},
+    {"BayerGB8", PixelFormat::kBayerGB8, 1, cv::COLOR_BayerGBRG2GRAY},
+    {"BayerBG8", PixelFormat::kBayerBG8, 1, cv::COLOR_BayerBGGR2GRAY},
+    {"RGB8", PixelFormat::kRGB8, 3, cv::COLOR_RGB2GRAY},
+    {"BGR8", PixelFormat::kBGR8, 3, cv::COLOR_BGR2GRAY},
+}};
+
+const FormatRow* row_of(std::uint32_t code) {
+  for (const FormatRow& row : kFormats)
+    if (static_cast<std::uint32_t>(row.format) == code) return &row;
+  return nullptr;
+}
+
+}  // namespace
+
 std::optional<PixelFormat> pixel_format(std::string_view genicam_name) {
-  if (genicam_name == "Mono8") return PixelFormat::kMono8;
-  if (genicam_name == "BayerGR8") return PixelFormat::kBayerGR8;
-  if (genicam_name == "BayerRG8") return PixelFormat::kBayerRG8;
-  if (genicam_name == "BayerGB8") return PixelFormat::kBayerGB8;
-  if (genicam_name == "BayerBG8") return PixelFormat::kBayerBG8;
+  for (const FormatRow& row : kFormats)
+    if (row.name == genicam_name) return row.format;
   return std::nullopt;
+}
+
+std::string pixel_format_name(std::uint32_t code) {
+  if (const FormatRow* row = row_of(code)) return std::string(row->name);
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "0x%08x", code);
+  return text.data();
 }
 
 const char* to_string(PictureRefusal refusal) {
@@ -32,33 +66,21 @@ PictureRefusal check(const RawPicture& raw, const PictureFormat& expected) {
     return PictureRefusal::kWrongFormat;
   if (raw.width_px != expected.width_px || raw.height_px != expected.height_px)
     return PictureRefusal::kWrongSize;
-  const std::size_t needed =
-      static_cast<std::size_t>(expected.width_px) * static_cast<std::size_t>(expected.height_px);
+  const std::size_t needed = static_cast<std::size_t>(expected.width_px) *
+                             static_cast<std::size_t>(expected.height_px) *
+                             static_cast<std::size_t>(row_of(raw.format)->channels);
   if (raw.data == nullptr || raw.bytes < needed) return PictureRefusal::kTooShort;
   return PictureRefusal::kNone;
 }
 
 cv::Mat to_gray(const RawPicture& raw) {
+  const FormatRow& row = *row_of(raw.format);
   // cv::Mat takes no pointer to const; nothing below writes through it.
-  const cv::Mat picture(raw.height_px, raw.width_px, CV_8UC1, const_cast<std::uint8_t*>(raw.data));
+  const cv::Mat picture(raw.height_px, raw.width_px, CV_8UC(row.channels),
+                        const_cast<std::uint8_t*>(raw.data));
+  if (row.to_gray < 0) return picture.clone();
   cv::Mat gray;
-  switch (static_cast<PixelFormat>(raw.format)) {
-    case PixelFormat::kMono8:
-      gray = picture.clone();
-      break;
-    case PixelFormat::kBayerGR8:
-      cv::cvtColor(picture, gray, cv::COLOR_BayerGRBG2GRAY);
-      break;
-    case PixelFormat::kBayerRG8:
-      cv::cvtColor(picture, gray, cv::COLOR_BayerRGGB2GRAY);
-      break;
-    case PixelFormat::kBayerGB8:
-      cv::cvtColor(picture, gray, cv::COLOR_BayerGBRG2GRAY);
-      break;
-    case PixelFormat::kBayerBG8:
-      cv::cvtColor(picture, gray, cv::COLOR_BayerBGGR2GRAY);
-      break;
-  }
+  cv::cvtColor(picture, gray, row.to_gray);
   return gray;
 }
 

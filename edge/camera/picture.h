@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace ols {
@@ -16,8 +17,13 @@ enum class PixelFormat : std::uint32_t {
   kBayerRG8 = 0x01080009,
   kBayerGB8 = 0x0108000A,
   kBayerBG8 = 0x0108000B,
+  kRGB8 = 0x02180014,
+  kBGR8 = 0x02180015,
 };
+// "Mono8", "BayerRG8", "RGB8", ...
 std::optional<PixelFormat> pixel_format(std::string_view genicam_name);
+// The name of a code; the code in hexadecimal digits when it is none of these.
+std::string pixel_format_name(std::uint32_t code);
 
 struct RawPicture {
   const std::uint8_t* data = nullptr;

@@ -22,6 +22,8 @@
 
 #include "base/clocks.h"
 #include "tools/sim/gige_device.h"
+#include "tools/sim/gige_registers.h"
+#include "tools/sim/gige_sensor.h"
 #include "tools/sim/gige_stream.h"
 
 namespace ols::sim {
@@ -40,6 +42,14 @@ double seconds(Clock::time_point time) {
 
 Clock::duration duration(double seconds_) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds_));
+}
+
+std::int64_t nanoseconds(Clock::time_point time) {
+  return std::chrono::nanoseconds(time.time_since_epoch()).count();
+}
+
+bool is_timed(Trigger trigger) {
+  return trigger == Trigger::kFreerun || trigger == Trigger::kFixedRate;
 }
 
 in_addr_t parse_address(const std::string& text) {
@@ -90,24 +100,35 @@ struct CameraServer::Impl {
   void run_control();
   void receive(int fd);
   void run_stream();
+  std::optional<Clock::time_point> next_start(const StreamSettings& settings);
   void expose(const StreamSettings& settings, Clock::time_point start);
   // True when the camera shall end.
   bool wait_until(Clock::time_point time);
+  void trigger(Trigger source);
+  // The camera's clock at an instant: its own, or that of the PTP master.
+  std::int64_t device_ns(Clock::time_point time);
 
   const CameraServerConfig config_;
   const std::function<void(const Exposure&, cv::Mat&)> draw_;
   const in_addr_t address_, mask_;
+  const Clock::time_point switched_on_ = Clock::now();
   GigeDevice device_;
   GigeStream stream_;
   std::vector<int> control_;  // the own address first; the others hear broadcasts
   int wake_ = -1;
-  std::uint64_t frames_ = 0;  // of the stream thread
+
+  // Of the stream thread.
+  std::uint64_t frames_ = 0;
+  std::optional<Clock::time_point> last_start_;
+  cv::Mat gray_;
+
   std::atomic<std::uint64_t> skipped_ = 0;
   std::atomic<bool> gone_ = false;
 
   std::mutex mutex_;
   std::condition_variable changed_;
   bool stop_ = false;
+  std::optional<std::pair<Trigger, Clock::time_point>> triggered_;
 
   std::thread control_thread_, stream_thread_;
 };
@@ -118,7 +139,13 @@ CameraServer::Impl::Impl(const CameraServerConfig& config,
       draw_(std::move(draw)),
       address_(parse_address(config.address)),
       mask_(network_mask(address_)),
-      device_(config.serial, address_, config.width_px, config.height_px, config.exposure_s),
+      device_({.serial = config.serial,
+               .address = address_,
+               .width_px = config.width_px,
+               .height_px = config.height_px,
+               .exposure_s = config.exposure_s,
+               .names = config.names,
+               .tick_frequency = config.tick_frequency}),
       stream_(address_) {
   const int own = control_socket(address_, false);
   if (own < 0)
@@ -167,12 +194,14 @@ void CameraServer::Impl::receive(int fd) {
   // The host's other interfaces hear broadcasts that a camera on this network would not.
   if ((from.sin_addr.s_addr & mask_) != (address_ & mask_)) return;
   const std::uint64_t peer = std::uint64_t{from.sin_addr.s_addr} << 16 | from.sin_port;
+  const auto now = Clock::now();
   const Answer answer = device_.handle(gige::Bytes(packet).first(static_cast<std::size_t>(size)),
-                                       peer, clock_utc_ns(), seconds(Clock::now()));
+                                       peer, device_ns(now), seconds(now));
   if (!answer.acknowledgement.empty())
     sendto(control_.front(), answer.acknowledgement.data(), answer.acknowledgement.size(), 0,
            reinterpret_cast<const sockaddr*>(&from), from_size);
   if (answer.resend) stream_.resend(*answer.resend);
+  if (answer.trigger) trigger(Trigger::kSoftware);
   { const std::lock_guard lock(mutex_); }
   changed_.notify_all();  // perhaps it said to start
 }
@@ -182,26 +211,65 @@ bool CameraServer::Impl::wait_until(Clock::time_point time) {
   return changed_.wait_until(lock, time, [this] { return stop_; });
 }
 
+void CameraServer::Impl::trigger(Trigger source) {
+  {
+    const std::lock_guard lock(mutex_);
+    triggered_ = {source, Clock::now()};
+  }
+  changed_.notify_all();
+}
+
+std::int64_t CameraServer::Impl::device_ns(Clock::time_point time) {
+  if (device_.ptp_slave(seconds(time))) {
+    const std::int64_t utc_ns = clock_utc_ns() - (nanoseconds(Clock::now()) - nanoseconds(time));
+    return utc_ns + std::llround(1e9 * config_.tai_minus_utc_s);
+  }
+  const auto age_ns = static_cast<double>(nanoseconds(time) - nanoseconds(switched_on_));
+  return 1'000'000'000 + std::llround(age_ns * (1.0 + 1e-6 * config_.clock_drift_ppm));
+}
+
+// Of the next exposure; nothing when none is known yet. Waits a little for a trigger.
+std::optional<Clock::time_point> CameraServer::Impl::next_start(const StreamSettings& settings) {
+  const auto period = duration(settings.period_s);
+  if (is_timed(settings.trigger)) return last_start_ ? *last_start_ + period : Clock::now();
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, kHeartbeatCheck, [this] { return stop_ || triggered_; });
+  const auto triggered = std::exchange(triggered_, std::nullopt);
+  if (!triggered || triggered->first != settings.trigger) return std::nullopt;
+  const auto start = triggered->second + duration(settings.trigger_delay_s);
+  // As long as it is busy with the last exposure it takes no trigger.
+  if (last_start_ && start < *last_start_ + period) return std::nullopt;
+  return start;
+}
+
 void CameraServer::Impl::run_stream() {
-  std::optional<Clock::time_point> start;  // of the next exposure
   for (;;) {
-    const auto settings = device_.streaming(seconds(Clock::now()));
+    auto settings = device_.streaming(seconds(Clock::now()));
     if (!settings) {
-      start.reset();
+      last_start_.reset();
       std::unique_lock lock(mutex_);
+      triggered_.reset();
       if (!stop_) changed_.wait_for(lock, kHeartbeatCheck);
       if (stop_) return;
       continue;
     }
-    const auto period = duration(settings->period_s);
+    const auto start = next_start(*settings);
+    if (wait_until(start.value_or(Clock::now()))) return;
+    if (!start) continue;
+    // What is set when the exposure begins is what it is made with.
+    settings = device_.streaming(seconds(Clock::now()));
+    if (!settings) continue;
     const auto until_drawn = duration(settings->exposure_s + config_.readout_s);
-    if (!start) start = Clock::now();
     if (wait_until(*start + until_drawn)) return;
     if (!device_.streaming(seconds(Clock::now()))) continue;
+    last_start_ = start;
     expose(*settings, *start);
-    *start += period;
-    for (const auto now = Clock::now(); *start + until_drawn + period < now; *start += period)
+    const auto period = duration(settings->period_s);
+    if (!is_timed(settings->trigger)) continue;
+    for (const auto now = Clock::now(); *last_start_ + period + until_drawn + period < now;) {
+      *last_start_ += period;
       ++skipped_;
+    }
   }
 }
 
@@ -210,21 +278,26 @@ void CameraServer::Impl::expose(const StreamSettings& settings, Clock::time_poin
     ++frames_;  // the camera goes on behind the cut line until its heartbeat runs out
     return;
   }
-  const auto ago =
-      std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
-  const Exposure exposure{.start_realtime_ns = clock_utc_ns() - ago,
+  const Exposure exposure{.start_monotonic_ns = nanoseconds(start),
                           .exposure_s = settings.exposure_s,
+                          .gain_dB = settings.gain_dB,
                           .frame = frames_};
-  cv::Mat picture =
-      stream_.blank(static_cast<int>(settings.width), static_cast<int>(settings.height));
-  draw_(exposure, picture);
+  const int width = static_cast<int>(settings.width), height = static_cast<int>(settings.height);
+  cv::Mat raw = stream_.blank(width, height, gige::picture_type(settings.format));
+  if (settings.format == gige::kMono8) {
+    draw_(exposure, raw);
+  } else {
+    gray_.create(height, width, CV_8UC1);
+    draw_(exposure, gray_);
+    gige::develop(gray_, kTint, settings.format, raw);
+  }
   const gige::Picture description{
       .id = static_cast<std::uint16_t>((kFirstId - 1 + frames_) % kFrameIds + 1),
-      .stamp = static_cast<std::uint64_t>(exposure.start_realtime_ns),
+      .stamp = static_cast<std::uint64_t>(device_ns(start)),
       .format = settings.format,
       .width = settings.width,
       .height = settings.height};
-  stream_.send(settings, description, picture);
+  stream_.send(settings, description, raw);
   ++frames_;
 }
 
@@ -234,13 +307,20 @@ CameraServer::CameraServer(const CameraServerConfig& config,
 
 CameraServer::~CameraServer() = default;
 
+void CameraServer::pulse(int line) {
+  constexpr std::array kLines{Trigger::kLine1, Trigger::kLine2, Trigger::kLine3, Trigger::kLine4};
+  impl_->trigger(kLines.at(static_cast<std::size_t>(line - 1)));
+}
+
+void CameraServer::power_cycle() { impl_->device_.power_cycle(); }
+
 void CameraServer::set_size(int width_px, int height_px) {
   impl_->device_.set_size(width_px, height_px);
 }
 
 void CameraServer::set_faults(const CameraFaults& faults) {
   impl_->gone_ = faults.gone;
-  impl_->stream_.set_loss(faults.packet_loss, !faults.no_resend);
+  impl_->stream_.set_loss(faults.gone ? 1.0 : faults.packet_loss, !faults.no_resend);
   impl_->device_.set_faults(!faults.no_resend, faults.pixel_format);
 }
 

@@ -7,12 +7,27 @@
 
 #include <algorithm>
 #include <array>
+#include <ctime>
 #include <system_error>
+
+#include "base/clocks.h"
 
 namespace ols::sim {
 namespace {
 
-constexpr std::size_t kKept = 2;  // frames that can be asked for again
+constexpr std::size_t kKept = 2;     // frames that can be asked for again
+constexpr std::size_t kWaiting = 2;  // frames to be sent, at most
+
+// What is due within the first goes out at once: a sleep is no more exact. Who is later than the
+// second does not catch up, or the packets would come in bursts as no link brings them.
+constexpr std::int64_t kGrain_ns = 300'000, kCatchUp_ns = 2'000'000;
+
+void sleep_until(std::int64_t monotonic_ns) {
+  const timespec until{.tv_sec = monotonic_ns / 1'000'000'000,
+                       .tv_nsec = monotonic_ns % 1'000'000'000};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+  }
+}
 
 std::size_t per_packet(const StreamSettings& settings) {
   return static_cast<std::size_t>(settings.packet_size - gige::kUdpOverhead - gige::kHeader);
@@ -36,19 +51,28 @@ GigeStream::GigeStream(std::uint32_t address) {
     if (fd_ >= 0) close(fd_);
     throw std::system_error(error, std::generic_category(), "camera's stream socket");
   }
+  thread_ = std::thread([this] { run(); });
 }
 
-GigeStream::~GigeStream() { close(fd_); }
+GigeStream::~GigeStream() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+  close(fd_);
+}
 
-cv::Mat GigeStream::blank(int width_px, int height_px) {
+cv::Mat GigeStream::blank(int width_px, int height_px, int type) {
   const std::lock_guard lock(mutex_);
   cv::Mat picture;
-  if (sent_.size() >= kKept) {
-    // Nobody else holds it: resend() works under the lock.
+  if (sent_.size() > kKept + kWaiting) {
+    // Nobody else holds it: resend() works under the lock, and it was sent long ago.
     picture = sent_.front()->picture;
     sent_.pop_front();
   }
-  picture.create(height_px, width_px, CV_8UC1);
+  picture.create(height_px, width_px, type);
   return picture;
 }
 
@@ -87,13 +111,39 @@ void GigeStream::send_packet(const Sent& sent, std::uint32_t packet, gige::Statu
 void GigeStream::send(const StreamSettings& settings, const gige::Picture& description,
                       const cv::Mat& picture) {
   const auto sent = std::make_shared<const Sent>(Sent{settings, description, picture});
-  {
-    const std::lock_guard lock(mutex_);
-    sent_.push_back(sent);
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return waiting_.size() < kWaiting || stop_; });
+  sent_.push_back(sent);
+  waiting_.push_back(sent);
+  lock.unlock();
+  changed_.notify_all();
+}
+
+void GigeStream::run() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return !waiting_.empty() || stop_; });
+    if (stop_) return;
+    const auto sent = waiting_.front();
+    lock.unlock();
+    send_paced(*sent);
+    lock.lock();
+    waiting_.pop_front();
+    changed_.notify_all();
   }
-  const std::uint32_t last = gige::payload_packets(bytes(picture), per_packet(settings)) + 1;
-  for (std::uint32_t packet = 0; packet <= last; ++packet)
-    if (!loses_one()) send_packet(*sent, packet, gige::Status::kSuccess);
+}
+
+void GigeStream::send_paced(const Sent& sent) {
+  const std::uint32_t last =
+      gige::payload_packets(bytes(sent.picture), per_packet(sent.settings)) + 1;
+  const auto delay_ns = static_cast<std::int64_t>(1e9 * sent.settings.packet_delay_s);
+  std::int64_t due_ns = clock_monotonic_ns();
+  for (std::uint32_t packet = 0; packet <= last; ++packet) {
+    const std::int64_t now_ns = clock_monotonic_ns();
+    if (due_ns > now_ns + kGrain_ns) sleep_until(due_ns);
+    if (!loses_one()) send_packet(sent, packet, gige::Status::kSuccess);
+    due_ns = std::max(due_ns + delay_ns, now_ns - kCatchUp_ns);
+  }
 }
 
 void GigeStream::set_loss(double share, bool can_resend) {

@@ -2,12 +2,14 @@
 // the packets that the client has lost.
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>
 #include <opencv2/core.hpp>
 #include <random>
+#include <thread>
 
 #include "tools/sim/gige_device.h"
 #include "tools/sim/gige_wire.h"
@@ -16,15 +18,16 @@ namespace ols::sim {
 
 class GigeStream {
  public:
-  // Sends from `address` (network byte order). Throws std::system_error.
+  // Sends from `address` (network byte order), in a thread of its own. Throws std::system_error.
   explicit GigeStream(std::uint32_t address);
   ~GigeStream();
   GigeStream(const GigeStream&) = delete;
   GigeStream& operator=(const GigeStream&) = delete;
 
   // A picture to draw into: one whose frame can no longer be asked for again.
-  cv::Mat blank(int width_px, int height_px);
-  // Sends the picture and keeps it for resend().
+  cv::Mat blank(int width_px, int height_px, int type);
+  // Sends the picture in the client's pace and keeps it for resend(). Returns at once, but for a
+  // client that wants the packets slower than the pictures come.
   void send(const StreamSettings& settings, const gige::Picture& description,
             const cv::Mat& picture);
   void resend(const ResendRequest& request);
@@ -38,17 +41,24 @@ class GigeStream {
     gige::Picture description;
     cv::Mat picture;
   };
+  void run();
+  void send_paced(const Sent& sent);
   void send_packet(const Sent& sent, std::uint32_t packet, gige::Status status) const;
   bool loses_one();
 
   int fd_ = -1;
   std::mutex mutex_;
-  std::deque<std::shared_ptr<const Sent>> sent_;  // the newest last
+  std::condition_variable changed_;
+  std::deque<std::shared_ptr<const Sent>> waiting_;  // to be sent
+  std::deque<std::shared_ptr<const Sent>> sent_;     // or on its way; the newest last
+  bool stop_ = false;
 
   std::mutex loss_mutex_;
   std::mt19937_64 generator_;
   double loss_ = 0.0;
   bool can_resend_ = true;
+
+  std::thread thread_;
 };
 
 }  // namespace ols::sim

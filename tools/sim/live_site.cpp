@@ -110,11 +110,9 @@ std::int64_t LiveSite::true_utime_us(double scenario_s) const {
 
 void LiveSite::draw(Device& device, const Exposure& exposure, cv::Mat& gray) {
   // The host's clock is the station's clock; the world is seen at the true time of that instant.
-  // The exposure's stamp is a moment old: a step of the host's clock before that is in both.
   const double offset_s = world_.stations()[device.station].clock_offset_s;
-  const std::int64_t mid_ns =
-      exposure.start_realtime_ns + std::llround(0.5e9 * exposure.exposure_s);
-  const std::int64_t mid_monotonic_ns = clock_monotonic_ns() - (clock_utc_ns() - mid_ns);
+  const std::int64_t mid_monotonic_ns =
+      exposure.start_monotonic_ns + std::llround(0.5e9 * exposure.exposure_s);
   const double mid_monotonic_s = 1e-9 * static_cast<double>(mid_monotonic_ns);
   const double half_s = 0.5 * exposure.exposure_s;
   ExposureTruth truth;
@@ -125,7 +123,8 @@ void LiveSite::draw(Device& device, const Exposure& exposure, cv::Mat& gray) {
   truth.end = device.ptu->angles_at(mid_monotonic_s + half_s);
   truth.frame = exposure.frame;
   const ViewTruth view = device.renderer->draw(truth, gray);
-  publish_view(device, truth, view, mid_ns / 1000);
+  const std::int64_t mid_utc_ns = clock_utc_ns() - (clock_monotonic_ns() - mid_monotonic_ns);
+  publish_view(device, truth, view, mid_utc_ns / 1000);
 }
 
 void LiveSite::publish_view(const Device& device, const ExposureTruth& exposure,

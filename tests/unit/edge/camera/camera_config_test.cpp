@@ -44,7 +44,24 @@ readout_sd_s = 0.003
 no_frame_timeout_s = 1.5
 retry_s = 0.25
 packet_size = 8228
-packet_socket = false
+trigger = "line3"
+trigger_activation = "falling-edge"
+trigger_delay_us = 20
+gain_dB = 3
+auto_exposure = true
+exposure_min_us = 60
+exposure_max_us = 3000
+gain_min_dB = 1
+gain_max_dB = 18
+auto_bright_level = 190
+auto_mean_level = 100
+auto_settle_frames = 6
+ptp = "slave"
+tai_minus_utc_s = 38
+ptp_sd_s = 2e-6
+packet_delay_us = 15
+packet_spread = 0.5
+packet_socket = true
 socket_buffer = 1000000
 packet_resend = false
 buffers = 5
@@ -60,7 +77,24 @@ buffers = 5
   EXPECT_DOUBLE_EQ(config.no_frame_timeout_s, 1.5);
   EXPECT_DOUBLE_EQ(config.retry_s, 0.25);
   EXPECT_EQ(config.packet_size, 8228);
-  EXPECT_FALSE(config.packet_socket);
+  EXPECT_EQ(config.trigger, TriggerMode::kLine3);
+  EXPECT_EQ(config.trigger_activation, "falling-edge");
+  EXPECT_DOUBLE_EQ(config.trigger_delay_us, 20.0);
+  EXPECT_DOUBLE_EQ(config.gain_dB, 3.0);
+  EXPECT_TRUE(config.auto_exposure);
+  EXPECT_DOUBLE_EQ(config.limits.exposure_min_us, 60.0);
+  EXPECT_DOUBLE_EQ(config.limits.exposure_max_us, 3000.0);
+  EXPECT_DOUBLE_EQ(config.limits.gain_min_dB, 1.0);
+  EXPECT_DOUBLE_EQ(config.limits.gain_max_dB, 18.0);
+  EXPECT_DOUBLE_EQ(config.auto_levels.bright_level, 190.0);
+  EXPECT_DOUBLE_EQ(config.auto_levels.mean_level, 100.0);
+  EXPECT_EQ(config.auto_levels.settle_frames, 6);
+  EXPECT_EQ(config.ptp, "slave");
+  EXPECT_EQ(config.tai_minus_utc_s, 38);
+  EXPECT_DOUBLE_EQ(config.ptp_sd_s, 2e-6);
+  EXPECT_DOUBLE_EQ(config.packet_delay_us, 15.0);
+  EXPECT_DOUBLE_EQ(config.packet_spread, 0.5);
+  EXPECT_TRUE(config.packet_socket);
   EXPECT_EQ(config.socket_buffer, 1000000);
   EXPECT_FALSE(config.packet_resend);
   EXPECT_EQ(config.buffers, 5);
@@ -70,9 +104,11 @@ TEST(CameraConfig, RefusesNamingTheKey) {
   using testing::HasSubstr;
   EXPECT_THAT(error_of("width_px = 640"), HasSubstr("device"));
   EXPECT_THAT(error_of("device = ''"), HasSubstr("device"));
-  for (const char* bad : {"pixel_format = 'Mono16'", "frame_rate_hz = 0", "exposure_us = -1",
-                          "width_px = 0", "stamp_at = 'middle'", "packet_size = 100",
-                          "packet_size = 70000", "buffers = 1", "expsure_us = 5"}) {
+  for (const char* bad :
+       {"pixel_format = 'Mono16'", "frame_rate_hz = 0", "exposure_us = -1", "width_px = 0",
+        "stamp_at = 'middle'", "packet_size = 100", "packet_size = 70000", "buffers = 1",
+        "trigger = 'line5'", "ptp = 'master'", "packet_delay_us = -0.5", "exposure_max_us = 20",
+        "gain_max_dB = -1", "expsure_us = 5"}) {
     const std::string text = std::string("device = 'x'\n") + bad;
     const std::string key(bad, std::string_view(bad).find(' '));
     EXPECT_THAT(error_of(text), HasSubstr("station.toml:2")) << bad;

@@ -60,6 +60,24 @@ TEST(Picture, EachBayerPatternGivesTheBrightnessOfItsColours) {
   }
 }
 
+TEST(Picture, ColourGivesTheBrightnessOfItsColours) {
+  for (const PixelFormat format : {PixelFormat::kRGB8, PixelFormat::kBGR8}) {
+    const bool red_first = format == PixelFormat::kRGB8;
+    std::vector<std::uint8_t> bytes;
+    for (int i = 0; i < kWidth * kHeight; ++i)
+      for (const int level : {red_first ? 200 : 20, 100, red_first ? 20 : 200})
+        bytes.push_back(static_cast<std::uint8_t>(level));
+    const RawPicture picture = raw(bytes, format);
+    EXPECT_EQ(check(picture, expected(format)), PictureRefusal::kNone);
+    const cv::Mat gray = to_gray(picture);
+    ASSERT_EQ(gray.type(), CV_8UC1);
+    EXPECT_NEAR(gray.at<std::uint8_t>(5, 7), 0.299 * 200 + 0.587 * 100 + 0.114 * 20, 1.0);
+    RawPicture torn = picture;
+    torn.bytes = kWidth * kHeight;  // enough for one channel only
+    EXPECT_EQ(check(torn, expected(format)), PictureRefusal::kTooShort);
+  }
+}
+
 TEST(Picture, RefusesWithAReason) {
   const std::vector<std::uint8_t> bytes(kWidth * kHeight);
   const RawPicture good = raw(bytes, PixelFormat::kMono8);
@@ -83,7 +101,10 @@ TEST(Picture, RefusesWithAReason) {
 TEST(Picture, NamesOfFormats) {
   EXPECT_EQ(pixel_format("Mono8"), PixelFormat::kMono8);
   EXPECT_EQ(pixel_format("BayerGB8"), PixelFormat::kBayerGB8);
+  EXPECT_EQ(pixel_format("RGB8"), PixelFormat::kRGB8);
   EXPECT_FALSE(pixel_format("Mono16"));
+  EXPECT_EQ(pixel_format_name(0x0108000a), "BayerGB8");
+  EXPECT_EQ(pixel_format_name(0x01100007), "0x01100007");
 }
 
 }  // namespace

@@ -31,14 +31,13 @@ void draw(const sim::Exposure& exposure, cv::Mat& picture) {
   for (int y = 0; y < picture.rows; ++y)
     for (int x = 0; x < picture.cols; ++x)
       picture.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>((x + 2 * y) / 8);
-  std::memcpy(picture.data, &exposure.start_realtime_ns, sizeof exposure.start_realtime_ns);
+  std::memcpy(picture.data, &exposure.start_monotonic_ns, sizeof exposure.start_monotonic_ns);
 }
 
 double true_middle_s(const Frame& frame) {
   std::int64_t start_ns = 0;
   std::memcpy(&start_ns, frame.gray.data, sizeof start_ns);
-  const double offset_s = clock_s(CLOCK_MONOTONIC) - clock_s(CLOCK_REALTIME);
-  return 1e-9 * static_cast<double>(start_ns) + offset_s + 0.5 * kExposure_s;
+  return 1e-9 * static_cast<double>(start_ns) + 0.5 * kExposure_s;
 }
 
 std::unique_ptr<sim::CameraServer> serve(int width_px = kWidth, int height_px = kHeight) {
@@ -129,21 +128,28 @@ TEST(CameraWire, WithoutThePacketSocketAndWithSmallPackets) {
   EXPECT_EQ(frame->gray.at<std::uint8_t>(100, 200), (200 + 2 * 100) / 8);
 }
 
-TEST(CameraWire, BayerBecomesGray) {
+TEST(CameraWire, ColourBecomesGray) {
+  // ITU-R BT.601's weights of what the simulated scene's tint leaves.
+  const double level = (200 + 2 * 100) / 8;
+  const auto& tint = sim::CameraServer::kTint;
+  const double brightness = level * (0.299 * tint[0] + 0.587 * tint[1] + 0.114 * tint[2]);
   const auto server = serve();
-  CameraConfig config = station();
-  config.pixel_format = "BayerRG8";
-  AravisCamera camera(config);
-  const auto frame = frame_of(camera);
-  ASSERT_TRUE(frame) << camera.last_error();
-  ASSERT_EQ(frame->gray.size(), cv::Size(kWidth, kHeight));
-  EXPECT_NEAR(frame->gray.at<std::uint8_t>(100, 200), (200 + 2 * 100) / 8, 1);
+  for (const char* format : {"BayerRG8", "BayerGR8", "BayerGB8", "BayerBG8", "RGB8", "BGR8"}) {
+    CameraConfig config = station();
+    config.pixel_format = format;
+    AravisCamera camera(config);
+    const auto frame = frame_of(camera);
+    ASSERT_TRUE(frame) << format << ": " << camera.last_error();
+    ASSERT_EQ(frame->gray.size(), cv::Size(kWidth, kHeight));
+    for (const cv::Point at : {cv::Point(200, 100), cv::Point(201, 100)})
+      EXPECT_NEAR(frame->gray.at<std::uint8_t>(at), brightness, 1.5) << format;
+  }
 }
 
 TEST(CameraWire, IsFoundByItsName) {
   const auto server = serve();
   CameraConfig config = station();
-  config.device = "Aravis-Fake-T1";
+  config.device = "AVT-T1";
   AravisCamera camera(config);
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
 }

@@ -1,0 +1,36 @@
+// What can go wrong with an opened camera, and GLib's errors.
+#pragma once
+
+#include <arv.h>
+
+#include <string>
+
+#include "edge/camera/camera_errors.h"
+
+namespace ols {
+
+class AravisError {
+ public:
+  AravisError() = default;
+  ~AravisError() { clear(); }
+  AravisError(const AravisError&) = delete;
+  AravisError& operator=(const AravisError&) = delete;
+
+  // For the next call; forgets the last one's.
+  GError** out() {
+    clear();
+    return &error_;
+  }
+  explicit operator bool() const { return error_ != nullptr; }
+  std::string text() const { return error_ != nullptr ? error_->message : "unknown error"; }
+  template <typename Exception>
+  void check(const std::string& what) const {
+    if (error_ != nullptr) throw Exception(what + ": " + error_->message);
+  }
+
+ private:
+  void clear() { g_clear_error(&error_); }
+  GError* error_ = nullptr;
+};
+
+}  // namespace ols

@@ -1,0 +1,68 @@
+// The features of an opened camera by what they are for. The GT1290C is older than GenICam's naming
+// convention (SFNC), and SFNC itself has renamed some: each is asked for by its names in turn, and
+// the first that is there is it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+using ArvCamera = struct _ArvCamera;
+
+namespace ols {
+
+struct Feature {
+  const char* what;                  // in words
+  std::array<const char*, 3> names;  // nullptr: no further one
+};
+
+// Floats or integers. SFNC 2.x, then GT1290C ("GigE Camera and Driver Features", AVT) and SFNC 1.x.
+inline constexpr Feature kExposureTime{"exposure", {"ExposureTime", "ExposureTimeAbs", nullptr}};
+inline constexpr Feature kGain{"gain", {"Gain", "GainRaw", nullptr}};
+inline constexpr Feature kFrameRate{"frame rate",
+                                    {"AcquisitionFrameRate", "AcquisitionFrameRateAbs", nullptr}};
+inline constexpr Feature kTriggerDelay{"trigger delay",
+                                       {"TriggerDelay", "TriggerDelayAbs", nullptr}};
+inline constexpr Feature kTemperature{"temperature", {"DeviceTemperature", nullptr, nullptr}};
+inline constexpr Feature kStreamRate{"stream rate", {"StreamBytesPerSecond", nullptr, nullptr}};
+// Choices.
+inline constexpr Feature kPtpStatus{"PTP status", {"PtpStatus", "GevIEEE1588Status", nullptr}};
+inline constexpr Feature kPtpMode{"PTP mode", {"PtpMode", nullptr, nullptr}};
+// Flags.
+inline constexpr Feature kPtpEnable{"PTP", {"PtpEnable", "GevIEEE1588", nullptr}};
+inline constexpr Feature kFrameRateEnable{
+    "frame rate control", {"AcquisitionFrameRateEnable", "AcquisitionFrameRateEnabled", nullptr}};
+// Commands.
+inline constexpr Feature kPtpLatch{"PTP latch",
+                                   {"PtpDataSetLatch", "GevIEEE1588DataSetLatch", nullptr}};
+
+// Setters throw CameraUnfit in words that name the feature and what the camera says.
+class AravisFeatures {
+ public:
+  explicit AravisFeatures(ArvCamera* camera) : camera_(camera) {}
+
+  bool has(const char* name) const;
+  bool has(const Feature& feature) const { return name_of(feature) != nullptr; }
+
+  void set_number(const Feature& feature, double value) const;
+  std::optional<double> number(const Feature& feature) const;
+  std::optional<std::pair<double, double>> bounds(const Feature& feature) const;
+
+  void set_flag(const Feature& feature, bool value) const;
+
+  bool offers(const char* choice, const char* entry) const;
+  void choose(const char* choice, const char* entry) const;
+  std::optional<std::string> chosen(const Feature& choice) const;
+
+  bool execute(const char* command) const;
+  bool execute(const Feature& command) const;
+
+ private:
+  const char* name_of(const Feature& feature) const;  // nullptr: the camera has none of them
+
+  ArvCamera* camera_;
+};
+
+}  // namespace ols

@@ -1,0 +1,16 @@
+// Why a camera cannot be used.
+#pragma once
+
+#include <stdexcept>
+
+namespace ols {
+
+struct CameraAbsent : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+// There, but it does not do what is configured.
+struct CameraUnfit : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace ols

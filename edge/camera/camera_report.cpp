@@ -1,0 +1,128 @@
+#include "edge/camera/camera_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace ols {
+namespace {
+
+constexpr double kSilence_s = 0.5;        // and three frame periods: an alarm
+constexpr double kManyIncomplete = 0.02;  // share of the frames of late
+constexpr double kMuchLight = 1.3;        // factor
+
+template <typename... Values>
+std::string words(const char* format, Values... values) {
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+DeviceState device_state(CameraState state) {
+  switch (state) {
+    case CameraState::kAbsent:
+      return DeviceState::kAbsent;
+    case CameraState::kStarting:
+      return DeviceState::kStarting;
+    case CameraState::kStreaming:
+      return DeviceState::kOk;
+    case CameraState::kFault:
+      return DeviceState::kFault;
+  }
+  return DeviceState::kFault;
+}
+
+const char* to_string(PtpState state) {
+  switch (state) {
+    case PtpState::kOff:
+      return "off";
+    case PtpState::kSyncing:
+      return "not yet synchronised";
+    case PtpState::kSlave:
+      return "synchronised";
+    case PtpState::kMaster:
+      return "a master itself";
+    case PtpState::kFault:
+      return "faulty";
+    case PtpState::kUnknown:
+      return "unknown";
+  }
+  return "unknown";
+}
+
+// How long there has been no frame, when that is too long.
+std::optional<double> silence_s(const CameraConfig& config, const CameraFacts& facts,
+                                double now_s) {
+  const auto since = facts.last_frame_s ? facts.last_frame_s : facts.opened_s;
+  if (!since) return std::nullopt;
+  const double silent_s = now_s - *since;
+  if (silent_s <= std::max(kSilence_s, 3.0 / config.frame_rate_hz)) return std::nullopt;
+  return silent_s;
+}
+
+void add_alarms(const CameraConfig& config, const CameraFacts& facts, double now_s,
+                std::vector<std::string>& alarms) {
+  const auto silent_s = silence_s(config, facts, now_s);
+  if (!facts.fault.empty()) alarms.push_back("camera: " + facts.fault);
+  if (silent_s) {
+    alarms.push_back(words("camera: no frames for %.1f s", *silent_s) +
+                     (is_timed(config.trigger) || facts.state == CameraState::kAbsent
+                          ? ""
+                          : ", it is waiting for a trigger"));
+  } else if (facts.state == CameraState::kAbsent) {
+    alarms.push_back("camera: does not answer");
+  }
+  if (facts.last_frame_s && facts.stamp_source == StampSource::kArrival)
+    alarms.push_back(
+        words("camera: time stamps are the host's, +-%.0f ms", 1e3 * facts.stamp_sd_s));
+  if (facts.incomplete_share > kManyIncomplete)
+    alarms.push_back(
+        words("camera: %.0f %% of the frames incomplete", 100.0 * facts.incomplete_share));
+  if (facts.missing_light > kMuchLight)
+    alarms.push_back("camera: picture too dark at the limits of exposure and gain");
+  if (facts.missing_light < 1.0 / kMuchLight)
+    alarms.push_back("camera: picture too bright at the limits of exposure and gain");
+  if (facts.ptp && *facts.ptp != PtpState::kSlave)
+    alarms.push_back(std::string("camera: PTP is ") + to_string(*facts.ptp));
+  if (facts.ptp_disagreement_s)
+    alarms.push_back(words("camera: PTP differs from the camera's latched clock by %.4f s",
+                           *facts.ptp_disagreement_s));
+}
+
+}  // namespace
+
+DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,
+                                double now_s) {
+  DeviceReport report;
+  report.name = "camera";
+  report.state = device_state(facts.state);
+  report.text = facts.identity + ", " + config.pixel_format + " " +
+                std::to_string(config.width_px) + "x" + std::to_string(config.height_px) +
+                words(", %.1f Hz", facts.frame_rate_hz);
+  if (facts.state != CameraState::kStreaming && !facts.last_error.empty())
+    report.text = facts.last_error;
+  report.last_good_s = facts.last_frame_s;
+  report.last_error = facts.last_error;
+  report.errors = facts.errors;
+  add_alarms(config, facts, now_s, report.alarms);
+  // Frames have just stopped: the camera's thread will say so when its patience ends.
+  if (report.state == DeviceState::kOk && is_timed(config.trigger) &&
+      silence_s(config, facts, now_s)) {
+    report.state = DeviceState::kFault;
+    report.text = report.alarms.front();
+  }
+  report.readings = {{"camera_exposure_us", facts.exposure.exposure_us},
+                     {"camera_gain_dB", facts.exposure.gain_dB},
+                     {"camera_frame_rate_hz", facts.frame_rate_hz},
+                     {"camera_clock_sd_s", facts.stamp_sd_s}};
+  if (facts.temperature_degC) report.readings["camera_degC"] = *facts.temperature_degC;
+  const CameraCounters& c = facts.counters;
+  report.counters = {
+      {"frames_captured", c.frames_captured},     {"frames_lost", c.frames_lost},
+      {"frames_incomplete", c.frames_incomplete}, {"frames_late", c.frames_late},
+      {"frames_refused", c.frames_refused},       {"camera_reconnects", c.reconnects}};
+  return report;
+}
+
+}  // namespace ols

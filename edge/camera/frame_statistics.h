@@ -1,0 +1,27 @@
+// Frame rate and losses of late. Pure.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+
+namespace ols {
+
+class FrameStatistics {
+ public:
+  void add(double arrival_s, bool complete);
+  void clear() { marks_.clear(); }
+
+  double rate_hz() const;           // of complete frames; 0 before there are two
+  double incomplete_share() const;  // 0 without frames
+
+ private:
+  struct Mark {
+    double arrival_s;
+    bool complete;
+  };
+  std::size_t complete() const;
+
+  std::deque<Mark> marks_;
+};
+
+}  // namespace ols
