@@ -1,5 +1,6 @@
 #include "tools/sim/station_files.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iomanip>
 #include <sstream>
@@ -53,6 +54,25 @@ void write_devices(std::ostream& out, const Scenario& s, const StationScenario& 
       << "\nbaud = " << s.ptu.baud << "\npoll_interval_s = " << s.ptu.poll_interval_s << "\n";
 }
 
+void write_sensors(std::ostream& out, const Scenario& s, std::size_t station,
+                   const std::string& line_stem) {
+  if (s.inclinometer.on) {
+    constexpr double kLeastSd_rad = radians(0.002);
+    out << "\n[inclinometer]"
+        << "\ndevice = \"" << line_stem << ".inclinometer\""
+        << "\nstuck_s = 10"
+        << "\nsd_deg = " << degrees(std::max(s.inclinometer.zero_sd_rad, kLeastSd_rad)) << "\n";
+  }
+  if (s.gnss.on) {
+    const Eigen::Vector3d& antenna = s.gnss.ground_to_antenna_enu_m;
+    out << "\n[gnss]"
+        << "\nhost = \"127.0.0.1\""
+        << "\nport = " << s.gnss.gpsd_port + static_cast<int>(station)
+        << "\nground_to_antenna_enu_m = [" << antenna.x() << ", " << antenna.y() << ", "
+        << antenna.z() << "]\n";
+  }
+}
+
 }  // namespace
 
 std::string station_file(const World& world, std::size_t station,
@@ -70,6 +90,7 @@ std::string station_file(const World& world, std::size_t station,
   write_sd(out, world, truth.nominal.sd);
   out << "\n[clock]\nsd_s = " << truth.clock_sd_s << "\n";
   write_devices(out, world.scenario(), world.scenario().stations[station], options.line_folder);
+  write_sensors(out, world.scenario(), station, options.line_folder + "/" + truth.id);
   return out.str();
 }
 

@@ -10,7 +10,7 @@ namespace ols::sim {
 
 struct StationFileOptions {
   std::string lcm_url;
-  std::string line_folder;  // where the simulator links the PTUs' lines
+  std::string line_folder;  // where the simulator links the serial lines
 };
 
 std::string station_file(const World& world, std::size_t station,

@@ -1,5 +1,6 @@
 """Which processes make a site, and with which configuration."""
 
+import os
 import shutil
 import subprocess
 import tomllib
@@ -7,6 +8,8 @@ from pathlib import Path
 
 from ols_demo.bus import LIVE_URL
 from ols_demo.site import Site, SiteError
+
+GPSD = shutil.which("gpsd", path=os.environ["PATH"] + ":/usr/sbin")
 
 
 class Wiring:
@@ -56,6 +59,7 @@ class Wiring:
         logger = ["lcm-logger", "--lcm-url", LIVE_URL, "--quiet", str(self.log)]
         site.start("lcm-logger", logger)
         site.start_and_wait("ols-sim", self._sim(), "ready")
+        self._start_gpsds(site)
         self.start_fusion(site)
         for name in self.configs:
             self.start_station(site, name)
@@ -72,3 +76,19 @@ class Wiring:
 
     def program(self, name: str) -> str:
         return str(self._bin / name)
+
+    def _start_gpsds(self, site: Site) -> None:
+        if GPSD is None:
+            print("gpsd is not installed: the stations have no GNSS receivers", flush=True)
+            return
+        for name, config in self.configs.items():
+            gnss = tomllib.loads(config.read_text()).get("gnss")
+            if gnss:
+                site.start(f"gpsd-{name}", self.gpsd_command(name, gnss["port"]))
+
+    def gpsd_command(self, station: str, port: int) -> list[str]:
+        """One for each receiver, at a fixed speed: it need not hunt for it. It has shared memory
+        of its own, because it leaves segments behind."""
+        line = str(self._output / "lines" / f"{station}.gnss")
+        options = ["-N", "-n", "-b", "-s", "38400", "-f", "8N1", "-S", str(port), line]
+        return ["unshare", "--ipc", str(GPSD), *options]

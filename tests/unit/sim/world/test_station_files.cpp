@@ -32,9 +32,20 @@ TEST(StationFiles, AreReadByTheStationAsTheNominalGeometry) {
     EXPECT_EQ(g.sd.position_m, truth.nominal.sd.position_m);
     EXPECT_EQ(read.clock.assumed_sd_s, truth.clock_sd_s);
     EXPECT_EQ(read.ptu.device, "/tmp/lines/" + truth.id + ".ptu");
+    EXPECT_EQ(read.inclinometer.device, "/tmp/lines/" + truth.id + ".inclinometer");
+    EXPECT_EQ(read.gnss.port, std::to_string(2950 + (&truth - world.stations().data())));
+    EXPECT_EQ(read.gnss.ground_to_antenna_enu_m, world.scenario().gnss.ground_to_antenna_enu_m);
     EXPECT_NEAR(read.camera.exposure_us, 2000.0, 1e-9);
   }
   std::filesystem::remove_all(folder);
+}
+
+TEST(StationFiles, HaveNoSensorsWhereTheScenarioHasNone) {
+  Scenario scenario = load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml");
+  scenario.inclinometer.on = scenario.gnss.on = false;
+  const std::string file = station_file(World(scenario, 5), 0, {"", "/tmp/lines"});
+  EXPECT_EQ(file.find("[inclinometer]"), std::string::npos);
+  EXPECT_EQ(file.find("[gnss]"), std::string::npos);
 }
 
 }  // namespace
