@@ -1,0 +1,219 @@
+"""Judges a boot test from what was marked in the container and from the log of the bus.
+
+    evaluate.py OUT_FOLDER UNITS_FOLDER
+
+Prints a table; ends with 1 when a measure is missed, or was never taken.
+"""
+
+import math
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import lcm
+from ols_msg import truth_view_t
+
+EXPOSURE_LIMIT = 2.0
+AT_REST_RAD_S = math.radians(0.05)
+
+
+@dataclass
+class Row:
+    measure: str
+    limit: str
+    found: str
+    passed: bool
+
+
+class Evidence:
+    """Marks of the script (s), and arrival times (s) of the messages by channel."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        self.marks: dict[str, float] = {}
+        self.text: dict[str, str] = {}
+        self.gave_up: list[str] = []
+        for line in (folder / "events").read_text().splitlines():
+            time_s, name, *text = line.split(" ", 2)
+            self.text[name] = " ".join(text)
+            if name == "gave-up":
+                self.gave_up.append(self.text[name])
+            elif name == "multi-user":  # tells when it was, not when it is told
+                self.marks[name] = float(text[0])
+            else:
+                self.marks[name] = float(time_s)
+        self.arrivals: dict[str, list[float]] = {}
+        self.pan: list[tuple[float, float]] = []  # true (s, rad) of alfa
+        for event in lcm.EventLog(str(folder / "bus.lcmlog"), "r"):
+            self.arrivals.setdefault(event.channel, []).append(event.timestamp * 1e-6)
+            if event.channel == "OLS_SIM_VIEW_alfa":
+                view = truth_view_t.decode(event.data)
+                self.pan.append((view.utime * 1e-6, view.pan_rad))
+
+    def first(self, channel: str, after_s: float) -> float:
+        return min((t for t in self.arrivals.get(channel, []) if t >= after_s), default=math.nan)
+
+    def mark(self, name: str) -> float:
+        return self.marks.get(name, math.nan)
+
+    def read(self, name: str) -> str:
+        path = self.folder / name
+        return path.read_text() if path.exists() else ""
+
+
+def within(measure: str, seconds: float, limit_s: float) -> Row:
+    found = "never" if math.isnan(seconds) else f"{seconds:.1f} s"
+    return Row(measure, f"<= {limit_s:g} s", found, seconds <= limit_s)
+
+
+def said(measure: str, text: str, pattern: str) -> Row:
+    match = re.search(pattern, text)
+    return Row(measure, "said", match.group(0).strip() if match else "nothing", match is not None)
+
+
+def starts(evidence: Evidence) -> list[Row]:
+    rows = []
+    for station in ("alfa", "bravo", "lone"):
+        status_s = evidence.first(f"OLS_STATUS_{station}", 0.0) - evidence.mark("multi-user")
+        rows.append(within(f"first status of {station} after multi-user.target", status_s, 10.0))
+    for station in ("alfa", "bravo"):
+        designated_s = evidence.first(f"OLS_DESIGNATE_{station}", 0.0)
+        bearing_s = evidence.first(f"OLS_BEARING_{station}", designated_s) - designated_s
+        rows.append(within(f"first bearing of {station} after designation", bearing_s, 3.0))
+    tracking_s = evidence.mark("bravo-tracking")
+    target_s = evidence.first("OLS_TARGET", tracking_s) - tracking_s
+    rows.append(within("first target after the second station tracks", target_s, 3.0))
+    return rows
+
+
+def restarts(evidence: Evidence) -> list[Row]:
+    rows = []
+    for name, what, limit_s in (
+        ("hang-station", "hung control loop of a station: replaced", 15.0),
+        ("hang-fusion", "hung control loop of the fusion: replaced", 15.0),
+        ("kill-station", "killed station: replaced", 5.0),
+    ):
+        took_s = evidence.mark(f"{name}-active") - evidence.mark(name)
+        rows.append(within(what, took_s, limit_s))
+    for name, what in (("hang-station", "hung"), ("kill-station", "killed")):
+        took_s = evidence.mark(f"{name}-tracking") - evidence.mark(f"{name}-active")
+        rows.append(within(f"{what} station tracks again by slew after its start", took_s, 8.0))
+    watchdog = evidence.read("journal.txt").count("Watchdog timeout")
+    rows.append(Row("ended by the watchdog, by the journal", "2", str(watchdog), watchdog == 2))
+    return rows
+
+
+def speeds(pan: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    return [
+        (b[0], abs(b[1] - a[1]) / (b[0] - a[0]))
+        for a, b in zip(pan, pan[1:], strict=False)
+        if b[0] > a[0]
+    ]
+
+
+def rest(evidence: Evidence) -> list[Row]:
+    """The PTU's true angle before and after the service was stopped in full motion."""
+    stop_s = evidence.mark("stop-station")
+    moving = [speed for t, speed in speeds(evidence.pan) if stop_s - 0.5 < t < stop_s]
+    turning = [
+        t
+        for t, speed in speeds(evidence.pan)
+        if stop_s <= t < stop_s + 3.0 and speed > AT_REST_RAD_S
+    ]
+    seen = [t for t, _ in evidence.pan if stop_s <= t < stop_s + 3.0]
+    fast = math.degrees(max(moving, default=0.0))
+    took_s = max(turning, default=stop_s) - stop_s if seen else math.nan
+    return [
+        Row(
+            "PTU in motion when its service is stopped",
+            ">= 5 deg/s",
+            f"{fast:.1f} deg/s",
+            fast >= 5.0,
+        ),
+        within("PTU at rest after its service is stopped", took_s, 2.0),
+    ]
+
+
+def told(evidence: Evidence) -> list[Row]:
+    lone = evidence.read("status-lone.txt")
+    no_network_s = evidence.mark("network-answers") - evidence.mark("network")
+    wrong_restarts = evidence.text.get("wrong-failed", "never failed")
+    return [
+        said("station without devices is active", lone, r"Active: active \(running\)"),
+        said(
+            "and says that the camera is missing",
+            evidence.read("journal.txt"),
+            r"camera[^\n]*127\.0\.0\.99[^\n]*",
+        ),
+        said(
+            "and says that the PTU is missing",
+            evidence.read("journal.txt"),
+            r"[^\n:]*/dev/ols/ptu: No such[^\n]*",
+        ),
+        said(
+            "station without a route for the bus says so",
+            evidence.read("no-network.txt"),
+            r"[^\n]*route[^\n]*",
+        ),
+        within("and answers after the route is there", no_network_s, 30.0),
+        said(
+            "wrong configuration is named", evidence.read("wrong.txt"), r"wrong\.toml:\d+: [^\n]*"
+        ),
+        Row("and not tried in circles", "0 restarts", wrong_restarts, wrong_restarts == "0"),
+        within(
+            "corrected one is taken by itself",
+            evidence.mark("wrong-answers") - evidence.mark("wrong-failed"),
+            20.0,
+        ),
+        said("no unit has failed in the end", evidence.read("failed.txt"), r"0 loaded units"),
+    ]
+
+
+def exposure(units: Path) -> list[Row]:
+    rows = []
+    for unit in sorted(units.glob("*.service")):
+        done = subprocess.run(
+            ["systemd-analyze", "security", "--offline=yes", "--no-pager", str(unit)],
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        match = re.search(r"Overall exposure level.*: ([\d.]+)", done.stdout)
+        score = float(match.group(1)) if match else math.nan
+        rows.append(
+            Row(
+                f"exposure of {unit.name}",
+                f"<= {EXPOSURE_LIMIT}",
+                f"{score}",
+                score <= EXPOSURE_LIMIT,
+            )
+        )
+    return rows
+
+
+def main(out: Path, units: Path) -> int:
+    if not (out / "events").exists():
+        print(
+            "boot test: the container did not come up; see build/boot-test/console.txt",
+            file=sys.stderr,
+        )
+        return 1
+    evidence = Evidence(out)
+    parts: list[Callable[[Evidence], list[Row]]] = [starts, restarts, rest, told]
+    rows = [row for part in parts for row in part(evidence)] + exposure(units)
+    width = max(len(row.measure) for row in rows)
+    for row in rows:
+        verdict = "ok  " if row.passed else "FAIL"
+        print(f"{verdict}  {row.measure:{width}}  {row.limit:>12}  {row.found}")
+    if "done" not in evidence.marks:
+        print("FAIL  the measurement did not come to its end")
+    for text in evidence.gave_up:
+        print(f"gave up waiting for: {text}")
+    return 0 if all(row.passed for row in rows) and "done" in evidence.marks else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1]), Path(sys.argv[2])))
