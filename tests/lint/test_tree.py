@@ -23,7 +23,9 @@ def test_one_message_a_file_and_every_field_explained(path):
         if field:
             name, rest = field.groups()
             commented = "//" in rest or above.strip().startswith("//")
-            in_array = re.search(r"\[(counters|stations|devices|alarms|readings|jpeg_bytes)\]", line)
+            in_array = re.search(
+                r"\[(counters|stations|devices|alarms|readings|jpeg_bytes)\]", line
+            )
             assert commented or UNIT_IN_NAME.search(name) or in_array, f"{path.name}: {line}"
         above = line
 

@@ -75,10 +75,14 @@ def test_a_service_never_opens_packet_sockets(service):
     assert capabilities and "CAP_NET_RAW" not in " ".join(capabilities)
 
 
-@pytest.mark.parametrize("name", ["ols-station@.service", "ols-fusion.service"])
-def test_a_control_loop_is_watched_and_comes_back(name):
+@pytest.mark.parametrize(
+    ("name", "watchdog_s"),
+    [("ols-station@.service", 5), ("ols-fusion.service", 5), ("ols-logger.service", 30)],
+)
+def test_a_program_is_watched_and_comes_back(name, watchdog_s):
     text = (FOLDER / "units" / name).read_text()
-    for line in ("Type=notify", "WatchdogSec=5", "Restart=always", "OnFailure=ols-retry@%n.timer"):
+    watchdog = f"WatchdogSec={watchdog_s}"
+    for line in ("Type=notify", watchdog, "Restart=always", "OnFailure=ols-retry@%n.timer"):
         assert f"\n{line}\n" in text
     assert "time-sync.target" not in text and "network-online.target" not in text
 
@@ -142,7 +146,7 @@ def test_the_installed_tree_is_complete(tmp_path):
         "share/doc/ols/operations.md",
     ):
         assert (usr / path).exists(), path
-    for program, example in (("ols-station", "station.toml"), ("ols-fusion", "fusion.toml")):
-        config = usr / "share/ols/examples" / example
-        done = run(usr / "bin" / program, "--config", config, "--check-config")
+    for program in ("station", "fusion", "logger"):
+        config = usr / "share/ols/examples" / f"{program}.toml"
+        done = run(usr / "bin" / f"ols-{program}", "--config", config, "--check-config")
         assert done.returncode == 0, done.stderr
