@@ -18,6 +18,7 @@ from ols_faults import (  # noqa: F401
     cases_network,
     cases_processes,
     cases_ptu,
+    cases_sensors,
     report,
 )
 from ols_faults.case import CASES, Outcome
