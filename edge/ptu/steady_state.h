@@ -76,7 +76,6 @@ class PtuSteadyState {
   std::string error_;
 
   double next_poll_s_;
-  double quiet_until_s_ = 0.0;  // no request before the line was silent for quiet_s_
   double quiet_s_ = 0.0;
   double last_byte_s_;
   std::optional<double> waiting_since_s_;  // for positions to be believed

@@ -1,33 +1,13 @@
-// What a PTU's line may say. The replies must not depend on how the bytes are split; the driver
-// must stay within the limits, whatever it hears.
+// The PTU's driver at work, on a line that answers anything at all, and on one that damages what a
+// real dialogue says: the unit stays within the limits, samples are finite. Some hundred steps an
+// input: slower than the other fuzzers.
 #include <cmath>
 
-#include "edge/ptu/codec.h"
 #include "edge/ptu/driver.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tools/sim/ptu_unit.h"
 
 namespace {
-
-std::string said(const std::vector<ols::PtuReply>& replies) {
-  std::string all;
-  for (const auto& reply : replies) {
-    all += reply.ok ? '*' : '!';
-    all += reply.text + '\n';
-  }
-  return all;
-}
-
-void parse(std::string_view bytes) {
-  ols::PtuReplyParser whole, split;
-  std::vector<ols::PtuReply> by_byte;
-  for (const char byte : bytes) {
-    const auto replies = split.feed({&byte, 1});
-    by_byte.insert(by_byte.end(), replies.begin(), replies.end());
-  }
-  ols::fuzz::require(said(whole.feed(bytes)) == said(by_byte), "split bytes give the same replies");
-  ols::fuzz::require(whole.garbled() == split.garbled(), "and the same count of garbled lines");
-}
 
 void check(const std::vector<ols::AngleSample>& samples) {
   for (const auto& sample : samples) {
@@ -126,17 +106,11 @@ void dialogue(ols::fuzz::Input input) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size > 4096) return 0;
   ols::fuzz::Input input(data, size);
-  switch (input.byte() % 3) {
-    case 0:
-      parse(input.rest());
-      break;
-    case 1:
-      drive(input.rest());
-      break;
-    default:
-      dialogue(input);
+  if (input.byte() % 2 == 0) {
+    drive(input.rest());
+  } else {
+    dialogue(input);
   }
   return 0;
 }
