@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "geometry/angles.h"
 
@@ -98,6 +99,10 @@ const char* to_string(SightingRefusal refusal) {
       return "refused_future";
     case SightingRefusal::kDuplicate:
       return "refused_duplicate";
+    case SightingRefusal::kQuarantine:
+      return "refused_quarantine";
+    case SightingRefusal::kTooMany:
+      return "refused_too_many_stations";
     case SightingRefusal::kLowBelief:
       return "unused_low_belief";
   }
@@ -115,10 +120,11 @@ Fusion::Fusion(const FusionConfig& config)
     : config_(config),
       time_(config.alignment.max_age_s),
       monitor_(config.residuals),
+      clocks_(config.clocks),
       average_(config.paper_average) {
-  for (const char* name :
-       {"bearings", "targets", "targets_without_position", "rays_set_aside", "slews",
-        "clock_stepped_back", "time_stepped_back", "stations_evicted"}) {
+  for (const char* name : {"bearings", "targets", "targets_without_position", "rays_set_aside",
+                           "slews", "clock_stepped_back", "time_stepped_back", "stations_evicted",
+                           "stations_quarantined", "calibrations_changed"}) {
     counters_[name] = 0.0;
   }
   for (int i = 1; i <= static_cast<int>(SightingRefusal::kLowBelief); ++i) {
@@ -158,15 +164,31 @@ bool Fusion::full(const std::string& station) const {
 
 // By messages, not by stamps: a station's clock may be wrong. Those without a bearing come first.
 std::map<std::string, Fusion::Station>::iterator Fusion::longest_silent() {
-  return std::ranges::min_element(stations_, {}, [](const auto& entry) {
-    return std::pair(entry.second.delivered, entry.second.heard);
+  return std::ranges::min_element(stations_, {}, [this](const auto& entry) {
+    const Station& station = entry.second;
+    return std::tuple(station.delivered, !may_go(entry.first, station), station.heard);
   });
+}
+
+// Strangers must not push out who has worked here and still does.
+bool Fusion::may_go(const std::string& name, const Station& station) const {
+  constexpr std::int64_t kAtHome = 10;  // bearings
+  return station.bearings < kAtHome || time_.silent_s(name) > kForgottenS;
+}
+
+bool Fusion::make_room(const std::string& station) {
+  if (!full(station)) return true;
+  const auto longest = longest_silent();
+  if (!may_go(longest->first, longest->second)) return false;
+  evict(longest);
+  return true;
 }
 
 void Fusion::evict(std::map<std::string, Station>::iterator station) {
   ++counters_["stations_evicted"];
   last_error_ = "station " + station->first + ": forgotten, too many stations";
   time_.forget(station->first);
+  clocks_.forget(station->first);
   monitor_.forget(station->first);
   stations_.erase(station);
 }
@@ -174,7 +196,7 @@ void Fusion::evict(std::map<std::string, Station>::iterator station) {
 SightingRefusal Fusion::admit(const Sighting& sighting) {
   const SightingRefusal broken = check(sighting);
   if (broken != SightingRefusal::kNone) return broken;
-  if (full(sighting.station)) evict(longest_silent());
+  if (!make_room(sighting.station)) return SightingRefusal::kTooMany;
   Station& station = stations_[sighting.station];
   if (!station.delivered) station.camera_ecef = sighting.sight.origin_ecef;
   station.delivered = true;
@@ -182,7 +204,13 @@ SightingRefusal Fusion::admit(const Sighting& sighting) {
   if (time_.hear(sighting.station, sighting.utime_us)) {
     station.sightings.clear();
     ++counters_["clock_stepped_back"];
-    last_error_ = "station " + sighting.station + ": its clock has stepped back";
+    if (clocks_.quarantine(sighting.station).empty()) {
+      last_error_ = "station " + sighting.station + ": its clock has stepped back";
+    }
+  }
+  if (!clock_is_believed(sighting)) {
+    station.sightings.clear();
+    return SightingRefusal::kQuarantine;
   }
   const double ahead_s = seconds(sighting.utime_us - now_us());
   if (ahead_s > config_.future_s) return SightingRefusal::kFuture;
@@ -191,9 +219,27 @@ SightingRefusal Fusion::admit(const Sighting& sighting) {
   return store(sighting);
 }
 
+bool Fusion::clock_is_believed(const Sighting& sighting) {
+  const bool before = clocks_.quarantine(sighting.station).empty();
+  clocks_.hear(sighting, time_);
+  const std::string why = clocks_.quarantine(sighting.station);
+  time_.trust(sighting.station, why.empty());
+  if (before && !why.empty()) {
+    ++counters_["stations_quarantined"];
+    last_error_ = "station " + sighting.station + ": quarantined, " + why;
+  }
+  return why.empty();
+}
+
 SightingRefusal Fusion::store(const Sighting& sighting) {
   Station& station = stations_[sighting.station];
   auto& kept = station.sightings;
+  if (!kept.empty() && kept.back().calibration_id != sighting.calibration_id) {
+    if (sighting.utime_us <= kept.back().utime_us) return SightingRefusal::kStale;
+    kept.clear();
+    monitor_.forget(sighting.station);
+    ++counters_["calibrations_changed"];
+  }
   if (!kept.empty() && kept.back().track_id != sighting.track_id) {
     // A late one of the track before must not end the new track.
     if (sighting.utime_us <= kept.back().utime_us) return SightingRefusal::kStale;
@@ -218,7 +264,8 @@ SightingRefusal Fusion::store(const Sighting& sighting) {
 
 void Fusion::refuse(SightingRefusal refusal, const Sighting& sighting) {
   ++counters_[to_string(refusal)];
-  if (refusal == SightingRefusal::kLowBelief) return;  // ordinary
+  // Ordinary, or said when it began.
+  if (refusal == SightingRefusal::kLowBelief || refusal == SightingRefusal::kQuarantine) return;
   last_error_ = "station " + sighting.station + ": " + to_string(refusal);
 }
 
@@ -230,6 +277,8 @@ void Fusion::notice_step_back() {
   last_average_us_.reset();
   last_target_.reset();
   monitor_ = ResidualMonitor(config_.residuals);
+  clocks_.clear();
+  for (const auto& [name, station] : stations_) time_.trust(name, true);
 }
 
 std::vector<Ray> Fusion::rays_at(std::int64_t epoch_us) const {
@@ -242,6 +291,7 @@ std::vector<Ray> Fusion::rays_at(std::int64_t epoch_us) const {
     }
     auto ray = align(station.sightings, epoch_us, range_m, config_.alignment);
     if (!ray) continue;
+    ray->clock_sd_s = std::hypot(ray->clock_sd_s, clocks_.added_sd_s(name));
     monitor_.inflate(*ray);
     rays.push_back(std::move(*ray));
   }
@@ -293,7 +343,8 @@ FusionHealth Fusion::health() const {
     const std::int64_t newest = time_.newest_us(name);
     const double age_s =
         newest == 0 ? std::numeric_limits<double>::quiet_NaN() : seconds(health.now_us - newest);
-    health.stations.push_back({name, station.bearings, station.rate_hz, age_s, monitor_.rms(name)});
+    health.stations.push_back({name, station.bearings, station.rate_hz, age_s, monitor_.rms(name),
+                               clocks_.offset_s(name), clocks_.quarantine(name)});
   }
   return health;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "central/alignment.h"
+#include "central/clock_monitor.h"
 #include "central/least_squares.h"
 #include "central/message_time.h"
 #include "central/paper_triangulation.h"
@@ -25,12 +26,14 @@ struct FusionConfig {
   double stale_s = 1.0;     // older than "now" by more is refused
   double future_s = 0.5;    // newer than "now" by more is refused
   int paper_average = 10;   // h of the paper's moving average
-  int max_stations = 64;    // one more takes the place of the one that is silent longest
+  int max_stations = 64;    // one more takes the place of the one that is silent longest; never of
+                            // one that has delivered and still does
   AlignmentConfig alignment{};
   LeastSquaresConfig least_squares{};
   PaperConfig paper{};
   ResidualConfig residuals{};
   SlewConfig slew{};
+  ClockMonitorConfig clocks{};
 };
 
 // Why a bearing was not used; to_string() is the name of its counter.
@@ -42,6 +45,8 @@ enum class SightingRefusal {
   kStale,
   kFuture,
   kDuplicate,
+  kQuarantine,  // the station's clock cannot be believed
+  kTooMany,     // more stations than there are places
   kLowBelief,
 };
 const char* to_string(SightingRefusal refusal);
@@ -75,8 +80,10 @@ struct StationHealth {
   std::string station;
   std::int64_t bearings = 0;  // taken
   double rate_hz = 0.0;
-  double age_s = 0.0;     // "now" minus its newest stamp
-  double residual = 0.0;  // lately, RMS normalised; NaN if none
+  double age_s = 0.0;           // "now" minus its newest stamp
+  double residual = 0.0;        // lately, RMS normalised; NaN if none
+  double clock_offset_s = 0.0;  // of its stamps from the median; NaN if none
+  std::string quarantine;       // why it is not used; empty: it is
 };
 
 struct FusionHealth {
@@ -110,8 +117,11 @@ class Fusion {
 
   bool full(const std::string& station) const;
   std::map<std::string, Station>::iterator longest_silent();
+  bool may_go(const std::string& name, const Station& station) const;
+  bool make_room(const std::string& station);
   void evict(std::map<std::string, Station>::iterator station);
   SightingRefusal admit(const Sighting& sighting);
+  bool clock_is_believed(const Sighting& sighting);
   SightingRefusal store(const Sighting& sighting);
   void refuse(SightingRefusal refusal, const Sighting& sighting);
   void notice_step_back();
@@ -122,6 +132,7 @@ class Fusion {
   FusionConfig config_;
   MessageTime time_;
   ResidualMonitor monitor_;
+  ClockMonitor clocks_;
   MovingAverage average_;
   std::map<std::string, Station> stations_;
   std::int64_t messages_ = 0;

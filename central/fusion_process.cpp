@@ -3,8 +3,10 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <thread>
 #include <vector>
 
 #include "base/clocks.h"
@@ -14,6 +16,8 @@ namespace {
 
 constexpr int kWaitMs = 50;
 constexpr std::size_t kLatencies = 200;  // for the median in the status
+constexpr std::size_t kChannels = 1000;  // with a sequence of their own
+constexpr double kRetryS = 1.0;
 
 }  // namespace
 
@@ -21,27 +25,86 @@ FusionProcess::FusionProcess(const FusionSettings& settings, const FusionProcess
     : settings_(settings),
       options_(options),
       fusion_(settings.fusion),
-      bus_(settings.lcm_url),
       status_s_(clock_monotonic_s()) {
-  if (options_.slew_url != settings_.lcm_url) slew_bus_.emplace(options_.slew_url);
-  counters_["slews_withheld"] = 0.0;
-  for (const auto refusal : {MessageRefusal::kMalformed, MessageRefusal::kSchema,
-                             MessageRefusal::kOtherStation, MessageRefusal::kOutOfRange}) {
-    counters_[to_string(refusal)] = 0.0;
+  for (const char* name : {"slews_withheld", "messages_not_sent"}) counters_[name] = 0.0;
+  for (int i = 0; i <= static_cast<int>(MessageRefusal::kNoPosition); ++i) {
+    counters_[to_string(static_cast<MessageRefusal>(i))] = 0.0;
   }
-  bus_.subscribe(std::string(kBearingChannel) + ".*",
-                 [this](const std::string& channel, const void* data, int bytes) {
-                   on_bearing(channel, data, bytes);
-                 });
-  bus_.subscribe(std::string(kStatusChannel) + ".*",
-                 [this](const std::string& channel, const void* data, int bytes) {
-                   on_status(channel, data, bytes);
-                 });
+  connect();
+}
+
+// A bus without a route is deaf for ever, so that it is only made when there is one.
+void FusionProcess::connect() {
+  const double now_s = clock_monotonic_s();
+  if (now_s < connect_due_s_) return;
+  connect_due_s_ = now_s + kRetryS;
+  try {
+    bus_.emplace(settings_.lcm_url);
+    if (options_.slew_url != settings_.lcm_url) slew_bus_.emplace(options_.slew_url);
+    subscribe();
+    if (!trouble_.empty()) spdlog::info("connected to {}", settings_.lcm_url);
+    trouble_.clear();
+  } catch (const BusError& error) {
+    bus_.reset();
+    slew_bus_.reset();
+    if (trouble_ != error.what()) spdlog::warn("no bus, tried again each second: {}", error.what());
+    trouble_ = error.what();
+  }
+}
+
+void FusionProcess::subscribe() {
+  bus_->subscribe(std::string(kBearingChannel) + ".*",
+                  [this](const std::string& channel, const void* data, int bytes) {
+                    on_bearing(channel, data, bytes);
+                  });
+  bus_->subscribe(std::string(kStatusChannel) + ".*",
+                  [this](const std::string& channel, const void* data, int bytes) {
+                    on_status(channel, data, bytes);
+                  });
 }
 
 void FusionProcess::turn() {
-  bus_.handle(kWaitMs);
+  if (!bus_) connect();
+  if (bus_) {
+    bus_->handle(kWaitMs);
+  } else {
+    std::this_thread::sleep_for(std::chrono::milliseconds(kWaitMs));
+  }
   publish_status_when_due();
+  // What a network no longer takes, it may take from a new connection.
+  if (bus_ && send_failed_) {
+    trouble_ = "the network takes no messages";
+    spdlog::warn("no bus, tried again each second: {}", trouble_);
+    bus_.reset();
+    slew_bus_.reset();
+  }
+  send_failed_ = false;
+}
+
+template <class Message>
+void FusionProcess::send(std::string_view channel, const Message& message) {
+  if (bus_ && bus_->publish(std::string(channel), message)) return;
+  ++counters_["messages_not_sent"];
+  send_failed_ = true;
+}
+
+template <class Message>
+void FusionProcess::send_slew(const std::string& channel, const Message& message) {
+  if (!slew_bus_) return send(channel, message);
+  if (slew_bus_->publish(channel, message)) return;
+  ++counters_["messages_not_sent"];
+  send_failed_ = true;
+}
+
+std::string FusionProcess::in_one_line() const {
+  if (!bus_) return "no bus: " + trouble_;
+  const FusionHealth health = fusion_.health();
+  std::string line = std::to_string(health.stations.size()) + " stations";
+  for (const StationHealth& station : health.stations) {
+    if (!station.quarantine.empty()) line += "; " + station.station + " quarantined";
+  }
+  if (!health.last_error.empty()) line += "; last error: " + health.last_error;
+  return line;
 }
 
 void FusionProcess::on_bearing(const std::string& channel, const void* data, int bytes) {
@@ -63,23 +126,34 @@ void FusionProcess::on_status(const std::string& channel, const void* data, int 
 
 void FusionProcess::refuse(MessageRefusal refusal, const std::string& channel) {
   ++counters_[to_string(refusal)];
+  if (refusal == MessageRefusal::kNoPosition) return;  // it will know one day
   last_error_ = channel + ": " + to_string(refusal);
 }
 
 MessageStamp FusionProcess::next_stamp(std::string_view channel) {
-  return {options_.boot_id, ++sequences_[std::string(channel)]};
+  const auto [sequence, is_new] = sequences_.try_emplace(std::string(channel), forgotten_sequence_);
+  const MessageStamp stamp{options_.boot_id, ++sequence->second};
+  if (sequences_.size() > kChannels) forget_sequences();
+  return stamp;
+}
+
+// Stations come and go, a flood brings any number of names. Each channel's sequence must only grow,
+// so that all begin again above the greatest.
+void FusionProcess::forget_sequences() {
+  for (const auto& [channel, sequence] : sequences_) {
+    forgotten_sequence_ = std::max(forgotten_sequence_, sequence);
+  }
+  sequences_.clear();
 }
 
 void FusionProcess::publish(const FusionOutput& output) {
   if (output.target) {
-    bus_.publish(std::string(kTargetChannel),
-                 to_message(*output.target, next_stamp(kTargetChannel)));
+    send(kTargetChannel, to_message(*output.target, next_stamp(kTargetChannel)));
     latencies_s_.push_back(static_cast<double>(clock_utime_us() - output.target->utime_us) * 1e-6);
     if (latencies_s_.size() > kLatencies) latencies_s_.pop_front();
   }
   if (output.target_paper) {
-    bus_.publish(std::string(kPaperTargetChannel),
-                 to_message(*output.target_paper, next_stamp(kPaperTargetChannel)));
+    send(kPaperTargetChannel, to_message(*output.target_paper, next_stamp(kPaperTargetChannel)));
   }
   publish_slews(output.slews);
 }
@@ -99,7 +173,7 @@ void FusionProcess::publish_slews(const std::vector<Slew>& slews) {
       continue;
     }
     const std::string channel = std::string(kSlewChannel) + slew.station;
-    (slew_bus_ ? *slew_bus_ : bus_).publish(channel, to_message(slew, next_stamp(channel)));
+    send_slew(channel, to_message(slew, next_stamp(channel)));
   }
 }
 
@@ -114,8 +188,8 @@ void FusionProcess::publish_status_when_due() {
   FusionHealth health = fusion_.health();
   health.counters.insert(counters_.begin(), counters_.end());
   if (health.last_error.empty()) health.last_error = last_error_;
-  bus_.publish(std::string(kFusionStatusChannel),
-               to_message(health, median_latency_s(), next_stamp(kFusionStatusChannel)));
+  send(kFusionStatusChannel,
+       to_message(health, median_latency_s(), next_stamp(kFusionStatusChannel)));
 }
 
 double FusionProcess::median_latency_s() const {

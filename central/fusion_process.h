@@ -1,5 +1,5 @@
 // The fusion on the bus: bearings and station status in; targets, slews and the fusion's own status
-// out. Counts whatever it refuses.
+// out. Counts whatever it refuses. Without a network it waits for one.
 #pragma once
 
 #include <cstdint>
@@ -22,13 +22,20 @@ struct FusionProcessOptions {
 
 class FusionProcess {
  public:
-  // Throws BusError.
   FusionProcess(const FusionSettings& settings, const FusionProcessOptions& options);
 
   // Handles what has arrived, waiting a little for the first message; publishes what follows.
   void turn();
+  // How it is, in one line for a person.
+  std::string in_one_line() const;
 
  private:
+  void connect();
+  void subscribe();
+  template <class Message>
+  void send(std::string_view channel, const Message& message);
+  template <class Message>
+  void send_slew(const std::string& channel, const Message& message);
   void on_bearing(const std::string& channel, const void* data, int bytes);
   void on_status(const std::string& channel, const void* data, int bytes);
   void refuse(MessageRefusal refusal, const std::string& channel);
@@ -37,13 +44,18 @@ class FusionProcess {
   void publish_status_when_due();
   double median_latency_s() const;
   MessageStamp next_stamp(std::string_view channel);
+  void forget_sequences();
 
   FusionSettings settings_;
   FusionProcessOptions options_;
   Fusion fusion_;
-  LcmBus bus_;
+  std::optional<LcmBus> bus_;       // nothing: no network
   std::optional<LcmBus> slew_bus_;  // nothing: slews go on the same bus
+  double connect_due_s_ = 0.0;
+  std::string trouble_;  // of the network
+  bool send_failed_ = false;
   std::map<std::string, std::int64_t, std::less<>> sequences_;
+  std::int64_t forgotten_sequence_ = 0;  // the greatest of a channel that was forgotten
   std::map<std::string, double> counters_;
   std::string last_error_;
   std::deque<double> latencies_s_;

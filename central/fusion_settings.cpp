@@ -31,6 +31,13 @@ void read_residuals(ConfigTable& table, ResidualConfig& config) {
   config.clip = table.number("clip", config.clip, 1.0, 1e6);
 }
 
+void read_clocks(ConfigTable& table, ClockMonitorConfig& config) {
+  config.error_limit_s = table.number("error_limit_s", config.error_limit_s, 1e-6, 1e4);
+  config.offset_limit_s = table.number("offset_limit_s", config.offset_limit_s, 0.01, 60.0);
+  config.usual_offset_s = table.number("usual_offset_s", config.usual_offset_s, 0.0, 60.0);
+  config.release_s = table.number("release_s", config.release_s, 0.0, 1e4);
+}
+
 void read_slew(ConfigTable& table, SlewConfig& config) {
   config.rate_hz = table.number("rate_hz", config.rate_hz, 0.1, 100.0);
   config.lead_s = table.number("lead_s", config.lead_s, 0.0, 5.0);
@@ -62,6 +69,7 @@ FusionSettings load_fusion_settings(const std::string& path) {
   read_least_squares(root.table("least_squares"), fusion.least_squares);
   read_residuals(root.table("residuals"), fusion.residuals);
   read_slew(root.table("slew"), fusion.slew);
+  read_clocks(root.table("clocks"), fusion.clocks);
   file.finish();
   return settings;
 }

@@ -46,9 +46,15 @@ int run(const Arguments& arguments) {
   spdlog::info("ready: bus {}, slews to {}", settings.lcm_url, options.slew_url);
   ols::ServiceNotifier service_manager;
   service_manager.ready("bus " + settings.lcm_url);
+  double status_due_s = 0.0;
   while (!ols::shutdown_requested()) {
     process.turn();
-    service_manager.alive(ols::clock_monotonic_s());
+    const double now_s = ols::clock_monotonic_s();
+    service_manager.alive(now_s);
+    if (now_s >= status_due_s) {
+      status_due_s = now_s + settings.status_interval_s;
+      service_manager.status(process.in_one_line());
+    }
   }
   service_manager.stopping();
   spdlog::info("stops");

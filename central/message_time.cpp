@@ -9,6 +9,12 @@ namespace {
 constexpr std::int64_t kStepBackUs = 1'000'000;
 constexpr int kStampsForStepBack = 3;
 
+std::int64_t lower_median(std::vector<std::int64_t>& stamps) {
+  const auto middle = stamps.begin() + static_cast<std::ptrdiff_t>((stamps.size() - 1) / 2);
+  std::ranges::nth_element(stamps, middle);
+  return *middle;
+}
+
 }  // namespace
 
 bool MessageTime::hear(const std::string& name, std::int64_t utime_us) {
@@ -31,15 +37,37 @@ bool MessageTime::hear(const std::string& name, std::int64_t utime_us) {
   return stepped_back;
 }
 
+bool MessageTime::delivers(const Station& station) const {
+  return elapsed_s_ - station.heard_s <= silence_s_;
+}
+
 std::int64_t MessageTime::now_us() const {
   std::vector<std::int64_t> stamps;
   for (const auto& [name, station] : stations_) {
-    if (elapsed_s_ - station.heard_s <= silence_s_) stamps.push_back(station.newest_us);
+    if (delivers(station) && station.trusted) stamps.push_back(station.newest_us);
   }
-  if (stamps.empty()) return 0;
-  const auto middle = stamps.begin() + static_cast<std::ptrdiff_t>((stamps.size() - 1) / 2);
-  std::ranges::nth_element(stamps, middle);
-  return *middle;
+  return stamps.empty() ? middle_us() : lower_median(stamps);
+}
+
+std::int64_t MessageTime::middle_us() const {
+  std::vector<std::int64_t> stamps;
+  for (const auto& [name, station] : stations_) {
+    if (delivers(station)) stamps.push_back(station.newest_us);
+  }
+  return stamps.empty() ? 0 : lower_median(stamps);
+}
+
+void MessageTime::trust(const std::string& station, bool trusted) {
+  const auto found = stations_.find(station);
+  if (found != stations_.end()) found->second.trusted = trusted;
+}
+
+std::vector<std::string> MessageTime::delivering() const {
+  std::vector<std::string> names;
+  for (const auto& [name, station] : stations_) {
+    if (delivers(station)) names.push_back(name);
+  }
+  return names;
 }
 
 std::int64_t MessageTime::newest_us(const std::string& station) const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace ols {
 
@@ -19,23 +20,33 @@ class MessageTime {
   bool hear(const std::string& station, std::int64_t utime_us);
   // The median of the newest stamps of the stations that still deliver, the lower of the two middle
   // ones for an even number: a target then is seldom asked for ahead of most stations' bearings.
-  // 0 before the first.
+  // 0 before the first. Stations that are not trusted do not count while there is another one.
   std::int64_t now_us() const;
+  // The same of all of them, trusted or not.
+  std::int64_t middle_us() const;
+  // What has become known of a station's clock.
+  void trust(const std::string& station, bool trusted);
   // The station's newest stamp, 0 before the first.
   std::int64_t newest_us(const std::string& station) const;
   // How far the others' stamps have gone on since the station's last message, 0 before the first.
   double silent_s(const std::string& station) const;
+  // The stations that still deliver.
+  std::vector<std::string> delivering() const;
+  // Time without a clock: the farthest progress of any station's stamps, steps clipped.
+  double elapsed_s() const { return elapsed_s_; }
   void forget(const std::string& station) { stations_.erase(station); }
 
  private:
   struct Station {
     std::int64_t newest_us = 0;
+    bool trusted = true;
     int older = 0;            // stamps in a row far before the newest
     double progress_s = 0.0;  // by its own clock, steps clipped
     double heard_s = 0.0;     // elapsed_s_ at its last message
   };
+  bool delivers(const Station& station) const;
   double silence_s_;
-  double elapsed_s_ = 0.0;  // the farthest progress of any station: time without a clock
+  double elapsed_s_ = 0.0;
   std::map<std::string, Station> stations_;
 };
 

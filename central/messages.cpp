@@ -31,6 +31,12 @@ Eigen::Matrix2d symmetric(const double (&xx_xy_yy)[3]) {
   return matrix;
 }
 
+StationClock clock_from(std::int8_t state) {
+  if (state == ols_msg::bearing_t::CLOCK_SYNCHRONISED) return StationClock::kSynchronised;
+  if (state == ols_msg::bearing_t::CLOCK_UNSYNCHRONISED) return StationClock::kUnsynchronised;
+  return StationClock::kUnknown;
+}
+
 // ee, en, eu, nn, nu, uu at the target's own horizon.
 void enu_triangle(const Eigen::Matrix3d& covariance_ecef, const Eigen::Matrix3d& R_ecef_enu,
                   double (&out)[6]) {
@@ -74,6 +80,8 @@ const char* to_string(MessageRefusal refusal) {
       return "messages_other_station";
     case MessageRefusal::kOutOfRange:
       return "messages_out_of_range";
+    case MessageRefusal::kNoPosition:
+      return "messages_without_position";
   }
   return "unknown";
 }
@@ -89,6 +97,8 @@ std::variant<Sighting, MessageRefusal> sighting_from(const std::string& channel,
   sighting.track_id = message.track_id;
   sighting.belief = message.belief;
   sighting.clock_sd_s = message.clock_error_s;
+  sighting.clock = clock_from(message.clock_state);
+  sighting.calibration_id = message.calibration_id;
   sighting.sight.origin_ecef = Eigen::Vector3d(message.camera_ecef_m);
   sighting.sight.direction = {message.azimuth_rad, message.elevation_rad};
   sighting.sight.covariance_white = symmetric(message.covariance_white_rad2);
@@ -102,6 +112,9 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
   ols_msg::station_status_t message;
   const auto refusal = decode_from_station(kStatusChannel, channel, data, bytes, message);
   if (refusal) return *refusal;
+  if (message.position_source == ols_msg::station_status_t::POSE_NONE) {
+    return MessageRefusal::kNoPosition;
+  }
   constexpr double kHighestM = 100e3;
   const bool in_range = std::abs(message.latitude_deg) <= 90.0 &&
                         std::abs(message.longitude_deg) <= 360.0 &&
@@ -166,6 +179,8 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
     message.rate_hz.push_back(station.rate_hz);
     message.age_s.push_back(station.age_s);
     message.residual.push_back(station.residual);
+    message.clock_offset_s.push_back(station.clock_offset_s);
+    message.quarantine.push_back(station.quarantine);
   }
   message.latency_s = latency_s;
   message.counters = static_cast<std::int16_t>(health.counters.size());

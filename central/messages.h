@@ -23,7 +23,8 @@ inline constexpr std::string_view kPaperTargetChannel = "OLS_TARGET_PAPER";
 inline constexpr std::string_view kFusionStatusChannel = "OLS_FUSION_STATUS";
 
 // Why a datagram is not the message that its channel promises; to_string() names the counter.
-enum class MessageRefusal { kMalformed, kSchema, kOtherStation, kOutOfRange };
+// kNoPosition: of a status whose station does not know it yet, which is no fault.
+enum class MessageRefusal { kMalformed, kSchema, kOtherStation, kOutOfRange, kNoPosition };
 const char* to_string(MessageRefusal refusal);
 
 // Never throws, whatever the bytes. The numbers' values are left to check() of central/fusion.h.

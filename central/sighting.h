@@ -8,13 +8,18 @@
 
 namespace ols {
 
+// How a station's UTC is kept, by its own words.
+enum class StationClock { kUnknown, kSynchronised, kUnsynchronised };
+
 struct Sighting {
   std::string station;
   std::int64_t utime_us = 0;  // UTC since 1970 at mid-exposure, by the station's clock
   SightLine sight;
   double belief = 1.0;
-  double clock_sd_s = 0.0;    // 1-sigma of utime_us, stays
-  std::int64_t track_id = 0;  // one id is one followed object of that station
+  double clock_sd_s = 0.0;  // 1-sigma of utime_us, stays
+  StationClock clock = StationClock::kUnknown;
+  std::int64_t track_id = 0;        // one id is one followed object of that station
+  std::int64_t calibration_id = 0;  // another one: other systematic errors
 };
 
 }  // namespace ols

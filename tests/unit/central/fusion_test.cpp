@@ -8,51 +8,23 @@
 #include <limits>
 #include <random>
 
-#include "scene.h"
+#include "flight.h"
 
 namespace ols {
 namespace {
 
 using Eigen::Vector3d;
+using test::error_m;
+using test::flight;
+using test::kStart;
+using test::path;
 using test::ray_to;
 using test::sighting_of;
 using test::site;
 using test::square;
+using test::targets_of;
 
-constexpr std::int64_t kStart = 1'700'000'000'000'000;
 constexpr std::int64_t kHour = 3'600'000'000;
-
-Vector3d path(double t_s) { return {-100.0 + 20.0 * t_s, 150.0 - 5.0 * t_s, 120.0 + 2.0 * t_s}; }
-
-// Four stations at 15 frames a second, their frames evenly staggered: in order of time.
-std::vector<Sighting> flight(double seconds, double sigma_rad = 1e-5, double noise = 0.0) {
-  std::mt19937_64 random(7);
-  std::normal_distribution<double> normal;
-  std::vector<Sighting> sightings;
-  for (int i = 0; i < static_cast<int>(60.0 * seconds); ++i) {
-    const double t_s = i / 60.0;
-    const auto station = static_cast<std::size_t>(i % 4);
-    Ray ray = ray_to(std::string(1, static_cast<char>('a' + i % 4)), square()[station], path(t_s),
-                     sigma_rad);
-    ray = test::turned(ray, noise * normal(random), noise * normal(random));
-    sightings.push_back(sighting_of(ray, kStart + std::llround(t_s * 1e6)));
-  }
-  return sightings;
-}
-
-std::vector<FusedTarget> targets_of(Fusion& fusion, const std::vector<Sighting>& sightings) {
-  std::vector<FusedTarget> targets;
-  for (const Sighting& sighting : sightings) {
-    const FusionOutput output = fusion.add(sighting);
-    if (output.target) targets.push_back(*output.target);
-  }
-  return targets;
-}
-
-double error_m(const FusedTarget& target) {
-  const double t_s = static_cast<double>(target.utime_us - kStart) * 1e-6;
-  return (target.estimate.position_ecef - site().to_ecef(path(t_s))).norm();
-}
 
 TEST(Fusion, FollowsAMovingTargetWithStaggeredStations) {
   Fusion fusion{FusionConfig{}};
@@ -164,7 +136,12 @@ TEST(Fusion, OneWrongClockHurtsOnlyItsOwner) {
       EXPECT_GT(good, 40) << wrong << " " << offset;
       const auto health = fusion.health();
       const char* counter = offset > 0 ? "refused_future" : "refused_stale";
-      EXPECT_GT(health.counters.at(counter), 55.0) << wrong << " " << offset;
+      const double at_first = health.counters.at(counter);
+      EXPECT_GT(at_first, 10.0) << wrong << " " << offset;
+      EXPECT_GT(at_first + health.counters.at("refused_quarantine"), 55.0) << wrong;
+      for (const StationHealth& station : health.stations) {
+        EXPECT_EQ(station.quarantine.empty(), station.station != wrong) << station.quarantine;
+      }
       EXPECT_NE(health.last_error.find("station " + wrong), std::string::npos);
       for (const FusedTarget& target : targets) {
         // Before the others are heard, the wrong clock alone is the time: no position then.

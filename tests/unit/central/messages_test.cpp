@@ -30,6 +30,8 @@ ols_msg::bearing_t bearing() {
   message.schema_version = ols_msg::bearing_t::SCHEMA_VERSION;
   message.station = "north";
   message.track_id = 3;
+  message.calibration_id = 12;
+  message.clock_state = ols_msg::bearing_t::CLOCK_UNSYNCHRONISED;
   message.belief = 0.75;
   const Eigen::Vector3d camera = ecef_from_geodetic({0.85, 0.29, 260.0});
   for (int i = 0; i < 3; ++i) message.camera_ecef_m[i] = camera(i);
@@ -54,6 +56,7 @@ ols_msg::station_status_t status() {
   message.counters = 2;
   message.counter_name = {"frames_captured", "frames_lost"};
   message.counter_value = {10.0, 1.0};
+  message.position_source = ols_msg::station_status_t::POSE_SURVEYED;
   return message;
 }
 
@@ -80,6 +83,8 @@ TEST(Messages, BearingBecomesASighting) {
   EXPECT_EQ(sighting.track_id, 3);
   EXPECT_EQ(sighting.belief, 0.75);
   EXPECT_EQ(sighting.clock_sd_s, 1e-3);
+  EXPECT_EQ(sighting.clock, StationClock::kUnsynchronised);
+  EXPECT_EQ(sighting.calibration_id, 12);
   EXPECT_EQ(sighting.sight.direction.azimuth_rad, 1.25);
   EXPECT_EQ(sighting.sight.direction.elevation_rad, 0.5);
   EXPECT_EQ(sighting.sight.covariance_white(0, 0), 4e-8);
@@ -164,6 +169,8 @@ TEST(Messages, OtherSchemaStationOrPlaceIsRefused) {
   auto nowhere = status();
   nowhere.latitude_deg = std::nan("");
   EXPECT_TRUE(refused(decode_status(encoded(nowhere)), MessageRefusal::kOutOfRange));
+  nowhere.position_source = ols_msg::station_status_t::POSE_NONE;
+  EXPECT_TRUE(refused(decode_status(encoded(nowhere)), MessageRefusal::kNoPosition));
 }
 
 TEST(Messages, TargetCarriesGeodeticPositionAndEnuCovariance) {
@@ -202,6 +209,17 @@ TEST(Messages, TargetCarriesGeodeticPositionAndEnuCovariance) {
   EXPECT_EQ(without.solution, std::int8_t{ols_msg::target_t::SOLUTION_PARALLEL_RAYS});
   EXPECT_TRUE(std::isnan(without.latitude_deg));
   EXPECT_TRUE(std::isnan(without.position_ecef_m[0]));
+}
+
+TEST(Messages, TheFusionsStatusNamesWhoIsQuarantined) {
+  FusionHealth health;
+  health.stations = {{"a", 10, 15.0, 0.05, 1.0, 0.0, ""},
+                     {"b", 20, 15.0, -2.0, 1.0, 2.0, "its stamps are ahead"}};
+  const auto message = to_message(health, 0.1, MessageStamp{1, 2});
+  ASSERT_EQ(message.stations, 2);
+  EXPECT_EQ(message.quarantine, (std::vector<std::string>{"", "its stamps are ahead"}));
+  EXPECT_EQ(message.clock_offset_s, (std::vector<double>{0.0, 2.0}));
+  EXPECT_EQ(encoded(message).size(), static_cast<std::size_t>(message.getEncodedSize()));
 }
 
 TEST(Messages, SolutionsHaveTheNumbersOfTheMessage) {

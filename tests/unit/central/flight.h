@@ -1,0 +1,50 @@
+// A target that flies past four stations, as their bearings.
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "central/fusion.h"
+#include "scene.h"
+
+namespace ols::test {
+
+inline constexpr std::int64_t kStart = 1'700'000'000'000'000;
+
+inline Eigen::Vector3d path(double t_s) {
+  return {-100.0 + 20.0 * t_s, 150.0 - 5.0 * t_s, 120.0 + 2.0 * t_s};
+}
+
+// Four stations at 15 frames a second, their frames evenly staggered: in order of time.
+inline std::vector<Sighting> flight(double seconds, double sigma_rad = 1e-5, double noise = 0.0) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  std::vector<Sighting> sightings;
+  for (int i = 0; i < static_cast<int>(60.0 * seconds); ++i) {
+    const double t_s = i / 60.0;
+    const auto station = static_cast<std::size_t>(i % 4);
+    Ray ray = ray_to(std::string(1, static_cast<char>('a' + i % 4)), square()[station], path(t_s),
+                     sigma_rad);
+    ray = turned(ray, noise * normal(random), noise * normal(random));
+    sightings.push_back(sighting_of(ray, kStart + std::llround(t_s * 1e6)));
+  }
+  return sightings;
+}
+
+inline std::vector<FusedTarget> targets_of(Fusion& fusion, const std::vector<Sighting>& sightings) {
+  std::vector<FusedTarget> targets;
+  for (const Sighting& sighting : sightings) {
+    const FusionOutput output = fusion.add(sighting);
+    if (output.target) targets.push_back(*output.target);
+  }
+  return targets;
+}
+
+inline double error_m(const FusedTarget& target) {
+  const double t_s = static_cast<double>(target.utime_us - kStart) * 1e-6;
+  return (target.estimate.position_ecef - site().to_ecef(path(t_s))).norm();
+}
+
+}  // namespace ols::test
