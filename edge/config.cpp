@@ -130,7 +130,7 @@ void read_watchdog(ConfigTable& table, StationSettings& settings) {
   if (!settings.recorder.folder.empty()) host.disk_folder = settings.recorder.folder;
   host.disk_folder = table.text("disk_folder", host.disk_folder);
   host.disk_alarm_bytes = table.number("disk_alarm_bytes", host.disk_alarm_bytes, 0.0, 1e15);
-  host.cpu_alarm_C = table.number("cpu_alarm_C", host.cpu_alarm_C, 0.0, 200.0);
+  host.cpu_alarm_degC = table.number("cpu_alarm_degC", host.cpu_alarm_degC, 0.0, 200.0);
   host.slow_turn_s = table.number("slow_turn_s", host.slow_turn_s, 0.01, 60.0);
 }
 

@@ -31,26 +31,6 @@ DeviceReport report_of(const AravisCamera& camera) {
   return report;
 }
 
-DeviceReport report_of(const PtuThread& thread) {
-  const PtuStatus ptu = thread.status();
-  DeviceReport report;
-  report.name = "ptu";
-  if (ptu.port_open) {
-    report.state = ptu.state == PtuState::kReady      ? DeviceState::kOk
-                   : ptu.state == PtuState::kStarting ? DeviceState::kStarting
-                                                      : DeviceState::kFault;
-  }
-  report.text = ptu.firmware;
-  report.last_error = ptu.last_error;
-  report.errors = ptu.port_failures + ptu.counters.errors + ptu.counters.timeouts;
-  report.counters = {
-      {"ptu_requests", ptu.counters.requests},     {"ptu_replies", ptu.counters.replies},
-      {"ptu_timeouts", ptu.counters.timeouts},     {"ptu_errors", ptu.counters.errors},
-      {"ptu_garbled", ptu.counters.garbled},       {"ptu_restarts", ptu.counters.restarts},
-      {"ptu_limit_hits", ptu.counters.limit_hits}, {"ptu_port_failures", ptu.port_failures}};
-  return report;
-}
-
 }  // namespace
 
 DeviceSet::DeviceSet(const StationSettings& settings)
@@ -66,12 +46,13 @@ DeviceSet::DeviceSet(const StationSettings& settings)
 // In the GPIO's thread: the unit is halted at once, the station learns of it in its next turn.
 void DeviceSet::on_stop(bool pressed) {
   stop_.set(pressed);
-  if (pressed) ptu_.set_goal(std::nullopt);
+  if (pressed) ptu_.emergency_halt();
 }
 
 // A press after the release is either seen here or halts the unit after it was released.
 void DeviceSet::rearm() {
-  if (stop_.pressed()) ptu_.set_goal(std::nullopt);
+  ptu_.clear_emergency();
+  if (stop_.pressed()) ptu_.emergency_halt();
 }
 
 void DeviceSet::feed(PoseKeeper& keeper) {
@@ -84,7 +65,7 @@ void DeviceSet::feed(PoseKeeper& keeper) {
 }
 
 std::vector<DeviceReport> DeviceSet::reports() const {
-  std::vector<DeviceReport> reports{report_of(camera_), report_of(ptu_)};
+  std::vector<DeviceReport> reports{report_of(camera_), ptu_.report()};
   if (inclinometer_) reports.push_back(inclinometer_->report());
   if (gnss_) reports.push_back(gnss_->report());
   if (gpio_) reports.push_back(gpio_->report());

@@ -14,7 +14,7 @@ namespace ols {
 namespace {
 
 // The hottest zone, whatever it is called: kernels name them as they like.
-std::optional<double> hottest_C(const std::string& folder) {
+std::optional<double> hottest_degC(const std::string& folder) {
   std::optional<double> hottest;
   std::error_code none;
   for (const auto& zone : std::filesystem::directory_iterator(folder, none)) {
@@ -48,10 +48,10 @@ void HostWatch::note_turn(double seconds) {
 
 HostReport HostWatch::look() {
   HostReport report;
-  if (const auto cpu_C = hottest_C(config_.thermal_folder)) {
-    report.readings["cpu_temperature_C"] = *cpu_C;
-    if (*cpu_C > config_.cpu_alarm_C) {
-      report.alarms.push_back(in_words("computer: processor at %.0f C", *cpu_C));
+  if (const auto cpu_degC = hottest_degC(config_.thermal_folder)) {
+    report.readings["cpu_degC"] = *cpu_degC;
+    if (*cpu_degC > config_.cpu_alarm_degC) {
+      report.alarms.push_back(in_words("computer: processor at %.0f C", *cpu_degC));
     }
   }
   if (const auto bytes = free_bytes(config_.disk_folder)) {

@@ -12,7 +12,7 @@ namespace ols {
 struct HostConfig {
   std::string thermal_folder = "/sys/class/thermal";
   std::string disk_folder = "/";  // of the file system whose room is watched
-  double cpu_alarm_C = 85.0;
+  double cpu_alarm_degC = 85.0;
   double disk_alarm_bytes = 5e8;
   double slow_turn_s = 0.5;  // a turn of the control loop that takes longer is counted
 };

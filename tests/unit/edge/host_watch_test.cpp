@@ -20,7 +20,7 @@ TEST(HostWatch, ReadsTheHottestZone) {
   HostConfig config;
   config.thermal_folder = folder;
   const HostReport report = HostWatch(config).look();
-  EXPECT_EQ(report.readings.at("cpu_temperature_C"), 90.5);
+  EXPECT_EQ(report.readings.at("cpu_degC"), 90.5);
   ASSERT_EQ(report.alarms.size(), 1U);
   EXPECT_NE(report.alarms[0].find("processor"), std::string::npos);
   std::filesystem::remove_all(folder);
@@ -30,7 +30,7 @@ TEST(HostWatch, AComputerWithoutThermometerAndDiskSaysNothing) {
   HostConfig config;
   config.thermal_folder = config.disk_folder = "/nonexistent";
   const HostReport report = HostWatch(config).look();
-  EXPECT_FALSE(report.readings.contains("cpu_temperature_C"));
+  EXPECT_FALSE(report.readings.contains("cpu_degC"));
   EXPECT_FALSE(report.readings.contains("disk_free_bytes"));
   EXPECT_TRUE(report.alarms.empty());
 }
