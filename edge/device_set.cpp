@@ -1,38 +1,6 @@
 #include "edge/device_set.h"
 
 namespace ols {
-namespace {
-
-DeviceReport report_of(const AravisCamera& camera) {
-  DeviceReport report;
-  report.name = "camera";
-  switch (camera.state()) {
-    case CameraState::kAbsent:
-      report.state = DeviceState::kAbsent;
-      break;
-    case CameraState::kStarting:
-      report.state = DeviceState::kStarting;
-      break;
-    case CameraState::kStreaming:
-      report.state = DeviceState::kOk;
-      break;
-    case CameraState::kFault:
-      report.state = DeviceState::kFault;
-      break;
-  }
-  report.last_error = camera.last_error();
-  const CameraCounters counters = camera.counters();
-  report.counters = {{"frames_captured", counters.frames_captured},
-                     {"frames_lost", counters.frames_lost},
-                     {"frames_incomplete", counters.frames_incomplete},
-                     {"frames_late", counters.frames_late},
-                     {"frames_refused", counters.frames_refused},
-                     {"camera_reconnects", counters.reconnects}};
-  return report;
-}
-
-}  // namespace
-
 DeviceSet::DeviceSet(const StationSettings& settings)
     : camera_(settings.camera), ptu_(settings.ptu) {
   if (!settings.recorder.folder.empty()) recorder_.emplace(settings.recorder);
@@ -65,7 +33,7 @@ void DeviceSet::feed(PoseKeeper& keeper) {
 }
 
 std::vector<DeviceReport> DeviceSet::reports() const {
-  std::vector<DeviceReport> reports{report_of(camera_), ptu_.report()};
+  std::vector<DeviceReport> reports{camera_.report(), ptu_.report()};
   if (inclinometer_) reports.push_back(inclinometer_->report());
   if (gnss_) reports.push_back(gnss_->report());
   if (gpio_) reports.push_back(gpio_->report());

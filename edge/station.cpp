@@ -303,6 +303,11 @@ std::optional<ServoGoal> Station::goal(double now_s) const {
   }
 }
 
+std::optional<cv::Rect2d> Station::target_box() const {
+  if (!last_output_ || !follows_target()) return std::nullopt;
+  return last_output_->box;
+}
+
 StationSnapshot Station::snapshot() const {
   StationSnapshot snapshot;
   snapshot.state = state_;
@@ -315,8 +320,8 @@ StationSnapshot Station::snapshot() const {
     const auto& camera = config_.geometry.camera;
     snapshot.belief = last_output_->belief;
     snapshot.target_offset_px = last_output_->pixel - Eigen::Vector2d(camera.cx_px, camera.cy_px);
-    snapshot.box = last_output_->box;
   }
+  snapshot.box = target_box();
   snapshot.frame_latency_s = frame_latency_s_;
   snapshot.pose = pose_;
   snapshot.counters = counters_;

@@ -71,6 +71,7 @@ class Station {
   std::optional<ServoGoal> goal(double now_s) const;
 
   StationState state() const { return state_; }
+  std::optional<cv::Rect2d> target_box() const;  // in the newest frame
   StationSnapshot snapshot() const;
 
  private:

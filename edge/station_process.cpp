@@ -120,6 +120,7 @@ void StationProcess::take_frame() {
   }
   take_angles();  // first: the frame's homography is predicted from them
   station_.on_frame(*frame, clock_monotonic_s());
+  devices_.camera().set_region(station_.target_box());
   newest_ = std::move(frame);
 }
 
@@ -128,11 +129,14 @@ void StationProcess::take_angles() {
 }
 
 void StationProcess::trigger_camera(double now_s) {
-  if (settings_.gpio.trigger_line < 0 || now_s < trigger_due_s_) return;
+  const bool by_line = settings_.gpio.trigger_line >= 0;
+  const bool by_software = settings_.camera.trigger == TriggerMode::kSoftware;
+  if (now_s < trigger_due_s_ || (!by_line && !by_software)) return;
   const double period_s = 1.0 / settings_.camera.frame_rate_hz;
   // In step with the rate, but without a burst after a pause.
   trigger_due_s_ = std::max(trigger_due_s_ + period_s, now_s);
-  devices_.gpio()->trigger();
+  if (by_software) devices_.camera().trigger();
+  if (by_line) devices_.gpio()->trigger();
 }
 
 void StationProcess::send_reports(const ClockPair& now) {
@@ -144,7 +148,7 @@ void StationProcess::send_reports(const ClockPair& now) {
   }
   if (settings_.preview_interval_s > 0.0 && now.monotonic_s >= preview_due_s_ && newest_) {
     preview_due_s_ = now.monotonic_s + settings_.preview_interval_s;
-    bus_.send_preview(*newest_, station_.snapshot().box);
+    bus_.send_preview(*newest_, station_.target_box());
   }
 }
 
