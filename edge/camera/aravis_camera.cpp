@@ -191,6 +191,8 @@ void AravisCamera::Impl::stream(AravisDevice& device) {
     const bool time = received || !is_timed(config_.trigger);
     if (time && clock_monotonic_s() - looked_s_ >= kLookEvery_s) look(device);
   }
+  if (is_timed(config_.trigger) && silence_s_ > kLongestTurn_s + 2.0 / config_.frame_rate_hz)
+    device.give_up();  // at the end, too, a farewell that nobody hears takes seconds
 }
 
 // Throws CameraAbsent when the camera is gone.

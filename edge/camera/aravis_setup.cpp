@@ -130,7 +130,7 @@ void set_picture(ArvCamera* camera, const CameraConfig& config) {
   const ArvPixelFormat format = arv_camera_get_pixel_format(camera, error.out());
   error.check<CameraAbsent>("camera does not tell its pixel format");
   if (format != wanted)
-    throw CameraUnfit("wants pixel format " + pixel_format_name(format) + " instead of " +
+    throw CameraUnfit("camera wants pixel format " + pixel_format_name(format) + " instead of " +
                       config.pixel_format);
   const std::string size = std::to_string(config.width_px) + "x" + std::to_string(config.height_px);
   arv_camera_set_region(camera, 0, 0, config.width_px, config.height_px, error.out());
@@ -139,7 +139,7 @@ void set_picture(ArvCamera* camera, const CameraConfig& config) {
   arv_camera_get_region(camera, &x, &y, &width, &height, error.out());
   error.check<CameraAbsent>("camera does not tell its size");
   if (width != config.width_px || height != config.height_px)
-    throw CameraUnfit("wants size " + std::to_string(width) + "x" + std::to_string(height) +
+    throw CameraUnfit("camera wants size " + std::to_string(width) + "x" + std::to_string(height) +
                       " instead of " + size);
   arv_camera_set_acquisition_mode(camera, ARV_ACQUISITION_MODE_CONTINUOUS, error.out());
   error.check<CameraUnfit>("camera refuses continuous acquisition");

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 
 namespace ols {
 namespace {
@@ -51,6 +52,12 @@ const char* to_string(PtpState state) {
   return "unknown";
 }
 
+// "camera refuses ..." is "camera: refuses ..." as an alarm.
+std::string without_subject(const std::string& what) {
+  constexpr std::string_view kSubject = "camera ";
+  return what.starts_with(kSubject) ? what.substr(kSubject.size()) : what;
+}
+
 // How long there has been no frame, when that is too long.
 std::optional<double> silence_s(const CameraConfig& config, const CameraFacts& facts,
                                 double now_s) {
@@ -64,7 +71,7 @@ std::optional<double> silence_s(const CameraConfig& config, const CameraFacts& f
 void add_alarms(const CameraConfig& config, const CameraFacts& facts, double now_s,
                 std::vector<std::string>& alarms) {
   const auto silent_s = silence_s(config, facts, now_s);
-  if (!facts.fault.empty()) alarms.push_back("camera: " + facts.fault);
+  if (!facts.fault.empty()) alarms.push_back("camera: " + without_subject(facts.fault));
   if (silent_s) {
     alarms.push_back(words("camera: no frames for %.1f s", *silent_s) +
                      (is_timed(config.trigger) || facts.state == CameraState::kAbsent

@@ -122,6 +122,8 @@ void LiveSite::draw(Device& device, const Exposure& exposure, cv::Mat& gray) {
   truth.mid = device.ptu->angles_at(mid_monotonic_s);
   truth.end = device.ptu->angles_at(mid_monotonic_s + half_s);
   truth.frame = exposure.frame;
+  truth.light =
+      exposure.exposure_s / world_.scenario().exposure_s * std::pow(10.0, exposure.gain_dB / 20.0);
   const ViewTruth view = device.renderer->draw(truth, gray);
   const std::int64_t mid_utc_ns = clock_utc_ns() - (clock_monotonic_ns() - mid_monotonic_ns);
   publish_view(device, truth, view, mid_utc_ns / 1000);

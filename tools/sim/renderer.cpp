@@ -146,7 +146,7 @@ ViewTruth Renderer::draw(const ExposureTruth& exposure, cv::Mat& gray) {
   for (std::size_t target = 0; target < world_.scenario().targets.size(); ++target) {
     if (const auto view = drone_view(world_, truth, target, exposure)) draw_drone(*view, gray);
   }
-  develop(exposure.frame, gray);
+  develop(exposure, gray);
   return view_truth(world_, station_, exposure);
 }
 
@@ -163,13 +163,15 @@ void Renderer::smear(const ExposureTruth& exposure, cv::Mat& gray) const {
   cv::sepFilter2D(gray, gray, -1, box_kernel(along_x), box_kernel(along_y));
 }
 
-void Renderer::develop(std::uint64_t frame, cv::Mat& gray) const {
+void Renderer::develop(const ExposureTruth& exposure, cv::Mat& gray) const {
+  if (std::abs(exposure.light - 1.0) > 1e-6)
+    gray.convertTo(gray, -1, exposure.light);  // it saturates
   const std::uint64_t seed = derived_seed(world_.seed(), kNoiseTag + station_);
   const std::size_t places = noise_.size() - column_gain_.size();
   for (int y = 0; y < gray.rows; ++y) {
     const auto row = static_cast<std::size_t>(y);
     develop_row(column_gain_, row_falloff_[row],
-                noise_.data() + derived_seed(seed + frame, row) % places, gray.ptr(y));
+                noise_.data() + derived_seed(seed + exposure.frame, row) % places, gray.ptr(y));
   }
 }
 

@@ -18,6 +18,7 @@ struct ExposureTruth {
   double exposure_s = 0.0;
   PanTilt start, mid, end;  // PTU angles [rad] at those instants, continuous
   std::uint64_t frame = 0;
+  double light = 1.0;  // of exposure and gain, against the scenario's exposure without gain
 };
 
 struct ViewTruth {
@@ -45,7 +46,7 @@ class Renderer {
 
  private:
   void smear(const ExposureTruth& exposure, cv::Mat& gray) const;
-  void develop(std::uint64_t frame, cv::Mat& gray) const;
+  void develop(const ExposureTruth& exposure, cv::Mat& gray) const;
 
   const World& world_;
   std::size_t station_;

@@ -93,7 +93,7 @@ TEST(CameraReport, WhatHoldsIsAnAlarm) {
                           "camera: PTP differs from the camera's latched clock by -1.0000 s"));
   CameraFacts unfit = streaming();
   unfit.state = CameraState::kFault;
-  unfit.fault = "wants pixel format BayerRG8 instead of Mono8";
+  unfit.fault = "camera wants pixel format BayerRG8 instead of Mono8";
   EXPECT_THAT(make_camera_report(CameraConfig{}, unfit, 100.0).alarms,
               ElementsAre("camera: wants pixel format BayerRG8 instead of Mono8"));
 }

@@ -138,6 +138,20 @@ TEST_F(RendererTest, NoiseHasTheStatedDeviation) {
   EXPECT_NEAR(deviation[0], 3.0, 0.1);
 }
 
+TEST_F(RendererTest, LightMakesThePictureBrighterUntilItSaturates) {
+  const World world(plain_scenario(), 9);
+  Renderer renderer(world, 0, slopes_);
+  ExposureTruth e = aimed(world, 0, 2.0, {300, 200});
+  cv::Mat normal, half, glaring;
+  renderer.draw(e, normal);
+  e.light = 0.5;
+  renderer.draw(e, half);
+  e.light = 50.0;
+  renderer.draw(e, glaring);
+  EXPECT_NEAR(cv::mean(half)[0] / cv::mean(normal)[0], 0.5, 0.01);
+  EXPECT_GT(cv::mean(glaring)[0], 240.0);
+}
+
 TEST_F(RendererTest, VignettingDarkensTheCorners) {
   Scenario s = plain_scenario();
   s.landscape.cloudiness = 0.0;
