@@ -14,6 +14,8 @@
 #include "tools/sim/gnss_line.h"
 #include "tools/sim/gpio_socket.h"
 #include "tools/sim/inclinometer_line.h"
+#include "tools/sim/ptu_line.h"
+#include "tools/sim/ptu_tap.h"
 
 namespace ols::sim {
 namespace {
@@ -27,7 +29,7 @@ constexpr std::int64_t kMostPtuSamples = 400;  // a line remembers two seconds
 struct LiveSite::Device {
   std::size_t station = 0;
   std::unique_ptr<Renderer> renderer;
-  std::unique_ptr<PtuLine> ptu;
+  std::unique_ptr<PtuDevice> ptu;
   std::unique_ptr<CameraServer> camera;
   std::unique_ptr<GpioServer> gpio;
   std::unique_ptr<InclinometerLine> inclinometer;  // nothing: the scenario has none
@@ -48,9 +50,7 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
     auto device = std::make_unique<Device>();
     device->station = i;
     device->renderer = std::move(renderers[i]);
-    device->ptu =
-        std::make_unique<PtuLine>(world.ptu_unit_config(), derived_seed(world.seed(), 4000 + i),
-                                  line_folder + "/" + s.stations[i].ptu_line);
+    device->ptu = connect_ptu(i, line_folder + "/" + s.stations[i].ptu_line);
     GpioServerConfig gpio;
     gpio.path = line_folder + "/" + s.stations[i].id + ".gpio";
     device->gpio = std::make_unique<GpioServer>(gpio);
@@ -75,6 +75,17 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
 }
 
 LiveSite::~LiveSite() = default;
+
+// The simulated unit, or a real one in its place.
+std::unique_ptr<PtuDevice> LiveSite::connect_ptu(std::size_t station, const std::string& link) {
+  const std::string& real_device = world_.scenario().stations[station].ptu_device;
+  const std::uint64_t seed = derived_seed(world_.seed(), 4000 + station);
+  if (real_device.empty()) return std::make_unique<PtuLine>(world_.ptu_unit_config(), seed, link);
+  PtuTapConfig tap;
+  tap.device = real_device;
+  tap.baud = world_.scenario().ptu.baud;
+  return std::make_unique<PtuTap>(tap, seed, link);
+}
 
 void LiveSite::connect_sensors(Device& device, const std::string& link_stem) {
   const Scenario& s = world_.scenario();
@@ -118,6 +129,7 @@ void LiveSite::draw(Device& device, const Exposure& exposure, cv::Mat& gray) {
   ExposureTruth truth;
   truth.mid_s = scenario_s(mid_monotonic_ns) - offset_s;
   truth.exposure_s = exposure.exposure_s;
+  device.ptu->await(mid_monotonic_s + half_s);
   truth.start = device.ptu->angles_at(mid_monotonic_s - half_s);
   truth.mid = device.ptu->angles_at(mid_monotonic_s);
   truth.end = device.ptu->angles_at(mid_monotonic_s + half_s);

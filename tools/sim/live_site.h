@@ -13,7 +13,7 @@
 #include "base/lcm_bus.h"
 #include "tools/sim/camera_server.h"
 #include "tools/sim/fault_plan.h"
-#include "tools/sim/ptu_line.h"
+#include "tools/sim/ptu_device.h"
 #include "tools/sim/renderer.h"
 #include "tools/sim/world.h"
 
@@ -39,6 +39,7 @@ class LiveSite {
  private:
   struct Device;
 
+  std::unique_ptr<PtuDevice> connect_ptu(std::size_t station, const std::string& link);
   void connect_sensors(Device& device, const std::string& link_stem);
   void receive_fault(const void* data, int bytes);
   void publish_target(std::size_t index, double now_s);

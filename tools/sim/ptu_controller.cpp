@@ -134,7 +134,7 @@ std::optional<PtuAnswer> PtuController::blocking(std::string_view command, doubl
   // On a D46 these choose what is homed at power-up.
   if (command == "RP") return PtuAnswer{"*", home(true, false, time_s)};
   if (command == "RT") return PtuAnswer{"*", home(false, true, time_s)};
-  if (command == "RS") return PtuAnswer{"*", home(true, true, time_s)};
+  if (command == "RS") return PtuAnswer{"*", home_together(time_s)};
   return std::nullopt;
 }
 

@@ -127,6 +127,7 @@ class PtuController {
 
   // ptu_homing.cpp
   double home(bool pan, bool tilt, double time_s);
+  double home_together(double time_s);
   double home_axis(int axis, double time_s);
   void take_step_mode(int axis);
   std::optional<std::string> scan(std::string_view command, double time_s);

@@ -23,6 +23,14 @@ double PtuController::home(bool pan, bool tilt, double time_s) {
   return end_s;
 }
 
+double PtuController::home_together(double time_s) {
+  home_axis(1, time_s);
+  home_axis(0, time_s);
+  std::stable_sort(tokens_.begin(), tokens_.end(),
+                   [](const PtuToken& a, const PtuToken& b) { return a.time_s < b.time_s; });
+  return std::max(axes_[0].motion.rest_s(), axes_[1].motion.rest_s());
+}
+
 // To both ends, then towards zero. Returns when the second end is reached.
 double PtuController::home_axis(int axis, double time_s) {
   Axis& a = axes_[at(axis)];

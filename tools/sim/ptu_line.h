@@ -6,29 +6,27 @@
 #include <memory>
 #include <string>
 
-#include "tools/sim/faults.h"
+#include "tools/sim/ptu_device.h"
 #include "tools/sim/ptu_unit.h"
 
 namespace ols::sim {
 
-class PtuLine {
+class PtuLine : public PtuDevice {
  public:
   // The unit powers up now. `link`: a symbolic link to the device is made there (an old link is
   // replaced) and removed at the end; empty: none. Throws std::system_error.
   PtuLine(const PtuUnitConfig& config, std::uint64_t seed, const std::string& link = "");
-  ~PtuLine();
+  ~PtuLine() override;
   PtuLine(const PtuLine&) = delete;
   PtuLine& operator=(const PtuLine&) = delete;
 
   // The pty's slave, for example /dev/pts/3; empty while the line is gone.
   std::string device() const;
 
-  // From any thread.
-  void set_faults(const PtuFaults& faults);
+  void set_faults(const PtuFaults& faults) override;
 
-  // True shaft angles at an instant of CLOCK_MONOTONIC [s], from two seconds ago to now. From any
-  // thread.
-  PanTilt angles_at(double monotonic_s);
+  // The true ones.
+  PanTilt angles_at(double monotonic_s) override;
 
  private:
   struct Impl;

@@ -142,6 +142,7 @@ StationScenario read_station(ConfigTable& table) {
   read_chain(table, s.chain);
   s.camera_address = table.required_text("camera_address");
   s.ptu_line = table.text("ptu_line", s.id + ".ptu");
+  s.ptu_device = table.text("ptu_device", "");
   return s;
 }
 

@@ -69,7 +69,8 @@ struct StationScenario {
       Eigen::Vector3d::Zero();  // [m] of GROUND in the site's frame, as surveyed
   ChainParameters chain;        // as calibrated
   std::string camera_address;
-  std::string ptu_line;  // file name of the pty's link
+  std::string ptu_line;    // file name of the pty's link
+  std::string ptu_device;  // of a real unit that takes the simulated one's place; empty: none
 };
 
 struct TargetScenario {

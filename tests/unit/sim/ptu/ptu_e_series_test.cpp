@@ -68,7 +68,9 @@ TEST(PtuE46, HomesAnAxisAtOnce) {
   EXPECT_EQ(master.ask("RP ", 60.0), "!P!P*\r\n");
   EXPECT_EQ(master.ask("PP TP "), "* 0\r\n* 800\r\n");
   EXPECT_EQ(master.ask("RT ", 60.0), "!T!T*\r\n");
-  EXPECT_EQ(master.ask("RS ", 60.0), "!T!T!P!P*\r\n");
+  EXPECT_EQ(master.ask("RS ", 19.0), "!T!T!P!P*\r\n");  // both at once: sooner than R
+  EXPECT_EQ(master.ask("R ", 19.0).find("*"), std::string::npos);
+  EXPECT_EQ(master.wait(10.0), "*\r\n");
   EXPECT_EQ(master.ask("RQ RE RQ RD RQ "), "* D\r\n*\r\n* E\r\n*\r\n* D\r\n");
   EXPECT_EQ(master.ask("RPS9000 RPS RTS0 "), "*\r\n* 9000\r\n! Illegal argument\r\n");
 }

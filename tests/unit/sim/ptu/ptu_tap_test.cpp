@@ -1,0 +1,243 @@
+// A real unit is stood in for by a simulated one behind a line of its own; the product's own driver
+// is the master.
+#include "tools/sim/ptu_tap.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <thread>
+
+#include "base/clocks.h"
+#include "edge/ptu/driver.h"
+#include "edge/ptu/serial_port.h"
+#include "tests/unit/sim/ptu/ptu_master.h"
+#include "tools/sim/ptu_line.h"
+#include "tools/sim/ptu_tap_watch.h"
+
+namespace ols::sim {
+namespace {
+
+constexpr double kStep_rad = 11.5714 / 3600.0 * kPi / 180.0;
+constexpr double kByte_s = 10.0 / 9600.0;
+
+TEST(PtuTapWatch, KnowsWhichReplyIsWhich) {
+  PtuTapWatch watch(kStep_rad);
+  watch.master_said("PP TP ", 1.0, 0.0);
+  watch.unit_said("* 100\r\n* -200\r\n", 1.002, 0.0);
+  watch.master_said("pp tp ps500 ", 1.1, 0.0);
+  watch.unit_said("!P* 300\r\n* -200\r\n*\r\n", 1.102, 0.0);
+  EXPECT_NEAR(watch.at(1.051).pan_rad, 200 * kStep_rad, 2 * kStep_rad);
+  EXPECT_NEAR(watch.at(1.051).tilt_rad, -200 * kStep_rad, 1e-9);
+  EXPECT_NEAR(watch.at(1.151).pan_rad, 400 * kStep_rad, 4 * kStep_rad);  // going on as it moved
+  EXPECT_NEAR(watch.at(9.0).pan_rad, 300 * kStep_rad, 1e-9);             // not for ever
+  EXPECT_EQ(watch.counters().readings, 4U);
+}
+
+TEST(PtuTapWatch, TakesTheUnitsOwnResolution) {
+  PtuTapWatch watch(kStep_rad);
+  watch.master_said("PR TR ", 0.5, 0.0);
+  watch.unit_said("* 46.2857\r\n* 11.5714\r\n", 0.6, 0.0);
+  watch.master_said("PP TP ", 1.0, 0.0);
+  watch.unit_said("* 100\r\n* 100\r\n", 1.002, 0.0);
+  EXPECT_NEAR(watch.at(1.0).pan_rad, 400 * kStep_rad, 1e-4);
+  EXPECT_NEAR(watch.at(1.0).tilt_rad, 100 * kStep_rad, 1e-9);
+}
+
+// The reply to PP never comes: TP's is taken for it until the next one shows the mistake.
+TEST(PtuTapWatch, BelievesNothingOfABurstWithALostReply) {
+  PtuTapWatch watch(kStep_rad);
+  watch.master_said("PP TP PS500 ", 1.0, 0.0);
+  watch.unit_said("* 7000\r\n*\r\n", 1.002, 0.0);
+  EXPECT_EQ(watch.counters().readings, 0U);
+  EXPECT_EQ(watch.counters().mismatched, 1U);
+  EXPECT_DOUBLE_EQ(watch.at(1.0).pan_rad, 0.0);
+  watch.master_said("PP TP ", 1.5, 0.0);
+  watch.unit_said("* 1\r\n* 2\r\n", 1.502, 0.0);
+  EXPECT_EQ(watch.counters().readings, 2U);
+}
+
+TEST(PtuTapWatch, StartsAfreshWhenNothingWasAnswered) {
+  PtuTapWatch watch(kStep_rad);
+  watch.master_said("PP TP ", 1.0, 0.0);
+  watch.master_said(" PP TP ", 3.0, 0.0);
+  watch.unit_said("* 5\r\n* 6\r\n", 3.002, 0.0);
+  EXPECT_EQ(watch.counters().readings, 2U);
+  EXPECT_NEAR(watch.at(3.0).tilt_rad, 6 * kStep_rad, 1e-9);
+}
+
+struct PassBy {
+  double worst_rad = 0.0, rms_rad = 0.0;
+};
+
+// The product's driver moves a simulated unit, in simulated time; the watch sees the bytes.
+PassBy track(double rate_rad_s, double lag_s) {
+  PtuUnitConfig unit_config = ready_unit();
+  unit_config.reply_delay_s = 0.003;
+  unit_config.reply_jitter_s = 0.003;
+  PtuUnit unit(unit_config, 3, 0.0);
+  PtuConfig config;
+  config.poll_interval_s = 0.04;
+  PtuDriver driver(config);
+  PtuTapWatch watch(kStep_rad);
+  driver.restart(0.0);
+  PassBy result;
+  double sum = 0.0;
+  int count = 0;
+  for (double t = 0.0; t < 30.0; t += 1e-3) {
+    const std::string said = unit.transmit(t);
+    if (!said.empty()) watch.unit_said(said, t, kByte_s);
+    driver.receive(said, t);
+    // There and back, as a target would lead it.
+    ServoGoal goal;
+    goal.angles.pan_rad = 0.8 * std::sin(rate_rad_s / 0.8 * t);
+    goal.rate.pan_rad = rate_rad_s * std::cos(rate_rad_s / 0.8 * t);
+    goal.time_s = t;
+    goal.valid_until_s = t + 1.0;
+    driver.set_goal(goal);
+    const std::string asked = driver.step(t);
+    if (!asked.empty()) watch.master_said(asked, t, kByte_s);
+    unit.receive(asked, t);
+    if (t < 10.0) continue;
+    const double error = watch.at(t - lag_s).pan_rad - unit.angles_at(t - lag_s).pan_rad;
+    result.worst_rad = std::max(result.worst_rad, std::abs(error));
+    sum += error * error;
+    ++count;
+  }
+  result.rms_rad = std::sqrt(sum / count);
+  return result;
+}
+
+TEST(PtuTapWatch, FollowsAMovingUnit) {
+  const PassBy behind = track(0.35, 0.15);  // interpolated
+  const PassBy now = track(0.35, 0.0);      // what the next frame is drawn with
+  RecordProperty("behind_rms_deg", std::to_string(degrees(behind.rms_rad)));
+  RecordProperty("now_rms_deg", std::to_string(degrees(now.rms_rad)));
+  EXPECT_LT(degrees(behind.rms_rad), 0.03);
+  EXPECT_LT(degrees(now.rms_rad), 0.1);
+  std::printf(
+      "20 deg/s: interpolated %.4f deg RMS, %.4f worst; extrapolated %.4f RMS, %.4f worst\n",
+      degrees(behind.rms_rad), degrees(behind.worst_rad), degrees(now.rms_rad),
+      degrees(now.worst_rad));
+}
+
+constexpr std::chrono::seconds kDeadline(15);
+
+bool soon(const auto& condition) {
+  const auto end = std::chrono::steady_clock::now() + kDeadline;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::yield();
+  }
+  return true;
+}
+
+std::string path(const std::string& name) {
+  return testing::TempDir() + "ols_tap_" + name + std::to_string(::getpid());
+}
+
+bool exists(const std::string& link) {
+  return std::filesystem::exists(std::filesystem::symlink_status(link));
+}
+
+bool answers(SerialPort& port, const std::string& request, const std::string& reply) {
+  port.write(request);
+  std::string heard;
+  return soon([&] {
+    heard += port.read(0.01);
+    return heard.ends_with(reply);
+  });
+}
+
+TEST(PtuTap, PassesBytesOnAndSeesWhereTheUnitPoints) {
+  PtuLine unit(ready_unit(), 1, path("unit"));
+  PtuTap tap({path("unit"), 9600, kStep_rad}, 2, path("station"));
+  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  SerialPort port(path("station"), 9600);
+  EXPECT_TRUE(answers(port, " PA20000 TA20000 PP500 TP300 A ", "*\r\n*\r\n*\r\n*\r\n*\r\n"));
+  EXPECT_TRUE(answers(port, "PP TP ", "* 500\r\n* 300\r\n"));
+  EXPECT_TRUE(answers(port, "PP TP ", "* 500\r\n* 300\r\n"));
+  const PanTilt now = tap.angles_at(1e9);
+  EXPECT_NEAR(now.pan_rad, 500 * kStep_rad, 1e-9);
+  EXPECT_NEAR(now.tilt_rad, 300 * kStep_rad, 1e-9);
+}
+
+TEST(PtuTap, WaitsForTheReadingBehindAnInstant) {
+  PtuLine unit(ready_unit(), 1, path("unit"));
+  PtuTap tap({path("unit"), 9600, kStep_rad}, 2, path("station"));
+  tap.await(clock_monotonic_s());  // of a unit that has said nothing it expects nothing
+  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  SerialPort port(path("station"), 9600);
+  EXPECT_TRUE(answers(port, " PS18000 PA20000 PP30000 PP TP ", "\r\n* 0\r\n"));
+  std::jthread asking([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) answers(port, "PP TP ", "\r\n");
+  });
+  EXPECT_TRUE(soon([&] { return tap.angles_at(clock_monotonic_s()).pan_rad > 0.2; }));
+  int unchanged = 0;
+  for (int i = 0; i < 20; ++i) {
+    const double at_s = clock_monotonic_s();
+    tap.await(at_s);
+    const double known_rad = tap.angles_at(at_s).pan_rad;
+    // A second look later finds the same: nothing was guessed.
+    tap.await(clock_monotonic_s());
+    unchanged += std::abs(tap.angles_at(at_s).pan_rad - known_rad) < 1e-9 ? 1 : 0;
+  }
+  EXPECT_GE(unchanged, 10);  // this machine may have been busy
+}
+
+TEST(PtuTap, FollowsTheStationToAnotherRate) {
+  PtuLine unit(ready_unit(), 1, path("unit"));
+  PtuTap tap({path("unit"), 9600, kStep_rad}, 2, path("station"));
+  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  {
+    SerialPort port(path("station"), 9600);
+    EXPECT_TRUE(answers(port, " @(38400,0,F) ", "*\r\n"));
+  }
+  SerialPort port(path("station"), 38400);
+  EXPECT_TRUE(answers(port, " PX ", "* 49467\r\n"));
+}
+
+TEST(PtuTap, OutlivesTheUnitBeingUnplugged) {
+  auto unit = std::make_unique<PtuLine>(ready_unit(), 1, path("unit"));
+  PtuTap tap({path("unit"), 9600, kStep_rad}, 2, path("station"));
+  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  PtuFaults gone;
+  gone.line_gone = true;
+  unit->set_faults(gone);
+  // The station's device goes with the unit's, and comes back with it.
+  EXPECT_TRUE(soon([&] { return !exists(path("station")); }));
+  EXPECT_TRUE(soon([&] { return tap.counters().failures > 1; }));
+  unit->set_faults({});
+  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  SerialPort port(path("station"), 9600);
+  EXPECT_TRUE(answers(port, " PX ", "* 49467\r\n"));
+}
+
+TEST(PtuTap, HasTheFaultsOfALineOnly) {
+  PtuLine unit(ready_unit(), 1, path("unit"));
+  PtuTap tap({path("unit"), 9600, kStep_rad}, 2, path("station"));
+  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  PtuFaults faults;
+  faults.line_gone = true;
+  tap.set_faults(faults);
+  EXPECT_TRUE(soon([&] { return !exists(path("station")); }));
+  EXPECT_TRUE(exists(path("unit")));
+  faults.line_gone = false;
+  faults.garble_share = 1.0;
+  tap.set_faults(faults);
+  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  SerialPort port(path("station"), 9600);
+  port.write(" PX PX PX PX ");
+  std::string heard;
+  EXPECT_TRUE(soon([&] {
+    heard += port.read(0.01);
+    return heard.size() > 24;
+  }));
+  EXPECT_EQ(heard.find("* 49467\r\n* 49467\r\n"), std::string::npos) << heard;
+}
+
+}  // namespace
+}  // namespace ols::sim
