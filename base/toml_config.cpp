@@ -46,6 +46,8 @@ std::shared_ptr<const Document> parse(std::string_view text, const std::string& 
 std::string file_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
+  // An empty file is a configuration without a key, but to a stream a failure.
+  if (in && in.peek() == std::ifstream::traits_type::eof() && !in.bad()) return {};
   if (!in || !(text << in.rdbuf())) throw ConfigError(path + ": cannot be read");
   return text.str();
 }

@@ -45,6 +45,7 @@ class FusionAlone:
     def __init__(self):
         self.offset_us = 0  # of all stamps from the present
         self.wrong_us = {}  # of one station's stamps from the others'
+        self.clock_error_s = {}  # that a station states
         self.slews = 0
         self.observer = Observer()
         self.lcm = lcm.LCM(LIVE_URL)
@@ -68,7 +69,9 @@ class FusionAlone:
             assert time.monotonic() < deadline, what
             station = next(stations)
             utime = time.time_ns() // 1000 + self.offset_us + self.wrong_us.get(station, 0)
-            self.publish(f"OLS_BEARING_{station}", bearing(station, utime).encode())
+            message = bearing(station, utime)
+            message.clock_error_s = self.clock_error_s.get(station, 1e-3)
+            self.publish(f"OLS_BEARING_{station}", message.encode())
             timeout_ms = 20
             while self.lcm.handle_timeout(timeout_ms) > 0:
                 timeout_ms = 0
@@ -119,6 +122,30 @@ def test_a_bearing_from_the_future_hurts_only_its_station(fusion):
     assert "station b" in fusion.observer.fusion.last_error
     fusion.feed_until(fusion.located, "a target from the others")
     assert list(fusion.observer.target["OLS_TARGET"].station) == ["a", "c"]
+
+
+@pytest.mark.parametrize("step_s", [2, -2])
+def test_a_station_that_marks_its_stepped_clock_is_quarantined_alone(fusion, step_s):
+    fusion.feed_until(fusion.located, "a target from all")
+    fusion.wrong_us["b"], fusion.clock_error_s["b"] = step_s * 1_000_000, 2.0
+
+    def quarantined():
+        status = fusion.observer.fusion
+        return {s for s, why in zip(status.station, status.quarantine, strict=True) if why}
+
+    fusion.feed_until(lambda: quarantined() == {"b"}, "the quarantine")
+    fusion.feed_until(
+        lambda: list(fusion.observer.target["OLS_TARGET"].station) == ["a", "c"],
+        "targets from the others",
+    )
+    assert fusion.located()
+    fusion.wrong_us.clear()
+    fusion.clock_error_s.clear()
+    fusion.feed_until(lambda: quarantined() == set(), "its end")
+    fusion.feed_until(
+        lambda: list(fusion.observer.target["OLS_TARGET"].station) == ["a", "b", "c"],
+        "targets from all",
+    )
 
 
 def test_old_messages_move_nothing(fusion):

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <fstream>
+#include <string>
+
 namespace ols {
 namespace {
 
@@ -86,6 +90,14 @@ TEST(ConfigFile, NamesAFileThatCannotBeRead) {
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(), "/nonexistent/station.toml: cannot be read");
   }
+}
+
+TEST(ConfigFile, AnEmptyFileIsAConfigurationAndAFolderIsNone) {
+  const std::string path = testing::TempDir() + "empty_config_test.toml";
+  std::ofstream{path};
+  EXPECT_NO_THROW(ConfigFile(path).finish());
+  std::remove(path.c_str());
+  EXPECT_THROW(ConfigFile{testing::TempDir()}, ConfigError);
 }
 
 TEST(ConfigFile, ReadsArraysOfTables) {

@@ -99,6 +99,16 @@ TEST(FusionClocks, AStatedErrorInflatesAlongTheMotion) {
   EXPECT_GT(trace_with(0.05), 0.1);
 }
 
+// The fusion was restarted while the stations went on.
+TEST(FusionClocks, AFusionThatBeginsInMidFlightLocatesAtOnce) {
+  Fusion fusion{FusionConfig{}};
+  for (const FusedTarget& target : targets_of(fusion, flight(1.0))) {
+    if (target.utime_us < kStart + 200'000) continue;
+    EXPECT_EQ(target.estimate.solution, Solution::kOk);
+    EXPECT_LT(error_m(target), 0.1);
+  }
+}
+
 TEST(FusionClocks, AnotherCalibrationStartsAnew) {
   const auto sightings = changed(flight(4.0), "c", 2.0, [](Sighting& s) { s.calibration_id = 77; });
   Fusion fusion{FusionConfig{}};

@@ -1,0 +1,294 @@
+"""A station as a service and an instrument: the service manager, the emergency stop, a network that
+comes and goes, a flood, a standstill. Function only: deadlines are generous."""
+
+import os
+import signal
+import socket
+import subprocess
+import threading
+import time
+from pathlib import Path
+
+import ols_msg
+import pytest
+from conftest import BIN
+from helpers import Listener, addressed, point
+from ols_demo.site import Site
+
+STOP_LINE = 17
+CONFIG = """\
+id = "tool"
+[pose]
+latitude_deg = 49.2
+longitude_deg = 16.6
+height_m = 250.0
+heading_deg = 0.0
+[camera]
+device = "127.0.0.99"
+[ptu]
+device = "/nonexistent/ptu"
+[gpio]
+chip = "socket:{folder}/gpio"
+led_line = 22
+stop_line = 17
+[recorder]
+folder = "{folder}/events"
+"""
+WATCHDOG_S = 1.0
+
+
+class StopSwitch:
+    """The server of a GPIO socket with one emergency stop, as edge/gpio/gpio_lines.h has it."""
+
+    def __init__(self, path):
+        self._server = socket.socket(socket.AF_UNIX)
+        self._server.bind(str(path))
+        self._server.listen()
+        self._pressed = False
+        self._clients = []
+        threading.Thread(target=self._serve, daemon=True).start()
+
+    def _serve(self):
+        while True:
+            client, _ = self._server.accept()
+            self._clients.append(client)
+            self._tell(client)
+            threading.Thread(target=self._answer, args=(client,), daemon=True).start()
+
+    def _answer(self, client):
+        for line in client.makefile():
+            if line.startswith("read"):
+                self._tell(client)
+
+    def _tell(self, client):
+        # Normally closed to ground with a pull-up: pressed is high.
+        client.sendall(f"in {STOP_LINE} {int(self._pressed)}\n".encode())
+
+    def press(self, pressed):
+        self._pressed = pressed
+        for client in self._clients:
+            self._tell(client)
+
+
+class Manager:
+    """The service manager's socket. Always read: who tells a full one something, waits."""
+
+    def __init__(self, path):
+        self.path = str(path)
+        self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        self._socket.bind(self.path)
+        self.lines = []
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _read(self):
+        while True:
+            self.lines += self._socket.recv(4096).decode().splitlines()
+
+    def wait(self, line, deadline_s=20.0):
+        end = time.monotonic() + deadline_s
+        while not any(heard.startswith(line) for heard in self.lines):
+            assert time.monotonic() < end, f"no {line} in {self.lines}"
+            time.sleep(0.02)
+
+
+class Tool(Listener):
+    def state(self):
+        return self.observer.status["tool"].state
+
+    def alarms(self):
+        return list(self.observer.status["tool"].alarm)
+
+    def wait_for_state(self, state):
+        self.wait(lambda: self.state() == state, f"state {state}")
+
+    def command(self, kind):
+        message = addressed(ols_msg.ptu_command_t(), "tool", time.time_ns())
+        message.command = kind
+        self.publish("OLS_PTU_tool", message.encode())
+
+    def pid(self):
+        return self.site.processes["station"].pid
+
+
+@pytest.fixture(scope="module")
+def station(network, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("tool")
+    config = folder / "tool.toml"
+    config.write_text(CONFIG.format(folder=folder))
+    listener = Tool()
+    listener.switch = StopSwitch(folder / "gpio")
+    listener.manager = Manager(folder / "notify")
+    environment = {
+        "NOTIFY_SOCKET": listener.manager.path,
+        "WATCHDOG_USEC": str(int(WATCHDOG_S * 1e6)),
+    }
+    with Site(folder / "logs") as site:
+        command = [str(BIN / "ols-station"), "--config", str(config)]
+        site.start_and_wait("station", command, "ready", environment)
+        listener.site, listener.config = site, config
+        listener.wait_for_status("tool")
+        yield listener
+
+
+def ctl(*arguments):
+    return subprocess.run(
+        [str(BIN / "ols-ctl"), *arguments], capture_output=True, text=True, timeout=30, check=False
+    )
+
+
+def test_the_service_manager_is_told(station):
+    station.manager.wait("READY=1")
+    station.manager.wait("WATCHDOG=1")
+    station.manager.wait("STATUS=idle; camera absent; ptu absent")
+
+
+def test_a_hung_loop_starves_the_watchdog(station):
+    os.kill(station.pid(), signal.SIGSTOP)
+    try:
+        time.sleep(0.2)  # for what was under way
+        station.manager.lines.clear()
+        time.sleep(2.0 * WATCHDOG_S)
+        assert station.manager.lines == []
+    finally:
+        os.kill(station.pid(), signal.SIGCONT)
+    station.manager.lines.clear()
+    station.manager.wait("WATCHDOG=1")
+
+
+def test_what_came_during_a_standstill_is_not_done(station):
+    """Two seconds without processor: a command that has outlived its lease moves nothing."""
+    station.wait_for_state(ols_msg.station_status_t.STATE_IDLE)
+    before = station.counter("tool", "messages_refused_stale")
+    os.kill(station.pid(), signal.SIGSTOP)
+    try:
+        station.publish("OLS_PTU_tool", point("tool", time.time_ns(), 0.3).encode())
+        time.sleep(2.0)  # the fault itself: leases are a second and a margin
+    finally:
+        os.kill(station.pid(), signal.SIGCONT)
+    station.wait_for_counter("tool", "messages_refused_stale", before + 1)
+    assert station.state() == ols_msg.station_status_t.STATE_IDLE
+
+
+def test_the_emergency_stop_holds_until_released_and_rearmed(station):
+    status = ols_msg.station_status_t
+    station.command(ols_msg.ptu_command_t.COMMAND_RELEASE)
+    station.publish("OLS_PTU_tool", point("tool", time.time_ns(), 0.3).encode())
+    station.wait_for_state(status.STATE_MANUAL)
+    station.switch.press(True)
+    station.wait_for_state(status.STATE_EMERGENCY)
+    assert "emergency stop: pressed" in station.alarms()
+    assert "emergency" in ctl("tool", "manual", "1", "2").stdout
+    assert "emergency" in ctl("tool", "rearm").stdout
+    assert ctl("tool", "stop").returncode == 0
+    station.switch.press(False)
+    station.wait(lambda: "emergency stop: not rearmed yet" in station.alarms(), "released")
+    assert "emergency" in ctl("tool", "release").stdout
+    assert station.state() == status.STATE_EMERGENCY
+    assert ctl("tool", "rearm").returncode == 0
+    station.wait_for_state(status.STATE_STOPPED)
+    assert ctl("tool", "release").returncode == 0
+    station.wait_for_state(status.STATE_IDLE)
+
+
+def test_recording_is_asked_for(station):
+    assert ctl("tool", "record", "1", "1", "flash").stdout == "tool: done\n"
+    refused = ctl("tool", "record", "1", "1", "no/label")
+    assert refused.returncode == 1
+    assert "RECORD refused" in refused.stdout
+
+
+def test_the_full_status_is_readable(station):
+    shown = ctl("tool", "status", "--full").stdout
+    for part in ("clock ", "tilt ", "gpio", "recorder", "disk_free_bytes", "counters", "absent"):
+        assert part in shown
+
+
+def resident_kb(config):
+    """Of the process with this configuration; /proc may be that of another process namespace."""
+    for process in Path("/proc").glob("[0-9]*"):
+        try:
+            if str(config).encode() in (process / "cmdline").read_bytes():
+                lines = (process / "status").read_text().splitlines()
+                return next(int(line.split()[1]) for line in lines if line.startswith("VmRSS"))
+        except OSError:
+            continue  # it has ended meanwhile
+    raise AssertionError(f"no process with {config}")
+
+
+def test_a_flood_neither_fills_nor_stops_it(station):
+    rubbish = point("tool", 1, 0.1).encode()[:-1]
+    before_kb = resident_kb(station.config)
+    before = station.counter("tool", "messages_refused_malformed")
+    accepted = station.counter("tool", "release_accepted")
+    start = time.monotonic()
+    sent = 0
+    while time.monotonic() < start + 3.0:
+        for _ in range(100):
+            station.publish("OLS_SLEW_tool", rubbish)
+            station.publish("OLS_PTU_other", rubbish)
+        sent += 200
+        time.sleep(max(0.0, start + sent / 10_000 - time.monotonic()))  # 10 000 a second
+        if sent % 2000 == 0:
+            station.command(ols_msg.ptu_command_t.COMMAND_RELEASE)
+            station.bus.handle(0.0)
+    station.wait_for_counter("tool", "messages_refused_malformed", before + 1000)
+    station.wait_for_counter("tool", "release_accepted", accepted + 1)
+    assert resident_kb(station.config) < before_kb + 50_000
+    station.site.check()
+
+
+def route(what):
+    path = os.environ["PATH"] + ":/usr/sbin:/sbin"
+    subprocess.run(
+        ["ip", "route", what, "224.0.0.0/4", "dev", "lo"],
+        check=True,
+        env={**os.environ, "PATH": path},
+    )
+
+
+def test_the_network_goes_and_comes(station):
+    station.manager.lines.clear()
+    route("del")
+    try:
+        station.manager.wait("STATUS=no bus")
+        station.manager.wait("WATCHDOG=1")
+    finally:
+        route("add")
+    before = station.counter("tool", "bus_connects")
+    station.wait_for_counter("tool", "bus_connects", before + 1)
+    assert station.counter("tool", "messages_not_sent") > 0
+    station.command(ols_msg.ptu_command_t.COMMAND_STOP)
+    station.wait_for_state(ols_msg.station_status_t.STATE_STOPPED)  # it hears, too
+
+
+@pytest.mark.parametrize("program", ["ols-station", "ols-fusion"])
+def test_it_starts_without_a_network(network, tmp_path, program):
+    config = tmp_path / "c.toml"
+    config.write_text(
+        CONFIG.format(folder=tmp_path).replace("tool", "late") if program == "ols-station" else ""
+    )
+    manager = Manager(tmp_path / "notify")
+    command = [str(BIN / program), "--config", str(config)]
+    with Site(tmp_path / "logs") as site:
+        route("del")
+        try:
+            environment = {"NOTIFY_SOCKET": manager.path, "WATCHDOG_USEC": "1000000"}
+            site.start_and_wait("late", command, "no bus", environment)
+            manager.wait("READY=1")
+            manager.wait("WATCHDOG=1")
+            manager.wait("STATUS=no bus")
+        finally:
+            route("add")
+        listener = Listener()
+        heard = {
+            "ols-station": lambda: "late" in listener.observer.status,
+            "ols-fusion": lambda: listener.observer.fusion is not None,
+        }
+        listener.wait(heard[program], "its status, once there is a network")
+        assert site.stop("late") == 0
+        manager.wait("STOPPING=1")
+
+
+def test_it_ends_in_order(station):
+    assert station.site.stop("station") == 0
+    station.manager.wait("STOPPING=1")
