@@ -86,6 +86,12 @@ Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
   }
 }
 
+void StationBus::take(const std::string& channel, const void* data, int bytes) {
+  for (const auto& [name, handler] : subscriptions_) {
+    if (name == channel) handler(channel, data, bytes);
+  }
+}
+
 template <class Message>
 void StationBus::on_command(const std::string& kind,
                             const std::function<Refusal(const Message&)>& execute,

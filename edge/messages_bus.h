@@ -32,6 +32,8 @@ class StationBus {
 
   // Hands the waiting commands to the station; connects first where there is no connection.
   void receive();
+  // One datagram, as it came from the network.
+  void take(const std::string& channel, const void* data, int bytes);
 
   // Why there is no connection; empty when there is one.
   const std::string& trouble() const { return trouble_; }

@@ -1,0 +1,64 @@
+// Commands to a station, through its bus as they come from the network. Whatever they say, the
+// station never has a goal outside the PTU's limits.
+#include <cmath>
+
+#include "edge/messages_bus.h"
+#include "tests/fuzz/fuzz_input.h"
+
+namespace {
+
+constexpr double kNow_s = 1000.0;
+constexpr std::int64_t kNow_us = 1'700'000'000'000'000;
+
+class NoTracker final : public ols::TargetTracker {
+ public:
+  std::optional<ols::TrackerError> initialise(const ols::TrackerInput&,
+                                              const cv::Rect2d&) override {
+    return std::nullopt;
+  }
+  ols::TrackerResult track(const ols::TrackerInput&) override { return {}; }
+  void search_near(const Eigen::Vector2d&, double) override {}
+};
+
+ols::StationSettings settings() {
+  ols::StationSettings made;
+  made.id = "a";
+  return made;
+}
+
+void check_goal(const ols::Station& station, const ols::PtuLimits& limits, double now_s) {
+  const auto goal = station.goal(now_s);
+  if (!goal) return;
+  ols::fuzz::require(std::isfinite(goal->angles.pan_rad) && std::isfinite(goal->angles.tilt_rad),
+                     "a goal is finite");
+  ols::fuzz::require(goal->angles.pan_rad >= limits.pan_min_rad - 1e-9 &&
+                         goal->angles.pan_rad <= limits.pan_max_rad + 1e-9 &&
+                         goal->angles.tilt_rad >= limits.tilt_min_rad - 1e-9 &&
+                         goal->angles.tilt_rad <= limits.tilt_max_rad + 1e-9,
+                     "a goal is within the limits");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > 4096) return 0;
+  static const ols::StationSettings kSettings = settings();
+  ols::Station station(kSettings.station, std::make_unique<NoTracker>());
+  station.on_angles({kNow_s - 0.02, 1e-4, {0.0, 0.0}, {}});
+  ols::StationBus bus(kSettings, 1, station,
+                      [](const ols::RecordCommand&) { return std::string(); });
+  ols::fuzz::Input input(data, size);
+  double now_s = kNow_s;
+  while (!input.empty()) {
+    static constexpr const char* kChannels[] = {"OLS_SLEW_a", "OLS_PTU_a", "OLS_DESIGNATE_a",
+                                                "OLS_RECORD_a"};
+    const char* channel = kChannels[input.byte() % std::size(kChannels)];
+    const std::string_view bytes = input.take(input.byte());
+    now_s += 0.01;
+    bus.set_time({now_s, kNow_us + static_cast<std::int64_t>((now_s - kNow_s) * 1e6)}, {});
+    bus.take(channel, bytes.data(), static_cast<int>(bytes.size()));
+    static_cast<void>(station.step(now_s));
+    check_goal(station, kSettings.station.limits, now_s);
+  }
+  return 0;
+}
