@@ -22,7 +22,7 @@ namespace {
 constexpr double kRead_s = 0.1;        // so that an end is noticed
 constexpr double kFirstPause_s = 0.5;  // before the next connection; doubles
 constexpr double kLongestPause_s = 10.0;
-constexpr double kReconnectAfterStale = 4.0;  // times stale_s: gpsd then opens its receiver anew
+constexpr double kReconnectAfterStale = 4.0;  // times stale_s
 constexpr std::size_t kMostReadings = 1000;   // kept for a caller that does not come
 
 std::string in_words(const GnssReading& reading) {
@@ -35,6 +35,18 @@ std::string in_words(const GnssReading& reading) {
                   reading.satellites_used);
   }
   return text;
+}
+
+std::string in_words(GpsdLink::Silence silence) {
+  switch (silence) {
+    case GpsdLink::Silence::kNoReceiver:
+      return "gpsd has no receiver";
+    case GpsdLink::Silence::kDeviceMissing:
+      return "the receiver's device is not there";
+    case GpsdLink::Silence::kReceiverSilent:
+      break;
+  }
+  return "the receiver says nothing";
 }
 
 }  // namespace
@@ -58,10 +70,11 @@ struct Gnss::Impl {
     }
   }
 
-  // Until gpsd has gone or says nothing for long, which throws, or the thread is to stop.
+  // Until gpsd has gone, or is to open its receiver anew, which throws, or the thread is to stop.
   void serve(GpsdLink& link, const std::stop_token& stop, double& pause_s) {
     GpsdEpochs epochs(config.error_sigmas);
     double heard_s = clock_monotonic_s();
+    bool was_missing = false;
     while (!stop.stop_requested()) {
       const bool came = link.read(kRead_s);
       const double now_s = clock_monotonic_s();
@@ -70,20 +83,23 @@ struct Gnss::Impl {
       if (!fresh.empty()) {
         heard_s = now_s;
         pause_s = kFirstPause_s;
-      } else if (now_s - heard_s > kReconnectAfterStale * config.stale_s) {
-        throw std::runtime_error(silence(link.has_receiver()));
       }
-      take(fresh, link.has_receiver(), now_s);
+      const GpsdLink::Silence cause = link.silence();
+      take(fresh, cause, now_s);
+      // gpsd opens a receiver that had gone when a client comes; but a client that comes while it
+      // is away makes gpsd forget it for good (3.22).
+      const bool missing = cause == GpsdLink::Silence::kDeviceMissing;
+      was_missing = was_missing || missing;
+      const double patience_s = was_missing ? 0.0 : kReconnectAfterStale * config.stale_s;
+      if (!missing && now_s - heard_s > std::max(patience_s, config.stale_s)) {
+        throw std::runtime_error(in_words(cause));
+      }
     }
   }
 
-  static std::string silence(bool has_receiver) {
-    return has_receiver ? "the receiver says nothing" : "gpsd has no receiver";
-  }
-
-  void take(const std::vector<GnssReading>& fresh, bool gpsd_has_receiver, double now_s) {
+  void take(const std::vector<GnssReading>& fresh, GpsdLink::Silence cause, double now_s) {
     const std::lock_guard lock(mutex);
-    has_receiver = gpsd_has_receiver;
+    silence = cause;
     for (const GnssReading& reading : fresh) {
       ++reports;
       if (reading.fix >= config.least_fix) ++fixes;
@@ -108,7 +124,7 @@ struct Gnss::Impl {
   std::string trouble_in_words(double now_s) const {
     const double silent_s = now_s - (last ? last->time_s : first_connected_s);
     if (silent_s > config.stale_s) {
-      return silence(has_receiver) + " for " + std::to_string(static_cast<int>(silent_s)) + " s";
+      return in_words(silence) + " for " + std::to_string(static_cast<int>(silent_s)) + " s";
     }
     if (last && last_fix_s && last->fix < config.least_fix) return in_words(*last);
     return {};
@@ -122,7 +138,7 @@ struct Gnss::Impl {
       first_connected_s = clock_monotonic_s();
     }
     connected = ever_connected = true;
-    has_receiver = false;
+    silence = GpsdLink::Silence::kReceiverSilent;
   }
 
   void note_failure(const std::string& what) {
@@ -161,7 +177,8 @@ struct Gnss::Impl {
       return;
     }
     if (!trouble.empty()) {
-      r.state = has_receiver ? DeviceState::kFault : DeviceState::kAbsent;
+      const bool is_there = silence == GpsdLink::Silence::kReceiverSilent;
+      r.state = is_there ? DeviceState::kFault : DeviceState::kAbsent;
       r.text = trouble;
       if (!last) r.alarms.push_back("gnss: " + trouble);
     } else if (!last || last->fix < config.least_fix) {
@@ -179,7 +196,8 @@ struct Gnss::Impl {
   std::vector<GnssReading> readings;
   std::optional<GnssReading> last;
   std::optional<double> last_fix_s;
-  bool connected = false, ever_connected = false, has_receiver = false;
+  bool connected = false, ever_connected = false;
+  GpsdLink::Silence silence = GpsdLink::Silence::kReceiverSilent;  // why, when there is silence
   double first_connected_s = 0.0;
   std::uint64_t reports = 0, fixes = 0, reconnects = 0, errors = 0;
   std::string link_error, last_error;

@@ -1,5 +1,7 @@
 #include "edge/sensors/gpsd_link.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <stdexcept>
@@ -10,10 +12,14 @@ namespace {
 
 bool is_active(const devconfig_t& device) { return device.activated.tv_sec > 0; }
 
+bool is_this_host(const std::string& host) {
+  return host == "localhost" || host == "::1" || host.starts_with("127.");
+}
+
 }  // namespace
 
 GpsdLink::GpsdLink(const std::string& host, const std::string& port)
-    : data_(std::make_unique<gps_data_t>()) {
+    : data_(std::make_unique<gps_data_t>()), is_local_(is_this_host(host)) {
   const std::string where = host + ":" + port;
   if (gps_open(host.c_str(), port.c_str(), data_.get()) != 0) {
     throw std::runtime_error("no gpsd at " + where + ": " + gps_errstr(errno));
@@ -42,14 +48,23 @@ bool GpsdLink::read(double timeout_s) {
 }
 
 void GpsdLink::note_devices() {
+  const devconfig_t* active = nullptr;
   if ((data_->set & DEVICELIST_SET) != 0) {
-    const int n = std::clamp(data_->devices.ndevices, 0, MAXUSERDEVS);
-    has_receiver_ = std::any_of(data_->devices.list, data_->devices.list + n, is_active);
+    const auto* list = data_->devices.list;
+    const auto* end = list + std::clamp(data_->devices.ndevices, 0, MAXUSERDEVS);
+    active = std::find_if(list, end, is_active);
+    has_receiver_ = active != end;
   } else if ((data_->set & DEVICE_SET) != 0) {
+    active = &data_->dev;
     has_receiver_ = is_active(data_->dev);
-  } else if ((data_->set & STATUS_SET) != 0) {
-    has_receiver_ = true;
   }
+  if (active != nullptr && has_receiver_) device_ = active->path;
+}
+
+GpsdLink::Silence GpsdLink::silence() const {
+  if (!has_receiver_) return Silence::kNoReceiver;
+  const bool missing = is_local_ && !device_.empty() && ::access(device_.c_str(), F_OK) != 0;
+  return missing ? Silence::kDeviceMissing : Silence::kReceiverSilent;
 }
 
 }  // namespace ols

@@ -21,14 +21,17 @@ class GpsdLink {
   bool read(double timeout_s);
   const gps_data_t& data() const { return *data_; }
 
-  // Whether gpsd has a receiver that it reads, as far as it has said.
-  bool has_receiver() const { return has_receiver_; }
+  // Why nothing comes, as far as gpsd has said and can be seen from here.
+  enum class Silence { kNoReceiver, kDeviceMissing, kReceiverSilent };
+  Silence silence() const;
 
  private:
   void note_devices();
 
   std::unique_ptr<gps_data_t> data_;
+  bool is_local_;
   bool has_receiver_ = false;
+  std::string device_;  // the receiver's, on gpsd's host
 };
 
 }  // namespace ols

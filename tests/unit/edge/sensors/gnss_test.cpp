@@ -3,7 +3,9 @@
 #include "edge/sensors/gnss.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <memory>
 #include <optional>
 
 #include "geometry/angles.h"
@@ -152,6 +154,18 @@ TEST_F(GnssOnGpsd, AGpsdWithoutReceiverIsToldFromOneThatIsNotThere) {
   Gnss gnss(config(port_));
   ASSERT_TRUE(reports(gnss, DeviceState::kAbsent, "gpsd has no receiver"));
   EXPECT_EQ(gnss.report().alarms.size(), 1U);
+}
+
+TEST_F(GnssOnGpsd, AReceiverThatIsPulledOutIsToldAndGpsdIsLeftAlone) {
+  const std::string link = testing::TempDir() + "ols_gnss_" + std::to_string(::getpid());
+  auto line = std::make_unique<sim::GnssLine>(receiver(), clock_utime_us, 6, link);
+  const GpsdProcess gpsd(link, port_);
+  Gnss gnss(config(port_));
+  ASSERT_TRUE(reports(gnss, DeviceState::kOk, "RTK fixed"));
+  line.reset();
+  // Longer than it would wait for a receiver that is there and says nothing.
+  ASSERT_TRUE(reports(gnss, DeviceState::kAbsent, "the receiver's device is not there for 7 s"));
+  EXPECT_EQ(gnss.report().counters.at("gnss_reconnects"), 0U);
 }
 
 TEST(Gnss, WithoutAHostThereIsNone) {
