@@ -22,7 +22,7 @@ std::optional<double> next_number(std::istream& words) {
   std::string word;
   if (!(words >> word)) return std::nullopt;
   std::size_t used = 0;
-  double value = std::nan("");
+  double value = 0.0;
   try {
     value = std::stod(word, &used);
   } catch (const std::exception&) {
