@@ -116,6 +116,13 @@ def rest(evidence: Evidence) -> list[Row]:
     ]
 
 
+def doctor(measure: str, name: str, expected: set[str], evidence: Evidence) -> Row:
+    failing = set(re.findall(r"^FAIL  (\w+):", evidence.read(name), flags=re.M))
+    well = bool(re.search(r"^ok    ptu:", evidence.read(name), flags=re.M))
+    shown = ", ".join(sorted(failing)) or "nothing"
+    return Row(measure, ", ".join(sorted(expected)), shown, well and failing == expected)
+
+
 def told(evidence: Evidence) -> list[Row]:
     lone = evidence.read("status-text-lone.txt")
     no_network = evidence.read("no-network.txt")
@@ -132,6 +139,7 @@ def told(evidence: Evidence) -> list[Row]:
         said("wrong configuration is named", evidence.read("wrong.txt"), r"wrong\.toml:\d+: .*"),
         Row("and not run in circles", "0 restarts", restarts_done, restarts_done == "0"),
         within("corrected one is taken by itself", corrected_s, 30.0),
+        doctor("ols-doctor on a station: what fails", "doctor-alfa.txt", {"gnss"}, evidence),
         said("no unit has failed in the end", evidence.read("failed.txt"), r"0 loaded units"),
     ]
 

@@ -1,0 +1,119 @@
+"""ols-doctor beside real processes: nothing attached, devices without a station, a running site."""
+
+import json
+import subprocess
+
+import pytest
+from conftest import BIN, SCENARIO
+from helpers import Listener
+from ols_demo.bus import LIVE_URL
+from ols_demo.site import Site
+
+OK, WARNINGS, FAILURES = 0, 1, 2
+
+
+class Diagnosis:
+    def __init__(self, *arguments):
+        command = [str(BIN / "ols-doctor"), "--json", *map(str, arguments)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+        self.status, self.stderr = done.returncode, done.stderr
+        answer = json.loads(done.stdout)
+        self.verdict, self.findings = answer["verdict"], answer["findings"]
+
+    def of(self, subject):
+        return [f for f in self.findings if f["what"].startswith(subject + ":")]
+
+    def failures(self):
+        return {f["what"].split(":")[0] for f in self.findings if f["verdict"] == "FAIL"}
+
+
+@pytest.fixture(scope="module", name="configs")
+def fixture_configs(network, tmp_path_factory):
+    """The stations' files of a simulated site, and the folder of its serial lines."""
+    folder = tmp_path_factory.mktemp("doctor")
+    command = [str(BIN / "ols-sim"), "--scenario", str(SCENARIO), "--seed", "1"]
+    command += ["--lcm-url", LIVE_URL, "--directory", str(folder / "lines")]
+    (folder / "lines").mkdir()
+    subprocess.run([*command, "--write-configs", str(folder / "config")], check=True)
+    return command, folder
+
+
+@pytest.fixture(scope="module", name="devices")
+def fixture_devices(configs):
+    command, folder = configs
+    with Site(folder / "logs") as site:
+        site.start_and_wait("ols-sim", command, "ready")
+        yield site, folder
+
+
+def test_nothing_attached(configs):
+    _, folder = configs
+    diagnosis = Diagnosis("--config", folder / "config" / "alfa.toml")
+    assert diagnosis.status == FAILURES and diagnosis.verdict == "FAIL"
+    assert {"station", "camera", "ptu"} <= diagnosis.failures()
+    assert "is not there" in diagnosis.of("ptu")[0]["what"]
+    for finding in diagnosis.findings:
+        assert (finding["verdict"] == "ok") == (finding["advice"] == ""), finding
+
+
+def test_a_wrong_configuration_is_named(configs, tmp_path):
+    _, folder = configs
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text("heigth_m = 1\n" + (folder / "config" / "alfa.toml").read_text())
+    diagnosis = Diagnosis("--config", wrong)
+    assert diagnosis.status == FAILURES
+    assert "heigth_m: unknown key" in diagnosis.of("configuration")[0]["what"]
+
+
+def test_devices_are_asked_where_no_station_runs(devices):
+    site, folder = devices
+    diagnosis = Diagnosis("--config", folder / "config" / "alfa.toml")
+    # The scenario's receiver needs a gpsd, and there is none here.
+    assert diagnosis.failures() == {"station", "gnss"}, diagnosis.findings
+    assert diagnosis.of("inclinometer")[-1]["verdict"] == "ok"
+    ptu = " ".join(finding["what"] for finding in diagnosis.of("ptu"))
+    assert "PTU-D46" in ptu and "deg in steps of" in ptu and " V" in ptu
+    assert diagnosis.of("camera")[0]["verdict"] == "ok"
+    site.check()
+
+
+def test_a_running_station_is_asked_and_left_alone(devices):
+    site, folder = devices
+    config = folder / "config" / "alfa.toml"
+    command = [str(BIN / "ols-station"), "--config", str(config)]
+    site.start_and_wait("station", command, "ready")
+    site.start_and_wait("fusion", [str(BIN / "ols-fusion"), "--lcm-url", LIVE_URL], "ready")
+    listener = Listener()
+
+    def well():
+        status = listener.observer.status.get("alfa")
+        if status is None:
+            return False
+        states = dict(zip(status.device_name, status.device_state, strict=True))
+        return states["camera"] == states["ptu"] == status.DEVICE_OK
+
+    listener.wait(well, "camera and PTU of alfa", 60.0)
+    before = listener.wait_for_status("alfa")
+    diagnosis = Diagnosis("--config", config)
+    for subject in ("station", "camera", "ptu", "bus", "fusion"):
+        assert diagnosis.of(subject)[0]["verdict"] in ("ok", "warn"), diagnosis.findings
+    assert "alfa runs" in diagnosis.of("station")[0]["what"]
+    after = listener.wait_for_status("alfa")
+    assert after.boot_id == before.boot_id
+    for name in ("camera_reopened", "ptu_restarts", "ptu_halts"):
+        assert listener.counter("alfa", name) == dict(
+            zip(before.counter_name, before.counter_value, strict=True)
+        ).get(name, 0.0)
+    site.check()
+
+
+def test_without_a_configuration_it_says_what_to_do():
+    done = subprocess.run(
+        [str(BIN / "ols-doctor"), "--config", "/nonexistent.toml"],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert done.returncode == FAILURES
+    assert done.stdout.startswith("FAIL  configuration: /nonexistent.toml")

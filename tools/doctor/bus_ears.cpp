@@ -1,0 +1,111 @@
+#include "tools/doctor/bus_ears.h"
+
+#include <arpa/inet.h>
+
+#include <array>
+#include <fstream>
+#include <set>
+
+#include "base/clocks.h"
+#include "base/lcm_bus.h"
+#include "base/lcm_url.h"
+#include "edge/clock/command_output.h"
+#include "ols_msg/bearing_t.hpp"
+#include "ols_msg/fusion_status_t.hpp"
+#include "ols_msg/station_status_t.hpp"
+#include "tools/ctl/operator.h"
+#include "tools/doctor/judge_site.h"
+
+namespace ols::doctor {
+namespace {
+
+constexpr int kPoll_ms = 50;
+constexpr double kCommand_s = 2.0;
+
+DeviceState device_state_of(std::int8_t code) {
+  using M = ols_msg::station_status_t;
+  switch (code) {
+    case M::DEVICE_STARTING:
+      return DeviceState::kStarting;
+    case M::DEVICE_OK:
+      return DeviceState::kOk;
+    case M::DEVICE_FAULT:
+      return DeviceState::kFault;
+    default:
+      return DeviceState::kAbsent;
+  }
+}
+
+ClockState clock_state_of(std::int8_t code) {
+  using M = ols_msg::bearing_t;
+  if (code == M::CLOCK_SYNCHRONISED) return ClockState::kSynchronised;
+  if (code == M::CLOCK_UNSYNCHRONISED) return ClockState::kUnsynchronised;
+  return ClockState::kUnknown;
+}
+
+StationHeard station_from(const ols_msg::station_status_t& status) {
+  StationHeard station;
+  station.id = status.station;
+  station.state = state_name(status.state);
+  for (std::size_t i = 0; i < status.device_name.size(); ++i) {
+    DeviceReport device;
+    device.name = status.device_name[i];
+    device.state = device_state_of(status.device_state[i]);
+    device.text = status.device_text[i];
+    station.devices.push_back(device);
+  }
+  station.clock = clock_state_of(status.clock_state);
+  station.clock_error_s = status.clock_error_s;
+  station.position_known = status.position_source != ols_msg::station_status_t::POSE_NONE;
+  station.alarms = status.alarm;
+  for (std::size_t i = 0; i < status.counter_name.size(); ++i) {
+    station.counters[status.counter_name[i]] = status.counter_value[i];
+  }
+  station.last_error = status.last_error;
+  station.last_error_age_s = 1e-6 * static_cast<double>(status.utime - status.last_error_utime);
+  return station;
+}
+
+void look_at_network(BusHeard& bus) {
+  std::ifstream("/proc/sys/net/core/rmem_max") >> bus.rmem_max;
+  bus.ttl = parse_ttl(bus.url);
+  const auto group = multicast_group(bus.url);
+  if (!group) return;
+  std::array<char, INET_ADDRSTRLEN> address{};
+  inet_ntop(AF_INET, &group->sin_addr, address.data(), address.size());
+  if (const auto route = command_output({"ip", "-o", "route", "get", address.data()}, kCommand_s)) {
+    bus.interface = parse_route(*route);
+  }
+}
+
+}  // namespace
+
+BusHeard listen(const std::string& lcm_url, double seconds) {
+  BusHeard heard;
+  heard.url = lcm_url;
+  std::map<std::string, std::set<std::int64_t>> boots;
+  std::set<std::int64_t> fusions;
+  try {
+    look_at_network(heard);
+    LcmBus bus(lcm_url);
+    bus.subscribe("OLS_STATUS_.*", [&](const std::string&, const void* data, int bytes) {
+      ols_msg::station_status_t status;
+      if (!decode_exactly(data, bytes, status)) return;
+      boots[status.station].insert(status.boot_id);
+      heard.stations[status.station] = station_from(status);
+    });
+    bus.subscribe("OLS_FUSION_STATUS", [&](const std::string&, const void* data, int bytes) {
+      ols_msg::fusion_status_t status;
+      if (decode_exactly(data, bytes, status)) fusions.insert(status.boot_id);
+    });
+    const double end_s = clock_monotonic_s() + seconds;
+    while (clock_monotonic_s() < end_s) bus.handle(kPoll_ms);
+  } catch (const std::exception& trouble) {
+    heard.trouble = trouble.what();
+  }
+  for (auto& [id, station] : heard.stations) station.boots = boots[id].size();
+  heard.fusions = static_cast<int>(fusions.size());
+  return heard;
+}
+
+}  // namespace ols::doctor

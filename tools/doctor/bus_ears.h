@@ -1,0 +1,13 @@
+// Listens on the bus for a while.
+#pragma once
+
+#include <string>
+
+#include "tools/doctor/facts.h"
+
+namespace ols::doctor {
+
+// Never throws: what keeps it from listening is in the answer.
+BusHeard listen(const std::string& lcm_url, double seconds);
+
+}  // namespace ols::doctor

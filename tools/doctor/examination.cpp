@@ -1,0 +1,169 @@
+#include "tools/doctor/examination.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "central/fusion_settings.h"
+#include "edge/config.h"
+#include "tools/doctor/bus_ears.h"
+#include "tools/doctor/judge_devices.h"
+#include "tools/doctor/judge_site.h"
+#include "tools/doctor/probe.h"
+#include "tools/logger/logger_config.h"
+
+namespace ols::doctor {
+namespace {
+
+namespace fs = std::filesystem;
+
+Finding refused(const ConfigError& error) {
+  return fail(std::string("configuration: ") + error.what(),
+              "correct that line; docs/operations.md lists every key");
+}
+
+Findings examine_inclinometer(const InclinometerConfig& config, double patience_s) {
+  Findings findings;
+  const auto line = judge_line("inclinometer", look_at_line(config.device, config.baud));
+  if (line) findings.push_back(*line);
+  if (!line || line->verdict != Verdict::kFail) {
+    findings.push_back(judge(ask_inclinometer(config, patience_s)));
+  }
+  return findings;
+}
+
+// Devices that only the station may touch while it runs.
+Findings examine_devices(const StationSettings& settings, double patience_s) {
+  Findings findings = judge(ask_camera(settings.camera));
+  append(findings, judge(ask_ptu(settings.ptu)));
+  if (!settings.inclinometer.device.empty()) {
+    append(findings, examine_inclinometer(settings.inclinometer, patience_s));
+  }
+  if (!settings.gpio.chip.empty()) findings.push_back(judge(ask_gpio(settings.gpio)));
+  if (!settings.gnss.host.empty()) findings.push_back(judge(ask_gnss(settings.gnss, patience_s)));
+  return findings;
+}
+
+Findings examine_host(const StationSettings& settings, double patience_s) {
+  Findings findings{judge(ask_clock(settings.clock, patience_s))};
+  if (!settings.recorder.folder.empty()) {
+    findings.push_back(judge(look_at_folder("recordings", settings.recorder.folder,
+                                            settings.recorder.disk_reserve_bytes)));
+  }
+  append(findings, judge(HostWatch(settings.host).look()));
+  return findings;
+}
+
+Findings examine_units(const std::vector<std::string>& units) {
+  Findings findings;
+  for (const UnitFacts& unit : look_at_units(units)) {
+    if (const auto finding = judge(unit)) findings.push_back(*finding);
+  }
+  return findings;
+}
+
+std::string unit_of(const std::string& path) {
+  return "ols-station@" + fs::path(path).stem().string() + ".service";
+}
+
+bool runs_as_service(const std::string& path) {
+  for (const UnitFacts& unit : look_at_units({unit_of(path)})) {
+    if (unit.active == "active") return true;
+  }
+  return false;
+}
+
+Findings examine_own(const StationSettings& settings, const std::string& path, const BusHeard& bus,
+                     double patience_s) {
+  const auto own = bus.stations.find(settings.id);
+  if (own != bus.stations.end()) return judge(own->second);
+  if (runs_as_service(path)) {
+    return {fail("station: " + settings.id + " runs, but is not heard; its devices are left alone",
+                 "systemctl status " + unit_of(path) + "; is lcm_url the one of this file?")};
+  }
+  Findings findings{fail("station: " + settings.id + " does not run; its devices are asked now",
+                         "systemctl enable --now " + unit_of(path))};
+  append(findings, examine_devices(settings, patience_s));
+  return findings;
+}
+
+Findings examine_station(const std::string& path, const Request& request) {
+  StationSettings settings;
+  try {
+    settings = load_station_settings(path);
+  } catch (const ConfigError& error) {
+    return {refused(error)};
+  }
+  Findings findings{ok("configuration: " + path + ", station " + settings.id)};
+  const BusHeard bus = listen(settings.lcm_url, request.listen_s);
+  append(findings, judge(bus));
+  append(findings, examine_own(settings, path, bus, request.patience_s));
+  append(findings, examine_host(settings, request.patience_s));
+  if (bus.trouble.empty()) append(findings, judge_company(bus, settings.id));
+  return findings;
+}
+
+Findings examine_fusion(const std::string& path, const Request& request) {
+  try {
+    const FusionSettings settings = load_fusion_settings(path);
+    Findings findings{ok("configuration: " + path)};
+    const BusHeard bus = listen(settings.lcm_url, request.listen_s);
+    append(findings, judge(bus));
+    if (bus.trouble.empty()) append(findings, judge_company(bus, ""));
+    return findings;
+  } catch (const ConfigError& error) {
+    return {refused(error)};
+  }
+}
+
+Findings examine_logger(const std::string& path) {
+  try {
+    const LoggerConfig config = load_logger_config(path);
+    return {ok("configuration: " + path),
+            judge(look_at_folder("logs", config.folder, config.disk_reserve_bytes))};
+  } catch (const ConfigError& error) {
+    return {refused(error)};
+  }
+}
+
+}  // namespace
+
+Request find_configurations(const std::string& folder) {
+  Request request;
+  std::error_code absent;
+  for (const auto& entry : fs::directory_iterator(folder, absent)) {
+    if (entry.path().extension() != ".toml") continue;
+    const std::string name = entry.path().stem();
+    if (name == "fusion") {
+      request.fusion = entry.path();
+    } else if (name == "logger") {
+      request.logger = entry.path();
+    } else {
+      request.stations.push_back(entry.path());
+    }
+  }
+  std::sort(request.stations.begin(), request.stations.end());
+  return request;
+}
+
+Findings examine(const Request& request) {
+  if (request.stations.empty() && request.fusion.empty()) {
+    return {fail("configuration: none found",
+                 "copy station.toml of /usr/share/ols/examples to /etc/ols, or name a file: "
+                 "ols-doctor --config FILE")};
+  }
+  Findings findings;
+  std::vector<std::string> units{"ols-bus.service", "ols-time.service", "ols-logger.service"};
+  for (const std::string& path : request.stations) {
+    append(findings, examine_station(path, request));
+    units.push_back(unit_of(path));
+  }
+  if (!request.fusion.empty()) {
+    append(findings, examine_fusion(request.fusion, request));
+    units.emplace_back("ols-fusion.service");
+  }
+  if (!request.logger.empty()) append(findings, examine_logger(request.logger));
+  append(findings, examine_units(units));
+  return findings;
+}
+
+}  // namespace ols::doctor

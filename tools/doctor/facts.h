@@ -1,0 +1,97 @@
+// What the probes have found out, as plain values for the judgement. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/clock/clock_watch.h"
+#include "edge/device_report.h"
+#include "edge/ptu/unit_model.h"
+
+namespace ols::doctor {
+
+// A station by its status message.
+struct StationHeard {
+  std::string id;
+  std::string state;  // "tracking"
+  std::vector<DeviceReport> devices;
+  ClockState clock = ClockState::kUnknown;
+  double clock_error_s = 0.0;
+  bool position_known = true;
+  std::vector<std::string> alarms;
+  std::map<std::string, double> counters;
+  std::string last_error;
+  double last_error_age_s = 0.0;
+  std::size_t boots = 1;  // different processes that answer to this id
+};
+
+struct BusHeard {
+  std::string url;
+  std::string trouble;        // why there is no bus; empty: there is one
+  std::string interface;      // by which it leaves this host; empty: not known
+  int ttl = 0;                // 0: it does not leave this host
+  std::int64_t rmem_max = 0;  // net.core.rmem_max [byte]; 0: not known
+  std::map<std::string, StationHeard> stations;
+  int fusions = 0;
+};
+
+struct SerialFacts {
+  std::string device;
+  int error = 0;                   // errno of opening it; 0: it opens
+  std::vector<std::string> users;  // other processes that have it open: "ols-station (1234)"
+};
+
+struct PtuAxisAnswers {
+  std::optional<double> resolution_arcsec;
+  std::optional<double> least, greatest;  // [counts]
+};
+
+struct PtuAnswers {
+  SerialFacts serial;
+  int baud = 0;  // at which it answered; 0: at none
+  int wanted_baud = 0, wanted_line_baud = 0;
+  std::string version;
+  PtuAxisAnswers pan, tilt;
+  bool not_referenced = false;
+  std::optional<PtuEnvironment> environment;
+  double supply_min_V = 0.0;
+};
+
+// A network interface.
+struct LinkFacts {
+  std::string name;  // empty: no route
+  bool carrier = false;
+  int mtu = 0;
+  std::optional<int> speed_Mbit_s;
+  std::uint64_t received = 0, dropped = 0;  // packets since the interface is up
+};
+
+struct CameraAnswers {
+  std::string device;
+  std::string trouble;  // why it cannot be used; empty: it can
+  std::string identity;
+  bool controlled = false;  // by another
+  bool has_clock = true;    // false: Aravis puts the host's time in place of the camera's
+  std::optional<double> temperature_degC;
+  std::vector<std::string> others;  // cameras that answered a broadcast
+  std::optional<LinkFacts> link;
+  double rate_bytes_s = 0.0;  // of the stream that is configured
+};
+
+struct FolderFacts {
+  std::string name;  // what it is for
+  std::string folder;
+  int error = 0;  // errno of looking at it or of asking for write access
+  double free_bytes = 0.0, reserve_bytes = 0.0;
+};
+
+// Of `systemctl show`.
+struct UnitFacts {
+  std::string id, load, active, sub, result, status;
+  int restarts = 0;
+};
+
+}  // namespace ols::doctor

@@ -1,0 +1,74 @@
+#include "tools/doctor/finding.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace ols::doctor {
+namespace {
+
+const char* word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kOk:
+      return "ok";
+    case Verdict::kWarn:
+      return "warn";
+    case Verdict::kFail:
+      return "FAIL";
+  }
+  return "FAIL";
+}
+
+Verdict gravest(const Findings& findings) {
+  Verdict verdict = Verdict::kOk;
+  for (const Finding& finding : findings) verdict = std::max(verdict, finding.verdict);
+  return verdict;
+}
+
+// RFC 8259, section 7. Devices may answer with any byte.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (byte < 0x20) {
+      char code[8];
+      std::snprintf(code, sizeof code, "\\u%04x", byte);
+      out += code;
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+}  // namespace
+
+void append(Findings& all, const Findings& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+std::string line(const Finding& finding) {
+  std::string text = word(finding.verdict);
+  text.resize(6, ' ');
+  text += finding.what;
+  if (!finding.advice.empty()) text += "  — " + finding.advice;
+  return text;
+}
+
+std::string to_json(const Findings& findings) {
+  std::string out = "{\"verdict\": " + quoted(word(gravest(findings))) + ", \"findings\": [";
+  bool first = true;
+  for (const Finding& finding : findings) {
+    out += first ? "\n" : ",\n";
+    first = false;
+    out += "  {\"verdict\": " + quoted(word(finding.verdict)) +
+           ", \"what\": " + quoted(finding.what) + ", \"advice\": " + quoted(finding.advice) + "}";
+  }
+  return out + "\n]}";
+}
+
+int exit_status(const Findings& findings) { return static_cast<int>(gravest(findings)); }
+
+}  // namespace ols::doctor

@@ -1,0 +1,36 @@
+// What ols-doctor says: one line a check, and what to do about it. Pure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace ols::doctor {
+
+enum class Verdict { kOk, kWarn, kFail };  // in the order of gravity
+
+struct Finding {
+  Verdict verdict = Verdict::kOk;
+  std::string what;    // "ptu: PTU-D46 v2.12.1 on /dev/ols/ptu"
+  std::string advice;  // what to do; empty when all is well
+};
+
+inline Finding ok(std::string what) { return {Verdict::kOk, std::move(what), {}}; }
+inline Finding warn(std::string what, std::string advice) {
+  return {Verdict::kWarn, std::move(what), std::move(advice)};
+}
+inline Finding fail(std::string what, std::string advice) {
+  return {Verdict::kFail, std::move(what), std::move(advice)};
+}
+
+using Findings = std::vector<Finding>;
+
+void append(Findings& all, const Findings& more);
+
+// "FAIL  what  — what to do"
+std::string line(const Finding& finding);
+// {"verdict": "warn", "findings": [{"verdict": "ok", "what": "...", "advice": ""}, ...]}
+std::string to_json(const Findings& findings);
+// The gravest verdict: 0 all is well, 1 something to look at, 2 something does not work.
+int exit_status(const Findings& findings);
+
+}  // namespace ols::doctor

@@ -1,0 +1,223 @@
+#include "tools/doctor/judge_devices.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+namespace ols::doctor {
+namespace {
+
+constexpr double kLossWarning = 1e-4;  // of received packets; 0.1 % spoils half of the frames
+constexpr double kLinkShare = 0.8;     // of a link's rate that a stream may take
+constexpr int kEthernetMtu = 1500;
+constexpr double kMega = 1e6;
+constexpr double kBitsPerByte = 8.0;
+constexpr double kHot_degC = 65.0;  // GT1290: operating range to 65 degC, of the housing
+constexpr double kArcsecPerDegree = 3600.0;
+
+std::string number(double value, const char* format) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+const char* advice_for(const std::string& device) {
+  struct Advice {
+    const char* device;
+    const char* text;
+  };
+  static constexpr Advice kAdvice[] = {
+      {"camera", "check its power and cable; arv-tool-0.8 lists the cameras that answer"},
+      {"ptu",
+       "check its 12-30 V supply and the serial cable; then stop the station and run "
+       "ols-doctor again: it asks the unit itself"},
+      {"inclinometer", "check its cable; it streams at 9600 baud, some variants with even parity"},
+      {"gnss", "check gpsd (systemctl status gpsd, cgps) and that the antenna sees the sky"},
+      {"gpio", "check that the chip is there (gpiodetect) and that user ols is in group gpio"},
+      {"recorder", "check the recorder's folder and the room on its disk"}};
+  for (const Advice& advice : kAdvice) {
+    if (device == advice.device) return advice.text;
+  }
+  return "see the station's journal";
+}
+
+std::string axis_words(const char* name, const PtuAxisAnswers& axis) {
+  if (!axis.resolution_arcsec || !axis.least || !axis.greatest) {
+    return std::string(name) + " unknown";
+  }
+  const double degrees_per_count = *axis.resolution_arcsec / kArcsecPerDegree;
+  return std::string(name) + number(*axis.least * degrees_per_count, " %.1f") + "..." +
+         number(*axis.greatest * degrees_per_count, "%.1f deg in steps of ") +
+         number(*axis.resolution_arcsec, "%.2f\"");
+}
+
+Finding judge_baud(const PtuAnswers& ptu) {
+  const std::string said = "ptu: answers at " + std::to_string(ptu.baud) + " baud";
+  if (ptu.baud == ptu.wanted_baud || ptu.baud == ptu.wanted_line_baud) return ok(said);
+  return fail(said + ", not at " + std::to_string(ptu.wanted_baud) + " or " +
+                  std::to_string(ptu.wanted_line_baud),
+              "write line_baud = " + std::to_string(ptu.baud) + " into [ptu]");
+}
+
+Finding judge_axes(const PtuAnswers& ptu) {
+  if (ptu.not_referenced) {
+    return fail("ptu: does not know where it is (\"Axis Error\")",
+                "clear its whole travel of people and cables, then allow homing: "
+                "rehome = \"when-unreferenced\"");
+  }
+  const std::string words =
+      "ptu: " + axis_words("pan", ptu.pan) + ", " + axis_words("tilt", ptu.tilt);
+  for (const PtuAxisAnswers& axis : {ptu.pan, ptu.tilt}) {
+    if (!axis.resolution_arcsec || !axis.least || !axis.greatest) {
+      return fail(words, "replies are lost or garbled: check cable, ground and baud");
+    }
+    if (*axis.greatest <= *axis.least) {
+      return fail(words, "the unit has no travel: home it (switch it off and on)");
+    }
+  }
+  return ok(words);
+}
+
+Finding judge_supply(const PtuAnswers& ptu) {
+  if (!ptu.environment) return warn("ptu: does not tell its supply", "measure the voltage at it");
+  const std::string words = "ptu: supply" + number(ptu.environment->supply_V, " %.1f V");
+  if (ptu.environment->supply_V >= ptu.supply_min_V) return ok(words);
+  return warn(words + ", below" + number(ptu.supply_min_V, " %.1f V"),
+              "charge or replace the battery; at 12 V it reaches two thirds of its speed");
+}
+
+}  // namespace
+
+Finding judge(const DeviceReport& device) {
+  const std::string words = device.name + (device.text.empty() ? "" : ": " + device.text);
+  switch (device.state) {
+    case DeviceState::kOk:
+      return ok(words);
+    case DeviceState::kStarting:
+      return warn(words, "it begins; ask again in a minute");
+    case DeviceState::kAbsent:
+    case DeviceState::kFault:
+      break;
+  }
+  const std::string trouble = device.last_error.empty() || device.last_error == device.text
+                                  ? std::string()
+                                  : " (" + device.last_error + ")";
+  return fail(words + trouble, advice_for(device.name));
+}
+
+std::optional<Finding> judge_line(const std::string& name, const SerialFacts& serial) {
+  const std::string words = name + ": " + serial.device;
+  switch (serial.error) {
+    case 0:
+      if (serial.users.empty()) return std::nullopt;
+      return warn(words + " is also open in " + joined(serial.users),
+                  "end that program: two readers take each other's bytes");
+    case ENOENT:
+    case ENODEV:
+    case ENXIO:
+      return fail(words + " is not there",
+                  "plug the adapter in; ls -l /dev/ols /dev/serial/by-id shows what is there");
+    case EACCES:
+    case EPERM:
+      return fail(words + ": no right to open it",
+                  "run as root or as user ols; the device must be of group dialout");
+    case EAGAIN:
+    case EBUSY:
+      return fail(words + " is in use by " +
+                      (serial.users.empty() ? "another program" : joined(serial.users)),
+                  "end that program, or stop the station to have its devices examined");
+    case ENOTTY:
+      return fail(words + " is not a serial line", "correct the device in the configuration");
+    default:
+      return fail(words + ": " + std::strerror(serial.error), advice_for(name));
+  }
+}
+
+Findings judge(const PtuAnswers& ptu) {
+  Findings findings;
+  if (const auto line = judge_line("ptu", ptu.serial)) {
+    findings.push_back(*line);
+    if (line->verdict == Verdict::kFail) return findings;
+  }
+  if (ptu.baud == 0) {
+    findings.push_back(fail("ptu: no answer on " + ptu.serial.device + " at any rate",
+                            "check its 12-30 V supply, the cable (null modem?), and whether it is "
+                            "still homing after power-up (20 s)"));
+    return findings;
+  }
+  findings.push_back(ok("ptu: " + ptu_name(ptu.version) + " on " + ptu.serial.device));
+  findings.push_back(judge_baud(ptu));
+  findings.push_back(judge_axes(ptu));
+  findings.push_back(judge_supply(ptu));
+  return findings;
+}
+
+Findings judge(const LinkFacts& link, double rate_bytes_s) {
+  if (link.name.empty()) {
+    return {fail("link: no route to the camera",
+                 "give the interface an address in the camera's network")};
+  }
+  if (!link.carrier) {
+    return {fail("link: " + link.name + " has no carrier", "check the cable and the switch")};
+  }
+  Findings findings;
+  std::string words = "link: " + link.name + ", MTU " + std::to_string(link.mtu);
+  if (link.speed_Mbit_s) words += ", " + std::to_string(*link.speed_Mbit_s) + " Mbit/s";
+  const double wanted_Mbit_s = rate_bytes_s * kBitsPerByte / kMega;
+  if (link.speed_Mbit_s && wanted_Mbit_s > kLinkShare * *link.speed_Mbit_s) {
+    findings.push_back(fail(words + ", but the stream takes" + number(wanted_Mbit_s, " %.0f"),
+                            "use a gigabit cable and port, or lower frame_rate_hz"));
+  } else if (link.mtu < kEthernetMtu) {
+    findings.push_back(warn(words, "ip link set " + link.name +
+                                       " mtu 1500, or 9000 where the "
+                                       "switch carries it"));
+  } else {
+    findings.push_back(ok(words));
+  }
+  const double loss = link.received == 0
+                          ? 0.0
+                          : static_cast<double>(link.dropped) / static_cast<double>(link.received);
+  if (loss > kLossWarning) {
+    findings.push_back(warn(
+        "link: " + link.name + " has lost" + number(100.0 * loss, " %.2f %%") + " of its packets",
+        "set packet_delay_us, and net.core.rmem_max by 60-ols.conf; check the "
+        "cable"));
+  }
+  return findings;
+}
+
+Findings judge(const CameraAnswers& camera) {
+  Findings findings;
+  if (camera.controlled) {
+    findings.push_back(fail("camera: " + camera.device + " is under the control of another",
+                            "end the other program; a camera frees itself 3 s after it"));
+  } else if (!camera.trouble.empty()) {
+    findings.push_back(
+        fail("camera: " + camera.trouble, camera.others.empty()
+                                              ? std::string(advice_for("camera"))
+                                              : "these answer: " + joined(camera.others) +
+                                                    "; write one of them as device into [camera]"));
+  } else {
+    findings.push_back(ok("camera: " + camera.identity + " at " + camera.device));
+    if (!camera.has_clock) {
+      findings.push_back(warn("camera: its clock cannot be read",
+                              "frames are stamped on arrival, and bearings marked so; set "
+                              "readout_s and readout_sd_s"));
+    }
+    if (camera.temperature_degC && *camera.temperature_degC > kHot_degC) {
+      findings.push_back(
+          warn("camera:" + number(*camera.temperature_degC, " %.0f degC"), "give it shade"));
+    }
+  }
+  if (camera.link) append(findings, judge(*camera.link, camera.rate_bytes_s));
+  return findings;
+}
+
+}  // namespace ols::doctor

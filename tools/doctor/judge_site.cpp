@@ -1,0 +1,230 @@
+#include "tools/doctor/judge_site.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+
+#include "tools/doctor/judge_devices.h"
+
+namespace ols::doctor {
+namespace {
+
+constexpr std::int64_t kRmemLeast = 8 << 20;
+constexpr double kFrameLossWarning = 0.01;
+constexpr double kRecent_s = 60.0;
+constexpr double kGiga = 1e9;
+constexpr double kMilli = 1e-3;
+
+std::string number(double value, const char* format) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+double counter(const StationHeard& station, const char* name) {
+  const auto found = station.counters.find(name);
+  return found == station.counters.end() ? 0.0 : found->second;
+}
+
+Finding judge_clock(const StationHeard& station) {
+  const std::string error = number(station.clock_error_s / kMilli, "%.1f ms");
+  switch (station.clock) {
+    case ClockState::kSynchronised:
+      return ok("clock: synchronised, error " + error);
+    case ClockState::kUnknown:
+      return warn("clock: no time service, its error is taken as " + error,
+                  "install chrony (examples: chrony-gnss.conf), or compare with other stations");
+    case ClockState::kUnsynchronised:
+      break;
+  }
+  return warn("clock: not synchronised, error " + error,
+              "chronyc sources tells why; bearings are marked meanwhile");
+}
+
+std::optional<Finding> judge_frames(const StationHeard& station) {
+  const double captured = counter(station, "frames_captured");
+  const double lost = counter(station, "frames_lost") + counter(station, "frames_incomplete");
+  if (captured + lost <= 0.0) return std::nullopt;
+  const double share = lost / (captured + lost);
+  const std::string words =
+      "frames: " + number(captured, "%.0f, ") + number(100.0 * share, "%.2f %% lost");
+  if (share <= kFrameLossWarning) return ok(words);
+  return warn(words,
+              "check the camera's cable; set packet_delay_us; net.core.rmem_max by "
+              "60-ols.conf");
+}
+
+}  // namespace
+
+Findings judge(const BusHeard& bus) {
+  if (!bus.trouble.empty()) {
+    return {fail("bus: " + bus.trouble,
+                 "name the interface in /etc/ols/bus.env and systemctl restart ols-bus")};
+  }
+  Findings findings;
+  const std::string where = bus.interface.empty() ? "" : " by " + bus.interface;
+  if (bus.ttl > 0 && bus.interface == "lo") {
+    findings.push_back(warn("bus: " + bus.url + " by lo, which no other host hears",
+                            "name the interface in /etc/ols/bus.env and systemctl restart ols-bus "
+                            "and the station"));
+  } else if (bus.ttl == 0 && !bus.interface.empty() && bus.interface != "lo") {
+    findings.push_back(warn("bus: " + bus.url + where + ", but ttl=0 keeps it on this host",
+                            "write ttl=1 into lcm_url of every program of the site"));
+  } else {
+    findings.push_back(ok("bus: " + bus.url + where));
+  }
+  if (bus.rmem_max > 0 && bus.rmem_max < kRmemLeast) {
+    findings.push_back(warn("bus: net.core.rmem_max is " + std::to_string(bus.rmem_max) +
+                                ": large messages and frames get lost",
+                            "sysctl --system, with 60-ols.conf in place"));
+  }
+  return findings;
+}
+
+Findings judge_company(const BusHeard& bus, const std::string& own) {
+  Findings findings;
+  std::string others;
+  for (const auto& [id, station] : bus.stations) {
+    if (id != own) others += (others.empty() ? "" : ", ") + id + " (" + station.state + ")";
+  }
+  if (others.empty()) {
+    findings.push_back(warn(own.empty() ? "stations: none heard" : "stations: no other heard",
+                            "check the network between them, its switch (IGMP snooping without a "
+                            "querier drops multicast), and that lcm_url is the same"));
+  } else {
+    findings.push_back(ok("stations: " + others));
+  }
+  if (bus.fusions == 0) {
+    findings.push_back(warn("fusion: not heard", "systemctl status ols-fusion at the centre"));
+  } else if (bus.fusions > 1) {
+    findings.push_back(
+        fail("fusion: " + std::to_string(bus.fusions) + " of them send slews", "end all but one"));
+  } else {
+    findings.push_back(ok("fusion: heard"));
+  }
+  return findings;
+}
+
+Findings judge(const StationHeard& station) {
+  Findings findings;
+  if (station.boots > 1) {
+    findings.push_back(
+        fail("station: " + std::to_string(station.boots) + " answer to " + station.id,
+             "give each station an id of its own"));
+  } else {
+    findings.push_back(ok("station: " + station.id + " runs, " + station.state));
+  }
+  for (const DeviceReport& device : station.devices) findings.push_back(judge(device));
+  findings.push_back(judge_clock(station));
+  if (!station.position_known) {
+    findings.push_back(fail("pose: no position, and so no bearings",
+                            "survey the place into [pose], or wait for the GNSS receiver's fix"));
+  }
+  if (const auto frames = judge_frames(station)) findings.push_back(*frames);
+  for (const std::string& alarm : station.alarms) {
+    findings.push_back(warn("alarm: " + alarm, "docs/operations.md lists the alarms"));
+  }
+  if (!station.last_error.empty() && station.last_error_age_s < kRecent_s) {
+    findings.push_back(
+        warn("last error, " + number(station.last_error_age_s, "%.0f s ago: ") + station.last_error,
+             "journalctl -u 'ols-station@*' tells more"));
+  }
+  return findings;
+}
+
+Finding judge(const ClockQuality& clock) {
+  const std::string words =
+      "clock: " + clock.text + (clock.alarm.empty() ? "" : " (" + clock.alarm + ")");
+  if (clock.state == ClockState::kSynchronised && clock.alarm.empty()) return ok(words);
+  if (clock.state == ClockState::kUnknown) {
+    return warn(words, "install chrony; examples: chrony-gnss.conf");
+  }
+  return warn(words, "chronyc sources and chronyc tracking tell why");
+}
+
+Finding judge(const FolderFacts& folder) {
+  const std::string words = "disk: " + folder.name + " " + folder.folder;
+  if (folder.error != 0) {
+    return fail(words + ": " + std::strerror(folder.error),
+                "make it (systemd-tmpfiles --create), give it to user ols, check that the disk is "
+                "mounted writable");
+  }
+  const std::string free = ", " + number(folder.free_bytes / kGiga, "%.1f GB free");
+  if (folder.free_bytes < folder.reserve_bytes) {
+    return warn(words + free, "make room: recording pauses below" +
+                                  number(folder.reserve_bytes / kGiga, " %.1f GB"));
+  }
+  return ok(words + free);
+}
+
+Findings judge(const HostReport& host) {
+  Findings findings;
+  for (const std::string& alarm : host.alarms) {
+    findings.push_back(
+        warn("host: " + alarm, "shade and air for a hot processor; room on the disk"));
+  }
+  const auto cpu = host.readings.find("cpu_degC");
+  if (host.alarms.empty() && cpu != host.readings.end()) {
+    findings.push_back(ok("host: processor" + number(cpu->second, " %.0f degC")));
+  }
+  return findings;
+}
+
+std::optional<Finding> judge(const UnitFacts& unit) {
+  if (unit.load != "loaded") return std::nullopt;
+  const std::string words =
+      "service: " + unit.id + " " + unit.active + (unit.status.empty() ? "" : ", " + unit.status);
+  const std::string journal = "journalctl -u " + unit.id + " -n 20";
+  if (unit.active == "failed") {
+    return fail(words + " (" + unit.result + ")",
+                journal + " tells why; it is tried again each minute");
+  }
+  if (unit.active == "activating") return warn(words + " (" + unit.sub + ")", journal);
+  if (unit.active != "active") return warn(words, "systemctl enable --now " + unit.id);
+  if (unit.restarts > 0) {
+    return warn(words + ", started again " + std::to_string(unit.restarts) + " times", journal);
+  }
+  return ok(words);
+}
+
+std::vector<UnitFacts> parse_units(const std::string& text) {
+  std::vector<UnitFacts> units;
+  std::istringstream lines(text);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    const auto equals = line.find('=');
+    if (equals == std::string::npos) {
+      inside = false;  // an empty line ends a block
+      continue;
+    }
+    if (!inside) units.emplace_back();
+    inside = true;
+    UnitFacts& unit = units.back();
+    const std::string key = line.substr(0, equals), value = line.substr(equals + 1);
+    if (key == "Id") unit.id = value;
+    if (key == "LoadState") unit.load = value;
+    if (key == "ActiveState") unit.active = value;
+    if (key == "SubState") unit.sub = value;
+    if (key == "Result") unit.result = value;
+    if (key == "StatusText") unit.status = value;
+    if (key == "NRestarts") unit.restarts = std::atoi(value.c_str());
+  }
+  return units;
+}
+
+std::string parse_route(const std::string& text) {
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (word == "dev" && words >> word) return word;
+  }
+  return {};
+}
+
+int parse_ttl(const std::string& lcm_url) {
+  const auto at = lcm_url.find("ttl=");
+  return at == std::string::npos ? 0 : std::atoi(lcm_url.c_str() + at + std::strlen("ttl="));
+}
+
+}  // namespace ols::doctor

@@ -1,0 +1,47 @@
+// ols-doctor: what works on this host, what does not, and what to do about it.
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "base/command_line.h"
+#include "tools/doctor/examination.h"
+
+namespace {
+
+constexpr int kExitDefect = 3;
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Tells what of a station or of the centre works, what does not, and what to do. Disturbs "
+      "nothing that runs: a running station is asked, and its devices only when it does not run; "
+      "no PTU moves. Ends with 0 when all is well, 1 with warnings, 2 with failures"};
+  std::vector<std::string> configs;
+  bool json = false;
+  app.add_option("--config", configs, "Station's configuration; default: all of /etc/ols");
+  app.add_flag("--json", json, "For programs");
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-doctor")) return *status;
+  spdlog::set_level(spdlog::level::off);  // what the drivers say is judged, not shown
+  try {
+    ols::doctor::Request request = ols::doctor::find_configurations("/etc/ols");
+    if (!configs.empty()) {
+      request.stations = configs;
+      request.fusion.clear();
+      request.logger.clear();
+    }
+    const ols::doctor::Findings findings = ols::doctor::examine(request);
+    if (json) {
+      std::printf("%s\n", ols::doctor::to_json(findings).c_str());
+    } else {
+      for (const auto& finding : findings) std::printf("%s\n", ols::doctor::line(finding).c_str());
+    }
+    return ols::doctor::exit_status(findings);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ols-doctor: %s\n", error.what());
+    return kExitDefect;
+  }
+}

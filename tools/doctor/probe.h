@@ -1,0 +1,34 @@
+// Looks at what the station would use: devices only where no station runs, and never moving one.
+// Nothing throws: what goes wrong is in the answer.
+#pragma once
+
+#include "edge/config.h"
+#include "edge/host_watch.h"
+#include "tools/doctor/facts.h"
+
+namespace ols::doctor {
+
+// Opens and closes the line, unless a program of ours has it: they lock it.
+SerialFacts look_at_line(const std::string& device, int baud);
+
+// Asks version, resolution, limits and supply, at the configured rates first and then at the
+// others. A unit in its scan mode (which no program of ours uses) ends that at any byte.
+PtuAnswers ask_ptu(const PtuConfig& config);
+
+// Opens the camera's control channel for a moment; no frame is taken.
+CameraAnswers ask_camera(const CameraConfig& config);
+
+// The sensors by their own drivers, for as long as each takes to be well, at most `seconds`.
+DeviceReport ask_gnss(const GnssConfig& config, double seconds);
+DeviceReport ask_inclinometer(const InclinometerConfig& config, double seconds);
+// Reads the emergency stop; outputs stay untouched.
+DeviceReport ask_gpio(const GpioConfig& config);
+
+ClockQuality ask_clock(const ClockWatch::Config& config, double seconds);
+
+LinkFacts look_at_link(const std::string& address);
+FolderFacts look_at_folder(const std::string& name, const std::string& folder,
+                           double reserve_bytes);
+std::vector<UnitFacts> look_at_units(const std::vector<std::string>& units);
+
+}  // namespace ols::doctor

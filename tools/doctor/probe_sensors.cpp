@@ -1,0 +1,78 @@
+#include <chrono>
+#include <system_error>
+#include <thread>
+
+#include "base/clocks.h"
+#include "edge/clock/clock_pair.h"
+#include "edge/clock/clock_source.h"
+#include "edge/gpio/gpio_lines.h"
+#include "tools/doctor/probe.h"
+
+namespace ols::doctor {
+namespace {
+
+constexpr auto kPoll = std::chrono::milliseconds(50);
+
+// Asks until `well` or the time is over.
+template <typename Well>
+void wait_until(Well well, double seconds) {
+  const double end_s = clock_monotonic_s() + seconds;
+  while (!well() && clock_monotonic_s() < end_s) std::this_thread::sleep_for(kPoll);
+}
+
+template <typename Sensor, typename Config>
+DeviceReport ask_sensor(const Config& config, double seconds) {
+  Sensor sensor(config);
+  wait_until([&] { return sensor.report().state == DeviceState::kOk; }, seconds);
+  return sensor.report();
+}
+
+}  // namespace
+
+DeviceReport ask_gnss(const GnssConfig& config, double seconds) {
+  return ask_sensor<Gnss>(config, seconds);
+}
+
+DeviceReport ask_inclinometer(const InclinometerConfig& config, double seconds) {
+  return ask_sensor<Inclinometer>(config, seconds);
+}
+
+DeviceReport ask_gpio(const GpioConfig& config) {
+  constexpr double kLevel_s = 0.5;
+  DeviceReport report;
+  report.name = "gpio";
+  try {
+    const auto lines =
+        open_gpio_lines(config.chip, LineUse{.input = config.stop_line, .outputs = {}});
+    report.state = DeviceState::kOk;
+    report.text = config.chip;
+    if (config.stop_line < 0) return report;
+    std::vector<LineLevel> levels;
+    lines->refresh();
+    wait_until([&] { return !(levels = lines->receive()).empty(); }, kLevel_s);
+    if (levels.empty()) {
+      report.state = DeviceState::kFault;
+      report.text += ": the emergency stop's line does not answer";
+    } else {
+      report.text +=
+          levels.back().high ? ", emergency stop's line is high" : ", emergency stop's line is low";
+    }
+  } catch (const std::system_error& trouble) {
+    report.state = DeviceState::kAbsent;
+    report.text = trouble.what();
+  }
+  return report;
+}
+
+ClockQuality ask_clock(const ClockWatch::Config& config, double seconds) {
+  ClockWatch watch(config);
+  ClockSource source;
+  const ClockPair now = read_clock_pair();
+  watch.tick(now.monotonic_s, now.utime_us);
+  std::optional<ClockReading> reading;
+  wait_until([&] { return (reading = source.take()).has_value(); }, seconds);
+  if (reading) watch.add(*reading);
+  return watch.quality(clock_monotonic_s());
+}
+
+}  // namespace ols::doctor
