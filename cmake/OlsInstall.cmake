@@ -19,5 +19,5 @@ install(DIRECTORY systemd/sysusers.d systemd/tmpfiles.d systemd/sysctl.d
 install(DIRECTORY systemd/udev/ DESTINATION ${OLS_SYSTEM_LIBDIR}/udev/rules.d)
 install(DIRECTORY systemd/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/ols/examples)
 install(DIRECTORY tools/sim/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/ols)
-install(FILES README.md LICENSE docs/accuracy.md docs/architecture.md docs/operations.md
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ols)
+install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ols)
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ols FILES_MATCHING PATTERN "*.md")
