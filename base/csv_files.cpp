@@ -104,8 +104,9 @@ void read_header(Reader<kColumns>& reader, const std::string& path,
 // The whole file, its last line ended: the library reads past the end of one that is not.
 std::string content_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string content{std::istreambuf_iterator<char>(file), {}};
+  file.peek();  // a folder opens, but the iterator below would throw what it throws
   if (!file.is_open() || file.bad()) throw CsvError(path + ": cannot be read");
+  std::string content{std::istreambuf_iterator<char>(file), {}};
   if (!content.empty() && content.back() != '\n') content += '\n';
   return content;
 }
