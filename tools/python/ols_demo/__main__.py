@@ -32,7 +32,12 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "--output", type=Path, default=root / "out/demo", help="folder for log, configuration, plot"
     )
-    parser.add_argument("--bin", type=Path, default=root / "build/release/bin")
+    parser.add_argument(
+        "--bin", type=Path, default=root / "build/release/bin", help="folder of the programs"
+    )
+    parser.add_argument(
+        "--patience", type=float, default=DESIGNATION_S, help="until all stations track [s]"
+    )
     return parser.parse_args()
 
 
@@ -57,12 +62,12 @@ class Run:
 
     def designate(self, site: Site, stations: list[str]) -> None:
         print(f"designating the target in {len(stations)} views", flush=True)
-        deadline = time.monotonic() + DESIGNATION_S
+        deadline = time.monotonic() + self.options.patience
         while not self.operator.tracking.issuperset(stations):
             self.turn(site, "the operator points the stations and designates the target")
             if time.monotonic() > deadline:
                 missing = ", ".join(sorted(set(stations) - self.operator.tracking))
-                raise SiteError(f"not tracking after {DESIGNATION_S:.0f} s: {missing}")
+                raise SiteError(f"not tracking after {self.options.patience:.0f} s: {missing}")
 
     def watch(self, site: Site) -> tuple[int, int]:
         """Runs for the asked time; the window [us] in which the run is judged."""

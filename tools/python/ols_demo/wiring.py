@@ -53,11 +53,12 @@ class Wiring:
             tomllib.loads(path.read_text())["camera"]["device"] for path in self.configs.values()
         ]
 
-    def start(self, site: Site) -> None:
+    def start(self, site: Site, log: bool = True) -> None:
         """Everything up, the log running; raises SiteError when something does not come up."""
         print(f"starting simulator, {len(self.configs)} stations, fusion and logger", flush=True)
         logger = ["lcm-logger", "--lcm-url", LIVE_URL, "--quiet", str(self.log)]
-        site.start("lcm-logger", logger)
+        if log:
+            site.start("lcm-logger", logger)
         site.start_and_wait("ols-sim", self._sim(), "ready")
         self._start_gpsds(site)
         self.start_fusion(site)
