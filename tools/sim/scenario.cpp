@@ -239,6 +239,7 @@ Scenario read_scenario(ConfigFile& file, const std::string& folder) {
   read_ptu(root.table("ptu"), s.ptu);
   read_inclinometer(root.table("inclinometer"), s.inclinometer);
   read_gnss(root.table("gnss"), s.gnss);
+  s.gpio.on = root.table("gpio").boolean("on", s.gpio.on);
   read_landscape(root.table("landscape"), s.landscape);
   ConfigTable& errors = root.table("errors");
   read_pose_errors(errors, s.errors);

@@ -101,6 +101,11 @@ struct GnssScenario {
   int gpsd_port = 2950;  // of the first station's gpsd; the others' follow
 };
 
+// The emergency stop input of every station.
+struct GpioScenario {
+  bool on = false;  // a station without it is told of none
+};
+
 // What stands around the site, seen at infinity.
 struct Landscape {
   double ridge_mean_rad = radians(8.0);
@@ -120,6 +125,7 @@ struct Scenario {
   PtuScenario ptu;
   InclinometerScenario inclinometer;
   GnssScenario gnss;
+  GpioScenario gpio;
   Errors errors;
   Landscape landscape;
   std::vector<StationScenario> stations;

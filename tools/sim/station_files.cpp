@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/atomic_file.h"
+#include "tools/sim/gpio_socket.h"
 
 namespace ols::sim {
 namespace {
@@ -73,6 +74,14 @@ void write_sensors(std::ostream& out, const Scenario& s, std::size_t station,
   }
 }
 
+void write_gpio(std::ostream& out, const Scenario& s, const std::string& line_stem) {
+  if (!s.gpio.on) return;
+  const GpioServerConfig lines;
+  out << "\n[gpio]"
+      << "\nchip = \"socket:" << line_stem << ".gpio\""
+      << "\nled_line = " << lines.led_line << "\nstop_line = " << lines.stop_line << "\n";
+}
+
 }  // namespace
 
 std::string station_file(const World& world, std::size_t station,
@@ -91,6 +100,7 @@ std::string station_file(const World& world, std::size_t station,
   out << "\n[clock]\nsd_s = " << truth.clock_sd_s << "\n";
   write_devices(out, world.scenario(), world.scenario().stations[station], options.line_folder);
   write_sensors(out, world.scenario(), station, options.line_folder + "/" + truth.id);
+  write_gpio(out, world.scenario(), options.line_folder + "/" + truth.id);
   return out.str();
 }
 

@@ -25,7 +25,11 @@ def decode(channel: str, data: bytes) -> Any | None:
     """The message, or None for a channel that nobody here reads."""
     for pattern, kind in TYPES:
         if re.fullmatch(pattern, channel):
-            return kind.decode(data)
+            message = kind.decode(data)
+            # lcm-gen's Python gives an array of booleans as an iterator, good for one look.
+            if isinstance(message, ols_msg.target_t):
+                message.used = list(message.used)
+            return message
     return None
 
 

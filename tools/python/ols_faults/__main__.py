@@ -14,11 +14,15 @@ from ols_demo.wiring import Wiring
 from ols_faults import (  # noqa: F401
     cases_baseline,
     cases_camera,
+    cases_clock,
     cases_commands,
+    cases_disk,
     cases_network,
     cases_processes,
     cases_ptu,
     cases_sensors,
+    cases_stop,
+    configuration,
     report,
 )
 from ols_faults.case import CASES, Outcome
@@ -65,6 +69,9 @@ def run_case(session: Session, name: str) -> Outcome:
 def run_cases(options: argparse.Namespace, names: list[str]) -> dict[str, Outcome]:
     wiring = Wiring(options.bin, options.scenario, options.seed, options.output)
     bring_up_loopback(wiring.prepare())
+    disk = (options.output / "disk").resolve()
+    cases_disk.mount(disk)
+    configuration.alter(wiring, disk)
     outcomes: dict[str, Outcome] = {}
     remaining = list(names)
     # A site that a fault has broken for good fails its case; the rest get a new one.
@@ -73,7 +80,7 @@ def run_cases(options: argparse.Namespace, names: list[str]) -> dict[str, Outcom
             wiring.log.rename(wiring.log.with_stem(f"run-{len(outcomes)}"))
         with Site(options.output / "logs") as site:
             wiring.start(site)
-            session = Session(wiring, site, options.seed)
+            session = Session(wiring, site, options.seed, disk)
             while remaining:
                 name = remaining.pop(0)
                 print(f"{name}: {CASES[name].fault}", flush=True)

@@ -70,15 +70,24 @@ def fastest_deg_s(recording: Recording, station: str, start_us: int, end_us: int
     return float(speeds(times, angles).max()) if len(times) else float("nan")
 
 
-def braking_begins_s(recording: Recording, station: str, start_us: int, end_us: int) -> float:
-    """When a PTU that moved at a steady speed began to slow down [s after start]; NaN never."""
-    times, angles = ptu_track(recording, station, start_us, end_us)
+def braking(recording: Recording, station: str, edge_us: int) -> tuple[float, float, float]:
+    """Of a PTU that turns steadily and then brakes: its speed before [deg/s], when it begins to
+    brake after the edge [s], and its deceleration [deg/s^2]. A line through the middle of the
+    braking, drawn back to the speed before, is far finer than the first slower sample."""
+    before_us = edge_us - 50_000
+    times, angles = ptu_track(recording, station, before_us, edge_us + 2_500_000)
+    times = times - 0.05
     speed = speeds(times, angles)
-    if len(speed) < 10:
-        return float("nan")
-    steady = float(np.median(speed[times < 0.03])) if (times < 0.03).any() else float(speed[0])
-    slower = np.flatnonzero(speed < 0.97 * steady)
-    return float(times[slower[0]]) if len(slower) else float("nan")
+    if len(speed) < 50:
+        return float("nan"), float("nan"), float("nan")
+    steady = float(np.median(speed[times <= 0.0]))
+    slow = np.flatnonzero(speed < 0.3 * steady)
+    end = slow[0] if len(slow) else len(speed)
+    chosen = np.flatnonzero((speed < 0.85 * steady) & (np.arange(len(speed)) < end))
+    if len(chosen) < 5:
+        return steady, float("nan"), float("nan")
+    slope, offset = np.polyfit(times[chosen], speed[chosen], 1)
+    return steady, float((steady - offset) / slope), float(-slope)
 
 
 def bearing_errors(

@@ -6,6 +6,7 @@ import os
 import signal
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -27,13 +28,15 @@ OTHER_OBJECT_DEG = 0.5
 class Session:
     """One simulated site. Nothing here judges."""
 
-    def __init__(self, wiring: Wiring, site: Site, seed: int):
+    def __init__(self, wiring: Wiring, site: Site, seed: int, disk: Path):
         self.wiring, self.site, self.seed = wiring, site, seed
+        self.disk = disk  # of disk_station: a small one of its own
         self.heard = Recording()
         self.observer = Observer()
         self.bus = Bus(LIVE_URL, self.hear)
         self.operator = Operator(self.bus.lcm, self.observer, seed)
         self._sequence = 0
+        self._restoring_us = 0
         self._handlers: list[Callable[[], None]] = []
 
     def add_handler(self, handler: Callable[[], None]) -> None:
@@ -46,6 +49,19 @@ class Session:
     def hear(self, channel: str, message: Any) -> None:
         self.heard.receive(channel, message, self.now_us())
         self.observer.receive(channel, message)
+
+    @property
+    def sensor_station(self) -> str:
+        """The one whose pose is not surveyed."""
+        return self.stations[-1]
+
+    @property
+    def clock_station(self) -> str:
+        return self.stations[2]
+
+    @property
+    def disk_station(self) -> str:
+        return self.stations[0]
 
     @property
     def stations(self) -> list[str]:
@@ -198,7 +214,7 @@ class Session:
             if self.process(station) not in self.site.processes:
                 self.start_station(station)
         self.site.check()
-        start = time.monotonic()
+        start, self._restoring_us = time.monotonic(), self.now_us()
         looked = 0.0
         by_hand: set[str] = set()
         while not self.well():
@@ -227,9 +243,10 @@ class Session:
     def on_target(self, station: str) -> bool:
         """Whether it tracks, now, and the target at that: any other object is believed as well."""
         now_us = self.now_us()
-        if not self.tracks(station, now_us - 1_500_000):
+        since_us = max(now_us - 1_500_000, self._restoring_us)
+        if not self.tracks(station, since_us):
             return False
-        errors, _ = measure.bearing_errors(self.heard, station, now_us - 1_000_000, now_us)
+        errors, _ = measure.bearing_errors(self.heard, station, since_us, now_us)
         return len(errors) > 0 and bool(np.hypot(*errors[-1]) < np.radians(OTHER_OBJECT_DEG))
 
     def _free(self, by_hand: set[str]) -> None:

@@ -30,7 +30,7 @@ GROWTH_MB = 2.0
 GROWTH_FILES = 0.5
 GROWTH_THREADS = 0.5
 LOST_SHARE = 0.01
-NOT_OURS = {"lcm-logger", "gpsd"}
+NOT_OURS = ("lcm-logger", "gpsd")
 QUANTITIES = ("memory_MB", "files", "threads")
 LIMITS = dict(zip(QUANTITIES, (GROWTH_MB, GROWTH_FILES, GROWTH_THREADS), strict=True))
 
@@ -108,7 +108,7 @@ def judge(samples: Samples, frames: Frames) -> dict[str, object]:
     judged = seconds >= max(WARM_UP_S, WARM_UP_SHARE * seconds[-1]) if len(seconds) else seconds > 0
     processes = {}
     for name, rows in samples.values.items():
-        entry: dict[str, object] = {"judged": name not in NOT_OURS}
+        entry: dict[str, object] = {"judged": not name.startswith(NOT_OURS)}
         for quantity in QUANTITIES:
             values = np.array(rows[quantity])
             grown = fitted_growth(seconds[judged], values[judged])
