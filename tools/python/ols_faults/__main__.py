@@ -70,7 +70,8 @@ def run_cases(options: argparse.Namespace, names: list[str]) -> dict[str, Outcom
     wiring = Wiring(options.bin, options.scenario, options.seed, options.output)
     bring_up_loopback(wiring.prepare())
     disk = (options.output / "disk").resolve()
-    cases_disk.mount(disk)
+    if any(name.startswith("disk-") for name in names):
+        cases_disk.mount(disk)
     configuration.alter(wiring, disk)
     outcomes: dict[str, Outcome] = {}
     remaining = list(names)

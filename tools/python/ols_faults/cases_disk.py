@@ -5,6 +5,7 @@ import subprocess
 from pathlib import Path
 
 import ols_msg
+from ols_demo.site import SiteError
 
 from ols_faults import measure
 from ols_faults.case import Outcome, case
@@ -20,7 +21,9 @@ def mount(folder: Path) -> None:
     """A small disk of its own in our mount namespace."""
     folder.mkdir(parents=True, exist_ok=True)
     command = ["mount", "-t", "tmpfs", "-o", f"size={DISK_BYTES},mode=0777", "tmpfs", str(folder)]
-    subprocess.run(command, check=True)
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise SiteError(f"no small disk at {folder}: {done.stderr.strip()}")
 
 
 def remount(folder: Path, how: str) -> None:
@@ -28,6 +31,8 @@ def remount(folder: Path, how: str) -> None:
 
 
 def fill(folder: Path) -> Path:
+    if not folder.is_mount():
+        raise SiteError(f"{folder} is no disk of its own: it is not filled")
     path = folder / "filling"
     with open(path, "wb", buffering=0) as file:
         try:

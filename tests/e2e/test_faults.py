@@ -1,0 +1,124 @@
+"""A few faults on a running site, function only; tools/fault-run does all of them and judges times.
+
+What the fault run measures with is tested here too: on tracks made by hand.
+"""
+
+import json
+import subprocess
+import sys
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from conftest import BIN, ROOT
+from ols_demo.recording import Recording
+from ols_faults import measure
+from ols_faults.case import Outcome
+
+DEADLINE_S = 180.0
+CASES = ["fusion-killed", "ptu-reply-lost", "bad-manual-commands"]
+STEP_S = 0.0025
+
+
+def recording_of(speed_deg_s):
+    """A PTU whose pan turns at speed_deg_s(t) for 4 s from instant 0."""
+    times = np.arange(0.0, 4.0, STEP_S)
+    pan = np.radians(np.cumsum(speed_deg_s(times)) * STEP_S)
+    recording = Recording()
+    for first in range(0, len(times), 12):
+        samples = pan[first : first + 12]
+        message = SimpleNamespace(
+            utime=round(times[first] * 1e6),
+            station="alfa",
+            interval_s=STEP_S,
+            samples=len(samples),
+            pan_rad=samples,
+            tilt_rad=np.zeros(len(samples)),
+        )
+        recording.receive("OLS_SIM_PTU_alfa", message, message.utime)
+    return recording
+
+
+def braking_from(start_s, speed=50.0, slowing=100.0):
+    return lambda t: np.clip(speed - slowing * np.maximum(0.0, t - start_s), 0.0, speed)
+
+
+def test_rest_is_when_nothing_moves_any_more():
+    recording = recording_of(braking_from(1.0))
+    assert measure.rest_s(recording, "alfa", 500_000, 4_000_000) == pytest.approx(1.0, abs=0.02)
+    assert measure.rest_s(recording, "alfa", 2_000_000, 4_000_000) == 0.0
+
+
+def test_what_moves_on_is_not_at_rest():
+    recording = recording_of(lambda t: np.full_like(t, 5.0))
+    assert measure.rest_s(recording, "alfa", 0, 4_000_000) is None
+    assert measure.moved_deg(recording, "alfa", 0, 2_000_000) == pytest.approx(10.0, abs=0.1)
+
+
+def test_braking_is_found_to_a_few_milliseconds():
+    recording = recording_of(braking_from(1.03))
+    speed, begins_s, slowing = measure.braking(recording, "alfa", 1_000_000)
+    assert speed == pytest.approx(50.0, abs=0.5)
+    assert begins_s == pytest.approx(0.03, abs=0.004)
+    assert slowing == pytest.approx(100.0, rel=0.05)
+
+
+def test_what_was_not_measured_does_not_pass():
+    outcome = Outcome()
+    assert not outcome.passed
+    outcome.at_most("a figure", 1.0, 2.0)
+    assert outcome.passed
+    outcome.at_most("never measured", None, 2.0)
+    outcome.at_most("no number", float("nan"), 2.0)
+    assert [check.passed for check in outcome.checks] == [True, False, False]
+    assert not outcome.passed
+
+
+@pytest.fixture(scope="module")
+def cases(network, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("faults")
+    command = [sys.executable, "-m", "ols_faults", "--output", str(folder), "--bin", str(BIN)]
+    command += [argument for name in CASES for argument in ("--only", name)]
+    done = subprocess.run(
+        command, capture_output=True, text=True, timeout=DEADLINE_S, check=False, cwd=ROOT
+    )
+    assert (folder / "faults.json").exists(), done.stdout + done.stderr
+    assert "| fusion-killed |" in (folder / "faults.md").read_text()
+    return json.loads((folder / "faults.json").read_text())["cases"]
+
+
+def checks_of(case):
+    assert case["error"] == ""
+    return {check["what"]: check["passed"] for check in case["checks"]}
+
+
+def test_stations_track_without_a_fusion(cases):
+    checks = checks_of(cases["fusion-killed"])
+    tracking = [passed for what, passed in checks.items() if "goes on tracking" in what]
+    assert len(tracking) == 4
+    assert all(tracking)
+    assert cases["fusion-killed"]["recovery_s"] is not None
+
+
+def test_a_lost_reply_is_counted_and_survived(cases):
+    checks = checks_of(cases["ptu-reply-lost"])
+    assert checks["counted and reported"]
+    assert cases["ptu-reply-lost"]["recovery_s"] is not None
+
+
+def test_bad_commands_move_nothing(cases):
+    checks = checks_of(cases["bad-manual-commands"])
+    assert checks["moved by 11 bad manual commands"]
+    assert checks["bad manual commands refused and counted"]
+    assert checks["moved by a good one"]
+
+
+def test_an_unknown_case_is_refused():
+    done = subprocess.run(
+        [sys.executable, "-m", "ols_faults", "--only", "nothing"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 2
+    assert "no such case: nothing" in done.stderr
