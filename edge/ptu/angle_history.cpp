@@ -13,7 +13,7 @@ bool finite(const PanTilt& p) { return std::isfinite(p.pan_rad) && std::isfinite
 bool finite(const AngleSample& s) {
   return std::isfinite(s.time_s) && std::isfinite(s.time_sd_s) &&
          std::isfinite(s.tilt_time_sd_s.value_or(0.0)) && std::isfinite(s.tilt_delay_s) &&
-         finite(s.angles) && finite(s.doubt);
+         finite(s.angles) && finite(s.doubt) && finite(s.acceleration) && finite(s.step_share);
 }
 
 double square(double x) { return x * x; }
@@ -21,12 +21,18 @@ double square(double x) { return x * x; }
 }  // namespace
 
 AngleHistory::Knot AngleHistory::pan_knot(const AngleSample& s) {
-  return {s.time_s, s.time_sd_s, s.angles.pan_rad, s.doubt.pan_rad};
+  return {s.time_s,
+          s.time_sd_s,
+          s.angles.pan_rad,
+          s.doubt.pan_rad,
+          s.acceleration.pan_rad,
+          s.step_share.pan_rad};
 }
 
 AngleHistory::Knot AngleHistory::tilt_knot(const AngleSample& s) {
-  return {s.time_s + s.tilt_delay_s, s.tilt_time_sd_s.value_or(s.time_sd_s), s.angles.tilt_rad,
-          s.doubt.tilt_rad};
+  return {s.time_s + s.tilt_delay_s, s.tilt_time_sd_s.value_or(s.time_sd_s),
+          s.angles.tilt_rad,         s.doubt.tilt_rad,
+          s.acceleration.tilt_rad,   s.step_share.tilt_rad};
 }
 
 bool AngleHistory::add(const AngleSample& sample) {
@@ -90,14 +96,14 @@ std::optional<AngleHistory::AxisAt> AngleHistory::axis_at(double time_s, KnotOf 
 }
 
 double AngleHistory::knot_variance(const Knot& knot, double rate_rad_s) const {
-  return square(rate_rad_s * knot.time_sd_s) + square(config_.step_rad) / 12.0 +
+  return square(rate_rad_s * knot.time_sd_s) + knot.step_share * square(config_.step_rad) / 12.0 +
          square(knot.doubt_rad);
 }
 
 double AngleHistory::bend2(std::size_t b, KnotOf knot) const {
   const double before = b >= 2 ? bend2_at(b - 1, knot) : 0.0;
   const double behind = b + 1 < samples_.size() ? bend2_at(b, knot) : 0.0;
-  return std::max(before, behind);
+  return std::max({before, behind, square(knot(samples_[b]).acceleration_rad_s2)});
 }
 
 // From three samples in a row: the change of the rate against its noise.

@@ -17,6 +17,10 @@ struct AngleSample {
   std::optional<double> tilt_time_sd_s = {};
   double tilt_delay_s = 0.0;
   PanTilt doubt = {};  // [rad] 1-sigma of what else may be wrong with each angle
+  // Of the variance of one encoder step, what is left when several readings were averaged.
+  PanTilt step_share = {1.0, 1.0};
+  // [rad/s^2] about as much as the unit was told to accelerate by since the sample before.
+  PanTilt acceleration = {};
 };
 
 struct AngleAt {
@@ -33,10 +37,10 @@ class AngleHistory {
     double max_gap_s = 0.25;            // no interpolation across more than this
     double max_extrapolation_s = 0.15;  // no answer further than this after the newest sample
     double step_rad = 5.61e-5;          // one encoder step: 11.5714 arc seconds
-    // What the motion between two samples may do besides going straight: this much for certain,
-    // more where the samples around show a bend; and after the newest sample up to what the unit is
-    // capable of.
-    double acceleration_sd_rad_s2 = 0.125;
+    // What the motion between two samples may do besides going straight: this much in any case,
+    // more where the unit was told so or the samples around show a bend; and after the newest
+    // sample up to what the unit is capable of.
+    double acceleration_sd_rad_s2 = 0.04;
     double acceleration_max_rad_s2 = 1.0;
   };
   explicit AngleHistory(const Config& config) : config_(config) {}
@@ -52,7 +56,7 @@ class AngleHistory {
  private:
   // One axis at one sample.
   struct Knot {
-    double time_s, time_sd_s, angle_rad, doubt_rad;
+    double time_s, time_sd_s, angle_rad, doubt_rad, acceleration_rad_s2, step_share;
   };
   struct AxisAt {
     double angle_rad, rate_rad_s, variance_rad2;
@@ -65,8 +69,8 @@ class AngleHistory {
   std::optional<AxisAt> axis_at(double time_s, KnotOf knot) const;
   // Variance of the measured angle at a knot passed at this rate.
   double knot_variance(const Knot& knot, double rate_rad_s) const;
-  // Square of the acceleration that the samples about samples_[b-1]..samples_[b] show beyond their
-  // noise.
+  // Square of the acceleration that is to be reckoned with between samples_[b-1] and samples_[b]:
+  // what the unit was told, or what the samples about them show beyond their noise.
   double bend2(std::size_t b, KnotOf knot) const;
   double bend2_at(std::size_t middle, KnotOf knot) const;
 

@@ -131,6 +131,7 @@ std::vector<PtuReply> PtuReplyParser::feed(std::string_view bytes, double time_s
 }
 
 void PtuReplyParser::reset() {
+  without_tokens(line_);  // for their count
   line_.clear();
   overlong_ = false;
   marked_ = false;

@@ -112,6 +112,7 @@ struct PtuDriver::Impl {
   void take_start_reply(const PtuReply& reply, double time_s) {
     if (!outstanding) return;
     outstanding = false;
+    if (!answered && was_ready && baud != config.baud) note_power_cycle();
     answered = true;
     if (!reply.ok) ++counters.errors;
     if (!start->take(reply)) {
@@ -133,8 +134,15 @@ struct PtuDriver::Impl {
     phase = Phase::kReady;
     pause_s = kFirstPause_s;
     unreferenced = homed = false;
+    was_ready = true;
     limit_hits_at_start = parser.limit_hits();
     banners_at_start = parser.banners();
+  }
+
+  // It has another rate than it was left with, says its name, or has forgotten its modes.
+  void note_power_cycle() {
+    ++counters.power_cycles;
+    limit_hits_at_power_up = parser.limit_hits();
   }
 
   // --- homing -----------------------------------------------------------------------------------
@@ -170,6 +178,7 @@ struct PtuDriver::Impl {
     const PtuSteadyState::Trouble trouble = *steady->trouble();
     fault(time_s, trouble.reason);
     link_lost = link_lost || trouble.kind == Kind::kNoReply;
+    if (trouble.kind == Kind::kBeganAnew) note_power_cycle();
     unreferenced = trouble.kind == Kind::kNotReferenced;
     if (unreferenced) consider_homing(time_s);
   }
@@ -227,6 +236,8 @@ struct PtuDriver::Impl {
   double late_s = 0.0;  // so long bytes may lie unread: the last two pauses between calls
   double sent_s = 0.0, flush_began_s = 0.0, last_byte_s = 0.0;
   double resume_s = 0.0, pause_s = kFirstPause_s;
+  bool was_ready = false;
+  std::optional<std::uint64_t> limit_hits_at_power_up;  // of one in mid-run
   std::uint64_t limit_hits_at_start = 0, banners_at_start = 0;
 };
 
@@ -329,6 +340,13 @@ std::optional<double> PtuDriver::last_good_s() const {
 }
 
 bool PtuDriver::not_referenced() const { return impl_->unreferenced; }
+
+// Homing runs into both ends of both axes.
+bool PtuDriver::may_have_lost_reference() const {
+  constexpr std::uint64_t kEnds = 3;  // of four, for one that was lost on the line
+  return impl_->limit_hits_at_power_up &&
+         impl_->parser.limit_hits() < *impl_->limit_hits_at_power_up + kEnds;
+}
 
 bool PtuDriver::ran_into_limit() const {
   return impl_->steady && impl_->parser.limit_hits() != impl_->limit_hits_at_start;

@@ -99,8 +99,10 @@ class PtuDriver {
   std::optional<PtuEnvironment> environment() const;
   std::optional<double> last_good_s() const;  // when the last angle was taken in
   bool not_referenced() const;                // the unit does not know where it is
-  bool ran_into_limit() const;                // since it became ready: steps may be lost
-  bool standing() const;                      // seen not to move
+  // It was switched off and on in mid-run, and was not seen to home itself since.
+  bool may_have_lost_reference() const;
+  bool ran_into_limit() const;  // since it became ready: steps may be lost
+  bool standing() const;        // seen not to move
 
   // Bytes that stop the unit at once, whatever the driver was doing: for the end of the process.
   static std::string halt_request();

@@ -140,20 +140,20 @@ class Grid {
   std::vector<Node> nodes_;
 };
 
-// Corners on one straight line become one.
-std::vector<PanTilt> straightened(const PanTilt& from, const std::vector<PanTilt>& corners) {
-  std::vector<PanTilt> kept{from};
-  for (const PanTilt& corner : corners) {
-    if (kept.size() >= 2) {
-      const PanTilt& a = kept[kept.size() - 2];
-      const PanTilt& b = kept.back();
-      const bool along_pan = a.tilt_rad == b.tilt_rad && b.tilt_rad == corner.tilt_rad;
-      const bool along_tilt = a.pan_rad == b.pan_rad && b.pan_rad == corner.pan_rad;
-      if (along_pan || along_tilt) kept.pop_back();
+// Corners between which the whole box is free are left out.
+std::vector<PanTilt> straightened(const std::vector<KeepOut>& regions, const PanTilt& from,
+                                  const std::vector<PanTilt>& corners) {
+  std::vector<PanTilt> kept;
+  PanTilt at = from;
+  for (std::size_t next = 0; next < corners.size();) {
+    std::size_t furthest = next;
+    for (std::size_t i = next; i < corners.size(); ++i) {
+      if (!blocked(regions, spanned(at, corners[i]))) furthest = i;
     }
-    kept.push_back(corner);
+    at = corners[furthest];
+    kept.push_back(at);
+    next = furthest + 1;
   }
-  kept.erase(kept.begin());
   return kept;
 }
 
@@ -191,7 +191,7 @@ std::optional<std::vector<PanTilt>> way_round(const AngleBox& travel,
       std::min(travel.tilt_min_rad, from.tilt_rad), std::max(travel.tilt_max_rad, from.tilt_rad)};
   const auto corners = Grid(room, regions, from, to).path(from, to);
   if (!corners) return std::nullopt;
-  return straightened(from, *corners);
+  return straightened(regions, from, *corners);
 }
 
 namespace {

@@ -29,9 +29,10 @@ AngleBox spanned(const PanTilt& a, const PanTilt& b);
 bool blocked(const std::vector<KeepOut>& regions, const AngleBox& box);
 bool blocked(const std::vector<KeepOut>& regions, const PanTilt& at);
 
-// From one place to another, one axis at a time, within `travel` and without crossing a region:
-// the corners on the shortest such way, the last one being `to`; nothing when there is none. A
-// direct move that is free has one corner. From inside a region the first corner is straight out.
+// From one place to another within `travel` and without crossing a region: the corners of the
+// shortest such way, the last one being `to`, the box between each and the next being free; nothing
+// when there is none. A direct move that is free has one corner. From inside a region the first
+// corner is straight out.
 std::optional<std::vector<PanTilt>> way_round(const AngleBox& travel,
                                               const std::vector<KeepOut>& regions,
                                               const PanTilt& from, const PanTilt& to);

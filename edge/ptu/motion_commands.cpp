@@ -93,6 +93,10 @@ PtuRequest MotionCommands::next(const std::optional<ServoGoal>& goal, const Now&
                                 double time_s) {
   const auto command = servo_step(servo_, limits_, goal, now.angles, time_s, now.rate_rad_s);
   if (!command) return halt(now, time_s);
+  change_ = {change(command->speed.pan_rad, command->position.pan_rad - now.angles.pan_rad,
+                    now.rate_rad_s.pan_rad),
+             change(command->speed.tilt_rad, command->position.tilt_rad - now.angles.tilt_rad,
+                    now.rate_rad_s.tilt_rad)};
   PtuRequest request;
   halted_s_.reset();
   if (time_s - refreshed_s_ >= kRefresh_s) send_all_again();
@@ -106,10 +110,24 @@ PtuRequest MotionCommands::next(const std::optional<ServoGoal>& goal, const Now&
 
 PtuRequest MotionCommands::halt(const Now& now, double time_s) {
   const bool again = !now.standing && halted_s_ && time_s - *halted_s_ > braking_s_ + kHaltMargin_s;
-  return halted_s_ && !again ? PtuRequest() : halt_anew(time_s);
+  change_ = {std::abs(now.rate_rad_s.pan_rad), std::abs(now.rate_rad_s.tilt_rad)};
+  return halted_s_ && !again ? PtuRequest() : halt_anew(now, time_s);
 }
 
-PtuRequest MotionCommands::halt_anew(double time_s) {
+// From the speed that it has to the commanded one, or to a stand when the commanded place is near.
+double MotionCommands::change(double speed_rad_s, double way_rad, double rate_rad_s) const {
+  constexpr double kCycle_s = 0.05;
+  const double stopping_rad = rate_rad_s * rate_rad_s / (2.0 * servo_.max_acceleration_rad_s2) +
+                              std::abs(rate_rad_s) * kCycle_s;
+  const double to_speed = std::abs(std::copysign(speed_rad_s, way_rad) - rate_rad_s);
+  if (std::abs(way_rad) > stopping_rad) return to_speed;
+  // A way of no counts moves nothing.
+  return std::abs(way_rad) > pan_.facts.resolution_rad ? std::max(to_speed, std::abs(rate_rad_s))
+                                                       : std::abs(rate_rad_s);
+}
+
+PtuRequest MotionCommands::halt_anew(const Now& now, double time_s) {
+  change_ = {std::abs(now.rate_rad_s.pan_rad), std::abs(now.rate_rad_s.tilt_rad)};
   halted_s_ = time_s;
   send_all_again();
   return PtuRequest().plain("H");

@@ -31,10 +31,13 @@ class MotionCommands {
   PtuRequest next(const std::optional<ServoGoal>& goal, const Now& now, double time_s);
   // Halts, again and again until the unit stands.
   PtuRequest halt(const Now& now, double time_s);
-  PtuRequest halt_anew(double time_s);
+  PtuRequest halt_anew(const Now& now, double time_s);
 
   // What was sent may not have been understood.
   void send_all_again();
+
+  // By how much the last commands change what the unit does, as speeds of both axes.
+  const PanTilt& speed_change_rad_s() const { return change_; }
 
   const PtuLimits& limits() const { return limits_; }
 
@@ -49,12 +52,15 @@ class MotionCommands {
   static void add_speed(Axis& axis, double speed_rad_s, PtuRequest& request);
   static void add_position(Axis& axis, double position_rad, PtuRequest& request);
 
+  double change(double speed_rad_s, double way_rad, double rate_rad_s) const;
+
   ServoConfig servo_;
   PtuLimits limits_;
   Axis pan_, tilt_;
   double braking_s_ = 0.0;    // from full speed
   double refreshed_s_ = 0.0;  // when everything was sent
   std::optional<double> halted_s_;
+  PanTilt change_;
 };
 
 }  // namespace ols

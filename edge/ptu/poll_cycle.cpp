@@ -84,12 +84,26 @@ void PollCycle::take(const PtuReply& reply, double late_s) {
   } else {
     command_lost_ = command_lost_ || !reply.text.empty();
   }
-  if (!waited(reply)) {  // it began when the unit was done
-    unit_busy_s_ = reply.began_s - byte_s_ - late_s;
-    busy_doubt_s_ = late_s;
+  follow_unit(reply);
+}
+
+// How far the unit has come with this reply: for certain where its begin shows it, and about.
+void PollCycle::follow_unit(const PtuReply& reply) {
+  const double began_s = reply.began_s - byte_s_;
+  if (!waited(reply)) {
+    unit_busy_s_ = began_s - late_s_;
+    unit_free_s_ = began_s - 0.5 * late_s_;
+  } else {
+    unit_free_s_ = std::min(began_s, begun_s() + usual_latency_s_);
   }
   line_busy_s_ = reply.ended_s;
 }
+
+double PollCycle::asked_s() const {
+  return sent_s_ + static_cast<double>(request_.end_of(taken_ - 1)) * byte_s_;
+}
+
+double PollCycle::begun_s() const { return std::max(asked_s(), unit_free_s_); }
 
 // Whether the reply may have had to wait for the one before it to be out.
 bool PollCycle::waited(const PtuReply& reply) const {
@@ -102,29 +116,27 @@ void PollCycle::take_position(const PtuReply& reply, Slot slot) {
     return;
   }
   modes_forgotten_ = modes_forgotten_ || !is_terse(reply);
-  const double asked_s = sent_s_ + static_cast<double>(request_.end_of(taken_ - 1)) * byte_s_;
-  if (taken_ == 1) latency_s_ = std::max(0.0, reply.began_s - byte_s_ - asked_s);
-  (slot == Slot::kPan ? pan_[pans_++] : tilt_[tilts_++]) = read_at(reply, asked_s);
+  if (taken_ == 1) latency_s_ = std::max(0.0, reply.began_s - byte_s_ - asked_s());
+  (slot == Slot::kPan ? pan_[pans_++] : tilt_[tilts_++]) = read_at(reply);
 }
 
 // The unit cannot have read its counter before the query's last byte was on the line, nor before it
 // was done with the command before, nor after the reply began: any moment between them is as good.
 // But a reply that had to wait for the end of another says nothing of when the counter was read:
 // then the usual latency decides, half of it on the average.
-PtuReading PollCycle::read_at(const PtuReply& reply, double asked_s) const {
-  const double latest_s = std::max(asked_s, reply.began_s - byte_s_);
-  const double earliest_s = std::clamp(unit_busy_s_, asked_s, latest_s);
+PtuReading PollCycle::read_at(const PtuReply& reply) const {
+  const double latest_s = std::max(asked_s(), reply.began_s - byte_s_);
+  const double earliest_s = std::clamp(unit_busy_s_, asked_s(), latest_s);
+  const double middle_s = 0.5 * (earliest_s + latest_s);
   PtuReading reading;
   reading.counts = *reply.count();
-  reading.half_s = 0.5 * (latest_s - earliest_s);
-  reading.time_s = earliest_s + reading.half_s;
-  reading.time_sd_s = reading.half_s / std::sqrt(3.0);
-  if (!waited(reply)) return reading;
-  const double doubt_s = earliest_s > asked_s ? busy_doubt_s_ : 0.0;
-  const double usual_s = 0.5 * (doubt_s + usual_latency_s_);
-  if (usual_s >= reading.half_s) return reading;
-  reading.time_s = earliest_s + usual_s;
-  reading.half_s = latest_s - reading.time_s;
+  reading.time_s = middle_s;
+  if (waited(reply)) {
+    reading.time_s = std::clamp(begun_s() + 0.5 * usual_latency_s_, earliest_s, latest_s);
+  }
+  reading.half_s = 0.5 * (latest_s - earliest_s) + std::abs(reading.time_s - middle_s);
+  // Uniform for the first query, for those behind it less wide: the unit had something else to do.
+  reading.time_sd_s = reading.half_s / (taken_ == 1 ? std::sqrt(3.0) : 2.0);
   return reading;
 }
 

@@ -65,7 +65,10 @@ class PollCycle {
   void ask(PtuAxis axis);
   void give(const PtuRequest& commands, std::size_t from, std::size_t to);
   void take_position(const PtuReply& reply, Slot slot);
-  PtuReading read_at(const PtuReply& reply, double asked_s) const;
+  PtuReading read_at(const PtuReply& reply) const;
+  void follow_unit(const PtuReply& reply);
+  double asked_s() const;  // when the command being answered was with the unit
+  double begun_s() const;  // about when the unit began with it
   bool waited(const PtuReply& reply) const;
   bool stands_for_position(const PtuReply& reply) const;
 
@@ -78,7 +81,7 @@ class PollCycle {
   double late_s_ = 0.0;                // of the reply that is being taken
   std::optional<double> line_busy_s_;  // the last reply's end
   double unit_busy_s_ = 0.0;           // the unit was not done with the command before by then,
-  double busy_doubt_s_ = 0.0;          // and for so long after it may not have been
+  double unit_free_s_ = 0.0;           // but about then
   std::size_t taken_ = 0, pans_ = 0, tilts_ = 0;
   PtuReadings pan_, tilt_;
   std::vector<PtuReply> answers_;

@@ -17,7 +17,9 @@ namespace ols {
 
 class PositionCheck {
  public:
-  explicit PositionCheck(const PtuFacts& facts) : pan_{facts.pan}, tilt_{facts.tilt} {}
+  // The pan's first reading is the first of the cycle, with nothing in its way; the tilt's are
+  // early or late together, by what the unit does before them.
+  explicit PositionCheck(const PtuFacts& facts) : pan_{facts.pan, 0.0}, tilt_{facts.tilt, 0.5} {}
 
   enum class Verdict {
     kFirst,     // nothing to hold it against yet; the next one will be held against it
@@ -25,7 +27,8 @@ class PositionCheck {
     kRefused,
     kLate,  // the replies were read so late that they say nothing of when: this host was busy
   };
-  Verdict take(const PtuReadings& pan, const PtuReadings& tilt);
+  // `told_rad_s2`: about as much as the unit was told to accelerate by.
+  Verdict take(const PtuReadings& pan, const PtuReadings& tilt, const PanTilt& told_rad_s2);
   const AngleSample& sample() const { return sample_; }
 
   // As seen over the last two believed pairs; 0 when not known.
@@ -39,9 +42,11 @@ class PositionCheck {
     double time_sd_s = 0.0;
     double counts = 0.0;
     double doubt_counts = 0.0;
+    double step_share = 1.0;  // AngleSample::step_share
   };
   struct Axis {
     PtuAxisFacts facts;
+    double correlation;  // of the errors of both instants
     std::optional<Merged> last = {};
     double rate_counts_s = 0.0;
     bool rate_known = false;
@@ -49,7 +54,8 @@ class PositionCheck {
   };
   static Merged middle(const PtuReadings& readings);
   static bool reachable(const Axis& axis, const Merged& now);
-  static std::optional<Merged> merged(const Axis& axis, const PtuReadings& readings);
+  static std::optional<Merged> merged(const Axis& axis, const PtuReadings& readings,
+                                      double told_rad_s2);
   static void remember(Axis& axis, const Merged& now);
 
   Axis pan_, tilt_;

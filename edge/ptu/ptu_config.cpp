@@ -126,7 +126,7 @@ ServoConfig read_servo(ConfigTable& table) {
 }
 
 AngleHistory::Config read_angles(ConfigTable& table, double acceleration_rad_s2) {
-  constexpr double kShare = 0.125;
+  constexpr double kShare = 0.04;
   AngleHistory::Config angles;
   angles.span_s = table.number("span_s", angles.span_s, 0.5, 60.0);
   angles.max_gap_s = table.number("max_gap_s", angles.max_gap_s, 0.01, 2.0);

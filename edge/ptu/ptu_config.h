@@ -31,7 +31,7 @@
 //   span_s = 5
 //   max_gap_s = 0.25
 //   max_extrapolation_s = 0.15
-//   acceleration_sd_deg_s2 = 7   # default: an eighth of acceleration_deg_s2
+//   acceleration_sd_deg_s2 = 2.3 # default: 0.04 of acceleration_deg_s2
 #pragma once
 
 #include "base/toml_config.h"

@@ -42,6 +42,9 @@ void add_alarms(const PtuConfig& config, const PtuStatus& status, double now_s,
   if (report.state == DeviceState::kAbsent) alarm("no serial port: " + status.last_error);
   if (report.state == DeviceState::kFault) alarm("halted, " + status.last_error);
   if (status.not_referenced) alarm("does not know where it is: home it");
+  if (status.may_have_lost_reference) {
+    alarm("was switched off and on and not seen to home itself: its angles may be wrong");
+  }
   if (status.ran_into_limit) alarm("ran into a limit: it may have lost steps, home it");
   const bool silent = !status.last_good_s || now_s - *status.last_good_s > kOld_s;
   if (report.state == DeviceState::kOk && silent) alarm("no angles");

@@ -156,6 +156,7 @@ PtuStatus PtuThread::status() const {
   status.emergency = impl_->emergency;
   status.standing = driver.standing();
   status.not_referenced = driver.not_referenced();
+  status.may_have_lost_reference = driver.may_have_lost_reference();
   status.ran_into_limit = driver.ran_into_limit();
   status.line_baud = driver.line_baud();
   status.last_good_s = driver.last_good_s();

@@ -55,6 +55,8 @@ std::string PtuSteadyState::step(const std::optional<ServoGoal>& goal, bool emer
   line_garbled_ = false;
   checking_modes_ = check_modes_;
   const PtuRequest commands = commands_for(goal, emergency, time_s);
+  const PanTilt& change = commands_.speed_change_rad_s();
+  told_ = {std::max(told_.pan_rad, change.pan_rad), std::max(told_.tilt_rad, change.tilt_rad)};
   cycle_.emplace(commands, questions_for(time_s), time_s, byte_s_, latency_s_);
   ++counters_.requests;
   if (!waiting_since_s_) waiting_since_s_ = time_s;
@@ -68,7 +70,8 @@ PtuRequest PtuSteadyState::commands_for(const std::optional<ServoGoal>& goal, bo
   MotionCommands::Now now;
   now.rate_rad_s = check_.rate_rad_s();
   now.standing = check_.standing();
-  if (emergency) return now.standing ? commands_.halt(now, time_s) : commands_.halt_anew(time_s);
+  if (emergency)
+    return now.standing ? commands_.halt(now, time_s) : commands_.halt_anew(now, time_s);
   // As long as it may take speeds for velocities it is told nothing.
   if (check_modes_) return PtuRequest().plain("ED").plain("FT");
   if (!newest) return {};
@@ -122,8 +125,7 @@ void PtuSteadyState::fail(Trouble::Kind kind, std::string reason) {
 }
 
 void PtuSteadyState::unit_began_anew() {
-  ++counters_.power_cycles;
-  fail(Trouble::Kind::kNotItself, "the unit was switched off and on, or homed");
+  fail(Trouble::Kind::kBeganAnew, "the unit was switched off and on, or homed");
 }
 
 void PtuSteadyState::take(const PtuReply& reply, double time_s, double late_s) {
@@ -152,7 +154,9 @@ void PtuSteadyState::finish(double time_s) {
   if (ask_environment_ && !checking_modes_ && !done.answers().empty()) {
     if (const auto said = ptu_environment(done.answers().front().text)) environment_ = said;
   }
-  switch (check_.take(done.pan(), done.tilt())) {
+  // Echoes stand in the way of replies: nobody knows when these positions were read.
+  if (done.modes_forgotten()) return;
+  switch (check_.take(done.pan(), done.tilt(), told_rad_s2(time_s))) {
     case PositionCheck::Verdict::kFirst:
     case PositionCheck::Verdict::kLate:
       waiting_since_s_.reset();
@@ -183,15 +187,29 @@ void PtuSteadyState::judge_modes(const PollCycle& done) {
     }
   }
   if (checking_modes_ && ++checks_failed_ >= kChecksAtMost) {
-    fail(Trouble::Kind::kNotItself, "the unit has forgotten its modes");
+    fail(Trouble::Kind::kBeganAnew, "the unit has forgotten its modes");
   }
   if (!done.modes_forgotten()) return;
   if (!check_modes_) ++counters_.echoes;
   check_modes_ = true;
 }
 
+// About as much as the unit was told to accelerate by since the last sample. When a cycle was lost
+// between them the speed may have changed all at once in the middle.
+PanTilt PtuSteadyState::told_rad_s2(double time_s) const {
+  constexpr double kShare = 0.8;  // it may begin or end anywhere between the samples
+  const double gap_s = std::max(1e-3, time_s - last_sample_s_.value_or(time_s));
+  const double at_once = gap_s > 1.8 * config_.poll_interval_s ? 2.0 : 1.0;
+  const auto told = [=, this](double change_rad_s) {
+    return kShare *
+           std::min(config_.history.acceleration_max_rad_s2, at_once * change_rad_s / gap_s);
+  };
+  return {told(told_.pan_rad), told(told_.tilt_rad)};
+}
+
 void PtuSteadyState::believe(const AngleSample& sample, double time_s) {
   waiting_since_s_.reset();
+  told_ = commands_.speed_change_rad_s();  // may still be going on
   if (!history_.add(sample)) return;
   last_sample_s_ = time_s;
   if (samples_.size() >= kSamplesKept) samples_.erase(samples_.begin());

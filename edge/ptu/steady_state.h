@@ -26,6 +26,7 @@ class PtuSteadyState {
     enum class Kind {
       kNoReply,
       kNotItself,      // it answers, but not as it should: to be started again
+      kBeganAnew,      // it was switched off and on
       kNotReferenced,  // it must be homed
     };
     Kind kind;
@@ -57,6 +58,7 @@ class PtuSteadyState {
   void finish(double time_s);
   void judge_refusals(const std::vector<std::string>& refusals, double time_s);
   void judge_modes(const PollCycle& done);
+  PanTilt told_rad_s2(double time_s) const;
   void believe(const AngleSample& sample, double time_s);
   void give_up_cycle(double time_s, double quiet_s, std::string reason);
   void fail(Trouble::Kind kind, std::string reason);
@@ -70,6 +72,7 @@ class PtuSteadyState {
   double latency_s_ = 0.0;  // running average of PollCycle::latency_s()
   AngleHistory history_;
   std::optional<PollCycle> cycle_;
+  PanTilt told_;  // [rad/s] change of speed since the last sample
   std::vector<AngleSample> samples_;
   std::optional<PtuEnvironment> environment_;
   std::optional<Trouble> trouble_;

@@ -2,11 +2,17 @@
 // generous, and nothing is judged by how long it took.
 #include "edge/ptu/ptu_thread.h"
 
+#include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <stdlib.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <system_error>
@@ -137,6 +143,84 @@ TEST(PtuThread, OpensThePortAgainWhenItVanished) {
   EXPECT_FALSE(ptu.status().port_open);
   EXPECT_NE(ptu.status().last_error.find(link), std::string::npos);
   line = std::make_unique<PtuLine>(unit(), 2, link);
+  EXPECT_TRUE(eventually([&] { return ready(ptu); }));
+}
+
+TEST(PtuThread, HaltsAtOnceInAnEmergencyUntilItIsCleared) {
+  PtuLine line(unit(), 1);
+  PtuThread ptu(config(line.device()));
+  ASSERT_TRUE(eventually([&] { return ready(ptu); }));
+  ASSERT_TRUE(eventually([&] {
+    ptu.set_goal(fixed_goal(150.0, 0.0));
+    return line.angles_at(clock_monotonic_s()).pan_rad > radians(3.0);
+  }));
+  ptu.emergency_halt();
+  EXPECT_TRUE(ptu.status().emergency);
+  ASSERT_TRUE(stands(line));
+  ASSERT_TRUE(eventually([&] { return ptu.status().standing; }));
+  EXPECT_THAT(ptu.report().alarms, testing::Contains("ptu: emergency stop"));
+  const double at_rad = line.angles_at(clock_monotonic_s()).pan_rad;
+  EXPECT_LT(degrees(at_rad), 100.0);
+  const std::uint64_t polls = ptu.status().counters.requests;
+  ASSERT_TRUE(eventually([&] {
+    ptu.set_goal(fixed_goal(150.0, 0.0));
+    return ptu.status().counters.requests > polls + 20;
+  }));
+  EXPECT_EQ(line.angles_at(clock_monotonic_s()).pan_rad, at_rad);
+  ptu.clear_emergency();
+  EXPECT_FALSE(ptu.status().emergency);
+  EXPECT_TRUE(eventually([&] {
+    ptu.set_goal(fixed_goal(150.0, 0.0));
+    return line.angles_at(clock_monotonic_s()).pan_rad > at_rad + radians(1.0);
+  }));
+}
+
+// A line whose other end takes nothing: what waits in the queue is thrown away for the halt.
+TEST(PtuThread, TheHaltGoesAheadOfWhatWaitsInTheQueue) {
+  const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  ASSERT_GE(master, 0);
+  ASSERT_EQ(::grantpt(master), 0);
+  ASSERT_EQ(::unlockpt(master), 0);
+  std::array<char, 128> name{};
+  ASSERT_EQ(::ptsname_r(master, name.data(), name.size()), 0);
+  PtuConfig slow = config(name.data());
+  slow.baud = slow.line_baud = 9600;
+  {
+    PtuThread ptu(slow);
+    pollfd entry{master, POLLIN, 0};
+    ASSERT_TRUE(eventually([&] { return ::poll(&entry, 1, 0) > 0; }));  // " ED " or its like waits
+    const double called_s = clock_monotonic_s();
+    ptu.emergency_halt();
+    std::string wire;
+    // The halt may be before or behind a request that came between the look and the call.
+    ASSERT_TRUE(eventually([&] {
+      if (::poll(&entry, 1, 0) <= 0 || !ptu.status().counters.emergencies) return false;
+      std::array<char, 256> buffer;
+      const ssize_t n = ::read(master, buffer.data(), buffer.size());
+      wire.append(buffer.data(), n > 0 ? static_cast<std::size_t>(n) : 0);
+      return wire.find(" H ") != std::string::npos;
+    }));
+    std::printf("H on the wire %.1f ms after the call\n", 1e3 * (clock_monotonic_s() - called_s));
+    EXPECT_EQ(wire.substr(0, wire.find(" H ")).find("ED"), std::string::npos) << wire;
+  }
+  ::close(master);
+}
+
+TEST(PtuThread, OpensThePortAgainWhenTheUnitFallsSilent) {
+  PtuLine line(unit(), 1);
+  PtuThread ptu(config(line.device()));
+  ASSERT_TRUE(eventually([&] { return ready(ptu); }));
+  EXPECT_THAT(ptu.report().text, testing::HasSubstr("115200 baud"));
+  sim::PtuFaults faults;
+  faults.line_cut = true;
+  line.set_faults(faults);
+  ASSERT_TRUE(eventually([&] { return ptu.status().reopens > 0; }));
+  EXPECT_TRUE(eventually([&] {
+    const DeviceReport report = ptu.report();
+    return report.state == DeviceState::kFault && !report.alarms.empty() &&
+           report.counters.at("ptu_reopens") > 0;
+  }));
+  line.set_faults({});
   EXPECT_TRUE(eventually([&] { return ready(ptu); }));
 }
 
