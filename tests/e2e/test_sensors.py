@@ -57,11 +57,11 @@ class SensorSite(Listener):
 
     def wait_until_well(self, station):
         def well():
-            about_sensors = [a for a in self.alarms(station) if re.match("gnss|inclinometer", a)]
+            of_sensors = [a for a in self.alarms(station) if re.match("gnss|inclinometer|pose", a)]
             return (
                 self.is_ok(station, "gnss")
                 and self.is_ok(station, "inclinometer")
-                and not about_sensors
+                and not of_sensors
             )
 
         self.wait(well, f"sensors of {station} well", 60.0)
