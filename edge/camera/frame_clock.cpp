@@ -5,9 +5,10 @@
 namespace ols {
 namespace {
 
-// A frame cannot arrive before its stamp, nor this long after it: then the latched clock is not the
-// one that stamps the frames, and only the arrivals tell.
-constexpr double kOldest_s = 2.0;
+// Frames cannot arrive before their stamps, nor this long after them: then the latched clock is not
+// the one that stamps the frames, and only the arrivals tell. It is the earliest of many arrivals
+// that counts: a station that got no processor for seconds reads what the kernel has kept.
+constexpr double kOldest_s = 5.0;
 constexpr double kSlack_s = 1e-3;
 
 // PTP and latches agree within so many standard deviations, and the delays of a network that is
@@ -15,9 +16,9 @@ constexpr double kSlack_s = 1e-3;
 constexpr double kAgree = 5.0;
 constexpr double kAgree_s = 1e-3;
 
-bool plausible(const MappedTime& stamp, double arrival_s) {
-  return stamp.time_s < arrival_s + kSlack_s + 5.0 * stamp.sd_s &&
-         stamp.time_s > arrival_s - kOldest_s;
+bool plausible(const MappedTime& stamp, double earliest_s) {
+  return stamp.time_s < earliest_s + kSlack_s + 5.0 * stamp.sd_s &&
+         stamp.time_s > earliest_s - kOldest_s;
 }
 
 }  // namespace
@@ -56,7 +57,7 @@ FrameTime FrameClock::stamp(std::optional<std::int64_t> device_ns, double arriva
   map_.add_arrival(*device_ns, arrival_s);
   const bool at_start = config_.stamp_at == StampAt::kExposureStart;
   const auto latched = map_.from_latches(*device_ns);
-  if (latched && plausible(*latched, arrival_s))
+  if (latched && plausible(*latched, map_.from_arrivals(*device_ns, 0.0)->time_s))
     return from_mark(with_tai(*latched, *device_ns), at_start, exposures, StampSource::kCamera);
 
   const double delay_s = config_.readout_s + (at_start ? exposures.newest_s() : 0.0);

@@ -209,6 +209,22 @@ TEST(FrameClock, ALatchOfAnotherClockThanTheStampsIsNotBelieved) {
   EXPECT_GT(time.sd_s, 1e-3);
 }
 
+// As after seconds without a processor: the kernel has kept the frames, and they arrive late.
+TEST(FrameClock, FramesThatWaitedForTheStationKeepTheirTime) {
+  World world;
+  FrameClock clock(FrameClock::Config{.map = {}});
+  for (int i = 0; i < 10; ++i) clock.map().add_latch(world.latch(world.start_s + i));
+  for (int i = 0; i < 60; ++i) {
+    const double stamp_s = world.start_s + 10.0 + i / 15.0;
+    const double wake_s = world.start_s + 13.0;
+    const bool asleep = i >= 15 && i < 45;
+    const double arrival_s = asleep ? wake_s + 1e-4 * i : stamp_s + 0.015;
+    const FrameTime time = clock.stamp(world.device_ns(stamp_s), arrival_s, fixed(0.005));
+    EXPECT_NEAR(time.mid_exposure_s, stamp_s + 0.0025, 1e-3) << i;
+    EXPECT_LT(time.sd_s, 1e-3) << i;
+  }
+}
+
 // A camera whose clock is TAI, and a station that knows where TAI is, but for `error_s`.
 struct PtpSlave {
   static constexpr std::int64_t kTaiAt0_ns = 1'700'000'037'000'000'000;
