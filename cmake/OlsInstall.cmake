@@ -14,7 +14,7 @@ foreach(program IN ITEMS ols-station ols-fusion ols-ctl ols-doctor ols-logger ol
 endforeach()
 
 install(DIRECTORY systemd/units/ DESTINATION ${OLS_SYSTEM_LIBDIR}/systemd/system)
-install(DIRECTORY systemd/sysusers.d systemd/tmpfiles.d systemd/sysctl.d
+install(DIRECTORY systemd/modules-load.d systemd/sysusers.d systemd/tmpfiles.d systemd/sysctl.d
         DESTINATION ${OLS_SYSTEM_LIBDIR})
 install(DIRECTORY systemd/udev/ DESTINATION ${OLS_SYSTEM_LIBDIR}/udev/rules.d)
 install(DIRECTORY systemd/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/ols/examples)

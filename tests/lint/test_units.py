@@ -95,6 +95,16 @@ def test_the_clock_can_be_asked_by_the_station():
     assert text.rindex("SystemCallFilter=adjtimex clock_adjtime") > text.rindex("~@privileged")
 
 
+def test_the_kernel_knows_the_device_classes_before_the_station_starts():
+    """A class of a module that is not loaded yet is ignored without a word."""
+    by_module = {"char-ttyUSB": "usbserial", "char-ttyACM": "cdc_acm"}
+    always_there = {"char-ttyS", "char-gpiochip"}
+    text = (FOLDER / "units" / "ols-station@.service").read_text()
+    loaded = (FOLDER / "modules-load.d" / "ols.conf").read_text().split()
+    classes = set(re.findall(r"^DeviceAllow=(\S+) rw$", text, flags=re.M))
+    assert {by_module[c] for c in classes - always_there} <= set(loaded)
+
+
 @pytest.mark.parametrize("rules", ["udev/60-ols.rules", "examples/61-ols-site.rules"])
 def test_udev_rules_are_well_formed(rules):
     """udevadm of Debian 12 cannot verify rules: each is a list of key, operator, quoted value."""
@@ -140,6 +150,7 @@ def test_the_installed_tree_is_complete(tmp_path):
     for path in (
         "lib/sysusers.d/ols.conf",
         "lib/tmpfiles.d/ols.conf",
+        "lib/modules-load.d/ols.conf",
         "lib/sysctl.d/60-ols.conf",
         "lib/udev/rules.d/60-ols.rules",
         "share/ols/scenarios/fig7.toml",

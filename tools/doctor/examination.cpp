@@ -31,7 +31,7 @@ Findings examine_inclinometer(const InclinometerConfig& config, double patience_
   return findings;
 }
 
-// Devices that only the station may touch while it runs.
+// Devices that only the station may touch while it runs, and the clock, of which it tells itself.
 Findings examine_devices(const StationSettings& settings, double patience_s) {
   Findings findings = judge(ask_camera(settings.camera));
   append(findings, judge(ask_ptu(settings.ptu)));
@@ -40,11 +40,12 @@ Findings examine_devices(const StationSettings& settings, double patience_s) {
   }
   if (!settings.gpio.chip.empty()) findings.push_back(judge(ask_gpio(settings.gpio)));
   if (!settings.gnss.host.empty()) findings.push_back(judge(ask_gnss(settings.gnss, patience_s)));
+  findings.push_back(judge(ask_clock(settings.clock, patience_s)));
   return findings;
 }
 
-Findings examine_host(const StationSettings& settings, double patience_s) {
-  Findings findings{judge(ask_clock(settings.clock, patience_s))};
+Findings examine_host(const StationSettings& settings) {
+  Findings findings;
   if (!settings.recorder.folder.empty()) {
     findings.push_back(judge(look_at_folder("recordings", settings.recorder.folder,
                                             settings.recorder.disk_reserve_bytes)));
@@ -97,7 +98,7 @@ Findings examine_station(const std::string& path, const Request& request) {
   const BusHeard bus = listen(settings.lcm_url, request.listen_s);
   append(findings, judge(bus));
   append(findings, examine_own(settings, path, bus, request.patience_s));
-  append(findings, examine_host(settings, request.patience_s));
+  append(findings, examine_host(settings));
   if (bus.trouble.empty()) append(findings, judge_company(bus, settings.id));
   return findings;
 }
