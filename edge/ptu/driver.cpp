@@ -18,7 +18,7 @@ namespace {
 constexpr double kQuiet_s = 0.06;        // silence that ends a flush
 constexpr double kLongestFlush_s = 2.0;  // a line that is not silent after so long is not a PTU's
 constexpr double kFirstPause_s = 0.25;   // after a fault; doubles
-constexpr double kLongestPause_s = 4.0;
+constexpr double kLongestPause_s = 1.0;  // with the other rate tried in between, healed in 4 s
 constexpr double kLongestHoming_s = 90.0;
 constexpr int kRetries = 2;  // of a question of the start that was not answered
 

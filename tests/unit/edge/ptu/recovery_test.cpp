@@ -112,6 +112,26 @@ TEST(Recovery, APowerCycleInMidRunIsNoticed) {
   }
 }
 
+// Whenever the line comes back, and though the other rate is tried in between.
+TEST(Recovery, ALineThatIsWholeAgainIsHealedSoon) {
+  for (const double cut_s : {1.0, 2.3, 5.0, 7.7, 20.0}) {
+    ClosedLoop loop(quick_driver(38400), quick_unit(38400));
+    ASSERT_TRUE(loop.start());
+    const auto with_cut = [&](std::string& bytes) {
+      if (loop.cut) bytes.clear();
+    };
+    loop.garble = with_cut;
+    loop.cut = true;
+    run_with_rates(loop, cut_s);
+    loop.cut = false;
+    const double whole_s = loop.time_s;
+    while (loop.driver.state() != PtuState::kReady && loop.time_s < whole_s + 10.0) {
+      run_with_rates(loop, 0.01);
+    }
+    EXPECT_LT(loop.time_s - whole_s, 4.0) << cut_s;
+  }
+}
+
 TEST(Recovery, NoOldGoalAfterTheLineWasCut) {
   ClosedLoop loop(quick_driver(), quick_unit());
   ASSERT_TRUE(loop.start());
