@@ -13,7 +13,7 @@ namespace ols {
 
 struct LoggerStatus {
   bool recording = false;
-  std::string text;  // the file that is written; or why none is
+  std::string text;    // the file that is written; or why none is
   int logger_pid = 0;  // of lcm-logger; 0: none
   std::size_t files = 0;
   double bytes = 0.0, free_bytes = 0.0;
