@@ -81,8 +81,8 @@ struct TargetScenario {
 
 // How the stations' PTUs are set up.
 struct PtuScenario {
-  int baud = 9600;
-  double poll_interval_s = 0.04;
+  int baud = 38400;
+  double poll_interval_s = 0.025;
   bool home_at_power_up = true;  // for about twenty seconds, in which it answers nothing
 };
 

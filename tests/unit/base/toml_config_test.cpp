@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <fstream>
@@ -93,7 +94,8 @@ TEST(ConfigFile, NamesAFileThatCannotBeRead) {
 }
 
 TEST(ConfigFile, AnEmptyFileIsAConfigurationAndAFolderIsNone) {
-  const std::string path = testing::TempDir() + "empty_config_test.toml";
+  const std::string path =
+      testing::TempDir() + "empty_config_" + std::to_string(::getpid()) + ".toml";
   std::ofstream{path};
   EXPECT_NO_THROW(ConfigFile(path).finish());
   std::remove(path.c_str());

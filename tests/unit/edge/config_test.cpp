@@ -1,6 +1,7 @@
 #include "edge/config.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <fstream>
@@ -34,7 +35,8 @@ class StationConfigFile : public testing::Test {
   }
   ~StationConfigFile() override { std::remove(path_.c_str()); }
 
-  const std::string path_ = testing::TempDir() + "station_config_test.toml";
+  const std::string path_ =
+      testing::TempDir() + "station_config_" + std::to_string(::getpid()) + ".toml";
 };
 
 TEST_F(StationConfigFile, ASurveyIsEnough) {

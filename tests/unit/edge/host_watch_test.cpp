@@ -1,6 +1,7 @@
 #include "edge/host_watch.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -9,7 +10,8 @@ namespace ols {
 namespace {
 
 TEST(HostWatch, ReadsTheHottestZone) {
-  const std::filesystem::path folder = testing::TempDir() + "host_watch_test";
+  const std::filesystem::path folder =
+      testing::TempDir() + "host_watch_" + std::to_string(::getpid());
   for (const auto& [zone, text] : {std::pair("thermal_zone0", "41000\n"),
                                    {"thermal_zone1", "90500\n"},
                                    {"thermal_zone2", "nonsense\n"},

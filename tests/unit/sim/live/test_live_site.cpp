@@ -43,7 +43,7 @@ TEST(LiveSite, SteppedHostClockMovesNeitherTargetNorItsStamp) {
   bus.subscribe("OLS_SIM_TRUTH", [&](const std::string&, const void* data, int bytes) {
     EXPECT_TRUE(decode_exactly(data, bytes, received));
   });
-  LiveSite site(world, testing::TempDir() + "ols_live_site_lines", bus);
+  LiveSite site(world, testing::TempDir() + "ols_live_site_" + std::to_string(::getpid()), bus);
 
   const std::int64_t utc_us = clock_utime_us();
   const auto before = published(site, bus, received);
