@@ -164,6 +164,11 @@ void read_logic(ConfigTable& table, StationConfig& station) {
   station.search_interval_s =
       table.number("search_interval_s", station.search_interval_s, 0.0, 60.0);
   station.search_sd_px = table.number("search_sd_px", station.search_sd_px, 1.0, 1000.0);
+  station.acquire_by_slew = table.boolean("acquire_by_slew", station.acquire_by_slew);
+  station.acquisition_sd_px =
+      table.number("acquisition_sd_px", station.acquisition_sd_px, 0.0, 100.0);
+  station.acquisition.frames =
+      static_cast<int>(table.integer("acquisition_frames", station.acquisition.frames, 2, 100));
   station.slew_lease_max_s = table.number("slew_lease_max_s", station.slew_lease_max_s, 0.1, 5.0);
   station.point_time_s = table.number("point_time_s", station.point_time_s, 0.1, 60.0);
   station.max_age_s = table.number("max_age_s", station.max_age_s, 0.1, 10.0);

@@ -7,27 +7,12 @@
 #include "geometry/angles.h"
 
 namespace ols {
-namespace {
-
-// The pixel of a direction at infinity.
-std::optional<Eigen::Vector2d> pixel_of(const StationGeometry& geometry, const PanTilt& angles,
-                                        const AzimuthElevation& direction) {
-  constexpr double kFar_m = 1e6;
-  const Eigen::Vector3d centre = camera_centre_ecef(geometry, angles);
-  const Eigen::Vector3d point =
-      centre + kFar_m * (R_ecef_enu(centre) * enu_from_azimuth_elevation(direction));
-  const auto seen = view(geometry, angles, point);
-  if (!seen) return std::nullopt;
-  return seen->pixel;
-}
-
-}  // namespace
-
 Station::Station(const StationConfig& config, std::unique_ptr<TargetTracker> tracker)
     : config_(config),
       tracker_(std::move(tracker)),
       history_(config.angles),
-      motion_(config.motion) {
+      motion_(config.motion),
+      acquisition_(config.acquisition) {
   for (int i = 0; i <= static_cast<int>(StationState::kEmergency); ++i) {
     counters_[std::string("seconds_") + to_string(static_cast<StationState>(i))] = 0.0;
   }
@@ -57,6 +42,7 @@ void Station::set_pose(const StationPose& pose) {
 void Station::enter(StationState state) {
   if (state == state_) return;
   state_ = state;
+  acquisition_.clear();
   counters_[std::string("entered_") + to_string(state)] += 1;
   believed_in_a_row_ = 0;
   // At the first frame of a search the tracker is told where to look.
@@ -64,8 +50,9 @@ void Station::enter(StationState state) {
 }
 
 bool Station::follows_target() const {
-  return track_id_ > 0 && state_ != StationState::kIdle && state_ != StationState::kManual &&
-         state_ != StationState::kStopped && state_ != StationState::kEmergency;
+  return template_ != Template::kNone && state_ != StationState::kIdle &&
+         state_ != StationState::kManual && state_ != StationState::kStopped &&
+         state_ != StationState::kEmergency;
 }
 
 void Station::on_angles(const AngleSample& sample) { history_.add(sample); }
@@ -83,7 +70,12 @@ void Station::on_frame(const Frame& frame, double now_s) {
   while (frame.mid_exposure_s - frames_.front().mid_exposure_s > config_.frame_memory_s) {
     frames_.pop_front();
   }
-  if (follows_target()) track(frame);
+  if (follows_target()) {
+    track(frame);
+    drop_unproven(frame.mid_exposure_s);
+  } else if (config_.acquire_by_slew && state_ == StationState::kSlewed) {
+    acquire(frame);
+  }
 }
 
 TrackerInput Station::tracker_input(const Frame& frame) const {
@@ -115,7 +107,9 @@ void Station::track(const Frame& frame) {
   judge(*result.output, frame.mid_exposure_s);
   if (state_ == StationState::kTracking && result.output->belief >= config_.tracking_belief) {
     waiting_.push_back({std::max(now_s_, frame.mid_exposure_s), frame.mid_exposure_s,
-                        frame.stamp_sd_s, frame.stamp_source, *result.output, track_id_});
+                        frame.stamp_sd_s, frame.stamp_source, *result.output, track_id_,
+                        template_ == Template::kDesignated ? config_.designation_sd_px
+                                                           : config_.acquisition_sd_px});
   }
 }
 
@@ -136,29 +130,13 @@ void Station::judge(const TrackerOutput& output, double time_s) {
     case StationState::kSlewed:
       if (believed_in_a_row_ >= config_.reacquire_frames) {
         motion_.clear();
+        if (template_ == Template::kUnproven) template_ = Template::kAcquired;
         enter(StationState::kTracking);
       }
       break;
     default:
       break;
   }
-}
-
-void Station::search_along_slew() {
-  if (!slew_ || frames_.empty()) return;
-  const double time_s = frames_.back().mid_exposure_s;
-  const auto angles = history_.at(time_s);
-  if (!angles) return;
-  const auto pixel = pixel_of(config_.geometry, angles->angles, direction_at(*slew_, time_s));
-  const auto& camera = config_.geometry.camera;
-  // The PTU is still on its way: no use in searching yet.
-  if (!pixel || pixel->x() < 0 || pixel->y() < 0 || pixel->x() > camera.width_px ||
-      pixel->y() > camera.height_px) {
-    return;
-  }
-  const double sd_px = slew_->direction_sd_rad * camera.fx_px;
-  tracker_->search_near(*pixel, std::clamp(sd_px, config_.search_sd_px, camera.width_px / 4.0));
-  searched_s_ = time_s;
 }
 
 const Frame* Station::remembered(const std::optional<double>& time_s) const {
@@ -207,7 +185,7 @@ void Station::expire(double now_s) {
   const bool slew_over = slew_ && now_s > slew_->received_s + slew_->lease_s;
   if (slew_over) slew_.reset();
   if (state_ == StationState::kSlewed && !slew_) {
-    enter(track_id_ > 0 ? StationState::kLost : StationState::kIdle);
+    enter(template_ != Template::kNone ? StationState::kLost : StationState::kIdle);
   }
   const bool following = state_ == StationState::kTracking || state_ == StationState::kCoasting;
   // Also when frames stop coming: no believed frame, no motion.
@@ -226,7 +204,7 @@ std::optional<Bearing> Station::bearing(const Measured& measured) {
   PixelSight pixel;
   pixel.pixel = measured.output.pixel;
   pixel.covariance_px2 = measured.output.covariance_px2;
-  const double sd = config_.designation_sd_px;
+  const double sd = measured.designation_sd_px;
   pixel.covariance_systematic_px2 = Eigen::Matrix2d::Identity() * (sd * sd);
   pixel.angles = angles->angles;
   // The frame's own stamp adds to the time jitter of the angles.

@@ -16,6 +16,7 @@
 #include "edge/ptu/servo.h"
 #include "edge/station_types.h"
 #include "edge/target_tracker.h"
+#include "edge/tracker/acquisition.h"
 
 namespace ols {
 
@@ -32,9 +33,12 @@ struct StationConfig {
   double frame_memory_s = 1.0;     // frames kept for a designation in the past
   double search_interval_s = 0.5;  // while searching, the tracker is sent to the slew's pixel
   double search_sd_px = 25.0;      // at least, around that pixel
-  double slew_lease_max_s = 2.0;   // a longer lease is refused
-  double point_time_s = 15.0;      // an operator's move may take this long
-  double max_age_s = 1.0;          // older frames are not tracked, older bearings not sent
+  bool acquire_by_slew = true;     // a slewed station without a target looks for one itself
+  double acquisition_sd_px = 3.0;  // how well the box found is centred on the target
+  AcquisitionConfig acquisition;
+  double slew_lease_max_s = 2.0;  // a longer lease is refused
+  double point_time_s = 15.0;     // an operator's move may take this long
+  double max_age_s = 1.0;         // older frames are not tracked, older bearings not sent
 };
 
 class Station {
@@ -82,7 +86,12 @@ class Station {
     StampSource stamp_source = StampSource::kCamera;
     TrackerOutput output;
     std::int64_t track_id = 0;
+    double designation_sd_px = 0.0;
   };
+
+  // What the tracker looks for: nothing, what the operator marked, or what was found along a slew,
+  // which is dropped again when it is not believed in soon.
+  enum class Template { kNone, kDesignated, kUnproven, kAcquired };
 
   Refusal count(Refusal refusal, const char* command);
   Refusal judge(const SlewCommand& command, double now_s) const;
@@ -96,6 +105,15 @@ class Station {
   bool worth_sending(const Bearing& bearing);
   void follow(const Bearing& bearing, const PixelSight& pixel);
   void search_along_slew();
+  struct Expected {  // of the slew's target in a frame
+    Eigen::Vector2d pixel;
+    PanTilt angles;
+  };
+  std::optional<Expected> expected(const Frame& frame) const;
+  double search_sd_px() const;
+  void acquire(const Frame& frame);
+  void take(const Frame& frame, const cv::Rect2d& box);
+  void drop_unproven(double time_s);
   // The PTU angles for a direction, or nothing when the unit cannot point there.
   std::optional<PanTilt> reachable(const AzimuthElevation& direction) const;
   void expire(double now_s);
@@ -119,6 +137,9 @@ class Station {
   int believed_in_a_row_ = 0;
   double searched_s_ = 0.0;  // when the tracker was last told where to search
   std::int64_t track_id_ = 0;
+  Template template_ = Template::kNone;
+  Acquisition acquisition_;
+  double acquired_s_ = 0.0;  // mid-exposure of the frame with the box found
   std::optional<SlewCommand> slew_;
   std::optional<ServoGoal> point_;
   double now_s_ = 0.0;  // of the last step

@@ -60,6 +60,7 @@ Refusal Station::designate(const DesignateCommand& command, double now_s) {
   const TrackerInput first{start->gray, start->mid_exposure_s, std::nullopt};
   if (tracker_->initialise(first, command.box)) return count(Refusal::kTracker, "designate");
   track_id_ += 1;
+  template_ = Template::kDesignated;
   tracked_s_ = believed_s_ = start->mid_exposure_s;
   last_output_.reset();
   motion_.clear();
@@ -126,7 +127,7 @@ Refusal Station::release(double now_s) {
   if (state_ == StationState::kEmergency) return count(Refusal::kEmergency, "release");
   if (state_ == StationState::kManual || state_ == StationState::kStopped) {
     point_.reset();
-    enter(track_id_ > 0 ? StationState::kLost : StationState::kIdle);
+    enter(template_ != Template::kNone ? StationState::kLost : StationState::kIdle);
   }
   return count(Refusal::kNone, "release");
 }

@@ -46,7 +46,7 @@ void Lockstep::advance(double time_s) {
   bool all_designated = true;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     for (const Bearing& bearing : stations_[i]->advance(time_s)) send(i, bearing, time_s);
-    all_designated = all_designated && stations_[i]->designated();
+    all_designated = all_designated && (stations_[i]->designated() || stations_[i]->left_alone());
   }
   if (all_designated && result_.designated_s < 0.0) result_.designated_s = time_s;
   for (const Sighting& sighting : bearings_.receive(time_s)) fuse(sighting, time_s);

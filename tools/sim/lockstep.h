@@ -27,7 +27,7 @@ struct Fix {
 struct LockstepResult {
   std::vector<Fix> joint, paper;
   std::vector<StationRecord> stations;
-  double designated_s = -1.0;  // when the last station was; < 0: not all were
+  double designated_s = -1.0;  // when the last station that is to be was; < 0: not all were
 };
 
 class Lockstep {

@@ -56,6 +56,8 @@ LockstepStation::LockstepStation(const World& world, std::size_t index, const Fi
       config_(station_config(world, index)),
       station_(config_,
                make_tracker(fidelity, views_, derived_seed(world.seed(), kTrackerTag + index))) {
+  left_alone_ = std::count(fidelity.not_designated.begin(), fidelity.not_designated.end(),
+                           world.stations()[index].id) > 0;
   std::uniform_real_distribution<double> uniform;
   phase_s_ = uniform(generator_) / world.scenario().frame_rate_hz;
   constexpr double kRoughly_rad = 0.3 * kPi / 180.0;
@@ -111,7 +113,7 @@ void LockstepStation::expose(double time_s) {
   seen_.push_back({mid_s, stamp_s, view});
   if (mid_s - seen_.front().mid_s > 1.0) seen_.pop_front();
   station_.on_frame(frame);
-  if (designated_) take_note(mid_s, view);
+  if (designated_ || left_alone_) take_note(mid_s, view);
 }
 
 void LockstepStation::take_note(double mid_s, const ViewTruth& view) {
@@ -132,6 +134,7 @@ void LockstepStation::operate(double time_s) {
     ready_s_ = time_s;
     station_.set_limits(driver_.limits());
   }
+  if (left_alone_) return;
   if (pointed_s_ < 0.0 || time_s - pointed_s_ > kPointInterval_s) point_roughly(time_s);
   if (time_s - ready_s_ > kSettle_s) designate_seen(time_s);
 }

@@ -23,9 +23,11 @@ namespace ols::sim {
 struct Fidelity {
   bool pictures = true;  // false: the pixel is the truth with noise of this deviation
   double pixel_sd_px = 0.3;
+  std::vector<std::string> not_designated = {};  // stations that the operator leaves alone
 };
 
-// One frame after the designation: what the station made of it, beside the truth.
+// One frame after the designation, or of a station that is left alone: what the station made of it,
+// beside the truth.
 struct FrameNote {
   double mid_s = 0.0;  // true time since the scenario's start
   StationState state = StationState::kIdle;
@@ -57,6 +59,7 @@ class LockstepStation {
   const StationRecord& record() const { return record_; }
   const PtuCounters& ptu_counters() const { return driver_.counters(); }
   bool designated() const { return designated_; }
+  bool left_alone() const { return left_alone_; }
 
  private:
   void exchange_bytes(double time_s);
@@ -91,6 +94,7 @@ class LockstepStation {
   PanTilt aiming_error_;
   double ready_s_ = -1.0, pointed_s_ = -1.0;
   bool designated_ = false;
+  bool left_alone_ = false;
 };
 
 }  // namespace ols::sim

@@ -1,0 +1,90 @@
+// Where and how a slewed station looks for its target: with the template of an earlier track, or
+// for anything that behaves as the slew says.
+#include <algorithm>
+#include <cmath>
+
+#include "edge/station.h"
+
+namespace ols {
+namespace {
+
+// The pixel of a direction at infinity.
+std::optional<Eigen::Vector2d> pixel_of(const StationGeometry& geometry, const PanTilt& angles,
+                                        const AzimuthElevation& direction) {
+  constexpr double kFar_m = 1e6;
+  const Eigen::Vector3d centre = camera_centre_ecef(geometry, angles);
+  const Eigen::Vector3d point =
+      centre + kFar_m * (R_ecef_enu(centre) * enu_from_azimuth_elevation(direction));
+  const auto seen = view(geometry, angles, point);
+  if (!seen) return std::nullopt;
+  return seen->pixel;
+}
+
+bool in_picture(const CameraIntrinsics& camera, const Eigen::Vector2d& pixel) {
+  return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= camera.width_px &&
+         pixel.y() <= camera.height_px;
+}
+
+}  // namespace
+
+std::optional<Station::Expected> Station::expected(const Frame& frame) const {
+  const auto angles = history_.at(frame.mid_exposure_s);
+  if (!slew_ || !angles) return std::nullopt;
+  const auto pixel =
+      pixel_of(config_.geometry, angles->angles, direction_at(*slew_, frame.mid_exposure_s));
+  if (!pixel) return std::nullopt;
+  return Expected{*pixel, angles->angles};
+}
+
+double Station::search_sd_px() const {
+  const auto& camera = config_.geometry.camera;
+  return std::clamp(slew_->direction_sd_rad * camera.fx_px, config_.search_sd_px,
+                    camera.width_px / 4.0);
+}
+
+void Station::search_along_slew() {
+  if (frames_.empty()) return;
+  const auto where = expected(frames_.back());
+  // The PTU is still on its way: no use in searching yet.
+  if (!where || !in_picture(config_.geometry.camera, where->pixel)) return;
+  tracker_->search_near(where->pixel, search_sd_px());
+  searched_s_ = frames_.back().mid_exposure_s;
+}
+
+void Station::acquire(const Frame& frame) {
+  const auto now = expected(frame);
+  if (!now || !in_picture(config_.geometry.camera, now->pixel)) return acquisition_.clear();
+  AcquisitionView view{frame.gray, now->pixel, search_sd_px(), {}};
+  for (auto earlier = frames_.rbegin() + 1; earlier != frames_.rend(); ++earlier) {
+    const auto then = expected(*earlier);
+    if (!then) continue;
+    const Eigen::Matrix3d homography =
+        rotation_homography(config_.geometry, then->angles, now->angles);
+    const Eigen::Vector3d moved = homography * then->pixel.homogeneous();
+    view.references.push_back({earlier->gray, homography, moved.hnormalized()});
+  }
+  const auto box = acquisition_.look(view);
+  counters_["acquisition_candidates"] += static_cast<double>(acquisition_.candidates().size());
+  if (box) take(frame, *box);
+}
+
+void Station::take(const Frame& frame, const cv::Rect2d& box) {
+  acquisition_.clear();
+  if (tracker_->initialise({frame.gray, frame.mid_exposure_s, std::nullopt}, box)) return;
+  track_id_ += 1;
+  template_ = Template::kUnproven;
+  tracked_s_ = searched_s_ = acquired_s_ = frame.mid_exposure_s;
+  last_output_.reset();
+  believed_in_a_row_ = 0;
+  counters_["acquisitions"] += 1;
+}
+
+void Station::drop_unproven(double time_s) {
+  constexpr double kTrial_s = 1.0;
+  if (template_ != Template::kUnproven || time_s - acquired_s_ < kTrial_s) return;
+  template_ = Template::kNone;
+  counters_["acquisitions_dropped"] += 1;
+  if (state_ == StationState::kLost) enter(StationState::kIdle);
+}
+
+}  // namespace ols

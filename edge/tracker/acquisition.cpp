@@ -1,0 +1,198 @@
+#include "edge/tracker/acquisition.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core/eigen.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace ols {
+namespace {
+
+// A part of the picture and what is looked for in it.
+struct Scope {
+  cv::Rect area;
+  cv::Mat raw, gray;  // as taken and smoothed
+  Eigen::Vector2d expected_px;
+  double gate_px;
+};
+
+cv::Mat smoothed(const cv::Mat& image) {
+  cv::Mat smooth;
+  cv::GaussianBlur(image, smooth, cv::Size(0, 0), 1.0);
+  return smooth;
+}
+
+cv::Mat square(int side) { return cv::getStructuringElement(cv::MORPH_RECT, {side, side}); }
+
+// Value below which a share of the pixels lies; of an 8-bit image, every few pixels.
+double quantile(const cv::Mat& image, double share) {
+  constexpr int kStep = 3;
+  std::array<int, 256> histogram{};
+  int all = 0;
+  for (int row = 0; row < image.rows; row += kStep) {
+    const auto* line = image.ptr<std::uint8_t>(row);
+    for (int i = 0; i < image.cols; i += kStep, ++all) ++histogram[line[i]];
+  }
+  int below = 0;
+  for (int value = 0; value < 256; ++value) {
+    below += histogram[static_cast<std::size_t>(value)];
+    if (below > share * all) return value;
+  }
+  return 255.0;
+}
+
+// Where a reference shows nothing the picture is compared with itself: no difference.
+cv::Mat difference(const Scope& scope, const AcquisitionReference& reference) {
+  cv::Mat to_scope;
+  Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
+  shift(0, 2) = -scope.area.x;
+  shift(1, 2) = -scope.area.y;
+  cv::eigen2cv(Eigen::Matrix3d(shift * reference.homography), to_scope);
+  cv::Mat before = scope.raw.clone();
+  cv::warpPerspective(reference.gray, before, to_scope, before.size(), cv::INTER_LINEAR,
+                      cv::BORDER_TRANSPARENT);
+  before = smoothed(before);
+  // The angles place the background to about a pixel: what has a like neighbour has not changed.
+  cv::Mat low, high, above, below;
+  cv::erode(before, low, square(5));
+  cv::dilate(before, high, square(5));
+  cv::subtract(scope.gray, high, above);  // saturates at zero
+  cv::subtract(low, scope.gray, below);
+  return cv::max(above, below);
+}
+
+// What differs from both earlier frames: where the target was then differs from one only.
+cv::Mat moving(const Scope& scope, const std::vector<AcquisitionReference>& references,
+               double apart_px) {
+  const AcquisitionReference* near = nullptr;
+  for (const AcquisitionReference& reference : references) {
+    const double from_now_px = (reference.expected_px - scope.expected_px).norm();
+    if (near == nullptr && from_now_px >= apart_px) {
+      near = &reference;
+    } else if (near != nullptr && from_now_px >= apart_px &&
+               (reference.expected_px - near->expected_px).norm() >= apart_px) {
+      return cv::min(difference(scope, *near), difference(scope, reference));
+    }
+  }
+  return {};
+}
+
+// What is smaller than `side_px` and darker or brighter than all around it; edges do not count.
+cv::Mat standing_out(const Scope& scope, double side_px) {
+  const cv::Mat element = square(2 * static_cast<int>(side_px / 2.0) + 1);
+  cv::Mat dark, bright;
+  cv::morphologyEx(scope.gray, dark, cv::MORPH_BLACKHAT, element);
+  cv::morphologyEx(scope.gray, bright, cv::MORPH_TOPHAT, element);
+  return cv::max(dark, bright);
+}
+
+bool inside(const Scope& scope, const cv::Rect& box) {
+  return box.x > 0 && box.y > 0 && box.br().x < scope.area.width && box.br().y < scope.area.height;
+}
+
+Eigen::Vector2d centre_px(const cv::Rect2d& box) {
+  return {box.x + 0.5 * box.width - 0.5, box.y + 0.5 * box.height - 0.5};
+}
+
+double longer_side(const cv::Rect2d& box) { return std::max(box.width, box.height); }
+
+// Compact parts of `cue` that stand out of its own fluctuations.
+std::vector<AcquisitionCandidate> compact(const Scope& scope, const cv::Mat& cue,
+                                          const AcquisitionConfig& config) {
+  const double middle = quantile(cue, 0.5);
+  // The quartile's distance from the median, made that of a normal distribution.
+  const double spread = std::max(0.5, (quantile(cue, 0.75) - middle) / 0.6745);
+  const double threshold = std::max(config.least_contrast, middle + config.threshold_sd * spread);
+  cv::Mat mask, labels, statistics, centroids;
+  cv::threshold(cue, mask, threshold, 255.0, cv::THRESH_BINARY);
+  cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, square(9));  // a target's parts belong together
+  const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centroids);
+  std::vector<AcquisitionCandidate> found;
+  for (int i = 1; i < count; ++i) {
+    const cv::Rect box(
+        statistics.at<int>(i, cv::CC_STAT_LEFT), statistics.at<int>(i, cv::CC_STAT_TOP),
+        statistics.at<int>(i, cv::CC_STAT_WIDTH), statistics.at<int>(i, cv::CC_STAT_HEIGHT));
+    const double area_px2 = statistics.at<int>(i, cv::CC_STAT_AREA);
+    constexpr double kLeastFill = 0.2, kMostAspect = 6.0;
+    const cv::Rect2d in_frame = cv::Rect2d(box) + cv::Point2d(scope.area.tl());
+    if (!inside(scope, box) || area_px2 < kLeastFill * box.area() ||
+        longer_side(box) < config.least_side_px || longer_side(box) > config.most_side_px ||
+        longer_side(box) > kMostAspect * std::min(box.width, box.height) ||
+        (centre_px(in_frame) - scope.expected_px).norm() > scope.gate_px) {
+      continue;
+    }
+    found.push_back({in_frame, cv::mean(cue(box), mask(box))[0] * area_px2});
+  }
+  return found;
+}
+
+bool overlap(const cv::Rect2d& a, const cv::Rect2d& b) { return (a & b).area() > 0.0; }
+
+}  // namespace
+
+std::optional<cv::Rect2d> Acquisition::look(const AcquisitionView& view) {
+  candidates_.clear();
+  const double gate_px = std::min(config_.gate_sigma * view.expected_sd_px, config_.gate_most_px);
+  const double half_px = gate_px + config_.most_side_px;
+  const Eigen::Vector2d corner = view.expected_px.array() - half_px;
+  const cv::Rect wanted(static_cast<int>(corner.x()), static_cast<int>(corner.y()),
+                        static_cast<int>(2.0 * half_px), static_cast<int>(2.0 * half_px));
+  const cv::Rect area = wanted & cv::Rect(0, 0, view.gray.cols, view.gray.rows);
+  if (view.gray.type() != CV_8UC1 || std::min(area.width, area.height) < config_.most_side_px) {
+    clear();
+    return std::nullopt;
+  }
+  const Scope scope{area, view.gray(area), smoothed(view.gray(area)), view.expected_px, gate_px};
+  candidates_ = compact(scope, standing_out(scope, config_.most_side_px), config_);
+  const cv::Mat motion = moving(scope, view.references, config_.most_side_px);
+  // A target that stands out of a smooth background is there already, and whole.
+  for (const auto& mover :
+       motion.empty() ? std::vector<AcquisitionCandidate>{} : compact(scope, motion, config_)) {
+    const auto same = [&](const auto& other) { return overlap(other.box, mover.box); };
+    if (std::none_of(candidates_.begin(), candidates_.end(), same)) candidates_.push_back(mover);
+  }
+  std::vector<Track> now;
+  for (const auto& candidate : candidates_) now.push_back(continued(candidate, view.expected_px));
+  tracks_ = std::move(now);
+  return sole();
+}
+
+Acquisition::Track Acquisition::continued(const AcquisitionCandidate& candidate,
+                                          const Eigen::Vector2d& expected_px) const {
+  const Eigen::Vector2d offset_px = centre_px(candidate.box) - expected_px;
+  Track track{candidate, offset_px};
+  const double size_px = longer_side(candidate.box);
+  const double reach_px = config_.place_px + config_.place_fraction * size_px;
+  for (const Track& before : tracks_) {
+    const double ratio = size_px / longer_side(before.candidate.box);
+    if ((offset_px - before.first_offset_px).norm() <= reach_px && ratio < config_.size_ratio &&
+        1.0 / ratio < config_.size_ratio) {
+      if (before.seen < track.seen) continue;
+      track.seen = before.seen + 1;
+      track.first_offset_px = before.first_offset_px;
+    }
+  }
+  return track;
+}
+
+// What was there in the frame before as well, at the right place, is no fluctuation: a rival.
+std::optional<cv::Rect2d> Acquisition::sole() const {
+  const auto best =
+      std::max_element(tracks_.begin(), tracks_.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.seen > 1, a.candidate.strength) <
+               std::pair(b.seen > 1, b.candidate.strength);
+      });
+  if (best == tracks_.end() || best->seen < config_.frames) return std::nullopt;
+  const auto rivals = std::count_if(tracks_.begin(), tracks_.end(), [&](const Track& other) {
+    return other.seen > 1 &&
+           other.candidate.strength > config_.rival_fraction * best->candidate.strength;
+  });
+  if (rivals > 1) return std::nullopt;  // it counts itself
+  constexpr double kPadding = 0.1;
+  const cv::Rect2d& box = best->candidate.box;
+  const cv::Size2d pad(1.0 + kPadding * box.width, 1.0 + kPadding * box.height);
+  return cv::Rect2d(box.tl() - cv::Point2d(pad), box.size() + pad + pad);
+}
+
+}  // namespace ols
