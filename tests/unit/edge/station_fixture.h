@@ -22,10 +22,12 @@ struct ScriptedTracker : TargetTracker {
     int initialised = 0, searches = 0, tracked = 0;
     Eigen::Vector2d searched_pixel = Eigen::Vector2d::Zero();
     std::optional<TrackerInput> last;
+    cv::Rect2d first_box;
   };
   explicit ScriptedTracker(Script& script) : s(script) {}
-  std::optional<TrackerError> initialise(const TrackerInput&, const cv::Rect2d&) override {
+  std::optional<TrackerError> initialise(const TrackerInput&, const cv::Rect2d& box) override {
     if (!s.accept) return TrackerError::kBox;
+    s.first_box = box;
     ++s.initialised;
     return std::nullopt;
   }
@@ -62,7 +64,7 @@ class StationTest : public testing::Test {
   }
 
   // PTU samples every 20 ms and a frame every 1/15 s until `end_s`; collects the bearings.
-  void run_until(double end_s, bool frames = true) {
+  void run_until(double end_s, bool frames = true, const cv::Mat& gray = {}) {
     while (now_ < end_s) {
       now_ += 0.005;
       if (now_ >= next_sample_) {
@@ -71,6 +73,7 @@ class StationTest : public testing::Test {
       }
       if (frames && now_ >= next_frame_) {
         Frame frame;
+        frame.gray = gray;
         frame.mid_exposure_s = now_ - 0.02;
         station_.on_frame(frame);
         next_frame_ = now_ + kFrame_s;
