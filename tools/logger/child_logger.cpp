@@ -48,8 +48,8 @@ std::string escaped(const std::string& folder) {
 std::vector<std::string> logger_command(const LoggerConfig& config) {
   std::vector<std::string> command{
       "lcm-logger",
-      "--increment",
-      "--strftime",
+      "-i",  // --increment and --strftime would swallow the next word in lcm-logger 1.3.1
+      "-s",
       // lcm-logger counts in 2^20 bytes.
       "--split-mb=" + mega(config.split_bytes / 1048576.0),
       "--max-unwritten-mb=" + mega(config.max_unwritten_mb),

@@ -31,6 +31,8 @@ TEST(LoggerCommand, HasTheOptionsThatLcmLoggerTakes) {
   config.invert = true;
   const auto command = logger_command(config);
   EXPECT_EQ(command.front(), "lcm-logger");
+  EXPECT_THAT(command, Contains("-i"));
+  EXPECT_THAT(command, Contains("-s"));
   EXPECT_THAT(command, Contains("--split-mb=0.5"));
   EXPECT_THAT(command, Contains("--channel=OLS_.*"));
   EXPECT_THAT(command, Contains("--invert-channels"));
