@@ -1,5 +1,6 @@
 """Reads a recorded run (lcm-logger) back as arrays."""
 
+import bisect
 import struct
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -44,9 +45,12 @@ class Recording:
 
     def truth_at(self, utimes_us: np.ndarray) -> np.ndarray:
         """(n, 3) true positions [m, ECEF], cubic Hermite between the truths; NaN outside."""
-        times = np.array([t.utime for t in self.truth], dtype=np.int64)
-        positions = np.array([t.position_ecef_m for t in self.truth])
-        velocities = np.array([t.velocity_ecef_m_s for t in self.truth])
+        if not len(utimes_us) or len(self.truth) < 2:
+            return np.full((len(utimes_us), 3), np.nan)
+        truth = self._truth_around(int(min(utimes_us)), int(max(utimes_us)))
+        times = np.array([t.utime for t in truth], dtype=np.int64)
+        positions = np.array([t.position_ecef_m for t in truth])
+        velocities = np.array([t.velocity_ecef_m_s for t in truth])
         after = np.clip(np.searchsorted(times, utimes_us), 1, len(times) - 1)
         before = after - 1
         step = (times[after] - times[before])[:, None] * 1e-6
@@ -59,6 +63,13 @@ class Recording:
         )
         result[(utimes_us < times[0]) | (utimes_us > times[-1])] = np.nan
         return result
+
+    def _truth_around(self, first_us: int, last_us: int) -> list[Any]:
+        """Two at least, and one beyond either end where there is one: a long run has many."""
+        first = bisect.bisect_right(self.truth, first_us, key=lambda t: t.utime)
+        last = bisect.bisect_left(self.truth, last_us, key=lambda t: t.utime)
+        first = min(max(0, first - 1), len(self.truth) - 2)
+        return self.truth[first : max(last + 1, first + 2)]
 
     def station_counters(self, station: str, index: int) -> dict[str, float]:
         return counters(self.statuses[station][index])

@@ -65,7 +65,7 @@ def judge_disk(session: Session, outcome: Outcome, what: str) -> None:
     outcome.at_most(f"reported ({text})", seen_s, REPORTED_S, "s")
     ages = measure.bearing_ages_s(session.heard, station, *window)
     outcome.at_least("bearings meanwhile", len(ages) / JUDGED_S, 0.85 * 12.0, "Hz")
-    away = session.state_since(station, start_us) - {"tracking"}
+    away = session.state_since(station, start_us) - {"tracking", "coasting"}
     outcome.holds("goes on tracking", not away, ", ".join(sorted(away)) or "yes")
 
 

@@ -77,7 +77,7 @@ def fusion_killed(session: Session, outcome: Outcome) -> None:
     for station in session.stations:
         ages = measure.bearing_ages_s(session.heard, station, start_us, end_us)
         outcome.at_least(f"{station}: bearings without fusion", len(ages) / 3.0, 5.0, "Hz")
-        away = session.state_since(station, start_us) - {"tracking"}
+        away = session.state_since(station, start_us) - {"tracking", "coasting"}
         outcome.holds(f"{station}: goes on tracking", not away, ", ".join(away) or "yes")
     started_us = session.start_fusion()
     came = session.wait(

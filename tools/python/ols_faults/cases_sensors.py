@@ -59,7 +59,7 @@ def pose_kept(session: Session, outcome: Outcome, kind: str, word: str, value: f
         outcome.at_most("tilt changed", turned_deg, KEPT_DEG, "deg")
         grown = np.degrees(during.tilt_sd_rad - before.tilt_sd_rad)
         outcome.at_least("its 1-sigma grown", float(grown), 1e-5, "deg")
-    away = session.state_since(station, at_us) - {"tracking"}
+    away = session.state_since(station, at_us) - {"tracking", "coasting"}
     outcome.holds("goes on tracking", not away, ", ".join(sorted(away)) or "yes")
     session.wait(lambda: flag_is_gone(session, station, word), 20.0)
     gone = flag_is_gone(session, station, word)

@@ -5,6 +5,9 @@ Times are microseconds of true UTC; the host's own clock is never stepped in a f
 
 from __future__ import annotations
 
+import bisect
+from typing import Any
+
 import numpy as np
 import ols
 from ols_demo import evaluate
@@ -14,6 +17,7 @@ from ols_demo.recording import Recording
 REST_DEG_S = 0.1
 REST_S = 0.25
 SMOOTH_S = 0.01
+SAME_FRAME_US = 10_000
 
 
 def ptu_track(
@@ -90,33 +94,41 @@ def braking(recording: Recording, station: str, edge_us: int) -> tuple[float, fl
     return steady, float((steady - offset) / slope), float(-slope)
 
 
+def between(messages: list[Any], start_us: int, end_us: int) -> list[Any]:
+    """Those with a utime in the window; a station whose clock was stepped has them out of order."""
+    return [m for m in messages if start_us <= m.utime <= end_us]
+
+
+def same_frame(views: list[Any], utime: int) -> Any | None:
+    """The view whose stamp is that of the bearing, or None."""
+    after = bisect.bisect_left(views, utime, key=lambda view: view.stamp_utime)
+    near = min(
+        views[max(0, after - 1) : after + 1],
+        key=lambda view: abs(view.stamp_utime - utime),
+        default=None,
+    )
+    return near if near is not None and abs(near.stamp_utime - utime) <= SAME_FRAME_US else None
+
+
 def bearing_errors(
     recording: Recording, station: str, start_us: int, end_us: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Published minus true direction of the bearings in the window: errors (n, 2) [rad] across and
     up, and their published 1-sigma (n, 2), everything that the bearing states included."""
     views = recording.views.get(station, [])
-    stamps = np.array([view.stamp_utime for view in views], dtype=np.int64)
+    bearings = between(recording.bearings.get(station, []), start_us, end_us)
+    pairs = [(b, v) for b in bearings if (v := same_frame(views, b.utime)) is not None]
+    truth = recording.truth_at(np.array([view.utime for _, view in pairs], dtype=np.int64))
     errors, sigmas = [], []
-    chosen = [b for b in recording.bearings.get(station, []) if start_us <= b.utime <= end_us]
-    if not chosen or not len(stamps):
-        return np.zeros((0, 2)), np.zeros((0, 2))
-    nearest = np.clip(np.searchsorted(stamps, [b.utime for b in chosen]), 1, len(stamps) - 1)
-    for bearing, after in zip(chosen, nearest, strict=True):
-        near = min((after - 1, after), key=lambda i: abs(int(stamps[i]) - bearing.utime))
-        if abs(int(stamps[near]) - bearing.utime) > 10_000:
-            continue
-        true_us = views[near].utime
-        position = recording.truth_at(np.array([true_us], dtype=np.int64))[0]
+    for (bearing, _), position in zip(pairs, truth, strict=True):
         camera = np.array(bearing.camera_ecef_m)
         to_target = position - camera
         if not np.isfinite(to_target).all():
             continue
         true = ols.azimuth_elevation_from_enu(np.asarray(ols.R_ecef_enu(camera)).T @ to_target)
         turn = np.angle(np.exp(1j * (bearing.azimuth_rad - true.azimuth_rad)))
-        errors.append(
-            [turn * np.cos(true.elevation_rad), bearing.elevation_rad - true.elevation_rad]
-        )
+        across = turn * np.cos(true.elevation_rad)
+        errors.append([across, bearing.elevation_rad - true.elevation_rad])
         place_rad = max(bearing.camera_position_sd_m) / np.linalg.norm(to_target)
         white, stays = bearing.covariance_white_rad2, bearing.covariance_systematic_rad2
         sigmas.append([np.sqrt(white[i] + stays[i] + place_rad**2) for i in (0, 2)])
