@@ -50,13 +50,15 @@ LcmBus::LcmBus(const std::string& url) : lcm_(checked(url)) {
 
 LcmBus::~LcmBus() = default;
 
+// Where the test fails (a firewall), LCM hands out subscriptions that crash when they are touched.
+void LcmBus::listen() {
+  if (lcm_.getFileno() >= 0) return;
+  throw BusError(
+      "nothing comes back on this host's bus; a firewall, or a service's address filter?");
+}
+
 void LcmBus::subscribe(const std::string& channel_regex, Handler handler, int queue_capacity) {
-  // The first receiver tests itself for up to ten seconds; where that fails (a firewall), LCM hands
-  // out a subscription that crashes when it is touched.
-  if (lcm_.getFileno() < 0) {
-    throw BusError(
-        "nothing comes back on this host's bus; a firewall, or a service's address filter?");
-  }
+  listen();
   subscribers_.push_back(std::make_unique<Subscriber>(Subscriber{std::move(handler)}));
   auto* subscription =
       lcm_.subscribe(channel_regex, &Subscriber::receive, subscribers_.back().get());

@@ -26,6 +26,10 @@ class LcmBus {
   explicit LcmBus(const std::string& url);
   ~LcmBus();
 
+  // Begins to receive; the first subscription does it too. LCM's self test of that takes up to ten
+  // seconds: throws BusError when nothing comes back.
+  void listen();
+
   // A raw subscription: the handler decodes, so that what it cannot decode is counted by it.
   using Handler = std::function<void(const std::string& channel, const void* data, int bytes)>;
   void subscribe(const std::string& channel_regex, Handler handler, int queue_capacity = 1000);

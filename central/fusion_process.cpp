@@ -17,7 +17,6 @@ namespace {
 constexpr int kWaitMs = 50;
 constexpr std::size_t kLatencies = 200;  // for the median in the status
 constexpr std::size_t kChannels = 1000;  // with a sequence of their own
-constexpr double kRetryS = 1.0;
 
 }  // namespace
 
@@ -25,30 +24,34 @@ FusionProcess::FusionProcess(const FusionSettings& settings, const FusionProcess
     : settings_(settings),
       options_(options),
       fusion_(settings.fusion),
+      connector_(settings.lcm_url),
       status_s_(clock_monotonic_s()) {
   for (const char* name : {"slews_withheld", "messages_not_sent"}) counters_[name] = 0.0;
   for (int i = 0; i <= static_cast<int>(MessageRefusal::kNoPosition); ++i) {
     counters_[to_string(static_cast<MessageRefusal>(i))] = 0.0;
   }
-  connect();
+  // Who says that it is ready shall hear what it is told.
+  connect(BusConnector::kLongest_s);
 }
 
-// A bus without a route is deaf for ever, so that it is only made when there is one.
-void FusionProcess::connect() {
-  const double now_s = clock_monotonic_s();
-  if (now_s < connect_due_s_) return;
-  connect_due_s_ = now_s + kRetryS;
+void FusionProcess::connect(double wait_s) {
+  bus_ = connector_.take(clock_monotonic_s(), wait_s);
+  std::string why = connector_.trouble();
   try {
-    bus_.emplace(settings_.lcm_url);
-    if (options_.slew_url != settings_.lcm_url) slew_bus_.emplace(options_.slew_url);
+    if (bus_ && options_.slew_url != settings_.lcm_url) {
+      slew_bus_ = std::make_unique<LcmBus>(options_.slew_url);
+    }
+  } catch (const BusError& error) {
+    bus_.reset();
+    why = error.what();
+  }
+  if (bus_) {
     subscribe();
     if (!trouble_.empty()) spdlog::info("connected to {}", settings_.lcm_url);
     trouble_.clear();
-  } catch (const BusError& error) {
-    bus_.reset();
-    slew_bus_.reset();
-    if (trouble_ != error.what()) spdlog::warn("no bus, tried again each second: {}", error.what());
-    trouble_ = error.what();
+  } else if (!why.empty() && why != trouble_) {
+    spdlog::warn("no bus, tried again each second: {}", why);
+    trouble_ = why;
   }
 }
 
@@ -64,7 +67,7 @@ void FusionProcess::subscribe() {
 }
 
 void FusionProcess::turn() {
-  if (!bus_) connect();
+  if (!bus_) connect(0.0);
   if (bus_) {
     bus_->handle(kWaitMs);
   } else {

@@ -5,10 +5,11 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
-#include "base/lcm_bus.h"
+#include "base/bus_connector.h"
 #include "central/fusion_settings.h"
 #include "central/messages.h"
 
@@ -30,7 +31,7 @@ class FusionProcess {
   std::string in_one_line() const;
 
  private:
-  void connect();
+  void connect(double wait_s);
   void subscribe();
   template <class Message>
   void send(std::string_view channel, const Message& message);
@@ -49,10 +50,10 @@ class FusionProcess {
   FusionSettings settings_;
   FusionProcessOptions options_;
   Fusion fusion_;
-  std::optional<LcmBus> bus_;       // nothing: no network
-  std::optional<LcmBus> slew_bus_;  // nothing: slews go on the same bus
-  double connect_due_s_ = 0.0;
-  std::string trouble_;  // of the network
+  BusConnector connector_;
+  std::unique_ptr<LcmBus> bus_;       // nothing: no network
+  std::unique_ptr<LcmBus> slew_bus_;  // nothing: slews go on the same bus
+  std::string trouble_;               // of the network
   bool send_failed_ = false;
   std::map<std::string, std::int64_t, std::less<>> sequences_;
   std::int64_t forgotten_sequence_ = 0;  // the greatest of a channel that was forgotten

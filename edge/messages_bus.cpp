@@ -11,7 +11,10 @@ constexpr int kQueue = 400;  // commands of one kind that wait for a turn; LCM d
 
 StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
                        Record recorder)
-    : settings_(settings), station_(station), record_(std::move(recorder)) {
+    : settings_(settings),
+      station_(station),
+      record_(std::move(recorder)),
+      connector_(settings.lcm_url) {
   sender_.station = settings.id;
   sender_.boot_id = boot_id;
   on_command<ols_msg::designate_t>(
@@ -41,22 +44,15 @@ StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, St
       [](const ols_msg::record_t&) { return false; });
 }
 
-// A bus without a route is deaf for ever, so that it is only made when there is one.
-void StationBus::connect() {
-  constexpr double kRetry_s = 1.0;
-  if (now_s_ < connect_due_s_) return;
-  connect_due_s_ = now_s_ + kRetry_s;
-  try {
-    bus_.emplace(settings_.lcm_url);
-    for (const auto& [channel, handler] : subscriptions_) {
-      bus_->subscribe(channel, handler, kQueue);
-    }
-    trouble_.clear();
-    counters_["bus_connects"] += 1;
-  } catch (const BusError& error) {
-    bus_.reset();
-    trouble_ = error.what();
+void StationBus::connect(double wait_s) {
+  bus_ = connector_.take(now_s_, wait_s);
+  if (!bus_) {
+    if (!connector_.trouble().empty()) trouble_ = connector_.trouble();
+    return;
   }
+  for (const auto& [channel, handler] : subscriptions_) bus_->subscribe(channel, handler, kQueue);
+  trouble_.clear();
+  counters_["bus_connects"] += 1;
 }
 
 // What cannot be sent is not kept: a bearing of yesterday is of no use to anybody.
@@ -143,7 +139,7 @@ void StationBus::set_time(const ClockPair& now, const ClockQuality& quality) {
 
 // A bounded number of messages: a flood costs messages, not the control loop.
 void StationBus::receive() {
-  if (!bus_) connect();
+  if (!bus_) connect(0.0);
   if (bus_) bus_->handle(0);
 }
 

@@ -6,12 +6,13 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "base/lcm_bus.h"
+#include "base/bus_connector.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/config.h"
 #include "edge/messages.h"
@@ -30,7 +31,10 @@ class StationBus {
   // The clocks of this moment, for everything until the next call.
   void set_time(const ClockPair& now, const ClockQuality& quality);
 
-  // Hands the waiting commands to the station; connects first where there is no connection.
+  // Seeks a connection; waits so long for it at most.
+  void connect(double wait_s);
+  // Hands the waiting commands to the station. Where there is no connection, one is sought; nobody
+  // waits for it.
   void receive();
   // One datagram, as it came from the network.
   void take(const std::string& channel, const void* data, int bytes);
@@ -46,7 +50,6 @@ class StationBus {
   void send_preview(const Frame& frame, const std::optional<cv::Rect2d>& box);
 
  private:
-  void connect();
   template <class Message>
   void publish(const std::string& channel, const Message& message);
   // Messages that `passes` is true for need not be fresh.
@@ -64,8 +67,8 @@ class StationBus {
   Sender sender_;
   double now_s_ = 0.0;
   std::vector<std::pair<std::string, LcmBus::Handler>> subscriptions_;
-  std::optional<LcmBus> bus_;
-  double connect_due_s_ = 0.0;
+  BusConnector connector_;
+  std::unique_ptr<LcmBus> bus_;
   std::string trouble_ = "not connected yet";
   std::map<std::string, CommandGate> gates_;
   std::map<std::string, double> counters_;  // refusals before the station, messages not sent

@@ -40,8 +40,13 @@ StationProcess::StationProcess(const StationSettings& settings, std::int64_t boo
       bus_(settings_, boot_id, station_,
            [this](const RecordCommand& command) { return record(command); }),
       host_(settings_.host),
+      stop_memory_(settings_.gpio.stop_memory),
       devices_(settings_) {
-  station_.set_pose(pose_.pose(clock_monotonic_s()));
+  const double now_s = clock_monotonic_s();
+  station_.set_pose(pose_.pose(now_s));
+  if (stop_memory_.pending()) resume_emergency(now_s);
+  // Who says that it is ready shall hear what it is told.
+  bus_.connect(BusConnector::kLongest_s);
 }
 
 void StationProcess::run(const std::function<bool()>& ends) {
@@ -80,12 +85,19 @@ ClockPair StationProcess::look_at_clocks() {
   return now;
 }
 
+// It was stopped and never rearmed: whatever ended it since then is no leave to move.
+void StationProcess::resume_emergency(double now_s) {
+  devices_.ptu().emergency_halt();
+  station_.emergency_stop(true, now_s);
+}
+
 // The GPIO's thread has halted the unit already; here the station learns of it.
 void StationProcess::heed_emergency_stop(double now_s) {
   StopLatch& stop = devices_.stop();
   if (stop.take_press()) station_.emergency_stop(true, now_s);
   station_.emergency_stop(stop.pressed(), now_s);
   halted_ = halted_ || station_.state() == StationState::kEmergency;
+  if (halted_) stop_memory_.set(true);
 }
 
 void StationProcess::receive_commands() {
@@ -93,6 +105,7 @@ void StationProcess::receive_commands() {
   if (halted_ && station_.state() != StationState::kEmergency) {
     halted_ = false;
     devices_.rearm();
+    stop_memory_.set(false);
   }
   const bool well = bus_.trouble().empty();
   if (well != bus_was_well_) {
@@ -163,6 +176,9 @@ StationReport StationProcess::report(const ClockPair& now) {
   if (report.snapshot.state == StationState::kEmergency) {
     report.alarms.emplace_back(devices_.stop().pressed() ? "emergency stop: pressed"
                                                          : "emergency stop: not rearmed yet");
+  }
+  if (!stop_memory_.trouble().empty()) {
+    report.alarms.push_back("emergency stop: not remembered, " + stop_memory_.trouble());
   }
   add_pose_and_clock(now.monotonic_s, report);
   add_host(report);

@@ -12,6 +12,7 @@
 #include "edge/device_set.h"
 #include "edge/host_watch.h"
 #include "edge/messages_bus.h"
+#include "edge/stop_memory.h"
 #include "edge/trouble_log.h"
 
 namespace ols {
@@ -30,6 +31,7 @@ class StationProcess {
   // tracker takes for a frame.
   void turn();
   ClockPair look_at_clocks();
+  void resume_emergency(double now_s);
   void heed_emergency_stop(double now_s);
   void receive_commands();
   void keep_pose(double now_s);
@@ -53,6 +55,7 @@ class StationProcess {
   StationBus bus_;
   HostWatch host_;
   TroubleLog troubles_;
+  StopMemory stop_memory_;
   DeviceSet devices_;
   std::optional<Frame> newest_;
   std::int64_t utc_minus_monotonic_us_ = 0;

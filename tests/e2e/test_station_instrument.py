@@ -31,6 +31,7 @@ device = "/nonexistent/ptu"
 chip = "socket:{folder}/gpio"
 led_line = 22
 stop_line = 17
+stop_memory = "{folder}/stop"
 [recorder]
 folder = "{folder}/events"
 """
@@ -124,7 +125,8 @@ def station(network, tmp_path_factory):
     }
     with Site(folder / "logs") as site:
         command = [str(BIN / "ols-station"), "--config", str(config)]
-        site.start_and_wait("station", command, "ready", environment)
+        listener.start = lambda: site.start_and_wait("station", command, "ready", environment)
+        listener.start()
         listener.site, listener.config = site, config
         listener.wait_for_status("tool")
         yield listener
@@ -287,6 +289,22 @@ def test_it_starts_without_a_network(network, tmp_path, program):
         listener.wait(heard[program], "its status, once there is a network")
         assert site.stop("late") == 0
         manager.wait("STOPPING=1")
+
+
+def test_a_stop_that_was_not_rearmed_outlives_the_station(station):
+    status = ols_msg.station_status_t
+    station.switch.press(True)
+    station.wait_for_state(status.STATE_EMERGENCY)
+    station.switch.press(False)
+    station.wait(lambda: "emergency stop: not rearmed yet" in station.alarms(), "released")
+    for state, alarms in [(status.STATE_EMERGENCY, 1), (status.STATE_IDLE, 0)]:
+        boot = station.observer.status["tool"].boot_id
+        assert station.site.stop("station") == 0
+        station.start()
+        station.wait(lambda old=boot: station.observer.status["tool"].boot_id != old, "restarted")
+        station.wait_for_state(state)
+        assert station.alarms().count("emergency stop: not rearmed yet") == alarms
+        assert ctl("tool", "rearm").returncode == 0
 
 
 def test_it_ends_in_order(station):

@@ -94,7 +94,8 @@ class Operator:
     def _point(self, station: str) -> None:
         """Turns by the difference between where the station looks and where the target will be."""
         status, truth = self._observer.status[station], self._observer.truth
-        if truth is None or not np.isfinite(status.azimuth_rad):
+        known = (status.azimuth_rad, status.latitude_deg, status.longitude_deg, status.height_m)
+        if truth is None or not np.isfinite(known).all():
             return
         error = self._aim_error.setdefault(
             station, [np.radians(self._random.gauss(0.0, 0.3)) for _ in range(2)]

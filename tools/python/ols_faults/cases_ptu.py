@@ -27,6 +27,8 @@ def ptu_trouble(status: object, before: object) -> str:
         "ptu_port_failures",
         "ptu_resyncs",
         "ptu_echoes",
+        "ptu_refused_positions",
+        "ptu_reopens",
     ):
         if now.get(name, 0.0) > was.get(name, 0.0):
             return f"{name} +{now[name] - was.get(name, 0.0):g}"

@@ -1,0 +1,44 @@
+#include "base/bus_connector.h"
+
+#include <chrono>
+#include <exception>
+#include <thread>
+#include <utility>
+
+namespace ols {
+
+BusConnector::BusConnector(std::string url) : url_(std::move(url)) {}
+
+// A detached thread rather than std::async, whose future would keep a program that ends waiting.
+void BusConnector::begin() {
+  std::packaged_task<std::unique_ptr<LcmBus>()> attempt([url = url_] {
+    auto bus = std::make_unique<LcmBus>(url);
+    bus->listen();
+    return bus;
+  });
+  attempt_ = attempt.get_future();
+  std::thread(std::move(attempt)).detach();
+}
+
+std::unique_ptr<LcmBus> BusConnector::take(double now_s, double wait_s) {
+  constexpr double kRetry_s = 1.0;
+  try {
+    if (!attempt_.valid()) {
+      if (now_s < due_s_) return nullptr;
+      due_s_ = now_s + kRetry_s;
+      begin();
+    }
+    if (attempt_.wait_for(std::chrono::duration<double>(wait_s)) != std::future_status::ready) {
+      return nullptr;
+    }
+    auto bus = attempt_.get();
+    trouble_.clear();
+    return bus;
+  } catch (const std::exception& failure) {
+    attempt_ = {};
+    trouble_ = failure.what();
+    return nullptr;
+  }
+}
+
+}  // namespace ols
