@@ -13,6 +13,7 @@ foreach(program IN ITEMS ols-station ols-fusion ols-ctl ols-doctor ols-logger ol
   endif()
 endforeach()
 
+install(PROGRAMS systemd/ols-bus-route DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY systemd/units/ DESTINATION ${OLS_SYSTEM_LIBDIR}/systemd/system)
 install(DIRECTORY systemd/modules-load.d systemd/sysusers.d systemd/tmpfiles.d systemd/sysctl.d
         DESTINATION ${OLS_SYSTEM_LIBDIR})

@@ -94,8 +94,8 @@ void read_chain(ConfigTable& table, ChainParameters& chain) {
 }
 
 void read_lens(ConfigTable& lens, CameraIntrinsics& camera) {
-  camera.fx_px = lens.number("fx_px", camera.fx_px, 1.0, 1e7);
-  camera.fy_px = lens.number("fy_px", camera.fy_px, 1.0, 1e7);
+  camera.fx_px = lens.required_number("fx_px", 1.0, 1e7);
+  camera.fy_px = lens.required_number("fy_px", 1.0, 1e7);
   camera.cx_px = lens.number("cx_px", (camera.width_px - 1) / 2.0, -1e5, 1e5);
   camera.cy_px = lens.number("cy_px", (camera.height_px - 1) / 2.0, -1e5, 1e5);
   camera.skew = lens.number("skew", camera.skew, -1e5, 1e5);
@@ -106,10 +106,12 @@ void read_lens(ConfigTable& lens, CameraIntrinsics& camera) {
   camera.k3 = lens.number("k3", camera.k3, -1e9, 1e9);
 }
 
+// How well the heading and the camera's mounting are known nobody but a person can tell, and a zero
+// that nobody meant would make every position overconfident.
 void read_calibration_sd(ConfigTable& table, CalibrationSd& sd) {
-  sd.heading_rad = angle_sd(table, "heading_deg", sd.heading_rad);
+  sd.heading_rad = radians(table.required_number("heading_deg", 0.0, 90.0));
   sd.tilt_rad = angle_sd(table, "tilt_deg", sd.tilt_rad);
-  sd.mount_rad = angle_sd(table, "mount_deg", sd.mount_rad);
+  sd.mount_rad = radians(table.required_number("mount_deg", 0.0, 90.0));
   sd.mount_roll_rad = angle_sd(table, "mount_roll_deg", sd.mount_roll_rad);
   sd.position_m = table.number("position_m", sd.position_m, 0.0, 1e5);
 }
@@ -184,6 +186,7 @@ StationSettings load_station_settings(const std::string& path) {
   StationSettings settings;
   settings.id = station_id(root);
   settings.lcm_url = read_lcm_url(root, "lcm_url", settings.lcm_url);
+  settings.state_folder = root.text("state_folder", settings.state_folder);
   settings.tracker_seed = static_cast<std::uint64_t>(root.integer("tracker_seed", 1, 0, INT64_MAX));
   settings.status_interval_s =
       root.number("status_interval_s", settings.status_interval_s, 0.05, 60.0);

@@ -23,6 +23,7 @@ namespace ols {
 struct StationSettings {
   std::string id;  // letters, digits, - and _; at most 32, because it is part of the channel names
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string state_folder;  // what outlives a restart; empty: nothing does
   std::int64_t calibration_id = 0;
   std::uint64_t tracker_seed = 1;
   double status_interval_s = 0.5;

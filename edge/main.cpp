@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <opencv2/core/utility.hpp>
 #include <random>
@@ -42,7 +43,10 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("ols-station"));
   ols::install_shutdown_handler();
   try {
-    const ols::StationSettings settings = ols::load_station_settings(config);
+    ols::StationSettings settings = ols::load_station_settings(config);
+    // systemd's StateDirectory=.
+    const char* folder = std::getenv("STATE_DIRECTORY");
+    if (settings.state_folder.empty() && folder != nullptr) settings.state_folder = folder;
     if (check) {
       for (const auto& line : ols::describe(settings)) std::printf("ok %s\n", line.c_str());
       return 0;

@@ -15,15 +15,26 @@ namespace {
 constexpr double kFrameWait_s = 0.004;
 constexpr double kPoseInterval_s = 0.1;
 
+std::string hold_file(const StationSettings& settings) {
+  return settings.state_folder.empty() ? "" : settings.state_folder + "/" + settings.id + ".hold";
+}
+
+// A receiver that has never had a fix starts for ever; without camera or PTU there is no station.
 LedPattern led_pattern(const StationReport& report) {
   if (report.snapshot.state == StationState::kEmergency) return LedPattern::kEmergency;
-  const auto starts = [](const DeviceReport& device) {
-    return device.state == DeviceState::kStarting;
-  };
-  if (std::ranges::any_of(report.devices, starts)) return LedPattern::kStarting;
   if (!all_alarms(report).empty()) return LedPattern::kTrouble;
-  const auto ails = [](const DeviceReport& device) { return device.state != DeviceState::kOk; };
-  if (std::ranges::any_of(report.devices, ails)) return LedPattern::kTrouble;
+  const auto any = [&report](const auto& is) { return std::ranges::any_of(report.devices, is); };
+  if (any([](const DeviceReport& device) {
+        return device.state != DeviceState::kOk && device.state != DeviceState::kStarting;
+      })) {
+    return LedPattern::kTrouble;
+  }
+  if (any([](const DeviceReport& device) {
+        return device.state == DeviceState::kStarting &&
+               (device.name == "camera" || device.name == "ptu");
+      })) {
+    return LedPattern::kStarting;
+  }
   return report.snapshot.state == StationState::kTracking ? LedPattern::kTracking
                                                           : LedPattern::kReady;
 }
@@ -40,11 +51,11 @@ StationProcess::StationProcess(const StationSettings& settings, std::int64_t boo
       bus_(settings_, boot_id, station_,
            [this](const RecordCommand& command) { return record(command); }),
       host_(settings_.host),
-      stop_memory_(settings_.gpio.stop_memory),
+      hold_(hold_file(settings_)),
       devices_(settings_) {
   const double now_s = clock_monotonic_s();
   station_.set_pose(pose_.pose(now_s));
-  if (stop_memory_.pending()) resume_emergency(now_s);
+  resume_hold(now_s);
   // Who says that it is ready shall hear what it is told.
   bus_.connect(BusConnector::kLongest_s);
 }
@@ -63,6 +74,7 @@ void StationProcess::turn() {
   const ClockPair start = look_at_clocks();
   heed_emergency_stop(start.monotonic_s);
   receive_commands();
+  hold_.set(hold_of(station_.state()));
   keep_pose(start.monotonic_s);
   take_frame();
   take_angles();
@@ -85,8 +97,10 @@ ClockPair StationProcess::look_at_clocks() {
   return now;
 }
 
-// It was stopped and never rearmed: whatever ended it since then is no leave to move.
-void StationProcess::resume_emergency(double now_s) {
+// Whatever ended it since somebody stopped it is no leave to move.
+void StationProcess::resume_hold(double now_s) {
+  if (hold_.hold() == Hold::kStopped) station_.stop(now_s);
+  if (hold_.hold() != Hold::kEmergency) return;
   devices_.ptu().emergency_halt();
   station_.emergency_stop(true, now_s);
 }
@@ -97,7 +111,6 @@ void StationProcess::heed_emergency_stop(double now_s) {
   if (stop.take_press()) station_.emergency_stop(true, now_s);
   station_.emergency_stop(stop.pressed(), now_s);
   halted_ = halted_ || station_.state() == StationState::kEmergency;
-  if (halted_) stop_memory_.set(true);
 }
 
 void StationProcess::receive_commands() {
@@ -105,7 +118,6 @@ void StationProcess::receive_commands() {
   if (halted_ && station_.state() != StationState::kEmergency) {
     halted_ = false;
     devices_.rearm();
-    stop_memory_.set(false);
   }
   const bool well = bus_.trouble().empty();
   if (well != bus_was_well_) {
@@ -177,8 +189,8 @@ StationReport StationProcess::report(const ClockPair& now) {
     report.alarms.emplace_back(devices_.stop().pressed() ? "emergency stop: pressed"
                                                          : "emergency stop: not rearmed yet");
   }
-  if (!stop_memory_.trouble().empty()) {
-    report.alarms.push_back("emergency stop: not remembered, " + stop_memory_.trouble());
+  if (!hold_.trouble().empty()) {
+    report.alarms.push_back("stop: not remembered: " + hold_.trouble());
   }
   add_pose_and_clock(now.monotonic_s, report);
   add_host(report);

@@ -10,9 +10,9 @@
 #include "edge/clock/clock_source.h"
 #include "edge/clock/clock_watch.h"
 #include "edge/device_set.h"
+#include "edge/hold_memory.h"
 #include "edge/host_watch.h"
 #include "edge/messages_bus.h"
-#include "edge/stop_memory.h"
 #include "edge/trouble_log.h"
 
 namespace ols {
@@ -31,7 +31,7 @@ class StationProcess {
   // tracker takes for a frame.
   void turn();
   ClockPair look_at_clocks();
-  void resume_emergency(double now_s);
+  void resume_hold(double now_s);
   void heed_emergency_stop(double now_s);
   void receive_commands();
   void keep_pose(double now_s);
@@ -55,7 +55,7 @@ class StationProcess {
   StationBus bus_;
   HostWatch host_;
   TroubleLog troubles_;
-  StopMemory stop_memory_;
+  HoldMemory hold_;
   DeviceSet devices_;
   std::optional<Frame> newest_;
   std::int64_t utc_minus_monotonic_us_ = 0;

@@ -24,7 +24,6 @@ struct GpioConfig {
   // low one (it closes to the supply, the line is pulled down).
   bool stop_active_low = false;
   double stop_release_s = 0.05;   // a release counts when stable for so long; a press at once
-  std::string stop_memory;        // file that keeps a stop over a restart until it is rearmed
   int trigger_line = -1;          // camera trigger, one pulse a frame
   double trigger_pulse_s = 1e-3;  // its length
 };

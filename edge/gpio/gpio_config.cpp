@@ -15,13 +15,9 @@ GpioConfig read_gpio_config(ConfigTable& table) {
   c.stop_line = line("stop_line", c.stop_line);
   c.stop_active_low = table.boolean("stop_active_low", c.stop_active_low);
   c.stop_release_s = table.number("stop_release_s", c.stop_release_s, 0.0, 5.0);
-  c.stop_memory = table.text("stop_memory", c.stop_memory);
   c.trigger_line = line("trigger_line", c.trigger_line);
   c.trigger_pulse_s = table.number("trigger_pulse_s", c.trigger_pulse_s, 1e-5, 0.1);
 
-  if (c.stop_line < 0 && !c.stop_memory.empty()) {
-    throw table.error("stop_memory", "is given, but no stop_line");
-  }
   std::vector<int> used;
   for (const auto& [key, number] : {std::pair("led_line", c.led_line),
                                     {"stop_line", c.stop_line},

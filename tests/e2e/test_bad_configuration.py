@@ -16,6 +16,12 @@ heading_deg = 0.0
 device = "127.0.0.99"
 [ptu]
 device = "/dev/null"
+[lens]
+fx_px = 13333.3
+fy_px = 13333.3
+[calibration.sd]
+heading_deg = 0.1
+mount_deg = 0.1
 """
 
 

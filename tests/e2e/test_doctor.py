@@ -100,10 +100,9 @@ def test_a_running_station_is_asked_and_left_alone(devices):
     assert "alfa runs" in diagnosis.of("station")[0]["what"]
     after = listener.wait_for_status("alfa")
     assert after.boot_id == before.boot_id
-    for name in ("camera_reopened", "ptu_restarts", "ptu_halts"):
-        assert listener.counter("alfa", name) == dict(
-            zip(before.counter_name, before.counter_value, strict=True)
-        ).get(name, 0.0)
+    known = dict(zip(before.counter_name, before.counter_value, strict=True))
+    for name in ("camera_reconnects", "ptu_port_failures"):  # as when somebody else has opened it
+        assert listener.counter("alfa", name) == known[name]
     site.check()
 
 

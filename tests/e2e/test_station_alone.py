@@ -17,12 +17,17 @@ latitude_deg = 49.2
 longitude_deg = 16.6
 height_m = 250.0
 heading_deg = 0.0
+[calibration.sd]
+heading_deg = 0.1
+mount_deg = 0.1
 [camera]
 device = "127.0.0.99"
 [ptu]
 device = "/nonexistent/ptu"
 [chain]
 [lens]
+fx_px = 13333.3
+fy_px = 13333.3
 """
 
 

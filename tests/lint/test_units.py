@@ -105,7 +105,7 @@ def test_the_kernel_knows_the_device_classes_before_the_station_starts():
     assert {by_module[c] for c in classes - always_there} <= set(loaded)
 
 
-@pytest.mark.parametrize("rules", ["udev/60-ols.rules", "examples/61-ols-site.rules"])
+@pytest.mark.parametrize("rules", ["udev/61-ols.rules", "examples/61-ols-site.rules"])
 def test_udev_rules_are_well_formed(rules):
     """udevadm of Debian 12 cannot verify rules: each is a list of key, operator, quoted value."""
     rule_line = re.compile(r'^(\w+(\{[^}]+\})?(==|!=|\+=|=)"[^"]*"(, |$))+$')
@@ -116,6 +116,19 @@ def test_udev_rules_are_well_formed(rules):
             assert rule_line.match(rule), rule
             rules_seen += 1
     assert rules_seen >= 3
+
+
+def test_udev_rules_come_after_those_that_identify_the_adapter():
+    """60-serial.rules imports ID_BUS and ID_SERIAL_SHORT; rules are read in the order of names."""
+    for rules in [*FOLDER.glob("udev/*.rules"), *FOLDER.glob("examples/*.rules")]:
+        assert rules.name > "60-serial.rules"
+
+
+def test_a_stop_ends_the_retries_too():
+    for unit in UNITS:
+        text = unit.read_text()
+        retried = "OnFailure=ols-retry@%n.timer" in text
+        assert retried == ("PropagatesStopTo=ols-retry@%n.timer" in text), unit.name
 
 
 @pytest.mark.skipif(shutil.which("systemd-sysusers") is None, reason="no systemd-sysusers")
@@ -152,7 +165,7 @@ def test_the_installed_tree_is_complete(tmp_path):
         "lib/tmpfiles.d/ols.conf",
         "lib/modules-load.d/ols.conf",
         "lib/sysctl.d/60-ols.conf",
-        "lib/udev/rules.d/60-ols.rules",
+        "lib/udev/rules.d/61-ols.rules",
         "share/ols/scenarios/fig7.toml",
         "share/doc/ols/operations.md",
     ):

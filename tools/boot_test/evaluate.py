@@ -133,12 +133,18 @@ def told(evidence: Evidence) -> list[Row]:
         said("station with nothing attached runs", evidence.read("status-lone.txt"), "running"),
         said("and says that the camera is missing", lone, r"camera[^;,]*"),
         said("and says that the PTU is missing", lone, r"ptu[^;,]*"),
+        within(
+            "a route of the bus that goes comes back",
+            evidence.mark("route-back") - evidence.mark("route-gone"),
+            10.0,
+        ),
         within("station starts without a network", took(evidence, "no-network-started"), 10.0),
         said("and says so", no_network, r"no bus"),
         within("and answers once there is one", healed_s, 10.0),
         said("wrong configuration is named", evidence.read("wrong.txt"), r"wrong\.toml:\d+: .*"),
         Row("and not run in circles", "0 restarts", restarts_done, restarts_done == "0"),
         within("corrected one is taken by itself", corrected_s, 30.0),
+        within("who stops it ends its next try too", took(evidence, "retry-stopped"), 10.0),
         doctor("ols-doctor on a station: what fails", "doctor-alfa.txt", {"gnss"}, evidence),
         said("no unit has failed in the end", evidence.read("failed.txt"), r"0 loaded units"),
     ]

@@ -13,14 +13,23 @@
 namespace ols {
 namespace {
 
-const std::string kStart = "id = \"s\"\n[camera]\ndevice = \"c\"\n[ptu]\ndevice = \"p\"\n";
+const std::string kStart =
+    "id = \"s\"\nlens = {fx_px = 13333, fy_px = 13333}\n[camera]\ndevice = \"c\"\n"
+    "[ptu]\ndevice = \"p\"\n";
+const std::string kSd = "[calibration.sd]\n";
 const std::string kPlace = "latitude_deg = 49.2\nlongitude_deg = 16.6\nheight_m = 250.0\n";
 const std::string kGnss = "[gnss]\nhost = \"127.0.0.1\"\n";
 const std::string kTilt = "[inclinometer]\ndevice = \"t\"\n";
 
 class StationConfigFile : public testing::Test {
  protected:
-  StationSettings load(const std::string& text) {
+  // Completes what every configuration needs.
+  StationSettings load(std::string text) {
+    if (text.find(kSd) == std::string::npos) text += "\n" + kSd;
+    text.insert(text.find(kSd) + kSd.size(), "heading_deg = 0.1\nmount_deg = 0.1\n");
+    return load_exactly(text);
+  }
+  StationSettings load_exactly(const std::string& text) {
     std::ofstream(path_) << text;
     return load_station_settings(path_);
   }
@@ -38,6 +47,25 @@ class StationConfigFile : public testing::Test {
   const std::string path_ =
       testing::TempDir() + "station_config_" + std::to_string(::getpid()) + ".toml";
 };
+
+TEST_F(StationConfigFile, TheLensAndTheDoubtOfTheCalibrationAreAskedFor) {
+  const std::string pose = "[pose]\nheading_deg = 10\n" + kPlace;
+  const auto asked = [&](const std::string& text) {
+    try {
+      load_exactly(text);
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  const std::string sd = kSd + "heading_deg = 0.1\n";
+  EXPECT_NE(asked(kStart + pose).find("heading_deg"), std::string::npos);
+  EXPECT_NE(asked(kStart + pose + sd).find("mount_deg"), std::string::npos);
+  EXPECT_EQ(asked(kStart + pose + sd + "mount_deg = 0.1\n"), "none");
+  std::string no_lens = kStart + pose + sd + "mount_deg = 0.1\n";
+  no_lens.replace(no_lens.find("fx_px = 13333, "), 15, "");
+  EXPECT_NE(asked(no_lens).find("fx_px"), std::string::npos);
+}
 
 TEST_F(StationConfigFile, ASurveyIsEnough) {
   const auto settings = load(kStart + "[pose]\nheading_deg = 10\ntilt_x_deg = 1.0\n" + kPlace +
@@ -72,10 +100,10 @@ TEST_F(StationConfigFile, ATiltThatNobodyToldIsNotTakenAsExact) {
 }
 
 TEST_F(StationConfigFile, NamesWhatIsMissing) {
-  EXPECT_EQ(error(kStart + "[pose]\nheading_deg = 10\n"), ":6: pose.latitude_deg: is missing");
+  EXPECT_EQ(error(kStart + "[pose]\nheading_deg = 10\n"), ":7: pose.latitude_deg: is missing");
   EXPECT_EQ(error(kStart + kGnss + "[pose]\nheading_deg = 10\nheight_m = 1\n"),
-            ":8: pose.latitude_deg: is missing");
-  EXPECT_EQ(error(kStart + "[pose]\n" + kPlace), ":6: pose.heading_deg: is missing");
+            ":9: pose.latitude_deg: is missing");
+  EXPECT_EQ(error(kStart + "[pose]\n" + kPlace), ":7: pose.heading_deg: is missing");
   EXPECT_NE(error(kStart + "[gnss]\nport = 2947\n[pose]\nheading_deg = 1\n" + kPlace), "none");
   EXPECT_NE(error(kStart + "[gpio]\n[pose]\nheading_deg = 1\n" + kPlace), "none");
   EXPECT_EQ(error(kStart + "[gnss]\nhost = \"\"\n[pose]\nheading_deg = 1\n" + kPlace), "none");
