@@ -210,6 +210,8 @@ StationSettings load_station_settings(const std::string& path) {
   read_logic(root.table("logic"), settings.station);
   settings.station.angles = settings.ptu.history;
   settings.station.limits = settings.ptu.limits;
+  settings.station.homing_allowed =
+      settings.ptu.limits.keep_out.empty() || settings.ptu.home_despite_keep_out;
   file.finish();
   return settings;
 }

@@ -76,6 +76,10 @@ Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
       return station_.release(now_s_);
     case ols_msg::ptu_command_t::COMMAND_REARM:
       return station_.rearm(now_s_);
+    case ols_msg::ptu_command_t::COMMAND_HOME:
+      return station_.home(now_s_);
+    case ols_msg::ptu_command_t::COMMAND_REFERENCE_OK:
+      return station_.reference_ok(now_s_);
     default:
       refuse("PTU", "unknown_command");
       return Refusal::kNone;

@@ -9,10 +9,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "edge/angular_track.h"
 #include "edge/ptu/angle_history.h"
+#include "edge/ptu/driver.h"
 #include "edge/ptu/servo.h"
 #include "edge/station_types.h"
 #include "edge/target_tracker.h"
@@ -36,6 +38,7 @@ struct StationConfig {
   bool acquire_by_slew = true;     // a slewed station without a target looks for one itself
   double acquisition_sd_px = 3.0;  // how well the box found is centred on the target
   AcquisitionConfig acquisition;
+  bool homing_allowed = true;     // on command
   double slew_lease_max_s = 2.0;  // a longer lease is refused
   double point_time_s = 15.0;     // an operator's move may take this long
   double max_age_s = 1.0;         // older frames are not tracked, older bearings not sent
@@ -51,6 +54,9 @@ class Station {
   // A frame that is older than max_age_s at now_s is dropped: the tracker gets no backlog.
   void on_frame(const Frame& frame, double now_s);
   void set_limits(const PtuLimits& limits) { config_.limits = limits; }
+  // What the PTU's angles are worth. In doubt nothing is pointed or slewed, and what is known of
+  // angles is forgotten; a target is kept, and slews lead back to it later.
+  void set_reference(PtuReference reference);
   // Before the first call the pose is that of the configured geometry. Without a position there
   // are no bearings.
   void set_pose(const StationPose& pose);
@@ -66,6 +72,12 @@ class Station {
   Refusal release(double now_s);
   // After an emergency stop: leads to kStopped, from where the operator goes on.
   Refusal rearm(double now_s);
+  // The unit shall home; take_home() says so once.
+  Refusal home(double now_s);
+  // A person vouches for the unit's reference; take_reference_ok() says so once.
+  Refusal reference_ok(double now_s);
+  bool take_home() { return std::exchange(home_, false); }
+  bool take_reference_ok() { return std::exchange(reference_ok_, false); }
 
   // Lets time pass: leases and coasting end, state times grow. Returns the bearings whose PTU
   // angles are known by now.
@@ -117,6 +129,8 @@ class Station {
   // The PTU angles for a direction, or nothing when the unit cannot point there.
   std::optional<PanTilt> reachable(const AzimuthElevation& direction) const;
   void expire(double now_s);
+  void forget_angles();
+  bool without_reference() const;
   std::optional<ServoGoal> slew_goal() const;
 
   StationConfig config_;
@@ -125,6 +139,8 @@ class Station {
   AngularTrack motion_;
   StationState state_ = StationState::kIdle;
   bool stop_pressed_ = false;
+  PtuReference reference_ = PtuReference::kUnknown;
+  bool home_ = false, reference_ok_ = false;  // wanted
   StationPose pose_;
   StationPose revision_pose_;  // of which the bearings' pose_revision speaks
   std::int64_t pose_revision_ = 0;

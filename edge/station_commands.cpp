@@ -81,6 +81,7 @@ Refusal Station::judge(const SlewCommand& command, double now_s) const {
   if (state_ == StationState::kManual || state_ == StationState::kStopped) {
     return Refusal::kPrecedence;
   }
+  if (without_reference()) return Refusal::kNoReference;
   // On the whole way that this one command can lead, not only where it says it is.
   for (const double time_s : {now_s, command.effect_s, command.received_s + command.lease_s}) {
     if (!reachable(direction_at(command, time_s))) return Refusal::kUnreachable;
@@ -103,6 +104,7 @@ Refusal Station::point(const PointCommand& command, double now_s) {
   now_s_ = std::max(now_s_, now_s);
   if (state_ == StationState::kEmergency) return count(Refusal::kEmergency, "point");
   if (!finite(command.angles)) return count(Refusal::kNotFinite, "point");
+  if (without_reference()) return count(Refusal::kNoReference, "point");
   PanTilt angles = command.angles;
   const auto newest = history_.newest();
   if (reach(config_.limits, newest ? newest->angles : angles, angles) == Reach::kUnreachable) {
@@ -140,6 +142,7 @@ void Station::emergency_stop(bool pressed, double now_s) {
   point_.reset();
   motion_.clear();
   waiting_.clear();
+  home_ = false;
   enter(StationState::kEmergency);
 }
 
@@ -148,6 +151,48 @@ Refusal Station::rearm(double now_s) {
   if (stop_pressed_) return count(Refusal::kEmergency, "rearm");
   if (state_ == StationState::kEmergency) enter(StationState::kStopped);
   return count(Refusal::kNone, "rearm");
+}
+
+bool Station::without_reference() const {
+  return reference_ == PtuReference::kMissing || reference_ == PtuReference::kDoubted;
+}
+
+void Station::set_reference(PtuReference reference) {
+  const bool had = !without_reference();
+  reference_ = reference;
+  if (had && without_reference()) forget_angles();
+}
+
+// Angles of before and after are not in the same frame. Who followed a target looks for it again.
+void Station::forget_angles() {
+  history_.clear();
+  motion_.clear();
+  waiting_.clear();
+  tracked_s_.reset();
+  slew_.reset();
+  point_.reset();
+  if (state_ == StationState::kTracking || state_ == StationState::kCoasting) {
+    enter(StationState::kLost);
+  }
+}
+
+Refusal Station::home(double now_s) {
+  now_s_ = std::max(now_s_, now_s);
+  if (state_ == StationState::kEmergency) return count(Refusal::kEmergency, "home");
+  if (!config_.homing_allowed) return count(Refusal::kKeepOut, "home");
+  if (reference_ == PtuReference::kUnknown) return count(Refusal::kNoUnit, "home");
+  forget_angles();
+  home_ = true;
+  return count(Refusal::kNone, "home");
+}
+
+Refusal Station::reference_ok(double now_s) {
+  now_s_ = std::max(now_s_, now_s);
+  if (state_ == StationState::kEmergency) return count(Refusal::kEmergency, "reference_ok");
+  if (reference_ == PtuReference::kMissing) return count(Refusal::kNoReference, "reference_ok");
+  if (reference_ != PtuReference::kDoubted) return count(Refusal::kNoDoubt, "reference_ok");
+  reference_ok_ = true;
+  return count(Refusal::kNone, "reference_ok");
 }
 
 }  // namespace ols

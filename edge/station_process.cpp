@@ -114,7 +114,10 @@ void StationProcess::heed_emergency_stop(double now_s) {
 }
 
 void StationProcess::receive_commands() {
+  station_.set_reference(devices_.ptu().reference());
   bus_.receive();
+  if (station_.take_home()) devices_.ptu().home();
+  if (station_.take_reference_ok()) devices_.ptu().reference_ok();
   if (halted_ && station_.state() != StationState::kEmergency) {
     halted_ = false;
     devices_.rearm();
@@ -150,6 +153,7 @@ void StationProcess::take_frame() {
 }
 
 void StationProcess::take_angles() {
+  station_.set_reference(devices_.ptu().reference());
   for (const AngleSample& sample : devices_.ptu().take_samples()) station_.on_angles(sample);
 }
 

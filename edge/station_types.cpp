@@ -47,6 +47,14 @@ const char* to_string(Refusal refusal) {
       return "precedence";
     case Refusal::kEmergency:
       return "emergency";
+    case Refusal::kNoReference:
+      return "no_reference";
+    case Refusal::kNoUnit:
+      return "no_unit";
+    case Refusal::kKeepOut:
+      return "keep_out";
+    case Refusal::kNoDoubt:
+      return "no_doubt";
   }
   return "unknown";
 }

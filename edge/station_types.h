@@ -71,6 +71,10 @@ enum class Refusal {
   kTracker,      // the tracker refused the box
   kPrecedence,   // a slew while the operator has the PTU (manual or stopped)
   kEmergency,    // after an emergency stop, until it is released and rearmed
+  kNoReference,  // what the unit's angles mean is not known
+  kNoUnit,       // to home
+  kKeepOut,      // homing would sweep across the regions to keep out of
+  kNoDoubt,      // about the reference, that a person could end
 };
 const char* to_string(Refusal refusal);
 

@@ -145,7 +145,7 @@ std::string PtuReplyParser::without_tokens(std::string_view line) {
     const bool limit = line[i] == '!' && axis;
     const bool other =
         (line[i] == '!' && next == 'D') || ((line[i] == '#' || line[i] == '$') && axis);
-    limit_hits_ += limit ? 1 : 0;
+    if (limit) ++(next == 'P' ? limit_hits_.pan : limit_hits_.tilt);
     if (limit || other) {
       ++i;
     } else {
@@ -171,7 +171,7 @@ std::optional<PtuReply> PtuReplyParser::finish_line(double end_s) {
     ++garbled_;
     return std::nullopt;
   }
-  const std::uint64_t hits = limit_hits_;
+  const PtuLimitHits hits = limit_hits_;
   const std::string line = without_tokens(raw);
   if (is_banner(line)) return std::nullopt;
   const std::size_t mark = line.find_first_of("*!");
@@ -186,7 +186,8 @@ std::optional<PtuReply> PtuReplyParser::finish_line(double end_s) {
   PtuReply reply;
   reply.ok = line[mark] == '*';
   reply.echoed = !before.empty();
-  reply.limit_hits = static_cast<int>(limit_hits_ - hits);
+  const PtuLimitHits of_line = limit_hits_ - hits;
+  reply.limit_hits = static_cast<int>(of_line.pan + of_line.tilt);
   reply.text = trimmed(std::string_view(line).substr(mark + 1));
   reply.number = first_number(reply.text);
   reply.began_s = mark_s;

@@ -76,6 +76,20 @@ enum class PtuComplaint {
 };
 PtuComplaint complaint(std::string_view text);
 
+struct PtuLimitHits {
+  std::uint64_t pan = 0, tilt = 0;
+
+  bool any() const { return pan + tilt > 0; }
+  PtuLimitHits& operator+=(const PtuLimitHits& more) {
+    pan += more.pan;
+    tilt += more.tilt;
+    return *this;
+  }
+  PtuLimitHits operator-(const PtuLimitHits& less) const {
+    return {pan - less.pan, tilt - less.tilt};
+  }
+};
+
 // Incremental: any split of the bytes gives the same replies. Blanks, echoes and asynchronous
 // tokens (!P !T limit hits; !D #P #T $P $T) are discarded wherever they are glued.
 class PtuReplyParser {
@@ -87,9 +101,9 @@ class PtuReplyParser {
   // Forgets an unfinished line.
   void reset();
 
-  std::uint64_t garbled() const { return garbled_; }        // lines that are neither reply nor echo
-  std::uint64_t banners() const { return banners_; }        // lines of a unit that begins anew
-  std::uint64_t limit_hits() const { return limit_hits_; }  // !P and !T
+  std::uint64_t garbled() const { return garbled_; }  // lines that are neither reply nor echo
+  std::uint64_t banners() const { return banners_; }  // lines of a unit that begins anew
+  const PtuLimitHits& limit_hits() const { return limit_hits_; }  // !P and !T
 
  private:
   std::optional<PtuReply> finish_line(double end_s);
@@ -102,7 +116,7 @@ class PtuReplyParser {
   bool marked_ = false;
   std::uint64_t garbled_ = 0;
   std::uint64_t banners_ = 0;
-  std::uint64_t limit_hits_ = 0;
+  PtuLimitHits limit_hits_;
 };
 
 }  // namespace ols

@@ -11,16 +11,30 @@
 #include <vector>
 
 #include "edge/ptu/angle_history.h"
+#include "edge/ptu/reference_watch.h"
 #include "edge/ptu/servo.h"
 #include "edge/ptu/unit_model.h"
 
 namespace ols {
 
-// What happens when a unit does not know where it is. Homing sweeps the whole travel, whatever
-// stands there, so that nobody but the configuration can allow it.
+// What happens when a unit does not know where it is, or may be wrong about it. Homing sweeps the
+// whole travel, whatever stands there, so that only the configuration or a person can allow it.
 enum class PtuRehome {
-  kNever,             // the unit is a fault until somebody homed it
+  kNever,             // the unit is a fault until somebody homed it or vouched for it
   kWhenUnreferenced,  // R, once after each loss
+};
+
+// What the unit's angles are worth.
+enum class PtuReference {
+  kUnknown,  // no unit that could be driven
+  kMissing,  // the unit says itself that it must be homed, or it is homing
+  kDoubted,  // PtuDoubt: no samples come, no goals are heeded, until it was homed or vouched for
+  kTrusted,
+};
+
+// A unit that accelerates less than configured, and is driven no faster than it can stop in time.
+struct PtuLoweredSpeed {
+  double acceleration_rad_s2, speed_rad_s;
 };
 
 struct PtuConfig {
@@ -34,6 +48,7 @@ struct PtuConfig {
   double environment_interval_s = 5.0;  // supply voltage and temperatures; 0: never
   double supply_min_V = 11.5;           // an alarm below
   PtuRehome rehome = PtuRehome::kNever;
+  bool home_despite_keep_out = false;                  // on command
   char step_mode = 0, hold_power = 0, move_power = 0;  // PtuStartOptions
   PtuLimits limits;                                    // narrowed by what the unit reports
   AngleHistory::Config history;
@@ -70,7 +85,7 @@ class PtuDriver {
   int line_baud() const;
 
   // Where the unit shall go from now on; nothing: halt. Takes effect with the next poll. Forgotten
-  // in an emergency and whenever the unit is lost.
+  // in an emergency and whenever the unit or its reference is lost.
   void set_goal(const std::optional<ServoGoal>& goal);
 
   // From now on nothing moves: halts go out, again and again until the unit was seen to stand, and
@@ -79,6 +94,12 @@ class PtuDriver {
   std::string emergency_halt(double time_s);
   void clear_emergency();
   bool in_emergency() const;
+
+  // Halts the unit, waits until it stands and has it home: R sweeps the whole travel. Not in an
+  // emergency, and given up when the unit does not answer.
+  void home(double time_s);
+  // A person vouches for the reference: it was homed by hand, or checked.
+  void reference_ok();
 
   // Begins again from power-up, for example when the port was reopened.
   void restart(double time_s);
@@ -98,11 +119,12 @@ class PtuDriver {
   std::string last_error() const;  // empty when there was none
   std::optional<PtuEnvironment> environment() const;
   std::optional<double> last_good_s() const;  // when the last angle was taken in
-  bool not_referenced() const;                // the unit does not know where it is
-  // It was switched off and on in mid-run, and was not seen to home itself since.
-  bool may_have_lost_reference() const;
-  bool ran_into_limit() const;  // since it became ready: steps may be lost
-  bool standing() const;        // seen not to move
+  bool not_referenced() const;                // the unit says that it does not know where it is
+  bool homing() const;                        // since home() or by itself, until it is ready
+  PtuReference reference() const;
+  PtuDoubt doubt() const;
+  std::optional<PtuLoweredSpeed> lowered_speed() const;
+  bool standing() const;  // seen not to move
 
   // Bytes that stop the unit at once, whatever the driver was doing: for the end of the process.
   static std::string halt_request();

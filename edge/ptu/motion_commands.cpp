@@ -80,7 +80,15 @@ MotionCommands::MotionCommands(const PtuConfig& config, const PtuFacts& facts)
   // What the unit really does decides where it can stop.
   servo_.max_acceleration_rad_s2 =
       std::min(rad(facts.pan, facts.pan.acceleration), rad(facts.tilt, facts.tilt.acceleration));
+  keep_running_on_short();
   braking_s_ = servo_.max_speed_rad_s / servo_.max_acceleration_rad_s2;
+}
+
+// The configuration was checked with the acceleration that it asks for; a unit may keep its own.
+void MotionCommands::keep_running_on_short() {
+  if (!runs_on_too_long(servo_)) return;
+  servo_.max_speed_rad_s = std::max(servo_.min_speed_rad_s, greatest_safe_speed_rad_s(servo_));
+  lowered_ = PtuLoweredSpeed{servo_.max_acceleration_rad_s2, servo_.max_speed_rad_s};
 }
 
 MotionCommands::Axis MotionCommands::axis(PtuAxis name, const PtuAxisFacts& facts, double least_rad,

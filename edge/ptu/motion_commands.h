@@ -40,6 +40,7 @@ class MotionCommands {
   const PanTilt& speed_change_rad_s() const { return change_; }
 
   const PtuLimits& limits() const { return limits_; }
+  const std::optional<PtuLoweredSpeed>& lowered_speed() const { return lowered_; }
 
  private:
   struct Axis {
@@ -54,7 +55,10 @@ class MotionCommands {
 
   double change(double speed_rad_s, double way_rad, double rate_rad_s) const;
 
+  void keep_running_on_short();
+
   ServoConfig servo_;
+  std::optional<PtuLoweredSpeed> lowered_;
   PtuLimits limits_;
   Axis pan_, tilt_;
   double braking_s_ = 0.0;    // from full speed

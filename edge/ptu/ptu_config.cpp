@@ -67,6 +67,8 @@ void read_modes(ConfigTable& table, PtuConfig& config) {
   config.move_power = letter(table, "move_power", {{"high", 'H'}, {"regular", 'R'}, {"low", 'L'}});
   const std::string rehome = table.choice("rehome", "never", {"never", "when-unreferenced"});
   config.rehome = rehome == "never" ? PtuRehome::kNever : PtuRehome::kWhenUnreferenced;
+  config.home_despite_keep_out =
+      table.boolean("home_despite_keep_out", config.home_despite_keep_out);
   if (config.rehome != PtuRehome::kNever && !config.limits.keep_out.empty()) {
     throw table.error("rehome", "homing sweeps the whole travel, keep_out and all");
   }
@@ -103,16 +105,14 @@ void check_budget(ConfigTable& table, const PtuConfig& config) {
 
 // The unit has no time-out of its own: how it is commanded sees to it that it stops.
 void check_running_on(ConfigTable& table, const PtuConfig& config) {
-  constexpr double kLongest_s = 1.0;
   ServoConfig servo = config.servo;
   servo.max_acceleration_rad_s2 = config.acceleration_rad_s2;
-  const double speed_rad_s = std::min(radians(20.0), servo.max_speed_rad_s);
-  const double longest_s = runs_on_s(servo, speed_rad_s);
-  if (longest_s > kLongest_s) {
+  if (runs_on_too_long(servo)) {
+    const double longest_s = runs_on_s(servo, std::min(kRunsOnSpeed_rad_s, servo.max_speed_rad_s));
     throw table.error("servo.look_ahead_s",
                       text("with gain_hz and acceleration_deg_s2 the unit would run on for %.2f s "
                            "when this program dies, at most %.1f s is allowed",
-                           longest_s, kLongest_s));
+                           longest_s, kRunsOnAtMost_s));
   }
 }
 

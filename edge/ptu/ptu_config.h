@@ -12,6 +12,7 @@
 //   tilt_min_deg = -47
 //   tilt_max_deg = 31
 //   rehome = "never"             # or "when-unreferenced": homing sweeps the whole travel
+//   home_despite_keep_out = false  # an operator may home a unit that has regions to keep out of
 //   step_mode = "keep"           # E-series: half, quarter, eighth, auto
 //   hold_power = "keep"          # regular, low, off (off loses the position)
 //   move_power = "keep"          # high, regular, low

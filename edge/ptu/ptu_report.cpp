@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "geometry/angles.h"
+
 namespace ols {
 
 namespace {
@@ -10,6 +12,12 @@ std::string with_number(const char* format, double number) {
   char text[120];
   std::snprintf(text, sizeof text, format, number);
   return text;
+}
+
+std::string lowered_words(const PtuLoweredSpeed& lowered) {
+  return with_number("accelerates by only %.1f deg/s^2", degrees(lowered.acceleration_rad_s2)) +
+         with_number(", driven at %.1f deg/s at most, so that it stops in time by itself",
+                     degrees(lowered.speed_rad_s));
 }
 
 DeviceState state_of(const PtuStatus& status) {
@@ -28,6 +36,7 @@ DeviceState state_of(const PtuStatus& status) {
 std::string text_of(const PtuStatus& status, DeviceState state) {
   const std::string rate = std::to_string(status.line_baud) + " baud";
   if (state == DeviceState::kOk) return ptu_name(status.firmware) + ", " + rate;
+  if (state == DeviceState::kStarting && status.homing) return "homing, " + rate;
   if (state == DeviceState::kStarting) return "starting, " + rate;
   return status.last_error.empty() ? "no unit" : status.last_error;
 }
@@ -42,10 +51,11 @@ void add_alarms(const PtuConfig& config, const PtuStatus& status, double now_s,
   if (report.state == DeviceState::kAbsent) alarm("no serial port: " + status.last_error);
   if (report.state == DeviceState::kFault) alarm("halted, " + status.last_error);
   if (status.not_referenced) alarm("does not know where it is: home it");
-  if (status.may_have_lost_reference) {
-    alarm("was switched off and on and not seen to home itself: its angles may be wrong");
+  if (status.homing) alarm("homing");
+  if (status.doubt != PtuDoubt::kNone && status.last_error != words(status.doubt)) {
+    alarm(words(status.doubt));
   }
-  if (status.ran_into_limit) alarm("ran into a limit: it may have lost steps, home it");
+  if (status.lowered_speed) alarm(lowered_words(*status.lowered_speed));
   const bool silent = !status.last_good_s || now_s - *status.last_good_s > kOld_s;
   if (report.state == DeviceState::kOk && silent) alarm("no angles");
   if (status.environment && status.environment->supply_V < config.supply_min_V) {

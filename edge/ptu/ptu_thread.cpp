@@ -145,6 +145,21 @@ void PtuThread::clear_emergency() {
   impl_->driver.clear_emergency();
 }
 
+void PtuThread::home() {
+  const std::lock_guard lock(impl_->mutex);
+  if (!impl_->emergency) impl_->driver.home(clock_monotonic_s());
+}
+
+void PtuThread::reference_ok() {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->driver.reference_ok();
+}
+
+PtuReference PtuThread::reference() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->open ? impl_->driver.reference() : PtuReference::kUnknown;
+}
+
 PtuStatus PtuThread::status() const {
   const std::lock_guard lock(impl_->mutex);
   const PtuDriver& driver = impl_->driver;
@@ -156,8 +171,9 @@ PtuStatus PtuThread::status() const {
   status.emergency = impl_->emergency;
   status.standing = driver.standing();
   status.not_referenced = driver.not_referenced();
-  status.may_have_lost_reference = driver.may_have_lost_reference();
-  status.ran_into_limit = driver.ran_into_limit();
+  status.homing = driver.homing();
+  status.doubt = driver.doubt();
+  status.lowered_speed = driver.lowered_speed();
   status.line_baud = driver.line_baud();
   status.last_good_s = driver.last_good_s();
   status.environment = driver.environment();

@@ -18,13 +18,14 @@ namespace ols {
 struct PtuStatus {
   PtuState state = PtuState::kStarting;
   bool port_open = false;
-  std::uint64_t port_failures = 0;       // opens that failed and ports that vanished; only goes up
-  std::uint64_t reopens = 0;             // of the port because the unit did not answer
-  bool emergency = false;                // nothing moves until clear_emergency()
-  bool standing = false;                 // seen not to move
-  bool not_referenced = false;           // must be homed
-  bool ran_into_limit = false;           // steps may be lost
-  bool may_have_lost_reference = false;  // PtuDriver::may_have_lost_reference()
+  std::uint64_t port_failures = 0;  // opens that failed and ports that vanished; only goes up
+  std::uint64_t reopens = 0;        // of the port because the unit did not answer
+  bool emergency = false;           // nothing moves until clear_emergency()
+  bool standing = false;            // seen not to move
+  bool not_referenced = false;      // must be homed
+  bool homing = false;
+  PtuDoubt doubt = PtuDoubt::kNone;
+  std::optional<PtuLoweredSpeed> lowered_speed;
   int line_baud = 0;
   std::optional<double> last_good_s;  // CLOCK_MONOTONIC of the last angle
   std::optional<PtuEnvironment> environment;
@@ -55,6 +56,11 @@ class PtuThread {
   // unit was seen to stand. In software it only assists a stop in hardware.
   void emergency_halt();
   void clear_emergency();
+
+  // PtuDriver::home(), reference_ok() and reference().
+  void home();
+  void reference_ok();
+  PtuReference reference() const;
 
   PtuStatus status() const;
   DeviceReport report() const;

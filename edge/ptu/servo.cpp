@@ -140,6 +140,17 @@ double runs_on_s(const ServoConfig& config, double speed_rad_s) {
          std::abs(speed_rad_s) / config.max_acceleration_rad_s2;
 }
 
+bool runs_on_too_long(const ServoConfig& config) {
+  const double speed = std::min(config.max_speed_rad_s, kRunsOnSpeed_rad_s);
+  return runs_on_s(config, speed) > kRunsOnAtMost_s;
+}
+
+double greatest_safe_speed_rad_s(const ServoConfig& config) {
+  if (!runs_on_too_long(config)) return config.max_speed_rad_s;
+  const double braking_s = kRunsOnAtMost_s - runs_on_s(config, 0.0);
+  return std::max(0.0, braking_s * config.max_acceleration_rad_s2);
+}
+
 namespace {
 
 // How far it is to go there; nothing: no way.

@@ -54,6 +54,14 @@ std::optional<ServoCommand> servo_step(const ServoConfig& config, const PtuLimit
 // How long the unit goes on at most when its master dies while it moves at this speed.
 double runs_on_s(const ServoConfig& config, double speed_rad_s);
 
+// From kRunsOnSpeed_rad_s, or its greatest speed if that is less, it may go on for so long at most.
+constexpr double kRunsOnAtMost_s = 1.0;
+constexpr double kRunsOnSpeed_rad_s = 0.349066;  // 20 deg/s
+bool runs_on_too_long(const ServoConfig& config);
+// The configured greatest speed, or a lower one such that it does not run on for too long; 0 when
+// there is none.
+double greatest_safe_speed_rad_s(const ServoConfig& config);
+
 enum class Reach { kDirect, kLongWayRound, kUnreachable };
 
 // Whether the unit can point there. Pan angles that differ by 2 pi are the same direction: of the

@@ -129,8 +129,7 @@ void PtuSteadyState::unit_began_anew() {
 }
 
 void PtuSteadyState::take(const PtuReply& reply, double time_s, double late_s) {
-  constexpr int kHoming = 3;  // limit hits at once: !T!T!P!P*
-  if (reply.limit_hits >= kHoming) {
+  if (reply.limit_hits >= kHomingHits) {
     unit_began_anew();
     return;
   }

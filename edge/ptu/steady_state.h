@@ -21,6 +21,9 @@ class PtuSteadyState {
   PtuSteadyState(const PtuConfig& config, const PtuFacts& facts, double byte_s, double time_s,
                  PtuCounters& counters);
 
+  // So many limit hits in one reply are those of homing, `!T!T!P!P*`, some of them lost.
+  static constexpr int kHomingHits = 3;
+
   // What became of the unit, when it cannot go on like this.
   struct Trouble {
     enum class Kind {
@@ -50,6 +53,7 @@ class PtuSteadyState {
   std::optional<double> last_good_s() const { return last_sample_s_; }
   bool standing() const { return check_.standing(); }
   std::string last_error() const { return error_; }
+  const std::optional<PtuLoweredSpeed>& lowered_speed() const { return commands_.lowered_speed(); }
 
  private:
   PtuRequest commands_for(const std::optional<ServoGoal>& goal, bool emergency, double time_s);

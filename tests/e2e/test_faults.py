@@ -15,8 +15,14 @@ from ols_demo.recording import Recording
 from ols_faults import measure
 from ols_faults.case import Outcome
 
-DEADLINE_S = 180.0
-CASES = ["fusion-killed", "ptu-reply-lost", "bad-manual-commands"]
+DEADLINE_S = 300.0
+CASES = [
+    "fusion-killed",
+    "ptu-reply-lost",
+    "ptu-line-cut",
+    "bad-manual-commands",
+    "emergency-stop",
+]
 STEP_S = 0.0025
 
 
@@ -92,6 +98,12 @@ def checks_of(case):
     return {check["what"]: check["passed"] for check in case["checks"]}
 
 
+def angles_are_true(checks):
+    """The judge of angles found some, and none beyond its sigmas."""
+    judged = [passed for what, passed in checks.items() if "sigmas" in what]
+    return checks["bearings to judge"] and len(judged) == 2 and all(judged)
+
+
 def test_stations_track_without_a_fusion(cases):
     checks = checks_of(cases["fusion-killed"])
     tracking = [passed for what, passed in checks.items() if "goes on tracking" in what]
@@ -103,7 +115,24 @@ def test_stations_track_without_a_fusion(cases):
 def test_a_lost_reply_is_counted_and_survived(cases):
     checks = checks_of(cases["ptu-reply-lost"])
     assert checks["counted and reported"]
+    assert angles_are_true(checks)
     assert cases["ptu-reply-lost"]["recovery_s"] is not None
+
+
+def test_a_cut_line_is_reported_and_healed(cases):
+    checks = checks_of(cases["ptu-line-cut"])
+    assert checks["reported"]
+    assert checks["line healed"]
+    assert checks["fastest motion"]
+    assert angles_are_true(checks)
+
+
+def test_an_emergency_stop_holds_until_it_is_rearmed(cases):
+    checks = checks_of(cases["emergency-stop"])
+    assert checks["the station says so"]
+    assert checks["moved while pressed"]
+    assert checks["moved released, not re-armed"]
+    assert checks["moves once re-armed"]
 
 
 def test_bad_commands_move_nothing(cases):

@@ -82,6 +82,10 @@ void add_ptu_commands(CLI::App& app, Words& words) {
   simple("release", "Give the PTU back to automatic control", &ols::Operator::release);
   simple("rearm", "After an emergency stop that is released: leave the emergency, stopped",
          &ols::Operator::rearm);
+  simple("home", "Have the PTU home, a sweep over its whole travel: clear the way first",
+         &ols::Operator::home);
+  simple("reference-ok", "The PTU's angles were checked, or it was homed by hand: believe them",
+         &ols::Operator::reference_ok);
 }
 
 void add_other_commands(CLI::App& app, Words& words) {
@@ -114,7 +118,8 @@ void add_other_commands(CLI::App& app, Words& words) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Tells one station, or all, what to do: designate, manual, stop, release, rearm, record, "
+      "Tells one station, or all, what to do: designate, manual, stop, release, rearm, home, "
+      "reference-ok, record, "
       "status"};
   Words words;
   app.add_option("station", words.station, "Id of the station, or all")->required();

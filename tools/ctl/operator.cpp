@@ -169,6 +169,14 @@ std::optional<std::string> Operator::rearm(const std::string& station) {
   return send_ptu(station, ols_msg::ptu_command_t::COMMAND_REARM, 0.0, 0.0, "rearm");
 }
 
+std::optional<std::string> Operator::home(const std::string& station) {
+  return send_ptu(station, ols_msg::ptu_command_t::COMMAND_HOME, 0.0, 0.0, "home");
+}
+
+std::optional<std::string> Operator::reference_ok(const std::string& station) {
+  return send_ptu(station, ols_msg::ptu_command_t::COMMAND_REFERENCE_OK, 0.0, 0.0, "reference_ok");
+}
+
 std::optional<std::string> Operator::record(const std::string& station, double before_s,
                                             double after_s, const std::string& label) {
   ols_msg::record_t message;

@@ -35,6 +35,9 @@ class Operator {
   std::optional<std::string> stop(const std::string& station);
   std::optional<std::string> release(const std::string& station);
   std::optional<std::string> rearm(const std::string& station);
+  // Accepted, not done: the unit takes half a minute, and its status tells how it went.
+  std::optional<std::string> home(const std::string& station);
+  std::optional<std::string> reference_ok(const std::string& station);
   // The raw frames around now.
   std::optional<std::string> record(const std::string& station, double before_s, double after_s,
                                     const std::string& label);

@@ -48,6 +48,12 @@ const char* advice_for(const std::string& device) {
   return "see the station's journal";
 }
 
+const char* advice_for(const DeviceReport& report) {
+  if (report.text.find("reference-ok") == std::string::npos) return advice_for(report.name);
+  return "clear its whole travel of people and cables, then ols-ctl STATION home; or compare its "
+         "angles with something known, then ols-ctl STATION reference-ok";
+}
+
 std::string axis_words(const char* name, const PtuAxisAnswers& axis) {
   if (!axis.resolution_arcsec || !axis.least || !axis.greatest) {
     return std::string(name) + " unknown";
@@ -69,8 +75,8 @@ Finding judge_baud(const PtuAnswers& ptu) {
 Finding judge_axes(const PtuAnswers& ptu) {
   if (ptu.not_referenced) {
     return fail("ptu: does not know where it is (\"Axis Error\")",
-                "clear its whole travel of people and cables, then allow homing: "
-                "rehome = \"when-unreferenced\"");
+                "clear its whole travel of people and cables, then ols-ctl STATION home (or for "
+                "good: rehome = \"when-unreferenced\")");
   }
   const std::string words =
       "ptu: " + axis_words("pan", ptu.pan) + ", " + axis_words("tilt", ptu.tilt);
@@ -109,7 +115,7 @@ Finding judge(const DeviceReport& device) {
   const std::string trouble = device.last_error.empty() || device.last_error == device.text
                                   ? std::string()
                                   : " (" + device.last_error + ")";
-  return fail(words + trouble, advice_for(device.name));
+  return fail(words + trouble, advice_for(device));
 }
 
 std::optional<Finding> judge_line(const std::string& name, const SerialFacts& serial) {

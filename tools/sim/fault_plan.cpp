@@ -21,13 +21,20 @@ constexpr Kind flag(const char* name, void (*apply)(StationFaults&, double)) {
 }
 
 using F = StationFaults;
-constexpr std::array kKinds = {
+
+// 1: homes by itself, 0: does not.
+void apply_power_cycle(F& f, double value) {
+  f.ptu.power_cycle = true;
+  if (!std::isnan(value)) f.ptu.homes_then = value != 0.0;
+}
+
+const std::array kKinds = {
     flag("ptu-line-cut", [](F& f, double) { f.ptu.line_cut = true; }),
     flag("ptu-line-gone", [](F& f, double) { f.ptu.line_gone = true; }),
     Kind{"ptu-garbled", 0.01, 0.0, 1.0, [](F& f, double v) { f.ptu.garble_share = v; }},
     Kind{"ptu-reply-lost", 60.0, 0.01, 1e6, [](F& f, double v) { f.ptu.reply_lost_every_s = v; }},
     flag("ptu-echo-on", [](F& f, double) { f.ptu.echo_on = true; }),
-    flag("ptu-power-cycle", [](F& f, double) { f.ptu.power_cycle = true; }),
+    Kind{"ptu-power-cycle", std::nan(""), 0.0, 1.0, apply_power_cycle},
     Kind{"ptu-lost-steps", 1.0, -90.0, 90.0, [](F& f, double v) { f.ptu.lost_steps_deg = v; }},
     flag("camera-gone", [](F& f, double) { f.camera.gone = true; }),
     Kind{"camera-packet-loss", 0.001, 0.0, 1.0, [](F& f, double v) { f.camera.packet_loss = v; }},

@@ -2,6 +2,7 @@
 // part with set_faults(), from any thread; tools/sim/fault_plan.h decides when. Pure.
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace ols::sim {
@@ -13,6 +14,7 @@ struct PtuFaults {
   double reply_lost_every_s = 0.0;  // one reply lost each so many seconds; 0: none
   bool echo_on = false;             // the edge from false to true switches echo on, as EE would
   bool power_cycle = false;         // the edge from false to true: off and on again
+  std::optional<bool> homes_then;   // by itself, when the power comes; nothing: as it was set to
   double lost_steps_deg = 0.0;      // the edge from 0: pan slips by so much, unnoticed by the unit
   bool operator==(const PtuFaults&) const = default;
 };

@@ -129,6 +129,7 @@ void LockstepStation::take_note(double mid_s, const ViewTruth& view) {
 }
 
 void LockstepStation::operate(double time_s) {
+  station_.set_reference(driver_.reference());
   if (designated_ || driver_.state() != PtuState::kReady) return;
   if (ready_s_ < 0.0) {
     ready_s_ = time_s;

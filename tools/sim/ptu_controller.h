@@ -36,6 +36,7 @@ class PtuController {
   // It was gone for a moment, and with it what the unit knew of where it stands.
   PtuAnswer power_cycle(double time_s);
   std::string banner() const;
+  void home_at_power_up(bool homes) { homes_ = {homes, homes}; }
 
   PtuAnswer execute(std::string_view command, double time_s);
 

@@ -8,7 +8,10 @@ FaultyPtuUnit::FaultyPtuUnit(const PtuUnitConfig& config, std::uint64_t seed, do
     : unit_(config, seed, power_up_s), replies_(seed ^ 0x5eed) {}
 
 void FaultyPtuUnit::set_faults(const PtuFaults& faults, double time_s) {
-  if (faults.power_cycle && !faults_.power_cycle) unit_.power_cycle(time_s);
+  if (faults.power_cycle && !faults_.power_cycle) {
+    if (faults.homes_then) unit_.home_at_power_up(*faults.homes_then);
+    unit_.power_cycle(time_s);
+  }
   if (faults.echo_on && !faults_.echo_on) unit_.switch_echo_on(time_s);
   if (faults.lost_steps_deg != 0.0 && faults_.lost_steps_deg == 0.0) {
     unit_.slip(radians(faults.lost_steps_deg), time_s);

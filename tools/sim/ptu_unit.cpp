@@ -212,6 +212,8 @@ void PtuUnit::power_cycle(double time_s) {
   impl_->begin(impl_->controller.power_cycle(time_s), time_s);
 }
 
+void PtuUnit::home_at_power_up(bool homes) { impl_->controller.home_at_power_up(homes); }
+
 void PtuUnit::switch_echo_on(double time_s) {
   impl_->advance(time_s);
   impl_->controller.switch_echo_on();

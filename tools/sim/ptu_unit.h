@@ -55,6 +55,8 @@ class PtuUnit {
 
   // The power goes and comes again: what was not saved is forgotten, also where it stood.
   void power_cycle(double time_s);
+  // As if somebody had chosen so with RE or RD.
+  void home_at_power_up(bool homes);
   // As if somebody had sent EE.
   void switch_echo_on(double time_s);
   // The pan mechanism gives way, unnoticed by the unit.

@@ -102,6 +102,13 @@ TEST(DoctorOnDevices, AReportedDeviceKeepsItsWordsAndGetsAdvice) {
   EXPECT_THAT(line(judge(gnss)), HasSubstr("FAIL  gnss: no fix (no report for 6 s)  — check gpsd"));
   gnss.state = DeviceState::kStarting;
   EXPECT_EQ(judge(gnss).verdict, Verdict::kWarn);
+  DeviceReport ptu = gnss;
+  ptu.name = "ptu";
+  ptu.state = DeviceState::kFault;
+  ptu.text =
+      "ran into a limit and may have lost steps: home it, or reference-ok once it was checked";
+  EXPECT_THAT(line(judge(ptu)), HasSubstr("ols-ctl STATION home"));
+  EXPECT_THAT(line(judge(ptu)), HasSubstr("ols-ctl STATION reference-ok"));
 }
 
 CameraAnswers good_camera() {

@@ -252,5 +252,75 @@ TEST_F(StationSafetyTest, AfterAStandstillThereIsNoBacklog) {
   EXPECT_EQ(station_.state(), StationState::kTracking) << "and it recovers";
 }
 
+// The unit was switched off and on: what its angles mean is not known.
+TEST_F(StationSafetyTest, NothingIsPointedOrSlewedWithoutAReference) {
+  for (const PtuReference lost : {PtuReference::kDoubted, PtuReference::kMissing}) {
+    station_.set_reference(PtuReference::kTrusted);
+    run_until(now_ + 0.5);
+    ASSERT_EQ(station_.slew(slew(30.0), now_), Refusal::kNone);
+    ASSERT_TRUE(station_.goal(now_));
+    station_.set_reference(lost);
+    EXPECT_FALSE(station_.goal(now_));
+    EXPECT_FALSE(station_.snapshot().angles);
+    EXPECT_EQ(station_.slew(slew(30.0), now_), Refusal::kNoReference);
+    EXPECT_EQ(station_.point({{0.1, 0.0}}, now_), Refusal::kNoReference);
+    EXPECT_FALSE(station_.goal(now_));
+  }
+  EXPECT_EQ(counter("refused_no_reference"), 4.0);
+}
+
+TEST_F(StationSafetyTest, ATargetOutlastsALostReferenceAndIsSlewedToAgain) {
+  station_.set_reference(PtuReference::kTrusted);
+  designated();
+  run_until(now_ + 1.0);
+  ASSERT_EQ(station_.state(), StationState::kTracking);
+  station_.set_reference(PtuReference::kDoubted);
+  EXPECT_EQ(station_.state(), StationState::kLost);
+  script_.belief = 0.0;
+  bearings_.clear();
+  now_ += 30.0;  // homing
+  next_sample_ = next_frame_ = now_;
+  station_.set_reference(PtuReference::kTrusted);
+  run_until(now_ + 0.5);
+  ASSERT_EQ(station_.slew(slew(30.0), now_), Refusal::kNone);
+  EXPECT_EQ(station_.state(), StationState::kSlewed);
+  EXPECT_TRUE(station_.goal(now_));
+  script_.belief = 0.9;
+  run_until(now_ + 0.45);
+  EXPECT_EQ(station_.state(), StationState::kTracking);
+  EXPECT_GT(script_.searches, 0);
+  EXPECT_EQ(script_.initialised, 1);  // the operator need not designate again
+}
+
+TEST_F(StationSafetyTest, HomesWhereItMayAndOnlyThen) {
+  EXPECT_EQ(station_.home(now_), Refusal::kNoUnit);
+  station_.set_reference(PtuReference::kTrusted);
+  press();
+  EXPECT_EQ(station_.home(now_), Refusal::kEmergency);
+  EXPECT_FALSE(station_.take_home());
+  let_go();
+  ASSERT_EQ(station_.rearm(now_), Refusal::kNone);
+  EXPECT_EQ(station_.home(now_), Refusal::kNone);
+  EXPECT_TRUE(station_.take_home());
+  EXPECT_FALSE(station_.take_home());
+  StationConfig with_regions = config();
+  with_regions.homing_allowed = false;
+  Station kept(with_regions, std::make_unique<test::ScriptedTracker>(script_));
+  kept.set_reference(PtuReference::kMissing);
+  EXPECT_EQ(kept.home(now_), Refusal::kKeepOut);
+  EXPECT_FALSE(kept.take_home());
+}
+
+TEST_F(StationSafetyTest, APersonVouchesOnlyForWhatIsDoubted) {
+  station_.set_reference(PtuReference::kTrusted);
+  EXPECT_EQ(station_.reference_ok(now_), Refusal::kNoDoubt);
+  station_.set_reference(PtuReference::kMissing);
+  EXPECT_EQ(station_.reference_ok(now_), Refusal::kNoReference);
+  EXPECT_FALSE(station_.take_reference_ok());
+  station_.set_reference(PtuReference::kDoubted);
+  EXPECT_EQ(station_.reference_ok(now_), Refusal::kNone);
+  EXPECT_TRUE(station_.take_reference_ok());
+}
+
 }  // namespace
 }  // namespace ols

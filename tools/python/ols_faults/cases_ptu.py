@@ -1,5 +1,6 @@
 """Faults of the PTU's line and of the unit behind it."""
 
+import ols_msg
 from ols_demo.bus import counters
 
 from ols_faults import measure
@@ -9,6 +10,11 @@ from ols_faults.session import Session
 
 OK = 2  # station_status_t.DEVICE_OK
 REPORTED_S = 1.5
+HOME = ols_msg.ptu_command_t.COMMAND_HOME
+HOMING_S = 60.0
+STILL_DEG = 0.02
+SLIP_DEG = 1.0
+SHORTLY_S = 1.0
 
 
 def ptu_trouble(status: object, before: object) -> str:
@@ -25,7 +31,7 @@ def ptu_trouble(status: object, before: object) -> str:
         "ptu_errors",
         "ptu_restarts",
         "ptu_port_failures",
-        "ptu_resyncs",
+        "ptu_power_cycles",
         "ptu_echoes",
         "ptu_refused_positions",
         "ptu_reopens",
@@ -150,3 +156,95 @@ def ptu_echo_on(session: Session, outcome: Outcome) -> None:
 )
 def ptu_reply_lost(session: Session, outcome: Outcome) -> None:
     ridden_through(session, outcome, "ptu-reply-lost", 13.0, 4.0, station=3)
+
+
+def power_cycle(session: Session, outcome: Outcome, station: str, homes: bool) -> int:
+    """Off and on; returns when it was."""
+    before = session.fresh_status(station)
+    at_us = session.fault("ptu-power-cycle", station, 2.0, float(homes))
+    session.run(4.0)
+    outcome.at_most("reported", reported_s(session, station, at_us, before), REPORTED_S, "s")
+    return at_us
+
+
+def judge_since(session: Session, outcome: Outcome, station: str, since_us: int) -> None:
+    session.run(2.0)
+    window = since_us, session.now_us()
+    judge_motion(session, outcome, station, window)
+    judge_angles(session, outcome, station, window)
+
+
+@case(
+    "ptu-power-cycle",
+    "PTU off and on, it homes itself",
+    "reported, healed by itself, no runaway, no angle off by more than 3 sigmas",
+)
+def ptu_power_cycle(session: Session, outcome: Outcome) -> None:
+    station = session.stations[1]
+    at_us = power_cycle(session, outcome, station, homes=True)
+    healed = session.wait(lambda: not unwell(session, station, at_us), HOMING_S)
+    outcome.at_most("ready again", healed, HOMING_S, "s")
+    again_us = session.now_us()
+    back_s = session.tracking_again_s(station, again_us, 20.0)
+    outcome.recovered("tracking again, by slews, after it homed", back_s, 10.0)
+    judge_since(session, outcome, station, at_us)
+
+
+@case(
+    "ptu-power-cycle-unhomed",
+    "PTU off and on, it does not home itself",
+    "reported, no bearing and no motion until it was homed, no angle off by more than 3 sigmas",
+)
+def ptu_power_cycle_unhomed(session: Session, outcome: Outcome) -> None:
+    station = session.stations[2]
+    at_us = power_cycle(session, outcome, station, homes=False)
+    start_us, end_us = session.run(6.0)
+    moved = measure.moved_deg(session.heard, station, start_us, end_us)
+    outcome.at_most("moved while in doubt", moved, STILL_DEG, "deg")
+    shortly_us = at_us + round(SHORTLY_S * 1e6)
+    published = measure.between(session.heard.bearings.get(station, []), shortly_us, end_us)
+    outcome.at_most("bearings while in doubt", float(len(published)), 0.0)
+    outcome.holds("still reported", unwell(session, station, start_us))
+    session.command(station, HOME)
+    session.run(2.0)
+    homed_us = session.now_us()
+    healed = session.wait(lambda: not unwell(session, station, homed_us), HOMING_S)
+    outcome.at_most("ready after `home`", healed, HOMING_S, "s")
+    again_us = session.now_us()
+    back_s = session.tracking_again_s(station, again_us, 20.0)
+    outcome.recovered("tracking again, by slews, after it was homed", back_s, 10.0)
+    judge_since(session, outcome, station, at_us)
+
+
+def rays_set_aside(session: Session) -> float:
+    return counters(session.observer.fusion).get("rays_set_aside", 0.0)
+
+
+@case(
+    "ptu-lost-steps",
+    f"PTU's pan slips by {SLIP_DEG:g} deg, unnoticed by the unit",
+    "its rays are set aside, the target stays; no angle off by more than 3 sigmas once homed",
+)
+def ptu_lost_steps(session: Session, outcome: Outcome) -> None:
+    """No unit tells of it, and so no station can: the others show it."""
+    station = session.stations[3]
+    start_us, end_us = session.run(4.0)
+    undisturbed_m = measure.target_error_m(session.heard, start_us, end_us)
+    aside = rays_set_aside(session)
+    at_us = session.fault("ptu-lost-steps", station, 1e6, SLIP_DEG)
+    session.run(1.5)  # until its filter has followed
+    seen = session.wait(lambda: rays_set_aside(session) > aside, 5.0)
+    outcome.at_most("rays set aside by the fusion", seen, 5.0, "s")
+    start_us, end_us = session.run(4.0)
+    error_m = measure.target_error_m(session.heard, start_us, end_us)
+    outcome.at_most("error of the target", error_m, 2.0 * undisturbed_m, "m")
+    session.command(station, HOME)
+    session.run(2.0)
+    homed_us = session.now_us()
+    healed = session.wait(lambda: not unwell(session, station, homed_us), HOMING_S)
+    outcome.at_most("ready after `home`", healed, HOMING_S, "s")
+    again_us = session.now_us()
+    back_s = session.tracking_again_s(station, again_us, 20.0)
+    outcome.recovered("tracking again, by slews, after it was homed", back_s, 10.0)
+    judge_since(session, outcome, station, again_us)
+    judge_motion(session, outcome, station, (at_us, session.now_us()))

@@ -37,7 +37,9 @@ class ClosedLoop {
   void tick() {
     time_s += kTick_s;
     const double now_s = time_s;
-    const std::string request = driver.step(now_s);
+    unit.set_master_baud(driver.line_baud());  // the thread sets the port so
+    std::string request = driver.step(now_s);
+    if (change_request) change_request(request);
     if (!request.empty() && !cut) {
       sent += request;
       underway_ = request;
@@ -77,9 +79,10 @@ class ClosedLoop {
   sim::PtuUnit unit;
   PtuDriver driver;
   double time_s;
-  bool cut = false;                          // requests do not arrive
-  std::function<void(std::string&)> garble;  // what happens to the unit's bytes
-  std::function<double()> late_s;            // how long this host keeps a request back
+  bool cut = false;                                  // requests do not arrive
+  std::function<void(std::string&)> garble;          // what happens to the unit's bytes
+  std::function<void(std::string&)> change_request;  // on its way to the unit
+  std::function<double()> late_s;                    // how long this host keeps a request back
   std::string sent;
 
  private:

@@ -197,8 +197,11 @@ TEST(PtuDriver, BeginsAgainWhenTheUnitHasForgottenMoreThanItsEcho) {
   loop.unit.receive("EE FV PA2000 ", loop.time_s);
   loop.run(0.8);
   EXPECT_GE(loop.driver.counters().restarts, 1u);
-  ASSERT_TRUE(loop.start());
-  loop.driver.take_samples();
+  loop.run(5.0);
+  EXPECT_EQ(loop.driver.doubt(), PtuDoubt::kPowerCycle);
+  EXPECT_TRUE(loop.driver.take_samples().empty());
+  loop.driver.reference_ok();
+  ASSERT_EQ(loop.driver.state(), PtuState::kReady);
   loop.run(0.5);
   EXPECT_GT(loop.driver.take_samples().size(), 15u);
 }

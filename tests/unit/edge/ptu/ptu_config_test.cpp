@@ -45,6 +45,8 @@ TEST(PtuConfigFile, ReadsModesAndRegions) {
   EXPECT_NEAR(config.limits.keep_out[1].pan_max_rad, radians(-80.0), 1e-12);
   EXPECT_EQ(read("device = 'x'\nrehome = 'when-unreferenced'\n").rehome,
             PtuRehome::kWhenUnreferenced);
+  EXPECT_FALSE(config.home_despite_keep_out);
+  EXPECT_TRUE(read("device = 'x'\nhome_despite_keep_out = true\n").home_despite_keep_out);
 }
 
 TEST(PtuConfigFile, RefusesWhatIsWrongAndNamesIt) {

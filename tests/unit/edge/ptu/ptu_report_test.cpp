@@ -6,7 +6,9 @@
 namespace ols {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -47,10 +49,23 @@ TEST(PtuReport, SaysWhatIsWrong) {
               Contains("ptu: emergency stop, still moving"));
   EXPECT_THAT(alarms([](PtuStatus& s) { s.emergency = s.standing = true; }),
               Contains("ptu: emergency stop"));
-  EXPECT_THAT(alarms([](PtuStatus& s) { s.ran_into_limit = true; }),
+  EXPECT_THAT(alarms([](PtuStatus& s) { s.doubt = PtuDoubt::kLimitHit; }),
               Contains(HasSubstr("lost steps")));
-  EXPECT_THAT(alarms([](PtuStatus& s) { s.may_have_lost_reference = true; }),
-              Contains(HasSubstr("switched off and on")));
+  EXPECT_THAT(alarms([](PtuStatus& s) {
+                s.state = PtuState::kFault;
+                s.doubt = PtuDoubt::kPowerCycle;
+                s.last_error = words(s.doubt);
+              }),
+              ElementsAre(HasSubstr("switched off and on")));
+  EXPECT_THAT(alarms([](PtuStatus& s) {
+                s.lowered_speed = PtuLoweredSpeed{0.174533, 0.116355};
+              }),
+              Contains(AllOf(HasSubstr("10.0 deg/s^2"), HasSubstr("6.7 deg/s"))));
+  EXPECT_THAT(alarms([](PtuStatus& s) {
+                s.state = PtuState::kStarting;
+                s.homing = true;
+              }),
+              Contains("ptu: homing"));
   EXPECT_THAT(alarms([](PtuStatus& s) { s.not_referenced = true; }),
               Contains(HasSubstr("home it")));
   EXPECT_THAT(alarms([](PtuStatus& s) { s.last_good_s = 98.0; }), Contains("ptu: no angles"));

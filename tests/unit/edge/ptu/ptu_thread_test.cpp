@@ -142,8 +142,25 @@ TEST(PtuThread, OpensThePortAgainWhenItVanished) {
   EXPECT_EQ(ptu.status().state, PtuState::kFault);
   EXPECT_FALSE(ptu.status().port_open);
   EXPECT_NE(ptu.status().last_error.find(link), std::string::npos);
+  // It is another one, as after a power cycle: nobody saw it home.
   line = std::make_unique<PtuLine>(unit(), 2, link);
+  EXPECT_TRUE(eventually([&] { return ptu.reference() == PtuReference::kDoubted; }));
+  EXPECT_EQ(ptu.status().doubt, PtuDoubt::kPowerCycle);
+  ptu.take_samples();
+  ptu.reference_ok();
   EXPECT_TRUE(eventually([&] { return ready(ptu); }));
+  EXPECT_TRUE(eventually([&] { return !ptu.take_samples().empty(); }));
+}
+
+TEST(PtuThread, HomesOnCommand) {
+  PtuLine line(unit(), 1);
+  PtuThread ptu(config(line.device()));
+  ASSERT_TRUE(eventually([&] { return ready(ptu); }));
+  ptu.home();
+  EXPECT_TRUE(ptu.status().homing);
+  EXPECT_TRUE(eventually([&] { return ptu.status().counters.homings == 1; }));
+  EXPECT_TRUE(eventually(
+      [&] { return std::abs(line.angles_at(clock_monotonic_s()).tilt_rad) > radians(1.0); }));
 }
 
 TEST(PtuThread, HaltsAtOnceInAnEmergencyUntilItIsCleared) {

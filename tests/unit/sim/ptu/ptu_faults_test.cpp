@@ -112,6 +112,17 @@ TEST(FaultyPtuUnit, ForgetsWhatWasNotSavedWhenThePowerGoes) {
   EXPECT_EQ(master.ask("PS C "), "* 700\r\n* i\r\n");
 }
 
+TEST(FaultyPtuUnit, HomesWhenThePowerComesAsTheFaultSays) {
+  for (const bool homes : {false, true}) {
+    Master master(ready_unit());
+    PtuFaults power;
+    power.power_cycle = true;
+    power.homes_then = homes;
+    master.set(power);
+    EXPECT_EQ(master.wait(60.0).find("!T!T!P!P*") != std::string::npos, homes);
+  }
+}
+
 TEST(FaultyPtuUnit, DoesNotKnowWhereItStandsAfterwardsUnlessItHomes) {
   Master master(ready_unit());
   master.ask("PP8000 ", 10.0);

@@ -1,0 +1,73 @@
+#include "edge/ptu/reference_watch.h"
+
+namespace ols {
+
+namespace {
+
+constexpr double kBetweenEnds_s = 15.0;  // the slowest axis from one end to the other
+
+}  // namespace
+
+const char* words(PtuDoubt doubt) {
+  switch (doubt) {
+    case PtuDoubt::kNone:
+      break;
+    case PtuDoubt::kPowerCycle:
+      return "was switched off and on and not seen to home itself: home it, or reference-ok once "
+             "it was checked";
+    case PtuDoubt::kLimitHit:
+      return "ran into a limit and may have lost steps: home it, or reference-ok once it was "
+             "checked";
+    case PtuDoubt::kHomingInterrupted:
+      return "its homing did not come to an end: home it, or reference-ok once it was checked";
+  }
+  return "";
+}
+
+void ReferenceWatch::while_driven(const PtuLimitHits& hits, bool homing) {
+  if (homing) {
+    ends_ += hits;
+  } else if (hits.any() && doubt_ == PtuDoubt::kNone) {
+    doubt_ = PtuDoubt::kLimitHit;
+  }
+}
+
+void ReferenceWatch::while_not_driven(const PtuLimitHits& hits, int baud, double time_s) {
+  if (!hits.any()) return;
+  Heard& heard = heard_[baud];
+  heard.hits += hits;
+  heard.time_s = time_s;
+}
+
+void ReferenceWatch::rate_is(int baud) {
+  const auto heard = heard_.find(baud);
+  if (heard != heard_.end()) ends_ += heard->second.hits;
+  heard_.clear();
+}
+
+std::optional<int> ReferenceWatch::homes_at(double time_s) const {
+  for (const auto& [baud, heard] : heard_) {
+    if (time_s - heard.time_s < kBetweenEnds_s) return baud;
+  }
+  return std::nullopt;
+}
+
+void ReferenceWatch::homing_interrupted() {
+  doubt_ = PtuDoubt::kHomingInterrupted;
+  heard_.clear();
+  ends_ = {};
+}
+
+void ReferenceWatch::ready() {
+  const bool homed = ends_.pan > 0 && ends_.tilt > 0;
+  if (homed) {
+    doubt_ = PtuDoubt::kNone;
+  } else if (was_ready_ && ends_.any() && doubt_ == PtuDoubt::kNone) {
+    doubt_ = PtuDoubt::kLimitHit;
+  }
+  ends_ = {};
+  heard_.clear();
+  was_ready_ = true;
+}
+
+}  // namespace ols

@@ -1,0 +1,104 @@
+#include "edge/ptu/reference_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace ols {
+namespace {
+
+ReferenceWatch driven() {
+  ReferenceWatch watch;
+  watch.ready();
+  return watch;
+}
+
+TEST(ReferenceWatch, TrustsAUnitAtFirst) { EXPECT_EQ(driven().doubt(), PtuDoubt::kNone); }
+
+TEST(ReferenceWatch, DoubtsAUnitThatRanIntoALimit) {
+  ReferenceWatch watch = driven();
+  watch.while_driven({1, 0}, false);
+  EXPECT_EQ(watch.doubt(), PtuDoubt::kLimitHit);
+  watch.while_driven({0, 3}, false);  // driven into the other axis' limits: not homed by that
+  watch.ready();
+  EXPECT_EQ(watch.doubt(), PtuDoubt::kLimitHit);
+  watch.acknowledge();
+  EXPECT_EQ(watch.doubt(), PtuDoubt::kNone);
+}
+
+TEST(ReferenceWatch, TrustsAfterAPowerCycleOnlyAUnitWhoseBothAxesWereSeenToHome) {
+  for (const PtuLimitHits& hits : {PtuLimitHits{2, 2}, {1, 1}, {2, 0}, {0, 2}, {0, 0}, {1, 2}}) {
+    ReferenceWatch watch = driven();
+    watch.power_cycled();
+    watch.while_not_driven(hits, 9600, 1.0);
+    watch.rate_is(9600);
+    EXPECT_EQ(watch.doubt(), PtuDoubt::kPowerCycle);  // until it is done
+    watch.ready();
+    EXPECT_EQ(watch.doubt() == PtuDoubt::kNone, hits.pan > 0 && hits.tilt > 0);
+  }
+}
+
+TEST(ReferenceWatch, TakesNoiseAtAnotherRateForNothing) {
+  ReferenceWatch watch = driven();
+  watch.power_cycled();
+  watch.while_not_driven({1, 1}, 38400, 1.0);
+  watch.rate_is(9600);
+  watch.ready();
+  EXPECT_EQ(watch.doubt(), PtuDoubt::kPowerCycle);
+}
+
+// What was heard before the unit was ready says nothing of a power cycle after it.
+TEST(ReferenceWatch, TakesAnOldHomingForNothing) {
+  ReferenceWatch watch = driven();
+  watch.while_not_driven({2, 2}, 9600, 1.0);
+  watch.rate_is(9600);
+  watch.ready();
+  watch.power_cycled();
+  watch.ready();
+  EXPECT_EQ(watch.doubt(), PtuDoubt::kPowerCycle);
+}
+
+TEST(ReferenceWatch, TrustsAUnitThatWasHomedByHandWhileItWasDriven) {
+  ReferenceWatch watch = driven();
+  watch.while_driven({2, 2}, true);
+  watch.power_cycled();
+  watch.ready();
+  EXPECT_EQ(watch.doubt(), PtuDoubt::kNone);
+}
+
+TEST(ReferenceWatch, DoubtsAUnitThatHitALimitOnTheWay) {
+  ReferenceWatch watch = driven();
+  watch.while_not_driven({1, 0}, 9600, 1.0);
+  watch.rate_is(9600);
+  watch.ready();
+  EXPECT_EQ(watch.doubt(), PtuDoubt::kLimitHit);
+}
+
+TEST(ReferenceWatch, DoubtsAHomingThatWasInterrupted) {
+  ReferenceWatch watch = driven();
+  watch.while_not_driven({0, 2}, 9600, 1.0);
+  watch.homing_interrupted();
+  watch.while_not_driven({2, 0}, 9600, 2.0);
+  watch.rate_is(9600);
+  watch.ready();
+  EXPECT_EQ(watch.doubt(), PtuDoubt::kHomingInterrupted);
+}
+
+TEST(ReferenceWatch, KnowsForAWhileAtWhichRateAUnitHomes) {
+  ReferenceWatch watch = driven();
+  watch.while_not_driven({1, 0}, 9600, 1.0);
+  EXPECT_EQ(watch.homes_at(10.0), 9600);
+  EXPECT_FALSE(watch.homes_at(30.0));
+  watch.begins(38400, 40.0);
+  EXPECT_EQ(watch.homes_at(41.0), 38400);
+}
+
+TEST(ReferenceWatch, HasWordsForEachDoubt) {
+  for (const PtuDoubt doubt :
+       {PtuDoubt::kPowerCycle, PtuDoubt::kLimitHit, PtuDoubt::kHomingInterrupted}) {
+    EXPECT_NE(std::string(words(doubt)).find("home it"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace ols
