@@ -232,9 +232,9 @@ def ptu_lost_steps(session: Session, outcome: Outcome) -> None:
     undisturbed_m = measure.target_error_m(session.heard, start_us, end_us)
     aside = rays_set_aside(session)
     at_us = session.fault("ptu-lost-steps", station, 1e6, SLIP_DEG)
-    session.run(1.5)  # until its filter has followed
     seen = session.wait(lambda: rays_set_aside(session) > aside, 5.0)
     outcome.at_most("rays set aside by the fusion", seen, 5.0, "s")
+    session.run(1.5)  # until its filter has followed
     start_us, end_us = session.run(4.0)
     error_m = measure.target_error_m(session.heard, start_us, end_us)
     outcome.at_most("error of the target", error_m, 2.0 * undisturbed_m, "m")
@@ -247,4 +247,5 @@ def ptu_lost_steps(session: Session, outcome: Outcome) -> None:
     back_s = session.tracking_again_s(station, again_us, 20.0)
     outcome.recovered("tracking again, by slews, after it was homed", back_s, 10.0)
     judge_since(session, outcome, station, again_us)
-    judge_motion(session, outcome, station, (at_us, session.now_us()))
+    # Not the slip itself, which is as fast as it wants to be.
+    judge_motion(session, outcome, station, (at_us + 500_000, session.now_us()))
