@@ -2,10 +2,13 @@
 //
 // LCM has neither authentication nor protection against replay: a command counts when it comes from
 // a newer boot of its sender or with a greater sequence, and when its own stamp is not older than
-// its lease by the station's UTC (a margin covers the difference of two clocks).
+// its lease by the station's UTC (a margin covers the difference of two clocks). Nothing passes
+// twice, whatever the clocks do meanwhile.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 
@@ -33,8 +36,22 @@ class CommandGate {
   std::optional<GateRefusal> admit(const CommandStamp& stamp, std::int64_t now_utime_us);
 
  private:
+  // Who has been let through: each start of a command line tool is a sender.
+  struct Sender {
+    std::int64_t boot_id = 0;
+    std::int64_t sequence = 0;         // greatest
+    std::int64_t utime_us = 0;         // of that one
+    std::int64_t latest_utime_us = 0;  // of all
+  };
+  static constexpr std::size_t kMostSenders = 256;
+
+  bool is_replayed(const CommandStamp& stamp, std::int64_t now_utime_us) const;
+  void remember(const CommandStamp& stamp);
+
   Config config_;
-  std::optional<CommandStamp> last_;
+  std::deque<Sender> senders_;  // in the order of their last command
+  // No stamp of a sender that is remembered no more is later.
+  std::optional<std::int64_t> forgotten_utime_us_;
 };
 
 }  // namespace ols

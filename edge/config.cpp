@@ -143,6 +143,7 @@ void read_devices(ConfigTable& root, StationSettings& settings) {
   settings.gnss = read_gnss_config(root.table("gnss"));
   settings.gpio = read_gpio_config(root.table("gpio"));
   settings.recorder = read_recorder_config(root.table("recorder"));
+  settings.camera.keep_raw = !settings.recorder.folder.empty();
   settings.pose = pose_keeper_config(settings.inclinometer, settings.gnss);
   // An empty text says that there is none; a section that leaves it out is a mistake.
   for (const auto& [name, key] : {std::pair("inclinometer", "device"),

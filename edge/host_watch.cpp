@@ -3,12 +3,18 @@
 #include <sys/statvfs.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <optional>
+#include <mutex>
 #include <system_error>
+#include <thread>
+#include <utility>
+
+#include "base/clocks.h"
 
 namespace ols {
 namespace {
@@ -41,24 +47,81 @@ std::string in_words(const char* format, double value) {
 
 }  // namespace
 
+HostReading read_host(const HostConfig& config) {
+  return {hottest_degC(config.thermal_folder), free_bytes(config.disk_folder)};
+}
+
+HostReport report_on(const HostReading& reading, const HostConfig& config) {
+  HostReport report;
+  if (reading.cpu_degC) {
+    report.readings["cpu_degC"] = *reading.cpu_degC;
+    if (*reading.cpu_degC > config.cpu_alarm_degC) {
+      report.alarms.push_back(in_words("computer: processor at %.0f C", *reading.cpu_degC));
+    }
+  }
+  if (reading.disk_free_bytes) {
+    report.readings["disk_free_bytes"] = *reading.disk_free_bytes;
+    if (*reading.disk_free_bytes < config.disk_alarm_bytes) {
+      report.alarms.push_back(
+          in_words("computer: %.0f MB left on the disk", *reading.disk_free_bytes * 1e-6));
+    }
+  }
+  return report;
+}
+
+struct HostWatch::Shared {
+  void run(const Reader& reader, double interval_s) {
+    for (;;) {
+      const HostReading found = reader();
+      std::unique_lock lock(mutex);
+      reading = found;
+      read_s = clock_monotonic_s();
+      if (ended.wait_for(lock, std::chrono::duration<double>(interval_s), [this] { return end; })) {
+        return;
+      }
+    }
+  }
+
+  std::mutex mutex;
+  std::condition_variable ended;
+  bool end = false;
+  HostReading reading;
+  double read_s = 0.0;  // of that reading; at first, of the start
+};
+
+// Detached: who waits for a disk that hangs would never end.
+HostWatch::HostWatch(const HostConfig& config, Reader reader)
+    : config_(config), shared_(std::make_shared<Shared>()) {
+  shared_->read_s = clock_monotonic_s();
+  std::thread([shared = shared_, reader = std::move(reader), interval_s = config.interval_s] {
+    shared->run(reader, interval_s);
+  }).detach();
+}
+
+HostWatch::~HostWatch() {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->end = true;
+  shared_->ended.notify_all();
+}
+
 void HostWatch::note_turn(double seconds) {
   slowest_s_ = std::max(slowest_s_, seconds);
   if (seconds > config_.slow_turn_s) ++slow_turns_;
 }
 
-HostReport HostWatch::look() {
-  HostReport report;
-  if (const auto cpu_degC = hottest_degC(config_.thermal_folder)) {
-    report.readings["cpu_degC"] = *cpu_degC;
-    if (*cpu_degC > config_.cpu_alarm_degC) {
-      report.alarms.push_back(in_words("computer: processor at %.0f C", *cpu_degC));
-    }
+HostReport HostWatch::look(double now_s) {
+  HostReading reading;
+  double age_s = 0.0;
+  {
+    const std::lock_guard lock(shared_->mutex);
+    reading = shared_->reading;
+    age_s = now_s - shared_->read_s;
   }
-  if (const auto bytes = free_bytes(config_.disk_folder)) {
-    report.readings["disk_free_bytes"] = *bytes;
-    if (*bytes < config_.disk_alarm_bytes) {
-      report.alarms.push_back(in_words("computer: %.0f MB left on the disk", *bytes * 1e-6));
-    }
+  const bool silent = age_s > config_.silence_s;
+  HostReport report = report_on(silent ? HostReading{} : reading, config_);
+  if (silent) {
+    report.alarms.push_back("computer: disk " + config_.disk_folder +
+                            in_words(" does not answer for %.0f s", age_s));
   }
   report.readings["slowest_turn_s"] = slowest_s_;
   slowest_s_ = 0.0;

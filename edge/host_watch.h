@@ -1,9 +1,12 @@
 // The station's own computer: temperature of its processor, room on its disk, turns of the control
-// loop that took too long.
+// loop that took too long. A thread looks: a disk over a network that hangs must not hold the loop.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +18,8 @@ struct HostConfig {
   double cpu_alarm_degC = 85.0;
   double disk_alarm_bytes = 5e8;
   double slow_turn_s = 0.5;  // a turn of the control loop that takes longer is counted
+  double interval_s = 2.0;   // between two readings
+  double silence_s = 10.0;   // without a reading: an alarm
 };
 
 struct HostReport {
@@ -22,17 +27,35 @@ struct HostReport {
   std::vector<std::string> alarms;
 };
 
+// What there is to be read; nothing where it cannot be.
+struct HostReading {
+  std::optional<double> cpu_degC;
+  std::optional<double> disk_free_bytes;
+};
+HostReading read_host(const HostConfig& config);
+HostReport report_on(const HostReading& reading, const HostConfig& config);
+
 class HostWatch {
  public:
-  explicit HostWatch(const HostConfig& config) : config_(config) {}
+  using Reader = std::function<HostReading()>;
+  // Starts to read, again and again; whatever `reader` refers to must live as long as the program.
+  explicit HostWatch(const HostConfig& config)
+      : HostWatch(config, [c = config] { return read_host(c); }) {}
+  HostWatch(const HostConfig& config, Reader reader);
+  ~HostWatch();  // does not wait for a reading
+  HostWatch(const HostWatch&) = delete;
+  HostWatch& operator=(const HostWatch&) = delete;
 
   void note_turn(double seconds);
-  // Reads anew; some tens of microseconds.
-  HostReport look();
+  // The newest reading; never waits. `now_s`: CLOCK_MONOTONIC.
+  HostReport look(double now_s);
   std::uint64_t slow_turns() const { return slow_turns_; }
 
  private:
+  struct Shared;  // with the thread
+
   HostConfig config_;
+  std::shared_ptr<Shared> shared_;
   double slowest_s_ = 0.0;  // since the last look
   std::uint64_t slow_turns_ = 0;
 };

@@ -18,10 +18,7 @@ StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, St
   sender_.station = settings.id;
   sender_.boot_id = boot_id;
   on_command<ols_msg::designate_t>(
-      "DESIGNATE",
-      [this](const ols_msg::designate_t& message) {
-        return station_.designate(from_message(message, sender_), now_s_);
-      },
+      "DESIGNATE", [this](const ols_msg::designate_t& message) { return designate(message); },
       [](const ols_msg::designate_t&) { return false; });
   on_command<ols_msg::slew_t>(
       "SLEW",
@@ -65,7 +62,33 @@ void StationBus::publish(const std::string& channel, const Message& message) {
   trouble_ = "the network takes no messages";
 }
 
+Refusal StationBus::designate(const ols_msg::designate_t& message) {
+  if (designation_) counters_["designations_superseded"] += 1;
+  designation_ = message;
+  return Refusal::kNone;
+}
+
+void StationBus::carry_out_designation() {
+  const auto message = std::exchange(designation_, std::nullopt);
+  if (!message) return;
+  designated_ = true;
+  const Refusal result = station_.designate(from_message(*message, sender_), now_s_);
+  if (result != Refusal::kNone)
+    note_refusal(std::string("DESIGNATE refused: ") + to_string(result));
+}
+
+void StationBus::end_turn() {
+  carry_out_designation();
+  designated_ = false;
+}
+
 Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
+  // In the order in which they came; but two designations a turn are the most.
+  if (designated_ && designation_) {
+    counters_["designations_superseded"] += 1;
+    designation_.reset();
+  }
+  carry_out_designation();
   switch (message.command) {
     case ols_msg::ptu_command_t::COMMAND_POINT:
       return station_.point(from_message(message), now_s_);
@@ -145,6 +168,7 @@ void StationBus::set_time(const ClockPair& now, const ClockQuality& quality) {
 void StationBus::receive() {
   if (!bus_) connect(0.0);
   if (bus_) bus_->handle(0);
+  end_turn();
 }
 
 void StationBus::send(const Bearing& bearing) {

@@ -38,12 +38,17 @@ class StationBus {
   void receive();
   // One datagram, as it came from the network.
   void take(const std::string& channel, const void* data, int bytes);
+  // After the datagrams of a turn. Each designation lets the tracker run through the frames since
+  // then: of those that come at once only the newest is carried out.
+  void end_turn();
 
   // Why there is no connection; empty when there is one.
   const std::string& trouble() const { return trouble_; }
   // The last refused command in words, and how many there were.
   const std::string& last_refusal() const { return last_refusal_; }
   std::uint64_t refusals() const { return refusals_; }
+  // Refusals before the station, messages not sent; go into each status.
+  const std::map<std::string, double>& counters() const { return counters_; }
 
   void send(const Bearing& bearing);
   void send(StationReport report);
@@ -56,6 +61,8 @@ class StationBus {
   template <class Message>
   void on_command(const std::string& kind, const std::function<Refusal(const Message&)>& execute,
                   const std::function<bool(const Message&)>& passes);
+  Refusal designate(const ols_msg::designate_t& message);
+  void carry_out_designation();
   Refusal command_ptu(const ols_msg::ptu_command_t& message);
   void record(const ols_msg::record_t& message);
   void refuse(const std::string& kind, const std::string& why);
@@ -71,7 +78,9 @@ class StationBus {
   std::unique_ptr<LcmBus> bus_;
   std::string trouble_ = "not connected yet";
   std::map<std::string, CommandGate> gates_;
-  std::map<std::string, double> counters_;  // refusals before the station, messages not sent
+  std::optional<ols_msg::designate_t> designation_;  // waits for the end of the turn
+  bool designated_ = false;                          // in this turn
+  std::map<std::string, double> counters_;
   std::map<std::string, std::int64_t> sequences_;
   std::string last_refusal_;
   std::uint64_t refusals_ = 0;

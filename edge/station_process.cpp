@@ -14,9 +14,12 @@ namespace {
 
 constexpr double kFrameWait_s = 0.004;
 constexpr double kPoseInterval_s = 0.1;
+constexpr double kPoseKept_s = 10.0;  // the file is written so often
 
-std::string hold_file(const StationSettings& settings) {
-  return settings.state_folder.empty() ? "" : settings.state_folder + "/" + settings.id + ".hold";
+// What is kept over a restart: a file for each subject.
+std::string state_file(const StationSettings& settings, const char* subject) {
+  if (settings.state_folder.empty()) return {};
+  return settings.state_folder + "/" + settings.id + "." + subject;
 }
 
 // A receiver that has never had a fix starts for ever; without camera or PTU there is no station.
@@ -46,18 +49,28 @@ StationProcess::StationProcess(const StationSettings& settings, std::int64_t boo
       clock_(settings_.clock),
       clock_source_(settings_.clock_interval_s),
       pose_(settings_.pose),
+      pose_memory_(state_file(settings_, "pose")),
       station_(settings_.station,
                std::make_unique<ParticleFilterTracker>(settings_.tracker, settings_.tracker_seed)),
       bus_(settings_, boot_id, station_,
            [this](const RecordCommand& command) { return record(command); }),
       host_(settings_.host),
-      hold_(hold_file(settings_)),
+      hold_(state_file(settings_, "hold")),
       devices_(settings_) {
   const double now_s = clock_monotonic_s();
-  station_.set_pose(pose_.pose(now_s));
+  resume_pose(now_s);
   resume_hold(now_s);
   // Who says that it is ready shall hear what it is told.
   bus_.connect(BusConnector::kLongest_s);
+}
+
+// Of the sensors that it still has.
+void StationProcess::resume_pose(double now_s) {
+  RememberedPose known = pose_memory_.found();
+  if (settings_.gnss.host.empty()) known.position.reset();
+  if (settings_.inclinometer.device.empty()) known.tilt.reset();
+  pose_.resume(known, now_s, clock_utime_us());
+  station_.set_pose(pose_.pose(now_s));
 }
 
 void StationProcess::run(const std::function<bool()>& ends) {
@@ -122,15 +135,6 @@ void StationProcess::receive_commands() {
     halted_ = false;
     devices_.rearm();
   }
-  const bool well = bus_.trouble().empty();
-  if (well != bus_was_well_) {
-    bus_was_well_ = well;
-    if (well) {
-      spdlog::info("connected to {}", settings_.lcm_url);
-    } else {
-      spdlog::warn("no bus, tried again each second: {}", bus_.trouble());
-    }
-  }
 }
 
 void StationProcess::keep_pose(double now_s) {
@@ -138,6 +142,9 @@ void StationProcess::keep_pose(double now_s) {
   pose_due_s_ = now_s + kPoseInterval_s;
   devices_.feed(pose_);
   station_.set_pose(pose_.pose(now_s));
+  if (now_s < pose_kept_due_s_) return;
+  pose_kept_due_s_ = now_s + kPoseKept_s;
+  pose_memory_.keep(pose_.to_remember(now_s, clock_utime_us()));
 }
 
 void StationProcess::take_frame() {
@@ -197,8 +204,8 @@ StationReport StationProcess::report(const ClockPair& now) {
     report.alarms.push_back("stop: not remembered: " + hold_.trouble());
   }
   add_pose_and_clock(now.monotonic_s, report);
-  add_host(report);
-  note_troubles(now.utime_us, report);
+  add_host(now.monotonic_s, report);
+  note_troubles(now, report);
   return report;
 }
 
@@ -207,26 +214,42 @@ void StationProcess::add_pose_and_clock(double now_s, StationReport& report) con
   if (report.snapshot.pose.position_source == PoseSource::kNone) {
     report.alarms.emplace_back("pose: no position yet, no bearings");
   }
+  if (const std::string trouble = pose_memory_.trouble(); !trouble.empty()) {
+    report.alarms.push_back("pose: " + trouble);
+  }
   const ClockQuality clock = clock_.quality(now_s);
   if (!clock.alarm.empty()) report.alarms.push_back(clock.alarm);
   report.counters["clock_steps"] = static_cast<double>(clock.steps);
   if (clock.offset_s) report.readings["clock_offset_s"] = *clock.offset_s;
 }
 
-void StationProcess::add_host(StationReport& report) {
-  HostReport host = host_.look();
+void StationProcess::add_host(double now_s, StationReport& report) {
+  HostReport host = host_.look(now_s);
   report.alarms.insert(report.alarms.end(), host.alarms.begin(), host.alarms.end());
   report.readings.merge(host.readings);
   report.counters["slow_turns"] = static_cast<double>(host_.slow_turns());
 }
 
-void StationProcess::note_troubles(std::int64_t utime_us, StationReport& report) {
+void StationProcess::note_troubles(const ClockPair& now, StationReport& report) {
+  const std::int64_t utime_us = now.utime_us;
   for (const DeviceReport& device : report.devices) {
     troubles_.note(device.name, device.last_error, device.errors, utime_us);
+    const bool ails = device.state == DeviceState::kAbsent || device.state == DeviceState::kFault;
+    troubles_.note_state(device.name, to_string(device.state), ails ? device.text : "", ails);
   }
   troubles_.note_alarms(all_alarms(report), utime_us);
   troubles_.note_event("command", bus_.last_refusal(), bus_.refusals(), utime_us);
   troubles_.note("bus", bus_.trouble(), 0, utime_us);
+  if (bus_.trouble().empty())
+    troubles_.note_state("bus", "connected", settings_.lcm_url, false);
+  else
+    troubles_.note_state("bus", "none", "tried again each second", true);
+  const StationState state = report.snapshot.state;
+  const bool bad = state == StationState::kLost || state == StationState::kEmergency;
+  troubles_.note_state("station", to_string(state), "", bad);
+  for (const JournalLine& line : journal_.pass(troubles_.take_news(), now.monotonic_s)) {
+    spdlog::log(line.bad ? spdlog::level::warn : spdlog::level::info, "{}", line.text);
+  }
   report.last_error = troubles_.text();
   report.last_error_utime_us = troubles_.utime_us();
 }

@@ -12,7 +12,9 @@
 #include "edge/device_set.h"
 #include "edge/hold_memory.h"
 #include "edge/host_watch.h"
+#include "edge/journal.h"
 #include "edge/messages_bus.h"
+#include "edge/pose_memory.h"
 #include "edge/trouble_log.h"
 
 namespace ols {
@@ -31,6 +33,7 @@ class StationProcess {
   // tracker takes for a frame.
   void turn();
   ClockPair look_at_clocks();
+  void resume_pose(double now_s);
   void resume_hold(double now_s);
   void heed_emergency_stop(double now_s);
   void receive_commands();
@@ -41,8 +44,8 @@ class StationProcess {
   void send_reports(const ClockPair& now);
   StationReport report(const ClockPair& now);
   void add_pose_and_clock(double now_s, StationReport& report) const;
-  void add_host(StationReport& report);
-  void note_troubles(std::int64_t utime_us, StationReport& report);
+  void add_host(double now_s, StationReport& report);
+  void note_troubles(const ClockPair& now, StationReport& report);
   void show(const StationReport& report);
   std::string record(const RecordCommand& command);
 
@@ -51,20 +54,22 @@ class StationProcess {
   ClockWatch clock_;
   ClockSource clock_source_;
   PoseKeeper pose_;
+  PoseMemory pose_memory_;
   Station station_;
   StationBus bus_;
   HostWatch host_;
   TroubleLog troubles_;
   HoldMemory hold_;
+  Journal journal_;
   DeviceSet devices_;
   std::optional<Frame> newest_;
   std::int64_t utc_minus_monotonic_us_ = 0;
   bool halted_ = false;  // the PTU refuses to move until it is rearmed
   double pose_due_s_ = 0.0;
+  double pose_kept_due_s_ = 0.0;
   double trigger_due_s_ = 0.0;
   double status_due_s_ = 0.0;
   double preview_due_s_ = 0.0;
-  bool bus_was_well_ = true;
 };
 
 }  // namespace ols

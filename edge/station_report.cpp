@@ -3,8 +3,6 @@
 #include <algorithm>
 
 namespace ols {
-namespace {
-
 const char* to_string(DeviceState state) {
   switch (state) {
     case DeviceState::kAbsent:
@@ -18,8 +16,6 @@ const char* to_string(DeviceState state) {
   }
   return "unknown";
 }
-
-}  // namespace
 
 std::vector<std::string> all_alarms(const StationReport& report) {
   std::vector<std::string> all;

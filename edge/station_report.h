@@ -12,6 +12,8 @@
 
 namespace ols {
 
+const char* to_string(DeviceState state);
+
 struct StationReport {
   StationSnapshot snapshot;
   PtuLimits limits;

@@ -1,6 +1,5 @@
 #include "edge/trouble_log.h"
 
-#include <algorithm>
 #include <cctype>
 
 namespace ols {
@@ -13,7 +12,8 @@ std::string without_digits(std::string text) {
 
 }  // namespace
 
-void TroubleLog::set(const std::string& what, std::int64_t utime_us) {
+void TroubleLog::set(const std::string& source, const std::string& what, std::int64_t utime_us) {
+  news_.push_back({source, source + ": " + what, true});
   text_ = what;
   utime_us_ = utime_us;
 }
@@ -24,7 +24,7 @@ void TroubleLog::note(const std::string& source, const std::string& what, std::u
   if (what.empty()) return;
   Noted& last = noted_[source];
   if (last.what == what && last.number == number) return;
-  if (last.what != what || utime_us - last.utime_us > kQuiet_us) set(what, utime_us);
+  if (last.what != what || utime_us - last.utime_us > kQuiet_us) set(source, what, utime_us);
   last = {what, number, utime_us};
 }
 
@@ -33,18 +33,34 @@ void TroubleLog::note_event(const std::string& source, const std::string& what,
   if (what.empty()) return;
   Noted& last = noted_[source];
   if (last.what == what && last.number == number) return;
-  set(what, utime_us);
+  set(source, what, utime_us);
   last = {what, number, utime_us};
 }
 
 void TroubleLog::note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us) {
-  std::set<std::string> now;
+  std::map<std::string, std::string> now;
   for (const std::string& alarm : alarms) {
     const std::string key = without_digits(alarm);
-    if (!alarms_.contains(key)) set(alarm, utime_us);
-    now.insert(key);
+    if (!alarms_.contains(key)) {
+      news_.push_back({key, "alarm: " + alarm, true});
+      text_ = alarm;
+      utime_us_ = utime_us;
+    }
+    now[key] = alarm;
+  }
+  for (const auto& [key, alarm] : alarms_) {
+    if (!now.contains(key)) news_.push_back({key, "over: " + alarm, false});
   }
   alarms_ = std::move(now);
+}
+
+void TroubleLog::note_state(const std::string& source, const std::string& state,
+                            const std::string& details, bool bad) {
+  std::string& last = states_[source];
+  if (last == state) return;
+  last = state;
+  const std::string text = source + " " + state;
+  news_.push_back({text, details.empty() ? text : text + ": " + details, bad});
 }
 
 }  // namespace ols

@@ -1,11 +1,14 @@
-// The newest trouble of a station and when it came up. An alarm goes by itself; this stays. Pure.
+// The newest trouble of a station and when it came up. An alarm goes by itself; this stays. And the
+// news, good and bad, for the journal. Pure.
 #pragma once
 
 #include <cstdint>
 #include <map>
-#include <set>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "edge/journal.h"
 
 namespace ols {
 
@@ -23,6 +26,13 @@ class TroubleLog {
   // change ("silent for 5 s") without it becoming another one.
   void note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us);
 
+  // Of what is always in one state or another; another one is news, whatever the `details` are.
+  void note_state(const std::string& source, const std::string& state, const std::string& details,
+                  bool bad);
+
+  // What came up or ended since the last call, in the order of its coming.
+  std::vector<News> take_news() { return std::exchange(news_, {}); }
+
   const std::string& text() const { return text_; }  // empty: there was none
   std::int64_t utime_us() const { return utime_us_; }
 
@@ -32,10 +42,12 @@ class TroubleLog {
     std::uint64_t number = 0;
     std::int64_t utime_us = 0;  // when it was said last
   };
-  void set(const std::string& what, std::int64_t utime_us);
+  void set(const std::string& source, const std::string& what, std::int64_t utime_us);
 
   std::map<std::string, Noted> noted_;
-  std::set<std::string> alarms_;  // without their digits
+  std::map<std::string, std::string> alarms_;  // by their words without digits
+  std::map<std::string, std::string> states_;  // by source
+  std::vector<News> news_;
   std::string text_;
   std::int64_t utime_us_ = 0;
 };

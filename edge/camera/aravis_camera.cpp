@@ -240,9 +240,14 @@ void AravisCamera::Impl::take(const ReceivedFrame& received) {
               .mid_exposure_s = time.mid_exposure_s,
               .stamp_sd_s = time.sd_s,
               .stamp_source = time.source,
-              .number = step.number};
+              .number = step.number,
+              .raw = {},
+              .pixel_format = pixel_format_name(received.picture.format)};
   // Who was asleep gets the newest one, not those that have piled up.
-  if (!received.overtaken) frame.gray = to_gray(received.picture);
+  if (!received.overtaken) {
+    frame.gray = to_gray(received.picture);
+    if (config_.keep_raw) frame.raw = raw_beside_gray(received.picture);
+  }
   if (automatic_ && !received.overtaken) choose_exposure(frame.gray);
   publish(std::move(frame), step.lost);
 }

@@ -68,6 +68,8 @@ struct CameraConfig {
   double packet_spread = 0.6;
   bool packet_resend = true;  // ask again for lost packets where the camera can
   int buffers = 8;            // frames between the network and the station
+
+  bool keep_raw = false;  // beside the gray picture, what the camera sent: for a recorder
 };
 
 // Whether it exposes by itself.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <string>
 
 namespace ols {
 
@@ -14,6 +15,9 @@ struct Frame {
   double stamp_sd_s = 0.0;      // 1-sigma of mid_exposure_s
   StampSource stamp_source = StampSource::kCamera;
   std::uint64_t number = 0;  // the camera's frame counter, unwrapped
+  // As the camera sent it; empty where `gray` is just that, or where nobody records it.
+  cv::Mat raw;
+  std::string pixel_format = "Mono8";  // GenICam's name of what the camera sent
 };
 
 }  // namespace ols

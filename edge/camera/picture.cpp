@@ -32,6 +32,12 @@ const FormatRow* row_of(std::uint32_t code) {
   return nullptr;
 }
 
+// Of the camera's memory. cv::Mat takes no pointer to const; nobody writes through it.
+cv::Mat view_of(const RawPicture& raw) {
+  return {raw.height_px, raw.width_px, CV_8UC(row_of(raw.format)->channels),
+          const_cast<std::uint8_t*>(raw.data)};
+}
+
 }  // namespace
 
 std::optional<PixelFormat> pixel_format(std::string_view genicam_name) {
@@ -75,13 +81,14 @@ PictureRefusal check(const RawPicture& raw, const PictureFormat& expected) {
 
 cv::Mat to_gray(const RawPicture& raw) {
   const FormatRow& row = *row_of(raw.format);
-  // cv::Mat takes no pointer to const; nothing below writes through it.
-  const cv::Mat picture(raw.height_px, raw.width_px, CV_8UC(row.channels),
-                        const_cast<std::uint8_t*>(raw.data));
-  if (row.to_gray < 0) return picture.clone();
+  if (row.to_gray < 0) return view_of(raw).clone();
   cv::Mat gray;
-  cv::cvtColor(picture, gray, row.to_gray);
+  cv::cvtColor(view_of(raw), gray, row.to_gray);
   return gray;
+}
+
+cv::Mat raw_beside_gray(const RawPicture& raw) {
+  return row_of(raw.format)->to_gray < 0 ? cv::Mat() : view_of(raw).clone();
 }
 
 }  // namespace ols

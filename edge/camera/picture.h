@@ -48,4 +48,8 @@ PictureRefusal check(const RawPicture& raw, const PictureFormat& expected);
 // check().
 cv::Mat to_gray(const RawPicture& raw);
 
+// The same for what the camera sent, a mosaic or three channels in its order; empty where the gray
+// picture is just that.
+cv::Mat raw_beside_gray(const RawPicture& raw);
+
 }  // namespace ols

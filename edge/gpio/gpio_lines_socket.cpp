@@ -5,40 +5,25 @@
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <optional>
 #include <string_view>
 #include <system_error>
 
 #include "base/clocks.h"
 #include "edge/gpio/gpio_lines.h"
+#include "edge/gpio/line_protocol.h"
 
 namespace ols {
 namespace {
 
 constexpr double kAnswer_s = 0.5;  // a server that takes longer is as good as gone
-constexpr std::size_t kLongestLine = 64;
+constexpr std::size_t kMostAtOnce = 4096;
 constexpr std::string_view kSocket = "socket:";
-
-struct Message {
-  int line;
-  bool high;
-};
-
-// "in 17 1"
-std::optional<Message> parse(std::string_view text) {
-  if (!text.starts_with("in ")) return std::nullopt;
-  text.remove_prefix(3);
-  int line = -1;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), line);
-  const std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
-  if (error != std::errc{} || line < 0 || (rest != " 0" && rest != " 1")) return std::nullopt;
-  return Message{line, rest == " 1"};
-}
 
 class SocketLines : public GpioLines {
  public:
-  SocketLines(const std::string& path, const LineUse& use) : path_(path), input_(use.input) {
+  SocketLines(const std::string& path, const LineUse& use)
+      : path_(path), input_(use.input), protocol_(use.input) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     if (path.size() >= sizeof address.sun_path) fail(ENAMETOOLONG, "is no socket");
@@ -60,21 +45,20 @@ class SocketLines : public GpioLines {
   int fd() const override { return fd_; }
 
   std::vector<LineLevel> receive() override {
-    std::array<char, 512> buffer;
-    for (;;) {
-      const ssize_t n = ::recv(fd_, buffer.data(), buffer.size(), 0);
-      if (n > 0) {
-        pending_.append(buffer.data(), static_cast<std::size_t>(n));
-        if (pending_.size() > 64 * kLongestLine) break;  // the rest at the next call
-      } else if (n == 0) {
-        fail(EPIPE, "has been closed");
-      } else if (errno == EAGAIN) {
-        break;
-      } else if (errno != EINTR) {
-        fail(errno, "has vanished");
-      }
-    }
-    return take_levels();
+    std::array<char, kMostAtOnce> buffer;
+    std::vector<LineLevel> levels;
+    ssize_t n = 0;
+    do {
+      n = ::recv(fd_, buffer.data(), buffer.size(), 0);
+    } while (n < 0 && errno == EINTR);
+    if (n == 0) fail(EPIPE, "has been closed");
+    if (n < 0 && errno != EAGAIN) fail(errno, "has vanished");
+    if (n <= 0) return levels;
+    const auto heard = protocol_.receive({buffer.data(), static_cast<std::size_t>(n)});
+    if (!heard) fail(EPROTO, "sends what is no level");
+    for (const bool high : *heard) levels.push_back({high, clock_monotonic_s()});
+    if (!levels.empty()) asked_s_.reset();
+    return levels;
   }
 
   void refresh() override {
@@ -91,21 +75,6 @@ class SocketLines : public GpioLines {
   }
 
  private:
-  std::vector<LineLevel> take_levels() {
-    std::vector<LineLevel> levels;
-    std::size_t end;
-    while ((end = pending_.find('\n')) != std::string::npos) {
-      const auto message = parse(std::string_view(pending_).substr(0, end));
-      if (!message) fail(EPROTO, "sends what is no level");
-      pending_.erase(0, end + 1);
-      if (message->line != input_) continue;
-      asked_s_.reset();
-      levels.push_back({message->high, clock_monotonic_s()});
-    }
-    if (pending_.size() > kLongestLine) fail(EPROTO, "sends what is no level");
-    return levels;
-  }
-
   void send(const std::string& text) {
     // A server that lets a full buffer stand has stopped reading.
     const ssize_t n = ::send(fd_, text.data(), text.size(), MSG_NOSIGNAL);
@@ -120,7 +89,7 @@ class SocketLines : public GpioLines {
   std::string path_;
   int input_;
   int fd_ = -1;
-  std::string pending_;
+  LineProtocol protocol_;
   std::optional<double> asked_s_;  // since when an answer is due
 };
 

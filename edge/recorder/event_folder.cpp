@@ -8,6 +8,7 @@
 #include <cinttypes>
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <system_error>
 
@@ -71,8 +72,13 @@ void append(const std::string& path, std::string_view text) {
 
 std::vector<unsigned char> encode_png(const RecordedFrame& frame) {
   std::vector<unsigned char> png;
+  // OpenCV takes three channels as blue, green, red; in the file red is red. Into memory of its
+  // own: the frame shares its pixels with others.
+  cv::Mat swapped;
+  if (frame.pixel_format == "RGB8") cv::cvtColor(frame.picture, swapped, cv::COLOR_RGB2BGR);
+  const cv::Mat& picture = swapped.empty() ? frame.picture : swapped;
   // On camera noise Huffman codes alone are both the fastest and the smallest.
-  cv::imencode(".png", frame.gray, png,
+  cv::imencode(".png", picture, png,
                {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY,
                 cv::IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY});
   return png;
@@ -83,7 +89,7 @@ EventFolder::EventFolder(const std::string& store, const std::string& name)
   const std::string partial = path_ + kPartial;
   if (::mkdir(partial.c_str(), 0755) != 0) fail(errno, partial);
   try {
-    append(partial + "/" + kTable, "utime_us,number,file,mid_exposure_sd_s\n");
+    append(partial + "/" + kTable, "utime_us,number,file,mid_exposure_sd_s,pixel_format\n");
   } catch (...) {
     ::unlink((partial + "/" + kTable).c_str());
     ::rmdir(partial.c_str());
@@ -100,8 +106,8 @@ std::size_t EventFolder::write(const RecordedFrame& frame, const std::vector<uns
   }
   const std::string path = folder + name;
   char row[160];
-  std::snprintf(row, sizeof row, "%" PRId64 ",%" PRIu64 ",%s,%.9f\n", frame.utime_us, frame.number,
-                name.c_str(), frame.sd_s);
+  std::snprintf(row, sizeof row, "%" PRId64 ",%" PRIu64 ",%s,%.9f,%s\n", frame.utime_us,
+                frame.number, name.c_str(), frame.sd_s, frame.pixel_format.c_str());
   File file(path, O_WRONLY | O_CREAT | O_EXCL);
   try {
     file.write({reinterpret_cast<const char*>(png.data()), png.size()});

@@ -1,5 +1,6 @@
-// One event on the disk: PNG frames named by utime, and frames.csv with
-// `utime_us,number,file,mid_exposure_sd_s`. It is NAME.partial until it is complete.
+// One event on the disk: PNG frames named by utime, as the camera sent them (of a Bayer camera the
+// mosaic), and frames.csv with `utime_us,number,file,mid_exposure_sd_s,pixel_format`. It is
+// NAME.partial until it is complete.
 #pragma once
 
 #include <cstddef>

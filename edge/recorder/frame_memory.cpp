@@ -3,7 +3,7 @@
 namespace ols {
 
 std::size_t bytes_of(const RecordedFrame& frame) {
-  return frame.gray.total() * frame.gray.elemSize();
+  return frame.picture.total() * frame.picture.elemSize();
 }
 
 void FrameMemory::add(const RecordedFrame& frame) {

@@ -5,15 +5,17 @@
 #include <cstdint>
 #include <deque>
 #include <opencv2/core.hpp>
+#include <string>
 #include <vector>
 
 namespace ols {
 
 struct RecordedFrame {
-  cv::Mat gray;
-  std::int64_t utime_us = 0;    // mid-exposure
-  double mid_exposure_s = 0.0;  // station's monotonic clock
-  double sd_s = 0.0;            // 1-sigma of mid_exposure_s
+  cv::Mat picture;                     // as the camera sent it
+  std::string pixel_format = "Mono8";  // GenICam's name
+  std::int64_t utime_us = 0;           // mid-exposure
+  double mid_exposure_s = 0.0;         // station's monotonic clock
+  double sd_s = 0.0;                   // 1-sigma of mid_exposure_s
   std::uint64_t number = 0;
 };
 

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <cstdio>
+#include <cstring>
 #include <deque>
 #include <exception>
 #include <limits>
@@ -138,7 +140,7 @@ struct Recorder::Impl {
   // --- of the writing thread
 
   void run(const std::stop_token& ended) {
-    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
+    go_behind();
     double survey_s = 0.0;
     while (!ended.stop_requested()) {
       if (clock_monotonic_s() >= survey_s) {
@@ -154,6 +156,16 @@ struct Recorder::Impl {
     close_events(std::numeric_limits<double>::infinity());
     while (clock_monotonic_s() < end_s && write_one()) {
     }
+  }
+
+  // Where a filter of system calls refuses it nothing is lost but the order, and that is told.
+  void go_behind() {
+    const auto thread_id = static_cast<id_t>(::gettid());
+    if (::getpriority(PRIO_PROCESS, thread_id) >= kNice) return;
+    if (::setpriority(PRIO_PROCESS, thread_id, kNice) == 0) return;
+    const int failed = errno;
+    const std::lock_guard lock(mutex);
+    beside = std::string("runs at the control loop's priority (") + std::strerror(failed) + ")";
   }
 
   bool work_waits() const {
@@ -277,6 +289,7 @@ struct Recorder::Impl {
   std::size_t waiting_bytes = 0;
   std::string trouble;  // what is wrong with the disk at this moment
   std::string error;    // the last trouble
+  std::string beside;   // why its thread does not stand back for the control loop; empty: it does
   std::optional<double> good_s;
   double free_bytes = 0.0, stored_bytes = 0.0;
   std::size_t stored_events = 0;
@@ -294,7 +307,8 @@ Recorder::~Recorder() = default;  // the jthread asks to stop and joins
 
 void Recorder::add(const Frame& frame, std::int64_t utime_us) {
   if (impl_->config.folder.empty()) return;
-  impl_->add({frame.gray, utime_us, frame.mid_exposure_s, frame.stamp_sd_s, frame.number});
+  impl_->add({frame.raw.empty() ? frame.gray : frame.raw, frame.pixel_format, utime_us,
+              frame.mid_exposure_s, frame.stamp_sd_s, frame.number});
 }
 
 std::string Recorder::record(const RecordCommand& command) { return impl_->record(command); }
@@ -326,6 +340,7 @@ DeviceReport Recorder::report() const {
     report.state = DeviceState::kOk;
     report.text = std::to_string(impl_->stored_events) + " events in " + impl_->config.folder;
     if (!impl_->events.empty()) report.text += ", recording";
+    if (!impl_->beside.empty()) report.text += "; " + impl_->beside;
   }
   return report;
 }

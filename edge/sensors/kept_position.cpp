@@ -37,6 +37,19 @@ KeptPosition::KeptPosition(const PoseKeeper::Config& config) : config_(config) {
                                             Vector3d::Constant(config.surveyed_position_sd_m)});
 }
 
+void KeptPosition::resume(const RememberedPose::Position& known, double now_s, double age_s) {
+  if (config_.surveyed_position || age_s > config_.resume_s) return;
+  frame_.emplace(known.ground);
+  const double grown_m2 = std::pow(config_.growth_m_sqrt_s, 2) * age_s;
+  place_->resume(now_s, {config_.ground_to_antenna_enu_m,
+                         (known.sd_enu_m.cwiseAbs2().array() + grown_m2).sqrt()});
+  known_s_ = now_s - age_s;
+}
+
+bool KeptPosition::is_from_sensor() const {
+  return !config_.surveyed_position && place_->estimate() && !place_->resumed();
+}
+
 void KeptPosition::add(const GnssReading& reading) {
   if (!std::isfinite(reading.time_s) || (last_ && reading.time_s < last_->time_s)) return;
   const bool used = reading.fix >= config_.least_fix && is_usable(reading);
@@ -56,6 +69,7 @@ bool KeptPosition::is_disbelieved(double now_s) const {
 }
 
 bool KeptPosition::is_lost(double now_s) const {
+  if (place_->resumed()) return true;
   if (!last_) return false;
   const auto until_s = place_->supported_until_s();
   const bool stale = until_s && now_s - *until_s > config_.gnss_stale_s;
@@ -95,6 +109,10 @@ void KeptPosition::add_alarms(std::vector<std::string>& alarms, double now_s) co
   if (const auto moved_m = place_->moved()) {
     alarms.push_back("gnss: position taken anew, " + length_in_words(*moved_m) +
                      " from before: check the heading");
+  }
+  if (place_->resumed()) {
+    alarms.push_back("pose: position kept from before the restart, " +
+                     time_in_words(now_s - known_s_) + " old");
   }
   if (!last_) return;
   const bool kept = place_->estimate().has_value();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "edge/sensors/pose_keeper.h"
+#include "edge/sensors/remembered_pose.h"
 #include "edge/sensors/standing_value.h"
 
 namespace ols {
@@ -13,6 +14,10 @@ namespace ols {
 class KeptPosition {
  public:
   explicit KeptPosition(const PoseKeeper::Config& config);
+  // `age_s`: since it was so.
+  void resume(const RememberedPose::Position& known, double now_s, double age_s);
+  // Told, or confirmed, by a sensor since the start.
+  bool is_from_sensor() const;
   void add(const GnssReading& reading);
   void fill(StationPose& pose, double now_s) const;
   void add_alarms(std::vector<std::string>& alarms, double now_s) const;
@@ -26,6 +31,7 @@ class KeptPosition {
   std::optional<LocalFrame> frame_;        // of the survey, else of the first antenna position
   std::optional<StandingValue<3>> place_;  // of the antenna, east-north-up in frame_ [m]
   std::optional<GnssReading> last_;
+  double known_s_ = 0.0;  // when what was resumed was so
 };
 
 }  // namespace ols

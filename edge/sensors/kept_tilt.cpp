@@ -34,6 +34,18 @@ bool is_usable(const TiltReading& r) {
 KeptTilt::KeptTilt(const PoseKeeper::Config& config)
     : config_(config), tilt_(standing(config), survey(config)) {}
 
+void KeptTilt::resume(const RememberedPose::Tilt& known, double now_s, double age_s) {
+  if (config_.surveyed_tilt_rad || age_s > config_.resume_s) return;
+  const double sd_rad =
+      std::sqrt(known.sd_rad * known.sd_rad + std::pow(config_.growth_rad_sqrt_s, 2) * age_s);
+  tilt_.resume(now_s, {known.tilt_rad, Vector2d::Constant(sd_rad)});
+  known_s_ = now_s - age_s;
+}
+
+bool KeptTilt::is_from_sensor() const {
+  return !config_.surveyed_tilt_rad && tilt_.estimate() && !tilt_.resumed();
+}
+
 void KeptTilt::add(const TiltReading& reading) {
   if (!is_usable(reading) || (last_ && reading.time_s < last_->time_s)) return;
   const bool changed =
@@ -55,6 +67,7 @@ bool KeptTilt::is_disbelieved(double now_s) const {
 }
 
 bool KeptTilt::is_lost(double now_s) const {
+  if (tilt_.resumed()) return true;
   const auto until_s = tilt_.supported_until_s();
   const bool stale = until_s && now_s - *until_s > config_.inclinometer_stale_s;
   return last_ && (stale || is_disbelieved(now_s) || is_stuck(last_->time_s));
@@ -78,6 +91,13 @@ void KeptTilt::fill(StationPose& pose, double now_s) const {
 }
 
 void KeptTilt::add_alarms(std::vector<std::string>& alarms, double now_s) const {
+  if (tilt_.resumed()) {
+    alarms.push_back("pose: tilt kept from before the restart, " + time_in_words(now_s - known_s_) +
+                     " old");
+  } else if (const auto moved_rad = tilt_.moved()) {
+    alarms.push_back("inclinometer: tilt taken anew, " + angle_in_words(*moved_rad) +
+                     " from before: check the heading");
+  }
   if (!last_) return;
   const char* consequence = tilt_.estimate() ? ", tilt kept" : ", no tilt yet";
   if (now_s - last_->time_s > config_.inclinometer_stale_s) {

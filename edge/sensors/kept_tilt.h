@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "edge/sensors/pose_keeper.h"
+#include "edge/sensors/remembered_pose.h"
 #include "edge/sensors/standing_value.h"
 
 namespace ols {
@@ -13,6 +14,10 @@ namespace ols {
 class KeptTilt {
  public:
   explicit KeptTilt(const PoseKeeper::Config& config);
+  // `age_s`: since it was so.
+  void resume(const RememberedPose::Tilt& known, double now_s, double age_s);
+  // Told, or confirmed, by a sensor since the start.
+  bool is_from_sensor() const;
   void add(const TiltReading& reading);
   void fill(StationPose& pose, double now_s) const;
   void add_alarms(std::vector<std::string>& alarms, double now_s) const;
@@ -26,6 +31,7 @@ class KeptTilt {
   StandingValue<2> tilt_;  // x, y [rad]
   std::optional<TiltReading> last_;
   double changed_s_ = 0.0;  // last time that a digit changed
+  double known_s_ = 0.0;    // when what was resumed was so
 };
 
 }  // namespace ols

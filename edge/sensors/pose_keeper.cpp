@@ -4,6 +4,16 @@
 #include "edge/sensors/kept_tilt.h"
 
 namespace ols {
+namespace {
+
+// A clock that was set back since then, or is not set yet, does not tell it: some days.
+double age_s(std::int64_t utime_us, std::int64_t now_utime_us) {
+  constexpr double kUntold_s = 3 * 86400.0;
+  const double age_s = (static_cast<double>(now_utime_us) - static_cast<double>(utime_us)) * 1e-6;
+  return age_s >= 0.0 ? age_s : kUntold_s;
+}
+
+}  // namespace
 
 struct PoseKeeper::Impl {
   KeptPosition position;
@@ -14,6 +24,27 @@ PoseKeeper::PoseKeeper(const Config& config)
     : impl_(std::make_unique<Impl>(Impl{KeptPosition(config), KeptTilt(config)})) {}
 
 PoseKeeper::~PoseKeeper() = default;
+
+void PoseKeeper::resume(const RememberedPose& known, double now_s, std::int64_t now_utime_us) {
+  if (known.position) {
+    impl_->position.resume(*known.position, now_s, age_s(known.position->utime_us, now_utime_us));
+  }
+  if (known.tilt) {
+    impl_->tilt.resume(*known.tilt, now_s, age_s(known.tilt->utime_us, now_utime_us));
+  }
+}
+
+RememberedPose PoseKeeper::to_remember(double now_s, std::int64_t now_utime_us) const {
+  const StationPose now = pose(now_s);
+  RememberedPose pose;
+  if (impl_->position.is_from_sensor()) {
+    pose.position = {now.position, now.position_sd_enu_m, now_utime_us};
+  }
+  if (impl_->tilt.is_from_sensor()) {
+    pose.tilt = {{now.tilt_x_rad, now.tilt_y_rad}, now.tilt_sd_rad, now_utime_us};
+  }
+  return pose;
+}
 
 void PoseKeeper::add(const GnssReading& reading) { impl_->position.add(reading); }
 

@@ -9,12 +9,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "edge/sensors/gnss_reading.h"
+#include "edge/sensors/remembered_pose.h"
 #include "edge/sensors/tilt_reading.h"
 #include "geometry/wgs84.h"
 
@@ -56,9 +58,16 @@ class PoseKeeper {
     double accept_move_s = 0.0;  // a new position that holds for so long is taken; 0: never
     double growth_m_sqrt_s = 0.01;  // of the position's 1-sigma while no reading supports it
     double growth_rad_sqrt_s = 2e-5;
+    double resume_s = 7 * 86400.0;  // what is older at a restart is not taken up again
   };
   explicit PoseKeeper(const Config& config);
   ~PoseKeeper();
+
+  // Before the first reading: what the sensors had told before a restart, where there is no survey.
+  // Its sigmas have grown by its age, and an alarm tells of it, until a sensor confirms it.
+  void resume(const RememberedPose& known, double now_s, std::int64_t now_utime_us);
+  // What to keep over a restart: what a sensor has told, or confirmed, since this one began.
+  RememberedPose to_remember(double now_s, std::int64_t now_utime_us) const;
 
   // In time order each; what is older than the one before, or not finite, is left out.
   void add(const GnssReading& reading);

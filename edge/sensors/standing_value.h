@@ -20,10 +20,11 @@ class StandingValue {
   using Vector = Eigen::Matrix<double, N, 1>;
 
   struct Config {
-    double gate_sigma = 5.0;     // on each axis
-    double memory_s = 3600.0;    // older readings weigh less by e in such a time
-    int settle_readings = 3;     // that agree, before there is a value
-    double accept_move_s = 0.0;  // a new value that holds for so long is taken; 0: never
+    double gate_sigma = 5.0;        // on each axis
+    double memory_s = 3600.0;       // older readings weigh less by e in such a time
+    int settle_readings = 3;        // that agree, before there is a value
+    double accept_move_s = 0.0;     // a new value that holds for so long is taken; 0: never
+    double doubt_resumed_s = 60.0;  // the same, instead of a resumed value that none confirmed
   };
   struct Estimate {
     Vector value = Vector::Zero();
@@ -33,6 +34,18 @@ class StandingValue {
   // `survey`: what is known otherwise; it is kept whatever the readings say.
   StandingValue(const Config& config, const std::optional<Estimate>& survey)
       : config_(config), survey_(survey) {}
+
+  // What was known before a restart: kept until readings confirm it, or agree for doubt_resumed_s
+  // on something else. Before the first reading; without effect where there is a survey.
+  void resume(double time_s, const Estimate& known) {
+    if (survey_) return;
+    average_ = {};
+    average_.add(time_s, known.value, known.sd, config_.memory_s);
+    support(time_s);
+    resumed_ = true;
+  }
+  // Whether the value is a resumed one that no reading has confirmed yet.
+  bool resumed() const { return resumed_; }
 
   // In time order; finite, sd > 0.
   void add(double time_s, const Vector& value, const Vector& sd) {
@@ -48,8 +61,8 @@ class StandingValue {
       distance_ = value - kept->value;
       if (!disagrees_since_s_) disagrees_since_s_ = time_s;
       gather(time_s, value, sd);
-      const bool held = time_s - apart_.since_s >= config_.accept_move_s;
-      if (!survey_ && config_.accept_move_s > 0.0 && held) {
+      const double accept_s = resumed_ ? config_.doubt_resumed_s : config_.accept_move_s;
+      if (!survey_ && accept_s > 0.0 && time_s - apart_.since_s >= accept_s) {
         moved_ = distance_.norm();
         adopt(time_s);
       }
@@ -111,6 +124,7 @@ class StandingValue {
     support_s_ = time_s;
     disagrees_since_s_.reset();
     apart_ = {};
+    resumed_ = false;
   }
 
   Config config_;
@@ -118,6 +132,7 @@ class StandingValue {
   Average average_, apart_;
   std::optional<double> first_s_, support_s_, disagrees_since_s_;
   std::optional<double> moved_;
+  bool resumed_ = false;
   Vector distance_ = Vector::Zero();
 };
 

@@ -145,5 +145,18 @@ def test_ctl_says_when_nobody_answers(station):
     assert "no status of nobody" in nobody.stderr
 
 
+def test_the_journal_tells_of_devices_and_refusals(station):
+    refused(station, "messages_refused_malformed", "OLS_SLEW_lone", b"x")
+
+    def told():
+        journal = (station.site.logs / "station.log").read_text()
+        return all(
+            line in journal
+            for line in ("camera absent: ", "ptu absent: ", "bus connected: ", "command: ")
+        )
+
+    station.wait(told, "the journal")
+
+
 def test_it_ends_in_order(station):
     assert station.site.stop("station") == 0

@@ -1,4 +1,4 @@
-// Writes valid LCM messages as seeds: fuzz_seeds FOLDER makes FOLDER/messages,
+// Writes valid LCM messages as seeds: fuzz_seeds FOLDER makes FOLDER/messages, FOLDER/fault_plan,
 // FOLDER/fusion_messages and FOLDER/station_commands.
 #include <cstdint>
 #include <cstdio>
@@ -112,12 +112,23 @@ ols_msg::target_t target() {
   return message;
 }
 
+ols_msg::sim_fault_t fault(const char* kind, double duration_s, double value) {
+  ols_msg::sim_fault_t message{};
+  message.utime = kUtime;
+  message.kind = kind;
+  message.station = "a";
+  message.duration_s = duration_s;
+  message.value = value;
+  return message;
+}
+
 void write(const std::filesystem::path& file, const std::string& content) {
   std::filesystem::create_directories(file.parent_path());
   std::ofstream(file, std::ios::binary) << content;
 }
 
-// A datagram of `fuzz_fusion_messages`: kind and station, length, bytes.
+// A datagram of `fuzz_fusion_messages` (kind and station, length, bytes) or of `fuzz_fault_plan`
+// (how long after the one before).
 std::string framed(char kind, const std::string& bytes) {
   return {kind + std::string(1, static_cast<char>(bytes.size() & 255U)) + bytes};
 }
@@ -148,6 +159,8 @@ int main(int argc, char** argv) {
   const std::string from_b = encoded(bearing("b", 2.0, 500.0));
   write(folder / "fusion_messages" / "two", framed('\0', from_a) + framed('\2', from_b));
   write(folder / "fusion_messages" / "status", framed('\1', encoded(status())));
+  write(folder / "fault_plan" / "two", framed('\12', encoded(fault("ptu-garbled", 5.0, 0.01))) +
+                                           framed('\12', encoded(fault("all", 0.0, 0.0))));
   int kind = 0;
   for (const auto& bytes : {encoded(slew()), encoded(command<ols_msg::ptu_command_t>()),
                             encoded(designation()), encoded(command<ols_msg::record_t>())}) {

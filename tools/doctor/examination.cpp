@@ -50,7 +50,7 @@ Findings examine_host(const StationSettings& settings) {
     findings.push_back(judge(look_at_folder("recordings", settings.recorder.folder,
                                             settings.recorder.disk_reserve_bytes)));
   }
-  append(findings, judge(HostWatch(settings.host).look()));
+  append(findings, judge(report_on(read_host(settings.host), settings.host)));
   return findings;
 }
 

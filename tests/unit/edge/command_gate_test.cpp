@@ -4,6 +4,11 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace ols {
 namespace {
@@ -59,6 +64,46 @@ TEST(CommandGate, ARefusedCommandIsNotRemembered) {
   auto g = gate();
   EXPECT_EQ(g.admit(stamp(9.0, 7, 50), kNow_us), GateRefusal::kStale);
   EXPECT_EQ(g.admit(stamp(0.0, 7, 1), kNow_us), std::nullopt);
+}
+
+TEST(CommandGate, AClockThatWasFastBarsNobodyOnceItIsRight) {
+  constexpr std::int64_t kHour_us = 3'600'000'000;
+  auto g = gate();
+  const CommandStamp before = stamp(0.0, 7, 1), fast{kNow_us + kHour_us, 8, 1, 1.0};
+  EXPECT_EQ(g.admit(before, kNow_us), std::nullopt);
+  EXPECT_EQ(g.admit(fast, kNow_us + kHour_us), std::nullopt);
+  const std::int64_t back_us = kNow_us + 300'000;
+  EXPECT_EQ(g.admit(before, back_us), GateRefusal::kReplayed) << "its time has come again";
+  EXPECT_EQ(g.admit({back_us, 9, 1, 1.0}, back_us), std::nullopt);
+  EXPECT_EQ(g.admit(fast, kNow_us + kHour_us), GateRefusal::kReplayed);
+}
+
+// Clocks that jump to and fro, old commands again and again, more senders than are remembered.
+TEST(CommandGate, NothingPassesTwiceWhateverTheClocksDo) {
+  std::mt19937_64 random(5);
+  const auto draw = [&random](std::int64_t below) {
+    return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(below));
+  };
+  auto g = gate();
+  std::vector<CommandStamp> sent;
+  std::set<std::pair<std::int64_t, std::int64_t>> passed;
+  std::int64_t now_us = kNow_us;
+  std::map<std::int64_t, std::int64_t> sequences;
+  for (int i = 0; i < 40'000; ++i) {
+    now_us += draw(20'000);
+    if (draw(200) == 0) now_us = kNow_us + draw(20'000'000);  // steps, within what a lease covers
+    CommandStamp c;
+    if (!sent.empty() && draw(2) == 0) {
+      c = sent[static_cast<std::size_t>(draw(static_cast<std::int64_t>(sent.size())))];
+    } else {
+      const std::int64_t boot = draw(2) == 0 ? draw(4) : 4 + draw(2'000);
+      c = {now_us - draw(400'000), boot, ++sequences[boot], 10.0};
+      sent.push_back(c);
+    }
+    if (g.admit(c, now_us)) continue;
+    EXPECT_TRUE(passed.emplace(c.boot_id, c.sequence).second) << i;
+  }
+  EXPECT_GT(passed.size(), 500U);
 }
 
 }  // namespace

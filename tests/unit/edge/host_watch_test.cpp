@@ -5,6 +5,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <future>
+#include <memory>
+#include <optional>
+
+#include "base/clocks.h"
+#include "tests/unit/edge/sensors/eventually.h"
 
 namespace ols {
 namespace {
@@ -21,36 +27,62 @@ TEST(HostWatch, ReadsTheHottestZone) {
   }
   HostConfig config;
   config.thermal_folder = folder;
-  const HostReport report = HostWatch(config).look();
-  EXPECT_EQ(report.readings.at("cpu_degC"), 90.5);
-  ASSERT_EQ(report.alarms.size(), 1U);
-  EXPECT_NE(report.alarms[0].find("processor"), std::string::npos);
+  EXPECT_EQ(read_host(config).cpu_degC, 90.5);
   std::filesystem::remove_all(folder);
 }
 
 TEST(HostWatch, AComputerWithoutThermometerAndDiskSaysNothing) {
   HostConfig config;
   config.thermal_folder = config.disk_folder = "/nonexistent";
-  const HostReport report = HostWatch(config).look();
-  EXPECT_FALSE(report.readings.contains("cpu_degC"));
-  EXPECT_FALSE(report.readings.contains("disk_free_bytes"));
-  EXPECT_TRUE(report.alarms.empty());
+  EXPECT_EQ(read_host(config).cpu_degC, std::nullopt);
+  EXPECT_EQ(read_host(config).disk_free_bytes, std::nullopt);
+  EXPECT_GT(read_host(HostConfig{}).disk_free_bytes.value_or(0.0), 0.0);
 }
 
-TEST(HostWatch, AnAlmostFullDiskIsAnAlarm) {
-  HostConfig config;
-  config.disk_alarm_bytes = 1e18;
-  EXPECT_EQ(HostWatch(config).look().alarms.size(), 1U);
+TEST(HostWatch, HeatAndAnAlmostFullDiskAreAlarms) {
+  HostWatch watch({}, [] { return HostReading{90.5, 1e6}; });
+  HostReport report;
+  ASSERT_TRUE(eventually([&] {
+    report = watch.look(clock_monotonic_s());
+    return !report.alarms.empty();
+  }));
+  EXPECT_EQ(report.readings.at("cpu_degC"), 90.5);
+  EXPECT_EQ(report.readings.at("disk_free_bytes"), 1e6);
+  ASSERT_EQ(report.alarms.size(), 2U);
+  EXPECT_EQ(report.alarms[0], "computer: processor at 90 C");
+  EXPECT_EQ(report.alarms[1], "computer: 1 MB left on the disk");
+}
+
+TEST(HostWatch, ADiskThatHangsHoldsNobodyAndIsAnAlarm) {
+  const auto released = std::make_shared<std::promise<void>>();
+  const auto let_go = released->get_future().share();
+  const auto done = std::make_shared<std::promise<void>>();
+  {
+    HostWatch watch({}, [let_go, done]() -> HostReading {
+      let_go.wait();
+      done->set_value();
+      return {};
+    });
+    const double now_s = clock_monotonic_s();
+    EXPECT_TRUE(watch.look(now_s).alarms.empty()) << "it may still come";
+    const HostReport report = watch.look(now_s + 60.0);
+    ASSERT_EQ(report.alarms.size(), 1U);
+    EXPECT_NE(report.alarms[0].find("disk / does not answer for 6"), std::string::npos)
+        << report.alarms[0];
+    EXPECT_FALSE(report.readings.contains("disk_free_bytes"));
+  }  // nor its end
+  released->set_value();
+  done->get_future().wait();
 }
 
 TEST(HostWatch, CountsSlowTurnsAndShowsTheSlowest) {
-  HostWatch watch{HostConfig{}};
+  HostWatch watch({}, [] { return HostReading{}; });
   watch.note_turn(0.01);
   watch.note_turn(0.7);
   watch.note_turn(0.02);
   EXPECT_EQ(watch.slow_turns(), 1U);
-  EXPECT_EQ(watch.look().readings.at("slowest_turn_s"), 0.7);
-  EXPECT_EQ(watch.look().readings.at("slowest_turn_s"), 0.0) << "since the last look";
+  EXPECT_EQ(watch.look(0.0).readings.at("slowest_turn_s"), 0.7);
+  EXPECT_EQ(watch.look(0.0).readings.at("slowest_turn_s"), 0.0) << "since the last look";
 }
 
 }  // namespace

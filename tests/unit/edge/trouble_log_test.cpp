@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace ols {
 namespace {
 
@@ -49,6 +52,44 @@ TEST(TroubleLog, AnAlarmIsATroubleWhenItBegins) {
   EXPECT_EQ(log.text(), "reset");
   log.note_alarms({"gnss: silent for 5 s"}, 5 * kSecond);
   EXPECT_EQ(log.text(), "gnss: silent for 5 s");
+}
+
+std::vector<std::string> news(TroubleLog& log) {
+  std::vector<std::string> found;
+  for (const News& item : log.take_news())
+    found.push_back(std::string(item.bad ? "! " : "") + item.text);
+  return found;
+}
+using Texts = std::vector<std::string>;
+
+TEST(TroubleLog, TroublesAreNewsOnce) {
+  TroubleLog log;
+  log.note("ptu", "reply garbled", 1, kSecond);
+  log.note_event("command", "SLEW refused: stale", 1, kSecond);
+  EXPECT_EQ(news(log), (Texts{"! ptu: reply garbled", "! command: SLEW refused: stale"}));
+  log.note("ptu", "reply garbled", 2, 2 * kSecond);
+  log.note_event("command", "SLEW refused: stale", 1, 2 * kSecond);
+  EXPECT_EQ(news(log), Texts{});
+}
+
+TEST(TroubleLog, AlarmsAreNewsWhenTheyComeAndWhenTheyGo) {
+  TroubleLog log;
+  log.note_alarms({"gnss: silent for 5 s"}, kSecond);
+  EXPECT_EQ(news(log), (Texts{"! alarm: gnss: silent for 5 s"}));
+  log.note_alarms({"gnss: silent for 61 s"}, 2 * kSecond);
+  EXPECT_EQ(news(log), Texts{});
+  log.note_alarms({}, 3 * kSecond);
+  EXPECT_EQ(news(log), (Texts{"over: gnss: silent for 61 s"}));
+}
+
+TEST(TroubleLog, AnotherStateIsNews) {
+  TroubleLog log;
+  log.note_state("camera", "absent", "no such camera", true);
+  log.note_state("camera", "absent", "not found", true);
+  log.note_state("camera", "ok", "", false);
+  log.note_state("station", "tracking", "", false);
+  EXPECT_EQ(news(log), (Texts{"! camera absent: no such camera", "camera ok", "station tracking"}));
+  EXPECT_EQ(log.text(), "") << "a state alone is no trouble";
 }
 
 }  // namespace

@@ -44,6 +44,20 @@ TEST(Picture, Mono8IsCopiedOnce) {
   EXPECT_TRUE(std::equal(bytes.begin(), bytes.end(), gray.data));
 }
 
+TEST(Picture, WhatTheCameraSentIsKeptBesideTheGray) {
+  const auto bytes = mosaic("RGGB", 200, 100, 20);
+  const cv::Mat bayer = raw_beside_gray(raw(bytes, PixelFormat::kBayerRG8));
+  ASSERT_EQ(bayer.type(), CV_8UC1);
+  EXPECT_NE(bayer.data, bytes.data());  // the camera will write over its own
+  EXPECT_TRUE(std::equal(bytes.begin(), bytes.end(), bayer.data));
+  EXPECT_TRUE(raw_beside_gray(raw(bytes, PixelFormat::kMono8)).empty()) << "the gray one is it";
+  std::vector<std::uint8_t> colours(3 * kWidth * kHeight);
+  for (std::size_t i = 0; i < colours.size(); ++i) colours[i] = static_cast<std::uint8_t>(i * 7);
+  const cv::Mat rgb = raw_beside_gray(raw(colours, PixelFormat::kRGB8));
+  ASSERT_EQ(rgb.type(), CV_8UC3);
+  EXPECT_TRUE(std::equal(colours.begin(), colours.end(), rgb.data));
+}
+
 TEST(Picture, EachBayerPatternGivesTheBrightnessOfItsColours) {
   const std::vector<std::tuple<PixelFormat, const char*>> patterns{
       {PixelFormat::kBayerRG8, "RGGB"},

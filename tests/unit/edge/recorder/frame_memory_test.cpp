@@ -31,7 +31,7 @@ TEST(FrameMemory, SharesThePixels) {
   FrameMemory memory(10.0, 1e9);
   const RecordedFrame frame = noisy_frame(0, 0.0);
   memory.add(frame);
-  EXPECT_EQ(memory.frames().front().gray.data, frame.gray.data);
+  EXPECT_EQ(memory.frames().front().picture.data, frame.picture.data);
 }
 
 TEST(FrameMemory, HandsOutATimeWithBothEnds) {

@@ -3,11 +3,20 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <functional>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
 #include <thread>
 
 #include "base/clocks.h"
@@ -18,6 +27,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 bool eventually(const std::function<bool()>& condition) {
   const double deadline_s = clock_monotonic_s() + 30.0;
@@ -41,7 +51,7 @@ class RecorderTest : public testing::Test {
       const RecordedFrame r =
           noisy_frame(number, start_s + 0.1 * static_cast<double>(number), side_px);
       Frame frame;
-      frame.gray = r.gray;
+      frame.gray = r.picture;
       frame.mid_exposure_s = r.mid_exposure_s;
       frame.stamp_sd_s = r.sd_s;
       frame.number = number;
@@ -226,6 +236,61 @@ TEST_F(RecorderTest, WhatIsRecordedWhenTheStationStopsIsKept) {
   }
   ASSERT_TRUE(has_events(1));
   EXPECT_GE(rows(table()), 10U);
+}
+
+TEST_F(RecorderTest, OfABayerCameraTheMosaicIsKept) {
+  Recorder recorder(config);
+  ASSERT_TRUE(eventually([&] { return recorder.report().state == DeviceState::kOk; }));
+  const RecordedFrame mosaic = noisy_frame(1, start_s);
+  Frame frame;
+  frame.gray = cv::Mat::zeros(mosaic.picture.size(), CV_8UC1);
+  frame.raw = mosaic.picture;
+  frame.pixel_format = "BayerRG8";
+  frame.mid_exposure_s = start_s;
+  recorder.add(frame, mosaic.utime_us);
+  EXPECT_EQ(recorder.record({start_s, 1.0, 0.0, "raw"}), "");
+  ASSERT_TRUE(has_events(1));
+  const auto folder_of_event = std::filesystem::path(config.folder) / *events().begin();
+  EXPECT_THAT(content_of(folder_of_event / "frames.csv"), HasSubstr(",BayerRG8\n"));
+  const std::string png = folder_of_event / (std::to_string(mosaic.utime_us) + ".png");
+  const cv::Mat read = cv::imread(png, cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(read.size(), mosaic.picture.size());
+  EXPECT_EQ(cv::norm(read, mosaic.picture, cv::NORM_L1), 0.0);
+}
+
+// As under the unit's filter of system calls, and of this thread and its children alone.
+bool refuse_setpriority() {
+  sock_filter program[] = {
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_setpriority, 0, 1),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+  };
+  const sock_fprog filter{std::size(program), program};
+  return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+         ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
+}
+
+TEST_F(RecorderTest, APriorityThatCannotBeLoweredIsTold) {
+  if (::getpriority(PRIO_PROCESS, 0) >= 10) GTEST_SKIP() << "runs behind everything already";
+  bool filtered = false, told = false;
+  std::jthread([&] {
+    filtered = refuse_setpriority();
+    if (!filtered) return;
+    const Recorder recorder(config);
+    told = eventually([&] {
+      return recorder.report().text.ends_with(
+          "; runs at the control loop's priority (Operation not permitted)");
+    });
+  }).join();
+  if (!filtered) GTEST_SKIP() << "no filter of system calls here";
+  EXPECT_TRUE(told);
+}
+
+TEST_F(RecorderTest, ItsThreadStandsBackWhereItMay) {
+  const Recorder recorder(config);
+  ASSERT_TRUE(eventually([&] { return recorder.report().state == DeviceState::kOk; }));
+  EXPECT_THAT(recorder.report().text, Not(HasSubstr("priority")));
 }
 
 }  // namespace

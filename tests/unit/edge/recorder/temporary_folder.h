@@ -53,9 +53,9 @@ inline std::string content_of(const std::filesystem::path& file) {
 // Noise, so that a PNG of it is no smaller than the picture.
 inline RecordedFrame noisy_frame(std::uint64_t number, double time_s, int side_px = 64) {
   RecordedFrame frame;
-  frame.gray = cv::Mat(side_px, side_px, CV_8UC1);
+  frame.picture = cv::Mat(side_px, side_px, CV_8UC1);
   cv::RNG generator(number + 1);
-  generator.fill(frame.gray, cv::RNG::UNIFORM, 0, 256);
+  generator.fill(frame.picture, cv::RNG::UNIFORM, 0, 256);
   frame.number = number;
   frame.mid_exposure_s = time_s;
   frame.utime_us = 1'700'000'000'000'000 + static_cast<std::int64_t>(time_s * 1e6);

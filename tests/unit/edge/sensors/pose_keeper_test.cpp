@@ -325,5 +325,94 @@ TEST(PoseKeeper, HoldsWhateverComes) {
   }
 }
 
+// --- over a restart
+
+constexpr std::int64_t kUtime_us = 1'700'000'000'000'000;
+
+RememberedPose remembered() {
+  PoseKeeper before(sensors_only());
+  for (int i = 0; i < 20; ++i) {
+    before.add(fix(i));
+    before.add(tilt(i));
+  }
+  return before.to_remember(20.0, kUtime_us);
+}
+
+TEST(PoseKeeperResumed, ARestartWithoutAFixStillKnowsWhereItIs) {
+  PoseKeeper keeper(sensors_only());
+  keeper.resume(remembered(), 1000.0, kUtime_us + 120'000'000);
+  const StationPose pose = keeper.pose(1000.0);
+  EXPECT_EQ(pose.position_source, PoseSource::kSensor);
+  EXPECT_EQ(pose.tilt_source, PoseSource::kSensor);
+  EXPECT_LT(distance_m(pose.position, kGround), 1e-3);
+  EXPECT_NEAR(pose.tilt_x_rad, radians(0.12), radians(0.001));
+  // The age of two minutes counts, and so does what comes on top of it.
+  EXPECT_NEAR(pose.position_sd_enu_m.x(), std::hypot(kSd_m, 0.01 * std::sqrt(120.0)), 1e-3);
+  EXPECT_NEAR(keeper.pose(1900.0).position_sd_enu_m.x(),
+              std::hypot(kSd_m, 0.01 * std::sqrt(1020.0)), 1e-3);
+  EXPECT_GT(keeper.pose(1900.0).tilt_sd_rad, pose.tilt_sd_rad);
+  EXPECT_THAT(keeper.alarms(1000.0),
+              ElementsAre("pose: position kept from before the restart, 2 min old",
+                          "pose: tilt kept from before the restart, 2 min old"));
+}
+
+TEST(PoseKeeperResumed, ASensorConfirmsIt) {
+  PoseKeeper keeper(sensors_only());
+  keeper.resume(remembered(), 1000.0, kUtime_us + 120'000'000);
+  keeper.add(fix(1001.0));
+  keeper.add(tilt(1001.0));
+  EXPECT_THAT(keeper.alarms(1001.0), IsEmpty());
+  EXPECT_LT(keeper.pose(1001.0).position_sd_enu_m.x(), 0.06);
+}
+
+TEST(PoseKeeperResumed, UntilThenItIsNotKeptAnew) {
+  PoseKeeper keeper(sensors_only());
+  keeper.resume(remembered(), 1000.0, kUtime_us);
+  EXPECT_FALSE(keeper.to_remember(1001.0, kUtime_us).position) << "its age would be forgotten";
+  keeper.add(no_fix(1001.0));
+  EXPECT_FALSE(keeper.to_remember(1001.0, kUtime_us).position);
+  keeper.add(fix(1002.0));
+  EXPECT_TRUE(keeper.to_remember(1002.0, kUtime_us).position);
+  EXPECT_FALSE(keeper.to_remember(1002.0, kUtime_us).tilt);
+}
+
+TEST(PoseKeeperResumed, SensorsThatSayOtherwiseForAMinuteAreRight) {
+  PoseKeeper keeper(sensors_only());
+  keeper.resume(remembered(), 1000.0, kUtime_us);
+  const Vector3d carried{100.0, 0.0, 0.0};
+  double now_s = 1000.0;
+  for (; now_s < 1050.0; now_s += 1.0) keeper.add(fix(now_s, carried));
+  EXPECT_LT(distance_m(keeper.pose(now_s).position, kGround), 1e-3) << "a jump alone is none";
+  EXPECT_THAT(keeper.alarms(now_s), testing::Contains(HasSubstr("from the kept position")));
+  for (; now_s < 1070.0; now_s += 1.0) keeper.add(fix(now_s, carried));
+  EXPECT_NEAR(distance_m(keeper.pose(now_s).position, kGround), 100.0, 0.1);
+  EXPECT_THAT(keeper.alarms(now_s), testing::Contains(HasSubstr("check the heading")));
+  EXPECT_TRUE(keeper.to_remember(now_s, kUtime_us).position);
+}
+
+TEST(PoseKeeperResumed, AClockThatWentBackTellsNoAge) {
+  PoseKeeper keeper(sensors_only());
+  keeper.resume(remembered(), 1000.0, kUtime_us - 3'600'000'000);
+  EXPECT_GT(keeper.pose(1000.0).position_sd_enu_m.x(), 4.0);
+  EXPECT_EQ(keeper.pose(1000.0).position_source, PoseSource::kSensor);
+}
+
+TEST(PoseKeeperResumed, WhatIsOldOrSurveyedIsNotTakenUp) {
+  PoseKeeper old(sensors_only());
+  old.resume(remembered(), 1000.0, kUtime_us + 8LL * 86400 * 1'000'000);
+  EXPECT_EQ(old.pose(1000.0).position_source, PoseSource::kNone);
+  EXPECT_THAT(old.alarms(1000.0), IsEmpty());
+  PoseKeeper::Config c = sensors_only();
+  c.surveyed_position = moved(kGround, {5.0, 0.0, 0.0});
+  c.surveyed_tilt_rad = Eigen::Vector2d(0.01, 0.02);
+  PoseKeeper surveyed(c);
+  surveyed.resume(remembered(), 1000.0, kUtime_us);
+  EXPECT_EQ(surveyed.pose(1000.0).position_source, PoseSource::kSurveyed);
+  EXPECT_NEAR(distance_m(surveyed.pose(1000.0).position, kGround), 5.0, 1e-3);
+  EXPECT_EQ(surveyed.pose(1000.0).tilt_x_rad, 0.01);
+  EXPECT_THAT(surveyed.alarms(1000.0), IsEmpty());
+  EXPECT_FALSE(surveyed.to_remember(1000.0, kUtime_us).position);
+}
+
 }  // namespace
 }  // namespace ols

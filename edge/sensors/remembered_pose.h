@@ -1,0 +1,42 @@
+// The sensors' pose as it is kept over a restart, and its text in a file. Pure.
+//
+//   ols-pose 1
+//   position LATITUDE_deg LONGITUDE_deg HEIGHT_m SD_EAST_m SD_NORTH_m SD_UP_m UTIME_us
+//   tilt X_deg Y_deg SD_deg UTIME_us
+//   sum HEX                               (FNV-1a, 64 bits, of all before this line)
+//
+// Position and tilt may each be missing.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "geometry/wgs84.h"
+
+namespace ols {
+
+struct RememberedPose {
+  struct Position {
+    Geodetic ground;
+    Eigen::Vector3d sd_enu_m = Eigen::Vector3d::Zero();
+    std::int64_t utime_us = 0;  // when it was so
+  };
+  struct Tilt {
+    Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();  // x, y
+    double sd_rad = 0.0;
+    std::int64_t utime_us = 0;
+  };
+  std::optional<Position> position;
+  std::optional<Tilt> tilt;
+};
+
+std::string to_text(const RememberedPose& pose);
+
+// What the text holds, or what is wrong with it, naming the line.
+std::variant<RememberedPose, std::string> remembered_pose_from(std::string_view text);
+
+}  // namespace ols
