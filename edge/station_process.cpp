@@ -240,10 +240,11 @@ void StationProcess::note_troubles(const ClockPair& now, StationReport& report) 
   troubles_.note_alarms(all_alarms(report), utime_us);
   troubles_.note_event("command", bus_.last_refusal(), bus_.refusals(), utime_us);
   troubles_.note("bus", bus_.trouble(), 0, utime_us);
-  if (bus_.trouble().empty())
+  if (bus_.trouble().empty()) {
     troubles_.note_state("bus", "connected", settings_.lcm_url, false);
-  else
+  } else {
     troubles_.note_state("bus", "none", "tried again each second", true);
+  }
   const StationState state = report.snapshot.state;
   const bool bad = state == StationState::kLost || state == StationState::kEmergency;
   troubles_.note_state("station", to_string(state), "", bad);

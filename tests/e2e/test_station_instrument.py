@@ -281,7 +281,8 @@ def test_it_starts_without_a_network(network, tmp_path, program):
         route("del")
         try:
             environment = {"NOTIFY_SOCKET": manager.path, "WATCHDOG_USEC": "1000000"}
-            site.start_and_wait("late", command, "no bus", environment)
+            said = "bus none" if program == "ols-station" else "no bus"
+            site.start_and_wait("late", command, said, environment)
             manager.wait("READY=1")
             manager.wait("WATCHDOG=1")
             manager.wait("STATUS=no bus")
