@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "geometry/precision.h"
+
 namespace ols::sim {
 namespace {
 
@@ -79,30 +81,41 @@ Matrix2d pixel_covariance(const World& world, const StationTruth& station, const
   return R + encoder_variance * (outer(pan) + outer(tilt));
 }
 
+// The same covariance on the tangent plane of the direction to the target.
+BearingPrecision bearing_precision_of(const World& world, const StationTruth& station,
+                                      const PanTilt& angles, const TargetTruth& target,
+                                      const MeasurementNoise& noise) {
+  const LocalFrame centre(geodetic_from_ecef(camera_centre_ecef(station.truth, angles)));
+  const auto H = bearing_jacobian(centre, target.p_ecef);
+  Eigen::Matrix<double, 2, 3> pixel_by_position;
+  for (int axis = 0; axis < 3; ++axis) {
+    pixel_by_position.col(axis) = slope(1e-2, [&](double d) {
+      return pixel_of(station.truth, angles, target.p_ecef + d * Vector3d::Unit(axis));
+    });
+  }
+  const Matrix2d pixel_by_angle = pixel_by_position * H.transpose() * (H * H.transpose()).inverse();
+  const Matrix2d angle_by_pixel = pixel_by_angle.inverse();
+  const Matrix2d R = pixel_covariance(world, station, angles, target, noise);
+  return {centre, angle_by_pixel * R * angle_by_pixel.transpose()};
+}
+
 }  // namespace
 
 std::optional<Eigen::Matrix3d> position_bound_enu(const World& world, double time_s,
                                                   const std::vector<std::size_t>& stations,
                                                   const MeasurementNoise& noise) {
   const TargetTruth target = world.target(0, time_s);
-  const Eigen::Matrix3d& R_ecef_enu = world.site().R_ecef_enu();
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  std::vector<BearingPrecision> bearings;
   for (const std::size_t index : stations) {
     const StationTruth& station = world.stations()[index];
     const auto angles = aim_at(station.truth, target.p_ecef);
     if (!angles) continue;
-    Eigen::Matrix<double, 2, 3> H;
-    for (int axis = 0; axis < 3; ++axis) {
-      H.col(axis) = slope(1e-2, [&](double d) {
-        return pixel_of(station.truth, *angles, target.p_ecef + d * R_ecef_enu.col(axis));
-      });
-    }
-    const Matrix2d R = pixel_covariance(world, station, *angles, target, noise);
-    information += H.transpose() * R.inverse() * H;
+    bearings.push_back(bearing_precision_of(world, station, *angles, target, noise));
   }
-  const Eigen::FullPivLU<Eigen::Matrix3d> lu(information);
-  if (!lu.isInvertible()) return std::nullopt;
-  return lu.inverse();
+  const auto bound = cramer_rao_bound(bearings, target.p_ecef);
+  if (!bound) return std::nullopt;
+  const Eigen::Matrix3d& R_ecef_enu = world.site().R_ecef_enu();
+  return R_ecef_enu.transpose() * *bound * R_ecef_enu;
 }
 
 }  // namespace ols::sim

@@ -1,6 +1,7 @@
 // The Cramer-Rao bound of a target's position at one instant, one exposure of each station: from
-// the true geometry, the scenario's error sigmas and the actual pixel noise. Differences of the
-// projection alone, none of the product's covariances, so that it can judge them.
+// the true geometry, the scenario's error sigmas and the actual pixel noise. What each error does
+// to the pixel comes from differences of the projection, none of the product's covariances, so that
+// the bound (geometry/precision.h) can judge them.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,0 +1,59 @@
+// The paper's precision theory (section 4.1): how far a random error of p pixels puts the position
+// of a target that two cameras see. Plane geometry; lengths in metres, angles in radians.
+//
+// Every error here is a worst case, not a deviation: the pixels are off by up to p, and the result
+// is the greatest distance from the truth that this can cause. Infinity where nothing bounds it.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+
+namespace ols {
+
+// A random error of a number of pixels (the paper's p, r and f).
+struct PixelError {
+  double pixels = 1.0;
+  double pixel_m = 3.75e-6;  // r: the horizontal size of one pixel
+  double focal_length_m = 50e-3;
+
+  double tangent() const { return pixels * pixel_m / focal_length_m; }
+};
+
+// E = p r Z^2 / (f b - p r Z): two parallel cameras a base b apart, a target at depth Z whose
+// disparity is p pixels too small. With p = 1 the depth resolution R. Exact.
+double canonical_stereo_error_m(const PixelError& error, double base_m, double depth_m);
+
+// E = B tan(arctan(D / B) + arctan(p r / f)) - D: cameras that can rotate, the target straight
+// ahead of the first at the distance D, and the second one alone in error. The paper prints
+// arctan(r / f), which is this with p = 1.
+double rotating_pair_error_m(const PixelError& error, double base_m, double distance_m);
+
+// Both cameras in error by up to angle_rad, in the plane of the cameras and the target: the
+// greatest distance from the target at which the two rays can meet. All such points fill the
+// intersection of two wedges, which is convex: its farthest point is one of its corners.
+double pair_error_m(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
+                    const Eigen::Vector3d& target, double angle_rad);
+
+// A pair of cameras.
+struct Baseline {
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Vector3d second = Eigen::Vector3d::Zero();
+};
+
+// t . n of the paper: t the unit vector from the baseline's centre to the target, n the baseline's
+// unit normal in their common plane, on the target's side. That is the sine of the angle between t
+// and the baseline, 0..1; 0 also where the target is at the baseline's centre.
+double normal_component(const Baseline& baseline, const Eigen::Vector3d& target);
+
+// i = argmax t_i . n_i. The first of several equal ones; std::invalid_argument for none.
+std::size_t best_baseline(std::span<const Baseline> baselines, const Eigen::Vector3d& target);
+
+// The target of a row of the paper's Table 1, in the plane (x along the base, y across it) with the
+// base's centre as origin. The paper does not say where its distance is measured from, nor on which
+// side of the base's normal the target is. `side`: 0, the distance is from the centre of the base;
+// otherwise it is from the first camera (at x = -base/2), and the target is on that camera's side
+// (-1) or on the other's (+1). alpha_rad is the angle at the base's centre from its normal.
+Eigen::Vector3d table_target(double base_m, double distance_m, double alpha_rad, int side);
+
+}  // namespace ols

@@ -1,0 +1,32 @@
+// Universal Transverse Mercator, in which land registers and surveyors give positions. The
+// arithmetic is GeographicLib's (C. Karney).
+//
+// Grid north is not true north: a grid bearing plus the convergence is the true azimuth. Grid
+// distances are the scale times true ones. A height in a land register is usually above mean sea
+// level; here it is ellipsoidal, as everywhere.
+#pragma once
+
+#include "geometry/wgs84.h"
+
+namespace ols {
+
+struct Utm {
+  int zone = 0;  // 1..60
+  bool northern = true;
+  double easting_m = 0.0;   // with the false easting of 500 km
+  double northing_m = 0.0;  // with the false northing of 10 000 km in the south
+};
+
+struct UtmPoint {
+  Utm position;
+  double convergence_rad = 0.0;  // of grid north, clockwise from true north
+  double scale = 1.0;            // grid distance over true distance on the ellipsoid
+};
+
+// std::invalid_argument, saying why, for a zone that does not exist or coordinates outside it.
+Geodetic geodetic_from_utm(const Utm& position, double height_m);
+
+// In the standard zone of the place; std::invalid_argument near the poles, which have none.
+UtmPoint utm_from_geodetic(const Geodetic& position);
+
+}  // namespace ols

@@ -1,0 +1,118 @@
+#include "geometry/placement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "geometry/angles.h"
+
+namespace ols {
+namespace {
+
+using Eigen::Vector3d;
+
+const LocalFrame kSite({radians(49.2), radians(16.6), 300.0});
+constexpr int kPlaces = 60;
+
+PlannedStation place_at(const Vector3d& p_enu) {
+  return {LocalFrame(geodetic_from_ecef(kSite.to_ecef(p_enu))), 1e-4, {}, 0.0};
+}
+
+// A disc to protect, 300 m in radius and 80 m high.
+std::vector<PlannedTarget> disc() {
+  std::vector<PlannedTarget> area;
+  for (double x = -300; x <= 300; x += 60) {
+    for (double y = -300; y <= 300; y += 60) {
+      if (std::hypot(x, y) <= 300.0) area.push_back({kSite.to_ecef({x, y, 80.0})});
+    }
+  }
+  return area;
+}
+
+// Places on circles around its centre, the same angles on each.
+PlacementProblem around_the_disc(std::size_t stations, const std::vector<double>& radii = {300}) {
+  PlacementProblem problem;
+  for (const double radius : radii) {
+    for (int i = 0; i < kPlaces; ++i) {
+      const double angle = 2.0 * kPi * i / kPlaces;
+      problem.places.push_back(place_at({radius * std::cos(angle), radius * std::sin(angle), 0}));
+    }
+  }
+  problem.area = disc();
+  problem.stations = stations;
+  return problem;
+}
+
+class RegularPolygon : public testing::TestWithParam<std::size_t> {};
+
+// "The tracking stations should be positioned so as to form approximately regular polygon."
+TEST_P(RegularPolygon, ComesOutWhereNothingPreventsIt) {
+  std::mt19937_64 generator(3);
+  PlacementProblem problem = around_the_disc(GetParam(), {300, 400});
+  problem.starts = 12;
+  const Placement placement = place_stations(problem, generator);
+  ASSERT_EQ(placement.chosen.size(), GetParam());
+  const int even = kPlaces / static_cast<int>(GetParam());
+  for (std::size_t i = 0; i < placement.chosen.size(); ++i) {
+    EXPECT_LT(placement.chosen[i], std::size_t{kPlaces});  // on the edge of the area
+    const std::size_t next = placement.chosen[(i + 1) % placement.chosen.size()];
+    const int gap =
+        (static_cast<int>(next) - static_cast<int>(placement.chosen[i]) + kPlaces) % kPlaces;
+    EXPECT_NEAR(gap, even, 1) << "after place " << placement.chosen[i];
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Placement, RegularPolygon, testing::Values(3, 4, 5, 6));
+
+TEST(Placement, IsTheBestOfAllChoicesOfThree) {
+  PlacementProblem problem = around_the_disc(3);
+  problem.places.resize(14);  // a quarter of the circle
+  std::mt19937_64 generator(3);
+  for (const PlacementGoal goal : {PlacementGoal::kMean, PlacementGoal::kWorst}) {
+    problem.goal = goal;
+    const Placement found = place_stations(problem, generator);
+    const auto cost = [&](const Placement& p) {
+      return goal == PlacementGoal::kMean ? p.mean_m : p.worst_m;
+    };
+    double least = 1e9;
+    for (std::size_t a = 0; a < 14; ++a) {
+      for (std::size_t b = a + 1; b < 14; ++b) {
+        for (std::size_t c = b + 1; c < 14; ++c) {
+          least = std::min(least, cost(rate_placement(problem, {a, b, c})));
+        }
+      }
+    }
+    EXPECT_NEAR(cost(found), least, (goal == PlacementGoal::kMean ? 1e-9 : 0.02) * least);
+  }
+}
+
+TEST(Placement, AStationThatStandsIsNotDoubled) {
+  PlacementProblem problem = around_the_disc(2);
+  problem.kept = {problem.places[0]};
+  std::mt19937_64 generator(3);
+  const Placement placement = place_stations(problem, generator);
+  // With the one that stands they are the triangle again.
+  EXPECT_NEAR(static_cast<double>(placement.chosen[0]), 20.0, 1.0);
+  EXPECT_NEAR(static_cast<double>(placement.chosen[1]), 40.0, 1.0);
+}
+
+TEST(Placement, OneStationAloneIsAnAnswerToo) {
+  std::mt19937_64 generator(3);
+  const Placement placement = place_stations(around_the_disc(1), generator);
+  EXPECT_EQ(placement.chosen.size(), 1U);
+  EXPECT_GT(placement.mean_m, 1e5);  // a ray has no depth
+}
+
+TEST(Placement, RefusesWhatHasNoAnswer) {
+  std::mt19937_64 generator(3);
+  PlacementProblem problem = around_the_disc(3);
+  problem.area.clear();
+  EXPECT_THROW(place_stations(problem, generator), std::invalid_argument);
+  EXPECT_THROW(place_stations(around_the_disc(0), generator), std::invalid_argument);
+  EXPECT_THROW(place_stations(around_the_disc(kPlaces + 1), generator), std::invalid_argument);
+  EXPECT_THROW(rate_placement(around_the_disc(3), {0, 1, kPlaces}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ols
