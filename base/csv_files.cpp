@@ -139,6 +139,9 @@ constexpr Header<6> kStations{
 constexpr Header<7> kBearings{
     {"utime_us", "station", "azimuth_deg", "elevation_deg", "sigma_deg", "belief", "target"}, 5};
 
+constexpr Header<6> kLandmarks{
+    {"object", "distance_m", "alpha_rad", "side", "estimated_m", "measured_m"}, 3};
+
 StationRow station_row(const Row<6>& row) {
   StationRow station;
   station.station = row.id(0);
@@ -192,6 +195,23 @@ std::vector<BearingRow> read_bearings(const std::string& path,
   });
   if (bearings.empty()) throw CsvError(path + ":2: row: there is none");
   return bearings;
+}
+
+std::vector<LandmarkRow> read_landmarks(const std::string& path) {
+  constexpr double kRightAngle_rad = 1.57;
+  std::vector<LandmarkRow> landmarks;
+  for_each_row(path, kLandmarks, [&](const Row<6>& row) {
+    LandmarkRow landmark;
+    landmark.object = row.id(0);
+    landmark.distance_m = row.number<double>(1, 1e-3, 1e7);
+    landmark.alpha_rad = row.number<double>(2, 0.0, kRightAngle_rad);
+    if (row.has(3)) landmark.side = row.number<int>(3, -1, 1);
+    landmark.estimated_m = row.optional_number(4, 0.0, 1e7);
+    landmark.measured_m = row.optional_number(5, 0.0, 1e7);
+    landmarks.push_back(landmark);
+  });
+  if (landmarks.empty()) throw CsvError(path + ":2: row: there is none");
+  return landmarks;
 }
 
 void write_fixes(const std::string& path, const std::vector<FixRow>& fixes) {

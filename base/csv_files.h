@@ -38,6 +38,16 @@ struct BearingRow {
   std::string target = "1";  // "1" where the file does not tell
 };
 
+// A landmark before a base, as in the paper's Table 1.
+struct LandmarkRow {
+  std::string object;
+  double distance_m = 0.0;
+  double alpha_rad = 0.0;  // from the base's normal
+  int side = 0;            // -1, 0 or 1, geometry/precision_paper.h; 0 where the file does not tell
+  std::optional<double> estimated_m;
+  std::optional<double> measured_m;
+};
+
 struct FixRow {
   std::int64_t utime_us = 0;
   std::string target;
@@ -58,6 +68,8 @@ std::vector<StationRow> read_stations(const std::string& path);
 // At least one row, in the order of the file; every row's station is one of `stations`.
 std::vector<BearingRow> read_bearings(const std::string& path,
                                       const std::vector<StationRow>& stations);
+// At least one row.
+std::vector<LandmarkRow> read_landmarks(const std::string& path);
 // The whole file or, on an error (std::system_error), none of it.
 void write_fixes(const std::string& path, const std::vector<FixRow>& fixes);
 

@@ -29,6 +29,8 @@ struct Options {
   double pixel_sd_px = 0.3;
   double seconds = 60.0;
   std::string output;
+  std::string target;
+  std::vector<std::string> without;
 };
 
 // CLI::Range lets it through: it compares.
@@ -51,6 +53,10 @@ void define(CLI::App& app, Options& o) {
                  "write the stations' configuration files into this folder, and end");
   app.add_flag("--list", o.list,
                "print id, camera address and serial line of each station, and end");
+  app.add_option("--target", o.target, "keep only this one of the scenario's targets (its id)");
+  app.add_option("--without", o.without,
+                 "switch these errors of the scenario off: heading,tilt,...")
+      ->delimiter(',');
   const auto lockstep =
       app.add_flag("--lockstep", o.lockstep, "simulated time, stations and fusion in this process");
   app.add_option("--seconds", o.seconds, "[s] length of the lockstep run")
@@ -101,7 +107,9 @@ void run_lockstep(const ols::sim::World& world, const Options& options) {
 }
 
 void run(const Options& options) {
-  const auto scenario = ols::sim::load_scenario(options.scenario);
+  auto scenario = ols::sim::load_scenario(options.scenario);
+  if (!options.target.empty()) ols::sim::keep_target(scenario, options.target);
+  for (const auto& name : options.without) ols::sim::switch_off(scenario.errors, name);
   const ols::sim::World world(scenario, options.seed);
   if (options.list) {
     list(scenario, options.line_folder);

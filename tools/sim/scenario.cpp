@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
+#include <utility>
 
 #include "base/toml_config.h"
+#include "geometry/utm.h"
 #include "tools/sim/trajectory_file.h"
 
 namespace ols::sim {
@@ -179,13 +182,31 @@ std::unique_ptr<Trajectory> read_waypoints(ConfigTable& table) {
   }
 }
 
+// A landmark as a land register has it: it stands still.
+std::unique_ptr<Trajectory> read_utm(ConfigTable& table, const LocalFrame& site) {
+  Utm utm;
+  utm.zone = static_cast<int>(table.integer("zone", 0, 0, 60));
+  utm.northern = table.choice("hemisphere", "north", {"north", "south"}) == "north";
+  utm.easting_m = table.required_number("easting_m", 0, 1e6);
+  utm.northing_m = table.required_number("northing_m", 0, 1e7);
+  const double height_m = table.required_number("height_m", -1000, 20000);
+  auto path = std::make_unique<Line>();
+  try {
+    path->start_enu = site.to_enu(ecef_from_geodetic(geodetic_from_utm(utm, height_m)));
+  } catch (const std::invalid_argument& problem) {
+    throw table.error("zone", problem.what());
+  }
+  return path;
+}
+
 std::unique_ptr<Trajectory> read_trajectory(ConfigTable& table, const LocalFrame& site,
                                             const std::string& folder) {
-  const std::string kind =
-      table.choice("kind", "lissajous", {"lissajous", "circle", "line", "waypoints", "file"});
+  const std::string kind = table.choice(
+      "kind", "lissajous", {"lissajous", "circle", "line", "waypoints", "file", "utm"});
   if (kind == "lissajous") return read_lissajous(table);
   if (kind == "circle") return read_circle(table);
   if (kind == "waypoints") return read_waypoints(table);
+  if (kind == "utm") return read_utm(table, site);
   if (kind == "file") {
     const std::string name = table.required_text("file");
     return load_trajectory_file(name.starts_with('/') ? name : folder + "/" + name, site);
@@ -198,6 +219,7 @@ std::unique_ptr<Trajectory> read_trajectory(ConfigTable& table, const LocalFrame
 
 TargetScenario read_target(ConfigTable& table, const LocalFrame& site, const std::string& folder) {
   TargetScenario t;
+  t.id = table.text("id", "");
   t.span_m = table.number("span_m", t.span_m, 0.05, 100);
   t.brightness = table.number("brightness", t.brightness, 0, 2);
   t.trajectory = read_trajectory(table.table("trajectory"), site, folder);
@@ -247,8 +269,11 @@ Scenario read_scenario(ConfigFile& file, const std::string& folder) {
   read_device_errors(errors, s.errors);
   read_stations(root, s);
   const LocalFrame site(s.origin);
+  std::set<std::string> ids;
   for (ConfigTable* table : root.tables("target")) {
-    s.targets.push_back(read_target(*table, site, folder));
+    TargetScenario& target = s.targets.emplace_back(read_target(*table, site, folder));
+    if (target.id.empty()) target.id = std::to_string(s.targets.size());
+    if (!ids.insert(target.id).second) throw table->error("id", "is used by two targets");
   }
   if (s.targets.empty()) throw root.error("target", "at least one is needed");
   for (ConfigTable* table : root.tables("fault")) {
@@ -259,6 +284,34 @@ Scenario read_scenario(ConfigFile& file, const std::string& folder) {
 }
 
 }  // namespace
+
+void switch_off(Errors& e, const std::string& name) {
+  const std::pair<const char*, Errors::Switch*> switches[] = {
+      {"heading", &e.heading},       {"tilt", &e.tilt},
+      {"mounting", &e.mounting},     {"position", &e.position},
+      {"encoder", &e.encoder},       {"distortion", &e.distortion},
+      {"noise", &e.noise},           {"motion_blur", &e.motion_blur},
+      {"brightness", &e.brightness}, {"clock", &e.clock},
+      {"ptu_reply", &e.ptu_reply},   {"messages", &e.messages},
+      {"frames", &e.frames}};
+  std::string known;
+  for (const auto& [known_name, error] : switches) {
+    if (name == known_name) {
+      error->on = false;
+      return;
+    }
+    known += std::string(known.empty() ? "" : ", ") + known_name;
+  }
+  throw std::invalid_argument("there is no error '" + name + "'; there are " + known);
+}
+
+void keep_target(Scenario& scenario, const std::string& id) {
+  const auto found = std::ranges::find(scenario.targets, id, &TargetScenario::id);
+  if (found == scenario.targets.end()) {
+    throw std::invalid_argument(scenario.name + " has no target '" + id + "'");
+  }
+  scenario.targets = {*found};
+}
 
 Scenario load_scenario(const std::string& path) {
   ConfigFile file(path);

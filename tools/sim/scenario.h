@@ -74,6 +74,7 @@ struct StationScenario {
 };
 
 struct TargetScenario {
+  std::string id;  // a word; by default its number, from 1
   std::shared_ptr<const Trajectory> trajectory;
   double span_m = 1.0;       // from rotor tip to rotor tip
   double brightness = 0.22;  // 0 black .. 1 as bright as the sky
@@ -132,6 +133,13 @@ struct Scenario {
   std::vector<TargetScenario> targets;
   std::vector<Fault> faults;
 };
+
+// Switches an error off by its name in the file ("heading", "tilt", ...). std::invalid_argument,
+// listing the names, when there is no such error.
+void switch_off(Errors& errors, const std::string& name);
+
+// Leaves only this one of the targets. std::invalid_argument when there is none of this id.
+void keep_target(Scenario& scenario, const std::string& id);
 
 // Throws ConfigError naming file, line and key.
 Scenario load_scenario(const std::string& path);

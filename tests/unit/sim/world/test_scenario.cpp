@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "base/toml_config.h"
 #include "tools/sim/scenario.h"
 
@@ -39,6 +41,54 @@ TEST(Scenario, ShippedOnesLoad) {
     EXPECT_EQ(s.stations.size(), name == "small" ? 2U : 4U);
     EXPECT_EQ(s.targets.size(), 1U);
   }
+}
+
+TEST(Scenario, ThePapersExperimentsLoad) {
+  Scenario table1 = load_scenario(std::string(OLS_SCENARIOS) + "/table1.toml");
+  EXPECT_EQ(table1.targets.size(), 9U);
+  // As in the paper's Table 1, from the first station.
+  keep_target(table1, "mast");
+  ASSERT_EQ(table1.targets.size(), 1U);
+  const Eigen::Vector3d mast = table1.targets[0].trajectory->at(3.0).p_enu;
+  EXPECT_NEAR((mast - table1.stations[0].p_enu).head<2>().norm(), 1379.67, 0.02);
+  EXPECT_NEAR((table1.stations[1].p_enu - table1.stations[0].p_enu).norm(), 30.0, 1e-9);
+  EXPECT_THROW(keep_target(table1, "pillar1"), std::invalid_argument);
+  const Scenario walk = load_scenario(std::string(OLS_SCENARIOS) + "/walk.toml");
+  for (double t = 3.0; t < 123.0; t += 0.5) {
+    const Motion m = walk.targets[0].trajectory->at(t);
+    EXPECT_GT(m.p_enu.head<2>().norm(), 49.0);
+    EXPECT_LT(m.p_enu.head<2>().norm(), 205.0);
+    EXPECT_LT(m.v_enu.norm(), 2.5);
+  }
+}
+
+TEST(Scenario, LandmarkInUtmStandsWhereTheGridHasIt) {
+  // On the central meridian of zone 33, where grid north is true north.
+  std::string text = kSmall;
+  text.replace(text.find("longitude_deg = 16"), 18, "longitude_deg = 15");
+  text.replace(text.find("\"line\""), 6,
+               "\"utm\"\nzone = 33\neasting_m = 500100\nnorthing_m = 5427437.21\nheight_m = 310");
+  const Scenario s = parse_scenario(text, "s.toml", ".");
+  const Motion m = s.targets[0].trajectory->at(7.0);
+  EXPECT_NEAR(m.p_enu.x(), 100.0 / 0.9996, 0.02);
+  EXPECT_NEAR(m.p_enu.z(), 10.0, 1e-2);
+  EXPECT_EQ(m.v_enu.norm(), 0.0);
+  text.replace(text.find("zone = 33"), 9, "zone = 0");
+  EXPECT_THAT(error_of(text), HasSubstr("UTM zone"));
+}
+
+TEST(Scenario, TargetsHaveIdsOfTheirOwn) {
+  const std::string another = "[[target]]\nid = \"1\"\n[target.trajectory]\nkind = \"line\"\n";
+  EXPECT_THAT(error_of(kSmall + another), HasSubstr("is used by two targets"));
+}
+
+TEST(Scenario, AnErrorIsSwitchedOffByItsName) {
+  Errors errors;
+  switch_off(errors, "heading");
+  switch_off(errors, "ptu_reply");
+  EXPECT_FALSE(errors.heading.on || errors.ptu_reply.on);
+  EXPECT_TRUE(errors.tilt.on && errors.mounting.on && errors.clock.on);
+  EXPECT_THROW(switch_off(errors, "hading"), std::invalid_argument);
 }
 
 TEST(Scenario, Fig7HasTheSpeedsAndDistancesOfADrone) {

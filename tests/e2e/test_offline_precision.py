@@ -1,0 +1,153 @@
+"""ols-precision as its users meet it."""
+
+import csv
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import BIN, lines_said
+
+ROOT = Path(__file__).resolve().parents[2]
+TABLE1 = ROOT / "tools/python/ols_accuracy/table1.csv"
+STATIONS = """\
+station,latitude_deg,longitude_deg,height_m
+west,49.2,16.598,250
+east,49.2,16.602,250
+north,49.203,16.6,250
+"""
+
+
+@pytest.fixture
+def stations(tmp_path):
+    path = tmp_path / "stations.csv"
+    path.write_text(STATIONS)
+    return path
+
+
+def precision(*arguments):
+    command = [str(part) for part in (BIN / "ols-precision", *arguments)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+
+
+def rows(path):
+    return list(csv.DictReader(path.open()))
+
+
+def column(path, name):
+    return np.array([float(row[name] or "nan") for row in rows(path)])
+
+
+def test_table1_is_the_papers(tmp_path):
+    """Every row within 8 %, the mean within 4 % of the paper's estimates."""
+    output = tmp_path / "table.csv"
+    assert precision("table", "--input", TABLE1, "--output", output).returncode == 0
+    ratio = column(output, "estimated_m") / column(output, "paper_estimated_m")
+    assert len(ratio) == 9
+    assert np.all(np.abs(ratio - 1) <= 0.08)
+    assert abs(ratio.mean() - 1) <= 0.04
+    by_side = column(output, "estimated_by_side_m") / column(output, "paper_estimated_m")
+    assert np.abs(by_side - 1).max() < 0.025 and np.abs(by_side - 1).mean() < 0.005
+
+
+def test_figures(tmp_path):
+    output = tmp_path / "figure.csv"
+    assert precision("figure3", "--steps", 20, "--output", output).returncode == 0
+    # B = D = 100 m at p = 10: 100 * 2 t / (1 - t) with t = 7.5e-4.
+    row = next(r for r in rows(output) if r["base_m"] == "100" and r["distance_m"] == "100")
+    assert float(row["rotating_pair_m"]) == pytest.approx(100 * 2 * 7.5e-4 / (1 - 7.5e-4))
+    assert precision("figure4", "--steps", 40, "--output", output).returncode == 0
+    two, three = column(output, "two_cameras_m"), column(output, "three_cameras_m")
+    assert np.isnan(two).sum() > 0 and np.isnan(three).sum() == 0
+    assert np.nanmedian(three) < np.nanmedian(two)
+
+
+def test_map_of_a_site(stations, tmp_path):
+    output, geojson = tmp_path / "map.csv", tmp_path / "map.geojson"
+    options = ("--heights", "30,100", "--cells", 10, "--output", output, "--geojson", geojson)
+    result = precision("map", "--stations", stations, *options)
+    assert result.returncode == 0, result.stderr
+    assert sorted({row["above_stations_m"] for row in rows(output)}) == ["100", "30"]
+    features = json.loads(geojson.read_text())["features"]
+    cells = [f for f in features if f["geometry"]["type"] == "Polygon"]
+    assert len(cells) == len(rows(output)) and len(features) == len(cells) + 3
+    assert all(f["properties"]["horizontal_m"] > 0 for f in cells)
+    ring = cells[0]["geometry"]["coordinates"][0]
+    assert ring[0] == ring[-1] and 16 < ring[0][0] < 17 and 49 < ring[0][1] < 50
+
+
+def test_budget_sums_to_the_whole(stations, tmp_path):
+    output = tmp_path / "budget.csv"
+    at = ("--at", "49.201,16.6,300", "--speed", 10)
+    assert precision("budget", "--stations", stations, *at, "--output", output).returncode == 0
+    parts = {row["source"]: float(row["horizontal_m"]) for row in rows(output)}
+    whole = parts.pop("all")
+    assert sum(part**2 for part in parts.values()) == pytest.approx(whole**2, rel=1e-4)
+    assert min(parts.values()) > 0
+
+
+def circle(radius_m, count):
+    angles = 2 * np.pi * np.arange(count) / count
+    east = 16.6 + radius_m * np.cos(angles) / 72_870
+    return np.column_stack([east, 49.2 + radius_m * np.sin(angles) / 111_220])
+
+
+def test_advice_is_the_regular_polygon_where_nothing_prevents_it(tmp_path):
+    area, places, output = (tmp_path / n for n in ("area.geojson", "places.geojson", "out.csv"))
+    ring = circle(300, 24).tolist()
+    area.write_text(json.dumps({"type": "Polygon", "coordinates": [ring + ring[:1]]}))
+    points = [*circle(300, 36).tolist(), *circle(400, 36).tolist()]
+    places.write_text(json.dumps({"type": "MultiPoint", "coordinates": points}))
+    result = precision(
+        *("advise", "--places", places, "--area", area, "--stations", 4, "--ground", 250),
+        *("--spacing", 60, "--heading-sd-deg", 0, "--tilt-sd-deg", 0, "--output", output),
+    )
+    assert result.returncode == 0, result.stderr
+    east = (column(output, "longitude_deg") - 16.6) * 72_870
+    north = (column(output, "latitude_deg") - 49.2) * 111_220
+    np.testing.assert_allclose(np.hypot(east, north), 300, atol=2)
+    angles = np.sort(np.degrees(np.arctan2(north, east)) % 360)
+    np.testing.assert_allclose(np.diff(angles), 90, atol=10.5)
+    assert "worst" in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("{", "is not JSON"),
+        ('{"type": "Polygon"}', "coordinates is missing"),
+        ('{"type": "Point", "coordinates": [16.6]}', "a position must be"),
+        ('{"type": "Point", "coordinates": [16.6, 149.2]}', "latitude is outside"),
+        ('{"type": "Polygon", "coordinates": [[[16, 49], [17, 49], [17, 50]]]}', "a ring must"),
+        (
+            '{"type": "FeatureCollection", "features": [{"type": "Feature", "geometry":'
+            ' {"type": "LineString", "coordinates": []}}]}',
+            "features[0]: type 'LineString'",
+        ),
+        ('{"type": "Point", "coordinates": [16.6, 49.2]}', "has no polygon"),
+    ],
+)
+def test_bad_geojson_is_named_and_nothing_is_written(stations, tmp_path, text, expected):
+    area, output = tmp_path / "area.geojson", tmp_path / "out.csv"
+    area.write_text(text)
+    result = precision(
+        *("advise", "--places", stations, "--area", area, "--stations", 2, "--ground", 250),
+        *("--spacing", 60, "--output", output),
+    )
+    assert result.returncode == 2
+    assert expected in result.stderr and str(area) in result.stderr
+    assert len(lines_said(result.stderr)) == 1 and not output.exists()
+
+
+def test_bad_arguments_are_one_clear_line(stations, tmp_path):
+    output = tmp_path / "out.csv"
+    for arguments, expected in (
+        ((), "subcommand"),
+        (("table", "--input", "none.csv", "--output", output), "none.csv: cannot be read"),
+        (("budget", "--stations", stations, "--at", "49,16", "--output", output), "--at"),
+        (("map", "--stations", stations, "--cells", 1, "--output", output), "--cells"),
+    ):
+        result = precision(*arguments)
+        assert result.returncode == 2 and expected in result.stderr
+        assert not output.exists()

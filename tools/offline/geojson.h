@@ -1,0 +1,52 @@
+// GeoJSON (RFC 7946): places and areas in, features out. Positions are longitude, latitude in
+// degrees and, where given, metres above the WGS84 ellipsoid.
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "geometry/wgs84.h"
+
+namespace ols {
+
+// One line: "FILE: features[3]: what is wrong".
+class GeoJsonError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct GeoPosition {
+  double longitude_deg = 0.0;
+  double latitude_deg = 0.0;
+  std::optional<double> height_m;
+};
+
+struct GeoPoint {
+  std::string name;  // the feature's property "station" or "name"; empty: it has none
+  GeoPosition position;
+};
+
+// The first ring is the outline, others are holes; each ends where it begins.
+using GeoPolygon = std::vector<std::vector<GeoPosition>>;
+
+struct GeoShapes {
+  std::vector<GeoPoint> points;
+  std::vector<GeoPolygon> polygons;
+};
+
+// Points and polygons, alone or in features and collections. GeoJsonError for anything else, for
+// positions out of range and for rings that are not closed.
+GeoShapes read_geojson(const std::string& path);
+
+// Inside the outline and outside the holes, taken as plane figures of longitude and latitude: fine
+// for areas of some kilometres that hold neither a pole nor the date line.
+bool contains(const GeoPolygon& polygon, double longitude_deg, double latitude_deg);
+
+// The points of an even east-north grid of this spacing that lie inside one of the polygons, at the
+// given height. std::invalid_argument when they would be more than a million.
+std::vector<Geodetic> fill(const std::vector<GeoPolygon>& polygons, double spacing_m,
+                           double height_m);
+
+}  // namespace ols

@@ -1,0 +1,28 @@
+// ols-precision: how good positions can be, before anything is measured.
+#include <iostream>
+
+#include "base/command_line.h"
+#include "tools/offline/precision_paper_files.h"
+#include "tools/offline/precision_site_files.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "How good positions can be: the paper's precision theory, and the Cramer-Rao bound of any "
+      "site. Lengths in metres, angles in degrees but where a column says rad."};
+  app.require_subcommand(1);
+  ols::add_figure3(app);
+  ols::add_figure4(app);
+  ols::add_table(app);
+  ols::add_map(app);
+  ols::add_budget(app);
+  ols::add_advice(app);
+  try {
+    if (const auto status = ols::parse_command_line(app, argc, argv, "ols-precision")) {
+      return *status;
+    }
+  } catch (const std::exception& error) {
+    std::cerr << "ols-precision: " << error.what() << '\n';
+    return ols::kExitBadInput;
+  }
+  return 0;
+}

@@ -1,0 +1,13 @@
+// The figures and the table of the paper's section 4 as CSV.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace ols {
+
+// Each adds its subcommand to ols-precision; it runs when it is parsed.
+void add_figure3(CLI::App& app);
+void add_figure4(CLI::App& app);
+void add_table(CLI::App& app);
+
+}  // namespace ols

@@ -1,0 +1,14 @@
+// The precision of a site: a map of its covariance, the budget of one place, and advice on where to
+// put stations.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace ols {
+
+// Each adds its subcommand to ols-precision; it runs when it is parsed.
+void add_map(CLI::App& app);
+void add_budget(CLI::App& app);
+void add_advice(CLI::App& app);
+
+}  // namespace ols

@@ -1,0 +1,1 @@
+"""The paper's precision figures and experiments, and ours beside them: docs/accuracy.md."""

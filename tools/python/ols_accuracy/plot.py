@@ -1,0 +1,32 @@
+"""A picture of what ols-precision has written: tools/precision-plot."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from ols_accuracy import theory_plots
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, prog="precision-plot")
+    parser.add_argument("kind", choices=["figure3", "figure4", "table", "map"])
+    parser.add_argument("source", type=Path, help="CSV that `ols-precision KIND` has written")
+    parser.add_argument("picture", type=Path, help="PNG or SVG to write")
+    parser.add_argument("--stations", type=Path, help="stations.csv, drawn into a map")
+    arguments = parser.parse_args()
+    try:
+        if arguments.kind == "map":
+            theory_plots.site_map(arguments.source, arguments.picture, arguments.stations)
+        else:
+            plots = {
+                "figure3": theory_plots.figure3,
+                "figure4": theory_plots.figure4,
+                "table": theory_plots.table1,
+            }
+            plots[arguments.kind](arguments.source, arguments.picture)
+    except (OSError, KeyError, IndexError, ValueError) as problem:
+        sys.exit(f"precision-plot: {arguments.source}: {problem!r}: not what ols-precision writes")
+
+
+if __name__ == "__main__":
+    main()
