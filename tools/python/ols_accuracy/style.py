@@ -8,6 +8,7 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
+from PIL import Image
 
 PAPER, OURS, RANDOM, TRUTH, STATION = "#d9822b", "#0b6fb8", "#3a9d5d", "#222222", "#b3261e"
 MAP = "viridis_r"
@@ -28,7 +29,11 @@ plt.rcParams.update(
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Few colours make small files; no date makes the same file twice."""
+    """A palette makes small files; no date makes the same file twice."""
     metadata = {"Date": None} if path.suffix == ".svg" else {"Software": None}
     figure.savefig(path, dpi=100, metadata=metadata)
     plt.close(figure)
+    if path.suffix == ".png":
+        with Image.open(path) as picture:
+            small = picture.convert("RGB").quantize(192, dither=Image.Dither.NONE)
+        small.save(path, optimize=True)

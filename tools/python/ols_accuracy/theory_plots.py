@@ -55,7 +55,7 @@ def figure3(source: Path, output: Path) -> None:
     cuts.set(xlabel="distance Z, m", ylabel="error, m", title="Cuts: rotating and canonical meet")
     cuts.set_xlim(20, None)
     cuts.legend(ncols=3, fontsize=8, loc="upper left")
-    cuts.set_ylim(top=cuts.get_ylim()[1] * 8)
+    cuts.set_ylim(0.003, 4e3)
     save(figure, output)
 
 
