@@ -16,6 +16,7 @@ from ols_accuracy import plan, run_plots, theory_plots
 from ols_accuracy.runs import (
     PROGRAMS,
     ROOT,
+    Run,
     budget_run,
     horizontal,
     make_all,
@@ -38,6 +39,9 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--seeds", type=int, default=3, help="of the runs with pictures")
     parser.add_argument("--budget-seeds", type=int, default=40, help="of those without")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument(
+        "--kept-only", action="store_true", help="make no run; a dash where one is missing"
+    )
     return parser.parse_args()
 
 
@@ -60,6 +64,16 @@ def precision(folder: Path, command: str, *options: object) -> Path:
     line = [PROGRAMS / "ols-precision", command, "--output", output, *options]
     subprocess.run([str(part) for part in line], check=True)
     return output
+
+
+def mean_error(runs: list[Run]) -> float:
+    """Root mean square horizontal error [m] over the runs that are there; NaN without any."""
+    values = [rms(horizontal(run.errors_enu())) for run in runs if run.made()]
+    return rms(np.array(values)) if values else np.nan
+
+
+def metres(value: float, form: str = ".2f") -> str:
+    return "–" if np.isnan(value) else format(value, form)
 
 
 def theory(folder: Path) -> dict[str, np.ndarray]:
@@ -100,7 +114,7 @@ def static(folder: Path, seeds: int, paper: dict[str, np.ndarray]) -> None:
         }
         for kind in ("random", "all"):
             runs = [table1_run(folder, kind, target, seed) for seed in range(1, seeds + 1)]
-            row[f"{kind}_m"] = rms(np.array([run_plots.mean_horizontal(run) for run in runs]))
+            row[f"{kind}_m"] = mean_error(runs)
         row["all_predicted_m"] = plan.predicted_m(content, places[target], sigmas)
         rows.append(row)
     run_plots.figure9(rows, PICTURES / "figure9.svg")
@@ -108,7 +122,7 @@ def static(folder: Path, seeds: int, paper: dict[str, np.ndarray]) -> None:
     header = ["object", "distance, m", "paper est., m", "paper meas., m"]
     header += ["ours, random only, m", "ours, all, m", "predicted, m"]
     body = [
-        [row["object"], f"{row['distance_m']:.0f}", *(f"{row[key]:.2f}" for key in keys)]
+        [row["object"], f"{row['distance_m']:.0f}", *(metres(row[key]) for key in keys)]
         for row in rows
     ]
     replace_part("static", table(header, body))
@@ -117,6 +131,7 @@ def static(folder: Path, seeds: int, paper: dict[str, np.ndarray]) -> None:
 def walk(folder: Path) -> None:
     site = plan.site(plan.scenario("walk"))
     runs = {kind: walk_run(folder, kind, 1) for kind in ("random", "all")}
+    runs = {kind: run for kind, run in runs.items() if run.made()}
     run_plots.figure10(runs, site, PICTURES / "figure10.png")
     rows = [["the paper", "6.25", "13.35", ""]]
     for kind, run in runs.items():
@@ -140,7 +155,7 @@ def budget(folder: Path, seeds: int) -> None:
         row = {"source": names.get(source, source)}
         for target in BUDGET_TARGETS:
             runs = [budget_run(folder, source, target, seed) for seed in range(1, seeds + 1)]
-            simulated = rms(np.array([run_plots.mean_horizontal(run) for run in runs]))
+            simulated = mean_error(runs)
             place = plan.landmark(trajectories[target])
             predicted = plan.predicted_m(content, place, sigmas.alone(source))
             row[target] = {"simulated_m": simulated, "predicted_m": predicted}
@@ -148,7 +163,10 @@ def budget(folder: Path, seeds: int) -> None:
     run_plots.budget(rows, BUDGET_TARGETS, PICTURES / "budget.svg")
     body = [
         [row["source"]]
-        + [f"{row[t]['predicted_m']:.3g} / {row[t]['simulated_m']:.3g}" for t in BUDGET_TARGETS]
+        + [
+            " / ".join(metres(row[t][k], ".3g") for k in ("predicted_m", "simulated_m"))
+            for t in BUDGET_TARGETS
+        ]
         for row in rows
     ]
     body.append(["UTM's grid north for true north", *grid_north(content, trajectories)])
@@ -186,7 +204,8 @@ def main() -> None:
         for target in BUDGET_TARGETS
         for seed in range(1, arguments.budget_seeds + 1)
     ]
-    make_all(runs, arguments.jobs)
+    if not arguments.kept_only:
+        make_all(runs, arguments.jobs)
     static(folder, arguments.seeds, paper)
     walk(folder)
     budget(folder, arguments.budget_seeds)

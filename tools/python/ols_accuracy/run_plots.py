@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import ols
 
-from ols_accuracy.runs import Run, horizontal, rms
+from ols_accuracy.runs import Run, horizontal
 from ols_accuracy.style import OURS, PAPER, RANDOM, STATION, TRUTH, save
 from ols_accuracy.theory_plots import columns
 
@@ -52,6 +52,8 @@ def figure10(runs: dict[str, Run], site: ols.LocalFrame, output: Path) -> None:
         ("all", OURS, "all errors"),
         ("random", RANDOM, "random errors only"),
     ):
+        if kind not in runs:
+            continue
         run = runs[kind]
         fixes = local(site, columns(run.folder / "fixes.csv"))
         distances = horizontal(run.errors_enu())
@@ -71,9 +73,9 @@ def figure10(runs: dict[str, Run], site: ols.LocalFrame, output: Path) -> None:
     plan.plot(truth[:, 0], truth[:, 1], "-", color=TRUTH, linewidth=0.8, label="truth", zorder=3)
     plan.plot([-15, 15], [0, 0], "^", color=STATION, markersize=9, label="stations")
     plan.set(xlabel="east, m", ylabel="north, m", aspect="equal", title="Plan")
-    plan.legend(fontsize=8, markerscale=2, loc="upper left")
+    plan.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
     error.set(xlabel="distance from the base, m", ylabel="horizontal error, m", yscale="log")
-    error.set(title="A walk of 120 s (Fig. 10)", ylim=(0.005, 60))
+    error.set(title="A walk of 120 s (Fig. 10)", ylim=(0.005, 400))
     error.legend(fontsize=8, loc="upper left")
     save(figure, output)
 
@@ -94,9 +96,6 @@ def budget(rows: list[dict], targets: list[str], output: Path) -> None:
     axes.set_xticks(place, [row["source"] for row in rows])
     axes.set(ylabel="horizontal error, m", title="What each source costs (bars: the bound)")
     axes.grid(axis="x", visible=False)
-    axes.legend(fontsize=9, ncols=2)
+    axes.legend(fontsize=9, ncols=2, loc="upper left")
+    axes.set_ylim(0.01, 3e4)
     save(figure, output)
-
-
-def mean_horizontal(run: Run) -> float:
-    return rms(horizontal(run.errors_enu()))

@@ -40,8 +40,11 @@ class Run:
             command += ["--pixels", "--pixel-sd", 0.3]
         return [str(part) for part in command]
 
+    def made(self) -> bool:
+        return (self.folder / "summary.json").exists()
+
     def make(self) -> None:
-        if not (self.folder / "summary.json").exists():
+        if not self.made():
             subprocess.run(self.command(), cwd=SCENARIOS, check=True)
 
     def summary(self) -> dict:
