@@ -140,6 +140,23 @@ def test_bad_geojson_is_named_and_nothing_is_written(stations, tmp_path, text, e
     assert len(lines_said(result.stderr)) == 1 and not output.exists()
 
 
+@pytest.mark.parametrize(
+    ("row", "expected"),
+    [
+        ("pillar,ninety,0.3,0", ":2: distance_m"),
+        ("pillar,90,1.6,0", ":2: alpha_rad"),
+        ("pillar,90,0.3,2", ":2: side"),
+        ("", ":2: row: there is none"),
+    ],
+)
+def test_a_bad_landmark_is_named(tmp_path, row, expected):
+    table, output = tmp_path / "table.csv", tmp_path / "out.csv"
+    table.write_text(f"object,distance_m,alpha_rad,side\n{row}\n")
+    result = precision("table", "--input", table, "--output", output)
+    assert result.returncode == 2 and f"{table}{expected}" in result.stderr
+    assert not output.exists()
+
+
 def test_bad_arguments_are_one_clear_line(stations, tmp_path):
     output = tmp_path / "out.csv"
     for arguments, expected in (
