@@ -68,7 +68,7 @@ class Station {
   Refusal designate(const DesignateCommand& command, double now_s);
   Refusal slew(const SlewCommand& command, double now_s);
   Refusal point(const PointCommand& command, double now_s);
-  void stop(double now_s);
+  void stop(double now_s);  // take_stop() says so once: what the unit does by itself ends too
   Refusal release(double now_s);
   // After an emergency stop: leads to kStopped, from where the operator goes on.
   Refusal rearm(double now_s);
@@ -76,6 +76,7 @@ class Station {
   Refusal home(double now_s);
   // A person vouches for the unit's reference; take_reference_ok() says so once.
   Refusal reference_ok(double now_s);
+  bool take_stop() { return std::exchange(stop_, false); }
   bool take_home() { return std::exchange(home_, false); }
   bool take_reference_ok() { return std::exchange(reference_ok_, false); }
 
@@ -140,7 +141,7 @@ class Station {
   StationState state_ = StationState::kIdle;
   bool stop_pressed_ = false;
   PtuReference reference_ = PtuReference::kUnknown;
-  bool home_ = false, reference_ok_ = false;  // wanted
+  bool home_ = false, reference_ok_ = false, stop_ = false;  // wanted
   StationPose pose_;
   StationPose revision_pose_;  // of which the bearings' pose_revision speaks
   std::int64_t pose_revision_ = 0;

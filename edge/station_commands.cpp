@@ -120,6 +120,8 @@ void Station::stop(double now_s) {
   now_s_ = std::max(now_s_, now_s);
   slew_.reset();
   point_.reset();
+  home_ = false;
+  stop_ = true;
   if (state_ != StationState::kEmergency) enter(StationState::kStopped);
   count(Refusal::kNone, "stop");
 }

@@ -12,6 +12,9 @@
 namespace ols {
 namespace {
 
+constexpr const char* kStopped = "stopped";
+constexpr const char* kEmergency = "emergency";
+constexpr const char* kDoubted = "reference";
 constexpr double kFrameWait_s = 0.004;
 constexpr double kPoseInterval_s = 0.1;
 constexpr double kPoseKept_s = 10.0;  // the file is written so often
@@ -20,6 +23,19 @@ constexpr double kPoseKept_s = 10.0;  // the file is written so often
 std::string state_file(const StationSettings& settings, const char* subject) {
   if (settings.state_folder.empty()) return {};
   return settings.state_folder + "/" + settings.id + "." + subject;
+}
+
+// A station that an operator has in hand begins again stopped.
+const char* hold_of(StationState state) {
+  switch (state) {
+    case StationState::kEmergency:
+      return kEmergency;
+    case StationState::kStopped:
+    case StationState::kManual:
+      return kStopped;
+    default:
+      return "";
+  }
 }
 
 // A receiver that has never had a fix starts for ever; without camera or PTU there is no station.
@@ -55,7 +71,8 @@ StationProcess::StationProcess(const StationSettings& settings, std::int64_t boo
       bus_(settings_, boot_id, station_,
            [this](const RecordCommand& command) { return record(command); }),
       host_(settings_.host),
-      hold_(state_file(settings_, "hold")),
+      hold_(state_file(settings_, "hold"), {kStopped, kEmergency}),
+      doubt_(state_file(settings_, "doubt"), {kDoubted}),
       devices_(settings_) {
   const double now_s = clock_monotonic_s();
   resume_pose(now_s);
@@ -87,7 +104,7 @@ void StationProcess::turn() {
   const ClockPair start = look_at_clocks();
   heed_emergency_stop(start.monotonic_s);
   receive_commands();
-  hold_.set(hold_of(station_.state()));
+  remember();
   keep_pose(start.monotonic_s);
   take_frame();
   take_angles();
@@ -112,10 +129,19 @@ ClockPair StationProcess::look_at_clocks() {
 
 // Whatever ended it since somebody stopped it is no leave to move.
 void StationProcess::resume_hold(double now_s) {
-  if (hold_.hold() == Hold::kStopped) station_.stop(now_s);
-  if (hold_.hold() != Hold::kEmergency) return;
+  if (!doubt_.word().empty()) devices_.ptu().doubt_reference();
+  if (!hold_.word().empty()) devices_.ptu().allow_rehoming(false);
+  if (hold_.word() == kStopped) station_.stop(now_s);
+  if (hold_.word() != kEmergency) return;
   devices_.ptu().emergency_halt();
   station_.emergency_stop(true, now_s);
+}
+
+void StationProcess::remember() {
+  hold_.set(hold_of(station_.state()));
+  // While there is no unit, what was known of it stays.
+  if (devices_.ptu().reference() == PtuReference::kTrusted) doubt_.set("");
+  if (devices_.ptu().in_doubt()) doubt_.set(kDoubted);
 }
 
 // The GPIO's thread has halted the unit already; here the station learns of it.
@@ -129,6 +155,8 @@ void StationProcess::heed_emergency_stop(double now_s) {
 void StationProcess::receive_commands() {
   station_.set_reference(devices_.ptu().reference());
   bus_.receive();
+  devices_.ptu().allow_rehoming(station_.state() != StationState::kStopped);
+  if (station_.take_stop()) devices_.ptu().stop_homing();
   if (station_.take_home()) devices_.ptu().home();
   if (station_.take_reference_ok()) devices_.ptu().reference_ok();
   if (halted_ && station_.state() != StationState::kEmergency) {
@@ -202,6 +230,9 @@ StationReport StationProcess::report(const ClockPair& now) {
   }
   if (!hold_.trouble().empty()) {
     report.alarms.push_back("stop: not remembered: " + hold_.trouble());
+  }
+  if (!doubt_.trouble().empty()) {
+    report.alarms.push_back("ptu: doubt not remembered: " + doubt_.trouble());
   }
   add_pose_and_clock(now.monotonic_s, report);
   add_host(now.monotonic_s, report);

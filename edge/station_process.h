@@ -7,10 +7,10 @@
 #include <string>
 
 #include "base/service_notifier.h"
+#include "base/word_memory.h"
 #include "edge/clock/clock_source.h"
 #include "edge/clock/clock_watch.h"
 #include "edge/device_set.h"
-#include "edge/hold_memory.h"
 #include "edge/host_watch.h"
 #include "edge/journal.h"
 #include "edge/messages_bus.h"
@@ -35,6 +35,7 @@ class StationProcess {
   ClockPair look_at_clocks();
   void resume_pose(double now_s);
   void resume_hold(double now_s);
+  void remember();
   void heed_emergency_stop(double now_s);
   void receive_commands();
   void keep_pose(double now_s);
@@ -59,7 +60,8 @@ class StationProcess {
   StationBus bus_;
   HostWatch host_;
   TroubleLog troubles_;
-  HoldMemory hold_;
+  WordMemory hold_;   // somebody has taken the PTU's leave to move
+  WordMemory doubt_;  // nobody knows what the PTU's angles are worth
   Journal journal_;
   DeviceSet devices_;
   std::optional<Frame> newest_;

@@ -104,9 +104,9 @@ DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& f
   DeviceReport report;
   report.name = "camera";
   report.state = device_state(facts.state);
-  report.text = facts.identity + ", " + config.pixel_format + " " +
-                std::to_string(config.width_px) + "x" + std::to_string(config.height_px) +
-                words(", %.1f Hz", facts.frame_rate_hz);
+  report.text = facts.identity.empty() ? "" : facts.identity + ", ";
+  report.text += config.pixel_format + " " + std::to_string(config.width_px) + "x" +
+                 std::to_string(config.height_px) + words(", %.1f Hz", facts.frame_rate_hz);
   if (facts.state != CameraState::kStreaming && !facts.last_error.empty())
     report.text = facts.last_error;
   report.last_good_s = facts.last_frame_s;

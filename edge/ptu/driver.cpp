@@ -46,11 +46,7 @@ std::string PtuDriver::emergency_halt(double time_s) {
   impl_->urgent.clear();
   if (impl_->steady) impl_->steady->abandon(time_s);
   if (impl_->phase == Impl::Phase::kStart) impl_->begin_flush(time_s);
-  impl_->home_wanted = impl_->homing = false;
-  if (impl_->phase == Impl::Phase::kHoming) {
-    impl_->reference.homing_interrupted();
-    impl_->begin(time_s);
-  }
+  impl_->give_up_homing(time_s);
   return halt_request();
 }
 
@@ -59,6 +55,16 @@ void PtuDriver::clear_emergency() { impl_->emergency = false; }
 bool PtuDriver::in_emergency() const { return impl_->emergency; }
 
 void PtuDriver::home(double time_s) { impl_->want_home(time_s); }
+
+void PtuDriver::stop_homing(double time_s) {
+  if (!impl_->homing) return;
+  impl_->give_up_homing(time_s);
+  impl_->urgent = halt_request();
+}
+
+void PtuDriver::allow_rehoming(bool allowed) { impl_->rehoming_allowed = allowed; }
+
+void PtuDriver::doubt_reference() { impl_->reference.doubted_before(); }
 
 void PtuDriver::reference_ok() {
   if (reference() == PtuReference::kDoubted) impl_->reference.acknowledge();
@@ -98,6 +104,10 @@ PtuReference PtuDriver::reference() const {
 bool PtuDriver::homing() const { return impl_->homing; }
 
 PtuDoubt PtuDriver::doubt() const { return impl_->reference.doubt(); }
+
+bool PtuDriver::in_doubt() const {
+  return doubt() != PtuDoubt::kNone || reference() == PtuReference::kMissing;
+}
 
 const PtuCounters& PtuDriver::counters() const { return impl_->counters; }
 

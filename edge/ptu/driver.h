@@ -98,8 +98,14 @@ class PtuDriver {
   // Halts the unit, waits until it stands and has it home: R sweeps the whole travel. Not in an
   // emergency, and given up when the unit does not answer.
   void home(double time_s);
+  // Halts a unit that homes and gives up what was wanted; nothing while it does not home.
+  void stop_homing(double time_s);
+  // Whether PtuRehome::kWhenUnreferenced is heeded now; it is at first. home() always is.
+  void allow_rehoming(bool allowed);
   // A person vouches for the reference: it was homed by hand, or checked.
   void reference_ok();
+  // It was in doubt when the process before this one ended.
+  void doubt_reference();
 
   // Begins again from power-up, for example when the port was reopened.
   void restart(double time_s);
@@ -123,6 +129,8 @@ class PtuDriver {
   bool homing() const;                        // since home() or by itself, until it is ready
   PtuReference reference() const;
   PtuDoubt doubt() const;
+  // Who ended now would leave a unit whose counts mean nothing: in doubt, homing, or to be homed.
+  bool in_doubt() const;
   std::optional<PtuLoweredSpeed> lowered_speed() const;
   bool standing() const;  // seen not to move
 

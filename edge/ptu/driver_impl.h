@@ -196,7 +196,10 @@ struct PtuDriver::Impl {
   }
 
   // --- homing -----------------------------------------------------------------------------------
-  bool may_home() const { return config.rehome == PtuRehome::kWhenUnreferenced && !homed; }
+  bool may_home() const {
+    return config.rehome == PtuRehome::kWhenUnreferenced && rehoming_allowed && !homed &&
+           !emergency;
+  }
 
   // Only a unit that stands: the start sequence has halted it.
   bool home_if(bool wanted, double time_s) {
@@ -217,6 +220,14 @@ struct PtuDriver::Impl {
     home_wanted = homing = true;
   }
 
+  // Halted in the middle of it, a unit does not know where it is.
+  void give_up_homing(double time_s) {
+    home_wanted = homing = false;
+    if (phase != Phase::kHoming) return;
+    reference.homing_interrupted();
+    begin(time_s);
+  }
+
   std::string step_homing(double time_s) {
     if (!outstanding) {
       outstanding = true;
@@ -232,7 +243,13 @@ struct PtuDriver::Impl {
 
   // --- ready ------------------------------------------------------------------------------------
   std::string step_ready(double time_s) {
-    if (reference.doubt() != PtuDoubt::kNone) goal.reset();
+    if (reference.doubt() != PtuDoubt::kNone) {
+      goal.reset();
+      if (may_home()) {
+        want_home(time_s);
+        return std::exchange(urgent, {});
+      }
+    }
     std::string bytes = steady->step(goal, emergency, time_s);
     heed_trouble(time_s);
     return bytes;
@@ -249,9 +266,7 @@ struct PtuDriver::Impl {
     const bool homing_hits = std::any_of(replies.begin(), replies.end(), [](const PtuReply& r) {
       return r.limit_hits >= PtuSteadyState::kHomingHits;
     });
-    const bool trusted = reference.doubt() == PtuDoubt::kNone;
     reference.while_driven(hits, homing_hits);
-    if (trusted && reference.doubt() != PtuDoubt::kNone && may_home()) want_home(time_s);
   }
 
   void heed_trouble(double time_s) {
@@ -314,6 +329,7 @@ struct PtuDriver::Impl {
   PtuLimitHits hits_noted;
   std::string error, urgent;
   bool emergency = false, link_lost = false, unreferenced = false, homed = false;
+  bool rehoming_allowed = true;
   bool failed = false;           // since it was ready
   bool home_wanted = false;      // as soon as the unit stands
   bool homing = false;           // from then until it is ready

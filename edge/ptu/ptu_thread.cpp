@@ -150,6 +150,21 @@ void PtuThread::home() {
   if (!impl_->emergency) impl_->driver.home(clock_monotonic_s());
 }
 
+void PtuThread::stop_homing() {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->driver.stop_homing(clock_monotonic_s());
+}
+
+void PtuThread::allow_rehoming(bool allowed) {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->driver.allow_rehoming(allowed);
+}
+
+void PtuThread::doubt_reference() {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->driver.doubt_reference();
+}
+
 void PtuThread::reference_ok() {
   const std::lock_guard lock(impl_->mutex);
   impl_->driver.reference_ok();
@@ -158,6 +173,11 @@ void PtuThread::reference_ok() {
 PtuReference PtuThread::reference() const {
   const std::lock_guard lock(impl_->mutex);
   return impl_->open ? impl_->driver.reference() : PtuReference::kUnknown;
+}
+
+bool PtuThread::in_doubt() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->driver.in_doubt();
 }
 
 PtuStatus PtuThread::status() const {

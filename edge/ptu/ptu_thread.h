@@ -57,10 +57,14 @@ class PtuThread {
   void emergency_halt();
   void clear_emergency();
 
-  // PtuDriver::home(), reference_ok() and reference().
+  // PtuDriver's.
   void home();
+  void stop_homing();
+  void allow_rehoming(bool allowed);
+  void doubt_reference();
   void reference_ok();
   PtuReference reference() const;
+  bool in_doubt() const;
 
   PtuStatus status() const;
   DeviceReport report() const;

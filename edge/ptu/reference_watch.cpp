@@ -20,6 +20,9 @@ const char* words(PtuDoubt doubt) {
              "checked";
     case PtuDoubt::kHomingInterrupted:
       return "its homing did not come to an end: home it, or reference-ok once it was checked";
+    case PtuDoubt::kBefore:
+      return "its reference was in doubt already before this start: home it, or reference-ok once "
+             "it was checked";
   }
   return "";
 }

@@ -12,7 +12,7 @@
 
 namespace ols {
 
-enum class PtuDoubt { kNone, kPowerCycle, kLimitHit, kHomingInterrupted };
+enum class PtuDoubt { kNone, kPowerCycle, kLimitHit, kHomingInterrupted, kBefore };
 // What is wrong and what to do; empty for kNone.
 const char* words(PtuDoubt doubt);
 
@@ -34,6 +34,7 @@ class ReferenceWatch {
 
   void power_cycled() { doubt_ = PtuDoubt::kPowerCycle; }
   void homing_interrupted();
+  void doubted_before() { doubt_ = PtuDoubt::kBefore; }  // when the process before this one ended
   // It can be driven again. The first time it is believed: whoever set the station up saw to it.
   void ready();
   void acknowledge() { doubt_ = PtuDoubt::kNone; }

@@ -61,8 +61,11 @@ def loop(network, tmp_path_factory):
     with Site(folder / "logs") as site:
         subprocess.run([*simulator, "--write-configs", folder / "configs"], check=True)
         site.start_and_wait("simulator", simulator, "ready")
-        station = [str(BIN / "ols-station"), "--config", str(folder / f"configs/{STATION}.toml")]
-        site.start_and_wait("station", station, "ready")
+        config = folder / f"configs/{STATION}.toml"
+        config.write_text(f'state_folder = "{folder}"\n{config.read_text()}')
+        station = [str(BIN / "ols-station"), "--config", str(config)]
+        listener.start_station = lambda: site.start_and_wait("station", station, "ready")
+        listener.start_station()
         listener.site, listener.unit = site, unit
         yield listener
     unit.end()
@@ -125,3 +128,29 @@ def test_it_survives_the_unit_being_unplugged(loop):
     views_until_there(loop, -10.0, 3.0)
     assert loop.unit.angles_deg() == pytest.approx([-10.0, 3.0], abs=0.05)
     loop.site.check()
+
+
+def ptu_alarms(loop):
+    status = loop.observer.status.get(STATION)
+    return " ".join(alarm for alarm in (status.alarm if status else []) if "ptu" in alarm)
+
+
+def restart(loop):
+    boot = loop.observer.status[STATION].boot_id
+    assert loop.site.stop("station") == 0
+    loop.start_station()
+    loop.wait(lambda: loop.observer.status[STATION].boot_id != boot, "the next start", DEADLINE_S)
+
+
+def test_a_doubt_outlives_the_station(loop):
+    ok = ols_msg.station_status_t.DEVICE_OK
+    assert loop.unit.ask("fault ptu-power-cycle 1 0") == "done"
+    loop.wait(lambda: "switched off and on" in ptu_alarms(loop), "the doubt", DEADLINE_S)
+    restart(loop)
+    loop.wait(lambda: "before this start" in ptu_alarms(loop), "the doubt of before", DEADLINE_S)
+    assert not ptu_is(loop, ok)
+    command = [BIN / "ols-ctl", STATION, "reference-ok"]
+    assert subprocess.run(command, capture_output=True, timeout=30, check=False).returncode == 0
+    loop.wait(lambda: ptu_is(loop, ok), "the PTU is trusted", DEADLINE_S)
+    restart(loop)
+    loop.wait(lambda: ptu_is(loop, ok), "the PTU is trusted still", DEADLINE_S)

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <string>
 
 #include "base/toml_config.h"
@@ -111,11 +112,25 @@ TEST_F(StationConfigFile, NamesWhatIsMissing) {
 
 TEST_F(StationConfigFile, RefusesKeysThatNobodyKnows) {
   const std::string good = kStart + "[pose]\nheading_deg = 10\n" + kPlace;
-  for (const char* section : {"gnss", "inclinometer", "gpio", "recorder", "clock", "watchdog",
-                              "pose.x", "logic", "lens", "chain"}) {
-    const std::string text = good + "[" + section + "]\nno_such_key = 1\n";
-    EXPECT_NE(error(text), "none") << section;
+  ASSERT_EQ(error(good), "none");
+  const std::map<std::string, std::string> sections{{"gnss", "host = \"127.0.0.1\""},
+                                                    {"inclinometer", "device = \"/dev/null\""},
+                                                    {"gpio", "chip = \"gpiochip0\""},
+                                                    {"recorder", "folder = \"/tmp\""},
+                                                    {"clock", ""},
+                                                    {"watchdog", ""},
+                                                    {"logic", ""},
+                                                    {"chain", ""}};
+  for (const auto& [section, needed] : sections) {
+    const std::string text = good + "[" + section + "]\n" + needed + "\n";
+    EXPECT_EQ(error(text), "none") << section;
+    const std::string words = error(text + "no_such_key = 1\n");
+    EXPECT_NE(words.find(section + ".no_such_key"), std::string::npos) << words;
   }
+  EXPECT_NE(error(good + "[no_such_section]\n").find("no_such_section"), std::string::npos);
+  std::string lens = good;
+  lens.insert(lens.find("fx_px"), "no_such_key = 1, ");
+  EXPECT_NE(error(lens).find("lens.no_such_key"), std::string::npos) << error(lens);
 }
 
 TEST_F(StationConfigFile, DescribesWhatIsConfigured) {

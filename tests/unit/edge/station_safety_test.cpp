@@ -311,6 +311,17 @@ TEST_F(StationSafetyTest, HomesWhereItMayAndOnlyThen) {
   EXPECT_FALSE(kept.take_home());
 }
 
+TEST_F(StationSafetyTest, AStopCallsOffAHoming) {
+  station_.set_reference(PtuReference::kTrusted);
+  ASSERT_EQ(station_.home(now_), Refusal::kNone);
+  station_.stop(now_);
+  EXPECT_FALSE(station_.take_home());
+  EXPECT_TRUE(station_.take_stop());
+  EXPECT_FALSE(station_.take_stop());
+  EXPECT_EQ(station_.home(now_), Refusal::kNone);  // who says it afterwards means it
+  EXPECT_TRUE(station_.take_home());
+}
+
 TEST_F(StationSafetyTest, APersonVouchesOnlyForWhatIsDoubted) {
   station_.set_reference(PtuReference::kTrusted);
   EXPECT_EQ(station_.reference_ok(now_), Refusal::kNoDoubt);

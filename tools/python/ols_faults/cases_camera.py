@@ -58,7 +58,7 @@ def camera_gone(session: Session, outcome: Outcome) -> None:
 
 @case(
     "camera-packet-loss",
-    "image packets lost for 10 s, no resend: about half of the frames are spoiled",
+    "1 image packet in 25 lost for 10 s, no resend: many frames are spoiled",
     "counted, reported, recovers",
 )
 def camera_packet_loss(session: Session, outcome: Outcome) -> None:

@@ -51,6 +51,13 @@ def reported_s(session: Session, station: str, since_us: int, before: object) ->
     return None
 
 
+def judge_since(session: Session, outcome: Outcome, station: str, since_us: int) -> None:
+    session.run(2.0)
+    window = since_us, session.now_us()
+    judge_motion(session, outcome, station, window)
+    judge_angles(session, outcome, station, window)
+
+
 def ridden_through(
     session: Session,
     outcome: Outcome,
@@ -95,10 +102,7 @@ def ptu_line_cut(session: Session, outcome: Outcome) -> None:
     outcome.at_most("line healed", healed, 5.0, "s")
     back_s = session.tracking_again_s(station, ended_us, 20.0)
     outcome.recovered("tracking again after the cut", back_s, 8.0)
-    session.run(2.0)
-    window = at_us, session.now_us()
-    judge_motion(session, outcome, station, window)
-    judge_angles(session, outcome, station, window)
+    judge_since(session, outcome, station, at_us)
 
 
 def unwell(session: Session, station: str, since_us: int) -> bool:
@@ -125,10 +129,7 @@ def ptu_line_gone(session: Session, outcome: Outcome) -> None:
     outcome.at_most("PTU at rest", rest, 1.0, "s")
     back_s = session.tracking_again_s(station, ended_us, 20.0)
     outcome.recovered("tracking again", back_s, 8.0)
-    session.run(1.0)
-    window = at_us, session.now_us()
-    judge_motion(session, outcome, station, window)
-    judge_angles(session, outcome, station, window)
+    judge_since(session, outcome, station, at_us)
 
 
 @case(
@@ -167,11 +168,17 @@ def power_cycle(session: Session, outcome: Outcome, station: str, homes: bool) -
     return at_us
 
 
-def judge_since(session: Session, outcome: Outcome, station: str, since_us: int) -> None:
+def home_and_back(session: Session, outcome: Outcome, station: str) -> int:
+    """The operator has it homed; returns when it was ready."""
+    session.command(station, HOME)
     session.run(2.0)
-    window = since_us, session.now_us()
-    judge_motion(session, outcome, station, window)
-    judge_angles(session, outcome, station, window)
+    homed_us = session.now_us()
+    healed = session.wait(lambda: not unwell(session, station, homed_us), HOMING_S)
+    outcome.at_most("ready after `home`", healed, HOMING_S, "s")
+    again_us = session.now_us()
+    back_s = session.tracking_again_s(station, again_us, 20.0)
+    outcome.recovered("tracking again, by slews, after it was homed", back_s, 10.0)
+    return again_us
 
 
 @case(
@@ -205,14 +212,7 @@ def ptu_power_cycle_unhomed(session: Session, outcome: Outcome) -> None:
     published = measure.between(session.heard.bearings.get(station, []), shortly_us, end_us)
     outcome.at_most("bearings while in doubt", float(len(published)), 0.0)
     outcome.holds("still reported", unwell(session, station, start_us))
-    session.command(station, HOME)
-    session.run(2.0)
-    homed_us = session.now_us()
-    healed = session.wait(lambda: not unwell(session, station, homed_us), HOMING_S)
-    outcome.at_most("ready after `home`", healed, HOMING_S, "s")
-    again_us = session.now_us()
-    back_s = session.tracking_again_s(station, again_us, 20.0)
-    outcome.recovered("tracking again, by slews, after it was homed", back_s, 10.0)
+    home_and_back(session, outcome, station)
     judge_since(session, outcome, station, at_us)
 
 
@@ -238,14 +238,7 @@ def ptu_lost_steps(session: Session, outcome: Outcome) -> None:
     start_us, end_us = session.run(4.0)
     error_m = measure.target_error_m(session.heard, start_us, end_us)
     outcome.at_most("error of the target", error_m, 2.0 * undisturbed_m, "m")
-    session.command(station, HOME)
-    session.run(2.0)
-    homed_us = session.now_us()
-    healed = session.wait(lambda: not unwell(session, station, homed_us), HOMING_S)
-    outcome.at_most("ready after `home`", healed, HOMING_S, "s")
-    again_us = session.now_us()
-    back_s = session.tracking_again_s(station, again_us, 20.0)
-    outcome.recovered("tracking again, by slews, after it was homed", back_s, 10.0)
+    again_us = home_and_back(session, outcome, station)
     judge_since(session, outcome, station, again_us)
     # Not the slip itself, which is as fast as it wants to be.
     judge_motion(session, outcome, station, (at_us + 500_000, session.now_us()))

@@ -178,6 +178,67 @@ TEST_F(Reference, NoHomingInAnEmergencyAndNoTrustInOneThatWasInterrupted) {
   EXPECT_EQ(loop_->driver.doubt(), PtuDoubt::kHomingInterrupted);
 }
 
+TEST_F(Reference, AStopBreaksOffAHoming) {
+  PtuConfig config = quick_driver(38400);
+  config.rehome = PtuRehome::kWhenUnreferenced;
+  make(false, config);
+  loop_->driver.home(loop_->time_s);
+  run(3.0);
+  ASSERT_EQ(loop_->driver.counters().homings, 1u);
+  ASSERT_TRUE(loop_->driver.homing());
+  loop_->sent.clear();
+  loop_->driver.stop_homing(loop_->time_s);
+  run(0.01);
+  EXPECT_EQ(loop_->sent.substr(0, 3), " H ");
+  run(10.0);
+  EXPECT_EQ(loop_->driver.doubt(), PtuDoubt::kHomingInterrupted);
+  EXPECT_EQ(loop_->driver.counters().homings, 1u);  // not again by itself
+  loop_->driver.home(loop_->time_s);
+  run(60.0);
+  EXPECT_EQ(loop_->driver.state(), PtuState::kReady) << loop_->driver.last_error();
+}
+
+TEST_F(Reference, AStopCallsOffAHomingThatWaitsForTheUnitToStand) {
+  make(false);
+  run(1.0, [&] { loop_->driver.set_goal(loop_->goal({radians(120.0), 0.0})); });
+  loop_->driver.home(loop_->time_s);
+  loop_->driver.stop_homing(loop_->time_s);
+  run(10.0);
+  EXPECT_EQ(loop_->driver.counters().homings, 0u);
+  EXPECT_EQ(loop_->driver.state(), PtuState::kReady) << loop_->driver.last_error();
+  loop_->sent.clear();
+  loop_->driver.stop_homing(loop_->time_s);  // nothing homes: nothing is disturbed
+  run(0.5);
+  EXPECT_EQ(loop_->sent.find("H "), std::string::npos);
+}
+
+TEST_F(Reference, HomesByItselfOnlyWhenItMay) {
+  PtuConfig config = quick_driver(38400);
+  config.rehome = PtuRehome::kWhenUnreferenced;
+  make(false, config);
+  loop_->driver.allow_rehoming(false);  // an operator has stopped the station
+  loop_->driver.receive("!P", loop_->time_s);
+  run(10.0);
+  EXPECT_EQ(loop_->driver.doubt(), PtuDoubt::kLimitHit);
+  EXPECT_EQ(loop_->driver.counters().homings, 0u);
+  loop_->driver.allow_rehoming(true);
+  run(60.0);
+  EXPECT_EQ(loop_->driver.counters().homings, 1u);
+  EXPECT_EQ(loop_->driver.state(), PtuState::kReady) << loop_->driver.last_error();
+}
+
+TEST(DoubtOfBefore, OutlivesTheStartUntilThePersonVouches) {
+  ClosedLoop loop(quick_driver(), quick_unit());
+  loop.driver.doubt_reference();
+  loop.run(8.0);
+  EXPECT_EQ(loop.driver.state(), PtuState::kFault);
+  EXPECT_EQ(loop.driver.reference(), PtuReference::kDoubted);
+  EXPECT_NE(loop.driver.last_error().find("before this start"), std::string::npos);
+  EXPECT_TRUE(loop.driver.take_samples().empty());
+  loop.driver.reference_ok();
+  EXPECT_EQ(loop.driver.state(), PtuState::kReady);
+}
+
 // Never "starting" again between two attempts.
 TEST_F(Reference, ADeadLineIsAFaultAllTheTime) {
   make(false);
