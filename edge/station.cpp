@@ -104,7 +104,9 @@ void Station::track(const Frame& frame) {
   tracked_s_ = frame.mid_exposure_s;
   last_output_ = result.output;
   counters_["frames_tracked"] += 1;
-  judge(*result.output, frame.mid_exposure_s);
+  const bool there = state_ != StationState::kSlewed || is_where_slewed(frame, *result.output);
+  if (!there) counters_["frames_elsewhere"] += 1;
+  judge(there && result.output->belief >= config_.tracking_belief, frame.mid_exposure_s);
   if (state_ == StationState::kTracking && result.output->belief >= config_.tracking_belief) {
     waiting_.push_back({std::max(now_s_, frame.mid_exposure_s), frame.mid_exposure_s,
                         frame.stamp_sd_s, frame.stamp_source, *result.output, track_id_,
@@ -115,8 +117,7 @@ void Station::track(const Frame& frame) {
 
 // Belief decides: one believed frame ends coasting (the tracker was still near), several in a row
 // end a search.
-void Station::judge(const TrackerOutput& output, double time_s) {
-  const bool believed = output.belief >= config_.tracking_belief;
+void Station::judge(bool believed, double time_s) {
   believed_in_a_row_ = believed ? believed_in_a_row_ + 1 : 0;
   if (believed) believed_s_ = time_s;
   switch (state_) {

@@ -113,7 +113,7 @@ class Station {
   const Frame* remembered(const std::optional<double>& time_s) const;
   TrackerInput tracker_input(const Frame& frame) const;
   void track(const Frame& frame);
-  void judge(const TrackerOutput& output, double time_s);
+  void judge(bool believed, double time_s);
   std::optional<Bearing> bearing(const Measured& measured);
   bool worth_sending(const Bearing& bearing);
   void follow(const Bearing& bearing, const PixelSight& pixel);
@@ -123,6 +123,7 @@ class Station {
     PanTilt angles;
   };
   std::optional<Expected> expected(const Frame& frame) const;
+  bool is_where_slewed(const Frame& frame, const TrackerOutput& output) const;
   double search_sd_px() const;
   void acquire(const Frame& frame);
   void take(const Frame& frame, const cv::Rect2d& box);

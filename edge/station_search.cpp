@@ -42,6 +42,13 @@ double Station::search_sd_px() const {
                     camera.width_px / 4.0);
 }
 
+// What looks like the target elsewhere is not the one that the others see there.
+bool Station::is_where_slewed(const Frame& frame, const TrackerOutput& output) const {
+  constexpr double kSigmas = 4.0;
+  const auto where = expected(frame);
+  return where && (output.pixel - where->pixel).norm() <= kSigmas * search_sd_px();
+}
+
 void Station::search_along_slew() {
   if (frames_.empty()) return;
   const auto where = expected(frames_.back());

@@ -1,9 +1,10 @@
 #include "tools/logger/logger_config.h"
 
-#include <regex.h>
+#include <glib.h>
 
 #include <algorithm>
 #include <cctype>
+#include <memory>
 
 #include "base/lcm_url.h"
 #include "base/toml_config.h"
@@ -22,12 +23,18 @@ void check_name(ConfigTable& table, const std::string& name) {
   if (!good) throw table.error("name", "may have 40 letters, digits, - and _");
 }
 
+// By the library with which LCM itself will read it.
 void check_channels(ConfigTable& table, const std::string& channels) {
-  regex_t compiled;
-  if (::regcomp(&compiled, channels.c_str(), REG_EXTENDED | REG_NOSUB) != 0) {
-    throw table.error("channels", "is no regular expression");
-  }
-  ::regfree(&compiled);
+  struct Unref {
+    void operator()(GRegex* regex) const { g_regex_unref(regex); }
+    void operator()(GError* error) const { g_error_free(error); }
+  };
+  GError* failure = nullptr;
+  const std::unique_ptr<GRegex, Unref> regex(
+      g_regex_new(channels.c_str(), GRegexCompileFlags{}, GRegexMatchFlags{}, &failure));
+  const std::unique_ptr<GError, Unref> error(failure);
+  if (!regex)
+    throw table.error("channels", std::string("is no regular expression: ") + error->message);
 }
 
 LoggerConfig read(ConfigFile& file) {

@@ -149,9 +149,32 @@ TEST_F(StationTest, ALostStationIsSlewedBackOntoTheTarget) {
   EXPECT_NEAR(script_.searched_pixel.x(), 639.5 + std::tan(radians(0.5)) / 75e-6, 2.0);
   EXPECT_NEAR(script_.searched_pixel.y(), 479.5 - std::tan(radians(0.4)) / 75e-6, 2.0);
   script_.belief = 0.9;
+  script_.pixel = script_.searched_pixel;
   run_until(now_ + 0.1);
   EXPECT_EQ(station_.state(), StationState::kSlewed) << "one believed frame is not enough";
   run_until(now_ + 0.2);
+  EXPECT_EQ(station_.state(), StationState::kTracking);
+}
+
+TEST_F(StationTest, ASlewedStationBelievesOnlyWhatIsWhereTheSlewSays) {
+  designated();
+  script_.belief = 0.1;
+  run_until(now_ + 1.5);
+  ASSERT_EQ(station_.state(), StationState::kLost);
+  bearings_.clear();
+  script_.belief = 0.99;
+  script_.pixel = {439.5, 479.5};  // 200 px beside
+  for (int i = 0; i < 8; ++i) {
+    ASSERT_EQ(station_.slew(slew(30.0), now_), Refusal::kNone);
+    run_until(now_ + 0.25);
+    EXPECT_EQ(station_.state(), StationState::kSlewed);
+  }
+  EXPECT_TRUE(bearings_.empty());
+  EXPECT_GE(script_.searches, 3);  // again and again
+  EXPECT_GT(station_.snapshot().counters.at("frames_elsewhere"), 10.0);
+  script_.pixel = {619.5, 489.5};
+  ASSERT_EQ(station_.slew(slew(30.0), now_), Refusal::kNone);
+  run_until(now_ + 0.45);
   EXPECT_EQ(station_.state(), StationState::kTracking);
 }
 

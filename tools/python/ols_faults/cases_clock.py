@@ -5,17 +5,15 @@ from typing import Any
 
 import numpy as np
 import ols_msg
-from ols_demo import evaluate
 from ols_demo.evaluate import JOINT
 
-from ols_faults import measure
 from ols_faults.case import Outcome, case
+from ols_faults.judges import judge_target
 from ols_faults.session import Session
 
 MARKED_S = 3.0
 QUARANTINED_S = 3.0
 STEPPED_S = 15.0
-HONEST = 2.0
 RETURN_S = 20.0  # it is distrusted for a while: see configuration.py
 
 
@@ -66,10 +64,10 @@ def clock_stepped(session: Session, outcome: Outcome, step_s: float) -> None:
     clock = SteppedClock(session, station)
     try:
         session.restore()
-        calm = session.run(8.0)
+        session.run(8.0)
         at_us = clock.set(step_s)
         window = session.run(STEPPED_S)
-        judge_step(session, outcome, station, others, calm, (at_us, window[1]), step_s)
+        judge_step(session, outcome, station, others, (at_us, window[1]), step_s)
         back_us = clock.set(0.0)
         came = session.wait(lambda: station in used(newest_target(session)), RETURN_S)
         back_s = (session.now_us() - back_us) * 1e-6 if came is not None else None
@@ -87,7 +85,6 @@ def judge_step(
     outcome: Outcome,
     station: str,
     others: set[str],
-    calm: tuple[int, int],
     window: tuple[int, int],
     step_s: float,
 ) -> None:
@@ -107,11 +104,7 @@ def judge_step(
     outcome.at_most("of them with this station", with_it, 0)
     lacking = sum(not others <= used(target) for target in later)
     outcome.at_most("share of them that lack another", lacking / max(1, len(later)), 0.1)
-    # Three stations are less than four, and elsewhere: what they publish of their own error counts.
-    found = evaluate.accuracy(session.heard, JOINT, window)
-    outcome.at_most("RMS error over predicted", found.get("rmse_over_predicted"), HONEST)
-    usual = measure.target_error_m(session.heard, *calm)
-    outcome.at_most(f"RMS error (before: {usual or 0:.3f} m)", found["rmse_m"], 1.0, "m")
+    judge_target(session, outcome, window)
 
 
 @case(

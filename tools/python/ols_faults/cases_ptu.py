@@ -5,7 +5,7 @@ from ols_demo.bus import counters
 
 from ols_faults import measure
 from ols_faults.case import Outcome, case
-from ols_faults.judges import judge_angles, judge_motion
+from ols_faults.judges import judge_angles, judge_motion, judge_target
 from ols_faults.session import Session
 
 OK = 2  # station_status_t.DEVICE_OK
@@ -228,16 +228,12 @@ def rays_set_aside(session: Session) -> float:
 def ptu_lost_steps(session: Session, outcome: Outcome) -> None:
     """No unit tells of it, and so no station can: the others show it."""
     station = session.stations[3]
-    start_us, end_us = session.run(4.0)
-    undisturbed_m = measure.target_error_m(session.heard, start_us, end_us)
     aside = rays_set_aside(session)
     at_us = session.fault("ptu-lost-steps", station, 1e6, SLIP_DEG)
     seen = session.wait(lambda: rays_set_aside(session) > aside, 5.0)
     outcome.at_most("rays set aside by the fusion", seen, 5.0, "s")
     session.run(1.5)  # until its filter has followed
-    start_us, end_us = session.run(4.0)
-    error_m = measure.target_error_m(session.heard, start_us, end_us)
-    outcome.at_most("error of the target", error_m, 2.0 * undisturbed_m, "m")
+    judge_target(session, outcome, session.run(4.0))
     again_us = home_and_back(session, outcome, station)
     judge_since(session, outcome, station, again_us)
     # Not the slip itself, which is as fast as it wants to be.

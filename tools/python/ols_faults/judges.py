@@ -1,6 +1,7 @@
 """What several cases judge in the same way."""
 
 import numpy as np
+from ols_demo import evaluate
 
 from ols_faults import measure
 from ols_faults.case import Outcome
@@ -8,6 +9,7 @@ from ols_faults.session import Session
 
 SPEED_LIMIT_DEG_S = 57.5  # ServoConfig::max_speed_rad_s
 SIGMAS = 3.0
+HONEST = 2.0  # RMS error of a few seconds over what the covariances say
 
 
 def judge_angles(session: Session, outcome: Outcome, station: str, window: tuple[int, int]) -> None:
@@ -28,3 +30,10 @@ def judge_angles(session: Session, outcome: Outcome, station: str, window: tuple
 def judge_motion(session: Session, outcome: Outcome, station: str, window: tuple[int, int]) -> None:
     fastest = measure.fastest_deg_s(session.heard, station, *window)
     outcome.at_most("fastest motion", fastest, SPEED_LIMIT_DEG_S, "deg/s")
+
+
+def judge_target(session: Session, outcome: Outcome, window: tuple[int, int]) -> None:
+    """Fewer stations are less exact: what they publish of their own error counts."""
+    found = evaluate.accuracy(session.heard, evaluate.JOINT, window)
+    outcome.at_most("RMS error over predicted", found.get("rmse_over_predicted"), HONEST)
+    outcome.at_most("RMS error", found["rmse_m"], 1.0, "m")
