@@ -1,4 +1,5 @@
-// A file that appears whole or not at all: written beside its place, then renamed.
+// A file that appears whole or not at all, also when the power goes: written beside its place, then
+// renamed.
 #pragma once
 
 #include <fstream>

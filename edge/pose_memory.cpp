@@ -1,20 +1,14 @@
 #include "edge/pose_memory.h"
 
 #include <cerrno>
-#include <condition_variable>
 #include <exception>
 #include <fstream>
 #include <iterator>
-#include <mutex>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <thread>
 #include <utility>
 #include <variant>
-
-#include "base/atomic_file.h"
 
 namespace ols {
 namespace {
@@ -33,69 +27,29 @@ RememberedPose read(const std::string& file) {
   return std::get<RememberedPose>(found);
 }
 
-void write(const std::string& file, const RememberedPose& pose) {
-  AtomicFile out(file);
-  out.stream() << to_text(pose);
-  out.commit();
-}
-
 }  // namespace
 
-struct PoseMemory::Shared {
-  void run(const std::string& file) {
-    std::unique_lock lock(mutex);
-    for (;;) {
-      wake.wait(lock, [this] { return end || waiting; });
-      if (!waiting) return;
-      const RememberedPose pose = *std::exchange(waiting, std::nullopt);
-      lock.unlock();
-      std::string failed;
-      try {
-        write(file, pose);
-      } catch (const std::exception& failure) {
-        failed = std::string("not kept, ") + failure.what();
-      }
-      lock.lock();
-      trouble = failed;
-    }
-  }
-
-  std::mutex mutex;  // of everything below
-  std::condition_variable wake;
-  bool end = false;
-  std::optional<RememberedPose> waiting;
-  std::string trouble;
-};
-
-PoseMemory::PoseMemory(const std::string& file) : shared_(std::make_shared<Shared>()) {
+PoseMemory::PoseMemory(const std::string& file) : file_(file) {
   if (file.empty()) return;
   try {
     found_ = read(file);
   } catch (const std::exception& failure) {
-    shared_->trouble = "the kept one is refused, " + file + ": " + failure.what();
+    refused_ = "the kept one is refused, " + file + ": " + failure.what();
   }
-  // Detached: who waits for a disk that hangs would never end.
-  std::thread([shared = shared_, file] { shared->run(file); }).detach();
-}
-
-PoseMemory::~PoseMemory() {
-  const std::lock_guard lock(shared_->mutex);
-  shared_->end = true;
-  shared_->wake.notify_all();
 }
 
 void PoseMemory::keep(RememberedPose pose) {
   if (!pose.position && !pose.tilt) return;
   if (!pose.position) pose.position = found_.position;
   if (!pose.tilt) pose.tilt = found_.tilt;
-  const std::lock_guard lock(shared_->mutex);
-  shared_->waiting = pose;
-  shared_->wake.notify_all();
+  refused_.clear();
+  file_.write(to_text(pose));
 }
 
 std::string PoseMemory::trouble() const {
-  const std::lock_guard lock(shared_->mutex);
-  return shared_->trouble;
+  if (!refused_.empty()) return refused_;
+  const std::string failed = file_.trouble();
+  return failed.empty() ? "" : "not kept, " + failed;
 }
 
 }  // namespace ols

@@ -104,6 +104,8 @@ Refusal Station::point(const PointCommand& command, double now_s) {
   now_s_ = std::max(now_s_, now_s);
   if (state_ == StationState::kEmergency) return count(Refusal::kEmergency, "point");
   if (!finite(command.angles)) return count(Refusal::kNotFinite, "point");
+  // It would go there whenever it comes, when nobody expects it any more.
+  if (reference_ == PtuReference::kUnknown) return count(Refusal::kNoUnit, "point");
   if (without_reference()) return count(Refusal::kNoReference, "point");
   PanTilt angles = command.angles;
   const auto newest = history_.newest();
@@ -162,6 +164,7 @@ bool Station::without_reference() const {
 void Station::set_reference(PtuReference reference) {
   const bool had = !without_reference();
   reference_ = reference;
+  if (reference == PtuReference::kUnknown) point_.reset();
   if (had && without_reference()) forget_angles();
 }
 

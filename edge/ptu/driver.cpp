@@ -57,9 +57,9 @@ bool PtuDriver::in_emergency() const { return impl_->emergency; }
 void PtuDriver::home(double time_s) { impl_->want_home(time_s); }
 
 void PtuDriver::stop_homing(double time_s) {
-  if (!impl_->homing) return;
+  const bool under_way = impl_->phase == Impl::Phase::kHoming;
   impl_->give_up_homing(time_s);
-  impl_->urgent = halt_request();
+  if (under_way) impl_->urgent = halt_request();
 }
 
 void PtuDriver::allow_rehoming(bool allowed) { impl_->rehoming_allowed = allowed; }
@@ -72,8 +72,8 @@ void PtuDriver::reference_ok() {
 
 void PtuDriver::restart(double time_s) {
   if (impl_->start) ++impl_->counters.restarts;
-  impl_->home_wanted = impl_->homing = false;  // a port may come back days later
   impl_->begin(time_s);
+  impl_->home_wanted = impl_->homing = false;  // a port may come back days later
 }
 
 bool PtuDriver::take_link_loss() { return std::exchange(impl_->link_lost, false); }

@@ -48,6 +48,9 @@ struct PtuConfig {
   double environment_interval_s = 5.0;  // supply voltage and temperatures; 0: never
   double supply_min_V = 11.5;           // an alarm below
   PtuRehome rehome = PtuRehome::kNever;
+  // The unit's own setting, as it leaves the factory: one that was switched on just before it is
+  // first spoken to answers when it has homed, and is believed.
+  bool homes_at_power_up = true;
   bool home_despite_keep_out = false;                  // on command
   char step_mode = 0, hold_power = 0, move_power = 0;  // PtuStartOptions
   PtuLimits limits;                                    // narrowed by what the unit reports
@@ -98,7 +101,8 @@ class PtuDriver {
   // Halts the unit, waits until it stands and has it home: R sweeps the whole travel. Not in an
   // emergency, and given up when the unit does not answer.
   void home(double time_s);
-  // Halts a unit that homes and gives up what was wanted; nothing while it does not home.
+  // Sends a halt to a unit that homes, which it may heed or not, and gives up what was wanted;
+  // nothing while it does not home.
   void stop_homing(double time_s);
   // Whether PtuRehome::kWhenUnreferenced is heeded now; it is at first. home() always is.
   void allow_rehoming(bool allowed);

@@ -26,7 +26,7 @@ struct PtuDriver::Impl {
   static constexpr double kFirstPause_s = 0.25;  // after a fault; doubles
   static constexpr double kLongestPause_s =
       1.0;  // with the other rate tried in between, healed in 4 s
-  static constexpr double kLongestHoming_s = 90.0;
+  static constexpr double kShortestHoming_s = 2.0, kLongestHoming_s = 90.0;
   static constexpr int kRetries = 2;  // of a question of the start that was not answered
 
   enum class Phase { kFlush, kStart, kHoming, kReady, kPause };
@@ -42,6 +42,7 @@ struct PtuDriver::Impl {
   // --- the way to ready -----------------------------------------------------------------------
   void begin(double time_s) {
     end_line(time_s);
+    leave_homing();
     listening.reset();
     steady.reset();
     goal.reset();
@@ -76,6 +77,7 @@ struct PtuDriver::Impl {
     steady.reset();
     goal.reset();
     failed = true;
+    leave_homing();
     home_wanted = homing = false;
     phase = Phase::kPause;
     paused_s = time_s;
@@ -147,7 +149,8 @@ struct PtuDriver::Impl {
     outstanding = false;
     // Whoever was switched on has another rate than it was left with, or echoes again.
     const bool forgot = baud != config.baud || reply.echoed;
-    if (!answered && was_ready && forgot) note_power_cycle();
+    const bool trusted = was_ready ? false : config.homes_at_power_up;
+    if (!answered && forgot && !trusted) note_power_cycle();
     answered = true;
     reference.rate_is(baud);
     if (!reply.ok) ++counters.errors;
@@ -220,25 +223,39 @@ struct PtuDriver::Impl {
     home_wanted = homing = true;
   }
 
-  // Halted in the middle of it, a unit does not know where it is.
   void give_up_homing(double time_s) {
     home_wanted = homing = false;
-    if (phase != Phase::kHoming) return;
-    reference.homing_interrupted();
-    begin(time_s);
+    if (phase == Phase::kHoming) begin(time_s);
+  }
+
+  // Whoever leaves it before it is over has a unit that nobody knows where it is.
+  void leave_homing() {
+    if (phase == Phase::kHoming && outstanding) reference.homing_interrupted();
   }
 
   std::string step_homing(double time_s) {
     if (!outstanding) {
       outstanding = true;
       sent_s = time_s;
+      reference.homing_ordered();
       return " R ";
     }
-    if (time_s - sent_s > kLongestHoming_s) {
-      fault(time_s, "homing does not end");
-      reference.homing_interrupted();
-    }
+    if (time_s - sent_s > kLongestHoming_s) fault(time_s, "homing does not end");
     return {};
+  }
+
+  // Its `*` comes behind the limit hits. What comes at once is late and of something else; one
+  // that comes without them proves nothing.
+  void take_homing_reply(const PtuReply& reply, double time_s) {
+    if (!outstanding) return;
+    const bool both = reference.saw_both_ends();
+    if (!reply.ok) return fault(time_s, "homing refused: " + reply.text);
+    if (!both && time_s - sent_s < kShortestHoming_s) return;
+    if (both) {
+      reference.homing_over();
+      outstanding = false;
+    }
+    begin(time_s);
   }
 
   // --- ready ------------------------------------------------------------------------------------
@@ -311,7 +328,7 @@ struct PtuDriver::Impl {
     if (phase == Phase::kStart) {
       take_start_reply(reply, time_s);
     } else if (phase == Phase::kHoming) {
-      if (outstanding) begin(time_s);
+      take_homing_reply(reply, time_s);
     } else if (phase == Phase::kReady) {
       steady->take(reply, time_s, late_s);
     }

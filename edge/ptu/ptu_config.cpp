@@ -67,6 +67,7 @@ void read_modes(ConfigTable& table, PtuConfig& config) {
   config.move_power = letter(table, "move_power", {{"high", 'H'}, {"regular", 'R'}, {"low", 'L'}});
   const std::string rehome = table.choice("rehome", "never", {"never", "when-unreferenced"});
   config.rehome = rehome == "never" ? PtuRehome::kNever : PtuRehome::kWhenUnreferenced;
+  config.homes_at_power_up = table.boolean("homes_at_power_up", config.homes_at_power_up);
   config.home_despite_keep_out =
       table.boolean("home_despite_keep_out", config.home_despite_keep_out);
   if (config.rehome != PtuRehome::kNever && !config.limits.keep_out.empty()) {

@@ -11,6 +11,7 @@
 //   pan_max_deg = 159
 //   tilt_min_deg = -47
 //   tilt_max_deg = 31
+//   homes_at_power_up = true     # the unit's own setting
 //   rehome = "never"             # or "when-unreferenced": homing sweeps the whole travel
 //   home_despite_keep_out = false  # an operator may home a unit that has regions to keep out of
 //   step_mode = "keep"           # E-series: half, quarter, eighth, auto

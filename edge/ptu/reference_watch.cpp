@@ -55,21 +55,31 @@ std::optional<int> ReferenceWatch::homes_at(double time_s) const {
   return std::nullopt;
 }
 
-void ReferenceWatch::homing_interrupted() {
-  doubt_ = PtuDoubt::kHomingInterrupted;
+void ReferenceWatch::homing_ordered() {
   heard_.clear();
   ends_ = {};
+  over_ = false;
+}
+
+bool ReferenceWatch::saw_both_ends() const {
+  PtuLimitHits hits = ends_;
+  for (const auto& [baud, heard] : heard_) hits += heard.hits;
+  return hits.pan > 0 && hits.tilt > 0;
+}
+
+void ReferenceWatch::homing_interrupted() {
+  homing_ordered();
+  doubt_ = PtuDoubt::kHomingInterrupted;
 }
 
 void ReferenceWatch::ready() {
   const bool homed = ends_.pan > 0 && ends_.tilt > 0;
-  if (homed) {
+  if (homed && (over_ || doubt_ != PtuDoubt::kHomingInterrupted)) {
     doubt_ = PtuDoubt::kNone;
   } else if (was_ready_ && ends_.any() && doubt_ == PtuDoubt::kNone) {
     doubt_ = PtuDoubt::kLimitHit;
   }
-  ends_ = {};
-  heard_.clear();
+  homing_ordered();
   was_ready_ = true;
 }
 

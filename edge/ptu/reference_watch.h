@@ -33,6 +33,11 @@ class ReferenceWatch {
   std::optional<int> homes_at(double time_s) const;
 
   void power_cycled() { doubt_ = PtuDoubt::kPowerCycle; }
+  // A homing of our own: it was asked for, the unit said that it is over, or it was left before.
+  // After one that was broken off only a whole one of our own is believed: some units go on.
+  void homing_ordered();
+  bool saw_both_ends() const;  // since then
+  void homing_over() { over_ = true; }
   void homing_interrupted();
   void doubted_before() { doubt_ = PtuDoubt::kBefore; }  // when the process before this one ended
   // It can be driven again. The first time it is believed: whoever set the station up saw to it.
@@ -49,6 +54,7 @@ class ReferenceWatch {
   PtuDoubt doubt_ = PtuDoubt::kNone;
   std::map<int, Heard> heard_;  // by rate of the line
   PtuLimitHits ends_;           // since it was ready, for certain
+  bool over_ = false;
   bool was_ready_ = false;
 };
 

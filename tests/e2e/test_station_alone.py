@@ -102,20 +102,22 @@ def test_designation_without_a_frame_is_refused(station):
     refused(station, "refused_no_frame", "OLS_DESIGNATE_lone", message.encode())
 
 
+def release(station):
+    message = point("lone", time.time_ns(), 0.0)
+    message.command = ols_msg.ptu_command_t.COMMAND_RELEASE
+    station.publish("OLS_PTU_lone", message.encode())
+    station.wait(lambda: station.observer.state("lone") == "idle", "idle")
+
+
 def test_a_stop_needs_neither_age_nor_order(station):
     for sequence, shift_us in ((1, 0), (1, 0), (0, -60_000_000), (0, 60_000_000)):
-        move = point("lone", time.time_ns(), 0.1)
-        station.publish("OLS_PTU_lone", move.encode())
-        station.wait(lambda: station.observer.state("lone") == "manual", "manual")
+        release(station)
         stop = point("lone", sequence, 0.0)
         stop.command = ols_msg.ptu_command_t.COMMAND_STOP
         stop.utime += shift_us
         station.publish("OLS_PTU_lone", stop.encode())
         station.wait(lambda: station.observer.state("lone") == "stopped", "stopped")
-    release = point("lone", time.time_ns(), 0.0)
-    release.command = ols_msg.ptu_command_t.COMMAND_RELEASE
-    station.publish("OLS_PTU_lone", release.encode())
-    station.wait(lambda: station.observer.state("lone") == "idle", "idle")
+    release(station)
 
 
 def ctl(*arguments: str) -> subprocess.CompletedProcess:
@@ -128,11 +130,9 @@ def test_the_operators_hand(station):
     shown = ctl("lone", "status")
     assert shown.returncode == 0, shown.stderr
     assert "lone" in shown.stdout and "idle" in shown.stdout and "absent" in shown.stdout
-    assert ctl("lone", "manual", "10", "5").stdout == "lone: done\n"
-    station.wait(lambda: station.observer.state("lone") == "manual", "manual")
-    refused_move = ctl("lone", "manual", "0", "80")
+    refused_move = ctl("lone", "manual", "10", "5")
     assert refused_move.returncode == 1
-    assert "unreachable" in refused_move.stdout
+    assert "no_unit" in refused_move.stdout
     assert ctl("all", "stop").stdout == "lone: done\n"
     station.wait(lambda: station.observer.state("lone") == "stopped", "stopped")
     assert ctl("lone", "release").returncode == 0
@@ -141,6 +141,9 @@ def test_the_operators_hand(station):
 
 def test_ctl_says_when_nobody_answers(station):
     nobody = ctl("nobody", "stop")
+    assert nobody.returncode == 1
+    assert nobody.stdout == "nobody: sent again and again, no answer\n"
+    nobody = ctl("nobody", "release")
     assert nobody.returncode == 1
     assert "no status of nobody" in nobody.stderr
 

@@ -180,8 +180,8 @@ def test_what_came_during_a_standstill_is_not_done(station):
 def test_the_emergency_stop_holds_until_released_and_rearmed(station):
     status = ols_msg.station_status_t
     station.command(ols_msg.ptu_command_t.COMMAND_RELEASE)
-    station.publish("OLS_PTU_tool", point("tool", time.time_ns(), 0.3).encode())
-    station.wait_for_state(status.STATE_MANUAL)
+    station.command(ols_msg.ptu_command_t.COMMAND_STOP)
+    station.wait_for_state(status.STATE_STOPPED)
     station.switch.press(True)
     station.wait_for_state(status.STATE_EMERGENCY)
     assert "emergency stop: pressed" in station.alarms()

@@ -1,5 +1,6 @@
 // The PTU's driver at work, on a line that answers anything at all, and on one that damages what a
-// real dialogue says: the unit stays within the limits, samples are finite. Some hundred steps an
+// real dialogue says, with an operator who homes, stops and vouches in between: the unit stays
+// within the limits, samples are finite, and what is in doubt gives none. Some hundred steps an
 // input: slower than the other fuzzers.
 #include <cmath>
 
@@ -9,11 +10,41 @@
 
 namespace {
 
-void check(const std::vector<ols::AngleSample>& samples) {
+void check(ols::PtuDriver& driver) {
+  const auto samples = driver.take_samples();
+  const bool trusted = driver.reference() == ols::PtuReference::kTrusted;
+  ols::fuzz::require(samples.empty() || trusted, "only a trusted unit has angles");
+  ols::fuzz::require(!trusted || !driver.in_doubt(), "who is trusted is not in doubt");
   for (const auto& sample : samples) {
     ols::fuzz::require(std::isfinite(sample.angles.pan_rad) &&
                            std::isfinite(sample.angles.tilt_rad) && sample.time_sd_s >= 0.0,
                        "samples are finite");
+  }
+}
+
+// What a person or the station may do at any moment; most bytes do nothing.
+void interfere(ols::PtuDriver& driver, std::uint8_t what, double now_s) {
+  switch (what) {
+    case 1:
+      return driver.home(now_s);
+    case 2:
+      return driver.stop_homing(now_s);
+    case 3:
+      static_cast<void>(driver.emergency_halt(now_s));
+      return;
+    case 4:
+      return driver.clear_emergency();
+    case 5:
+      return driver.doubt_reference();
+    case 6:
+      return driver.reference_ok();
+    case 7:
+      return driver.restart(now_s);
+    case 8:
+    case 9:
+      return driver.allow_rehoming(what == 8);
+    default:
+      return;
   }
 }
 
@@ -24,9 +55,12 @@ ols::PtuConfig config() {
   return made;
 }
 
-// A line on which each request is answered by the next piece of the input; pieces end at a zero.
+// A line on which each request is answered by the next piece of the input; pieces end at a zero,
+// and begin with what else happens.
 void drive(std::string_view rest) {
-  ols::PtuDriver driver(config());
+  ols::PtuConfig wanted = config();
+  wanted.rehome = ols::PtuRehome::kWhenUnreferenced;
+  ols::PtuDriver driver(wanted);
   driver.restart(0.0);
   double now_s = 0.0;
   for (int step = 0; step < 400 && !rest.empty(); ++step) {
@@ -36,9 +70,11 @@ void drive(std::string_view rest) {
     ols::fuzz::require(request.size() < 512, "requests are short");
     if (request.empty() && step % 8 != 7) continue;
     const auto end = rest.find('\0');
-    driver.receive(rest.substr(0, end), now_s + 0.005);
+    const std::string_view piece = rest.substr(0, end);
+    driver.receive(piece, now_s + 0.005);
+    if (!piece.empty()) interfere(driver, static_cast<std::uint8_t>(piece.front()), now_s + 0.006);
     rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
-    check(driver.take_samples());
+    check(driver);
   }
 }
 
@@ -97,7 +133,7 @@ void dialogue(ols::fuzz::Input input) {
       unit.receive(request, now_s);
     }
     driver.receive(line.through(unit.transmit(now_s + 0.005)), now_s + 0.005);
-    check(driver.take_samples());
+    check(driver);
   }
   const double pan_rad = unit.angles_at(1.4).pan_rad;
   ols::fuzz::require(std::abs(pan_rad) < 0.51, "the unit never leaves the configured limits");

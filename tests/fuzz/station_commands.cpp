@@ -44,6 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size > 4096) return 0;
   static const ols::StationSettings kSettings = settings();
   ols::Station station(kSettings.station, std::make_unique<NoTracker>());
+  station.set_reference(ols::PtuReference::kTrusted);
   station.on_angles({kNow_s - 0.02, 1e-4, {0.0, 0.0}, {}});
   ols::StationBus bus(kSettings, 1, station,
                       [](const ols::RecordCommand&) { return std::string(); });

@@ -28,15 +28,28 @@ int send_to_each(ols::Operator& hand, const std::vector<std::string>& ids, const
   return result;
 }
 
+int no_status(const std::string& station, const std::string& url) {
+  std::fprintf(stderr, "ols-ctl: no status of %s on %s\n",
+               station == "all" ? "any station" : station.c_str(), url.c_str());
+  return kExitRefused;
+}
+
+int stop(const std::string& url, const std::string& station) {
+  const auto stopped = ols::Operator(url, station).stop(kPatience_s);
+  if (stopped.empty()) return no_status(station, url);
+  int result = 0;
+  for (const auto& [id, said] : stopped) {
+    std::printf("%s: %s\n", id.c_str(), said ? "done" : "sent again and again, no answer");
+    if (!said) result = kExitRefused;
+  }
+  return result;
+}
+
 int run(const std::string& url, const std::string& station, const std::optional<Send>& send,
         bool full) {
   ols::Operator hand(url, station);
   const auto& statuses = hand.listen(kPatience_s);
-  if (statuses.empty()) {
-    std::fprintf(stderr, "ols-ctl: no status of %s on %s\n",
-                 station == "all" ? "any station" : station.c_str(), url.c_str());
-    return kExitRefused;
-  }
+  if (statuses.empty()) return no_status(station, url);
   if (send) {
     std::vector<std::string> ids;  // of now: the hand goes on listening while it sends
     for (const auto& [id, status] : statuses) ids.push_back(id);
@@ -58,7 +71,8 @@ struct Words {
   double before_s = 0.0, after_s = 0.0;
   std::string label;
   bool full = false;
-  std::optional<Send> send;  // nothing: status
+  bool stop = false;
+  std::optional<Send> send;  // nothing: stop or status
 };
 
 void add_ptu_commands(CLI::App& app, Words& words) {
@@ -78,7 +92,8 @@ void add_ptu_commands(CLI::App& app, Words& words) {
       };
     });
   };
-  simple("stop", "Halt the PTU, and stay stopped until told otherwise", &ols::Operator::stop);
+  app.add_subcommand("stop", "Halt the PTU, and stay stopped until told otherwise")
+      ->callback([&words] { words.stop = true; });
   simple("release", "Give the PTU back to automatic control", &ols::Operator::release);
   simple("rearm", "After an emergency stop that is released: leave the emergency, stopped",
          &ols::Operator::rearm);
@@ -129,6 +144,7 @@ int main(int argc, char** argv) {
   add_other_commands(app, words);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-ctl")) return *status;
   try {
+    if (words.stop) return stop(words.url, words.station);
     return run(words.url, words.station, words.send, words.full);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "ols-ctl: %s\n", error.what());

@@ -140,25 +140,58 @@ std::optional<std::string> Operator::designate(const std::string& station, doubl
   return outcome(station, "designate");
 }
 
-std::optional<std::string> Operator::send_ptu(const std::string& station, std::int8_t command,
-                                              double pan_rad, double tilt_rad,
-                                              const std::string& counter_name) {
+void Operator::publish_ptu(const std::string& station, std::int8_t command, double pan_rad,
+                           double tilt_rad) {
   ols_msg::ptu_command_t message;
   address(message, station);
   message.command = command;
   message.pan_rad = pan_rad;
   message.tilt_rad = tilt_rad;
   bus_.publish("OLS_PTU_" + station, message);
+}
+
+std::optional<std::string> Operator::send_ptu(const std::string& station, std::int8_t command,
+                                              double pan_rad, double tilt_rad,
+                                              const std::string& counter_name) {
+  publish_ptu(station, command, pan_rad, tilt_rad);
   return outcome(station, counter_name);
+}
+
+bool Operator::says_stopped(const std::string& station) const {
+  using M = ols_msg::station_status_t;
+  const auto status = statuses_.find(station);
+  return status != statuses_.end() &&
+         (status->second.state == M::STATE_STOPPED || status->second.state == M::STATE_EMERGENCY);
+}
+
+std::map<std::string, bool> Operator::stop(double timeout_s) {
+  constexpr double kAgain_s = 0.2;
+  const bool all = station_ == "all";
+  std::map<std::string, double> sent_s;  // when last
+  if (!all) sent_s[station_] = 0.0;
+  const double start_s = clock_monotonic_s();
+  for (double now_s = start_s; now_s < start_s + timeout_s; now_s = clock_monotonic_s()) {
+    for (const auto& [id, status] : statuses_) sent_s.try_emplace(id, 0.0);
+    bool stopped = true;
+    for (auto& [id, last_s] : sent_s) {
+      if (last_s > 0.0 && says_stopped(id)) continue;
+      stopped = false;
+      if (now_s < last_s + kAgain_s) continue;
+      if (last_s == 0.0) statuses_.erase(id);  // what it says from now on counts
+      publish_ptu(id, ols_msg::ptu_command_t::COMMAND_STOP, 0.0, 0.0);
+      last_s = now_s;
+    }
+    if (stopped && !sent_s.empty() && (!all || now_s > start_s + kTwoIntervals_s)) break;
+    bus_.handle(kPoll_ms);
+  }
+  std::map<std::string, bool> result;
+  for (const auto& [id, last_s] : sent_s) result[id] = says_stopped(id);
+  return result;
 }
 
 std::optional<std::string> Operator::point(const std::string& station, double pan_rad,
                                            double tilt_rad) {
   return send_ptu(station, ols_msg::ptu_command_t::COMMAND_POINT, pan_rad, tilt_rad, "point");
-}
-
-std::optional<std::string> Operator::stop(const std::string& station) {
-  return send_ptu(station, ols_msg::ptu_command_t::COMMAND_STOP, 0.0, 0.0, "stop");
 }
 
 std::optional<std::string> Operator::release(const std::string& station) {

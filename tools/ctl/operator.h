@@ -27,12 +27,16 @@ class Operator {
   // heard, at most timeout_s; all: for two status intervals.
   const Statuses& listen(double timeout_s);
 
+  // Sends stops to the addressed station, or to each as soon as it is heard, again and again until
+  // a status says that it stands or timeout_s is over: a stop needs no status and may get lost.
+  // Whether each said so.
+  std::map<std::string, bool> stop(double timeout_s);
+
   // Each sends to the station and waits for the status that counts it. Returns nothing when it was
   // accepted, otherwise what the station said.
   std::optional<std::string> designate(const std::string& station, double x, double y, double width,
                                        double height);
   std::optional<std::string> point(const std::string& station, double pan_rad, double tilt_rad);
-  std::optional<std::string> stop(const std::string& station);
   std::optional<std::string> release(const std::string& station);
   std::optional<std::string> rearm(const std::string& station);
   // Accepted, not done: the unit takes half a minute, and its status tells how it went.
@@ -43,8 +47,11 @@ class Operator {
                                     const std::string& label);
 
  private:
+  bool says_stopped(const std::string& station) const;
   template <class Message>
   void address(Message& message, const std::string& station);
+  void publish_ptu(const std::string& station, std::int8_t command, double pan_rad,
+                   double tilt_rad);
   std::optional<std::string> send_ptu(const std::string& station, std::int8_t command,
                                       double pan_rad, double tilt_rad, const std::string& counter);
   std::optional<std::string> outcome(const std::string& station, const std::string& counter);

@@ -15,7 +15,7 @@ namespace ols {
 namespace fs = std::filesystem;
 
 LogFolder::LogFolder(const std::string& folder, const std::string& name)
-    : folder_(folder), name_(name) {}
+    : folder_(fs::path(folder).lexically_normal().string()), name_(name) {}
 
 void LogFolder::survey() {
   fs::create_directories(folder_);
@@ -46,9 +46,11 @@ void LogFolder::measure_room() {
 
 void LogFolder::make_room(double quota_bytes, double reserve_bytes, double headroom_bytes,
                           const std::string& keep) {
+  // Whoever writes it may spell its folder in another way.
+  const std::string kept = keep.empty() ? "" : fs::path(keep).lexically_normal().string();
   auto oldest = files_.begin();
   while (bytes() + headroom_bytes > quota_bytes || free_bytes_ < reserve_bytes + headroom_bytes) {
-    while (oldest != files_.end() && oldest->path == keep) ++oldest;
+    while (oldest != files_.end() && oldest->path == kept) ++oldest;
     if (oldest == files_.end()) return;
     if (::unlink(oldest->path.c_str()) != 0 && errno != ENOENT) {
       throw std::system_error(errno, std::generic_category(), oldest->path);

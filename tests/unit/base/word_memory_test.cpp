@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/unit/eventually.h"
+
 namespace ols {
 namespace {
 
@@ -34,7 +36,19 @@ TEST(WordMemory, SaysWhyItCannotRemember) {
   EXPECT_EQ(memory.word(), "");
   memory.set("bad");
   EXPECT_EQ(memory.word(), "bad");  // as long as it lives
+  EXPECT_TRUE(eventually([&] { return !memory.trouble().empty(); }));
   EXPECT_NE(memory.trouble().find("/nonexistent/word"), std::string::npos) << memory.trouble();
+}
+
+TEST(WordMemory, TriesAgainWhatItCouldNotWrite) {
+  const std::string folder = fresh_file();
+  WordMemory memory(folder + "/word", kWords);
+  memory.set("bad");
+  ASSERT_TRUE(eventually([&] { return !memory.trouble().empty(); }));
+  std::filesystem::create_directories(folder);
+  EXPECT_TRUE(eventually([&] { return memory.trouble().empty(); }));
+  EXPECT_EQ(WordMemory(folder + "/word", kWords).word(), "bad");
+  std::filesystem::remove_all(folder);
 }
 
 TEST(WordMemory, WhatCannotBeReadIsTheGravest) {

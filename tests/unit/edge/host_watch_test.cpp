@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "base/clocks.h"
-#include "tests/unit/edge/sensors/eventually.h"
+#include "tests/unit/eventually.h"
 
 namespace ols {
 namespace {

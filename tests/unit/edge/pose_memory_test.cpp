@@ -7,7 +7,7 @@
 #include <fstream>
 #include <variant>
 
-#include "tests/unit/edge/sensors/eventually.h"
+#include "tests/unit/eventually.h"
 
 namespace ols {
 namespace {

@@ -52,7 +52,9 @@ constexpr double kFrame_s = 1.0 / 15.0;
 
 class StationTest : public testing::Test {
  protected:
-  StationTest() : station_(config(), std::make_unique<ScriptedTracker>(script_)) {}
+  StationTest() : station_(config(), std::make_unique<ScriptedTracker>(script_)) {
+    station_.set_reference(PtuReference::kTrusted);
+  }
 
   static StationConfig config() {
     StationConfig config;

@@ -293,6 +293,7 @@ TEST_F(StationSafetyTest, ATargetOutlastsALostReferenceAndIsSlewedToAgain) {
 }
 
 TEST_F(StationSafetyTest, HomesWhereItMayAndOnlyThen) {
+  station_.set_reference(PtuReference::kUnknown);
   EXPECT_EQ(station_.home(now_), Refusal::kNoUnit);
   station_.set_reference(PtuReference::kTrusted);
   press();
@@ -309,6 +310,16 @@ TEST_F(StationSafetyTest, HomesWhereItMayAndOnlyThen) {
   kept.set_reference(PtuReference::kMissing);
   EXPECT_EQ(kept.home(now_), Refusal::kKeepOut);
   EXPECT_FALSE(kept.take_home());
+}
+
+TEST_F(StationSafetyTest, NoPointOutlastsTheUnitOrComesBeforeIt) {
+  ASSERT_EQ(station_.point({{0.3, 0.1}}, now_), Refusal::kNone);
+  ASSERT_TRUE(station_.goal(now_));
+  station_.set_reference(PtuReference::kUnknown);
+  EXPECT_FALSE(station_.goal(now_));
+  EXPECT_EQ(station_.point({{0.3, 0.1}}, now_), Refusal::kNoUnit);
+  station_.set_reference(PtuReference::kTrusted);
+  EXPECT_FALSE(station_.goal(now_));
 }
 
 TEST_F(StationSafetyTest, AStopCallsOffAHoming) {

@@ -57,6 +57,15 @@ TEST(LogFolder, TheFileThatIsWrittenStaysEvenWhenItLooksOldest) {
   EXPECT_THAT(folder.names(), ElementsAre(kOld));
 }
 
+TEST(LogFolder, TheFileThatIsWrittenStaysHoweverItsFolderIsSpelt) {
+  const TemporaryFolder folder;
+  folder.put(kOld, 100, 1);
+  LogFolder logs(folder.path() + "/", "site");
+  logs.survey();
+  logs.make_room(0.0, 0.0, 0.0, folder.path() + "//" + kOld);
+  EXPECT_THAT(folder.names(), ElementsAre(kOld));
+}
+
 TEST(LogFolder, TheOldestGoForTheDisksReserveToo) {
   const TemporaryFolder folder;
   folder.put(kOld, 100, 1);

@@ -40,6 +40,8 @@ TEST(PtuConfigFile, ReadsModesAndRegions) {
   EXPECT_EQ(config.hold_power, 'L');
   EXPECT_EQ(config.move_power, 'H');
   EXPECT_EQ(config.rehome, PtuRehome::kNever);
+  EXPECT_TRUE(config.homes_at_power_up);
+  EXPECT_FALSE(read("device = 'x'\nhomes_at_power_up = false\n").homes_at_power_up);
   ASSERT_EQ(config.limits.keep_out.size(), 2u);
   EXPECT_NEAR(config.limits.keep_out[0].tilt_min_rad, radians(-47.0), 1e-12);
   EXPECT_NEAR(config.limits.keep_out[1].pan_max_rad, radians(-80.0), 1e-12);

@@ -178,24 +178,64 @@ TEST_F(Reference, NoHomingInAnEmergencyAndNoTrustInOneThatWasInterrupted) {
   EXPECT_EQ(loop_->driver.doubt(), PtuDoubt::kHomingInterrupted);
 }
 
-TEST_F(Reference, AStopBreaksOffAHoming) {
+// The simulated unit does not heed a halt while it homes; a real one may.
+class BrokenHoming : public Reference, public testing::WithParamInterface<double> {};
+
+TEST_P(BrokenHoming, IsNoReferenceHoweverFarItCame) {
   PtuConfig config = quick_driver(38400);
   config.rehome = PtuRehome::kWhenUnreferenced;
   make(false, config);
   loop_->driver.home(loop_->time_s);
-  run(3.0);
+  run(GetParam());
   ASSERT_EQ(loop_->driver.counters().homings, 1u);
   ASSERT_TRUE(loop_->driver.homing());
   loop_->sent.clear();
   loop_->driver.stop_homing(loop_->time_s);
   run(0.01);
   EXPECT_EQ(loop_->sent.substr(0, 3), " H ");
-  run(10.0);
+  samples_ = 0;
+  run(40.0);  // until the unit is done and answers again
   EXPECT_EQ(loop_->driver.doubt(), PtuDoubt::kHomingInterrupted);
+  EXPECT_EQ(loop_->driver.reference(), PtuReference::kDoubted);
+  EXPECT_EQ(samples_, 0);
   EXPECT_EQ(loop_->driver.counters().homings, 1u);  // not again by itself
   loop_->driver.home(loop_->time_s);
   run(60.0);
   EXPECT_EQ(loop_->driver.state(), PtuState::kReady) << loop_->driver.last_error();
+}
+INSTANTIATE_TEST_SUITE_P(AfterSeconds, BrokenHoming, testing::Values(1.0, 4.0, 8.0, 12.0, 16.0));
+
+TEST_F(Reference, IsLostWithThePortInTheMiddleOfAHoming) {
+  make(false);
+  loop_->driver.home(loop_->time_s);
+  run(4.0);
+  ASSERT_TRUE(loop_->driver.homing());
+  loop_->driver.restart(loop_->time_s);
+  run(40.0);
+  EXPECT_EQ(loop_->driver.doubt(), PtuDoubt::kHomingInterrupted);
+}
+
+TEST_F(Reference, AStrayReplyDoesNotEndAHoming) {
+  make(false);
+  loop_->driver.home(loop_->time_s);
+  while (loop_->sent.find(" R ") == std::string::npos) run(0.01);
+  loop_->driver.receive("*\r\n", loop_->time_s);
+  run(5.0);
+  EXPECT_TRUE(loop_->driver.homing());
+  run(55.0);
+  EXPECT_EQ(loop_->driver.state(), PtuState::kReady) << loop_->driver.last_error();
+  EXPECT_EQ(wrong_, 0);
+}
+
+// It answers as one does that was just switched on, and was not homed.
+TEST(FirstStart, DoubtsAUnitThatDoesNotHomeAtPowerUp) {
+  for (const bool homes : {true, false}) {
+    PtuConfig config = quick_driver(38400);
+    config.homes_at_power_up = homes;
+    ClosedLoop loop(config, quick_unit(9600));
+    loop.run(8.0);
+    EXPECT_EQ(loop.driver.reference(), homes ? PtuReference::kTrusted : PtuReference::kDoubted);
+  }
 }
 
 TEST_F(Reference, AStopCallsOffAHomingThatWaitsForTheUnitToStand) {

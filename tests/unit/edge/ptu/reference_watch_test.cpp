@@ -84,6 +84,25 @@ TEST(ReferenceWatch, DoubtsAHomingThatWasInterrupted) {
   EXPECT_EQ(watch.doubt(), PtuDoubt::kHomingInterrupted);
 }
 
+TEST(ReferenceWatch, BelievesAfterABrokenHomingOnlyAWholeOneOfItsOwn) {
+  ReferenceWatch watch = driven();
+  watch.homing_ordered();
+  watch.while_not_driven({1, 1}, 9600, 1.0);
+  watch.homing_interrupted();
+  watch.while_not_driven({2, 2}, 9600, 2.0);  // a unit that does not heed a halt goes on
+  watch.rate_is(9600);
+  watch.ready();
+  EXPECT_EQ(watch.doubt(), PtuDoubt::kHomingInterrupted);
+  watch.homing_ordered();
+  EXPECT_FALSE(watch.saw_both_ends());
+  watch.while_not_driven({2, 2}, 9600, 3.0);
+  EXPECT_TRUE(watch.saw_both_ends());
+  watch.homing_over();
+  watch.rate_is(9600);
+  watch.ready();
+  EXPECT_EQ(watch.doubt(), PtuDoubt::kNone);
+}
+
 TEST(ReferenceWatch, KnowsForAWhileAtWhichRateAUnitHomes) {
   ReferenceWatch watch = driven();
   watch.while_not_driven({1, 0}, 9600, 1.0);

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "geometry/angles.h"
-#include "tests/unit/edge/sensors/eventually.h"
+#include "tests/unit/eventually.h"
 #include "tests/unit/edge/sensors/gpsd_process.h"
 #include "tools/sim/gnss_line.h"
 

@@ -8,7 +8,7 @@
 
 #include "edge/ptu/serial_port.h"
 #include "geometry/angles.h"
-#include "tests/unit/edge/sensors/eventually.h"
+#include "tests/unit/eventually.h"
 #include "tools/sim/inclinometer_line.h"
 
 namespace ols {

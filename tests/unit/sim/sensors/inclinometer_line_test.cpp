@@ -4,7 +4,7 @@
 
 #include "edge/ptu/serial_port.h"
 #include "geometry/angles.h"
-#include "tests/unit/edge/sensors/eventually.h"
+#include "tests/unit/eventually.h"
 
 namespace ols::sim {
 namespace {

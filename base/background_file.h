@@ -1,0 +1,30 @@
+// A small file that is written whole, beside whoever must not wait for a disk.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace ols {
+
+class BackgroundFile {
+ public:
+  explicit BackgroundFile(const std::string& path);  // empty: nothing is written
+  // Waits a moment for what is not written yet, but not for a disk that hangs.
+  ~BackgroundFile();
+  BackgroundFile(const BackgroundFile&) = delete;
+  BackgroundFile& operator=(const BackgroundFile&) = delete;
+
+  // To be all that is in the file soon, in place of what still waits; empty: no file. What fails
+  // is tried again every few seconds.
+  void write(const std::string& text);
+
+  // Why it could not be written; empty when all is well.
+  std::string trouble() const;
+
+ private:
+  struct Shared;  // with the thread
+
+  std::shared_ptr<Shared> shared_;
+};
+
+}  // namespace ols
