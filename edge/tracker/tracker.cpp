@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "edge/tracker/paper_tracker.h"
 #include "edge/tracker/tracker_core.h"
 
 namespace ols {
@@ -61,13 +62,14 @@ const char* to_string(TrackerError error) {
 struct Tracker::Impl {
   TrackerConfig config;
   std::uint64_t seed = 0;
-  std::optional<TrackerCore> core;
+  std::unique_ptr<TargetFollower> follower;
+  StageTimer timer;
   cv::Size size;
   double time_s = 0.0;
 };
 
 Tracker::Tracker(const TrackerConfig& config, std::uint64_t seed)
-    : impl_(std::make_unique<Impl>(Impl{config, seed, std::nullopt, {}, 0.0})) {}
+    : impl_(std::make_unique<Impl>(Impl{config, seed, nullptr, {}, {}, 0.0})) {}
 Tracker::~Tracker() = default;
 Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
@@ -75,26 +77,35 @@ Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 std::optional<TrackerError> Tracker::initialise(const TrackerInput& frame, const cv::Rect2d& box) {
   if (const auto error = check_image(frame)) return error;
   if (!usable_box(box, frame.gray.size())) return TrackerError::kBox;
-  impl_->core.emplace(impl_->config, impl_->seed, frame, box);
+  if (impl_->config.mode == TrackerMode::kPaper) {
+    impl_->follower = std::make_unique<PaperTracker>(impl_->config, impl_->seed, frame, box);
+  } else {
+    impl_->follower = std::make_unique<TrackerCore>(impl_->config, impl_->seed, frame, box);
+  }
   impl_->size = frame.gray.size();
   impl_->time_s = frame.time_s;
   return std::nullopt;
 }
 
 TrackerResult Tracker::track(const TrackerInput& frame) {
-  if (!impl_->core) return {std::nullopt, TrackerError::kNotInitialised};
+  if (!impl_->follower) return {std::nullopt, TrackerError::kNotInitialised};
   if (const auto error = check_image(frame)) return {std::nullopt, error};
   if (frame.gray.size() != impl_->size) return {std::nullopt, TrackerError::kFrameSize};
   if (frame.time_s <= impl_->time_s) return {std::nullopt, TrackerError::kTime};
   impl_->time_s = frame.time_s;
-  return {impl_->core->step(with_sane_prediction(frame)), std::nullopt};
+  impl_->timer.start();
+  return {impl_->follower->step(with_sane_prediction(frame), impl_->timer), std::nullopt};
 }
 
 void Tracker::search_near(const Eigen::Vector2d& pixel, double sd_px) {
   const bool usable = pixel.allFinite() && std::isfinite(sd_px) && sd_px >= 0.0;
-  if (impl_->core && usable) impl_->core->search_near(pixel, sd_px);
+  if (impl_->follower && usable) impl_->follower->search_near(pixel, sd_px);
 }
 
-bool Tracker::initialised() const { return impl_->core.has_value(); }
+bool Tracker::initialised() const { return impl_->follower != nullptr; }
+
+void Tracker::set_stage_clock(StageClock clock) { impl_->timer.set_clock(std::move(clock)); }
+
+const StageTimes& Tracker::stage_times() const { return impl_->timer.times(); }
 
 }  // namespace ols

@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
+#include "edge/tracker/stage_times.h"
 #include "edge/tracker/tracker_config.h"
 
 namespace ols {
@@ -67,6 +68,10 @@ class Tracker {
   void search_near(const Eigen::Vector2d& pixel, double sd_px);
 
   bool initialised() const;
+
+  // Without a clock nothing is timed. The times are those of the newest frame tracked.
+  void set_stage_clock(StageClock clock);
+  const StageTimes& stage_times() const;
 
  private:
   struct Impl;

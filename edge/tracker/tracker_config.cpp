@@ -12,6 +12,14 @@ TrackerConfig read_tracker_config(ConfigTable& table) {
   const auto integer = [&](const char* key, int& value, int least, int greatest) {
     value = static_cast<int>(table.integer(key, value, least, greatest));
   };
+  const std::string mode = table.choice("mode", "full", {"paper", "full"});
+  c.mode = mode == "paper" ? TrackerMode::kPaper : TrackerMode::kFull;
+  ConfigTable& paper = table.table("paper");
+  c.paper.position_sd_px = paper.number("position_sd_px", c.paper.position_sd_px, 0.01, 100.0);
+  c.paper.velocity_sd_px_s =
+      paper.number("velocity_sd_px_s", c.paper.velocity_sd_px_s, 0.0, 10000.0);
+  c.paper.weight_power = paper.number("weight_power", c.paper.weight_power, 0.1, 10000.0);
+  c.paper.size_sd_px = paper.number("size_sd_px", c.paper.size_sd_px, 0.0, 100.0);
   integer("particles", c.particles, 20, 20000);
   number("position_sd_px", c.position_sd_px, 0.01, 100.0);
   number("position_sd_fraction", c.position_sd_fraction, 0.0, 1.0);

@@ -5,7 +5,25 @@ namespace ols {
 
 class ConfigTable;
 
+enum class TrackerMode {
+  kPaper,  // the paper's section 5, word for word
+  kFull,
+};
+
+// Standard deviations of eq. (2)-(4)'s noise in the mode "paper", per frame.
+struct PaperTrackerConfig {
+  double position_sd_px = 2.0;
+  double velocity_sd_px_s = 20.0;
+  double size_sd_px = 0.2;
+  // Eq. (5) is a sum over 576 pixels, of which the sky's fit everywhere: a wrong patch weighs
+  // hardly less than the target. The paper gives no scale; its weights are raised to this power
+  // before resampling. 1 is the letter of the paper.
+  double weight_power = 100.0;
+};
+
 struct TrackerConfig {
+  TrackerMode mode = TrackerMode::kFull;
+  PaperTrackerConfig paper;
   int particles = 300;
 
   // Motion model, eq. (2)-(4): standard deviations of its noise. Pixels are those of the full

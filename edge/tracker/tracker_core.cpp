@@ -33,18 +33,22 @@ TrackerCore::TrackerCore(const TrackerConfig& config, std::uint64_t seed, const 
   belief_.start();
 }
 
-TrackerOutput TrackerCore::step(const TrackerInput& frame) {
+TrackerOutput TrackerCore::step(const TrackerInput& frame, StageTimer& timer) {
   const double interval_s = frame.time_s - time_s_;
   time_s_ = frame.time_s;
   const ReducedFrame reduced = reduce_frame(frame.gray, config_.ego_motion_width_px);
+  timer.lap(Stage::kReduction);
   const EgoMotion ego_motion = move_camera(frame, reduced, interval_s);
+  timer.lap(Stage::kEgoMotion);
   predict(ego_motion, reduced, interval_s);
-  TrackerOutput output = update(frame, interval_s);
+  timer.lap(Stage::kPrediction);
+  TrackerOutput output = update(frame, interval_s, timer);
   output.ego_motion = ego_motion;
   after_update(output, interval_s);
   references_.offer(frame.gray, frame.time_s, output.box);
   reduced_ = reduced;
   filter_.resample(random_);
+  timer.lap(Stage::kLearning);
   return output;
 }
 
@@ -162,9 +166,10 @@ void TrackerCore::force_onto_differences(const ReducedFrame& reduced, const cv::
   }
 }
 
-TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s) {
+TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s, StageTimer& timer) {
   const cv::Rect2d expected = box_of(motion_.advance(last_).pixel, last_.size_px);
   const Scene scene = target_.make_scene(frame.gray, filter_.particles(), expected, references_);
+  timer.lap(Stage::kMasks);
   const double background = target_.background_similarity(scene, expected);
   std::vector<double> log_likelihood;
   for (const Particle& particle : filter_.particles()) {
@@ -175,6 +180,7 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s) 
   const std::size_t best = filter_.maximum_a_posteriori(log_likelihood);
   last_ = filter_.particles()[best];
   last_.size_px = filter_.mean_size_px();
+  timer.lap(Stage::kWeighting);
 
   const auto refined = target_.refine(scene, last_.pixel, last_.size_px);
   const double floor = config_.pixel_sd_floor_px * config_.pixel_sd_floor_px;
@@ -186,6 +192,7 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s) 
     output.covariance_px2 = refined->covariance_px2;
   }
   output.covariance_px2 += floor * Eigen::Matrix2d::Identity();
+  timer.lap(Stage::kPosition);
   const Likeness found = target_.likeness(scene, last_.pixel, last_.size_px);
   belief_.update({found.similarity, background, found.correlation, found.contrast}, interval_s);
   if (target_.empty()) belief_.doubt();

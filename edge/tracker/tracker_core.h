@@ -5,18 +5,18 @@
 #include "edge/tracker/belief.h"
 #include "edge/tracker/ego_motion.h"
 #include "edge/tracker/particle_filter.h"
+#include "edge/tracker/target_follower.h"
 #include "edge/tracker/target_model.h"
-#include "edge/tracker/tracker.h"
 
 namespace ols {
 
-class TrackerCore {
+class TrackerCore : public TargetFollower {
  public:
   TrackerCore(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
               const cv::Rect2d& box);
 
-  TrackerOutput step(const TrackerInput& frame);
-  void search_near(const Eigen::Vector2d& pixel, double sd_px);
+  TrackerOutput step(const TrackerInput& frame, StageTimer& timer) override;
+  void search_near(const Eigen::Vector2d& pixel, double sd_px) override;
 
  private:
   // Where the target is looked for while it is not believed in; the present frame's pixels.
@@ -34,7 +34,7 @@ class TrackerCore {
   void force_onto_differences(const ReducedFrame& reduced, const cv::Rect2d& area);
   cv::Rect2d reachable_area(double interval_s) const;
   void scatter_over_search(double fraction);
-  TrackerOutput update(const TrackerInput& frame, double interval_s);
+  TrackerOutput update(const TrackerInput& frame, double interval_s, StageTimer& timer);
   void after_update(const TrackerOutput& output, double interval_s);
   Particle drawn_near(const Eigen::Vector2d& pixel, double sd_px);
 

@@ -1,10 +1,12 @@
 // ols-track: follows one target through a clip and writes boxes.csv.
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
+#include <optional>
 
 #include "base/atomic_file.h"
 #include "base/command_line.h"
@@ -20,6 +22,8 @@ struct Arguments {
   std::vector<double> init;
   long start_frame = 0;
   std::string config;
+  std::string mode;
+  std::string timing;
   std::uint64_t seed = 1;
   std::string output;
 };
@@ -38,6 +42,12 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--config", arguments.config, "TOML file with a table [tracker]");
+  app.add_option("--mode", arguments.mode,
+                 "paper: section 5 of the paper and nothing else; full: what measures best. Goes "
+                 "before the configuration's [tracker] mode")
+      ->check(CLI::IsMember({"paper", "full"}));
+  app.add_option("--timing", arguments.timing,
+                 "also write the milliseconds of each stage of each frame to this CSV file");
   app.add_option("--seed", arguments.seed, "of the random numbers: the same seed, the same boxes")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
@@ -46,13 +56,42 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->required();
 }
 
-ols::TrackerConfig load_config(const std::string& path) {
-  if (path.empty()) return {};
-  ols::ConfigFile file(path);
-  const ols::TrackerConfig config = ols::read_tracker_config(file.root().table("tracker"));
-  file.finish();
+ols::TrackerConfig load_config(const Arguments& arguments) {
+  ols::TrackerConfig config;
+  if (!arguments.config.empty()) {
+    ols::ConfigFile file(arguments.config);
+    config = ols::read_tracker_config(file.root().table("tracker"));
+    file.finish();
+  }
+  if (arguments.mode == "paper") config.mode = ols::TrackerMode::kPaper;
+  if (arguments.mode == "full") config.mode = ols::TrackerMode::kFull;
   return config;
 }
+
+// frame, total_ms and the milliseconds of each stage.
+class TimingFile {
+ public:
+  TimingFile(const std::string& path, ols::Tracker& tracker) : file_(path) {
+    tracker.set_stage_clock([] {
+      const auto now = std::chrono::steady_clock::now().time_since_epoch();
+      return std::chrono::duration<double>(now).count();
+    });
+    file_.stream() << "frame,total_ms";
+    for (const char* name : ols::kStageNames) file_.stream() << ',' << name << "_ms";
+    file_.stream() << '\n';
+  }
+  void write(long frame, const ols::StageTimes& times) {
+    double total_s = 0.0;
+    for (const double seconds : times.seconds) total_s += seconds;
+    file_.stream() << frame << ',' << 1e3 * total_s;
+    for (const double seconds : times.seconds) file_.stream() << ',' << 1e3 * seconds;
+    file_.stream() << '\n';
+  }
+  void commit() { file_.commit(); }
+
+ private:
+  ols::AtomicFile file_;
+};
 
 // Tracking while believed, coasting for a second after that, then lost.
 class State {
@@ -78,11 +117,13 @@ class State {
 }
 
 void run(const Arguments& arguments) {
-  ols::Tracker tracker(load_config(arguments.config), arguments.seed);
+  ols::Tracker tracker(load_config(arguments), arguments.seed);
   ols::FrameSource source(arguments.input);
   const cv::Rect2d box(arguments.init[0], arguments.init[1], arguments.init[2], arguments.init[3]);
   ols::AtomicFile file(arguments.output);
   ols::write_boxes_header(file.stream());
+  std::optional<TimingFile> timing;
+  if (!arguments.timing.empty()) timing.emplace(arguments.timing, tracker);
   State state;
   long frame = 0;
   for (auto picture = source.next(); picture; picture = source.next(), ++frame) {
@@ -98,12 +139,14 @@ void run(const Arguments& arguments) {
     const ols::TrackerResult result = tracker.track(input);
     if (result.error) refuse(frame, *result.error);
     ols::write_box(file.stream(), state.row(frame, time_s, *result.output));
+    if (timing) timing->write(frame, tracker.stage_times());
   }
   if (frame <= arguments.start_frame) {
     throw std::runtime_error(arguments.input + ": has " + std::to_string(frame) +
                              " frames, --start-frame is " + std::to_string(arguments.start_frame));
   }
   file.commit();
+  if (timing) timing->commit();
 }
 
 }  // namespace

@@ -1,0 +1,55 @@
+// Where a frame's time goes. The tracker is pure and reads no clock: one may be handed in.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <utility>
+
+namespace ols {
+
+enum class Stage {
+  kReduction,   // the frame made smaller, its pyramid
+  kEgoMotion,   // KLT and RANSAC
+  kPrediction,  // eq. (2)-(4)
+  kProposals,   // frame difference, movers, correlation filter's response
+  kMasks,       // foreground masks and views
+  kWeighting,   // eq. (5) of all particles, maximum a posteriori
+  kPosition,    // sub-pixel refinement
+  kLearning,    // belief, appearance, references, resampling
+};
+inline constexpr std::array<const char*, 8> kStageNames{"reduction", "ego_motion", "prediction",
+                                                        "proposals", "masks",      "weighting",
+                                                        "position",  "learning"};
+
+struct StageTimes {
+  std::array<double, kStageNames.size()> seconds{};  // indexed by Stage
+  double of(Stage stage) const { return seconds[static_cast<std::size_t>(stage)]; }
+};
+
+// Monotonic, in seconds.
+using StageClock = std::function<double()>;
+
+// Charges the time since the last lap to a stage; does nothing without a clock.
+class StageTimer {
+ public:
+  void set_clock(StageClock clock) { clock_ = std::move(clock); }
+  void start() {
+    times_ = {};
+    if (clock_) lap_s_ = clock_();
+  }
+  void lap(Stage stage) {
+    if (!clock_) return;
+    const double now_s = clock_();
+    times_.seconds[static_cast<std::size_t>(stage)] += now_s - lap_s_;
+    lap_s_ = now_s;
+  }
+  const StageTimes& times() const { return times_; }
+
+ private:
+  StageClock clock_;
+  StageTimes times_;
+  double lap_s_ = 0.0;
+};
+
+}  // namespace ols

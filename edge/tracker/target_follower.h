@@ -1,0 +1,17 @@
+// What the facade of tracker.h holds once it has a target: the paper's filter or the full one.
+// Input has been checked.
+#pragma once
+
+#include "edge/tracker/stage_times.h"
+#include "edge/tracker/tracker.h"
+
+namespace ols {
+
+class TargetFollower {
+ public:
+  virtual ~TargetFollower() = default;
+  virtual TrackerOutput step(const TrackerInput& frame, StageTimer& timer) = 0;
+  virtual void search_near(const Eigen::Vector2d& pixel, double sd_px) = 0;
+};
+
+}  // namespace ols
