@@ -23,8 +23,11 @@ double frame_belief(const FrameEvidence& evidence, const Typical& typical) {
       std::clamp((evidence.similarity - evidence.background_similarity) / room, -0.5, 0.5);
   const double contrast =
       std::abs(std::log(std::max(evidence.contrast, 1e-3) / std::max(typical.contrast, 1e-3)));
-  return logistic(14.0 * (evidence.correlation + kSimilarityShare * above - least)) *
-         logistic(8.0 * (kMostContrastRatio - contrast));
+  const double out = std::clamp(evidence.standing_out, 0.0, 1.0);
+  const double fore = evidence.by_subtraction ? logistic(14.0 * (evidence.foreground - 0.3)) : 1.0;
+  return logistic(14.0 *
+                  (evidence.correlation + kSimilarityShare * above + 0.3 * (out - 0.5) - least)) *
+         logistic(8.0 * (kMostContrastRatio - contrast)) * fore;
 }
 
 void Belief::update(const FrameEvidence& evidence, double interval_s) {

@@ -11,6 +11,9 @@ struct FrameEvidence {
   double background_similarity = 0.0;
   double correlation = 0.0;
   double contrast = 1.0;
+  double standing_out = 1.0;    // of its own surroundings, the target's usual way being 1
+  double foreground = 1.0;      // share of the target's foreground that is foreground here,
+  bool by_subtraction = false;  // compared with an earlier image of the place, not with a level
 };
 
 // What the target had of late: what suddenly looks much less like it is something else.

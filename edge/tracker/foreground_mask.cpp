@@ -69,6 +69,13 @@ void ReferenceFrames::offer(const cv::Mat& gray, double time_s, const cv::Rect2d
   references_.push_back({memory, Eigen::Matrix3d::Identity(), target_box, time_s});
 }
 
+const ReferenceFrames::Reference* ReferenceFrames::older_than(double time_s) const {
+  for (auto reference = references_.rbegin(); reference != references_.rend(); ++reference) {
+    if (reference->time_s <= time_s) return &*reference;
+  }
+  return nullptr;
+}
+
 const ReferenceFrames::Reference* ReferenceFrames::without_overlap(
     const cv::Rect2d& target_box) const {
   const cv::Rect2d wide(target_box.x - 0.15 * target_box.width,

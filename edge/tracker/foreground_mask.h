@@ -28,6 +28,8 @@ class ReferenceFrames {
     cv::Rect2d target_box;  // in the reference
     double time_s = 0.0;
   };
+  // The newest that is so old; nothing when there is none.
+  const Reference* older_than(double time_s) const;
   const Reference* without_overlap(const cv::Rect2d& target_box) const;
 
  private:

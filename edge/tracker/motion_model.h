@@ -36,6 +36,7 @@ class MotionModel {
   Particle predict(const Particle& particle, Random& random) const;
 
   const std::optional<Eigen::Matrix3d>& homography() const { return motion_.homography; }
+  double interval_s() const { return motion_.interval_s; }
   // Where the scene at this pixel of the previous frame is now.
   Eigen::Vector2d still(const Eigen::Vector2d& pixel) const;
   // The velocity that takes a target from one pixel of the previous frame to one of this frame.

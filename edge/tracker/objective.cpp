@@ -17,35 +17,13 @@ const std::array<float, 256>& exponentials() {
   return table;
 }
 
-// A binomial filter along both axes, the border continued: small changes of the target's shape, and
-// half a pixel between the particles, then cost little.
-Patch smoothed(const Patch& patch) {
-  constexpr std::array<float, 5> kTap{1.0F / 16, 4.0F / 16, 6.0F / 16, 4.0F / 16, 1.0F / 16};
-  constexpr std::size_t kRow = kPatchSide + 4;
-  Patch across;
-  for (std::size_t j = 0; j < kPatchSide; ++j) {
-    std::array<float, kRow> row;
-    const float* in = &patch[j * kPatchSide];
-    std::copy(in, in + kPatchSide, row.begin() + 2);
-    row[0] = row[1] = row[2];
-    row[kRow - 1] = row[kRow - 2] = row[kRow - 3];
-    for (std::size_t i = 0; i < kPatchSide; ++i) {
-      across[j * kPatchSide + i] = kTap[0] * (row[i] + row[i + 4]) +
-                                   kTap[1] * (row[i + 1] + row[i + 3]) + kTap[2] * row[i + 2];
-    }
-  }
-  Patch both;
-  for (std::size_t j = 0; j < kPatchSide; ++j) {
-    const auto line = [&](int offset) {
-      const int at = std::clamp(static_cast<int>(j) + offset, 0, kPatchSide - 1);
-      return &across[static_cast<std::size_t>(at * kPatchSide)];
-    };
-    const float *a = line(-2), *b = line(-1), *c = line(0), *d = line(1), *e = line(2);
-    for (std::size_t i = 0; i < kPatchSide; ++i) {
-      both[j * kPatchSide + i] = kTap[0] * (a[i] + e[i]) + kTap[1] * (b[i] + d[i]) + kTap[2] * c[i];
-    }
-  }
-  return both;
+// Partial sums that a compiler may keep in one register; their order is fixed.
+constexpr std::size_t kLanes = 8;
+using Lanes = std::array<float, kLanes>;
+
+float total(const Lanes& lanes) {
+  return ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) +
+         ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]));
 }
 
 struct Level {
@@ -54,52 +32,79 @@ struct Level {
 };
 
 Level level_of(const Patch& patch) {
-  float sum = 0.0F;
-  float squares = 0.0F;
-  for (const float value : patch) {
-    sum += value;
-    squares += value * value;
+  Lanes sums{}, squares{};
+  for (std::size_t i = 0; i < kPatchArea; i += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      sums[k] += patch[i + k];
+      squares[k] += patch[i + k] * patch[i + k];
+    }
   }
-  const float mean = sum / kPatchArea;
-  return {mean, std::sqrt(std::max(0.0F, squares / kPatchArea - mean * mean))};
+  const float mean = total(sums) / kPatchArea;
+  return {mean, std::sqrt(std::max(0.0F, total(squares) / kPatchArea - mean * mean))};
 }
 
 }  // namespace
 
 Objective::Objective(const Template& target) {
   constexpr float kLeastGain = 0.15F;
-  const Patch gray = smoothed(target.gray);
+  const Patch& gray = target.gray;
   const Level level = level_of(gray);
   least_deviation_ = std::max(0.5F * target.noise, kLeastGain * level.deviation);
   deviation_ = std::max(0.5F * target.noise, level.deviation);
   for (std::size_t i = 0; i < kPatchArea; ++i) {
     template_[i] = (gray[i] - level.mean) / (kUnit * deviation_);
   }
+  learnt_ = template_;
+}
+
+void Objective::learn(const Patch& gray, double share) {
+  const Level level = level_of(gray);
+  float scale = 1.0F / (kUnit * std::max(least_deviation_, level.deviation));
+  float product = 0.0F;
+  for (std::size_t i = 0; i < kPatchArea; ++i) product += learnt_[i] * (gray[i] - level.mean);
+  if (product < 0.0F) {  // dark where it was bright: the background's brightness has passed its own
+    for (float& value : learnt_) value = -value;
+  }
+  const auto part = static_cast<float>(share);
+  for (std::size_t i = 0; i < kPatchArea; ++i) {
+    learnt_[i] += part * ((gray[i] - level.mean) * scale - learnt_[i]);
+  }
+  const float gain = 1.0F / (kUnit * std::max(0.1F / kUnit, level_of(learnt_).deviation));
+  for (float& value : learnt_) value *= gain;
 }
 
 void Objective::set_mask(const MaskPatch& mask) {
-  mask_ = mask;
   greatest_ = 0.0;
-  for (const std::uint8_t m : mask_) greatest_ += static_cast<double>(exponentials()[m]);
+  for (std::size_t i = 0; i < kPatchArea; ++i) {
+    exponential_[i] = exponentials()[mask[i]];
+    greatest_ += static_cast<double>(exponential_[i]);
+  }
 }
 
 Likeness Objective::operator()(const Patch& gray, const MaskPatch& candidate_mask) const {
   const auto& exponential = exponentials();
-  const Patch candidate = smoothed(gray);
-  const Level level = level_of(candidate);
+  Patch weight;
+  for (std::size_t i = 0; i < kPatchArea; ++i) weight[i] = exponential[candidate_mask[i]];
+  const Level level = level_of(gray);
   const float scale = 1.0F / (kUnit * std::max(least_deviation_, level.deviation));
-  float sum = 0.0F;
-  float product = 0.0F;
-  for (std::size_t i = 0; i < kPatchArea; ++i) {
-    const float value = (candidate[i] - level.mean) * scale;
-    const float alike = 1.0F - std::min(1.0F, std::abs(template_[i] - value));
-    sum += exponential[std::min(mask_[i], candidate_mask[i])] * alike * alike;
-    product += template_[i] * value;
+  Lanes sums{}, products{}, learnt_products{};
+  for (std::size_t i = 0; i < kPatchArea; i += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const float value = (gray[i + k] - level.mean) * scale;
+      const float alike = 1.0F - std::min(1.0F, std::abs(template_[i + k] - value));
+      // Eq. (5); exp(min(Mt, Mc)) is the lesser of both exponentials.
+      sums[k] += std::min(exponential_[i + k], weight[i + k]) * alike * alike;
+      products[k] += template_[i + k] * value;
+      learnt_products[k] += learnt_[i + k] * value;
+    }
   }
   // The template's deviation is 1 / kUnit, the candidate's at most that.
-  const float correlation = product * kUnit * kUnit / kPatchArea;
-  return {static_cast<double>(sum) / greatest_, static_cast<double>(correlation),
-          static_cast<double>(level.deviation / deviation_)};
+  constexpr float kNorm = kUnit * kUnit / kPatchArea;
+  const float learnt = total(learnt_products);
+  const float product = total(products);
+  return {static_cast<double>(total(sums)) / greatest_,
+          static_cast<double>(kNorm * std::max({product, learnt, -kInverted * learnt})),
+          static_cast<double>(kNorm * product), static_cast<double>(level.deviation / deviation_)};
 }
 
 }  // namespace ols

@@ -6,9 +6,10 @@
 namespace ols {
 
 struct Likeness {
-  double similarity = 0.0;   // eq. (5), 0..1
-  double correlation = 0.0;  // of the grey values, -1..1
-  double contrast = 0.0;     // deviation of the grey values, the template's being 1
+  double similarity = 0.0;         // eq. (5), 0..1
+  double correlation = 0.0;        // of the grey values with the first or the learnt image, -1..1
+  double first_correlation = 0.0;  // with the first image
+  double contrast = 0.0;           // deviation of the grey values, the template's being 1
 };
 
 // Eq. (5) divided by the greatest value it can take for this template, so 0..1. Each patch's
@@ -22,15 +23,26 @@ class Objective {
 
   void set_mask(const MaskPatch& mask);  // M_t
 
+  // Takes the target's present look into the learnt image, by this share.
+  void learn(const Patch& gray, double share);
+
   Likeness operator()(const Patch& gray, const MaskPatch& candidate_mask) const;
 
  private:
+  // A warm target before a sky that grows warmer turns from bright to dark: as like, but rarer.
+  static constexpr float kInverted = 0.9F;
+  static constexpr Patch ones() {
+    Patch patch{};
+    for (float& value : patch) value = 1.0F;
+    return patch;
+  }
   static constexpr float kUnit = 2.0F;  // deviations that are the difference 1 of eq. (5)
 
   Patch template_{};        // normalised
+  Patch learnt_{};          // likewise: how it looked of late
   float deviation_ = 1.0F;  // the template's [grey levels]
   float least_deviation_ = 1.0F;
-  MaskPatch mask_{};
+  Patch exponential_ = ones();  // exp(M_t)
   double greatest_ = kPatchArea;
 };
 

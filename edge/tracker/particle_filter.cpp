@@ -91,13 +91,13 @@ void ParticleFilter::resample(Random& random) {
   double at = random.uniform() * step;
   double sum = weights_.front();
   std::size_t source = 0;
-  std::vector<Particle> chosen;
-  chosen.reserve(count);
+  resampled_.clear();
+  resampled_.reserve(count);
   for (std::size_t i = 0; i < count; ++i, at += step) {
     while (at > sum && source + 1 < count) sum += weights_[++source];
-    chosen.push_back(particles_[source]);
+    resampled_.push_back(particles_[source]);
   }
-  particles_ = std::move(chosen);
+  particles_.swap(resampled_);
   weights_.assign(count, step);
 }
 

@@ -36,6 +36,7 @@ class ParticleFilter {
 
  private:
   std::vector<Particle> particles_;
+  std::vector<Particle> resampled_;  // memory that is used again: no allocation in steady state
   std::vector<double> weights_;
   Eigen::Vector2d predicted_mean_px_ = Eigen::Vector2d::Zero();
   Eigen::Matrix2d predicted_covariance_px2_ = Eigen::Matrix2d::Identity();

@@ -113,6 +113,24 @@ View make_view(const cv::Mat& frame, const cv::Rect& area, int reduction) {
   return view;
 }
 
+View smoothed(const View& view, const cv::Rect& area, const Eigen::Vector2d& size_px) {
+  constexpr double kLeastSd = 0.4;  // [px] less is none
+  const cv::Rect part(static_cast<int>(std::floor(view.x_of(area.x))),
+                      static_cast<int>(std::floor(view.y_of(area.y))),
+                      area.width / view.reduction + 2, area.height / view.reduction + 2);
+  const cv::Rect inside = part & cv::Rect(0, 0, view.image.cols, view.image.rows);
+  if (inside.empty()) return view;
+  View smooth{view.image(inside), view.origin + view.reduction * inside.tl(), view.reduction};
+  const double sd_x = size_px.x() / kPatchSide / view.reduction;
+  const double sd_y = size_px.y() / kPatchSide / view.reduction;
+  if (std::max(sd_x, sd_y) < kLeastSd) return smooth;
+  cv::Mat image;
+  cv::GaussianBlur(smooth.image, image, {0, 0}, std::max(0.2, sd_x), std::max(0.2, sd_y),
+                   cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+  smooth.image = image;
+  return smooth;
+}
+
 float bilinear(const cv::Mat& image, double x, double y) {
   const double inside_x = std::clamp(x, 0.0, image.cols - 1.0);
   const double inside_y = std::clamp(y, 0.0, image.rows - 1.0);

@@ -30,6 +30,11 @@ int reduction_for(const Eigen::Vector2d& size_px);
 // The part of `frame` inside `area`; shares the frame's memory where nothing is reduced.
 View make_view(const cv::Mat& frame, const cv::Rect& area, int reduction);
 
+// The part of the view inside `area` of the full frame, smoothed by a pixel of the patch that a
+// target of this size is sampled to: small changes of its shape, and half a pixel between the
+// particles, then cost little.
+View smoothed(const View& view, const cv::Rect& area, const Eigen::Vector2d& size_px);
+
 // Grey value between the pixels, the border continued outside; image coordinates.
 float bilinear(const cv::Mat& image, double x, double y);
 

@@ -22,20 +22,34 @@ cv::Rect looked_at(const std::vector<Particle>& particles, const cv::Rect2d& exp
   return widened(area, 0.0);
 }
 
+Template smooth_template(Template made, const View& view, const cv::Rect2d& box) {
+  const View smooth = smoothed(view, widened(box, 0.5), size_of(box));
+  made.gray = sample_patch(smooth, centre_of(box), size_of(box));
+  return made;
+}
+
 }  // namespace
 
 TargetModel::TargetModel(const TrackerConfig& config, const cv::Mat& gray, const cv::Rect2d& box)
     : TargetModel(config, make_view(gray, widened(box, 3.0), reduction_for(size_of(box))), box) {
   // M_t until an earlier image shows the background alone.
   const Scene scene = make_scene(gray, {}, box, ReferenceFrames(config.reference_interval_s));
-  objective_.set_mask(sample_mask(scene.mask, centre_of(box), size_of(box)));
+  mask_ = sample_mask(scene.mask, centre_of(box), size_of(box));
+  objective_.set_mask(mask_);
+  set_contrast(scene.contrast(centre_of(box), size_of(box)));
+}
+
+void TargetModel::set_contrast(double contrast) {
+  contrast_ = contrast;
+  const double noise = 1.0 + static_cast<double>(template_.noise);
+  contrast_weight_ = contrast * contrast / (contrast * contrast + noise * noise);
 }
 
 TargetModel::TargetModel(const TrackerConfig& config, const View& view, const cv::Rect2d& box)
     : config_(config),
       first_size_px_(size_of(box)),
       template_(make_template(view, centre_of(box), size_of(box))),
-      objective_(template_),
+      objective_(smooth_template(template_, view, box)),
       refiner_(view, centre_of(box), size_of(box)) {}
 
 Scene TargetModel::make_scene(const cv::Mat& gray, const std::vector<Particle>& particles,
@@ -44,6 +58,8 @@ Scene TargetModel::make_scene(const cv::Mat& gray, const std::vector<Particle>& 
   Scene scene;
   scene.frame = gray.size();
   scene.view = make_view(gray, area, reduction_for(first_size_px_));
+  scene.smooth = smoothed(scene.view, area, first_size_px_);
+  scene.contrast = LocalContrast(scene.view, widened(area, 0.4));
   if (const auto* reference = references.without_overlap(expected)) {
     scene.mask = foreground_mask(gray, *reference, area, template_);
     scene.mask_by_subtraction = true;
@@ -60,7 +76,7 @@ Likeness TargetModel::likeness(const Scene& scene, const Eigen::Vector2d& pixel,
                     pixel.y() < scene.frame.height - 0.5;
   if (!seen) return {};
   const MaskPatch mask = sample_mask(scene.mask, pixel, size_px);
-  return objective_(sample_patch(scene.view, pixel, size_px), mask);
+  return objective_(sample_patch(scene.smooth, pixel, size_px), mask);
 }
 
 double TargetModel::background_similarity(const Scene& scene, const cv::Rect2d& box) const {
@@ -78,11 +94,40 @@ double TargetModel::background_similarity(const Scene& scene, const cv::Rect2d& 
   return *high;
 }
 
-double TargetModel::log_likelihood(const Likeness& likeness, double background,
+double TargetModel::standing_out(const Scene& scene, const Eigen::Vector2d& pixel,
+                                 const Eigen::Vector2d& size_px) const {
+  if (std::abs(contrast_) < 0.1) return 0.0;
+  // Darker instead of brighter, or the reverse, as the background may change: as like, but rarer.
+  constexpr double kInverted = 0.9;
+  const double ratio = scene.contrast(pixel, size_px) / contrast_;
+  return std::min(2.0, ratio < 0.0 ? -kInverted * ratio : ratio);
+}
+
+double TargetModel::foreground(const Scene& scene, const Eigen::Vector2d& pixel,
+                               const Eigen::Vector2d& size_px) const {
+  const MaskPatch now = sample_mask(scene.mask, pixel, size_px);
+  int common = 0, all = 0;
+  for (std::size_t i = 0; i < kPatchArea; ++i) {
+    common += std::min(mask_[i], now[i]);
+    all += mask_[i];
+  }
+  return all > 0 ? static_cast<double>(common) / all : 0.0;
+}
+
+void TargetModel::learn(const Scene& scene, const Eigen::Vector2d& pixel,
+                        const Eigen::Vector2d& size_px, double share) {
+  objective_.learn(sample_patch(scene.smooth, pixel, size_px), share);
+  const double now = scene.contrast(pixel, size_px);
+  set_contrast(now * contrast_ > 0.0 ? contrast_ + share * (now - contrast_) : now);
+}
+
+double TargetModel::log_likelihood(const Likeness& likeness, double background, double standing_out,
                                    const Eigen::Vector2d& size_px) const {
   const double room = std::max(0.02, 1.0 - background);
-  const double alike = config_.sharpness * (likeness.similarity - 1.0) / room +
-                       config_.correlation_sharpness * (likeness.correlation - 1.0);
+  const double alike =
+      config_.sharpness * (likeness.similarity - 1.0) / room +
+      config_.correlation_sharpness * (likeness.correlation - 1.0) +
+      config_.contrast_sharpness * contrast_weight_ * (std::min(standing_out, 1.0) - 1.0);
   const double wider = std::log(size_px.x() / first_size_px_.x());
   const double higher = std::log(size_px.y() / first_size_px_.y());
   const double sd = config_.size_prior_sd_fraction;
@@ -94,6 +139,7 @@ void TargetModel::learn_mask(const Scene& scene, const Eigen::Vector2d& pixel,
   if (mask_learnt_ || !scene.mask_by_subtraction) return;
   mask_learnt_ = true;
   const MaskPatch mask = sample_mask(scene.mask, pixel, size_px);
+  mask_ = mask;
   objective_.set_mask(mask);
   refiner_.set_mask(mask);
 }

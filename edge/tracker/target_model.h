@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "edge/tracker/foreground_mask.h"
+#include "edge/tracker/local_contrast.h"
 #include "edge/tracker/objective.h"
 #include "edge/tracker/refinement.h"
 #include "edge/tracker/tracker_config.h"
@@ -12,9 +13,11 @@ namespace ols {
 
 // One frame as the objective sees it.
 struct Scene {
-  View view;                         // sampled for the candidates
+  View view;                         // as taken, for the sub-pixel position
+  View smooth;                       // sampled for the candidates
   View mask;                         // foreground
   bool mask_by_subtraction = false;  // of an earlier image, not of the surroundings' level
+  LocalContrast contrast;
   cv::Size frame;
 };
 
@@ -30,10 +33,20 @@ class TargetModel {
                     const Eigen::Vector2d& size_px) const;
   // What boxes around `box` reach that are not the target: nearly the best of them.
   double background_similarity(const Scene& scene, const cv::Rect2d& box) const;
-  // Logarithm of a likelihood: similarity against the background's, correlation, and the size's
-  // prior.
-  double log_likelihood(const Likeness& likeness, double background,
+  // How far a place stands out of its surroundings, the target's usual way being 1.
+  double standing_out(const Scene& scene, const Eigen::Vector2d& pixel,
+                      const Eigen::Vector2d& size_px) const;
+  // Share of the target's foreground that is foreground here.
+  double foreground(const Scene& scene, const Eigen::Vector2d& pixel,
+                    const Eigen::Vector2d& size_px) const;
+  // Logarithm of a likelihood: similarity against the background's, correlation, how it stands out,
+  // and the size's prior.
+  double log_likelihood(const Likeness& likeness, double background, double standing_out,
                         const Eigen::Vector2d& size_px) const;
+
+  // The target's look and contrast of now, taken in by this share.
+  void learn(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px,
+             double share);
 
   // M_t, once: the candidate's foreground while it is surely the target.
   void learn_mask(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
@@ -43,18 +56,24 @@ class TargetModel {
     return refiner_.refine(scene.view, start, size_px);
   }
   const Eigen::Vector2d& first_size_px() const { return first_size_px_; }
+  double contrast_weight() const { return contrast_weight_; }
   // Nothing stood out in the first box: there is nothing to recognise.
   bool empty() const { return template_.empty; }
 
  private:
   TargetModel(const TrackerConfig& config, const View& view, const cv::Rect2d& box);
 
+  void set_contrast(double contrast);
+
   TrackerConfig config_;
   Eigen::Vector2d first_size_px_;
   Template template_;
   Objective objective_;
   PositionRefiner refiner_;
+  MaskPatch mask_{};  // M_t
   bool mask_learnt_ = false;
+  double contrast_ = 0.0;         // [grey levels] of late, against its surroundings
+  double contrast_weight_ = 0.0;  // 0..1, how much more than noise that is
 };
 
 }  // namespace ols

@@ -32,6 +32,9 @@ struct TrackerOutput {
   Eigen::Matrix2d covariance_px2;  // of `pixel`, white part
   double belief = 0.0;             // 0..1
   EgoMotion ego_motion = EgoMotion::kNone;
+  // [px] how far the predicted homography puts the scene behind the target from where the image's
+  // own does; nothing where there is only one of them. Large: angles or times are wrong.
+  std::optional<double> prediction_error_px;
 };
 
 enum class TrackerError {

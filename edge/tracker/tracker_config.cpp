@@ -32,6 +32,8 @@ TrackerConfig read_tracker_config(ConfigTable& table) {
   number("initial_velocity_sd_px_s", c.initial_velocity_sd_px_s, 0.0, 10000.0);
   number("sharpness", c.sharpness, 0.1, 1000.0);
   number("correlation_sharpness", c.correlation_sharpness, 0.0, 1000.0);
+  number("contrast_sharpness", c.contrast_sharpness, 0.0, 1000.0);
+  number("learning_time_s", c.learning_time_s, 0.01, 1e6);
   integer("ego_motion_width_px", c.ego_motion_width_px, 80, 4096);
   integer("ego_motion_corners", c.ego_motion_corners, 8, 2000);
   integer("ego_motion_least_inliers", c.ego_motion_least_inliers, 4, 2000);

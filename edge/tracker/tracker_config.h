@@ -44,6 +44,11 @@ struct TrackerConfig {
   // tenth of it, nine tenths are sky that fits everywhere, and only the correlation tells.
   double correlation_sharpness = 20.0;
 
+  // The same for a place that does not stand out of its surroundings as the target does.
+  double contrast_sharpness = 6.0;
+  // Time constant of learning the target's look.
+  double learning_time_s = 0.5;
+
   // Ego-motion between adjacent frames.
   int ego_motion_width_px = 640;  // reduced image, at most
   int ego_motion_corners = 120;

@@ -3,34 +3,58 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge/tracker/core_box.h"
 #include "edge/tracker/difference_candidates.h"
+#include "edge/tracker/mover_detection.h"
 
 namespace ols {
 namespace {
 
 constexpr double kBelieved = 0.5;
+constexpr double kEarlier = 0.2;      // [s] a small mover has left its own place by then
+constexpr double kNearFirst = 1.0;    // [s] a lost target is looked for nearby, then anywhere
+constexpr double kSamePattern = 0.5;  // correlation; less is no measurement of its place
+constexpr double kSureEnoughToLearn = 0.7;
 constexpr double kSureEnoughForMask = 0.8;
+
+// A target in a generous box moves as far as the box says, however small it is itself.
+TrackerConfig with_reach_of(const cv::Rect2d& box, const cv::Rect2d& core, TrackerConfig config) {
+  config.position_sd_fraction *= std::sqrt(box.area() / core.area());
+  return config;
+}
 
 }  // namespace
 
 TrackerCore::TrackerCore(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
                          const cv::Rect2d& box)
+    : TrackerCore(config, seed, frame, box, find_core(frame.gray, box)) {}
+
+TrackerCore::TrackerCore(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
+                         const cv::Rect2d& box, const cv::Rect2d& core)
     : config_(config),
       random_(seed),
       ego_motion_(config),
       reduced_(reduce_frame(frame.gray, config.ego_motion_width_px)),
-      motion_(config),
-      target_(config, frame.gray, box),
+      motion_(with_reach_of(box, core, config)),
+      target_(config, frame.gray, core),
       references_(config.reference_interval_s),
+      designated_(box),
       frame_size_(frame.gray.size()),
       time_s_(frame.time_s) {
-  last_.pixel = centre_of(box);
-  last_.size_px = size_of(box);
+  last_.pixel = centre_of(core);
+  last_.size_px = size_of(core);
+  label_.offset = (centre_of(box) - last_.pixel).cwiseQuotient(last_.size_px);
+  label_.scale = size_of(box).cwiseQuotient(last_.size_px);
   believed_ = last_;
   filter_.particles().assign(static_cast<std::size_t>(config.particles), last_);
   ego_motion_.start(reduced_);
-  references_.offer(frame.gray, frame.time_s, box);
+  references_.offer(frame.gray, frame.time_s, core);
   belief_.start();
+}
+
+cv::Rect2d TrackerCore::labelled(const Particle& particle) const {
+  return box_of(particle.pixel + label_.offset.cwiseProduct(particle.size_px),
+                label_.scale.cwiseProduct(particle.size_px));
 }
 
 TrackerOutput TrackerCore::step(const TrackerInput& frame, StageTimer& timer) {
@@ -40,12 +64,14 @@ TrackerOutput TrackerCore::step(const TrackerInput& frame, StageTimer& timer) {
   timer.lap(Stage::kReduction);
   const EgoMotion ego_motion = move_camera(frame, reduced, interval_s);
   timer.lap(Stage::kEgoMotion);
+  if (target_.empty()) designate_late(frame.gray);
   predict(ego_motion, reduced, interval_s);
   timer.lap(Stage::kPrediction);
-  TrackerOutput output = update(frame, interval_s, timer);
+  TrackerOutput output = update(frame, reduced, interval_s, timer);
   output.ego_motion = ego_motion;
+  output.prediction_error_px = prediction_error_px_;
   after_update(output, interval_s);
-  references_.offer(frame.gray, frame.time_s, output.box);
+  references_.offer(frame.gray, frame.time_s, box_of(last_.pixel, last_.size_px));
   reduced_ = reduced;
   filter_.resample(random_);
   timer.lap(Stage::kLearning);
@@ -56,6 +82,12 @@ EgoMotion TrackerCore::move_camera(const TrackerInput& frame, const ReducedFrame
                                    double interval_s) {
   const cv::Rect2d box = box_of(last_.pixel, last_.size_px);
   const auto estimate = ego_motion_.step(reduced, box, frame.predicted_homography);
+  prediction_error_px_.reset();
+  if (estimate.homography && frame.predicted_homography) {
+    const Eigen::Vector2d off = transform(*estimate.homography, last_.pixel) -
+                                transform(*frame.predicted_homography, last_.pixel);
+    prediction_error_px_ = off.norm();
+  }
   EgoMotion source = EgoMotion::kNone;
   CameraMotion motion{estimate.homography, interval_s};
   if (motion.homography) {
@@ -88,6 +120,7 @@ void TrackerCore::predict(EgoMotion ego_motion, const ReducedFrame& reduced, dou
   } else if (search_ || velocity_ == Velocity::kUnknown) {
     force_onto_differences(reduced, reachable_area(interval_s));
   }
+  if (search_ && !target_.empty()) force_onto_movers(reduced);
   if (velocity_ == Velocity::kUnknown) {
     filter_.widen_prediction(config_.leap_most_px_s * interval_s / 3.0);
   }
@@ -104,6 +137,71 @@ void TrackerCore::predict_search(double interval_s) {
   search_->sd_px =
       std::min(search_->sd_px + config_.search_growth_px_s * interval_s, search_->most_sd_px);
   scatter_over_search(config_.search_fraction);
+}
+
+// Nothing stood out in the designated box: a bird with its wings edgewise, a drone behind a twig.
+// What stands out there soon after is what was meant.
+void TrackerCore::designate_late(const cv::Mat& gray) {
+  constexpr double kWider = 1.8;
+  constexpr double kLongest = 2.0;  // [s]
+  designated_ = box_of(motion_.still(centre_of(designated_)), size_of(designated_));
+  empty_s_ += motion_.interval_s();
+  if (empty_s_ > kLongest) return;
+  const cv::Rect2d wide = box_of(centre_of(designated_), kWider * size_of(designated_));
+  const cv::Rect2d core = find_core(gray, wide);
+  if (core == wide) return;
+  target_ = TargetModel(config_, gray, core);
+  last_.pixel = centre_of(core);
+  last_.size_px = size_of(core);
+  last_.velocity_px_s.setZero();
+  believed_ = last_;
+  label_.offset.setZero();
+  label_.scale = size_of(designated_).cwiseQuotient(last_.size_px);
+  filter_.particles().assign(filter_.particles().size(), last_);
+  velocity_ = Velocity::kUnknown;
+  search_.reset();
+  placed_ = true;
+}
+
+// A distant target that was lost comes back near where it should be, or moving. What stands still
+// against the scene elsewhere is a twig, a window or a reticle, however much it looks like it.
+bool TrackerCore::may_be_it(const ReducedFrame& reduced) const {
+  if (!search_ || search_->told) return true;
+  const double off_px = (last_.pixel - search_->pixel).norm();
+  const double reach_px = 2.0 * search_->sd_px + last_.size_px.norm();
+  if (time_s_ - search_->since_s < kNearFirst && off_px < reach_px) return true;
+  const auto* earlier = references_.older_than(time_s_ - kEarlier);
+  if (!earlier) return false;
+  const cv::Rect2d box = box_of(last_.pixel, last_.size_px);
+  MoverSearch around;
+  around.area = box_of(last_.pixel, 4.0 * last_.size_px + Eigen::Vector2d::Constant(16.0));
+  const auto movers = detect_movers(earlier->gray, earlier->to_present, reduced, around);
+  return std::any_of(movers.begin(), movers.end(),
+                     [&](const auto& mover) { return (mover.box & box).area() > 0.0; });
+}
+
+// While the target is lost: things that move, near where it should be first, then anywhere.
+void TrackerCore::force_onto_movers(const ReducedFrame& reduced) {
+  const auto* earlier = references_.older_than(time_s_ - kEarlier);
+  if (!earlier) return;
+  MoverSearch where;
+  where.area = {{0.0, 0.0}, cv::Size2d(frame_size_)};
+  if (time_s_ - search_->since_s < kNearFirst) {
+    const double reach = 3.0 * search_->sd_px;
+    where.area &= box_of(search_->pixel, last_.size_px + Eigen::Vector2d::Constant(2.0 * reach));
+  }
+  const auto movers = detect_movers(earlier->gray, earlier->to_present, reduced, where);
+  if (movers.empty()) return;
+  auto& particles = filter_.particles();
+  const auto count =
+      static_cast<std::size_t>(config_.difference_fraction * static_cast<double>(particles.size()));
+  for (std::size_t i = 0; i < count; ++i) {
+    const MoverCandidate& mover = movers[i % movers.size()];
+    const double sd = 1.0 + 0.1 * std::sqrt(believed_.size_px.prod());
+    // Between those that the frame difference took.
+    Particle& particle = particles[i * particles.size() / count + 1];
+    particle = drawn_near(mover.pixel, sd);
+  }
 }
 
 // Where a target of unknown velocity may be found.
@@ -166,18 +264,20 @@ void TrackerCore::force_onto_differences(const ReducedFrame& reduced, const cv::
   }
 }
 
-TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s, StageTimer& timer) {
+TrackerOutput TrackerCore::update(const TrackerInput& frame, const ReducedFrame& reduced,
+                                  double interval_s, StageTimer& timer) {
   const cv::Rect2d expected = box_of(motion_.advance(last_).pixel, last_.size_px);
   const Scene scene = target_.make_scene(frame.gray, filter_.particles(), expected, references_);
   timer.lap(Stage::kMasks);
   const double background = target_.background_similarity(scene, expected);
-  std::vector<double> log_likelihood;
+  log_likelihood_.clear();
   for (const Particle& particle : filter_.particles()) {
     const Likeness likeness = target_.likeness(scene, particle.pixel, particle.size_px);
-    log_likelihood.push_back(target_.log_likelihood(likeness, background, particle.size_px));
+    const double out = target_.standing_out(scene, particle.pixel, particle.size_px);
+    log_likelihood_.push_back(target_.log_likelihood(likeness, background, out, particle.size_px));
   }
-  filter_.weigh(log_likelihood);
-  const std::size_t best = filter_.maximum_a_posteriori(log_likelihood);
+  filter_.weigh(log_likelihood_);
+  const std::size_t best = filter_.maximum_a_posteriori(log_likelihood_);
   last_ = filter_.particles()[best];
   last_.size_px = filter_.mean_size_px();
   timer.lap(Stage::kWeighting);
@@ -186,7 +286,7 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s, 
   const double floor = config_.pixel_sd_floor_px * config_.pixel_sd_floor_px;
   TrackerOutput output;
   output.covariance_px2 = filter_.covariance_about(last_.pixel);
-  if (refined) {
+  if (refined && refined->correlation > kSamePattern) {
     last_.pixel = refined->pixel;
     filter_.particles()[best].pixel = refined->pixel;
     output.covariance_px2 = refined->covariance_px2;
@@ -194,10 +294,18 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s, 
   output.covariance_px2 += floor * Eigen::Matrix2d::Identity();
   timer.lap(Stage::kPosition);
   const Likeness found = target_.likeness(scene, last_.pixel, last_.size_px);
-  belief_.update({found.similarity, background, found.correlation, found.contrast}, interval_s);
-  if (target_.empty()) belief_.doubt();
+  FrameEvidence evidence{found.similarity, background, found.correlation, found.contrast};
+  evidence.standing_out = target_.standing_out(scene, last_.pixel, last_.size_px);
+  evidence.foreground = target_.foreground(scene, last_.pixel, last_.size_px);
+  evidence.by_subtraction = scene.mask_by_subtraction;
+  belief_.update(evidence, interval_s);
+  if (target_.empty() || !may_be_it(reduced)) belief_.doubt();
   if (belief_.value() > kSureEnoughForMask) target_.learn_mask(scene, last_.pixel, last_.size_px);
-  output.box = box_of(last_.pixel, last_.size_px);
+  if (belief_.value() > kSureEnoughToLearn) {
+    target_.learn(scene, last_.pixel, last_.size_px,
+                  1.0 - std::exp(-interval_s / config_.learning_time_s));
+  }
+  output.box = labelled(last_);
   output.pixel = last_.pixel;
   output.belief = belief_.value();
   return output;
@@ -211,12 +319,12 @@ void TrackerCore::after_update(const TrackerOutput& output, double interval_s) {
   } else if (!search_) {
     const double sd =
         2.0 * motion_.position_sd(last_.size_px) + config_.search_growth_px_s * interval_s;
-    search_ = Search{last_.pixel, sd, config_.search_sd_most_px};
+    search_ = Search{last_.pixel, sd, config_.search_sd_most_px, time_s_, false};
   }
 }
 
 void TrackerCore::search_near(const Eigen::Vector2d& pixel, double sd_px) {
-  search_ = Search{pixel, sd_px, std::max(sd_px, config_.search_sd_most_px)};
+  search_ = Search{pixel, sd_px, std::max(sd_px, config_.search_sd_most_px), time_s_, true};
   for (Particle& particle : filter_.particles()) particle = drawn_near(pixel, sd_px);
   last_.pixel = pixel;
   last_.size_px = believed_.size_px;

@@ -24,6 +24,13 @@ class TrackerCore : public TargetFollower {
     Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
     double sd_px = 0.0;
     double most_sd_px = 0.0;
+    double since_s = 0.0;
+    bool told = false;  // by search_near(): it is there whether it moves or not
+  };
+  // The designated box about what stands out in it, in units of that part's size.
+  struct Label {
+    Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+    Eigen::Vector2d scale = Eigen::Vector2d::Ones();
   };
   enum class Velocity { kEstimated, kUnknown };
 
@@ -32,11 +39,19 @@ class TrackerCore : public TargetFollower {
   void predict_search(double interval_s);
   void guess_velocities();
   void force_onto_differences(const ReducedFrame& reduced, const cv::Rect2d& area);
+  void force_onto_movers(const ReducedFrame& reduced);
+  bool may_be_it(const ReducedFrame& reduced) const;
+  void designate_late(const cv::Mat& gray);
   cv::Rect2d reachable_area(double interval_s) const;
   void scatter_over_search(double fraction);
-  TrackerOutput update(const TrackerInput& frame, double interval_s, StageTimer& timer);
+  TrackerOutput update(const TrackerInput& frame, const ReducedFrame& reduced, double interval_s,
+                       StageTimer& timer);
   void after_update(const TrackerOutput& output, double interval_s);
   Particle drawn_near(const Eigen::Vector2d& pixel, double sd_px);
+
+  TrackerCore(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
+              const cv::Rect2d& box, const cv::Rect2d& core);
+  cv::Rect2d labelled(const Particle& particle) const;
 
   TrackerConfig config_;
   Random random_;
@@ -50,8 +65,13 @@ class TrackerCore : public TargetFollower {
   std::optional<Search> search_;
   bool placed_ = false;  // the particles stand in the coming frame already
   Velocity velocity_ = Velocity::kUnknown;
+  Label label_;
   Particle last_;      // best estimate in the newest frame
   Particle believed_;  // the last one believed in, as far as size and velocity go
+  std::optional<double> prediction_error_px_;
+  std::vector<double> log_likelihood_;  // memory that is used again
+  double empty_s_ = 0.0;
+  cv::Rect2d designated_;  // the box while there is nothing in it, the present frame's pixels
   cv::Size frame_size_;
   double time_s_ = 0.0;
 };
