@@ -1,19 +1,22 @@
 // ols-track: follows one target through a clip and writes boxes.csv.
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <map>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <optional>
+#include <sstream>
 
 #include "base/atomic_file.h"
 #include "base/command_line.h"
-#include "base/toml_config.h"
 #include "edge/tracker/tracker.h"
 #include "tools/offline/boxes_csv.h"
 #include "tools/offline/frame_source.h"
+#include "tools/offline/timing_csv.h"
+#include "tools/offline/tracker_setup.h"
 
 namespace {
 
@@ -56,97 +59,142 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->required();
 }
 
-ols::TrackerConfig load_config(const Arguments& arguments) {
-  ols::TrackerConfig config;
-  if (!arguments.config.empty()) {
-    ols::ConfigFile file(arguments.config);
-    config = ols::read_tracker_config(file.root().table("tracker"));
-    file.finish();
-  }
-  if (arguments.mode == "paper") config.mode = ols::TrackerMode::kPaper;
-  if (arguments.mode == "full") config.mode = ols::TrackerMode::kFull;
-  return config;
-}
-
-// frame, total_ms and the milliseconds of each stage.
-class TimingFile {
- public:
-  TimingFile(const std::string& path, ols::Tracker& tracker) : file_(path) {
-    tracker.set_stage_clock([] {
-      const auto now = std::chrono::steady_clock::now().time_since_epoch();
-      return std::chrono::duration<double>(now).count();
-    });
-    file_.stream() << "frame,total_ms";
-    for (const char* name : ols::kStageNames) file_.stream() << ',' << name << "_ms";
-    file_.stream() << '\n';
-  }
-  void write(long frame, const ols::StageTimes& times) {
-    double total_s = 0.0;
-    for (const double seconds : times.seconds) total_s += seconds;
-    file_.stream() << frame << ',' << 1e3 * total_s;
-    for (const double seconds : times.seconds) file_.stream() << ',' << 1e3 * seconds;
-    file_.stream() << '\n';
-  }
-  void commit() { file_.commit(); }
-
- private:
-  ols::AtomicFile file_;
-};
-
 // Tracking while believed, coasting for a second after that, then lost.
 class State {
  public:
+  explicit State(double start_s) : believed_s_(start_s) {}
+
   ols::BoxRow row(long frame, double time_s, const ols::TrackerOutput& output) {
-    constexpr double kBelieved = 0.5;
-    constexpr double kCoast = 1.0;  // [s]
     if (output.belief >= kBelieved) believed_s_ = time_s;
-    const bool lost = time_s - believed_s_ > kCoast;
     ols::BoxRow row{frame, output.box, output.belief, "tracking"};
-    if (output.belief < kBelieved) row.state = lost ? "lost" : "coasting";
-    if (lost) row.box.reset();
+    if (output.belief < kBelieved) row.state = doubted(time_s);
+    if (lost(time_s)) row.box.reset();
     return row;
   }
-  void start(double time_s) { believed_s_ = time_s; }
+  // Of a frame that the tracker could not use.
+  ols::BoxRow row(long frame, double time_s) const {
+    return {frame, std::nullopt, 0.0, doubted(time_s)};
+  }
 
  private:
-  double believed_s_ = 0.0;
+  static constexpr double kBelieved = 0.5;
+  static constexpr double kCoast_s = 1.0;
+
+  bool lost(double time_s) const { return time_s - believed_s_ > kCoast_s; }
+  const char* doubted(double time_s) const { return lost(time_s) ? "lost" : "coasting"; }
+
+  double believed_s_;
 };
 
-[[noreturn]] void refuse(long frame, ols::TrackerError error) {
-  throw std::runtime_error("frame " + std::to_string(frame) + ": " + ols::to_string(error));
+// Frames that the tracker refused: they get no box, and the user is told.
+class Skipped {
+ public:
+  void add(long frame, ols::TrackerError error) {
+    Kind& kind = kinds_[error];
+    if (kind.frames++ == 0) kind.first = frame;
+  }
+  std::optional<ols::TrackerError> any() const {
+    return kinds_.empty() ? std::nullopt : std::optional(kinds_.begin()->first);
+  }
+  void tell(std::ostream& out) const {
+    for (const auto& [error, kind] : kinds_) {
+      out << "ols-track: skipped " << kind.frames << (kind.frames == 1 ? " frame" : " frames")
+          << ", the first is " << kind.first << ": " << ols::to_string(error) << '\n';
+    }
+  }
+
+ private:
+  struct Kind {
+    long frames = 0;
+    long first = 0;
+  };
+  std::map<ols::TrackerError, Kind> kinds_;
+};
+
+// From one picture to the rows of boxes.csv.
+class Run {
+ public:
+  explicit Run(const Arguments& arguments)
+      : arguments_(arguments),
+        tracker_(ols::load_tracker_config(arguments.config, arguments.mode), arguments.seed),
+        file_(arguments.output) {
+    if (!arguments.timing.empty()) timing_.emplace(arguments.timing, tracker_);
+    ols::write_boxes_header(file_.stream());
+  }
+
+  void take(long frame, const ols::TrackerInput& input) {
+    if (frame < arguments_.start_frame) return;
+    if (frame == arguments_.start_frame) return begin(frame, input);
+    const double began_s = ols::thread_time_s();
+    const ols::TrackerResult result = tracker_.track(input);
+    const double taken_s = ols::thread_time_s() - began_s;
+    if (result.error) {
+      skipped_.add(frame, *result.error);
+      ols::write_box(file_.stream(), state_->row(frame, input.time_s));
+      return;
+    }
+    ++tracked_;
+    ols::write_box(file_.stream(), state_->row(frame, input.time_s, *result.output));
+    if (timing_) timing_->write(frame, taken_s, tracker_.stage_times());
+  }
+
+  // Throws when no frame at all could be tracked.
+  void commit() {
+    if (tracked_ == 0 && skipped_.any()) {
+      throw std::runtime_error(arguments_.input + ": no frame after the first can be used: " +
+                               ols::to_string(*skipped_.any()));
+    }
+    skipped_.tell(std::cerr);
+    file_.commit();
+    if (timing_) timing_->commit();
+  }
+
+ private:
+  void begin(long frame, const ols::TrackerInput& input) {
+    const auto& init = arguments_.init;
+    const cv::Rect2d box(init[0], init[1], init[2], init[3]);
+    if (const auto error = tracker_.initialise(input, box)) {
+      std::ostringstream reason;
+      reason << "frame " << frame << ", " << input.gray.cols << " by " << input.gray.rows
+             << " pixels: " << ols::to_string(*error);
+      throw std::runtime_error(reason.str());
+    }
+    state_.emplace(input.time_s);
+    ols::write_box(file_.stream(), {frame, box, 1.0, "tracking"});
+  }
+
+  const Arguments& arguments_;
+  ols::Tracker tracker_;
+  ols::AtomicFile file_;
+  std::optional<ols::TimingFile> timing_;
+  std::optional<State> state_;
+  Skipped skipped_;
+  long tracked_ = 0;
+};
+
+void refuse_overwriting(const Arguments& arguments) {
+  std::error_code unimportant;  // what does not exist is not overwritten
+  for (const std::string& written : {arguments.output, arguments.timing}) {
+    if (std::filesystem::equivalent(arguments.input, written, unimportant)) {
+      throw std::runtime_error("--output: " + written + " is the input");
+    }
+  }
 }
 
 void run(const Arguments& arguments) {
-  ols::Tracker tracker(load_config(arguments), arguments.seed);
+  refuse_overwriting(arguments);
   ols::FrameSource source(arguments.input);
-  const cv::Rect2d box(arguments.init[0], arguments.init[1], arguments.init[2], arguments.init[3]);
-  ols::AtomicFile file(arguments.output);
-  ols::write_boxes_header(file.stream());
-  std::optional<TimingFile> timing;
-  if (!arguments.timing.empty()) timing.emplace(arguments.timing, tracker);
-  State state;
+  Run following(arguments);
   long frame = 0;
   for (auto picture = source.next(); picture; picture = source.next(), ++frame) {
-    if (frame < arguments.start_frame) continue;
     const double time_s = static_cast<double>(frame) / source.frames_per_second();
-    const ols::TrackerInput input{*picture, time_s, std::nullopt};
-    if (frame == arguments.start_frame) {
-      if (const auto error = tracker.initialise(input, box)) refuse(frame, *error);
-      state.start(time_s);
-      ols::write_box(file.stream(), {frame, box, 1.0, "tracking"});
-      continue;
-    }
-    const ols::TrackerResult result = tracker.track(input);
-    if (result.error) refuse(frame, *result.error);
-    ols::write_box(file.stream(), state.row(frame, time_s, *result.output));
-    if (timing) timing->write(frame, tracker.stage_times());
+    following.take(frame, {*picture, time_s, std::nullopt});
   }
   if (frame <= arguments.start_frame) {
     throw std::runtime_error(arguments.input + ": has " + std::to_string(frame) +
                              " frames, --start-frame is " + std::to_string(arguments.start_frame));
   }
-  file.commit();
-  if (timing) timing->commit();
+  following.commit();
 }
 
 }  // namespace

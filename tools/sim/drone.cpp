@@ -57,17 +57,12 @@ Ellipse image_of(const Part& part, const DroneView& view) {
   return {view.centre_px + px_per_span * part.centre, axes * axes.transpose()};
 }
 
-struct Canvas {
-  cv::Rect area;              // in the picture
-  cv::Mat1f colour, covered;  // colour is multiplied by what it covers
-};
-
 void over(float& colour, float& covered, float gray, float alpha) {
   colour = colour * (1 - alpha) + gray * alpha;
   covered = covered * (1 - alpha) + alpha;
 }
 
-void draw_ellipse(const Ellipse& ellipse, float gray, double opacity, Canvas& canvas) {
+void draw_ellipse(const Ellipse& ellipse, float gray, double opacity, DroneMatte& canvas) {
   // Thinner than a pixel: drawn a pixel wide and fainter, so that its sum of light stays.
   constexpr double kLeastHalfAxis = 0.5;
   const Eigen::Matrix2d Q =
@@ -98,8 +93,8 @@ void draw_ellipse(const Ellipse& ellipse, float gray, double opacity, Canvas& ca
   }
 }
 
-Canvas draw_still(const DroneView& view, const cv::Rect& area) {
-  Canvas canvas{area, cv::Mat1f::zeros(area.size()), cv::Mat1f::zeros(area.size())};
+DroneMatte draw_still(const DroneView& view, const cv::Rect& area) {
+  DroneMatte canvas{area, cv::Mat1f::zeros(area.size()), cv::Mat1f::zeros(area.size())};
   for (const Part& part : parts()) {
     const auto gray =
         static_cast<float>(std::min(255.0, 205.0 * view.brightness * part.brightness));
@@ -134,23 +129,29 @@ cv::Rect2d drone_box(const DroneView& view) {
   return {view.centre_px.x() - half.x(), view.centre_px.y() - half.y(), 2 * half.x(), 2 * half.y()};
 }
 
-void draw_drone(const DroneView& view, cv::Mat& gray) {
-  const cv::Rect area = area_of(view, gray.size());
-  if (area.empty()) return;
+DroneMatte drone_matte(const DroneView& view, cv::Size picture) {
+  const cv::Rect area = area_of(view, picture);
+  DroneMatte sum{area, cv::Mat1f::zeros(area.size()), cv::Mat1f::zeros(area.size())};
+  if (area.empty()) return sum;
   // The smear is the mean of stills along it, not farther apart than half a pixel.
   const int stills = std::clamp(static_cast<int>(std::ceil(2.0 * view.smear_px.norm())), 1, 16);
-  cv::Mat1f colour = cv::Mat1f::zeros(area.size()), covered = cv::Mat1f::zeros(area.size());
   for (int i = 0; i < stills; ++i) {
     DroneView still = view;
     still.centre_px += ((i + 0.5) / stills - 0.5) * view.smear_px;
-    const Canvas canvas = draw_still(still, area);
-    colour += canvas.colour / stills;
-    covered += canvas.covered / stills;
+    const DroneMatte one = draw_still(still, area);
+    sum.colour += one.colour / stills;
+    sum.covered += one.covered / stills;
   }
+  return sum;
+}
+
+void draw_drone(const DroneView& view, cv::Mat& gray) {
+  const DroneMatte matte = drone_matte(view, gray.size());
+  if (matte.area.empty()) return;
   cv::Mat behind, mixed;
-  gray(area).convertTo(behind, CV_32F);
-  mixed = behind.mul(1.0F - covered) + colour;
-  mixed.convertTo(gray(area), CV_8U);
+  gray(matte.area).convertTo(behind, CV_32F);
+  mixed = behind.mul(1.0F - matte.covered) + matte.colour;
+  mixed.convertTo(gray(matte.area), CV_8U);
 }
 
 }  // namespace ols::sim

@@ -22,6 +22,14 @@ struct DroneView {
 // Smallest upright box around the silhouette, without smear; (0, 0) is the centre of a pixel.
 cv::Rect2d drone_box(const DroneView& view);
 
+// What a target adds to a picture: what was there times (1 - covered), plus `colour`.
+struct DroneMatte {
+  cv::Rect area;              // in the picture; empty when nothing of the target is inside
+  cv::Mat1f colour, covered;  // of `area`; colour [gray levels] is multiplied by what it covers
+};
+
+DroneMatte drone_matte(const DroneView& view, cv::Size picture);
+
 void draw_drone(const DroneView& view, cv::Mat& gray);
 
 }  // namespace ols::sim

@@ -1,0 +1,26 @@
+// timing.csv: frame,total_ms and the milliseconds of each stage.
+#pragma once
+
+#include <string>
+
+#include "base/atomic_file.h"
+#include "edge/tracker/tracker.h"
+
+namespace ols {
+
+// Processor time of this thread [s]: what else runs on the machine does not count.
+double thread_time_s();
+
+class TimingFile {
+ public:
+  // Gives the tracker a clock. Throws when the file cannot be written.
+  TimingFile(const std::string& path, Tracker& tracker);
+
+  void write(long frame, double total_s, const StageTimes& stages);
+  void commit() { file_.commit(); }
+
+ private:
+  AtomicFile file_;
+};
+
+}  // namespace ols

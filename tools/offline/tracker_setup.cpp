@@ -1,0 +1,19 @@
+#include "tools/offline/tracker_setup.h"
+
+#include "base/toml_config.h"
+
+namespace ols {
+
+TrackerConfig load_tracker_config(const std::string& path, const std::string& mode) {
+  TrackerConfig config;
+  if (!path.empty()) {
+    ConfigFile file(path);
+    config = read_tracker_config(file.root().table("tracker"));
+    file.finish();
+  }
+  if (mode == "paper") config.mode = TrackerMode::kPaper;
+  if (mode == "full") config.mode = TrackerMode::kFull;
+  return config;
+}
+
+}  // namespace ols

@@ -1,0 +1,1 @@
+"""Benchmarks of the tracker: on clips with ground truth, and on synthetic pictures."""

@@ -1,0 +1,95 @@
+"""Whether belief means what it says, over all judged frames of all clips together.
+
+"On target" is a visible target and a box whose centre is within 20 px of its. Frames without a box
+count as well: the tracker says how sure it is there too, and it is not on target.
+"""
+
+import numpy as np
+from scipy import stats
+
+from ols_bench.measures import BELIEVED, Judged
+
+BINS = 10
+# A loss: off target for this long at least, after having been on it. Shorter excursions end by
+# themselves before anybody could notice.
+LEAST_LOSS_S = 1.0 / 3.0
+NOTICED_IN_TIME_S = 0.33
+
+
+def pooled(judged: list[Judged]) -> tuple[np.ndarray, np.ndarray]:
+    """Belief and whether it was on target, of every frame."""
+    return (
+        np.concatenate([j.belief for j in judged]),
+        np.concatenate([j.on_target for j in judged]),
+    )
+
+
+def reliability(belief: np.ndarray, on_target: np.ndarray) -> list[dict]:
+    """For each tenth of belief that occurs: mean belief, share on target, frames."""
+    index = np.minimum((belief * BINS).astype(int), BINS - 1)
+    return [
+        {
+            "belief": float(belief[index == i].mean()),
+            "on_target": float(on_target[index == i].mean()),
+            "frames": int((index == i).sum()),
+        }
+        for i in range(BINS)
+        if (index == i).any()
+    ]
+
+
+def calibration_error(rows: list[dict]) -> float:
+    """Expected calibration error: mean gap between belief and truth, weighted by frames."""
+    total = sum(row["frames"] for row in rows)
+    return sum(abs(row["belief"] - row["on_target"]) * row["frames"] for row in rows) / total
+
+
+def auroc(belief: np.ndarray, on_target: np.ndarray) -> float | None:
+    """Chance that a frame on target is believed in more than one that is not; ties count half."""
+    positive, negative = int(on_target.sum()), int((~on_target).sum())
+    if not positive or not negative:
+        return None
+    ranks = stats.rankdata(belief)
+    return float((ranks[on_target].sum() - positive * (positive + 1) / 2) / (positive * negative))
+
+
+def losses(judged: Judged) -> list[float]:
+    """Seconds from the first frame off target to the first one not believed in, for each loss of a
+    target that was believed in; infinite where the loss ends or the clip does before that."""
+    on_target, believed = judged.on_target, judged.believed
+    least = LEAST_LOSS_S * judged.frames_per_second
+    noticed = []
+    start = None
+    for k in range(len(on_target) + 1):
+        off = k < len(on_target) and not on_target[k]
+        if off and start is None:
+            start = k
+        elif not off and start is not None:
+            if k - start >= least and (start == 0 or believed[start - 1]):
+                doubts = np.flatnonzero(~believed[start:k])
+                time = doubts[0] / judged.frames_per_second if len(doubts) else np.inf
+                noticed.append(float(time))
+            start = None
+    return noticed
+
+
+def belief_measures(judged: list[Judged]) -> dict | None:
+    """Nothing for trackers that have no belief."""
+    if any(j.belief is None for j in judged):
+        return None
+    belief, on_target = pooled(judged)
+    rows = reliability(belief, on_target)
+    times = [time for j in judged for time in losses(j)]
+    return {
+        "calibration_error": calibration_error(rows),
+        "auroc": auroc(belief, on_target),
+        "reliability": rows,
+        "losses": len(times),
+        "noticed_in_time": (
+            float(np.mean([time <= NOTICED_IN_TIME_S for time in times])) if times else None
+        ),
+        "noticed_median_s": (
+            float(np.median(times)) if times and np.isfinite(np.median(times)) else None
+        ),
+        "believed_threshold": BELIEVED,
+    }

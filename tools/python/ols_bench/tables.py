@@ -1,0 +1,149 @@
+"""The figures as Markdown and JSON."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from ols_bench.results import Result
+
+Results = dict[str, dict[str, Result]]  # tracker, folder
+
+COLUMNS = (
+    "tracker",
+    "mean IoU",
+    "AUC",
+    "within 20 px",
+    "within 5 px",
+    "kept lock",
+    "frames/s",
+    "ms median",
+    "ms p99",
+    "× CSRT",
+)
+BELIEF_COLUMNS = (
+    "tracker",
+    "absent frames believed in",
+    "calibration error",
+    "AUROC",
+    "losses",
+    "noticed ≤ 0.33 s",
+    "median",
+)
+
+
+def line(cells: list[str] | tuple[str, ...]) -> str:
+    return "| " + " | ".join(cells) + " |"
+
+
+def table(columns: list[str] | tuple[str, ...], rows: list[list[str]]) -> str:
+    rule = "|---" + "|---:" * (len(columns) - 1) + "|"
+    return "\n".join([line(columns), rule, *map(line, rows)])
+
+
+def text(value: float | None, form: str = ".3f") -> str:
+    return "–" if value is None or not np.isfinite(value) else format(value, form)
+
+
+def accuracy_row(name: str, result: Result, reference: Result | None) -> list[str]:
+    total, speed = result.total, result.speed.figures()
+    ratio = None
+    if reference:
+        ratio = speed["frames_per_second"] / reference.speed.figures()["frames_per_second"]
+    kept = round(total["lock"] * total["clips"])
+    return [
+        name,
+        *(text(total[key]) for key in ("iou", "auc", "p20", "p5")),
+        f"{kept} of {total['clips']}",
+        text(speed["frames_per_second"], ".0f"),
+        text(speed["median_ms"], ".2f"),
+        text(speed["p99_ms"], ".2f"),
+        text(ratio, ".1f"),
+    ]
+
+
+def belief_row(name: str, result: Result) -> list[str]:
+    belief = result.belief
+    if belief is None:
+        return [name, text(result.total["false_belief"]), *["–"] * 5]
+    median = belief["noticed_median_s"]
+    never = "never" if belief["losses"] else "–"
+    return [
+        name,
+        text(result.total["false_belief"]),
+        text(belief["calibration_error"]),
+        text(belief["auroc"]),
+        str(belief["losses"]),
+        text(belief["noticed_in_time"], ".2f"),
+        never if median is None else f"{median:.2f} s",
+    ]
+
+
+def stage_table(results: Results, folder: str) -> str:
+    """Mean milliseconds a frame of each stage, of the trackers that know theirs."""
+    known = {t: r[folder].speed.figures() for t, r in results.items() if r[folder].speed.stages}
+    stages = list(dict.fromkeys(s for figures in known.values() for s in figures["stages_ms"]))
+    rows = [
+        [name, *(text(figures["stages_ms"].get(s), ".2f") for s in stages)]
+        + [text(figures["mean_ms"], ".2f")]
+        for name, figures in known.items()
+    ]
+    return table(["ms per frame, mean", *(s.replace("_", " ") for s in stages), "all"], rows)
+
+
+def clip_table(results: Results, folder: str) -> str:
+    trackers = list(results)
+    clips = results[trackers[0]][folder].clips
+    rows = []
+    for clip in clips:
+        cells = [results[t][folder].clips[clip] for t in trackers]
+        rows.append(
+            [
+                clip,
+                *(
+                    ("**" if not c["lock"] else "")
+                    + text(c["p20"], ".2f")
+                    + ("**" if not c["lock"] else "")
+                    for c in cells
+                ),
+            ]
+        )
+    return table(["within 20 px", *trackers], rows)
+
+
+def markdown(results: Results, about: str) -> str:
+    parts = ["# Trackers on clips with ground truth", about]
+    any_result = next(iter(results.values()))
+    for folder in any_result:
+        parts.append(f"## {folder}")
+        total = any_result[folder].total
+        parts.append(
+            f"{total['clips']} clips, {total['frames']} frames with and {total['absent']} without "
+            "the target."
+        )
+        reference = results["CSRT"][folder] if "CSRT" in results else None
+        rows = [accuracy_row(t, by[folder], reference) for t, by in results.items()]
+        parts.append(table(COLUMNS, rows))
+        rows = [belief_row(t, by[folder]) for t, by in results.items()]
+        parts.append(table(BELIEF_COLUMNS, rows))
+        if any(by[folder].speed.stages for by in results.values()):
+            parts.append(stage_table(results, folder))
+        if len(any_result) == 1 or folder != list(any_result)[-1]:
+            parts.append("Clip by clip; **bold** where lock was lost:")
+            parts.append(clip_table(results, folder))
+    return "\n\n".join(parts) + "\n"
+
+
+def finite(value):
+    """The same with infinities as null, for JSON."""
+    if isinstance(value, dict):
+        return {key: finite(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [finite(item) for item in value]
+    return None if isinstance(value, float) and not np.isfinite(value) else value
+
+
+def write(output: Path, results: Results, about: str) -> None:
+    (output / "tracking.md").write_text(markdown(results, about))
+    figures = {t: {f: r.as_json() for f, r in by.items()} for t, by in results.items()}
+    (output / "tracking.json").write_text(json.dumps(finite(figures), indent=1) + "\n")

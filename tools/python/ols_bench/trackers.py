@@ -1,0 +1,97 @@
+"""Runs trackers over a clip, all on the core that this process is pinned to.
+
+Each writes BOXES (frame,x,y,w,h and, if it has one, belief) and TIMES (frame,total_ms and further
+columns for its stages): processor time of its own thread inside the tracker's update alone, so that
+neither decoding nor other load on the machine counts.
+"""
+
+import csv
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from ols_bench.clips import BadInput, Clip
+from ols_bench.places import Places
+
+SEED = 1
+OPENCV = {
+    "MOSSE": lambda: cv2.legacy.TrackerMOSSE_create(),
+    "KCF": lambda: cv2.TrackerKCF_create(),
+    "CSRT": lambda: cv2.TrackerCSRT_create(),
+    "MIL": lambda: cv2.TrackerMIL_create(),
+}
+OURS = {"ours (paper)": "paper", "ours (full)": "full"}
+NAMES = (*OURS, *OPENCV)
+
+
+def frames_per_second(clip: Clip) -> float:
+    rate = cv2.VideoCapture(str(clip.path)).get(cv2.CAP_PROP_FPS)
+    return rate if np.isfinite(rate) and 0.1 < rate < 10000 else 30.0
+
+
+def pictures(clip: Clip):
+    """Every frame as OpenCV reads it."""
+    video = cv2.VideoCapture(str(clip.path))
+    for _ in range(clip.frames):
+        read, picture = video.read()
+        if not read:
+            return
+        yield picture
+
+
+def first_box(clip: Clip) -> list[float]:
+    return [float(value) for value in clip.truth.xywh[clip.first]]
+
+
+def start(create: Callable, picture: np.ndarray, box: list[float]):
+    tracker = create()
+    if isinstance(tracker, cv2.legacy.Tracker):
+        tracker.init(picture, tuple(box))
+    else:
+        x, y, w, h = box
+        tracker.init(picture, (round(x), round(y), max(1, round(w)), max(1, round(h))))
+    return tracker
+
+
+def run_opencv(name: str, clip: Clip, places: Places) -> None:
+    cv2.setNumThreads(1)
+    cv2.setRNGSeed(SEED)
+    boxes, times = [], []
+    tracker = None
+    for frame, picture in enumerate(pictures(clip)):
+        if frame < clip.first:
+            continue
+        if tracker is None:
+            tracker = start(OPENCV[name], picture, first_box(clip))
+            boxes.append((frame, *first_box(clip)))
+            continue
+        began = time.thread_time()
+        found, box = tracker.update(picture)
+        times.append((frame, 1e3 * (time.thread_time() - began)))
+        boxes.append((frame, *box) if found else (frame, "", "", "", ""))
+    write(places.times, ("frame", "total_ms"), times)
+    write(places.boxes, ("frame", "x", "y", "w", "h"), boxes)
+
+
+def run_ours(name: str, clip: Clip, places: Places, program: Path, config: Path | None) -> None:
+    command = [program, "--input", clip.path, "--mode", OURS[name], "--seed", SEED]
+    command += ["--init", ",".join(f"{value:.6g}" for value in first_box(clip))]
+    command += ["--start-frame", clip.first, "--output", places.boxes, "--timing", places.times]
+    if config:
+        command += ["--config", config]
+    result = subprocess.run(
+        [str(part) for part in command], capture_output=True, text=True, check=False
+    )
+    if result.returncode:
+        raise BadInput(f"{clip.path}: {result.stderr.strip()}")
+
+
+def write(path: Path, header: tuple, rows: list) -> None:
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(header)
+        writer.writerows(rows)
