@@ -1,6 +1,7 @@
 """ols-track as its users meet it: pictures of a target that moves, and files that are no good."""
 
 import csv
+import struct
 import subprocess
 
 import numpy as np
@@ -149,3 +150,160 @@ def test_bad_numbers(folder, tmp_path, option):
 def test_start_after_the_end(folder, tmp_path):
     output = tmp_path / "boxes.csv"
     refused(track(folder, output, "--start-frame", "99"), output, "99")
+
+
+def write_clip(path, pictures) -> None:
+    """Uncompressed AVI, readable without any codec: each picture stands by itself."""
+    height, width = pictures[0].shape
+
+    def chunk(name: bytes, content: bytes) -> bytes:
+        return name + struct.pack("<I", len(content)) + content + b"\0" * (len(content) % 2)
+
+    def listing(name: bytes, content: bytes) -> bytes:
+        return chunk(b"LIST", name + content)
+
+    size = width * height * 3
+    main = struct.pack("<14I", 33333, size * 30, 0, 16, len(pictures), 0, 1, size, width, height,
+                       0, 0, 0, 0)  # fmt: skip
+    stream = struct.pack("<4s4sIHHIIIIIIII4H", b"vids", b"DIB ", 0, 0, 0, 0, 1, 30, 0,
+                         len(pictures), size, 0, 0, 0, 0, width, height)  # fmt: skip
+    form = struct.pack("<IiiHHIIiiII", 40, width, height, 1, 24, 0, size, 0, 0, 0, 0)
+    header = chunk(b"avih", main)
+    header += listing(b"strl", chunk(b"strh", stream) + chunk(b"strf", form))
+    body = b"".join(
+        chunk(b"00db", np.repeat(picture[::-1, :, None], 3, axis=2).tobytes())
+        for picture in pictures
+    )
+    content = b"AVI " + listing(b"hdrl", header) + listing(b"movi", body)
+    path.write_bytes(b"RIFF" + struct.pack("<I", len(content)) + content)
+
+
+@pytest.fixture
+def clip(tmp_path, pictures):
+    result = tmp_path / "clip.avi"
+    write_clip(result, pictures)
+    return result
+
+
+def test_follows_through_a_clip_and_says_where_the_time_goes(clip, tmp_path):
+    output, timing = tmp_path / "boxes.csv", tmp_path / "timing.csv"
+    result = track(clip, output, "--timing", str(timing))
+    assert result.returncode == 0, result.stderr
+    assert_follows(output)
+    rows = list(csv.DictReader(timing.read_text().splitlines()))
+    assert [int(row["frame"]) for row in rows] == list(range(1, FRAMES))
+    for row in rows:
+        stages = [float(row[key]) for key in row if key not in ("frame", "total_ms")]
+        assert len(stages) >= 5
+        assert 0.0 < sum(stages) <= float(row["total_ms"]) + 1e-3
+
+
+@pytest.mark.parametrize("mode", ["paper", "full"])
+def test_both_modes(clip, tmp_path, mode):
+    output = tmp_path / "boxes.csv"
+    result = track(clip, output, "--mode", mode)
+    assert result.returncode == 0, result.stderr
+    assert len(output.read_text().splitlines()) == FRAMES + 1
+    refused(track(clip, tmp_path / "other.csv", "--mode", "best"), tmp_path / "other.csv", "--mode")
+
+
+def test_truncated_clip_is_refused_and_says_after_how_many_frames(clip, tmp_path):
+    whole = clip.read_bytes()
+    clip.write_bytes(whole[: len(whole) // 2])
+    output = tmp_path / "boxes.csv"
+    refused(track(clip, output), output, str(clip), f"of {FRAMES} frames")
+
+
+@pytest.mark.parametrize("bytes_left", [0, 100, 2000])
+def test_clip_without_a_picture_is_refused(clip, tmp_path, bytes_left):
+    clip.write_bytes(clip.read_bytes()[:bytes_left])
+    output = tmp_path / "boxes.csv"
+    refused(track(clip, output), output, str(clip))
+
+
+def test_empty_folder_and_folder_without_pictures(tmp_path):
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    output = tmp_path / "boxes.csv"
+    refused(track(empty, output), output, "no pictures")
+    (empty / "notes.txt").write_text("none")
+    refused(track(empty, output), output, "no pictures")
+
+
+def test_pictures_of_another_size_are_skipped_counted_and_told(folder, tmp_path, pictures):
+    odd = (5, 6, 11)
+    for frame in odd:
+        write_pgm(folder / f"{frame}.pgm", pictures[frame][:200])
+    output = tmp_path / "boxes.csv"
+    result = track(folder, output)
+    assert result.returncode == 0, result.stderr
+    (line,) = lines_said(result.stderr)
+    assert "skipped 3 frames, the first is 5: frame has another size" in line
+    assert_follows(output)
+    rows = list(csv.DictReader(output.read_text().splitlines()))
+    for row in rows:
+        if int(row["frame"]) in odd:
+            assert row["x"] == "" and float(row["belief"]) == 0.0 and row["state"] == "coasting"
+        else:
+            assert row["x"] != ""
+
+
+def test_every_later_picture_of_another_size(folder, tmp_path, pictures):
+    for frame in range(1, FRAMES):
+        write_pgm(folder / f"{frame}.pgm", pictures[frame][:, :300])
+    output = tmp_path / "boxes.csv"
+    refused(track(folder, output), output, str(folder), "another size")
+
+
+def test_colour_deep_and_black_pictures(tmp_path, pictures):
+    """Colour and 16 bits are read as grey; a black or a saturated picture is no target."""
+    kinds = tmp_path / "kinds"
+    kinds.mkdir()
+    for frame, picture in enumerate(pictures):
+        height, width = picture.shape
+        if frame % 3 == 0:
+            colour = np.repeat(picture[:, :, None], 3, axis=2).tobytes()
+            (kinds / f"{frame}.ppm").write_bytes(b"P6\n%d %d\n255\n" % (width, height) + colour)
+        elif frame in (7, 8):
+            write_pgm(kinds / f"{frame}.pgm", np.full_like(picture, 255 * (frame == 8)))
+        else:
+            write_pgm(kinds / f"{frame}.pgm", picture)
+    output = tmp_path / "boxes.csv"
+    result = track(kinds, output)
+    assert result.returncode == 0, result.stderr
+    rows = list(csv.DictReader(output.read_text().splitlines()))
+    numbers = [float(row[key]) for row in rows for key in ("x", "y", "w", "h") if row[key]]
+    assert np.isfinite(numbers).all()
+    assert len(rows) == FRAMES
+
+
+@pytest.mark.parametrize("size", [(1, 1), (2, 3), (8, 8)])
+def test_tiny_pictures(tmp_path, size):
+    tiny = tmp_path / "tiny"
+    tiny.mkdir()
+    for frame in range(4):
+        write_pgm(tiny / f"{frame}.pgm", np.full(size, 40 * frame, dtype=np.uint8))
+    output = tmp_path / "boxes.csv"
+    result = track(tiny, output, box="0,0,3,3")
+    if result.returncode == 0:
+        assert len(output.read_text().splitlines()) == 5
+    else:
+        refused(result, output, "box", f"{size[1]} by {size[0]} pixels")
+
+
+def test_refused_box_names_frame_and_size_of_the_picture(folder, tmp_path):
+    output = tmp_path / "boxes.csv"
+    refused(track(folder, output, box="400,50,12,12"), output, "frame 0", "320 by 240", "box")
+
+
+def test_output_that_cannot_be_written(folder, tmp_path):
+    output = tmp_path / "none" / "boxes.csv"
+    result = track(folder, output)
+    assert result.returncode == 2 and "none" in result.stderr
+
+
+def test_clip_is_not_overwritten_by_its_own_boxes(clip):
+    before = clip.read_bytes()
+    result = track(clip, clip)
+    assert result.returncode == 2 and "--output" in result.stderr
+    assert clip.read_bytes() == before
