@@ -3,6 +3,7 @@
 // leaves it as it was: a second tracker that is spared all of that gives the same to the last bit.
 #include "edge/tracker/tracker.h"
 
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <cstring>
