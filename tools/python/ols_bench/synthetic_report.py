@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import NullFormatter, StrMethodFormatter
 
 from ols_bench.style import BOUND, FAINT, OURS, PAPER, TRUTH, pyplot
 from ols_bench.synthetic import HIDDEN_SWEEPS, REACQUIRED_IN_S
@@ -121,6 +122,12 @@ def write(output: Path, points: list[dict], about: str) -> None:
     (output / "synthetic.json").write_text(json.dumps(finite(points), indent=1) + "\n")
 
 
+def plain_numbers(axes: Axes) -> None:
+    axes.set_yscale("log")
+    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.yaxis.set_minor_formatter(NullFormatter())
+
+
 def draw_errors(axes: Axes, rows: list[dict], logarithmic: bool) -> None:
     values = [p["value"] for p in rows]
     bound = np.array([np.sqrt(np.mean(np.square(p["bound_px"]))) for p in rows])
@@ -130,7 +137,7 @@ def draw_errors(axes: Axes, rows: list[dict], logarithmic: bool) -> None:
     for axis, colour, marker in ((0, OURS, "o"), (1, PAPER, "s")):
         rms = [p["rms_px"][axis] for p in rows]
         axes.plot(values, rms, marker=marker, color=colour, markersize=4.5)
-    axes.set_yscale("log")
+    plain_numbers(axes)
     if logarithmic:
         axes.set_xscale("log")
         axes.set_xticks(values, [f"{v:g}" for v in values], fontsize=8)
@@ -145,7 +152,7 @@ def draw_nees(axes: Axes, rows: list[dict], label: str) -> None:
         axes.plot(
             values, [p["nees"][axis] for p in rows], marker=marker, color=colour, markersize=4.5
         )
-    axes.set_yscale("log")
+    plain_numbers(axes)
     axes.set_xlabel(label, fontsize=9)
 
 
@@ -213,11 +220,12 @@ def draw_lock(axes: Axes, points: list[dict]) -> None:
         rows = sorted((p for p in points if p["sweep"] == name), key=lambda p: p["value"])
         for k, p in enumerate(rows):
             shade = pyplot.get_cmap("RdYlGn")(p["kept_lock"])
-            axes.barh(place, 0.9, left=k, color=shade, height=0.8)
+            axes.barh(place, 0.92, left=k, color=shade, height=0.8, alpha=0.6)
             axes.text(k + 0.45, place, f"{p['value']:g}: {100 * p['kept_lock']:.0f} %",
                       ha="center", va="center", fontsize=8)  # fmt: skip
     labels = [(CAMERA | EVENTS)[name][0] for name in reversed(names)]
     axes.set_yticks(range(len(names)), labels, fontsize=8)
+    axes.tick_params(length=0)
     axes.set_xticks([])
     axes.grid(visible=False)
     axes.spines[:].set_visible(False)
