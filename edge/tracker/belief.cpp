@@ -31,9 +31,9 @@ double frame_belief(const FrameEvidence& evidence, const Typical& typical) {
 }
 
 void Belief::update(const FrameEvidence& evidence, double interval_s) {
-  const double now = frame_belief(evidence, typical_);
-  const double time = now < value_ ? kFallTime : kRiseTime;
-  value_ += (now - value_) * (1.0 - std::exp(-interval_s / time));
+  of_frame_ = frame_belief(evidence, typical_);
+  const double time = of_frame_ < value_ ? kFallTime : kRiseTime;
+  value_ += (of_frame_ - value_) * (1.0 - std::exp(-interval_s / time));
   value_ = std::clamp(value_, 0.0, 1.0);
   if (value_ >= 0.5) {
     const double share = 1.0 - std::exp(-interval_s / kTypicalTime);

@@ -29,16 +29,18 @@ double frame_belief(const FrameEvidence& evidence, const Typical& typical);
 class Belief {
  public:
   void start() {
-    value_ = 1.0;
+    value_ = of_frame_ = 1.0;
     typical_ = {};
   }
   void doubt() { value_ = value_ < kDoubt ? value_ : kDoubt; }
   void update(const FrameEvidence& evidence, double interval_s);
   double value() const { return value_; }
+  double of_frame() const { return of_frame_; }  // the newest frame alone
 
  private:
   static constexpr double kDoubt = 0.2;
   double value_ = 0.0;
+  double of_frame_ = 0.0;
   Typical typical_;
 };
 

@@ -102,6 +102,12 @@ bool plausible_homography(const Eigen::Matrix3d& homography, const cv::Size& ima
   return std::abs(moved.x()) < 0.6 * image.width && std::abs(moved.y()) < 0.6 * image.height;
 }
 
+bool aligns(const Eigen::Matrix3d& homography) {
+  constexpr double kMost = 100.0;  // times larger or smaller
+  const double scale = std::abs(homography.determinant());
+  return homography.allFinite() && scale > 1.0 / kMost && scale < kMost;
+}
+
 Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,
                                const std::vector<cv::Point2f>& current,
                                const Eigen::Matrix3d& guess, const cv::Size& image) {

@@ -56,6 +56,9 @@ class EgoMotionEstimator {
 // A small camera rotation: finite, no mirror, little change of scale, most of the picture kept.
 bool plausible_homography(const Eigen::Matrix3d& homography, const cv::Size& image);
 
+// An accumulated homography that can still be undone: finite, not near to singular.
+bool aligns(const Eigen::Matrix3d& homography);
+
 // The homography nearest to `guess` that takes `previous` to `current`: least squares in which the
 // correction to `guess` is drawn to a pure shift, because corners on a strip of ground say little
 // of how the sky above it moves.

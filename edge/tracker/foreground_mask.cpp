@@ -5,6 +5,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "edge/tracker/ego_motion.h"
+
 namespace ols {
 namespace {
 
@@ -55,6 +57,7 @@ void ReferenceFrames::advance(const Eigen::Matrix3d& homography) {
     reference.to_present = homography * reference.to_present;
     reference.to_present /= reference.to_present(2, 2);
   }
+  std::erase_if(references_, [](const Reference& r) { return !aligns(r.to_present); });
 }
 
 void ReferenceFrames::offer(const cv::Mat& gray, double time_s, const cv::Rect2d& target_box) {

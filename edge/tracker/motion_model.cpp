@@ -16,6 +16,20 @@ Eigen::Vector2d noise(Random& random, double sd) {
 
 }  // namespace
 
+double usable_interval_s(double from_s, double to_s) {
+  return std::clamp(to_s - from_s, 1e-4, 1.0);
+}
+
+Particle bounded(const Particle& particle, const cv::Size& frame) {
+  const Eigen::Vector2d whole(frame.width, frame.height);
+  const double fastest_px_s = 10.0 * frame.width;
+  Particle inside = particle;
+  inside.pixel = particle.pixel.cwiseMax(-whole).cwiseMin(2.0 * whole);
+  inside.velocity_px_s = particle.velocity_px_s.cwiseMax(-fastest_px_s).cwiseMin(fastest_px_s);
+  inside.size_px = particle.size_px.cwiseMin(whole).cwiseMax(kLeastSide);
+  return inside;
+}
+
 void MotionModel::reset() {
   motion_ = {};
   camera_rate_px_s_.setZero();

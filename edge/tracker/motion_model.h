@@ -17,6 +17,14 @@ struct CameraMotion {
   double interval_s = 0.0;
 };
 
+// What a motion model can say something about: after a longer gap the target may be anywhere, and
+// two exposures are not nearer to each other.
+double usable_interval_s(double from_s, double to_s);
+
+// The particle within a frame's size of the frame, no faster than ten of its widths a second, no
+// larger than it: whatever clocks, homographies and hints say, pixels stay numbers.
+Particle bounded(const Particle& particle, const cv::Size& frame);
+
 // Particles carry velocities against the scene. Where the homography is not known, the camera is
 // taken to turn on as before; when it is known again, the difference goes to the velocities, so
 // that the particles' motion in the image stays continuous.

@@ -6,7 +6,7 @@
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "edge/tracker/particle.h"
+#include "edge/tracker/patch.h"
 
 namespace ols {
 namespace {
@@ -98,15 +98,16 @@ void to_full_frame(MoverCandidate& candidate, const cv::Rect& area, const Reduce
 
 std::vector<MoverCandidate> detect_movers(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
                                           const ReducedFrame& current, const MoverSearch& search) {
-  const bool usable = !earlier.empty() && earlier.type() == CV_8UC1 && !current.image.empty() &&
-                      to_present.allFinite() && std::abs(to_present.determinant()) > 1e-9;
+  const bool usable =
+      !earlier.empty() && earlier.type() == CV_8UC1 && !current.image.empty() && aligns(to_present);
   if (!usable) return {};
   const cv::Rect area = reduced_area(current, search.area);
   if (area.width < 3 || area.height < 3) return {};
   const cv::Mat now = current.image(area);
   const cv::Mat difference =
       tolerant_difference(now, brought_to_present(earlier, to_present, current, area));
-  const double sd = fluctuation(difference);
+  // The tolerance hides most of the noise from the difference: what is left is its rare peaks.
+  const double sd = std::max(fluctuation(difference), pixel_noise(now));
   cv::Mat mask, labels, statistics, centroids;
   cv::threshold(difference, mask, std::max(search.least_levels, search.threshold_sd * sd), 255.0,
                 cv::THRESH_BINARY);

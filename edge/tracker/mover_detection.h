@@ -19,7 +19,7 @@ struct MoverCandidate {
 
 struct MoverSearch {
   cv::Rect2d area;              // [px] of the full frame, looked at
-  double threshold_sd = 6.0;    // of the difference's fluctuations
+  double threshold_sd = 5.0;    // of the difference's fluctuations
   double least_levels = 4.0;    // [grey levels] of difference, at least
   double most_side_px = 150.0;  // larger things are no distant targets
   int most = 8;                 // so many, strongest first

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "edge/tracker/difference_candidates.h"
+#include "edge/tracker/motion_model.h"
 
 namespace ols {
 namespace {
@@ -60,6 +61,7 @@ PaperTracker::PaperTracker(const TrackerConfig& config, std::uint64_t seed,
       references_(config.reference_interval_s),
       first_{frame.gray.clone(), Eigen::Matrix3d::Identity(), box, frame.time_s},
       template_(make_template(whole(frame.gray), centre_of(box), size_of(box))),
+      frame_size_(frame.gray.size()),
       time_s_(frame.time_s) {
   last_.pixel = centre_of(box);
   last_.size_px = size_of(box);
@@ -72,7 +74,7 @@ PaperTracker::PaperTracker(const TrackerConfig& config, std::uint64_t seed,
 }
 
 TrackerOutput PaperTracker::step(const TrackerInput& frame, StageTimer& timer) {
-  const double interval_s = frame.time_s - time_s_;
+  const double interval_s = usable_interval_s(time_s_, frame.time_s);
   time_s_ = frame.time_s;
   const ReducedFrame reduced = reduce_frame(frame.gray, config_.ego_motion_width_px);
   timer.lap(Stage::kReduction);
@@ -116,12 +118,11 @@ EgoMotion PaperTracker::transform_by_homography(const ReducedFrame& reduced) {
 // "The motion model which is applied in the prediction step of the BPF", eq. (2)-(4); each gamma is
 // drawn from N(0, sigma), "set empirically for each parameter".
 void PaperTracker::predict(double interval_s) {
-  constexpr double kLeastSide = 3.0;  // [px] smaller boxes hold no pattern
   for (Particle& p : particles_) {
     p.pixel += p.velocity_px_s * interval_s + noise(config_.paper.position_sd_px);  // (2)
     p.velocity_px_s += noise(config_.paper.velocity_sd_px_s);                       // (3)
     p.size_px += noise(config_.paper.size_sd_px);                                   // (4)
-    p.size_px = p.size_px.cwiseMax(kLeastSide);
+    p = bounded(p, frame_size_);
   }
 }
 
@@ -168,6 +169,7 @@ void PaperTracker::weigh(const cv::Mat& gray) {
 // target has left its box.
 void PaperTracker::estimate_template_mask(const cv::Mat& gray) {
   if (template_mask_) return;
+  if (!aligns(first_.to_present)) return;
   const Eigen::Matrix3d to_first = first_.to_present.inverse();
   const cv::Rect2d there = box_of(transform(to_first, last_.pixel), last_.size_px);
   if ((there & first_.target_box).area() > 0.0) return;

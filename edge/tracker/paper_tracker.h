@@ -48,6 +48,7 @@ class PaperTracker : public TargetFollower {
   std::vector<double> weights_;
   Particle last_;
   std::optional<Eigen::Matrix3d> homography_;  // previous frame to this one
+  cv::Size frame_size_;
   double time_s_;
 };
 

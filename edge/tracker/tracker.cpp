@@ -15,6 +15,9 @@ std::optional<TrackerError> check_image(const TrackerInput& frame) {
   if (frame.gray.empty()) return TrackerError::kEmptyFrame;
   if (frame.gray.type() != CV_8UC1) return TrackerError::kFrameFormat;
   if (!std::isfinite(frame.time_s)) return TrackerError::kTime;
+  if (frame.predicted_homography && !frame.predicted_homography->allFinite()) {
+    return TrackerError::kHomography;
+  }
   return std::nullopt;
 }
 
@@ -53,6 +56,8 @@ const char* to_string(TrackerError error) {
       return "frame has another size";
     case TrackerError::kTime:
       return "frame is not later than the previous one";
+    case TrackerError::kHomography:
+      return "predicted homography is not finite";
     case TrackerError::kBox:
       return "box is outside the image, too small or not finite";
   }

@@ -20,15 +20,18 @@ struct TrackerInput {
   cv::Mat gray;       // 8-bit, one channel, full resolution; not modified, not kept by reference
   double time_s = 0;  // of the exposure, any epoch, must grow from frame to frame
   // Takes pixels of the previous frame to pixels of this one (static scene at infinity), from the
-  // PTU angles. Nothing when unknown.
+  // PTU angles. Nothing when unknown. One that no camera between two frames makes (a mirror, a
+  // zoom, most of the picture gone) is not used: the output's `ego_motion` tells.
   std::optional<Eigen::Matrix3d> predicted_homography;
 };
 
 enum class EgoMotion { kNone, kImage, kPredicted };  // where this frame's homography came from
 
 struct TrackerOutput {
-  cv::Rect2d box;         // [px] in the full frame: top-left corner, width, height
-  Eigen::Vector2d pixel;  // [px] the target's centre; (0, 0) is the centre of the top-left pixel
+  cv::Rect2d box;  // [px] in the full frame: top-left corner, width, height
+  // [px] the point of the target that was the centre of the designated box; (0, 0) is the centre of
+  // the top-left pixel.
+  Eigen::Vector2d pixel;
   Eigen::Matrix2d covariance_px2;  // of `pixel`, white part
   double belief = 0.0;             // 0..1
   EgoMotion ego_motion = EgoMotion::kNone;
@@ -43,6 +46,7 @@ enum class TrackerError {
   kFrameFormat,  // not 8-bit single-channel
   kFrameSize,    // other than that of the frame it was initialised on
   kTime,         // not later than the previous frame, or not finite
+  kHomography,   // predicted one is not finite
   kBox,          // initial box outside the image, without area or not finite
 };
 const char* to_string(TrackerError error);

@@ -43,7 +43,7 @@ TrackerCore::TrackerCore(const TrackerConfig& config, std::uint64_t seed, const 
       time_s_(frame.time_s) {
   last_.pixel = centre_of(core);
   last_.size_px = size_of(core);
-  label_.offset = (centre_of(box) - last_.pixel).cwiseQuotient(last_.size_px);
+  label_.offset_px = centre_of(box) - last_.pixel;
   label_.scale = size_of(box).cwiseQuotient(last_.size_px);
   believed_ = last_;
   filter_.particles().assign(static_cast<std::size_t>(config.particles), last_);
@@ -53,12 +53,11 @@ TrackerCore::TrackerCore(const TrackerConfig& config, std::uint64_t seed, const 
 }
 
 cv::Rect2d TrackerCore::labelled(const Particle& particle) const {
-  return box_of(particle.pixel + label_.offset.cwiseProduct(particle.size_px),
-                label_.scale.cwiseProduct(particle.size_px));
+  return box_of(particle.pixel + label_.offset_px, label_.scale.cwiseProduct(particle.size_px));
 }
 
 TrackerOutput TrackerCore::step(const TrackerInput& frame, StageTimer& timer) {
-  const double interval_s = frame.time_s - time_s_;
+  const double interval_s = usable_interval_s(time_s_, frame.time_s);
   time_s_ = frame.time_s;
   const ReducedFrame reduced = reduce_frame(frame.gray, config_.ego_motion_width_px);
   timer.lap(Stage::kReduction);
@@ -121,6 +120,7 @@ void TrackerCore::predict(EgoMotion ego_motion, const ReducedFrame& reduced, dou
     force_onto_differences(reduced, reachable_area(interval_s));
   }
   if (search_ && !target_.empty()) force_onto_movers(reduced);
+  for (Particle& particle : filter_.particles()) particle = bounded(particle, frame_size_);
   if (velocity_ == Velocity::kUnknown) {
     filter_.widen_prediction(config_.leap_most_px_s * interval_s / 3.0);
   }
@@ -131,6 +131,7 @@ void TrackerCore::predict(EgoMotion ego_motion, const ReducedFrame& reduced, dou
 void TrackerCore::predict_search(double interval_s) {
   Particle centre = believed_;
   centre.pixel = search_->pixel;
+  if (search_->told) centre.velocity_px_s.setZero();
   if (!placed_) search_->pixel = motion_.advance(centre).pixel;
   search_->pixel = search_->pixel.cwiseMax(0.0).cwiseMin(
       Eigen::Vector2d(frame_size_.width - 1.0, frame_size_.height - 1.0));
@@ -144,7 +145,9 @@ void TrackerCore::predict_search(double interval_s) {
 void TrackerCore::designate_late(const cv::Mat& gray) {
   constexpr double kWider = 1.8;
   constexpr double kLongest = 2.0;  // [s]
-  designated_ = box_of(motion_.still(centre_of(designated_)), size_of(designated_));
+  Particle designated{motion_.still(centre_of(designated_)), {}, size_of(designated_)};
+  designated = bounded(designated, frame_size_);
+  designated_ = box_of(designated.pixel, designated.size_px);
   empty_s_ += motion_.interval_s();
   if (empty_s_ > kLongest) return;
   const cv::Rect2d wide = box_of(centre_of(designated_), kWider * size_of(designated_));
@@ -155,7 +158,7 @@ void TrackerCore::designate_late(const cv::Mat& gray) {
   last_.size_px = size_of(core);
   last_.velocity_px_s.setZero();
   believed_ = last_;
-  label_.offset.setZero();
+  label_.offset_px.setZero();
   label_.scale = size_of(designated_).cwiseQuotient(last_.size_px);
   filter_.particles().assign(filter_.particles().size(), last_);
   velocity_ = Velocity::kUnknown;
@@ -229,6 +232,8 @@ Particle TrackerCore::drawn_near(const Eigen::Vector2d& pixel, double sd_px) {
   particle.pixel = pixel + sd_px * Eigen::Vector2d(x, y);
   const double vx = random_.gaussian();
   const double vy = random_.gaussian();
+  // On as before, or no longer: it may have turned meanwhile.
+  if (random_.uniform() < 0.5) particle.velocity_px_s.setZero();
   particle.velocity_px_s += config_.initial_velocity_sd_px_s * Eigen::Vector2d(vx, vy);
   return particle;
 }
@@ -306,24 +311,31 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, const ReducedFrame&
                   1.0 - std::exp(-interval_s / config_.learning_time_s));
   }
   output.box = labelled(last_);
-  output.pixel = last_.pixel;
+  output.pixel = last_.pixel + label_.offset_px;
   output.belief = belief_.value();
   return output;
 }
 
 void TrackerCore::after_update(const TrackerOutput& output, double interval_s) {
-  if (output.belief >= kBelieved) {
+  // A frame that shows something else says nothing of where the target is, however sure one was.
+  const bool seen = belief_.of_frame() >= kBelieved && output.belief >= kBelieved;
+  if (seen) {
     believed_ = last_;
     believed_.velocity_px_s = filter_.mean_velocity_px_s();
+  } else {
+    believed_ = bounded(motion_.advance(believed_), frame_size_);
+  }
+  if (output.belief >= kBelieved) {
     search_.reset();
   } else if (!search_) {
     const double sd =
         2.0 * motion_.position_sd(last_.size_px) + config_.search_growth_px_s * interval_s;
-    search_ = Search{last_.pixel, sd, config_.search_sd_most_px, time_s_, false};
+    search_ = Search{believed_.pixel, sd, config_.search_sd_most_px, time_s_, false};
   }
 }
 
-void TrackerCore::search_near(const Eigen::Vector2d& pixel, double sd_px) {
+void TrackerCore::search_near(const Eigen::Vector2d& designated, double sd_px) {
+  const Eigen::Vector2d pixel = designated - label_.offset_px;
   search_ = Search{pixel, sd_px, std::max(sd_px, config_.search_sd_most_px), time_s_, true};
   for (Particle& particle : filter_.particles()) particle = drawn_near(pixel, sd_px);
   last_.pixel = pixel;

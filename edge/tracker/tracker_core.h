@@ -27,9 +27,11 @@ class TrackerCore : public TargetFollower {
     double since_s = 0.0;
     bool told = false;  // by search_near(): it is there whether it moves or not
   };
-  // The designated box about what stands out in it, in units of that part's size.
+  // The designated box about what stands out in it: its centre off that part's, its size by that
+  // part's. What was designated stays a fixed step off what is followed: with the part's size it
+  // would share that estimate's noise.
   struct Label {
-    Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+    Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();
     Eigen::Vector2d scale = Eigen::Vector2d::Ones();
   };
   enum class Velocity { kEstimated, kUnknown };
@@ -67,7 +69,7 @@ class TrackerCore : public TargetFollower {
   Velocity velocity_ = Velocity::kUnknown;
   Label label_;
   Particle last_;      // best estimate in the newest frame
-  Particle believed_;  // the last one believed in, as far as size and velocity go
+  Particle believed_;  // the last one seen, brought to the newest frame
   std::optional<double> prediction_error_px_;
   std::vector<double> log_likelihood_;  // memory that is used again
   double empty_s_ = 0.0;

@@ -157,7 +157,9 @@ FrameSource::FrameSource(const std::string& input) : input_(input) {
   } else if (!fs::exists(input)) {
     throw FrameSourceError(input + ": no such file or folder");
   } else {
-    if (!clip_.open(input)) throw FrameSourceError(input + ": cannot be read as a clip");
+    // One reader for all: others would be tried in turn, up to those that look for cameras.
+    if (!clip_.open(input, cv::CAP_FFMPEG))
+      throw FrameSourceError(input + ": cannot be read as a clip");
     const double rate = clip_.get(cv::CAP_PROP_FPS);
     if (std::isfinite(rate) && rate > 0.1 && rate < 10000.0) frames_per_second_ = rate;
     const double count = clip_.get(cv::CAP_PROP_FRAME_COUNT);

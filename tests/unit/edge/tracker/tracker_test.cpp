@@ -262,9 +262,11 @@ TEST(Tracker, RefusesWhatItCannotUse) {
   EXPECT_EQ(tracker.track(frame_at(1, cv::Mat(400, 640, CV_8U))).error, TrackerError::kFrameSize);
   EXPECT_EQ(tracker.track(frame_at(0, good)).error, TrackerError::kTime);
   EXPECT_EQ(tracker.track({good, nan, std::nullopt}).error, TrackerError::kTime);
-  for (const auto error :
-       {TrackerError::kNotInitialised, TrackerError::kEmptyFrame, TrackerError::kFrameFormat,
-        TrackerError::kFrameSize, TrackerError::kTime, TrackerError::kBox}) {
+  EXPECT_EQ(tracker.track({good, 101.0, Eigen::Matrix3d::Constant(nan)}).error,
+            TrackerError::kHomography);
+  for (const auto error : {TrackerError::kNotInitialised, TrackerError::kEmptyFrame,
+                           TrackerError::kFrameFormat, TrackerError::kFrameSize,
+                           TrackerError::kTime, TrackerError::kHomography, TrackerError::kBox}) {
     EXPECT_STRNE(to_string(error), "unknown");
   }
 }
@@ -292,12 +294,13 @@ TEST(Tracker, GivesFiniteOutputForSenselessInput) {
   SyntheticScene scene(Backdrop::kTextured, 11);
   Tracker tracker = started(scene);
   cv::RNG noise(3);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
+  double later_s = 0.0;
   for (int k = 1; k < 60; ++k) {
     cv::Mat gray(480, 640, CV_8U, cv::Scalar(k % 3 == 0 ? 0 : 255));
     if (k % 3 == 1) noise.fill(gray, cv::RNG::UNIFORM, 0, 256);
     TrackerInput input = frame_at(k, gray);
-    if (k % 4 == 0) input.predicted_homography = Eigen::Matrix3d::Constant(nan);
+    if (k % 4 == 0) later_s += 1e6 * k;
+    input.time_s += later_s;
     if (k % 4 == 1) input.predicted_homography = Eigen::Matrix3d::Zero();
     if (k % 4 == 2) input.predicted_homography = shift_homography(200.0, -100.0);
     const TrackerResult result = tracker.track(input);
