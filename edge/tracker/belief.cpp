@@ -30,6 +30,14 @@ double frame_belief(const FrameEvidence& evidence, const Typical& typical) {
          logistic(8.0 * (kMostContrastRatio - contrast)) * fore;
 }
 
+bool Belief::usual(const FrameEvidence& evidence) const {
+  const double below = typical_.correlation - evidence.correlation;
+  const double sd = std::sqrt(typical_.correlation_variance);
+  const double ratio =
+      std::log(std::max(evidence.contrast, 1e-3) / std::max(typical_.contrast, 1e-3));
+  return below < 2.0 * sd && evidence.standing_out > 0.5 && std::abs(ratio) < kMostContrastRatio;
+}
+
 void Belief::update(const FrameEvidence& evidence, double interval_s) {
   of_frame_ = frame_belief(evidence, typical_);
   const double time = of_frame_ < value_ ? kFallTime : kRiseTime;
@@ -37,7 +45,9 @@ void Belief::update(const FrameEvidence& evidence, double interval_s) {
   value_ = std::clamp(value_, 0.0, 1.0);
   if (value_ >= 0.5) {
     const double share = 1.0 - std::exp(-interval_s / kTypicalTime);
-    typical_.correlation += share * (evidence.correlation - typical_.correlation);
+    const double off = evidence.correlation - typical_.correlation;
+    typical_.correlation += share * off;
+    typical_.correlation_variance += share * (off * off - typical_.correlation_variance);
     typical_.contrast += share * (evidence.contrast - typical_.contrast);
   }
 }

@@ -19,6 +19,7 @@ struct FrameEvidence {
 // What the target had of late: what suddenly looks much less like it is something else.
 struct Typical {
   double correlation = 1.0;
+  double correlation_variance = 0.0025;
   double contrast = 1.0;
 };
 
@@ -35,6 +36,9 @@ class Belief {
   void doubt() { value_ = value_ < kDoubt ? value_ : kDoubt; }
   void update(const FrameEvidence& evidence, double interval_s);
   double value() const { return value_; }
+  // Looks as the target does, by how its look has varied of late: where its place says nothing for
+  // it, its look must say more than that it is alike.
+  bool usual(const FrameEvidence& evidence) const;
   double of_frame() const { return of_frame_; }  // the newest frame alone
 
  private:

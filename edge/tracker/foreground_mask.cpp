@@ -62,11 +62,14 @@ void ReferenceFrames::advance(const Eigen::Matrix3d& homography) {
 
 void ReferenceFrames::offer(const cv::Mat& gray, double time_s, const cv::Rect2d& target_box) {
   if (!references_.empty() && time_s - references_.back().time_s < interval_s_) return;
-  // The oldest one's memory is used again: a frame is a megabyte.
+  // The oldest one's memory is used again: a frame is a megabyte. But the only one that shows what
+  // is behind a target that stands is kept: what stood there before the target came is no target.
   cv::Mat memory;
   if (references_.size() == kMost) {
-    memory = references_.front().gray;
-    references_.pop_front();
+    const bool needed = without_overlap(target_box) == &references_.front();
+    const auto oldest = references_.begin() + (needed ? 1 : 0);
+    memory = oldest->gray;
+    references_.erase(oldest);
   }
   gray.copyTo(memory);
   references_.push_back({memory, Eigen::Matrix3d::Identity(), target_box, time_s});
@@ -110,6 +113,9 @@ View foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference& ref
   cv::warpPerspective(reference.gray, then, mask_to_reference(mask, reference.to_present),
                       mask.image.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
                       cv::BORDER_REPLICATE);
+  // The camera's gain may have changed since.
+  const double brighter = cv::mean(mask.image)[0] - cv::mean(then)[0];
+  then.convertTo(then, CV_8U, 1.0, brighter);
   cv::absdiff(mask.image, then, mask.image);
   scale_to_mask(mask.image, target);
   return mask;

@@ -36,19 +36,18 @@ void MotionModel::reset() {
   rate_known_ = false;
 }
 
-void MotionModel::begin_frame(const CameraMotion& motion, const Eigen::Vector2d& pixel,
-                              std::vector<Particle>& particles) {
+Eigen::Vector2d MotionModel::begin_frame(const CameraMotion& motion, const Eigen::Vector2d& pixel) {
   motion_ = motion;
   if (!motion.homography) {
     rate_known_ = false;
-    return;
+    return Eigen::Vector2d::Zero();
   }
   const Eigen::Vector2d rate = (transform(*motion.homography, pixel) - pixel) / motion.interval_s;
-  if (!rate_known_) {
-    for (Particle& particle : particles) particle.velocity_px_s += camera_rate_px_s_ - rate;
-  }
+  Eigen::Vector2d change = Eigen::Vector2d::Zero();
+  if (!rate_known_) change = camera_rate_px_s_ - rate;
   camera_rate_px_s_ = rate;
   rate_known_ = true;
+  return change;
 }
 
 Eigen::Vector2d MotionModel::still(const Eigen::Vector2d& pixel) const {

@@ -35,8 +35,8 @@ class MotionModel {
   // Forgets the camera's rate: a new target.
   void reset();
   // Takes the camera's motion at `pixel` (of the previous frame) into account for the steps below.
-  void begin_frame(const CameraMotion& motion, const Eigen::Vector2d& pixel,
-                   std::vector<Particle>& particles);
+  // What the velocities against the scene [px/s] change by.
+  Eigen::Vector2d begin_frame(const CameraMotion& motion, const Eigen::Vector2d& pixel);
 
   // Where the particle would be without noise.
   Particle advance(const Particle& particle) const;

@@ -1,8 +1,10 @@
 #include "edge/tracker/tracker.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "edge/tracker/motion_model.h"
 #include "edge/tracker/paper_tracker.h"
 #include "edge/tracker/tracker_core.h"
 
@@ -104,7 +106,10 @@ TrackerResult Tracker::track(const TrackerInput& frame) {
 
 void Tracker::search_near(const Eigen::Vector2d& pixel, double sd_px) {
   const bool usable = pixel.allFinite() && std::isfinite(sd_px) && sd_px >= 0.0;
-  if (impl_->follower && usable) impl_->follower->search_near(pixel, sd_px);
+  if (!impl_->follower || !usable) return;
+  const cv::Size& size = impl_->size;
+  const Particle hint = bounded({pixel, {0.0, 0.0}, {0.0, 0.0}}, size);
+  impl_->follower->search_near(hint.pixel, std::min(sd_px, static_cast<double>(size.width)));
 }
 
 bool Tracker::initialised() const { return impl_->follower != nullptr; }

@@ -5,7 +5,6 @@
 
 #include "edge/tracker/core_box.h"
 #include "edge/tracker/difference_candidates.h"
-#include "edge/tracker/mover_detection.h"
 
 namespace ols {
 namespace {
@@ -66,7 +65,7 @@ TrackerOutput TrackerCore::step(const TrackerInput& frame, StageTimer& timer) {
   if (target_.empty()) designate_late(frame.gray);
   predict(ego_motion, reduced, interval_s);
   timer.lap(Stage::kPrediction);
-  TrackerOutput output = update(frame, reduced, interval_s, timer);
+  TrackerOutput output = update(frame, interval_s, timer);
   output.ego_motion = ego_motion;
   output.prediction_error_px = prediction_error_px_;
   after_update(output, interval_s);
@@ -95,7 +94,10 @@ EgoMotion TrackerCore::move_camera(const TrackerInput& frame, const ReducedFrame
     motion.homography = frame.predicted_homography;
     source = EgoMotion::kPredicted;
   }
-  motion_.begin_frame(motion, last_.pixel, filter_.particles());
+  const Eigen::Vector2d change_px_s = motion_.begin_frame(motion, last_.pixel);
+  for (Particle& particle : filter_.particles()) particle.velocity_px_s += change_px_s;
+  last_.velocity_px_s += change_px_s;
+  believed_.velocity_px_s += change_px_s;
   if (motion.homography) {
     references_.advance(*motion.homography);
   } else if (!estimate.featureless) {
@@ -111,20 +113,25 @@ void TrackerCore::predict(EgoMotion ego_motion, const ReducedFrame& reduced, dou
     const auto step_back = [this](Particle& p) { p.pixel -= motion_.advance(p).pixel - p.pixel; };
     for (Particle& particle : filter_.particles()) step_back(particle);
     step_back(last_);
+    step_back(believed_);
   }
   filter_.predict(motion_, random_);
+  believed_ = bounded(motion_.advance(believed_), frame_size_);
   if (search_) predict_search(interval_s);
   if (ego_motion == EgoMotion::kNone) {
     force_onto_differences(reduced, {{0.0, 0.0}, cv::Size2d(frame_size_)});
   } else if (search_ || velocity_ == Velocity::kUnknown) {
     force_onto_differences(reduced, reachable_area(interval_s));
   }
-  if (search_ && !target_.empty()) force_onto_movers(reduced);
+  movers_.clear();
+  if (search_ && !target_.empty()) {
+    find_movers(reduced);
+    force_onto_movers();
+  }
   for (Particle& particle : filter_.particles()) particle = bounded(particle, frame_size_);
   if (velocity_ == Velocity::kUnknown) {
     filter_.widen_prediction(config_.leap_most_px_s * interval_s / 3.0);
   }
-  velocity_ = Velocity::kEstimated;
   placed_ = false;
 }
 
@@ -168,23 +175,18 @@ void TrackerCore::designate_late(const cv::Mat& gray) {
 
 // A distant target that was lost comes back near where it should be, or moving. What stands still
 // against the scene elsewhere is a twig, a window or a reticle, however much it looks like it.
-bool TrackerCore::may_be_it(const ReducedFrame& reduced) const {
+bool TrackerCore::may_be_it(const Particle& particle) const {
   if (!search_ || search_->told) return true;
-  const double off_px = (last_.pixel - search_->pixel).norm();
-  const double reach_px = 2.0 * search_->sd_px + last_.size_px.norm();
+  const double off_px = (particle.pixel - search_->pixel).norm();
+  const double reach_px = 2.0 * search_->sd_px + particle.size_px.norm();
   if (time_s_ - search_->since_s < kNearFirst && off_px < reach_px) return true;
-  const auto* earlier = references_.older_than(time_s_ - kEarlier);
-  if (!earlier) return false;
-  const cv::Rect2d box = box_of(last_.pixel, last_.size_px);
-  MoverSearch around;
-  around.area = box_of(last_.pixel, 4.0 * last_.size_px + Eigen::Vector2d::Constant(16.0));
-  const auto movers = detect_movers(earlier->gray, earlier->to_present, reduced, around);
-  return std::any_of(movers.begin(), movers.end(),
+  const cv::Rect2d box = box_of(particle.pixel, particle.size_px);
+  return std::any_of(movers_.begin(), movers_.end(),
                      [&](const auto& mover) { return (mover.box & box).area() > 0.0; });
 }
 
 // While the target is lost: things that move, near where it should be first, then anywhere.
-void TrackerCore::force_onto_movers(const ReducedFrame& reduced) {
+void TrackerCore::find_movers(const ReducedFrame& reduced) {
   const auto* earlier = references_.older_than(time_s_ - kEarlier);
   if (!earlier) return;
   MoverSearch where;
@@ -193,13 +195,16 @@ void TrackerCore::force_onto_movers(const ReducedFrame& reduced) {
     const double reach = 3.0 * search_->sd_px;
     where.area &= box_of(search_->pixel, last_.size_px + Eigen::Vector2d::Constant(2.0 * reach));
   }
-  const auto movers = detect_movers(earlier->gray, earlier->to_present, reduced, where);
-  if (movers.empty()) return;
+  movers_ = detect_movers(earlier->gray, earlier->to_present, reduced, where);
+}
+
+void TrackerCore::force_onto_movers() {
+  if (movers_.empty()) return;
   auto& particles = filter_.particles();
   const auto count =
       static_cast<std::size_t>(config_.difference_fraction * static_cast<double>(particles.size()));
   for (std::size_t i = 0; i < count; ++i) {
-    const MoverCandidate& mover = movers[i % movers.size()];
+    const MoverCandidate& mover = movers_[i % movers_.size()];
     const double sd = 1.0 + 0.1 * std::sqrt(believed_.size_px.prod());
     // Between those that the frame difference took.
     Particle& particle = particles[i * particles.size() / count + 1];
@@ -269,19 +274,12 @@ void TrackerCore::force_onto_differences(const ReducedFrame& reduced, const cv::
   }
 }
 
-TrackerOutput TrackerCore::update(const TrackerInput& frame, const ReducedFrame& reduced,
-                                  double interval_s, StageTimer& timer) {
+TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s, StageTimer& timer) {
   const cv::Rect2d expected = box_of(motion_.advance(last_).pixel, last_.size_px);
   const Scene scene = target_.make_scene(frame.gray, filter_.particles(), expected, references_);
   timer.lap(Stage::kMasks);
   const double background = target_.background_similarity(scene, expected);
-  log_likelihood_.clear();
-  for (const Particle& particle : filter_.particles()) {
-    const Likeness likeness = target_.likeness(scene, particle.pixel, particle.size_px);
-    const double out = target_.standing_out(scene, particle.pixel, particle.size_px);
-    log_likelihood_.push_back(target_.log_likelihood(likeness, background, out, particle.size_px));
-  }
-  filter_.weigh(log_likelihood_);
+  weigh_particles(scene, background);
   const std::size_t best = filter_.maximum_a_posteriori(log_likelihood_);
   last_ = filter_.particles()[best];
   last_.size_px = filter_.mean_size_px();
@@ -298,47 +296,83 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, const ReducedFrame&
   }
   output.covariance_px2 += floor * Eigen::Matrix2d::Identity();
   timer.lap(Stage::kPosition);
-  const Likeness found = target_.likeness(scene, last_.pixel, last_.size_px);
-  FrameEvidence evidence{found.similarity, background, found.correlation, found.contrast};
-  evidence.standing_out = target_.standing_out(scene, last_.pixel, last_.size_px);
-  evidence.foreground = target_.foreground(scene, last_.pixel, last_.size_px);
-  evidence.by_subtraction = scene.mask_by_subtraction;
-  belief_.update(evidence, interval_s);
-  if (target_.empty() || !may_be_it(reduced)) belief_.doubt();
-  if (belief_.value() > kSureEnoughForMask) target_.learn_mask(scene, last_.pixel, last_.size_px);
-  if (belief_.value() > kSureEnoughToLearn) {
-    target_.learn(scene, last_.pixel, last_.size_px,
-                  1.0 - std::exp(-interval_s / config_.learning_time_s));
-  }
+  judge(scene, background, interval_s);
   output.box = labelled(last_);
   output.pixel = last_.pixel + label_.offset_px;
   output.belief = belief_.value();
   return output;
 }
 
+void TrackerCore::weigh_particles(const Scene& scene, double background) {
+  constexpr double kStill = 5.0;  // so much less likely, as a logarithm
+  log_likelihood_.clear();
+  for (const Particle& particle : filter_.particles()) {
+    const Likeness likeness = target_.likeness(scene, particle.pixel, particle.size_px);
+    const double out = target_.standing_out(scene, particle.pixel, particle.size_px);
+    const double alike = target_.log_likelihood(likeness, background, out, particle.size_px);
+    log_likelihood_.push_back(may_be_it(particle) ? alike : alike - kStill);
+  }
+  filter_.weigh(log_likelihood_);
+}
+
+// How far what was found is believed in, and what is learnt from it.
+void TrackerCore::judge(const Scene& scene, double background, double interval_s) {
+  const Likeness found = target_.likeness(scene, last_.pixel, last_.size_px);
+  FrameEvidence evidence{found.similarity, background, found.correlation, found.contrast};
+  evidence.standing_out = target_.standing_out(scene, last_.pixel, last_.size_px);
+  evidence.foreground = target_.foreground(scene, last_.pixel, last_.size_px);
+  evidence.by_subtraction = scene.mask_by_subtraction;
+  belief_.update(evidence, interval_s);
+  // What is new where the scene was known is as good as a mover.
+  const bool is_new = evidence.by_subtraction && evidence.foreground > 0.5;
+  const bool scene_unknown = references_.older_than(time_s_ - kEarlier) == nullptr;
+  const bool told_by_look = (scene_unknown || !search_) && belief_.usual(evidence);
+  if (!search_ && velocity_ == Velocity::kEstimated && leapt(interval_s) && !told_by_look) {
+    start_search(interval_s);
+  }
+  velocity_ = Velocity::kEstimated;
+  const bool elsewhere = !may_be_it(last_) && !is_new && !told_by_look;
+  if (target_.empty() || elsewhere) belief_.doubt();
+  if (belief_.value() > kSureEnoughForMask) target_.learn_mask(scene, last_.pixel, last_.size_px);
+  if (belief_.value() > kSureEnoughToLearn) {
+    target_.learn(scene, last_.pixel, last_.size_px,
+                  1.0 - std::exp(-interval_s / config_.learning_time_s));
+  }
+}
+
 void TrackerCore::after_update(const TrackerOutput& output, double interval_s) {
   // A frame that shows something else says nothing of where the target is, however sure one was.
-  const bool seen = belief_.of_frame() >= kBelieved && output.belief >= kBelieved;
-  if (seen) {
+  if (belief_.of_frame() >= kBelieved && output.belief >= kBelieved) {
     believed_ = last_;
     believed_.velocity_px_s = filter_.mean_velocity_px_s();
-  } else {
-    believed_ = bounded(motion_.advance(believed_), frame_size_);
   }
   if (output.belief >= kBelieved) {
     search_.reset();
   } else if (!search_) {
-    const double sd =
-        2.0 * motion_.position_sd(last_.size_px) + config_.search_growth_px_s * interval_s;
-    search_ = Search{believed_.pixel, sd, config_.search_sd_most_px, time_s_, false};
+    start_search(interval_s);
   }
+}
+
+double TrackerCore::first_reach_px(double interval_s) const {
+  return 2.0 * motion_.position_sd(last_.size_px) + config_.search_growth_px_s * interval_s;
+}
+
+void TrackerCore::start_search(double interval_s) {
+  const double sd = first_reach_px(interval_s);
+  search_ = Search{believed_.pixel, sd, config_.search_sd_most_px, time_s_, false};
+}
+
+// Further from where the target was to be than it can have moved: a cut, or something else.
+bool TrackerCore::leapt(double interval_s) const {
+  const double reach_px = 2.0 * first_reach_px(interval_s) + last_.size_px.norm();
+  return (last_.pixel - believed_.pixel).norm() > reach_px;
 }
 
 void TrackerCore::search_near(const Eigen::Vector2d& designated, double sd_px) {
   const Eigen::Vector2d pixel = designated - label_.offset_px;
   search_ = Search{pixel, sd_px, std::max(sd_px, config_.search_sd_most_px), time_s_, true};
   for (Particle& particle : filter_.particles()) particle = drawn_near(pixel, sd_px);
-  last_.pixel = pixel;
+  last_.pixel = believed_.pixel = pixel;
   last_.size_px = believed_.size_px;
   belief_.doubt();
   placed_ = true;

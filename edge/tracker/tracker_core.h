@@ -4,6 +4,7 @@
 
 #include "edge/tracker/belief.h"
 #include "edge/tracker/ego_motion.h"
+#include "edge/tracker/mover_detection.h"
 #include "edge/tracker/particle_filter.h"
 #include "edge/tracker/target_follower.h"
 #include "edge/tracker/target_model.h"
@@ -41,13 +42,18 @@ class TrackerCore : public TargetFollower {
   void predict_search(double interval_s);
   void guess_velocities();
   void force_onto_differences(const ReducedFrame& reduced, const cv::Rect2d& area);
-  void force_onto_movers(const ReducedFrame& reduced);
-  bool may_be_it(const ReducedFrame& reduced) const;
+  void find_movers(const ReducedFrame& reduced);
+  void force_onto_movers();
+  bool may_be_it(const Particle& particle) const;
   void designate_late(const cv::Mat& gray);
   cv::Rect2d reachable_area(double interval_s) const;
   void scatter_over_search(double fraction);
-  TrackerOutput update(const TrackerInput& frame, const ReducedFrame& reduced, double interval_s,
-                       StageTimer& timer);
+  TrackerOutput update(const TrackerInput& frame, double interval_s, StageTimer& timer);
+  void weigh_particles(const Scene& scene, double background);
+  void judge(const Scene& scene, double background, double interval_s);
+  double first_reach_px(double interval_s) const;
+  void start_search(double interval_s);
+  bool leapt(double interval_s) const;
   void after_update(const TrackerOutput& output, double interval_s);
   Particle drawn_near(const Eigen::Vector2d& pixel, double sd_px);
 
@@ -68,8 +74,9 @@ class TrackerCore : public TargetFollower {
   bool placed_ = false;  // the particles stand in the coming frame already
   Velocity velocity_ = Velocity::kUnknown;
   Label label_;
-  Particle last_;      // best estimate in the newest frame
-  Particle believed_;  // the last one seen, brought to the newest frame
+  Particle last_;                       // best estimate in the newest frame
+  std::vector<MoverCandidate> movers_;  // of this frame, while the target is looked for
+  Particle believed_;                   // the last one seen, brought to the newest frame
   std::optional<double> prediction_error_px_;
   std::vector<double> log_likelihood_;  // memory that is used again
   double empty_s_ = 0.0;

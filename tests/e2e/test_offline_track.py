@@ -129,8 +129,9 @@ def test_unreadable_inputs(folder, tmp_path):
     refused(track(clip, output), output, str(clip))
     refused(track(tmp_path / "none.mp4", output), output, "none.mp4")
     refused(track(tmp_path / "%d.png", output), output, "%d.png")
-    (folder / "3.pgm").write_bytes(b"P5\n")
-    refused(track(folder, output), output, "3.pgm")
+    for picture in (b"P5\n", b"P5\n70000 70000\n255\n"):
+        (folder / "3.pgm").write_bytes(picture)
+        refused(track(folder, output), output, "3.pgm")
 
 
 @pytest.mark.parametrize(

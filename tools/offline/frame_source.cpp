@@ -132,9 +132,14 @@ class QuietErrors {
   std::streambuf* buffer_;
 };
 
+// Empty when it cannot be read; OpenCV throws where a header announces more than it takes.
 cv::Mat read_picture(const std::string& file) {
   const QuietErrors quiet;
-  return cv::imread(file, cv::IMREAD_GRAYSCALE);
+  try {
+    return cv::imread(file, cv::IMREAD_GRAYSCALE);
+  } catch (const cv::Exception&) {
+    return {};
+  }
 }
 
 cv::Mat to_gray(const cv::Mat& picture) {

@@ -38,7 +38,7 @@ TEST(Allocation, TheFiltersInnerLoopHasNone) {
   ParticleFilter filter;
   filter.particles().assign(300, first);
   MotionModel motion(config);
-  motion.begin_frame({Eigen::Matrix3d::Identity(), 0.04}, first.pixel, filter.particles());
+  motion.begin_frame({Eigen::Matrix3d::Identity(), 0.04}, first.pixel);
   Random random(1);
   const Scene scene = target.make_scene(gray, filter.particles(), box,
                                         ReferenceFrames(config.reference_interval_s));

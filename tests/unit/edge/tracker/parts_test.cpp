@@ -123,16 +123,16 @@ TEST(Objective, WeighsByTheLesserOfBothMasks) {
 
 TEST(MotionModel, MovesByHomographyAndOwnVelocity) {
   MotionModel motion{TrackerConfig{}};
-  std::vector<Particle> particles(1);
-  particles[0].pixel = {100.0, 50.0};
-  particles[0].size_px = {20.0, 10.0};
-  motion.begin_frame({shift_homography(30.0, -4.0), 0.1}, particles[0].pixel, particles);
+  Particle particle;
+  particle.pixel = {100.0, 50.0};
+  particle.size_px = {20.0, 10.0};
+  particle.velocity_px_s = motion.begin_frame({shift_homography(30.0, -4.0), 0.1}, particle.pixel);
   // Nothing was known of the camera before: the particle goes on as it did in the image.
-  EXPECT_NEAR(particles[0].velocity_px_s.x(), -300.0, 1e-9);
-  EXPECT_NEAR((motion.advance(particles[0]).pixel - particles[0].pixel).norm(), 0.0, 1e-9);
-  particles[0].velocity_px_s = {50.0, 0.0};
-  EXPECT_NEAR(motion.advance(particles[0]).pixel.x(), 135.0, 1e-9);
-  EXPECT_NEAR(motion.advance(particles[0]).pixel.y(), 46.0, 1e-9);
+  EXPECT_NEAR(particle.velocity_px_s.x(), -300.0, 1e-9);
+  EXPECT_NEAR((motion.advance(particle).pixel - particle.pixel).norm(), 0.0, 1e-9);
+  particle.velocity_px_s = {50.0, 0.0};
+  EXPECT_NEAR(motion.advance(particle).pixel.x(), 135.0, 1e-9);
+  EXPECT_NEAR(motion.advance(particle).pixel.y(), 46.0, 1e-9);
   EXPECT_NEAR(motion.image_fixed_velocity().x(), -300.0, 1e-9);
   EXPECT_NEAR(motion.velocity_between({100.0, 50.0}, {135.0, 46.0}).x(), 50.0, 1e-9);
 }
@@ -141,17 +141,30 @@ TEST(MotionModel, MovesByHomographyAndOwnVelocity) {
 // image as it was.
 TEST(MotionModel, KeepsImageMotionWhenHomographyComesAndGoes) {
   MotionModel motion{TrackerConfig{}};
-  std::vector<Particle> particles(1);
-  particles[0].size_px = {20.0, 10.0};
-  motion.begin_frame({shift_homography(30.0, 0.0), 0.1}, {0, 0}, particles);
-  particles[0].velocity_px_s = {50.0, 0.0};
-  const auto step = [&] { return (motion.advance(particles[0]).pixel - particles[0].pixel).x(); };
+  Particle particle;
+  particle.size_px = {20.0, 10.0};
+  motion.begin_frame({shift_homography(30.0, 0.0), 0.1}, {0, 0});
+  particle.velocity_px_s = {50.0, 0.0};
+  const auto step = [&] { return (motion.advance(particle).pixel - particle.pixel).x(); };
   EXPECT_NEAR(step(), 35.0, 1e-9);
-  motion.begin_frame({std::nullopt, 0.1}, {0, 0}, particles);
+  particle.velocity_px_s += motion.begin_frame({std::nullopt, 0.1}, {0, 0});
   EXPECT_NEAR(step(), 35.0, 1e-9);
-  motion.begin_frame({shift_homography(10.0, 0.0), 0.1}, {0, 0}, particles);
+  particle.velocity_px_s += motion.begin_frame({shift_homography(10.0, 0.0), 0.1}, {0, 0});
   EXPECT_NEAR(step(), 35.0, 1e-9);
-  EXPECT_NEAR(particles[0].velocity_px_s.x(), 250.0, 1e-9);
+  EXPECT_NEAR(particle.velocity_px_s.x(), 250.0, 1e-9);
+}
+
+TEST(MotionModel, KeepsNumbersWithinBounds) {
+  Particle particle;
+  particle.pixel = {1e93, -1e93};
+  particle.velocity_px_s = {-1e93, 1e93};
+  particle.size_px = {1e93, 0.0};
+  const Particle inside = bounded(particle, {640, 480});
+  EXPECT_EQ(inside.pixel, Eigen::Vector2d(1280.0, -480.0));
+  EXPECT_EQ(inside.velocity_px_s, Eigen::Vector2d(-6400.0, 6400.0));
+  EXPECT_EQ(inside.size_px, Eigen::Vector2d(640.0, 3.0));
+  EXPECT_EQ(usable_interval_s(5.0, 1e300), 1.0);
+  EXPECT_GT(usable_interval_s(5.0, 5.0 + 1e-12), 1e-5);
 }
 
 TEST(ParticleFilter, ResamplesInProportionAndStandsBadWeights) {

@@ -300,6 +300,7 @@ TEST(Tracker, GivesFiniteOutputForSenselessInput) {
     if (k % 3 == 1) noise.fill(gray, cv::RNG::UNIFORM, 0, 256);
     TrackerInput input = frame_at(k, gray);
     if (k % 4 == 0) later_s += 1e6 * k;
+    if (k % 7 == 0) tracker.search_near({1e200, -1e200}, 1e200);
     input.time_s += later_s;
     if (k % 4 == 1) input.predicted_homography = Eigen::Matrix3d::Zero();
     if (k % 4 == 2) input.predicted_homography = shift_homography(200.0, -100.0);
