@@ -96,8 +96,10 @@ EgoMotion TrackerCore::move_camera(const TrackerInput& frame, const ReducedFrame
   }
   const Eigen::Vector2d change_px_s = motion_.begin_frame(motion, last_.pixel);
   for (Particle& particle : filter_.particles()) particle.velocity_px_s += change_px_s;
-  last_.velocity_px_s += change_px_s;
-  believed_.velocity_px_s += change_px_s;
+  if (velocity_ == Velocity::kEstimated) {  // of a new target there is none to go on
+    last_.velocity_px_s += change_px_s;
+    believed_.velocity_px_s += change_px_s;
+  }
   if (motion.homography) {
     references_.advance(*motion.homography);
   } else if (!estimate.featureless) {
