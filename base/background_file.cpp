@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <mutex>
@@ -33,9 +34,8 @@ void put(const std::string& path, const std::string& text) {
 struct BackgroundFile::Shared {
   void run(const std::string& path) {
     std::unique_lock lock(mutex);
-    for (;;) {
-      wake.wait(lock, [this] { return end || waiting; });
-      if (!waiting) return;
+    while (wait(lock)) {
+      const bool last = end;
       const std::string text = *std::exchange(waiting, std::nullopt);
       busy = true;
       lock.unlock();
@@ -48,26 +48,33 @@ struct BackgroundFile::Shared {
       lock.lock();
       busy = false;
       trouble = failed;
+      if (!failed.empty() && !waiting) waiting = text;
+      if (!failed.empty() && last) break;
       done.notify_all();
-      if (!failed.empty() && !retry(lock, text)) return;
     }
+    ended = true;
+    done.notify_all();
   }
 
-  // After a pause, or at once when there is something newer. False at the end.
-  bool retry(std::unique_lock<std::mutex>& lock, const std::string& text) {
-    wake.wait_for(lock, kAgain, [this] { return end || waiting; });
-    if (!waiting) waiting = text;
-    return !end;
+  // Until there is something to write; after a failure a while longer. False: there is no more.
+  bool wait(std::unique_lock<std::mutex>& lock) {
+    if (!trouble.empty()) {
+      wake.wait_for(lock, kAgain, [this, before = written] { return end || written != before; });
+    }
+    wake.wait(lock, [this] { return end || waiting; });
+    return waiting.has_value();
   }
 
   std::mutex mutex;  // of everything below
   std::condition_variable wake, done;
-  bool end = false, busy = false;
+  bool end = false, busy = false, ended = false;
+  std::uint64_t written = 0;  // calls of write()
   std::optional<std::string> waiting;
   std::string trouble;
 };
 
 BackgroundFile::BackgroundFile(const std::string& path) : shared_(std::make_shared<Shared>()) {
+  shared_->ended = path.empty();
   if (path.empty()) return;
   // Detached: who waits for a disk that hangs would never end.
   std::thread([shared = shared_, path] { shared->run(path); }).detach();
@@ -77,13 +84,14 @@ BackgroundFile::~BackgroundFile() {
   std::unique_lock lock(shared_->mutex);
   shared_->end = true;
   shared_->wake.notify_all();
-  const auto over = [this] { return !shared_->busy && !shared_->waiting; };
-  shared_->done.wait_for(lock, kLast, over);
+  shared_->done.wait_for(lock, kLast, [this] { return shared_->ended; });
 }
 
 void BackgroundFile::write(const std::string& text) {
   const std::lock_guard lock(shared_->mutex);
+  if (shared_->ended) return;
   shared_->waiting = text;
+  ++shared_->written;
   shared_->wake.notify_all();
 }
 

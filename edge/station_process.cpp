@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 #include "base/clocks.h"
 #include "edge/clock/clock_pair.h"
@@ -14,7 +16,8 @@ namespace {
 
 constexpr const char* kStopped = "stopped";
 constexpr const char* kEmergency = "emergency";
-constexpr const char* kDoubted = "reference";
+// The gravest last; of PtuLegacy.
+const std::vector<std::string> kDoubts{"reference", "homing", "gears"};
 constexpr double kFrameWait_s = 0.004;
 constexpr double kPoseInterval_s = 0.1;
 constexpr double kPoseKept_s = 10.0;  // the file is written so often
@@ -72,7 +75,7 @@ StationProcess::StationProcess(const StationSettings& settings, std::int64_t boo
            [this](const RecordCommand& command) { return record(command); }),
       host_(settings_.host),
       hold_(state_file(settings_, "hold"), {kStopped, kEmergency}),
-      doubt_(state_file(settings_, "doubt"), {kDoubted}),
+      doubt_(state_file(settings_, "doubt"), kDoubts),
       devices_(settings_) {
   const double now_s = clock_monotonic_s();
   resume_pose(now_s);
@@ -129,8 +132,10 @@ ClockPair StationProcess::look_at_clocks() {
 
 // Whatever ended it since somebody stopped it is no leave to move.
 void StationProcess::resume_hold(double now_s) {
-  if (!doubt_.word().empty()) devices_.ptu().doubt_reference();
-  if (!hold_.word().empty()) devices_.ptu().allow_rehoming(false);
+  const auto doubt = std::ranges::find(kDoubts, doubt_.word());
+  if (doubt != kDoubts.end()) {
+    devices_.ptu().inherit(static_cast<PtuLegacy>(doubt - kDoubts.begin() + 1));
+  }
   if (hold_.word() == kStopped) station_.stop(now_s);
   if (hold_.word() != kEmergency) return;
   devices_.ptu().emergency_halt();
@@ -140,8 +145,12 @@ void StationProcess::resume_hold(double now_s) {
 void StationProcess::remember() {
   hold_.set(hold_of(station_.state()));
   // While there is no unit, what was known of it stays.
-  if (devices_.ptu().reference() == PtuReference::kTrusted) doubt_.set("");
-  if (devices_.ptu().in_doubt()) doubt_.set(kDoubted);
+  const PtuLegacy legacy = devices_.ptu().legacy();
+  if (legacy != PtuLegacy::kNone) {
+    doubt_.set(kDoubts[static_cast<std::size_t>(legacy) - 1]);
+  } else if (devices_.ptu().reference() == PtuReference::kTrusted) {
+    doubt_.set("");
+  }
 }
 
 // The GPIO's thread has halted the unit already; here the station learns of it.
@@ -155,7 +164,7 @@ void StationProcess::heed_emergency_stop(double now_s) {
 void StationProcess::receive_commands() {
   station_.set_reference(devices_.ptu().reference());
   bus_.receive();
-  devices_.ptu().allow_rehoming(station_.state() != StationState::kStopped);
+  devices_.ptu().allow_rehoming(std::string_view(hold_of(station_.state())).empty());
   if (station_.take_stop()) devices_.ptu().stop_homing();
   if (station_.take_home()) devices_.ptu().home();
   if (station_.take_reference_ok()) devices_.ptu().reference_ok();

@@ -36,10 +36,13 @@ std::optional<Station::Expected> Station::expected(const Frame& frame) const {
   return Expected{*pixel, angles->angles};
 }
 
+// What the fusion does not know of the target, and this station of its own directions.
 double Station::search_sd_px() const {
   const auto& camera = config_.geometry.camera;
-  return std::clamp(slew_->direction_sd_rad * camera.fx_px, config_.search_sd_px,
-                    camera.width_px / 4.0);
+  const CalibrationSd& own = config_.geometry.sd;
+  const double sd_rad =
+      Eigen::Vector4d(slew_->direction_sd_rad, own.heading_rad, own.tilt_rad, own.mount_rad).norm();
+  return std::clamp(sd_rad * camera.fx_px, config_.search_sd_px, camera.width_px / 4.0);
 }
 
 // What looks like the target elsewhere is not the one that the others see there.

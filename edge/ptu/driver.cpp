@@ -64,7 +64,11 @@ void PtuDriver::stop_homing(double time_s) {
 
 void PtuDriver::allow_rehoming(bool allowed) { impl_->rehoming_allowed = allowed; }
 
-void PtuDriver::doubt_reference() { impl_->reference.doubted_before(); }
+void PtuDriver::inherit(PtuLegacy legacy) {
+  if (legacy == PtuLegacy::kNone) return;
+  impl_->reference.doubted_before(legacy == PtuLegacy::kBrokenHoming);
+  impl_->inherited_scale_lost = legacy == PtuLegacy::kScaleLost;
+}
 
 void PtuDriver::reference_ok() {
   if (reference() == PtuReference::kDoubted) impl_->reference.acknowledge();
@@ -105,8 +109,11 @@ bool PtuDriver::homing() const { return impl_->homing; }
 
 PtuDoubt PtuDriver::doubt() const { return impl_->reference.doubt(); }
 
-bool PtuDriver::in_doubt() const {
-  return doubt() != PtuDoubt::kNone || reference() == PtuReference::kMissing;
+PtuLegacy PtuDriver::legacy() const {
+  const bool must_home = reference() == PtuReference::kMissing;
+  if (impl_->reference.broken() || (must_home && impl_->homing)) return PtuLegacy::kBrokenHoming;
+  if (must_home && impl_->phase == Impl::Phase::kReady) return PtuLegacy::kScaleLost;
+  return doubt() != PtuDoubt::kNone || must_home ? PtuLegacy::kDoubt : PtuLegacy::kNone;
 }
 
 const PtuCounters& PtuDriver::counters() const { return impl_->counters; }

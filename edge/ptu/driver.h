@@ -32,6 +32,11 @@ enum class PtuReference {
   kTrusted,
 };
 
+// What whoever ends now must leave to the next process about the unit's counts: nothing; that they
+// are in doubt; that a homing was broken off, or is under way; that the unit does not know its
+// gears and must be homed, whatever a person says.
+enum class PtuLegacy { kNone, kDoubt, kBrokenHoming, kScaleLost };
+
 // A unit that accelerates less than configured, and is driven no faster than it can stop in time.
 struct PtuLoweredSpeed {
   double acceleration_rad_s2, speed_rad_s;
@@ -108,8 +113,8 @@ class PtuDriver {
   void allow_rehoming(bool allowed);
   // A person vouches for the reference: it was homed by hand, or checked.
   void reference_ok();
-  // It was in doubt when the process before this one ended.
-  void doubt_reference();
+  // What the process before this one left.
+  void inherit(PtuLegacy legacy);
 
   // Begins again from power-up, for example when the port was reopened.
   void restart(double time_s);
@@ -133,8 +138,7 @@ class PtuDriver {
   bool homing() const;                        // since home() or by itself, until it is ready
   PtuReference reference() const;
   PtuDoubt doubt() const;
-  // Who ended now would leave a unit whose counts mean nothing: in doubt, homing, or to be homed.
-  bool in_doubt() const;
+  PtuLegacy legacy() const;
   std::optional<PtuLoweredSpeed> lowered_speed() const;
   bool standing() const;  // seen not to move
 

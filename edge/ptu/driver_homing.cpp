@@ -4,7 +4,8 @@
 namespace ols {
 
 bool PtuDriver::Impl::may_home() const {
-  return config.rehome == PtuRehome::kWhenUnreferenced && rehoming_allowed && !homed && !emergency;
+  return config.rehome == PtuRehome::kWhenUnreferenced && rehoming_allowed && !homed &&
+         !emergency && !reference.broken();
 }
 
 // Only a unit that stands: the start sequence has halted it.

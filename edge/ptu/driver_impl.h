@@ -94,6 +94,7 @@ struct PtuDriver::Impl {
   double sent_s = 0.0, flush_began_s = 0.0, last_byte_s = 0.0;
   double paused_s = 0.0, resume_s = 0.0, pause_s = kFirstPause_s;
   bool was_ready = false;
+  bool inherited_scale_lost = false;
   double trusted_step_rad = 0.0;  // of a count of pan, when it was last trusted
   std::uint64_t banners_at_start = 0;
 };

@@ -146,7 +146,7 @@ void PtuDriver::Impl::become_ready(double time_s) {
   pause_s = kFirstPause_s;
   unreferenced = failed = homing = false;
   if (!in_doubt) {
-    homed = false;
+    homed = inherited_scale_lost = false;
     trusted_step_rad = start->facts().pan.resolution_rad;
   }
   was_ready = true;
@@ -157,7 +157,8 @@ void PtuDriver::Impl::become_ready(double time_s) {
 bool PtuDriver::Impl::scale_lost() const {
   constexpr double kSame = 0.01;
   const double step_rad = start->facts().pan.resolution_rad;
-  return trusted_step_rad > 0.0 && std::abs(step_rad / trusted_step_rad - 1.0) > kSame;
+  return inherited_scale_lost ||
+         (trusted_step_rad > 0.0 && std::abs(step_rad / trusted_step_rad - 1.0) > kSame);
 }
 
 // It has another rate than it was left with, says its name, or has forgotten its modes.

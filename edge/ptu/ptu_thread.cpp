@@ -25,7 +25,9 @@ constexpr double kHaltOut_s = 0.25;  // for the last halt, behind a whole reques
 }  // namespace
 
 struct PtuThread::Impl {
-  explicit Impl(const PtuConfig& ptu_config) : config(ptu_config), driver(ptu_config) {}
+  explicit Impl(const PtuConfig& ptu_config) : config(ptu_config), driver(ptu_config) {
+    driver.allow_rehoming(false);
+  }
 
   void run(const std::stop_token& stop) {
     double pause_s = kFirstPause_s;
@@ -160,9 +162,9 @@ void PtuThread::allow_rehoming(bool allowed) {
   impl_->driver.allow_rehoming(allowed);
 }
 
-void PtuThread::doubt_reference() {
+void PtuThread::inherit(PtuLegacy legacy) {
   const std::lock_guard lock(impl_->mutex);
-  impl_->driver.doubt_reference();
+  impl_->driver.inherit(legacy);
 }
 
 void PtuThread::reference_ok() {
@@ -175,9 +177,9 @@ PtuReference PtuThread::reference() const {
   return impl_->open ? impl_->driver.reference() : PtuReference::kUnknown;
 }
 
-bool PtuThread::in_doubt() const {
+PtuLegacy PtuThread::legacy() const {
   const std::lock_guard lock(impl_->mutex);
-  return impl_->driver.in_doubt();
+  return impl_->driver.legacy();
 }
 
 PtuStatus PtuThread::status() const {

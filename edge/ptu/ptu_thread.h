@@ -60,11 +60,11 @@ class PtuThread {
   // PtuDriver's.
   void home();
   void stop_homing();
-  void allow_rehoming(bool allowed);
-  void doubt_reference();
+  void allow_rehoming(bool allowed);  // it is not, at first
+  void inherit(PtuLegacy legacy);
   void reference_ok();
   PtuReference reference() const;
-  bool in_doubt() const;
+  PtuLegacy legacy() const;
 
   PtuStatus status() const;
   DeviceReport report() const;

@@ -70,12 +70,13 @@ bool ReferenceWatch::saw_both_ends() const {
 void ReferenceWatch::homing_interrupted() {
   homing_ordered();
   doubt_ = PtuDoubt::kHomingInterrupted;
+  broken_ = true;
 }
 
 void ReferenceWatch::ready() {
   const bool homed = ends_.pan > 0 && ends_.tilt > 0;
-  if (homed && (over_ || doubt_ != PtuDoubt::kHomingInterrupted)) {
-    doubt_ = PtuDoubt::kNone;
+  if (homed && (over_ || !broken_)) {
+    acknowledge();
   } else if (was_ready_ && ends_.any() && doubt_ == PtuDoubt::kNone) {
     doubt_ = PtuDoubt::kLimitHit;
   }

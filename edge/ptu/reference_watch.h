@@ -32,19 +32,29 @@ class ReferenceWatch {
   // The rate at which a unit begins or homes: it will answer there when it is done.
   std::optional<int> homes_at(double time_s) const;
 
-  void power_cycled() { doubt_ = PtuDoubt::kPowerCycle; }
+  void power_cycled() {
+    if (!broken_) doubt_ = PtuDoubt::kPowerCycle;
+  }
   // A homing of our own: it was asked for, the unit said that it is over, or it was left before.
   // After one that was broken off only a whole one of our own is believed: some units go on.
   void homing_ordered();
   bool saw_both_ends() const;  // since then
   void homing_over() { over_ = true; }
   void homing_interrupted();
-  void doubted_before() { doubt_ = PtuDoubt::kBefore; }  // when the process before this one ended
+  // When the process before this one ended, perhaps in the middle of a homing.
+  void doubted_before(bool broken) {
+    doubt_ = PtuDoubt::kBefore;
+    broken_ = broken;
+  }
   // It can be driven again. The first time it is believed: whoever set the station up saw to it.
   void ready();
-  void acknowledge() { doubt_ = PtuDoubt::kNone; }
+  void acknowledge() {
+    doubt_ = PtuDoubt::kNone;
+    broken_ = false;
+  }
 
   PtuDoubt doubt() const { return doubt_; }
+  bool broken() const { return broken_; }  // a homing was, and none was whole since then
 
  private:
   struct Heard {
@@ -54,7 +64,7 @@ class ReferenceWatch {
   PtuDoubt doubt_ = PtuDoubt::kNone;
   std::map<int, Heard> heard_;  // by rate of the line
   PtuLimitHits ends_;           // since it was ready, for certain
-  bool over_ = false;
+  bool over_ = false, broken_ = false;
   bool was_ready_ = false;
 };
 

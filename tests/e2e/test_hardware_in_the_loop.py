@@ -147,6 +147,7 @@ def test_a_doubt_outlives_the_station(loop):
     assert loop.unit.ask("fault ptu-power-cycle 1 0") == "done"
     loop.wait(lambda: "switched off and on" in ptu_alarms(loop), "the doubt", DEADLINE_S)
     restart(loop)
+    assert loop.observer.state(STATION) == "stopped"  # it was in hand, manual
     loop.wait(lambda: "before this start" in ptu_alarms(loop), "the doubt of before", DEADLINE_S)
     assert not ptu_is(loop, ok)
     command = [BIN / "ols-ctl", STATION, "reference-ok"]

@@ -1,5 +1,6 @@
 #include "tools/ctl/operator.h"
 
+#include <algorithm>
 #include <random>
 
 #include "base/clocks.h"
@@ -157,35 +158,42 @@ std::optional<std::string> Operator::send_ptu(const std::string& station, std::i
   return outcome(station, counter_name);
 }
 
-bool Operator::says_stopped(const std::string& station) const {
+bool Operator::says_stopped(const std::string& station, double stops_before) const {
   using M = ols_msg::station_status_t;
   const auto status = statuses_.find(station);
-  return status != statuses_.end() &&
+  return status != statuses_.end() && counter(status->second, "stop_accepted") > stops_before &&
          (status->second.state == M::STATE_STOPPED || status->second.state == M::STATE_EMERGENCY);
 }
 
 std::map<std::string, bool> Operator::stop(double timeout_s) {
   constexpr double kAgain_s = 0.2;
+  struct Addressed {
+    double sent_s = -kAgain_s;
+    std::optional<double> stops;  // as it was first heard to count them: one more has arrived
+    bool stopped = false;
+  };
   const bool all = station_ == "all";
-  std::map<std::string, double> sent_s;  // when last
-  if (!all) sent_s[station_] = 0.0;
+  std::map<std::string, Addressed> addressed;
+  if (!all) addressed[station_] = {};
   const double start_s = clock_monotonic_s();
   for (double now_s = start_s; now_s < start_s + timeout_s; now_s = clock_monotonic_s()) {
-    for (const auto& [id, status] : statuses_) sent_s.try_emplace(id, 0.0);
-    bool stopped = true;
-    for (auto& [id, last_s] : sent_s) {
-      if (last_s > 0.0 && says_stopped(id)) continue;
-      stopped = false;
-      if (now_s < last_s + kAgain_s) continue;
-      if (last_s == 0.0) statuses_.erase(id);  // what it says from now on counts
-      publish_ptu(id, ols_msg::ptu_command_t::COMMAND_STOP, 0.0, 0.0);
-      last_s = now_s;
+    for (const auto& [id, status] : statuses_) {
+      Addressed& one = addressed[id];
+      if (!one.stops) one.stops = counter(status, "stop_accepted");
+      one.stopped = says_stopped(id, *one.stops);
     }
-    if (stopped && !sent_s.empty() && (!all || now_s > start_s + kTwoIntervals_s)) break;
+    for (auto& [id, one] : addressed) {
+      if (one.stopped || now_s < one.sent_s + kAgain_s) continue;
+      publish_ptu(id, ols_msg::ptu_command_t::COMMAND_STOP, 0.0, 0.0);
+      one.sent_s = now_s;
+    }
+    const bool every =
+        std::ranges::all_of(addressed, [](const auto& a) { return a.second.stopped; });
+    if (every && !addressed.empty() && (!all || now_s > start_s + kTwoIntervals_s)) break;
     bus_.handle(kPoll_ms);
   }
   std::map<std::string, bool> result;
-  for (const auto& [id, last_s] : sent_s) result[id] = says_stopped(id);
+  for (const auto& [id, one] : addressed) result[id] = one.stopped;
   return result;
 }
 

@@ -28,8 +28,8 @@ class Operator {
   const Statuses& listen(double timeout_s);
 
   // Sends stops to the addressed station, or to each as soon as it is heard, again and again until
-  // a status says that it stands or timeout_s is over: a stop needs no status and may get lost.
-  // Whether each said so.
+  // a status counts one and says so, or timeout_s is over: a stop needs no status and may get lost.
+  // Whether each did.
   std::map<std::string, bool> stop(double timeout_s);
 
   // Each sends to the station and waits for the status that counts it. Returns nothing when it was
@@ -47,7 +47,7 @@ class Operator {
                                     const std::string& label);
 
  private:
-  bool says_stopped(const std::string& station) const;
+  bool says_stopped(const std::string& station, double stops_before) const;
   template <class Message>
   void address(Message& message, const std::string& station);
   void publish_ptu(const std::string& station, std::int8_t command, double pan_rad,

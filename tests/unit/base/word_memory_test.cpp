@@ -51,6 +51,18 @@ TEST(WordMemory, TriesAgainWhatItCouldNotWrite) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(WordMemory, TriesALastTimeAtTheEnd) {
+  const std::string folder = fresh_file();
+  {
+    WordMemory memory(folder + "/word", kWords);
+    memory.set("bad");
+    ASSERT_TRUE(eventually([&] { return !memory.trouble().empty(); }));
+    std::filesystem::create_directories(folder);
+  }
+  EXPECT_EQ(WordMemory(folder + "/word", kWords).word(), "bad");
+  std::filesystem::remove_all(folder);
+}
+
 TEST(WordMemory, WhatCannotBeReadIsTheGravest) {
   const std::string file = fresh_file();
   std::ofstream(file) << "rubbish\n";

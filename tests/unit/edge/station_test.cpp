@@ -178,6 +178,32 @@ TEST_F(StationTest, ASlewedStationBelievesOnlyWhatIsWhereTheSlewSays) {
   EXPECT_EQ(station_.state(), StationState::kTracking);
 }
 
+TEST_F(StationTest, ASlewedStationAllowsForWhatItDoesNotKnowOfItsOwnHeading) {
+  StationConfig rough = config();
+  rough.geometry.sd.heading_rad = radians(0.5);
+  Station station(rough, std::make_unique<test::ScriptedTracker>(script_));
+  station.set_reference(PtuReference::kTrusted);
+  Frame frame;
+  const auto show = [&](double until_s) {
+    for (; now_ < until_s; now_ += test::kFrame_s) {
+      station.on_angles(sample());
+      frame.mid_exposure_s = now_ - 0.02;
+      station.on_frame(frame, now_);
+      station.step(now_);
+    }
+  };
+  show(now_ + 0.3);
+  ASSERT_EQ(station.designate({std::nullopt, {629, 469, 20, 20}}, now_), Refusal::kNone);
+  script_.belief = 0.1;
+  show(now_ + 1.5);
+  ASSERT_EQ(station.state(), StationState::kLost);
+  script_.belief = 0.99;
+  script_.pixel = {439.5, 479.5};  // 0.86 deg beside where the slew says
+  ASSERT_EQ(station.slew(slew(30.0), now_), Refusal::kNone);
+  show(now_ + 0.45);
+  EXPECT_EQ(station.state(), StationState::kTracking);
+}
+
 TEST_F(StationTest, RefusesSlewsThatAreNotCommands) {
   run_until(100.5);
   const double nan = std::numeric_limits<double>::quiet_NaN();

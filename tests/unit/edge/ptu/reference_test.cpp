@@ -189,6 +189,7 @@ TEST_P(BrokenHoming, IsNoReferenceHoweverFarItCame) {
   run(GetParam());
   ASSERT_EQ(loop_->driver.counters().homings, 1u);
   ASSERT_TRUE(loop_->driver.homing());
+  EXPECT_EQ(loop_->driver.legacy(), PtuLegacy::kBrokenHoming);
   loop_->sent.clear();
   loop_->driver.stop_homing(loop_->time_s);
   run(0.01);
@@ -268,15 +269,44 @@ TEST_F(Reference, HomesByItselfOnlyWhenItMay) {
 }
 
 TEST(DoubtOfBefore, OutlivesTheStartUntilThePersonVouches) {
+  for (const PtuLegacy legacy : {PtuLegacy::kDoubt, PtuLegacy::kBrokenHoming}) {
+    ClosedLoop loop(quick_driver(), quick_unit());
+    loop.driver.inherit(legacy);
+    loop.run(8.0);
+    EXPECT_EQ(loop.driver.state(), PtuState::kFault);
+    EXPECT_EQ(loop.driver.reference(), PtuReference::kDoubted);
+    EXPECT_EQ(loop.driver.legacy(), legacy);
+    EXPECT_NE(loop.driver.last_error().find("before this start"), std::string::npos);
+    EXPECT_TRUE(loop.driver.take_samples().empty());
+    loop.driver.reference_ok();
+    EXPECT_EQ(loop.driver.state(), PtuState::kReady);
+    EXPECT_EQ(loop.driver.legacy(), PtuLegacy::kNone);
+  }
+}
+
+TEST(DoubtOfBefore, OfTheGearsNobodyVouches) {
   ClosedLoop loop(quick_driver(), quick_unit());
-  loop.driver.doubt_reference();
+  loop.driver.inherit(PtuLegacy::kScaleLost);
   loop.run(8.0);
-  EXPECT_EQ(loop.driver.state(), PtuState::kFault);
-  EXPECT_EQ(loop.driver.reference(), PtuReference::kDoubted);
-  EXPECT_NE(loop.driver.last_error().find("before this start"), std::string::npos);
-  EXPECT_TRUE(loop.driver.take_samples().empty());
+  EXPECT_EQ(loop.driver.reference(), PtuReference::kMissing);
   loop.driver.reference_ok();
-  EXPECT_EQ(loop.driver.state(), PtuState::kReady);
+  EXPECT_EQ(loop.driver.reference(), PtuReference::kMissing);
+  EXPECT_EQ(loop.driver.legacy(), PtuLegacy::kScaleLost);
+  loop.driver.home(loop.time_s);
+  loop.run(60.0);
+  EXPECT_EQ(loop.driver.state(), PtuState::kReady) << loop.driver.last_error();
+  EXPECT_EQ(loop.driver.legacy(), PtuLegacy::kNone);
+}
+
+TEST(DoubtOfBefore, ABrokenHomingIsNotBegunAgainByItself) {
+  for (const PtuLegacy legacy : {PtuLegacy::kDoubt, PtuLegacy::kBrokenHoming}) {
+    PtuConfig config = quick_driver();
+    config.rehome = PtuRehome::kWhenUnreferenced;
+    ClosedLoop loop(config, quick_unit());
+    loop.driver.inherit(legacy);
+    loop.run(60.0);
+    EXPECT_EQ(loop.driver.counters().homings, legacy == PtuLegacy::kDoubt ? 1u : 0u);
+  }
 }
 
 // Never "starting" again between two attempts.

@@ -93,6 +93,12 @@ TEST(ReferenceWatch, BelievesAfterABrokenHomingOnlyAWholeOneOfItsOwn) {
   watch.rate_is(9600);
   watch.ready();
   EXPECT_EQ(watch.doubt(), PtuDoubt::kHomingInterrupted);
+  watch.while_not_driven({2, 2}, 9600, 2.5);
+  watch.power_cycled();  // or what looks like one
+  watch.rate_is(9600);
+  watch.ready();
+  EXPECT_TRUE(watch.broken());
+  EXPECT_EQ(watch.doubt(), PtuDoubt::kHomingInterrupted);
   watch.homing_ordered();
   EXPECT_FALSE(watch.saw_both_ends());
   watch.while_not_driven({2, 2}, 9600, 3.0);
