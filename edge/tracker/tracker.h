@@ -71,8 +71,8 @@ class Tracker {
   TrackerResult track(const TrackerInput& frame);
 
   // The target may be near this pixel (of the frame given next): spreads the particles there, keeps
-  // the template. Used when the station is slewed onto a target that it had lost. Not finite: ignored;
-  // more than the frame's size off the frame: brought that near.
+  // the template. Used when the station is slewed onto a target that it had lost. Not finite:
+  // ignored; more than the frame's size off the frame: brought that near.
   void search_near(const Eigen::Vector2d& pixel, double sd_px);
 
   bool initialised() const;

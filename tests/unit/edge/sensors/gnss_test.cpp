@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "geometry/angles.h"
-#include "tests/unit/eventually.h"
 #include "tests/unit/edge/sensors/gpsd_process.h"
+#include "tests/unit/eventually.h"
 #include "tools/sim/gnss_line.h"
 
 namespace ols {
