@@ -158,10 +158,10 @@ TEST_P(CameraControl, PacedPacketsFitASmallBuffer) {
   CameraConfig config = station();
   config.width_px = 1280;
   config.height_px = 960;
-  config.frame_rate_hz = 10.0;
+  config.frame_rate_hz = 5.0;  // a packet each 1.5 ms
   config.packet_size = 9000;
   config.packet_resend = false;
-  config.socket_buffer = 65536;  // a tenth of a frame; sent in one go hardly a frame is complete
+  config.socket_buffer = 200'000;  // a sixth of a frame; sent in one go hardly a frame is complete
   AravisCamera camera(config);
   EXPECT_TRUE(becomes(camera, [&] { return camera.counters().frames_captured >= 15; }))
       << camera.counters().frames_incomplete << " incomplete";
