@@ -147,7 +147,11 @@ void PtuSteadyState::finish(double time_s) {
   const PollCycle done = std::move(*cycle_);
   cycle_.reset();
   latency_s_ += (latency_s_ == 0.0 ? 1.0 : kLatencyShare) * (done.latency_s() - latency_s_);
-  if (done.command_lost()) commands_.send_all_again();
+  if (done.command_lost()) {
+    ++counters_.garbled;
+    error_ = "a reply to a command is missing";
+    commands_.send_all_again();
+  }
   judge_refusals(done.refusals(), time_s);
   judge_modes(done);
   if (ask_environment_ && !checking_modes_ && !done.answers().empty()) {
