@@ -82,13 +82,14 @@ struct Gpio::Impl {
     std::optional<bool> lit;          // as written to the line
     double trigger_end_s = kNever_s;  // a pulse is on the line until then
     while (!ended.stop_requested()) {
+      // First: after a standstill the answer may be there, however long ago it was asked for.
+      take_levels(lines);
+      tell_stop();
       double now_s = clock_monotonic_s();
       if (now_s >= refresh_s) {
         lines.refresh();
         refresh_s = now_s + kRefresh_s;
       }
-      take_levels(lines);
-      tell_stop();
       drive_led(lines, lit);
       drive_trigger(lines, trigger_end_s);
       now_s = clock_monotonic_s();
