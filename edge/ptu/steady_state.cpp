@@ -75,6 +75,8 @@ PtuRequest PtuSteadyState::commands_for(const std::optional<ServoGoal>& goal, bo
   // As long as it may take speeds for velocities it is told nothing.
   if (check_modes_) return PtuRequest().plain("ED").plain("FT");
   if (!newest) return {};
+  // Replies that are read too late to tell when keep the link up, but nobody drives by them.
+  if (time_s - newest->time_s > config_.reply_timeout_s) return commands_.halt(now, time_s);
   now.angles = interpolated ? interpolated->angles : newest->angles;
   return commands_.next(goal, now, time_s);
 }

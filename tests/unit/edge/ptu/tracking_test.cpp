@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "tests/unit/edge/ptu/closed_loop.h"
 
@@ -184,6 +186,34 @@ TEST(Tracking, StopsByItselfOnALongWayToARestingGoal) {
   EXPECT_GT(at_deg, 40.0);
   EXPECT_LE(moves_on(loop), 1.0 / 3.0 + degrees(1.0) / 60.0 + 0.05);
   EXPECT_LT(degrees(loop.truth().pan_rad), at_deg + 50.0);
+}
+
+// A host that looks at the line every 80 ms cannot tell when a reply came: the link is up, but the
+// angles grow old, and nobody drives by old ones.
+TEST(Tracking, AHostThatReadsLateLetsTheUnitStand) {
+  ClosedLoop loop(brisk(), quick_unit());
+  ASSERT_TRUE(loop.start());
+  follow(loop, 2.0, 2.0, ramp(0.0, radians(10.0)));
+  std::string unread;
+  const auto read_late = [&](double duration_s) {
+    for (int ms = 0; ms < static_cast<int>(duration_s * 1e3); ++ms) {
+      loop.time_s += ClosedLoop::kTick_s;
+      unread += loop.unit.transmit(loop.time_s);
+      if (ms % 80 != 0) continue;
+      loop.driver.set_goal(loop.goal({radians(90.0), 0.0}, {radians(10.0), 0.0}));
+      loop.driver.receive(std::exchange(unread, {}), loop.time_s);
+      const std::string request = loop.driver.step(loop.time_s);
+      if (!request.empty()) loop.unit.receive(request, loop.time_s);
+    }
+  };
+  read_late(1.5);
+  const PanTilt at = loop.truth();
+  read_late(3.0);
+  EXPECT_DOUBLE_EQ(loop.truth().pan_rad, at.pan_rad);
+  EXPECT_LT(degrees(at.pan_rad), 40.0);
+  EXPECT_EQ(loop.driver.state(), PtuState::kReady) << loop.driver.last_error();
+  follow(loop, 5.0, 5.0, [](double) { return ServoGoal{0.0, {radians(60.0), 0.0}, {}, 0.0}; });
+  EXPECT_NEAR(degrees(loop.truth().pan_rad), 60.0, 0.01);
 }
 
 }  // namespace
