@@ -38,6 +38,8 @@ std::optional<GateRefusal> CommandGate::admit(const CommandStamp& stamp,
 // Whatever was let through is found here again: by its boot's sequence, which only grows, or, where
 // its boot is forgotten, by its time. Neither asks for the time it is now.
 bool CommandGate::is_replayed(const CommandStamp& stamp, std::int64_t now_utime_us) const {
+  // A clock that was set back since must not bar everybody until it gets there again.
+  if (now_utime_us >= began_utime_us_ && stamp.utime_us < began_utime_us_) return true;
   if (forgotten_utime_us_ && stamp.utime_us <= *forgotten_utime_us_) return true;
   const auto known = std::ranges::find(senders_, stamp.boot_id, &Sender::boot_id);
   if (known != senders_.end() && stamp.sequence <= known->sequence) return true;

@@ -30,7 +30,10 @@ class CommandGate {
     double clock_margin_s = 0.5;  // two clocks may differ by this much
     double lease_max_s = 10.0;
   };
-  explicit CommandGate(const Config& config) : config_(config) {}
+  // What was stamped before `began_utime_us` may have passed a gate of the process before this one:
+  // it is taken for replayed.
+  CommandGate(const Config& config, std::int64_t began_utime_us)
+      : config_(config), began_utime_us_(began_utime_us) {}
 
   // Nothing when the command may pass; it is then remembered.
   std::optional<GateRefusal> admit(const CommandStamp& stamp, std::int64_t now_utime_us);
@@ -49,6 +52,7 @@ class CommandGate {
   void remember(const CommandStamp& stamp);
 
   Config config_;
+  std::int64_t began_utime_us_;
   std::deque<Sender> senders_;  // in the order of their last command
   // No stamp of a sender that is remembered no more is later.
   std::optional<std::int64_t> forgotten_utime_us_;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/clocks.h"
+
 namespace ols {
 namespace {
 
@@ -119,7 +121,7 @@ template <class Message>
 void StationBus::on_command(const std::string& kind,
                             const std::function<Refusal(const Message&)>& execute,
                             const std::function<bool(const Message&)>& passes) {
-  gates_.emplace(kind, CommandGate(settings_.gate));
+  gates_.emplace(kind, CommandGate(settings_.gate, clock_utime_us()));
   const auto receive = [this, kind, execute, passes](const std::string&, const void* data,
                                                      int bytes) {
     Message message;

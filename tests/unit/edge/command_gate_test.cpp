@@ -15,7 +15,10 @@ namespace {
 
 constexpr std::int64_t kNow_us = 1'700'000'000'000'000;
 
-CommandGate gate() { return CommandGate({.clock_margin_s = 0.5, .lease_max_s = 10.0}); }
+CommandGate gate(double age_s = 100.0) {
+  return {{.clock_margin_s = 0.5, .lease_max_s = 10.0},
+          kNow_us - static_cast<std::int64_t>(age_s * 1e6)};
+}
 
 CommandStamp stamp(double age_s, std::int64_t boot, std::int64_t sequence, double lease_s = 1.0) {
   return {kNow_us - static_cast<std::int64_t>(age_s * 1e6), boot, sequence, lease_s};
@@ -35,6 +38,17 @@ TEST(CommandGate, RefusesStaleAndFutureBeyondTheClockMargin) {
   EXPECT_EQ(g.admit(stamp(1.6, 7, 2), kNow_us), GateRefusal::kStale);
   EXPECT_EQ(g.admit(stamp(-0.4, 7, 3), kNow_us), std::nullopt);
   EXPECT_EQ(g.admit(stamp(-0.6, 7, 4), kNow_us), GateRefusal::kFuture);
+}
+
+TEST(CommandGate, ANewOneRefusesWhatTheOneBeforeMayHaveLetThrough) {
+  auto g = gate(0.3);
+  EXPECT_EQ(g.admit(stamp(0.4, 7, 1, 5.0), kNow_us), GateRefusal::kReplayed);
+  EXPECT_EQ(g.admit(stamp(0.2, 7, 2, 5.0), kNow_us), std::nullopt);
+}
+
+TEST(CommandGate, AClockThatIsSetBackBarsNobody) {
+  auto g = gate(-3600.0);  // begun while it was an hour fast
+  EXPECT_EQ(g.admit(stamp(0.1, 7, 1), kNow_us), std::nullopt);
 }
 
 TEST(CommandGate, ARestartedSenderCountsOnlyWhenItIsTheLaterOne) {
