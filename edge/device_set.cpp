@@ -1,8 +1,12 @@
 #include "edge/device_set.h"
 
 namespace ols {
+
 DeviceSet::DeviceSet(const StationSettings& settings)
-    : camera_(settings.camera), ptu_(settings.ptu) {
+    : stop_(!settings.gpio.chip.empty() && settings.gpio.stop_line >= 0),
+      camera_(settings.camera),
+      ptu_(settings.ptu) {
+  if (!stop_.known()) ptu_.emergency_halt();
   if (!settings.recorder.folder.empty()) recorder_.emplace(settings.recorder);
   if (!settings.inclinometer.device.empty()) inclinometer_.emplace(settings.inclinometer);
   if (!settings.gnss.host.empty()) gnss_.emplace(settings.gnss);

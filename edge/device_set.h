@@ -32,7 +32,8 @@ class DeviceSet {
 
   // What the sensors have read since the last call.
   void feed(PoseKeeper& keeper);
-  // Lets the PTU move again after an emergency, unless the stop has been pressed meanwhile.
+  // Lets the PTU move after an emergency, unless the stop has been pressed meanwhile; or at first:
+  // where there is a stop it stands until the stop's level is known.
   void rearm();
 
   // Of every configured device, camera and PTU first.

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kStopped = "stopped";
 constexpr const char* kEmergency = "emergency";
 // The gravest last; of PtuLegacy.
-const std::vector<std::string> kDoubts{"reference", "homing", "gears"};
+const std::vector<std::string> kDoubts{"reference", "homing", "gears", "homing-gears"};
 constexpr double kFrameWait_s = 0.004;
 constexpr double kPoseInterval_s = 0.1;
 constexpr double kPoseKept_s = 10.0;  // the file is written so often
@@ -136,6 +136,7 @@ void StationProcess::resume_hold(double now_s) {
   if (doubt != kDoubts.end()) {
     devices_.ptu().inherit(static_cast<PtuLegacy>(doubt - kDoubts.begin() + 1));
   }
+  halted_ = !devices_.stop().known();
   if (hold_.word() == kStopped) station_.stop(now_s);
   if (hold_.word() != kEmergency) return;
   devices_.ptu().emergency_halt();
@@ -156,6 +157,7 @@ void StationProcess::remember() {
 // The GPIO's thread has halted the unit already; here the station learns of it.
 void StationProcess::heed_emergency_stop(double now_s) {
   StopLatch& stop = devices_.stop();
+  if (!stop.known()) return;
   if (stop.take_press()) station_.emergency_stop(true, now_s);
   station_.emergency_stop(stop.pressed(), now_s);
   halted_ = halted_ || station_.state() == StationState::kEmergency;
@@ -168,7 +170,8 @@ void StationProcess::receive_commands() {
   if (station_.take_stop()) devices_.ptu().stop_homing();
   if (station_.take_home()) devices_.ptu().home();
   if (station_.take_reference_ok()) devices_.ptu().reference_ok();
-  if (halted_ && station_.state() != StationState::kEmergency) {
+  const bool may_move = devices_.stop().known() && station_.state() != StationState::kEmergency;
+  if (halted_ && may_move) {
     halted_ = false;
     devices_.rearm();
   }

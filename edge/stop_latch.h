@@ -9,11 +9,16 @@ namespace ols {
 
 class StopLatch {
  public:
+  // Where there is a stop nobody knows whether it is pressed until its first level comes.
+  explicit StopLatch(bool has_stop) : known_(!has_stop) {}
+
   // From the thread that sees the edges; before it halts the unit.
   void set(bool pressed) {
     if (pressed) ++presses_;
     pressed_ = pressed;
+    known_ = true;
   }
+  bool known() const { return known_; }
   bool pressed() const { return pressed_; }
   // Whether it was pressed since the last call, if only for a moment.
   bool take_press() {
@@ -24,6 +29,7 @@ class StopLatch {
   }
 
  private:
+  std::atomic<bool> known_;
   std::atomic<bool> pressed_ = false;
   std::atomic<std::uint64_t> presses_ = 0;
   std::uint64_t seen_ = 0;  // of the control loop

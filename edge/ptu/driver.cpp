@@ -66,12 +66,15 @@ void PtuDriver::allow_rehoming(bool allowed) { impl_->rehoming_allowed = allowed
 
 void PtuDriver::inherit(PtuLegacy legacy) {
   if (legacy == PtuLegacy::kNone) return;
-  impl_->reference.doubted_before(legacy == PtuLegacy::kBrokenHoming);
-  impl_->inherited_scale_lost = legacy == PtuLegacy::kScaleLost;
+  const bool both = legacy == PtuLegacy::kBrokenHomingGearsLost;
+  impl_->reference.doubted_before(both || legacy == PtuLegacy::kBrokenHoming);
+  impl_->gears_lost = both || legacy == PtuLegacy::kGearsLost;
 }
 
 void PtuDriver::reference_ok() {
-  if (reference() == PtuReference::kDoubted) impl_->reference.acknowledge();
+  if (reference() != PtuReference::kDoubted) return;
+  impl_->reference.acknowledge();
+  impl_->trust();
 }
 
 void PtuDriver::restart(double time_s) {
@@ -100,7 +103,7 @@ PtuState PtuDriver::state() const {
 PtuReference PtuDriver::reference() const {
   if (impl_->phase == Impl::Phase::kReady) {
     if (doubt() == PtuDoubt::kNone) return PtuReference::kTrusted;
-    return impl_->scale_lost() ? PtuReference::kMissing : PtuReference::kDoubted;
+    return impl_->gears_lost ? PtuReference::kMissing : PtuReference::kDoubted;
   }
   return impl_->homing || impl_->unreferenced ? PtuReference::kMissing : PtuReference::kUnknown;
 }
@@ -111,8 +114,11 @@ PtuDoubt PtuDriver::doubt() const { return impl_->reference.doubt(); }
 
 PtuLegacy PtuDriver::legacy() const {
   const bool must_home = reference() == PtuReference::kMissing;
-  if (impl_->reference.broken() || (must_home && impl_->homing)) return PtuLegacy::kBrokenHoming;
-  if (must_home && impl_->phase == Impl::Phase::kReady) return PtuLegacy::kScaleLost;
+  const bool broken = impl_->reference.broken() || (must_home && impl_->homing);
+  if (impl_->gears_lost) {
+    return broken ? PtuLegacy::kBrokenHomingGearsLost : PtuLegacy::kGearsLost;
+  }
+  if (broken) return PtuLegacy::kBrokenHoming;
   return doubt() != PtuDoubt::kNone || must_home ? PtuLegacy::kDoubt : PtuLegacy::kNone;
 }
 

@@ -34,8 +34,9 @@ enum class PtuReference {
 
 // What whoever ends now must leave to the next process about the unit's counts: nothing; that they
 // are in doubt; that a homing was broken off, or is under way; that the unit does not know its
-// gears and must be homed, whatever a person says.
-enum class PtuLegacy { kNone, kDoubt, kBrokenHoming, kScaleLost };
+// gears and must be homed, whatever a person says; both of these. Only a homing, or a person where
+// one may vouch, makes it less.
+enum class PtuLegacy { kNone, kDoubt, kBrokenHoming, kGearsLost, kBrokenHomingGearsLost };
 
 // A unit that accelerates less than configured, and is driven no faster than it can stop in time.
 struct PtuLoweredSpeed {

@@ -48,7 +48,8 @@ struct PtuDriver::Impl {
   std::string step_start(double time_s);
   void take_start_reply(const PtuReply& reply, double time_s);
   void become_ready(double time_s);
-  bool scale_lost() const;
+  void note_gears();
+  void trust();
   void note_power_cycle();
 
   // driver_homing.cpp.
@@ -94,8 +95,9 @@ struct PtuDriver::Impl {
   double sent_s = 0.0, flush_began_s = 0.0, last_byte_s = 0.0;
   double paused_s = 0.0, resume_s = 0.0, pause_s = kFirstPause_s;
   bool was_ready = false;
-  bool inherited_scale_lost = false;
-  double trusted_step_rad = 0.0;  // of a count of pan, when it was last trusted
+  // Some units do not know their gears before they are homed: nobody can vouch for their counts.
+  bool gears_lost = false;
+  double step_rad = 0.0;  // of a count of pan: when it was last trusted, or else first seen
   std::uint64_t banners_at_start = 0;
 };
 

@@ -117,8 +117,8 @@ void PtuDriver::Impl::take_start_reply(const PtuReply& reply, double time_s) {
   outstanding = false;
   // Whoever was switched on has another rate than it was left with, or echoes again.
   const bool forgot = baud != config.baud || reply.echoed;
-  const bool trusted = was_ready ? false : config.homes_at_power_up;
-  if (!answered && forgot && !trusted) note_power_cycle();
+  const bool homed_itself = !was_ready && config.homes_at_power_up;
+  if (!answered && forgot && !homed_itself) note_power_cycle();
   answered = true;
   reference.rate_is(baud);
   if (!reply.ok) ++counters.errors;
@@ -138,6 +138,7 @@ void PtuDriver::Impl::become_ready(double time_s) {
     fault(time_s, std::move(conflict));
     return;
   }
+  note_gears();
   if (!home_wanted) reference.ready();
   const bool in_doubt = reference.doubt() != PtuDoubt::kNone;
   if (home_if(home_wanted || (in_doubt && may_home()), time_s)) return;
@@ -145,20 +146,24 @@ void PtuDriver::Impl::become_ready(double time_s) {
   phase = Phase::kReady;
   pause_s = kFirstPause_s;
   unreferenced = failed = homing = false;
-  if (!in_doubt) {
-    homed = inherited_scale_lost = false;
-    trusted_step_rad = start->facts().pan.resolution_rad;
-  }
+  if (!in_doubt) trust();
   was_ready = true;
   banners_at_start = parser.banners();
 }
 
-// Some units do not know their gears before they are homed: nobody can vouch for their counts.
-bool PtuDriver::Impl::scale_lost() const {
+// Other steps than before are those of a unit that was switched off and on, if nobody saw it.
+void PtuDriver::Impl::note_gears() {
   constexpr double kSame = 0.01;
-  const double step_rad = start->facts().pan.resolution_rad;
-  return inherited_scale_lost ||
-         (trusted_step_rad > 0.0 && std::abs(step_rad / trusted_step_rad - 1.0) > kSame);
+  const double now_rad = start->facts().pan.resolution_rad;
+  if (step_rad <= 0.0) step_rad = now_rad;
+  if (std::abs(now_rad / step_rad - 1.0) <= kSame) return;
+  gears_lost = true;
+  if (reference.doubt() == PtuDoubt::kNone) reference.power_cycled();
+}
+
+void PtuDriver::Impl::trust() {
+  homed = gears_lost = false;
+  step_rad = start->facts().pan.resolution_rad;
 }
 
 // It has another rate than it was left with, says its name, or has forgotten its modes.

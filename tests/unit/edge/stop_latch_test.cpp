@@ -6,7 +6,7 @@ namespace ols {
 namespace {
 
 TEST(StopLatch, APressBetweenTwoTurnsIsNotMissed) {
-  StopLatch stop;
+  StopLatch stop(true);
   EXPECT_FALSE(stop.take_press());
   stop.set(true);
   stop.set(false);
@@ -15,8 +15,17 @@ TEST(StopLatch, APressBetweenTwoTurnsIsNotMissed) {
   EXPECT_FALSE(stop.take_press()) << "once";
 }
 
+TEST(StopLatch, IsUnknownUntilTheFirstLevelWhereThereIsAStop) {
+  StopLatch stop(true);
+  EXPECT_FALSE(stop.known());
+  stop.set(false);
+  EXPECT_TRUE(stop.known());
+  EXPECT_FALSE(stop.take_press());
+  EXPECT_TRUE(StopLatch(false).known());
+}
+
 TEST(StopLatch, HoldsItsLevel) {
-  StopLatch stop;
+  StopLatch stop(true);
   stop.set(true);
   EXPECT_TRUE(stop.take_press());
   EXPECT_TRUE(stop.pressed());

@@ -268,47 +268,6 @@ TEST_F(Reference, HomesByItselfOnlyWhenItMay) {
   EXPECT_EQ(loop_->driver.state(), PtuState::kReady) << loop_->driver.last_error();
 }
 
-TEST(DoubtOfBefore, OutlivesTheStartUntilThePersonVouches) {
-  for (const PtuLegacy legacy : {PtuLegacy::kDoubt, PtuLegacy::kBrokenHoming}) {
-    ClosedLoop loop(quick_driver(), quick_unit());
-    loop.driver.inherit(legacy);
-    loop.run(8.0);
-    EXPECT_EQ(loop.driver.state(), PtuState::kFault);
-    EXPECT_EQ(loop.driver.reference(), PtuReference::kDoubted);
-    EXPECT_EQ(loop.driver.legacy(), legacy);
-    EXPECT_NE(loop.driver.last_error().find("before this start"), std::string::npos);
-    EXPECT_TRUE(loop.driver.take_samples().empty());
-    loop.driver.reference_ok();
-    EXPECT_EQ(loop.driver.state(), PtuState::kReady);
-    EXPECT_EQ(loop.driver.legacy(), PtuLegacy::kNone);
-  }
-}
-
-TEST(DoubtOfBefore, OfTheGearsNobodyVouches) {
-  ClosedLoop loop(quick_driver(), quick_unit());
-  loop.driver.inherit(PtuLegacy::kScaleLost);
-  loop.run(8.0);
-  EXPECT_EQ(loop.driver.reference(), PtuReference::kMissing);
-  loop.driver.reference_ok();
-  EXPECT_EQ(loop.driver.reference(), PtuReference::kMissing);
-  EXPECT_EQ(loop.driver.legacy(), PtuLegacy::kScaleLost);
-  loop.driver.home(loop.time_s);
-  loop.run(60.0);
-  EXPECT_EQ(loop.driver.state(), PtuState::kReady) << loop.driver.last_error();
-  EXPECT_EQ(loop.driver.legacy(), PtuLegacy::kNone);
-}
-
-TEST(DoubtOfBefore, ABrokenHomingIsNotBegunAgainByItself) {
-  for (const PtuLegacy legacy : {PtuLegacy::kDoubt, PtuLegacy::kBrokenHoming}) {
-    PtuConfig config = quick_driver();
-    config.rehome = PtuRehome::kWhenUnreferenced;
-    ClosedLoop loop(config, quick_unit());
-    loop.driver.inherit(legacy);
-    loop.run(60.0);
-    EXPECT_EQ(loop.driver.counters().homings, legacy == PtuLegacy::kDoubt ? 1u : 0u);
-  }
-}
-
 // Never "starting" again between two attempts.
 TEST_F(Reference, ADeadLineIsAFaultAllTheTime) {
   make(false);
