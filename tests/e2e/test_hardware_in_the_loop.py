@@ -14,6 +14,9 @@ from ols_demo.site import Site
 
 STATION = "alfa"
 DEADLINE_S = 40.0
+HOMING_S = 100.0
+OK = ols_msg.station_status_t.DEVICE_OK
+GEARS = "does not know where it is"
 
 
 def scenario_with_a_real_unit(device):
@@ -103,8 +106,7 @@ def views_until_there(loop, pan_deg, tilt_deg):
 
 
 def test_the_station_finds_the_unit_ready(loop):
-    ok = ols_msg.station_status_t.DEVICE_OK
-    loop.wait(lambda: ptu_is(loop, ok), "PTU in order", DEADLINE_S)
+    loop.wait(lambda: ptu_is(loop, OK), "PTU in order", DEADLINE_S)
 
 
 def test_the_view_follows_what_the_unit_says(loop):
@@ -120,10 +122,9 @@ def test_the_view_follows_what_the_unit_says(loop):
 
 
 def test_it_survives_the_unit_being_unplugged(loop):
-    ok = ols_msg.station_status_t.DEVICE_OK
     assert loop.unit.ask("fault line-gone 2") == "done"
-    loop.wait(lambda: not ptu_is(loop, ok), "the station misses its PTU", DEADLINE_S)
-    loop.wait(lambda: ptu_is(loop, ok), "the PTU is back", DEADLINE_S)
+    loop.wait(lambda: not ptu_is(loop, OK), "the station misses its PTU", DEADLINE_S)
+    loop.wait(lambda: ptu_is(loop, OK), "the PTU is back", DEADLINE_S)
     slew(loop, -10.0, 3.0)
     views_until_there(loop, -10.0, 3.0)
     assert loop.unit.angles_deg() == pytest.approx([-10.0, 3.0], abs=0.05)
@@ -142,16 +143,46 @@ def restart(loop):
     loop.wait(lambda: loop.observer.status[STATION].boot_id != boot, "the next start", DEADLINE_S)
 
 
-def test_a_doubt_outlives_the_station(loop):
-    ok = ols_msg.station_status_t.DEVICE_OK
+def ctl(*words):
+    command = [BIN / "ols-ctl", STATION, *words]
+    return subprocess.run(command, capture_output=True, timeout=30, check=False).returncode
+
+
+def wait_for_alarm(loop, words):
+    loop.wait(lambda: words in ptu_alarms(loop), f"alarm {words}", HOMING_S)
+
+
+def test_lost_gears_outlive_every_start_and_nobody_vouches_for_them(loop):
+    slew(loop, 5.0, 0.0)
     assert loop.unit.ask("fault ptu-power-cycle 1 0") == "done"
-    loop.wait(lambda: "switched off and on" in ptu_alarms(loop), "the doubt", DEADLINE_S)
+    wait_for_alarm(loop, GEARS)
+    assert ctl("reference-ok") != 0
     restart(loop)
     assert loop.observer.state(STATION) == "stopped"  # it was in hand, manual
-    loop.wait(lambda: "before this start" in ptu_alarms(loop), "the doubt of before", DEADLINE_S)
-    assert not ptu_is(loop, ok)
-    command = [BIN / "ols-ctl", STATION, "reference-ok"]
-    assert subprocess.run(command, capture_output=True, timeout=30, check=False).returncode == 0
-    loop.wait(lambda: ptu_is(loop, ok), "the PTU is trusted", DEADLINE_S)
+    wait_for_alarm(loop, GEARS)
+    assert ctl("reference-ok") != 0
+    assert loop.unit.ask("fault line-gone 8") == "done"
+    wait_for_alarm(loop, "no serial port")
     restart(loop)
-    loop.wait(lambda: ptu_is(loop, ok), "the PTU is trusted still", DEADLINE_S)
+    wait_for_alarm(loop, GEARS)
+    assert ctl("reference-ok") != 0
+    assert ctl("home") == 0
+    loop.wait(lambda: ptu_is(loop, OK), "the PTU is trusted", HOMING_S)
+
+
+def test_a_doubt_outlives_the_station_until_a_person_vouches(loop):
+    assert ctl("home") == 0
+    wait_for_alarm(loop, "homing")
+    assert ctl("stop") == 0
+    wait_for_alarm(loop, "did not come to an end")
+    restart(loop)
+    # While it sweeps on it answers nobody; then it could be driven, but is not.
+    wait_for_alarm(loop, "halted, its reference was in doubt already before this start")
+    assert not ptu_is(loop, OK)
+    assert ctl("reference-ok") == 0
+    loop.wait(lambda: ptu_is(loop, OK), "the PTU is trusted", DEADLINE_S)
+    restart(loop)
+    loop.wait(lambda: ptu_is(loop, OK), "the PTU is trusted still", DEADLINE_S)
+    slew(loop, 10.0, 2.0)
+    views_until_there(loop, 10.0, 2.0)
+    assert loop.unit.angles_deg() == pytest.approx([10.0, 2.0], abs=0.05)

@@ -2,6 +2,7 @@
 // real dialogue says, with an operator who homes, stops and vouches in between: the unit stays
 // within the limits unless it homes, stands after an emergency stop, is not told to home in one,
 // and samples are finite. Some hundred steps an input: slower than the other fuzzers.
+#include <array>
 #include <cmath>
 
 #include "edge/ptu/driver.h"
@@ -31,7 +32,14 @@ void interfere(ols::PtuDriver& driver, std::uint8_t what, double now_s) {
     case 4:
       return driver.clear_emergency();
     case 5:
-      return driver.inherit(ols::PtuLegacy::kDoubt);
+    case 10:
+    case 11:
+    case 12: {
+      constexpr std::array kLegacies{ols::PtuLegacy::kDoubt, ols::PtuLegacy::kBrokenHoming,
+                                     ols::PtuLegacy::kGearsLost,
+                                     ols::PtuLegacy::kBrokenHomingGearsLost};
+      return driver.inherit(kLegacies.at(what == 5 ? 0 : what - 9));
+    }
     case 6:
       return driver.reference_ok();
     case 7:
