@@ -1,5 +1,5 @@
 // The offline formats. The first byte chooses: stations, bearings of two known stations, a
-// trajectory.
+// trajectory, landmarks.
 #include <cmath>
 #include <cstdlib>
 #include <new>
@@ -55,21 +55,36 @@ void trajectory(std::string_view content) {
   ols::fuzz::require(path->at(1.0).p_enu.allFinite(), "a trajectory is finite");
 }
 
+void landmarks(std::string_view content) {
+  const ols::fuzz::MemoryFile file(content);
+  for (const auto& row : ols::read_landmarks(file.path())) {
+    ols::fuzz::require(!row.object.empty() && row.distance_m > 0.0, "a landmark is somewhere");
+    ols::fuzz::require(std::cos(row.alpha_rad) > 0.0 && std::abs(row.side) <= 1,
+                       "a landmark is before the base");
+    for (const auto& error_m : {row.estimated_m, row.measured_m}) {
+      ols::fuzz::require(std::isfinite(error_m.value_or(0.0)), "errors are finite");
+    }
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   ols::fuzz::Input input(data, size);
   const std::uint8_t kind = input.byte();
   try {
-    switch (kind % 3) {
+    switch (kind % 4) {
       case 0:
         stations(input.rest());
         break;
       case 1:
         bearings(input.rest());
         break;
-      default:
+      case 2:
         trajectory(input.rest());
+        break;
+      default:
+        landmarks(input.rest());
     }
   } catch (const ols::CsvError&) {
     // Refused by name.
