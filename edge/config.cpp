@@ -1,6 +1,8 @@
 #include "edge/config.h"
 
+#include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -155,6 +157,18 @@ void read_devices(ConfigTable& root, StationSettings& settings) {
   }
 }
 
+// A search is as wide as the doubt of the direction, between this and a part of the picture.
+void read_search_sd(ConfigTable& table, StationConfig& station) {
+  const double most_px = station.search_sd_most_px();
+  station.search_sd_px =
+      table.number("search_sd_px", std::min(station.search_sd_px, most_px), 1.0, 1000.0);
+  if (station.search_sd_px <= most_px) return;
+  char text[80];
+  std::snprintf(text, sizeof text, "is more than a quarter of the picture's width (%g px)",
+                most_px);
+  throw table.error("search_sd_px", text);
+}
+
 void read_logic(ConfigTable& table, StationConfig& station) {
   station.designation_sd_px =
       table.number("designation_sd_px", station.designation_sd_px, 0.0, 100.0);
@@ -166,7 +180,7 @@ void read_logic(ConfigTable& table, StationConfig& station) {
   station.frame_memory_s = table.number("frame_memory_s", station.frame_memory_s, 0.0, 10.0);
   station.search_interval_s =
       table.number("search_interval_s", station.search_interval_s, 0.0, 60.0);
-  station.search_sd_px = table.number("search_sd_px", station.search_sd_px, 1.0, 1000.0);
+  read_search_sd(table, station);
   station.acquire_by_slew = table.boolean("acquire_by_slew", station.acquire_by_slew);
   station.acquisition_sd_px =
       table.number("acquisition_sd_px", station.acquisition_sd_px, 0.0, 100.0);

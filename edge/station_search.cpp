@@ -38,11 +38,11 @@ std::optional<Station::Expected> Station::expected(const Frame& frame) const {
 
 // What the fusion does not know of the target, and this station of its own directions.
 double Station::search_sd_px() const {
-  const auto& camera = config_.geometry.camera;
   const CalibrationSd& own = config_.geometry.sd;
   const double sd_rad =
       Eigen::Vector4d(slew_->direction_sd_rad, own.heading_rad, own.tilt_rad, own.mount_rad).norm();
-  return std::clamp(sd_rad * camera.fx_px, config_.search_sd_px, camera.width_px / 4.0);
+  return std::clamp(sd_rad * config_.geometry.camera.fx_px, config_.search_sd_px,
+                    config_.search_sd_most_px());
 }
 
 // What looks like the target elsewhere is not the one that the others see there.

@@ -133,6 +133,22 @@ TEST_F(StationConfigFile, RefusesKeysThatNobodyKnows) {
   EXPECT_NE(error(lens).find("lens.no_such_key"), std::string::npos) << error(lens);
 }
 
+// The search is never wider than a quarter of the picture, so its least width must be below.
+TEST_F(StationConfigFile, TheSearchFitsIntoThePicture) {
+  const auto with = [](const std::string& camera, const std::string& logic) {
+    return "id = \"s\"\nlens = {fx_px = 13333, fy_px = 13333}\n[camera]\ndevice = \"c\"\n" +
+           camera + "[ptu]\ndevice = \"p\"\n[pose]\nheading_deg = 10\n" + kPlace + "[logic]\n" +
+           logic;
+  };
+  EXPECT_EQ(load(with("", "search_sd_px = 320\n")).station.search_sd_px, 320.0);
+  EXPECT_EQ(error(with("", "search_sd_px = 321\n")),
+            ":13: logic.search_sd_px: is more than a quarter of the picture's width (320 px)");
+  EXPECT_EQ(error(with("width_px = 320\n", "search_sd_px = 80.5\n")),
+            ":14: logic.search_sd_px: is more than a quarter of the picture's width (80 px)");
+  EXPECT_EQ(load(with("width_px = 64\n", "")).station.search_sd_px, 16.0)
+      << "nobody asked for more";
+}
+
 TEST_F(StationConfigFile, DescribesWhatIsConfigured) {
   const auto lines = describe(load(kStart + kGnss + "[pose]\nheading_deg = 10\n"));
   ASSERT_EQ(lines.size(), 5U);
