@@ -120,7 +120,10 @@ std::size_t EventFolder::write(const RecordedFrame& frame, const std::vector<uns
   return png.size() + std::string_view(row).size();
 }
 
-bool EventFolder::exists() const { return ::access((path_ + kPartial).c_str(), F_OK) == 0; }
+bool EventFolder::exists() const {
+  // A disk that does not answer still has it.
+  return ::access((path_ + kPartial).c_str(), F_OK) == 0 || (errno != ENOENT && errno != ENOTDIR);
+}
 
 void EventFolder::finish() {
   const std::string partial = path_ + kPartial;

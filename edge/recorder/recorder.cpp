@@ -32,6 +32,7 @@ namespace {
 
 constexpr double kSurvey_s = 2.0;       // the disk is looked at so often
 constexpr double kLate_s = 1.0;         // a frame of an event comes at most so much after its end
+constexpr double kRetry_s = 2.0;        // until an event that could not be finished is tried again
 constexpr double kAtEnd_s = 5.0;        // for what is unwritten when the station stops
 constexpr std::size_t kMostEvents = 4;  // at the same time
 constexpr std::size_t kLongestLabel = 40;
@@ -50,6 +51,8 @@ struct Event {
   std::deque<RecordedFrame> waiting;
   bool closed = false;        // no frame of it will come any more
   std::uint64_t written = 0;  // frames
+  std::string unfinished;     // why its end failed; all its frames are on the disk
+  double retry_s = 0.0;       // then its end is tried again
   std::string name;           // from here on: of the writing thread alone
   std::optional<EventFolder> folder;
 };
@@ -107,8 +110,9 @@ struct Recorder::Impl {
             .empty()) {
       return "no frame of that time is remembered";
     }
-    if (events.size() >= kMostEvents)
-      return "busy with " + std::to_string(events.size()) + " events";
+    const auto busy = static_cast<std::size_t>(
+        std::ranges::count_if(events, [](const Event& e) { return e.unfinished.empty(); }));
+    if (busy >= kMostEvents) return "busy with " + std::to_string(busy) + " events";
     return trouble;
   }
 
@@ -154,6 +158,7 @@ struct Recorder::Impl {
     }
     const double end_s = clock_monotonic_s() + kAtEnd_s;
     close_events(std::numeric_limits<double>::infinity());
+    retry_all();
     while (clock_monotonic_s() < end_s && write_one()) {
     }
   }
@@ -208,16 +213,23 @@ struct Recorder::Impl {
     }
   }
 
+  void retry_all() {
+    const std::lock_guard lock(mutex);
+    for (Event& event : events) event.retry_s = 0.0;
+  }
+
   // One frame, or one event's end. False when there was nothing to do.
   bool write_one() {
-    close_events(clock_monotonic_s());
+    const double now_s = clock_monotonic_s();
+    close_events(now_s);
     Event* event = nullptr;
     std::optional<RecordedFrame> frame;
     {
       const std::lock_guard lock(mutex);
       auto found = std::ranges::find_if(events, [](const Event& e) { return !e.waiting.empty(); });
       if (found == events.end()) {
-        found = std::ranges::find_if(events, [](const Event& e) { return e.closed; });
+        found = std::ranges::find_if(
+            events, [now_s](const Event& e) { return e.closed && e.retry_s <= now_s; });
       }
       if (found == events.end()) return false;
       event = &*found;  // a list: it stays in place, and only this thread removes it
@@ -227,11 +239,8 @@ struct Recorder::Impl {
         waiting_bytes -= bytes_of(*frame);
       }
     }
-    if (frame) {
-      write_frame(*event, *frame);
-      return true;
-    }
-    return end_event(*event);
+    frame ? write_frame(*event, *frame) : end_event(*event);
+    return true;
   }
 
   void write_frame(Event& event, const RecordedFrame& frame) {
@@ -259,24 +268,39 @@ struct Recorder::Impl {
     if (failed.empty()) ++event.written;
   }
 
-  // False when it has to be tried again.
-  bool end_event(Event& event) {
-    if (event.folder) {
+  void end_event(Event& event) {
+    const bool vanished = event.folder && !event.folder->exists();
+    if (event.folder && !vanished) {
       try {
         event.written > 0 ? event.folder->finish() : event.folder->discard();
         store.finished(event.name);
       } catch (const std::exception& failure) {
-        set_trouble(failure.what());
-        return false;
+        return put_off(event, failure.what());
       }
     }
     {
       const std::lock_guard lock(mutex);
-      event.written > 0 ? ++events_written : ++events_failed;
+      if (vanished) note(event.name + " vanished before it was complete");
+      event.written > 0 && !vanished ? ++events_written : ++events_failed;
       events.remove_if([&event](const Event& e) { return &e == &event; });
     }
     survey();
-    return true;
+  }
+
+  // The others go on meanwhile.
+  void put_off(Event& event, const std::string& why) {
+    const std::lock_guard lock(mutex);
+    if (event.unfinished.empty()) note(why);
+    event.unfinished = why;
+    event.retry_s = clock_monotonic_s() + kRetry_s;
+  }
+
+  // What a person has to know of now: of the disk, or of an event. Empty when all is well.
+  std::string wrong() const {
+    if (!trouble.empty()) return trouble;
+    const auto found =
+        std::ranges::find_if(events, [](const Event& e) { return !e.unfinished.empty(); });
+    return found == events.end() ? std::string() : found->unfinished;
   }
 
   const RecorderConfig config;
@@ -329,10 +353,10 @@ DeviceReport Recorder::report() const {
   report.readings = {{"disk_free_bytes", impl_->free_bytes},
                      {"recorder_events", static_cast<double>(impl_->stored_events)},
                      {"recorder_bytes", impl_->stored_bytes}};
-  if (!impl_->trouble.empty()) {
+  if (const std::string wrong = impl_->wrong(); !wrong.empty()) {
     report.state = DeviceState::kFault;
-    report.text = impl_->trouble;
-    report.alarms.push_back("recorder: " + impl_->trouble);
+    report.text = wrong;
+    report.alarms.push_back("recorder: " + wrong);
   } else if (!impl_->good_s) {
     report.state = DeviceState::kStarting;
     report.text = impl_->config.folder;

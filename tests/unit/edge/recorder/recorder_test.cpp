@@ -216,6 +216,64 @@ TEST_F(RecorderTest, AFolderThatVanishesInAnEventCostsFramesOnly) {
   EXPECT_TRUE(has_events(1));
 }
 
+// An event with all its frames on the disk, that ends with the next frame of close_last().
+class RecorderEndTest : public RecorderTest {
+ protected:
+  RecorderEndTest() {
+    config.memory_s = 100.0;
+    start_s = clock_monotonic_s() - 10.0;
+  }
+  void record_open(Recorder& recorder, const char* label) {
+    film(recorder, 100);
+    ASSERT_EQ(recorder.record({time_of(90), 0.45, 30.0, label}), "");
+    ASSERT_TRUE(counts(recorder, "recorder_frames_written", 14));
+  }
+  void close_open(Recorder& recorder) {
+    number = 500;
+    film(recorder, 1);
+  }
+  std::string record_next(Recorder& recorder) const {
+    return recorder.record({time_of(90), 0.45, 0.45, "next"});
+  }
+  // As it will be called.
+  std::string whole_name() const {
+    const std::string partial = std::filesystem::path(config.folder) / *events().begin();
+    return partial.substr(0, partial.size() - std::string(".partial").size());
+  }
+};
+
+TEST_F(RecorderEndTest, AnEventThatVanishesBeforeItsEndCostsNoOther) {
+  Recorder recorder(config);
+  record_open(recorder, "gone");
+  std::filesystem::remove_all(whole_name() + ".partial");
+  close_open(recorder);
+  EXPECT_TRUE(counts(recorder, "recorder_events_failed", 1));
+  EXPECT_THAT(recorder.report().last_error, HasSubstr("_gone vanished"));
+  EXPECT_EQ(record_next(recorder), "");
+  EXPECT_TRUE(counts(recorder, "recorder_events_written", 1));
+  ASSERT_TRUE(has_events(1));
+  EXPECT_THAT(*events().begin(), HasSubstr("_next"));
+}
+
+TEST_F(RecorderEndTest, AnEventThatCannotBeFinishedWaitsAndTheOthersGoOn) {
+  Recorder recorder(config);
+  record_open(recorder, "stuck");
+  const std::string in_the_way = whole_name();
+  std::filesystem::create_directories(in_the_way + "/x");
+  close_open(recorder);
+  ASSERT_TRUE(eventually([&] { return !recorder.report().alarms.empty(); }));
+  EXPECT_THAT(recorder.report().alarms[0], HasSubstr("Directory not empty"));
+  for (std::uint64_t i = 1; i <= 5; ++i) {
+    EXPECT_EQ(record_next(recorder), "");
+    EXPECT_TRUE(counts(recorder, "recorder_events_written", i));
+  }
+  EXPECT_FALSE(recorder.report().alarms.empty());
+  std::filesystem::remove_all(in_the_way);
+  EXPECT_TRUE(counts(recorder, "recorder_events_written", 6));
+  EXPECT_TRUE(eventually([&] { return recorder.report().alarms.empty(); }));
+  EXPECT_EQ(count(recorder, "recorder_events_failed"), 0U);
+}
+
 TEST_F(RecorderTest, WhatTheDiskCannotKeepUpWithIsDropped) {
   constexpr int kSide_px = 1024;
   config.memory_max_bytes = 3.5 * kSide_px * kSide_px;
