@@ -104,17 +104,18 @@ std::string EventStore::free_name(std::int64_t utime_us, const std::string& labe
   return candidate;
 }
 
-void EventStore::make_room(double bytes, const std::string& keep) {
+void EventStore::make_room(double bytes, const std::set<std::string>& open) {
   while (this->bytes() + bytes > quota_bytes_) {
-    if (!remove_oldest(keep + kPartial)) throw DiskFull("the event is greater than the quota");
+    if (!remove_oldest(open)) throw DiskFull("what is being recorded is greater than the quota");
   }
   measure_room();
   if (free_bytes_ - bytes < reserve_bytes_) throw DiskFull(full_text());
 }
 
-bool EventStore::remove_oldest(const std::string& keep) {
+bool EventStore::remove_oldest(const std::set<std::string>& open) {
   for (auto event = events_.begin(); event != events_.end(); ++event) {
-    if (event->first == keep) continue;
+    const auto is_this = [&](const std::string& name) { return event->first == name + kPartial; };
+    if (std::ranges::any_of(open, is_this)) continue;
     fs::remove_all(folder_ + "/" + event->first);
     events_.erase(event);
     ++removed_;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -29,9 +30,10 @@ class EventStore {
 
   // A name that is still free.
   std::string free_name(std::int64_t utime_us, const std::string& label) const;
-  // Removes the oldest events until `bytes` more fit into the quota, never `keep`. Throws DiskFull
-  // when they do not fit all the same, or the disk's reserve would be touched.
-  void make_room(double bytes, const std::string& keep);
+  // Removes the oldest events until `bytes` more fit into the quota, never those of `open`, whose
+  // frames are still coming. Throws DiskFull when they do not fit all the same, or the disk's
+  // reserve would be touched.
+  void make_room(double bytes, const std::set<std::string>& open);
   void add(const std::string& name, double bytes) { events_[name] += bytes; }
   void finished(const std::string& name);
 
@@ -44,7 +46,7 @@ class EventStore {
 
  private:
   void measure_room();
-  bool remove_oldest(const std::string& keep);
+  bool remove_oldest(const std::set<std::string>& open);
 
   std::string folder_;
   double quota_bytes_, reserve_bytes_;

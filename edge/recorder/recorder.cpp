@@ -18,6 +18,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <thread>
 #include <utility>
@@ -243,6 +244,13 @@ struct Recorder::Impl {
     return true;
   }
 
+  std::set<std::string> open_names() const {
+    const std::lock_guard lock(mutex);
+    std::set<std::string> names;
+    for (const Event& event : events) names.insert(event.name);  // empty: nothing is written yet
+    return names;
+  }
+
   void write_frame(Event& event, const RecordedFrame& frame) {
     std::string failed;
     try {
@@ -251,7 +259,7 @@ struct Recorder::Impl {
         if (event.name.empty()) event.name = store.free_name(event.utime_us, event.label);
       }
       // A frame is hardly ever greater as PNG.
-      store.make_room(static_cast<double>(bytes_of(frame)), event.name);
+      store.make_room(static_cast<double>(bytes_of(frame)), open_names());
       if (!event.folder) event.folder.emplace(config.folder, event.name);
       const std::size_t bytes = event.folder->write(frame, encode_png(frame));
       store.add(event.name + kPartial, static_cast<double>(bytes));

@@ -216,6 +216,27 @@ TEST_F(RecorderTest, AFolderThatVanishesInAnEventCostsFramesOnly) {
   EXPECT_TRUE(has_events(1));
 }
 
+TEST_F(RecorderTest, EventsAtTheSameTimeDoNotRemoveEachOther) {
+  config.quota_bytes = 4096.0 * 20;  // one event of 14 frames of 4 kB, and a third
+  config.memory_s = 100.0;
+  Recorder recorder(config);
+  film(recorder, 150);
+  for (const char* label : {"a", "b"}) {
+    EXPECT_EQ(recorder.record({time_of(145), 0.95, 30.0, label}), "");
+    ASSERT_TRUE(eventually([&] {
+      return count(recorder, "recorder_frames_written") +
+                 count(recorder, "recorder_frames_dropped") >=
+             (label[0] == 'a' ? 14U : 28U);
+    }));
+  }
+  number = 500;
+  film(recorder, 1);  // both end
+  EXPECT_TRUE(counts(recorder, "recorder_events_written", 2));
+  EXPECT_EQ(count(recorder, "recorder_events_removed"), 0U);
+  EXPECT_THAT(recorder.report().last_error, HasSubstr("greater than the quota"));
+  EXPECT_TRUE(has_events(2));
+}
+
 // An event with all its frames on the disk, that ends with the next frame of close_last().
 class RecorderEndTest : public RecorderTest {
  protected:
