@@ -1,8 +1,6 @@
 #include "edge/gpio/gpio.h"
 
 #include <poll.h>
-#include <sys/eventfd.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +15,7 @@
 #include <utility>
 
 #include "base/clocks.h"
+#include "base/wakeup.h"
 #include "edge/gpio/gpio_lines.h"
 #include "edge/gpio/stop_input.h"
 
@@ -38,24 +37,6 @@ LineUse line_use(const GpioConfig& config) {
   return use;
 }
 
-// Wakes a poll() from another thread.
-class Bell {
- public:
-  Bell() : fd_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
-  ~Bell() { ::close(fd_); }
-  Bell(const Bell&) = delete;
-  Bell& operator=(const Bell&) = delete;
-  int fd() const { return fd_; }
-  void ring() const { ::eventfd_write(fd_, 1); }
-  void silence() const {
-    eventfd_t rung;
-    ::eventfd_read(fd_, &rung);
-  }
-
- private:
-  int fd_;
-};
-
 }  // namespace
 
 struct Gpio::Impl {
@@ -63,7 +44,7 @@ struct Gpio::Impl {
       : config(gpio_config), on_stop(std::move(callback)), stop(gpio_config.stop_release_s) {}
 
   void run(const std::stop_token& ended) {
-    const std::stop_callback wake(ended, [this] { bell.ring(); });
+    const std::stop_callback wake(ended, [this] { wakeup.set(); });
     while (!ended.stop_requested()) {
       try {
         const auto lines = open_gpio_lines(config.chip, line_use(config));
@@ -166,14 +147,15 @@ struct Gpio::Impl {
     end_s = clock_monotonic_s() + config.trigger_pulse_s;
   }
 
-  // Until an edge, the bell or the time.
+  // Until an edge, a wakeup or the time.
   void wait(int fd, double timeout_s) {
-    std::array<pollfd, 2> entries{{{bell.fd(), POLLIN, 0}, {fd, POLLIN, 0}}};  // fd -1: ignored
+    std::array<pollfd, 2> entries{
+        {{wakeup.descriptor(), POLLIN, 0}, {fd, POLLIN, 0}}};  // fd -1: ignored
     const double bounded_s = std::clamp(timeout_s, 0.0, 1.0);
     const timespec timeout{static_cast<time_t>(bounded_s),
                            static_cast<long>(std::fmod(bounded_s, 1.0) * 1e9)};
     ::ppoll(entries.data(), entries.size(), &timeout, nullptr);
-    bell.silence();
+    wakeup.clear();
   }
 
   void sleep_until(double end_s, const std::stop_token& ended) {
@@ -203,7 +185,7 @@ struct Gpio::Impl {
   const GpioConfig config;
   const std::function<void(bool)> on_stop;
   StopInput stop;  // of the thread alone
-  Bell bell;
+  Wakeup wakeup;
 
   mutable std::mutex mutex;  // of everything below
   bool open = false;
@@ -233,7 +215,7 @@ void Gpio::show(LedPattern pattern) {
     impl_->pattern = pattern;
     impl_->pattern_began_s = clock_monotonic_s();
   }
-  impl_->bell.ring();
+  impl_->wakeup.set();
 }
 
 void Gpio::trigger() {
@@ -242,7 +224,7 @@ void Gpio::trigger() {
     const std::lock_guard lock(impl_->mutex);
     impl_->trigger_wanted = impl_->open;
   }
-  impl_->bell.ring();
+  impl_->wakeup.set();
 }
 
 bool Gpio::stop_pressed() const {

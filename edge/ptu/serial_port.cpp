@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <linux/serial.h>
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -13,7 +12,6 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <cstdint>
 #include <system_error>
 
 namespace ols {
@@ -46,23 +44,6 @@ void ask_for_low_latency(int fd) {
 }
 
 }  // namespace
-
-Wakeup::Wakeup() : fd_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-  if (fd_ < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
-}
-
-Wakeup::~Wakeup() { ::close(fd_); }
-
-void Wakeup::set() {
-  const std::uint64_t one = 1;
-  // It cannot fail but for a counter that is full, and then it is set.
-  static_cast<void>(!::write(fd_, &one, sizeof one));
-}
-
-void Wakeup::clear() {
-  std::uint64_t count = 0;
-  static_cast<void>(!::read(fd_, &count, sizeof count));
-}
 
 SerialPort::SerialPort(const std::string& device, int baud, Parity parity, const Wakeup* wakeup)
     : device_(device), wakeup_(wakeup) {

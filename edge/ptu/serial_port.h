@@ -5,24 +5,11 @@
 #include <string>
 #include <string_view>
 
+#include "base/wakeup.h"
+
 namespace ols {
 
 enum class Parity { kNone, kEven };
-
-// Ends a wait of SerialPort from another thread; stays set until cleared.
-class Wakeup {
- public:
-  Wakeup();  // throws std::system_error
-  ~Wakeup();
-  Wakeup(const Wakeup&) = delete;
-  Wakeup& operator=(const Wakeup&) = delete;
-  void set();
-  void clear();
-  int descriptor() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 class SerialPort {
  public:

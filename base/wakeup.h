@@ -1,0 +1,20 @@
+// Ends another thread's poll(); stays set until cleared.
+#pragma once
+
+namespace ols {
+
+class Wakeup {
+ public:
+  Wakeup();  // throws std::system_error
+  ~Wakeup();
+  Wakeup(const Wakeup&) = delete;
+  Wakeup& operator=(const Wakeup&) = delete;
+  void set();
+  void clear();
+  int descriptor() const { return fd_; }  // readable while set
+
+ private:
+  int fd_;
+};
+
+}  // namespace ols
