@@ -37,7 +37,6 @@ struct BackgroundFile::Shared {
     while (wait(lock)) {
       const bool last = end;
       const std::string text = *std::exchange(waiting, std::nullopt);
-      busy = true;
       lock.unlock();
       std::string failed;
       try {
@@ -46,7 +45,6 @@ struct BackgroundFile::Shared {
         failed = failure.what();
       }
       lock.lock();
-      busy = false;
       trouble = failed;
       if (!failed.empty() && !waiting) waiting = text;
       if (!failed.empty() && last) break;
@@ -67,7 +65,7 @@ struct BackgroundFile::Shared {
 
   std::mutex mutex;  // of everything below
   std::condition_variable wake, done;
-  bool end = false, busy = false, ended = false;
+  bool end = false, ended = false;
   std::uint64_t written = 0;  // calls of write()
   std::optional<std::string> waiting;
   std::string trouble;
