@@ -13,7 +13,7 @@ inline bool eventually(const std::function<bool()>& condition, double within_s =
   const double deadline_s = clock_monotonic_s() + within_s;
   while (!condition()) {
     if (clock_monotonic_s() > deadline_s) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   return true;
 }

@@ -8,7 +8,7 @@
 
 #include <cerrno>
 
-#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/eventually.h"
 
 namespace ols {
 namespace {

@@ -1,4 +1,4 @@
-// A folder of one test's own, removed at its end; and a wait with a deadline.
+// A folder of one test's own, removed at its end.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,12 +7,8 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <set>
 #include <string>
-#include <thread>
-
-#include "base/clocks.h"
 
 namespace ols {
 
@@ -49,14 +45,5 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
-
-inline bool eventually(const std::function<bool()>& condition) {
-  const double deadline_s = clock_monotonic_s() + 30.0;
-  while (!condition()) {
-    if (clock_monotonic_s() > deadline_s) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
-}
 
 }  // namespace ols

@@ -2,25 +2,21 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
-#include <thread>
+#include <optional>
 
 #include "base/clocks.h"
 #include "edge/clock/clock_pair.h"
+#include "tests/unit/eventually.h"
 
 namespace ols {
 namespace {
 
-// The next reading; fails after 30 s.
+// The next reading.
 ClockReading next(ClockSource& source) {
-  const double deadline_s = clock_monotonic_s() + 30.0;
-  while (clock_monotonic_s() < deadline_s) {
-    if (auto reading = source.take()) return *reading;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  ADD_FAILURE() << "no reading";
-  return {};
+  std::optional<ClockReading> reading;
+  EXPECT_TRUE(eventually([&] { return (reading = source.take()).has_value(); })) << "no reading";
+  return reading.value_or(ClockReading{});
 }
 
 TEST(ClockSource, TellsOfChronyWhenItAnswers) {

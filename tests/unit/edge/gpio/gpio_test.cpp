@@ -6,14 +6,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
+#include <functional>
 #include <mutex>
-#include <thread>
 #include <vector>
 
-#include "base/clocks.h"
 #include "edge/gpio/gpio_lines.h"
+#include "tests/unit/eventually.h"
 #include "tools/sim/gpio_socket.h"
 
 namespace ols {
@@ -23,15 +22,6 @@ using sim::GpioServer;
 using sim::GpioServerConfig;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-bool eventually(const std::function<bool()>& condition) {
-  const double deadline_s = clock_monotonic_s() + 30.0;
-  while (!condition()) {
-    if (clock_monotonic_s() > deadline_s) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
-}
 
 class GpioTest : public testing::Test {
  protected:

@@ -10,17 +10,15 @@
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <system_error>
-#include <thread>
 
 #include "base/clocks.h"
 #include "edge/ptu/serial_port.h"
 #include "geometry/angles.h"
+#include "tests/unit/eventually.h"
 #include "tools/sim/ptu_line.h"
 
 namespace ols {
@@ -41,16 +39,6 @@ PtuConfig config(const std::string& device) {
   ptu.baud = 115200;
   ptu.poll_interval_s = 0.02;
   return ptu;
-}
-
-// Looks again and again until it is so; false after 30 s.
-bool eventually(const std::function<bool()>& condition) {
-  const double deadline_s = clock_monotonic_s() + 30.0;
-  while (!condition()) {
-    if (clock_monotonic_s() > deadline_s) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
 }
 
 bool ready(const PtuThread& ptu) { return ptu.status().state == PtuState::kReady; }

@@ -11,16 +11,15 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
 
 #include "base/clocks.h"
 #include "tests/unit/edge/recorder/temporary_folder.h"
+#include "tests/unit/eventually.h"
 
 namespace ols {
 namespace {
@@ -28,15 +27,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-
-bool eventually(const std::function<bool()>& condition) {
-  const double deadline_s = clock_monotonic_s() + 30.0;
-  while (!condition()) {
-    if (clock_monotonic_s() > deadline_s) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
-}
 
 class RecorderTest : public testing::Test {
  protected:
