@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from conftest import BIN, ROOT
 from ols_demo.recording import Recording
-from ols_faults import measure
+from ols_faults import cases_stop, measure
 from ols_faults.case import Outcome
 
 DEADLINE_S = 300.0
@@ -67,6 +67,17 @@ def test_braking_is_found_to_a_few_milliseconds():
     assert speed == pytest.approx(50.0, abs=0.5)
     assert begins_s == pytest.approx(0.03, abs=0.004)
     assert slowing == pytest.approx(100.0, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("slowing", "late_s", "passes"), [(57.3, 0.05, True), (50.0, 0.05, False), (57.3, 0.07, False)]
+)
+def test_a_stop_is_judged_by_the_configured_acceleration(slowing, late_s, passes):
+    recording = recording_of(braking_from(1.0 + late_s, 50.0, slowing))
+    outcome = Outcome()
+    cases_stop.judge_stop(outcome, recording, "alfa", (1_000_000, 3_500_000))
+    rest = next(check for check in outcome.checks if check.what.startswith("at rest"))
+    assert rest.passed is passes, rest
 
 
 def test_what_was_not_measured_does_not_pass():

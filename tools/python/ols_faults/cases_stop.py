@@ -2,9 +2,11 @@
 
 import numpy as np
 import ols_msg
+from ols_demo.recording import Recording
 
 from ols_faults import measure
 from ols_faults.case import Outcome, case
+from ols_faults.configuration import ACCELERATION_DEG_S2
 from ols_faults.session import Session
 
 POINT = ols_msg.ptu_command_t.COMMAND_POINT
@@ -43,12 +45,7 @@ def emergency_stop(session: Session, outcome: Outcome) -> None:
     session.run(2.5)
     edge_us = session.heard.ptus[station][-1].stop_edge_utime
     outcome.holds("it was pressed", edge_us > 0)
-    speed, braking_s, slowing = measure.braking(session.heard, station, edge_us)
-    outcome.at_least("PTU's speed at the edge", speed, FAST_DEG_S * 0.9, "deg/s")
-    outcome.at_most("it begins to brake after the edge", braking_s, HALT_S, "s")
-    rest = measure.rest_s(session.heard, station, edge_us, session.now_us())
-    limit = speed / slowing + HALT_S
-    outcome.at_most(f"at rest (braking at {slowing:.0f} deg/s^2)", rest, limit, "s")
+    judge_stop(outcome, session.heard, station, (edge_us, session.now_us()))
     outcome.holds(
         "the station says so", session.state(station) == "emergency", session.state(station)
     )
@@ -66,6 +63,20 @@ def emergency_stop(session: Session, outcome: Outcome) -> None:
     freed_us = session.now_us()
     session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
     outcome.recovered("tracking again", session.tracking_again_s(station, freed_us, 20.0), 15.0)
+
+
+def judge_stop(outcome: Outcome, heard: Recording, station: str, window: tuple[int, int]) -> None:
+    """From the edge on; a is what the PTU was configured to, not what it was seen to do."""
+    speed, braking_s, slowing = measure.braking(heard, station, window[0])
+    outcome.at_least("PTU's speed at the edge", speed, FAST_DEG_S * 0.9, "deg/s")
+    outcome.at_most("it begins to brake after the edge", braking_s, HALT_S, "s")
+    unsure_s = measure.rest_uncertainty_s(heard, station)
+    what = (
+        f"at rest (v/a + {1e3 * HALT_S:.0f} ms + {1e3 * unsure_s:.1f} ms of sampling;"
+        f" it braked at {slowing:.1f} of {ACCELERATION_DEG_S2:g} deg/s^2)"
+    )
+    limit_s = speed / ACCELERATION_DEG_S2 + HALT_S + unsure_s
+    outcome.at_most(what, measure.rest_s(heard, station, *window), limit_s, "s")
 
 
 def stays_stopped(session: Session, outcome: Outcome, station: str, side: float, when: str) -> None:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from ols_demo.wiring import Wiring
 
+ACCELERATION_DEG_S2 = 57.3  # of every PTU, up and down
 SURVEYED = ("latitude_deg", "longitude_deg", "height_m", "tilt_x_deg", "tilt_y_deg")
 
 
@@ -26,8 +27,11 @@ def with_recorder(text: str, folder: Path) -> str:
 
 def alter(wiring: Wiring, disk: Path) -> None:
     """The last station's pose is the sensors'; the first one records; the third one's clock, which
-    will be stepped, is trusted again sooner."""
+    will be stepped, is trusted again sooner. Every PTU accelerates as it is judged by."""
     names = wiring.stations
+    for config in wiring.configs.values():
+        line = f"[ptu]\nacceleration_deg_s2 = {ACCELERATION_DEG_S2:g}\n"
+        config.write_text(config.read_text().replace("[ptu]\n", line))
     first, last = wiring.configs[names[0]], wiring.configs[names[-1]]
     last.write_text(without_survey(last.read_text()))
     stepped = wiring.configs[names[2]]

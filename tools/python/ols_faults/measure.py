@@ -63,6 +63,12 @@ def rest_s(recording: Recording, station: str, start_us: int, end_us: int) -> fl
     return max(0.0, float(last_moved[resting[0]]))
 
 
+def rest_uncertainty_s(recording: Recording, station: str) -> float:
+    """How much later than the truth rest_s() may be: a speed is taken over SMOOTH_S to both sides,
+    and shafts are seen once an interval."""
+    return SMOOTH_S + float(recording.ptus[station][-1].interval_s)
+
+
 def moved_deg(recording: Recording, station: str, start_us: int, end_us: int) -> float:
     """How far the PTU got from where it was at the start, the greater of both axes; NaN unknown."""
     _, angles = ptu_track(recording, station, start_us, end_us)
