@@ -4,12 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
-#include <cstdio>
 #include <cstring>
 #include <deque>
 #include <exception>
@@ -27,23 +25,16 @@
 #include "edge/recorder/event_folder.h"
 #include "edge/recorder/event_store.h"
 #include "edge/recorder/frame_memory.h"
+#include "edge/recorder/record_command.h"
 
 namespace ols {
 namespace {
 
 constexpr double kSurvey_s = 2.0;       // the disk is looked at so often
-constexpr double kLate_s = 1.0;         // a frame of an event comes at most so much after its end
 constexpr double kRetry_s = 2.0;        // until an event that could not be finished is tried again
 constexpr double kAtEnd_s = 5.0;        // for what is unwritten when the station stops
 constexpr std::size_t kMostEvents = 4;  // at the same time
-constexpr std::size_t kLongestLabel = 40;
-constexpr int kNice = 10;  // the control loop goes first
-
-bool is_label(const std::string& label) {
-  return label.size() <= kLongestLabel && std::ranges::all_of(label, [](unsigned char c) {
-           return std::isalnum(c) != 0 || c == '-' || c == '_';
-         });
-}
+constexpr int kNice = 10;               // the control loop goes first
 
 struct Event {
   std::string label;
@@ -94,17 +85,7 @@ struct Recorder::Impl {
   }
 
   std::string refusal(const RecordCommand& command, double now_s) const {
-    if (config.folder.empty()) return "no recorder is configured";
-    if (!is_label(command.label)) return "the label may have 40 letters, digits, - and _";
-    if (!std::isfinite(command.event_s) || !(command.before_s >= 0.0) ||
-        !(command.after_s >= 0.0) || !(command.before_s + command.after_s <= config.event_max_s)) {
-      char text[80];
-      std::snprintf(text, sizeof text,
-                    "before and after must be 0 s at least, together %g s at most",
-                    config.event_max_s);
-      return text;
-    }
-    if (command.event_s > now_s + kLate_s) return "the event lies in the future";
+    if (std::string why = wrong_with(command, config, now_s); !why.empty()) return why;
     const bool over = command.event_s + command.after_s < now_s;
     if (over &&
         memory.between(command.event_s - command.before_s, command.event_s + command.after_s)
@@ -210,7 +191,7 @@ struct Recorder::Impl {
   void close_events(double now_s) {
     const std::lock_guard lock(mutex);
     for (Event& event : events) {
-      if (now_s > event.end_s + kLate_s) event.closed = true;
+      if (now_s > event.end_s + kLateFrame_s) event.closed = true;
     }
   }
 

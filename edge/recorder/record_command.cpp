@@ -1,0 +1,36 @@
+#include "edge/recorder/record_command.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+
+namespace ols {
+namespace {
+
+constexpr std::size_t kLongestLabel = 40;
+
+bool is_label(const std::string& label) {
+  return label.size() <= kLongestLabel && std::ranges::all_of(label, [](unsigned char c) {
+           return std::isalnum(c) != 0 || c == '-' || c == '_';
+         });
+}
+
+}  // namespace
+
+std::string wrong_with(const RecordCommand& command, const RecorderConfig& config, double now_s) {
+  if (config.folder.empty()) return "no recorder is configured";
+  if (!is_label(command.label)) return "the label may have 40 letters, digits, - and _";
+  if (!std::isfinite(command.event_s) || !(command.before_s >= 0.0) || !(command.after_s >= 0.0) ||
+      !(command.before_s + command.after_s <= config.event_max_s)) {
+    char text[80];
+    std::snprintf(text, sizeof text, "before and after must be 0 s at least, together %g s at most",
+                  config.event_max_s);
+    return text;
+  }
+  if (command.event_s > now_s + kLateFrame_s) return "the event lies in the future";
+  return {};
+}
+
+}  // namespace ols
