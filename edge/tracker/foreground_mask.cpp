@@ -84,9 +84,10 @@ const ReferenceFrames::Reference* ReferenceFrames::older_than(double time_s) con
 
 const ReferenceFrames::Reference* ReferenceFrames::without_overlap(
     const cv::Rect2d& target_box) const {
-  const cv::Rect2d wide(target_box.x - 0.15 * target_box.width,
-                        target_box.y - 0.15 * target_box.height, 1.3 * target_box.width,
-                        1.3 * target_box.height);
+  // Half a box further: a wing, or the blur, of the target as it was then is no foreground now.
+  const cv::Rect2d wide(target_box.x - 0.5 * target_box.width,
+                        target_box.y - 0.5 * target_box.height, 2.0 * target_box.width,
+                        2.0 * target_box.height);
   for (auto reference = references_.rbegin(); reference != references_.rend(); ++reference) {
     const cv::Rect2d there = moved_box(wide, reference->to_present.inverse());
     const bool seen = there.x >= 0 && there.y >= 0 && there.br().x <= reference->gray.cols &&
