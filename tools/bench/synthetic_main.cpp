@@ -174,17 +174,28 @@ void write_picture(const std::string& folder, const BenchCase& which, std::uint6
   }
 }
 
+// Throws on a name that no case has.
+std::set<std::string> known_sweeps(const std::vector<std::string>& names,
+                                   const std::vector<BenchCase>& cases) {
+  for (const std::string& name : names) {
+    const auto is_it = [&](const BenchCase& which) { return which.sweep == name; };
+    if (std::none_of(cases.begin(), cases.end(), is_it)) {
+      throw std::runtime_error("--sweeps: no sweep is named " + name);
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
 void run(const Arguments& arguments) {
   const ols::TrackerConfig config = ols::load_tracker_config(arguments.config, arguments.mode);
   ols::bench::Landscape landscape(ols::bench::bench_camera());
   const ols::bench::PixelNoise noise;
-  std::set<std::string> wanted(arguments.sweeps.begin(), arguments.sweeps.end());
+  const std::vector<BenchCase> cases = ols::bench::bench_cases();
+  const std::set<std::string> wanted = known_sweeps(arguments.sweeps, cases);
   ols::AtomicFile file(arguments.output);
   file.stream() << "sweep,value,seed,frame,visible,true_x,true_y,x,y,w,h,var_x,var_y,belief,"
                    "bound_x,bound_y\n";
-  std::set<std::string> known;
-  for (const BenchCase& which : ols::bench::bench_cases()) {
-    known.insert(which.sweep);
+  for (const BenchCase& which : cases) {
     if (!arguments.sweeps.empty() && wanted.count(which.sweep) == 0) continue;
     std::cerr << which.sweep << ' ' << which.value << '\n';
     if (!arguments.pictures.empty()) {
@@ -194,9 +205,6 @@ void run(const Arguments& arguments) {
       const std::uint64_t seed = arguments.seed + static_cast<std::uint64_t>(i);
       run_case(which, seed, config, landscape, noise, file.stream());
     }
-  }
-  for (const std::string& name : wanted) {
-    if (known.count(name) == 0) throw std::runtime_error("--sweeps: no sweep is named " + name);
   }
   file.commit();
   std::cout << "seeds " << arguments.seed << " to "
