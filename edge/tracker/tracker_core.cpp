@@ -10,8 +10,6 @@ namespace ols {
 namespace {
 
 constexpr double kBelieved = 0.5;
-constexpr double kEarlier = 0.2;      // [s] a small mover has left its own place by then
-constexpr double kNearFirst = 1.0;    // [s] a lost target is looked for nearby, then anywhere
 constexpr double kSamePattern = 0.5;  // correlation; less is no measurement of its place
 constexpr double kSureEnoughToLearn = 0.7;
 constexpr double kSureEnoughForMask = 0.8;
@@ -137,18 +135,6 @@ void TrackerCore::predict(EgoMotion ego_motion, const ReducedFrame& reduced, dou
   placed_ = false;
 }
 
-void TrackerCore::predict_search(double interval_s) {
-  Particle centre = believed_;
-  centre.pixel = search_->pixel;
-  if (search_->told) centre.velocity_px_s.setZero();
-  if (!placed_) search_->pixel = motion_.advance(centre).pixel;
-  search_->pixel = search_->pixel.cwiseMax(0.0).cwiseMin(
-      Eigen::Vector2d(frame_size_.width - 1.0, frame_size_.height - 1.0));
-  search_->sd_px =
-      std::min(search_->sd_px + config_.search_growth_px_s * interval_s, search_->most_sd_px);
-  scatter_over_search(config_.search_fraction);
-}
-
 // Nothing stood out in the designated box: a bird with its wings edgewise, a drone behind a twig.
 // What stands out there soon after is what was meant.
 void TrackerCore::designate_late(const cv::Mat& gray) {
@@ -175,45 +161,6 @@ void TrackerCore::designate_late(const cv::Mat& gray) {
   placed_ = true;
 }
 
-// A distant target that was lost comes back near where it should be, or moving. What stands still
-// against the scene elsewhere is a twig, a window or a reticle, however much it looks like it.
-bool TrackerCore::may_be_it(const Particle& particle) const {
-  if (!search_ || search_->told) return true;
-  const double off_px = (particle.pixel - search_->pixel).norm();
-  const double reach_px = 2.0 * search_->sd_px + particle.size_px.norm();
-  if (time_s_ - search_->since_s < kNearFirst && off_px < reach_px) return true;
-  const cv::Rect2d box = box_of(particle.pixel, particle.size_px);
-  return std::any_of(movers_.begin(), movers_.end(),
-                     [&](const auto& mover) { return (mover.box & box).area() > 0.0; });
-}
-
-// While the target is lost: things that move, near where it should be first, then anywhere.
-void TrackerCore::find_movers(const ReducedFrame& reduced) {
-  const auto* earlier = references_.older_than(time_s_ - kEarlier);
-  if (!earlier) return;
-  MoverSearch where;
-  where.area = {{0.0, 0.0}, cv::Size2d(frame_size_)};
-  if (time_s_ - search_->since_s < kNearFirst) {
-    const double reach = 3.0 * search_->sd_px;
-    where.area &= box_of(search_->pixel, last_.size_px + Eigen::Vector2d::Constant(2.0 * reach));
-  }
-  movers_ = detect_movers(earlier->gray, earlier->to_present, reduced, where);
-}
-
-void TrackerCore::force_onto_movers() {
-  if (movers_.empty()) return;
-  auto& particles = filter_.particles();
-  const auto count =
-      static_cast<std::size_t>(config_.difference_fraction * static_cast<double>(particles.size()));
-  for (std::size_t i = 0; i < count; ++i) {
-    const MoverCandidate& mover = movers_[i % movers_.size()];
-    const double sd = 1.0 + 0.1 * std::sqrt(believed_.size_px.prod());
-    // Between those that the frame difference took.
-    Particle& particle = particles[i * particles.size() / count + 1];
-    particle = drawn_near(mover.pixel, sd);
-  }
-}
-
 // Where a target of unknown velocity may be found.
 cv::Rect2d TrackerCore::reachable_area(double interval_s) const {
   const Eigen::Vector2d centre = search_ ? search_->pixel : motion_.still(last_.pixel);
@@ -229,28 +176,6 @@ void TrackerCore::guess_velocities() {
     particle.velocity_px_s.x() += config_.initial_velocity_sd_px_s * random_.gaussian();
     particle.velocity_px_s.y() += config_.initial_velocity_sd_px_s * random_.gaussian();
     with_camera = !with_camera;
-  }
-}
-
-Particle TrackerCore::drawn_near(const Eigen::Vector2d& pixel, double sd_px) {
-  Particle particle = believed_;
-  const double x = random_.gaussian();
-  const double y = random_.gaussian();
-  particle.pixel = pixel + sd_px * Eigen::Vector2d(x, y);
-  const double vx = random_.gaussian();
-  const double vy = random_.gaussian();
-  // On as before, or no longer: it may have turned meanwhile.
-  if (random_.uniform() < 0.5) particle.velocity_px_s.setZero();
-  particle.velocity_px_s += config_.initial_velocity_sd_px_s * Eigen::Vector2d(vx, vy);
-  return particle;
-}
-
-void TrackerCore::scatter_over_search(double fraction) {
-  auto& particles = filter_.particles();
-  const auto count = static_cast<std::size_t>(fraction * static_cast<double>(particles.size()));
-  for (std::size_t i = 0; i < count; ++i) {
-    // Evenly among the resampled ones, which stand in order of their ancestors.
-    particles[i * particles.size() / count] = drawn_near(search_->pixel, search_->sd_px);
   }
 }
 
@@ -327,8 +252,7 @@ void TrackerCore::judge(const Scene& scene, double background, double interval_s
   belief_.update(evidence, interval_s);
   // What is new where the scene was known is as good as a mover.
   const bool is_new = evidence.by_subtraction && evidence.foreground > 0.5;
-  const bool scene_unknown = references_.older_than(time_s_ - kEarlier) == nullptr;
-  const bool told_by_look = (scene_unknown || !search_) && belief_.usual(evidence);
+  const bool told_by_look = (scene_unknown() || !search_) && belief_.usual(evidence);
   if (!search_ && velocity_ == Velocity::kEstimated && leapt(interval_s) && !told_by_look) {
     start_search(interval_s);
   }
@@ -353,31 +277,6 @@ void TrackerCore::after_update(const TrackerOutput& output, double interval_s) {
   } else if (!search_) {
     start_search(interval_s);
   }
-}
-
-double TrackerCore::first_reach_px(double interval_s) const {
-  return 2.0 * motion_.position_sd(last_.size_px) + config_.search_growth_px_s * interval_s;
-}
-
-void TrackerCore::start_search(double interval_s) {
-  const double sd = first_reach_px(interval_s);
-  search_ = Search{believed_.pixel, sd, config_.search_sd_most_px, time_s_, false};
-}
-
-// Further from where the target was to be than it can have moved: a cut, or something else.
-bool TrackerCore::leapt(double interval_s) const {
-  const double reach_px = 2.0 * first_reach_px(interval_s) + last_.size_px.norm();
-  return (last_.pixel - believed_.pixel).norm() > reach_px;
-}
-
-void TrackerCore::search_near(const Eigen::Vector2d& designated, double sd_px) {
-  const Eigen::Vector2d pixel = designated - label_.offset_px;
-  search_ = Search{pixel, sd_px, std::max(sd_px, config_.search_sd_most_px), time_s_, true};
-  for (Particle& particle : filter_.particles()) particle = drawn_near(pixel, sd_px);
-  last_.pixel = believed_.pixel = pixel;
-  last_.size_px = believed_.size_px;
-  belief_.doubt();
-  placed_ = true;
 }
 
 }  // namespace ols

@@ -54,6 +54,7 @@ class TrackerCore : public TargetFollower {
   double first_reach_px(double interval_s) const;
   void start_search(double interval_s);
   bool leapt(double interval_s) const;
+  bool scene_unknown() const;  // nothing shows what was there a moment ago
   void after_update(const TrackerOutput& output, double interval_s);
   Particle drawn_near(const Eigen::Vector2d& pixel, double sd_px);
 
