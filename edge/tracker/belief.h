@@ -3,6 +3,8 @@
 
 namespace ols {
 
+constexpr double kBelieved = 0.5;  // more is on the target, for what follows from it
+
 // What one frame says for the target: the best candidate's similarity (eq. (5), 0..1) against what
 // the background around it reaches by chance, and the candidate's correlation and contrast with the
 // target's first image.
@@ -39,6 +41,10 @@ class Belief {
   // Looks as the target does, by how its look has varied of late: where its place says nothing for
   // it, its look must say more than that it is alike.
   bool usual(const FrameEvidence& evidence) const;
+  // What this evidence alone would be believed; the belief stays as it is.
+  double in_frame(const FrameEvidence& evidence) const {
+    return frame_belief(evidence, typical_);
+  }
   double of_frame() const { return of_frame_; }  // the newest frame alone
 
  private:

@@ -9,7 +9,6 @@
 namespace ols {
 namespace {
 
-constexpr double kBelieved = 0.5;
 constexpr double kSamePattern = 0.5;  // correlation; less is no measurement of its place
 constexpr double kSureEnoughToLearn = 0.7;
 constexpr double kSureEnoughForMask = 0.8;
@@ -207,7 +206,7 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s, 
   timer.lap(Stage::kMasks);
   const double background = target_.background_similarity(scene, expected);
   weigh_particles(scene, background);
-  const std::size_t best = filter_.maximum_a_posteriori(log_likelihood_);
+  const std::size_t best = choose(scene, background, interval_s);
   last_ = filter_.particles()[best];
   last_.size_px = filter_.mean_size_px();
   timer.lap(Stage::kWeighting);
@@ -242,18 +241,25 @@ void TrackerCore::weigh_particles(const Scene& scene, double background) {
   filter_.weigh(log_likelihood_);
 }
 
+FrameEvidence TrackerCore::evidence_of(const Scene& scene, const Particle& particle,
+                                       double background) const {
+  const auto& [pixel, velocity_px_s, size_px] = particle;
+  const Likeness found = target_.likeness(scene, pixel, size_px);
+  FrameEvidence evidence{found.similarity, background, found.correlation, found.contrast};
+  evidence.standing_out = target_.standing_out(scene, pixel, size_px);
+  evidence.foreground = target_.foreground(scene, pixel, size_px);
+  evidence.by_subtraction = scene.mask_by_subtraction;
+  return evidence;
+}
+
 // How far what was found is believed in, and what is learnt from it.
 void TrackerCore::judge(const Scene& scene, double background, double interval_s) {
-  const Likeness found = target_.likeness(scene, last_.pixel, last_.size_px);
-  FrameEvidence evidence{found.similarity, background, found.correlation, found.contrast};
-  evidence.standing_out = target_.standing_out(scene, last_.pixel, last_.size_px);
-  evidence.foreground = target_.foreground(scene, last_.pixel, last_.size_px);
-  evidence.by_subtraction = scene.mask_by_subtraction;
+  const FrameEvidence evidence = evidence_of(scene, last_, background);
   belief_.update(evidence, interval_s);
   // What is new where the scene was known is as good as a mover.
   const bool is_new = evidence.by_subtraction && evidence.foreground > 0.5;
   const bool told_by_look = (scene_unknown() || !search_) && belief_.usual(evidence);
-  if (!search_ && velocity_ == Velocity::kEstimated && leapt(interval_s) && !told_by_look) {
+  if (!search_ && velocity_ == Velocity::kEstimated && beyond_reach(last_.pixel, interval_s) && !told_by_look) {
     start_search(interval_s);
   }
   velocity_ = Velocity::kEstimated;

@@ -50,10 +50,12 @@ class TrackerCore : public TargetFollower {
   void scatter_over_search(double fraction);
   TrackerOutput update(const TrackerInput& frame, double interval_s, StageTimer& timer);
   void weigh_particles(const Scene& scene, double background);
+  std::size_t choose(const Scene& scene, double background, double interval_s) const;
+  FrameEvidence evidence_of(const Scene& scene, const Particle& particle, double background) const;
   void judge(const Scene& scene, double background, double interval_s);
   double first_reach_px(double interval_s) const;
   void start_search(double interval_s);
-  bool leapt(double interval_s) const;
+  bool beyond_reach(const Eigen::Vector2d& pixel, double interval_s) const;
   bool scene_unknown() const;  // nothing shows what was there a moment ago
   void after_update(const TrackerOutput& output, double interval_s);
   Particle drawn_near(const Eigen::Vector2d& pixel, double sd_px);

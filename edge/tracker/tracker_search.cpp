@@ -28,9 +28,26 @@ void TrackerCore::start_search(double interval_s) {
 }
 
 // Further from where the target was to be than it can have moved: a cut, or something else.
-bool TrackerCore::leapt(double interval_s) const {
+bool TrackerCore::beyond_reach(const Eigen::Vector2d& pixel, double interval_s) const {
   const double reach_px = 2.0 * first_reach_px(interval_s) + last_.size_px.norm();
-  return (last_.pixel - believed_.pixel).norm() > reach_px;
+  return (pixel - believed_.pixel).norm() > reach_px;
+}
+
+// A bird beside the target may look more like it than itself in this frame: as long as what is where
+// the target was to be can be believed in, nothing beyond its reach is it.
+std::size_t TrackerCore::choose(const Scene& scene, double background, double interval_s) const {
+  const auto& particles = filter_.particles();
+  const std::size_t best = filter_.maximum_a_posteriori(log_likelihood_);
+  const bool followed = !search_ && velocity_ == Velocity::kEstimated;
+  if (!followed || !beyond_reach(particles[best].pixel, interval_s)) return best;
+  std::optional<std::size_t> near;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (beyond_reach(particles[i].pixel, interval_s)) continue;
+    if (!near || log_likelihood_[i] > log_likelihood_[*near]) near = i;
+  }
+  if (!near) return best;
+  const FrameEvidence there = evidence_of(scene, particles[*near], background);
+  return belief_.in_frame(there) >= kBelieved ? *near : best;
 }
 
 double TrackerCore::first_reach_px(double interval_s) const {
