@@ -225,7 +225,7 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s, 
   judge(scene, background, interval_s);
   output.box = labelled(last_);
   output.pixel = last_.pixel + label_.offset_px;
-  output.belief = belief_.value();
+  output.belief = identity_ * belief_.value();
   return output;
 }
 
@@ -258,13 +258,16 @@ void TrackerCore::judge(const Scene& scene, double background, double interval_s
   belief_.update(evidence, interval_s);
   // What is new where the scene was known is as good as a mover.
   const bool is_new = evidence.by_subtraction && evidence.foreground > 0.5;
-  const bool told_by_look = (scene_unknown() || !search_) && belief_.usual(evidence);
-  if (!search_ && velocity_ == Velocity::kEstimated && beyond_reach(last_.pixel, interval_s) && !told_by_look) {
+  const bool cut = scene_unknown() || (!search_ && !motion_.homography());
+  const bool told_by_look = cut && belief_.usual(evidence);
+  if (!search_ && velocity_ == Velocity::kEstimated && beyond_reach(last_.pixel, interval_s) &&
+      !told_by_look) {
     start_search(interval_s);
   }
   velocity_ = Velocity::kEstimated;
   const bool elsewhere = !may_be_it(last_) && !is_new && !told_by_look;
   if (target_.empty() || elsewhere) belief_.doubt();
+  if (search_) identity_ = std::min(believed_identity_, identity_of_found(scene, background));
   if (belief_.value() > kSureEnoughForMask) target_.learn_mask(scene, last_.pixel, last_.size_px);
   if (belief_.value() > kSureEnoughToLearn) {
     target_.learn(scene, last_.pixel, last_.size_px,
@@ -279,6 +282,7 @@ void TrackerCore::after_update(const TrackerOutput& output, double interval_s) {
     believed_.velocity_px_s = filter_.mean_velocity_px_s();
   }
   if (output.belief >= kBelieved) {
+    believed_identity_ = identity_;
     search_.reset();
   } else if (!search_) {
     start_search(interval_s);

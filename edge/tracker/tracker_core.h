@@ -53,6 +53,8 @@ class TrackerCore : public TargetFollower {
   std::size_t choose(const Scene& scene, double background, double interval_s) const;
   FrameEvidence evidence_of(const Scene& scene, const Particle& particle, double background) const;
   void judge(const Scene& scene, double background, double interval_s);
+  double identity_of_found(const Scene& scene, double background) const;
+  bool near_prediction(const Particle& particle) const;
   double first_reach_px(double interval_s) const;
   void start_search(double interval_s);
   bool beyond_reach(const Eigen::Vector2d& pixel, double interval_s) const;
@@ -73,6 +75,9 @@ class TrackerCore : public TargetFollower {
   TargetModel target_;
   ReferenceFrames references_;
   Belief belief_;
+  // How far what was last believed in is the designated target, and not another like it; and what
+  // is followed now.
+  double believed_identity_ = 1.0, identity_ = 1.0;
   std::optional<Search> search_;
   bool placed_ = false;  // the particles stand in the coming frame already
   Velocity velocity_ = Velocity::kUnknown;

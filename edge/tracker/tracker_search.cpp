@@ -33,8 +33,8 @@ bool TrackerCore::beyond_reach(const Eigen::Vector2d& pixel, double interval_s) 
   return (pixel - believed_.pixel).norm() > reach_px;
 }
 
-// A bird beside the target may look more like it than itself in this frame: as long as what is where
-// the target was to be can be believed in, nothing beyond its reach is it.
+// A bird beside the target may look more like it than itself in this frame: as long as what is
+// where the target was to be can be believed in, nothing beyond its reach is it.
 std::size_t TrackerCore::choose(const Scene& scene, double background, double interval_s) const {
   const auto& particles = filter_.particles();
   const std::size_t best = filter_.maximum_a_posteriori(log_likelihood_);
@@ -118,13 +118,37 @@ void TrackerCore::force_onto_movers() {
 // A distant target that was lost comes back near where it should be, or moving. What stands still
 // against the scene elsewhere is a twig, a window or a reticle, however much it looks like it.
 bool TrackerCore::may_be_it(const Particle& particle) const {
-  if (!search_ || search_->told) return true;
-  const double off_px = (particle.pixel - search_->pixel).norm();
-  const double reach_px = 2.0 * search_->sd_px + particle.size_px.norm();
-  if (time_s_ - search_->since_s < kNearFirst && off_px < reach_px) return true;
+  if (!search_ || search_->told || near_prediction(particle)) return true;
   const cv::Rect2d box = box_of(particle.pixel, particle.size_px);
   return std::any_of(movers_.begin(), movers_.end(),
                      [&](const auto& mover) { return (mover.box & box).area() > 0.0; });
+}
+
+bool TrackerCore::near_prediction(const Particle& particle) const {
+  const double off_px = (particle.pixel - search_->pixel).norm();
+  const double reach_px = 2.0 * search_->sd_px + particle.size_px.norm();
+  return time_s_ - search_->since_s < kNearFirst && off_px < reach_px;
+}
+
+// What is found elsewhere is one of all that move and look like the target, or of those that are
+// out of sight: nobody can tell which.
+double TrackerCore::identity_of_found(const Scene& scene, double background) const {
+  constexpr double kOutOfSight = 0.25;  // as many more
+  if (search_->told) return 1.0;
+  if (near_prediction(last_)) return believed_identity_;
+  const cv::Rect2d box = box_of(last_.pixel, last_.size_px);
+  double others = kOutOfSight;
+  for (const MoverCandidate& mover : movers_) {
+    if ((mover.box & box).area() > 0.0) continue;
+    double alike = 0.0;
+    for (int k = 0; k < 9; ++k) {
+      Particle there = last_;
+      there.pixel = mover.pixel + 2.0 * Eigen::Vector2d(k % 3 - 1, k / 3 - 1);
+      alike = std::max(alike, belief_.in_frame(evidence_of(scene, there, background)));
+    }
+    others += alike;
+  }
+  return 1.0 / (1.0 + others);
 }
 
 bool TrackerCore::scene_unknown() const {

@@ -5,7 +5,14 @@ import math
 
 import numpy as np
 import pytest
-from ols_bench.belief import auroc, belief_measures, calibration_error, losses, reliability
+from ols_bench.belief import (
+    auroc,
+    belief_measures,
+    calibration_error,
+    followed_on,
+    losses,
+    reliability,
+)
 from ols_bench.clips import BadInput, Boxes, Clip, read_boxes, read_folder
 from ols_bench.measures import (
     Judged,
@@ -38,6 +45,7 @@ def judged(on_target: list, belief: list, frames_per_second: float = 30.0) -> Ju
         distance=np.where(on, 1.0, 100.0),
         has_box=np.ones(len(on), dtype=bool),
         belief=np.array(belief, dtype=float),
+        step=np.zeros(len(on)),
         frames_per_second=frames_per_second,
     )
 
@@ -113,6 +121,16 @@ def test_no_losses_are_short_excursions_and_targets_not_believed_in():
     assert losses(judged(short, [1.0] * 19)) == []
     doubted = [True] * 5 + [False] * 20
     assert losses(judged(doubted, [1.0] * 4 + [0.3] * 21)) == []
+
+
+def test_a_target_is_followed_on_until_a_doubt_or_a_leap():
+    j = judged([True, True, False, False, False, False, True, False], [1.0] * 8)
+    j.visible = np.array([True, True, False, False, False, False, True, False])
+    assert list(np.flatnonzero(followed_on(j))) == [2, 3, 4, 5, 7]
+    j.step[4] = 100.0
+    assert list(np.flatnonzero(followed_on(j))) == [2, 3, 7]
+    j.belief[2] = 0.4
+    assert list(np.flatnonzero(followed_on(j))) == [7]
 
 
 def test_trackers_without_belief_have_no_such_measures():

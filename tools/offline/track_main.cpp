@@ -59,7 +59,8 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->required();
 }
 
-// Tracking while believed, coasting for a second after that, then lost.
+// Tracking while believed, coasting for a second after that, then lost: a box is the best guess
+// even then, and its belief says how little that is.
 class State {
  public:
   explicit State(double start_s) : believed_s_(start_s) {}
@@ -68,7 +69,6 @@ class State {
     if (output.belief >= kBelieved) believed_s_ = time_s;
     ols::BoxRow row{frame, output.box, output.belief, "tracking"};
     if (output.belief < kBelieved) row.state = doubted(time_s);
-    if (lost(time_s)) row.box.reset();
     return row;
   }
   // Of a frame that the tracker could not use.

@@ -14,6 +14,7 @@ BINS = 10
 # themselves before anybody could notice.
 LEAST_LOSS_S = 1.0 / 3.0
 NOTICED_IN_TIME_S = 0.33
+LEAP_PX = 60.0  # from one frame to the next nothing that is followed goes so far
 
 
 def pooled(judged: list[Judged]) -> tuple[np.ndarray, np.ndarray]:
@@ -73,6 +74,18 @@ def losses(judged: Judged) -> list[float]:
     return noticed
 
 
+def followed_on(judged: Judged) -> np.ndarray:
+    """Frames without a labelled target in which what was on target in a labelled one is followed
+    still: believed in, and without a leap, in every frame since."""
+    goes_on = False
+    frames = np.zeros(len(judged.visible), dtype=bool)
+    for k, visible in enumerate(judged.visible):
+        unbroken = judged.believed[k] and judged.step[k] < LEAP_PX
+        goes_on = unbroken and (goes_on or judged.on_target[k])
+        frames[k] = goes_on and not visible
+    return frames
+
+
 def belief_measures(judged: list[Judged]) -> dict | None:
     """Nothing for trackers that have no belief."""
     if any(j.belief is None for j in judged):
@@ -80,7 +93,9 @@ def belief_measures(judged: list[Judged]) -> dict | None:
     belief, on_target = pooled(judged)
     rows = reliability(belief, on_target)
     times = [time for j in judged for time in losses(j)]
+    absent = sum(int((~j.visible).sum()) for j in judged)
     return {
+        "followed_on": sum(int(followed_on(j).sum()) for j in judged) / absent if absent else None,
         "calibration_error": calibration_error(rows),
         "auroc": auroc(belief, on_target),
         "reliability": rows,

@@ -45,6 +45,7 @@ class Judged:
     distance: np.ndarray
     has_box: np.ndarray
     belief: np.ndarray | None
+    step: np.ndarray  # [px] from the box of the frame before
     frames_per_second: float
 
     @property
@@ -66,6 +67,7 @@ def judge(clip: Clip, boxes: Boxes, frames_per_second: float) -> Judged:
         distance=distance(ours, truth),
         has_box=boxes.there[rest],
         belief=None if boxes.belief is None else boxes.belief[rest],
+        step=distance(boxes.xywh[clip.first : -1], ours),
         frames_per_second=frames_per_second,
     )
 

@@ -24,6 +24,7 @@ COLUMNS = (
 BELIEF_COLUMNS = (
     "tracker",
     "absent frames believed in",
+    "of a target followed on",
     "calibration error",
     "AUROC",
     "losses",
@@ -65,12 +66,13 @@ def accuracy_row(name: str, result: Result, reference: Result | None) -> list[st
 def belief_row(name: str, result: Result) -> list[str]:
     belief = result.belief
     if belief is None:
-        return [name, text(result.total["false_belief"]), *["–"] * 5]
+        return [name, text(result.total["false_belief"]), *["–"] * 6]
     median = belief["noticed_median_s"]
     never = "never" if belief["losses"] else "–"
     return [
         name,
         text(result.total["false_belief"]),
+        text(belief["followed_on"]),
         text(belief["calibration_error"]),
         text(belief["auroc"]),
         str(belief["losses"]),

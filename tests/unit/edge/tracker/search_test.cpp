@@ -1,6 +1,8 @@
 // What a tracker may believe in when the picture no longer goes on as it did.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "edge/tracker/belief.h"
 #include "edge/tracker/foreground_mask.h"
 #include "tests/unit/edge/tracker/synthetic.h"
@@ -37,6 +39,58 @@ TEST(Search, DoesNotTakeAPostForTheTargetAfterACut) {
     const double belief = tracker.track(input(k, elsewhere)).output->belief;
     if (k >= 25) {
       EXPECT_LT(belief, 0.5) << k;
+    }
+  }
+}
+
+// Two alike cross the sky side by side, and the target turns a wing away now and then.
+TEST(Search, StaysWithItsTargetBesideAnotherLikeIt) {
+  SyntheticScene scene(Backdrop::kSky, 31);
+  Tracker tracker(TrackerConfig{}, 5);
+  const auto picture = [&](int k) {
+    const cv::Point2d at(150.0 + 3.0 * k, 200.0 + 20.0 * std::sin(0.2 * k));
+    cv::Mat gray = scene.pair({0, 0}, at, at + cv::Point2d(130.0, 40.0));
+    if (k % 4 == 3) {
+      const cv::Point2d wing = at + cv::Point2d(6.0, -9.0);
+      cv::rectangle(gray, cv::Rect(cv::Point(wing), cv::Size(4, 18)), cv::Scalar(150), cv::FILLED);
+    }
+    return std::pair(gray, at);
+  };
+  const auto [first, start] = picture(0);
+  ASSERT_FALSE(tracker.initialise({first, 0.0, std::nullopt}, SyntheticScene::box_around(start)));
+  for (int k = 1; k < 80; ++k) {
+    const auto [gray, truth] = picture(k);
+    const auto result = tracker.track({gray, kInterval_s * k, std::nullopt});
+    ASSERT_TRUE(result.output);
+    EXPECT_LT(testing::distance(result.output->pixel, truth), 8.0) << k;
+  }
+}
+
+// Lost for seconds, and then there are two.
+TEST(Search, OfTwoAlikeNeitherIsBelievedIn) {
+  for (const bool two : {false, true}) {
+    SyntheticScene scene(Backdrop::kTextured, 31);
+    Tracker tracker(TrackerConfig{}, 5);
+    const cv::Point2d start(150.0, 200.0);
+    int k = 0;
+    const auto track = [&](const cv::Mat& gray) {
+      return tracker.track({gray, kInterval_s * ++k, std::nullopt}).output->belief;
+    };
+    ASSERT_FALSE(tracker.initialise({scene.picture({400, 300}, start), 0.0, std::nullopt},
+                                    SyntheticScene::box_around(start)));
+    for (int i = 0; i < 20; ++i)
+      track(scene.picture({400, 300}, cv::Point2d(150.0 + 3.0 * i, 200.0)));
+    for (int i = 0; i < 60; ++i) track(scene.picture({400, 300}, std::nullopt));
+    double belief = 0.0;
+    for (int i = 0; i < 30; ++i) {
+      const cv::Point2d at(500.0 - 5.0 * i, 380.0), other(250.0 + 5.0 * i, 100.0);
+      belief = track(two ? scene.pair({400, 300}, at, other) : scene.picture({400, 300}, at));
+    }
+    if (two) {
+      EXPECT_LT(belief, 0.5);
+    } else {
+      EXPECT_GT(belief, 0.6);
+      EXPECT_LT(belief, 0.85);
     }
   }
 }

@@ -32,16 +32,11 @@ class SyntheticScene {
   // `camera`: the world's position of the picture's top-left pixel. `target`: its centre in the
   // picture; nothing when it is away.
   cv::Mat picture(const cv::Point2d& camera, const std::optional<cv::Point2d>& target) {
-    cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, -camera.x, 0, 1, -camera.y);
-    cv::Mat image;
-    cv::warpAffine(world_, image, shift, kSize, cv::INTER_LINEAR);
-    if (target) draw(image, *target);
-    cv::Mat noise(kSize, CV_32F);
-    noise_.fill(noise, cv::RNG::NORMAL, 0.0, noise_sd_);
-    image += noise;
-    cv::Mat gray;
-    image.convertTo(gray, CV_8U);
-    return gray;
+    return picture_of(camera, target, std::nullopt);
+  }
+  // With two targets that look alike.
+  cv::Mat pair(const cv::Point2d& camera, const cv::Point2d& target, const cv::Point2d& other) {
+    return picture_of(camera, target, other);
   }
 
   static cv::Rect2d box_around(const cv::Point2d& centre) {
@@ -51,6 +46,21 @@ class SyntheticScene {
   static inline const cv::Size kSize{640, 480};
 
  private:
+  cv::Mat picture_of(const cv::Point2d& camera, const std::optional<cv::Point2d>& target,
+                     const std::optional<cv::Point2d>& other) {
+    cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, -camera.x, 0, 1, -camera.y);
+    cv::Mat image;
+    cv::warpAffine(world_, image, shift, kSize, cv::INTER_LINEAR);
+    if (target) draw(image, *target);
+    if (other) draw(image, *other);
+    cv::Mat noise(kSize, CV_32F);
+    noise_.fill(noise, cv::RNG::NORMAL, 0.0, noise_sd_);
+    image += noise;
+    cv::Mat gray;
+    image.convertTo(gray, CV_8U);
+    return gray;
+  }
+
   // A dark body with a bright spot, smooth enough to have a position between the pixels.
   static void draw(cv::Mat& image, const cv::Point2d& centre) {
     for (int row = 0; row < image.rows; ++row) {
