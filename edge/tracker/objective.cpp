@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core/hal/intrin.hpp>
 
 namespace ols {
 namespace {
@@ -17,14 +18,9 @@ const std::array<float, 256>& exponentials() {
   return table;
 }
 
-// Partial sums that a compiler may keep in one register; their order is fixed.
-constexpr std::size_t kLanes = 8;
-using Lanes = std::array<float, kLanes>;
-
-float total(const Lanes& lanes) {
-  return ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) +
-         ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]));
-}
+// Four at a time, each in its own sum: their order is fixed.
+using Four = cv::v_float32x4;
+constexpr std::size_t kFour = 4;
 
 struct Level {
   float mean;
@@ -32,15 +28,14 @@ struct Level {
 };
 
 Level level_of(const Patch& patch) {
-  Lanes sums{}, squares{};
-  for (std::size_t i = 0; i < kPatchArea; i += kLanes) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      sums[k] += patch[i + k];
-      squares[k] += patch[i + k] * patch[i + k];
-    }
+  Four sum = cv::v_setzero_f32(), squares = cv::v_setzero_f32();
+  for (std::size_t i = 0; i < kPatchArea; i += kFour) {
+    const Four value = cv::v_load(&patch[i]);
+    sum += value;
+    squares += value * value;
   }
-  const float mean = total(sums) / kPatchArea;
-  return {mean, std::sqrt(std::max(0.0F, total(squares) / kPatchArea - mean * mean))};
+  const float mean = cv::v_reduce_sum(sum) / kPatchArea;
+  return {mean, std::sqrt(std::max(0.0F, cv::v_reduce_sum(squares) / kPatchArea - mean * mean))};
 }
 
 }  // namespace
@@ -87,22 +82,24 @@ Likeness Objective::operator()(const Patch& gray, const MaskPatch& candidate_mas
   for (std::size_t i = 0; i < kPatchArea; ++i) weight[i] = exponential[candidate_mask[i]];
   const Level level = level_of(gray);
   const float scale = 1.0F / (kUnit * std::max(least_deviation_, level.deviation));
-  Lanes sums{}, products{}, learnt_products{};
-  for (std::size_t i = 0; i < kPatchArea; i += kLanes) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const float value = (gray[i + k] - level.mean) * scale;
-      const float alike = 1.0F - std::min(1.0F, std::abs(template_[i + k] - value));
-      // Eq. (5); exp(min(Mt, Mc)) is the lesser of both exponentials.
-      sums[k] += std::min(exponential_[i + k], weight[i + k]) * alike * alike;
-      products[k] += template_[i + k] * value;
-      learnt_products[k] += learnt_[i + k] * value;
-    }
+  const Four mean = cv::v_setall_f32(level.mean), gain = cv::v_setall_f32(scale);
+  const Four one = cv::v_setall_f32(1.0F);
+  Four sums = cv::v_setzero_f32(), products = sums, learnt_products = sums;
+  for (std::size_t i = 0; i < kPatchArea; i += kFour) {
+    const Four value = (cv::v_load(&gray[i]) - mean) * gain;
+    const Four first = cv::v_load(&template_[i]);
+    const Four alike = one - cv::v_min(one, cv::v_abs(first - value));
+    // Eq. (5); exp(min(Mt, Mc)) is the lesser of both exponentials.
+    const Four mask = cv::v_min(cv::v_load(&exponential_[i]), cv::v_load(&weight[i]));
+    sums += mask * alike * alike;
+    products += first * value;
+    learnt_products += cv::v_load(&learnt_[i]) * value;
   }
   // The template's deviation is 1 / kUnit, the candidate's at most that.
   constexpr float kNorm = kUnit * kUnit / kPatchArea;
-  const float learnt = total(learnt_products);
-  const float product = total(products);
-  return {static_cast<double>(total(sums)) / greatest_,
+  const float learnt = cv::v_reduce_sum(learnt_products);
+  const float product = cv::v_reduce_sum(products);
+  return {static_cast<double>(cv::v_reduce_sum(sums)) / greatest_,
           static_cast<double>(kNorm * std::max({product, learnt, -kInverted * learnt})),
           static_cast<double>(kNorm * product), static_cast<double>(level.deviation / deviation_)};
 }

@@ -2,22 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 namespace ols {
 namespace {
 
+// [px] of the image across a patch, unless it is of a box many times wider than high.
+constexpr int kMostSpan = 512;
+
+double grid_position(double centre, double length, int index) {
+  return centre + ((index + 0.5) / kPatchSide - 0.5) * length;
+}
+
 // One axis of the sampling grid: the two neighbours of each sample and the second's weight.
 struct Axis {
   std::array<int, kPatchSide> low;
   std::array<int, kPatchSide> high;
   std::array<float, kPatchSide> weight;
-};
 
-double grid_position(double centre, double length, int index) {
-  return centre + ((index + 0.5) / kPatchSide - 0.5) * length;
-}
+  double at(std::size_t i) const { return low[i] + static_cast<double>(weight[i]); }
+};
 
 Axis make_axis(double centre, double length, int limit) {
   Axis axis;
@@ -30,6 +36,26 @@ Axis make_axis(double centre, double length, int limit) {
     axis.weight[k] = static_cast<float>(at - low);
   }
   return axis;
+}
+
+// The same by the nearest pixel, which may lie outside the image.
+std::array<int, kPatchSide> nearest_pixels(double centre, double length) {
+  std::array<int, kPatchSide> pixels;
+  for (int i = 0; i < kPatchSide; ++i) {
+    // Truncation rounds down only where the number is not negative.
+    const double at = grid_position(centre, length, i) + 0.5;
+    pixels[static_cast<std::size_t>(i)] = at < 0.0 ? -1 : static_cast<int>(at);
+  }
+  return pixels;
+}
+
+// Between two lines of the image, pixel by pixel.
+void between(const std::uint8_t* upper, const std::uint8_t* lower, float weight, int count,
+             float* out) {
+  for (int i = 0; i < count; ++i) {
+    const float a = upper[i];
+    out[i] = a + weight * (static_cast<float>(lower[i]) - a);
+  }
 }
 
 float median(std::vector<float> values) {
@@ -153,16 +179,29 @@ Patch sample_patch(const View& view, const Eigen::Vector2d& pixel, const Eigen::
   const Axis x = make_axis(view.x_of(pixel.x()), size_px.x() * scale, view.image.cols);
   const Axis y = make_axis(view.y_of(pixel.y()), size_px.y() * scale, view.image.rows);
   Patch patch;
-  std::size_t out = 0;
+  float* out = patch.data();
+  // Whole eights of the image's columns, where it has them: they are worked on together.
+  const int wanted = (x.high.back() - x.low.front()) / 8 * 8 + 8;
+  const int left = std::max(0, std::min(x.low.front(), view.image.cols - wanted));
+  const int span = std::min(wanted, view.image.cols - left);
+  if (span > kMostSpan) {
+    for (std::size_t j = 0; j < kPatchSide; ++j) {
+      for (std::size_t i = 0; i < kPatchSide; ++i) *out++ = bilinear(view.image, x.at(i), y.at(j));
+    }
+    return patch;
+  }
+  std::array<float, kMostSpan + 1> line;
   for (std::size_t j = 0; j < kPatchSide; ++j) {
-    const auto* upper = view.image.ptr<std::uint8_t>(y.low[j]);
-    const auto* lower = view.image.ptr<std::uint8_t>(y.high[j]);
-    for (std::size_t i = 0; i < kPatchSide; ++i) {
-      const float a = upper[x.low[i]];
-      const float b = lower[x.low[i]];
-      const float top = a + x.weight[i] * (static_cast<float>(upper[x.high[i]]) - a);
-      const float bottom = b + x.weight[i] * (static_cast<float>(lower[x.high[i]]) - b);
-      patch[out++] = top + y.weight[j] * (bottom - top);
+    between(view.image.ptr<std::uint8_t>(y.low[j]) + left,
+            view.image.ptr<std::uint8_t>(y.high[j]) + left, y.weight[j], span, line.data());
+    // What follows a line's last pixel is weighted by zero.
+    line[static_cast<std::size_t>(span)] = 0.0F;
+    for (std::size_t i = 0; i < kPatchSide; i += 4) {
+      cv::v_float32x4 near, next;
+      cv::v_lut_deinterleave(line.data(), cv::v_load(&x.low[i]) - cv::v_setall_s32(left), near,
+                             next);
+      cv::v_store(out, near + cv::v_load(&x.weight[i]) * (next - near));
+      out += 4;
     }
   }
   return patch;
@@ -171,20 +210,22 @@ Patch sample_patch(const View& view, const Eigen::Vector2d& pixel, const Eigen::
 MaskPatch sample_mask(const View& mask, const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& size_px) {
   const double scale = 1.0 / mask.reduction;
-  // Nearest neighbour by truncation, which rounds down only where it is not negative.
-  const auto nearest = [](double at) { return at < -0.5 ? -1 : static_cast<int>(at + 0.5); };
-  std::array<int, kPatchSide> columns;
-  for (int i = 0; i < kPatchSide; ++i) {
-    const int column = nearest(grid_position(mask.x_of(pixel.x()), size_px.x() * scale, i));
-    columns[static_cast<std::size_t>(i)] = column < mask.image.cols ? column : -1;
-  }
+  const auto columns = nearest_pixels(mask.x_of(pixel.x()), size_px.x() * scale);
+  const auto rows = nearest_pixels(mask.y_of(pixel.y()), size_px.y() * scale);
+  // They ascend: those inside lie together.
+  const auto first = std::lower_bound(columns.begin(), columns.end(), 0);
+  const auto last = std::lower_bound(first, columns.end(), mask.image.cols);
   MaskPatch patch{};
-  for (int j = 0; j < kPatchSide; ++j) {
-    const int row = nearest(grid_position(mask.y_of(pixel.y()), size_px.y() * scale, j));
-    if (row < 0 || row >= mask.image.rows) continue;
-    const auto* line = mask.image.ptr<std::uint8_t>(row);
-    auto* out = &patch[static_cast<std::size_t>(j) * kPatchSide];
-    for (const int column : columns) *out++ = column < 0 ? std::uint8_t{0} : line[column];
+  for (std::size_t j = 0; j < kPatchSide; ++j) {
+    if (rows[j] < 0 || rows[j] >= mask.image.rows) continue;
+    auto* out = &patch[j * kPatchSide];
+    if (j > 0 && rows[j] == rows[j - 1]) {
+      std::copy_n(out - kPatchSide, kPatchSide, out);
+      continue;
+    }
+    const auto* line = mask.image.ptr<std::uint8_t>(rows[j]);
+    out += first - columns.begin();
+    for (auto column = first; column != last; ++column) *out++ = line[*column];
   }
   return patch;
 }

@@ -53,6 +53,34 @@ TEST(Patch, SamplesPixelCentres) {
   EXPECT_NEAR(bilinear(half.image, half.x_of(30.0), half.y_of(30.0)), 90.0, 1.0);
 }
 
+TEST(Patch, IsBilinearWhereverAndHoweverLargeTheBox) {
+  cv::Mat picture(90, 700, CV_8U);
+  cv::RNG random(5);
+  random.fill(picture, cv::RNG::UNIFORM, 0, 256);
+  // Inside, over each border, wider than what is worked on at once, and of an image of few columns.
+  const auto expect_bilinear = [](const View& view, const Eigen::Vector2d& pixel,
+                                  const Eigen::Vector2d& size_px) {
+    const Patch patch = sample_patch(view, pixel, size_px);
+    for (int i = 0; i < kPatchArea; ++i) {
+      const double u = (i % kPatchSide + 0.5) / kPatchSide - 0.5;
+      const double v = (i / kPatchSide + 0.5) / kPatchSide - 0.5;
+      const float expected =
+          bilinear(view.image, pixel.x() + u * size_px.x(), pixel.y() + v * size_px.y());
+      ASSERT_NEAR(patch[static_cast<std::size_t>(i)], expected, 0.01) << i << " of " << size_px;
+    }
+  };
+  const View whole{picture, {0, 0}, 1};
+  for (const double width : {3.0, 23.7, 60.0, 400.0, 650.0}) {
+    for (const double x : {-5.0, 30.3, 350.6, 699.0}) {
+      expect_bilinear(whole, {x, 40.2}, {width, 30.0});
+      expect_bilinear(whole, {x, 88.0}, {width, 7.0});
+    }
+  }
+  for (const int columns : {1, 2, 5, 8, 13}) {
+    expect_bilinear({picture.colRange(0, columns), {0, 0}, 1}, {columns / 2.0, 20.0}, {9.0, 9.0});
+  }
+}
+
 TEST(Template, IsEmptyWithoutStructureBeyondNoiseAndGradient) {
   cv::RNG random(6);
   for (const double contrast : {0.0, 12.0}) {
