@@ -2,7 +2,7 @@
 
 # System headers, so that their warnings are not ours.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc calib3d video videoio imgcodecs features2d)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc calib3d videoio imgcodecs features2d)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(lcm REQUIRED IMPORTED_TARGET lcm)
 pkg_check_modules(glib REQUIRED IMPORTED_TARGET glib-2.0)

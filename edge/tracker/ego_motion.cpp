@@ -6,23 +6,15 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/video/tracking.hpp>
+#include <utility>
 
 #include "edge/tracker/patch.h"
 
 namespace ols {
 namespace {
 
-const cv::Size kWindow(15, 15);
-constexpr int kLevels = 3;
 constexpr double kAlike = 0.7;   // correlation of a corner's surroundings
 constexpr double kInlier = 1.5;  // reduced pixels
-
-std::vector<cv::Mat> build_pyramid(const cv::Mat& image) {
-  std::vector<cv::Mat> pyramid;
-  cv::buildOpticalFlowPyramid(image, pyramid, kWindow, kLevels);
-  return pyramid;
-}
 
 // The strongest corners of each cell of a grid, so that they cover the picture.
 std::vector<cv::Point2f> spread(const std::vector<cv::KeyPoint>& corners, const cv::Size& image,
@@ -43,27 +35,6 @@ std::vector<cv::Point2f> spread(const std::vector<cv::KeyPoint>& corners, const 
     for (std::size_t i = 0; i < std::min(a_cell, cell.size()); ++i) chosen.push_back(cell[i]->pt);
   }
   return chosen;
-}
-
-// How well the pixels around `a` of one image correlate with those around `b` of the other.
-double correlation(const cv::Mat& one, const cv::Point2f& a, const cv::Mat& other,
-                   const cv::Point2f& b) {
-  constexpr int kReach = 4;
-  double n = 0.0, p = 0.0, q = 0.0, pp = 0.0, qq = 0.0, pq = 0.0;
-  for (int y = -kReach; y <= kReach; ++y) {
-    for (int x = -kReach; x <= kReach; ++x) {
-      const auto u = static_cast<double>(bilinear(one, a.x + x, a.y + y));
-      const auto v = static_cast<double>(bilinear(other, b.x + x, b.y + y));
-      n += 1.0;
-      p += u;
-      q += v;
-      pp += u * u;
-      qq += v * v;
-      pq += u * v;
-    }
-  }
-  const double spread = (pp - p * p / n) * (qq - q * q / n);
-  return spread > 0.0 ? (pq - p * q / n) / std::sqrt(spread) : 0.0;
 }
 
 Eigen::Vector2d vector_of(const cv::Point2f& point) {
@@ -161,7 +132,7 @@ Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,
 
 void EgoMotionEstimator::start(const ReducedFrame& frame) {
   previous_ = frame;
-  previous_pyramid_ = build_pyramid(frame.image);
+  previous_pyramid_.build(frame.image);
   last_.setIdentity();
 }
 
@@ -186,29 +157,16 @@ std::vector<cv::Point2f> EgoMotionEstimator::detect_corners(const cv::Rect2d& ta
 }
 
 EgoMotionEstimator::Matches EgoMotionEstimator::follow(const std::vector<cv::Point2f>& corners,
-                                                       const cv::Mat& image,
-                                                       const std::vector<cv::Mat>& pyramid,
                                                        const Eigen::Matrix3d& guess) const {
-  std::vector<cv::Point2f> flow;
-  flow.reserve(corners.size());
+  Matches matches;
   for (const cv::Point2f& corner : corners) {
     const Eigen::Vector2d moved = transform(guess, vector_of(corner));
-    flow.emplace_back(static_cast<float>(moved.x()), static_cast<float>(moved.y()));
-  }
-  std::vector<std::uint8_t> found;
-  std::vector<float> error;
-  const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 15, 0.03);
-  cv::calcOpticalFlowPyrLK(previous_pyramid_, pyramid, corners, flow, found, error, kWindow,
-                           kLevels, until, cv::OPTFLOW_USE_INITIAL_FLOW);
-  const cv::Rect2f inside(0, 0, static_cast<float>(previous_.image.cols),
-                          static_cast<float>(previous_.image.rows));
-  Matches matches;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (found[i] == 0 || !inside.contains(flow[i])) continue;
+    const cv::Point2f near(static_cast<float>(moved.x()), static_cast<float>(moved.y()));
+    const FollowedCorner followed = follow_corner(previous_pyramid_, pyramid_, corner, near);
     // A corner of noise stays where it was looked for, and would agree with any guess.
-    if (correlation(previous_.image, corners[i], image, flow[i]) < kAlike) continue;
-    matches.previous.push_back(corners[i]);
-    matches.current.push_back(flow[i]);
+    if (followed.correlation < kAlike) continue;
+    matches.previous.push_back(corner);
+    matches.current.push_back(followed.at);
   }
   return matches;
 }
@@ -246,15 +204,15 @@ EgoMotionEstimator::Estimate EgoMotionEstimator::step(
   const Eigen::Matrix3d from_full = to_full.inverse();
   const Eigen::Matrix3d guess = predicted ? from_full * *predicted * to_full : last_;
   const std::vector<cv::Point2f> corners = detect_corners(target_box);
-  std::vector<cv::Mat> pyramid = build_pyramid(frame.image);
+  pyramid_.build(frame.image);
   Estimate estimate;
   estimate.featureless = static_cast<int>(corners.size()) < config_.ego_motion_least_inliers;
   std::optional<Eigen::Matrix3d> found;
-  if (!estimate.featureless) found = fit(follow(corners, frame.image, pyramid, guess), guess);
+  if (!estimate.featureless) found = fit(follow(corners, guess), guess);
   if (found) estimate.homography = to_full * *found * from_full;
   last_ = found ? *found : predicted ? guess : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
   previous_ = frame;
-  previous_pyramid_ = std::move(pyramid);
+  std::swap(previous_pyramid_, pyramid_);
   return estimate;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "edge/tracker/corner_flow.h"
 #include "edge/tracker/tracker_config.h"
 
 namespace ols {
@@ -42,13 +43,13 @@ class EgoMotionEstimator {
     std::vector<cv::Point2f> current;
   };
   std::vector<cv::Point2f> detect_corners(const cv::Rect2d& target_box);
-  Matches follow(const std::vector<cv::Point2f>& corners, const cv::Mat& image,
-                 const std::vector<cv::Mat>& pyramid, const Eigen::Matrix3d& guess) const;
+  Matches follow(const std::vector<cv::Point2f>& corners, const Eigen::Matrix3d& guess) const;
   std::optional<Eigen::Matrix3d> fit(const Matches& matches, const Eigen::Matrix3d& guess) const;
 
   TrackerConfig config_;
   ReducedFrame previous_;
-  std::vector<cv::Mat> previous_pyramid_;
+  ImagePyramid previous_pyramid_;
+  ImagePyramid pyramid_;
   Eigen::Matrix3d last_ = Eigen::Matrix3d::Identity();  // reduced pixels
   int corner_threshold_ = 15;                           // of FAST [grey levels]
 };
