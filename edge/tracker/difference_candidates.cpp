@@ -9,17 +9,28 @@
 namespace ols {
 namespace {
 
-// The previous image as the camera would see it now; what it did not see is as it is now.
+// The area of the previous image as the camera would see it now; what it did not see is as it is
+// now.
 cv::Mat brought_to_present(const ReducedFrame& previous, const ReducedFrame& current,
-                           const Eigen::Matrix3d& homography) {
+                           const Eigen::Matrix3d& homography, const cv::Rect& area) {
   const Eigen::Matrix3d to_full = current.to_full();
-  const Eigen::Matrix3d h = to_full.inverse() * homography * to_full;
+  Eigen::Matrix3d to_area = Eigen::Matrix3d::Identity();
+  to_area(0, 2) = -area.x;
+  to_area(1, 2) = -area.y;
+  const Eigen::Matrix3d h = to_area * to_full.inverse() * homography * to_full;
   const cv::Matx33d matrix(h(0, 0), h(0, 1), h(0, 2), h(1, 0), h(1, 1), h(1, 2), h(2, 0), h(2, 1),
                            h(2, 2));
-  cv::Mat brought = current.image.clone();
+  cv::Mat brought = current.image(area).clone();
   cv::warpPerspective(previous.image, brought, matrix, brought.size(), cv::INTER_LINEAR,
                       cv::BORDER_TRANSPARENT);
   return brought;
+}
+
+// So many pixels together that a target spans about `kSpan` of them: it takes no more to find it.
+int coarseness(double side, const cv::Size& image) {
+  constexpr double kSpan = 8.0;
+  const int wanted = static_cast<int>(side / kSpan);
+  return std::max(1, std::min({wanted, image.width, image.height}));
 }
 
 cv::Rect reduced_area(const ReducedFrame& frame, const cv::Rect2d& area) {
@@ -30,6 +41,22 @@ cv::Rect reduced_area(const ReducedFrame& frame, const cv::Rect2d& area) {
   return cv::Rect(reduced & cv::Rect2d(0.0, 0.0, frame.image.cols, frame.image.rows));
 }
 
+// The greatest maxima, each taken out with what is `side` around it.
+std::vector<cv::Point> greatest_maxima(cv::Mat& response, int side, int most) {
+  constexpr double kLeastResponse = 2.0;  // [grey levels] below it is noise
+  std::vector<cv::Point> maxima;
+  while (static_cast<int>(maxima.size()) < most) {
+    double value = 0.0;
+    cv::Point at;
+    cv::minMaxLoc(response, nullptr, &value, nullptr, &at);
+    if (value < kLeastResponse) break;
+    maxima.push_back(at);
+    const cv::Rect taken(at.x - side, at.y - side, 2 * side + 1, 2 * side + 1);
+    response(taken & cv::Rect(0, 0, response.cols, response.rows)) = 0;
+  }
+  return maxima;
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector2d> difference_candidates(const ReducedFrame& previous,
@@ -37,29 +64,27 @@ std::vector<Eigen::Vector2d> difference_candidates(const ReducedFrame& previous,
                                                    const std::optional<Eigen::Matrix3d>& homography,
                                                    const cv::Rect2d& area,
                                                    const Eigen::Vector2d& size_px, int most) {
-  constexpr double kLeastResponse = 2.0;  // [grey levels] below it is noise
   const cv::Rect inside = reduced_area(current, area);
   if (inside.empty()) return {};
-  const cv::Mat before =
-      homography ? brought_to_present(previous, current, *homography) : previous.image;
-  cv::Mat response;
-  cv::absdiff(before(inside), current.image(inside), response);
-  const int side =
-      std::max(3, static_cast<int>(std::sqrt(size_px.x() * size_px.y()) / current.reduction) | 1);
+  const cv::Mat before = homography ? brought_to_present(previous, current, *homography, inside)
+                                    : previous.image(inside);
+  cv::Mat difference, response;
+  cv::absdiff(before, current.image(inside), difference);
+  const double length = std::sqrt(size_px.x() * size_px.y()) / current.reduction;
+  const int coarse = coarseness(length, difference.size());
+  const cv::Size size(difference.cols / coarse, difference.rows / coarse);
+  cv::resize(difference(cv::Rect(0, 0, size.width * coarse, size.height * coarse)), response, size,
+             0, 0, cv::INTER_AREA);
+  const int side = std::max(3, static_cast<int>(length / coarse) | 1);
   // A box would reach as much wherever it holds the whole target.
   cv::GaussianBlur(response, response, cv::Size(side, side), 0.0, 0.0, cv::BORDER_CONSTANT);
-  const Eigen::Matrix3d to_full = current.to_full();
-  std::vector<Eigen::Vector2d> maxima;
-  while (static_cast<int>(maxima.size()) < most) {
-    double value = 0.0;
-    cv::Point at;
-    cv::minMaxLoc(response, nullptr, &value, nullptr, &at);
-    if (value < kLeastResponse) break;
-    maxima.push_back(transform(to_full, {at.x + inside.x, at.y + inside.y}));
-    const cv::Rect taken(at.x - side, at.y - side, 2 * side + 1, 2 * side + 1);
-    response(taken & cv::Rect(0, 0, response.cols, response.rows)) = 0;
+  std::vector<Eigen::Vector2d> pixels;
+  for (const cv::Point& at : greatest_maxima(response, side, most)) {
+    const Eigen::Vector2d middle = coarse * Eigen::Vector2d(at.x + 0.5, at.y + 0.5);
+    pixels.push_back(
+        transform(current.to_full(), middle + Eigen::Vector2d(inside.x - 0.5, inside.y - 0.5)));
   }
-  return maxima;
+  return pixels;
 }
 
 }  // namespace ols

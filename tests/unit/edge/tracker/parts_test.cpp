@@ -295,6 +295,23 @@ TEST(DifferenceCandidates, AreWhereSomethingMoved) {
 }
 
 // A camera that turns changes the picture everywhere, and all of it is accounted for.
+
+TEST(DifferenceCandidates, AreThereForATargetOfHalfThePicture) {
+  const auto picture_with = [](const cv::Rect& target) {
+    cv::Mat picture(480, 640, CV_8U, cv::Scalar(150));
+    picture(target) = 60;
+    return reduce_frame(picture, 640);
+  };
+  const auto before = picture_with({20, 30, 201, 121});
+  const auto after = picture_with({320, 230, 201, 121});
+  const cv::Rect2d all(0.0, 0.0, 640.0, 480.0);
+  const auto found = difference_candidates(before, after, std::nullopt, all, {201.0, 121.0}, 2);
+  ASSERT_EQ(found.size(), 2U);
+  for (const Eigen::Vector2d& truth : {Eigen::Vector2d(120, 90), Eigen::Vector2d(420, 290)}) {
+    EXPECT_LT(std::min((found[0] - truth).norm(), (found[1] - truth).norm()), 30.0);
+  }
+}
+
 TEST(DifferenceCandidates, AreOnlyTheTargetOnceTheCameraIsAccountedFor) {
   SyntheticScene scene(Backdrop::kTextured, 5);
   const auto before = reduce_frame(scene.picture({400, 300}, cv::Point2d(100, 100)), 320);
