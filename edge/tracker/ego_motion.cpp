@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
+#include <opencv2/core/eigen.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -39,6 +40,40 @@ std::vector<cv::Point2f> spread(const std::vector<cv::KeyPoint>& corners, const 
 
 Eigen::Vector2d vector_of(const cv::Point2f& point) {
   return {static_cast<double>(point.x), static_cast<double>(point.y)};
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The guess and the shift by which most of the corners are off it.
+Eigen::Matrix3d shifted(const Eigen::Matrix3d& guess, const CornerMatches& matches) {
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < matches.previous.size(); ++i) {
+    const Eigen::Vector2d off =
+        vector_of(matches.current[i]) - transform(guess, vector_of(matches.previous[i]));
+    x.push_back(off.x());
+    y.push_back(off.y());
+  }
+  Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
+  shift(0, 2) = median(std::move(x));
+  shift(1, 2) = median(std::move(y));
+  return shift * guess;
+}
+
+// The corners that move as the homography says.
+CornerMatches explained(const CornerMatches& matches, const Eigen::Matrix3d& homography) {
+  CornerMatches kept;
+  for (std::size_t i = 0; i < matches.previous.size(); ++i) {
+    const Eigen::Vector2d there = transform(homography, vector_of(matches.previous[i]));
+    const double off_px = (vector_of(matches.current[i]) - there).norm();
+    if (!(off_px <= kInlier)) continue;
+    kept.previous.push_back(matches.previous[i]);
+    kept.current.push_back(matches.current[i]);
+  }
+  return kept;
 }
 
 }  // namespace
@@ -156,9 +191,9 @@ std::vector<cv::Point2f> EgoMotionEstimator::detect_corners(const cv::Rect2d& ta
   return spread(corners, previous_.image.size(), config_.ego_motion_corners);
 }
 
-EgoMotionEstimator::Matches EgoMotionEstimator::follow(const std::vector<cv::Point2f>& corners,
-                                                       const Eigen::Matrix3d& guess) const {
-  Matches matches;
+CornerMatches EgoMotionEstimator::follow(const std::vector<cv::Point2f>& corners,
+                                         const Eigen::Matrix3d& guess) const {
+  CornerMatches matches;
   for (const cv::Point2f& corner : corners) {
     const Eigen::Vector2d moved = transform(guess, vector_of(corner));
     const cv::Point2f near(static_cast<float>(moved.x()), static_cast<float>(moved.y()));
@@ -171,21 +206,32 @@ EgoMotionEstimator::Matches EgoMotionEstimator::follow(const std::vector<cv::Poi
   return matches;
 }
 
-std::optional<Eigen::Matrix3d> EgoMotionEstimator::fit(const Matches& matches,
+CornerMatches EgoMotionEstimator::agreeing(const CornerMatches& matches,
+                                           const Eigen::Matrix3d& guess) const {
+  // Mostly the camera turned as was guessed but for a shift, and nearly all corners say so: RANSAC
+  // would find no others.
+  constexpr double kClear = 0.8;
+  const double clear = kClear * static_cast<double>(matches.previous.size());
+  CornerMatches kept = explained(matches, shifted(guess, matches));
+  if (static_cast<double>(kept.previous.size()) >= clear) {
+    const cv::Size image = previous_.image.size();
+    kept = explained(matches, fit_homography(kept.previous, kept.current, guess, image));
+    if (static_cast<double>(kept.previous.size()) >= clear) return kept;
+  }
+  // RANSAC's random numbers are its own and start the same each time.
+  const cv::Mat found = cv::findHomography(matches.previous, matches.current, cv::RANSAC, kInlier,
+                                           cv::noArray(), 500, 0.995);
+  if (found.empty()) return {};
+  Eigen::Matrix3d homography;
+  cv::cv2eigen(found, homography);
+  return explained(matches, homography);
+}
+
+std::optional<Eigen::Matrix3d> EgoMotionEstimator::fit(const CornerMatches& matches,
                                                        const Eigen::Matrix3d& guess) const {
   const auto least = static_cast<std::size_t>(config_.ego_motion_least_inliers);
   if (matches.previous.size() < std::max<std::size_t>(least, 4)) return std::nullopt;
-  std::vector<std::uint8_t> inlier;
-  // RANSAC's random numbers are its own and start the same each time.
-  const cv::Mat found = cv::findHomography(matches.previous, matches.current, cv::RANSAC, kInlier,
-                                           inlier, 500, 0.995);
-  if (found.empty()) return std::nullopt;
-  Matches kept;
-  for (std::size_t i = 0; i < inlier.size(); ++i) {
-    if (inlier[i] == 0) continue;
-    kept.previous.push_back(matches.previous[i]);
-    kept.current.push_back(matches.current[i]);
-  }
+  const CornerMatches kept = agreeing(matches, guess);
   const double share =
       static_cast<double>(kept.previous.size()) / static_cast<double>(matches.previous.size());
   if (kept.previous.size() < least || share < config_.ego_motion_least_inlier_fraction) {

@@ -21,6 +21,12 @@ struct ReducedFrame {
 
 ReducedFrame reduce_frame(const cv::Mat& gray, int most_width_px);
 
+// The same corners in the previous frame and in this one, reduced pixels.
+struct CornerMatches {
+  std::vector<cv::Point2f> previous;
+  std::vector<cv::Point2f> current;
+};
+
 class EgoMotionEstimator {
  public:
   explicit EgoMotionEstimator(const TrackerConfig& config) : config_(config) {}
@@ -38,13 +44,11 @@ class EgoMotionEstimator {
                 const std::optional<Eigen::Matrix3d>& predicted);
 
  private:
-  struct Matches {
-    std::vector<cv::Point2f> previous;
-    std::vector<cv::Point2f> current;
-  };
   std::vector<cv::Point2f> detect_corners(const cv::Rect2d& target_box);
-  Matches follow(const std::vector<cv::Point2f>& corners, const Eigen::Matrix3d& guess) const;
-  std::optional<Eigen::Matrix3d> fit(const Matches& matches, const Eigen::Matrix3d& guess) const;
+  CornerMatches follow(const std::vector<cv::Point2f>& corners, const Eigen::Matrix3d& guess) const;
+  CornerMatches agreeing(const CornerMatches& matches, const Eigen::Matrix3d& guess) const;
+  std::optional<Eigen::Matrix3d> fit(const CornerMatches& matches,
+                                     const Eigen::Matrix3d& guess) const;
 
   TrackerConfig config_;
   ReducedFrame previous_;
