@@ -23,21 +23,25 @@ Four four_pixels(const std::uint8_t* at) {
   return cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_load_expand_q(at)));
 }
 
-// A square of the image between its pixels, its first sample at `corner`; nothing when the image
-// does not reach so far.
+// A square of the image between its pixels, its first sample at `corner`; nothing when not even the
+// image's margin reaches so far.
 template <int side>
 bool sample(const cv::Mat& image, const cv::Point2f& corner, Square<side>& out) {
-  const bool inside = corner.x >= 0.0F && corner.y >= 0.0F &&
-                      corner.x < static_cast<float>(image.cols - side) &&
-                      corner.y < static_cast<float>(image.rows - side);
+  constexpr int kMargin = ImagePyramid::kMargin;
+  const cv::Point2f first = corner + cv::Point2f(kMargin, kMargin);
+  const bool inside = first.x >= 0.0F && first.y >= 0.0F &&
+                      first.x < static_cast<float>(image.cols + 2 * kMargin - side) &&
+                      first.y < static_cast<float>(image.rows + 2 * kMargin - side);
   if (!inside) return false;
-  const int left = static_cast<int>(corner.x);
-  const int top = static_cast<int>(corner.y);
+  const int left = static_cast<int>(first.x) - kMargin;
+  const int top = static_cast<int>(first.y) - kMargin;
   const Four across = cv::v_setall_f32(corner.x - static_cast<float>(left));
   const Four down = cv::v_setall_f32(corner.y - static_cast<float>(top));
+  const auto stride = static_cast<std::ptrdiff_t>(image.step);
+  const auto* first_line = image.data + top * stride + left;
   std::array<Four, side / 4> above;
   for (int row = 0; row <= side; ++row) {
-    const auto* line = image.ptr<std::uint8_t>(top + row) + left;
+    const auto* line = first_line + row * stride;
     for (int i = 0; i < side; i += 4) {
       const Four near = four_pixels(line + i);
       const Four here = near + across * (four_pixels(line + i + 1) - near);
@@ -114,12 +118,23 @@ double correlation(const Square<kSide>& one, const Square<kSide>& other) {
   return spread > 0.0F ? static_cast<double>(product / std::sqrt(spread)) : 0.0;
 }
 
+bool within(const cv::Mat& image, const cv::Point2f& at) {
+  return cv::Rect2f(0.0F, 0.0F, static_cast<float>(image.cols), static_cast<float>(image.rows))
+      .contains(at);
+}
+
 }  // namespace
 
 void ImagePyramid::build(const cv::Mat& image) {
-  levels_.resize(kLevels);
-  levels_.front() = image;
-  for (std::size_t i = 1; i < kLevels; ++i) cv::pyrDown(levels_[i - 1], levels_[i]);
+  cv::Size size = image.size();
+  for (std::size_t i = 0; i < kLevels; ++i) {
+    framed_[i].create(size.height + 2 * kMargin, size.width + 2 * kMargin, CV_8UC1);
+    levels_[i] = framed_[i](cv::Rect({kMargin, kMargin}, size));
+    if (i > 0) cv::pyrDown(levels_[i - 1], levels_[i], size);
+    cv::copyMakeBorder(i > 0 ? levels_[i] : image, framed_[i], kMargin, kMargin, kMargin, kMargin,
+                       cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+    size = {(size.width + 1) / 2, (size.height + 1) / 2};
+  }
 }
 
 FollowedCorner follow_corner(const ImagePyramid& previous, const ImagePyramid& current,
@@ -141,7 +156,8 @@ FollowedCorner follow_corner(const ImagePyramid& previous, const ImagePyramid& c
       if (moved.dot(moved) < kEnough * kEnough) break;
     }
     if (inside) followed.at = at / scale;
-    if (inside && level == 0) followed.correlation = correlation(window->gray, now);
+    if (level == 0 && inside && within(current.level(0), at))
+      followed.correlation = correlation(window->gray, now);
   }
   return followed;
 }

@@ -1,24 +1,25 @@
 // Where corners of one image are in the next one: pyramidal Lucas and Kanade.
 #pragma once
 
+#include <array>
 #include <opencv2/core.hpp>
-#include <vector>
 
 namespace ols {
 
 // An image and its halves, quarters and eighths, as cv::pyrDown() makes them: a pixel of one is at
-// half its coordinates in the next.
+// half its coordinates in the next. Around each the outermost pixels are continued.
 class ImagePyramid {
  public:
   static constexpr int kLevels = 4;
+  static constexpr int kMargin = 16;  // [px] on each side
 
-  // Keeps a reference to `image` (8-bit, one channel); the memory of the smaller ones is used
-  // again.
+  // Of an 8-bit image of one channel; copies it. The memory is used again.
   void build(const cv::Mat& image);
   const cv::Mat& level(int index) const { return levels_[static_cast<std::size_t>(index)]; }
 
  private:
-  std::vector<cv::Mat> levels_;
+  std::array<cv::Mat, kLevels> framed_;  // with their margins
+  std::array<cv::Mat, kLevels> levels_;  // parts of these
 };
 
 struct FollowedCorner {

@@ -168,33 +168,47 @@ Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,
 void EgoMotionEstimator::start(const ReducedFrame& frame) {
   previous_ = frame;
   previous_pyramid_.build(frame.image);
+  corners_.clear();
   last_.setIdentity();
 }
 
-std::vector<cv::Point2f> EgoMotionEstimator::detect_corners(const cv::Rect2d& target_box) {
+std::vector<cv::Point2f> EgoMotionEstimator::detect_corners(const cv::Rect2d& target) {
   constexpr int kGreatestThreshold = 60;
   const int least = std::max(6, static_cast<int>(std::ceil(5.0 * pixel_noise(previous_.image))));
   corner_threshold_ = std::clamp(corner_threshold_, least, std::max(least, kGreatestThreshold));
   std::vector<cv::KeyPoint> corners;
   cv::FAST(previous_.image, corners, corner_threshold_, true);
-  // The next frame's threshold, so that there are enough corners and not too many to sort.
+  // The next threshold, so that there are enough corners and not too many to sort.
   const auto found = static_cast<int>(corners.size());
   if (found < 4 * config_.ego_motion_corners) --corner_threshold_;
   if (found < config_.ego_motion_corners) corner_threshold_ -= 2;
   if (found > 12 * config_.ego_motion_corners) corner_threshold_ += 2;
-  const double scale = previous_.reduction;
-  const cv::Rect2d target((target_box.x - target_box.width * 0.25) / scale,
-                          (target_box.y - target_box.height * 0.25) / scale,
-                          1.5 * target_box.width / scale, 1.5 * target_box.height / scale);
   std::erase_if(
       corners, [&](const cv::KeyPoint& corner) { return target.contains(cv::Point2d(corner.pt)); });
   return spread(corners, previous_.image.size(), config_.ego_motion_corners);
 }
 
-CornerMatches EgoMotionEstimator::follow(const std::vector<cv::Point2f>& corners,
-                                         const Eigen::Matrix3d& guess) const {
+// Those followed so far, or new ones when they have become few or old.
+void EgoMotionEstimator::provide_corners(const cv::Rect2d& target_box) {
+  constexpr int kLongest = 5;  // [frames] the camera turns to where there are none
+  constexpr double kEnough = 0.7;
+  const double scale = previous_.reduction;
+  const cv::Rect2d target((target_box.x - target_box.width * 0.25) / scale,
+                          (target_box.y - target_box.height * 0.25) / scale,
+                          1.5 * target_box.width / scale, 1.5 * target_box.height / scale);
+  std::erase_if(corners_,
+                [&](const cv::Point2f& corner) { return target.contains(cv::Point2d(corner)); });
+  const double enough = std::max(kEnough * static_cast<double>(detected_),
+                                 static_cast<double>(config_.ego_motion_least_inliers));
+  if (++followed_ <= kLongest && static_cast<double>(corners_.size()) >= enough) return;
+  corners_ = detect_corners(target);
+  detected_ = corners_.size();
+  followed_ = 0;
+}
+
+CornerMatches EgoMotionEstimator::follow(const Eigen::Matrix3d& guess) const {
   CornerMatches matches;
-  for (const cv::Point2f& corner : corners) {
+  for (const cv::Point2f& corner : corners_) {
     const Eigen::Vector2d moved = transform(guess, vector_of(corner));
     const cv::Point2f near(static_cast<float>(moved.x()), static_cast<float>(moved.y()));
     const FollowedCorner followed = follow_corner(previous_pyramid_, pyramid_, corner, near);
@@ -208,15 +222,21 @@ CornerMatches EgoMotionEstimator::follow(const std::vector<cv::Point2f>& corners
 
 CornerMatches EgoMotionEstimator::agreeing(const CornerMatches& matches,
                                            const Eigen::Matrix3d& guess) const {
+  const auto count = static_cast<double>(matches.previous.size());
+  const double least = std::max({4.0, static_cast<double>(config_.ego_motion_least_inliers),
+                                 config_.ego_motion_least_inlier_fraction * count});
+  if (count < least) return {};
+  const auto enough = [](const CornerMatches& kept, double wanted) {
+    return static_cast<double>(kept.previous.size()) >= wanted;
+  };
   // Mostly the camera turned as was guessed but for a shift, and nearly all corners say so: RANSAC
   // would find no others.
-  constexpr double kClear = 0.8;
-  const double clear = kClear * static_cast<double>(matches.previous.size());
+  const double clear = std::max(least, 0.8 * count);
   CornerMatches kept = explained(matches, shifted(guess, matches));
-  if (static_cast<double>(kept.previous.size()) >= clear) {
+  if (enough(kept, clear)) {
     const cv::Size image = previous_.image.size();
     kept = explained(matches, fit_homography(kept.previous, kept.current, guess, image));
-    if (static_cast<double>(kept.previous.size()) >= clear) return kept;
+    if (enough(kept, clear)) return kept;
   }
   // RANSAC's random numbers are its own and start the same each time.
   const cv::Mat found = cv::findHomography(matches.previous, matches.current, cv::RANSAC, kInlier,
@@ -224,23 +244,8 @@ CornerMatches EgoMotionEstimator::agreeing(const CornerMatches& matches,
   if (found.empty()) return {};
   Eigen::Matrix3d homography;
   cv::cv2eigen(found, homography);
-  return explained(matches, homography);
-}
-
-std::optional<Eigen::Matrix3d> EgoMotionEstimator::fit(const CornerMatches& matches,
-                                                       const Eigen::Matrix3d& guess) const {
-  const auto least = static_cast<std::size_t>(config_.ego_motion_least_inliers);
-  if (matches.previous.size() < std::max<std::size_t>(least, 4)) return std::nullopt;
-  const CornerMatches kept = agreeing(matches, guess);
-  const double share =
-      static_cast<double>(kept.previous.size()) / static_cast<double>(matches.previous.size());
-  if (kept.previous.size() < least || share < config_.ego_motion_least_inlier_fraction) {
-    return std::nullopt;
-  }
-  const cv::Size image = previous_.image.size();
-  const Eigen::Matrix3d fitted = fit_homography(kept.previous, kept.current, guess, image);
-  if (!plausible_homography(fitted, image)) return std::nullopt;
-  return fitted;
+  kept = explained(matches, homography);
+  return enough(kept, least) ? kept : CornerMatches{};
 }
 
 EgoMotionEstimator::Estimate EgoMotionEstimator::step(
@@ -249,14 +254,22 @@ EgoMotionEstimator::Estimate EgoMotionEstimator::step(
   const Eigen::Matrix3d to_full = frame.to_full();
   const Eigen::Matrix3d from_full = to_full.inverse();
   const Eigen::Matrix3d guess = predicted ? from_full * *predicted * to_full : last_;
-  const std::vector<cv::Point2f> corners = detect_corners(target_box);
+  provide_corners(target_box);
   pyramid_.build(frame.image);
   Estimate estimate;
-  estimate.featureless = static_cast<int>(corners.size()) < config_.ego_motion_least_inliers;
-  std::optional<Eigen::Matrix3d> found;
-  if (!estimate.featureless) found = fit(follow(corners, guess), guess);
-  if (found) estimate.homography = to_full * *found * from_full;
-  last_ = found ? *found : predicted ? guess : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  estimate.featureless = static_cast<int>(corners_.size()) < config_.ego_motion_least_inliers;
+  const CornerMatches kept = agreeing(follow(guess), guess);
+  last_ = predicted ? guess : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  corners_.clear();
+  if (!kept.previous.empty()) {
+    const cv::Size image = frame.image.size();
+    const Eigen::Matrix3d fitted = fit_homography(kept.previous, kept.current, guess, image);
+    if (plausible_homography(fitted, image)) {
+      estimate.homography = to_full * fitted * from_full;
+      last_ = fitted;
+      corners_ = kept.current;
+    }
+  }
   previous_ = frame;
   std::swap(previous_pyramid_, pyramid_);
   return estimate;

@@ -44,16 +44,19 @@ class EgoMotionEstimator {
                 const std::optional<Eigen::Matrix3d>& predicted);
 
  private:
-  std::vector<cv::Point2f> detect_corners(const cv::Rect2d& target_box);
-  CornerMatches follow(const std::vector<cv::Point2f>& corners, const Eigen::Matrix3d& guess) const;
+  void provide_corners(const cv::Rect2d& target_box);
+  std::vector<cv::Point2f> detect_corners(const cv::Rect2d& target);
+  CornerMatches follow(const Eigen::Matrix3d& guess) const;
+  // Those that one homography explains; none when they are too few to trust.
   CornerMatches agreeing(const CornerMatches& matches, const Eigen::Matrix3d& guess) const;
-  std::optional<Eigen::Matrix3d> fit(const CornerMatches& matches,
-                                     const Eigen::Matrix3d& guess) const;
 
   TrackerConfig config_;
   ReducedFrame previous_;
   ImagePyramid previous_pyramid_;
   ImagePyramid pyramid_;
+  std::vector<cv::Point2f> corners_;  // in the previous frame, reduced pixels
+  std::size_t detected_ = 0;          // how many there were when they were looked for,
+  int followed_ = 0;                  // so many frames ago
   Eigen::Matrix3d last_ = Eigen::Matrix3d::Identity();  // reduced pixels
   int corner_threshold_ = 15;                           // of FAST [grey levels]
 };

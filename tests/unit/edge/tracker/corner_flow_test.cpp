@@ -44,6 +44,17 @@ TEST(CornerFlow, FollowsFarByTheSmallerImages) {
   EXPECT_NEAR(found.at.y, corner.y + shift.y, 0.2F);
 }
 
+// A strip of trees at the picture's lower edge is often all there is.
+TEST(CornerFlow, FollowsFarBesideTheEdge) {
+  const cv::Point2f shift(14.0F, 0.0F);
+  const Pair pair = shifted(shift);
+  const cv::Point2f corner(300, 474);
+  const FollowedCorner found = follow_corner(pair.before, pair.after, corner, corner);
+  EXPECT_NEAR(found.at.x, corner.x + shift.x, 0.2F);
+  EXPECT_NEAR(found.at.y, corner.y, 0.2F);
+  EXPECT_GT(found.correlation, 0.7);
+}
+
 TEST(CornerFlow, SaysThatNoiseWasNotFollowed) {
   testing::SyntheticScene sky(testing::Backdrop::kSky, 3);
   ImagePyramid before, after;
@@ -58,7 +69,7 @@ TEST(CornerFlow, FindsNothingOffTheImage) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   const cv::Point2f inside(300, 200);
   for (const cv::Point2f off :
-       {cv::Point2f(2, 200), cv::Point2f(637, 200), cv::Point2f(300, 478),
+       {cv::Point2f(-30, 200), cv::Point2f(680, 200), cv::Point2f(300, 510),
         cv::Point2f(-9e9F, 9e30F), cv::Point2f(1e20F, 5), cv::Point2f(kNone, kNone)}) {
     EXPECT_EQ(follow_corner(pair.before, pair.after, off, inside).correlation, -1.0) << off;
     EXPECT_EQ(follow_corner(pair.before, pair.after, inside, off).correlation, -1.0) << off;

@@ -225,6 +225,26 @@ TEST(EgoMotion, MeasuresTheShiftOfTexture) {
   }
 }
 
+// Corners are followed for some frames, while they leave the picture, and then looked for anew.
+TEST(EgoMotion, MeasuresOnWhileTheCameraTurnsOn) {
+  SyntheticScene scene(Backdrop::kTextured, 1);
+  EgoMotionEstimator ego{TrackerConfig{}};
+  cv::Point2d camera(200.0, 300.0);
+  ego.start(reduce_frame(scene.picture(camera, std::nullopt), 640));
+  for (int frame = 1; frame <= 25; ++frame) {
+    const cv::Point2d turned(std::min(5.0 * frame, 35.0), 2.5);
+    camera += turned;
+    const auto estimate = ego.step(reduce_frame(scene.picture(camera, std::nullopt), 640),
+                                   cv::Rect2d(), std::nullopt);
+    ASSERT_TRUE(estimate.homography.has_value()) << frame;
+    for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(40, 20), Eigen::Vector2d(600, 460)}) {
+      const Eigen::Vector2d moved = transform(*estimate.homography, pixel) - pixel;
+      EXPECT_NEAR(moved.x(), -turned.x, 0.3) << frame;
+      EXPECT_NEAR(moved.y(), -turned.y, 0.3) << frame;
+    }
+  }
+}
+
 TEST(EgoMotion, FindsAFastTurnFromThePrediction) {
   SyntheticScene scene(Backdrop::kTextured, 2);
   EgoMotionEstimator ego{TrackerConfig{}};
