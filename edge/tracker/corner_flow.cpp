@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -19,8 +21,13 @@ constexpr float kEnough = 0.03F;  // [px] of a step
 template <int side>
 using Square = std::array<float, static_cast<std::size_t>(side* side)>;
 
+// Not v_load_expand_q(): it reads an integer from where none may lie.
 Four four_pixels(const std::uint8_t* at) {
-  return cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_load_expand_q(at)));
+  std::int32_t packed = 0;
+  std::memcpy(&packed, at, sizeof packed);
+  const cv::v_uint8x16 bytes = cv::v_reinterpret_as_u8(cv::v_setall_s32(packed));
+  const cv::v_uint32x4 wide = cv::v_expand_low(cv::v_expand_low(bytes));
+  return cv::v_cvt_f32(cv::v_reinterpret_as_s32(wide));
 }
 
 // A square of the image between its pixels, its first sample at `corner`; nothing when not even the
