@@ -91,6 +91,7 @@ EgoMotion TrackerCore::move_camera(const TrackerInput& frame, const ReducedFrame
     motion.homography = frame.predicted_homography;
     source = EgoMotion::kPredicted;
   }
+  scene_lost_ = motion_.homography() && !motion.homography;
   const Eigen::Vector2d change_px_s = motion_.begin_frame(motion, last_.pixel);
   for (Particle& particle : filter_.particles()) particle.velocity_px_s += change_px_s;
   if (velocity_ == Velocity::kEstimated) {  // of a new target there is none to go on
@@ -258,15 +259,14 @@ void TrackerCore::judge(const Scene& scene, double background, double interval_s
   belief_.update(evidence, interval_s);
   // What is new where the scene was known is as good as a mover.
   const bool is_new = evidence.by_subtraction && evidence.foreground > 0.5;
-  const bool cut = scene_unknown() || (!search_ && !motion_.homography());
+  const bool cut = scene_unknown() || (!search_ && scene_lost_);
   const bool told_by_look = cut && belief_.usual(evidence);
-  if (!search_ && velocity_ == Velocity::kEstimated && beyond_reach(last_.pixel, interval_s) &&
-      !told_by_look) {
-    start_search(interval_s);
-  }
+  const bool leapt = !search_ && velocity_ == Velocity::kEstimated &&
+                     beyond_reach(last_.pixel, interval_s) && !told_by_look;
+  if (leapt) start_search(interval_s);
   velocity_ = Velocity::kEstimated;
   const bool elsewhere = !may_be_it(last_) && !is_new && !told_by_look;
-  if (target_.empty() || elsewhere) belief_.doubt();
+  if (target_.empty() || leapt || elsewhere) belief_.doubt();
   if (search_) identity_ = std::min(believed_identity_, identity_of_found(scene, background));
   if (belief_.value() > kSureEnoughForMask) target_.learn_mask(scene, last_.pixel, last_.size_px);
   if (belief_.value() > kSureEnoughToLearn) {

@@ -79,7 +79,8 @@ class TrackerCore : public TargetFollower {
   // is followed now.
   double believed_identity_ = 1.0, identity_ = 1.0;
   std::optional<Search> search_;
-  bool placed_ = false;  // the particles stand in the coming frame already
+  bool placed_ = false;      // the particles stand in the coming frame already
+  bool scene_lost_ = false;  // it was followed up to the frame before: this may be a cut
   Velocity velocity_ = Velocity::kUnknown;
   Label label_;
   Particle last_;                       // best estimate in the newest frame
