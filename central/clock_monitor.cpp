@@ -44,7 +44,7 @@ std::string ClockMonitor::judge(const std::string& name, const Station& station,
   if (station.error_s > limit * config_.error_limit_s && others_are_better(name, time)) {
     return words("its clock is wrong by %.2g s, it says", station.error_s);
   }
-  if (time.delivering().size() < kLeastStationsToCompare) return "";
+  if (time.delivering_count() < kLeastStationsToCompare) return "";
   const double offset_s = common_offset_s(station);
   if (offset_s > limit * config_.offset_limit_s) {
     return words("its stamps are %.2g s ahead of the others'", offset_s);

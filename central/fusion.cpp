@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <tuple>
 
-#include "geometry/angles.h"
+#include "central/alignment.h"
 
 namespace ols {
 namespace {
 
-constexpr std::int64_t kTargetId = 1;
-constexpr double kMemoryS = 1.0;      // bearings kept for alignment
+constexpr double kMemoryS = 1.0;      // exposures kept for the recognition of doubled ones
 constexpr double kForgottenS = 10.0;  // silent for longer: gives its place to any other
 constexpr double kStepBackS = 1.0;    // "now" going back by more is another time line
-constexpr double kAverageGapS = 1.0;  // the moving average starts anew after a gap
+constexpr double kFollowsS = 1.0;     // a station that saw a target longer ago does not see it
 
 double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
 
@@ -22,109 +22,37 @@ bool due(const std::optional<std::int64_t>& last_us, std::int64_t now_us, double
   return !last_us || static_cast<double>(now_us - *last_us) >= 0.9e6 / rate_hz;
 }
 
-bool all_finite(const Sighting& s) {
-  return s.sight.origin_ecef.allFinite() && s.sight.origin_sd_enu_m.allFinite() &&
-         s.sight.covariance_white.allFinite() && s.sight.covariance_systematic.allFinite() &&
-         std::isfinite(s.sight.direction.azimuth_rad) &&
-         std::isfinite(s.sight.direction.elevation_rad) && std::isfinite(s.belief) &&
-         std::isfinite(s.clock_sd_s);
-}
-
-bool in_range(const Sighting& s) {
-  constexpr double kDeepestM = 6.3e6, kHighestM = 7.0e6;  // from the Earth's centre
-  constexpr double kGreatestClockSdS = 1e4, kGreatestOriginSdM = 1e6;
-  const double from_centre_m = s.sight.origin_ecef.norm();
-  const AzimuthElevation& d = s.sight.direction;
-  return !s.station.empty() && s.utime_us > 0 && d.azimuth_rad >= 0.0 &&
-         d.azimuth_rad <= 2.0 * kPi && std::abs(d.elevation_rad) <= kPi / 2.0 && s.belief >= 0.0 &&
-         s.belief <= 1.0 && s.clock_sd_s >= 0.0 && s.clock_sd_s <= kGreatestClockSdS &&
-         from_centre_m > kDeepestM && from_centre_m < kHighestM &&
-         s.sight.origin_sd_enu_m.minCoeff() >= 0.0 &&
-         s.sight.origin_sd_enu_m.maxCoeff() <= kGreatestOriginSdM;
-}
-
-// Determinant; an asymmetric matrix counts with the worse of its two off-diagonal elements.
-double determinant(const Eigen::Matrix2d& m) {
-  const double off = std::max(std::abs(m(0, 1)), std::abs(m(1, 0)));
-  return m(0, 0) * m(1, 1) - off * off;
-}
-
-bool variances_within(const Eigen::Matrix2d& m, double least_rad2) {
-  constexpr double kGreatestRad2 = 10.0;  // about (180 deg)^2: nothing is known
-  return m.diagonal().minCoeff() >= least_rad2 && m.diagonal().maxCoeff() <= kGreatestRad2;
-}
-
-// The bounds are far beyond any camera's; outside of them one bearing would upset the arithmetic
-// of the whole fit.
-bool covariances_hold(const SightLine& sight) {
-  constexpr double kLeastWhiteRad2 = 1e-18;
-  constexpr double kWorstCondition = 1e8;  // of the white one: greatest eigenvalue over least
-  const Eigen::Matrix2d& white = sight.covariance_white;
-  const Eigen::Matrix2d& stays = sight.covariance_systematic;
-  const double slack = 1e-9 * stays(0, 0) * stays(1, 1);  // rounding of a singular one
-  return variances_within(white, kLeastWhiteRad2) && variances_within(stays, 0.0) &&
-         determinant(white) >= white.trace() * white.trace() / kWorstCondition &&
-         determinant(stays) >= -slack;
-}
-
-FusedTarget target_of(std::int64_t epoch_us, const char* estimator, const std::vector<Ray>& rays,
-                      Estimate estimate) {
+FusedTarget target_of(std::int64_t epoch_us, const Track& track, const char* estimator,
+                      Located located) {
   FusedTarget target;
   target.utime_us = epoch_us;
-  target.target_id = kTargetId;
+  target.target_id = track.id;
+  target.state = track.state;
   target.estimator = estimator;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    target.stations.push_back(
-        {rays[i].station, estimate.rays[i].used, estimate.rays[i].weight, rays[i].age_s});
-  }
-  target.estimate = std::move(estimate);
+  target.estimate = std::move(located.estimate);
+  target.stations = std::move(located.stations);
   return target;
+}
+
+bool is_sure(const Track& track) {
+  return track.state == TrackState::kConfirmed || track.state == TrackState::kCoasted;
 }
 
 }  // namespace
 
-const char* to_string(SightingRefusal refusal) {
-  switch (refusal) {
-    case SightingRefusal::kNone:
-      return "none";
-    case SightingRefusal::kNotFinite:
-      return "refused_not_finite";
-    case SightingRefusal::kOutOfRange:
-      return "refused_out_of_range";
-    case SightingRefusal::kCovariance:
-      return "refused_covariance";
-    case SightingRefusal::kStale:
-      return "refused_stale";
-    case SightingRefusal::kFuture:
-      return "refused_future";
-    case SightingRefusal::kDuplicate:
-      return "refused_duplicate";
-    case SightingRefusal::kQuarantine:
-      return "refused_quarantine";
-    case SightingRefusal::kTooMany:
-      return "refused_too_many_stations";
-    case SightingRefusal::kLowBelief:
-      return "unused_low_belief";
-  }
-  return "unknown";
-}
-
-SightingRefusal check(const Sighting& sighting) {
-  if (!all_finite(sighting)) return SightingRefusal::kNotFinite;
-  if (!in_range(sighting)) return SightingRefusal::kOutOfRange;
-  if (!covariances_hold(sighting.sight)) return SightingRefusal::kCovariance;
-  return SightingRefusal::kNone;
-}
-
 Fusion::Fusion(const FusionConfig& config)
     : config_(config),
-      time_(config.alignment.max_age_s),
-      monitor_(config.residuals),
+      time_(config.silence_s),
       clocks_(config.clocks),
-      average_(config.paper_average) {
-  for (const char* name : {"bearings", "targets", "targets_without_position", "rays_set_aside",
-                           "slews", "clock_stepped_back", "time_stepped_back", "stations_evicted",
-                           "stations_quarantined", "calibrations_changed"}) {
+      pointing_(config.pointing),
+      tracker_(config.tracker),
+      planner_(config.slew) {
+  if (!make_estimator(config.estimator, config.estimators)) {
+    throw std::invalid_argument("there is no estimator " + config.estimator);
+  }
+  for (const char* name :
+       {"bearings", "targets", "targets_without_position", "slews", "clock_stepped_back",
+        "time_stepped_back", "stations_evicted", "stations_quarantined", "calibrations_changed"}) {
     counters_[name] = 0.0;
   }
   for (int i = 1; i <= static_cast<int>(SightingRefusal::kLowBelief); ++i) {
@@ -132,7 +60,7 @@ Fusion::Fusion(const FusionConfig& config)
   }
 }
 
-void Fusion::know_station(const std::string& station, const Eigen::Vector3d& camera_ecef) {
+void Fusion::know_station(const std::string& station, const StationTraits& traits) {
   if (full(station)) {
     const auto longest = longest_silent();
     const bool delivers = longest->second.delivered && time_.silent_s(longest->first) < kForgottenS;
@@ -140,9 +68,11 @@ void Fusion::know_station(const std::string& station, const Eigen::Vector3d& cam
     evict(longest);
   }
   Station& known = stations_[station];
-  if (known.delivered) return;
-  known.camera_ecef = camera_ecef;
-  known.heard = ++messages_;
+  const Eigen::Vector3d camera_ecef = known.traits.camera_ecef;
+  known.traits = traits;
+  // Its bearings tell better where the camera is.
+  if (known.delivered) known.traits.camera_ecef = camera_ecef;
+  if (!known.delivered) known.heard = ++messages_;
 }
 
 FusionOutput Fusion::add(const Sighting& sighting) {
@@ -189,7 +119,9 @@ void Fusion::evict(std::map<std::string, Station>::iterator station) {
   last_error_ = "station " + station->first + ": forgotten, too many stations";
   time_.forget(station->first);
   clocks_.forget(station->first);
-  monitor_.forget(station->first);
+  pointing_.forget(station->first);
+  tracker_.forget_station(station->first);
+  planner_.forget(station->first);
   stations_.erase(station);
 }
 
@@ -198,25 +130,26 @@ SightingRefusal Fusion::admit(const Sighting& sighting) {
   if (broken != SightingRefusal::kNone) return broken;
   if (!make_room(sighting.station)) return SightingRefusal::kTooMany;
   Station& station = stations_[sighting.station];
-  if (!station.delivered) station.camera_ecef = sighting.sight.origin_ecef;
+  if (!station.delivered) station.traits.camera_ecef = sighting.sight.origin_ecef;
   station.delivered = true;
   station.heard = ++messages_;
   if (time_.hear(sighting.station, sighting.utime_us)) {
-    station.sightings.clear();
+    station.lately.clear();
     ++counters_["clock_stepped_back"];
     if (clocks_.quarantine(sighting.station).empty()) {
       last_error_ = "station " + sighting.station + ": its clock has stepped back";
     }
   }
   if (!clock_is_believed(sighting)) {
-    station.sightings.clear();
+    station.lately.clear();
     return SightingRefusal::kQuarantine;
   }
   const double ahead_s = seconds(sighting.utime_us - now_us());
   if (ahead_s > config_.future_s) return SightingRefusal::kFuture;
   if (ahead_s < -config_.stale_s) return SightingRefusal::kStale;
   if (sighting.belief < config_.min_belief) return SightingRefusal::kLowBelief;
-  return store(sighting);
+  const SightingRefusal doubled = store(sighting);
+  return doubled == SightingRefusal::kNone ? associate(sighting) : doubled;
 }
 
 bool Fusion::clock_is_believed(const Sighting& sighting) {
@@ -233,33 +166,63 @@ bool Fusion::clock_is_believed(const Sighting& sighting) {
 
 SightingRefusal Fusion::store(const Sighting& sighting) {
   Station& station = stations_[sighting.station];
-  auto& kept = station.sightings;
-  if (!kept.empty() && kept.back().calibration_id != sighting.calibration_id) {
-    if (sighting.utime_us <= kept.back().utime_us) return SightingRefusal::kStale;
-    kept.clear();
-    monitor_.forget(sighting.station);
+  auto& lately = station.lately;
+  const auto same_time =
+      std::ranges::equal_range(lately, sighting.utime_us, {}, &Exposure::utime_us);
+  for (const Exposure& e : same_time) {
+    const AzimuthElevation& d = sighting.sight.direction;
+    const bool same_way =
+        e.direction.azimuth_rad == d.azimuth_rad && e.direction.elevation_rad == d.elevation_rad;
+    const bool same_object = sighting.track_id != 0 && e.track_id == sighting.track_id;
+    if (same_way || same_object) return SightingRefusal::kDuplicate;
+  }
+  if (static_cast<double>(lately.size()) >= config_.flood_hz * kMemoryS) {
+    return SightingRefusal::kFlood;
+  }
+  lately.insert(same_time.end(), {sighting.utime_us, sighting.sight.direction, sighting.track_id});
+  const std::int64_t newest_us = lately.back().utime_us;
+  const auto first = std::ranges::lower_bound(
+      lately, newest_us - static_cast<std::int64_t>(kMemoryS * 1e6), {}, &Exposure::utime_us);
+  lately.erase(lately.begin(), first);
+  const double span_s = seconds(lately.back().utime_us - lately.front().utime_us);
+  station.rate_hz = span_s > 0.0 ? static_cast<double>(lately.size() - 1) / span_s : 0.0;
+  station.traits.camera_ecef = sighting.sight.origin_ecef;
+  if (station.bearings > 0 && station.calibration_id != sighting.calibration_id) {
+    tracker_.errors().forget(sighting.station);
+    pointing_.forget(sighting.station);
     ++counters_["calibrations_changed"];
   }
-  if (!kept.empty() && kept.back().track_id != sighting.track_id) {
-    // A late one of the track before must not end the new track.
-    if (sighting.utime_us <= kept.back().utime_us) return SightingRefusal::kStale;
-    kept.clear();
-  }
-  const auto place = std::ranges::lower_bound(kept, sighting.utime_us, {}, &Sighting::utime_us);
-  if (place != kept.end() && place->utime_us == sighting.utime_us) {
-    return SightingRefusal::kDuplicate;
-  }
-  kept.insert(place, sighting);
-  const std::int64_t newest_us = kept.back().utime_us;
-  std::erase_if(kept, [newest_us](const Sighting& old) {
-    return seconds(newest_us - old.utime_us) > kMemoryS;
-  });
-  const double span_s = seconds(kept.back().utime_us - kept.front().utime_us);
-  station.rate_hz = span_s > 0.0 ? static_cast<double>(kept.size() - 1) / span_s : 0.0;
-  station.camera_ecef = kept.back().sight.origin_ecef;
+  station.calibration_id = sighting.calibration_id;
   ++station.bearings;
   ++counters_["bearings"];
   return SightingRefusal::kNone;
+}
+
+// To the track that it belongs to. What a wrong pose shows is told to its monitor.
+SightingRefusal Fusion::associate(const Sighting& sighting) {
+  Sighting judged = sighting;
+  judged.clock_sd_s = std::hypot(sighting.clock_sd_s, clocks_.added_sd_s(sighting.station));
+  const bool believed = pointing_.quarantine(sighting.station).empty();
+  const Association result = tracker_.add(judged, believed);
+  const bool explained = result.kind == Association::Kind::kTrack;
+  Station& station = stations_[sighting.station];
+  if (explained && result.track_id != 0) {
+    station.follows = result.track_id;
+    station.followed_us = sighting.utime_us;
+  }
+  if (result.kind == Association::Kind::kAmbiguous) return SightingRefusal::kNone;
+  std::optional<Eigen::Vector2d> off_rad;
+  if (!explained) {
+    const auto nearest = tracker_.nearest(sighting);
+    if (nearest) off_rad = nearest->off_rad;
+  }
+  pointing_.hear(sighting.station, sighting.utime_us, explained, off_rad);
+  const std::string why = pointing_.quarantine(sighting.station);
+  if (believed && !why.empty()) {
+    ++counters_["stations_quarantined"];
+    last_error_ = "station " + sighting.station + ": quarantined, " + why;
+  }
+  return explained || why.empty() ? SightingRefusal::kNone : SightingRefusal::kQuarantine;
 }
 
 void Fusion::refuse(SightingRefusal refusal, const Sighting& sighting) {
@@ -274,77 +237,172 @@ void Fusion::notice_step_back() {
   last_error_ = "time has stepped back: another replay, or most stations' clocks";
   last_epoch_us_.reset();
   last_slew_us_.reset();
-  last_average_us_.reset();
-  last_target_.reset();
-  monitor_ = ResidualMonitor(config_.residuals);
+  objects_.clear();
+  tracker_.clear();
+  planner_.clear();
   clocks_.clear();
-  for (const auto& [name, station] : stations_) time_.trust(name, true);
-}
-
-std::vector<Ray> Fusion::rays_at(std::int64_t epoch_us) const {
-  std::vector<Ray> rays;
-  const bool located = last_target_ && seconds(epoch_us - last_target_->utime_us) < kMemoryS;
-  for (const auto& [name, station] : stations_) {
-    std::optional<double> range_m;
-    if (located) {
-      range_m = (last_target_->estimate.position_ecef - station.camera_ecef).norm();
-    }
-    auto ray = align(station.sightings, epoch_us, range_m, config_.alignment);
-    if (!ray) continue;
-    ray->clock_sd_s = std::hypot(ray->clock_sd_s, clocks_.added_sd_s(name));
-    monitor_.inflate(*ray);
-    rays.push_back(std::move(*ray));
+  pointing_.clear();
+  for (auto& [name, station] : stations_) {
+    time_.trust(name, true);
+    station.follows = 0;
   }
-  return rays;
 }
 
 void Fusion::locate(std::int64_t epoch_us, FusionOutput& output) {
   last_epoch_us_ = epoch_us;
-  const std::vector<Ray> rays = rays_at(epoch_us);
-  Estimate joint = least_squares(rays, config_.least_squares);
-  const bool located = joint.solution == Solution::kOk;
-  if (located) {
-    estimate_velocity(rays, joint);
-    monitor_.observe(rays, joint, epoch_us);
-    for (const RayUse& use : joint.rays) counters_["rays_set_aside"] += use.used ? 0.0 : 1.0;
+  tracker_.advance(epoch_us);
+  std::erase_if(objects_, [&](const auto& object) {
+    return std::ranges::none_of(tracker_.tracks(),
+                                [&](const Track& t) { return t.id == object.first; });
+  });
+  for (const Track& track : tracker_.tracks()) {
+    if (is_sure(track)) locate(track, epoch_us, output);
   }
-  ++counters_[located ? "targets" : "targets_without_position"];
-  output.target = target_of(epoch_us, "least-squares", rays, std::move(joint));
-  if (located) last_target_ = output.target;
+  std::ranges::sort(output.targets, {}, &FusedTarget::target_id);
+  std::ranges::sort(output.targets_paper, {}, &FusedTarget::target_id);
+  if (output.targets.empty()) tell_without(epoch_us, output);
+  for (const FusedTarget& target : output.targets) {
+    const bool located = target.estimate.solution == Solution::kOk;
+    ++counters_[located ? "targets" : "targets_without_position"];
+  }
+}
 
-  Estimate paper = paper_estimate(paper_n_view, rays, config_.paper);
-  if (paper.solution == Solution::kOk) {
-    if (!last_average_us_ || seconds(epoch_us - *last_average_us_) > kAverageGapS) {
-      average_.reset();
-    }
-    last_average_us_ = epoch_us;
-    paper = average_.add(paper);
+void Fusion::locate(const Track& track, std::int64_t epoch_us, FusionOutput& output) {
+  Object& object = objects_[track.id];
+  if (!object.main) {
+    object.main = make_estimator(config_.estimator, config_.estimators);
+    object.paper = make_estimator("paper", config_.estimators);
   }
-  output.target_paper = target_of(epoch_us, "paper", rays, std::move(paper));
+  const TrackView view{track.bearings, tracker_.errors(), &track.filter};
+  output.targets.push_back(
+      target_of(epoch_us, track, object.main->name(), object.main->locate(view, epoch_us)));
+  if (static_cast<int>(output.targets_paper.size()) >= config_.paper_targets) return;
+  output.targets_paper.push_back(
+      target_of(epoch_us, track, object.paper->name(), object.paper->locate(view, epoch_us)));
+}
+
+// No object: why, or the bearings that there are.
+void Fusion::tell_without(std::int64_t epoch_us, FusionOutput& output) {
+  FusedTarget target;
+  target.utime_us = epoch_us;
+  target.estimator = config_.estimator;
+  const std::vector<BearingOnly> only = bearings_only(epoch_us);
+  target.estimate.solution =
+      only.size() > 1 ? tracker_.births().last_failure() : Solution::kTooFewRays;
+  for (const BearingOnly& bearing : only) {
+    target.stations.push_back({bearing.station, true, 1.0, 0.0});
+  }
+  if (only.size() == 1) {
+    target.estimate.solution = Solution::kBearingOnly;
+    target.bearing_only = only.front();
+  }
+  output.targets.push_back(std::move(target));
+}
+
+// Of stations that follow an object which no track explains.
+std::vector<BearingOnly> Fusion::bearings_only(std::int64_t epoch_us) const {
+  std::vector<BearingOnly> found;
+  for (const auto& [name, pool] : tracker_.births().pool()) {
+    if (pool.empty() || !pointing_.quarantine(name).empty()) continue;
+    std::vector<Sighting> own;
+    for (const Sighting& s : pool) {
+      if (s.track_id == pool.back().track_id) own.push_back(s);
+    }
+    const auto ray = align(own, epoch_us, std::nullopt, config_.estimators.alignment);
+    if (ray) found.push_back({name, own.back().track_id, ray->sight, ray->rate_rad_s});
+  }
+  return found;
 }
 
 void Fusion::plan(std::int64_t now, FusionOutput& output) {
-  if (!last_target_ || seconds(now - last_target_->utime_us) > config_.slew.coast_s) return;
   last_slew_us_ = now;
+  std::vector<SlewStation> stations;
   for (const auto& [name, station] : stations_) {
-    Slew slew = plan_slew(last_target_->estimate, last_target_->utime_us, now, station.camera_ecef,
-                          config_.slew);
-    slew.station = name;
-    slew.target_id = last_target_->target_id;
-    output.slews.push_back(std::move(slew));
-    ++counters_["slews"];
+    const bool sees = seconds(now - station.followed_us) < kFollowsS;
+    stations.push_back({name, station.traits, sees ? station.follows : 0});
   }
+  std::vector<CueRay> rays;
+  for (const BearingOnly& only : bearings_only(now)) {
+    if (only.track_id == 0) continue;  // one of many detections, not an object that it follows
+    rays.push_back({only.station, only.sight.origin_ecef, direction_ecef(only.sight)});
+  }
+  output.slews = planner_.plan(now, stations, tracker_.tracks(), rays);
+  counters_["slews"] += static_cast<double>(output.slews.size());
 }
+
+std::map<std::string, double> Fusion::counters() const {
+  auto counters = counters_;
+  const TargetTracker::Counts& counts = tracker_.counts();
+  counters["tracks_born"] = static_cast<double>(counts.born);
+  counters["tracks_confirmed"] = static_cast<double>(counts.confirmed);
+  counters["tracks_dropped"] = static_cast<double>(counts.dropped);
+  counters["bearings_ambiguous"] = static_cast<double>(counts.ambiguous);
+  counters["bearings_set_aside"] = static_cast<double>(counts.set_aside);
+  counters["bearings_unexplained"] = static_cast<double>(counts.unexplained);
+  return counters;
+}
+
+namespace {
+
+// Seen by the geometry: known twice as well as before the first bearing.
+constexpr double kSeen = 0.5;
+
+StationFinding finding_of(const StationBias& bias) {
+  StationFinding finding;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double variance = bias.covariance_rad2(axis, axis);
+    if (!(variance < kSeen * kSeen * bias.prior_rad2(axis, axis))) continue;
+    finding.bias_rad(axis) = bias.bias_rad(axis);
+    finding.bias_sd_rad(axis) = std::sqrt(variance);
+  }
+  if (bias.clock_sd_s < kSeen * bias.clock_prior_sd_s) {
+    finding.clock_s = bias.clock_s;
+    finding.clock_sd_s = bias.clock_sd_s;
+  }
+  return finding;
+}
+
+struct Findings {
+  std::map<std::string, StationFinding> by_station;
+  std::map<std::string, double> nis;
+};
+
+Findings findings_of(const std::vector<Track>& tracks) {
+  Findings all;
+  for (const Track& track : tracks) {
+    if (!is_sure(track)) continue;
+    const auto& stations = track.filter.stations();
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+      if (stations[i].utime_us == 0) continue;
+      all.by_station.try_emplace(stations[i].station, finding_of(track.filter.bias(i)));
+      all.nis.try_emplace(stations[i].station, stations[i].mean_nis);
+    }
+  }
+  return all;
+}
+
+}  // namespace
 
 FusionHealth Fusion::health() const {
   FusionHealth health{
-      .now_us = now_us(), .stations = {}, .counters = counters_, .last_error = last_error_};
+      .now_us = now_us(), .stations = {}, .counters = counters(), .last_error = last_error_};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Findings findings = findings_of(tracker_.tracks());
   for (const auto& [name, station] : stations_) {
     const std::int64_t newest = time_.newest_us(name);
-    const double age_s =
-        newest == 0 ? std::numeric_limits<double>::quiet_NaN() : seconds(health.now_us - newest);
-    health.stations.push_back({name, station.bearings, station.rate_hz, age_s, monitor_.rms(name),
-                               clocks_.offset_s(name), clocks_.quarantine(name)});
+    StationHealth one;
+    one.station = name;
+    one.bearings = station.bearings;
+    one.rate_hz = station.rate_hz;
+    one.age_s = newest == 0 ? nan : seconds(health.now_us - newest);
+    const auto nis = findings.nis.find(name);
+    one.residual = nis == findings.nis.end() ? nan : std::sqrt(nis->second / 2.0);
+    one.clock_offset_s = clocks_.offset_s(name);
+    one.quarantine = clocks_.quarantine(name);
+    if (one.quarantine.empty()) one.quarantine = pointing_.quarantine(name);
+    const auto found = findings.by_station.find(name);
+    if (found != findings.by_station.end()) one.finding = found->second;
+    health.stations.push_back(std::move(one));
   }
   return health;
 }

@@ -4,76 +4,74 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "central/alignment.h"
 #include "central/clock_monitor.h"
-#include "central/least_squares.h"
+#include "central/estimator.h"
 #include "central/message_time.h"
-#include "central/paper_triangulation.h"
-#include "central/residual_monitor.h"
-#include "central/sighting.h"
+#include "central/pointing_monitor.h"
+#include "central/sighting_check.h"
 #include "central/slew_planner.h"
+#include "central/target_tracker.h"
 
 namespace ols {
 
 struct FusionConfig {
-  double rate_hz = 15.0;    // targets a second, at most
-  double min_belief = 0.5;  // bearings believed less are not used
-  double stale_s = 1.0;     // older than "now" by more is refused
-  double future_s = 0.5;    // newer than "now" by more is refused
-  int paper_average = 10;   // h of the paper's moving average
-  int max_stations = 64;    // one more takes the place of the one that is silent longest; never of
-                            // one that has delivered and still does
-  AlignmentConfig alignment{};
-  LeastSquaresConfig least_squares{};
-  PaperConfig paper{};
-  ResidualConfig residuals{};
+  std::string estimator = "filter";  // of the targets; a name of make_estimator()
+  double rate_hz = 15.0;             // targets a second, at most, of each object
+  double min_belief = 0.5;           // bearings believed less are not used
+  double stale_s = 1.0;              // older than "now" by more is refused
+  double future_s = 0.5;             // newer than "now" by more is refused
+  double flood_hz = 1000.0;          // more bearings of one station are refused
+  int paper_targets = 8;             // the paper's estimate is made of the first so many: it costs
+                                     // the square of a target's stations
+  int max_stations = 1024;           // one more takes the place of the one that is silent longest;
+                                     // never of one that has delivered and still does
+  double silence_s = 0.3;            // who is silent for longer does not count for "now"
+  EstimatorConfig estimators{};
+  TrackerConfig tracker{};
   SlewConfig slew{};
   ClockMonitorConfig clocks{};
+  PointingConfig pointing{};
 };
 
-// Why a bearing was not used; to_string() is the name of its counter.
-enum class SightingRefusal {
-  kNone,
-  kNotFinite,
-  kOutOfRange,
-  kCovariance,  // out of range, or white not well conditioned, or systematic not semidefinite
-  kStale,
-  kFuture,
-  kDuplicate,
-  kQuarantine,  // the station's clock cannot be believed
-  kTooMany,     // more stations than there are places
-  kLowBelief,
-};
-const char* to_string(SightingRefusal refusal);
-
-// What can be judged of a bearing by itself.
-SightingRefusal check(const Sighting& sighting);
-
-struct ContributingStation {
+// A station that has a target in view which no other one sees: where it is known to lie.
+struct BearingOnly {
   std::string station;
-  bool used = false;
-  double weight = 0.0;
-  double age_s = 0.0;
+  std::int64_t track_id = 0;  // the station's own
+  SightLine sight;            // at the epoch
+  Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();
 };
 
 struct FusedTarget {
-  std::int64_t utime_us = 0;  // the epoch
-  std::int64_t target_id = 0;
-  std::string estimator;  // "least-squares" or "paper"
+  std::int64_t utime_us = 0;   // the epoch
+  std::int64_t target_id = 0;  // 0: no object yet
+  TrackState state = TrackState::kBorn;
+  std::string estimator;  // its name
   Estimate estimate;
   std::vector<ContributingStation> stations;  // in the order of their ids
+  std::optional<BearingOnly> bearing_only;    // instead of a position
 };
 
 struct FusionOutput {
   SightingRefusal refusal = SightingRefusal::kNone;  // what became of the bearing
-  std::optional<FusedTarget> target;                 // joint least squares
-  std::optional<FusedTarget> target_paper;  // Algorithm 1 and moving average, the same epoch
+  // Of one epoch: each confirmed object; where there is none, what there is in place of it.
+  std::vector<FusedTarget> targets;
+  std::vector<FusedTarget> targets_paper;  // the paper's estimate of the same objects
   std::vector<Slew> slews;
+};
+
+// A station's bias and clock as the filter has them; NaN where the geometry does not show them.
+struct StationFinding {
+  Eigen::Vector2d bias_rad = nan_vector().head<2>();  // cross-elevation, elevation
+  Eigen::Vector2d bias_sd_rad = nan_vector().head<2>();
+  double clock_s = std::numeric_limits<double>::quiet_NaN();
+  double clock_sd_s = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct StationHealth {
@@ -83,7 +81,8 @@ struct StationHealth {
   double age_s = 0.0;           // "now" minus its newest stamp
   double residual = 0.0;        // lately, RMS normalised; NaN if none
   double clock_offset_s = 0.0;  // of its stamps from the median; NaN if none
-  std::string quarantine;       // why it is not used; empty: it is
+  std::string quarantine{};     // why it is not used; empty: it is
+  StationFinding finding{};
 };
 
 struct FusionHealth {
@@ -95,24 +94,37 @@ struct FusionHealth {
 
 class Fusion {
  public:
+  // std::invalid_argument for an unknown estimator.
   explicit Fusion(const FusionConfig& config);
 
-  // A station that has sent no bearing yet, from its status: so that it can be slewed.
-  void know_station(const std::string& station, const Eigen::Vector3d& camera_ecef);
+  // What a station's status tells: so that it can be slewed before its first bearing.
+  void know_station(const std::string& station, const StationTraits& traits);
   // One bearing, in order of arrival.
   FusionOutput add(const Sighting& sighting);
 
   FusionHealth health() const;
   std::int64_t now_us() const { return time_.now_us(); }
+  const TargetTracker& tracker() const { return tracker_; }
 
  private:
+  struct Exposure {
+    std::int64_t utime_us = 0;
+    AzimuthElevation direction;
+    std::int64_t track_id = 0;
+  };
   struct Station {
-    Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
-    std::vector<Sighting> sightings;  // by utime
+    StationTraits traits;
+    std::vector<Exposure> lately;  // by utime, of a second
     std::int64_t bearings = 0;
     double rate_hz = 0.0;
     bool delivered = false;  // a bearing, if only one that was refused
     std::int64_t heard = 0;  // messages_ at its last message
+    std::int64_t calibration_id = 0;
+    std::int64_t follows = 0;  // the target that it saw last
+    std::int64_t followed_us = 0;
+  };
+  struct Object {
+    std::unique_ptr<Estimator> main, paper;
   };
 
   bool full(const std::string& station) const;
@@ -123,25 +135,29 @@ class Fusion {
   SightingRefusal admit(const Sighting& sighting);
   bool clock_is_believed(const Sighting& sighting);
   SightingRefusal store(const Sighting& sighting);
+  SightingRefusal associate(const Sighting& sighting);
   void refuse(SightingRefusal refusal, const Sighting& sighting);
   void notice_step_back();
-  std::vector<Ray> rays_at(std::int64_t epoch_us) const;
   void locate(std::int64_t epoch_us, FusionOutput& output);
+  void locate(const Track& track, std::int64_t epoch_us, FusionOutput& output);
+  void tell_without(std::int64_t epoch_us, FusionOutput& output);
+  std::vector<BearingOnly> bearings_only(std::int64_t epoch_us) const;
   void plan(std::int64_t now_us, FusionOutput& output);
+  std::map<std::string, double> counters() const;
 
   FusionConfig config_;
   MessageTime time_;
-  ResidualMonitor monitor_;
   ClockMonitor clocks_;
-  MovingAverage average_;
+  PointingMonitor pointing_;
+  TargetTracker tracker_;
+  SlewPlanner planner_;
+  std::map<std::int64_t, Object> objects_;  // by target id
   std::map<std::string, Station> stations_;
   std::int64_t messages_ = 0;
   std::map<std::string, double> counters_;
   std::string last_error_;
   std::optional<std::int64_t> last_epoch_us_;
   std::optional<std::int64_t> last_slew_us_;
-  std::optional<std::int64_t> last_average_us_;
-  std::optional<FusedTarget> last_target_;  // the last one with a position
 };
 
 }  // namespace ols

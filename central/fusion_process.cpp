@@ -124,7 +124,7 @@ void FusionProcess::on_status(const std::string& channel, const void* data, int 
     return refuse(*refusal, channel);
   }
   const auto& place = std::get<StationPlace>(decoded);
-  fusion_.know_station(place.station, place.position_ecef);
+  fusion_.know_station(place.station, place.traits);
 }
 
 void FusionProcess::refuse(MessageRefusal refusal, const std::string& channel) {
@@ -150,13 +150,13 @@ void FusionProcess::forget_sequences() {
 }
 
 void FusionProcess::publish(const FusionOutput& output) {
-  if (output.target) {
-    send(kTargetChannel, to_message(*output.target, next_stamp(kTargetChannel)));
-    latencies_s_.push_back(static_cast<double>(clock_utime_us() - output.target->utime_us) * 1e-6);
+  for (const FusedTarget& target : output.targets) {
+    send(kTargetChannel, to_message(target, next_stamp(kTargetChannel)));
+    latencies_s_.push_back(static_cast<double>(clock_utime_us() - target.utime_us) * 1e-6);
     if (latencies_s_.size() > kLatencies) latencies_s_.pop_front();
   }
-  if (output.target_paper) {
-    send(kPaperTargetChannel, to_message(*output.target_paper, next_stamp(kPaperTargetChannel)));
+  for (const FusedTarget& target : output.targets_paper) {
+    send(kPaperTargetChannel, to_message(target, next_stamp(kPaperTargetChannel)));
   }
   publish_slews(output.slews);
 }

@@ -22,13 +22,43 @@ void read_least_squares(ConfigTable& table, LeastSquaresConfig& config) {
   config.max_range_m = table.number("max_range_m", config.max_range_m, 1.0, 1e7);
 }
 
-void read_residuals(ConfigTable& table, ResidualConfig& config) {
-  config.memory_s = table.number("memory_s", config.memory_s, 0.1, 1e5);
-  config.independence_s = table.number("independence_s", config.independence_s, 1e-3, 1e4);
-  config.common_weight = table.number("common_weight", config.common_weight, 0.0, 1e6);
-  config.prior_weight = table.number("prior_weight", config.prior_weight, 0.1, 1e6);
-  config.systematic_margin = table.number("systematic_margin", config.systematic_margin, 1.0, 1e6);
-  config.clip = table.number("clip", config.clip, 1.0, 1e6);
+void read_paper(ConfigTable& table, PaperConfig& config) {
+  const std::string pairs =
+      table.choice("pairs", "algorithm-1", {"algorithm-1", "centroid", "best-baseline"});
+  if (pairs == "centroid") config.pairs = PaperPairs::kCentroid;
+  if (pairs == "best-baseline") config.pairs = PaperPairs::kBestBaseline;
+  config.by_belief = table.boolean("by_belief", config.by_belief);
+  config.moving_average =
+      static_cast<int>(table.integer("moving_average", config.moving_average, 1, 1000));
+}
+
+void read_motion(ConfigTable& table, MotionConfig& config) {
+  config.acceleration_sd_m_s2 =
+      table.number("acceleration_sd_m_s2", config.acceleration_sd_m_s2, 1e-3, 1e4);
+  config.acceleration_per_speed_s =
+      table.number("acceleration_per_speed_s", config.acceleration_per_speed_s, 0.0, 10.0);
+  config.acceleration_time_s =
+      table.number("acceleration_time_s", config.acceleration_time_s, 0.01, 100.0);
+  config.cruise_sd_m_s2 = table.number("cruise_sd_m_s2", config.cruise_sd_m_s2, 1e-6, 1e4);
+  config.cruise_per_speed_s =
+      table.number("cruise_per_speed_s", config.cruise_per_speed_s, 0.0, 10.0);
+}
+
+void read_station_errors(ConfigTable& table, StationErrorsConfig& config) {
+  config.stated_time_s = table.number("stated_time_s", config.stated_time_s, 0.1, 1e6);
+  config.untold_time_s = table.number("untold_time_s", config.untold_time_s, 0.1, 1e6);
+  config.memory_s = table.number("memory_s", config.memory_s, 0.1, 1e6);
+  config.untold_over_noise =
+      table.number("untold_over_noise", config.untold_over_noise, 0.0, 100.0);
+}
+
+void read_tracks(ConfigTable& table, TrackerConfig& config) {
+  config.max_tracks = static_cast<int>(table.integer("max_tracks", config.max_tracks, 1, 10000));
+  config.confirm_stations =
+      static_cast<int>(table.integer("confirm_stations", config.confirm_stations, 2, 100));
+  config.confirm_s = table.number("confirm_s", config.confirm_s, 0.0, 60.0);
+  config.coast_s = table.number("coast_s", config.coast_s, 0.05, 60.0);
+  config.drop_s = table.number("drop_s", config.drop_s, 0.05, 600.0);
 }
 
 void read_clocks(ConfigTable& table, ClockMonitorConfig& config) {
@@ -40,11 +70,10 @@ void read_clocks(ConfigTable& table, ClockMonitorConfig& config) {
 
 void read_slew(ConfigTable& table, SlewConfig& config) {
   config.rate_hz = table.number("rate_hz", config.rate_hz, 0.1, 100.0);
-  config.lead_s = table.number("lead_s", config.lead_s, 0.0, 5.0);
+  config.act_s = table.number("act_s", config.act_s, 0.0, 5.0);
   config.lease_s = table.number("lease_s", config.lease_s, 0.05, 5.0);
   config.coast_s = table.number("coast_s", config.coast_s, 0.0, 60.0);
-  config.acceleration_sd_m_s2 =
-      table.number("acceleration_sd_m_s2", config.acceleration_sd_m_s2, 1e-3, 1e4);
+  config.rate_limit_rad_s = table.number("rate_limit_rad_s", config.rate_limit_rad_s, 0.01, 10.0);
 }
 
 }  // namespace
@@ -63,11 +92,17 @@ FusionSettings load_fusion_settings(const std::string& path) {
   fusion.min_belief = root.number("min_belief", fusion.min_belief, 0.0, 1.0);
   fusion.stale_s = root.number("stale_s", fusion.stale_s, 0.01, 60.0);
   fusion.future_s = root.number("future_s", fusion.future_s, 0.01, 60.0);
-  fusion.paper_average =
-      static_cast<int>(root.integer("paper_average", fusion.paper_average, 1, 1000));
-  read_alignment(root.table("alignment"), fusion.alignment);
-  read_least_squares(root.table("least_squares"), fusion.least_squares);
-  read_residuals(root.table("residuals"), fusion.residuals);
+  fusion.flood_hz = root.number("flood_hz", fusion.flood_hz, 1.0, 1e6);
+  fusion.max_stations =
+      static_cast<int>(root.integer("max_stations", fusion.max_stations, 2, 100000));
+  fusion.estimator =
+      root.choice("estimator", fusion.estimator, {"filter", "least-squares", "paper"});
+  read_alignment(root.table("alignment"), fusion.estimators.alignment);
+  read_least_squares(root.table("least_squares"), fusion.estimators.least_squares);
+  read_paper(root.table("paper"), fusion.estimators.paper);
+  read_motion(root.table("motion"), fusion.tracker.filter.motion);
+  read_station_errors(root.table("station_errors"), fusion.tracker.errors);
+  read_tracks(root.table("tracks"), fusion.tracker);
   read_slew(root.table("slew"), fusion.slew);
   read_clocks(root.table("clocks"), fusion.clocks);
   file.finish();

@@ -34,6 +34,7 @@ bool MessageTime::hear(const std::string& name, std::int64_t utime_us) {
   const bool stepped_back = station.older >= kStampsForStepBack;
   if (stepped_back) station.older = 0;
   if (stepped_back || utime_us > station.newest_us) station.newest_us = utime_us;
+  if (is_new || stepped_back || ++heard_ > stations_.size() / kMany) take_medians();
   return stepped_back;
 }
 
@@ -41,25 +42,29 @@ bool MessageTime::delivers(const Station& station) const {
   return elapsed_s_ - station.heard_s <= silence_s_;
 }
 
-std::int64_t MessageTime::now_us() const {
-  std::vector<std::int64_t> stamps;
+void MessageTime::take_medians() {
+  heard_ = 0;
+  std::vector<std::int64_t> all, trusted;
   for (const auto& [name, station] : stations_) {
-    if (delivers(station) && station.trusted) stamps.push_back(station.newest_us);
+    if (!delivers(station)) continue;
+    all.push_back(station.newest_us);
+    if (station.trusted) trusted.push_back(station.newest_us);
   }
-  return stamps.empty() ? middle_us() : lower_median(stamps);
+  delivering_ = all.size();
+  middle_us_ = all.empty() ? 0 : lower_median(all);
+  now_us_ = trusted.empty() ? middle_us_ : lower_median(trusted);
 }
 
-std::int64_t MessageTime::middle_us() const {
-  std::vector<std::int64_t> stamps;
-  for (const auto& [name, station] : stations_) {
-    if (delivers(station)) stamps.push_back(station.newest_us);
-  }
-  return stamps.empty() ? 0 : lower_median(stamps);
+void MessageTime::forget(const std::string& station) {
+  stations_.erase(station);
+  take_medians();
 }
 
 void MessageTime::trust(const std::string& station, bool trusted) {
   const auto found = stations_.find(station);
-  if (found != stations_.end()) found->second.trusted = trusted;
+  if (found == stations_.end() || found->second.trusted == trusted) return;
+  found->second.trusted = trusted;
+  take_medians();
 }
 
 std::vector<std::string> MessageTime::delivering() const {

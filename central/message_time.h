@@ -21,20 +21,22 @@ class MessageTime {
   // The median of the newest stamps of the stations that still deliver, the lower of the two middle
   // ones for an even number: a target then is seldom asked for ahead of most stations' bearings.
   // 0 before the first. Stations that are not trusted do not count while there is another one.
-  std::int64_t now_us() const;
+  // Of many stations (more than kMany) it is taken anew only after a share of them has been heard.
+  std::int64_t now_us() const { return now_us_; }
   // The same of all of them, trusted or not.
-  std::int64_t middle_us() const;
+  std::int64_t middle_us() const { return middle_us_; }
   // What has become known of a station's clock.
   void trust(const std::string& station, bool trusted);
   // The station's newest stamp, 0 before the first.
   std::int64_t newest_us(const std::string& station) const;
   // How far the others' stamps have gone on since the station's last message, 0 before the first.
   double silent_s(const std::string& station) const;
-  // The stations that still deliver.
+  // The stations that still deliver, and how many.
   std::vector<std::string> delivering() const;
+  std::size_t delivering_count() const { return delivering_; }
   // Time without a clock: the farthest progress of any station's stamps, steps clipped.
   double elapsed_s() const { return elapsed_s_; }
-  void forget(const std::string& station) { stations_.erase(station); }
+  void forget(const std::string& station);
 
  private:
   struct Station {
@@ -44,9 +46,14 @@ class MessageTime {
     double progress_s = 0.0;  // by its own clock, steps clipped
     double heard_s = 0.0;     // elapsed_s_ at its last message
   };
+  static constexpr std::size_t kMany = 64;
   bool delivers(const Station& station) const;
+  void take_medians();
   double silence_s_;
   double elapsed_s_ = 0.0;
+  std::int64_t now_us_ = 0, middle_us_ = 0;
+  std::size_t delivering_ = 0;
+  std::size_t heard_ = 0;  // messages since the medians were taken
   std::map<std::string, Station> stations_;
 };
 

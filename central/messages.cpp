@@ -1,7 +1,9 @@
 #include "central/messages.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "base/lcm_bus.h"
 #include "geometry/angles.h"
@@ -37,6 +39,13 @@ StationClock clock_from(std::int8_t state) {
   return StationClock::kUnknown;
 }
 
+// The operator comes before the fusion.
+bool commandable(std::int8_t state) {
+  using ols_msg::station_status_t;
+  return state != station_status_t::STATE_MANUAL && state != station_status_t::STATE_STOPPED &&
+         state != station_status_t::STATE_EMERGENCY;
+}
+
 // ee, en, eu, nn, nu, uu at the target's own horizon.
 void enu_triangle(const Eigen::Matrix3d& covariance_ecef, const Eigen::Matrix3d& R_ecef_enu,
                   double (&out)[6]) {
@@ -66,6 +75,19 @@ void fill_position(const Estimate& estimate, ols_msg::target_t& message) {
   enu_triangle(estimate.covariance_ecef, R, message.position_covariance_enu_m2);
   enu_triangle(estimate.covariance_white_ecef, R, message.position_covariance_white_enu_m2);
   enu_triangle(estimate.velocity_covariance_ecef, R, message.velocity_covariance_enu_m2_s2);
+}
+
+void fill_bearing(const std::optional<BearingOnly>& only, ols_msg::target_t& message) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  message.azimuth_rad = message.elevation_rad = message.direction_sd_rad = nan;
+  message.direction_rate_rad_s[0] = message.direction_rate_rad_s[1] = nan;
+  if (!only) return;
+  const SightLine& sight = only->sight;
+  message.azimuth_rad = sight.direction.azimuth_rad;
+  message.elevation_rad = sight.direction.elevation_rad;
+  message.direction_sd_rad =
+      std::sqrt((sight.covariance_white + sight.covariance_systematic).trace() / 2.0);
+  for (int axis = 0; axis < 2; ++axis) message.direction_rate_rad_s[axis] = only->rate_rad_s(axis);
 }
 
 }  // namespace
@@ -120,9 +142,17 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
                         std::abs(message.longitude_deg) <= 360.0 &&
                         std::abs(message.height_m) <= kHighestM;
   if (!in_range) return MessageRefusal::kOutOfRange;
-  return StationPlace{message.station,
-                      ecef_from_geodetic({radians(message.latitude_deg),
-                                          radians(message.longitude_deg), message.height_m})};
+  StationPlace place{message.station, {}};
+  place.traits.camera_ecef = ecef_from_geodetic(
+      {radians(message.latitude_deg), radians(message.longitude_deg), message.height_m});
+  place.traits.commandable = commandable(message.state);
+  const double view_rad = std::min(message.field_of_view_rad[0], message.field_of_view_rad[1]);
+  if (view_rad > 1e-4 && view_rad < kPi) place.traits.field_of_view_rad = view_rad;
+  constexpr double kLatestS = 2.0;
+  if (message.frame_latency_s > 0.0 && message.frame_latency_s < kLatestS) {
+    place.traits.latency_s = message.frame_latency_s;
+  }
+  return place;
 }
 
 ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stamp) {
@@ -134,7 +164,9 @@ ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stam
   message.target_id = target.target_id;
   message.estimator = target.estimator;
   message.solution = static_cast<std::int8_t>(target.estimate.solution);
+  message.track_state = static_cast<std::int8_t>(target.state);
   fill_position(target.estimate, message);
+  fill_bearing(target.bearing_only, message);
   message.crossing_angle_rad = target.estimate.crossing_angle_rad;
   message.residual = target.estimate.residual;
   message.stations = static_cast<std::int16_t>(target.stations.size());
@@ -181,6 +213,11 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
     message.residual.push_back(station.residual);
     message.clock_offset_s.push_back(station.clock_offset_s);
     message.quarantine.push_back(station.quarantine);
+    const StationFinding& found = station.finding;
+    message.bias_rad.push_back({found.bias_rad.x(), found.bias_rad.y()});
+    message.bias_sd_rad.push_back({found.bias_sd_rad.x(), found.bias_sd_rad.y()});
+    message.clock_found_s.push_back(found.clock_s);
+    message.clock_found_sd_s.push_back(found.clock_sd_s);
   }
   message.latency_s = latency_s;
   message.counters = static_cast<std::int16_t>(health.counters.size());

@@ -31,10 +31,11 @@ const char* to_string(MessageRefusal refusal);
 std::variant<Sighting, MessageRefusal> sighting_from(const std::string& channel, const void* data,
                                                      int bytes);
 
-// Where a station stands, from its status: nearly the camera centre, until a bearing tells.
+// What a station's status tells of it. Its place is nearly the camera centre, until a bearing
+// tells.
 struct StationPlace {
   std::string station;
-  Eigen::Vector3d position_ecef = Eigen::Vector3d::Zero();
+  StationTraits traits;
 };
 std::variant<StationPlace, MessageRefusal> station_place_from(const std::string& channel,
                                                               const void* data, int bytes);

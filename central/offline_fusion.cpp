@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <sstream>
 #include <stdexcept>
+
+#include "central/smoother.h"
 
 namespace ols {
 namespace {
 
-using Recording = std::map<std::string, std::vector<Sighting>>;  // by station, in order of time
-
-Recording recording_of(const std::vector<Sighting>& sightings, double min_belief,
-                       UnusedBearings& unused) {
-  Recording recording;
+StationBearings recording_of(const std::vector<Sighting>& sightings, double min_belief,
+                             UnusedBearings& unused) {
+  StationBearings recording;
   for (const Sighting& sighting : sightings) {
     if (sighting.belief >= min_belief) {
       recording[sighting.station].push_back(sighting);
@@ -33,6 +32,13 @@ Recording recording_of(const std::vector<Sighting>& sightings, double min_belief
   return recording;
 }
 
+std::vector<Sighting> in_order(const StationBearings& recording) {
+  std::vector<Sighting> all;
+  for (const auto& [name, own] : recording) all.insert(all.end(), own.begin(), own.end());
+  std::ranges::stable_sort(all, {}, &Sighting::utime_us);
+  return all;
+}
+
 void require_reasonable(double rate_hz, double span_s) {
   constexpr double kMostEpochs = 10e6;
   if (!std::isfinite(rate_hz)) throw std::invalid_argument("the rate is not a finite number");
@@ -44,12 +50,9 @@ void require_reasonable(double rate_hz, double span_s) {
   }
 }
 
-std::vector<std::int64_t> epochs_of(const Recording& recording, double rate_hz) {
+std::vector<std::int64_t> epochs_of(const std::vector<Sighting>& bearings, double rate_hz) {
   std::vector<std::int64_t> epochs;
-  for (const auto& [name, all] : recording) {
-    for (const Sighting& sighting : all) epochs.push_back(sighting.utime_us);
-  }
-  std::ranges::sort(epochs);
+  for (const Sighting& sighting : bearings) epochs.push_back(sighting.utime_us);
   epochs.erase(std::unique(epochs.begin(), epochs.end()), epochs.end());
   if (epochs.empty()) return epochs;
   require_reasonable(rate_hz, static_cast<double>(epochs.back() - epochs.front()) * 1e-6);
@@ -62,85 +65,77 @@ std::vector<std::int64_t> epochs_of(const Recording& recording, double rate_hz) 
   }
 }
 
-// A position is news of the range for so long.
-constexpr std::int64_t kNearUs = 1'000'000;
+TargetTracker tracker_of(const OfflineConfig& config) {
+  TrackerConfig tracker = config.fusion.tracker;
+  tracker.one_target = true;
+  return TargetTracker(tracker);
+}
 
-// The state of one pass through the recording.
-class Pass {
- public:
-  Pass(const Recording& recording, const OfflineConfig& config, ResidualMonitor& monitor)
-      : recording_(recording), config_(config), monitor_(monitor) {}
+FusedTarget target_of(std::int64_t epoch_us, const char* estimator, Located located) {
+  FusedTarget target;
+  target.utime_us = epoch_us;
+  target.target_id = 1;
+  target.estimator = estimator;
+  target.estimate = std::move(located.estimate);
+  target.stations = std::move(located.stations);
+  return target;
+}
 
-  FusedTarget locate(std::int64_t epoch_us) {
-    std::vector<Ray> rays = rays_at(epoch_us);
-    // What the covariances leave out is learnt from the joint fit, whoever estimates.
-    Estimate joint = least_squares(rays, config_.fusion.least_squares);
-    monitor_.observe(rays, joint, epoch_us);
-    if (joint.solution == Solution::kOk) {
-      last_us_ = epoch_us;
-      last_position_ = joint.position_ecef;
+void locate(Estimator& estimator, const TrackView& view, std::int64_t epoch_us,
+            std::vector<FusedTarget>& targets) {
+  Located located = estimator.locate(view, epoch_us);
+  if (located.estimate.solution != Solution::kOk) return;
+  targets.push_back(target_of(epoch_us, estimator.name(), std::move(located)));
+}
+
+std::vector<FusedTarget> causal(const std::vector<Sighting>& bearings,
+                                const std::vector<std::int64_t>& epochs, Estimator& estimator,
+                                const OfflineConfig& config) {
+  TargetTracker tracker = tracker_of(config);
+  std::vector<FusedTarget> targets;
+  auto next = bearings.begin();
+  for (const std::int64_t epoch_us : epochs) {
+    for (; next != bearings.end() && next->utime_us <= epoch_us; ++next) {
+      tracker.advance(next->utime_us);
+      tracker.add(*next);
     }
-    FusedTarget target;
-    target.utime_us = epoch_us;
-    if (config_.estimator == OfflineEstimator::kLeastSquares) {
-      target.estimator = "least-squares";
-      if (joint.solution == Solution::kOk) estimate_velocity(rays, joint);
-      target.estimate = std::move(joint);
-    } else {
-      const bool best = config_.estimator == OfflineEstimator::kPaperBestBaseline;
-      target.estimator = best ? "paper-best-baseline" : "paper";
-      target.estimate =
-          paper_estimate(best ? paper_best_baseline : paper_n_view, rays, config_.fusion.paper);
+    tracker.advance(epoch_us);
+    for (const Track& track : tracker.tracks()) {
+      if (track.id == 0) continue;
+      locate(estimator, {track.bearings, tracker.errors(), &track.filter}, epoch_us, targets);
     }
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const RayUse& use = target.estimate.rays[i];
-      target.stations.push_back({rays[i].station, use.used, use.weight, rays[i].age_s});
-    }
-    return target;
   }
+  return targets;
+}
 
- private:
-  std::vector<Ray> rays_at(std::int64_t epoch_us) const {
-    std::vector<Ray> rays;
-    for (const auto& [name, all] : recording_) {
-      std::optional<double> range_m;
-      if (epoch_us - last_us_ < kNearUs) {
-        range_m = (last_position_ - all.front().sight.origin_ecef).norm();
-      }
-      auto ray = align(all, epoch_us, range_m, config_.fusion.alignment);
-      if (!ray) continue;
-      monitor_.inflate(*ray);
-      rays.push_back(std::move(*ray));
-    }
-    return rays;
+// The estimators without memory have the whole recording.
+std::vector<FusedTarget> interpolating(const std::vector<Sighting>& bearings,
+                                       const StationBearings& recording,
+                                       const std::vector<std::int64_t>& epochs,
+                                       Estimator& estimator, const OfflineConfig& config) {
+  TargetTracker tracker = tracker_of(config);
+  for (const Sighting& sighting : bearings) {
+    tracker.advance(sighting.utime_us);
+    tracker.add(sighting);
   }
-
-  const Recording& recording_;
-  const OfflineConfig& config_;
-  ResidualMonitor& monitor_;
-  std::int64_t last_us_ = -kNearUs;
-  Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();
-};
-
-void average(std::vector<FusedTarget>& targets, int h) {
-  constexpr std::int64_t kGapUs = 1'000'000;
-  MovingAverage moving(h);
-  std::optional<std::int64_t> last_us;
-  for (FusedTarget& target : targets) {
-    if (last_us && target.utime_us - *last_us > kGapUs) moving.reset();
-    last_us = target.utime_us;
-    target.estimate = moving.add(target.estimate);
+  std::vector<FusedTarget> targets;
+  for (const std::int64_t epoch_us : epochs) {
+    locate(estimator, {recording, tracker.errors()}, epoch_us, targets);
   }
+  return targets;
+}
+
+std::vector<FusedTarget> smoothed(const std::vector<Sighting>& bearings,
+                                  const std::vector<std::int64_t>& epochs,
+                                  const OfflineConfig& config) {
+  std::vector<FusedTarget> targets;
+  for (Smoothed& fix : smooth(bearings, epochs, config.fusion.tracker)) {
+    targets.push_back(target_of(fix.utime_us, "filter", std::move(fix.located)));
+  }
+  return targets;
 }
 
 }  // namespace
-
-std::optional<OfflineEstimator> offline_estimator(std::string_view name) {
-  if (name == "least-squares") return OfflineEstimator::kLeastSquares;
-  if (name == "paper") return OfflineEstimator::kPaper;
-  if (name == "paper-best-baseline") return OfflineEstimator::kPaperBestBaseline;
-  return std::nullopt;
-}
 
 UnusedBearings unused_bearings(const std::vector<Sighting>& sightings,
                                const OfflineConfig& config) {
@@ -151,21 +146,17 @@ UnusedBearings unused_bearings(const std::vector<Sighting>& sightings,
 
 std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
                                       const OfflineConfig& config) {
+  const auto estimator = make_estimator(config.estimator, config.fusion.estimators);
+  if (!estimator) throw std::invalid_argument("there is no estimator " + config.estimator);
+  const bool is_filter = config.estimator == "filter";
+  if (config.smooth && !is_filter) throw std::invalid_argument("only the filter can be smoothed");
   UnusedBearings unused;
-  const Recording recording = recording_of(sightings, config.fusion.min_belief, unused);
-  const std::vector<std::int64_t> epochs = epochs_of(recording, config.rate_hz);
-  ResidualMonitor monitor(config.fusion.residuals);
-  std::vector<FusedTarget> targets;
-  for (int pass = 0; pass < config.passes; ++pass) {
-    targets.clear();
-    Pass state(recording, config, monitor);
-    for (const std::int64_t epoch_us : epochs) {
-      FusedTarget target = state.locate(epoch_us);
-      if (target.estimate.solution == Solution::kOk) targets.push_back(std::move(target));
-    }
-  }
-  if (config.moving_average > 1) average(targets, config.moving_average);
-  return targets;
+  const StationBearings recording = recording_of(sightings, config.fusion.min_belief, unused);
+  const std::vector<Sighting> bearings = in_order(recording);
+  const std::vector<std::int64_t> epochs = epochs_of(bearings, config.rate_hz);
+  if (config.smooth) return smoothed(bearings, epochs, config);
+  if (is_filter) return causal(bearings, epochs, *estimator, config);
+  return interpolating(bearings, recording, epochs, *estimator, config);
 }
 
 }  // namespace ols

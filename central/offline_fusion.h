@@ -1,27 +1,25 @@
-// Fusion of recorded bearings: all of them are at hand, so each epoch is interpolated between the
-// bearings on both sides of it.
+// Fusion of recorded bearings of one object.
+//
+// The filter is causal: a fix at an instant comes from the bearings up to it, as live. Smoothing
+// uses those after it too (smoother.h). The other estimators interpolate each station's bearings
+// between those on both sides of the instant; what the stations do not tell of their errors they
+// have from a run of the filter.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "central/fusion.h"
 
 namespace ols {
 
-enum class OfflineEstimator { kLeastSquares, kPaper, kPaperBestBaseline };
-std::optional<OfflineEstimator> offline_estimator(std::string_view name);
-
 struct OfflineConfig {
-  OfflineEstimator estimator = OfflineEstimator::kLeastSquares;
-  double rate_hz = 0.0;    // epochs on an even grid; 0: at the instant of every bearing
-  int moving_average = 1;  // estimates that are averaged; 1: none, the paper's is 10
-  int passes = 3;          // the first ones learn what the bearings' covariances leave out
-  FusionConfig fusion{};   // what it shares with the live one
+  std::string estimator = "filter";  // a name of make_estimator()
+  bool smooth = false;               // the filter's alone
+  double rate_hz = 0.0;              // epochs on an even grid; 0: at the instant of every bearing
+  FusionConfig fusion{};             // what it shares with the live one
 };
 
 // What fuse_offline leaves out before it looks at the geometry.
@@ -31,9 +29,10 @@ struct UnusedBearings {
 };
 UnusedBearings unused_bearings(const std::vector<Sighting>& sightings, const OfflineConfig& config);
 
-// One target's bearings, in any order. Targets with a position only, in order of time. Bearings
+// One object's bearings, in any order. Targets with a position only, in order of time. Bearings
 // that check() refuses must not be among them. std::invalid_argument for a rate that is not finite
-// or makes more than ten million epochs.
+// or makes more than ten million epochs, for an unknown estimator, and for another one than the
+// filter smoothed.
 std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
                                       const OfflineConfig& config);
 

@@ -80,8 +80,7 @@ std::vector<PaperView> views_of(const std::vector<Ray>& rays) {
 }
 
 // d position / d (cross-elevation, elevation) of one view, by central differences.
-std::optional<Eigen::Matrix<double, 3, 2>> derivative(PaperEstimator estimator,
-                                                      std::vector<PaperView> views,
+std::optional<Eigen::Matrix<double, 3, 2>> derivative(std::vector<PaperView> views,
                                                       std::size_t index, const RayFrame& frame,
                                                       const PaperConfig& config) {
   constexpr double kStepRad = 1e-7;
@@ -91,7 +90,7 @@ std::optional<Eigen::Matrix<double, 3, 2>> derivative(PaperEstimator estimator,
     for (int side = 0; side < 2; ++side) {
       const double step = side == 0 ? -kStepRad : kStepRad;
       views[index].direction_ecef = (frame.direction + step * frame.tangent.col(axis)).normalized();
-      ends[side] = estimator(views, config);
+      ends[side] = paper_n_view(views, config);
       if (ends[side].solution != Solution::kOk) return std::nullopt;
     }
     jacobian.col(axis) = (ends[1].position_ecef - ends[0].position_ecef) / (2.0 * kStepRad);
@@ -100,13 +99,12 @@ std::optional<Eigen::Matrix<double, 3, 2>> derivative(PaperEstimator estimator,
 }
 
 // Fills both covariances; false where the estimator cannot be differentiated.
-bool propagate(PaperEstimator estimator, const std::vector<Ray>& rays, const PaperConfig& config,
-               Estimate& estimate) {
+bool propagate(const std::vector<Ray>& rays, const PaperConfig& config, Estimate& estimate) {
   const std::vector<PaperView> views = views_of(rays);
   estimate.covariance_ecef.setZero();
   estimate.covariance_white_ecef.setZero();
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const auto J = derivative(estimator, views, i, ray_frame(rays[i].sight), config);
+    const auto J = derivative(views, i, ray_frame(rays[i].sight), config);
     if (!J) return false;
     const double range_m = (estimate.position_ecef - rays[i].sight.origin_ecef).norm();
     const Eigen::Matrix3d white = *J * rays[i].sight.covariance_white * J->transpose();
@@ -131,7 +129,7 @@ PaperPoint paper_two_view(const PaperView& first, const PaperView& second,
     return {Solution::kParallelRays, nan_vector()};
   }
   const double alpha = angle_about(m, normal_u, normal_v);
-  const double belief = first.belief + second.belief;
+  const double belief = config.by_belief ? first.belief + second.belief : 0.0;
   const double beta1 = belief > 0.0 ? alpha * second.belief / belief : alpha / 2.0;
   const double beta2 = alpha - beta1;
   const Eigen::Vector3d u = Eigen::AngleAxisd(beta1, m) * first.direction_ecef;
@@ -144,6 +142,12 @@ PaperPoint paper_n_view(const std::vector<PaperView>& views, const PaperConfig& 
   const std::vector<Base> bases = bases_of(views, config, failure);
   if (bases.empty()) return {failure, nan_vector()};
   const Eigen::Vector3d T0 = unweighted_centroid(bases);  // T' of Algorithm 1, line 4
+  if (config.pairs == PaperPairs::kCentroid) return {Solution::kOk, T0};
+  if (config.pairs == PaperPairs::kBestBaseline) {
+    const auto best = std::ranges::max_element(
+        bases, {}, [&](const Base& base) { return normal_alignment(base, T0); });
+    return {Solution::kOk, best->point};
+  }
   double sum = 0.0;
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   for (const Base& base : bases) {
@@ -154,26 +158,15 @@ PaperPoint paper_n_view(const std::vector<PaperView>& views, const PaperConfig& 
   return {Solution::kOk, T0 + offset / sum};  // line 8
 }
 
-PaperPoint paper_best_baseline(const std::vector<PaperView>& views, const PaperConfig& config) {
-  Solution failure = Solution::kTooFewRays;
-  const std::vector<Base> bases = bases_of(views, config, failure);
-  if (bases.empty()) return {failure, nan_vector()};
-  const Eigen::Vector3d T0 = unweighted_centroid(bases);
-  const auto best = std::ranges::max_element(
-      bases, {}, [&](const Base& base) { return normal_alignment(base, T0); });
-  return {Solution::kOk, best->point};
-}
-
-Estimate paper_estimate(PaperEstimator estimator, const std::vector<Ray>& rays,
-                        const PaperConfig& config) {
+Estimate paper_estimate(const std::vector<Ray>& rays, const PaperConfig& config) {
   Estimate estimate;
   estimate.rays.assign(rays.size(), RayUse{.used = true, .weight = 1.0});
-  const PaperPoint point = estimator(views_of(rays), config);
+  const PaperPoint point = paper_n_view(views_of(rays), config);
   estimate.solution = point.solution;
   if (point.solution != Solution::kOk) return estimate;
   estimate.position_ecef = point.position_ecef;
   estimate.crossing_angle_rad = crossing_angle(rays, estimate.rays);
-  if (!propagate(estimator, rays, config, estimate)) {
+  if (!propagate(rays, config, estimate)) {
     estimate = Estimate();
     estimate.solution = Solution::kParallelRays;
     estimate.rays.assign(rays.size(), RayUse{.used = true, .weight = 1.0});

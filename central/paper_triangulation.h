@@ -10,7 +10,18 @@
 
 namespace ols {
 
+// What becomes of the pairs of stations.
+enum class PaperPairs {
+  kAlgorithm1,    // all of them, weighted
+  kCentroid,      // all of them, with equal weights: Algorithm 1 without its lines 5 to 8
+  kBestBaseline,  // section 4.1: the one with the greatest t_i . n_i
+};
+
+// The parts of the paper's estimator; each can be switched alone.
 struct PaperConfig {
+  PaperPairs pairs = PaperPairs::kAlgorithm1;
+  bool by_belief = true;           // false: both views turn by half of the angle
+  int moving_average = 10;         // h estimates; 1: none
   double min_crossing_rad = 1e-4;  // below, u' and v' count as parallel
   double max_range_m = 500e3;
 };
@@ -32,23 +43,17 @@ struct PaperPoint {
 PaperPoint paper_two_view(const PaperView& first, const PaperView& second,
                           const PaperConfig& config = {});
 
-// Algorithm 1: the weighted centroid of the estimates of all pairs of stations. The weights are
-// w_i ~ exp(n_i . unit(T' - bc_i)) with bc_i the baseline's centre and n_i its normal towards T'.
-// The paper prints the exponent with the vector T' - bc_i itself; in metres that overflows at a few
-// hundred of them, and what the weights are to express, by the paper's own words, is the angle:
-// hence the unit vector. Pairs without an intersection are left out.
+// All pairs of stations that meet, put together as config.pairs says. Algorithm 1: the weighted
+// centroid of the estimates of all pairs. The weights are w_i ~ exp(n_i . unit(T' - bc_i)) with
+// bc_i the baseline's centre and n_i its normal towards T'. The paper prints the exponent with the
+// vector T' - bc_i itself; in metres that overflows at a few hundred of them, and what the weights
+// are to express, by the paper's own words, is the angle: hence the unit vector. Best baseline: the
+// one with the greatest t_i . n_i, t_i being the direction from its centre to the target.
 PaperPoint paper_n_view(const std::vector<PaperView>& views, const PaperConfig& config = {});
 
-// Section 4.1: of all baselines the one with the greatest t_i . n_i, t_i being the direction from
-// its centre to the target, and the intersection of its two views alone.
-PaperPoint paper_best_baseline(const std::vector<PaperView>& views, const PaperConfig& config = {});
-
-using PaperEstimator = PaperPoint (*)(const std::vector<PaperView>&, const PaperConfig&);
-
-// Any of the estimators above on rays, with its first-order covariance, which the paper does not
-// give: the estimator is differentiated numerically by the rays' directions.
-Estimate paper_estimate(PaperEstimator estimator, const std::vector<Ray>& rays,
-                        const PaperConfig& config = {});
+// The same on rays, with its first-order covariance, which the paper does not give: the estimator
+// is differentiated numerically by the rays' directions. Without the moving average.
+Estimate paper_estimate(const std::vector<Ray>& rays, const PaperConfig& config = {});
 
 // The paper's smoothing: the mean of the last h estimates (h = 10). It trails a moving target by
 // half of its span; that lag (the newest estimate against the mean) is put into the covariance.

@@ -36,6 +36,8 @@ const char* to_string(Solution solution) {
       return "too-far";
     case Solution::kNotConverged:
       return "not-converged";
+    case Solution::kBearingOnly:
+      return "bearing-only";
   }
   return "unknown";
 }

@@ -43,6 +43,7 @@ enum class Solution {
   kBehindCamera,
   kTooFar,
   kNotConverged,
+  kBearingOnly,  // one station alone: a line, no position
 };
 const char* to_string(Solution solution);
 

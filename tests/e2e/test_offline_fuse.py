@@ -39,9 +39,18 @@ def fuse_in(folder, *options):
     return fuse(*files, *options)
 
 
-@pytest.mark.parametrize("estimator", ["least-squares", "paper", "paper-best-baseline"])
-def test_a_symmetric_pair(folder, estimator):
-    result = fuse_in(folder, "--estimator", estimator)
+@pytest.mark.parametrize(
+    "options",
+    [
+        ["--estimator", "filter"],
+        ["--smooth"],
+        ["--estimator", "least-squares"],
+        ["--estimator", "paper"],
+        ["--estimator", "paper", "--paper-pairs", "best-baseline", "--paper-halves"],
+    ],
+)
+def test_a_symmetric_pair(folder, options):
+    result = fuse_in(folder, *options)
     assert result.returncode == 0, result.stderr
     (fix,) = csv.DictReader((folder / "fixes.csv").open())
     assert fix["utime_us"] == "1600000000000000"
@@ -50,7 +59,7 @@ def test_a_symmetric_pair(folder, estimator):
     assert float(fix["latitude_deg"]) == pytest.approx(49.2 + 145.7 / 111_200, abs=2e-5)
     assert float(fix["height_m"]) == pytest.approx(250 + 36.3, abs=0.2)
     assert float(fix["up_sd_m"]) > 0
-    assert (fix["residual"] == "") == (estimator != "least-squares")
+    assert (fix["residual"] == "") == ("paper" in options)
     assert result.stderr == ""
 
 
@@ -118,6 +127,7 @@ def test_a_rate_without_an_end_is_refused(folder, rate):
 def test_bad_options_and_files(folder):
     assert fuse_in(folder, "--estimator", "guess").returncode == 2
     assert fuse_in(folder, "--rate", "-1").returncode == 2
+    assert fuse_in(folder, "--estimator", "paper", "--smooth").returncode == 2
     assert fuse(folder / "no.csv", folder / "bearings.csv", folder / "f.csv").returncode == 2
     result = fuse(folder / "stations.csv", folder / "bearings.csv", folder / "no" / "f.csv")
     assert result.returncode == 2
@@ -125,7 +135,7 @@ def test_bad_options_and_files(folder):
 
 
 @pytest.mark.parametrize(
-    ("recording", "median_m", "coverage"), [("drone4", 0.20, 0.95), ("meteor_wmpl", 80.0, 0.95)]
+    ("recording", "median_m", "coverage"), [("drone4", 0.15, 0.95), ("meteor_wmpl", 80.0, 0.95)]
 )
 def test_real_recordings(shared, tmp_path, recording, median_m, coverage):
     data = shared / "data/fusion" / recording
@@ -139,4 +149,4 @@ def test_real_recordings(shared, tmp_path, recording, median_m, coverage):
     assert score["error_3d"]["median"] <= median_m
     assert score["coverage"] >= coverage
     for axis in ("east", "north", "up"):
-        assert 0.25 < score["consistency"][axis] < 4.0
+        assert 0.5 < score["consistency"][axis] < 2.0

@@ -21,15 +21,15 @@ void receive(ols::Fusion& fusion, bool is_status, const std::string& station,
   if (is_status) {
     const auto place = ols::station_place_from("OLS_STATUS_" + station, bytes.data(), size);
     if (const auto* known = std::get_if<ols::StationPlace>(&place)) {
-      fusion.know_station(known->station, known->position_ecef);
+      fusion.know_station(known->station, known->traits);
     }
     return;
   }
   const auto sighting = ols::sighting_from("OLS_BEARING_" + station, bytes.data(), size);
   if (const auto* seen = std::get_if<ols::Sighting>(&sighting)) {
     const ols::FusionOutput output = fusion.add(*seen);
-    if (output.target) check_target(*output.target);
-    if (output.target_paper) check_target(*output.target_paper);
+    for (const auto& target : output.targets) check_target(target);
+    for (const auto& target : output.targets_paper) check_target(target);
     for (const auto& slew : output.slews) static_cast<void>(ols::to_message(slew, {}));
   }
 }

@@ -14,13 +14,21 @@
 
 namespace {
 
+const std::map<std::string, ols::PaperPairs> kPaperPairs = {
+    {"algorithm-1", ols::PaperPairs::kAlgorithm1},
+    {"centroid", ols::PaperPairs::kCentroid},
+    {"best-baseline", ols::PaperPairs::kBestBaseline}};
+
 struct Options {
   std::string stations;
   std::string bearings;
   std::string output;
-  std::string estimator = "least-squares";
+  std::string estimator = "filter";
+  bool smooth = false;
   double rate_hz = 0.0;
-  int moving_average = 1;
+  ols::PaperConfig paper{};
+  std::string paper_pairs = "algorithm-1";
+  bool paper_halves = false;
 };
 
 ols::Sighting sighting_of(const ols::BearingRow& bearing, const ols::StationRow& station) {
@@ -92,9 +100,12 @@ void tell_unused(const ols::UnusedBearings& unused, std::size_t bearings) {
 
 void run(const Options& options) {
   ols::OfflineConfig config;
-  config.estimator = *ols::offline_estimator(options.estimator);
+  config.estimator = options.estimator;
+  config.smooth = options.smooth;
   config.rate_hz = options.rate_hz;
-  config.moving_average = options.moving_average;
+  config.fusion.estimators.paper = options.paper;
+  config.fusion.estimators.paper.pairs = kPaperPairs.at(options.paper_pairs);
+  config.fusion.estimators.paper.by_belief = !options.paper_halves;
   std::vector<ols::FixRow> fixes;
   ols::UnusedBearings unused;
   std::size_t bearings = 0;
@@ -128,15 +139,24 @@ int main(int argc, char** argv) {
                  "up_sd_m,...")
       ->required();
   app.add_option("--estimator", options.estimator,
-                 "least-squares, paper (Algorithm 1) or paper-best-baseline")
-      ->check(CLI::IsMember({"least-squares", "paper", "paper-best-baseline"}))
+                 "filter (over time), least-squares (all rays of an instant) or paper")
+      ->check(CLI::IsMember({"filter", "least-squares", "paper"}))
       ->capture_default_str();
+  app.add_flag("--smooth", options.smooth,
+               "with the filter: use the bearings after each instant too");
+  app.add_option("--paper-pairs", options.paper_pairs,
+                 "with paper: pairs of stations, by algorithm-1, centroid (unweighted) or "
+                 "best-baseline (section 4.1)")
+      ->check(CLI::IsMember(kPaperPairs))
+      ->capture_default_str();
+  app.add_flag("--paper-halves", options.paper_halves,
+               "with paper: turn both views by half of the angle, whatever their beliefs");
   app.add_option("--rate", options.rate_hz,
                  "[Hz] fixes on an even grid in time; 0: at the instant of every bearing")
       ->check(CLI::Range(0.0, 10000.0))
       ->capture_default_str();
-  app.add_option("--moving-average", options.moving_average,
-                 "[fixes] mean of the last so many, as in the paper (10); 1: none")
+  app.add_option("--moving-average", options.paper.moving_average,
+                 "[fixes] with paper: mean of the last so many; 1: none")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-fuse")) return *status;

@@ -19,7 +19,8 @@ void bind_results(py::module_& m) {
       .value("PARALLEL_RAYS", Solution::kParallelRays)
       .value("BEHIND_CAMERA", Solution::kBehindCamera)
       .value("TOO_FAR", Solution::kTooFar)
-      .value("NOT_CONVERGED", Solution::kNotConverged);
+      .value("NOT_CONVERGED", Solution::kNotConverged)
+      .value("BEARING_ONLY", Solution::kBearingOnly);
 
   data_class<RayUse>(m, "RayUse", "What became of one ray.")
       .def_readwrite("used", &RayUse::used, "False: set aside as an outlier.")
@@ -78,7 +79,9 @@ void bind_estimators(py::module_& m) {
       arg("views"), "(Solution, (3,) ECEF position): the paper's Algorithm 1.");
   m.def(
       "paper_best_baseline",
-      [answer](const std::vector<PaperView>& views) { return answer(paper_best_baseline(views)); },
+      [answer](const std::vector<PaperView>& views) {
+        return answer(paper_n_view(views, {.pairs = PaperPairs::kBestBaseline}));
+      },
       arg("views"), "(Solution, (3,) ECEF position): the paper's best baseline, section 4.1.");
 }
 
@@ -97,19 +100,13 @@ void bind_configs(py::module_& m) {
       .def_readwrite("max_range_m", &LeastSquaresConfig::max_range_m)
       .def_readwrite("max_iterations", &LeastSquaresConfig::max_iterations);
 
-  data_class<ResidualConfig>(m, "ResidualConfig", "What the stated covariances leave out.")
-      .def_readwrite("memory_s", &ResidualConfig::memory_s)
-      .def_readwrite("independence_s", &ResidualConfig::independence_s)
-      .def_readwrite("prior_weight", &ResidualConfig::prior_weight)
-      .def_readwrite("common_weight", &ResidualConfig::common_weight)
-      .def_readwrite("systematic_margin", &ResidualConfig::systematic_margin)
-      .def_readwrite("clip", &ResidualConfig::clip);
+  data_class<EstimatorConfig>(m, "EstimatorConfig", "Of the estimators without memory.")
+      .def_readwrite("alignment", &EstimatorConfig::alignment)
+      .def_readwrite("least_squares", &EstimatorConfig::least_squares);
 
   data_class<FusionConfig>(m, "FusionConfig", "The fusion; nested ones are replaced as a whole.")
       .def_readwrite("min_belief", &FusionConfig::min_belief)
-      .def_readwrite("alignment", &FusionConfig::alignment)
-      .def_readwrite("least_squares", &FusionConfig::least_squares)
-      .def_readwrite("residuals", &FusionConfig::residuals);
+      .def_readwrite("estimators", &FusionConfig::estimators);
 }
 
 void bind_fusion(py::module_& m) {

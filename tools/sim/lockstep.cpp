@@ -32,7 +32,7 @@ Lockstep::Lockstep(const World& world, const Fidelity& fidelity)
     stations_.push_back(
         std::make_unique<LockstepStation>(world, i, fidelity, std::move(renderers[i])));
     const StationTruth& station = world.stations()[i];
-    fusion_.know_station(station.id, camera_centre_ecef(station.nominal, {}));
+    fusion_.know_station(station.id, {.camera_ecef = camera_centre_ecef(station.nominal, {})});
   }
 }
 
@@ -69,8 +69,8 @@ void Lockstep::send(std::size_t station, const Bearing& bearing, double time_s) 
 void Lockstep::fuse(const Sighting& sighting, double time_s) {
   const FusionOutput output = fusion_.add(sighting);
   if (result_.designated_s >= 0.0) {
-    if (output.target) record(*output.target, result_.joint);
-    if (output.target_paper) record(*output.target_paper, result_.paper);
+    for (const FusedTarget& target : output.targets) record(target, result_.joint);
+    for (const FusedTarget& target : output.targets_paper) record(target, result_.paper);
   }
   for (const Slew& slew : output.slews) slews_.send({index_of(slew.station), slew}, time_s);
 }

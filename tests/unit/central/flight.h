@@ -37,7 +37,7 @@ inline std::vector<FusedTarget> targets_of(Fusion& fusion, const std::vector<Sig
   std::vector<FusedTarget> targets;
   for (const Sighting& sighting : sightings) {
     const FusionOutput output = fusion.add(sighting);
-    if (output.target) targets.push_back(*output.target);
+    targets.insert(targets.end(), output.targets.begin(), output.targets.end());
   }
   return targets;
 }

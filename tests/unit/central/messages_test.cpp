@@ -101,7 +101,49 @@ TEST(Messages, StatusTellsWhereAStationStands) {
   const auto& place = std::get<StationPlace>(result);
   EXPECT_EQ(place.station, "north");
   const Eigen::Vector3d there = ecef_from_geodetic({radians(49.2), radians(16.6), 250.0});
-  EXPECT_EQ(place.position_ecef, there);
+  EXPECT_EQ(place.traits.camera_ecef, there);
+  EXPECT_TRUE(place.traits.commandable);
+}
+
+TEST(Messages, WhomTheOperatorHasTheFusionLeavesAlone) {
+  using M = ols_msg::station_status_t;
+  for (const std::int8_t state : {M::STATE_MANUAL, M::STATE_STOPPED, M::STATE_EMERGENCY}) {
+    auto message = status();
+    message.state = state;
+    const auto result = decode_status(encoded(message));
+    EXPECT_FALSE(std::get<StationPlace>(result).traits.commandable) << int{state};
+  }
+}
+
+TEST(Messages, StatusTellsLatencyAndFieldOfView) {
+  auto message = status();
+  message.frame_latency_s = 0.12;
+  message.field_of_view_rad[0] = 0.3;
+  message.field_of_view_rad[1] = 0.2;
+  const auto known = std::get<StationPlace>(decode_status(encoded(message))).traits;
+  EXPECT_EQ(known.latency_s, 0.12);
+  EXPECT_EQ(known.field_of_view_rad, 0.2);
+  message.frame_latency_s = std::nan("");
+  message.field_of_view_rad[1] = -1.0;
+  const auto fallback = std::get<StationPlace>(decode_status(encoded(message))).traits;
+  EXPECT_EQ(fallback.latency_s, StationTraits{}.latency_s);
+  EXPECT_EQ(fallback.field_of_view_rad, StationTraits{}.field_of_view_rad);
+}
+
+TEST(Messages, OneStationAloneGivesItsLine) {
+  FusedTarget target;
+  target.estimator = "filter";
+  target.estimate.solution = Solution::kBearingOnly;
+  BearingOnly only{.station = "a", .track_id = 2, .sight = {}, .rate_rad_s = {0.1, 0.2}};
+  only.sight.direction = {1.0, 0.5};
+  only.sight.covariance_white = Eigen::Matrix2d::Identity() * 9e-8;
+  target.bearing_only = only;
+  const auto message = to_message(target, MessageStamp{});
+  EXPECT_EQ(message.solution, std::int8_t{ols_msg::target_t::SOLUTION_BEARING_ONLY});
+  EXPECT_EQ(message.azimuth_rad, 1.0);
+  EXPECT_NEAR(message.direction_sd_rad, 3e-4, 1e-12);
+  EXPECT_EQ(message.direction_rate_rad_s[1], 0.2);
+  EXPECT_TRUE(std::isnan(message.latitude_deg));
 }
 
 TEST(Messages, EveryTruncationIsRefused) {
@@ -213,12 +255,15 @@ TEST(Messages, TargetCarriesGeodeticPositionAndEnuCovariance) {
 
 TEST(Messages, TheFusionsStatusNamesWhoIsQuarantined) {
   FusionHealth health;
-  health.stations = {{"a", 10, 15.0, 0.05, 1.0, 0.0, ""},
-                     {"b", 20, 15.0, -2.0, 1.0, 2.0, "its stamps are ahead"}};
+  health.stations = {{"a", 10, 15.0, 0.05, 1.0, 0.0, "", {}},
+                     {"b", 20, 15.0, -2.0, 1.0, 2.0, "its stamps are ahead", {}}};
+  health.stations[1].finding.bias_rad = {1e-3, -2e-3};
   const auto message = to_message(health, 0.1, MessageStamp{1, 2});
   ASSERT_EQ(message.stations, 2);
   EXPECT_EQ(message.quarantine, (std::vector<std::string>{"", "its stamps are ahead"}));
   EXPECT_EQ(message.clock_offset_s, (std::vector<double>{0.0, 2.0}));
+  EXPECT_TRUE(std::isnan(message.bias_rad[0][0]));
+  EXPECT_EQ(message.bias_rad[1], (std::vector<double>{1e-3, -2e-3}));
   EXPECT_EQ(encoded(message).size(), static_cast<std::size_t>(message.getEncodedSize()));
 }
 
@@ -230,6 +275,7 @@ TEST(Messages, SolutionsHaveTheNumbersOfTheMessage) {
   EXPECT_EQ(static_cast<int>(Solution::kBehindCamera), int{M::SOLUTION_BEHIND_CAMERA});
   EXPECT_EQ(static_cast<int>(Solution::kTooFar), int{M::SOLUTION_TOO_FAR});
   EXPECT_EQ(static_cast<int>(Solution::kNotConverged), int{M::SOLUTION_NOT_CONVERGED});
+  EXPECT_EQ(static_cast<int>(Solution::kBearingOnly), int{M::SOLUTION_BEARING_ONLY});
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ Vector3d error(const FusedTarget& target) {
 
 TEST(OfflineFusion, InterpolatesAndIsHonest) {
   OfflineConfig config;
+  config.estimator = "least-squares";
   config.rate_hz = 10.0;
   const auto targets = fuse_offline(recording(40.0, 2e-4, 3), config);
   ASSERT_GT(targets.size(), 395U);
@@ -82,9 +83,10 @@ TEST(OfflineFusion, DoesNotDependOnTheOrderOfRows) {
 
 TEST(OfflineFusion, EveryEstimatorFollows) {
   const auto sightings = recording(5.0, 1e-5, 5);
-  for (const char* name : {"least-squares", "paper", "paper-best-baseline"}) {
+  for (const char* name : kEstimators) {
     OfflineConfig config;
-    config.estimator = offline_estimator(name).value();
+    config.estimator = name;
+    config.fusion.estimators.paper.moving_average = 1;
     config.rate_hz = 20.0;
     const auto targets = fuse_offline(sightings, config);
     ASSERT_GT(targets.size(), 95U) << name;
@@ -93,16 +95,58 @@ TEST(OfflineFusion, EveryEstimatorFollows) {
       EXPECT_LT(error(target).norm(), 0.1) << name;
     }
   }
-  EXPECT_FALSE(offline_estimator("guess"));
+  OfflineConfig guess;
+  guess.estimator = "guess";
+  EXPECT_THROW(fuse_offline(sightings, guess), std::invalid_argument);
 }
 
 TEST(OfflineFusion, MovingAverageTrails) {
   OfflineConfig config;
   config.rate_hz = 10.0;
-  config.moving_average = 10;
+  config.estimator = "paper";
+  config.fusion.estimators.paper.moving_average = 10;
   const auto targets = fuse_offline(recording(5.0, 1e-5, 6), config);
   // 0.45 s behind at about 20 m/s.
   EXPECT_NEAR(error(targets[30]).norm(), 0.45 * 18.0, 2.5);
+}
+
+TEST(OfflineFusion, SmoothingIsBetterThanTheFilterAndAsHonest) {
+  const auto sightings = recording(40.0, 2e-4, 8);
+  double rms[2] = {0.0, 0.0};
+  for (const bool smooth : {false, true}) {
+    OfflineConfig config;
+    config.rate_hz = 10.0;
+    config.smooth = smooth;
+    const auto targets = fuse_offline(sightings, config);
+    ASSERT_GT(targets.size(), 390U);
+    double normalised = 0.0;
+    for (const FusedTarget& target : targets) {
+      const Vector3d e = error(target);
+      rms[smooth ? 1 : 0] += e.squaredNorm() / static_cast<double>(targets.size());
+      normalised += e.squaredNorm() / target.estimate.covariance_ecef.trace();
+    }
+    EXPECT_LT(normalised / static_cast<double>(targets.size()), 1.5);
+  }
+  EXPECT_LT(rms[1], 0.8 * rms[0]);
+}
+
+// The filter at an instant knows nothing of what comes after it.
+TEST(OfflineFusion, TheFilterIsCausal) {
+  auto sightings = recording(6.0, 2e-4, 9);
+  const auto whole = fuse_offline(sightings, {});
+  std::erase_if(sightings, [](const Sighting& s) { return s.utime_us > kStart + 3'000'000; });
+  const auto part = fuse_offline(sightings, {});
+  ASSERT_GT(part.size(), 100U);
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    EXPECT_EQ(part[i].estimate.position_ecef, whole[i].estimate.position_ecef);
+  }
+}
+
+TEST(OfflineFusion, OnlyTheFilterCanBeSmoothed) {
+  OfflineConfig config;
+  config.estimator = "paper";
+  config.smooth = true;
+  EXPECT_THROW(fuse_offline(recording(1.0, 1e-4, 7), config), std::invalid_argument);
 }
 
 TEST(OfflineFusion, RefusesARateWithoutAnEnd) {

@@ -97,19 +97,39 @@ TEST(PaperNView, WeighsPairsByTheirAngle) {
   EXPECT_GT((point.position_ecef - T0).norm(), 1e-4);
 }
 
-TEST(PaperBestBaseline, TakesTheOneSquareToTheTarget) {
+TEST(PaperNView, BestBaselineIsTheOneSquareToTheTarget) {
   const Vector3d target(0, 100, 0);
   std::vector<PaperView> views = {view({-10, 0, 0}, target), view({10, 0, 0}, target),
                                   view({0, 50, 0}, target + Vector3d(0.5, 0, 0.2))};
-  const PaperPoint best = paper_best_baseline(views);
+  const PaperPoint best = paper_n_view(views, {.pairs = PaperPairs::kBestBaseline});
   ASSERT_EQ(best.solution, Solution::kOk);
   EXPECT_LT((best.position_ecef - target).norm(), 1e-9);
+}
+
+TEST(PaperNView, EachPartIsSwitchedAlone) {
+  const Vector3d target(0, 100, 0);
+  std::vector<PaperView> views = {view({-10, 0, 0}, target), view({10, 0, 0}, target),
+                                  view({0, 50, 0}, target + Vector3d(0.5, 0, 0.2))};
+  views[2].belief = 0.2;
+  const auto point = [&](const PaperConfig& config) {
+    return paper_n_view(views, config).position_ecef;
+  };
+  const Vector3d centroid = point({.pairs = PaperPairs::kCentroid});
+  const Vector3d pairs = paper_two_view(views[0], views[1]).position_ecef +
+                         paper_two_view(views[0], views[2]).position_ecef +
+                         paper_two_view(views[1], views[2]).position_ecef;
+  EXPECT_LT((centroid - pairs / 3.0).norm(), 1e-9);
+  EXPECT_GT((centroid - point({})).norm(), 1e-4);
+  const Vector3d halves = point({.pairs = PaperPairs::kCentroid, .by_belief = false});
+  EXPECT_GT((halves - centroid).norm(), 1e-3);
+  for (PaperView& each : views) each.belief = 0.5;
+  EXPECT_LT((halves - point({.pairs = PaperPairs::kCentroid})).norm(), 1e-9);
 }
 
 TEST(PaperEstimate, CovarianceIsThatOfTheLeastSquaresForOneSymmetricPair) {
   const std::vector<Eigen::Vector3d> places = {{-50, 0, 0}, {50, 0, 0}};
   const auto rays = test::rays_from(places, {0, 200, 0}, 1e-3);
-  const Estimate estimate = paper_estimate(paper_n_view, rays);
+  const Estimate estimate = paper_estimate(rays);
   ASSERT_EQ(estimate.solution, Solution::kOk);
   const Eigen::Matrix3d R = test::site().R_ecef_enu();
   const Eigen::Matrix3d covariance = R.transpose() * estimate.covariance_ecef * R;

@@ -1,0 +1,205 @@
+#include "central/smoother.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <map>
+#include <optional>
+
+namespace ols {
+namespace {
+
+// The whole state of a filter at an instant, its stations in a fixed order.
+struct Whole {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+};
+
+using Order = std::map<std::string, Eigen::Index>;  // station -> first of its three states
+
+// The state spread over all stations' states; what it does not hold is known as by the prior.
+Whole spread(const TrackFilter& filter, const Order& order, const Eigen::VectorXd& prior,
+             double clock_sign) {
+  FilterVector mean;
+  FilterMatrix covariance;
+  filter.mixed(mean, covariance);
+  std::vector<Eigen::Index> to(static_cast<std::size_t>(mean.size()));
+  std::vector<double> sign(to.size(), 1.0);
+  for (std::size_t i = 0; i < 9; ++i) to[i] = static_cast<Eigen::Index>(i);
+  for (std::size_t i = 3; i < 6; ++i) sign[i] = clock_sign;  // velocities turn with time
+  for (std::size_t k = 0; k < filter.stations().size(); ++k) {
+    const Eigen::Index first = order.at(filter.stations()[k].station);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      to[9 + 3 * k + axis] = first + static_cast<Eigen::Index>(axis);
+    }
+    sign[9 + 3 * k + 2] = clock_sign;
+  }
+  Whole whole{Eigen::VectorXd::Zero(prior.size()), prior.asDiagonal()};
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    const auto from = static_cast<Eigen::Index>(i);
+    whole.mean(to[i]) = sign[i] * mean(from);
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      whole.covariance(to[i], to[j]) =
+          sign[i] * sign[j] * covariance(from, static_cast<Eigen::Index>(j));
+    }
+  }
+  return whole;
+}
+
+// The information of both, less that of the prior that both contain.
+std::optional<Whole> join(const Whole& a, const Whole& b, const Eigen::VectorXd& prior) {
+  const Eigen::LDLT<Eigen::MatrixXd> Pa(a.covariance), Pb(b.covariance);
+  const auto n = prior.size();
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n);
+  Eigen::MatrixXd information = Pa.solve(one) + Pb.solve(one);
+  information.diagonal().tail(n - 9) -= prior.tail(n - 9).cwiseInverse();
+  const Eigen::LDLT<Eigen::MatrixXd> joint(information);
+  if (joint.info() != Eigen::Success || !joint.isPositive()) return std::nullopt;
+  // Relative to the first mean: positions of millions of metres would cost digits.
+  return Whole{a.mean + joint.solve(Pb.solve(b.mean - a.mean)), joint.solve(one)};
+}
+
+std::vector<Sighting> mirrored(std::vector<Sighting> bearings, std::int64_t about_us) {
+  for (Sighting& sighting : bearings) sighting.utime_us = about_us - sighting.utime_us;
+  std::ranges::reverse(bearings);
+  return bearings;
+}
+
+const Track* located(const TargetTracker& tracker) {
+  const auto& tracks = tracker.tracks();
+  const auto found = std::ranges::find_if(tracks, [](const Track& t) { return t.id != 0; });
+  return found == tracks.end() ? nullptr : &*found;
+}
+
+// A tracker that goes through bearings up to an instant.
+struct Runner {
+  TargetTracker tracker;
+  const std::vector<Sighting>* bearings;
+  std::size_t next = 0;
+
+  void run(std::int64_t utime_us, bool inclusive) {
+    for (; next < bearings->size(); ++next) {
+      const Sighting& sighting = (*bearings)[next];
+      if (sighting.utime_us > utime_us || (sighting.utime_us == utime_us && !inclusive)) break;
+      tracker.advance(sighting.utime_us);
+      tracker.add(sighting);
+    }
+  }
+};
+
+class Smoother {
+ public:
+  Smoother(const std::vector<Sighting>& bearings, const TrackerConfig& config)
+      : forward_(bearings),
+        about_us_(bearings.front().utime_us + bearings.back().utime_us),
+        backward_(mirrored(bearings, about_us_)),
+        learnt_(one_target(config)) {
+    Runner first{learnt_, &forward_};
+    first.run(bearings.back().utime_us, true);
+    learnt_ = TargetTracker(one_target(config));
+    learnt_.errors() = first.tracker.errors();
+    for (const Sighting& sighting : bearings) {
+      if (order_.try_emplace(sighting.station, 9 + 3 * static_cast<Eigen::Index>(order_.size()))
+              .second) {
+        sights_.push_back(sighting);
+      }
+    }
+  }
+
+  std::vector<Smoothed> run(const std::vector<std::int64_t>& epochs);
+
+ private:
+  static TrackerConfig one_target(TrackerConfig config) {
+    config.one_target = true;
+    return config;
+  }
+  Eigen::VectorXd prior(const Eigen::Vector3d& p_ecef) const;
+  std::optional<Smoothed> at(std::int64_t epoch_us, const TargetTracker& forward,
+                             const TargetTracker& backward) const;
+
+  const std::vector<Sighting>& forward_;
+  std::int64_t about_us_;
+  std::vector<Sighting> backward_;
+  TargetTracker learnt_;  // empty, with what the first run has shown of the stations
+  Order order_;
+  std::vector<Sighting> sights_;  // one of each station
+};
+
+// Variances of the stations' states before any bearing.
+Eigen::VectorXd Smoother::prior(const Eigen::Vector3d& p_ecef) const {
+  constexpr double kLeast = 1e-24;  // a clock that is known: only so that it can be inverted
+  Eigen::VectorXd variance =
+      Eigen::VectorXd::Zero(9 + 3 * static_cast<Eigen::Index>(order_.size()));
+  for (const Sighting& sighting : sights_) {
+    const double range_m = (p_ecef - sighting.sight.origin_ecef).norm();
+    const BiasPrior bias = learnt_.errors().prior(sighting.station, sighting.sight, range_m);
+    const Eigen::Index at = order_.at(sighting.station);
+    variance.segment<2>(at) = bias.covariance.diagonal().array().max(kLeast);
+    variance(at + 2) = std::max(kLeast, sighting.clock_sd_s * sighting.clock_sd_s);
+  }
+  return variance;
+}
+
+std::optional<Smoothed> Smoother::at(std::int64_t epoch_us, const TargetTracker& forward,
+                                     const TargetTracker& backward) const {
+  const Track* ahead = located(forward);
+  const Track* behind = located(backward);
+  if (ahead == nullptr && behind == nullptr) return std::nullopt;
+  StationErrors errors = learnt_.errors();
+  std::optional<TrackFilter> from_past, from_future;
+  if (ahead != nullptr) from_past.emplace(ahead->filter).advance(epoch_us, errors);
+  if (behind != nullptr) from_future.emplace(behind->filter).advance(about_us_ - epoch_us, errors);
+  const TrackFilter& any = from_past ? *from_past : *from_future;
+  const Eigen::VectorXd variance = prior(any.position());
+  std::optional<Whole> joint;
+  if (from_past && from_future) {
+    joint = join(spread(*from_past, order_, variance, 1.0),
+                 spread(*from_future, order_, variance, -1.0), variance);
+  }
+  if (!joint) joint = spread(any, order_, variance, from_past ? 1.0 : -1.0);
+  const KinematicState state{epoch_us, joint->mean.head<9>(),
+                             joint->covariance.topLeftCorner<9, 9>()};
+  Smoothed fix{epoch_us, {}};
+  fix.located.estimate = estimate_of(any, state);
+  if (fix.located.estimate.solution != Solution::kOk) return std::nullopt;
+  fix.located.stations = contributing(any, any.utime_us());
+  return fix;
+}
+
+std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs) {
+  constexpr std::size_t kBlock = 256;  // epochs between which the forward states are kept
+  std::vector<Runner> starts;
+  Runner forward{learnt_, &forward_};
+  for (std::size_t i = 0; i < epochs.size(); i += kBlock) {
+    starts.push_back(forward);
+    forward.run(epochs[std::min(i + kBlock, epochs.size()) - 1], true);
+  }
+  std::vector<Smoothed> fixes;
+  Runner backward{learnt_, &backward_};
+  for (std::size_t block = starts.size(); block-- > 0;) {
+    const std::size_t first = block * kBlock, last = std::min(first + kBlock, epochs.size());
+    std::vector<TargetTracker> past;
+    for (std::size_t i = first; i < last; ++i) {
+      starts[block].run(epochs[i], true);
+      past.push_back(starts[block].tracker);
+    }
+    for (std::size_t i = last; i-- > first;) {
+      backward.run(about_us_ - epochs[i], false);
+      if (auto fix = at(epochs[i], past[i - first], backward.tracker)) {
+        fixes.push_back(std::move(*fix));
+      }
+    }
+    starts.pop_back();
+  }
+  std::ranges::reverse(fixes);
+  return fixes;
+}
+
+}  // namespace
+
+std::vector<Smoothed> smooth(const std::vector<Sighting>& bearings,
+                             const std::vector<std::int64_t>& epochs, const TrackerConfig& config) {
+  if (bearings.empty()) return {};
+  return Smoother(bearings, config).run(epochs);
+}
+
+}  // namespace ols

@@ -1,0 +1,27 @@
+// The filter on a recording, with the bearings after each instant too (fixed-interval smoothing).
+//
+// Two filters, one forwards and one backwards in time (Fraser and Potter, 1969): at each instant
+// the forward one's state, which contains the bearings up to it, is joined with the backward one's
+// prediction, which contains those after it. Both have the biases' prior in them, once too often:
+// it is taken out. What the stations do not tell of their errors is learnt in a run before, and
+// held.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "central/estimator.h"
+#include "central/target_tracker.h"
+
+namespace ols {
+
+struct Smoothed {
+  std::int64_t utime_us = 0;
+  Located located;
+};
+
+// One object's bearings and the instants, both in order of time; positions only.
+std::vector<Smoothed> smooth(const std::vector<Sighting>& bearings,
+                             const std::vector<std::int64_t>& epochs, const TrackerConfig& config);
+
+}  // namespace ols

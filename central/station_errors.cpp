@@ -1,0 +1,82 @@
+#include "central/station_errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ols {
+namespace {
+
+bool states_anything(const Eigen::Array2d& stated_rad2) { return stated_rad2.maxCoeff() > 0.0; }
+
+}  // namespace
+
+Eigen::Matrix2d stated_covariance(const SightLine& sight, double range_m) {
+  const Eigen::Matrix<double, 3, 2> tangent_enu = tangent_basis(sight.direction);
+  const Eigen::Vector3d variance_enu = sight.origin_sd_enu_m.array().square();
+  return sight.covariance_systematic +
+         tangent_enu.transpose() * variance_enu.asDiagonal() * tangent_enu / (range_m * range_m);
+}
+
+void StationErrors::count(const Seen& seen, double sign) {
+  if (seen.noise_rad2.minCoeff() <= 0.0) return;
+  common_weight_ += sign * seen.weight;
+  common_ratio_ += sign * seen.squared_rad2 / seen.noise_rad2;
+}
+
+void StationErrors::forget(const std::string& station) {
+  const auto found = stations_.find(station);
+  if (found == stations_.end()) return;
+  count(found->second, -1.0);
+  stations_.erase(found);
+}
+
+Eigen::Array2d StationErrors::learnt(const std::string& station, const Eigen::Array2d& stated_rad2,
+                                     const Eigen::Array2d& noise_rad2) const {
+  const bool told = states_anything(stated_rad2);
+  const double weight = told ? config_.stated_weight : config_.untold_weight;
+  const double guess = config_.untold_over_noise * config_.untold_over_noise;
+  const Eigen::Array2d common = (config_.untold_weight * guess + common_ratio_).max(0.0) /
+                                (config_.untold_weight + common_weight_);
+  const Eigen::Array2d prior = told ? stated_rad2 : Eigen::Array2d(common * noise_rad2);
+  const auto found = stations_.find(station);
+  if (found == stations_.end()) return prior;
+  return (weight * prior + found->second.squared_rad2) / (weight + found->second.weight);
+}
+
+BiasPrior StationErrors::prior(const std::string& station, const SightLine& sight,
+                               double range_m) const {
+  BiasPrior prior;
+  prior.covariance = stated_covariance(sight, range_m);
+  const Eigen::Array2d stated = prior.covariance.diagonal();
+  prior.time_s = states_anything(stated) ? config_.stated_time_s : config_.untold_time_s;
+  const Eigen::Array2d all = learnt(station, stated, sight.covariance_white.diagonal());
+  prior.covariance.diagonal().array() += (all - stated).max(0.0);
+  return prior;
+}
+
+Eigen::Matrix2d StationErrors::untold(const std::string& station, const SightLine& sight) const {
+  const Eigen::Array2d stated = sight.covariance_systematic.diagonal();
+  const Eigen::Array2d all = learnt(station, stated, sight.covariance_white.diagonal());
+  return (all - stated).max(0.0).matrix().asDiagonal();
+}
+
+void StationErrors::observe(const std::string& station, const SightLine& sight,
+                            const Eigen::Vector2d& bias, const Eigen::Matrix2d& covariance,
+                            double dt_s, double range_m) {
+  const Eigen::Array2d stated = stated_covariance(sight, range_m).diagonal();
+  Seen& seen = stations_[station];
+  count(seen, -1.0);
+  const double decay = std::exp(-dt_s / config_.memory_s);
+  // A bias within one correlation time is one draw, however often it is looked at.
+  const double news = std::min(
+      1.0, dt_s / (states_anything(stated) ? config_.stated_time_s : config_.untold_time_s));
+  const Eigen::Array2d value = bias.array().square() + covariance.diagonal().array();
+  seen.weight = seen.weight * decay + news;
+  seen.squared_rad2 = seen.squared_rad2 * decay + news * value;
+  // Stations that state their errors tell nothing of those that do not.
+  seen.noise_rad2 = states_anything(stated) ? Eigen::Array2d::Zero()
+                                            : Eigen::Array2d(sight.covariance_white.diagonal());
+  count(seen, 1.0);
+}
+
+}  // namespace ols

@@ -1,0 +1,248 @@
+#include "central/target_tracker.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace ols {
+namespace {
+
+double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
+
+bool is_sure(const Track& track) {
+  return track.state == TrackState::kConfirmed || track.state == TrackState::kCoasted;
+}
+
+// A quick look before the exact one: within so many of everything that may be off.
+bool may_be_near(const Track& track, const Sighting& sighting) {
+  const KinematicState& state = track.filter.summary();
+  const double dt_s = seconds(sighting.utime_us - state.utime_us);
+  const Eigen::Vector3d p = state.mean.head<3>() + dt_s * state.mean.segment<3>(3);
+  const Eigen::Vector3d line = p - sighting.sight.origin_ecef;
+  const Eigen::Vector3d d = direction_ecef(sighting.sight);
+  const double depth = d.dot(line);
+  if (!(depth > 0.0)) return false;
+  const double across = (line - depth * d).norm();
+  const double spread_m = std::sqrt(state.covariance.topLeftCorner<3, 3>().trace()) +
+                          std::abs(dt_s) * std::sqrt(state.covariance.block<3, 3>(3, 3).trace());
+  const double angle = std::sqrt(sighting.sight.covariance_white.trace() +
+                                 sighting.sight.covariance_systematic.trace());
+  constexpr double kGenerous = 8.0, kLeastRad = 0.02;
+  return across < kGenerous * (spread_m + depth * angle) + depth * kLeastRad;
+}
+
+}  // namespace
+
+TargetTracker::TargetTracker(const TrackerConfig& config)
+    : config_(config), birth_(config.birth, config.filter), errors_(config.errors) {}
+
+std::vector<TargetTracker::Candidate> TargetTracker::candidates(const Sighting& sighting,
+                                                                bool confirmed) const {
+  std::vector<Candidate> found;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const Track& track = tracks_[i];
+    if (is_sure(track) != confirmed) continue;
+    if (!config_.one_target && !may_be_near(track, sighting)) continue;
+    if (track.has_taken(sighting)) continue;
+    const double nis = track.filter.nis(sighting, errors_);
+    if (nis < config_.filter.gate_nis) found.push_back({i, nis});
+  }
+  std::ranges::sort(found, {}, &Candidate::nis);
+  return found;
+}
+
+Track* TargetTracker::follower(const Sighting& sighting) {
+  if (config_.one_target) return tracks_.empty() ? nullptr : &tracks_.front();
+  if (sighting.track_id == 0) return nullptr;
+  const auto found = followed_.find(sighting.station);
+  if (found == followed_.end() || found->second.station_track != sighting.track_id) return nullptr;
+  const auto track = std::ranges::find_if(
+      tracks_, [&](const Track& t) { return is_sure(t) && t.id == found->second.id; });
+  return track == tracks_.end() ? nullptr : &*track;
+}
+
+Association TargetTracker::add(const Sighting& sighting, bool may_begin) {
+  for (const bool confirmed : {true, false}) {
+    const auto near = candidates(sighting, confirmed);
+    if (near.empty()) continue;
+    Track* const own = follower(sighting);
+    const bool by_id = own != nullptr && std::ranges::any_of(near, [&](const Candidate& c) {
+                         return &tracks_[c.track] == own;
+                       });
+    if (by_id) return give_to(*own, sighting);
+    if (confirmed && near.size() > 1 && near[1].nis - near[0].nis < config_.ambiguous_nis) {
+      ++counts_.ambiguous;
+      return {Association::Kind::kAmbiguous, 0};
+    }
+    return give_to(tracks_[near[0].track], sighting);
+  }
+  // A station that follows an object follows it still, if a little wildly: told to the filter, so
+  // that it learns when the target has gone beyond its models.
+  if (Track* const own = follower(sighting); own != nullptr) {
+    const Association result = give_to(*own, sighting);
+    if (config_.one_target || result.kind == Association::Kind::kTrack) return result;
+  }
+  ++counts_.unexplained;
+  if (may_begin && static_cast<int>(tracks_.size()) < config_.max_tracks) {
+    if (auto track = birth_.add(sighting, errors_, config_.one_target)) {
+      ++counts_.born;
+      tracks_.push_back(std::move(*track));
+      consider(tracks_.back());
+      return {Association::Kind::kTrack, tracks_.back().id};
+    }
+  }
+  return {};
+}
+
+Association TargetTracker::give_to(Track& track, const Sighting& sighting) {
+  const BearingUse use = track.filter.update(sighting, errors_);
+  if (use != BearingUse::kUsed) {
+    ++track.misses;
+    ++counts_.set_aside;
+    return {Association::Kind::kSetAside, track.id};
+  }
+  ++track.hits[sighting.station];
+  keep(track, sighting);
+  if (sighting.track_id != 0 && track.id != 0) {
+    followed_[sighting.station] = {sighting.track_id, track.id};
+  }
+  if (stations_lately(track.filter, config_.seen_s) >= 2) {
+    track.located_us = track.filter.utime_us();
+    if (track.state == TrackState::kCoasted) track.state = TrackState::kConfirmed;
+  }
+  const std::int64_t id = track.id;
+  if (track.state == TrackState::kBorn) consider(track);
+  return {Association::Kind::kTrack, id};
+}
+
+void TargetTracker::keep(Track& track, const Sighting& sighting) const {
+  auto& own = track.bearings[sighting.station];
+  const auto place = std::ranges::upper_bound(own, sighting.utime_us, {}, &Sighting::utime_us);
+  own.insert(place, sighting);
+  const auto span_us = static_cast<std::int64_t>(config_.memory_s * 1e6);
+  const std::int64_t oldest_us = own.back().utime_us - span_us;
+  const auto kept = std::ranges::lower_bound(own, oldest_us, {}, &Sighting::utime_us);
+  own.erase(own.begin(), kept);
+}
+
+bool TargetTracker::worth_confirming(const Track& track) const {
+  const KinematicState now = track.filter.at(track.filter.utime_us());
+  if (judge_position(track.filter, now) != Solution::kOk) return false;
+  if (config_.one_target) return true;
+  int stations = 0, hits = 0;
+  for (const auto& [name, count] : track.hits) {
+    stations += count >= config_.confirm_hits ? 1 : 0;
+    hits += count;
+  }
+  if (track.misses > hits) return false;
+  if (stations >= config_.confirm_stations) return true;
+  return stations >= 2 && hits >= config_.confirm_pair_hits &&
+         seconds(track.filter.utime_us() - track.born_us) >= config_.confirm_s;
+}
+
+// The same object as a sure one: nearer to it than both know.
+bool TargetTracker::is_double(const Track& track) const {
+  const KinematicState own = track.filter.at(track.filter.utime_us());
+  return std::ranges::any_of(tracks_, [&](const Track& other) {
+    if (&other == &track || !is_sure(other)) return false;
+    const KinematicState there = other.filter.at(own.utime_us);
+    const Eigen::Matrix<double, 6, 1> off = (own.mean - there.mean).head<6>();
+    const Eigen::Matrix<double, 6, 6> P = (own.covariance + there.covariance).topLeftCorner<6, 6>();
+    constexpr double kAlike = 22.5;  // chi^2 of 6 degrees of freedom, 0.999
+    return off.dot(P.ldlt().solve(off)) < kAlike;
+  });
+}
+
+void TargetTracker::consider(Track& track) {
+  if (!worth_confirming(track)) return;
+  if (is_double(track)) {
+    track.state = TrackState::kDropped;
+    return;
+  }
+  confirm(track);
+}
+
+void TargetTracker::confirm(Track& track) {
+  track.state = TrackState::kConfirmed;
+  ++counts_.confirmed;
+  const KinematicState own = track.filter.at(track.filter.utime_us());
+  for (auto old = dropped_.begin(); old != dropped_.end() && track.id == 0; ++old) {
+    const KinematicState there = old->filter.at(own.utime_us);
+    const Eigen::Vector3d off = (own.mean - there.mean).head<3>();
+    const Eigen::Matrix3d P = (own.covariance + there.covariance).topLeftCorner<3, 3>();
+    constexpr double kThere = 11.3;  // chi^2 of 3 degrees of freedom, 0.99
+    if (!config_.one_target && off.dot(P.ldlt().solve(off)) > kThere) continue;
+    track.id = old->id;
+    dropped_.erase(old);
+    break;
+  }
+  if (track.id == 0) track.id = next_id_++;
+  for (const auto& [station, bearings] : track.bearings) {
+    if (bearings.empty() || bearings.back().track_id == 0) continue;
+    followed_[station] = {bearings.back().track_id, track.id};
+  }
+  birth_.give(track, errors_);
+}
+
+void TargetTracker::age(Track& track, std::int64_t now_us) {
+  const double unseen_s = seconds(now_us - track.located_us);
+  if (track.state == TrackState::kBorn) {
+    if (unseen_s > config_.born_drop_s && !config_.one_target) track.state = TrackState::kDropped;
+    if (unseen_s > config_.drop_s) track.state = TrackState::kDropped;
+    return;
+  }
+  if (unseen_s > config_.coast_s) track.state = TrackState::kCoasted;
+  if (unseen_s <= config_.drop_s) return;
+  const bool silent = stations_lately(track.filter, config_.drop_s) == 0 ||
+                      seconds(now_us - track.filter.utime_us()) > config_.drop_s;
+  const bool lost = judge_position(track.filter, track.filter.at(now_us)) != Solution::kOk;
+  if (silent || lost) track.state = TrackState::kDropped;
+}
+
+void TargetTracker::advance(std::int64_t now_us) {
+  for (Track& track : tracks_) {
+    if (track.state != TrackState::kDropped) age(track, now_us);
+  }
+  for (Track& track : tracks_) {
+    if (track.state != TrackState::kDropped) continue;
+    ++counts_.dropped;
+    if (track.id != 0) dropped_.push_back(track);
+  }
+  std::erase_if(tracks_, [](const Track& t) { return t.state == TrackState::kDropped; });
+  std::erase_if(dropped_, [&](const Track& old) {
+    const bool too_long = seconds(now_us - old.located_us) > config_.remember_s + config_.drop_s;
+    return too_long && !config_.one_target;
+  });
+  while (dropped_.size() > 64) dropped_.pop_front();
+}
+
+std::optional<TargetTracker::Nearest> TargetTracker::nearest(const Sighting& sighting) const {
+  const RayFrame frame = ray_frame(sighting.sight);
+  std::optional<Nearest> best;
+  for (const Track& track : tracks_) {
+    if (track.state != TrackState::kConfirmed) continue;
+    const KinematicState& state = track.filter.summary();
+    const double dt_s = seconds(sighting.utime_us - state.utime_us);
+    const Eigen::Vector3d line =
+        state.mean.head<3>() + dt_s * state.mean.segment<3>(3) - sighting.sight.origin_ecef;
+    const double depth = frame.direction.dot(line);
+    if (!(depth > 0.0)) continue;
+    const Eigen::Vector2d off = frame.tangent.transpose() * line / depth;
+    if (!best || off.norm() < best->off_rad.norm()) best = Nearest{track.id, off};
+  }
+  return best;
+}
+
+void TargetTracker::forget_station(const std::string& station) {
+  errors_.forget(station);
+  birth_.forget(station);
+  followed_.erase(station);
+}
+
+void TargetTracker::clear() {
+  const std::int64_t next_id = next_id_;
+  *this = TargetTracker(config_);
+  next_id_ = next_id;
+}
+
+}  // namespace ols

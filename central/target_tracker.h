@@ -1,0 +1,116 @@
+// Several targets: which bearing belongs to which object, and which objects there are. Pure.
+//
+// The rules (docs/fusion.md tells them at length):
+//  - A bearing goes to the confirmed track that explains it best, or else to the best of those that
+//    are only born; within one exposure of one station a track takes one bearing.
+//  - A bearing that two confirmed tracks explain about as well (they cross in that station's view)
+//    goes to none: the other stations tell them apart.
+//  - What no track explains is kept for births (track_birth.h).
+//  - born -> confirmed: three stations have given two bearings each, or two stations ten in all
+//    for confirm_s, most of what they gave being explained, and the position is one.
+//  - born -> dropped: no two stations have seen it for born_drop_s; or it is another track's
+//  double.
+//  - confirmed -> coasted: no two stations have seen it for coast_s. coasted -> confirmed: two
+//  have.
+//  - coasted -> dropped: no two stations for drop_s, and its position is none any more; or nothing
+//    at all for drop_s.
+//  - A track that is confirmed where one that was dropped must be by now has its identity.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "central/track.h"
+#include "central/track_birth.h"
+
+namespace ols {
+
+struct TrackerConfig {
+  bool one_target = false;  // there is one object and no clutter: confirmed at once, one at a time
+  int max_tracks = 256;     // born ones included
+  int confirm_stations = 3;
+  int confirm_hits = 2;        // of each of them
+  int confirm_pair_hits = 10;  // of two stations together, where only two see it
+  double confirm_s = 0.7;
+  double born_drop_s = 0.4;
+  double seen_s = 0.3;  // "lately": a station's last bearing is not older
+  double coast_s = 0.5;
+  double drop_s = 2.0;
+  double remember_s = 5.0;     // the identity of a dropped one
+  double ambiguous_nis = 9.0;  // difference of two tracks' normalised residuals
+  double memory_s = 1.0;       // bearings kept for the estimators without memory
+  BirthConfig birth{};
+  FilterConfig filter{};
+  StationErrorsConfig errors{};
+};
+
+// What became of a bearing.
+struct Association {
+  enum class Kind { kTrack, kAmbiguous, kUnexplained, kSetAside };
+  Kind kind = Kind::kUnexplained;
+  std::int64_t track_id = 0;  // 0: none, or one that is not confirmed yet
+};
+
+class TargetTracker {
+ public:
+  explicit TargetTracker(const TrackerConfig& config);
+
+  // may_begin: whether it may take part in the birth of a track.
+  Association add(const Sighting& sighting, bool may_begin = true);
+  // Lives and deaths, by the fusion's time.
+  void advance(std::int64_t now_us);
+  void forget_station(const std::string& station);
+  void clear();
+
+  const std::vector<Track>& tracks() const { return tracks_; }
+  const StationErrors& errors() const { return errors_; }
+  StationErrors& errors() { return errors_; }
+  const TrackBirth& births() const { return birth_; }
+  struct Counts {
+    std::int64_t born = 0, confirmed = 0, dropped = 0, ambiguous = 0, set_aside = 0,
+                 unexplained = 0;
+  };
+  const Counts& counts() const { return counts_; }
+  // The confirmed track that a station's bearing would have to be moved least for, and by how much
+  // (predicted minus measured, cross-elevation and elevation).
+  struct Nearest {
+    std::int64_t track_id = 0;
+    Eigen::Vector2d off_rad = Eigen::Vector2d::Zero();
+  };
+  std::optional<Nearest> nearest(const Sighting& sighting) const;
+
+ private:
+  struct Candidate {
+    std::size_t track = 0;
+    double nis = 0.0;
+  };
+  std::vector<Candidate> candidates(const Sighting& sighting, bool confirmed) const;
+  Association give_to(Track& track, const Sighting& sighting);
+  Track* follower(const Sighting& sighting);
+  void consider(Track& track);
+  bool worth_confirming(const Track& track) const;
+  bool is_double(const Track& track) const;
+  void confirm(Track& track);
+  void keep(Track& track, const Sighting& sighting) const;
+  void age(Track& track, std::int64_t now_us);
+
+  TrackerConfig config_;
+  TrackBirth birth_;
+  StationErrors errors_;
+  std::vector<Track> tracks_;
+  std::deque<Track> dropped_;  // confirmed ones, for their identities
+  std::int64_t next_id_ = 1;
+  // Which track a station's own track was given to last, by station and its track id.
+  struct Followed {
+    std::int64_t station_track = 0;
+    std::int64_t id = 0;
+  };
+  std::map<std::string, Followed> followed_;
+  Counts counts_;
+};
+
+}  // namespace ols

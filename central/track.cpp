@@ -1,0 +1,54 @@
+#include "central/track.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <limits>
+
+namespace ols {
+
+const char* to_string(TrackState state) {
+  switch (state) {
+    case TrackState::kBorn:
+      return "born";
+    case TrackState::kConfirmed:
+      return "confirmed";
+    case TrackState::kCoasted:
+      return "coasted";
+    case TrackState::kDropped:
+      return "dropped";
+  }
+  return "unknown";
+}
+
+bool Track::has_taken(const Sighting& sighting) const {
+  const auto own = bearings.find(sighting.station);
+  if (own == bearings.end()) return false;
+  const auto& taken = own->second;
+  const auto at = std::ranges::lower_bound(taken, sighting.utime_us, {}, &Sighting::utime_us);
+  return at != taken.end() && at->utime_us == sighting.utime_us;
+}
+
+Solution judge_position(const TrackFilter& filter, const KinematicState& state) {
+  if (filter.stations().size() < 2) return Solution::kTooFewRays;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const FilterStation& station : filter.stations()) {
+    nearest_m = std::min(nearest_m, (state.mean.head<3>() - station.sight.origin_ecef).norm());
+  }
+  const Eigen::Matrix3d P = state.covariance.topLeftCorner<3, 3>();
+  const double greatest =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(P, Eigen::EigenvaluesOnly).eigenvalues()(2);
+  const double limit_m = filter.config().range_sd_limit * nearest_m;
+  if (!(greatest < limit_m * limit_m)) {
+    return stations_lately(filter, 1.0) < 2 ? Solution::kTooFewRays : Solution::kParallelRays;
+  }
+  return nearest_m > filter.config().max_range_m ? Solution::kTooFar : Solution::kOk;
+}
+
+int stations_lately(const TrackFilter& filter, double within_s) {
+  const auto span_us = static_cast<std::int64_t>(within_s * 1e6);
+  return static_cast<int>(std::ranges::count_if(filter.stations(), [&](const FilterStation& s) {
+    return s.utime_us > 0 && filter.utime_us() - s.utime_us <= span_us;
+  }));
+}
+
+}  // namespace ols

@@ -1,0 +1,69 @@
+// Where a new track may begin: bearings that belong to no track yet, and the places where rays of
+// different stations meet. Pure.
+//
+// Rays of different objects meet too (ghosts). A start therefore has to explain its stations'
+// bearings over the last moments, not only the two that it was made of: the filter is run over
+// them. Three stations that agree are believed at once; two have to agree for longer, by when the
+// true objects have taken their own bearings.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "central/track.h"
+
+namespace ols {
+
+struct BirthConfig {
+  double pool_s = 0.6;           // bearings without a track are kept for so long
+  double pair_s = 0.1;           // the two that make a start are not further apart in time
+  double rate_sd_rad_s = 0.5;    // angular rate that a target may have, 1-sigma
+  double miss_sigma = 4.0;       // greatest miss of two rays
+  double explained = 0.6;        // least share of the stations' frames that a start must explain
+  double two_stations_s = 0.35;  // of agreement, where only two stations agree
+  int least_bearings = 6;
+  int pool_of_a_station = 64;  // most bearings that are kept of one
+};
+
+class TrackBirth {
+ public:
+  TrackBirth(const BirthConfig& config, const FilterConfig& filter)
+      : config_(config), filter_(filter) {}
+
+  // Takes a bearing that belongs to no track. A new track, with the bearings that it explains taken
+  // out of the pool. `trusting`: there is one object and no clutter, so that two rays are enough.
+  std::optional<Track> add(const Sighting& sighting, StationErrors& errors, bool trusting);
+  // Takes out what a track explains that has just become sure.
+  void give(const Track& track, const StationErrors& errors);
+  void forget(const std::string& station) { pool_.erase(station); }
+  void clear() { pool_.clear(); }
+  // The bearings without a track of one station, in order of time.
+  const std::map<std::string, std::deque<Sighting>>& pool() const { return pool_; }
+  // Why the last pair of rays made no start; kTooFewRays when there was no pair.
+  Solution last_failure() const { return failure_; }
+
+ private:
+  struct Start {
+    Eigen::Vector3d p_ecef;
+    double range_m = 0.0;
+  };
+  void store(const Sighting& sighting);
+  std::optional<Start> start_of(const Sighting& a, const Sighting& b, const StationErrors& errors);
+  const Sighting* nearest(const std::deque<Sighting>& bearings, const Sighting& to,
+                          const Start* start, const StationErrors& errors) const;
+  std::optional<Track> try_start(const Sighting& newest, const Start& start, StationErrors& errors,
+                                 bool trusting) const;
+  double gate_rad(const Sighting& sighting, double dt_s, double range_m,
+                  const StationErrors& errors) const;
+  void take(const Track& track);
+
+  BirthConfig config_;
+  FilterConfig filter_;
+  std::map<std::string, std::deque<Sighting>> pool_;
+  Solution failure_ = Solution::kTooFewRays;
+};
+
+}  // namespace ols

@@ -1,0 +1,390 @@
+#include "central/track_filter.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "central/ray.h"
+
+namespace ols {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kLatestS = 2.0;  // a bearing later than this is no longer compared
+constexpr int kUpset = 6;         // set-aside bearings in a row, of two stations
+constexpr double kLeastProbability = 1e-4;
+
+double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
+
+using MatrixN2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
+
+}  // namespace
+
+// A model's expectation of one bearing against it.
+struct TrackFilter::Innovation {
+  Eigen::Vector2d residual = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  // of the residual, without noise
+  MatrixN2 cross;                                            // covariance of state and residual
+  double depth_m = 0.0;
+};
+
+TrackFilter::TrackFilter(const FilterConfig& config, std::int64_t utime_us,
+                         const Eigen::Vector3d& p_ecef, double position_sd_m,
+                         double velocity_sd_m_s)
+    : config_(config), utime_us_(utime_us), mixed_us_(utime_us) {
+  for (Model& model : models_) {
+    model.mean = FilterVector::Zero(9);
+    model.mean.head<3>() = p_ecef;
+    model.covariance = FilterMatrix::Zero(9, 9);
+    Vector9 variance;
+    variance.head<3>().setConstant(position_sd_m * position_sd_m);
+    variance.segment<3>(3).setConstant(velocity_sd_m_s * velocity_sd_m_s);
+    const double hard = manoeuvre_sd(Eigen::Vector3d::Zero(), config.motion);
+    variance.tail<3>().setConstant(hard * hard);
+    model.covariance.diagonal() = variance;
+  }
+  refresh();
+}
+
+int TrackFilter::index_of(const std::string& station) const {
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    if (stations_[i].station == station) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+// A station's states; the one that is silent longest gives its place up.
+int TrackFilter::enter(const Sighting& sighting, const BiasPrior& prior) {
+  int index = static_cast<int>(stations_.size());
+  if (index < kFilterStations) {
+    stations_.emplace_back();
+    priors_.emplace_back();
+    for (Model& model : models_) {
+      const Eigen::Index n = model.mean.size();
+      model.mean.conservativeResize(n + 3);
+      model.covariance.conservativeResize(n + 3, n + 3);
+    }
+  } else {
+    const auto silent = std::ranges::min_element(stations_, {}, &FilterStation::offered_us);
+    index = static_cast<int>(silent - stations_.begin());
+  }
+  reset(index, sighting, prior);
+  return index;
+}
+
+void TrackFilter::reset(int station, const Sighting& sighting, const BiasPrior& prior) {
+  stations_[static_cast<std::size_t>(station)] = {.station = sighting.station,
+                                                  .sight = sighting.sight,
+                                                  .calibration_id = sighting.calibration_id};
+  priors_[static_cast<std::size_t>(station)] = prior;
+  const Eigen::Index at = 9 + 3 * station;
+  for (Model& model : models_) {
+    model.mean.segment<3>(at).setZero();
+    model.covariance.middleRows<3>(at).setZero();
+    model.covariance.middleCols<3>(at).setZero();
+    model.covariance.block<2, 2>(at, at) = prior.covariance;
+  }
+}
+
+TrackFilter::Innovation TrackFilter::innovation(const Model& model, const Sighting& sighting,
+                                                int station, const BiasPrior& prior) const {
+  const auto motion = static_cast<Motion>(&model - models_.data());
+  const double ahead_s = seconds(sighting.utime_us - utime_us_);  // < 0: late
+  const Eigen::Vector3d v = model.mean.segment<3>(3);
+  const double curved = motion == Motion::kConstantVelocity ? 0.0 : ahead_s * ahead_s / 2.0;
+  const RayFrame frame = ray_frame(sighting.sight);
+  const Eigen::Vector3d line = model.mean.head<3>() + ahead_s * v +
+                               curved * model.mean.segment<3>(6) - sighting.sight.origin_ecef;
+  Innovation result;
+  result.depth_m = frame.direction.dot(line);
+  if (!(result.depth_m > 0.0)) return result;
+  const Eigen::Vector2d predicted = frame.tangent.transpose() * line / result.depth_m;
+  const Eigen::Matrix<double, 2, 3> J =
+      (frame.tangent.transpose() - predicted * frame.direction.transpose()) / result.depth_m;
+  Eigen::Matrix<double, 2, 9> H;
+  H << J, ahead_s * J, curved * J;
+  const auto& P = model.covariance;
+  result.cross = P.leftCols<9>() * H.transpose();
+  result.residual = -predicted;
+  if (station >= 0) {
+    const Eigen::Index at = 9 + 3 * station;
+    const Eigen::Vector2d clock = -J * v;
+    result.cross += P.middleCols<2>(at);
+    result.cross += P.col(at + 2) * clock.transpose();
+    result.residual -= model.mean.segment<2>(at) + clock * model.mean(at + 2);
+    result.covariance = H * result.cross.topRows<9>() + result.cross.middleRows<2>(at) +
+                        clock * result.cross.row(at + 2);
+  } else {
+    const Eigen::Vector2d clock = J * v * sighting.clock_sd_s;
+    result.covariance =
+        H * result.cross.topRows<9>() + prior.covariance + clock * clock.transpose();
+  }
+  if (ahead_s != 0.0) {
+    const Transition between =
+        transition(motion, model.mean.head<9>(), std::abs(ahead_s), config_.motion);
+    result.covariance += between.q(0, 0) * J * J.transpose();
+  }
+  return result;
+}
+
+double TrackFilter::nis(const Sighting& sighting, const StationErrors& errors) const {
+  const int station = index_of(sighting.station);
+  BiasPrior prior;
+  if (station < 0) {
+    const double range_m = (position() - sighting.sight.origin_ecef).norm();
+    prior = errors.prior(sighting.station, sighting.sight, range_m);
+  }
+  double least = kNever;
+  for (const Model& model : models_) {
+    const Innovation seen = innovation(model, sighting, station, prior);
+    if (seen.depth_m <= 0.0) continue;
+    const Eigen::Matrix2d S = seen.covariance + sighting.sight.covariance_white;
+    least = std::min(least, seen.residual.dot(S.llt().solve(seen.residual)));
+  }
+  return least;
+}
+
+BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) {
+  if (seconds(utime_us_ - sighting.utime_us) > kLatestS) return BearingUse::kTooLate;
+  move_to(sighting.utime_us, errors);
+  int station = index_of(sighting.station);
+  const bool known = station >= 0;
+  if (!known ||
+      stations_[static_cast<std::size_t>(station)].calibration_id != sighting.calibration_id) {
+    const double range_m = (position() - sighting.sight.origin_ecef).norm();
+    const BiasPrior prior = errors.prior(sighting.station, sighting.sight, range_m);
+    if (known) reset(station, sighting, prior);
+    if (!known) station = enter(sighting, prior);
+  }
+  FilterStation& entry = stations_[static_cast<std::size_t>(station)];
+  entry.offered_us = std::max(entry.offered_us, sighting.utime_us);
+  entry.weight = 0.0;
+  if (sighting.clock_sd_s > entry.clock_sd_s) {
+    const Eigen::Index at = 9 + 3 * station + 2;
+    const double more = std::pow(sighting.clock_sd_s, 2) - std::pow(entry.clock_sd_s, 2);
+    for (Model& model : models_) model.covariance(at, at) += more;
+    entry.clock_sd_s = sighting.clock_sd_s;
+  }
+  std::array<Innovation, kMotions> seen;
+  double nis = kNever;
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    seen[m] = innovation(models_[m], sighting, station, {});
+    if (seen[m].depth_m <= 0.0) return BearingUse::kBehindCamera;
+    const Eigen::Matrix2d S = seen[m].covariance + sighting.sight.covariance_white;
+    nis = std::min(nis, seen[m].residual.dot(S.llt().solve(seen[m].residual)));
+  }
+  if (!(nis <= config_.gate_nis)) {
+    if (upset_ == 0) upset_station_ = sighting.station;
+    two_upset_ = two_upset_ || upset_station_ != sighting.station;
+    if (++upset_ >= kUpset && two_upset_) give_room();
+    return BearingUse::kSetAside;
+  }
+  upset_ = 0;
+  two_upset_ = false;
+  entry.weight = nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
+  entry.sight = sighting.sight;
+  entry.utime_us = std::max(entry.utime_us, sighting.utime_us);
+  entry.mean_nis += 0.05 * (nis - entry.mean_nis);
+  const Eigen::Matrix2d noise = sighting.sight.covariance_white / entry.weight;
+  std::array<double, kMotions> log_likelihood{};
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + noise);
+    const Eigen::Matrix2d L = S.matrixL();
+    const Eigen::Vector2d whitened = S.matrixL().solve(seen[m].residual);
+    const MatrixN2 gain = S.matrixL().solve(seen[m].cross.transpose()).transpose();
+    models_[m].mean += gain * whitened;
+    models_[m].covariance.noalias() -= gain * gain.transpose();
+    log_likelihood[m] = -whitened.squaredNorm() / 2.0 - std::log(L(0, 0) * L(1, 1));
+  }
+  weigh_models(log_likelihood);
+  refresh();
+  return BearingUse::kUsed;
+}
+
+void TrackFilter::weigh_models(const std::array<double, kMotions>& log_likelihood) {
+  const double most = *std::ranges::max_element(log_likelihood);
+  double sum = 0.0;
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    models_[m].probability *= std::exp(log_likelihood[m] - most);
+    models_[m].probability = std::max(models_[m].probability, kLeastProbability);
+    sum += models_[m].probability;
+  }
+  for (Model& model : models_) model.probability /= sum;
+}
+
+// The target has done what no model allows: any of its accelerations, for the models' own time.
+void TrackFilter::give_room() {
+  upset_ = 0;
+  two_upset_ = false;
+  const double hard = manoeuvre_sd(velocity(), config_.motion);
+  const double time_s = config_.motion.acceleration_time_s;
+  const double speed = 2.0 * hard * time_s;
+  for (Model& model : models_) {
+    model.covariance.diagonal().head<3>().array() += std::pow(speed * time_s / 2.0, 2);
+    model.covariance.diagonal().segment<3>(3).array() += speed * speed;
+    model.covariance.diagonal().segment<3>(6).array() += 4.0 * hard * hard;
+  }
+}
+
+void TrackFilter::advance(std::int64_t utime_us, StationErrors& errors) {
+  move_to(utime_us, errors);
+}
+
+void TrackFilter::move_to(std::int64_t utime_us, StationErrors& errors) {
+  const double dt_s = seconds(utime_us - utime_us_);
+  if (dt_s <= 0.0) return;
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    Model& model = models_[m];
+    const Transition t =
+        transition(static_cast<Motion>(m), model.mean.head<9>(), dt_s, config_.motion);
+    transform_rows(t.f, model.mean);
+    propagate_covariance(t, model.covariance);
+  }
+  utime_us_ = utime_us;
+  const double since_s = seconds(utime_us_ - mixed_us_);
+  if (since_s >= config_.mixing_s) {
+    mixed_us_ = utime_us_;
+    move_biases(since_s, errors);
+    mix(since_s);
+  }
+  refresh();
+}
+
+void TrackFilter::mix(double dt_s) {
+  std::array<std::array<double, kMotions>, kMotions> weight{};  // [to][from]
+  for (std::size_t from = 0; from < kMotions; ++from) {
+    const double stays = std::exp(-dt_s / config_.motion.dwell_s[from]);
+    for (std::size_t to = 0; to < kMotions; ++to) {
+      const double share = from == to ? stays : (1.0 - stays) / (kMotions - 1);
+      weight[to][from] = share * models_[from].probability;
+    }
+  }
+  const std::array<Model, kMotions> was = models_;
+  for (std::size_t to = 0; to < kMotions; ++to) {
+    double sum = 0.0;
+    for (const double w : weight[to]) sum += w;
+    Model& model = models_[to];
+    model.probability = sum;
+    model.mean.setZero();
+    model.covariance.setZero();
+    for (std::size_t from = 0; from < kMotions; ++from) {
+      model.mean += weight[to][from] / sum * was[from].mean;
+    }
+    for (std::size_t from = 0; from < kMotions; ++from) {
+      const double w = weight[to][from] / sum;
+      const FilterVector off = was[from].mean - model.mean;
+      model.covariance += w * was[from].covariance;
+      model.covariance.noalias() += (w * off) * off.transpose();
+    }
+  }
+}
+
+// Each station's bias is told to the errors' statistics, and moves on by its prior.
+void TrackFilter::move_biases(double dt_s, StationErrors& errors) {
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    const FilterStation& station = stations_[i];
+    const double range_m = (position() - station.sight.origin_ecef).norm();
+    if (seconds(utime_us_ - station.utime_us) < 2.0 * config_.mixing_s + dt_s) {
+      const StationBias now = bias(i);
+      errors.observe(station.station, station.sight, now.bias_rad, now.covariance_rad2, dt_s,
+                     range_m);
+    }
+    priors_[i] = errors.prior(station.station, station.sight, range_m);
+    const double decay = std::exp(-dt_s / priors_[i].time_s);
+    const auto at = static_cast<Eigen::Index>(9 + 3 * i);
+    for (Model& model : models_) {
+      model.mean.segment<2>(at) *= decay;
+      model.covariance.middleRows<2>(at) *= decay;
+      model.covariance.middleCols<2>(at) *= decay;
+      model.covariance.block<2, 2>(at, at) += (1.0 - decay * decay) * priors_[i].covariance;
+    }
+  }
+}
+
+void TrackFilter::refresh() {
+  summary_.utime_us = utime_us_;
+  summary_.mean.setZero();
+  summary_.covariance.setZero();
+  for (const Model& model : models_) {
+    summary_.mean += model.probability * model.mean.head<9>();
+    summary_.covariance += model.probability * model.covariance.topLeftCorner<9, 9>();
+  }
+  for (const Model& model : models_) {
+    const Vector9 off = model.mean.head<9>() - summary_.mean;
+    summary_.covariance += model.probability * off * off.transpose();
+  }
+}
+
+void TrackFilter::mixed(FilterVector& mean, FilterMatrix& covariance) const {
+  const Eigen::Index n = models_[0].mean.size();
+  mean = FilterVector::Zero(n);
+  covariance = FilterMatrix::Zero(n, n);
+  for (const Model& model : models_) mean += model.probability * model.mean;
+  for (const Model& model : models_) {
+    const FilterVector off = model.mean - mean;
+    covariance += model.probability * model.covariance;
+    covariance.noalias() += (model.probability * off) * off.transpose();
+  }
+}
+
+KinematicState TrackFilter::at(std::int64_t utime_us) const {
+  const double dt_s = seconds(utime_us - utime_us_);
+  KinematicState state;
+  state.utime_us = utime_us;
+  std::array<Vector9, kMotions> means;
+  std::array<Matrix9, kMotions> covariances;
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    means[m] = models_[m].mean.head<9>();
+    covariances[m] = models_[m].covariance.topLeftCorner<9, 9>();
+    Transition t = transition(static_cast<Motion>(m), means[m], std::abs(dt_s), config_.motion);
+    if (dt_s < 0.0) t.f << 1.0, dt_s, dt_s * dt_s / 2.0, 0.0, 1.0, dt_s, 0.0, 0.0, 1.0;
+    transform_rows(t.f, means[m]);
+    propagate_covariance(t, covariances[m]);
+    state.mean += models_[m].probability * means[m];
+  }
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    const Vector9 off = means[m] - state.mean;
+    state.covariance += models_[m].probability * (covariances[m] + off * off.transpose());
+  }
+  return state;
+}
+
+Eigen::Matrix3d TrackFilter::systematic() const {
+  FilterVector mean;
+  FilterMatrix P;
+  mixed(mean, P);
+  const Eigen::Index biases = mean.size() - 9;
+  if (biases == 0) return Eigen::Matrix3d::Zero();
+  FilterMatrix own = P.bottomRightCorner(biases, biases);
+  own.diagonal().array() += 1e-18;  // a clock that is known has no variance
+  const auto cross = P.topRightCorner(3, biases);
+  return cross * own.ldlt().solve(cross.transpose());
+}
+
+StationBias TrackFilter::bias(std::size_t station) const {
+  const auto at = static_cast<Eigen::Index>(9 + 3 * station);
+  StationBias result;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Model& model : models_) mean += model.probability * model.mean.segment<3>(at);
+  Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
+  for (const Model& model : models_) {
+    const Eigen::Vector3d off = model.mean.segment<3>(at) - mean;
+    P += model.probability * (model.covariance.block<3, 3>(at, at) + off * off.transpose());
+  }
+  result.bias_rad = mean.head<2>();
+  result.covariance_rad2 = P.topLeftCorner<2, 2>();
+  result.prior_rad2 = priors_[station].covariance;
+  result.clock_s = mean(2);
+  result.clock_sd_s = std::sqrt(std::max(0.0, P(2, 2)));
+  result.clock_prior_sd_s = stations_[station].clock_sd_s;
+  return result;
+}
+
+std::array<double, kMotions> TrackFilter::probabilities() const {
+  std::array<double, kMotions> result{};
+  for (std::size_t m = 0; m < models_.size(); ++m) result[m] = models_[m].probability;
+  return result;
+}
+
+}  // namespace ols

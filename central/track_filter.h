@@ -1,0 +1,134 @@
+// One target over time: an extended Kalman filter with mixed motion models that takes every bearing
+// at its own instant. Pure.
+//
+// State: position, velocity, acceleration (ECEF components), and for each station that contributes
+// its bias on the tangent plane (cross-elevation, elevation) and its clock's offset. The biases are
+// Gauss-Markov processes with the prior of StationErrors: where the geometry shows them they are
+// estimated, where it does not they are only considered (Schmidt), and either way the position's
+// covariance contains them, so that averaging does not make them go away.
+//
+// A bearing newer than the state moves it on. A late one is compared with where the target was at
+// its own instant, by the state's own velocity and acceleration. Three models (motion_model.h) are
+// mixed (IMM: Blom and Bar-Shalom, 1988). A bearing far off is set aside, one a little off is
+// weighted down; only such ones of two stations in a row say that the target has done what no model
+// allows, and it is given room.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "central/motion_model.h"
+#include "central/sighting.h"
+#include "central/station_errors.h"
+
+namespace ols {
+
+struct FilterConfig {
+  MotionConfig motion{};
+  double robust_nis = 9.0;      // squared normalised residual beyond which a bearing weighs less
+  double gate_nis = 25.0;       // and beyond which it is set aside
+  double mixing_s = 0.05;       // models are mixed and biases moved on at this interval
+  double range_sd_limit = 0.3;  // greatest 1-sigma over range of a position that is one
+  double max_range_m = 500e3;
+};
+
+inline constexpr int kFilterStations = 12;  // bias states of the latest so many
+inline constexpr int kFilterStates = 9 + 3 * kFilterStations;
+using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
+using FilterMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kFilterStates, kFilterStates>;
+
+// What became of a bearing.
+enum class BearingUse { kUsed, kSetAside, kBehindCamera, kTooLate };
+
+// Position, velocity, acceleration; three components each.
+struct KinematicState {
+  std::int64_t utime_us = 0;
+  Vector9 mean = Vector9::Zero();
+  Matrix9 covariance = Matrix9::Zero();
+};
+
+// A contributing station.
+struct FilterStation {
+  std::string station;
+  SightLine sight;              // its last bearing
+  std::int64_t utime_us = 0;    // of the last one that was used
+  std::int64_t offered_us = 0;  // of the last one that was offered
+  std::int64_t calibration_id = 0;
+  double weight = 0.0;  // of the last one, 0: set aside
+  double clock_sd_s = 0.0;
+  double mean_nis = 2.0;  // lately, of bearings that were used; 2 is ideal
+};
+
+struct StationBias {
+  Eigen::Vector2d bias_rad = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance_rad2 = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d prior_rad2 = Eigen::Matrix2d::Zero();
+  double clock_s = 0.0;
+  double clock_sd_s = 0.0;
+  double clock_prior_sd_s = 0.0;
+};
+
+class TrackFilter {
+ public:
+  // From a place where the target may be, with vague knowledge: a start for the first bearings.
+  TrackFilter(const FilterConfig& config, std::int64_t utime_us, const Eigen::Vector3d& p_ecef,
+              double position_sd_m, double velocity_sd_m_s);
+
+  // The bearing's squared normalised residual (2 degrees of freedom); infinite behind the camera.
+  double nis(const Sighting& sighting, const StationErrors& errors) const;
+  BearingUse update(const Sighting& sighting, StationErrors& errors);
+  // Moves the state on without a bearing.
+  void advance(std::int64_t utime_us, StationErrors& errors);
+
+  std::int64_t utime_us() const { return utime_us_; }
+  // Mixed over the models, at an instant before or after the state's own.
+  KinematicState at(std::int64_t utime_us) const;
+  // The part of the position's covariance that the biases make, at the state's own instant.
+  Eigen::Matrix3d systematic() const;
+  // at() the state's own instant; at hand.
+  const KinematicState& summary() const { return summary_; }
+  Eigen::Vector3d position() const { return summary_.mean.head<3>(); }
+  Eigen::Vector3d velocity() const { return summary_.mean.segment<3>(3); }
+  const std::vector<FilterStation>& stations() const { return stations_; }
+  StationBias bias(std::size_t station) const;
+  std::array<double, kMotions> probabilities() const;
+  // The whole mixed state, for the smoother: kinematics, then three states a station.
+  void mixed(FilterVector& mean, FilterMatrix& covariance) const;
+  const FilterConfig& config() const { return config_; }
+
+ private:
+  struct Model {
+    FilterVector mean;
+    FilterMatrix covariance;
+    double probability = 1.0 / kMotions;
+  };
+  struct Innovation;
+  Innovation innovation(const Model& model, const Sighting& sighting, int station,
+                        const BiasPrior& prior) const;
+  int index_of(const std::string& station) const;
+  int enter(const Sighting& sighting, const BiasPrior& prior);
+  void reset(int station, const Sighting& sighting, const BiasPrior& prior);
+  void move_to(std::int64_t utime_us, StationErrors& errors);
+  void mix(double dt_s);
+  void move_biases(double dt_s, StationErrors& errors);
+  void give_room();
+  void weigh_models(const std::array<double, kMotions>& log_likelihood);
+  void refresh();
+
+  FilterConfig config_;
+  std::int64_t utime_us_;
+  std::int64_t mixed_us_;  // when the models were mixed last
+  std::array<Model, kMotions> models_;
+  std::vector<FilterStation> stations_;
+  std::vector<BiasPrior> priors_;
+  KinematicState summary_;     // mixed over the models
+  int upset_ = 0;              // set-aside bearings since the last used one
+  std::string upset_station_;  // of the first of them
+  bool two_upset_ = false;     // another station's is among them
+};
+
+}  // namespace ols

@@ -1,0 +1,130 @@
+#include "central/slew_planner.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "flight.h"
+
+namespace ols {
+namespace {
+
+using Eigen::Vector3d;
+using test::kStart;
+using test::path;
+using test::site;
+using test::square;
+
+Track track_of_flight(std::int64_t id, double seconds) {
+  Track track(TrackFilter({}, kStart, site().to_ecef(path(0.0)), 100.0, 50.0));
+  StationErrors errors;
+  for (const Sighting& s : test::flight(seconds, 1e-4)) track.filter.update(s, errors);
+  track.id = id;
+  track.state = TrackState::kConfirmed;
+  track.located_us = track.filter.utime_us();
+  return track;
+}
+
+SlewStation station_at(const std::string& id, const Vector3d& p_enu, std::int64_t follows = 0) {
+  return {id, {.camera_ecef = site().to_ecef(p_enu)}, follows};
+}
+
+double off_rad(const Slew& slew, const Vector3d& from_enu, const Vector3d& to_enu) {
+  const auto expected = test::direction_to(site().to_ecef(from_enu), site().to_ecef(to_enu));
+  return angle_between(enu_from_azimuth_elevation(slew.direction),
+                       enu_from_azimuth_elevation(expected));
+}
+
+TEST(SlewPlanner, LeadsByTheStationsOwnLatency) {
+  const std::vector<Track> tracks = {track_of_flight(1, 3.0)};
+  const std::int64_t now_us = tracks[0].filter.utime_us();
+  SlewPlanner planner;
+  SlewStation slow = station_at("slow", {0, 0, 10}, 1);
+  slow.traits.latency_s = 0.4;
+  const auto slews = planner.plan(now_us, {station_at("quick", {0, 0, 10}, 1), slow}, tracks, {});
+  ASSERT_EQ(slews.size(), 2U);
+  EXPECT_EQ(slews[0].effect_utime_us, now_us + 150'000);
+  EXPECT_EQ(slews[1].effect_utime_us, now_us + 500'000);
+  for (const Slew& slew : slews) {
+    const double t_s = 1e-6 * static_cast<double>(slew.effect_utime_us - kStart);
+    EXPECT_LT(off_rad(slew, {0, 0, 10}, path(t_s)), 2e-3);
+    EXPECT_EQ(slew.lease_s, SlewConfig{}.lease_s);
+  }
+}
+
+TEST(SlewPlanner, TheOperatorComesFirst) {
+  const std::vector<Track> tracks = {track_of_flight(1, 2.0)};
+  SlewPlanner planner;
+  SlewStation held = station_at("held", {0, 0, 0});
+  held.traits.commandable = false;
+  EXPECT_TRUE(planner.plan(tracks[0].filter.utime_us(), {held}, tracks, {}).empty());
+}
+
+TEST(SlewPlanner, WhoSeesNothingHelpsWhereTheFewestLook) {
+  std::vector<Track> tracks = {track_of_flight(1, 2.0), track_of_flight(2, 2.0)};
+  SlewPlanner planner;
+  const std::vector<SlewStation> stations = {
+      station_at("a", {0, 0, 0}, 1), station_at("b", {9, 0, 0}, 1), station_at("c", {0, 9, 0}, 2),
+      station_at("d", {9, 9, 0})};
+  const auto slews = planner.plan(tracks[0].filter.utime_us(), stations, tracks, {});
+  ASSERT_EQ(slews.size(), 4U);
+  EXPECT_EQ(slews[0].target_id, 1);
+  EXPECT_EQ(slews[2].target_id, 2);
+  EXPECT_EQ(slews[3].target_id, 2);
+}
+
+// Nobody has a position: the others look along the ray that there is, from near to far and back.
+TEST(SlewPlanner, SearchesAlongARayWithinItsPlane) {
+  SlewPlanner planner;
+  const Vector3d from(0, 0, 0), camera(400, 0, 0);
+  const Vector3d toward(0.0, 0.9, 0.2);
+  const CueRay ray{"a", site().to_ecef(from), (site().R_ecef_enu() * toward).normalized()};
+  const std::vector<SlewStation> stations = {station_at("a", from), station_at("b", camera)};
+  double nearest = 10.0, farthest = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto slews = planner.plan(kStart + i * 100'000, stations, {}, {ray});
+    ASSERT_EQ(slews.size(), 1U);  // not the one that sees it
+    EXPECT_EQ(slews[0].station, "b");
+    EXPECT_EQ(slews[0].target_id, 0);
+    const Vector3d line = enu_from_azimuth_elevation(slews[0].direction);
+    const Vector3d normal = (camera - from).cross(toward).normalized();
+    EXPECT_NEAR(line.dot(normal), 0.0, 1e-3);
+    const double angle = angle_between(line, from - camera);
+    nearest = std::min(nearest, angle);
+    farthest = std::max(farthest, angle);
+  }
+  EXPECT_LT(nearest, 0.1);
+  EXPECT_GT(farthest, 1.3);
+}
+
+TEST(SlewPlanner, AnUnsureDirectionIsSearchedInASpiral) {
+  std::vector<Track> tracks = {track_of_flight(1, 2.0)};
+  StationErrors errors;
+  tracks[0].filter.advance(tracks[0].filter.utime_us() + 1'900'000, errors);
+  const std::int64_t now_us = tracks[0].filter.utime_us();
+  SlewPlanner planner({.coast_s = 60.0});
+  SlewStation narrow = station_at("b", {0, 0, 0});
+  narrow.traits.field_of_view_rad = 0.004;
+  double spread = 0.0, sd = 0.0;
+  const auto first = planner.plan(now_us, {narrow}, tracks, {}).at(0);
+  for (int i = 1; i < 300; ++i) {
+    const auto slew = planner.plan(now_us + i * 1000, {narrow}, tracks, {}).at(0);
+    sd = slew.direction_sd_rad;
+    spread = std::max(spread, angle_between(enu_from_azimuth_elevation(slew.direction),
+                                            enu_from_azimuth_elevation(first.direction)));
+  }
+  EXPECT_GT(sd, 0.004);
+  // By now it has been led on with the target by less than that, at most a step or two more.
+  SlewPlanner patient({.dwell_s = 1e-4, .coast_s = 60.0});
+  for (int i = 0; i < 300; ++i) {
+    const auto slew = patient.plan(now_us + i * 1000, {narrow}, tracks, {}).at(0);
+    spread = std::max(spread, angle_between(enu_from_azimuth_elevation(slew.direction),
+                                            enu_from_azimuth_elevation(first.direction)));
+  }
+  EXPECT_GT(spread, sd);
+  EXPECT_LT(spread, 6.0 * sd + 0.05);
+}
+
+}  // namespace
+}  // namespace ols

@@ -1,0 +1,152 @@
+#include "central/track_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <random>
+
+#include "flight.h"
+
+namespace ols {
+namespace {
+
+using Eigen::Vector3d;
+using test::flight;
+using test::kStart;
+using test::path;
+using test::ray_to;
+using test::sighting_of;
+using test::site;
+using test::square;
+
+TrackFilter filter_at(const Vector3d& p_enu, double sd_m = 100.0) {
+  return TrackFilter({}, kStart, site().to_ecef(p_enu), sd_m, 50.0);
+}
+
+Vector3d error(const TrackFilter& filter, std::int64_t utime_us) {
+  const double t_s = static_cast<double>(utime_us - kStart) * 1e-6;
+  return filter.at(utime_us).mean.head<3>() - site().to_ecef(path(t_s));
+}
+
+TEST(TrackFilter, FindsPositionAndVelocityFromStaggeredBearings) {
+  StationErrors errors;
+  TrackFilter filter = filter_at(path(0.0) + Vector3d(20, -10, 5));
+  for (const Sighting& s : flight(3.0, 1e-4, 1e-4)) {
+    EXPECT_EQ(filter.update(s, errors), BearingUse::kUsed);
+  }
+  EXPECT_LT(error(filter, filter.utime_us()).norm(), 0.15);
+  const Vector3d velocity = site().R_ecef_enu().transpose() * filter.velocity();
+  EXPECT_LT((velocity - Vector3d(20, -5, 2)).norm(), 0.5);
+  EXPECT_LT(error(filter, filter.utime_us() + 200'000).norm(), 0.3);
+}
+
+// Late bearings, out of order, each count at their own instant.
+TEST(TrackFilter, LateBearingsCountAtTheirOwnInstant) {
+  auto sightings = flight(3.0, 1e-4, 1e-4);
+  StationErrors errors;
+  TrackFilter in_order = filter_at(path(0.0)), late = filter_at(path(0.0));
+  for (const Sighting& s : sightings) in_order.update(s, errors);
+  for (std::size_t i = 0; i + 8 < sightings.size(); i += 8) {
+    std::swap(sightings[i], sightings[i + 7]);
+  }
+  StationErrors others;
+  for (const Sighting& s : sightings) EXPECT_EQ(late.update(s, others), BearingUse::kUsed);
+  const std::int64_t end_us = in_order.utime_us();
+  EXPECT_LT((in_order.at(end_us).mean - late.at(end_us).mean).head<3>().norm(), 0.1);
+  Sighting ancient = sightings.front();
+  ancient.utime_us -= 5'000'000;
+  EXPECT_EQ(late.update(ancient, others), BearingUse::kTooLate);
+}
+
+TEST(TrackFilter, SetsAWildRayAsideAndNamesWhatIsBehind) {
+  StationErrors errors;
+  TrackFilter filter = filter_at(path(0.0));
+  const auto sightings = flight(2.0, 1e-4);
+  for (const Sighting& s : sightings) filter.update(s, errors);
+  Sighting wild = sightings.back();
+  wild.sight.direction.elevation_rad += 0.05;
+  const Vector3d before = filter.position();
+  EXPECT_EQ(filter.update(wild, errors), BearingUse::kSetAside);
+  EXPECT_EQ(filter.position(), before);
+  wild.sight.direction.azimuth_rad = wrap_two_pi(wild.sight.direction.azimuth_rad + kPi);
+  EXPECT_EQ(filter.update(wild, errors), BearingUse::kBehindCamera);
+}
+
+TEST(TrackFilter, FollowsAManoeuvreBeyondItsModels) {
+  StationErrors errors;
+  TrackFilter filter = filter_at(path(0.0));
+  const auto corner = [](double t_s) {
+    const double after_s = std::max(0.0, t_s - 2.0);
+    return Vector3d(path(std::min(t_s, 2.0)) + after_s * Vector3d(-40, 30, 0));
+  };
+  for (int i = 0; i < 300; ++i) {
+    const double t_s = i / 60.0;
+    const auto k = static_cast<std::size_t>(i % 4);
+    filter.update(sighting_of(ray_to(std::string(1, static_cast<char>('a' + i % 4)), square()[k],
+                                     corner(t_s), 1e-4),
+                              kStart + std::llround(t_s * 1e6)),
+                  errors);
+  }
+  const double t_s = 299 / 60.0;
+  EXPECT_LT((filter.position() - site().to_ecef(corner(t_s))).norm(), 0.5);
+}
+
+// One station in five is off by more than the noise, and says nothing of it.
+TEST(TrackFilter, ABiasIsFoundWhereTheGeometryShowsIt) {
+  StationErrors errors;
+  TrackFilter filter = filter_at(path(0.0));
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  const double sigma = 2e-4, bias = 8e-4;
+  for (int i = 0; i < 1500; ++i) {
+    const double t_s = i / 100.0;
+    const auto k = static_cast<std::size_t>(i % 4);
+    Ray ray =
+        ray_to(std::string(1, static_cast<char>('a' + i % 4)), square()[k], path(0.5 * t_s), sigma);
+    ray = test::turned(ray, sigma * normal(random), sigma * normal(random) + (k == 2 ? bias : 0.0));
+    filter.update(sighting_of(ray, kStart + std::llround(t_s * 1e6)), errors);
+  }
+  for (std::size_t i = 0; i < filter.stations().size(); ++i) {
+    const StationBias found = filter.bias(i);
+    const bool off = filter.stations()[i].station == "c";
+    if (off) EXPECT_GT(found.bias_rad.y(), 0.4 * bias);
+    const double truth = off ? bias : 0.0;
+    EXPECT_LT(std::abs(found.bias_rad.y() - truth), 4.0 * std::sqrt(found.covariance_rad2(1, 1)));
+  }
+}
+
+// Systematic errors do not average away: the covariance stays that of the stations' statements.
+TEST(TrackFilter, AveragingDoesNotMakeABadHeadingGoAway) {
+  StationErrors errors;
+  TrackFilter filter = filter_at({0.0, 300.0, 50.0});
+  const double heading = 3e-3;
+  for (int i = 0; i < 4000; ++i) {
+    const auto k = static_cast<std::size_t>(i % 2);
+    Ray ray = ray_to(k == 0 ? "a" : "b", square()[k], {0.0, 300.0, 50.0}, 1e-4);
+    ray.sight.covariance_systematic = Eigen::Matrix2d::Identity() * heading * heading;
+    filter.update(sighting_of(ray, kStart + i * 10'000), errors);
+  }
+  const Eigen::Matrix3d P = filter.summary().covariance.topLeftCorner<3, 3>();
+  const double range_m = Vector3d(200.0, 500.0, 50.0).norm();
+  EXPECT_GT(std::sqrt(P.trace()), heading * range_m);
+  EXPECT_GT(filter.systematic().trace(), 0.8 * P.trace());
+}
+
+TEST(TrackFilter, KeepsItsCovarianceSymmetricAndDefinite) {
+  StationErrors errors;
+  TrackFilter filter = filter_at(path(0.0), 1e4);
+  for (const Sighting& s : flight(20.0, 1e-6)) filter.update(s, errors);
+  FilterVector mean;
+  FilterMatrix P;
+  filter.mixed(mean, P);
+  EXPECT_LT((P - P.transpose()).cwiseAbs().maxCoeff(), 1e-9 * P.cwiseAbs().maxCoeff());
+  const FilterMatrix known = P.topLeftCorner(9, 9);
+  EXPECT_TRUE(known.llt().info() == Eigen::Success);
+  double sum = 0.0;
+  for (const double p : filter.probabilities()) sum += p;
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace ols

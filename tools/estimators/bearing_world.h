@@ -1,0 +1,55 @@
+// Simulated bearings without pictures: targets fly, stations measure their directions with noise,
+// biases, misses and false ones. For Monte Carlo runs of the estimators. Deterministic by the seed.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "central/fusion.h"
+#include "geometry/wgs84.h"
+
+namespace ols::bench {
+
+inline constexpr std::int64_t kStartUs = 1'700'000'000'000'000;
+
+struct WorldConfig {
+  std::vector<Eigen::Vector3d> stations_enu;  // [m]
+  std::vector<Eigen::Vector3d> aims_enu;      // where each looks, for false bearings; empty: centre
+  double rate_hz = 30.0;                      // frames of each station, evenly staggered
+  double noise_rad = 3e-4;
+  double bias_sd_rad = 0.0;      // of each station, constant, each axis
+  bool bias_stated = true;       // and the stations state it
+  double missed = 0.0;           // share of a station's detections
+  double false_per_frame = 0.0;  // mean number, Poisson
+  double view_rad = 0.5;         // half width of the field of the false ones
+};
+
+// A target's position at a time, and its velocity.
+struct PathPoint {
+  Eigen::Vector3d p_enu = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_enu = Eigen::Vector3d::Zero();
+};
+using Path = std::vector<PathPoint>;  // sampled at kPathHz from 0
+inline constexpr double kPathHz = 1000.0;
+
+const LocalFrame& site();
+PathPoint at(const Path& path, double time_s);
+
+// Constant velocity but for white noise of the acceleration [m/s^2 over root Hz].
+Path cruising(const PathPoint& start, double disturbance, double duration_s,
+              std::mt19937_64& random);
+// A drone that turns, brakes and climbs: piecewise constant turns and accelerations of this size.
+Path manoeuvring(const PathPoint& start, double acceleration_m_s2, double duration_s,
+                 std::mt19937_64& random);
+
+// In order of time; several of one station and frame share their stamp.
+std::vector<Sighting> measure(const WorldConfig& config, const std::vector<Path>& targets,
+                              double duration_s, std::mt19937_64& random);
+
+// n stations on a circle about the origin.
+std::vector<Eigen::Vector3d> circle(int n, double radius_m);
+
+}  // namespace ols::bench

@@ -1,0 +1,47 @@
+#include "tools/estimators/posterior_bound.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cstdlib>
+
+#include "central/ray.h"
+
+namespace ols::bench {
+
+std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
+                                    const std::vector<Sighting>& bearings, double disturbance,
+                                    double position_sd_m, double velocity_sd_m_s) {
+  const auto n = static_cast<Eigen::Index>(6 + 2 * config.stations_enu.size());
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(n, n);
+  P.diagonal().head<3>().setConstant(position_sd_m * position_sd_m);
+  P.diagonal().segment<3>(3).setConstant(velocity_sd_m_s * velocity_sd_m_s);
+  P.diagonal().tail(n - 6).setConstant(std::max(1e-24, config.bias_sd_rad * config.bias_sd_rad));
+  std::vector<double> bound;
+  std::int64_t last_us = bearings.front().utime_us;
+  for (const Sighting& sighting : bearings) {
+    const double dt = 1e-6 * static_cast<double>(sighting.utime_us - last_us);
+    last_us = sighting.utime_us;
+    Eigen::MatrixXd F = Eigen::MatrixXd::Identity(n, n);
+    F.block<3, 3>(0, 3).diagonal().setConstant(dt);
+    P = F * P * F.transpose();
+    const double s = disturbance * disturbance;
+    P.diagonal().head<3>().array() += s * dt * dt * dt / 3.0;
+    P.diagonal().segment<3>(3).array() += s * dt;
+    P.block<3, 3>(0, 3).diagonal().array() += s * dt * dt / 2.0;
+    P.block<3, 3>(3, 0).diagonal().array() += s * dt * dt / 2.0;
+    const double time_s = 1e-6 * static_cast<double>(sighting.utime_us - kStartUs);
+    const Eigen::Vector3d line =
+        site().to_ecef(at(path, time_s).p_enu) - sighting.sight.origin_ecef;
+    const RayFrame frame = ray_frame(sighting.sight);
+    const auto station = std::atoi(sighting.station.c_str() + 1);
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, n);
+    H.leftCols<3>() = frame.tangent.transpose() / line.norm();
+    H.block<2, 2>(0, 6 + 2 * station).setIdentity();
+    const Eigen::Matrix2d S = H * P * H.transpose() + sighting.sight.covariance_white;
+    P -= P * H.transpose() * S.inverse() * H * P;
+    bound.push_back(P.topLeftCorner<3, 3>().trace());
+  }
+  return bound;
+}
+
+}  // namespace ols::bench

@@ -1,0 +1,26 @@
+// The scenario of several targets: crossings, misses, false bearings; and how well the fusion keeps
+// them apart.
+#pragma once
+
+#include <cstdint>
+
+namespace ols::bench {
+
+struct SeveralTargets {
+  int targets = 5;
+  int stations = 4;
+  double duration_s = 40.0;
+  double missed = 0.1;
+  double false_per_frame = 1.0;
+};
+
+struct IdentityScore {
+  double by_right_identity = 0.0;  // share of target-seconds
+  double longest_ghost_s = 0.0;    // a confirmed track far from every target
+  int switches = 0;                // a target's track has got another id
+  double rms_m = 0.0;
+};
+
+IdentityScore run_several(const SeveralTargets& scenario, std::uint64_t seed);
+
+}  // namespace ols::bench
