@@ -274,8 +274,11 @@ void Fusion::locate(const Track& track, std::int64_t epoch_us, FusionOutput& out
     object.paper = make_estimator("paper", config_.estimators);
   }
   const TrackView view{track.bearings, tracker_.errors(), &track.filter};
-  output.targets.push_back(
-      target_of(epoch_us, track, object.main->name(), object.main->locate(view, epoch_us)));
+  Located located = object.main->locate(view, epoch_us);
+  std::erase_if(located.stations, [this](const ContributingStation& station) {
+    return !clocks_.quarantine(station.station).empty();
+  });
+  output.targets.push_back(target_of(epoch_us, track, object.main->name(), std::move(located)));
   if (static_cast<int>(output.targets_paper.size()) >= config_.paper_targets) return;
   output.targets_paper.push_back(
       target_of(epoch_us, track, object.paper->name(), object.paper->locate(view, epoch_us)));

@@ -41,7 +41,7 @@ std::vector<TargetTracker::Candidate> TargetTracker::candidates(const Sighting& 
   std::vector<Candidate> found;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const Track& track = tracks_[i];
-    if (is_sure(track) != confirmed) continue;
+    if (is_sure(track) != confirmed || track.state == TrackState::kDropped) continue;
     if (!config_.one_target && !may_be_near(track, sighting)) continue;
     if (track.has_taken(sighting)) continue;
     const double nis = track.filter.nis(sighting, errors_);
@@ -193,6 +193,12 @@ void TargetTracker::age(Track& track, std::int64_t now_us) {
   }
   if (unseen_s > config_.coast_s) track.state = TrackState::kCoasted;
   if (unseen_s <= config_.drop_s) return;
+  // One station alone is no position for long; of a recording's one object it is known by its own
+  // covariance for how long.
+  if (!config_.one_target) {
+    track.state = TrackState::kDropped;
+    return;
+  }
   const bool silent = stations_lately(track.filter, config_.drop_s) == 0 ||
                       seconds(now_us - track.filter.utime_us()) > config_.drop_s;
   const bool lost = judge_position(track.filter, track.filter.at(now_us)) != Solution::kOk;

@@ -100,9 +100,20 @@ void bind_configs(py::module_& m) {
       .def_readwrite("max_range_m", &LeastSquaresConfig::max_range_m)
       .def_readwrite("max_iterations", &LeastSquaresConfig::max_iterations);
 
+  py::enum_<PaperPairs>(m, "PaperPairs", "What becomes of the pairs of stations.")
+      .value("ALGORITHM_1", PaperPairs::kAlgorithm1)
+      .value("CENTROID", PaperPairs::kCentroid)
+      .value("BEST_BASELINE", PaperPairs::kBestBaseline);
+
+  data_class<PaperConfig>(m, "PaperConfig", "The parts of the paper's estimator.")
+      .def_readwrite("pairs", &PaperConfig::pairs)
+      .def_readwrite("by_belief", &PaperConfig::by_belief)
+      .def_readwrite("moving_average", &PaperConfig::moving_average);
+
   data_class<EstimatorConfig>(m, "EstimatorConfig", "Of the estimators without memory.")
       .def_readwrite("alignment", &EstimatorConfig::alignment)
-      .def_readwrite("least_squares", &EstimatorConfig::least_squares);
+      .def_readwrite("least_squares", &EstimatorConfig::least_squares)
+      .def_readwrite("paper", &EstimatorConfig::paper);
 
   data_class<FusionConfig>(m, "FusionConfig", "The fusion; nested ones are replaced as a whole.")
       .def_readwrite("min_belief", &FusionConfig::min_belief)
@@ -139,17 +150,11 @@ void bind_fusion(py::module_& m) {
           },
           "Names, in the order of estimate.rays.");
 
-  py::enum_<OfflineEstimator>(m, "Estimator", "Which estimator fuse_offline uses.")
-      .value("LEAST_SQUARES", OfflineEstimator::kLeastSquares)
-      .value("PAPER", OfflineEstimator::kPaper)
-      .value("PAPER_BEST_BASELINE", OfflineEstimator::kPaperBestBaseline);
-
   data_class<OfflineConfig>(m, "OfflineConfig", "What fuse_offline does; see --help of ols-fuse.")
-      .def_readwrite("estimator", &OfflineConfig::estimator)
+      .def_readwrite("estimator", &OfflineConfig::estimator, "filter, least-squares or paper")
+      .def_readwrite("smooth", &OfflineConfig::smooth, "The filter's alone.")
       .def_readwrite("rate_hz", &OfflineConfig::rate_hz,
                      "Epochs on an even grid; 0: at the instant of every bearing.")
-      .def_readwrite("moving_average", &OfflineConfig::moving_average)
-      .def_readwrite("passes", &OfflineConfig::passes)
       .def_readwrite("fusion", &OfflineConfig::fusion, "FusionConfig, replaced as a whole.");
 
   m.def("fuse_offline", &fuse_offline, arg("sightings"), arg("config") = OfflineConfig{},

@@ -135,8 +135,8 @@ TEST(TrackFilter, AveragingDoesNotMakeABadHeadingGoAway) {
 
 TEST(TrackFilter, KeepsItsCovarianceSymmetricAndDefinite) {
   StationErrors errors;
-  TrackFilter filter = filter_at(path(0.0), 1e4);
-  for (const Sighting& s : flight(20.0, 1e-6)) filter.update(s, errors);
+  TrackFilter filter = filter_at(path(0.0));
+  for (const Sighting& s : flight(20.0, 1e-5)) filter.update(s, errors);
   FilterVector mean;
   FilterMatrix P;
   filter.mixed(mean, P);
