@@ -3,8 +3,7 @@
 // Two filters, one forwards and one backwards in time (Fraser and Potter, 1969): at each instant
 // the forward one's state, which contains the bearings up to it, is joined with the backward one's
 // prediction, which contains those after it. Both have the biases' prior in them, once too often:
-// it is taken out. What the stations do not tell of their errors is learnt in a run before, and
-// held.
+// it is taken out. What the stations do not tell of their errors is learnt in a run before.
 #pragma once
 
 #include <cstdint>
