@@ -216,8 +216,8 @@ def ptu_power_cycle_unhomed(session: Session, outcome: Outcome) -> None:
     judge_since(session, outcome, station, at_us)
 
 
-def rays_set_aside(session: Session) -> float:
-    return counters(session.observer.fusion).get("rays_set_aside", 0.0)
+def bearings_set_aside(session: Session) -> float:
+    return counters(session.observer.fusion).get("bearings_set_aside", 0.0)
 
 
 @case(
@@ -228,9 +228,9 @@ def rays_set_aside(session: Session) -> float:
 def ptu_lost_steps(session: Session, outcome: Outcome) -> None:
     """No unit tells of it, and so no station can: the others show it."""
     station = session.stations[3]
-    aside = rays_set_aside(session)
+    aside = bearings_set_aside(session)
     at_us = session.fault("ptu-lost-steps", station, 1e6, SLIP_DEG)
-    seen = session.wait(lambda: rays_set_aside(session) > aside, 5.0)
+    seen = session.wait(lambda: bearings_set_aside(session) > aside, 5.0)
     outcome.at_most("rays set aside by the fusion", seen, 5.0, "s")
     session.run(1.5)  # until its filter has followed
     judge_target(session, outcome, session.run(4.0))
