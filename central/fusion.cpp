@@ -45,7 +45,7 @@ Fusion::Fusion(const FusionConfig& config)
       time_(config.silence_s),
       clocks_(config.clocks),
       pointing_(config.pointing),
-      tracker_(config.tracker),
+      keeper_(config.keeper),
       planner_(config.slew) {
   if (!make_estimator(config.estimator, config.estimators)) {
     throw std::invalid_argument("there is no estimator " + config.estimator);
@@ -120,7 +120,7 @@ void Fusion::evict(std::map<std::string, Station>::iterator station) {
   time_.forget(station->first);
   clocks_.forget(station->first);
   pointing_.forget(station->first);
-  tracker_.forget_station(station->first);
+  keeper_.forget_station(station->first);
   planner_.forget(station->first);
   stations_.erase(station);
 }
@@ -188,7 +188,7 @@ SightingRefusal Fusion::store(const Sighting& sighting) {
   station.rate_hz = span_s > 0.0 ? static_cast<double>(lately.size() - 1) / span_s : 0.0;
   station.traits.camera_ecef = sighting.sight.origin_ecef;
   if (station.bearings > 0 && station.calibration_id != sighting.calibration_id) {
-    tracker_.errors().forget(sighting.station);
+    keeper_.errors().forget(sighting.station);
     pointing_.forget(sighting.station);
     ++counters_["calibrations_changed"];
   }
@@ -203,7 +203,7 @@ SightingRefusal Fusion::associate(const Sighting& sighting) {
   Sighting judged = sighting;
   judged.clock_sd_s = std::hypot(sighting.clock_sd_s, clocks_.added_sd_s(sighting.station));
   const bool believed = pointing_.quarantine(sighting.station).empty();
-  const Association result = tracker_.add(judged, believed);
+  const Association result = keeper_.add(judged, believed);
   const bool explained = result.kind == Association::Kind::kTrack;
   Station& station = stations_[sighting.station];
   if (explained && result.track_id != 0) {
@@ -213,7 +213,7 @@ SightingRefusal Fusion::associate(const Sighting& sighting) {
   if (result.kind == Association::Kind::kAmbiguous) return SightingRefusal::kNone;
   std::optional<Eigen::Vector2d> off_rad;
   if (!explained) {
-    const auto nearest = tracker_.nearest(sighting);
+    const auto nearest = keeper_.nearest(sighting);
     if (nearest) off_rad = nearest->off_rad;
   }
   pointing_.hear(sighting.station, sighting.utime_us, explained, off_rad);
@@ -238,7 +238,7 @@ void Fusion::notice_step_back() {
   last_epoch_us_.reset();
   last_slew_us_.reset();
   objects_.clear();
-  tracker_.clear();
+  keeper_.clear();
   planner_.clear();
   clocks_.clear();
   pointing_.clear();
@@ -250,12 +250,12 @@ void Fusion::notice_step_back() {
 
 void Fusion::locate(std::int64_t epoch_us, FusionOutput& output) {
   last_epoch_us_ = epoch_us;
-  tracker_.advance(epoch_us);
+  keeper_.advance(epoch_us);
   std::erase_if(objects_, [&](const auto& object) {
-    return std::ranges::none_of(tracker_.tracks(),
+    return std::ranges::none_of(keeper_.tracks(),
                                 [&](const Track& t) { return t.id == object.first; });
   });
-  for (const Track& track : tracker_.tracks()) {
+  for (const Track& track : keeper_.tracks()) {
     if (is_sure(track)) locate(track, epoch_us, output);
   }
   std::ranges::sort(output.targets, {}, &FusedTarget::target_id);
@@ -273,7 +273,7 @@ void Fusion::locate(const Track& track, std::int64_t epoch_us, FusionOutput& out
     object.main = make_estimator(config_.estimator, config_.estimators);
     object.paper = make_estimator("paper", config_.estimators);
   }
-  const TrackView view{track.bearings, tracker_.errors(), &track.filter};
+  const TrackView view{track.bearings, keeper_.errors(), &track.filter};
   Located located = object.main->locate(view, epoch_us);
   std::erase_if(located.stations, [this](const ContributingStation& station) {
     return !clocks_.quarantine(station.station).empty();
@@ -291,7 +291,7 @@ void Fusion::tell_without(std::int64_t epoch_us, FusionOutput& output) {
   target.estimator = config_.estimator;
   const std::vector<BearingOnly> only = bearings_only(epoch_us);
   target.estimate.solution =
-      only.size() > 1 ? tracker_.births().last_failure() : Solution::kTooFewRays;
+      only.size() > 1 ? keeper_.births().last_failure() : Solution::kTooFewRays;
   for (const BearingOnly& bearing : only) {
     target.stations.push_back({bearing.station, true, 1.0, 0.0});
   }
@@ -305,7 +305,7 @@ void Fusion::tell_without(std::int64_t epoch_us, FusionOutput& output) {
 // Of stations that follow an object which no track explains.
 std::vector<BearingOnly> Fusion::bearings_only(std::int64_t epoch_us) const {
   std::vector<BearingOnly> found;
-  for (const auto& [name, pool] : tracker_.births().pool()) {
+  for (const auto& [name, pool] : keeper_.births().pool()) {
     if (pool.empty() || !pointing_.quarantine(name).empty()) continue;
     std::vector<Sighting> own;
     for (const Sighting& s : pool) {
@@ -329,13 +329,13 @@ void Fusion::plan(std::int64_t now, FusionOutput& output) {
     if (only.track_id == 0) continue;  // one of many detections, not an object that it follows
     rays.push_back({only.station, only.sight.origin_ecef, direction_ecef(only.sight)});
   }
-  output.slews = planner_.plan(now, stations, tracker_.tracks(), rays);
+  output.slews = planner_.plan(now, stations, keeper_.tracks(), rays);
   counters_["slews"] += static_cast<double>(output.slews.size());
 }
 
 std::map<std::string, double> Fusion::counters() const {
   auto counters = counters_;
-  const TargetTracker::Counts& counts = tracker_.counts();
+  const TrackKeeper::Counts& counts = keeper_.counts();
   counters["tracks_born"] = static_cast<double>(counts.born);
   counters["tracks_confirmed"] = static_cast<double>(counts.confirmed);
   counters["tracks_dropped"] = static_cast<double>(counts.dropped);
@@ -390,7 +390,7 @@ FusionHealth Fusion::health() const {
   FusionHealth health{
       .now_us = now_us(), .stations = {}, .counters = counters(), .last_error = last_error_};
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Findings findings = findings_of(tracker_.tracks());
+  const Findings findings = findings_of(keeper_.tracks());
   for (const auto& [name, station] : stations_) {
     const std::int64_t newest = time_.newest_us(name);
     StationHealth one;

@@ -17,7 +17,7 @@
 #include "central/pointing_monitor.h"
 #include "central/sighting_check.h"
 #include "central/slew_planner.h"
-#include "central/target_tracker.h"
+#include "central/track_keeper.h"
 
 namespace ols {
 
@@ -34,7 +34,7 @@ struct FusionConfig {
                                      // never of one that has delivered and still does
   double silence_s = 0.3;            // who is silent for longer does not count for "now"
   EstimatorConfig estimators{};
-  TrackerConfig tracker{};
+  KeeperConfig keeper{};
   SlewConfig slew{};
   ClockMonitorConfig clocks{};
   PointingConfig pointing{};
@@ -104,7 +104,7 @@ class Fusion {
 
   FusionHealth health() const;
   std::int64_t now_us() const { return time_.now_us(); }
-  const TargetTracker& tracker() const { return tracker_; }
+  const TrackKeeper& keeper() const { return keeper_; }
 
  private:
   struct Exposure {
@@ -149,7 +149,7 @@ class Fusion {
   MessageTime time_;
   ClockMonitor clocks_;
   PointingMonitor pointing_;
-  TargetTracker tracker_;
+  TrackKeeper keeper_;
   SlewPlanner planner_;
   std::map<std::int64_t, Object> objects_;  // by target id
   std::map<std::string, Station> stations_;

@@ -52,7 +52,7 @@ void read_station_errors(ConfigTable& table, StationErrorsConfig& config) {
       table.number("untold_over_noise", config.untold_over_noise, 0.0, 100.0);
 }
 
-void read_tracks(ConfigTable& table, TrackerConfig& config) {
+void read_tracks(ConfigTable& table, KeeperConfig& config) {
   config.max_tracks = static_cast<int>(table.integer("max_tracks", config.max_tracks, 1, 10000));
   config.confirm_stations =
       static_cast<int>(table.integer("confirm_stations", config.confirm_stations, 2, 100));
@@ -100,9 +100,9 @@ FusionSettings load_fusion_settings(const std::string& path) {
   read_alignment(root.table("alignment"), fusion.estimators.alignment);
   read_least_squares(root.table("least_squares"), fusion.estimators.least_squares);
   read_paper(root.table("paper"), fusion.estimators.paper);
-  read_motion(root.table("motion"), fusion.tracker.filter.motion);
-  read_station_errors(root.table("station_errors"), fusion.tracker.errors);
-  read_tracks(root.table("tracks"), fusion.tracker);
+  read_motion(root.table("motion"), fusion.keeper.filter.motion);
+  read_station_errors(root.table("station_errors"), fusion.keeper.errors);
+  read_tracks(root.table("tracks"), fusion.keeper);
   read_slew(root.table("slew"), fusion.slew);
   read_clocks(root.table("clocks"), fusion.clocks);
   file.finish();

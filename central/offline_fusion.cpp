@@ -65,10 +65,10 @@ std::vector<std::int64_t> epochs_of(const std::vector<Sighting>& bearings, doubl
   }
 }
 
-TargetTracker tracker_of(const OfflineConfig& config) {
-  TrackerConfig tracker = config.fusion.tracker;
-  tracker.one_target = true;
-  return TargetTracker(tracker);
+TrackKeeper keeper_of(const OfflineConfig& config) {
+  KeeperConfig keeper = config.fusion.keeper;
+  keeper.one_target = true;
+  return TrackKeeper(keeper);
 }
 
 FusedTarget target_of(std::int64_t epoch_us, const char* estimator, Located located) {
@@ -91,18 +91,18 @@ void locate(Estimator& estimator, const TrackView& view, std::int64_t epoch_us,
 std::vector<FusedTarget> causal(const std::vector<Sighting>& bearings,
                                 const std::vector<std::int64_t>& epochs, Estimator& estimator,
                                 const OfflineConfig& config) {
-  TargetTracker tracker = tracker_of(config);
+  TrackKeeper keeper = keeper_of(config);
   std::vector<FusedTarget> targets;
   auto next = bearings.begin();
   for (const std::int64_t epoch_us : epochs) {
     for (; next != bearings.end() && next->utime_us <= epoch_us; ++next) {
-      tracker.advance(next->utime_us);
-      tracker.add(*next);
+      keeper.advance(next->utime_us);
+      keeper.add(*next);
     }
-    tracker.advance(epoch_us);
-    for (const Track& track : tracker.tracks()) {
+    keeper.advance(epoch_us);
+    for (const Track& track : keeper.tracks()) {
       if (track.id == 0) continue;
-      locate(estimator, {track.bearings, tracker.errors(), &track.filter}, epoch_us, targets);
+      locate(estimator, {track.bearings, keeper.errors(), &track.filter}, epoch_us, targets);
     }
   }
   return targets;
@@ -113,14 +113,14 @@ std::vector<FusedTarget> interpolating(const std::vector<Sighting>& bearings,
                                        const StationBearings& recording,
                                        const std::vector<std::int64_t>& epochs,
                                        Estimator& estimator, const OfflineConfig& config) {
-  TargetTracker tracker = tracker_of(config);
+  TrackKeeper keeper = keeper_of(config);
   for (const Sighting& sighting : bearings) {
-    tracker.advance(sighting.utime_us);
-    tracker.add(sighting);
+    keeper.advance(sighting.utime_us);
+    keeper.add(sighting);
   }
   std::vector<FusedTarget> targets;
   for (const std::int64_t epoch_us : epochs) {
-    locate(estimator, {recording, tracker.errors()}, epoch_us, targets);
+    locate(estimator, {recording, keeper.errors()}, epoch_us, targets);
   }
   return targets;
 }
@@ -129,7 +129,7 @@ std::vector<FusedTarget> smoothed(const std::vector<Sighting>& bearings,
                                   const std::vector<std::int64_t>& epochs,
                                   const OfflineConfig& config) {
   std::vector<FusedTarget> targets;
-  for (Smoothed& fix : smooth(bearings, epochs, config.fusion.tracker)) {
+  for (Smoothed& fix : smooth(bearings, epochs, config.fusion.keeper)) {
     targets.push_back(target_of(fix.utime_us, "filter", std::move(fix.located)));
   }
   return targets;

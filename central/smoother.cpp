@@ -64,15 +64,15 @@ std::vector<Sighting> mirrored(std::vector<Sighting> bearings, std::int64_t abou
   return bearings;
 }
 
-const Track* located(const TargetTracker& tracker) {
-  const auto& tracks = tracker.tracks();
+const Track* located(const TrackKeeper& keeper) {
+  const auto& tracks = keeper.tracks();
   const auto found = std::ranges::find_if(tracks, [](const Track& t) { return t.id != 0; });
   return found == tracks.end() ? nullptr : &*found;
 }
 
-// A tracker that goes through bearings up to an instant.
+// Goes through bearings up to an instant.
 struct Runner {
-  TargetTracker tracker;
+  TrackKeeper keeper;
   const std::vector<Sighting>* bearings;
   std::size_t next = 0;
 
@@ -80,23 +80,23 @@ struct Runner {
     for (; next < bearings->size(); ++next) {
       const Sighting& sighting = (*bearings)[next];
       if (sighting.utime_us > utime_us || (sighting.utime_us == utime_us && !inclusive)) break;
-      tracker.advance(sighting.utime_us);
-      tracker.add(sighting);
+      keeper.advance(sighting.utime_us);
+      keeper.add(sighting);
     }
   }
 };
 
 class Smoother {
  public:
-  Smoother(const std::vector<Sighting>& bearings, const TrackerConfig& config)
+  Smoother(const std::vector<Sighting>& bearings, const KeeperConfig& config)
       : forward_(bearings),
         about_us_(bearings.front().utime_us + bearings.back().utime_us),
         backward_(mirrored(bearings, about_us_)),
         learnt_(one_target(config)) {
     Runner first{learnt_, &forward_};
     first.run(bearings.back().utime_us, true);
-    learnt_ = TargetTracker(one_target(config));
-    learnt_.errors() = first.tracker.errors();
+    learnt_ = TrackKeeper(one_target(config));
+    learnt_.errors() = first.keeper.errors();
     for (const Sighting& sighting : bearings) {
       if (order_.try_emplace(sighting.station, 9 + 3 * static_cast<Eigen::Index>(order_.size()))
               .second) {
@@ -108,18 +108,18 @@ class Smoother {
   std::vector<Smoothed> run(const std::vector<std::int64_t>& epochs);
 
  private:
-  static TrackerConfig one_target(TrackerConfig config) {
+  static KeeperConfig one_target(KeeperConfig config) {
     config.one_target = true;
     return config;
   }
   Eigen::VectorXd prior(const Eigen::Vector3d& p_ecef) const;
-  std::optional<Smoothed> at(std::int64_t epoch_us, const TargetTracker& forward,
-                             const TargetTracker& backward) const;
+  std::optional<Smoothed> at(std::int64_t epoch_us, const TrackKeeper& forward,
+                             const TrackKeeper& backward) const;
 
   const std::vector<Sighting>& forward_;
   std::int64_t about_us_;
   std::vector<Sighting> backward_;
-  TargetTracker learnt_;  // empty, with what the first run has shown of the stations
+  TrackKeeper learnt_;  // empty, with what the first run has shown of the stations
   Order order_;
   std::vector<Sighting> sights_;  // one of each station
 };
@@ -139,8 +139,8 @@ Eigen::VectorXd Smoother::prior(const Eigen::Vector3d& p_ecef) const {
   return variance;
 }
 
-std::optional<Smoothed> Smoother::at(std::int64_t epoch_us, const TargetTracker& forward,
-                                     const TargetTracker& backward) const {
+std::optional<Smoothed> Smoother::at(std::int64_t epoch_us, const TrackKeeper& forward,
+                                     const TrackKeeper& backward) const {
   const Track* ahead = located(forward);
   const Track* behind = located(backward);
   if (ahead == nullptr && behind == nullptr) return std::nullopt;
@@ -177,14 +177,14 @@ std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs) {
   Runner backward{learnt_, &backward_};
   for (std::size_t block = starts.size(); block-- > 0;) {
     const std::size_t first = block * kBlock, last = std::min(first + kBlock, epochs.size());
-    std::vector<TargetTracker> past;
+    std::vector<TrackKeeper> past;
     for (std::size_t i = first; i < last; ++i) {
       starts[block].run(epochs[i], true);
-      past.push_back(starts[block].tracker);
+      past.push_back(starts[block].keeper);
     }
     for (std::size_t i = last; i-- > first;) {
       backward.run(about_us_ - epochs[i], false);
-      if (auto fix = at(epochs[i], past[i - first], backward.tracker)) {
+      if (auto fix = at(epochs[i], past[i - first], backward.keeper)) {
         fixes.push_back(std::move(*fix));
       }
     }
@@ -197,7 +197,7 @@ std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs) {
 }  // namespace
 
 std::vector<Smoothed> smooth(const std::vector<Sighting>& bearings,
-                             const std::vector<std::int64_t>& epochs, const TrackerConfig& config) {
+                             const std::vector<std::int64_t>& epochs, const KeeperConfig& config) {
   if (bearings.empty()) return {};
   return Smoother(bearings, config).run(epochs);
 }

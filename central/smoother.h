@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "central/estimator.h"
-#include "central/target_tracker.h"
+#include "central/track_keeper.h"
 
 namespace ols {
 
@@ -21,6 +21,6 @@ struct Smoothed {
 
 // One object's bearings and the instants, both in order of time; positions only.
 std::vector<Smoothed> smooth(const std::vector<Sighting>& bearings,
-                             const std::vector<std::int64_t>& epochs, const TrackerConfig& config);
+                             const std::vector<std::int64_t>& epochs, const KeeperConfig& config);
 
 }  // namespace ols

@@ -13,7 +13,7 @@
 namespace ols {
 
 // The rules by which a track goes from one to the next are in docs/fusion.md and in
-// central/target_tracker.h.
+// central/track_keeper.h.
 enum class TrackState { kBorn, kConfirmed, kCoasted, kDropped };
 const char* to_string(TrackState state);
 

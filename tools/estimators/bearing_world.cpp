@@ -45,10 +45,17 @@ Sighting sighting(const WorldConfig& config, const Station& station, std::int64_
   return s;
 }
 
+// GCC 12 warns wrongly of "s" + std::to_string(i).
+std::string name_of(std::size_t i) {
+  std::string name = "s";
+  name += std::to_string(i);
+  return name;
+}
+
 std::vector<Station> stations_of(const WorldConfig& config, std::mt19937_64& random) {
   std::vector<Station> stations;
   for (std::size_t i = 0; i < config.stations_enu.size(); ++i) {
-    Station station{"s" + std::to_string(i), site().to_ecef(config.stations_enu[i]), {}, {}};
+    Station station{name_of(i), site().to_ecef(config.stations_enu[i]), {}, {}};
     station.bias_rad = config.bias_sd_rad * draw(random).head<2>();
     const Vector3d aim = config.aims_enu.empty() ? Vector3d(0, 0, 80) : config.aims_enu[i];
     station.aim = direction(station.p_ecef, site().to_ecef(aim));

@@ -101,8 +101,8 @@ void filter_bound(int runs) {
       const auto bound = posterior_bound(world, path, bearings, kDisturbance, 100.0, 100.0);
       OfflineConfig config;
       // The bound is that of the true motion: the filter is told the same.
-      config.fusion.tracker.filter.motion.cruise_sd_m_s2 = kDisturbance;
-      config.fusion.tracker.filter.motion.cruise_per_speed_s = 0.0;
+      config.fusion.keeper.filter.motion.cruise_sd_m_s2 = kDisturbance;
+      config.fusion.keeper.filter.motion.cruise_per_speed_s = 0.0;
       double nees = 0.0;
       int count = 0;
       for (const FusedTarget& target : fuse_offline(bearings, config)) {
@@ -196,7 +196,7 @@ void cost() {
       for (Vector3d& place : world.stations_enu) place += centre;
       const Path path = cruising({centre + Vector3d(0, 0, 100), {8, 3, 0}}, 0.5, 4.0, random);
       for (Sighting& s : measure(world, {path}, 4.0, random)) {
-        s.station = "g" + std::to_string(group) + s.station;
+        s.station.append("g").append(std::to_string(group));
         all.push_back(std::move(s));
       }
     }

@@ -116,7 +116,7 @@ TEST(SlewPlanner, AnUnsureDirectionIsSearchedInASpiral) {
   }
   EXPECT_GT(sd, 0.004);
   // By now it has been led on with the target by less than that, at most a step or two more.
-  SlewPlanner patient({.dwell_s = 1e-4, .coast_s = 60.0});
+  SlewPlanner patient({.coast_s = 60.0, .dwell_s = 1e-4});
   for (int i = 0; i < 300; ++i) {
     const auto slew = patient.plan(now_us + i * 1000, {narrow}, tracks, {}).at(0);
     spread = std::max(spread, angle_between(enu_from_azimuth_elevation(slew.direction),

@@ -1,4 +1,4 @@
-#include "central/target_tracker.h"
+#include "central/track_keeper.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -33,11 +33,11 @@ bool may_be_near(const Track& track, const Sighting& sighting) {
 
 }  // namespace
 
-TargetTracker::TargetTracker(const TrackerConfig& config)
+TrackKeeper::TrackKeeper(const KeeperConfig& config)
     : config_(config), birth_(config.birth, config.filter), errors_(config.errors) {}
 
-std::vector<TargetTracker::Candidate> TargetTracker::candidates(const Sighting& sighting,
-                                                                bool confirmed) const {
+std::vector<TrackKeeper::Candidate> TrackKeeper::candidates(const Sighting& sighting,
+                                                            bool confirmed) const {
   std::vector<Candidate> found;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const Track& track = tracks_[i];
@@ -51,7 +51,7 @@ std::vector<TargetTracker::Candidate> TargetTracker::candidates(const Sighting& 
   return found;
 }
 
-Track* TargetTracker::follower(const Sighting& sighting) {
+Track* TrackKeeper::follower(const Sighting& sighting) {
   if (config_.one_target) return tracks_.empty() ? nullptr : &tracks_.front();
   if (sighting.track_id == 0) return nullptr;
   const auto found = followed_.find(sighting.station);
@@ -61,7 +61,7 @@ Track* TargetTracker::follower(const Sighting& sighting) {
   return track == tracks_.end() ? nullptr : &*track;
 }
 
-Association TargetTracker::add(const Sighting& sighting, bool may_begin) {
+Association TrackKeeper::add(const Sighting& sighting, bool may_begin) {
   for (const bool confirmed : {true, false}) {
     const auto near = candidates(sighting, confirmed);
     if (near.empty()) continue;
@@ -94,7 +94,7 @@ Association TargetTracker::add(const Sighting& sighting, bool may_begin) {
   return {};
 }
 
-Association TargetTracker::give_to(Track& track, const Sighting& sighting) {
+Association TrackKeeper::give_to(Track& track, const Sighting& sighting) {
   const BearingUse use = track.filter.update(sighting, errors_);
   if (use != BearingUse::kUsed) {
     ++track.misses;
@@ -115,7 +115,7 @@ Association TargetTracker::give_to(Track& track, const Sighting& sighting) {
   return {Association::Kind::kTrack, id};
 }
 
-void TargetTracker::keep(Track& track, const Sighting& sighting) const {
+void TrackKeeper::keep(Track& track, const Sighting& sighting) const {
   auto& own = track.bearings[sighting.station];
   const auto place = std::ranges::upper_bound(own, sighting.utime_us, {}, &Sighting::utime_us);
   own.insert(place, sighting);
@@ -125,7 +125,7 @@ void TargetTracker::keep(Track& track, const Sighting& sighting) const {
   own.erase(own.begin(), kept);
 }
 
-bool TargetTracker::worth_confirming(const Track& track) const {
+bool TrackKeeper::worth_confirming(const Track& track) const {
   const KinematicState now = track.filter.at(track.filter.utime_us());
   if (judge_position(track.filter, now) != Solution::kOk) return false;
   if (config_.one_target) return true;
@@ -141,7 +141,7 @@ bool TargetTracker::worth_confirming(const Track& track) const {
 }
 
 // The same object as a sure one: nearer to it than both know.
-bool TargetTracker::is_double(const Track& track) const {
+bool TrackKeeper::is_double(const Track& track) const {
   const KinematicState own = track.filter.at(track.filter.utime_us());
   return std::ranges::any_of(tracks_, [&](const Track& other) {
     if (&other == &track || !is_sure(other)) return false;
@@ -153,7 +153,7 @@ bool TargetTracker::is_double(const Track& track) const {
   });
 }
 
-void TargetTracker::consider(Track& track) {
+void TrackKeeper::consider(Track& track) {
   if (!worth_confirming(track)) return;
   if (is_double(track)) {
     track.state = TrackState::kDropped;
@@ -162,7 +162,7 @@ void TargetTracker::consider(Track& track) {
   confirm(track);
 }
 
-void TargetTracker::confirm(Track& track) {
+void TrackKeeper::confirm(Track& track) {
   track.state = TrackState::kConfirmed;
   ++counts_.confirmed;
   const KinematicState own = track.filter.at(track.filter.utime_us());
@@ -184,7 +184,7 @@ void TargetTracker::confirm(Track& track) {
   birth_.give(track, errors_);
 }
 
-void TargetTracker::age(Track& track, std::int64_t now_us) {
+void TrackKeeper::age(Track& track, std::int64_t now_us) {
   const double unseen_s = seconds(now_us - track.located_us);
   if (track.state == TrackState::kBorn) {
     if (unseen_s > config_.born_drop_s && !config_.one_target) track.state = TrackState::kDropped;
@@ -205,7 +205,7 @@ void TargetTracker::age(Track& track, std::int64_t now_us) {
   if (silent || lost) track.state = TrackState::kDropped;
 }
 
-void TargetTracker::advance(std::int64_t now_us) {
+void TrackKeeper::advance(std::int64_t now_us) {
   for (Track& track : tracks_) {
     if (track.state != TrackState::kDropped) age(track, now_us);
   }
@@ -222,7 +222,7 @@ void TargetTracker::advance(std::int64_t now_us) {
   while (dropped_.size() > 64) dropped_.pop_front();
 }
 
-std::optional<TargetTracker::Nearest> TargetTracker::nearest(const Sighting& sighting) const {
+std::optional<TrackKeeper::Nearest> TrackKeeper::nearest(const Sighting& sighting) const {
   const RayFrame frame = ray_frame(sighting.sight);
   std::optional<Nearest> best;
   for (const Track& track : tracks_) {
@@ -239,15 +239,15 @@ std::optional<TargetTracker::Nearest> TargetTracker::nearest(const Sighting& sig
   return best;
 }
 
-void TargetTracker::forget_station(const std::string& station) {
+void TrackKeeper::forget_station(const std::string& station) {
   errors_.forget(station);
   birth_.forget(station);
   followed_.erase(station);
 }
 
-void TargetTracker::clear() {
+void TrackKeeper::clear() {
   const std::int64_t next_id = next_id_;
-  *this = TargetTracker(config_);
+  *this = TrackKeeper(config_);
   next_id_ = next_id;
 }
 

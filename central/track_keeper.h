@@ -29,7 +29,7 @@
 
 namespace ols {
 
-struct TrackerConfig {
+struct KeeperConfig {
   bool one_target = false;  // there is one object and no clutter: confirmed at once, one at a time
   int max_tracks = 256;     // born ones included
   int confirm_stations = 3;
@@ -55,9 +55,9 @@ struct Association {
   std::int64_t track_id = 0;  // 0: none, or one that is not confirmed yet
 };
 
-class TargetTracker {
+class TrackKeeper {
  public:
-  explicit TargetTracker(const TrackerConfig& config);
+  explicit TrackKeeper(const KeeperConfig& config);
 
   // may_begin: whether it may take part in the birth of a track.
   Association add(const Sighting& sighting, bool may_begin = true);
@@ -98,7 +98,7 @@ class TargetTracker {
   void keep(Track& track, const Sighting& sighting) const;
   void age(Track& track, std::int64_t now_us);
 
-  TrackerConfig config_;
+  KeeperConfig config_;
   TrackBirth birth_;
   StationErrors errors_;
   std::vector<Track> tracks_;
