@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
 #include "central/smoother.h"
+#include "geometry/angles.h"
 
 namespace ols {
 namespace {
@@ -63,6 +65,24 @@ std::vector<std::int64_t> epochs_of(const std::vector<Sighting>& bearings, doubl
     if (epochs.front() + offset_us > epochs.back()) return grid;
     grid.push_back(epochs.front() + offset_us);
   }
+}
+
+// Mean square angular speed over steps that are long against the noise [rad^2/s^2].
+double mean_square_speed(const std::vector<const Sighting*>& bearings) {
+  constexpr double kLeastStep = 10.0, kLongestS = 2.0;  // in sigmas
+  double sum = 0.0, span = 0.0;
+  const Sighting* from = bearings.front();
+  for (const Sighting* to : bearings) {
+    const double step_s = static_cast<double>(to->utime_us - from->utime_us) * 1e-6;
+    const double angle = angle_between(direction_ecef(from->sight), direction_ecef(to->sight));
+    const double noise = std::sqrt(to->sight.covariance_white.trace());
+    if (step_s <= 0.0 || (angle < kLeastStep * noise && step_s < kLongestS)) continue;
+    from = to;
+    if (step_s > 2.0 * kLongestS) continue;  // a gap
+    sum += angle * angle / step_s;
+    span += step_s;
+  }
+  return span > 0.0 ? sum / span : 0.0;
 }
 
 TrackKeeper keeper_of(const OfflineConfig& config) {
@@ -142,6 +162,22 @@ UnusedBearings unused_bearings(const std::vector<Sighting>& sightings,
   UnusedBearings unused;
   recording_of(sightings, config.fusion.min_belief, unused);
   return unused;
+}
+
+void guess_clocks(std::vector<Sighting>& sightings) {
+  constexpr double kNoises = 4.0, kHalfAFrameS = 0.02;
+  std::map<std::string, std::vector<const Sighting*>> stations;
+  for (const Sighting& sighting : sightings) stations[sighting.station].push_back(&sighting);
+  std::map<std::string, double> speeds;
+  for (auto& [name, bearings] : stations) {
+    std::ranges::stable_sort(bearings, {}, [](const Sighting* s) { return s->utime_us; });
+    speeds[name] = std::sqrt(mean_square_speed(bearings));
+  }
+  for (Sighting& sighting : sightings) {
+    const double noise = std::sqrt(sighting.sight.covariance_white.trace() / 2.0);
+    const double speed = speeds.at(sighting.station);
+    sighting.clock_sd_s = std::min(kHalfAFrameS, kNoises * noise / std::max(1e-9, speed));
+  }
 }
 
 std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,

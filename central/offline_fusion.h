@@ -29,6 +29,11 @@ struct UnusedBearings {
 };
 UnusedBearings unused_bearings(const std::vector<Sighting>& sightings, const OfflineConfig& config);
 
+// For a recording that does not tell how good its clocks are: states for each station the offset
+// [s] that would move a bearing by four times its noise at the object's usual angular speed, and
+// half a frame of video, 0.02 s, at most. So a clock counts as much with a meteor as with a drone.
+void guess_clocks(std::vector<Sighting>& sightings);
+
 // One object's bearings, in any order. Targets with a position only, in order of time. Bearings
 // that check() refuses must not be among them. std::invalid_argument for a rate that is not finite
 // or makes more than ten million epochs, for an unknown estimator, and for another one than the

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/precision_paper.h"
+
 namespace ols {
 namespace {
 
@@ -12,9 +14,8 @@ constexpr double kSamePlaceM = 1e-3;
 
 // A pair of views whose rays meet.
 struct Base {
-  Eigen::Vector3d point;      // t_i
-  Eigen::Vector3d centre;     // bc_i
-  Eigen::Vector3d direction;  // unit vector along the baseline
+  Eigen::Vector3d point;  // t_i
+  Baseline baseline;
 };
 
 // Angle from a to b about the unit axis, -pi..pi.
@@ -38,15 +39,6 @@ PaperPoint intersect_in_plane(const PaperView& first, const PaperView& second,
   return {Solution::kOk, first.centre_ecef + s * u};
 }
 
-// t_i . n_i: the sine of the angle between baseline and the line from its centre to the target.
-// n_i is perpendicular to the baseline, in the plane of baseline and target, towards the target.
-double normal_alignment(const Base& base, const Eigen::Vector3d& target) {
-  const Eigen::Vector3d t = (target - base.centre).normalized();
-  const Eigen::Vector3d across = t - base.direction * base.direction.dot(t);
-  const double length = across.norm();
-  return length > 0.0 ? t.dot(across / length) : 0.0;
-}
-
 // All pairs that meet; `failure` becomes the last pair's reason.
 std::vector<Base> bases_of(const std::vector<PaperView>& views, const PaperConfig& config,
                            Solution& failure) {
@@ -58,8 +50,7 @@ std::vector<Base> bases_of(const std::vector<PaperView>& views, const PaperConfi
         failure = point.solution;
         continue;
       }
-      bases.push_back({point.position_ecef, (views[i].centre_ecef + views[j].centre_ecef) / 2.0,
-                       (views[j].centre_ecef - views[i].centre_ecef).normalized()});
+      bases.push_back({point.position_ecef, {views[i].centre_ecef, views[j].centre_ecef}});
     }
   }
   return bases;
@@ -144,14 +135,14 @@ PaperPoint paper_n_view(const std::vector<PaperView>& views, const PaperConfig& 
   const Eigen::Vector3d T0 = unweighted_centroid(bases);  // T' of Algorithm 1, line 4
   if (config.pairs == PaperPairs::kCentroid) return {Solution::kOk, T0};
   if (config.pairs == PaperPairs::kBestBaseline) {
-    const auto best = std::ranges::max_element(
-        bases, {}, [&](const Base& base) { return normal_alignment(base, T0); });
-    return {Solution::kOk, best->point};
+    std::vector<Baseline> baselines;
+    for (const Base& base : bases) baselines.push_back(base.baseline);
+    return {Solution::kOk, bases[best_baseline(baselines, T0)].point};
   }
   double sum = 0.0;
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   for (const Base& base : bases) {
-    const double weight = std::exp(normal_alignment(base, T0));  // line 6
+    const double weight = std::exp(normal_component(base.baseline, T0));  // line 6
     sum += weight;
     offset += weight * (base.point - T0);
   }

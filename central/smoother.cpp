@@ -14,6 +14,9 @@ struct Whole {
   Eigen::MatrixXd covariance;
 };
 
+// Of a clock that is known: only so that it can be inverted. 10 ns, 10 nrad.
+constexpr double kLeast = 1e-16;
+
 using Order = std::map<std::string, Eigen::Index>;  // station -> first of its three states
 
 // The state spread over all stations' states; what it does not hold is known as by the prior.
@@ -42,7 +45,18 @@ Whole spread(const TrackFilter& filter, const Order& order, const Eigen::VectorX
           sign[i] * sign[j] * covariance(from, static_cast<Eigen::Index>(j));
     }
   }
+  auto stations = whole.covariance.diagonal().tail(prior.size() - 9);
+  stations = stations.cwiseMax(kLeast).eval();
   return whole;
+}
+
+// The models expect no acceleration, each run anew: taken from one run only, or it counts twice.
+void forget_acceleration(Whole& whole) {
+  constexpr double kUnknown = 1e12;
+  whole.mean.segment<3>(6).setZero();
+  whole.covariance.middleRows<3>(6).setZero();
+  whole.covariance.middleCols<3>(6).setZero();
+  whole.covariance.diagonal().segment<3>(6).setConstant(kUnknown);
 }
 
 // The information of both, less that of the prior that both contain.
@@ -126,7 +140,6 @@ class Smoother {
 
 // Variances of the stations' states before any bearing.
 Eigen::VectorXd Smoother::prior(const Eigen::Vector3d& p_ecef) const {
-  constexpr double kLeast = 1e-24;  // a clock that is known: only so that it can be inverted
   Eigen::VectorXd variance =
       Eigen::VectorXd::Zero(9 + 3 * static_cast<Eigen::Index>(order_.size()));
   for (const Sighting& sighting : sights_) {
@@ -152,8 +165,9 @@ std::optional<Smoothed> Smoother::at(std::int64_t epoch_us, const TrackKeeper& f
   const Eigen::VectorXd variance = prior(any.position());
   std::optional<Whole> joint;
   if (from_past && from_future) {
-    joint = join(spread(*from_past, order_, variance, 1.0),
-                 spread(*from_future, order_, variance, -1.0), variance);
+    Whole after = spread(*from_future, order_, variance, -1.0);
+    forget_acceleration(after);
+    joint = join(spread(*from_past, order_, variance, 1.0), after, variance);
   }
   if (!joint) joint = spread(any, order_, variance, from_past ? 1.0 : -1.0);
   const KinematicState state{epoch_us, joint->mean.head<9>(),

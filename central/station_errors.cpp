@@ -17,6 +17,21 @@ Eigen::Matrix2d stated_covariance(const SightLine& sight, double range_m) {
          tangent_enu.transpose() * variance_enu.asDiagonal() * tangent_enu / (range_m * range_m);
 }
 
+void StationErrors::observe_noise(const std::string& station, double squared_ratio) {
+  constexpr double kMost = 9.0;  // an outlier says nothing of the noise
+  double& share = stations_[station].white_share;
+  share += (std::min(squared_ratio, kMost) - share) / config_.colour_memory;
+}
+
+// The mean of samples of a noise with the correlation time T, one every dt, has the variance of so
+// many times fewer: 1 + 2 T / dt.
+double StationErrors::inflation(const std::string& station, double interval_s) const {
+  const auto found = stations_.find(station);
+  if (found == stations_.end() || !(interval_s > 0.0)) return 1.0;
+  const double coloured = std::clamp(1.0 - found->second.white_share, 0.0, 1.0);
+  return 1.0 + coloured * 2.0 * config_.colour_time_s / interval_s;
+}
+
 void StationErrors::count(const Seen& seen, double sign) {
   if (seen.noise_rad2.minCoeff() <= 0.0) return;
   common_weight_ += sign * seen.weight;

@@ -28,6 +28,10 @@ bool Track::has_taken(const Sighting& sighting) const {
   return at != taken.end() && at->utime_us == sighting.utime_us;
 }
 
+bool is_sure(const Track& track) {
+  return track.state == TrackState::kConfirmed || track.state == TrackState::kCoasted;
+}
+
 Solution judge_position(const TrackFilter& filter, const KinematicState& state) {
   if (filter.stations().size() < 2) return Solution::kTooFewRays;
   double nearest_m = std::numeric_limits<double>::infinity();

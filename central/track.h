@@ -35,6 +35,9 @@ struct Track {
   bool has_taken(const Sighting& sighting) const;
 };
 
+// Confirmed or coasted.
+bool is_sure(const Track& track);
+
 // What a filter's state is worth as a position: kOk, or the named reason why it is none.
 Solution judge_position(const TrackFilter& filter, const KinematicState& state);
 

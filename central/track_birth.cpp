@@ -49,8 +49,8 @@ double TrackBirth::gate_rad(const Sighting& sighting, double dt_s, double range_
 }
 
 // Where two rays pass each other, if they do so in front of both cameras and near enough.
-std::optional<TrackBirth::Start> TrackBirth::start_of(const Sighting& a, const Sighting& b,
-                                                      const StationErrors& errors) {
+std::optional<TrackBirth::Meeting> TrackBirth::start_of(const Sighting& a, const Sighting& b,
+                                                        const StationErrors& errors) {
   const Eigen::Vector3d u = direction_ecef(a.sight), v = direction_ecef(b.sight);
   const Eigen::Vector3d base = b.sight.origin_ecef - a.sight.origin_ecef;
   constexpr double kOnePlaceM = 0.01;
@@ -74,13 +74,13 @@ std::optional<TrackBirth::Start> TrackBirth::start_of(const Sighting& a, const S
   const double dt_s = apart_s(a, b);
   const double miss_m = s * gate_rad(a, dt_s, s, errors) + t * gate_rad(b, 0.0, t, errors);
   if ((on_a - on_b).norm() > miss_m) return std::nullopt;
-  return Start{(on_a + on_b) / 2.0, std::min(s, t)};
+  return Meeting{(on_a + on_b) / 2.0, std::min(s, t)};
 }
 
 // Of a station's bearings near in time to another one, the one that is nearest to the start; the
 // latest where there is no start yet.
 const Sighting* TrackBirth::nearest(const std::deque<Sighting>& bearings, const Sighting& to,
-                                    const Start* start, const StationErrors& errors) const {
+                                    const Meeting* start, const StationErrors& errors) const {
   const Sighting* best = nullptr;
   double least = 1.0;
   for (auto it = bearings.rbegin(); it != bearings.rend(); ++it) {
@@ -98,7 +98,7 @@ const Sighting* TrackBirth::nearest(const std::deque<Sighting>& bearings, const 
 std::optional<Track> TrackBirth::add(const Sighting& sighting, StationErrors& errors,
                                      bool trusting) {
   store(sighting);
-  std::vector<std::pair<int, Start>> starts;
+  std::vector<std::pair<int, Meeting>> starts;
   for (const auto& [station, bearings] : pool_) {
     if (station == sighting.station) continue;
     const Sighting* frame = nearest(bearings, sighting, nullptr, errors);
@@ -181,7 +181,7 @@ std::map<std::string, Explained> explain(const std::vector<Frame>& frames, Track
 
 }  // namespace
 
-std::optional<Track> TrackBirth::try_start(const Sighting& newest, const Start& start,
+std::optional<Track> TrackBirth::try_start(const Sighting& newest, const Meeting& start,
                                            StationErrors& errors, bool trusting) const {
   std::int64_t now_us = newest.utime_us;
   for (const auto& [station, bearings] : pool_) {
@@ -191,16 +191,19 @@ std::optional<Track> TrackBirth::try_start(const Sighting& newest, const Start& 
   }
   const auto frames =
       frames_backwards(pool_, now_us - static_cast<std::int64_t>(config_.pool_s * 1e6));
-  Eigen::Vector3d p_ecef = start.p_ecef;
+  FilterStart from{.p_ecef = start.p_ecef,
+                   .position_sd_m = start.range_m / 2.0,
+                   .velocity_sd_m_s = 2.0 * config_.rate_sd_rad_s * start.range_m};
   std::optional<Track> track;
   std::map<std::string, Explained> stations;
-  // The second round is linearised where the first one has ended.
+  // The second round is linearised where the first one has ended: what a clock's error does depends
+  // on the velocity, and one taken for zero would make the clocks seem known.
   for (int round = 0; round < 2; ++round) {
-    track.emplace(TrackFilter(filter_, now_us, p_ecef, start.range_m / 2.0,
-                              2.0 * config_.rate_sd_rad_s * start.range_m));
+    track.emplace(TrackFilter(filter_, now_us, from));
     stations = explain(frames, track->filter, errors);
-    p_ecef = track->filter.position();
-    if (!p_ecef.allFinite()) return std::nullopt;
+    from.p_ecef = track->filter.position();
+    from.v_ecef = track->filter.velocity();
+    if (!from.p_ecef.allFinite() || !from.v_ecef.allFinite()) return std::nullopt;
   }
   int agreeing = 0, hits = 0;
   std::int64_t oldest_us = now_us;

@@ -46,16 +46,17 @@ class TrackBirth {
   Solution last_failure() const { return failure_; }
 
  private:
-  struct Start {
+  struct Meeting {
     Eigen::Vector3d p_ecef;
     double range_m = 0.0;
   };
   void store(const Sighting& sighting);
-  std::optional<Start> start_of(const Sighting& a, const Sighting& b, const StationErrors& errors);
+  std::optional<Meeting> start_of(const Sighting& a, const Sighting& b,
+                                  const StationErrors& errors);
   const Sighting* nearest(const std::deque<Sighting>& bearings, const Sighting& to,
-                          const Start* start, const StationErrors& errors) const;
-  std::optional<Track> try_start(const Sighting& newest, const Start& start, StationErrors& errors,
-                                 bool trusting) const;
+                          const Meeting* start, const StationErrors& errors) const;
+  std::optional<Track> try_start(const Sighting& newest, const Meeting& start,
+                                 StationErrors& errors, bool trusting) const;
   double gate_rad(const Sighting& sighting, double dt_s, double range_m,
                   const StationErrors& errors) const;
   void take(const Track& track);

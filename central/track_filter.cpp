@@ -30,16 +30,16 @@ struct TrackFilter::Innovation {
 };
 
 TrackFilter::TrackFilter(const FilterConfig& config, std::int64_t utime_us,
-                         const Eigen::Vector3d& p_ecef, double position_sd_m,
-                         double velocity_sd_m_s)
+                         const FilterStart& start)
     : config_(config), utime_us_(utime_us), mixed_us_(utime_us) {
   for (Model& model : models_) {
     model.mean = FilterVector::Zero(9);
-    model.mean.head<3>() = p_ecef;
+    model.mean.head<3>() = start.p_ecef;
+    model.mean.segment<3>(3) = start.v_ecef;
     model.covariance = FilterMatrix::Zero(9, 9);
     Vector9 variance;
-    variance.head<3>().setConstant(position_sd_m * position_sd_m);
-    variance.segment<3>(3).setConstant(velocity_sd_m_s * velocity_sd_m_s);
+    variance.head<3>().setConstant(start.position_sd_m * start.position_sd_m);
+    variance.segment<3>(3).setConstant(start.velocity_sd_m_s * start.velocity_sd_m_s);
     const double hard = manoeuvre_sd(Eigen::Vector3d::Zero(), config.motion);
     variance.tail<3>().setConstant(hard * hard);
     model.covariance.diagonal() = variance;
@@ -174,19 +174,13 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
     const Eigen::Matrix2d S = seen[m].covariance + sighting.sight.covariance_white;
     nis = std::min(nis, seen[m].residual.dot(S.llt().solve(seen[m].residual)));
   }
-  if (!(nis <= config_.gate_nis)) {
-    if (upset_ == 0) upset_station_ = sighting.station;
-    two_upset_ = two_upset_ || upset_station_ != sighting.station;
-    if (++upset_ >= kUpset && two_upset_) give_room();
-    return BearingUse::kSetAside;
-  }
-  upset_ = 0;
-  two_upset_ = false;
+  if (!passes_gate(sighting, nis)) return BearingUse::kSetAside;
   entry.weight = nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
   entry.sight = sighting.sight;
   entry.utime_us = std::max(entry.utime_us, sighting.utime_us);
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);
-  const Eigen::Matrix2d noise = sighting.sight.covariance_white / entry.weight;
+  const double inflation = observe_noise(entry, sighting, errors);
+  const Eigen::Matrix2d noise = sighting.sight.covariance_white * (inflation / entry.weight);
   std::array<double, kMotions> log_likelihood{};
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + noise);
@@ -200,6 +194,39 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
   weigh_models(log_likelihood);
   refresh();
   return BearingUse::kUsed;
+}
+
+bool TrackFilter::passes_gate(const Sighting& sighting, double nis) {
+  if (nis <= config_.gate_nis) {
+    upset_ = 0;
+    two_upset_ = false;
+    return true;
+  }
+  if (upset_ == 0) upset_station_ = sighting.station;
+  two_upset_ = two_upset_ || upset_station_ != sighting.station;
+  if (++upset_ >= kUpset && two_upset_) give_room();
+  return false;
+}
+
+// Tells the errors how much a bearing differs from the line between its neighbours, and gives how
+// much less than stated it is worth.
+double TrackFilter::observe_noise(FilterStation& entry, const Sighting& sighting,
+                                  StationErrors& errors) {
+  constexpr double kNearS = 0.3;  // further apart the target's own motion shows
+  const RayFrame frame = ray_frame(sighting.sight);
+  const double first_s = seconds(entry.before_us[1] - entry.before_us[0]);
+  const double second_s = seconds(sighting.utime_us - entry.before_us[1]);
+  if (second_s <= 0.0) return 1.0;
+  if (entry.before_us[0] > 0 && first_s + second_s < kNearS) {
+    const double w = second_s / (first_s + second_s);
+    const Eigen::Vector3d off = entry.before[1] - w * entry.before[0] - (1.0 - w) * frame.direction;
+    const double white =
+        (1.0 + w * w + (1.0 - w) * (1.0 - w)) * sighting.sight.covariance_white.trace();
+    errors.observe_noise(sighting.station, (frame.tangent.transpose() * off).squaredNorm() / white);
+  }
+  entry.before_us = {entry.before_us[1], sighting.utime_us};
+  entry.before = {entry.before[1], frame.direction};
+  return first_s + second_s < kNearS ? errors.inflation(sighting.station, second_s) : 1.0;
 }
 
 void TrackFilter::weigh_models(const std::array<double, kMotions>& log_likelihood) {
@@ -292,99 +319,19 @@ void TrackFilter::move_biases(double dt_s, StationErrors& errors) {
     }
     priors_[i] = errors.prior(station.station, station.sight, range_m);
     const double decay = std::exp(-dt_s / priors_[i].time_s);
+    const double clock = std::exp(-dt_s / errors.clock_time_s());
     const auto at = static_cast<Eigen::Index>(9 + 3 * i);
     for (Model& model : models_) {
       model.mean.segment<2>(at) *= decay;
       model.covariance.middleRows<2>(at) *= decay;
       model.covariance.middleCols<2>(at) *= decay;
       model.covariance.block<2, 2>(at, at) += (1.0 - decay * decay) * priors_[i].covariance;
+      model.mean(at + 2) *= clock;
+      model.covariance.row(at + 2) *= clock;
+      model.covariance.col(at + 2) *= clock;
+      model.covariance(at + 2, at + 2) += (1.0 - clock * clock) * std::pow(station.clock_sd_s, 2);
     }
   }
-}
-
-void TrackFilter::refresh() {
-  summary_.utime_us = utime_us_;
-  summary_.mean.setZero();
-  summary_.covariance.setZero();
-  for (const Model& model : models_) {
-    summary_.mean += model.probability * model.mean.head<9>();
-    summary_.covariance += model.probability * model.covariance.topLeftCorner<9, 9>();
-  }
-  for (const Model& model : models_) {
-    const Vector9 off = model.mean.head<9>() - summary_.mean;
-    summary_.covariance += model.probability * off * off.transpose();
-  }
-}
-
-void TrackFilter::mixed(FilterVector& mean, FilterMatrix& covariance) const {
-  const Eigen::Index n = models_[0].mean.size();
-  mean = FilterVector::Zero(n);
-  covariance = FilterMatrix::Zero(n, n);
-  for (const Model& model : models_) mean += model.probability * model.mean;
-  for (const Model& model : models_) {
-    const FilterVector off = model.mean - mean;
-    covariance += model.probability * model.covariance;
-    covariance.noalias() += (model.probability * off) * off.transpose();
-  }
-}
-
-KinematicState TrackFilter::at(std::int64_t utime_us) const {
-  const double dt_s = seconds(utime_us - utime_us_);
-  KinematicState state;
-  state.utime_us = utime_us;
-  std::array<Vector9, kMotions> means;
-  std::array<Matrix9, kMotions> covariances;
-  for (std::size_t m = 0; m < models_.size(); ++m) {
-    means[m] = models_[m].mean.head<9>();
-    covariances[m] = models_[m].covariance.topLeftCorner<9, 9>();
-    Transition t = transition(static_cast<Motion>(m), means[m], std::abs(dt_s), config_.motion);
-    if (dt_s < 0.0) t.f << 1.0, dt_s, dt_s * dt_s / 2.0, 0.0, 1.0, dt_s, 0.0, 0.0, 1.0;
-    transform_rows(t.f, means[m]);
-    propagate_covariance(t, covariances[m]);
-    state.mean += models_[m].probability * means[m];
-  }
-  for (std::size_t m = 0; m < models_.size(); ++m) {
-    const Vector9 off = means[m] - state.mean;
-    state.covariance += models_[m].probability * (covariances[m] + off * off.transpose());
-  }
-  return state;
-}
-
-Eigen::Matrix3d TrackFilter::systematic() const {
-  FilterVector mean;
-  FilterMatrix P;
-  mixed(mean, P);
-  const Eigen::Index biases = mean.size() - 9;
-  if (biases == 0) return Eigen::Matrix3d::Zero();
-  FilterMatrix own = P.bottomRightCorner(biases, biases);
-  own.diagonal().array() += 1e-18;  // a clock that is known has no variance
-  const auto cross = P.topRightCorner(3, biases);
-  return cross * own.ldlt().solve(cross.transpose());
-}
-
-StationBias TrackFilter::bias(std::size_t station) const {
-  const auto at = static_cast<Eigen::Index>(9 + 3 * station);
-  StationBias result;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Model& model : models_) mean += model.probability * model.mean.segment<3>(at);
-  Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
-  for (const Model& model : models_) {
-    const Eigen::Vector3d off = model.mean.segment<3>(at) - mean;
-    P += model.probability * (model.covariance.block<3, 3>(at, at) + off * off.transpose());
-  }
-  result.bias_rad = mean.head<2>();
-  result.covariance_rad2 = P.topLeftCorner<2, 2>();
-  result.prior_rad2 = priors_[station].covariance;
-  result.clock_s = mean(2);
-  result.clock_sd_s = std::sqrt(std::max(0.0, P(2, 2)));
-  result.clock_prior_sd_s = stations_[station].clock_sd_s;
-  return result;
-}
-
-std::array<double, kMotions> TrackFilter::probabilities() const {
-  std::array<double, kMotions> result{};
-  for (std::size_t m = 0; m < models_.size(); ++m) result[m] = models_[m].probability;
-  return result;
 }
 
 }  // namespace ols

@@ -61,6 +61,9 @@ struct FilterStation {
   double weight = 0.0;  // of the last one, 0: set aside
   double clock_sd_s = 0.0;
   double mean_nis = 2.0;  // lately, of bearings that were used; 2 is ideal
+  // The two bearings before the next one, for the colour of their noise.
+  std::array<std::int64_t, 2> before_us{};
+  std::array<Eigen::Vector3d, 2> before{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 };
 
 struct StationBias {
@@ -72,11 +75,18 @@ struct StationBias {
   double clock_prior_sd_s = 0.0;
 };
 
+// Where a target may be and how it may move, with vague knowledge.
+struct FilterStart {
+  Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_ecef = Eigen::Vector3d::Zero();
+  double position_sd_m = 0.0;
+  double velocity_sd_m_s = 0.0;
+};
+
 class TrackFilter {
  public:
-  // From a place where the target may be, with vague knowledge: a start for the first bearings.
-  TrackFilter(const FilterConfig& config, std::int64_t utime_us, const Eigen::Vector3d& p_ecef,
-              double position_sd_m, double velocity_sd_m_s);
+  // A start for the first bearings.
+  TrackFilter(const FilterConfig& config, std::int64_t utime_us, const FilterStart& start);
 
   // The bearing's squared normalised residual (2 degrees of freedom); infinite behind the camera.
   double nis(const Sighting& sighting, const StationErrors& errors) const;
@@ -116,6 +126,9 @@ class TrackFilter {
   void mix(double dt_s);
   void move_biases(double dt_s, StationErrors& errors);
   void give_room();
+  bool passes_gate(const Sighting& sighting, double nis);
+  static double observe_noise(FilterStation& entry, const Sighting& sighting,
+                              StationErrors& errors);
   void weigh_models(const std::array<double, kMotions>& log_likelihood);
   void refresh();
 

@@ -9,10 +9,6 @@ namespace {
 
 double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
 
-bool is_sure(const Track& track) {
-  return track.state == TrackState::kConfirmed || track.state == TrackState::kCoasted;
-}
-
 // A quick look before the exact one: within so many of everything that may be off.
 bool may_be_near(const Track& track, const Sighting& sighting) {
   const KinematicState& state = track.filter.summary();

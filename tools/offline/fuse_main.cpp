@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/command_line.h"
@@ -26,6 +27,7 @@ struct Options {
   std::string estimator = "filter";
   bool smooth = false;
   double rate_hz = 0.0;
+  std::optional<double> clock_sd_s;  // nothing: guessed
   ols::PaperConfig paper{};
   std::string paper_pairs = "algorithm-1";
   bool paper_halves = false;
@@ -57,6 +59,11 @@ std::map<std::string, std::vector<ols::Sighting>> read_sightings(const Options& 
   std::map<std::string, std::vector<ols::Sighting>> sightings;
   for (const auto& bearing : ols::read_bearings(options.bearings, stations)) {
     sightings[bearing.target].push_back(sighting_of(bearing, by_id.at(bearing.station)));
+  }
+  for (auto& [id, own] : sightings) {
+    ols::guess_clocks(own);
+    if (!options.clock_sd_s) continue;
+    for (ols::Sighting& sighting : own) sighting.clock_sd_s = *options.clock_sd_s;
   }
   return sightings;
 }
@@ -155,6 +162,10 @@ int main(int argc, char** argv) {
                  "[Hz] fixes on an even grid in time; 0: at the instant of every bearing")
       ->check(CLI::Range(0.0, 10000.0))
       ->capture_default_str();
+  app.add_option("--clock-sd", options.clock_sd_s,
+                 "[s] 1-sigma of each station's clock, which the files do not tell; guessed from "
+                 "noise and angular speed unless given")
+      ->check(CLI::Range(0.0, 10.0));
   app.add_option("--moving-average", options.paper.moving_average,
                  "[fixes] with paper: mean of the last so many; 1: none")
       ->check(CLI::Range(1, 10000))

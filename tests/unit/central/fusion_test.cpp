@@ -209,7 +209,7 @@ TEST(Fusion, StartsAnewWhenTheReplayIsStartedAgain) {
 
 // What the first replay taught about the stations is not known in the second one.
 TEST(Fusion, EveryFurtherReplayGivesTheSameTargets) {
-  const auto sightings = flight(5.0, 1e-4, 1e-3);  // worse than they state
+  const auto sightings = flight(5.0, 1e-4, 2e-4);  // worse than they state
   Fusion fusion{FusionConfig{}};
   const auto first = targets_of(fusion, sightings);
   const auto second = targets_of(fusion, sightings);

@@ -36,6 +36,8 @@ std::vector<Sighting> recording(double seconds, double sigma_rad, unsigned seed)
       Ray ray =
           ray_to(std::string(1, static_cast<char>('a' + k)), square()[k], path(t_s), sigma_rad);
       ray = test::turned(ray, sigma_rad * normal(random), sigma_rad * normal(random));
+      // All that there is of it is stated: nothing needs to be guessed.
+      ray.sight.covariance_systematic = Eigen::Matrix2d::Identity() * std::pow(0.01 * sigma_rad, 2);
       sightings.push_back(sighting_of(ray, kStart + std::llround(t_s * 1e6)));
     }
   }
@@ -168,6 +170,18 @@ TEST(OfflineFusion, CountsWhatItDoesNotUse) {
   sightings[7].belief = 0.2;
   EXPECT_EQ(unused_bearings(sightings, {}).low_belief, 1U);
   EXPECT_EQ(unused_bearings(sightings, {}).duplicate, 2U);
+}
+
+TEST(OfflineFusion, AClockIsGuessedByWhatItDoesToTheBearings) {
+  auto sightings = recording(10.0, 1e-4, 7);
+  guess_clocks(sightings);
+  for (const Sighting& s : sightings) {
+    EXPECT_GT(s.clock_sd_s, 4e-4 / 0.3);
+    EXPECT_LT(s.clock_sd_s, 4e-4 / 0.02);
+  }
+  auto rough = recording(10.0, 2e-3, 7);
+  guess_clocks(rough);
+  for (const Sighting& s : rough) EXPECT_EQ(s.clock_sd_s, 0.02);
 }
 
 TEST(OfflineFusion, NothingGivesNothing) {

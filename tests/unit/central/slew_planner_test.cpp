@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +18,9 @@ using test::site;
 using test::square;
 
 Track track_of_flight(std::int64_t id, double seconds) {
-  Track track(TrackFilter({}, kStart, site().to_ecef(path(0.0)), 100.0, 50.0));
+  Track track(TrackFilter(
+      {}, kStart,
+      {.p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 50.0}));
   StationErrors errors;
   for (const Sighting& s : test::flight(seconds, 1e-4)) track.filter.update(s, errors);
   track.id = id;

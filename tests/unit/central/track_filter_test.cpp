@@ -21,7 +21,9 @@ using test::site;
 using test::square;
 
 TrackFilter filter_at(const Vector3d& p_enu, double sd_m = 100.0) {
-  return TrackFilter({}, kStart, site().to_ecef(p_enu), sd_m, 50.0);
+  return TrackFilter(
+      {}, kStart,
+      {.p_ecef = site().to_ecef(p_enu), .position_sd_m = sd_m, .velocity_sd_m_s = 50.0});
 }
 
 Vector3d error(const TrackFilter& filter, std::int64_t utime_us) {

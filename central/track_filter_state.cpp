@@ -1,0 +1,95 @@
+// What a filter's state tells: mixed over its models, at any instant, with its parts.
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "central/track_filter.h"
+
+namespace ols {
+
+void TrackFilter::refresh() {
+  summary_.utime_us = utime_us_;
+  summary_.mean.setZero();
+  summary_.covariance.setZero();
+  for (const Model& model : models_) {
+    summary_.mean += model.probability * model.mean.head<9>();
+    summary_.covariance += model.probability * model.covariance.topLeftCorner<9, 9>();
+  }
+  for (const Model& model : models_) {
+    const Vector9 off = model.mean.head<9>() - summary_.mean;
+    summary_.covariance += model.probability * off * off.transpose();
+  }
+}
+
+void TrackFilter::mixed(FilterVector& mean, FilterMatrix& covariance) const {
+  const Eigen::Index n = models_[0].mean.size();
+  mean = FilterVector::Zero(n);
+  covariance = FilterMatrix::Zero(n, n);
+  for (const Model& model : models_) mean += model.probability * model.mean;
+  for (const Model& model : models_) {
+    const FilterVector off = model.mean - mean;
+    covariance += model.probability * model.covariance;
+    covariance.noalias() += (model.probability * off) * off.transpose();
+  }
+}
+
+KinematicState TrackFilter::at(std::int64_t utime_us) const {
+  const double dt_s = 1e-6 * static_cast<double>(utime_us - utime_us_);
+  KinematicState state;
+  state.utime_us = utime_us;
+  std::array<Vector9, kMotions> means;
+  std::array<Matrix9, kMotions> covariances;
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    means[m] = models_[m].mean.head<9>();
+    covariances[m] = models_[m].covariance.topLeftCorner<9, 9>();
+    Transition t = transition(static_cast<Motion>(m), means[m], std::abs(dt_s), config_.motion);
+    if (dt_s < 0.0) t.f << 1.0, dt_s, dt_s * dt_s / 2.0, 0.0, 1.0, dt_s, 0.0, 0.0, 1.0;
+    transform_rows(t.f, means[m]);
+    propagate_covariance(t, covariances[m]);
+    state.mean += models_[m].probability * means[m];
+  }
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    const Vector9 off = means[m] - state.mean;
+    state.covariance += models_[m].probability * (covariances[m] + off * off.transpose());
+  }
+  return state;
+}
+
+Eigen::Matrix3d TrackFilter::systematic() const {
+  FilterVector mean;
+  FilterMatrix P;
+  mixed(mean, P);
+  const Eigen::Index biases = mean.size() - 9;
+  if (biases == 0) return Eigen::Matrix3d::Zero();
+  FilterMatrix own = P.bottomRightCorner(biases, biases);
+  own.diagonal().array() += 1e-18;  // a clock that is known has no variance
+  const auto cross = P.topRightCorner(3, biases);
+  return cross * own.ldlt().solve(cross.transpose());
+}
+
+StationBias TrackFilter::bias(std::size_t station) const {
+  const auto at = static_cast<Eigen::Index>(9 + 3 * station);
+  StationBias result;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Model& model : models_) mean += model.probability * model.mean.segment<3>(at);
+  Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
+  for (const Model& model : models_) {
+    const Eigen::Vector3d off = model.mean.segment<3>(at) - mean;
+    P += model.probability * (model.covariance.block<3, 3>(at, at) + off * off.transpose());
+  }
+  result.bias_rad = mean.head<2>();
+  result.covariance_rad2 = P.topLeftCorner<2, 2>();
+  result.prior_rad2 = priors_[station].covariance;
+  result.clock_s = mean(2);
+  result.clock_sd_s = std::sqrt(std::max(0.0, P(2, 2)));
+  result.clock_prior_sd_s = stations_[station].clock_sd_s;
+  return result;
+}
+
+std::array<double, kMotions> TrackFilter::probabilities() const {
+  std::array<double, kMotions> result{};
+  for (std::size_t m = 0; m < models_.size(); ++m) result[m] = models_[m].probability;
+  return result;
+}
+
+}  // namespace ols
