@@ -226,8 +226,9 @@ std::optional<Track> TrackBirth::try_start(const Sighting& newest, const Meeting
 }
 
 void TrackBirth::take(const Track& track) {
-  for (const auto& [station, taken] : track.bearings) {
+  for (const auto& [station, bearings] : track.bearings) {
     auto& own = pool_[station];
+    const auto& taken = bearings;  // clang 14 captures no structured binding
     std::erase_if(own, [&](const Sighting& s) {
       return std::ranges::any_of(taken, [&](const Sighting& t) {
         return t.utime_us == s.utime_us &&
