@@ -164,18 +164,19 @@ SightingRefusal Fusion::store(const Sighting& sighting) {
   Station& station = stations_[sighting.station];
   auto& lately = station.lately;
   const auto same_time =
-      std::ranges::equal_range(lately, sighting.utime_us, {}, &Exposure::utime_us);
-  for (const Exposure& e : same_time) {
+      std::ranges::lower_bound(lately, sighting.utime_us, {}, &Exposure::utime_us);
+  const auto later = std::ranges::upper_bound(lately, sighting.utime_us, {}, &Exposure::utime_us);
+  for (auto e = same_time; e != later; ++e) {
     const AzimuthElevation& d = sighting.sight.direction;
     const bool same_way =
-        e.direction.azimuth_rad == d.azimuth_rad && e.direction.elevation_rad == d.elevation_rad;
-    const bool same_object = sighting.track_id != 0 && e.track_id == sighting.track_id;
+        e->direction.azimuth_rad == d.azimuth_rad && e->direction.elevation_rad == d.elevation_rad;
+    const bool same_object = sighting.track_id != 0 && e->track_id == sighting.track_id;
     if (same_way || same_object) return SightingRefusal::kDuplicate;
   }
   if (static_cast<double>(lately.size()) >= config_.flood_hz * kMemoryS) {
     return SightingRefusal::kFlood;
   }
-  lately.insert(same_time.end(), {sighting.utime_us, sighting.sight.direction, sighting.track_id});
+  lately.insert(later, {sighting.utime_us, sighting.sight.direction, sighting.track_id});
   const std::int64_t newest_us = lately.back().utime_us;
   const auto first = std::ranges::lower_bound(
       lately, newest_us - static_cast<std::int64_t>(kMemoryS * 1e6), {}, &Exposure::utime_us);
