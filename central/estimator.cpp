@@ -58,6 +58,7 @@ class RayEstimator : public Estimator {
       }
       auto ray = align(bearings, epoch_us, range_m, config_.alignment);
       if (!ray) continue;
+      ray->sight.covariance_white *= target.errors.noise_scale(station);
       ray->sight.covariance_systematic += target.errors.untold(station, bearings.back().sight);
       rays.push_back(std::move(*ray));
     }

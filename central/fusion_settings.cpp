@@ -50,6 +50,12 @@ void read_station_errors(ConfigTable& table, StationErrorsConfig& config) {
   config.memory_s = table.number("memory_s", config.memory_s, 0.1, 1e6);
   config.untold_over_noise =
       table.number("untold_over_noise", config.untold_over_noise, 0.0, 100.0);
+  config.clock_time_s = table.number("clock_time_s", config.clock_time_s, 0.1, 1e6);
+  config.colour_time_s = table.number("colour_time_s", config.colour_time_s, 0.0, 10.0);
+  config.colour_memory = table.number("colour_memory", config.colour_memory, 1.0, 1e6);
+  config.noise_memory = table.number("noise_memory", config.noise_memory, 1.0, 1e6);
+  config.least_noise = table.number("least_noise", config.least_noise, 1e-3, 1.0);
+  config.greatest_noise = table.number("greatest_noise", config.greatest_noise, 1.0, 1e4);
 }
 
 void read_tracks(ConfigTable& table, KeeperConfig& config) {

@@ -32,10 +32,27 @@ double StationErrors::inflation(const std::string& station, double interval_s) c
   return 1.0 + coloured * 2.0 * config_.colour_time_s / interval_s;
 }
 
+void StationErrors::observe_residual(const std::string& station, double ratio) {
+  const double stated = ratio * noise_scale(station);
+  Seen& seen = stations_[station];
+  const double decay = 1.0 - 1.0 / config_.noise_memory;
+  seen.residuals = seen.residuals * decay + 1.0;
+  seen.noise = seen.noise * decay + stated;
+}
+
+double StationErrors::noise_scale(const std::string& station) const {
+  const auto found = stations_.find(station);
+  if (found == stations_.end()) return 1.0;
+  const Seen& seen = found->second;
+  const double scale =
+      (config_.noise_weight + seen.noise) / (config_.noise_weight + seen.residuals);
+  return std::clamp(scale, config_.least_noise, config_.greatest_noise);
+}
+
 void StationErrors::count(const Seen& seen, double sign) {
   if (seen.noise_rad2.minCoeff() <= 0.0) return;
-  common_weight_ += sign * seen.weight;
-  common_ratio_ += sign * seen.squared_rad2 / seen.noise_rad2;
+  common_weight_ += sign * (seen.weight + seen.weight_now);
+  common_ratio_ += sign * (seen.squared_rad2 + seen.squared_now_rad2) / seen.noise_rad2;
 }
 
 void StationErrors::forget(const std::string& station) {
@@ -55,7 +72,10 @@ Eigen::Array2d StationErrors::learnt(const std::string& station, const Eigen::Ar
   const Eigen::Array2d prior = told ? stated_rad2 : Eigen::Array2d(common * noise_rad2);
   const auto found = stations_.find(station);
   if (found == stations_.end()) return prior;
-  return (weight * prior + found->second.squared_rad2) / (weight + found->second.weight);
+  const Seen& seen = found->second;
+  const Eigen::Array2d squared = weight * prior + seen.squared_rad2 + seen.squared_now_rad2;
+  constexpr double kLeast = 0.04;  // of the noise's variance: what is taken for zero stays zero
+  return (squared / (weight + seen.weight + seen.weight_now)).max(kLeast * noise_rad2);
 }
 
 BiasPrior StationErrors::prior(const std::string& station, const SightLine& sight,
@@ -76,8 +96,7 @@ Eigen::Matrix2d StationErrors::untold(const std::string& station, const SightLin
 }
 
 void StationErrors::observe(const std::string& station, const SightLine& sight,
-                            const Eigen::Vector2d& bias, const Eigen::Matrix2d& covariance,
-                            double dt_s, double range_m) {
+                            const SeenBias& bias, double dt_s, double range_m) {
   const Eigen::Array2d stated = stated_covariance(sight, range_m).diagonal();
   Seen& seen = stations_[station];
   count(seen, -1.0);
@@ -85,9 +104,12 @@ void StationErrors::observe(const std::string& station, const SightLine& sight,
   // A bias within one correlation time is one draw, however often it is looked at.
   const double news = std::min(
       1.0, dt_s / (states_anything(stated) ? config_.stated_time_s : config_.untold_time_s));
-  const Eigen::Array2d value = bias.array().square() + covariance.diagonal().array();
-  seen.weight = seen.weight * decay + news;
-  seen.squared_rad2 = seen.squared_rad2 * decay + news * value;
+  constexpr double kNone = 1e-24;
+  const Eigen::Array2d known = (1.0 - bias.variance / bias.prior.max(kNone)).max(0.0).min(1.0);
+  seen.weight_now = known.square();
+  seen.squared_now_rad2 = bias.value.square() - known * bias.variance;
+  seen.weight = seen.weight * decay + news * seen.weight_now;
+  seen.squared_rad2 = seen.squared_rad2 * decay + news * seen.squared_now_rad2;
   // Stations that state their errors tell nothing of those that do not.
   seen.noise_rad2 = states_anything(stated) ? Eigen::Array2d::Zero()
                                             : Eigen::Array2d(sight.covariance_white.diagonal());

@@ -2,12 +2,16 @@
 // show beyond that. Pure.
 //
 // The filter carries each station's bias (cross-elevation, elevation) as a state with a prior of
-// zero mean. The prior's variance is learnt here, by expectation maximisation (empirical Bayes): a
-// bias estimated as b with the variance P is worth b^2 + P. Where the geometry does not show a bias
-// that is the prior itself, and nothing is learnt; where it does, it is the bias. A source that
-// tells no systematic error is first taken to have one of the size of its noise; what the others
-// show of theirs, in units of their noise, counts for it too. There is no length and no time scale
-// in this but that of the bias' own memory, so it holds for a drone and for a meteor.
+// zero mean. The prior's variance v is learnt here. A bias estimated as b with the variance P shows
+// the share k = 1 - P / v of itself, and its square is worth b^2 - k P with the weight k^2 (one
+// step of Fisher scoring on the marginal likelihood, Harville, 1977): nothing where the geometry
+// does not show the bias, all where it does. A source that tells no systematic error is first taken
+// to have one of half the size of its noise; what the others show of theirs, in units of what they
+// state as noise, counts for it too. There is no length and no time scale in this but that of the
+// bias' own memory, so it holds for a drone and for a meteor.
+//
+// How great the noise is, is seen in the residuals: its expectation given the residual, squared, is
+// worth one bearing (expectation maximisation). It may be less or more than what is stated.
 //
 // Noise is rarely white: a tracker's error, or a hand's, is nearly the same in the next frame. How
 // much of it is new in each frame is seen in the second differences of a station's own bearings,
@@ -25,21 +29,33 @@
 namespace ols {
 
 struct StationErrorsConfig {
-  double stated_time_s = 60.0;     // correlation time of a bias within what is stated
-  double untold_time_s = 10.0;     // and of one that the station does not tell
-  double memory_s = 120.0;         // what was seen longer ago counts less than 1/e
+  double stated_time_s = 3600.0;   // correlation time of a bias within what is stated
+  double untold_time_s = 5.0;      // and of one that the station does not tell
+  double memory_s = 600.0;         // what was seen longer ago counts less than 1/e
   double stated_weight = 20.0;     // seen biases that a statement is worth
   double untold_weight = 2.0;      // and that the guess is worth where nothing is stated
-  double untold_over_noise = 1.0;  // that guess: sd of the bias over the sd of the noise
-  double clock_time_s = 5.0;       // correlation time of a clock's error
-  double colour_time_s = 0.1;      // and of the noise that is not new in each frame
-  double colour_memory = 500.0;    // second differences in whose mean the share is judged
+  double untold_over_noise = 0.5;  // that guess: sd of the bias over the sd of the noise
+  double noise_weight = 20.0;      // bearings that a stated noise is worth
+  double noise_memory = 500.0;     // bearings in whose mean the noise is judged
+  double least_noise = 0.1;        // bounds of the noise over what is stated [variances]
+  double greatest_noise = 100.0;
+  double clock_time_s = 5.0;     // correlation time of a clock's error
+  double colour_time_s = 0.3;    // and of the noise that is not new in each frame: between that
+                                 // and the bias, which is slow
+  double colour_memory = 500.0;  // second differences in whose mean the share is judged
 };
 
 // The prior of one station's bias as seen towards a target.
 struct BiasPrior {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] stationary
   double time_s = 1.0;                                   // correlation time
+};
+
+// A station's bias [rad], cross-elevation and elevation, each with its variance after and before.
+struct SeenBias {
+  Eigen::Array2d value = Eigen::Array2d::Zero();
+  Eigen::Array2d variance = Eigen::Array2d::Zero();
+  Eigen::Array2d prior = Eigen::Array2d::Zero();
 };
 
 class StationErrors {
@@ -50,11 +66,15 @@ class StationErrors {
   BiasPrior prior(const std::string& station, const SightLine& sight, double range_m) const;
   // The same, added to what a ray states, for estimators without bias states [rad^2].
   Eigen::Matrix2d untold(const std::string& station, const SightLine& sight) const;
-  // A bias as the filter has it, over dt_s since it was told last.
-  void observe(const std::string& station, const SightLine& sight, const Eigen::Vector2d& bias,
-               const Eigen::Matrix2d& covariance, double dt_s, double range_m);
-  // A second difference of a station's bearings, squared, over what white noise as stated would
-  // make.
+  // A bias as the filter has it and what its prior was, over dt_s since it was told last.
+  void observe(const std::string& station, const SightLine& sight, const SeenBias& bias,
+               double dt_s, double range_m);
+  // What the residual of a bearing shows of the noise's variance, over the one it was taken with.
+  void observe_residual(const std::string& station, double ratio);
+  // The variance of a station's noise over the one that it states.
+  double noise_scale(const std::string& station) const;
+  // A second difference of a station's bearings, squared, over what white noise of noise_scale()
+  // would make.
   void observe_noise(const std::string& station, double squared_ratio);
   // How many times its stated variance a bearing counts with, when they come at this interval: 1 if
   // the noise is white.
@@ -65,10 +85,12 @@ class StationErrors {
 
  private:
   struct Seen {
-    Eigen::Array2d weight = Eigen::Array2d::Zero();
-    Eigen::Array2d squared_rad2 = Eigen::Array2d::Zero();  // of what goes beyond the statement
-    Eigen::Array2d noise_rad2 = Eigen::Array2d::Zero();    // of one bearing, lately
-    double white_share = 1.0;                              // of its noise, new in each frame
+    // Of earlier biases, and of the one as it is now: that is one more, however new.
+    Eigen::Array2d weight = Eigen::Array2d::Zero(), weight_now = Eigen::Array2d::Zero();
+    Eigen::Array2d squared_rad2 = Eigen::Array2d::Zero(), squared_now_rad2 = Eigen::Array2d::Zero();
+    Eigen::Array2d noise_rad2 = Eigen::Array2d::Zero();  // stated, of one bearing, lately
+    double residuals = 0.0, noise = 0.0;                 // bearings; sum of noise over stated
+    double white_share = 1.0;                            // of its noise, new in each frame
   };
   void count(const Seen& seen, double sign);
   Eigen::Array2d learnt(const std::string& station, const Eigen::Array2d& stated_rad2,

@@ -76,7 +76,8 @@ int TrackFilter::enter(const Sighting& sighting, const BiasPrior& prior) {
 void TrackFilter::reset(int station, const Sighting& sighting, const BiasPrior& prior) {
   stations_[static_cast<std::size_t>(station)] = {.station = sighting.station,
                                                   .sight = sighting.sight,
-                                                  .calibration_id = sighting.calibration_id};
+                                                  .calibration_id = sighting.calibration_id,
+                                                  .aimed = direction_ecef(sighting.sight)};
   priors_[static_cast<std::size_t>(station)] = prior;
   const Eigen::Index at = 9 + 3 * station;
   for (Model& model : models_) {
@@ -135,11 +136,13 @@ double TrackFilter::nis(const Sighting& sighting, const StationErrors& errors) c
     const double range_m = (position() - sighting.sight.origin_ecef).norm();
     prior = errors.prior(sighting.station, sighting.sight, range_m);
   }
+  const Eigen::Matrix2d white =
+      sighting.sight.covariance_white * errors.noise_scale(sighting.station);
   double least = kNever;
   for (const Model& model : models_) {
     const Innovation seen = innovation(model, sighting, station, prior);
     if (seen.depth_m <= 0.0) continue;
-    const Eigen::Matrix2d S = seen.covariance + sighting.sight.covariance_white;
+    const Eigen::Matrix2d S = seen.covariance + white;
     least = std::min(least, seen.residual.dot(S.llt().solve(seen.residual)));
   }
   return least;
@@ -166,21 +169,28 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
     for (Model& model : models_) model.covariance(at, at) += more;
     entry.clock_sd_s = sighting.clock_sd_s;
   }
+  const Eigen::Matrix2d white =
+      sighting.sight.covariance_white * errors.noise_scale(sighting.station);
   std::array<Innovation, kMotions> seen;
-  double nis = kNever;
+  double nis = kNever, noise_shown = 1.0;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     seen[m] = innovation(models_[m], sighting, station, {});
     if (seen[m].depth_m <= 0.0) return BearingUse::kBehindCamera;
-    const Eigen::Matrix2d S = seen[m].covariance + sighting.sight.covariance_white;
-    nis = std::min(nis, seen[m].residual.dot(S.llt().solve(seen[m].residual)));
+    const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + white);
+    const Eigen::Vector2d scaled = S.solve(seen[m].residual);
+    const double here = seen[m].residual.dot(scaled);
+    if (here >= nis) continue;
+    nis = here;
+    noise_shown = 1.0 + (scaled.dot(white * scaled) - S.solve(white).trace()) / 2.0;
   }
   if (!passes_gate(sighting, nis)) return BearingUse::kSetAside;
   entry.weight = nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
   entry.sight = sighting.sight;
   entry.utime_us = std::max(entry.utime_us, sighting.utime_us);
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);
+  errors.observe_residual(sighting.station, noise_shown);
   const double inflation = observe_noise(entry, sighting, errors);
-  const Eigen::Matrix2d noise = sighting.sight.covariance_white * (inflation / entry.weight);
+  const Eigen::Matrix2d noise = white * (inflation / entry.weight);
   std::array<double, kMotions> log_likelihood{};
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + noise);
@@ -220,8 +230,9 @@ double TrackFilter::observe_noise(FilterStation& entry, const Sighting& sighting
   if (entry.before_us[0] > 0 && first_s + second_s < kNearS) {
     const double w = second_s / (first_s + second_s);
     const Eigen::Vector3d off = entry.before[1] - w * entry.before[0] - (1.0 - w) * frame.direction;
-    const double white =
-        (1.0 + w * w + (1.0 - w) * (1.0 - w)) * sighting.sight.covariance_white.trace();
+    const double white = (1.0 + w * w + (1.0 - w) * (1.0 - w)) *
+                         errors.noise_scale(sighting.station) *
+                         sighting.sight.covariance_white.trace();
     errors.observe_noise(sighting.station, (frame.tangent.transpose() * off).squaredNorm() / white);
   }
   entry.before_us = {entry.before_us[1], sighting.utime_us};
@@ -307,18 +318,31 @@ void TrackFilter::mix(double dt_s) {
   }
 }
 
+// A wrong pose shows as another bias in another direction: a rotation by an angle leaves its
+// cosine. Counted every half radian, so that it adds up over a circle and not over every small
+// movement.
+double TrackFilter::turned(FilterStation& station) {
+  constexpr double kSameRad = 0.5;
+  const Eigen::Vector3d now = direction_ecef(station.sight);
+  const double cosine = now.dot(station.aimed);
+  if (cosine > std::cos(kSameRad)) return 1.0;
+  station.aimed = now;
+  return std::max(0.0, cosine);
+}
+
 // Each station's bias is told to the errors' statistics, and moves on by its prior.
 void TrackFilter::move_biases(double dt_s, StationErrors& errors) {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
-    const FilterStation& station = stations_[i];
+    FilterStation& station = stations_[i];
     const double range_m = (position() - station.sight.origin_ecef).norm();
     if (seconds(utime_us_ - station.utime_us) < 2.0 * config_.mixing_s + dt_s) {
       const StationBias now = bias(i);
-      errors.observe(station.station, station.sight, now.bias_rad, now.covariance_rad2, dt_s,
-                     range_m);
+      errors.observe(station.station, station.sight,
+                     {now.bias_rad, now.covariance_rad2.diagonal(), now.prior_rad2.diagonal()},
+                     dt_s, range_m);
     }
     priors_[i] = errors.prior(station.station, station.sight, range_m);
-    const double decay = std::exp(-dt_s / priors_[i].time_s);
+    const double decay = turned(station) * std::exp(-dt_s / priors_[i].time_s);
     const double clock = std::exp(-dt_s / errors.clock_time_s());
     const auto at = static_cast<Eigen::Index>(9 + 3 * i);
     for (Model& model : models_) {

@@ -60,6 +60,7 @@ struct FilterStation {
   std::int64_t calibration_id = 0;
   double weight = 0.0;  // of the last one, 0: set aside
   double clock_sd_s = 0.0;
+  Eigen::Vector3d aimed = Eigen::Vector3d::Zero();  // towards where its bias was lately the same
   double mean_nis = 2.0;  // lately, of bearings that were used; 2 is ideal
   // The two bearings before the next one, for the colour of their noise.
   std::array<std::int64_t, 2> before_us{};
@@ -125,6 +126,7 @@ class TrackFilter {
   void move_to(std::int64_t utime_us, StationErrors& errors);
   void mix(double dt_s);
   void move_biases(double dt_s, StationErrors& errors);
+  static double turned(FilterStation& station);
   void give_room();
   bool passes_gate(const Sighting& sighting, double nis);
   static double observe_noise(FilterStation& entry, const Sighting& sighting,

@@ -52,6 +52,14 @@ std::string name_of(std::size_t i) {
   return name;
 }
 
+// A Gauss-Markov process.
+void wander(const WorldConfig& config, double dt_s, Station& station, std::mt19937_64& random) {
+  const double decay = std::exp(-dt_s / config.bias_time_s);
+  if (decay == 1.0) return;
+  const double fresh = config.bias_sd_rad * std::sqrt(1.0 - decay * decay);
+  station.bias_rad = decay * station.bias_rad + fresh * draw(random).head<2>();
+}
+
 std::vector<Station> stations_of(const WorldConfig& config, std::mt19937_64& random) {
   std::vector<Station> stations;
   for (std::size_t i = 0; i < config.stations_enu.size(); ++i) {
@@ -123,7 +131,7 @@ std::vector<Sighting> measure(const WorldConfig& config, const std::vector<Path>
                               double duration_s, std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::poisson_distribution<int> false_ones(std::max(1e-12, config.false_per_frame));
-  const std::vector<Station> stations = stations_of(config, random);
+  std::vector<Station> stations = stations_of(config, random);
   std::vector<Sighting> sightings;
   const auto frames = static_cast<int>(duration_s * config.rate_hz);
   for (int frame = 0; frame < frames; ++frame) {
@@ -132,6 +140,7 @@ std::vector<Sighting> measure(const WorldConfig& config, const std::vector<Path>
       const double time_s = (frame + phase) / config.rate_hz;
       const std::int64_t utime_us = kStartUs + std::llround(time_s * 1e6);
       const std::size_t first = sightings.size();
+      wander(config, 1.0 / config.rate_hz, stations[k], random);
       for (const Path& path : targets) {
         if (uniform(random) < config.missed) continue;
         const Vector3d there = site().to_ecef(at(path, time_s).p_enu);

@@ -20,7 +20,8 @@ struct WorldConfig {
   std::vector<Eigen::Vector3d> aims_enu;      // where each looks, for false bearings; empty: centre
   double rate_hz = 30.0;                      // frames of each station, evenly staggered
   double noise_rad = 3e-4;
-  double bias_sd_rad = 0.0;      // of each station, constant, each axis
+  double bias_sd_rad = 0.0;      // of each station, each axis
+  double bias_time_s = 1e12;     // its correlation time: constant
   bool bias_stated = true;       // and the stations state it
   double missed = 0.0;           // share of a station's detections
   double false_per_frame = 0.0;  // mean number, Poisson

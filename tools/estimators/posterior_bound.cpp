@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "central/ray.h"
@@ -15,7 +16,8 @@ std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
   Eigen::MatrixXd P = Eigen::MatrixXd::Zero(n, n);
   P.diagonal().head<3>().setConstant(position_sd_m * position_sd_m);
   P.diagonal().segment<3>(3).setConstant(velocity_sd_m_s * velocity_sd_m_s);
-  P.diagonal().tail(n - 6).setConstant(std::max(1e-24, config.bias_sd_rad * config.bias_sd_rad));
+  const double bias = std::max(1e-24, config.bias_sd_rad * config.bias_sd_rad);
+  P.diagonal().tail(n - 6).setConstant(bias);
   std::vector<double> bound;
   std::int64_t last_us = bearings.front().utime_us;
   for (const Sighting& sighting : bearings) {
@@ -23,7 +25,10 @@ std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
     last_us = sighting.utime_us;
     Eigen::MatrixXd F = Eigen::MatrixXd::Identity(n, n);
     F.block<3, 3>(0, 3).diagonal().setConstant(dt);
+    const double decay = std::exp(-dt / config.bias_time_s);
+    F.diagonal().tail(n - 6).setConstant(decay);
     P = F * P * F.transpose();
+    P.diagonal().tail(n - 6).array() += (1.0 - decay * decay) * bias;
     const double s = disturbance * disturbance;
     P.diagonal().head<3>().array() += s * dt * dt * dt / 3.0;
     P.diagonal().segment<3>(3).array() += s * dt;
