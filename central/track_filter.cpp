@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "central/ray.h"
-
 namespace ols {
 namespace {
 
@@ -89,12 +87,12 @@ void TrackFilter::reset(int station, const Sighting& sighting, const BiasPrior& 
 }
 
 TrackFilter::Innovation TrackFilter::innovation(const Model& model, const Sighting& sighting,
-                                                int station, const BiasPrior& prior) const {
+                                                const RayFrame& frame, int station,
+                                                const BiasPrior& prior) const {
   const auto motion = static_cast<Motion>(&model - models_.data());
   const double ahead_s = seconds(sighting.utime_us - utime_us_);  // < 0: late
   const Eigen::Vector3d v = model.mean.segment<3>(3);
   const double curved = motion == Motion::kConstantVelocity ? 0.0 : ahead_s * ahead_s / 2.0;
-  const RayFrame frame = ray_frame(sighting.sight);
   const Eigen::Vector3d line = model.mean.head<3>() + ahead_s * v +
                                curved * model.mean.segment<3>(6) - sighting.sight.origin_ecef;
   Innovation result;
@@ -138,9 +136,10 @@ double TrackFilter::nis(const Sighting& sighting, const StationErrors& errors) c
   }
   const Eigen::Matrix2d white =
       sighting.sight.covariance_white * errors.noise_scale(sighting.station);
+  const RayFrame frame = ray_frame(sighting.sight);
   double least = kNever;
   for (const Model& model : models_) {
-    const Innovation seen = innovation(model, sighting, station, prior);
+    const Innovation seen = innovation(model, sighting, frame, station, prior);
     if (seen.depth_m <= 0.0) continue;
     const Eigen::Matrix2d S = seen.covariance + white;
     least = std::min(least, seen.residual.dot(S.llt().solve(seen.residual)));
@@ -171,10 +170,11 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
   }
   const Eigen::Matrix2d white =
       sighting.sight.covariance_white * errors.noise_scale(sighting.station);
+  const RayFrame frame = ray_frame(sighting.sight);
   std::array<Innovation, kMotions> seen;
   double nis = kNever, noise_shown = 1.0;
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    seen[m] = innovation(models_[m], sighting, station, {});
+    seen[m] = innovation(models_[m], sighting, frame, station, {});
     if (seen[m].depth_m <= 0.0) return BearingUse::kBehindCamera;
     const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + white);
     const Eigen::Vector2d scaled = S.solve(seen[m].residual);
@@ -189,7 +189,7 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
   entry.utime_us = std::max(entry.utime_us, sighting.utime_us);
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);
   errors.observe_residual(sighting.station, noise_shown);
-  const double inflation = observe_noise(entry, sighting, errors);
+  const double inflation = observe_noise(entry, sighting, frame, errors);
   const Eigen::Matrix2d noise = white * (inflation / entry.weight);
   std::array<double, kMotions> log_likelihood{};
   for (std::size_t m = 0; m < models_.size(); ++m) {
@@ -198,7 +198,8 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
     const Eigen::Vector2d whitened = S.matrixL().solve(seen[m].residual);
     const MatrixN2 gain = S.matrixL().solve(seen[m].cross.transpose()).transpose();
     models_[m].mean += gain * whitened;
-    models_[m].covariance.noalias() -= gain * gain.transpose();
+    // Two columns: Eigen's blocked product is slower.
+    models_[m].covariance.noalias() -= gain.lazyProduct(gain.transpose());
     log_likelihood[m] = -whitened.squaredNorm() / 2.0 - std::log(L(0, 0) * L(1, 1));
   }
   weigh_models(log_likelihood);
@@ -221,9 +222,8 @@ bool TrackFilter::passes_gate(const Sighting& sighting, double nis) {
 // Tells the errors how much a bearing differs from the line between its neighbours, and gives how
 // much less than stated it is worth.
 double TrackFilter::observe_noise(FilterStation& entry, const Sighting& sighting,
-                                  StationErrors& errors) {
+                                  const RayFrame& frame, StationErrors& errors) {
   constexpr double kNearS = 0.3;  // further apart the target's own motion shows
-  const RayFrame frame = ray_frame(sighting.sight);
   const double first_s = seconds(entry.before_us[1] - entry.before_us[0]);
   const double second_s = seconds(sighting.utime_us - entry.before_us[1]);
   if (second_s <= 0.0) return 1.0;

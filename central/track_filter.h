@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "central/motion_model.h"
+#include "central/ray.h"
 #include "central/sighting.h"
 #include "central/station_errors.h"
 
@@ -118,8 +119,8 @@ class TrackFilter {
     double probability = 1.0 / kMotions;
   };
   struct Innovation;
-  Innovation innovation(const Model& model, const Sighting& sighting, int station,
-                        const BiasPrior& prior) const;
+  Innovation innovation(const Model& model, const Sighting& sighting, const RayFrame& frame,
+                        int station, const BiasPrior& prior) const;
   int index_of(const std::string& station) const;
   int enter(const Sighting& sighting, const BiasPrior& prior);
   void reset(int station, const Sighting& sighting, const BiasPrior& prior);
@@ -129,7 +130,7 @@ class TrackFilter {
   static double turned(FilterStation& station);
   void give_room();
   bool passes_gate(const Sighting& sighting, double nis);
-  static double observe_noise(FilterStation& entry, const Sighting& sighting,
+  static double observe_noise(FilterStation& entry, const Sighting& sighting, const RayFrame& frame,
                               StationErrors& errors);
   void weigh_models(const std::array<double, kMotions>& log_likelihood);
   void refresh();

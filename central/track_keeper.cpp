@@ -9,25 +9,27 @@ namespace {
 
 double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
 
-// A quick look before the exact one: within so many of everything that may be off.
-bool may_be_near(const Track& track, const Sighting& sighting) {
+}  // namespace
+
+TrackKeeper::Glance TrackKeeper::glance_at(const Track& track) {
   const KinematicState& state = track.filter.summary();
-  const double dt_s = seconds(sighting.utime_us - state.utime_us);
-  const Eigen::Vector3d p = state.mean.head<3>() + dt_s * state.mean.segment<3>(3);
-  const Eigen::Vector3d line = p - sighting.sight.origin_ecef;
-  const Eigen::Vector3d d = direction_ecef(sighting.sight);
+  return {state.utime_us, state.mean.head<3>(), state.mean.segment<3>(3),
+          std::sqrt(state.covariance.topLeftCorner<3, 3>().trace()),
+          std::sqrt(state.covariance.block<3, 3>(3, 3).trace())};
+}
+
+// Within so many of everything that may be off.
+bool TrackKeeper::Glance::may_see(const Sighting& sighting, const Eigen::Vector3d& d) const {
+  const double dt_s = seconds(sighting.utime_us - utime_us);
+  const Eigen::Vector3d line = p_ecef + dt_s * v_ecef - sighting.sight.origin_ecef;
   const double depth = d.dot(line);
   if (!(depth > 0.0)) return false;
-  const double across = (line - depth * d).norm();
-  const double spread_m = std::sqrt(state.covariance.topLeftCorner<3, 3>().trace()) +
-                          std::abs(dt_s) * std::sqrt(state.covariance.block<3, 3>(3, 3).trace());
+  const double spread_m = position_sd_m + std::abs(dt_s) * velocity_sd_m_s;
   const double angle = std::sqrt(sighting.sight.covariance_white.trace() +
                                  sighting.sight.covariance_systematic.trace());
   constexpr double kGenerous = 8.0, kLeastRad = 0.02;
-  return across < kGenerous * (spread_m + depth * angle) + depth * kLeastRad;
+  return (line - depth * d).norm() < kGenerous * (spread_m + depth * angle) + depth * kLeastRad;
 }
-
-}  // namespace
 
 TrackKeeper::TrackKeeper(const KeeperConfig& config)
     : config_(config), birth_(config.birth, config.filter), errors_(config.errors) {}
@@ -35,10 +37,12 @@ TrackKeeper::TrackKeeper(const KeeperConfig& config)
 std::vector<TrackKeeper::Candidate> TrackKeeper::candidates(const Sighting& sighting,
                                                             bool confirmed) const {
   std::vector<Candidate> found;
+  if (tracks_.empty()) return found;
+  const Eigen::Vector3d direction = direction_ecef(sighting.sight);
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (!config_.one_target && !glances_[i].may_see(sighting, direction)) continue;
     const Track& track = tracks_[i];
     if (is_sure(track) != confirmed || track.state == TrackState::kDropped) continue;
-    if (!config_.one_target && !may_be_near(track, sighting)) continue;
     if (track.has_taken(sighting)) continue;
     const double nis = track.filter.nis(sighting, errors_);
     if (nis < config_.filter.gate_nis) found.push_back({i, nis});
@@ -83,6 +87,7 @@ Association TrackKeeper::add(const Sighting& sighting, bool may_begin) {
     if (auto track = birth_.add(sighting, errors_, config_.one_target)) {
       ++counts_.born;
       tracks_.push_back(std::move(*track));
+      glances_.push_back(glance_at(tracks_.back()));
       consider(tracks_.back());
       return {Association::Kind::kTrack, tracks_.back().id};
     }
@@ -92,6 +97,7 @@ Association TrackKeeper::add(const Sighting& sighting, bool may_begin) {
 
 Association TrackKeeper::give_to(Track& track, const Sighting& sighting) {
   const BearingUse use = track.filter.update(sighting, errors_);
+  glances_[static_cast<std::size_t>(&track - tracks_.data())] = glance_at(track);
   if (use != BearingUse::kUsed) {
     ++track.misses;
     ++counts_.set_aside;
@@ -211,6 +217,8 @@ void TrackKeeper::advance(std::int64_t now_us) {
     if (track.id != 0) dropped_.push_back(track);
   }
   std::erase_if(tracks_, [](const Track& t) { return t.state == TrackState::kDropped; });
+  glances_.clear();
+  for (const Track& track : tracks_) glances_.push_back(glance_at(track));
   std::erase_if(dropped_, [&](const Track& old) {
     const bool too_long = seconds(now_us - old.located_us) > config_.remember_s + config_.drop_s;
     return too_long && !config_.one_target;

@@ -88,6 +88,14 @@ class TrackKeeper {
     std::size_t track = 0;
     double nis = 0.0;
   };
+  // What a quick look needs, side by side: a whole track fills the cache by itself.
+  struct Glance {
+    std::int64_t utime_us = 0;
+    Eigen::Vector3d p_ecef, v_ecef;
+    double position_sd_m = 0.0, velocity_sd_m_s = 0.0;
+    bool may_see(const Sighting& sighting, const Eigen::Vector3d& direction_ecef) const;
+  };
+  static Glance glance_at(const Track& track);
   std::vector<Candidate> candidates(const Sighting& sighting, bool confirmed) const;
   Association give_to(Track& track, const Sighting& sighting);
   Track* follower(const Sighting& sighting);
@@ -102,7 +110,8 @@ class TrackKeeper {
   TrackBirth birth_;
   StationErrors errors_;
   std::vector<Track> tracks_;
-  std::deque<Track> dropped_;  // confirmed ones, for their identities
+  std::vector<Glance> glances_;  // of each track
+  std::deque<Track> dropped_;    // confirmed ones, for their identities
   std::int64_t next_id_ = 1;
   // Which track a station's own track was given to last, by station and its track id.
   struct Followed {
