@@ -101,10 +101,18 @@ TrackFilter::Innovation TrackFilter::innovation(const Model& model, const Sighti
   const Eigen::Vector2d predicted = frame.tangent.transpose() * line / result.depth_m;
   const Eigen::Matrix<double, 2, 3> J =
       (frame.tangent.transpose() - predicted * frame.direction.transpose()) / result.depth_m;
-  Eigen::Matrix<double, 2, 9> H;
-  H << J, ahead_s * J, curved * J;
+  // H = [J, ahead J, curved J]; products of so few columns without Eigen's blocking.
   const auto& P = model.covariance;
-  result.cross = P.leftCols<9>() * H.transpose();
+  const Eigen::Matrix<double, 3, 2> Jt = J.transpose();
+  result.cross = P.leftCols<3>().lazyProduct(Jt);
+  if (ahead_s != 0.0) {
+    result.cross += ahead_s * P.middleCols<3>(3).lazyProduct(Jt);
+    result.cross += curved * P.middleCols<3>(6).lazyProduct(Jt);
+  }
+  const auto seen_through = [&](const MatrixN2& cross) -> Eigen::Matrix2d {
+    return J * (cross.topRows<3>() + ahead_s * cross.middleRows<3>(3) +
+                curved * cross.middleRows<3>(6));
+  };
   result.residual = -predicted;
   if (station >= 0) {
     const Eigen::Index at = 9 + 3 * station;
@@ -112,12 +120,11 @@ TrackFilter::Innovation TrackFilter::innovation(const Model& model, const Sighti
     result.cross += P.middleCols<2>(at);
     result.cross += P.col(at + 2) * clock.transpose();
     result.residual -= model.mean.segment<2>(at) + clock * model.mean(at + 2);
-    result.covariance = H * result.cross.topRows<9>() + result.cross.middleRows<2>(at) +
+    result.covariance = seen_through(result.cross) + result.cross.middleRows<2>(at) +
                         clock * result.cross.row(at + 2);
   } else {
     const Eigen::Vector2d clock = J * v * sighting.clock_sd_s;
-    result.covariance =
-        H * result.cross.topRows<9>() + prior.covariance + clock * clock.transpose();
+    result.covariance = seen_through(result.cross) + prior.covariance + clock * clock.transpose();
   }
   if (ahead_s != 0.0) {
     const Transition between =
@@ -150,11 +157,19 @@ double TrackFilter::nis(const Sighting& sighting, const StationErrors& errors) c
 BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) {
   if (seconds(utime_us_ - sighting.utime_us) > kLatestS) return BearingUse::kTooLate;
   move_to(sighting.utime_us, errors);
+  const BearingUse use = take(sighting, errors);
+  refresh();
+  return use;
+}
+
+// The station's states, new where it is new or has another calibration; its clock as it states it
+// now.
+int TrackFilter::states_of(const Sighting& sighting, const StationErrors& errors) {
   int station = index_of(sighting.station);
   const bool known = station >= 0;
   if (!known ||
       stations_[static_cast<std::size_t>(station)].calibration_id != sighting.calibration_id) {
-    const double range_m = (position() - sighting.sight.origin_ecef).norm();
+    const double range_m = (models_[0].mean.head<3>() - sighting.sight.origin_ecef).norm();
     const BiasPrior prior = errors.prior(sighting.station, sighting.sight, range_m);
     if (known) reset(station, sighting, prior);
     if (!known) station = enter(sighting, prior);
@@ -168,6 +183,13 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
     for (Model& model : models_) model.covariance(at, at) += more;
     entry.clock_sd_s = sighting.clock_sd_s;
   }
+  return station;
+}
+
+// At the state's own instant, or late.
+BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
+  const int station = states_of(sighting, errors);
+  FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   const Eigen::Matrix2d white =
       sighting.sight.covariance_white * errors.noise_scale(sighting.station);
   const RayFrame frame = ray_frame(sighting.sight);
@@ -190,7 +212,12 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);
   errors.observe_residual(sighting.station, noise_shown);
   const double inflation = observe_noise(entry, sighting, frame, errors);
-  const Eigen::Matrix2d noise = white * (inflation / entry.weight);
+  correct(seen, white * (inflation / entry.weight));
+  return BearingUse::kUsed;
+}
+
+void TrackFilter::correct(const std::array<Innovation, kMotions>& seen,
+                          const Eigen::Matrix2d& noise) {
   std::array<double, kMotions> log_likelihood{};
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + noise);
@@ -203,8 +230,6 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
     log_likelihood[m] = -whitened.squaredNorm() / 2.0 - std::log(L(0, 0) * L(1, 1));
   }
   weigh_models(log_likelihood);
-  refresh();
-  return BearingUse::kUsed;
 }
 
 bool TrackFilter::passes_gate(const Sighting& sighting, double nis) {
@@ -262,99 +287,6 @@ void TrackFilter::give_room() {
     model.covariance.diagonal().head<3>().array() += std::pow(speed * time_s / 2.0, 2);
     model.covariance.diagonal().segment<3>(3).array() += speed * speed;
     model.covariance.diagonal().segment<3>(6).array() += 4.0 * hard * hard;
-  }
-}
-
-void TrackFilter::advance(std::int64_t utime_us, StationErrors& errors) {
-  move_to(utime_us, errors);
-}
-
-void TrackFilter::move_to(std::int64_t utime_us, StationErrors& errors) {
-  const double dt_s = seconds(utime_us - utime_us_);
-  if (dt_s <= 0.0) return;
-  for (std::size_t m = 0; m < models_.size(); ++m) {
-    Model& model = models_[m];
-    const Transition t =
-        transition(static_cast<Motion>(m), model.mean.head<9>(), dt_s, config_.motion);
-    transform_rows(t.f, model.mean);
-    propagate_covariance(t, model.covariance);
-  }
-  utime_us_ = utime_us;
-  const double since_s = seconds(utime_us_ - mixed_us_);
-  if (since_s >= config_.mixing_s) {
-    mixed_us_ = utime_us_;
-    move_biases(since_s, errors);
-    mix(since_s);
-  }
-  refresh();
-}
-
-void TrackFilter::mix(double dt_s) {
-  std::array<std::array<double, kMotions>, kMotions> weight{};  // [to][from]
-  for (std::size_t from = 0; from < kMotions; ++from) {
-    const double stays = std::exp(-dt_s / config_.motion.dwell_s[from]);
-    for (std::size_t to = 0; to < kMotions; ++to) {
-      const double share = from == to ? stays : (1.0 - stays) / (kMotions - 1);
-      weight[to][from] = share * models_[from].probability;
-    }
-  }
-  const std::array<Model, kMotions> was = models_;
-  for (std::size_t to = 0; to < kMotions; ++to) {
-    double sum = 0.0;
-    for (const double w : weight[to]) sum += w;
-    Model& model = models_[to];
-    model.probability = sum;
-    model.mean.setZero();
-    model.covariance.setZero();
-    for (std::size_t from = 0; from < kMotions; ++from) {
-      model.mean += weight[to][from] / sum * was[from].mean;
-    }
-    for (std::size_t from = 0; from < kMotions; ++from) {
-      const double w = weight[to][from] / sum;
-      const FilterVector off = was[from].mean - model.mean;
-      model.covariance += w * was[from].covariance;
-      model.covariance.noalias() += (w * off) * off.transpose();
-    }
-  }
-}
-
-// A wrong pose shows as another bias in another direction: a rotation by an angle leaves its
-// cosine. Counted every half radian, so that it adds up over a circle and not over every small
-// movement.
-double TrackFilter::turned(FilterStation& station) {
-  constexpr double kSameRad = 0.5;
-  const Eigen::Vector3d now = direction_ecef(station.sight);
-  const double cosine = now.dot(station.aimed);
-  if (cosine > std::cos(kSameRad)) return 1.0;
-  station.aimed = now;
-  return std::max(0.0, cosine);
-}
-
-// Each station's bias is told to the errors' statistics, and moves on by its prior.
-void TrackFilter::move_biases(double dt_s, StationErrors& errors) {
-  for (std::size_t i = 0; i < stations_.size(); ++i) {
-    FilterStation& station = stations_[i];
-    const double range_m = (position() - station.sight.origin_ecef).norm();
-    if (seconds(utime_us_ - station.utime_us) < 2.0 * config_.mixing_s + dt_s) {
-      const StationBias now = bias(i);
-      errors.observe(station.station, station.sight,
-                     {now.bias_rad, now.covariance_rad2.diagonal(), now.prior_rad2.diagonal()},
-                     dt_s, range_m);
-    }
-    priors_[i] = errors.prior(station.station, station.sight, range_m);
-    const double decay = turned(station) * std::exp(-dt_s / priors_[i].time_s);
-    const double clock = std::exp(-dt_s / errors.clock_time_s());
-    const auto at = static_cast<Eigen::Index>(9 + 3 * i);
-    for (Model& model : models_) {
-      model.mean.segment<2>(at) *= decay;
-      model.covariance.middleRows<2>(at) *= decay;
-      model.covariance.middleCols<2>(at) *= decay;
-      model.covariance.block<2, 2>(at, at) += (1.0 - decay * decay) * priors_[i].covariance;
-      model.mean(at + 2) *= clock;
-      model.covariance.row(at + 2) *= clock;
-      model.covariance.col(at + 2) *= clock;
-      model.covariance(at + 2, at + 2) += (1.0 - clock * clock) * std::pow(station.clock_sd_s, 2);
-    }
   }
 }
 

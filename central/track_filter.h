@@ -124,6 +124,9 @@ class TrackFilter {
   int index_of(const std::string& station) const;
   int enter(const Sighting& sighting, const BiasPrior& prior);
   void reset(int station, const Sighting& sighting, const BiasPrior& prior);
+  int states_of(const Sighting& sighting, const StationErrors& errors);
+  void correct(const std::array<Innovation, kMotions>& seen, const Eigen::Matrix2d& noise);
+  BearingUse take(const Sighting& sighting, StationErrors& errors);
   void move_to(std::int64_t utime_us, StationErrors& errors);
   void mix(double dt_s);
   void move_biases(double dt_s, StationErrors& errors);

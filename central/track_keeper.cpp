@@ -40,7 +40,7 @@ std::vector<TrackKeeper::Candidate> TrackKeeper::candidates(const Sighting& sigh
   if (tracks_.empty()) return found;
   const Eigen::Vector3d direction = direction_ecef(sighting.sight);
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (!config_.one_target && !glances_[i].may_see(sighting, direction)) continue;
+    if (!glances_[i].may_see(sighting, direction)) continue;
     const Track& track = tracks_[i];
     if (is_sure(track) != confirmed || track.state == TrackState::kDropped) continue;
     if (track.has_taken(sighting)) continue;
@@ -52,7 +52,6 @@ std::vector<TrackKeeper::Candidate> TrackKeeper::candidates(const Sighting& sigh
 }
 
 Track* TrackKeeper::follower(const Sighting& sighting) {
-  if (config_.one_target) return tracks_.empty() ? nullptr : &tracks_.front();
   if (sighting.track_id == 0) return nullptr;
   const auto found = followed_.find(sighting.station);
   if (found == followed_.end() || found->second.station_track != sighting.track_id) return nullptr;
@@ -62,6 +61,7 @@ Track* TrackKeeper::follower(const Sighting& sighting) {
 }
 
 Association TrackKeeper::add(const Sighting& sighting, bool may_begin) {
+  if (config_.one_target && !tracks_.empty()) return give_to(tracks_.front(), sighting);
   for (const bool confirmed : {true, false}) {
     const auto near = candidates(sighting, confirmed);
     if (near.empty()) continue;
@@ -80,7 +80,7 @@ Association TrackKeeper::add(const Sighting& sighting, bool may_begin) {
   // that it learns when the target has gone beyond its models.
   if (Track* const own = follower(sighting); own != nullptr) {
     const Association result = give_to(*own, sighting);
-    if (config_.one_target || result.kind == Association::Kind::kTrack) return result;
+    if (result.kind == Association::Kind::kTrack) return result;
   }
   ++counts_.unexplained;
   if (may_begin && static_cast<int>(tracks_.size()) < config_.max_tracks) {

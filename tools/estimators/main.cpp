@@ -17,6 +17,7 @@
 #include "central/least_squares.h"
 #include "central/offline_fusion.h"
 #include "geometry/angles.h"
+#include "tools/estimators/peer.h"
 #include "tools/estimators/posterior_bound.h"
 #include "tools/estimators/several_targets.h"
 
@@ -269,8 +270,16 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("measure", what, "all, least-squares, filter, paper, targets or cost")
       ->check(CLI::IsMember({"all", "least-squares", "filter", "paper", "targets", "cost"}));
+  std::string peer;
+  app.add_option("--write-peer", peer,
+                 "instead: a folder for bearings and our filter's fixes, as tools/bench-estimators "
+                 "gives them to Stone Soup");
   if (const auto status = parse_command_line(app, argc, argv, "ols-bench-estimators")) {
     return *status;
+  }
+  if (!peer.empty()) {
+    write_peer_runs(peer, runs);
+    return 0;
   }
   const bool all = what == "all";
   if (all || what == "least-squares") least_squares_bound(20 * runs);

@@ -1,0 +1,18 @@
+// The same simulated bearings for another program's filter, beside what ours makes of them. Writes
+// into a folder, all in the axes of the site's middle (metres, radians):
+//   stations.csv  station,east_m,north_m,up_m
+//   bearings.csv  run,time_s,station,azimuth_rad,elevation_rad   in order of time in each run
+//   fixes.csv     run,time_s,true_{east,north,up}_m,{east,north,up}_m   after each bearing; empty
+//                 before there is a position
+//   pinned.csv    what is known beforehand and true: noise_rad,disturbance, and our cpu_us a
+//   bearing
+#pragma once
+
+#include <string>
+
+namespace ols::bench {
+
+// std::runtime_error when the folder cannot be written.
+void write_peer_runs(const std::string& folder, int runs);
+
+}  // namespace ols::bench
