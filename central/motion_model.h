@@ -32,7 +32,7 @@ struct MotionConfig {
   // The constant velocity's disturbance over the root of a second, likewise.
   double cruise_sd_m_s2 = 0.2;
   double cruise_per_speed_s = 0.003;  // [1/s]
-  double turn_share = 0.3;            // of the acceleration's sd, the turn's disturbance
+  double turn_share = 0.1;            // of the acceleration's sd, the turn's disturbance
   double turn_limit_rad_s = 2.0;
   std::array<double, kMotions> dwell_s = {8.0, 4.0, 2.0};  // mean time in each model
 };

@@ -9,7 +9,10 @@
 namespace ols {
 
 RayFrame ray_frame(const SightLine& sight) {
-  const Eigen::Matrix3d R = R_ecef_enu(sight.origin_ecef);
+  return ray_frame(sight, R_ecef_enu(sight.origin_ecef));
+}
+
+RayFrame ray_frame(const SightLine& sight, const Eigen::Matrix3d& R) {
   return {R * enu_from_azimuth_elevation(sight.direction), R * tangent_basis(sight.direction)};
 }
 

@@ -29,6 +29,8 @@ struct RayFrame {
   Eigen::Matrix<double, 3, 2> tangent;
 };
 RayFrame ray_frame(const SightLine& sight);
+// The same where the axes at its origin are known: R_ecef_enu(sight.origin_ecef).
+RayFrame ray_frame(const SightLine& sight, const Eigen::Matrix3d& R_ecef_enu);
 
 // What stays from frame to frame of a ray's direction error, on its tangent plane [rad^2]: the
 // calibration, the clock along the motion, and the station's position as seen from a target at this

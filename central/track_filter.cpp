@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/wgs84.h"
+
 namespace ols {
 namespace {
 
@@ -52,6 +54,14 @@ int TrackFilter::index_of(const std::string& station) const {
   return -1;
 }
 
+// A station seldom moves, and to find its axes costs as much as a good part of the filter.
+RayFrame TrackFilter::frame_of(const Sighting& sighting, int station) const {
+  if (station < 0) return ray_frame(sighting.sight);
+  const FilterStation& known = stations_[static_cast<std::size_t>(station)];
+  const bool same = known.sight.origin_ecef == sighting.sight.origin_ecef;
+  return same ? ray_frame(sighting.sight, known.R_ecef_enu) : ray_frame(sighting.sight);
+}
+
 // A station's states; the one that is silent longest gives its place up.
 int TrackFilter::enter(const Sighting& sighting, const BiasPrior& prior) {
   int index = static_cast<int>(stations_.size());
@@ -72,10 +82,12 @@ int TrackFilter::enter(const Sighting& sighting, const BiasPrior& prior) {
 }
 
 void TrackFilter::reset(int station, const Sighting& sighting, const BiasPrior& prior) {
-  stations_[static_cast<std::size_t>(station)] = {.station = sighting.station,
-                                                  .sight = sighting.sight,
-                                                  .calibration_id = sighting.calibration_id,
-                                                  .aimed = direction_ecef(sighting.sight)};
+  stations_[static_cast<std::size_t>(station)] = {
+      .station = sighting.station,
+      .sight = sighting.sight,
+      .R_ecef_enu = R_ecef_enu(sighting.sight.origin_ecef),
+      .calibration_id = sighting.calibration_id,
+      .aimed = direction_ecef(sighting.sight)};
   priors_[static_cast<std::size_t>(station)] = prior;
   const Eigen::Index at = 9 + 3 * station;
   for (Model& model : models_) {
@@ -143,7 +155,7 @@ double TrackFilter::nis(const Sighting& sighting, const StationErrors& errors) c
   }
   const Eigen::Matrix2d white =
       sighting.sight.covariance_white * errors.noise_scale(sighting.station);
-  const RayFrame frame = ray_frame(sighting.sight);
+  const RayFrame frame = frame_of(sighting, station);
   double least = kNever;
   for (const Model& model : models_) {
     const Innovation seen = innovation(model, sighting, frame, station, prior);
@@ -192,7 +204,7 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   const Eigen::Matrix2d white =
       sighting.sight.covariance_white * errors.noise_scale(sighting.station);
-  const RayFrame frame = ray_frame(sighting.sight);
+  const RayFrame frame = frame_of(sighting, station);
   std::array<Innovation, kMotions> seen;
   double nis = kNever, noise_shown = 1.0;
   for (std::size_t m = 0; m < models_.size(); ++m) {
@@ -207,6 +219,9 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   }
   if (!passes_gate(sighting, nis)) return BearingUse::kSetAside;
   entry.weight = nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
+  if (entry.sight.origin_ecef != sighting.sight.origin_ecef) {
+    entry.R_ecef_enu = R_ecef_enu(sighting.sight.origin_ecef);
+  }
   entry.sight = sighting.sight;
   entry.utime_us = std::max(entry.utime_us, sighting.utime_us);
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);

@@ -55,9 +55,10 @@ struct KinematicState {
 // A contributing station.
 struct FilterStation {
   std::string station;
-  SightLine sight;              // its last bearing
-  std::int64_t utime_us = 0;    // of the last one that was used
-  std::int64_t offered_us = 0;  // of the last one that was offered
+  SightLine sight;                                           // its last bearing
+  Eigen::Matrix3d R_ecef_enu = Eigen::Matrix3d::Identity();  // at that one's origin
+  std::int64_t utime_us = 0;                                 // of the last one that was used
+  std::int64_t offered_us = 0;                               // of the last one that was offered
   std::int64_t calibration_id = 0;
   double weight = 0.0;  // of the last one, 0: set aside
   double clock_sd_s = 0.0;
@@ -121,6 +122,7 @@ class TrackFilter {
   struct Innovation;
   Innovation innovation(const Model& model, const Sighting& sighting, const RayFrame& frame,
                         int station, const BiasPrior& prior) const;
+  RayFrame frame_of(const Sighting& sighting, int station) const;
   int index_of(const std::string& station) const;
   int enter(const Sighting& sighting, const BiasPrior& prior);
   void reset(int station, const Sighting& sighting, const BiasPrior& prior);

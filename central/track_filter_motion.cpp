@@ -70,7 +70,8 @@ void TrackFilter::mix(double dt_s) {
 // movement.
 double TrackFilter::turned(FilterStation& station) {
   constexpr double kSameRad = 0.5;
-  const Eigen::Vector3d now = direction_ecef(station.sight);
+  const Eigen::Vector3d now =
+      station.R_ecef_enu * enu_from_azimuth_elevation(station.sight.direction);
   const double cosine = now.dot(station.aimed);
   if (cosine > std::cos(kSameRad)) return 1.0;
   station.aimed = now;

@@ -124,7 +124,8 @@ void TrackKeeper::keep(Track& track, const Sighting& sighting) const {
   const auto span_us = static_cast<std::int64_t>(config_.memory_s * 1e6);
   const std::int64_t oldest_us = own.back().utime_us - span_us;
   const auto kept = std::ranges::lower_bound(own, oldest_us, {}, &Sighting::utime_us);
-  own.erase(own.begin(), kept);
+  constexpr std::ptrdiff_t kTogether = 16;  // each one by itself would move all others every time
+  if (kept - own.begin() >= kTogether) own.erase(own.begin(), kept);
 }
 
 bool TrackKeeper::worth_confirming(const Track& track) const {
