@@ -42,9 +42,7 @@ class Belief {
   // it, its look must say more than that it is alike.
   bool usual(const FrameEvidence& evidence) const;
   // What this evidence alone would be believed; the belief stays as it is.
-  double in_frame(const FrameEvidence& evidence) const {
-    return frame_belief(evidence, typical_);
-  }
+  double in_frame(const FrameEvidence& evidence) const { return frame_belief(evidence, typical_); }
   double of_frame() const { return of_frame_; }  // the newest frame alone
 
  private:
