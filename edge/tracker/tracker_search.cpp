@@ -19,6 +19,7 @@ void TrackerCore::search_near(const Eigen::Vector2d& designated, double sd_px) {
   last_.pixel = believed_.pixel = pixel;
   last_.size_px = believed_.size_px;
   belief_.doubt();
+  believed_identity_ = 1.0;  // who tells where it is knows which one it is
   placed_ = true;
 }
 
@@ -134,8 +135,7 @@ bool TrackerCore::near_prediction(const Particle& particle) const {
 // out of sight: nobody can tell which.
 double TrackerCore::identity_of_found(const Scene& scene, double background) const {
   constexpr double kOutOfSight = 0.25;  // as many more
-  if (search_->told) return 1.0;
-  if (near_prediction(last_)) return believed_identity_;
+  if (search_->told || near_prediction(last_)) return believed_identity_;
   const cv::Rect2d box = box_of(last_.pixel, last_.size_px);
   double others = kOutOfSight;
   for (const MoverCandidate& mover : movers_) {

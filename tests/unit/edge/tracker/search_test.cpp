@@ -101,6 +101,29 @@ TEST(Search, OfTwoAlikeNeitherIsBelievedIn) {
   }
 }
 
+// Found elsewhere, it is believed in but partly; then the fusion says that it is there.
+TEST(Search, WhoIsToldWhereItIsBelievesInItWholly) {
+  SyntheticScene scene(Backdrop::kTextured, 31);
+  Tracker tracker(TrackerConfig{}, 5);
+  const cv::Point2d start(150.0, 200.0);
+  int k = 0;
+  const auto track = [&](const std::optional<cv::Point2d>& at) {
+    const cv::Mat gray = scene.picture({400, 300}, at);
+    return tracker.track({gray, kInterval_s * ++k, std::nullopt}).output->belief;
+  };
+  ASSERT_FALSE(tracker.initialise({scene.picture({400, 300}, start), 0.0, std::nullopt},
+                                  SyntheticScene::box_around(start)));
+  const auto moving = [](int i) { return cv::Point2d(500.0 - 3.0 * i, 380.0); };
+  for (int i = 0; i < 20; ++i) track(cv::Point2d(150.0 + 3.0 * i, 200.0));
+  for (int i = 0; i < 60; ++i) track(std::nullopt);
+  double belief = 0.0;
+  for (int i = 0; i < 30; ++i) belief = track(moving(i));
+  EXPECT_LT(belief, 0.85);
+  tracker.search_near({moving(30).x, moving(30).y}, 5.0);
+  for (int i = 30; i < 60; ++i) belief = track(moving(i));
+  EXPECT_GT(belief, 0.9);
+}
+
 TEST(Search, RemembersWhatIsBehindATargetThatStands) {
   ReferenceFrames references(0.3);
   const cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(7));
