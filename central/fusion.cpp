@@ -64,10 +64,7 @@ void Fusion::know_station(const std::string& station, const StationTraits& trait
     evict(longest);
   }
   Station& known = stations_[station];
-  const Eigen::Vector3d camera_ecef = known.traits.camera_ecef;
   known.traits = traits;
-  // Its bearings tell better where the camera is.
-  if (known.delivered) known.traits.camera_ecef = camera_ecef;
   if (!known.delivered) known.heard = ++messages_;
 }
 
@@ -126,7 +123,7 @@ SightingRefusal Fusion::admit(const Sighting& sighting) {
   if (broken != SightingRefusal::kNone) return broken;
   if (!make_room(sighting.station)) return SightingRefusal::kTooMany;
   Station& station = stations_[sighting.station];
-  if (!station.delivered) station.traits.camera_ecef = sighting.sight.origin_ecef;
+  if (!station.delivered) station.stands_where(sighting.sight);
   station.delivered = true;
   station.heard = ++messages_;
   if (time_.hear(sighting.station, sighting.utime_us)) {
@@ -183,7 +180,7 @@ SightingRefusal Fusion::store(const Sighting& sighting) {
   lately.erase(lately.begin(), first);
   const double span_s = seconds(lately.back().utime_us - lately.front().utime_us);
   station.rate_hz = span_s > 0.0 ? static_cast<double>(lately.size() - 1) / span_s : 0.0;
-  station.traits.camera_ecef = sighting.sight.origin_ecef;
+  station.stands_where(sighting.sight);
   if (station.bearings > 0 && station.calibration_id != sighting.calibration_id) {
     keeper_.errors().forget(sighting.station);
     pointing_.forget(sighting.station);

@@ -122,6 +122,11 @@ class Fusion {
     std::int64_t calibration_id = 0;
     std::int64_t follows = 0;  // the target that it saw last
     std::int64_t followed_us = 0;
+
+    void stands_where(const SightLine& sight) {
+      traits.camera_ecef = sight.origin_ecef;
+      traits.camera_sd_enu_m = sight.origin_sd_enu_m;
+    }
   };
   struct Object {
     std::unique_ptr<Estimator> main, paper;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/lcm_bus.h"
+#include "central/sighting_check.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
@@ -137,14 +138,14 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
   if (message.position_source == ols_msg::station_status_t::POSE_NONE) {
     return MessageRefusal::kNoPosition;
   }
-  constexpr double kHighestM = 100e3;
-  const bool in_range = std::abs(message.latitude_deg) <= 90.0 &&
-                        std::abs(message.longitude_deg) <= 360.0 &&
-                        std::abs(message.height_m) <= kHighestM;
-  if (!in_range) return MessageRefusal::kOutOfRange;
   StationPlace place{message.station, {}};
-  place.traits.camera_ecef = ecef_from_geodetic(
-      {radians(message.latitude_deg), radians(message.longitude_deg), message.height_m});
+  place.traits.camera_ecef = Eigen::Vector3d(message.camera_ecef_m);
+  place.traits.camera_sd_enu_m = Eigen::Vector3d(message.position_sd_m);
+  const StationTraits& traits = place.traits;
+  if (!traits.camera_sd_enu_m.allFinite() ||
+      !is_a_stations_place(traits.camera_ecef, traits.camera_sd_enu_m)) {
+    return MessageRefusal::kOutOfRange;
+  }
   place.traits.commandable = commandable(message.state);
   const double view_rad = std::min(message.field_of_view_rad[0], message.field_of_view_rad[1]);
   if (view_rad > 1e-4 && view_rad < kPi) place.traits.field_of_view_rad = view_rad;

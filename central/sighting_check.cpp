@@ -17,16 +17,12 @@ bool all_finite(const Sighting& s) {
 }
 
 bool in_range(const Sighting& s) {
-  constexpr double kDeepestM = 6.3e6, kHighestM = 7.0e6;  // from the Earth's centre
-  constexpr double kGreatestClockSdS = 1e4, kGreatestOriginSdM = 1e6;
-  const double from_centre_m = s.sight.origin_ecef.norm();
+  constexpr double kGreatestClockSdS = 1e4;
   const AzimuthElevation& d = s.sight.direction;
   return !s.station.empty() && s.utime_us > 0 && d.azimuth_rad >= 0.0 &&
          d.azimuth_rad <= 2.0 * kPi && std::abs(d.elevation_rad) <= kPi / 2.0 && s.belief >= 0.0 &&
          s.belief <= 1.0 && s.clock_sd_s >= 0.0 && s.clock_sd_s <= kGreatestClockSdS &&
-         from_centre_m > kDeepestM && from_centre_m < kHighestM &&
-         s.sight.origin_sd_enu_m.minCoeff() >= 0.0 &&
-         s.sight.origin_sd_enu_m.maxCoeff() <= kGreatestOriginSdM;
+         is_a_stations_place(s.sight.origin_ecef, s.sight.origin_sd_enu_m);
 }
 
 // Determinant; an asymmetric matrix counts with the worse of its two off-diagonal elements.
@@ -81,6 +77,13 @@ const char* to_string(SightingRefusal refusal) {
       return "unused_low_belief";
   }
   return "unknown";
+}
+
+bool is_a_stations_place(const Eigen::Vector3d& p_ecef, const Eigen::Vector3d& sd_enu_m) {
+  constexpr double kDeepestM = 6.3e6, kHighestM = 7.0e6;  // from the Earth's centre
+  constexpr double kGreatestSdM = 1e6;
+  return p_ecef.norm() > kDeepestM && p_ecef.norm() < kHighestM && sd_enu_m.minCoeff() >= 0.0 &&
+         sd_enu_m.maxCoeff() <= kGreatestSdM;
 }
 
 SightingRefusal check(const Sighting& sighting) {

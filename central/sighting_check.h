@@ -21,6 +21,9 @@ enum class SightingRefusal {
 };
 const char* to_string(SightingRefusal refusal);
 
+// Whether a station can stand there: near the Earth's surface, with a deviation that is one.
+bool is_a_stations_place(const Eigen::Vector3d& p_ecef, const Eigen::Vector3d& sd_enu_m);
+
 // What can be judged of a bearing by itself.
 SightingRefusal check(const Sighting& sighting);
 

@@ -29,8 +29,8 @@ Eigen::Vector2d spiral(int k) {
 
 }  // namespace
 
-Slew slew_to(const KinematicState& target, const Eigen::Vector3d& camera_ecef,
-             const SlewConfig& config) {
+Slew slew_to(const KinematicState& target, const StationTraits& station, const SlewConfig& config) {
+  const Eigen::Vector3d& camera_ecef = station.camera_ecef;
   const Eigen::Vector3d position = target.mean.head<3>(), velocity = target.mean.segment<3>(3);
   const Eigen::Matrix3d R = R_ecef_enu(camera_ecef);
   const Eigen::Vector3d line_enu = R.transpose() * (position - camera_ecef);
@@ -45,8 +45,9 @@ Slew slew_to(const KinematicState& target, const Eigen::Vector3d& camera_ecef,
   slew.azimuth_rate_rad_s =
       std::clamp(rate(0) / std::max(0.01, std::cos(slew.direction.elevation_rad)), -limit, limit);
   slew.elevation_rate_rad_s = std::clamp(rate(1), -limit, limit);
+  const Eigen::Matrix3d own = R * station.camera_sd_enu_m.cwiseAbs2().asDiagonal() * R.transpose();
   const Eigen::Matrix2d spread =
-      tangent.transpose() * target.covariance.topLeftCorner<3, 3>() * tangent;
+      tangent.transpose() * (target.covariance.topLeftCorner<3, 3>() + own) * tangent;
   slew.direction_sd_rad = std::sqrt(spread.trace() / 2.0) / range_m;
   return slew;
 }
@@ -86,7 +87,7 @@ const Track* SlewPlanner::target_for(const SlewStation& station,
 Slew SlewPlanner::towards(const Track& track, const SlewStation& station, std::int64_t now_us) {
   const double lead_s = station.traits.latency_s + config_.act_s;
   const std::int64_t effect_us = now_us + std::llround(lead_s * 1e6);
-  Slew slew = slew_to(track.filter.at(effect_us), station.traits.camera_ecef, config_);
+  Slew slew = slew_to(track.filter.at(effect_us), station.traits, config_);
   slew.effect_utime_us = effect_us;
   slew.target_id = track.id;
   if (station.follows == track.id) return slew;

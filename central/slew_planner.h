@@ -37,6 +37,7 @@ struct SlewConfig {
 // What is known of a station that can be slewed.
 struct StationTraits {
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
+  Eigen::Vector3d camera_sd_enu_m = Eigen::Vector3d::Zero();
   double latency_s = 0.05;          // mid-exposure to bearing
   double field_of_view_rad = 0.05;  // the narrower one
   bool commandable = true;          // no operator has it, and it is not stopped
@@ -54,10 +55,9 @@ struct Slew {
   double lease_s = 0.0;
 };
 
-// Gives a predicted state's direction from a camera centre. Station, times and target are left to
-// the caller.
-Slew slew_to(const KinematicState& target, const Eigen::Vector3d& camera_ecef,
-             const SlewConfig& config);
+// Gives a predicted state's direction from a station's camera; how sure it is follows from how well
+// both places are known. Station, times and target are left to the caller.
+Slew slew_to(const KinematicState& target, const StationTraits& station, const SlewConfig& config);
 
 struct SlewStation {
   std::string station;

@@ -61,13 +61,17 @@ std::int64_t calibration_id(std::int64_t configured, std::int64_t boot_id, std::
   return static_cast<std::int64_t>(bits >> 1U);
 }
 
-void fill_pose(const StationPose& pose, const StationGeometry& geometry,
+void fill_pose(const StationSnapshot& snapshot, const StationGeometry& geometry,
                ols_msg::station_status_t& message) {
+  const StationPose& pose = snapshot.pose;
   const bool known = pose.position_source != PoseSource::kNone;
   message.latitude_deg = known ? degrees(pose.position.latitude_rad) : kNaN;
   message.longitude_deg = known ? degrees(pose.position.longitude_rad) : kNaN;
   message.height_m = known ? pose.position.height_m : kNaN;
-  for (int i = 0; i < 3; ++i) message.position_sd_m[i] = known ? pose.position_sd_enu_m[i] : kNaN;
+  for (int i = 0; i < 3; ++i) {
+    message.position_sd_m[i] = known ? pose.position_sd_enu_m[i] : kNaN;
+    message.camera_ecef_m[i] = known ? snapshot.camera_ecef[i] : kNaN;
+  }
   message.heading_rad = geometry.chain.heading_rad;
   message.tilt_x_rad = pose.tilt_x_rad;
   message.tilt_y_rad = pose.tilt_y_rad;
@@ -222,7 +226,7 @@ ols_msg::station_status_t to_message(const StationReport& report, const Sender& 
   message.state = state_code(snapshot.state);
   message.track_id = snapshot.track_id;
   message.belief = snapshot.belief;
-  fill_pose(snapshot.pose, settings.station.geometry, message);
+  fill_pose(snapshot, settings.station.geometry, message);
   fill_pointing(report, message);
   fill_devices(report, now_s, message);
   message.clock_state = clock_code(sender.clock.state);

@@ -295,6 +295,8 @@ StationSnapshot Station::snapshot() const {
   if (snapshot.angles) {
     snapshot.optical_axis = optical_axis(config_.geometry, snapshot.angles->angles);
   }
+  const PanTilt angles = snapshot.angles ? snapshot.angles->angles : PanTilt{};
+  snapshot.camera_ecef = camera_centre_ecef(config_.geometry, angles);
   if (last_output_ && follows_target()) {
     const auto& camera = config_.geometry.camera;
     snapshot.belief = last_output_->belief;

@@ -85,9 +85,10 @@ struct StationSnapshot {
   double belief = 0.0;
   std::optional<AngleSample> angles;
   std::optional<AzimuthElevation> optical_axis;
-  std::optional<Eigen::Vector2d> target_offset_px;  // from the principal point, newest frame
-  std::optional<cv::Rect2d> box;                    // newest frame
-  double frame_latency_s = 0.0;                     // mid-exposure to bearing, smoothed
+  Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();  // at zero pan and tilt without angles
+  std::optional<Eigen::Vector2d> target_offset_px;        // from the principal point, newest frame
+  std::optional<cv::Rect2d> box;                          // newest frame
+  double frame_latency_s = 0.0;                           // mid-exposure to bearing, smoothed
   StationPose pose;
   std::map<std::string, double> counters;  // only go up; state times are "seconds_<state>"
 };

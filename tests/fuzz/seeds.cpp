@@ -65,6 +65,7 @@ ols_msg::station_status_t status() {
   auto message = from_station<ols_msg::station_status_t>();
   message.latitude_deg = 49.0;
   message.longitude_deg = 16.0;
+  message.camera_ecef_m[0] = 6.37e6;
   message.devices = 1;
   message.device_name = {"ptu"};
   message.device_state = {2};

@@ -374,6 +374,26 @@ TEST(Fusion, RenamingTheStationsChangesNothing) {
   }
 }
 
+// A bearing or a status, whichever came last: a station may be set up anew elsewhere.
+TEST(Fusion, SlewsAStationFromWhereItsLastMessageTold) {
+  Fusion fusion{FusionConfig{}};
+  const Vector3d anew(0.0, -120.0, 2.0);
+  std::optional<Slew> before, after;
+  for (const Sighting& sighting : flight(4.0)) {
+    const bool gone = sighting.utime_us > kStart + 2'000'000;
+    if (gone && sighting.station == "a") continue;
+    if (gone) fusion.know_station("a", {.camera_ecef = site().to_ecef(anew)});
+    for (const Slew& slew : fusion.add(sighting).slews) {
+      if (slew.station == "a") (gone ? after : before) = slew;
+    }
+  }
+  ASSERT_TRUE(before && after);
+  const double t_s = static_cast<double>(after->effect_utime_us - kStart) * 1e-6;
+  const auto expected = sighting_of(ray_to("a", anew, path(t_s)), 0).sight.direction;
+  EXPECT_NEAR(wrap_pi(after->direction.azimuth_rad - expected.azimuth_rad), 0.0, 2e-3);
+  EXPECT_NEAR(after->direction.elevation_rad, expected.elevation_rad, 2e-3);
+}
+
 TEST(Fusion, SlewsEveryKnownStationAheadOfTheTarget) {
   FusionConfig config;
   Fusion fusion{config};

@@ -50,9 +50,9 @@ ols_msg::station_status_t status() {
   ols_msg::station_status_t message{};
   message.schema_version = ols_msg::station_status_t::SCHEMA_VERSION;
   message.station = "north";
-  message.latitude_deg = 49.2;
-  message.longitude_deg = 16.6;
-  message.height_m = 250.0;
+  const Eigen::Vector3d camera = ecef_from_geodetic({radians(49.2), radians(16.6), 251.6});
+  Eigen::Vector3d::Map(message.camera_ecef_m) = camera;
+  for (const int axis : {0, 1, 2}) message.position_sd_m[axis] = 0.5 + axis;
   message.counters = 2;
   message.counter_name = {"frames_captured", "frames_lost"};
   message.counter_value = {10.0, 1.0};
@@ -100,9 +100,24 @@ TEST(Messages, StatusTellsWhereAStationStands) {
   ASSERT_TRUE(std::holds_alternative<StationPlace>(result));
   const auto& place = std::get<StationPlace>(result);
   EXPECT_EQ(place.station, "north");
-  const Eigen::Vector3d there = ecef_from_geodetic({radians(49.2), radians(16.6), 250.0});
+  const Eigen::Vector3d there = ecef_from_geodetic({radians(49.2), radians(16.6), 251.6});
   EXPECT_EQ(place.traits.camera_ecef, there);
+  EXPECT_EQ(place.traits.camera_sd_enu_m, Eigen::Vector3d(0.5, 1.5, 2.5));
   EXPECT_TRUE(place.traits.commandable);
+}
+
+TEST(Messages, NoStationIsWhereNoneCanBe) {
+  const double nan = std::nan("");
+  for (const double wrong : {nan, 1e9, -1e300}) {
+    auto message = status();
+    message.camera_ecef_m[1] = wrong;
+    EXPECT_TRUE(refused(decode_status(encoded(message)), MessageRefusal::kOutOfRange)) << wrong;
+  }
+  for (const double wrong : {nan, -1.0, 1e9}) {
+    auto message = status();
+    message.position_sd_m[2] = wrong;
+    EXPECT_TRUE(refused(decode_status(encoded(message)), MessageRefusal::kOutOfRange)) << wrong;
+  }
 }
 
 TEST(Messages, WhomTheOperatorHasTheFusionLeavesAlone) {
@@ -209,7 +224,7 @@ TEST(Messages, OtherSchemaStationOrPlaceIsRefused) {
   EXPECT_TRUE(
       refused(decode_bearing(encoded(other), "OLS_BEARING_"), MessageRefusal::kOtherStation));
   auto nowhere = status();
-  nowhere.latitude_deg = std::nan("");
+  nowhere.camera_ecef_m[0] = std::nan("");
   EXPECT_TRUE(refused(decode_status(encoded(nowhere)), MessageRefusal::kOutOfRange));
   nowhere.position_source = ols_msg::station_status_t::POSE_NONE;
   EXPECT_TRUE(refused(decode_status(encoded(nowhere)), MessageRefusal::kNoPosition));

@@ -101,6 +101,21 @@ TEST(SlewPlanner, SearchesAlongARayWithinItsPlane) {
   EXPECT_GT(farthest, 1.3);
 }
 
+TEST(SlewPlanner, IsNoSurerThanTheStationsPlaceIsKnown) {
+  const std::vector<Track> tracks = {track_of_flight(1, 3.0)};
+  const KinematicState target = tracks[0].filter.at(tracks[0].filter.utime_us());
+  StationTraits station = station_at("a", {0, 0, 10}).traits;
+  const double sure_rad = slew_to(target, station, {}).direction_sd_rad;
+  station.camera_sd_enu_m = {3.0, 3.0, 3.0};
+  const double range_m = (target.mean.head<3>() - station.camera_ecef).norm();
+  EXPECT_NEAR(slew_to(target, station, {}).direction_sd_rad, std::hypot(sure_rad, 3.0 / range_m),
+              1e-9);
+  station.camera_sd_enu_m = {0.0, 0.0, 3.0};  // seen foreshortened from below, and in one axis only
+  const double elevation_rad = slew_to(target, station, {}).direction.elevation_rad;
+  EXPECT_NEAR(slew_to(target, station, {}).direction_sd_rad,
+              std::hypot(sure_rad, 3.0 * std::cos(elevation_rad) / range_m / std::sqrt(2.0)), 1e-9);
+}
+
 TEST(SlewPlanner, AnUnsureDirectionIsSearchedInASpiral) {
   std::vector<Track> tracks = {track_of_flight(1, 2.0)};
   StationErrors errors;

@@ -28,6 +28,7 @@ StationReport report() {
   report.snapshot.pose.position = {radians(49.2), radians(16.6), 250.0};
   report.snapshot.pose.position_sd_enu_m = {1.0, 2.0, 3.0};
   report.snapshot.pose.position_source = PoseSource::kSensor;
+  report.snapshot.camera_ecef = {1e6, 2e6, 3e6};
   report.snapshot.counters["bearings"] = 7.0;
   DeviceReport gnss;
   gnss.name = "gnss";
@@ -59,6 +60,7 @@ TEST(StationMessages, OneStatusTellsAll) {
   EXPECT_EQ(status.position_source, +Status::POSE_SENSOR);
   EXPECT_NEAR(status.latitude_deg, 49.2, 1e-12);
   EXPECT_EQ(status.position_sd_m[2], 3.0);
+  EXPECT_EQ(status.camera_ecef_m[1], 2e6);
   ASSERT_EQ(status.devices, 1);
   EXPECT_EQ(status.device_name[0], "gnss");
   EXPECT_EQ(status.device_state[0], +Status::DEVICE_FAULT);
@@ -89,6 +91,7 @@ TEST(StationMessages, APositionThatIsNotKnownIsNotTold) {
   EXPECT_EQ(status.position_source, +Status::POSE_NONE);
   EXPECT_TRUE(std::isnan(status.latitude_deg));
   EXPECT_TRUE(std::isnan(status.position_sd_m[0]));
+  EXPECT_TRUE(std::isnan(status.camera_ecef_m[0]));
 }
 
 TEST(StationMessages, TheClocksQualityIsInEveryBearing) {

@@ -312,6 +312,18 @@ TEST_F(StationTest, CountsTheSecondsInEachState) {
   EXPECT_NEAR(station_.snapshot().counters.at("seconds_tracking"), 2.0, 0.02);
 }
 
+// The fusion slews a station that it has no bearing of by what its status tells.
+TEST_F(StationTest, TellsTheSamePlaceOfItsCameraAsItsBearings) {
+  const Eigen::Vector3d at_zero = camera_centre_ecef(config().geometry, PanTilt{});
+  EXPECT_EQ(station_.snapshot().camera_ecef, at_zero) << "before the unit has told its angles";
+  angles_ = {0.8, 0.3};
+  designated();
+  run_until(now_ + 0.5);
+  const Eigen::Vector3d camera = bearings_.back().sight.origin_ecef;
+  EXPECT_LT((station_.snapshot().camera_ecef - camera).norm(), 1e-9);
+  EXPECT_GT((camera - at_zero).norm(), 0.01);
+}
+
 TEST_F(StationTest, WaitsForTheAnglesAfterTheExposureButNotForever) {
   designated();
   run_until(now_ + 0.3);
