@@ -46,9 +46,9 @@ Fusion::Fusion(const FusionConfig& config)
   if (!make_estimator(config.estimator, config.estimators)) {
     throw std::invalid_argument("there is no estimator " + config.estimator);
   }
-  for (const char* name :
-       {"bearings", "targets", "targets_without_position", "slews", "clock_stepped_back",
-        "time_stepped_back", "stations_evicted", "stations_quarantined", "calibrations_changed"}) {
+  for (const char* name : {"bearings", "targets", "targets_without_position", "slews",
+                           "clock_stepped_back", "time_stepped_back", "stations_evicted",
+                           "stations_quarantined", "calibrations_changed", "stations_restarted"}) {
     counters_[name] = 0.0;
   }
   for (int i = 1; i <= static_cast<int>(SightingRefusal::kLowBelief); ++i) {
@@ -187,6 +187,12 @@ SightingRefusal Fusion::store(const Sighting& sighting) {
     ++counters_["calibrations_changed"];
   }
   station.calibration_id = sighting.calibration_id;
+  if (station.bearings > 0 && station.boot_id != sighting.boot_id) {
+    keeper_.forget_followed(sighting.station);
+    station.follows = 0;
+    ++counters_["stations_restarted"];
+  }
+  station.boot_id = sighting.boot_id;
   ++station.bearings;
   ++counters_["bearings"];
   return SightingRefusal::kNone;

@@ -120,6 +120,7 @@ class Fusion {
     bool delivered = false;  // a bearing, if only one that was refused
     std::int64_t heard = 0;  // messages_ at its last message
     std::int64_t calibration_id = 0;
+    std::int64_t boot_id = 0;
     std::int64_t follows = 0;  // the target that it saw last
     std::int64_t followed_us = 0;
 

@@ -117,6 +117,7 @@ std::variant<Sighting, MessageRefusal> sighting_from(const std::string& channel,
   Sighting sighting;
   sighting.station = message.station;
   sighting.utime_us = message.utime;
+  sighting.boot_id = message.boot_id;
   sighting.track_id = message.track_id;
   sighting.belief = message.belief;
   sighting.clock_sd_s = message.clock_error_s;

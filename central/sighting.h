@@ -18,6 +18,7 @@ struct Sighting {
   double belief = 1.0;
   double clock_sd_s = 0.0;  // 1-sigma of utime_us, stays
   StationClock clock = StationClock::kUnknown;
+  std::int64_t boot_id = 0;         // of the station's process: track_id begins anew with each
   std::int64_t track_id = 0;        // one id is one followed object of that station
   std::int64_t calibration_id = 0;  // another one: other systematic errors
 };

@@ -64,6 +64,8 @@ class TrackKeeper {
   // Lives and deaths, by the fusion's time.
   void advance(std::int64_t now_us);
   void forget_station(const std::string& station);
+  // Which object it follows: its ids mean something else from now on.
+  void forget_followed(const std::string& station) { followed_.erase(station); }
   void clear();
 
   const std::vector<Track>& tracks() const { return tracks_; }

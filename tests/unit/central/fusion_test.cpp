@@ -258,6 +258,29 @@ TEST_P(WorseThanStated, IsStillOneTarget) {
 
 INSTANTIATE_TEST_SUITE_P(Times, WorseThanStated, testing::Values(2.0, 3.0));
 
+// Bearings of the object that a station follows are told to its target even when they are wild.
+// After a restart the same track_id is whatever the station was shown then.
+TEST(Fusion, WhatARestartedStationFollowsIsNotWhatItFollowedBefore) {
+  const auto set_aside = [](std::int64_t boot_after) {
+    auto sightings = flight(2.0);
+    for (Sighting& sighting : sightings) {
+      sighting.track_id = 1;
+      sighting.boot_id = 5;
+      if (sighting.station != "a" || sighting.utime_us < kStart + 1'000'000) continue;
+      sighting.boot_id = boot_after;
+      sighting.sight.direction.azimuth_rad =
+          wrap_two_pi(sighting.sight.direction.azimuth_rad + 0.2);
+    }
+    Fusion fusion{FusionConfig{}};
+    const auto targets = targets_of(fusion, sightings);
+    EXPECT_LT(error_m(targets.back()), 0.05);
+    EXPECT_EQ(fusion.health().counters.at("stations_restarted"), boot_after == 5 ? 0.0 : 1.0);
+    return fusion.keeper().counts().set_aside;
+  };
+  EXPECT_GT(set_aside(5), 10);
+  EXPECT_EQ(set_aside(6), 0);
+}
+
 TEST(Fusion, ANewTrackIsAnotherObject) {
   auto sightings = flight(2.0);
   for (Sighting& sighting : sightings) {

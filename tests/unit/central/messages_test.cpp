@@ -29,6 +29,7 @@ ols_msg::bearing_t bearing() {
   message.utime = 1'700'000'000'123'456;
   message.schema_version = ols_msg::bearing_t::SCHEMA_VERSION;
   message.station = "north";
+  message.boot_id = 77;
   message.track_id = 3;
   message.calibration_id = 12;
   message.clock_state = ols_msg::bearing_t::CLOCK_UNSYNCHRONISED;
@@ -80,6 +81,7 @@ TEST(Messages, BearingBecomesASighting) {
   const auto& sighting = std::get<Sighting>(result);
   EXPECT_EQ(sighting.station, "north");
   EXPECT_EQ(sighting.utime_us, 1'700'000'000'123'456);
+  EXPECT_EQ(sighting.boot_id, 77);
   EXPECT_EQ(sighting.track_id, 3);
   EXPECT_EQ(sighting.belief, 0.75);
   EXPECT_EQ(sighting.clock_sd_s, 1e-3);
