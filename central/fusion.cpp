@@ -13,6 +13,7 @@ namespace {
 constexpr double kMemoryS = 1.0;      // exposures kept for the recognition of doubled ones
 constexpr double kForgottenS = 10.0;  // silent for longer: gives its place to any other
 constexpr double kStepBackS = 1.0;    // "now" going back by more is another time line
+constexpr int kLines = 16;            // of what is no target, told an epoch
 constexpr double kFollowsS = 1.0;     // a station that saw a target longer ago does not see it
 
 double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
@@ -56,7 +57,13 @@ Fusion::Fusion(const FusionConfig& config)
   }
 }
 
+bool Fusion::belongs(const std::string& station) const {
+  return config_.stations.empty() ||
+         std::ranges::find(config_.stations, station) != config_.stations.end();
+}
+
 void Fusion::know_station(const std::string& station, const StationTraits& traits) {
+  if (!belongs(station)) return;
   if (full(station)) {
     const auto longest = longest_silent();
     const bool delivers = longest->second.delivered && time_.silent_s(longest->first) < kForgottenS;
@@ -121,6 +128,7 @@ void Fusion::evict(std::map<std::string, Station>::iterator station) {
 SightingRefusal Fusion::admit(const Sighting& sighting) {
   const SightingRefusal broken = check(sighting);
   if (broken != SightingRefusal::kNone) return broken;
+  if (!belongs(sighting.station)) return SightingRefusal::kUnknown;
   if (!make_room(sighting.station)) return SightingRefusal::kTooMany;
   Station& station = stations_[sighting.station];
   if (!station.delivered) station.stands_where(sighting.sight);
@@ -161,23 +169,25 @@ SightingRefusal Fusion::store(const Sighting& sighting) {
   Station& station = stations_[sighting.station];
   auto& lately = station.lately;
   const auto same_time =
-      std::ranges::lower_bound(lately, sighting.utime_us, {}, &Exposure::utime_us);
-  const auto later = std::ranges::upper_bound(lately, sighting.utime_us, {}, &Exposure::utime_us);
-  for (auto e = same_time; e != later; ++e) {
+      std::ranges::equal_range(lately, sighting.utime_us, {}, &Exposure::utime_us);
+  for (const Exposure& e : same_time) {
     const AzimuthElevation& d = sighting.sight.direction;
     const bool same_way =
-        e->direction.azimuth_rad == d.azimuth_rad && e->direction.elevation_rad == d.elevation_rad;
-    const bool same_object = sighting.track_id != 0 && e->track_id == sighting.track_id;
+        e.direction.azimuth_rad == d.azimuth_rad && e.direction.elevation_rad == d.elevation_rad;
+    const bool same_object = sighting.track_id != 0 && e.track_id == sighting.track_id;
     if (same_way || same_object) return SightingRefusal::kDuplicate;
   }
-  if (static_cast<double>(lately.size()) >= config_.flood_hz * kMemoryS) {
-    return SightingRefusal::kFlood;
-  }
-  lately.insert(later, {sighting.utime_us, sighting.sight.direction, sighting.track_id});
-  const std::int64_t newest_us = lately.back().utime_us;
+  // Also what is refused goes on in time, or a flood would lock its station out for good.
+  const std::int64_t newest_us =
+      lately.empty() ? sighting.utime_us : std::max(sighting.utime_us, lately.back().utime_us);
   const auto first = std::ranges::lower_bound(
       lately, newest_us - static_cast<std::int64_t>(kMemoryS * 1e6), {}, &Exposure::utime_us);
   lately.erase(lately.begin(), first);
+  if (static_cast<double>(lately.size()) >= config_.flood_hz * kMemoryS) {
+    return SightingRefusal::kFlood;
+  }
+  const auto later = std::ranges::upper_bound(lately, sighting.utime_us, {}, &Exposure::utime_us);
+  lately.insert(later, {sighting.utime_us, sighting.sight.direction, sighting.track_id});
   const double span_s = seconds(lately.back().utime_us - lately.front().utime_us);
   station.rate_hz = span_s > 0.0 ? static_cast<double>(lately.size() - 1) / span_s : 0.0;
   station.stands_where(sighting.sight);
@@ -260,7 +270,7 @@ void Fusion::locate(std::int64_t epoch_us, FusionOutput& output) {
   }
   std::ranges::sort(output.targets, {}, &FusedTarget::target_id);
   std::ranges::sort(output.targets_paper, {}, &FusedTarget::target_id);
-  if (output.targets.empty()) tell_without(epoch_us, output);
+  tell_lines(epoch_us, output);
   for (const FusedTarget& target : output.targets) {
     const bool located = target.estimate.solution == Solution::kOk;
     ++counters_[located ? "targets" : "targets_without_position"];
@@ -284,22 +294,30 @@ void Fusion::locate(const Track& track, std::int64_t epoch_us, FusionOutput& out
       target_of(epoch_us, track, object.paper->name(), object.paper->locate(view, epoch_us)));
 }
 
-// No object: why, or the bearings that there are.
-void Fusion::tell_without(std::int64_t epoch_us, FusionOutput& output) {
+// No object: why there is none, or the one line that there is. And the line of each station that
+// follows what is no target.
+void Fusion::tell_lines(std::int64_t epoch_us, FusionOutput& output) {
+  const bool located = !output.targets.empty();
+  const std::vector<BearingOnly> lines = bearings_only(epoch_us);
   FusedTarget target;
   target.utime_us = epoch_us;
   target.estimator = config_.estimator;
-  const std::vector<BearingOnly> only = bearings_only(epoch_us);
-  target.estimate.solution =
-      only.size() > 1 ? keeper_.births().last_failure() : Solution::kTooFewRays;
-  for (const BearingOnly& bearing : only) {
-    target.stations.push_back({bearing.station, true, 1.0, 0.0});
+  if (!located && lines.size() != 1) {
+    target.estimate.solution =
+        lines.empty() ? Solution::kTooFewRays : keeper_.births().last_failure();
+    for (const BearingOnly& line : lines) target.stations.push_back({line.station, true, 1.0, 0.0});
+    output.targets.push_back(target);
   }
-  if (only.size() == 1) {
-    target.estimate.solution = Solution::kBearingOnly;
-    target.bearing_only = only.front();
+  target.estimate.solution = Solution::kBearingOnly;
+  int told = 0;
+  for (const BearingOnly& line : lines) {
+    const bool alone = !located && lines.size() == 1;
+    if (!alone && (line.track_id == 0 || sees(stations_[line.station], epoch_us))) continue;
+    if (++told > kLines) break;
+    target.stations = {{line.station, true, 1.0, 0.0}};
+    target.bearing_only = line;
+    output.targets.push_back(target);
   }
-  output.targets.push_back(std::move(target));
 }
 
 // Of stations that follow an object which no track explains.
@@ -317,12 +335,16 @@ std::vector<BearingOnly> Fusion::bearings_only(std::int64_t epoch_us) const {
   return found;
 }
 
+// A target that it follows, or did a moment ago.
+bool Fusion::sees(const Station& station, std::int64_t now) {
+  return station.follows != 0 && seconds(now - station.followed_us) < kFollowsS;
+}
+
 void Fusion::plan(std::int64_t now, FusionOutput& output) {
   last_slew_us_ = now;
   std::vector<SlewStation> stations;
   for (const auto& [name, station] : stations_) {
-    const bool sees = seconds(now - station.followed_us) < kFollowsS;
-    stations.push_back({name, station.traits, sees ? station.follows : 0});
+    stations.push_back({name, station.traits, sees(station, now) ? station.follows : 0});
   }
   std::vector<CueRay> rays;
   for (const BearingOnly& only : bearings_only(now)) {

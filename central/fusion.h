@@ -30,9 +30,10 @@ struct FusionConfig {
   double flood_hz = 1000.0;          // more bearings of one station are refused
   int paper_targets = 8;             // the paper's estimate is made of the first so many: it costs
                                      // the square of a target's stations
-  int max_stations = 1024;           // one more takes the place of the one that is silent longest;
-                                     // never of one that has delivered and still does
-  double silence_s = 0.3;            // who is silent for longer does not count for "now"
+  std::vector<std::string> stations{};  // nobody else's bearings are taken; empty: anybody's
+  int max_stations = 1024;  // one more takes the place of the one that is silent longest;
+                            // never of one that has delivered and still does
+  double silence_s = 0.3;   // who is silent for longer does not count for "now"
   EstimatorConfig estimators{};
   KeeperConfig keeper{};
   SlewConfig slew{};
@@ -60,7 +61,8 @@ struct FusedTarget {
 
 struct FusionOutput {
   SightingRefusal refusal = SightingRefusal::kNone;  // what became of the bearing
-  // Of one epoch: each confirmed object; where there is none, what there is in place of it.
+  // Of one epoch: each confirmed object; where there is none, what there is in place of it; and the
+  // lines of stations that follow what is no target (with an id of their own, kBearingOnly).
   std::vector<FusedTarget> targets;
   std::vector<FusedTarget> targets_paper;  // the paper's estimate of the same objects
   std::vector<Slew> slews;
@@ -133,6 +135,7 @@ class Fusion {
     std::unique_ptr<Estimator> main, paper;
   };
 
+  bool belongs(const std::string& station) const;
   bool full(const std::string& station) const;
   std::map<std::string, Station>::iterator longest_silent();
   bool may_go(const std::string& name, const Station& station) const;
@@ -146,7 +149,8 @@ class Fusion {
   void notice_step_back();
   void locate(std::int64_t epoch_us, FusionOutput& output);
   void locate(const Track& track, std::int64_t epoch_us, FusionOutput& output);
-  void tell_without(std::int64_t epoch_us, FusionOutput& output);
+  void tell_lines(std::int64_t epoch_us, FusionOutput& output);
+  static bool sees(const Station& station, std::int64_t now);
   std::vector<BearingOnly> bearings_only(std::int64_t epoch_us) const;
   void plan(std::int64_t now_us, FusionOutput& output);
   std::map<std::string, double> counters() const;

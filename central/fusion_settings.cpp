@@ -99,6 +99,7 @@ FusionSettings load_fusion_settings(const std::string& path) {
   fusion.stale_s = root.number("stale_s", fusion.stale_s, 0.01, 60.0);
   fusion.future_s = root.number("future_s", fusion.future_s, 0.01, 60.0);
   fusion.flood_hz = root.number("flood_hz", fusion.flood_hz, 1.0, 1e6);
+  fusion.stations = root.texts("stations", fusion.stations);
   fusion.max_stations =
       static_cast<int>(root.integer("max_stations", fusion.max_stations, 2, 100000));
   fusion.estimator =

@@ -10,8 +10,7 @@ namespace ols {
 
 void PointingMonitor::hear(const std::string& name, std::int64_t utime_us, bool explained,
                            const std::optional<Eigen::Vector2d>& off_rad) {
-  // Without a target there is nothing to judge by.
-  if (!explained && !off_rad) return;
+  if (!explained && !off_rad) return lapse(name, utime_us);
   Station& station = stations_[name];
   if (station.newest_us == 0) station.first_us = station.newest_us = utime_us;
   const double since_s = static_cast<double>(utime_us - station.newest_us) * 1e-6;
@@ -25,6 +24,14 @@ void PointingMonitor::hear(const std::string& name, std::int64_t utime_us, bool 
   station.sum = (station.sum * decay + off).eval();
   station.squared = station.squared * decay + off.squaredNorm();
   judge(station);
+}
+
+// Without a target there is nothing to judge by.
+void PointingMonitor::lapse(const std::string& name, std::int64_t utime_us) {
+  const auto found = stations_.find(name);
+  if (found == stations_.end()) return;
+  const double since_s = static_cast<double>(utime_us - found->second.newest_us) * 1e-6;
+  if (since_s > config_.lapse_s) stations_.erase(found);
 }
 
 void PointingMonitor::judge(Station& station) const {

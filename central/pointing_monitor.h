@@ -4,7 +4,8 @@
 // one is explained, while all of them are off the nearest target by the same angle, has a wrong
 // pose: it is named, and begins no tracks (its rays would meet the others' in ghosts). Bearings of
 // it that are explained are used all the same, and end the quarantine when they become most of
-// them.
+// them. Where there is no target any more the quarantine lapses: the station may have been mended,
+// and no target may begin without it.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,6 +24,7 @@ struct PointingConfig {
   double least_off_rad = 0.0035;  // 0.2 deg; smaller errors are biases, which the filter carries
   double most_off_rad = 0.5;      // further off it follows something else
   double spread = 0.25;           // greatest RMS about the mean angle, over that angle
+  double lapse_s = 5.0;           // without a target to judge by all is forgotten
 };
 
 class PointingMonitor {
@@ -46,6 +48,7 @@ class PointingMonitor {
     double squared = 0.0;
     std::string quarantine;
   };
+  void lapse(const std::string& station, std::int64_t utime_us);
   void judge(Station& station) const;
 
   PointingConfig config_;

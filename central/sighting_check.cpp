@@ -61,6 +61,8 @@ const char* to_string(SightingRefusal refusal) {
       return "refused_out_of_range";
     case SightingRefusal::kCovariance:
       return "refused_covariance";
+    case SightingRefusal::kUnknown:
+      return "refused_unknown_station";
     case SightingRefusal::kStale:
       return "refused_stale";
     case SightingRefusal::kFuture:

@@ -11,6 +11,7 @@ enum class SightingRefusal {
   kNotFinite,
   kOutOfRange,
   kCovariance,  // out of range, or white not well conditioned, or systematic not semidefinite
+  kUnknown,     // a station that does not belong to the site
   kStale,
   kFuture,
   kDuplicate,

@@ -20,14 +20,13 @@ void turn(Slew& slew, const Eigen::Vector2d& offset_rad) {
   d.elevation_rad = elevation;
 }
 
-// The k-th point of a sunflower's spiral: one point a unit area, from the centre outwards.
-Eigen::Vector2d spiral(int k) {
-  constexpr double kGoldenAngle = 2.399963229728653;
-  const double radius = std::sqrt(k / kPi), angle = k * kGoldenAngle;
+}  // namespace
+
+// Along it the arc is as long as the square of the angle over 4 pi, its turns are a unit apart.
+Eigen::Vector2d spiral_point(int k) {
+  const double radius = std::sqrt(k / kPi), angle = std::sqrt(4.0 * kPi * k);
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
-
-}  // namespace
 
 Slew slew_to(const KinematicState& target, const StationTraits& station, const SlewConfig& config) {
   const Eigen::Vector3d& camera_ecef = station.camera_ecef;
@@ -97,7 +96,7 @@ Slew SlewPlanner::towards(const Track& track, const SlewStation& station, std::i
   if (reach_rad <= step_rad) return slew;
   const int points = 1 + static_cast<int>(kPi * std::pow(reach_rad / step_rad, 2));
   const int k = static_cast<int>(searched / config_.dwell_s) % std::min(points, 10000);
-  turn(slew, step_rad * spiral(k));
+  turn(slew, step_rad * spiral_point(k));
   return slew;
 }
 

@@ -7,7 +7,8 @@
 //    station's ray, from near to far and back, in steps that overlap in their views.
 //  - A station that cannot be commanded (an operator has it, it is stopped) gets nothing: the
 //    operator comes before the fusion. The station itself refuses, too.
-// Directions move no faster than the rate limit; every slew carries its lease.
+// Told rates stay within the rate limit (a new direction may be anywhere: the station turns there
+// as fast as its own limits let it); every slew carries its lease.
 #pragma once
 
 #include <Eigen/Core>
@@ -58,6 +59,10 @@ struct Slew {
 // Gives a predicted state's direction from a station's camera; how sure it is follows from how well
 // both places are known. Station, times and target are left to the caller.
 Slew slew_to(const KinematicState& target, const StationTraits& station, const SlewConfig& config);
+
+// The k-th point (k >= 0) of a search: on the spiral of Archimedes from the centre outwards, about
+// a unit from the one before and from the turn within; a unit area for each.
+Eigen::Vector2d spiral_point(int k);
 
 struct SlewStation {
   std::string station;

@@ -26,6 +26,12 @@ using test::targets_of;
 
 constexpr std::int64_t kHour = 3'600'000'000;
 
+std::vector<std::string> names(const Fusion& fusion) {
+  std::vector<std::string> all;
+  for (const StationHealth& station : fusion.health().stations) all.push_back(station.station);
+  return all;
+}
+
 TEST(Fusion, FollowsAMovingTargetWithStaggeredStations) {
   Fusion fusion{FusionConfig{}};
   const auto targets = targets_of(fusion, flight(4.0));
@@ -272,8 +278,10 @@ TEST(Fusion, WhatARestartedStationFollowsIsNotWhatItFollowedBefore) {
           wrap_two_pi(sighting.sight.direction.azimuth_rad + 0.2);
     }
     Fusion fusion{FusionConfig{}};
-    const auto targets = targets_of(fusion, sightings);
-    EXPECT_LT(error_m(targets.back()), 0.05);
+    for (const FusedTarget& target : targets_of(fusion, sightings)) {
+      if (target.target_id == 0 || target.utime_us < kStart + 500'000) continue;
+      EXPECT_LT(error_m(target), 0.05);
+    }
     EXPECT_EQ(fusion.health().counters.at("stations_restarted"), boot_after == 5 ? 0.0 : 1.0);
     return fusion.keeper().counts().set_aside;
   };
@@ -334,6 +342,33 @@ TEST(Fusion, AFloodOfOneStationIsRefusedByNameAndTheOthersGoOn) {
   EXPECT_LT(error_m(targets.back()), 0.05);
 }
 
+TEST(Fusion, AfterAFloodItsStationIsHeardAgain) {
+  Fusion fusion{FusionConfig{.flood_hz = 200.0}};
+  int taken = 0;
+  for (const Sighting& sighting : flight(5.0)) {
+    const bool refused = fusion.add(sighting).refusal != SightingRefusal::kNone;
+    if (sighting.station != "a") continue;
+    if (!refused && sighting.utime_us > kStart + 3'500'000) ++taken;
+    for (int i = 0; sighting.utime_us < kStart + 2'000'000 && i < 50; ++i) {
+      Sighting more = sighting;
+      more.utime_us += i;
+      more.sight.direction.azimuth_rad = wrap_two_pi(0.01 * i + 0.1);
+      fusion.add(more);
+    }
+  }
+  EXPECT_EQ(taken, 22);
+  EXPECT_NEAR(fusion.health().stations.front().rate_hz, 15.0, 0.5);
+}
+
+TEST(Fusion, WhoDoesNotBelongToTheSiteIsRefused) {
+  Fusion fusion{FusionConfig{.stations = {"a", "b", "d"}}};
+  const auto targets = targets_of(fusion, flight(2.0));
+  fusion.know_station("stranger", {});
+  EXPECT_EQ(fusion.health().counters.at("refused_unknown_station"), 30.0);
+  EXPECT_EQ(names(fusion), (std::vector<std::string>{"a", "b", "d"}));
+  EXPECT_LT(error_m(targets.back()), 0.05);
+}
+
 // A heading that is 5 degrees off: named, and the others' target stays.
 TEST(Fusion, AWrongHeadingIsQuarantinedByNameAndTheOthersGoOn) {
   auto sightings = flight(10.0);
@@ -378,6 +413,47 @@ TEST(Fusion, OneStationAloneIsALineAndNoPosition) {
   ASSERT_TRUE(last.bearing_only.has_value());
   EXPECT_EQ(last.bearing_only->station, "c");
   EXPECT_TRUE(std::isnan(last.estimate.position_ecef.x()));
+}
+
+// Its target is no one else's: the others' target goes on, and its line is told beside it.
+TEST(Fusion, WhoFollowsSomethingElseIsALineBesideTheTarget) {
+  auto sightings = flight(3.0);
+  for (Sighting& sighting : sightings) {
+    sighting.track_id = 1;
+    if (sighting.station != "d") continue;
+    double& azimuth = sighting.sight.direction.azimuth_rad;
+    azimuth = wrap_two_pi(azimuth + 0.7);
+  }
+  Fusion fusion{FusionConfig{}};
+  int located = 0, lines = 0;
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    if (target.utime_us < kStart + 1'500'000) continue;
+    located += target.estimate.solution == Solution::kOk ? 1 : 0;
+    if (target.estimate.solution != Solution::kBearingOnly) continue;
+    ++lines;
+    ASSERT_TRUE(target.bearing_only);
+    EXPECT_EQ(target.bearing_only->station, "d");
+    EXPECT_EQ(target.target_id, 0);
+  }
+  EXPECT_GE(located, 20);
+  EXPECT_EQ(lines, located);
+}
+
+TEST(Fusion, TwoWhoFollowTwoObjectsAreTwoLinesAndNoPosition) {
+  auto sightings = flight(3.0);
+  std::erase_if(sightings, [](const Sighting& s) { return s.station == "b" || s.station == "d"; });
+  for (Sighting& sighting : sightings) {
+    sighting.track_id = 1;
+    if (sighting.station == "c") sighting.sight.direction.elevation_rad = 1.4;
+  }
+  Fusion fusion{FusionConfig{}};
+  std::map<std::string, int> lines;
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    EXPECT_NE(target.estimate.solution, Solution::kOk);
+    if (target.bearing_only) ++lines[target.bearing_only->station];
+  }
+  EXPECT_GT(lines["a"], 30);
+  EXPECT_GT(lines["c"], 30);
 }
 
 // The order of names decides nothing.
@@ -518,12 +594,6 @@ TEST(Fusion, StrangeStationsNeitherFillThePlacesNorMakeItGrow) {
   EXPECT_LT(error_m(targets.back()), 0.05);
   EXPECT_EQ(fusion.health().stations.size(), 64U);
   EXPECT_EQ(fusion.health().counters.at("stations_evicted"), 20.0);
-}
-
-std::vector<std::string> names(const Fusion& fusion) {
-  std::vector<std::string> all;
-  for (const StationHealth& station : fusion.health().stations) all.push_back(station.station);
-  return all;
 }
 
 TEST(Fusion, ForgetsTheStationThatIsSilentLongest) {

@@ -116,6 +116,29 @@ TEST(SlewPlanner, IsNoSurerThanTheStationsPlaceIsKnown) {
               std::hypot(sure_rad, 3.0 * std::cos(elevation_rad) / range_m / std::sqrt(2.0)), 1e-9);
 }
 
+// A camera that has to cross its search at each step never looks anywhere.
+TEST(SlewPlanner, ASearchGoesOnByStepsOfAUnitAndLeavesNoGap) {
+  EXPECT_EQ(spiral_point(0), Eigen::Vector2d::Zero());
+  std::vector<Eigen::Vector2d> points = {spiral_point(0)};
+  for (int k = 1; k < 1000; ++k) {
+    points.push_back(spiral_point(k));
+    EXPECT_LT(
+        (points[static_cast<std::size_t>(k)] - points[static_cast<std::size_t>(k) - 1]).norm(),
+        k < 10 ? 1.4 : 1.1)
+        << k;
+  }
+  const double reach = spiral_point(999).norm();
+  for (double x = -reach; x < reach; x += 0.1) {
+    for (double y = -reach; y < reach; y += 0.1) {
+      if (std::hypot(x, y) > reach - 1.0) continue;
+      const auto near = [&](const Eigen::Vector2d& p) {
+        return (p - Eigen::Vector2d(x, y)).norm() < 0.85;
+      };
+      EXPECT_TRUE(std::ranges::any_of(points, near)) << x << ", " << y;
+    }
+  }
+}
+
 TEST(SlewPlanner, AnUnsureDirectionIsSearchedInASpiral) {
   std::vector<Track> tracks = {track_of_flight(1, 2.0)};
   StationErrors errors;
