@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
 
 #include "base/lcm_bus.h"
 #include "central/sighting_check.h"
@@ -89,6 +90,15 @@ void fill_bearing(const std::optional<BearingOnly>& only, ols_msg::target_t& mes
   message.direction_sd_rad =
       std::sqrt((sight.covariance_white + sight.covariance_systematic).trace() / 2.0);
   for (int axis = 0; axis < 2; ++axis) message.direction_rate_rad_s[axis] = only->rate_rad_s(axis);
+}
+
+// A datagram holds so many with the longest of their texts. The next message tells the next ones.
+std::span<const StationHealth> in_turn(const std::vector<StationHealth>& all,
+                                       std::int64_t sequence) {
+  constexpr std::size_t kMost = 250;
+  const std::size_t turns = std::max<std::size_t>(1, (all.size() + kMost - 1) / kMost);
+  const std::size_t first = kMost * (static_cast<std::size_t>(sequence) % turns);
+  return std::span(all).subspan(first, std::min(kMost, all.size() - first));
 }
 
 }  // namespace
@@ -206,8 +216,10 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
   message.schema_version = ols_msg::fusion_status_t::SCHEMA_VERSION;
   message.boot_id = stamp.boot_id;
   message.sequence = stamp.sequence;
-  message.stations = static_cast<std::int16_t>(health.stations.size());
-  for (const StationHealth& station : health.stations) {
+  message.stations_known = static_cast<std::int32_t>(health.stations.size());
+  const auto told = in_turn(health.stations, stamp.sequence);
+  message.stations = static_cast<std::int16_t>(told.size());
+  for (const StationHealth& station : told) {
     message.station.push_back(station.station);
     message.bearings.push_back(station.bearings);
     message.rate_hz.push_back(station.rate_hz);

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <random>
+#include <set>
+#include <string>
 
 #include "central/fusion.h"
 #include "geometry/angles.h"
@@ -293,6 +296,25 @@ TEST(Messages, SolutionsHaveTheNumbersOfTheMessage) {
   EXPECT_EQ(static_cast<int>(Solution::kTooFar), int{M::SOLUTION_TOO_FAR});
   EXPECT_EQ(static_cast<int>(Solution::kNotConverged), int{M::SOLUTION_NOT_CONVERGED});
   EXPECT_EQ(static_cast<int>(Solution::kBearingOnly), int{M::SOLUTION_BEARING_ONLY});
+}
+
+TEST(Messages, AThousandStationsAreToldInTurnsThatADatagramHolds) {
+  FusionHealth health;
+  for (int i = 0; i < 1001; ++i) {
+    char name[8];
+    std::snprintf(name, sizeof name, "s%04d", i);
+    health.stations.push_back({.station = name, .quarantine = std::string(60, 'q')});
+  }
+  constexpr std::size_t kDatagramBytes = 65'000;
+  std::set<std::string> told;
+  for (std::int64_t sequence = 7; sequence < 12; ++sequence) {
+    const auto message = to_message(health, 0.1, MessageStamp{1, sequence});
+    EXPECT_EQ(message.stations_known, 1001);
+    EXPECT_LE(encoded(message).size(), kDatagramBytes);
+    told.insert(message.station.begin(), message.station.end());
+  }
+  EXPECT_EQ(told.size(), 1001U);
+  EXPECT_EQ(to_message(FusionHealth{}, 0.1, MessageStamp{1, 2}).stations, 0);
 }
 
 }  // namespace
