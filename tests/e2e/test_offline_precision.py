@@ -77,6 +77,33 @@ def test_map_of_a_site(stations, tmp_path):
     assert ring[0] == ring[-1] and 16 < ring[0][0] < 17 and 49 < ring[0][1] < 50
 
 
+@pytest.mark.parametrize("middle_deg", [180.0, -180.0])
+def test_map_across_the_date_line_is_cut_there(tmp_path, middle_deg):
+    places = {"west": 179.998, "east": -179.998, "north": middle_deg}
+    lines = [f"{name},49.2,{longitude},250" for name, longitude in places.items()]
+    lines[-1] = lines[-1].replace("49.2,", "49.203,")
+    stations, output = tmp_path / "stations.csv", tmp_path / "map.csv"
+    stations.write_text("\n".join([STATIONS.splitlines()[0], *lines]) + "\n")
+    geojson = tmp_path / "map.geojson"
+    options = ("--cells", 9, "--output", output, "--geojson", geojson)
+    result = precision("map", "--stations", stations, *options)
+    assert result.returncode == 0, result.stderr
+    cells = [f["geometry"] for f in json.loads(geojson.read_text())["features"]][3:]
+    assert len(cells) == len(rows(output))
+    assert {cell["type"] for cell in cells} == {"Polygon", "MultiPolygon"}
+    area_m2 = 0.0
+    for cell in cells:
+        polygons = cell["coordinates"]
+        for (ring,) in polygons if cell["type"] == "MultiPolygon" else [polygons]:
+            east, north = np.array(ring).T
+            assert ring[0] == ring[-1] and np.ptp(east) < 0.01 and np.abs(east).max() <= 180
+            x, y = east * 72_870, (north - 49.2) * 111_220
+            area_m2 += np.abs(np.dot(x[:-1], y[1:]) - np.dot(x[1:], y[:-1])) / 2
+    middle = [cell for cell in cells if cell["type"] == "Polygon"][0]["coordinates"][0]
+    side_m = np.ptp(np.array(middle)[:, 1]) * 111_220
+    assert area_m2 == pytest.approx(len(cells) * side_m**2, rel=0.01)
+
+
 def test_budget_sums_to_the_whole(stations, tmp_path):
     output = tmp_path / "budget.csv"
     at = ("--at", "49.201,16.6,300", "--speed", 10)

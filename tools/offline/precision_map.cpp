@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/atomic_file.h"
@@ -104,23 +106,61 @@ void write_rows(std::ostream& out, double above_m, const std::vector<Cell>& cell
   }
 }
 
-// GeoJSON takes longitude first; a seventh decimal is a centimetre.
-json position_of(const LocalFrame& frame, double east_m, double north_m) {
-  const Geodetic g = geodetic_from_ecef(frame.to_ecef({east_m, north_m, 0.0}));
+using Corner = std::array<double, 2>;  // [deg] longitude, latitude
+
+// The cell's corners; longitudes go on across the date line.
+std::vector<Corner> corners_of(const Cell& cell, double spacing_m) {
+  const LocalFrame frame(cell.centre);
+  const double h = 0.5 * spacing_m, middle_rad = cell.centre.longitude_rad;
+  std::vector<Corner> corners;
+  for (const auto& [east_m, north_m] : {std::pair(-h, -h), {h, -h}, {h, h}, {-h, h}}) {
+    const Geodetic g = geodetic_from_ecef(frame.to_ecef({east_m, north_m, 0.0}));
+    const double longitude_rad = middle_rad + wrap_pi(g.longitude_rad - middle_rad);
+    corners.push_back({degrees(longitude_rad), degrees(g.latitude_rad)});
+  }
+  return corners;
+}
+
+// What lies west (side -1) or east (+1) of a meridian (Sutherland and Hodgman's clipping).
+std::vector<Corner> clipped(const std::vector<Corner>& corners, double meridian_deg, int side) {
+  std::vector<Corner> kept;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Corner &from = corners[i], &to = corners[(i + 1) % corners.size()];
+    const double before = side * (from[0] - meridian_deg), after = side * (to[0] - meridian_deg);
+    if (before >= 0.0) kept.push_back(from);
+    if (before * after >= 0.0) continue;
+    const double share = before / (before - after);
+    kept.push_back({meridian_deg, from[1] + share * (to[1] - from[1])});
+  }
+  return kept;
+}
+
+// Closed; a seventh decimal is a centimetre.
+json ring_of(std::vector<Corner> corners, double turned_deg) {
   const auto rounded = [](double deg) { return std::round(deg * 1e7) / 1e7; };
-  return {rounded(degrees(g.longitude_rad)), rounded(degrees(g.latitude_rad))};
+  json ring = json::array();
+  corners.push_back(corners.front());
+  for (const Corner& c : corners) ring.push_back({rounded(c[0] + turned_deg), rounded(c[1])});
+  return ring;
+}
+
+// A polygon, or one on either side of the date line (RFC 7946, 3.1.9).
+json geometry_of(const std::vector<Corner>& corners) {
+  for (const double line_deg : {-180.0, 180.0}) {
+    const auto west = clipped(corners, line_deg, -1), east = clipped(corners, line_deg, 1);
+    if (west.size() < 3 || east.size() < 3) continue;
+    const json parts = {{ring_of(west, line_deg < 0.0 ? 360.0 : 0.0)},
+                        {ring_of(east, line_deg < 0.0 ? 0.0 : -360.0)}};
+    return {{"type", "MultiPolygon"}, {"coordinates", parts}};
+  }
+  return {{"type", "Polygon"}, {"coordinates", json::array({ring_of(corners, 0.0)})}};
 }
 
 json feature_of(const Cell& cell, double spacing_m, double above_m) {
-  const LocalFrame frame(cell.centre);
-  const double h = 0.5 * spacing_m;
-  const json ring = {position_of(frame, -h, -h), position_of(frame, h, -h),
-                     position_of(frame, h, h), position_of(frame, -h, h),
-                     position_of(frame, -h, -h)};
   const Matrix3d& C = *cell.covariance_enu;
   const auto rounded = [](double m) { return std::round(m * 1e4) / 1e4; };
   return {{"type", "Feature"},
-          {"geometry", {{"type", "Polygon"}, {"coordinates", json::array({ring})}}},
+          {"geometry", geometry_of(corners_of(cell, spacing_m))},
           {"properties",
            {{"height_m", rounded(cell.centre.height_m)},
             {"above_stations_m", above_m},
