@@ -31,6 +31,7 @@ struct Options {
   std::string output;
   std::string target;
   std::vector<std::string> without;
+  std::string stationing;
 };
 
 // CLI::Range lets it through: it compares.
@@ -57,6 +58,9 @@ void define(CLI::App& app, Options& o) {
   app.add_option("--without", o.without,
                  "switch these errors of the scenario off: heading,tilt,...")
       ->delimiter(',');
+  app.add_option("--stationing", o.stationing,
+                 "how the stations find their headings, instead of the scenario's way: drawn, "
+                 "each-other, landmarks");
   const auto lockstep =
       app.add_flag("--lockstep", o.lockstep, "simulated time, stations and fusion in this process");
   app.add_option("--seconds", o.seconds, "[s] length of the lockstep run")
@@ -110,6 +114,9 @@ void run(const Options& options) {
   auto scenario = ols::sim::load_scenario(options.scenario);
   if (!options.target.empty()) ols::sim::keep_target(scenario, options.target);
   for (const auto& name : options.without) ols::sim::switch_off(scenario.errors, name);
+  if (!options.stationing.empty()) {
+    ols::sim::choose_stationing(scenario.stationing, options.stationing);
+  }
   const ols::sim::World world(scenario, options.seed);
   if (options.list) {
     list(scenario, options.line_folder);

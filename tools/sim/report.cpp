@@ -122,6 +122,7 @@ void write_summary(const World& world, const LockstepResult& result, double dura
   write_estimator(out, "joint", summarise(result.joint));
   write_estimator(out, "paper", summarise(result.paper));
   out << "  \"crb_rmse_m\": " << Number{bound.crb_rmse_m}
+      << ",\n  \"crb_horizontal_rmse_m\": " << Number{bound.crb_horizontal_rmse_m}
       << ",\n  \"crb_floor_rmse_m\": " << Number{bound.crb_floor_rmse_m}
       << ",\n  \"pixel_white_sd_px\": " << Number{pixels.white_sd_px}
       << ",\n  \"pixel_mean_px\": " << Number{pixels.mean_px} << ",\n  \"stations\": [\n";
@@ -159,17 +160,19 @@ BoundSummary summarise_bound(const World& world, const std::vector<Fix>& fixes,
                              const MeasurementNoise& noise, std::size_t stride) {
   MeasurementNoise floor = noise;
   floor.white_share = 0.0;
-  double trace = 0.0, floor_trace = 0.0;
+  double trace = 0.0, horizontal = 0.0, floor_trace = 0.0;
   int counted = 0;
   for (std::size_t i = 0; i < fixes.size(); i += stride) {
     const auto bound = position_bound_enu(world, fixes[i].time_s, fixes[i].used, noise);
     const auto lowest = position_bound_enu(world, fixes[i].time_s, fixes[i].used, floor);
     if (!bound || !lowest) continue;
     trace += bound->trace();
+    horizontal += bound->topLeftCorner<2, 2>().trace();
     floor_trace += lowest->trace();
     ++counted;
   }
-  return {std::sqrt(trace / counted), std::sqrt(floor_trace / counted)};
+  return {std::sqrt(trace / counted), std::sqrt(horizontal / counted),
+          std::sqrt(floor_trace / counted)};
 }
 
 PixelSummary summarise_pixels(const std::vector<StationRecord>& stations) {

@@ -17,8 +17,9 @@ struct EstimatorSummary {
 };
 
 struct BoundSummary {
-  double crb_rmse_m = 0.0;        // root of the mean trace, one exposure of each station
-  double crb_floor_rmse_m = 0.0;  // the same with all white noise averaged away
+  double crb_rmse_m = 0.0;             // root of the mean trace, one exposure of each station
+  double crb_horizontal_rmse_m = 0.0;  // of its horizontal part
+  double crb_floor_rmse_m = 0.0;       // of the whole, with all white noise averaged away
 };
 
 EstimatorSummary summarise(const std::vector<Fix>& fixes);

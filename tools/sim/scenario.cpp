@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/toml_config.h"
-#include "geometry/utm.h"
+#include "tools/sim/scenario_places.h"
 #include "tools/sim/trajectory_file.h"
 
 namespace ols::sim {
@@ -184,18 +184,8 @@ std::unique_ptr<Trajectory> read_waypoints(ConfigTable& table) {
 
 // A landmark as a land register has it: it stands still.
 std::unique_ptr<Trajectory> read_utm(ConfigTable& table, const LocalFrame& site) {
-  Utm utm;
-  utm.zone = static_cast<int>(table.integer("zone", 0, 0, 60));
-  utm.northern = table.choice("hemisphere", "north", {"north", "south"}) == "north";
-  utm.easting_m = table.required_number("easting_m", 0, 1e6);
-  utm.northing_m = table.required_number("northing_m", 0, 1e7);
-  const double height_m = table.required_number("height_m", -1000, 20000);
   auto path = std::make_unique<Line>();
-  try {
-    path->start_enu = site.to_enu(ecef_from_geodetic(geodetic_from_utm(utm, height_m)));
-  } catch (const std::invalid_argument& problem) {
-    throw table.error("zone", problem.what());
-  }
+  path->start_enu = site.to_enu(ecef_from_geodetic(read_utm_place(table)));
   return path;
 }
 
@@ -267,6 +257,7 @@ Scenario read_scenario(ConfigFile& file, const std::string& folder) {
   read_pose_errors(errors, s.errors);
   read_image_errors(errors, s.errors);
   read_device_errors(errors, s.errors);
+  s.stationing = read_stationing(root.table("stationing"));
   read_stations(root, s);
   const LocalFrame site(s.origin);
   std::set<std::string> ids;

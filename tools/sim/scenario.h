@@ -80,6 +80,24 @@ struct TargetScenario {
   double brightness = 0.22;  // 0 black .. 1 as bright as the sky
 };
 
+// How the stations find their headings: not at all, what they are off is drawn (errors.heading);
+// each by sighting the other stations; or by sighting landmarks.
+enum class StationingBy { kDrawn, kEachOther, kLandmarks };
+
+// With errors.heading switched off the landmarks are where they are said to be, and marked exactly.
+struct StationingScenario {
+  struct Landmark {
+    std::string id;
+    Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();  // [m] as the land register has it
+    double sd_m = 0.1;                                 // of each axis
+  };
+  StationingBy by = StationingBy::kDrawn;
+  double mark_sd_px = 0.5;             // of the operator's mark, each coordinate
+  double each_other_sd_m = 0.05;       // of which point of a station the others mark, each axis
+  double highest_rad = radians(10.0);  // from the horizon, of what is to be looked at
+  std::vector<Landmark> landmarks;
+};
+
 // How the stations' PTUs are set up.
 struct PtuScenario {
   int baud = 38400;
@@ -128,6 +146,7 @@ struct Scenario {
   GnssScenario gnss;
   GpioScenario gpio;
   Errors errors;
+  StationingScenario stationing;
   Landscape landscape;
   std::vector<StationScenario> stations;
   std::vector<TargetScenario> targets;
@@ -137,6 +156,10 @@ struct Scenario {
 // Switches an error off by its name in the file ("heading", "tilt", ...). std::invalid_argument,
 // listing the names, when there is no such error.
 void switch_off(Errors& errors, const std::string& name);
+
+// "drawn", "each-other" or "landmarks". std::invalid_argument, listing these, for another one or
+// where there are no landmarks.
+void choose_stationing(StationingScenario& stationing, const std::string& by);
 
 // Leaves only this one of the targets. std::invalid_argument when there is none of this id.
 void keep_target(Scenario& scenario, const std::string& id);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <random>
 
+#include "tools/sim/sighted_landmarks.h"
+
 namespace ols::sim {
 namespace {
 
@@ -82,6 +84,10 @@ World::World(const Scenario& scenario, std::uint64_t seed)
     station.clock_sd_s = e.clock.on ? e.clock.sd_s : 0.0;
     station.brightness_gain = 1.0 + draw(e.brightness, e.brightness.gain_sd);
     stations_.push_back(station);
+  }
+  if (scenario_.stationing.by != StationingBy::kDrawn) {
+    const double step_rad = radians(ptu_unit_config().resolution_arcsec / 3600.0);
+    find_headings(scenario_, seed, step_rad, stations_);
   }
 }
 

@@ -14,7 +14,9 @@ namespace ols::sim {
 
 struct StationTruth {
   std::string id;
-  StationGeometry nominal;  // what the station is told, with the sigmas of what it is not told
+  // What the station is told, with the sigmas of what it is not told. After a stationing: what that
+  // has found.
+  StationGeometry nominal;
   StationGeometry truth;
   double clock_offset_s = 0.0;  // the station's UTC minus true UTC
   double clock_sd_s = 0.0;

@@ -77,6 +77,30 @@ TEST(Scenario, LandmarkInUtmStandsWhereTheGridHasIt) {
   EXPECT_THAT(error_of(text), HasSubstr("UTM zone"));
 }
 
+const std::string kLandmark =
+    "[[stationing.landmark]]\nid = \"church\"\nzone = 33\neasting_m = 615618.03\n"
+    "northing_m = 5455309.69\nheight_m = 274.2\nsd_m = 0.14\n";
+
+TEST(Scenario, LandmarksOfTheStationingAreInUtm) {
+  const Scenario s =
+      parse_scenario(kSmall + "[stationing]\nby = \"landmarks\"\n" + kLandmark, "s.toml", ".");
+  EXPECT_EQ(s.stationing.by, StationingBy::kLandmarks);
+  ASSERT_EQ(s.stationing.landmarks.size(), 1U);
+  const Geodetic place = geodetic_from_ecef(s.stationing.landmarks[0].p_ecef);
+  EXPECT_NEAR(degrees(place.longitude_rad), 16.5884, 1e-4);
+  EXPECT_NEAR(place.height_m, 274.2, 1e-6);
+  EXPECT_EQ(s.stationing.landmarks[0].sd_m, 0.14);
+}
+
+TEST(Scenario, StationingNeedsWhatItSights) {
+  EXPECT_THAT(error_of(kSmall + "[stationing]\nby = \"landmarks\"\n"), HasSubstr("no landmarks"));
+  EXPECT_THAT(error_of(kSmall + "[stationing]\nby = \"compass\"\n"),
+              HasSubstr("drawn, each-other, landmarks"));
+  std::string text = kSmall + "[stationing]\n" + kLandmark;
+  text.replace(text.find("zone = 33"), 9, "zone = 99");
+  EXPECT_THAT(error_of(text), HasSubstr("zone"));
+}
+
 TEST(Scenario, TargetsHaveIdsOfTheirOwn) {
   const std::string another = "[[target]]\nid = \"1\"\n[target.trajectory]\nkind = \"line\"\n";
   EXPECT_THAT(error_of(kSmall + another), HasSubstr("is used by two targets"));

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
+#include <stdexcept>
 
 #include "tools/sim/world.h"
 
@@ -89,6 +91,66 @@ TEST(World, ErrorsHaveTheStatedSpread) {
   EXPECT_NEAR(std::sqrt(heading / drawn) / s.errors.heading.sd_rad, 1.0, 0.08);
   EXPECT_NEAR(std::sqrt(clock / drawn) / s.errors.clock.sd_s, 1.0, 0.08);
   EXPECT_NEAR(std::sqrt(position / drawn / 3.0) / s.errors.position.sd_m, 1.0, 0.08);
+}
+
+Scenario table1(const std::string& stationing) {
+  Scenario s = load_scenario(std::string(OLS_SCENARIOS) + "/table1.toml");
+  choose_stationing(s.stationing, stationing);
+  return s;
+}
+
+// What a station is told of the azimuth of its optical axis, north of it, minus the truth [rad].
+double azimuth_error(const StationTruth& station) {
+  const PanTilt angles = aim_along(station.truth, {0.0, radians(1.0)}).value();
+  return wrap_pi(optical_axis(station.nominal, angles).azimuth_rad -
+                 optical_axis(station.truth, angles).azimuth_rad);
+}
+
+struct HeadingErrors {
+  double first_rad = 0.0, difference_rad = 0.0, stated_rad = 0.0;  // root mean squares, last stated
+};
+
+HeadingErrors heading_errors(const Scenario& s) {
+  constexpr int kSeeds = 200;
+  HeadingErrors e;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const World world(s, static_cast<std::uint64_t>(seed));
+    const double west = azimuth_error(world.stations()[0]);
+    e.first_rad += west * west / kSeeds;
+    e.difference_rad += std::pow(west - azimuth_error(world.stations()[1]), 2) / kSeeds;
+    e.stated_rad = world.stations()[0].nominal.sd.heading_rad;
+  }
+  e.first_rad = std::sqrt(e.first_rad), e.difference_rad = std::sqrt(e.difference_rad);
+  return e;
+}
+
+TEST(World, LandmarksGiveHeadingsThatAreAsWrongAsStated) {
+  const HeadingErrors e = heading_errors(table1("landmarks"));
+  EXPECT_LT(degrees(e.stated_rad), 0.01);
+  EXPECT_NEAR(e.first_rad / e.stated_rad, 1.0, 0.15);
+  // The same landmarks turn both stations alike, and depth comes from the difference alone: that is
+  // less than one error, not the root of two of them.
+  EXPECT_LT(e.difference_rad, 0.8 * e.first_rad);
+}
+
+TEST(World, StationsThatSightEachOtherAreAsWrongAsTheirAimOverTheBase) {
+  const HeadingErrors e = heading_errors(table1("each-other"));
+  EXPECT_NEAR(e.stated_rad, std::hypot(0.05, 0.01, 0.01) / 30.0, 1e-5);
+  EXPECT_NEAR(e.first_rad / e.stated_rad, 1.0, 0.15);
+  EXPECT_GT(e.difference_rad, 1.2 * e.first_rad);
+}
+
+TEST(World, WithoutHeadingErrorsAStationingIsExactToTheEncodersStep) {
+  Scenario s = table1("landmarks");
+  switch_all_off(s.errors);
+  EXPECT_LT(degrees(heading_errors(s).first_rad), 0.001);
+}
+
+TEST(World, RefusesALandmarkThatAStationCannotSee) {
+  Scenario s = table1("landmarks");
+  s.stationing.landmarks[1].p_ecef =
+      LocalFrame(s.origin).to_ecef(s.stations[0].p_enu + Eigen::Vector3d(0, 0, 5000));
+  EXPECT_THROW(World(s, 1), std::invalid_argument);
 }
 
 TEST(World, SameSeedSameWorld) {
