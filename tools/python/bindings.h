@@ -12,6 +12,7 @@ namespace py = pybind11;
 void bind_geometry(py::module_& m);
 void bind_central(py::module_& m);
 void bind_precision(py::module_& m);
+void bind_stationing(py::module_& m);
 
 // Name(field=value, ...) in the order of the definition.
 inline std::string fields_repr(const py::object& self, const char* name) {

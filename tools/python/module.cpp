@@ -4,5 +4,6 @@ PYBIND11_MODULE(_core, m) {
   m.doc() = "The C++ mathematics of OLS; import it as `ols`.";
   ols::python::bind_geometry(m);
   ols::python::bind_precision(m);
+  ols::python::bind_stationing(m);
   ols::python::bind_central(m);
 }

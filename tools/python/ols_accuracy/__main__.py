@@ -5,39 +5,50 @@ tools/accuracy-report [--runs DIR] [--seeds N] [--jobs N]
 
 import argparse
 import os
-import re
 import subprocess
 from pathlib import Path
 
 import numpy as np
-import ols
 
 from ols_accuracy import plan, run_plots, theory_plots
+from ols_accuracy.document import DOCUMENT, PICTURES, beside, metres, replace_part, table
 from ols_accuracy.runs import (
+    EACH_OTHER,
+    KINDS,
+    LANDMARKS,
     PROGRAMS,
+    RANDOM,
     ROOT,
+    SOURCES,
+    WALK,
     Run,
     budget_run,
     horizontal,
     make_all,
+    mean_bound,
+    mean_error,
+    picture_run,
     rms,
-    table1_run,
-    walk_run,
 )
 
-DOCUMENT = ROOT / "docs/accuracy.md"
-PICTURES = ROOT / "docs/accuracy"
 PAPER_TABLE = Path(__file__).with_name("table1.csv")
 EXAMPLE_SITE = Path(__file__).with_name("example_site.csv")
-BUDGET_TARGETS = ["pillar1", "tree1", "mast"]
-BUDGET_SOURCES = ["none", "heading", "tilt", "mounting", "position", "all"]
+BUDGET_TARGETS = ["pillar1", "tree1", "mast", WALK]
+BUDGET_SOURCES = ["none", *SOURCES, "all"]
+KIND_NAMES = {
+    RANDOM: "random errors only",
+    LANDMARKS: "all errors, headings from landmarks",
+    EACH_OTHER: "all errors, stations aimed at each other",
+}
+PAPER_WALK_MEAN_M, PAPER_WALK_GREATEST_M = 6.25, 13.35
 
 
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], prog="accuracy-report")
     parser.add_argument("--runs", type=Path, default=ROOT / "build/accuracy", help="kept runs")
-    parser.add_argument("--seeds", type=int, default=3, help="of the runs with pictures")
-    parser.add_argument("--budget-seeds", type=int, default=40, help="of those without")
+    parser.add_argument("--seeds", type=int, default=3, help="of the landmarks, with pictures")
+    parser.add_argument("--walk-seeds", type=int, default=1, help="of the walk, with pictures")
+    parser.add_argument("--budget-seeds", type=int, default=40, help="of the runs without pictures")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument(
         "--kept-only", action="store_true", help="make no run; a dash where one is missing"
@@ -45,18 +56,8 @@ def parse_arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def table(header: list[str], rows: list[list[str]]) -> str:
-    lines = [header, ["---"] + ["---:"] * (len(header) - 1), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
-def replace_part(name: str, text: str) -> None:
-    """Between <!-- name --> and <!-- /name --> of the document."""
-    document = DOCUMENT.read_text()
-    pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- /{name} -->)", re.S)
-    if not pattern.search(document):
-        raise SystemExit(f"accuracy-report: {DOCUMENT} has no part {name}")
-    DOCUMENT.write_text(pattern.sub(lambda m: f"{m[1]}{text}\n{m[2]}", document))
+def seeds_of(count: int) -> range:
+    return range(1, count + 1)
 
 
 def precision(folder: Path, command: str, *options: object) -> Path:
@@ -64,16 +65,6 @@ def precision(folder: Path, command: str, *options: object) -> Path:
     line = [PROGRAMS / "ols-precision", command, "--output", output, *options]
     subprocess.run([str(part) for part in line], check=True)
     return output
-
-
-def mean_error(runs: list[Run]) -> float:
-    """Root mean square horizontal error [m] over the runs that are there; NaN without any."""
-    values = [rms(horizontal(run.errors_enu())) for run in runs if run.made()]
-    return rms(np.array(values)) if values else np.nan
-
-
-def metres(value: float, form: str = ".2f") -> str:
-    return "–" if np.isnan(value) else format(value, form)
 
 
 def theory(folder: Path) -> dict[str, np.ndarray]:
@@ -102,113 +93,114 @@ def theory(folder: Path) -> dict[str, np.ndarray]:
     return paper
 
 
-def static(folder: Path, seeds: int, paper: dict[str, np.ndarray]) -> None:
-    content = plan.scenario("table1")
-    sigmas = plan.sigmas(content)
-    places = {t["id"]: plan.landmark(t["trajectory"]) for t in content["target"]}
+def static(folder: Path, seeds: range, paper: dict[str, np.ndarray]) -> None:
     rows = []
     for i, target in enumerate(paper["object"]):
-        row = {"object": target} | {
-            key: float(paper[key][i])
-            for key in ("distance_m", "paper_measured_m", "paper_estimated_m")
-        }
-        for kind in ("random", "all"):
-            runs = [table1_run(folder, kind, target, seed) for seed in range(1, seeds + 1)]
-            row[f"{kind}_m"] = mean_error(runs)
-        row["all_predicted_m"] = plan.predicted_m(content, places[target], sigmas)
+        row = {"object": target}
+        for key in ("distance_m", "paper_measured_m", "paper_estimated_m"):
+            row[key] = float(paper[key][i])
+        for kind in KINDS:
+            runs = [picture_run(folder, kind, target, seed) for seed in seeds]
+            row[kind], row[f"{kind}_bound"] = mean_error(runs), mean_bound(runs)
         rows.append(row)
     run_plots.figure9(rows, PICTURES / "figure9.svg")
-    keys = ["paper_estimated_m", "paper_measured_m", "random_m", "all_m", "all_predicted_m"]
-    header = ["object", "distance, m", "paper est., m", "paper meas., m"]
-    header += ["ours, random only, m", "ours, all, m", "predicted, m"]
+    header = ["object", "distance", "paper, estimated", "paper, measured"]
+    header += ["random only", "landmarks", "each other"]
     body = [
-        [row["object"], f"{row['distance_m']:.0f}", *(metres(row[key]) for key in keys)]
+        [row["object"], f"{row['distance_m']:.0f}"]
+        + [metres(row[f"paper_{key}_m"]) for key in ("estimated", "measured")]
+        + [beside(row[kind], row[f"{kind}_bound"]) for kind in KINDS]
         for row in rows
     ]
     replace_part("static", table(header, body))
 
 
-def walk(folder: Path) -> None:
-    site = plan.site(plan.scenario("walk"))
-    runs = {kind: walk_run(folder, kind, 1) for kind in ("random", "all")}
-    runs = {kind: run for kind, run in runs.items() if run.made()}
-    run_plots.figure10(runs, site, PICTURES / "figure10.png")
-    rows = [["the paper", "6.25", "13.35", ""]]
-    for kind, run in runs.items():
-        for estimator, name in (("fixes", "ours"), ("fixes_paper", "the paper's estimator")):
-            errors = horizontal(run.errors_enu(estimator))
-            tracking = np.mean([s["states"]["tracking"] for s in run.summary()["stations"]])
-            label = f"{name}, {'all errors' if kind == 'all' else 'random errors only'}"
-            rows.append(
-                [label, f"{errors.mean():.2f}", f"{errors.max():.2f}", f"{100 * tracking:.1f} %"]
-            )
-    replace_part("walk", table(["", "mean, m", "greatest, m", "frames tracked"], rows))
+def walk_row(name: str, runs: list[Run], estimator: str) -> list[str]:
+    errors = [horizontal(run.errors_enu(estimator)) for run in runs]
+    tracking = np.mean([s["states"]["tracking"] for r in runs for s in r.summary()["stations"]])
+    bound = metres(mean_bound(runs)) if estimator == "fixes" else ""
+    greatest = metres(max(e.max() for e in errors))
+    mean, square = metres(np.mean([e.mean() for e in errors])), metres(rms(np.hstack(errors)))
+    return [name, mean, greatest, square, bound, f"{100 * tracking:.1f} %"]
 
 
-def budget(folder: Path, seeds: int) -> None:
-    content = plan.scenario("table1")
-    sigmas = plan.sigmas(content)
-    trajectories = {t["id"]: t["trajectory"] for t in content["target"]}
-    names = {"none": "pixels, designation", "all": "all together"}
+def walk(folder: Path, seeds: range) -> None:
+    content = plan.scenario("walk")
+    runs = {kind: [picture_run(folder, kind, WALK, seed) for seed in seeds] for kind in KINDS}
+    made = {kind: [run for run in each if run.made()] for kind, each in runs.items()}
+    made = {kind: each for kind, each in made.items() if each}
+    first = {kind: each[0] for kind, each in made.items()}
+    run_plots.figure10(first, plan.site(content), PICTURES / "figure10.png")
+    rows = [["the paper", str(PAPER_WALK_MEAN_M), str(PAPER_WALK_GREATEST_M), "", "", ""]]
+    for estimator, suffix in (("fixes", ""), ("fixes_paper", "; paper's estimator")):
+        rows += [walk_row(KIND_NAMES[k] + suffix, each, estimator) for k, each in made.items()]
+    header = ["", "mean", "greatest", "root mean square", "bound", "frames tracked"]
+    replace_part("walk", table(header, rows))
+
+
+def budget_rows(folder: Path, stationing: str, seeds: range) -> list[dict]:
+    names = {"none": "pixels, operator's box, encoders", "all": "all together"}
     rows = []
     for source in BUDGET_SOURCES:
         row = {"source": names.get(source, source)}
         for target in BUDGET_TARGETS:
-            runs = [budget_run(folder, source, target, seed) for seed in range(1, seeds + 1)]
-            simulated = mean_error(runs)
-            place = plan.landmark(trajectories[target])
-            predicted = plan.predicted_m(content, place, sigmas.alone(source))
-            row[target] = {"simulated_m": simulated, "predicted_m": predicted}
+            runs = [budget_run(folder, stationing, source, target, seed) for seed in seeds]
+            row[target] = mean_error(runs), mean_bound(runs)
         rows.append(row)
+    return rows
+
+
+def budget(folder: Path, seeds: range, paper: dict[str, np.ndarray]) -> None:
+    rows = {kind: budget_rows(folder, kind, seeds) for kind in (LANDMARKS, EACH_OTHER)}
     run_plots.budget(rows, BUDGET_TARGETS, PICTURES / "budget.svg")
-    body = [
-        [row["source"]]
-        + [
-            " / ".join(metres(row[t][k], ".3g") for k in ("predicted_m", "simulated_m"))
-            for t in BUDGET_TARGETS
-        ]
-        for row in rows
+    header = ["source alone", *(f"{t}" for t in BUDGET_TARGETS)]
+    known = [list(paper["object"]).index(t) for t in BUDGET_TARGETS if t != WALK]
+    printed = {
+        key: [metres(paper[f"paper_{key}_m"][i]) for i in known]
+        for key in ("estimated", "measured")
+    }
+    grid = plan.grid_north_cost_m(plan.scenario("table1"), BUDGET_TARGETS[:-1])
+    for kind, each in rows.items():
+        body = [["the paper, estimated (random, p = 4 px)", *printed["estimated"], ""]]
+        body += [[row["source"], *(beside(*row[t]) for t in BUDGET_TARGETS)] for row in each]
+        body.append(
+            ["the paper, measured (all)", *printed["measured"], f"{PAPER_WALK_MEAN_M} (mean)"]
+        )
+        if kind == EACH_OTHER:
+            body.append(["UTM's grid north for true north", *map(metres, grid), ""])
+        replace_part(f"budget {kind}", table(header, body))
+
+
+def all_runs(folder: Path, arguments: argparse.Namespace, objects: list[str]) -> list[Run]:
+    """Seed by seed, so that a report of fewer can be made when it is interrupted."""
+    runs = [picture_run(folder, k, WALK, s) for s in seeds_of(arguments.walk_seeds) for k in KINDS]
+    runs += [
+        picture_run(folder, kind, target, seed)
+        for seed in seeds_of(arguments.seeds)
+        for target in objects
+        for kind in KINDS
     ]
-    body.append(["UTM's grid north for true north", *grid_north(content, trajectories)])
-    header = ["source, predicted / simulated", *(f"{t}, m" for t in BUDGET_TARGETS)]
-    replace_part("budget", table(header, body))
-
-
-def grid_north(content: dict, trajectories: dict) -> list[str]:
-    """What it costs to take a grid bearing for an azimuth: the whole site turns."""
-    origin = plan.site(content)
-    convergence_rad = ols.utm_from_geodetic(origin.origin).convergence_rad
-    costs = []
-    for target in BUDGET_TARGETS:
-        place = origin.to_enu(ols.ecef_from_geodetic(plan.landmark(trajectories[target])))
-        costs.append(f"{abs(2 * np.sin(convergence_rad / 2)) * np.hypot(*place[:2]):.3g}")
-    return costs
+    runs += [
+        budget_run(folder, stationing, source, target, seed)
+        for seed in seeds_of(arguments.budget_seeds)
+        for stationing in (LANDMARKS, EACH_OTHER)
+        for source in BUDGET_SOURCES
+        for target in BUDGET_TARGETS
+    ]
+    return runs
 
 
 def main() -> None:
     arguments = parse_arguments()
-    folder, seeds = arguments.runs.resolve(), range(1, arguments.seeds + 1)
+    folder = arguments.runs.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     PICTURES.mkdir(exist_ok=True)
     paper = theory(folder)
-    runs = [
-        table1_run(folder, k, t, s)
-        for k in ("random", "all")
-        for t in paper["object"]
-        for s in seeds
-    ]
-    runs += [walk_run(folder, kind, 1) for kind in ("random", "all")]
-    runs += [
-        budget_run(folder, source, target, seed)
-        for source in BUDGET_SOURCES
-        for target in BUDGET_TARGETS
-        for seed in range(1, arguments.budget_seeds + 1)
-    ]
     if not arguments.kept_only:
-        make_all(runs, arguments.jobs)
-    static(folder, arguments.seeds, paper)
-    walk(folder)
-    budget(folder, arguments.budget_seeds)
+        make_all(all_runs(folder, arguments, list(paper["object"])), arguments.jobs)
+    static(folder, seeds_of(arguments.seeds), paper)
+    walk(folder, seeds_of(arguments.walk_seeds))
+    budget(folder, seeds_of(arguments.budget_seeds), paper)
     print(f"written: {DOCUMENT} and {PICTURES}")
 
 

@@ -13,8 +13,26 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[3]
 SCENARIOS = ROOT / "tools/sim/scenarios"
 PROGRAMS = ROOT / "build/release/bin"
-STAYING = ("heading", "tilt", "mounting", "position", "distortion")
-WALK_SECONDS, STATIC_SECONDS, PIXEL_SECONDS = 123.0, 5.0, 5.0
+WALK_SECONDS, STATIC_SECONDS = 123.0, 5.0
+WALK = "walk"  # stands for the walk where targets of table1.toml are named
+
+# The errors of the scenario that each source is made of.
+SOURCES = {
+    "heading": ("heading",),
+    "tilt": ("tilt",),
+    "mounting": ("mounting",),
+    "position": ("position",),
+    "distortion": ("distortion",),
+    "timing": ("clock", "ptu_reply"),
+}
+STAYING = tuple(
+    error for source, errors in SOURCES.items() if source != "timing" for error in errors
+)
+# How the stations found their headings.
+LANDMARKS, EACH_OTHER = "landmarks", "each-other"
+# What is in a run with pictures: random errors only, or all after a stationing of either kind.
+RANDOM = "random"
+KINDS = (RANDOM, LANDMARKS, EACH_OTHER)
 
 
 @dataclass(frozen=True)
@@ -25,6 +43,7 @@ class Run:
     scenario: str
     seed: int
     seconds: float
+    stationing: str
     target: str = ""
     without: tuple[str, ...] = ()
     pictures: bool = True
@@ -32,6 +51,7 @@ class Run:
     def command(self) -> list[str]:
         command = [PROGRAMS / "ols-sim", "--lockstep", "--scenario", f"{self.scenario}.toml"]
         command += ["--seed", self.seed, "--seconds", self.seconds, "--output", self.folder]
+        command += ["--stationing", self.stationing]
         if self.target:
             command += ["--target", self.target]
         if self.without:
@@ -66,23 +86,29 @@ def make_all(runs: Iterable[Run], jobs: int) -> None:
         list(pool.map(Run.make, runs))
 
 
-def table1_run(folder: Path, kind: str, target: str, seed: int) -> Run:
-    """`kind`: "random", without the errors that stay, or "all"."""
-    without = STAYING if kind == "random" else ()
-    place = folder / "table1" / kind / target / f"seed{seed}"
-    return Run(place, "table1", seed, STATIC_SECONDS, target, without)
+def _run(place: Path, target: str, seed: int, **options: object) -> Run:
+    if target == WALK:
+        return Run(place, "walk", seed, WALK_SECONDS, **options)
+    return Run(place, "table1", seed, STATIC_SECONDS, target=target, **options)
 
 
-def walk_run(folder: Path, kind: str, seed: int) -> Run:
-    without = STAYING if kind == "random" else ()
-    return Run(folder / "walk" / kind / f"seed{seed}", "walk", seed, WALK_SECONDS, "", without)
+def picture_run(folder: Path, kind: str, target: str, seed: int) -> Run:
+    """Rendered pictures and the real tracker; `kind` is one of KINDS."""
+    place = folder / "pictures" / kind / target / f"seed{seed}"
+    if kind == RANDOM:
+        return _run(place, target, seed, stationing=LANDMARKS, without=STAYING)
+    return _run(place, target, seed, stationing=kind)
 
 
-def budget_run(folder: Path, source: str, target: str, seed: int) -> Run:
-    """One staying error alone ("none": not one of them, "all"), with drawn pixels."""
-    without = () if source == "all" else tuple(error for error in STAYING if error != source)
-    place = folder / "budget" / source / target / f"seed{seed}"
-    return Run(place, "table1", seed, PIXEL_SECONDS, target, without, pictures=False)
+def budget_run(folder: Path, stationing: str, source: str, target: str, seed: int) -> Run:
+    """One source alone ("none": not one of them, "all"), with drawn pixels."""
+    without = (
+        ()
+        if source == "all"
+        else tuple(error for name, errors in SOURCES.items() if name != source for error in errors)
+    )
+    place = folder / "budget" / stationing / source / target / f"seed{seed}"
+    return _run(place, target, seed, stationing=stationing, without=without, pictures=False)
 
 
 def horizontal(errors_enu: np.ndarray) -> np.ndarray:
@@ -92,3 +118,15 @@ def horizontal(errors_enu: np.ndarray) -> np.ndarray:
 
 def rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.mean(np.square(values))))
+
+
+def mean_error(runs: Iterable[Run]) -> float:
+    """Root mean square horizontal error [m] over the runs that are there; NaN without any."""
+    values = [rms(horizontal(run.errors_enu())) for run in runs if run.made()]
+    return rms(np.array(values)) if values else np.nan
+
+
+def mean_bound(runs: Iterable[Run]) -> float:
+    """The same of the Cramer-Rao bound at the runs' fixes."""
+    values = [run.summary()["crb_horizontal_rmse_m"] for run in runs if run.made()]
+    return rms(np.array(values)) if values else np.nan

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 from PIL import Image
 
-PAPER, OURS, RANDOM, TRUTH, STATION = "#d9822b", "#0b6fb8", "#3a9d5d", "#222222", "#b3261e"
+PAPER, OURS, RANDOM_COLOUR, TRUTH, STATION = "#d9822b", "#0b6fb8", "#3a9d5d", "#222222", "#b3261e"
 MAP = "viridis_r"
 
 plt.rcParams.update(

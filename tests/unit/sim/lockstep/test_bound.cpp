@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "tools/sim/bound.h"
+#include <cmath>
+
+#include "tools/sim/report.h"
 
 namespace ols::sim {
 namespace {
@@ -48,6 +50,17 @@ TEST(Bound, OfTwoCrossingRaysIsThatComputedByHand) {
   EXPECT_NEAR((*bound)(1, 1) / across_m2, 1.0, 0.01);
   EXPECT_NEAR((*bound)(2, 2) / across_m2, 0.5, 0.01);
   EXPECT_NEAR((*bound)(0, 1) / across_m2, 0.0, 0.01);
+}
+
+TEST(Bound, SummaryTellsItsHorizontalPart) {
+  const World world(two_stations(), 1);
+  const MeasurementNoise noise{1.0, 0.5, 1.0};
+  const Eigen::Matrix3d bound = position_bound_enu(world, 0.0, {0, 1}, noise).value();
+  Fix fix;
+  fix.used = {0, 1};
+  const BoundSummary summary = summarise_bound(world, {fix, fix}, noise, 1);
+  EXPECT_NEAR(summary.crb_rmse_m, std::sqrt(bound.trace()), 1e-9);
+  EXPECT_NEAR(summary.crb_horizontal_rmse_m, std::sqrt(bound(0, 0) + bound(1, 1)), 1e-9);
 }
 
 TEST(Bound, HeadingErrorActsAcrossTheRayOnly) {

@@ -1,0 +1,144 @@
+"""tools/accuracy-report: its runs, the reading of them, and the document that they make."""
+
+import csv
+import json
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from ols_accuracy import document, run_plots, theory_plots
+from ols_accuracy.runs import (
+    EACH_OTHER,
+    KINDS,
+    LANDMARKS,
+    PROGRAMS,
+    RANDOM,
+    ROOT,
+    SOURCES,
+    STAYING,
+    WALK,
+    budget_run,
+    make_all,
+    mean_bound,
+    mean_error,
+    picture_run,
+)
+
+TABLE1 = ROOT / "tools/python/ols_accuracy/table1.csv"
+
+
+def without(run):
+    command = run.command()
+    return (
+        set(command[command.index("--without") + 1].split(",")) if "--without" in command else set()
+    )
+
+
+def test_a_source_alone_switches_all_others_off(tmp_path):
+    everything = {error for errors in SOURCES.values() for error in errors}
+    for source, errors in SOURCES.items():
+        run = budget_run(tmp_path, LANDMARKS, source, "mast", 1)
+        assert without(run) == everything - set(errors)
+        assert "--pixels" in run.command()
+    assert without(budget_run(tmp_path, LANDMARKS, "none", "mast", 1)) == everything
+    assert without(budget_run(tmp_path, LANDMARKS, "all", "mast", 1)) == set()
+
+
+def test_pictures_are_of_the_named_experiment(tmp_path):
+    assert without(picture_run(tmp_path, RANDOM, "mast", 1)) == set(STAYING)
+    run = picture_run(tmp_path, EACH_OTHER, WALK, 1)
+    assert run.scenario == "walk" and run.seconds > 120 and "--pixels" not in run.command()
+    assert EACH_OTHER in run.command() and without(run) == set()
+
+
+def test_runs_are_made_once_and_read(tmp_path):
+    runs = [budget_run(tmp_path, LANDMARKS, "all", "pillar3", seed) for seed in (1, 2)]
+    assert np.isnan(mean_error(runs)) and np.isnan(mean_bound(runs))
+    make_all(runs, 2)
+    assert 0.02 < mean_error(runs) < 3.0
+    assert 0.1 < mean_bound(runs) < 1.0
+    before = (runs[0].folder / "summary.json").stat().st_mtime_ns
+    make_all(runs, 1)
+    assert (runs[0].folder / "summary.json").stat().st_mtime_ns == before
+
+
+def test_the_mean_is_over_runs_and_horizontal(tmp_path):
+    runs = [budget_run(tmp_path, LANDMARKS, "all", "mast", seed) for seed in (1, 2)]
+    for run, east, bound in zip(runs, (3.0, 5.0), (1.0, 7.0), strict=True):
+        run.folder.mkdir(parents=True)
+        (run.folder / "summary.json").write_text(json.dumps({"crb_horizontal_rmse_m": bound}))
+        rows = "error_east_m,error_north_m,error_up_m\n" + f"{east},4,100\n" * 3
+        (run.folder / "fixes.csv").write_text(rows)
+    assert mean_error(runs) == pytest.approx(np.sqrt((25 + 41) / 2))
+    assert mean_bound(runs) == pytest.approx(5.0)
+
+
+def test_only_what_is_between_the_marks_is_replaced(tmp_path):
+    path = tmp_path / "document.md"
+    path.write_text("a\n<!-- part -->\nold\n<!-- /part -->\nb\n")
+    document.replace_part("part", "new\nlines", path)
+    assert path.read_text() == "a\n<!-- part -->\nnew\nlines\n<!-- /part -->\nb\n"
+    with pytest.raises(SystemExit, match="has no part other"):
+        document.replace_part("other", "", path)
+
+
+def test_metres_have_two_digits_and_nothing_is_a_dash():
+    shown = [document.metres(value) for value in (0.0123, 0.456, 12.345, 233.4, np.nan)]
+    assert shown == ["0.012", "0.46", "12.35", "233", "–"]
+
+
+def part(name):
+    content = document.DOCUMENT.read_text()
+    lines = re.search(rf"<!-- {name} -->\n(.*?)<!-- /{name} -->", content, re.S)[1].splitlines()
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+
+
+def test_every_run_of_the_document_was_made():
+    objects = [row["object"] for row in csv.DictReader(TABLE1.open())]
+    assert [row[0] for row in part("static")] == objects
+    assert len(part("walk")) == 1 + 2 * len(KINDS)
+    parts = ("static", "walk", f"budget {LANDMARKS}", f"budget {EACH_OTHER}")
+    assert not any("–" in cell for name in parts for row in part(name) for cell in row)
+
+
+def test_the_documents_estimates_are_what_the_theory_gives(tmp_path):
+    output = tmp_path / "table.csv"
+    command = [PROGRAMS / "ols-precision", "table", "--input", TABLE1, "--output", output]
+    subprocess.run(command, check=True)
+    table = theory_plots.columns(output)
+    difference = np.abs(table["estimated_m"] / table["paper_estimated_m"] - 1)
+    printed = part("estimates")[0]
+    assert printed[1] == f"{100 * difference.max():.1f} %"
+    assert printed[2] == f"{100 * difference.mean():.1f} %"
+
+
+def colours(picture):
+    image = run_plots.plt.imread(picture)
+    return len(np.unique(image.reshape(-1, image.shape[2]), axis=0))
+
+
+@pytest.mark.parametrize(
+    ("kind", "options"),
+    [
+        ("figure3", ["--steps", "12"]),
+        ("figure4", ["--steps", "20"]),
+        ("table", ["--input", str(TABLE1)]),
+        ("map", ["--stations", str(TABLE1.with_name("example_site.csv")), "--cells", "8"]),
+    ],
+)
+def test_precision_has_a_picture(tmp_path, kind, options):
+    source, picture = tmp_path / "source.csv", tmp_path / "picture.png"
+    program = str(PROGRAMS / "ols-precision")
+    subprocess.run([program, kind, *options, "--output", str(source)], check=True)
+    plot = [sys.executable, "-m", "ols_accuracy.plot"]
+    subprocess.run([*plot, kind, str(source), str(picture)], check=True)
+    assert colours(picture) > 20
+    wrong = subprocess.run(
+        [*plot, "figure3" if kind != "figure3" else "map", str(source), str(picture)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert wrong.returncode != 0 and "not what ols-precision writes" in wrong.stderr
