@@ -9,6 +9,7 @@ import sys
 import numpy as np
 import pytest
 from ols_accuracy import document, run_plots, theory_plots
+from ols_accuracy.__main__ import budget_basis
 from ols_accuracy.runs import (
     EACH_OTHER,
     KINDS,
@@ -20,10 +21,12 @@ from ols_accuracy.runs import (
     STAYING,
     WALK,
     budget_run,
+    left_out,
     make_all,
     mean_bound,
     mean_error,
     picture_run,
+    usable,
 )
 
 TABLE1 = ROOT / "tools/python/ols_accuracy/table1.csv"
@@ -75,6 +78,39 @@ def test_the_mean_is_over_runs_and_horizontal(tmp_path):
     assert mean_bound(runs) == pytest.approx(5.0)
 
 
+def test_a_run_without_a_bound_is_left_out_and_told(tmp_path):
+    runs = [budget_run(tmp_path, LANDMARKS, "all", "mast", seed) for seed in (1, 2, 3)]
+    for run, bound in zip(runs[:2], (2.0, None), strict=True):
+        run.folder.mkdir(parents=True)
+        (run.folder / "summary.json").write_text(json.dumps({"crb_horizontal_rmse_m": bound}))
+        (run.folder / "fixes.csv").write_text("error_east_m,error_north_m,error_up_m\n3,4,0\n")
+    assert usable(runs) == runs[:1] and left_out(runs) == runs[1:2]
+    assert mean_error(runs) == pytest.approx(5.0) and mean_bound(runs) == 2.0
+    assert "1 of them" in budget_basis(tmp_path, range(1, 4))
+    assert "mast (seed 2)" in budget_basis(tmp_path, range(1, 4))
+
+
+def test_a_frame_counts_where_the_target_itself_is_tracked(tmp_path):
+    run = budget_run(tmp_path, LANDMARKS, "all", WALK, 1)
+    run.folder.mkdir(parents=True)
+    frames = [
+        ("west", 1.0, "tracking", 9, 9),
+        ("west", 2.0, "tracking", 11, 0),  # beside its box
+        ("west", 3.0, "tracking", -4, -4),
+        ("east", 1.1, "tracking", 0, 0),
+        ("east", 2.1, "tracking", 0, 0),
+        ("east", 3.1, "coasting", "", ""),
+    ]
+    header = "station,time_s,state,error_x_px,error_y_px,width_px,height_px\n"
+    rows = "".join(f"{','.join(map(str, row))},20,20\n" for row in frames)
+    (run.folder / "frames.csv").write_text(header + rows)
+    times = "".join(f"{1_700_000_000_000_000 + int(1e6 * t)}\n" for t in (1.2, 2.2, 3.2))
+    (run.folder / "fixes.csv").write_text("utime_us\n" + times)
+    share, by_all = run.frames_on_target()
+    assert share == pytest.approx(4 / 6)
+    assert by_all.tolist() == [True, False, False]
+
+
 def test_only_what_is_between_the_marks_is_replaced(tmp_path):
     path = tmp_path / "document.md"
     path.write_text("a\n<!-- part -->\nold\n<!-- /part -->\nb\n")
@@ -98,7 +134,7 @@ def part(name):
 def test_every_run_of_the_document_was_made():
     objects = [row["object"] for row in csv.DictReader(TABLE1.open())]
     assert [row[0] for row in part("static")] == objects
-    assert len(part("walk")) == 1 + 2 * len(KINDS)
+    assert len(part("walk")) == 1 + len(KINDS)
     parts = ("static", "walk", f"budget {LANDMARKS}", f"budget {EACH_OTHER}")
     assert not any("–" in cell for name in parts for row in part(name) for cell in row)
 

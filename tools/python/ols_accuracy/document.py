@@ -34,5 +34,5 @@ def metres(value: float) -> str:
     )
 
 
-def beside(measured: float, bound: float) -> str:
-    return f"{metres(measured)} ({metres(bound)})"
+def beside(bound: float, *measured: float) -> str:
+    return f"{' / '.join(map(metres, measured))} ({metres(bound)})"

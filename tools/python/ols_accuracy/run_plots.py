@@ -85,20 +85,23 @@ def figure10(runs: dict[str, Run], site: ols.LocalFrame, output: Path) -> None:
 
 
 def budget(rows: dict[str, list[dict]], targets: list[str], output: Path) -> None:
-    """Which source costs how many metres: simulated (bars) and bound (ticks), a panel each way."""
+    """Which source costs how many metres: the filter (bars), the paper's
+    estimator (dots) and the bound (ticks), a panel each way of stationing."""
     figure, panels = plt.subplots(2, 1, figsize=(10, 7.2), sharex=True, sharey=True)
     colours = ("#b9dcc6", "#8fbfe8", "#0b6fb8", "#777777")
     for axes, (kind, each) in zip(panels, rows.items(), strict=True):
         place = np.arange(len(each))
         for k, (target, colour) in enumerate(zip(targets, colours, strict=True)):
             shift = place + 0.2 * (k - 1.5)
-            simulated, bound = zip(*(row[target] for row in each), strict=True)
+            bound, simulated, paper = zip(*(row[target] for row in each), strict=True)
             axes.bar(shift, simulated, 0.18, color=colour, label=target)
             axes.plot(shift, bound, "_", color=TRUTH, markersize=10, markeredgewidth=1.6)
+            axes.plot(shift, paper, ".", color=PAPER, markersize=6)
         axes.plot([], [], "_", color=TRUTH, label="the bound (1-sigma)")
+        axes.plot([], [], ".", color=PAPER, label="the paper's estimator")
         axes.set(yscale="log", ylabel="horizontal error, m", title=LOOKS[kind][1].split(", ")[1])
         axes.grid(axis="x", visible=False)
-    panels[0].legend(fontsize=9, ncols=5, loc="upper left")
+    panels[0].legend(fontsize=9, ncols=6, loc="upper left")
     panels[0].set_ylim(0.01, 2e3)
     names = [row["source"].replace(", ", ",\n") for row in next(iter(rows.values()))]
     panels[1].set_xticks(np.arange(len(names)), names)

@@ -14,6 +14,7 @@ ROOT = Path(__file__).resolve().parents[3]
 SCENARIOS = ROOT / "tools/sim/scenarios"
 PROGRAMS = ROOT / "build/release/bin"
 WALK_SECONDS, STATIC_SECONDS = 123.0, 5.0
+START_UTIME_US = 1_700_000_000_000_000  # of the lockstep simulation
 WALK = "walk"  # stands for the walk where targets of table1.toml are named
 
 # The errors of the scenario that each source is made of.
@@ -80,6 +81,31 @@ class Run:
         with open(self.folder / f"{estimator}.csv", newline="") as file:
             return list(csv.DictReader(file))
 
+    def frames_on_target(self) -> tuple[float, np.ndarray]:
+        """Share of all stations' frames in which the target itself was tracked, and of each fix
+        whether it was by all of them at that time."""
+        with open(self.folder / "frames.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        times = np.array([float(row["time_s"]) for row in rows])
+        on = np.array([on_target(row) for row in rows])
+        stations = np.array([row["station"] for row in rows])
+        fixes = [1e-6 * (int(row["utime_us"]) - START_UTIME_US) for row in self.fixes()]
+        by_all = np.ones(len(fixes), dtype=bool)
+        for station in np.unique(stations):
+            own = np.flatnonzero(stations == station)
+            nearest = np.abs(np.subtract.outer(fixes, times[own])).argmin(axis=1)
+            by_all &= on[own][nearest]
+        return float(on.mean()), by_all
+
+
+def on_target(row: dict) -> bool:
+    """A row of frames.csv: the pixel that was tracked is inside the target's box."""
+    if row["state"] != "tracking" or not row["error_x_px"]:
+        return False
+    off = (2 * abs(float(row[f"error_{axis}_px"])) for axis in "xy")
+    size = (float(row[f"{side}_px"]) for side in ("width", "height"))
+    return all(a < b for a, b in zip(off, size, strict=True))
+
 
 def make_all(runs: Iterable[Run], jobs: int) -> None:
     with ThreadPoolExecutor(jobs) as pool:
@@ -120,13 +146,26 @@ def rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.mean(np.square(values))))
 
 
-def mean_error(runs: Iterable[Run]) -> float:
-    """Root mean square horizontal error [m] over the runs that are there; NaN without any."""
-    values = [rms(horizontal(run.errors_enu())) for run in runs if run.made()]
+def usable(runs: Iterable[Run]) -> list[Run]:
+    """Those that were made and have fixes of two stations: without such a fix there is no bound."""
+    made = [run for run in runs if run.made()]
+    return [run for run in made if run.summary()["crb_horizontal_rmse_m"] is not None]
+
+
+def left_out(runs: Iterable[Run]) -> list[Run]:
+    """Those that were made and are not usable."""
+    made = [run for run in runs if run.made()]
+    return [run for run in made if run.summary()["crb_horizontal_rmse_m"] is None]
+
+
+def mean_error(runs: Iterable[Run], estimator: str = "fixes") -> float:
+    """Root mean square horizontal error [m] over the usable runs; NaN without any."""
+    errors = [horizontal(run.errors_enu(estimator)) for run in usable(runs)]
+    values = [rms(each) for each in errors if len(each) > 0]
     return rms(np.array(values)) if values else np.nan
 
 
 def mean_bound(runs: Iterable[Run]) -> float:
     """The same of the Cramer-Rao bound at the runs' fixes."""
-    values = [run.summary()["crb_horizontal_rmse_m"] for run in runs if run.made()]
+    values = [run.summary()["crb_horizontal_rmse_m"] for run in usable(runs)]
     return rms(np.array(values)) if values else np.nan
