@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "edge/tracker/alignment.h"
 
 namespace ols {
 namespace {
@@ -44,15 +45,8 @@ double quantile(const cv::Mat& image, double share) {
 
 // Where a reference shows nothing the picture is compared with itself: no difference.
 cv::Mat difference(const Scope& scope, const AcquisitionReference& reference) {
-  cv::Mat to_scope;
-  Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
-  shift(0, 2) = -scope.area.x;
-  shift(1, 2) = -scope.area.y;
-  cv::eigen2cv(Eigen::Matrix3d(shift * reference.homography), to_scope);
-  cv::Mat before = scope.raw.clone();
-  cv::warpPerspective(reference.gray, before, to_scope, before.size(), cv::INTER_LINEAR,
-                      cv::BORDER_TRANSPARENT);
-  before = smoothed(before);
+  const cv::Mat before = smoothed(
+      brought_to_present(reference.gray, reference.homography, scope.raw, scope.area.tl()));
   // The angles place the background to about a pixel: what has a like neighbour has not changed.
   cv::Mat low, high, above, below;
   cv::erode(before, low, square(5));

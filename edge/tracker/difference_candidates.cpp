@@ -4,41 +4,17 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "edge/tracker/alignment.h"
 #include "edge/tracker/particle.h"
 
 namespace ols {
 namespace {
-
-// The area of the previous image as the camera would see it now; what it did not see is as it is
-// now.
-cv::Mat brought_to_present(const ReducedFrame& previous, const ReducedFrame& current,
-                           const Eigen::Matrix3d& homography, const cv::Rect& area) {
-  const Eigen::Matrix3d to_full = current.to_full();
-  Eigen::Matrix3d to_area = Eigen::Matrix3d::Identity();
-  to_area(0, 2) = -area.x;
-  to_area(1, 2) = -area.y;
-  const Eigen::Matrix3d h = to_area * to_full.inverse() * homography * to_full;
-  const cv::Matx33d matrix(h(0, 0), h(0, 1), h(0, 2), h(1, 0), h(1, 1), h(1, 2), h(2, 0), h(2, 1),
-                           h(2, 2));
-  cv::Mat brought = current.image(area).clone();
-  cv::warpPerspective(previous.image, brought, matrix, brought.size(), cv::INTER_LINEAR,
-                      cv::BORDER_TRANSPARENT);
-  return brought;
-}
 
 // So many pixels together that a target spans about `kSpan` of them: it takes no more to find it.
 int coarseness(double side, const cv::Size& image) {
   constexpr double kSpan = 8.0;
   const int wanted = static_cast<int>(side / kSpan);
   return std::max(1, std::min({wanted, image.width, image.height}));
-}
-
-cv::Rect reduced_area(const ReducedFrame& frame, const cv::Rect2d& area) {
-  const double scale = 1.0 / frame.reduction;
-  const cv::Point2d corner(std::floor(area.x * scale), std::floor(area.y * scale));
-  const cv::Rect2d reduced(corner.x, corner.y, std::ceil(area.br().x * scale) - corner.x,
-                           std::ceil(area.br().y * scale) - corner.y);
-  return cv::Rect(reduced & cv::Rect2d(0.0, 0.0, frame.image.cols, frame.image.rows));
 }
 
 // The greatest maxima, each taken out with what is `side` around it.
@@ -66,10 +42,15 @@ std::vector<Eigen::Vector2d> difference_candidates(const ReducedFrame& previous,
                                                    const Eigen::Vector2d& size_px, int most) {
   const cv::Rect inside = reduced_area(current, area);
   if (inside.empty()) return {};
-  const cv::Mat before = homography ? brought_to_present(previous, current, *homography, inside)
-                                    : previous.image(inside);
+  const cv::Mat now = current.image(inside);
+  cv::Mat before = previous.image(inside);
+  if (homography) {
+    const Eigen::Matrix3d to_full = current.to_full();
+    const Eigen::Matrix3d to_present = to_full.inverse() * *homography * to_full;
+    before = brought_to_present(previous.image, to_present, now, inside.tl());
+  }
   cv::Mat difference, response;
-  cv::absdiff(before, current.image(inside), difference);
+  cv::absdiff(before, now, difference);
   const double length = std::sqrt(size_px.x() * size_px.y()) / current.reduction;
   const int coarse = coarseness(length, difference.size());
   const cv::Size size(difference.cols / coarse, difference.rows / coarse);

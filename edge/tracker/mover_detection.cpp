@@ -3,33 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "edge/tracker/alignment.h"
 #include "edge/tracker/patch.h"
 
 namespace ols {
 namespace {
-
-cv::Rect reduced_area(const ReducedFrame& frame, const cv::Rect2d& area) {
-  const double scale = 1.0 / frame.reduction;
-  const cv::Rect2d reduced(area.x * scale, area.y * scale, area.width * scale, area.height * scale);
-  return cv::Rect(reduced & cv::Rect2d(0.0, 0.0, frame.image.cols, frame.image.rows));
-}
-
-// The earlier image as the camera would see it now; what it did not see is as it is now.
-cv::Mat brought_to_present(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
-                           const ReducedFrame& current, const cv::Rect& area) {
-  Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
-  shift(0, 2) = -area.x;
-  shift(1, 2) = -area.y;
-  cv::Mat matrix;
-  cv::eigen2cv(Eigen::Matrix3d(shift * current.to_full().inverse() * to_present), matrix);
-  cv::Mat brought = current.image(area).clone();
-  cv::warpPerspective(earlier, brought, matrix, brought.size(), cv::INTER_LINEAR,
-                      cv::BORDER_TRANSPARENT);
-  return brought;
-}
 
 // Brighter than all, or darker than all of the earlier image within a pixel.
 cv::Mat tolerant_difference(const cv::Mat& now, const cv::Mat& before) {
@@ -104,8 +84,9 @@ std::vector<MoverCandidate> detect_movers(const cv::Mat& earlier, const Eigen::M
   const cv::Rect area = reduced_area(current, search.area);
   if (area.width < 3 || area.height < 3) return {};
   const cv::Mat now = current.image(area);
+  const Eigen::Matrix3d to_reduced = current.to_full().inverse() * to_present;
   const cv::Mat difference =
-      tolerant_difference(now, brought_to_present(earlier, to_present, current, area));
+      tolerant_difference(now, brought_to_present(earlier, to_reduced, now, area.tl()));
   // The tolerance hides most of the noise from the difference: what is left is its rare peaks.
   const double sd = std::max(fluctuation(difference), pixel_noise(now));
   cv::Mat mask, labels, statistics, centroids;

@@ -54,6 +54,21 @@ TEST(MoverDetection, FindsNothingInASceneAtRest) {
   }
 }
 
+// Half pixels at both edges, of a picture whose sides are odd.
+TEST(MoverDetection, LooksUpToTheEdge) {
+  for (const int width : {127, 64}) {
+    const cv::Mat earlier(127, 127, CV_8U, cv::Scalar(90));
+    cv::Mat now = earlier.clone();
+    now(cv::Rect(118, 118, 9, 9)) = 230;
+    MoverSearch search;
+    search.area = {1.5, 1.5, 125.5, 125.5};
+    const auto movers =
+        detect_movers(earlier, Eigen::Matrix3d::Identity(), reduce_frame(now, width), search);
+    ASSERT_EQ(movers.size(), 1U) << width;
+    EXPECT_LT(distance(movers.front().pixel, {122.0, 122.0}), 2.0) << width;
+  }
+}
+
 TEST(MoverDetection, GivesNoneForWhatItCannotUse) {
   SyntheticScene scene(Backdrop::kSky, 3);
   const cv::Mat earlier = scene.picture({400, 300}, cv::Point2d(300.0, 220.0));

@@ -1,0 +1,20 @@
+// An earlier image laid onto the present one, so that the two can be subtracted.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "edge/tracker/ego_motion.h"
+
+namespace ols {
+
+// The reduced pixels that an area of the full frame touches, inside the image.
+cv::Rect reduced_area(const ReducedFrame& frame, const cv::Rect2d& area);
+
+// The earlier image as the camera would see it now; what it did not see is as it is now. `now` is
+// a part of the present image, its corner at `origin`; `to_present` takes the earlier image's
+// pixels to those of the whole present one.
+cv::Mat brought_to_present(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
+                           const cv::Mat& now, const cv::Point& origin);
+
+}  // namespace ols
