@@ -34,12 +34,16 @@ bool usable_box(const cv::Rect2d& box, const cv::Size& frame) {
          centre.y() <= frame.height - 1.0;
 }
 
-// An unusable prediction is none: the image may still tell.
+// An unusable prediction is none: the image may still tell. A usable one is taken at the scale at
+// which it was judged.
 TrackerInput with_sane_prediction(const TrackerInput& frame) {
   TrackerInput checked = frame;
-  if (checked.predicted_homography &&
-      !plausible_homography(*checked.predicted_homography, frame.gray.size())) {
-    checked.predicted_homography.reset();
+  auto& predicted = checked.predicted_homography;
+  if (!predicted) return checked;
+  if (plausible_homography(*predicted, frame.gray.size())) {
+    *predicted /= (*predicted)(2, 2);
+  } else {
+    predicted.reset();
   }
   return checked;
 }

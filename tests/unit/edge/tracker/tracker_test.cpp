@@ -99,6 +99,26 @@ TEST(Tracker, FollowsFastTurnByPredictedHomography) {
   }
 }
 
+// A homography is one up to a factor.
+TEST(Tracker, TakesAPredictionOfAnyScale) {
+  for (const TrackerMode mode : {TrackerMode::kFull, TrackerMode::kPaper}) {
+    TrackerConfig config;
+    config.mode = mode;
+    std::vector<TrackerOutput> outputs;
+    for (const double factor : {1.0, 0x1p1020, -0x1p-20}) {
+      SyntheticScene scene(Backdrop::kSky, 4);
+      Tracker tracker = started(scene, config);
+      for (int k = 1; k < 4; ++k) {
+        TrackerInput input = frame_at(k, scene.picture({400, 300}, kStart));
+        input.predicted_homography = factor * shift_homography(1.0, 0.0);
+        outputs.push_back(*tracker.track(input).output);
+      }
+      EXPECT_EQ(outputs.back().pixel, outputs[2].pixel) << factor;
+      EXPECT_EQ(outputs.back().belief, outputs[2].belief) << factor;
+    }
+  }
+}
+
 // What was designated on an empty sky is found again anywhere in it.
 TEST(Tracker, DoesNotBelieveInADesignationOfNothing) {
   for (const double noise_sd : {0.0, 2.0}) {
