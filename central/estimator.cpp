@@ -134,8 +134,10 @@ Estimate estimate_of(const TrackFilter& filter, const KinematicState& state) {
   estimate.solution = judge_position(filter, state);
   if (estimate.solution != Solution::kOk) return estimate;
   estimate.position_ecef = state.mean.head<3>();
+  const SystematicPart systematic = filter.systematic();
   estimate.covariance_ecef = state.covariance.topLeftCorner<3, 3>();
-  estimate.covariance_white_ecef = estimate.covariance_ecef - filter.systematic();
+  estimate.covariance_white_ecef = estimate.covariance_ecef - systematic.all_m2;
+  estimate.covariance_ecef += filter.config().in_common * systematic.shown_m2;
   estimate.velocity_ecef = state.mean.segment<3>(3);
   estimate.velocity_covariance_ecef = state.covariance.block<3, 3>(3, 3);
   estimate.crossing_angle_rad = greatest_crossing(filter, estimate.position_ecef);

@@ -74,8 +74,8 @@ Eigen::Array2d StationErrors::learnt(const std::string& station, const Eigen::Ar
   if (found == stations_.end()) return prior;
   const Seen& seen = found->second;
   const Eigen::Array2d squared = weight * prior + seen.squared_rad2 + seen.squared_now_rad2;
-  constexpr double kLeast = 0.04;  // of the noise's variance: what is taken for zero stays zero
-  return (squared / (weight + seen.weight + seen.weight_now)).max(kLeast * noise_rad2);
+  const double least = config_.least_over_noise * config_.least_over_noise;
+  return (squared / (weight + seen.weight + seen.weight_now)).max(least * noise_rad2);
 }
 
 BiasPrior StationErrors::prior(const std::string& station, const SightLine& sight,
@@ -84,8 +84,11 @@ BiasPrior StationErrors::prior(const std::string& station, const SightLine& sigh
   prior.covariance = stated_covariance(sight, range_m);
   const Eigen::Array2d stated = prior.covariance.diagonal();
   prior.time_s = states_anything(stated) ? config_.stated_time_s : config_.untold_time_s;
-  const Eigen::Array2d all = learnt(station, stated, sight.covariance_white.diagonal());
+  const Eigen::Array2d noise = sight.covariance_white.diagonal();
+  const Eigen::Array2d all = learnt(station, stated, noise);
   prior.covariance.diagonal().array() += (all - stated).max(0.0);
+  const double guess = config_.untold_over_noise * config_.untold_over_noise;
+  prior.shown = (all - (states_anything(stated) ? stated : guess * noise)).max(0.0);
   return prior;
 }
 

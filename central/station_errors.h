@@ -29,12 +29,13 @@
 namespace ols {
 
 struct StationErrorsConfig {
-  double stated_time_s = 300.0;    // correlation time of a bias within what is stated
+  double stated_time_s = 36000.0;  // correlation time of a bias within what is stated: it stays
   double untold_time_s = 5.0;      // and of one that the station does not tell
   double memory_s = 600.0;         // what was seen longer ago counts less than 1/e
   double stated_weight = 20.0;     // seen biases that a statement is worth
-  double untold_weight = 2.0;      // and that the guess is worth where nothing is stated
+  double untold_weight = 1.0;      // and that the guess is worth where nothing is stated
   double untold_over_noise = 0.5;  // that guess: sd of the bias over the sd of the noise
+  double least_over_noise = 0.2;   // what is taken for zero stays zero: least sd of any bias
   double noise_weight = 20.0;      // bearings that a stated noise is worth
   double noise_memory = 500.0;     // bearings in whose mean the noise is judged
   double least_noise = 0.1;        // bounds of the noise over what is stated [variances]
@@ -49,6 +50,8 @@ struct StationErrorsConfig {
 struct BiasPrior {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] stationary
   double time_s = 1.0;                                   // correlation time
+  // Of its variances, what the residuals have shown beyond what was stated or guessed.
+  Eigen::Array2d shown = Eigen::Array2d::Zero();  // [rad^2]
 };
 
 // A station's bias [rad], cross-elevation and elevation, each with its variance after and before.

@@ -206,7 +206,7 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
       sighting.sight.covariance_white * errors.noise_scale(sighting.station);
   const RayFrame frame = frame_of(sighting, station);
   std::array<Innovation, kMotions> seen;
-  double nis = kNever, noise_shown = 1.0;
+  double nis = kNever, squared = 0.0, expected = 0.0;  // of the noise's own part of the residual
   for (std::size_t m = 0; m < models_.size(); ++m) {
     seen[m] = innovation(models_[m], sighting, frame, station, {});
     if (seen[m].depth_m <= 0.0) return BearingUse::kBehindCamera;
@@ -215,8 +215,13 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
     const double here = seen[m].residual.dot(scaled);
     if (here >= nis) continue;
     nis = here;
-    noise_shown = 1.0 + (scaled.dot(white * scaled) - S.solve(white).trace()) / 2.0;
+    squared = scaled.dot(white * scaled);
+    expected = S.solve(white).trace();
   }
+  // One far off counts as one at the gate (Huber): where noise is many times what is stated, most
+  // are, and the others would never show it.
+  squared *= std::min(1.0, config_.gate_nis / nis);
+  errors.observe_residual(sighting.station, 1.0 + (squared - expected) / 2.0);
   if (!passes_gate(sighting, nis)) return BearingUse::kSetAside;
   entry.weight = nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
   if (entry.sight.origin_ecef != sighting.sight.origin_ecef) {
@@ -225,7 +230,6 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   entry.sight = sighting.sight;
   entry.utime_us = std::max(entry.utime_us, sighting.utime_us);
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);
-  errors.observe_residual(sighting.station, noise_shown);
   const double inflation = observe_noise(entry, sighting, frame, errors);
   correct(seen, white * (inflation / entry.weight));
   return BearingUse::kUsed;

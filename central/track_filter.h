@@ -34,6 +34,9 @@ struct FilterConfig {
   double mixing_s = 0.05;       // models are mixed and biases moved on at this interval
   double range_sd_limit = 0.3;  // greatest 1-sigma over range of a position that is one
   double max_range_m = 500e3;
+  // What all stations may have in common beyond what independent errors have, in variance: it moves
+  // the target and no residual shows it. Over the part that biases make which the residuals show.
+  double in_common = 0.5;
 };
 
 inline constexpr int kFilterStations = 12;  // bias states of the latest so many
@@ -69,6 +72,13 @@ struct FilterStation {
   std::array<Eigen::Vector3d, 2> before{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 };
 
+// The part of the position's covariance that the biases make, at the state's own instant; and of it
+// what makes those that nobody stated and only the residuals show.
+struct SystematicPart {
+  Eigen::Matrix3d all_m2 = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d shown_m2 = Eigen::Matrix3d::Zero();
+};
+
 struct StationBias {
   Eigen::Vector2d bias_rad = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_rad2 = Eigen::Matrix2d::Zero();
@@ -100,8 +110,7 @@ class TrackFilter {
   std::int64_t utime_us() const { return utime_us_; }
   // Mixed over the models, at an instant before or after the state's own.
   KinematicState at(std::int64_t utime_us) const;
-  // The part of the position's covariance that the biases make, at the state's own instant.
-  Eigen::Matrix3d systematic() const;
+  SystematicPart systematic() const;
   // at() the state's own instant; at hand.
   const KinematicState& summary() const { return summary_; }
   Eigen::Vector3d position() const { return summary_.mean.head<3>(); }

@@ -55,16 +55,30 @@ KinematicState TrackFilter::at(std::int64_t utime_us) const {
   return state;
 }
 
-Eigen::Matrix3d TrackFilter::systematic() const {
+SystematicPart TrackFilter::systematic() const {
   FilterVector mean;
   FilterMatrix P;
   mixed(mean, P);
   const Eigen::Index biases = mean.size() - 9;
-  if (biases == 0) return Eigen::Matrix3d::Zero();
+  if (biases == 0) return {};
   FilterMatrix own = P.bottomRightCorner(biases, biases);
   own.diagonal().array() += 1e-18;  // a clock that is known has no variance
   const auto cross = P.topRightCorner(3, biases);
-  return cross * own.ldlt().solve(cross.transpose());
+  // What each bias moves the position by.
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kFilterStates> moves =
+      own.ldlt().solve(cross.transpose()).transpose();
+  constexpr double kNone = 1e-24;
+  SystematicPart part;
+  part.all_m2 = moves * own * moves.transpose();
+  for (std::size_t i = 0; i < priors_.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(3 * i);
+    const Eigen::Array2d shown =
+        priors_[i].shown / priors_[i].covariance.diagonal().array().max(kNone);
+    moves.middleCols<2>(at) *= shown.matrix().asDiagonal();
+    moves.col(at + 2).setZero();
+  }
+  part.shown_m2 = moves * own * moves.transpose();
+  return part;
 }
 
 StationBias TrackFilter::bias(std::size_t station) const {

@@ -47,6 +47,8 @@ KeeperConfig pinned() {
   config.filter.motion.dwell_s = {1e9, 1e-3, 1e-3};
   config.filter.robust_nis = config.filter.gate_nis;
   config.errors.noise_weight = 1e9;
+  config.errors.stated_weight = 1e9;
+  config.errors.least_over_noise = 0.0;
   config.errors.colour_time_s = 0.0;
   return config;
 }

@@ -90,6 +90,39 @@ TEST(OfflineFusion, IsCautiousWhereNothingIsStated) {
   }
 }
 
+// Errors that nobody stated and the residuals show may be common to all stations in part, which
+// they do not show: the covariance has room for that, and nothing else changes.
+TEST(OfflineFusion, LeavesRoomForWhatAllStationsHaveInCommon) {
+  auto sightings = recording(20.0, 1e-4, 6);
+  for (Sighting& s : sightings) {
+    s.sight.direction.elevation_rad += (s.station == "a" || s.station == "c") ? 1e-3 : -1e-3;
+  }
+  OfflineConfig none, some;
+  none.fusion.keeper.filter.in_common = 0.0;
+  const Estimate before = fuse_offline(sightings, none).back().estimate;
+  const Estimate after = fuse_offline(sightings, some).back().estimate;
+  EXPECT_EQ(before.position_ecef, after.position_ecef);
+  EXPECT_GT(after.covariance_ecef.trace(), 1.1 * before.covariance_ecef.trace());
+  EXPECT_LT(after.covariance_ecef.trace(), 1.51 * before.covariance_ecef.trace());
+}
+
+// Of a recording's one object every bearing is one: what most stations contradict is given up.
+TEST(OfflineFusion, BeginsAnewWhereMostStationsContradict) {
+  auto sightings = recording(12.0, 1e-4, 5, 1.0);
+  const std::int64_t jump_us = kStart + 5'000'000;
+  for (Sighting& s : sightings) {
+    if (s.utime_us < jump_us || s.station == "a") continue;
+    const double t_s = static_cast<double>(s.utime_us - kStart) * 1e-6;
+    s.sight = ray_to(s.station, square()[static_cast<std::size_t>(s.station[0] - 'a')],
+                     {0.0, 0.0, 30.0 + t_s}, 1e-4)
+                  .sight;
+  }
+  const auto targets = fuse_offline(sightings, {});
+  ASSERT_FALSE(targets.empty());
+  const Vector3d there = site().to_ecef({0.0, 0.0, 42.0});
+  EXPECT_LT((targets.back().estimate.position_ecef - there).norm(), 2.0);
+}
+
 TEST(OfflineFusion, DoesNotDependOnTheOrderOfRows) {
   auto sightings = recording(3.0, 1e-4, 4);
   const auto first = fuse_offline(sightings, {});

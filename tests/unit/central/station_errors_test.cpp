@@ -77,7 +77,7 @@ TEST_P(NoiseScale, IsFoundFromTheResiduals) {
   EXPECT_NEAR(errors.noise_scale("b") / variance, 1.0, 0.3);
 }
 
-INSTANTIATE_TEST_SUITE_P(OverStated, NoiseScale, testing::Values(0.5, 1.0, 2.0, 3.0));
+INSTANTIATE_TEST_SUITE_P(OverStated, NoiseScale, testing::Values(0.5, 1.0, 2.0, 3.0, 8.0));
 
 }  // namespace
 }  // namespace ols

@@ -132,7 +132,27 @@ TEST(TrackFilter, AveragingDoesNotMakeABadHeadingGoAway) {
   const Eigen::Matrix3d P = filter.summary().covariance.topLeftCorner<3, 3>();
   const double range_m = Vector3d(200.0, 500.0, 50.0).norm();
   EXPECT_GT(std::sqrt(P.trace()), heading * range_m);
-  EXPECT_GT(filter.systematic().trace(), 0.8 * P.trace());
+  EXPECT_GT(filter.systematic().all_m2.trace(), 0.8 * P.trace());
+}
+
+TEST(TrackFilter, TellsWhatErrorsThatNobodyStatedMakeOfItsCovariance) {
+  StationErrors errors;
+  TrackFilter filter = filter_at(path(0.0));
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  std::array<Eigen::Vector2d, 4> biases;
+  for (auto& bias : biases) bias = 1e-3 * Eigen::Vector2d(normal(random), normal(random));
+  for (const Sighting& s : flight(0.5, 1e-4)) filter.update(s, errors);
+  EXPECT_LT(filter.systematic().shown_m2.trace(), 0.1 * filter.systematic().all_m2.trace());
+  for (int i = 0; i < 1200; ++i) {
+    const auto k = static_cast<std::size_t>(i % 4);
+    Ray ray =
+        ray_to(std::string(1, static_cast<char>('a' + i % 4)), square()[k], path(i / 60.0), 1e-4);
+    ray = test::turned(ray, biases[k].x(), biases[k].y());
+    filter.update(sighting_of(ray, kStart + std::llround(i / 60.0 * 1e6)), errors);
+  }
+  const SystematicPart part = filter.systematic();
+  EXPECT_GT(part.shown_m2.trace(), 0.5 * part.all_m2.trace());
 }
 
 TEST(TrackFilter, KeepsItsCovarianceSymmetricAndDefinite) {
