@@ -19,6 +19,23 @@ double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-
 
 using MatrixN2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
 
+// The gain and the residual whitened by the same factor. Without `all` the stations' states stay as
+// they are and are only considered. Two columns: Eigen's blocked product is slower.
+void add(const MatrixN2& gain, const Eigen::Vector2d& whitened, bool all, FilterVector& mean,
+         FilterMatrix& covariance) {
+  if (all) {
+    mean += gain * whitened;
+    covariance.noalias() -= gain.lazyProduct(gain.transpose());
+    return;
+  }
+  const Eigen::Matrix<double, 9, 2> own = gain.topRows<9>();
+  const Eigen::Index stations = gain.rows() - 9;
+  mean.head<9>() += own * whitened;
+  covariance.topLeftCorner<9, 9>() -= own.lazyProduct(own.transpose());
+  covariance.topRightCorner(9, stations) -= own.lazyProduct(gain.bottomRows(stations).transpose());
+  covariance.bottomLeftCorner(stations, 9) = covariance.topRightCorner(9, stations).transpose();
+}
+
 }  // namespace
 
 // A model's expectation of one bearing against it.
@@ -230,22 +247,36 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   entry.sight = sighting.sight;
   entry.utime_us = std::max(entry.utime_us, sighting.utime_us);
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);
+  const bool finds_bias = shows_bias(station, frame, seen[0].depth_m, white);
   const double inflation = observe_noise(entry, sighting, frame, errors);
-  correct(seen, white * (inflation / entry.weight));
+  correct(seen, white * (inflation / entry.weight), finds_bias);
   return BearingUse::kUsed;
 }
 
+// Bias times relative error of the range is what linearisation leaves out. While that is not small
+// against the noise, the filter would find in it what the geometry hides, and be sure of it: two
+// stations side by side "learn" the difference of their headings, and a wrong range with it. Biases
+// are then considered but not learnt (the Schmidt-Kalman filter, 1966).
+bool TrackFilter::shows_bias(int station, const RayFrame& frame, double depth_m,
+                             const Eigen::Matrix2d& white) const {
+  constexpr double kSmall = 0.1;
+  const Eigen::Matrix3d P = summary_.covariance.topLeftCorner<3, 3>();
+  const double depth_variance = frame.direction.dot(P * frame.direction);
+  const double bias_variance =
+      models_[0].covariance.diagonal().segment<2>(9 + 3 * station).maxCoeff();
+  const double second_order = bias_variance * depth_variance / (depth_m * depth_m);
+  return second_order < kSmall * kSmall * white.trace() / 2.0;
+}
+
 void TrackFilter::correct(const std::array<Innovation, kMotions>& seen,
-                          const Eigen::Matrix2d& noise) {
+                          const Eigen::Matrix2d& noise, bool finds_bias) {
   std::array<double, kMotions> log_likelihood{};
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + noise);
     const Eigen::Matrix2d L = S.matrixL();
     const Eigen::Vector2d whitened = S.matrixL().solve(seen[m].residual);
     const MatrixN2 gain = S.matrixL().solve(seen[m].cross.transpose()).transpose();
-    models_[m].mean += gain * whitened;
-    // Two columns: Eigen's blocked product is slower.
-    models_[m].covariance.noalias() -= gain.lazyProduct(gain.transpose());
+    add(gain, whitened, finds_bias, models_[m].mean, models_[m].covariance);
     log_likelihood[m] = -whitened.squaredNorm() / 2.0 - std::log(L(0, 0) * L(1, 1));
   }
   weigh_models(log_likelihood);

@@ -136,7 +136,10 @@ class TrackFilter {
   int enter(const Sighting& sighting, const BiasPrior& prior);
   void reset(int station, const Sighting& sighting, const BiasPrior& prior);
   int states_of(const Sighting& sighting, const StationErrors& errors);
-  void correct(const std::array<Innovation, kMotions>& seen, const Eigen::Matrix2d& noise);
+  bool shows_bias(int station, const RayFrame& frame, double depth_m,
+                  const Eigen::Matrix2d& white) const;
+  void correct(const std::array<Innovation, kMotions>& seen, const Eigen::Matrix2d& noise,
+               bool finds_bias);
   BearingUse take(const Sighting& sighting, StationErrors& errors);
   void move_to(std::int64_t utime_us, StationErrors& errors);
   void mix(double dt_s);

@@ -155,6 +155,56 @@ TEST(TrackFilter, TellsWhatErrorsThatNobodyStatedMakeOfItsCovariance) {
   EXPECT_GT(part.shown_m2.trace(), 0.5 * part.all_m2.trace());
 }
 
+// Walks to and fro 50 to 200 m before stations side by side whose headings are off by what they
+// state: what the base hides must not be learnt from small non-linearities.
+struct ShortBase : testing::TestWithParam<std::vector<double>> {
+  static Vector3d walker(double t_s) {
+    return {20.0 * std::sin(0.07 * t_s), 125.0 + 75.0 * std::sin(0.05 * t_s), 2.0};
+  }
+};
+
+TEST_P(ShortBase, IsAsUnsureAsItsHeadingsAre) {
+  constexpr double kHeadingSd = 2e-3, kPixelSd = 2e-5;
+  double nees = 0.0, error_m2 = 0.0, variance_m2 = 0.0;
+  int judged = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    std::vector<double> heading_off;
+    for (std::size_t i = 0; i < GetParam().size(); ++i)
+      heading_off.push_back(kHeadingSd * normal(random));
+    StationErrors errors;
+    TrackFilter filter = filter_at(walker(0.0));
+    for (int frame = 0; frame < 15 * 90; ++frame) {
+      const double t_s = frame / 15.0;
+      const std::int64_t utime_us = kStart + std::llround(t_s * 1e6);
+      for (std::size_t i = 0; i < GetParam().size(); ++i) {
+        Ray ray = ray_to(std::string(1, static_cast<char>('a' + i)), {GetParam()[i], 0.0, 0.0},
+                         walker(t_s), kPixelSd);
+        ray = test::turned(ray, heading_off[i] + kPixelSd * normal(random),
+                           kPixelSd * normal(random));
+        ray.sight.covariance_systematic(0, 0) = kHeadingSd * kHeadingSd;
+        filter.update(sighting_of(ray, utime_us), errors);
+      }
+      if (frame < 15 * 10 || frame % 15 != 0) continue;
+      const Vector3d off = filter.position() - site().to_ecef(walker(t_s));
+      const Eigen::Matrix3d P = filter.summary().covariance.topLeftCorner<3, 3>();
+      nees += off.dot(P.llt().solve(off)) / 3.0;
+      error_m2 += off.squaredNorm();
+      variance_m2 += P.trace();
+      ++judged;
+    }
+  }
+  EXPECT_GT(nees / judged, 0.3);
+  EXPECT_LT(nees / judged, 2.0);
+  EXPECT_LT(std::sqrt(error_m2 / variance_m2), 1.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bases, ShortBase,
+                         testing::Values(std::vector<double>{-15.0, 15.0},
+                                         std::vector<double>{-30.0, 0.0, 30.0},
+                                         std::vector<double>{-300.0, 300.0}));
+
 TEST(TrackFilter, KeepsItsCovarianceSymmetricAndDefinite) {
   StationErrors errors;
   TrackFilter filter = filter_at(path(0.0));
