@@ -206,12 +206,13 @@ int TrackFilter::states_of(const Sighting& sighting, const StationErrors& errors
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   entry.offered_us = std::max(entry.offered_us, sighting.utime_us);
   entry.weight = 0.0;
+  // A worse clock counts at once, a better one as the old error fades.
   if (sighting.clock_sd_s > entry.clock_sd_s) {
     const Eigen::Index at = 9 + 3 * station + 2;
     const double more = std::pow(sighting.clock_sd_s, 2) - std::pow(entry.clock_sd_s, 2);
     for (Model& model : models_) model.covariance(at, at) += more;
-    entry.clock_sd_s = sighting.clock_sd_s;
   }
+  entry.clock_sd_s = sighting.clock_sd_s;
   return station;
 }
 

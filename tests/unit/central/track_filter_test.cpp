@@ -155,6 +155,20 @@ TEST(TrackFilter, TellsWhatErrorsThatNobodyStatedMakeOfItsCovariance) {
   EXPECT_GT(part.shown_m2.trace(), 0.5 * part.all_m2.trace());
 }
 
+TEST(TrackFilter, AClockThatWasBadForAMomentIsForgiven) {
+  const auto sd_m = [](double clock_sd_s) {
+    StationErrors errors;
+    TrackFilter filter = filter_at(path(0.0));
+    for (Sighting s : flight(20.0, 1e-4, 1e-4)) {
+      s.clock_sd_s = s.utime_us < kStart + 1'000'000 ? clock_sd_s : 1e-4;
+      filter.update(s, errors);
+    }
+    return std::sqrt(filter.summary().covariance.topLeftCorner<3, 3>().trace());
+  };
+  const double always_good_m = sd_m(1e-4);
+  EXPECT_LT(sd_m(0.05), 1.5 * always_good_m);
+}
+
 // Walks to and fro 50 to 200 m before stations side by side whose headings are off by what they
 // state: what the base hides must not be learnt from small non-linearities.
 struct ShortBase : testing::TestWithParam<std::vector<double>> {
