@@ -30,12 +30,6 @@ Particle bounded(const Particle& particle, const cv::Size& frame) {
   return inside;
 }
 
-void MotionModel::reset() {
-  motion_ = {};
-  camera_rate_px_s_.setZero();
-  rate_known_ = false;
-}
-
 Eigen::Vector2d MotionModel::begin_frame(const CameraMotion& motion, const Eigen::Vector2d& pixel) {
   motion_ = motion;
   if (!motion.homography) {

@@ -32,8 +32,6 @@ class MotionModel {
  public:
   explicit MotionModel(const TrackerConfig& config) : config_(config) {}
 
-  // Forgets the camera's rate: a new target.
-  void reset();
   // Takes the camera's motion at `pixel` (of the previous frame) into account for the steps below.
   // What the velocities against the scene [px/s] change by.
   Eigen::Vector2d begin_frame(const CameraMotion& motion, const Eigen::Vector2d& pixel);

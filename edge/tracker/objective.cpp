@@ -7,17 +7,6 @@
 namespace ols {
 namespace {
 
-// exp(M) for M = 0, 1/255 ... 1.
-const std::array<float, 256>& exponentials() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> made{};
-    for (std::size_t i = 0; i < made.size(); ++i)
-      made[i] = std::exp(static_cast<float>(i) / 255.0F);
-    return made;
-  }();
-  return table;
-}
-
 // Four at a time, each in its own sum: their order is fixed.
 using Four = cv::v_float32x4;
 constexpr std::size_t kFour = 4;
@@ -71,13 +60,13 @@ void Objective::learn(const Patch& gray, double share) {
 void Objective::set_mask(const MaskPatch& mask) {
   greatest_ = 0.0;
   for (std::size_t i = 0; i < kPatchArea; ++i) {
-    exponential_[i] = exponentials()[mask[i]];
+    exponential_[i] = exponentials<float>()[mask[i]];
     greatest_ += static_cast<double>(exponential_[i]);
   }
 }
 
 Likeness Objective::operator()(const Patch& gray, const MaskPatch& candidate_mask) const {
-  const auto& exponential = exponentials();
+  const auto& exponential = exponentials<float>();
   Patch weight;
   for (std::size_t i = 0; i < kPatchArea; ++i) weight[i] = exponential[candidate_mask[i]];
   const Level level = level_of(gray);

@@ -1,9 +1,25 @@
 // The objective function, eq. (5).
 #pragma once
 
+#include <array>
+#include <cmath>
+
 #include "edge/tracker/patch.h"
 
 namespace ols {
+
+// exp(M) of a mask's 0, 1/255 ... 1: eq. (5)'s weights.
+template <typename Number>
+const std::array<Number, 256>& exponentials() {
+  static const std::array<Number, 256> table = [] {
+    std::array<Number, 256> made{};
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      made[i] = std::exp(static_cast<Number>(i) / static_cast<Number>(255));
+    }
+    return made;
+  }();
+  return table;
+}
 
 struct Likeness {
   double similarity = 0.0;         // eq. (5), 0..1

@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "edge/tracker/median.h"
+
 namespace ols {
 namespace {
 
@@ -56,12 +58,6 @@ void between(const std::uint8_t* upper, const std::uint8_t* lower, float weight,
     const float a = upper[i];
     out[i] = a + weight * (static_cast<float>(lower[i]) - a);
   }
-}
-
-float median(std::vector<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Grey values around the box, at 0.7 of its size from the centre.

@@ -55,8 +55,6 @@ class TargetModel {
                                         const Eigen::Vector2d& size_px) const {
     return refiner_.refine(scene.view, start, size_px);
   }
-  const Eigen::Vector2d& first_size_px() const { return first_size_px_; }
-  double contrast_weight() const { return contrast_weight_; }
   // Nothing stood out in the first box: there is nothing to recognise.
   bool empty() const { return template_.empty; }
 
