@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "edge/tracker/median.h"
 #include "edge/tracker/patch.h"
 
 namespace ols {
@@ -40,12 +41,6 @@ std::vector<cv::Point2f> spread(const std::vector<cv::KeyPoint>& corners, const 
 
 Eigen::Vector2d vector_of(const cv::Point2f& point) {
   return {static_cast<double>(point.x), static_cast<double>(point.y)};
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // The guess and the shift by which most of the corners are off it.
@@ -220,8 +215,12 @@ CornerMatches EgoMotionEstimator::follow(const Eigen::Matrix3d& guess) const {
   return matches;
 }
 
-CornerMatches EgoMotionEstimator::agreeing(const CornerMatches& matches,
-                                           const Eigen::Matrix3d& guess) const {
+EgoMotionEstimator::Agreement EgoMotionEstimator::agreeing(const CornerMatches& matches,
+                                                           const Eigen::Matrix3d& guess) const {
+  const bool only_ransac = config_.mode == TrackerMode::kPaper;
+  const auto fitted = [&](const CornerMatches& kept) {
+    return fit_homography(kept.previous, kept.current, guess, previous_.image.size());
+  };
   const auto count = static_cast<double>(matches.previous.size());
   const double least = std::max({4.0, static_cast<double>(config_.ego_motion_least_inliers),
                                  config_.ego_motion_least_inlier_fraction * count});
@@ -233,10 +232,9 @@ CornerMatches EgoMotionEstimator::agreeing(const CornerMatches& matches,
   // would find no others.
   const double clear = std::max(least, 0.8 * count);
   CornerMatches kept = explained(matches, shifted(guess, matches));
-  if (enough(kept, clear)) {
-    const cv::Size image = previous_.image.size();
-    kept = explained(matches, fit_homography(kept.previous, kept.current, guess, image));
-    if (enough(kept, clear)) return kept;
+  if (!only_ransac && enough(kept, clear)) {
+    kept = explained(matches, fitted(kept));
+    if (enough(kept, clear)) return {kept, fitted(kept)};
   }
   // RANSAC's random numbers are its own and start the same each time.
   const cv::Mat found = cv::findHomography(matches.previous, matches.current, cv::RANSAC, kInlier,
@@ -245,7 +243,8 @@ CornerMatches EgoMotionEstimator::agreeing(const CornerMatches& matches,
   Eigen::Matrix3d homography;
   cv::cv2eigen(found, homography);
   kept = explained(matches, homography);
-  return enough(kept, least) ? kept : CornerMatches{};
+  if (!enough(kept, least)) return {};
+  return {kept, only_ransac ? homography : fitted(kept)};
 }
 
 EgoMotionEstimator::Estimate EgoMotionEstimator::step(
@@ -258,17 +257,14 @@ EgoMotionEstimator::Estimate EgoMotionEstimator::step(
   pyramid_.build(frame.image);
   Estimate estimate;
   estimate.featureless = static_cast<int>(corners_.size()) < config_.ego_motion_least_inliers;
-  const CornerMatches kept = agreeing(follow(guess), guess);
+  const Agreement agreed = agreeing(follow(guess), guess);
   last_ = predicted ? guess : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
   corners_.clear();
-  if (!kept.previous.empty()) {
-    const cv::Size image = frame.image.size();
-    const Eigen::Matrix3d fitted = fit_homography(kept.previous, kept.current, guess, image);
-    if (plausible_homography(fitted, image)) {
-      estimate.homography = to_full * fitted * from_full;
-      last_ = fitted;
-      corners_ = kept.current;
-    }
+  if (!agreed.corners.previous.empty() &&
+      plausible_homography(agreed.homography, frame.image.size())) {
+    estimate.homography = to_full * agreed.homography * from_full;
+    last_ = agreed.homography;
+    corners_ = agreed.corners.current;
   }
   previous_ = frame;
   std::swap(previous_pyramid_, pyramid_);

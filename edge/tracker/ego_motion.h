@@ -47,8 +47,12 @@ class EgoMotionEstimator {
   void provide_corners(const cv::Rect2d& target_box);
   std::vector<cv::Point2f> detect_corners(const cv::Rect2d& target);
   CornerMatches follow(const Eigen::Matrix3d& guess) const;
-  // Those that one homography explains; none when they are too few to trust.
-  CornerMatches agreeing(const CornerMatches& matches, const Eigen::Matrix3d& guess) const;
+  // The corners that one homography explains, and that one: in the mode "paper" RANSAC's own.
+  struct Agreement {
+    CornerMatches corners;  // none when they are too few to trust
+    Eigen::Matrix3d homography = Eigen::Matrix3d::Identity();
+  };
+  Agreement agreeing(const CornerMatches& matches, const Eigen::Matrix3d& guess) const;
 
   TrackerConfig config_;
   ReducedFrame previous_;
