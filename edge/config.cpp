@@ -184,6 +184,10 @@ void read_logic(ConfigTable& table, StationConfig& station) {
   station.acquire_by_slew = table.boolean("acquire_by_slew", station.acquire_by_slew);
   station.acquisition_sd_px =
       table.number("acquisition_sd_px", station.acquisition_sd_px, 0.0, 100.0);
+  station.prediction_error_px =
+      table.number("prediction_error_px", station.prediction_error_px, 1.0, 10000.0);
+  station.disagreeing_frames =
+      static_cast<int>(table.integer("disagreeing_frames", station.disagreeing_frames, 1, 1000));
   station.acquisition.frames =
       static_cast<int>(table.integer("acquisition_frames", station.acquisition.frames, 2, 100));
   station.slew_lease_max_s = table.number("slew_lease_max_s", station.slew_lease_max_s, 0.1, 5.0);

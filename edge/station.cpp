@@ -104,6 +104,7 @@ void Station::track(const Frame& frame) {
   tracked_s_ = frame.mid_exposure_s;
   last_output_ = result.output;
   counters_["frames_tracked"] += 1;
+  compare_motion(*result.output);
   const bool there = state_ != StationState::kSlewed || is_where_slewed(frame, *result.output);
   if (!there) counters_["frames_elsewhere"] += 1;
   judge(there && result.output->belief >= config_.tracking_belief, frame.mid_exposure_s);
@@ -113,6 +114,16 @@ void Station::track(const Frame& frame) {
                         template_ == Template::kDesignated ? config_.designation_sd_px
                                                            : config_.acquisition_sd_px});
   }
+}
+
+// The camera's motion by the PTU's angles and by the picture: wrong angles, times or mounting show
+// here before they show in a position.
+void Station::compare_motion(const TrackerOutput& output) {
+  if (output.prediction_dropped) counters_["predictions_dropped"] += 1;
+  if (!output.prediction_error_px) return;
+  const bool disagree = *output.prediction_error_px > config_.prediction_error_px;
+  if (disagree) counters_["predictions_disagreeing"] += 1;
+  disagreeing_in_a_row_ = disagree ? disagreeing_in_a_row_ + 1 : 0;
 }
 
 // Belief decides: one believed frame ends coasting (the tracker was still near), several in a row
@@ -304,6 +315,8 @@ StationSnapshot Station::snapshot() const {
   }
   snapshot.box = target_box();
   snapshot.frame_latency_s = frame_latency_s_;
+  snapshot.motion_disagrees =
+      follows_target() && disagreeing_in_a_row_ >= config_.disagreeing_frames;
   snapshot.pose = pose_;
   snapshot.counters = counters_;
   return snapshot;

@@ -37,6 +37,9 @@ struct StationConfig {
   double search_sd_px = 25.0;      // at least, around that pixel; not above search_sd_most_px()
   bool acquire_by_slew = true;     // a slewed station without a target looks for one itself
   double acquisition_sd_px = 3.0;  // how well the box found is centred on the target
+  // The picture's own motion between two frames may differ so far from that of the PTU's angles.
+  double prediction_error_px = 20.0;
+  int disagreeing_frames = 5;  // in a row that raise the alarm
   AcquisitionConfig acquisition;
   bool homing_allowed = true;     // on command
   double slew_lease_max_s = 2.0;  // a longer lease is refused
@@ -130,6 +133,7 @@ class Station {
   void acquire(const Frame& frame);
   void take(const Frame& frame, const cv::Rect2d& box);
   void drop_unproven(double time_s);
+  void compare_motion(const TrackerOutput& output);
   // The PTU angles for a direction, or nothing when the unit cannot point there.
   std::optional<PanTilt> reachable(const AzimuthElevation& direction) const;
   void expire(double now_s);
@@ -142,6 +146,7 @@ class Station {
   AngleHistory history_;
   AngularTrack motion_;
   StationState state_ = StationState::kIdle;
+  int disagreeing_in_a_row_ = 0;
   bool stop_pressed_ = false;
   PtuReference reference_ = PtuReference::kUnknown;
   bool home_ = false, reference_ok_ = false, stop_ = false;  // wanted

@@ -240,6 +240,9 @@ StationReport StationProcess::report(const ClockPair& now) {
     report.alarms.emplace_back(devices_.stop().pressed() ? "emergency stop: pressed"
                                                          : "emergency stop: not rearmed yet");
   }
+  if (report.snapshot.motion_disagrees) {
+    report.alarms.emplace_back("ptu: the picture moves otherwise than the angles say");
+  }
   if (!hold_.trouble().empty()) {
     report.alarms.push_back("stop: not remembered: " + hold_.trouble());
   }

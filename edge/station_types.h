@@ -89,6 +89,7 @@ struct StationSnapshot {
   std::optional<Eigen::Vector2d> target_offset_px;        // from the principal point, newest frame
   std::optional<cv::Rect2d> box;                          // newest frame
   double frame_latency_s = 0.0;                           // mid-exposure to bearing, smoothed
+  bool motion_disagrees = false;  // the picture moves otherwise than the PTU's angles say
   StationPose pose;
   std::map<std::string, double> counters;  // only go up; state times are "seconds_<state>"
 };

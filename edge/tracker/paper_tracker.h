@@ -21,6 +21,7 @@ class PaperTracker : public TargetFollower {
   PaperTracker(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
                const cv::Rect2d& box);
   TrackerOutput step(const TrackerInput& frame, StageTimer& timer) override;
+  const std::optional<Eigen::Matrix3d>& image_homography() const override { return homography_; }
   // The paper's operator marks the target again; here the particles go where it is said to be.
   void search_near(const Eigen::Vector2d& pixel, double sd_px) override;
 

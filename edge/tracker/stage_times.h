@@ -12,7 +12,7 @@ enum class Stage {
   kReduction,   // the frame made smaller, its pyramid
   kEgoMotion,   // KLT and RANSAC
   kPrediction,  // eq. (2)-(4)
-  kProposals,   // frame difference, movers, correlation filter's response
+  kProposals,   // frame difference, movers
   kMasks,       // foreground masks and views
   kWeighting,   // eq. (5) of all particles, maximum a posteriori
   kPosition,    // sub-pixel refinement

@@ -48,6 +48,14 @@ TrackerInput with_sane_prediction(const TrackerInput& frame) {
   return checked;
 }
 
+// How far apart two homographies put a pixel.
+double disagreement_px(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b,
+                       const Eigen::Vector2d& pixel, const cv::Size& frame) {
+  const double most = std::hypot(frame.width, frame.height);
+  const double off = (transform(a, pixel) - transform(b, pixel)).norm();
+  return off < most ? off : most;  // one that is no number is far off
+}
+
 }  // namespace
 
 const char* to_string(TrackerError error) {
@@ -77,10 +85,12 @@ struct Tracker::Impl {
   StageTimer timer;
   cv::Size size;
   double time_s = 0.0;
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // of the target in the newest frame
 };
 
 Tracker::Tracker(const TrackerConfig& config, std::uint64_t seed)
-    : impl_(std::make_unique<Impl>(Impl{config, seed, nullptr, {}, {}, 0.0})) {}
+    : impl_(std::make_unique<Impl>(
+          Impl{config, seed, nullptr, {}, {}, 0.0, Eigen::Vector2d::Zero()})) {}
 Tracker::~Tracker() = default;
 Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
@@ -95,6 +105,7 @@ std::optional<TrackerError> Tracker::initialise(const TrackerInput& frame, const
   }
   impl_->size = frame.gray.size();
   impl_->time_s = frame.time_s;
+  impl_->pixel = centre_of(box);
   return std::nullopt;
 }
 
@@ -105,7 +116,15 @@ TrackerResult Tracker::track(const TrackerInput& frame) {
   if (frame.time_s <= impl_->time_s) return {std::nullopt, TrackerError::kTime};
   impl_->time_s = frame.time_s;
   impl_->timer.start();
-  return {impl_->follower->step(with_sane_prediction(frame), impl_->timer), std::nullopt};
+  const TrackerInput usable = with_sane_prediction(frame);
+  TrackerOutput output = impl_->follower->step(usable, impl_->timer);
+  const auto& given = frame.predicted_homography;
+  output.prediction_dropped = given && !usable.predicted_homography;
+  if (const auto& seen = impl_->follower->image_homography(); given && seen) {
+    output.prediction_error_px = disagreement_px(*given, *seen, impl_->pixel, impl_->size);
+  }
+  impl_->pixel = output.pixel;
+  return {output, std::nullopt};
 }
 
 void Tracker::search_near(const Eigen::Vector2d& pixel, double sd_px) {

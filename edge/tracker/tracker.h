@@ -36,8 +36,10 @@ struct TrackerOutput {
   double belief = 0.0;             // 0..1
   EgoMotion ego_motion = EgoMotion::kNone;
   // [px] how far the predicted homography puts the scene behind the target from where the image's
-  // own does; nothing where there is only one of them. Large: angles or times are wrong.
+  // own does, at most the picture's diagonal; nothing where there is only one of them. Large:
+  // angles or times are wrong. A prediction that was not used is compared as well.
   std::optional<double> prediction_error_px;
+  bool prediction_dropped = false;  // there was one, and no camera turns so between two frames
 };
 
 enum class TrackerError {

@@ -60,11 +60,10 @@ TrackerOutput TrackerCore::step(const TrackerInput& frame, StageTimer& timer) {
   const EgoMotion ego_motion = move_camera(frame, reduced, interval_s);
   timer.lap(Stage::kEgoMotion);
   if (target_.empty()) designate_late(frame.gray);
-  predict(ego_motion, reduced, interval_s);
+  predict(ego_motion, reduced, interval_s, timer);
   timer.lap(Stage::kPrediction);
   TrackerOutput output = update(frame, interval_s, timer);
   output.ego_motion = ego_motion;
-  output.prediction_error_px = prediction_error_px_;
   after_update(output, interval_s);
   references_.offer(frame.gray, frame.time_s, box_of(last_.pixel, last_.size_px));
   reduced_ = reduced;
@@ -77,12 +76,7 @@ EgoMotion TrackerCore::move_camera(const TrackerInput& frame, const ReducedFrame
                                    double interval_s) {
   const cv::Rect2d box = box_of(last_.pixel, last_.size_px);
   const auto estimate = ego_motion_.step(reduced, box, frame.predicted_homography);
-  prediction_error_px_.reset();
-  if (estimate.homography && frame.predicted_homography) {
-    const Eigen::Vector2d off = transform(*estimate.homography, last_.pixel) -
-                                transform(*frame.predicted_homography, last_.pixel);
-    prediction_error_px_ = off.norm();
-  }
+  image_homography_ = estimate.homography;
   EgoMotion source = EgoMotion::kNone;
   CameraMotion motion{estimate.homography, interval_s};
   if (motion.homography) {
@@ -106,7 +100,8 @@ EgoMotion TrackerCore::move_camera(const TrackerInput& frame, const ReducedFrame
   return source;
 }
 
-void TrackerCore::predict(EgoMotion ego_motion, const ReducedFrame& reduced, double interval_s) {
+void TrackerCore::predict(EgoMotion ego_motion, const ReducedFrame& reduced, double interval_s,
+                          StageTimer& timer) {
   if (placed_ || velocity_ == Velocity::kUnknown) guess_velocities();
   if (placed_) {
     // search_near() spoke of this frame's pixels: undo the step that follows.
@@ -118,6 +113,7 @@ void TrackerCore::predict(EgoMotion ego_motion, const ReducedFrame& reduced, dou
   filter_.predict(motion_, random_);
   believed_ = bounded(motion_.advance(believed_), frame_size_);
   if (search_) predict_search(interval_s);
+  timer.lap(Stage::kPrediction);
   if (ego_motion == EgoMotion::kNone) {
     force_onto_differences(reduced, {{0.0, 0.0}, cv::Size2d(frame_size_)});
   } else if (search_ || velocity_ == Velocity::kUnknown) {
@@ -128,6 +124,7 @@ void TrackerCore::predict(EgoMotion ego_motion, const ReducedFrame& reduced, dou
     find_movers(reduced);
     force_onto_movers();
   }
+  timer.lap(Stage::kProposals);
   for (Particle& particle : filter_.particles()) particle = bounded(particle, frame_size_);
   if (velocity_ == Velocity::kUnknown) {
     filter_.widen_prediction(config_.leap_most_px_s * interval_s / 3.0);

@@ -18,6 +18,9 @@ class TrackerCore : public TargetFollower {
 
   TrackerOutput step(const TrackerInput& frame, StageTimer& timer) override;
   void search_near(const Eigen::Vector2d& pixel, double sd_px) override;
+  const std::optional<Eigen::Matrix3d>& image_homography() const override {
+    return image_homography_;
+  }
 
  private:
   // Where the target is looked for while it is not believed in; the present frame's pixels.
@@ -38,7 +41,8 @@ class TrackerCore : public TargetFollower {
   enum class Velocity { kEstimated, kUnknown };
 
   EgoMotion move_camera(const TrackerInput& frame, const ReducedFrame& reduced, double interval_s);
-  void predict(EgoMotion ego_motion, const ReducedFrame& reduced, double interval_s);
+  void predict(EgoMotion ego_motion, const ReducedFrame& reduced, double interval_s,
+               StageTimer& timer);
   void predict_search(double interval_s);
   void guess_velocities();
   void force_onto_differences(const ReducedFrame& reduced, const cv::Rect2d& area);
@@ -86,7 +90,7 @@ class TrackerCore : public TargetFollower {
   Particle last_;                       // best estimate in the newest frame
   std::vector<MoverCandidate> movers_;  // of this frame, while the target is looked for
   Particle believed_;                   // the last one seen, brought to the newest frame
-  std::optional<double> prediction_error_px_;
+  std::optional<Eigen::Matrix3d> image_homography_;
   std::vector<double> log_likelihood_;  // memory that is used again
   double empty_s_ = 0.0;
   cv::Rect2d designated_;  // the box while there is nothing in it, the present frame's pixels

@@ -18,7 +18,8 @@ struct ScriptedTracker : TargetTracker {
   struct Script {
     double belief = 0.9;
     Eigen::Vector2d pixel{639.5, 479.5};
-    bool accept = true;
+    bool accept = true, prediction_dropped = false;
+    std::optional<double> prediction_error_px;
     int initialised = 0, searches = 0, tracked = 0;
     Eigen::Vector2d searched_pixel = Eigen::Vector2d::Zero();
     std::optional<TrackerInput> last;
@@ -39,6 +40,8 @@ struct ScriptedTracker : TargetTracker {
     output.box = {s.pixel.x() - 10, s.pixel.y() - 10, 20, 20};
     output.covariance_px2 = Eigen::Matrix2d::Identity() * 0.25;
     output.belief = s.belief;
+    output.prediction_error_px = s.prediction_error_px;
+    output.prediction_dropped = s.prediction_dropped;
     return {output, std::nullopt};
   }
   void search_near(const Eigen::Vector2d& pixel, double) override {

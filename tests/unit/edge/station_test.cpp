@@ -369,6 +369,36 @@ TEST_F(AcquisitionBySlewTest, FindsTheTargetTracksItAndIsHonestAboutTheBox) {
               std::hypot(radians(0.02), config().acquisition_sd_px * 75e-6), 2e-6);
 }
 
+TEST_F(StationTest, CountsFramesThatMoveOtherwiseThanTheAnglesSay) {
+  const auto counter = [this](const char* name) { return station_.snapshot().counters[name]; };
+  designated();
+  script_.prediction_error_px = config().prediction_error_px - 1.0;
+  run_until(now_ + 1.0);
+  EXPECT_EQ(counter("predictions_disagreeing"), 0.0);
+  script_.prediction_error_px = config().prediction_error_px + 1.0;
+  const int tracked = script_.tracked;
+  run_until(now_ + 3.5 * kFrame_s);
+  EXPECT_EQ(counter("predictions_disagreeing"), script_.tracked - tracked);
+  EXPECT_FALSE(station_.snapshot().motion_disagrees);
+  run_until(now_ + 0.5);
+  EXPECT_TRUE(station_.snapshot().motion_disagrees);
+  script_.prediction_error_px = std::nullopt;  // a blank sky says nothing
+  run_until(now_ + 0.5);
+  EXPECT_TRUE(station_.snapshot().motion_disagrees);
+  script_.prediction_error_px = 0.5;
+  run_until(now_ + 0.5);
+  EXPECT_FALSE(station_.snapshot().motion_disagrees);
+}
+
+TEST_F(StationTest, CountsPredictionsThatTheTrackerDropped) {
+  designated();
+  script_.prediction_dropped = true;
+  const int tracked = script_.tracked;
+  run_until(now_ + 0.5);
+  EXPECT_GT(script_.tracked, tracked);
+  EXPECT_EQ(station_.snapshot().counters["predictions_dropped"], script_.tracked - tracked);
+}
+
 TEST_F(AcquisitionBySlewTest, FindsNothingWhereNothingIs) {
   run_slewed(5.0, std::nullopt);
   EXPECT_EQ(script_.initialised, 0);

@@ -119,7 +119,46 @@ TEST(Tracker, TakesAPredictionOfAnyScale) {
   }
 }
 
-// What was designated on an empty sky is found again anywhere in it.
+// The picture's own motion, and one of the PTU that is off by a little, or by more than a camera
+// turns between two frames.
+TEST(Tracker, TellsHowFarThePredictionIsOffThePicture) {
+  for (const TrackerMode mode : {TrackerMode::kFull, TrackerMode::kPaper}) {
+    TrackerConfig config;
+    config.mode = mode;
+    SyntheticScene scene(Backdrop::kTextured, 4);
+    Tracker tracker = started(scene, config);
+    int k = 0;
+    for (const double off_px : {0.0, 12.0, 450.0}) {
+      ++k;
+      TrackerInput input = frame_at(k, scene.picture({400.0 + 6.0 * k, 300}, kStart));
+      input.predicted_homography = shift_homography(-6.0 + off_px, 0.0);
+      const auto output = *tracker.track(input).output;
+      EXPECT_EQ(output.ego_motion, EgoMotion::kImage);
+      ASSERT_TRUE(output.prediction_error_px);
+      EXPECT_NEAR(*output.prediction_error_px, off_px, 1.0);
+      EXPECT_EQ(output.prediction_dropped, off_px > 400.0);
+    }
+    ++k;
+    TrackerInput input = frame_at(k, scene.picture({400.0 + 6.0 * k, 300}, kStart));
+    input.predicted_homography = Eigen::Matrix3d::Zero();
+    const auto output = *tracker.track(input).output;
+    EXPECT_EQ(output.prediction_error_px, std::hypot(640.0, 480.0));
+    EXPECT_TRUE(output.prediction_dropped);
+  }
+}
+
+TEST(Tracker, TellsThatAPredictionWasDroppedBeforeBlankSkyToo) {
+  SyntheticScene scene(Backdrop::kSky, 4);
+  Tracker tracker = started(scene);
+  TrackerInput input = frame_at(1, scene.picture({400, 300}, kStart));
+  input.predicted_homography = shift_homography(450.0, 0.0);
+  const auto output = *tracker.track(input).output;
+  EXPECT_TRUE(output.prediction_dropped);
+  EXPECT_EQ(output.prediction_error_px, std::nullopt);
+  EXPECT_EQ(output.ego_motion, EgoMotion::kNone);
+}
+
+// A piece of empty sky looks like every other one.
 TEST(Tracker, DoesNotBelieveInADesignationOfNothing) {
   for (const double noise_sd : {0.0, 2.0}) {
     SyntheticScene scene(Backdrop::kSky, 13, noise_sd);
@@ -297,10 +336,15 @@ TEST(Tracker, IsAsItWasAfterARefusedFrame) {
     SyntheticScene scene(Backdrop::kSky, 10);
     Tracker tracker = started(scene);
     if (disturbed) {
-      tracker.track(frame_at(1, {}));
-      tracker.track(frame_at(0, scene.kSize.area() > 0 ? cv::Mat(480, 640, CV_8U) : cv::Mat()));
-      tracker.initialise(frame_at(1, cv::Mat(480, 640, CV_8U, cv::Scalar(0))), {0, 0, -1, -1});
+      EXPECT_TRUE(tracker.track(frame_at(1, {})).error);
       const double nan = std::numeric_limits<double>::quiet_NaN();
+      const cv::Mat black(480, 640, CV_8U, cv::Scalar(0));
+      EXPECT_TRUE(tracker.track(frame_at(0, black)).error);
+      EXPECT_TRUE(tracker.track(frame_at(1, cv::Mat(400, 640, CV_8U, cv::Scalar(0)))).error);
+      EXPECT_TRUE(tracker.track(frame_at(1, cv::Mat(480, 640, CV_8UC3, cv::Scalar(0)))).error);
+      EXPECT_TRUE(tracker.track({black, nan, std::nullopt}).error);
+      EXPECT_TRUE(tracker.track({black, 101.0, Eigen::Matrix3d::Constant(nan)}).error);
+      EXPECT_TRUE(tracker.initialise(frame_at(1, black), {0, 0, -1, -1}));
       tracker.search_near({nan, 0.0}, 1.0);
     }
     outputs.push_back(*tracker.track(frame_at(1, scene.picture({400, 300}, kStart))).output);
