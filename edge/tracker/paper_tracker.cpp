@@ -6,6 +6,7 @@
 
 #include "edge/tracker/difference_candidates.h"
 #include "edge/tracker/motion_model.h"
+#include "edge/tracker/objective.h"
 
 namespace ols {
 namespace {
@@ -24,22 +25,11 @@ cv::Rect area_of(const std::vector<Particle>& particles) {
   return enclosing(area);
 }
 
-// exp(M) for M = 0, 1/255 ... 1.
-const std::array<double, 256>& exponentials() {
-  static const std::array<double, 256> table = [] {
-    std::array<double, 256> made{};
-    for (std::size_t i = 0; i < made.size(); ++i)
-      made[i] = std::exp(static_cast<double>(i) / 255.0);
-    return made;
-  }();
-  return table;
-}
-
 }  // namespace
 
 double paper_objective(const Patch& template_gray, const MaskPatch& template_mask,
                        const Patch& candidate_gray, const MaskPatch& candidate_mask) {
-  const auto& exponential = exponentials();
+  const auto& exponential = exponentials<double>();
   double sum = 0.0;
   for (std::size_t i = 0; i < kPatchArea; ++i) {
     const double alike =
@@ -89,7 +79,7 @@ TrackerOutput PaperTracker::step(const TrackerInput& frame, StageTimer& timer) {
   last_ = maximum_a_posteriori();
   TrackerOutput output = output_of(last_);
   output.ego_motion = ego_motion;
-  estimate_template_mask(frame.gray);
+  estimate_template_mask(frame.gray, output.box);
   references_.offer(frame.gray, frame.time_s, output.box);
   reduced_ = reduced;
   resample();
@@ -104,11 +94,16 @@ EgoMotion PaperTracker::transform_by_homography(const ReducedFrame& reduced) {
   const auto estimate = ego_motion_.step(reduced, box_of(last_.pixel, last_.size_px), std::nullopt);
   homography_ = estimate.homography;
   if (!homography_) {
-    if (!estimate.featureless) references_.clear();  // nothing aligns them any more
+    if (!estimate.featureless) {  // nothing aligns them any more
+      references_.clear();
+      first_.gray.release();
+    }
     return EgoMotion::kNone;
   }
-  for (Particle& particle : particles_) {
-    particle.pixel = transform(*homography_, particle.pixel);
+  if (!placed_) {
+    for (Particle& particle : particles_) {
+      particle.pixel = transform(*homography_, particle.pixel);
+    }
   }
   references_.advance(*homography_);
   first_.to_present = *homography_ * first_.to_present;
@@ -118,10 +113,12 @@ EgoMotion PaperTracker::transform_by_homography(const ReducedFrame& reduced) {
 // "The motion model which is applied in the prediction step of the BPF", eq. (2)-(4); each gamma is
 // drawn from N(0, sigma), "set empirically for each parameter".
 void PaperTracker::predict(double interval_s) {
+  const double moving_s = placed_ ? 0.0 : interval_s;
+  placed_ = false;
   for (Particle& p : particles_) {
-    p.pixel += p.velocity_px_s * interval_s + noise(config_.paper.position_sd_px);  // (2)
-    p.velocity_px_s += noise(config_.paper.velocity_sd_px_s);                       // (3)
-    p.size_px += noise(config_.paper.size_sd_px);                                   // (4)
+    p.pixel += p.velocity_px_s * moving_s + noise(config_.paper.position_sd_px);  // (2)
+    p.velocity_px_s += noise(config_.paper.velocity_sd_px_s);                     // (3)
+    p.size_px += noise(config_.paper.size_sd_px);                                 // (4)
     p = bounded(p, frame_size_);
   }
 }
@@ -163,13 +160,30 @@ void PaperTracker::weigh(const cv::Mat& gray) {
                                            sample_patch(view, p.pixel, p.size_px), candidate_mask)
                          : 0.0;
   }
+  normalise_weights();
+}
+
+// To a sum of one, sharpened: see PaperTrackerConfig::weight_power. All alike where none is any.
+void PaperTracker::normalise_weights() {
+  greatest_objective_ = *std::max_element(weights_.begin(), weights_.end());
+  double sum = 0.0;
+  for (double& weight : weights_) {
+    const double share = greatest_objective_ > 0.0 ? weight / greatest_objective_ : 1.0;
+    weight = std::pow(share, config_.paper.weight_power);
+    sum += weight;
+  }
+  for (double& weight : weights_) weight /= sum;
 }
 
 // "The FM Mt is estimated only once": the template's frame less the first later one in which the
 // target has left its box.
-void PaperTracker::estimate_template_mask(const cv::Mat& gray) {
+void PaperTracker::estimate_template_mask(const cv::Mat& gray, const cv::Rect2d& box) {
   if (template_mask_) return;
-  if (!aligns(first_.to_present)) return;
+  if (first_.gray.empty() || !aligns(first_.to_present)) {
+    // The camera's way from the template's frame is lost: what it takes begins anew.
+    first_ = {gray.clone(), Eigen::Matrix3d::Identity(), box, time_s_};
+    return;
+  }
   const Eigen::Matrix3d to_first = first_.to_present.inverse();
   const cv::Rect2d there = box_of(transform(to_first, last_.pixel), last_.size_px);
   if ((there & first_.target_box).area() > 0.0) return;
@@ -193,35 +207,25 @@ TrackerOutput PaperTracker::output_of(const Particle& best) const {
   double greatest = kPatchArea;
   if (template_mask_) {
     greatest = 0.0;
-    for (const std::uint8_t mask : *template_mask_) greatest += exponentials()[mask];
+    for (const std::uint8_t mask : *template_mask_) greatest += exponentials<double>()[mask];
   }
   TrackerOutput output;
   output.box = box_of(best.pixel, best.size_px);
   output.pixel = best.pixel;
-  output.belief =
-      std::clamp(*std::max_element(weights_.begin(), weights_.end()) / greatest, 0.0, 1.0);
-  double sum = 0.0;
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
-  for (std::size_t i = 0; i < particles_.size(); ++i) {
-    const Eigen::Vector2d off = particles_[i].pixel - best.pixel;
-    squares += weights_[i] * off * off.transpose();
-    sum += weights_[i];
-  }
+  output.belief = std::clamp(greatest_objective_ / greatest, 0.0, 1.0);
   const double variance = std::pow(config_.pixel_sd_floor_px, 2);
   output.covariance_px2 = variance * Eigen::Matrix2d::Identity();
-  if (sum > 0.0) output.covariance_px2 += squares / sum;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const Eigen::Vector2d off = particles_[i].pixel - best.pixel;
+    output.covariance_px2 += weights_[i] * off * off.transpose();
+  }
   return output;
 }
 
 // "The Bootstrap particle filter (BPF) - the variant of a particle filter following the sequential
 // importance sampling approach." Systematic resampling.
 void PaperTracker::resample() {
-  const double greatest = *std::max_element(weights_.begin(), weights_.end());
-  if (!(greatest > 0.0)) return;
-  for (double& weight : weights_) weight = std::pow(weight / greatest, config_.paper.weight_power);
-  double sum = 0.0;
-  for (const double weight : weights_) sum += weight;
-  const double step = sum / static_cast<double>(particles_.size());
+  const double step = 1.0 / static_cast<double>(particles_.size());
   double at = random_.uniform() * step;
   double reached = weights_.front();
   std::size_t source = 0;
@@ -240,6 +244,7 @@ void PaperTracker::search_near(const Eigen::Vector2d& pixel, double sd_px) {
     particle.size_px = last_.size_px;
   }
   last_.pixel = pixel;
+  placed_ = true;
 }
 
 Eigen::Vector2d PaperTracker::noise(double sd) {

@@ -30,7 +30,8 @@ class PaperTracker : public TargetFollower {
   void predict(double interval_s);
   void force_subset_onto_differences(const ReducedFrame& reduced);
   void weigh(const cv::Mat& gray);
-  void estimate_template_mask(const cv::Mat& gray);
+  void normalise_weights();
+  void estimate_template_mask(const cv::Mat& gray, const cv::Rect2d& box);
   const Particle& maximum_a_posteriori() const;
   TrackerOutput output_of(const Particle& best) const;
   void resample();
@@ -41,12 +42,16 @@ class PaperTracker : public TargetFollower {
   EgoMotionEstimator ego_motion_;
   ReducedFrame reduced_;
   ReferenceFrames references_;
-  ReferenceFrames::Reference first_;  // the template's frame, until the template's mask is made
+  // The template's frame, or the first one since its alignment was lost, until the template's mask
+  // is made.
+  ReferenceFrames::Reference first_;
   Template template_;
   std::optional<MaskPatch> template_mask_;  // Mt
   std::vector<Particle> particles_;
   std::vector<Particle> resampled_;
   std::vector<double> weights_;
+  double greatest_objective_ = 0.0;  // eq. (5) of the best particle
+  bool placed_ = false;              // the particles stand in the coming frame already
   Particle last_;
   std::optional<Eigen::Matrix3d> homography_;  // previous frame to this one
   cv::Size frame_size_;

@@ -16,8 +16,8 @@ struct PaperTrackerConfig {
   double velocity_sd_px_s = 20.0;
   double size_sd_px = 0.2;
   // Eq. (5) is a sum over 576 pixels, of which the sky's fit everywhere: a wrong patch weighs
-  // hardly less than the target. The paper gives no scale; its weights are raised to this power
-  // before resampling. 1 is the letter of the paper.
+  // hardly less than the target. The paper gives no scale; its weights are raised to this power. 1
+  // is the letter of the paper.
   double weight_power = 100.0;
 };
 
