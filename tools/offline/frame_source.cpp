@@ -166,7 +166,9 @@ FrameSource::FrameSource(const std::string& input) : input_(input) {
     if (!clip_.open(input, cv::CAP_FFMPEG))
       throw FrameSourceError(input + ": cannot be read as a clip");
     const double rate = clip_.get(cv::CAP_PROP_FPS);
-    if (std::isfinite(rate) && rate > 0.1 && rate < 10000.0) frames_per_second_ = rate;
+    if (!std::isfinite(rate) || rate <= 0.1 || rate >= 10000.0) return;
+    frames_per_second_ = rate;
+    // Where the container has none it is made of the rate: of one that is none, nonsense.
     const double count = clip_.get(cv::CAP_PROP_FRAME_COUNT);
     if (std::isfinite(count) && count > 0.0) announced_ = std::lround(count);
   }
