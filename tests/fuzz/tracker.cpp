@@ -106,14 +106,18 @@ bool equal(const ols::TrackerOutput& a, const ols::TrackerOutput& b) {
 ols::TrackerConfig config(std::uint8_t kind) {
   ols::TrackerConfig config;
   config.mode = kind % 2 == 0 ? ols::TrackerMode::kFull : ols::TrackerMode::kPaper;
-  config.particles = 40;  // as good here, and fast
+  config.particles = 40;                                   // as good here, and fast
+  if (kind / 2 % 2 == 1) config.ego_motion_width_px = 80;  // smaller than most pictures here
   return config;
 }
 
 class Twins {
  public:
   Twins(std::uint8_t kind, const cv::Size& usual)
-      : usual_(usual), tracker_(config(kind), 1), spared_(config(kind), 1) {}
+      : usual_(usual),
+        large_(kind / 4 % 2 == 1),
+        tracker_(config(kind), 1),
+        spared_(config(kind), 1) {}
 
   void step(Input& input) {
     const std::uint8_t action = input.byte();
@@ -131,8 +135,10 @@ class Twins {
  private:
   bool begin(const ols::TrackerInput& given, Input& input) {
     const double cols = given.gray.cols, rows = given.gray.rows;
-    const cv::Rect2d box(0.5 * cols + number(input, cols), 0.5 * rows + number(input, rows),
-                         8.0 + number(input, 16.0), 8.0 + number(input, 16.0));
+    const double wide = large_ ? cols / 16.0 : 1.0, high = large_ ? rows / 16.0 : 1.0;
+    const double x = 0.5 * cols + number(input, cols), y = 0.5 * rows + number(input, rows);
+    const double width = wide * (8.0 + number(input, 16.0));
+    const cv::Rect2d box(x, y, width, high * (8.0 + number(input, 16.0)));
     if (tracker_.initialise(given, box)) return false;
     require(!spared_.initialise(given, box), "what one takes the other takes");
     return true;
@@ -157,6 +163,7 @@ class Twins {
   }
 
   cv::Size usual_;
+  bool large_;  // boxes up to the whole picture
   ols::Tracker tracker_, spared_;
   double time_s_ = 0.0;
 };
