@@ -1,8 +1,9 @@
 // The filter's inner loop takes no memory from the heap once it runs: what is counted here is every
-// operator new of this program.
+// operator new of this program, and every aligned piece, which is what cv::Mat asks for.
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cerrno>
 #include <cstdlib>
 #include <new>
 
@@ -22,8 +23,21 @@ void* operator new(std::size_t size) {
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
+extern "C" int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
+  ++allocations;
+  *memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  return *memory == nullptr ? ENOMEM : 0;
+}
+
 namespace ols {
 namespace {
+
+TEST(Allocation, OfAPictureIsCounted) {
+  const long before = allocations;
+  const cv::Mat picture(64, 64, CV_8U);
+  EXPECT_GT(allocations, before);
+  EXPECT_FALSE(picture.empty());
+}
 
 TEST(Allocation, TheFiltersInnerLoopHasNone) {
   testing::SyntheticScene pictures(testing::Backdrop::kTextured, 1);
