@@ -377,7 +377,7 @@ TEST_F(StationTest, CountsFramesThatMoveOtherwiseThanTheAnglesSay) {
   EXPECT_EQ(counter("predictions_disagreeing"), 0.0);
   script_.prediction_error_px = config().prediction_error_px + 1.0;
   const int tracked = script_.tracked;
-  run_until(now_ + 3.5 * kFrame_s);
+  run_until(now_ + 3.5 * test::kFrame_s);
   EXPECT_EQ(counter("predictions_disagreeing"), script_.tracked - tracked);
   EXPECT_FALSE(station_.snapshot().motion_disagrees);
   run_until(now_ + 0.5);
