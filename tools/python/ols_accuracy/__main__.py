@@ -48,7 +48,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--runs", type=Path, default=ROOT / "build/accuracy", help="kept runs")
     parser.add_argument("--seeds", type=int, default=3, help="of the landmarks, with pictures")
     parser.add_argument("--walk-seeds", type=int, default=1, help="of the walk, with pictures")
-    parser.add_argument("--budget-seeds", type=int, default=24, help="of the runs without pictures")
+    parser.add_argument("--budget-seeds", type=int, default=40, help="of the runs without pictures")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument(
         "--kept-only", action="store_true", help="make no run; a dash where one is missing"
