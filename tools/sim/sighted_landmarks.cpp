@@ -95,6 +95,7 @@ void find_headings(const Scenario& scenario, std::uint64_t seed, double step_rad
                                              ? common
                                              : others(before, i, on * how.each_other_sd_m, draw);
     std::vector<LandmarkSighting> sightings;
+    sightings.reserve(sighted.size());
     for (const Sighted& each : sighted) {
       sightings.push_back(sighting(before[i], each, on * how.mark_sd_px, step_rad, draw));
     }
