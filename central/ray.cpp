@@ -41,6 +41,8 @@ const char* to_string(Solution solution) {
       return "not-converged";
     case Solution::kBearingOnly:
       return "bearing-only";
+    case Solution::kRaysMiss:
+      return "rays-miss";
   }
   return "unknown";
 }

@@ -46,6 +46,7 @@ enum class Solution {
   kTooFar,
   kNotConverged,
   kBearingOnly,  // one station alone: a line, no position
+  kRaysMiss,  // rays of several stations that meet nowhere, or not for long enough to be one object
 };
 const char* to_string(Solution solution);
 

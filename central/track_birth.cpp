@@ -73,8 +73,11 @@ std::optional<TrackBirth::Meeting> TrackBirth::start_of(const Sighting& a, const
   const Eigen::Vector3d on_a = a.sight.origin_ecef + s * u, on_b = b.sight.origin_ecef + t * v;
   const double dt_s = apart_s(a, b);
   const double miss_m = s * gate_rad(a, dt_s, s, errors) + t * gate_rad(b, 0.0, t, errors);
-  if ((on_a - on_b).norm() > miss_m) return std::nullopt;
-  return Meeting{(on_a + on_b) / 2.0, std::min(s, t)};
+  if ((on_a - on_b).norm() > miss_m) {
+    failure_ = Solution::kRaysMiss;
+    return std::nullopt;
+  }
+  return Meeting{(on_a + on_b) / 2.0, std::min(s, t), a.station, b.station};
 }
 
 // Of a station's bearings near in time to another one, the one that is nearest to the start; the
@@ -95,9 +98,10 @@ const Sighting* TrackBirth::nearest(const std::deque<Sighting>& bearings, const 
   return best;
 }
 
-std::optional<Track> TrackBirth::add(const Sighting& sighting, StationErrors& errors,
-                                     bool trusting) {
-  store(sighting);
+// Where the ray meets those of other stations; where more of the others pass by, first.
+std::vector<TrackBirth::Meeting> TrackBirth::starts_with(const Sighting& sighting,
+                                                         const StationErrors& errors) {
+  constexpr std::size_t kEnough = 16;
   std::vector<std::pair<int, Meeting>> starts;
   for (const auto& [station, bearings] : pool_) {
     if (station == sighting.station) continue;
@@ -113,17 +117,51 @@ std::optional<Track> TrackBirth::add(const Sighting& sighting, StationErrors& er
         support += nearest(others, sighting, &*start, errors) != nullptr ? 1 : 0;
       }
       starts.emplace_back(support, *start);
-      if (starts.size() >= 16) break;
+      if (starts.size() >= kEnough) break;
     }
   }
   std::ranges::stable_sort(starts, std::greater<>(), [](const auto& s) { return s.first; });
+  std::vector<Meeting> meetings;
+  for (auto& [support, start] : starts) meetings.push_back(std::move(start));
+  return meetings;
+}
+
+std::optional<Track> TrackBirth::add(const Sighting& sighting, StationErrors& errors,
+                                     bool trusting) {
+  store(sighting);
+  failure_ = Solution::kTooFewRays;
+  const std::vector<Meeting> starts = starts_with(sighting, errors);
   for (std::size_t i = 0; i < std::min(starts.size(), kMostStarts); ++i) {
-    if (auto track = try_start(sighting, starts[i].second, errors, trusting)) {
-      take(*track);
-      return track;
-    }
+    auto begun = try_start(sighting, starts[i], errors, trusting ? Needed::kTwoRays : Needed::kAll);
+    if (!begun) continue;
+    if (!trusting && is_outdone(*begun, sighting, errors)) continue;
+    errors = std::move(begun->errors);
+    if (!trusting) take(begun->track);
+    return std::move(begun->track);
   }
   return std::nullopt;
+}
+
+// Does one of its two stations agree better with a third?
+bool TrackBirth::is_outdone(const Begun& begun, const Sighting& newest,
+                            const StationErrors& errors) {
+  const auto& own = begun.track.hits;
+  if (own.size() > 2) return false;
+  for (const auto& [name, bearings] : pool_) {
+    const Sighting& third = bearings.back();
+    if (own.contains(name) || apart_s(third, newest) > config_.pair_s) continue;
+    int tried = 0;
+    for (const Meeting& start : starts_with(third, errors)) {
+      if (!own.contains(start.second)) continue;
+      const auto rival = try_start(third, start, errors, Needed::kHalf);
+      if (rival && (rival->track.hits.size() > 2 || rival->misfit < begun.misfit)) {
+        failure_ = Solution::kRaysMiss;
+        return true;
+      }
+      if (++tried >= 3) break;
+    }
+  }
+  return false;
 }
 
 namespace {
@@ -152,12 +190,11 @@ std::vector<Frame> frames_backwards(const std::map<std::string, std::deque<Sight
 
 struct Explained {
   int frames = 0;
-  std::int64_t oldest_us = 0;
-  std::vector<Sighting> bearings;
+  double misfit = 0.0;             // sum of the squared normalised residuals, the gate at most
+  std::vector<Sighting> bearings;  // the latest first
 };
 
-// Runs the filter backwards over the frames: each gives its nearest bearing, if that is in the
-// gate.
+// Runs the filter over the frames: each gives its nearest bearing, if that is in the gate.
 std::map<std::string, Explained> explain(const std::vector<Frame>& frames, TrackFilter& filter,
                                          StationErrors& errors) {
   std::map<std::string, Explained> stations;
@@ -172,57 +209,79 @@ std::map<std::string, Explained> explain(const std::vector<Frame>& frames, Track
     }
     Explained& station = stations[frame.bearings.front()->station];
     ++station.frames;
+    station.misfit += least;
     if (best == nullptr || filter.update(*best, errors) != BearingUse::kUsed) continue;
     station.bearings.push_back(*best);
-    station.oldest_us = frame.utime_us;
   }
   return stations;
 }
 
+// What the stations that agree on a start have in common.
+struct Agreement {
+  int hits = 0, frames = 0;
+  double misfit = 0.0;
+  std::int64_t oldest_us = 0;
+};
+
+// Gives the track the bearings of those stations that agree on it.
+Agreement agree(std::map<std::string, Explained>& stations, double least_share, Track& track) {
+  Agreement sum{.oldest_us = track.born_us};
+  for (auto& [name, station] : stations) {
+    const int here = static_cast<int>(station.bearings.size());
+    if (here == 0 || here < least_share * station.frames) continue;
+    sum.hits += here;
+    sum.frames += station.frames;
+    sum.misfit += station.misfit;
+    sum.oldest_us = std::min(sum.oldest_us, station.bearings.back().utime_us);
+    track.hits[name] = here;
+    std::ranges::reverse(station.bearings);
+    track.bearings[name] = std::move(station.bearings);
+  }
+  return sum;
+}
+
 }  // namespace
 
-std::optional<Track> TrackBirth::try_start(const Sighting& newest, const Meeting& start,
-                                           StationErrors& errors, bool trusting) const {
+std::optional<TrackBirth::Begun> TrackBirth::try_start(const Sighting& newest, const Meeting& start,
+                                                       const StationErrors& errors, Needed needed) {
   std::int64_t now_us = newest.utime_us;
   for (const auto& [station, bearings] : pool_) {
     if (apart_s(bearings.back(), newest) <= config_.pair_s) {
       now_us = std::max(now_us, bearings.back().utime_us);
     }
   }
-  const auto frames =
-      frames_backwards(pool_, now_us - static_cast<std::int64_t>(config_.pool_s * 1e6));
+  auto frames = frames_backwards(pool_, now_us - static_cast<std::int64_t>(config_.pool_s * 1e6));
+  // A start is vague: whoever is heard first, it goes to. So first the two that made it.
+  std::ranges::stable_partition(frames, [&](const Frame& frame) {
+    const std::string& station = frame.bearings.front()->station;
+    return station == start.first || station == start.second;
+  });
   FilterStart from{.p_ecef = start.p_ecef,
                    .position_sd_m = start.range_m / 2.0,
                    .velocity_sd_m_s = 2.0 * config_.rate_sd_rad_s * start.range_m};
-  std::optional<Track> track;
+  std::optional<Begun> begun;
   std::map<std::string, Explained> stations;
   // The second round is linearised where the first one has ended: what a clock's error does depends
   // on the velocity, and one taken for zero would make the clocks seem known.
   for (int round = 0; round < 2; ++round) {
-    track.emplace(TrackFilter(filter_, now_us, from));
-    stations = explain(frames, track->filter, errors);
-    from.p_ecef = track->filter.position();
-    from.v_ecef = track->filter.velocity();
+    begun.emplace(Begun{Track(TrackFilter(filter_, now_us, from)), errors});
+    stations = explain(frames, begun->track.filter, begun->errors);
+    from.p_ecef = begun->track.filter.position();
+    from.v_ecef = begun->track.filter.velocity();
     if (!from.p_ecef.allFinite() || !from.v_ecef.allFinite()) return std::nullopt;
   }
-  int agreeing = 0, hits = 0;
-  std::int64_t oldest_us = now_us;
-  for (auto& [name, station] : stations) {
-    const int here = static_cast<int>(station.bearings.size());
-    if (here == 0 || here < config_.explained * station.frames) continue;
-    ++agreeing;
-    hits += here;
-    oldest_us = std::min(oldest_us, station.oldest_us);
-    track->hits[name] = here;
-    std::ranges::reverse(station.bearings);
-    track->bearings[name] = station.bearings;
-  }
-  const bool long_enough = agreeing > 2 || seconds(now_us - oldest_us) >= config_.two_stations_s;
-  const bool enough = trusting || (hits >= config_.least_bearings && long_enough);
-  if (agreeing < 2 || !enough) return std::nullopt;
-  track->born_us = now_us;
-  track->located_us = now_us;
-  return track;
+  begun->track.born_us = begun->track.located_us = now_us;
+  const Agreement sum = agree(stations, config_.explained, begun->track);
+  const std::size_t agreeing = begun->track.hits.size();
+  failure_ = Solution::kRaysMiss;
+  if (agreeing < 2) return std::nullopt;
+  failure_ = Solution::kTooFewRays;
+  const double long_s = config_.two_stations_s * (needed == Needed::kAll ? 1.0 : 0.5);
+  const bool long_enough = agreeing > 2 || seconds(now_us - sum.oldest_us) >= long_s;
+  const bool enough = sum.hits >= config_.least_bearings && long_enough;
+  if (needed != Needed::kTwoRays && !enough) return std::nullopt;
+  begun->misfit = sum.misfit / sum.frames;
+  return begun;
 }
 
 void TrackBirth::take(const Track& track) {

@@ -4,7 +4,9 @@
 // Rays of different objects meet too (ghosts). A start therefore has to explain its stations'
 // bearings over the last moments, not only the two that it was made of: the filter is run over
 // them. Three stations that agree are believed at once; two have to agree for longer, by when the
-// true objects have taken their own bearings.
+// true objects have taken their own bearings. The two stations that make a start are heard first:
+// then a third one that is wrong, or follows something else, is outside of the gate and spoils
+// none.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "central/track.h"
 
@@ -34,29 +37,43 @@ class TrackBirth {
       : config_(config), filter_(filter) {}
 
   // Takes a bearing that belongs to no track. A new track, with the bearings that it explains taken
-  // out of the pool. `trusting`: there is one object and no clutter, so that two rays are enough.
+  // out of the pool. `trusting`: two rays are enough for now; the pool keeps them, for a better
+  // one.
   std::optional<Track> add(const Sighting& sighting, StationErrors& errors, bool trusting);
+  // Keeps a bearing without looking for a track.
+  void store(const Sighting& sighting);
   // Takes out what a track explains that has just become sure.
   void give(const Track& track, const StationErrors& errors);
   void forget(const std::string& station) { pool_.erase(station); }
   void clear() { pool_.clear(); }
   // The bearings without a track of one station, in order of time.
   const std::map<std::string, std::deque<Sighting>>& pool() const { return pool_; }
-  // Why the last pair of rays made no start; kTooFewRays when there was no pair.
+  // Why the last bearing began no track: what its ray did with the last other one, kRaysMiss where
+  // rays meet but the bearings of their stations do not agree on it, kTooFewRays where they do and
+  // only more of them is needed, and where there was no other ray.
   Solution last_failure() const { return failure_; }
 
  private:
   struct Meeting {
     Eigen::Vector3d p_ecef;
     double range_m = 0.0;
+    std::string first, second;  // the stations whose rays meet
   };
-  void store(const Sighting& sighting);
+  // A start that was good enough, and what the run over its bearings has shown of the stations.
+  struct Begun {
+    Track track;
+    StationErrors errors;
+    double misfit = 0.0;  // mean squared normalised residual of its stations' frames
+  };
+  enum class Needed { kTwoRays, kHalf, kAll };  // for two stations' agreement: of its time
   std::optional<Meeting> start_of(const Sighting& a, const Sighting& b,
                                   const StationErrors& errors);
   const Sighting* nearest(const std::deque<Sighting>& bearings, const Sighting& to,
                           const Meeting* start, const StationErrors& errors) const;
-  std::optional<Track> try_start(const Sighting& newest, const Meeting& start,
-                                 StationErrors& errors, bool trusting) const;
+  std::vector<Meeting> starts_with(const Sighting& sighting, const StationErrors& errors);
+  std::optional<Begun> try_start(const Sighting& newest, const Meeting& start,
+                                 const StationErrors& errors, Needed needed);
+  bool is_outdone(const Begun& begun, const Sighting& newest, const StationErrors& errors);
   double gate_rad(const Sighting& sighting, double dt_s, double range_m,
                   const StationErrors& errors) const;
   void take(const Track& track);

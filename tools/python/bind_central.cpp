@@ -20,7 +20,8 @@ void bind_results(py::module_& m) {
       .value("BEHIND_CAMERA", Solution::kBehindCamera)
       .value("TOO_FAR", Solution::kTooFar)
       .value("NOT_CONVERGED", Solution::kNotConverged)
-      .value("BEARING_ONLY", Solution::kBearingOnly);
+      .value("BEARING_ONLY", Solution::kBearingOnly)
+      .value("RAYS_MISS", Solution::kRaysMiss);
 
   data_class<RayUse>(m, "RayUse", "What became of one ray.")
       .def_readwrite("used", &RayUse::used, "False: set aside as an outlier.")

@@ -296,6 +296,7 @@ TEST(Messages, SolutionsHaveTheNumbersOfTheMessage) {
   EXPECT_EQ(static_cast<int>(Solution::kTooFar), int{M::SOLUTION_TOO_FAR});
   EXPECT_EQ(static_cast<int>(Solution::kNotConverged), int{M::SOLUTION_NOT_CONVERGED});
   EXPECT_EQ(static_cast<int>(Solution::kBearingOnly), int{M::SOLUTION_BEARING_ONLY});
+  EXPECT_EQ(static_cast<int>(Solution::kRaysMiss), int{M::SOLUTION_RAYS_MISS});
 }
 
 TEST(Messages, AThousandStationsAreToldInTurnsThatADatagramHolds) {
