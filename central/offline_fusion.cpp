@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -85,11 +86,38 @@ double mean_square_speed(const std::vector<const Sighting*>& bearings) {
   return span > 0.0 ? sum / span : 0.0;
 }
 
-TrackKeeper keeper_of(const OfflineConfig& config) {
-  KeeperConfig keeper = config.fusion.keeper;
-  keeper.one_target = true;
-  return TrackKeeper(keeper);
-}
+// The one object's track, and who looks beside it.
+class Recording {
+ public:
+  explicit Recording(const OfflineConfig& config)
+      : keeper_(keeper_of(config)), pointing_(config.fusion.pointing) {}
+
+  void add(const Sighting& sighting) {
+    keeper_.advance(sighting.utime_us);
+    const bool believed = pointing_.quarantine(sighting.station).empty();
+    const Association result = keeper_.add(sighting, believed);
+    const bool explained = result.kind == Association::Kind::kTrack;
+    std::optional<Eigen::Vector2d> off_rad;
+    if (const auto nearest = keeper_.nearest(sighting)) off_rad = nearest->off_rad;
+    pointing_.hear(sighting.station, sighting.utime_us, explained, off_rad);
+    const std::string why = pointing_.quarantine(sighting.station);
+    if (believed && !why.empty()) beside_.try_emplace(sighting.station, why);
+  }
+  void advance(std::int64_t utime_us) { keeper_.advance(utime_us); }
+  const TrackKeeper& keeper() const { return keeper_; }
+  const std::map<std::string, std::string>& beside() const { return beside_; }
+
+ private:
+  static TrackKeeper keeper_of(const OfflineConfig& config) {
+    KeeperConfig keeper = config.fusion.keeper;
+    keeper.one_target = true;
+    return TrackKeeper(keeper);
+  }
+
+  TrackKeeper keeper_;
+  PointingMonitor pointing_;
+  std::map<std::string, std::string> beside_;
+};
 
 FusedTarget target_of(std::int64_t epoch_us, const char* estimator, Located located) {
   FusedTarget target;
@@ -111,18 +139,18 @@ void locate(Estimator& estimator, const TrackView& view, std::int64_t epoch_us,
 std::vector<FusedTarget> causal(const std::vector<Sighting>& bearings,
                                 const std::vector<std::int64_t>& epochs, Estimator& estimator,
                                 const OfflineConfig& config) {
-  TrackKeeper keeper = keeper_of(config);
+  Recording recording(config);
   std::vector<FusedTarget> targets;
   auto next = bearings.begin();
   for (const std::int64_t epoch_us : epochs) {
     for (; next != bearings.end() && next->utime_us <= epoch_us; ++next) {
-      keeper.advance(next->utime_us);
-      keeper.add(*next);
+      recording.add(*next);
     }
-    keeper.advance(epoch_us);
-    for (const Track& track : keeper.tracks()) {
+    recording.advance(epoch_us);
+    for (const Track& track : recording.keeper().tracks()) {
       if (track.id == 0) continue;
-      locate(estimator, {track.bearings, keeper.errors(), &track.filter}, epoch_us, targets);
+      locate(estimator, {track.bearings, recording.keeper().errors(), &track.filter}, epoch_us,
+             targets);
     }
   }
   return targets;
@@ -133,14 +161,11 @@ std::vector<FusedTarget> interpolating(const std::vector<Sighting>& bearings,
                                        const StationBearings& recording,
                                        const std::vector<std::int64_t>& epochs,
                                        Estimator& estimator, const OfflineConfig& config) {
-  TrackKeeper keeper = keeper_of(config);
-  for (const Sighting& sighting : bearings) {
-    keeper.advance(sighting.utime_us);
-    keeper.add(sighting);
-  }
+  Recording run(config);
+  for (const Sighting& sighting : bearings) run.add(sighting);
   std::vector<FusedTarget> targets;
   for (const std::int64_t epoch_us : epochs) {
-    locate(estimator, {recording, keeper.errors()}, epoch_us, targets);
+    locate(estimator, {recording, run.keeper().errors()}, epoch_us, targets);
   }
   return targets;
 }
@@ -193,6 +218,17 @@ std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
   if (config.smooth) return smoothed(bearings, epochs, config);
   if (is_filter) return causal(bearings, epochs, *estimator, config);
   return interpolating(bearings, recording, epochs, *estimator, config);
+}
+
+std::map<std::string, std::string> stations_beside(const std::vector<Sighting>& sightings,
+                                                   const OfflineConfig& config) {
+  UnusedBearings unused;
+  Recording run(config);
+  for (const Sighting& sighting :
+       in_order(recording_of(sightings, config.fusion.min_belief, unused))) {
+    run.add(sighting);
+  }
+  return run.beside();
 }
 
 }  // namespace ols

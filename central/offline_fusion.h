@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -40,5 +41,10 @@ void guess_clocks(std::vector<Sighting>& sightings);
 // filter smoothed.
 std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
                                       const OfflineConfig& config);
+
+// Stations whose bearings are for seconds off the others' target by the same angle, and by how
+// much, in words; by station. A run of the filter by itself.
+std::map<std::string, std::string> stations_beside(const std::vector<Sighting>& sightings,
+                                                   const OfflineConfig& config);
 
 }  // namespace ols

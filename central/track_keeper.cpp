@@ -61,7 +61,7 @@ Track* TrackKeeper::follower(const Sighting& sighting) {
 }
 
 Association TrackKeeper::add(const Sighting& sighting, bool may_begin) {
-  if (config_.one_target && !tracks_.empty()) return give_to(tracks_.front(), sighting);
+  if (config_.one_target) return add_to_one(sighting, may_begin);
   for (const bool confirmed : {true, false}) {
     const auto near = candidates(sighting, confirmed);
     if (near.empty()) continue;
@@ -83,16 +83,18 @@ Association TrackKeeper::add(const Sighting& sighting, bool may_begin) {
     if (result.kind == Association::Kind::kTrack) return result;
   }
   ++counts_.unexplained;
-  if (may_begin && static_cast<int>(tracks_.size()) < config_.max_tracks) {
-    if (auto track = birth_.add(sighting, errors_, config_.one_target)) {
-      ++counts_.born;
-      tracks_.push_back(std::move(*track));
-      glances_.push_back(glance_at(tracks_.back()));
-      consider(tracks_.back());
-      return {Association::Kind::kTrack, tracks_.back().id};
-    }
-  }
-  return {};
+  const bool room = static_cast<int>(tracks_.size()) < config_.max_tracks;
+  return may_begin && room ? begin(sighting) : Association{};
+}
+
+Association TrackKeeper::begin(const Sighting& sighting) {
+  auto track = birth_.add(sighting, errors_, false);
+  if (!track) return {};
+  ++counts_.born;
+  tracks_.push_back(std::move(*track));
+  glances_.push_back(glance_at(tracks_.back()));
+  consider(tracks_.back());
+  return {Association::Kind::kTrack, tracks_.back().id};
 }
 
 Association TrackKeeper::give_to(Track& track, const Sighting& sighting) {
@@ -143,16 +145,20 @@ bool TrackKeeper::worth_confirming(const Track& track) const {
          seconds(track.filter.utime_us() - track.born_us) >= config_.confirm_s;
 }
 
-// The same object as a sure one: nearer to it than both know.
-bool TrackKeeper::is_double(const Track& track) const {
+// Nearer to each other than both know.
+bool TrackKeeper::are_alike(const Track& track, const Track& other) {
   const KinematicState own = track.filter.at(track.filter.utime_us());
+  const KinematicState there = other.filter.at(own.utime_us);
+  const Eigen::Matrix<double, 6, 1> off = (own.mean - there.mean).head<6>();
+  const Eigen::Matrix<double, 6, 6> P = (own.covariance + there.covariance).topLeftCorner<6, 6>();
+  constexpr double kAlike = 22.5;  // chi^2 of 6 degrees of freedom, 0.999
+  return off.dot(P.ldlt().solve(off)) < kAlike;
+}
+
+// The same object as a sure one.
+bool TrackKeeper::is_double(const Track& track) const {
   return std::ranges::any_of(tracks_, [&](const Track& other) {
-    if (&other == &track || !is_sure(other)) return false;
-    const KinematicState there = other.filter.at(own.utime_us);
-    const Eigen::Matrix<double, 6, 1> off = (own.mean - there.mean).head<6>();
-    const Eigen::Matrix<double, 6, 6> P = (own.covariance + there.covariance).topLeftCorner<6, 6>();
-    constexpr double kAlike = 22.5;  // chi^2 of 6 degrees of freedom, 0.999
-    return off.dot(P.ldlt().solve(off)) < kAlike;
+    return &other != &track && is_sure(other) && are_alike(track, other);
   });
 }
 
@@ -184,7 +190,7 @@ void TrackKeeper::confirm(Track& track) {
     if (bearings.empty() || bearings.back().track_id == 0) continue;
     followed_[station] = {bearings.back().track_id, track.id};
   }
-  birth_.give(track, errors_);
+  if (!config_.one_target) birth_.give(track, errors_);
 }
 
 void TrackKeeper::age(Track& track, std::int64_t now_us) {
@@ -210,7 +216,8 @@ void TrackKeeper::age(Track& track, std::int64_t now_us) {
   }
   const bool silent = stations_lately(track.filter, config_.drop_s) == 0 ||
                       seconds(now_us - track.filter.utime_us()) > config_.drop_s;
-  const bool lost = judge_position(track.filter, track.filter.at(now_us)) != Solution::kOk;
+  const bool lost =
+      doubted() || judge_position(track.filter, track.filter.at(now_us)) != Solution::kOk;
   if (silent || lost) track.state = TrackState::kDropped;
 }
 

@@ -12,9 +12,18 @@
 //  double.
 //  - confirmed -> coasted: no two stations have seen it for coast_s. coasted -> confirmed: two
 //  have.
-//  - coasted -> dropped: no two stations for drop_s, and its position is none any more; or nothing
-//    at all for drop_s.
+//  - coasted -> dropped: no two stations for drop_s.
 //  - A track that is confirmed where one that was dropped must be by now has its identity.
+//
+// In a recording of one object (one_target) every bearing is offered to the one track, and:
+//  - Two rays begin it, on trial, and it is confirmed when its position is one. It is proved by a
+//    start as it would need among several objects, from the same bearings. If a bearing does not
+//    fit before, it is taken back with all that it has taught, and for doubt_s only such a start
+//    begins one.
+//  - When two stations or more, and half of all, are set aside most of the time, a start on which
+//    more stations agree takes its place.
+//  - coasted -> dropped: as above, and half of the stations are set aside, or its position is none
+//    any more, or there is nothing at all for drop_s.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +39,8 @@
 namespace ols {
 
 struct KeeperConfig {
-  bool one_target = false;  // there is one object and no clutter: confirmed at once, one at a time
+  bool one_target = false;  // a recording of one object
+  double doubt_s = 1.0;     // two rays do not begin its track so soon after they were wrong
   int max_tracks = 256;     // born ones included
   int confirm_stations = 3;
   int confirm_hits = 2;        // of each of them
@@ -99,10 +109,19 @@ class TrackKeeper {
   };
   static Glance glance_at(const Track& track);
   std::vector<Candidate> candidates(const Sighting& sighting, bool confirmed) const;
+  Association begin(const Sighting& sighting);
+  Association add_to_one(const Sighting& sighting, bool may_begin);
+  void note(const Sighting& sighting, bool used);
+  void take_back(std::int64_t utime_us);
+  void prove(const Sighting& sighting);
+  bool is_better(const Track& start) const;
+  int stations(bool explained) const;
+  bool doubted() const;
   Association give_to(Track& track, const Sighting& sighting);
   Track* follower(const Sighting& sighting);
   void consider(Track& track);
   bool worth_confirming(const Track& track) const;
+  static bool are_alike(const Track& track, const Track& other);
   bool is_double(const Track& track) const;
   void confirm(Track& track);
   void keep(Track& track, const Sighting& sighting) const;
@@ -122,6 +141,15 @@ class TrackKeeper {
   };
   std::map<std::string, Followed> followed_;
   Counts counts_;
+  // Of a recording's one object: which share of a station's bearings its track explains, lately.
+  struct Explains {
+    std::int64_t newest_us = 0;
+    double share = 1.0;
+  };
+  std::map<std::string, Explains> explains_;
+  bool proved_ = false;
+  StationErrors errors_before_;                // the track on trial
+  std::optional<std::int64_t> taken_back_us_;  // when one was, last
 };
 
 }  // namespace ols

@@ -121,6 +121,9 @@ void run(const Options& options) {
     const ols::UnusedBearings here = ols::unused_bearings(sightings, config);
     unused.low_belief += here.low_belief;
     unused.duplicate += here.duplicate;
+    for (const auto& [station, why] : ols::stations_beside(sightings, config)) {
+      std::cerr << "ols-fuse: station " << station << ", target " << id << ": " << why << '\n';
+    }
     for (const auto& target : ols::fuse_offline(sightings, config)) {
       fixes.push_back(fix_of(target, id));
     }
