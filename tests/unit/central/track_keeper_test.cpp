@@ -57,7 +57,7 @@ TEST(TrackKeeper, ARecordingWithOneWrongStationOfFour) {
   }
 }
 
-// Of three it is told by how badly the other two's rays miss the wrong one's: from a degree on.
+// Of three it is told by whose rays miss the others'.
 TEST(TrackKeeper, ARecordingWithOneWrongStationOfThree) {
   for (const char wrong : std::string("abc")) {
     for (const double off_deg : {0.5, -0.5, 1.0, -1.0, 2.0, -2.0, 5.0, -5.0}) {
