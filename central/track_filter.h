@@ -36,7 +36,7 @@ struct FilterConfig {
   double max_range_m = 500e3;
   // What all stations may have in common beyond what independent errors have, in variance: it moves
   // the target and no residual shows it. Over the part that biases make which the residuals show.
-  double in_common = 0.5;
+  double in_common = 1.0;
 };
 
 inline constexpr int kFilterStations = 12;  // bias states of the latest so many
