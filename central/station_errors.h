@@ -29,7 +29,7 @@
 namespace ols {
 
 struct StationErrorsConfig {
-  double stated_time_s = 36000.0;  // correlation time of a bias within what is stated: it stays
+  double stated_time_s = 300.0;    // correlation time of a bias within what is stated
   double untold_time_s = 5.0;      // and of one that the station does not tell
   double memory_s = 600.0;         // what was seen longer ago counts less than 1/e
   double stated_weight = 20.0;     // seen biases that a statement is worth

@@ -55,11 +55,4 @@ int stations_lately(const TrackFilter& filter, double within_s) {
   }));
 }
 
-bool stations_contradict(const TrackFilter& filter, double within_s) {
-  const auto oldest_us = filter.utime_us() - static_cast<std::int64_t>(within_s * 1e6);
-  const auto offer = std::ranges::count_if(
-      filter.stations(), [&](const FilterStation& s) { return s.offered_us >= oldest_us; });
-  return 2 * stations_lately(filter, within_s) < offer;
-}
-
 }  // namespace ols

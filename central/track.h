@@ -44,7 +44,4 @@ Solution judge_position(const TrackFilter& filter, const KinematicState& state);
 // Stations whose bearings the filter has used within so long of its own time.
 int stations_lately(const TrackFilter& filter, double within_s);
 
-// Of the stations that have offered bearings lately, have most had none used for so long?
-bool stations_contradict(const TrackFilter& filter, double within_s);
-
 }  // namespace ols

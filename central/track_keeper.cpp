@@ -201,12 +201,6 @@ void TrackKeeper::age(Track& track, std::int64_t now_us) {
     return;
   }
   if (unseen_s > config_.coast_s) track.state = TrackState::kCoasted;
-  // A recording's one object is in every bearing: a track that most stations contradict is wrong.
-  const bool old = seconds(now_us - track.born_us) > config_.drop_s;
-  if (config_.one_target && old && stations_contradict(track.filter, config_.drop_s)) {
-    track.state = TrackState::kDropped;
-    return;
-  }
   if (unseen_s <= config_.drop_s) return;
   // One station alone is no position for long; of a recording's one object it is known by its own
   // covariance for how long.
