@@ -169,12 +169,12 @@ SightingRefusal Fusion::store(const Sighting& sighting) {
   Station& station = stations_[sighting.station];
   auto& lately = station.lately;
   const auto same_time =
-      std::ranges::equal_range(lately, sighting.utime_us, {}, &Exposure::utime_us);
-  for (const Exposure& e : same_time) {
+      std::ranges::lower_bound(lately, sighting.utime_us, {}, &Exposure::utime_us);
+  for (auto e = same_time; e != lately.end() && e->utime_us == sighting.utime_us; ++e) {
     const AzimuthElevation& d = sighting.sight.direction;
     const bool same_way =
-        e.direction.azimuth_rad == d.azimuth_rad && e.direction.elevation_rad == d.elevation_rad;
-    const bool same_object = sighting.track_id != 0 && e.track_id == sighting.track_id;
+        e->direction.azimuth_rad == d.azimuth_rad && e->direction.elevation_rad == d.elevation_rad;
+    const bool same_object = sighting.track_id != 0 && e->track_id == sighting.track_id;
     if (same_way || same_object) return SightingRefusal::kDuplicate;
   }
   // Also what is refused goes on in time, or a flood would lock its station out for good.

@@ -252,7 +252,7 @@ std::optional<TrackBirth::Begun> TrackBirth::try_start(const Sighting& newest, c
   }
   auto frames = frames_backwards(pool_, now_us - static_cast<std::int64_t>(config_.pool_s * 1e6));
   // A start is vague: whoever is heard first, it goes to. So first the two that made it.
-  std::ranges::stable_partition(frames, [&](const Frame& frame) {
+  std::stable_partition(frames.begin(), frames.end(), [&](const Frame& frame) {
     const std::string& station = frame.bearings.front()->station;
     return station == start.first || station == start.second;
   });
