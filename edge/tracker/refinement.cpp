@@ -2,34 +2,62 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 namespace ols {
 namespace {
 
-constexpr double kContext = 1.3;  // of the box, looked at
-constexpr int kLeastSide = 7;     // samples along a side
-constexpr int kMostSide = 40;
-constexpr double kMostStep = 0.35;  // of the box, from where it starts
+constexpr double kContext = 1.3;      // of the box, looked at
+constexpr int kLeastSide = 7;         // samples along a side
+constexpr std::size_t kMost = 2500;   // samples; of a larger target those that tell most
+constexpr double kMostStep = 0.35;    // of the box, from where it starts
+constexpr double kMostGrowth = 0.25;  // of the box, from what it starts with
 constexpr int kMostSteps = 15;
+constexpr double kSizeSd = 0.05;  // of the size that it starts with, relative
 
 int samples_along(double size_px, int reduction) {
-  const double wanted = std::round(kContext * size_px / reduction);
-  return std::clamp(static_cast<int>(wanted), kLeastSide, kMostSide);
+  return std::max(kLeastSide, static_cast<int>(std::round(kContext * size_px / reduction)));
+}
+
+// Keys' cubic convolution: what lies between the pixels is not blurred as by a line, so that the
+// position does not lean on where between them the target stands.
+std::array<double, 4> cubic_weights(double t) {
+  return {t * (-0.5 + t * (1.0 - 0.5 * t)), 1.0 + t * t * (-2.5 + 1.5 * t),
+          t * (0.5 + t * (2.0 - 1.5 * t)), t * t * (-0.5 + 0.5 * t)};
+}
+
+double cubic(const cv::Mat& image, double x, double y) {
+  const int column = static_cast<int>(std::floor(x));
+  const int row = static_cast<int>(std::floor(y));
+  if (column < 1 || row < 1 || column + 2 >= image.cols || row + 2 >= image.rows) {
+    return static_cast<double>(bilinear(image, x, y));
+  }
+  const auto wx = cubic_weights(x - column);
+  const auto wy = cubic_weights(y - row);
+  double sum = 0.0;
+  for (int j = 0; j < 4; ++j) {
+    const auto* line = image.ptr<std::uint8_t>(row - 1 + j) + column - 1;
+    sum += wy[static_cast<std::size_t>(j)] *
+           (wx[0] * line[0] + wx[1] * line[1] + wx[2] * line[2] + wx[3] * line[3]);
+  }
+  return sum;
 }
 
 }  // namespace
 
-// The weighted normal equations of (shift u, shift v, gain, offset) and what was left over.
+// The weighted normal equations of the Parameters and what was left over.
 struct PositionRefiner::Normal {
-  Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
-  Eigen::Matrix4d spread = Eigen::Matrix4d::Zero();  // with the squares of the weights
-  Eigen::Vector4d right = Eigen::Vector4d::Zero();
+  Matrix matrix = Matrix::Zero();
+  Matrix spread = Matrix::Zero();  // with the squares of the weights
+  Parameters right = Parameters::Zero();
   double squares = 0.0;
   double weights = 0.0;
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();  // of (template, image, 1), for correlation
 
-  double scale() const { return std::max(0.5, std::sqrt(squares / weights)); }
+  double variance() const { return squares / weights; }
+  double scale() const { return std::max(0.5, std::sqrt(variance())); }
   double correlation() const {
     const double n = moments(2, 2);
     const double covariance = moments(0, 1) / n - moments(0, 2) * moments(1, 2) / (n * n);
@@ -37,27 +65,29 @@ struct PositionRefiner::Normal {
     const double b = moments(1, 1) / n - moments(1, 2) * moments(1, 2) / (n * n);
     return a > 0.0 && b > 0.0 ? covariance / std::sqrt(a * b) : 0.0;
   }
+  // The size is known beforehand, to kSizeSd; `off` is how far it has gone from that.
+  void hold_size(const Eigen::Vector2d& off) {
+    const double stiffness = std::max(0.25, variance()) / (kSizeSd * kSizeSd);
+    matrix.diagonal().segment<2>(2).array() += stiffness;
+    right.segment<2>(2) += stiffness * off;
+  }
 };
 
 PositionRefiner::PositionRefiner(const View& view, const Eigen::Vector2d& pixel,
                                  const Eigen::Vector2d& size_px) {
   const int columns = samples_along(size_px.x(), view.reduction);
   const int rows = samples_along(size_px.y(), view.reduction);
-  // Steps of whole pixels of the view from a whole pixel: the template is not interpolated where it
-  // is not larger than the grid.
-  const double step_x =
-      std::max(1.0, std::round(kContext * size_px.x() / view.reduction / columns));
-  const double step_y = std::max(1.0, std::round(kContext * size_px.y() / view.reduction / rows));
   const double centre_x = view.x_of(pixel.x());
   const double centre_y = view.y_of(pixel.y());
-  const double first_x = std::round(centre_x - (columns - 1) / 2.0 * step_x);
-  const double first_y = std::round(centre_y - (rows - 1) / 2.0 * step_y);
+  // Whole pixels of the view: the template is not interpolated.
+  const double first_x = std::round(centre_x - (columns - 1) / 2.0);
+  const double first_y = std::round(centre_y - (rows - 1) / 2.0);
   const double width = size_px.x() / view.reduction;
   const double height = size_px.y() / view.reduction;
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
-      const double x = first_x + i * step_x;
-      const double y = first_y + j * step_y;
+      const double x = first_x + i;
+      const double y = first_y + j;
       const auto at = [&](double dx, double dy) {
         return static_cast<double>(bilinear(view.image, x + dx, y + dy));
       };
@@ -73,6 +103,19 @@ PositionRefiner::PositionRefiner(const View& view, const Eigen::Vector2d& pixel,
                           1.0 / (1.0 + 40.0 * outside * outside * 4.0)});
     }
   }
+  keep_steepest(size_px);
+}
+
+// A position is told by where the template is steep.
+void PositionRefiner::keep_steepest(const Eigen::Vector2d& size_px) {
+  if (samples_.size() <= kMost) return;
+  const auto tells = [&](const Sample& sample) {
+    const Eigen::Vector2d slope(sample.gradient_u / size_px.x(), sample.gradient_v / size_px.y());
+    return sample.weight * slope.squaredNorm();
+  };
+  std::nth_element(samples_.begin(), samples_.begin() + kMost, samples_.end(),
+                   [&](const Sample& a, const Sample& b) { return tells(a) > tells(b); });
+  samples_.resize(kMost);
 }
 
 void PositionRefiner::set_mask(const MaskPatch& mask) {
@@ -91,21 +134,22 @@ void PositionRefiner::set_mask(const MaskPatch& mask) {
   }
 }
 
-PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const Eigen::Vector2d& pixel,
-                                                    const Eigen::Vector2d& size_px,
-                                                    const Eigen::Vector4d& state,
+PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const State& state,
                                                     double scale) const {
   Normal normal;
   for (const Sample& sample : samples_) {
-    const double x = view.x_of(pixel.x() + sample.u * size_px.x());
-    const double y = view.y_of(pixel.y() + sample.v * size_px.y());
-    const auto now = static_cast<double>(bilinear(view.image, x, y));
-    const double residual = now - state(2) * sample.gray - state(3);
+    const double x = view.x_of(state.pixel.x() + sample.u * state.size_px.x());
+    const double y = view.y_of(state.pixel.y() + sample.v * state.size_px.y());
+    const double now = cubic(view.image, x, y);
+    const double residual = now - state.gain * sample.gray - state.offset;
     // Huber: what covers part of the target, or moves behind it, counts less.
     const double limit = 2.0 * scale;
     const double robust = std::abs(residual) > limit ? limit / std::abs(residual) : 1.0;
     const double weight = sample.weight * robust;
-    const Eigen::Vector4d row(sample.gradient_u, sample.gradient_v, sample.gray, 1.0);
+    const double along_u = state.gain * sample.gradient_u;
+    const double along_v = state.gain * sample.gradient_v;
+    Parameters row;
+    row << along_u, along_v, sample.u * along_u, sample.v * along_v, sample.gray, 1.0;
     normal.matrix += weight * row * row.transpose();
     normal.spread += weight * weight * row * row.transpose();
     normal.right += weight * row * residual;
@@ -120,33 +164,39 @@ PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const Eige
 std::optional<RefinedPosition> PositionRefiner::refine(const View& view,
                                                        const Eigen::Vector2d& start,
                                                        const Eigen::Vector2d& size_px) const {
-  Eigen::Vector2d pixel = start;
-  Eigen::Vector4d state(0.0, 0.0, 1.0, 0.0);
+  State state{start, size_px};
   double scale = 1e3;  // no robust weights in the first step
   Normal normal;
   for (int step = 0; step < kMostSteps; ++step) {
-    normal = accumulate(view, pixel, size_px, state, scale);
-    const Eigen::LDLT<Eigen::Matrix4d> solver(normal.matrix);
+    normal = accumulate(view, state, scale);
+    normal.hold_size(state.size_px.cwiseQuotient(size_px).array().log());
+    const Eigen::LDLT<Matrix> solver(normal.matrix);
     if (solver.info() != Eigen::Success || solver.rcond() < 1e-12) return std::nullopt;
-    const Eigen::Vector4d change = solver.solve(normal.right);
-    // The image at `pixel` is the template seen from change off it: step back by that.
-    const Eigen::Vector2d shift = change.head<2>().cwiseProduct(size_px);
-    if (!shift.allFinite()) return std::nullopt;
-    pixel -= shift;
-    state.tail<2>() += change.tail<2>();
-    const Eigen::Vector2d from_start = (pixel - start).cwiseQuotient(size_px);
+    const Parameters change = solver.solve(normal.right);
+    if (!change.allFinite()) return std::nullopt;
+    // The image there is the template seen from change off it and larger: step back by that.
+    const Eigen::Vector2d shift = change.head<2>().cwiseProduct(state.size_px);
+    state.pixel -= shift;
+    state.size_px.array() *= (-change.segment<2>(2)).array().max(-0.1).min(0.1).exp();
+    state.gain += change(4);
+    state.offset += change(5);
+    const Eigen::Vector2d from_start = (state.pixel - start).cwiseQuotient(size_px);
+    const Eigen::Vector2d growth = state.size_px.cwiseQuotient(size_px).array().log();
     if (from_start.cwiseAbs().maxCoeff() > kMostStep) return std::nullopt;
+    if (growth.cwiseAbs().maxCoeff() > kMostGrowth) return std::nullopt;
     scale = normal.scale();
-    if (step > 2 && shift.norm() < 1e-3) break;
+    const Eigen::Vector2d edges = change.segment<2>(2).cwiseProduct(size_px);
+    if (step > 2 && shift.norm() < 1e-3 && edges.norm() < 0.02) break;
   }
-  normal = accumulate(view, pixel, size_px, state, scale);
-  if (state(2) < 0.2 || state(2) > 5.0) return std::nullopt;
-  const Eigen::Matrix4d inverse = normal.matrix.inverse();
-  const double variance = normal.squares / normal.weights;
-  const Eigen::Matrix4d covariance = variance * inverse * normal.spread * inverse.transpose();
-  const Eigen::Matrix2d to_px = size_px.asDiagonal();
+  normal = accumulate(view, state, scale);
+  if (state.gain < 0.2 || state.gain > 5.0) return std::nullopt;
+  normal.hold_size({0.0, 0.0});
+  const Matrix inverse = normal.matrix.inverse();
+  const Matrix covariance = normal.variance() * inverse * normal.spread * inverse.transpose();
+  const Eigen::Matrix2d to_px = state.size_px.asDiagonal();
   RefinedPosition refined;
-  refined.pixel = pixel;
+  refined.pixel = state.pixel;
+  refined.size_px = state.size_px;
   refined.covariance_px2 = to_px * covariance.topLeftCorner<2, 2>() * to_px;
   refined.correlation = normal.correlation();
   if (!refined.covariance_px2.allFinite() || !std::isfinite(refined.correlation)) {

@@ -11,6 +11,7 @@ namespace ols {
 
 struct RefinedPosition {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Vector2d size_px = Eigen::Vector2d::Ones();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();  // from the image's noise
   double correlation = 0.0;                                      // -1..1
 };
@@ -35,9 +36,19 @@ class PositionRefiner {
     double gradient_u, gradient_v;  // grey levels per unit of u, v
     double weight;
   };
+  struct State {
+    Eigen::Vector2d pixel;
+    Eigen::Vector2d size_px;
+    double gain = 1.0;    // this image's grey levels over the first one's
+    double offset = 0.0;  // [grey levels]
+  };
+  // Shift along u and v, growth along u and v, gain, offset.
+  using Parameters = Eigen::Matrix<double, 6, 1>;
+  using Matrix = Eigen::Matrix<double, 6, 6>;
   struct Normal;
-  Normal accumulate(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px,
-                    const Eigen::Vector4d& state, double scale) const;
+
+  void keep_steepest(const Eigen::Vector2d& size_px);
+  Normal accumulate(const View& view, const State& state, double scale) const;
 
   std::vector<Sample> samples_;
 };

@@ -37,6 +37,9 @@ TargetModel::TargetModel(const TrackerConfig& config, const cv::Mat& gray, const
   mask_ = sample_mask(scene.mask, centre_of(box), size_of(box));
   objective_.set_mask(mask_);
   set_contrast(scene.contrast(centre_of(box), size_of(box)));
+  if (scene.view.reduction > 1) {
+    fine_refiner_.emplace(scene.whole, centre_of(box), size_of(box));
+  }
 }
 
 void TargetModel::set_contrast(double contrast) {
@@ -57,6 +60,7 @@ Scene TargetModel::make_scene(const cv::Mat& gray, const std::vector<Particle>& 
   const cv::Rect area = looked_at(particles, expected);
   Scene scene;
   scene.frame = gray.size();
+  scene.whole = {gray, {0, 0}, 1};
   scene.view = make_view(gray, area, reduction_for(first_size_px_));
   scene.smooth = smoothed(scene.view, area, first_size_px_);
   scene.contrast = LocalContrast(scene.view, widened(area, 0.4));
@@ -114,6 +118,16 @@ double TargetModel::foreground(const Scene& scene, const Eigen::Vector2d& pixel,
   return all > 0 ? static_cast<double>(common) / all : 0.0;
 }
 
+std::optional<RefinedPosition> TargetModel::refine(const Scene& scene, const Eigen::Vector2d& start,
+                                                   const Eigen::Vector2d& size_px) const {
+  const auto coarse = refiner_.refine(scene.view, start, size_px);
+  if (!coarse || !fine_refiner_) return coarse;
+  // Edges are lost in the reduced picture; but only its slopes reach as far as from a particle.
+  const auto fine = fine_refiner_->refine(scene.whole, coarse->pixel, coarse->size_px);
+  const bool better = fine && fine->covariance_px2.trace() < coarse->covariance_px2.trace();
+  return better ? fine : coarse;
+}
+
 void TargetModel::learn(const Scene& scene, const Eigen::Vector2d& pixel,
                         const Eigen::Vector2d& size_px, double share) {
   objective_.learn(sample_patch(scene.smooth, pixel, size_px), share);
@@ -142,6 +156,7 @@ void TargetModel::learn_mask(const Scene& scene, const Eigen::Vector2d& pixel,
   mask_ = mask;
   objective_.set_mask(mask);
   refiner_.set_mask(mask);
+  if (fine_refiner_) fine_refiner_->set_mask(mask);
 }
 
 }  // namespace ols

@@ -1,6 +1,7 @@
 // Everything that is known of how the target looks, and the judging of particles by it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "edge/tracker/foreground_mask.h"
@@ -13,7 +14,8 @@ namespace ols {
 
 // One frame as the objective sees it.
 struct Scene {
-  View view;                         // as taken, for the sub-pixel position
+  View whole;                        // the frame as taken
+  View view;                         // reduced to the target's size
   View smooth;                       // sampled for the candidates
   View mask;                         // foreground
   bool mask_by_subtraction = false;  // of an earlier image, not of the surroundings' level
@@ -51,10 +53,9 @@ class TargetModel {
   // M_t, once: the candidate's foreground while it is surely the target.
   void learn_mask(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
 
+  // Sub-pixel position, from a start within about a third of the target.
   std::optional<RefinedPosition> refine(const Scene& scene, const Eigen::Vector2d& start,
-                                        const Eigen::Vector2d& size_px) const {
-    return refiner_.refine(scene.view, start, size_px);
-  }
+                                        const Eigen::Vector2d& size_px) const;
   // Nothing stood out in the first box: there is nothing to recognise.
   bool empty() const { return template_.empty; }
 
@@ -68,6 +69,7 @@ class TargetModel {
   Template template_;
   Objective objective_;
   PositionRefiner refiner_;
+  std::optional<PositionRefiner> fine_refiner_;  // of a reduced target, in the frame as taken
   MaskPatch mask_{};  // M_t
   bool mask_learnt_ = false;
   double contrast_ = 0.0;         // [grey levels] of late, against its surroundings
