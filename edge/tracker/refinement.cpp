@@ -104,6 +104,7 @@ PositionRefiner::PositionRefiner(const View& view, const Eigen::Vector2d& pixel,
     }
   }
   keep_steepest(size_px);
+  find_anchor(size_px);
 }
 
 // A position is told by where the template is steep.
@@ -116,6 +117,20 @@ void PositionRefiner::keep_steepest(const Eigen::Vector2d& size_px) {
   std::nth_element(samples_.begin(), samples_.begin() + kMost, samples_.end(),
                    [&](const Sample& a, const Sample& b) { return tells(a) > tells(b); });
   samples_.resize(kMost);
+}
+
+// The middle of what tells the position: there the size and the place do not depend on each other.
+void PositionRefiner::find_anchor(const Eigen::Vector2d& size_px) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Vector2d all = Eigen::Vector2d::Constant(1e-9);
+  for (const Sample& sample : samples_) {
+    const Eigen::Vector2d slope(sample.gradient_u, sample.gradient_v);
+    const Eigen::Vector2d tells = sample.weight * slope.cwiseAbs2();
+    sum += tells.cwiseProduct(Eigen::Vector2d(sample.u, sample.v));
+    all += tells;
+  }
+  anchor_ = sum.cwiseQuotient(all);
+  anchor_px_ = anchor_.cwiseProduct(size_px);
 }
 
 void PositionRefiner::set_mask(const MaskPatch& mask) {
@@ -138,8 +153,10 @@ PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const Stat
                                                     double scale) const {
   Normal normal;
   for (const Sample& sample : samples_) {
-    const double x = view.x_of(state.pixel.x() + sample.u * state.size_px.x());
-    const double y = view.y_of(state.pixel.y() + sample.v * state.size_px.y());
+    const double u = sample.u - anchor_.x();
+    const double v = sample.v - anchor_.y();
+    const double x = view.x_of(state.anchor.x() + u * state.size_px.x());
+    const double y = view.y_of(state.anchor.y() + v * state.size_px.y());
     const double now = cubic(view.image, x, y);
     const double residual = now - state.gain * sample.gray - state.offset;
     // Huber: what covers part of the target, or moves behind it, counts less.
@@ -149,7 +166,7 @@ PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const Stat
     const double along_u = state.gain * sample.gradient_u;
     const double along_v = state.gain * sample.gradient_v;
     Parameters row;
-    row << along_u, along_v, sample.u * along_u, sample.v * along_v, sample.gray, 1.0;
+    row << along_u, along_v, u * along_u, v * along_v, sample.gray, 1.0;
     normal.matrix += weight * row * row.transpose();
     normal.spread += weight * weight * row * row.transpose();
     normal.right += weight * row * residual;
@@ -164,7 +181,7 @@ PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const Stat
 std::optional<RefinedPosition> PositionRefiner::refine(const View& view,
                                                        const Eigen::Vector2d& start,
                                                        const Eigen::Vector2d& size_px) const {
-  State state{start, size_px};
+  State state{start + anchor_px_, size_px};
   double scale = 1e3;  // no robust weights in the first step
   Normal normal;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -176,11 +193,11 @@ std::optional<RefinedPosition> PositionRefiner::refine(const View& view,
     if (!change.allFinite()) return std::nullopt;
     // The image there is the template seen from change off it and larger: step back by that.
     const Eigen::Vector2d shift = change.head<2>().cwiseProduct(state.size_px);
-    state.pixel -= shift;
+    state.anchor -= shift;
     state.size_px.array() *= (-change.segment<2>(2)).array().max(-0.1).min(0.1).exp();
     state.gain += change(4);
     state.offset += change(5);
-    const Eigen::Vector2d from_start = (state.pixel - start).cwiseQuotient(size_px);
+    const Eigen::Vector2d from_start = (state.anchor - anchor_px_ - start).cwiseQuotient(size_px);
     const Eigen::Vector2d growth = state.size_px.cwiseQuotient(size_px).array().log();
     if (from_start.cwiseAbs().maxCoeff() > kMostStep) return std::nullopt;
     if (growth.cwiseAbs().maxCoeff() > kMostGrowth) return std::nullopt;
@@ -195,7 +212,7 @@ std::optional<RefinedPosition> PositionRefiner::refine(const View& view,
   const Matrix covariance = normal.variance() * inverse * normal.spread * inverse.transpose();
   const Eigen::Matrix2d to_px = state.size_px.asDiagonal();
   RefinedPosition refined;
-  refined.pixel = state.pixel;
+  refined.pixel = state.anchor - anchor_px_;
   refined.size_px = state.size_px;
   refined.covariance_px2 = to_px * covariance.topLeftCorner<2, 2>() * to_px;
   refined.correlation = normal.correlation();

@@ -37,7 +37,7 @@ class PositionRefiner {
     double weight;
   };
   struct State {
-    Eigen::Vector2d pixel;
+    Eigen::Vector2d anchor;  // where it is [px]
     Eigen::Vector2d size_px;
     double gain = 1.0;    // this image's grey levels over the first one's
     double offset = 0.0;  // [grey levels]
@@ -48,9 +48,13 @@ class PositionRefiner {
   struct Normal;
 
   void keep_steepest(const Eigen::Vector2d& size_px);
+  void find_anchor(const Eigen::Vector2d& size_px);
   Normal accumulate(const View& view, const State& state, double scale) const;
 
   std::vector<Sample> samples_;
+  // The size changes about this point of the box; the designated one stays a fixed step off it.
+  Eigen::Vector2d anchor_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d anchor_px_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace ols
