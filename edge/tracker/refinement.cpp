@@ -15,7 +15,7 @@ constexpr std::size_t kMost = 2500;   // samples; of a larger target those that 
 constexpr double kMostStep = 0.35;    // of the box, from where it starts
 constexpr double kMostGrowth = 0.25;  // of the box, from what it starts with
 constexpr int kMostSteps = 15;
-constexpr double kSizeSd = 0.05;  // of the size that it starts with, relative
+constexpr double kSizeSd = 0.02;  // of the size that it starts with, relative
 
 int samples_along(double size_px, int reduction) {
   return std::max(kLeastSide, static_cast<int>(std::round(kContext * size_px / reduction)));

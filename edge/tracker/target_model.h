@@ -70,7 +70,7 @@ class TargetModel {
   Objective objective_;
   PositionRefiner refiner_;
   std::optional<PositionRefiner> fine_refiner_;  // of a reduced target, in the frame as taken
-  MaskPatch mask_{};  // M_t
+  MaskPatch mask_{};                             // M_t
   bool mask_learnt_ = false;
   double contrast_ = 0.0;         // [grey levels] of late, against its surroundings
   double contrast_weight_ = 0.0;  // 0..1, how much more than noise that is

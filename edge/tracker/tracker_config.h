@@ -66,7 +66,7 @@ struct TrackerConfig {
   double search_sd_most_px = 120.0;
 
   double reference_interval_s = 0.3;  // between images kept for the foreground masks
-  double pixel_sd_floor_px = 0.05;    // of the refined position
+  double pixel_sd_floor_px = 0.005;   // of the refined position
 };
 
 // Reads the table `[tracker]` of a configuration. Throws ConfigError.

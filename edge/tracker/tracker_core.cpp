@@ -10,6 +10,7 @@ namespace ols {
 namespace {
 
 constexpr double kSamePattern = 0.5;  // correlation; less is no measurement of its place
+constexpr double kSameShape = 0.9;    // likewise; less is no measurement of its size
 constexpr double kSureEnoughToLearn = 0.7;
 constexpr double kSureEnoughForMask = 0.8;
 
@@ -209,12 +210,14 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s, 
   last_.size_px = filter_.mean_size_px();
   timer.lap(Stage::kWeighting);
 
-  const auto refined = target_.refine(scene, last_.pixel, last_.size_px);
+  const auto refined = target_.refine(scene, last_.pixel, refined_size_px_.value_or(last_.size_px));
   const double floor = config_.pixel_sd_floor_px * config_.pixel_sd_floor_px;
   TrackerOutput output;
   output.covariance_px2 = filter_.covariance_about(last_.pixel);
+  refined_size_px_.reset();
   if (refined && refined->correlation > kSamePattern) {
     last_.pixel = refined->pixel;
+    if (refined->correlation > kSameShape) refined_size_px_ = refined->size_px;
     filter_.particles()[best].pixel = refined->pixel;
     output.covariance_px2 = refined->covariance_px2;
   }

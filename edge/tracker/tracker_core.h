@@ -87,7 +87,9 @@ class TrackerCore : public TargetFollower {
   bool scene_lost_ = false;  // it was followed up to the frame before: this may be a cut
   Velocity velocity_ = Velocity::kUnknown;
   Label label_;
-  Particle last_;                       // best estimate in the newest frame
+  Particle last_;  // best estimate in the newest frame
+  // Of the first image in the newest frame: the box is of what has been learnt since, too.
+  std::optional<Eigen::Vector2d> refined_size_px_;
   std::vector<MoverCandidate> movers_;  // of this frame, while the target is looked for
   Particle believed_;                   // the last one seen, brought to the newest frame
   std::optional<Eigen::Matrix3d> image_homography_;
