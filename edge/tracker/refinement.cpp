@@ -71,6 +71,12 @@ struct PositionRefiner::Normal {
     matrix.diagonal().segment<2>(2).array() += stiffness;
     right.segment<2>(2) += stiffness * off;
   }
+  void fix_size() {
+    matrix.middleRows<2>(2).setZero();
+    matrix.middleCols<2>(2).setZero();
+    matrix.diagonal().segment<2>(2).setConstant(matrix.trace());
+    right.segment<2>(2).setZero();
+  }
 };
 
 PositionRefiner::PositionRefiner(const View& view, const Eigen::Vector2d& pixel,
@@ -178,41 +184,56 @@ PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const Stat
   return normal;
 }
 
-std::optional<RefinedPosition> PositionRefiner::refine(const View& view,
-                                                       const Eigen::Vector2d& start,
-                                                       const Eigen::Vector2d& size_px) const {
-  State state{start + anchor_px_, size_px};
+std::optional<RefinedPosition> PositionRefiner::refine(
+    const View& view, const Eigen::Vector2d& start, const Eigen::Vector2d& size_px,
+    const std::optional<Eigen::Vector2d>& likely_size_px) const {
+  const Eigen::Vector2d first_anchor = start + anchor_.cwiseProduct(size_px);
+  const Eigen::Vector2d first_size = likely_size_px.value_or(size_px);
+  const auto know_size = [&](Normal& normal, const Eigen::Vector2d& size) {
+    if (!likely_size_px) return normal.fix_size();
+    normal.hold_size(size.cwiseQuotient(first_size).array().log());
+  };
+  State state{first_anchor, first_size};
   double scale = 1e3;  // no robust weights in the first step
-  Normal normal;
   for (int step = 0; step < kMostSteps; ++step) {
-    normal = accumulate(view, state, scale);
-    normal.hold_size(state.size_px.cwiseQuotient(size_px).array().log());
+    Normal normal = accumulate(view, state, scale);
+    know_size(normal, state.size_px);
     const Eigen::LDLT<Matrix> solver(normal.matrix);
     if (solver.info() != Eigen::Success || solver.rcond() < 1e-12) return std::nullopt;
     const Parameters change = solver.solve(normal.right);
     if (!change.allFinite()) return std::nullopt;
-    // The image there is the template seen from change off it and larger: step back by that.
-    const Eigen::Vector2d shift = change.head<2>().cwiseProduct(state.size_px);
-    state.anchor -= shift;
-    state.size_px.array() *= (-change.segment<2>(2)).array().max(-0.1).min(0.1).exp();
-    state.gain += change(4);
-    state.offset += change(5);
-    const Eigen::Vector2d from_start = (state.anchor - anchor_px_ - start).cwiseQuotient(size_px);
-    const Eigen::Vector2d growth = state.size_px.cwiseQuotient(size_px).array().log();
-    if (from_start.cwiseAbs().maxCoeff() > kMostStep) return std::nullopt;
+    state.step_back(change);
+    const Eigen::Vector2d moved = (state.anchor - first_anchor).cwiseQuotient(first_size);
+    const Eigen::Vector2d growth = state.size_px.cwiseQuotient(first_size).array().log();
+    if (moved.cwiseAbs().maxCoeff() > kMostStep) return std::nullopt;
     if (growth.cwiseAbs().maxCoeff() > kMostGrowth) return std::nullopt;
     scale = normal.scale();
-    const Eigen::Vector2d edges = change.segment<2>(2).cwiseProduct(size_px);
+    const Eigen::Vector2d shift = change.head<2>().cwiseProduct(first_size);
+    const Eigen::Vector2d edges = change.segment<2>(2).cwiseProduct(first_size);
     if (step > 2 && shift.norm() < 1e-3 && edges.norm() < 0.02) break;
   }
-  normal = accumulate(view, state, scale);
   if (state.gain < 0.2 || state.gain > 5.0) return std::nullopt;
-  normal.hold_size({0.0, 0.0});
+  Normal normal = accumulate(view, state, scale);
+  know_size(normal, first_size);
+  return position_of(state, normal);
+}
+
+// The image there is the template seen from change off it and larger: step back by that.
+void PositionRefiner::State::step_back(const Parameters& change) {
+  anchor -= change.head<2>().cwiseProduct(size_px);
+  size_px.array() *= (-change.segment<2>(2)).array().max(-0.1).min(0.1).exp();
+  gain += change(4);
+  offset += change(5);
+}
+
+std::optional<RefinedPosition> PositionRefiner::position_of(const State& state,
+                                                            const Normal& normal) const {
   const Matrix inverse = normal.matrix.inverse();
   const Matrix covariance = normal.variance() * inverse * normal.spread * inverse.transpose();
   const Eigen::Matrix2d to_px = state.size_px.asDiagonal();
   RefinedPosition refined;
   refined.pixel = state.anchor - anchor_px_;
+  refined.centre = state.anchor - anchor_.cwiseProduct(state.size_px);
   refined.size_px = state.size_px;
   refined.covariance_px2 = to_px * covariance.topLeftCorner<2, 2>() * to_px;
   refined.correlation = normal.correlation();

@@ -10,7 +10,8 @@
 namespace ols {
 
 struct RefinedPosition {
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();   // of what was designated
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // of the box in which the first image fits
   Eigen::Vector2d size_px = Eigen::Vector2d::Ones();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();  // from the image's noise
   double correlation = 0.0;                                      // -1..1
@@ -24,10 +25,12 @@ class PositionRefiner {
   // M_t: what is not foreground moves otherwise, and counts little from now on.
   void set_mask(const MaskPatch& mask);
 
-  // From a start within about a third of the target; nothing when it does not converge there or the
-  // target shows too little structure.
-  std::optional<RefinedPosition> refine(const View& view, const Eigen::Vector2d& start,
-                                        const Eigen::Vector2d& size_px) const;
+  // From the centre of a box within about a third of the target; nothing when it does not converge
+  // there or the target shows too little structure. The size is that of the box, or, where a likely
+  // one is told, estimated from there.
+  std::optional<RefinedPosition> refine(
+      const View& view, const Eigen::Vector2d& start, const Eigen::Vector2d& size_px,
+      const std::optional<Eigen::Vector2d>& likely_size_px = std::nullopt) const;
 
  private:
   struct Sample {
@@ -36,20 +39,23 @@ class PositionRefiner {
     double gradient_u, gradient_v;  // grey levels per unit of u, v
     double weight;
   };
+  // Shift along u and v, growth along u and v, gain, offset.
+  using Parameters = Eigen::Matrix<double, 6, 1>;
+  using Matrix = Eigen::Matrix<double, 6, 6>;
+  struct Normal;
   struct State {
     Eigen::Vector2d anchor;  // where it is [px]
     Eigen::Vector2d size_px;
     double gain = 1.0;    // this image's grey levels over the first one's
     double offset = 0.0;  // [grey levels]
+
+    void step_back(const Parameters& change);
   };
-  // Shift along u and v, growth along u and v, gain, offset.
-  using Parameters = Eigen::Matrix<double, 6, 1>;
-  using Matrix = Eigen::Matrix<double, 6, 6>;
-  struct Normal;
 
   void keep_steepest(const Eigen::Vector2d& size_px);
   void find_anchor(const Eigen::Vector2d& size_px);
   Normal accumulate(const View& view, const State& state, double scale) const;
+  std::optional<RefinedPosition> position_of(const State& state, const Normal& normal) const;
 
   std::vector<Sample> samples_;
   // The size changes about this point of the box; the designated one stays a fixed step off it.

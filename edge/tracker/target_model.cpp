@@ -118,12 +118,14 @@ double TargetModel::foreground(const Scene& scene, const Eigen::Vector2d& pixel,
   return all > 0 ? static_cast<double>(common) / all : 0.0;
 }
 
-std::optional<RefinedPosition> TargetModel::refine(const Scene& scene, const Eigen::Vector2d& start,
-                                                   const Eigen::Vector2d& size_px) const {
-  const auto coarse = refiner_.refine(scene.view, start, size_px);
+std::optional<RefinedPosition> TargetModel::measure(const Scene& scene,
+                                                    const RefinedPosition& placed,
+                                                    const Eigen::Vector2d& likely_size_px) const {
+  const auto coarse = refiner_.refine(scene.view, placed.centre, placed.size_px, likely_size_px);
   if (!coarse || !fine_refiner_) return coarse;
   // Edges are lost in the reduced picture; but only its slopes reach as far as from a particle.
-  const auto fine = fine_refiner_->refine(scene.whole, coarse->pixel, coarse->size_px);
+  const auto fine =
+      fine_refiner_->refine(scene.whole, coarse->centre, coarse->size_px, coarse->size_px);
   const bool better = fine && fine->covariance_px2.trace() < coarse->covariance_px2.trace();
   return better ? fine : coarse;
 }

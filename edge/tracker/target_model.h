@@ -53,9 +53,14 @@ class TargetModel {
   // M_t, once: the candidate's foreground while it is surely the target.
   void learn_mask(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
 
-  // Sub-pixel position, from a start within about a third of the target.
-  std::optional<RefinedPosition> refine(const Scene& scene, const Eigen::Vector2d& start,
-                                        const Eigen::Vector2d& size_px) const;
+  // Where the box of this size fits best, from a start within about a third of the target.
+  std::optional<RefinedPosition> place(const Scene& scene, const Eigen::Vector2d& start,
+                                       const Eigen::Vector2d& size_px) const {
+    return refiner_.refine(scene.view, start, size_px);
+  }
+  // From there the sub-pixel position, with the size and from all that the frame shows.
+  std::optional<RefinedPosition> measure(const Scene& scene, const RefinedPosition& placed,
+                                         const Eigen::Vector2d& likely_size_px) const;
   // Nothing stood out in the first box: there is nothing to recognise.
   bool empty() const { return template_.empty; }
 

@@ -210,24 +210,36 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s, 
   last_.size_px = filter_.mean_size_px();
   timer.lap(Stage::kWeighting);
 
-  const auto refined = target_.refine(scene, last_.pixel, refined_size_px_.value_or(last_.size_px));
-  const double floor = config_.pixel_sd_floor_px * config_.pixel_sd_floor_px;
   TrackerOutput output;
   output.covariance_px2 = filter_.covariance_about(last_.pixel);
-  refined_size_px_.reset();
-  if (refined && refined->correlation > kSamePattern) {
-    last_.pixel = refined->pixel;
-    if (refined->correlation > kSameShape) refined_size_px_ = refined->size_px;
-    filter_.particles()[best].pixel = refined->pixel;
-    output.covariance_px2 = refined->covariance_px2;
+  Eigen::Vector2d pixel = last_.pixel;
+  if (const auto placed = target_.place(scene, last_.pixel, last_.size_px);
+      placed && placed->correlation > kSamePattern) {
+    last_.pixel = filter_.particles()[best].pixel = placed->centre;
+    const RefinedPosition measured = measure(scene, *placed);
+    pixel = measured.pixel;
+    output.covariance_px2 = measured.covariance_px2;
+  } else {
+    measured_size_px_.reset();
   }
+  const double floor = config_.pixel_sd_floor_px * config_.pixel_sd_floor_px;
   output.covariance_px2 += floor * Eigen::Matrix2d::Identity();
   timer.lap(Stage::kPosition);
   judge(scene, background, interval_s);
   output.box = labelled(last_);
-  output.pixel = last_.pixel + label_.offset_px;
+  output.pixel = pixel + label_.offset_px;
   output.belief = identity_ * belief_.value();
   return output;
+}
+
+// What is followed goes by a size that the particles agree on, which no smeared image leads astray;
+// what is told, by the one that this image shows.
+RefinedPosition TrackerCore::measure(const Scene& scene, const RefinedPosition& placed) {
+  const auto measured = target_.measure(scene, placed, measured_size_px_.value_or(last_.size_px));
+  measured_size_px_.reset();
+  if (!measured || measured->correlation < placed.correlation) return placed;
+  if (measured->correlation > kSameShape) measured_size_px_ = measured->size_px;
+  return *measured;
 }
 
 void TrackerCore::weigh_particles(const Scene& scene, double background) {

@@ -53,6 +53,7 @@ class TrackerCore : public TargetFollower {
   cv::Rect2d reachable_area(double interval_s) const;
   void scatter_over_search(double fraction);
   TrackerOutput update(const TrackerInput& frame, double interval_s, StageTimer& timer);
+  RefinedPosition measure(const Scene& scene, const RefinedPosition& placed);
   void weigh_particles(const Scene& scene, double background);
   std::size_t choose(const Scene& scene, double background, double interval_s) const;
   FrameEvidence evidence_of(const Scene& scene, const Particle& particle, double background) const;
@@ -89,7 +90,7 @@ class TrackerCore : public TargetFollower {
   Label label_;
   Particle last_;  // best estimate in the newest frame
   // Of the first image in the newest frame: the box is of what has been learnt since, too.
-  std::optional<Eigen::Vector2d> refined_size_px_;
+  std::optional<Eigen::Vector2d> measured_size_px_;
   std::vector<MoverCandidate> movers_;  // of this frame, while the target is looked for
   Particle believed_;                   // the last one seen, brought to the newest frame
   std::optional<Eigen::Matrix3d> image_homography_;

@@ -53,6 +53,13 @@ ols::TargetModel model_of(const Picture& first, double side) {
   return {ols::TrackerConfig{}, first.gray(), ols::box_of(kPlace, box_of_side(side))};
 }
 
+// As the tracker does it: placed by a box of a size, then measured.
+std::optional<ols::RefinedPosition> measured(const ols::TargetModel& model, const ols::Scene& scene,
+                                             const Vector2d& start, const Vector2d& size_px) {
+  const auto placed = model.place(scene, start, size_px);
+  return placed ? model.measure(scene, *placed, size_px) : std::nullopt;
+}
+
 ols::Scene scene_of(const ols::TargetModel& model, const Picture& picture, const Vector2d& place,
                     double side) {
   return model.make_scene(picture.gray(), {}, ols::box_of(place, box_of_side(side)),
@@ -68,9 +75,8 @@ TEST(Refinement, ALargeTargetsPlaceIsExactThoughItsSizeIsNotKnown) {
   for (int i = 0; i < 8; ++i) {
     const Vector2d moved(0.37 * i, -0.21 * i);
     const Picture picture(kSide, kPlace + moved, noise);
-    const auto refined =
-        model.refine(scene_of(model, picture, kPlace + moved, kSide),
-                     kPlace + moved + Vector2d(1.5, -1.0), 1.03 * box_of_side(kSide));
+    const auto refined = measured(model, scene_of(model, picture, kPlace + moved, kSide),
+                                  kPlace + moved + Vector2d(1.5, -1.0), 1.03 * box_of_side(kSide));
     ASSERT_TRUE(refined);
     EXPECT_LT((refined->pixel - kPlace - moved).norm(), 0.06) << i;
     EXPECT_NEAR(refined->size_px.x(), box_of_side(kSide).x(), 0.15) << i;
@@ -85,7 +91,8 @@ TEST(Refinement, WhatWasDesignatedStaysAFixedStepOffAGrowingTarget) {
   const Picture first(kSide, kPlace, noise);
   const ols::PositionRefiner refiner(first.view(), kPlace + off, box_of_side(kSide));
   const Picture grown(1.2 * kSide, kPlace, noise);
-  const auto refined = refiner.refine(grown.view(), kPlace + off, 1.15 * box_of_side(kSide));
+  const auto refined =
+      refiner.refine(grown.view(), kPlace + off, box_of_side(kSide), 1.15 * box_of_side(kSide));
   ASSERT_TRUE(refined);
   // The body outweighs the arm: the middle of the slopes is not the picture's, by about 2 px of 24.
   EXPECT_LT((refined->pixel - kPlace - off).norm(), 0.5);
@@ -100,7 +107,7 @@ double mean_normalised_error_squared(double side, cv::RNG& noise) {
     const Vector2d place = kPlace + Vector2d(0.13 * i, 0.29 * i);
     const Picture picture(side, place, noise);
     const auto refined =
-        model.refine(scene_of(model, picture, place, side), place, box_of_side(side));
+        measured(model, scene_of(model, picture, place, side), place, box_of_side(side));
     EXPECT_TRUE(refined);
     if (!refined) return INFINITY;
     const Vector2d error = refined->pixel - place;
