@@ -21,6 +21,12 @@ int samples_along(double size_px, int reduction) {
   return std::max(kLeastSide, static_cast<int>(std::round(kContext * size_px / reduction)));
 }
 
+// Of the sample in this column and row; blocks overlap nowhere.
+int block_of(int column, int row, int columns) {
+  const int side = std::clamp(columns / 6, 2, 6);
+  return row / side * columns + column / side;
+}
+
 // Keys' cubic convolution: what lies between the pixels is not blurred as by a line, so that the
 // position does not lean on where between them the target stands.
 std::array<double, 4> cubic_weights(double t) {
@@ -52,11 +58,14 @@ struct PositionRefiner::Normal {
   Matrix matrix = Matrix::Zero();
   Matrix spread = Matrix::Zero();  // with the squares of the weights
   Parameters right = Parameters::Zero();
+  Matrix blocks = Matrix::Zero();  // likewise, if what is left over in a block is of one piece
+  int block_count = 0;
   double squares = 0.0;
   double weights = 0.0;
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();  // of (template, image, 1), for correlation
 
-  double variance() const { return squares / weights; }
+  // Both images are rounded to whole grey levels.
+  double variance() const { return std::max(2.0 / 12.0, squares / weights); }
   double scale() const { return std::max(0.5, std::sqrt(variance())); }
   double correlation() const {
     const double n = moments(2, 2);
@@ -67,7 +76,7 @@ struct PositionRefiner::Normal {
   }
   // The size is known beforehand, to kSizeSd; `off` is how far it has gone from that.
   void hold_size(const Eigen::Vector2d& off) {
-    const double stiffness = std::max(0.25, variance()) / (kSizeSd * kSizeSd);
+    const double stiffness = variance() / (kSizeSd * kSizeSd);
     matrix.diagonal().segment<2>(2).array() += stiffness;
     right.segment<2>(2) += stiffness * off;
   }
@@ -106,10 +115,11 @@ PositionRefiner::PositionRefiner(const View& view, const Eigen::Vector2d& pixel,
       const double v = (y - centre_y) / height;
       const double outside = std::max({std::abs(u), std::abs(v), 0.5}) - 0.5;
       samples_.push_back({u, v, at(0, 0), along_x * width, along_y * height,
-                          1.0 / (1.0 + 40.0 * outside * outside * 4.0)});
+                          1.0 / (1.0 + 40.0 * outside * outside * 4.0), block_of(i, j, columns)});
     }
   }
   keep_steepest(size_px);
+  sort_by_blocks();
   find_anchor(size_px);
 }
 
@@ -155,10 +165,24 @@ void PositionRefiner::set_mask(const MaskPatch& mask) {
   }
 }
 
+void PositionRefiner::sort_by_blocks() {
+  std::stable_sort(samples_.begin(), samples_.end(),
+                   [](const Sample& a, const Sample& b) { return a.block < b.block; });
+}
+
 PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const State& state,
                                                     double scale) const {
   Normal normal;
+  Parameters of_block = Parameters::Zero();
+  int block = samples_.front().block;
+  const auto end_block = [&] {
+    normal.blocks += of_block * of_block.transpose();
+    ++normal.block_count;
+    of_block.setZero();
+  };
   for (const Sample& sample : samples_) {
+    if (sample.block != block) end_block();
+    block = sample.block;
     const double u = sample.u - anchor_.x();
     const double v = sample.v - anchor_.y();
     const double x = view.x_of(state.anchor.x() + u * state.size_px.x());
@@ -176,11 +200,13 @@ PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const Stat
     normal.matrix += weight * row * row.transpose();
     normal.spread += weight * weight * row * row.transpose();
     normal.right += weight * row * residual;
+    of_block += weight * row * residual;
     normal.squares += weight * residual * residual;
     normal.weights += weight;
     const Eigen::Vector3d moment(sample.gray, now, 1.0);
     normal.moments += sample.weight * moment * moment.transpose();
   }
+  end_block();
   return normal;
 }
 
@@ -230,14 +256,21 @@ std::optional<RefinedPosition> PositionRefiner::position_of(const State& state,
                                                             const Normal& normal) const {
   const Matrix inverse = normal.matrix.inverse();
   const Matrix covariance = normal.variance() * inverse * normal.spread * inverse.transpose();
+  const double freed =
+      std::max(1.0, normal.block_count - static_cast<double>(Parameters::SizeAtCompileTime));
+  const Matrix by_blocks =
+      normal.block_count / freed * inverse * normal.blocks * inverse.transpose();
   const Eigen::Matrix2d to_px = state.size_px.asDiagonal();
   RefinedPosition refined;
   refined.pixel = state.anchor - anchor_px_;
   refined.centre = state.anchor - anchor_.cwiseProduct(state.size_px);
   refined.size_px = state.size_px;
   refined.covariance_px2 = to_px * covariance.topLeftCorner<2, 2>() * to_px;
+  refined.shared_noise =
+      (to_px * by_blocks.topLeftCorner<2, 2>() * to_px).trace() / refined.covariance_px2.trace();
   refined.correlation = normal.correlation();
-  if (!refined.covariance_px2.allFinite() || !std::isfinite(refined.correlation)) {
+  if (!refined.covariance_px2.allFinite() || !std::isfinite(refined.correlation) ||
+      !std::isfinite(refined.shared_noise)) {
     return std::nullopt;
   }
   return refined;

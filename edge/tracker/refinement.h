@@ -15,6 +15,10 @@ struct RefinedPosition {
   Eigen::Vector2d size_px = Eigen::Vector2d::Ones();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();  // from the image's noise
   double correlation = 0.0;                                      // -1..1
+  // How many times more uncertain it is than by noise that no two pixels share, by what is left
+  // over in neighbouring pixels: of a background that moves otherwise, of a lens, of a changed
+  // look.
+  double shared_noise = 1.0;
 };
 
 class PositionRefiner {
@@ -38,6 +42,7 @@ class PositionRefiner {
     double gray;
     double gradient_u, gradient_v;  // grey levels per unit of u, v
     double weight;
+    int block;  // of neighbours, in whose order the samples stand
   };
   // Shift along u and v, growth along u and v, gain, offset.
   using Parameters = Eigen::Matrix<double, 6, 1>;
@@ -53,6 +58,7 @@ class PositionRefiner {
   };
 
   void keep_steepest(const Eigen::Vector2d& size_px);
+  void sort_by_blocks();
   void find_anchor(const Eigen::Vector2d& size_px);
   Normal accumulate(const View& view, const State& state, double scale) const;
   std::optional<RefinedPosition> position_of(const State& state, const Normal& normal) const;

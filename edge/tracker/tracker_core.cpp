@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kSamePattern = 0.5;  // correlation; less is no measurement of its place
 constexpr double kSameShape = 0.9;    // likewise; less is no measurement of its size
+constexpr double kNotPlaced = 0.1;    // of its size: 1 sigma where nothing tells its place better
+constexpr double kSharedByChance = 1.2;
+constexpr double kSharedNoiseTime_s = 1.0;
 constexpr double kSureEnoughToLearn = 0.7;
 constexpr double kSureEnoughForMask = 0.8;
 
@@ -147,6 +150,7 @@ void TrackerCore::designate_late(const cv::Mat& gray) {
   const cv::Rect2d core = find_core(gray, wide);
   if (core == wide) return;
   target_ = TargetModel(config_, gray, core);
+  designation_sd_px_ = kNotPlaced * size_of(core);
   last_.pixel = centre_of(core);
   last_.size_px = size_of(core);
   last_.velocity_px_s.setZero();
@@ -213,17 +217,22 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s, 
   TrackerOutput output;
   output.covariance_px2 = filter_.covariance_about(last_.pixel);
   Eigen::Vector2d pixel = last_.pixel;
+  output.covariance_px2.diagonal() += (kNotPlaced * last_.size_px).cwiseAbs2();
   if (const auto placed = target_.place(scene, last_.pixel, last_.size_px);
       placed && placed->correlation > kSamePattern) {
     last_.pixel = filter_.particles()[best].pixel = placed->centre;
     const RefinedPosition measured = measure(scene, *placed);
     pixel = measured.pixel;
-    output.covariance_px2 = measured.covariance_px2;
+    const double share = 1.0 - std::exp(-interval_s / kSharedNoiseTime_s);
+    shared_noise_ += share * (measured.shared_noise - shared_noise_);
+    output.covariance_px2 =
+        std::max(1.0, shared_noise_ / kSharedByChance) * measured.covariance_px2;
   } else {
     measured_size_px_.reset();
   }
   const double floor = config_.pixel_sd_floor_px * config_.pixel_sd_floor_px;
-  output.covariance_px2 += floor * Eigen::Matrix2d::Identity();
+  output.covariance_px2.diagonal() += designation_sd_px_.cwiseAbs2();
+  output.covariance_px2.diagonal().array() += floor;
   timer.lap(Stage::kPosition);
   judge(scene, background, interval_s);
   output.box = labelled(last_);
@@ -237,7 +246,7 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s, 
 RefinedPosition TrackerCore::measure(const Scene& scene, const RefinedPosition& placed) {
   const auto measured = target_.measure(scene, placed, measured_size_px_.value_or(last_.size_px));
   measured_size_px_.reset();
-  if (!measured || measured->correlation < placed.correlation) return placed;
+  if (!measured || measured->correlation < kSamePattern) return placed;
   if (measured->correlation > kSameShape) measured_size_px_ = measured->size_px;
   return *measured;
 }

@@ -91,6 +91,8 @@ class TrackerCore : public TargetFollower {
   Particle last_;  // best estimate in the newest frame
   // Of the first image in the newest frame: the box is of what has been learnt since, too.
   std::optional<Eigen::Vector2d> measured_size_px_;
+  Eigen::Vector2d designation_sd_px_ = Eigen::Vector2d::Zero();  // of a late one
+  double shared_noise_ = 1.0;                                    // RefinedPosition's, of late
   std::vector<MoverCandidate> movers_;  // of this frame, while the target is looked for
   Particle believed_;                   // the last one seen, brought to the newest frame
   std::optional<Eigen::Matrix3d> image_homography_;
