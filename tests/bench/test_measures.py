@@ -107,20 +107,24 @@ def test_auroc_counts_pairs_in_the_right_order():
     assert auroc(np.array([0.9, 0.3]), np.array([True, True])) is None
 
 
+def losses_of(j: Judged) -> list[float]:
+    return losses(j, j.on_target)
+
+
 def test_losses_are_timed_from_the_first_frame_off_target():
     on = [True] * 5 + [False] * 20 + [True] * 5
-    assert losses(judged(on, [1.0] * 8 + [0.2] * 17 + [1.0] * 5)) == [pytest.approx(0.1)]
-    assert losses(judged(on, [1.0] * 30)) == [math.inf]
-    assert losses(judged([True] * 5 + [False] * 20, [1.0] * 7 + [0.0] * 18)) == [
+    assert losses_of(judged(on, [1.0] * 8 + [0.2] * 17 + [1.0] * 5)) == [pytest.approx(0.1)]
+    assert losses_of(judged(on, [1.0] * 30)) == [math.inf]
+    assert losses_of(judged([True] * 5 + [False] * 20, [1.0] * 7 + [0.0] * 18)) == [
         pytest.approx(2 / 30)
     ]
 
 
 def test_no_losses_are_short_excursions_and_targets_not_believed_in():
     short = [True] * 5 + [False] * 9 + [True] * 5
-    assert losses(judged(short, [1.0] * 19)) == []
+    assert losses_of(judged(short, [1.0] * 19)) == []
     doubted = [True] * 5 + [False] * 20
-    assert losses(judged(doubted, [1.0] * 4 + [0.3] * 21)) == []
+    assert losses_of(judged(doubted, [1.0] * 4 + [0.3] * 21)) == []
 
 
 def test_a_target_is_followed_on_until_a_doubt_or_a_leap():
@@ -131,6 +135,23 @@ def test_a_target_is_followed_on_until_a_doubt_or_a_leap():
     assert list(np.flatnonzero(followed_on(j))) == [2, 3, 7]
     j.belief[2] = 0.4
     assert list(np.flatnonzero(followed_on(j))) == [7]
+
+
+def test_what_is_followed_on_to_a_label_of_something_else_counts_until_it_is_on_target_again():
+    j = judged([True, False, False, False, True, False], [1.0] * 6)
+    j.visible = np.array([True, True, False, True, True, True])
+    # The first is off a label that has not ended, the last off one that is new.
+    assert list(np.flatnonzero(followed_on(j))) == [2, 3]
+
+
+def test_a_label_that_ends_is_no_loss_of_what_is_followed_on():
+    j = judged([True] * 5 + [False] * 20, [1.0] * 25)
+    j.visible = np.array([True] * 5 + [False] * 20)
+    measures = belief_measures([j])
+    assert (measures["losses"], measures["noticed_in_time"]) == (1, 0.0)
+    assert measures["followed_on"] == 1.0
+    assert measures["with_followed_on"]["losses"] == 0
+    assert measures["with_followed_on"]["calibration_error"] == 0.0
 
 
 def test_trackers_without_belief_have_no_such_measures():

@@ -33,6 +33,9 @@ def arguments() -> argparse.Namespace:
         help="run only these; others that are complete in the output folder are shown as they are "
         "there (default: %(default)s)",
     )
+    parser.add_argument(
+        "--seed", type=int, default=1, help="of the random numbers (default: %(default)s)"
+    )
     parser.add_argument("--config", type=Path, help="TOML file with a table [tracker] for ours")
     parser.add_argument(
         "--program", type=Path, default=ROOT / "build/release/bin/ols-track", help="ols-track"
@@ -55,9 +58,9 @@ def run(tracker: str, folders: dict[str, list[Clip]], given: argparse.Namespace)
         for clip in clips:
             places = places_of(given.output, tracker, folder, clip)
             if tracker in OURS:
-                run_ours(tracker, clip, places, given.program, given.config)
+                run_ours(tracker, clip, places, given.seed, given.program, given.config)
             else:
-                run_opencv(tracker, clip, places)
+                run_opencv(tracker, clip, places, given.seed)
             print(f"{tracker:14} {folder}/{clip.name}", flush=True)
 
 
@@ -69,7 +72,7 @@ def complete(tracker: str, folders: dict[str, list[Clip]], output: Path) -> bool
     )
 
 
-def about(ran: list[str], shown: list[str]) -> str:
+def about(ran: list[str], shown: list[str], seed: int) -> str:
     core = ",".join(map(str, sorted(os.sched_getaffinity(0))))
     model = "unknown processor"
     for line in Path("/proc/cpuinfo").read_text().splitlines():
@@ -78,7 +81,7 @@ def about(ran: list[str], shown: list[str]) -> str:
             break
     text = (
         f"One thread on core {core} of {platform.machine()}, {model}; OpenCV {cv2.__version__}'s "
-        "trackers. Times are processor time inside the trackers' update alone, decoding apart."
+        f"trackers; seed {seed}. Times are processor time inside the trackers' update alone, decoding apart."
     )
     earlier = [tracker for tracker in shown if tracker not in ran]
     if earlier:
@@ -99,7 +102,7 @@ def main() -> None:
         shown = [name for name in NAMES if complete(name, folders, given.output)]
         rates = {clip.path: frames_per_second(clip) for clips in folders.values() for clip in clips}
         results = {name: results_of(given.output, name, folders, rates) for name in shown}
-        text = about(wanted, shown)
+        text = about(wanted, shown, given.seed)
         tables.write(given.output, results, text)
         figures.draw(given.output, results)
         if "ours (full)" in results:

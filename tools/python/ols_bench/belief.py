@@ -17,14 +17,6 @@ NOTICED_IN_TIME_S = 0.33
 LEAP_PX = 60.0  # from one frame to the next nothing that is followed goes so far
 
 
-def pooled(judged: list[Judged]) -> tuple[np.ndarray, np.ndarray]:
-    """Belief and whether it was on target, of every frame."""
-    return (
-        np.concatenate([j.belief for j in judged]),
-        np.concatenate([j.on_target for j in judged]),
-    )
-
-
 def reliability(belief: np.ndarray, on_target: np.ndarray) -> list[dict]:
     """For each tenth of belief that occurs: mean belief, share on target, frames."""
     index = np.minimum((belief * BINS).astype(int), BINS - 1)
@@ -54,10 +46,10 @@ def auroc(belief: np.ndarray, on_target: np.ndarray) -> float | None:
     return float((ranks[on_target].sum() - positive * (positive + 1) / 2) / (positive * negative))
 
 
-def losses(judged: Judged) -> list[float]:
+def losses(judged: Judged, on_target: np.ndarray) -> list[float]:
     """Seconds from the first frame off target to the first one not believed in, for each loss of a
     target that was believed in; infinite where the loss ends or the clip does before that."""
-    on_target, believed = judged.on_target, judged.believed
+    believed = judged.believed
     least = LEAST_LOSS_S * judged.frames_per_second
     noticed = []
     start = None
@@ -75,29 +67,26 @@ def losses(judged: Judged) -> list[float]:
 
 
 def followed_on(judged: Judged) -> np.ndarray:
-    """Frames without a labelled target in which what was on target in a labelled one is followed
-    still: believed in, and without a leap, in every frame since."""
-    goes_on = False
+    """Frames in which the label has gone, or has gone to something else since, while what was on
+    target in a labelled frame is followed still: believed in, and without a leap, in every frame
+    since."""
+    goes_on = label_ended = False
     frames = np.zeros(len(judged.visible), dtype=bool)
     for k, visible in enumerate(judged.visible):
         unbroken = judged.believed[k] and judged.step[k] < LEAP_PX
-        goes_on = unbroken and (goes_on or judged.on_target[k])
-        frames[k] = goes_on and not visible
+        goes_on = bool(unbroken and (goes_on or judged.on_target[k]))
+        label_ended = goes_on and not judged.on_target[k] and (label_ended or not visible)
+        frames[k] = label_ended
     return frames
 
 
-def belief_measures(judged: list[Judged]) -> dict | None:
-    """Nothing for trackers that have no belief."""
-    if any(j.belief is None for j in judged):
-        return None
-    belief, on_target = pooled(judged)
-    rows = reliability(belief, on_target)
-    times = [time for j in judged for time in losses(j)]
-    absent = sum(int((~j.visible).sum()) for j in judged)
+def measures_of(judged: list[Judged], on_target: list[np.ndarray]) -> dict:
+    belief, on = np.concatenate([j.belief for j in judged]), np.concatenate(on_target)
+    rows = reliability(belief, on)
+    times = [t for j, of_clip in zip(judged, on_target, strict=True) for t in losses(j, of_clip)]
     return {
-        "followed_on": sum(int(followed_on(j).sum()) for j in judged) / absent if absent else None,
         "calibration_error": calibration_error(rows),
-        "auroc": auroc(belief, on_target),
+        "auroc": auroc(belief, on),
         "reliability": rows,
         "losses": len(times),
         "noticed_in_time": (
@@ -106,5 +95,21 @@ def belief_measures(judged: list[Judged]) -> dict | None:
         "noticed_median_s": (
             float(np.median(times)) if times and np.isfinite(np.median(times)) else None
         ),
+    }
+
+
+def belief_measures(judged: list[Judged]) -> dict | None:
+    """By the labels; and with what is followed on where a label ends taken for the target. Nothing
+    for trackers that have no belief."""
+    if any(j.belief is None for j in judged):
+        return None
+    same = [followed_on(j) for j in judged]
+    absent = sum(int((~j.visible).sum()) for j in judged)
+    on_absent = sum(int((f & ~j.visible).sum()) for j, f in zip(judged, same, strict=True))
+    on_target = [j.on_target | f for j, f in zip(judged, same, strict=True)]
+    return {
+        "followed_on": on_absent / absent if absent else None,
+        **measures_of(judged, [j.on_target for j in judged]),
+        "with_followed_on": measures_of(judged, on_target),
         "believed_threshold": BELIEVED,
     }

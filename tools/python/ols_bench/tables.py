@@ -63,22 +63,32 @@ def accuracy_row(name: str, result: Result, reference: Result | None) -> list[st
     ]
 
 
-def belief_row(name: str, result: Result) -> list[str]:
-    belief = result.belief
-    if belief is None:
-        return [name, text(result.total["false_belief"]), *["–"] * 6]
-    median = belief["noticed_median_s"]
-    never = "never" if belief["losses"] else "–"
+def belief_cells(measures: dict) -> list[str]:
+    median = measures["noticed_median_s"]
+    never = "never" if measures["losses"] else "–"
     return [
-        name,
-        text(result.total["false_belief"]),
-        text(belief["followed_on"]),
-        text(belief["calibration_error"]),
-        text(belief["auroc"]),
-        str(belief["losses"]),
-        text(belief["noticed_in_time"], ".2f"),
+        text(measures["calibration_error"]),
+        text(measures["auroc"]),
+        str(measures["losses"]),
+        text(measures["noticed_in_time"], ".2f"),
         never if median is None else f"{median:.2f} s",
     ]
+
+
+def belief_rows(name: str, result: Result) -> list[list[str]]:
+    """By the labels, and, where they end before what they label, with that in the count."""
+    belief = result.belief
+    believed = text(result.total["false_belief"])
+    if belief is None:
+        return [[name, believed, *["–"] * 6]]
+    followed_on = belief["followed_on"]
+    rows = [[name, believed, text(followed_on), *belief_cells(belief)]]
+    if followed_on:
+        on_other = text(result.total["false_belief"] - followed_on)
+        rows.append(
+            [f"{name}, followed on", on_other, "–", *belief_cells(belief["with_followed_on"])]
+        )
+    return rows
 
 
 def stage_table(results: Results, folder: str) -> str:
@@ -126,7 +136,7 @@ def markdown(results: Results, about: str) -> str:
         reference = results["CSRT"][folder] if "CSRT" in results else None
         rows = [accuracy_row(t, by[folder], reference) for t, by in results.items()]
         parts.append(table(COLUMNS, rows))
-        rows = [belief_row(t, by[folder]) for t, by in results.items()]
+        rows = [row for t, by in results.items() for row in belief_rows(t, by[folder])]
         parts.append(table(BELIEF_COLUMNS, rows))
         if any(by[folder].speed.stages for by in results.values()):
             parts.append(stage_table(results, folder))

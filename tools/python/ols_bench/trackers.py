@@ -17,7 +17,6 @@ import numpy as np
 from ols_bench.clips import BadInput, Clip
 from ols_bench.places import Places
 
-SEED = 1
 OPENCV = {
     "MOSSE": lambda: cv2.legacy.TrackerMOSSE_create(),
     "KCF": lambda: cv2.TrackerKCF_create(),
@@ -57,9 +56,9 @@ def start(create: Callable, picture: np.ndarray, box: list[float]):
     return tracker
 
 
-def run_opencv(name: str, clip: Clip, places: Places) -> None:
+def run_opencv(name: str, clip: Clip, places: Places, seed: int) -> None:
     cv2.setNumThreads(1)
-    cv2.setRNGSeed(SEED)
+    cv2.setRNGSeed(seed)
     boxes, times = [], []
     tracker = None
     for frame, picture in enumerate(pictures(clip)):
@@ -77,8 +76,10 @@ def run_opencv(name: str, clip: Clip, places: Places) -> None:
     write(places.boxes, ("frame", "x", "y", "w", "h"), boxes)
 
 
-def run_ours(name: str, clip: Clip, places: Places, program: Path, config: Path | None) -> None:
-    command = [program, "--input", clip.path, "--mode", OURS[name], "--seed", SEED]
+def run_ours(
+    name: str, clip: Clip, places: Places, seed: int, program: Path, config: Path | None
+) -> None:
+    command = [program, "--input", clip.path, "--mode", OURS[name], "--seed", seed]
     command += ["--init", ",".join(f"{value:.6g}" for value in first_box(clip))]
     command += ["--start-frame", clip.first, "--output", places.boxes, "--timing", places.times]
     if config:
