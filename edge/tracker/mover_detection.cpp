@@ -11,16 +11,21 @@
 namespace ols {
 namespace {
 
-// Brighter than all, or darker than all of the earlier image within a pixel.
-cv::Mat tolerant_difference(const cv::Mat& now, const cv::Mat& before) {
-  const cv::Mat element = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
-  cv::Mat low, high, above, below;
-  cv::erode(before, low, element);
-  cv::dilate(before, high, element);
-  cv::subtract(now, high, above);  // saturates at zero
-  cv::subtract(low, now, below);
-  return cv::max(above, below);
-}
+// Where the picture is brighter than all, or darker than all of the earlier image within a pixel,
+// and by how many grey levels.
+struct Difference {
+  cv::Mat brighter, darker, either;
+
+  Difference(const cv::Mat& now, const cv::Mat& before) {
+    const cv::Mat element = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
+    cv::Mat low, high;
+    cv::erode(before, low, element);
+    cv::dilate(before, high, element);
+    cv::subtract(now, high, brighter);  // saturates at zero
+    cv::subtract(low, now, darker);
+    either = cv::max(brighter, darker);
+  }
+};
 
 // The root mean square of the lower nine tenths: what the picture differs by anyway.
 double fluctuation(const cv::Mat& difference) {
@@ -38,30 +43,63 @@ double fluctuation(const cv::Mat& difference) {
   return std::max(0.7, std::sqrt(squares / std::max(1.0, count)));
 }
 
-// One connected part, by the moments of its difference.
-MoverCandidate candidate_of(const cv::Mat& difference, const cv::Mat& labels, int label,
-                            const cv::Rect& bounds, double sd) {
-  double sum = 0.0, greatest = 0.0;
+// Of grey levels over places.
+struct Moments {
+  double sum = 0.0;
   Eigen::Vector2d first = Eigen::Vector2d::Zero();
   Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
+
+  void add(double value, const Eigen::Vector2d& at) {
+    sum += value;
+    first += value * at;
+    second += value * at * at.transpose();
+  }
+  Eigen::Vector2d centroid() const { return first / sum; }
+  Eigen::Matrix2d extent() const { return second / sum - centroid() * centroid().transpose(); }
+};
+
+struct Part {
+  MoverCandidate candidate;
+  bool brighter = false;  // than the earlier image
+};
+
+// Where a bright target came and where it left differ in sign. Before it has left its own place the
+// two are a crescent each, and it stands between them.
+void widen_crescents(std::vector<Part>& parts) {
+  for (Part& part : parts) {
+    const cv::Rect2d& box = part.candidate.box;
+    // Of a slow mover only slivers differ.
+    const cv::Rect2d near = box_of(centre_of(box), 3.0 * size_of(box) + Eigen::Vector2d(8.0, 8.0));
+    for (const Part& other : parts) {
+      if (other.brighter == part.brighter || (near & other.candidate.box).area() <= 0.0) continue;
+      const Eigen::Vector2d apart = other.candidate.pixel - part.candidate.pixel;
+      part.candidate.covariance_px2 += 0.25 * apart * apart.transpose();
+    }
+  }
+}
+
+// One connected part, by the moments of its difference.
+Part part_of(const Difference& difference, const cv::Mat& labels, int label, const cv::Rect& bounds,
+             double sd) {
+  Moments moments;
+  double greatest = 0.0, brighter = 0.0;
   for (int y = bounds.y; y < bounds.br().y; ++y) {
     for (int x = bounds.x; x < bounds.br().x; ++x) {
       if (labels.at<int>(y, x) != label) continue;
-      const double value = difference.at<std::uint8_t>(y, x);
-      const Eigen::Vector2d at(x, y);
-      sum += value;
-      first += value * at;
-      second += value * at * at.transpose();
+      const double value = difference.either.at<std::uint8_t>(y, x);
+      moments.add(value, {x, y});
+      brighter += difference.brighter.at<std::uint8_t>(y, x);
       greatest = std::max(greatest, value);
     }
   }
-  MoverCandidate made;
-  made.pixel = first / sum;
-  made.strength = greatest / sd;
+  Part made;
+  made.brighter = brighter > 0.5 * moments.sum;
+  made.candidate.pixel = moments.centroid();
+  made.candidate.strength = greatest / sd;
   // A centroid's variance: the extent by the signal's strength, and a pixel's own width.
-  const Eigen::Matrix2d extent = second / sum - made.pixel * made.pixel.transpose();
-  made.covariance_px2 = extent / std::max(1.0, made.strength) + Eigen::Matrix2d::Identity() / 12.0;
-  made.box = bounds;
+  made.candidate.covariance_px2 = moments.extent() / std::max(1.0, made.candidate.strength) +
+                                  Eigen::Matrix2d::Identity() / 12.0;
+  made.candidate.box = bounds;
   return made;
 }
 
@@ -72,6 +110,19 @@ void to_full_frame(MoverCandidate& candidate, const cv::Rect& area, const Reduce
   candidate.covariance_px2 *= scale * scale;
   candidate.box = {(candidate.box.x + area.x) * scale, (candidate.box.y + area.y) * scale,
                    candidate.box.width * scale, candidate.box.height * scale};
+}
+
+std::vector<MoverCandidate> strongest(std::vector<Part> parts, std::size_t most) {
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
+    return a.candidate.strength > b.candidate.strength;
+  });
+  // The other crescent is about as strong: it is not far behind.
+  parts.resize(std::min(parts.size(), 2 * most));
+  widen_crescents(parts);
+  parts.resize(std::min(parts.size(), most));
+  std::vector<MoverCandidate> candidates;
+  for (Part& part : parts) candidates.push_back(part.candidate);
+  return candidates;
 }
 
 }  // namespace
@@ -85,29 +136,23 @@ std::vector<MoverCandidate> detect_movers(const cv::Mat& earlier, const Eigen::M
   if (area.width < 3 || area.height < 3) return {};
   const cv::Mat now = current.image(area);
   const Eigen::Matrix3d to_reduced = current.to_full().inverse() * to_present;
-  const cv::Mat difference =
-      tolerant_difference(now, brought_to_present(earlier, to_reduced, now, area.tl()));
+  const Difference difference(now, brought_to_present(earlier, to_reduced, now, area.tl()));
   // The tolerance hides most of the noise from the difference: what is left is its rare peaks.
-  const double sd = std::max(fluctuation(difference), pixel_noise(now));
+  const double sd = std::max(fluctuation(difference.either), pixel_noise(now));
   cv::Mat mask, labels, statistics, centroids;
-  cv::threshold(difference, mask, std::max(search.least_levels, search.threshold_sd * sd), 255.0,
-                cv::THRESH_BINARY);
+  cv::threshold(difference.either, mask, std::max(search.least_levels, search.threshold_sd * sd),
+                255.0, cv::THRESH_BINARY);
   const int parts = cv::connectedComponentsWithStats(mask, labels, statistics, centroids);
-  std::vector<MoverCandidate> found;
+  std::vector<Part> found;
   for (int part = 1; part < parts; ++part) {
     const cv::Rect bounds(
         statistics.at<int>(part, cv::CC_STAT_LEFT), statistics.at<int>(part, cv::CC_STAT_TOP),
         statistics.at<int>(part, cv::CC_STAT_WIDTH), statistics.at<int>(part, cv::CC_STAT_HEIGHT));
     if (std::max(bounds.width, bounds.height) * current.reduction > search.most_side_px) continue;
-    found.push_back(candidate_of(difference, labels, part, bounds, sd));
-    to_full_frame(found.back(), area, current);
+    found.push_back(part_of(difference, labels, part, bounds, sd));
+    to_full_frame(found.back().candidate, area, current);
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.strength > b.strength; });
-  if (static_cast<int>(found.size()) > search.most) {
-    found.resize(static_cast<std::size_t>(search.most));
-  }
-  return found;
+  return strongest(std::move(found), static_cast<std::size_t>(search.most));
 }
 
 }  // namespace ols

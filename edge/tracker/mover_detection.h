@@ -25,7 +25,8 @@ struct MoverSearch {
   int most = 8;                 // so many, strongest first
 };
 
-// What differs from an earlier image of the same scene. `to_present` takes the earlier image's
+// What differs from an earlier image of the same scene. The covariance holds the place of what has
+// moved by three pixels or more; of what moves less, slivers may be all that is seen. `to_present` takes the earlier image's
 // pixels (full frame) to those of `current`. Edges that are off by a pixel do not count. Where the
 // mover was earlier is not told from where it is: ask with two earlier images, or let its look
 // decide. Empty images, other sizes and homographies that are not finite give none.

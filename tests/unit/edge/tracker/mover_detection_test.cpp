@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "tests/unit/edge/tracker/synthetic.h"
@@ -40,6 +42,61 @@ TEST(MoverDetection, FindsWhatMovesAgainstTheScene) {
       found = found || distance(mover.pixel, now_at) < 6.0;
     }
     EXPECT_TRUE(found) << width;
+  }
+}
+
+// A bright spot of this many pixels on a noisy sky, moved since: the mean normalised error squared
+// an axis of the candidate nearest to it, and how often there is one.
+struct Consistency {
+  double nees = 0.0;
+  int found = 0;
+};
+
+Consistency consistency_of(double size_px, double moved_px) {
+  Consistency made;
+  cv::RNG noise(11);
+  const auto picture = [&](const Eigen::Vector2d& at) {
+    cv::Mat image(240, 320, CV_32F);
+    noise.fill(image, cv::RNG::NORMAL, 100.0, 2.0);
+    const double sd = size_px / 4.0;
+    for (int y = 0; y < image.rows; ++y) {
+      for (int x = 0; x < image.cols; ++x) {
+        const double off = (Eigen::Vector2d(x, y) - at).squaredNorm();
+        image.at<float>(y, x) += static_cast<float>(60.0 * std::exp(-0.5 * off / (sd * sd)));
+      }
+    }
+    image.convertTo(image, CV_8U);
+    return image;
+  };
+  constexpr int kPairs = 40;
+  for (int i = 0; i < kPairs; ++i) {
+    const Eigen::Vector2d before(150.0 + 0.13 * i, 120.0 - 0.29 * i);
+    const double angle = 0.7 * i;
+    const Eigen::Vector2d now =
+        before + moved_px * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    const auto movers = detect_movers(picture(before), Eigen::Matrix3d::Identity(),
+                                      reduce_frame(picture(now), 320), everywhere());
+    if (movers.empty()) continue;
+    const auto nearest =
+        std::min_element(movers.begin(), movers.end(), [&](const auto& a, const auto& b) {
+          return (a.pixel - now).squaredNorm() < (b.pixel - now).squaredNorm();
+        });
+    const Eigen::Vector2d error = nearest->pixel - now;
+    made.nees += 0.5 * error.dot(nearest->covariance_px2.inverse() * error);
+    ++made.found;
+  }
+  made.nees /= std::max(1, made.found);
+  return made;
+}
+
+// Before it has left its own place, half of what differs is where it was.
+TEST(MoverDetection, TheCovarianceHoldsWhereAMoverStandsInItsOwnShadow) {
+  for (const double size_px : {4.0, 8.0, 16.0}) {
+    for (const double moved_px : {4.0, 8.0, 16.0, 40.0}) {
+      const Consistency seen = consistency_of(size_px, moved_px);
+      EXPECT_GT(seen.found, 35) << size_px << " px moved by " << moved_px;
+      EXPECT_LT(seen.nees, 1.0) << size_px << " px moved by " << moved_px;
+    }
   }
 }
 
