@@ -55,6 +55,8 @@ void add_camera_motion(std::vector<BenchCase>& cases) {
   base.camera_path = CameraPath::kSwinging;
   base.target_path = TargetPath::kStill;
   sweep(cases, base, "swing_blank", {5, 10, 20, 30}, turn);
+  base.angles_given = false;
+  sweep(cases, base, "swing_blank_alone", {5, 10, 20, 30}, turn);
 }
 
 void add_events(std::vector<BenchCase>& cases) {

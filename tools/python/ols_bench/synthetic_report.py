@@ -25,6 +25,7 @@ CAMERA = {
     "pan_clouds_ptu": ("pan [°/s], clouds, angles given", False),
     "slew_blank": ("pan [°/s], blank sky, angles given", False),
     "swing_blank": ("to and fro [°/s], blank sky, angles given", False),
+    "swing_blank_alone": ("to and fro [°/s], blank sky, image only", False),
 }
 EVENTS = {
     "occlusion_blank": ("speed [px/s], hidden 1 s, blank sky", False),
