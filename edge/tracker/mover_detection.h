@@ -26,10 +26,11 @@ struct MoverSearch {
 };
 
 // What differs from an earlier image of the same scene. The covariance holds the place of what has
-// moved by three pixels or more; of what moves less, slivers may be all that is seen. `to_present` takes the earlier image's
-// pixels (full frame) to those of `current`. Edges that are off by a pixel do not count. Where the
-// mover was earlier is not told from where it is: ask with two earlier images, or let its look
-// decide. Empty images, other sizes and homographies that are not finite give none.
+// moved by three pixels or more; of what moves less, slivers may be all that is seen. `to_present`
+// takes the earlier image's pixels (full frame) to those of `current`. Edges that are off by a
+// pixel do not count. Where the mover was earlier is not told from where it is: ask with two
+// earlier images, or let its look decide. Empty images, other sizes and homographies that are not
+// finite give none.
 std::vector<MoverCandidate> detect_movers(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
                                           const ReducedFrame& current, const MoverSearch& search);
 

@@ -100,6 +100,7 @@ EgoMotion TrackerCore::move_camera(const TrackerInput& frame, const ReducedFrame
     references_.advance(*motion.homography);
   } else if (!estimate.featureless) {
     references_.clear();  // a sky without features looks the same wherever the camera turned
+    scene_since_s_ = time_s_;
   }
   return source;
 }

@@ -60,6 +60,7 @@ class TrackerCore : public TargetFollower {
   void judge(const Scene& scene, double background, double interval_s);
   double identity_of_found(const Scene& scene, double background) const;
   bool near_prediction(const Particle& particle) const;
+  bool looks_near_first() const;
   double first_reach_px(double interval_s) const;
   void start_search(double interval_s);
   bool beyond_reach(const Eigen::Vector2d& pixel, double interval_s) const;
@@ -84,8 +85,9 @@ class TrackerCore : public TargetFollower {
   // is followed now.
   double believed_identity_ = 1.0, identity_ = 1.0;
   std::optional<Search> search_;
-  bool placed_ = false;      // the particles stand in the coming frame already
-  bool scene_lost_ = false;  // it was followed up to the frame before: this may be a cut
+  bool placed_ = false;          // the particles stand in the coming frame already
+  double scene_since_s_ = -1e9;  // when the camera's motion was lost: what is seen is another scene
+  bool scene_lost_ = false;      // it was followed up to the frame before: this may be a cut
   Velocity velocity_ = Velocity::kUnknown;
   Label label_;
   Particle last_;  // best estimate in the newest frame

@@ -95,7 +95,7 @@ void TrackerCore::find_movers(const ReducedFrame& reduced) {
   if (!earlier) return;
   MoverSearch where;
   where.area = {{0.0, 0.0}, cv::Size2d(frame_size_)};
-  if (time_s_ - search_->since_s < kNearFirst) {
+  if (looks_near_first()) {
     const double reach = 3.0 * search_->sd_px;
     where.area &= box_of(search_->pixel, last_.size_px + Eigen::Vector2d::Constant(2.0 * reach));
   }
@@ -128,7 +128,13 @@ bool TrackerCore::may_be_it(const Particle& particle) const {
 bool TrackerCore::near_prediction(const Particle& particle) const {
   const double off_px = (particle.pixel - search_->pixel).norm();
   const double reach_px = 2.0 * search_->sd_px + particle.size_px.norm();
-  return time_s_ - search_->since_s < kNearFirst && off_px < reach_px;
+  return looks_near_first() && off_px < reach_px;
+}
+
+// After a cut, or a kick, the prediction tells nothing.
+bool TrackerCore::looks_near_first() const {
+  const bool same_scene = scene_since_s_ < search_->since_s - kNearFirst;
+  return same_scene && time_s_ - search_->since_s < kNearFirst;
 }
 
 // What is found elsewhere is one of all that move and look like the target, or of those that are

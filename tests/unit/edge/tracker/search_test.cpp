@@ -43,6 +43,33 @@ TEST(Search, DoesNotTakeAPostForTheTargetAfterACut) {
   }
 }
 
+// The prediction is of the scene before: what comes into the new one may be anywhere.
+TEST(Search, FindsItsTargetAnywhereSoonAfterACut) {
+  constexpr int kCut = 20, kComes = 28;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    SyntheticScene scene(Backdrop::kTextured, seed);
+    Tracker tracker(TrackerConfig{}, seed);
+    const auto picture = [&](int k) {
+      const cv::Point2d at =
+          k < kCut ? cv::Point2d(150.0 + 3.0 * k, 120.0) : cv::Point2d(560.0 - 4.0 * k, 400.0);
+      const cv::Point2d camera = k < kCut ? cv::Point2d(400, 300) : cv::Point2d(1700, 800);
+      const bool there = k < kCut || k >= kComes;
+      return std::pair(scene.picture(camera, there ? std::optional(at) : std::nullopt), at);
+    };
+    const auto [first, start] = picture(0);
+    ASSERT_FALSE(tracker.initialise({first, 0.0, std::nullopt}, SyntheticScene::box_around(start)));
+    int found = 0;
+    for (int k = 1; k < 80 && found == 0; ++k) {
+      const auto [gray, truth] = picture(k);
+      const auto result = tracker.track({gray, k / 30.0, std::nullopt});
+      if (k >= kComes && testing::distance(result.output->pixel, truth) < 8.0)
+        found = k - kComes + 1;
+    }
+    EXPECT_GT(found, 0) << seed;
+    EXPECT_LE(found, 5) << "frames, seed " << seed;
+  }
+}
+
 // Two alike cross the sky side by side, and the target turns a wing away now and then.
 TEST(Search, StaysWithItsTargetBesideAnotherLikeIt) {
   SyntheticScene scene(Backdrop::kSky, 31);
