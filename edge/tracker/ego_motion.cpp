@@ -257,7 +257,9 @@ EgoMotionEstimator::Estimate EgoMotionEstimator::step(
   pyramid_.build(frame.image);
   Estimate estimate;
   estimate.featureless = static_cast<int>(corners_.size()) < config_.ego_motion_least_inliers;
-  const Agreement agreed = agreeing(follow(guess), guess);
+  Agreement agreed = agreeing(follow(guess), guess);
+  // Angles that are wrong by more than a corner is looked for: the picture goes on as it did.
+  if (predicted && agreed.corners.previous.empty()) agreed = agreeing(follow(last_), last_);
   last_ = predicted ? guess : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
   corners_.clear();
   if (!agreed.corners.previous.empty() &&

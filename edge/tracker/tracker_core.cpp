@@ -14,6 +14,7 @@ constexpr double kSameShape = 0.9;    // likewise; less is no measurement of its
 constexpr double kNotPlaced = 0.1;    // of its size: 1 sigma where nothing tells its place better
 constexpr double kSharedByChance = 1.2;
 constexpr double kSharedNoiseTime_s = 1.0;
+constexpr double kAgree = 2.0;  // sigmas of a step
 constexpr double kSureEnoughToLearn = 0.7;
 constexpr double kSureEnoughForMask = 0.8;
 
@@ -81,6 +82,12 @@ EgoMotion TrackerCore::move_camera(const TrackerInput& frame, const ReducedFrame
   const cv::Rect2d box = box_of(last_.pixel, last_.size_px);
   const auto estimate = ego_motion_.step(reduced, box, frame.predicted_homography);
   image_homography_ = estimate.homography;
+  other_step_px_.reset();
+  if (image_homography_ && frame.predicted_homography) {
+    const Eigen::Vector2d apart = transform(*frame.predicted_homography, last_.pixel) -
+                                  transform(*image_homography_, last_.pixel);
+    if (apart.norm() > kAgree * motion_.position_sd(last_.size_px)) other_step_px_ = apart;
+  }
   EgoMotion source = EgoMotion::kNone;
   CameraMotion motion{estimate.homography, interval_s};
   if (motion.homography) {
@@ -116,6 +123,7 @@ void TrackerCore::predict(EgoMotion ego_motion, const ReducedFrame& reduced, dou
     step_back(believed_);
   }
   filter_.predict(motion_, random_);
+  if (other_step_px_) move_half_by_other();
   believed_ = bounded(motion_.advance(believed_), frame_size_);
   if (search_) predict_search(interval_s);
   timer.lap(Stage::kPrediction);
@@ -135,6 +143,14 @@ void TrackerCore::predict(EgoMotion ego_motion, const ReducedFrame& reduced, dou
     filter_.widen_prediction(config_.leap_most_px_s * interval_s / 3.0);
   }
   placed_ = false;
+}
+
+// Picture and mount tell different motions: dirt on the lens and burnt-in text stand still in the
+// one, a slipped gear in the other. The target's own look decides.
+void TrackerCore::move_half_by_other() {
+  auto& particles = filter_.particles();
+  for (std::size_t i = 0; i < particles.size(); i += 2) particles[i].pixel += *other_step_px_;
+  filter_.widen_prediction(other_step_px_->norm());
 }
 
 // Nothing stood out in the designated box: a bird with its wings edgewise, a drone behind a twig.

@@ -43,6 +43,7 @@ class TrackerCore : public TargetFollower {
   EgoMotion move_camera(const TrackerInput& frame, const ReducedFrame& reduced, double interval_s);
   void predict(EgoMotion ego_motion, const ReducedFrame& reduced, double interval_s,
                StageTimer& timer);
+  void move_half_by_other();
   void predict_search(double interval_s);
   void guess_velocities();
   void force_onto_differences(const ReducedFrame& reduced, const cv::Rect2d& area);
@@ -98,6 +99,8 @@ class TrackerCore : public TargetFollower {
   std::vector<MoverCandidate> movers_;  // of this frame, while the target is looked for
   Particle believed_;                   // the last one seen, brought to the newest frame
   std::optional<Eigen::Matrix3d> image_homography_;
+  // By the mount's homography from where the image's takes the target, where the two disagree.
+  std::optional<Eigen::Vector2d> other_step_px_;
   std::vector<double> log_likelihood_;  // memory that is used again
   double empty_s_ = 0.0;
   cv::Rect2d designated_;  // the box while there is nothing in it, the present frame's pixels

@@ -31,7 +31,9 @@ void TrackerCore::start_search(double interval_s) {
 // Further from where the target was to be than it can have moved: a cut, or something else.
 bool TrackerCore::beyond_reach(const Eigen::Vector2d& pixel, double interval_s) const {
   const double reach_px = 2.0 * first_reach_px(interval_s) + last_.size_px.norm();
-  return (pixel - believed_.pixel).norm() > reach_px;
+  const Eigen::Vector2d off_px = pixel - believed_.pixel;
+  const bool by_other = other_step_px_ && (off_px - *other_step_px_).norm() <= reach_px;
+  return off_px.norm() > reach_px && !by_other;
 }
 
 // A bird beside the target may look more like it than itself in this frame: as long as what is

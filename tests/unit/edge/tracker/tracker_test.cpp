@@ -99,6 +99,56 @@ TEST(Tracker, FollowsFastTurnByPredictedHomography) {
   }
 }
 
+// Text that is burnt into the picture, or dirt on the lens: it does not turn with the camera.
+cv::Mat with_text(cv::Mat gray) {
+  for (int line = 0; line < 3; ++line) {
+    cv::putText(gray, "AZ 105.21 EL 0.67", {20, 30 + 24 * line}, cv::FONT_HERSHEY_SIMPLEX, 0.7,
+                cv::Scalar(230), 2);
+  }
+  return gray;
+}
+
+// The text alone has corners, and stands still; only the PTU knows that the camera turns.
+TEST(Tracker, FollowsByThePredictionWhereOnlyBurntInTextIsToBeSeen) {
+  for (const double step_px : {3.0, 6.0, 12.0, 20.0, 30.0, 60.0, 120.0}) {
+    SyntheticScene scene(Backdrop::kSky, 4);
+    Tracker tracker(TrackerConfig{}, 5);
+    double at = kStart.x;
+    int near = 0;
+    ASSERT_FALSE(tracker.initialise(frame_at(0, with_text(scene.picture({400, 300}, kStart))),
+                                    SyntheticScene::box_around(kStart)));
+    constexpr int kFrames = 40;
+    for (int k = 1; k <= kFrames; ++k) {
+      const double turn = (k / 2) % 2 == 0 ? -step_px : step_px;
+      at += turn;
+      const cv::Point2d truth(at, 220.0 + k);
+      TrackerInput input = frame_at(k, with_text(scene.picture({400, 300}, truth)));
+      input.predicted_homography = shift_homography(turn, 0.0);
+      const auto result = tracker.track(input);
+      const bool on_target = distance(result.output->pixel, truth) < 5.0;
+      near += on_target && result.output->belief > 0.5 ? 1 : 0;
+    }
+    EXPECT_GT(near, 0.9 * kFrames) << step_px;
+  }
+}
+
+// A gear that slips, or angles of another moment: the picture knows better.
+TEST(Tracker, FollowsByThePictureWhereThePredictionIsWrong) {
+  for (const double wrong_px : {6.0, 12.0, 30.0, 60.0, 200.0}) {
+    SyntheticScene scene(Backdrop::kTextured, 4);
+    Tracker tracker = started(scene);
+    for (int k = 1; k <= 40; ++k) {
+      const cv::Point2d truth(300.0 + 3.0 * k, 220.0 + k);
+      TrackerInput input = frame_at(k, scene.picture({400.0 + 8.0 * k, 300}, truth));
+      const double off = (k / 3) % 2 == 0 ? wrong_px : -wrong_px;
+      input.predicted_homography = shift_homography(-8.0 + off, 0.0);
+      const auto result = tracker.track(input);
+      EXPECT_LT(distance(result.output->pixel, truth), 2.0) << wrong_px << ' ' << k;
+      EXPECT_GT(result.output->belief, 0.7) << wrong_px << ' ' << k;
+    }
+  }
+}
+
 // A homography is one up to a factor.
 TEST(Tracker, TakesAPredictionOfAnyScale) {
   for (const TrackerMode mode : {TrackerMode::kFull, TrackerMode::kPaper}) {
