@@ -71,6 +71,65 @@ CornerMatches explained(const CornerMatches& matches, const Eigen::Matrix3d& hom
   return kept;
 }
 
+// Least squares for a homography near the unit matrix: its 3x3 less that, row by row, without the
+// last element.
+class CorrectionFit {
+ public:
+  explicit CorrectionFit(double corner_sd) : corner_sd_(corner_sd) {}
+
+  void add_corner(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    const Eigen::Vector2d d = to - from;
+    const double u = from.x(), v = from.y();
+    Vector8 x_row;
+    x_row << u, v, 1.0, 0.0, 0.0, 0.0, -u * to.x(), -v * to.x();
+    Vector8 y_row;
+    y_row << 0.0, 0.0, 0.0, u, v, 1.0, -u * to.y(), -v * to.y();
+    add(x_row, d.x(), corner_sd_);
+    add(y_row, d.y(), corner_sd_);
+  }
+
+  // Between two frames a camera rolls and zooms a little; it hardly shears.
+  void hold_rigid() {
+    hold(3, 1, -1.0, 0.02);   // twice the roll
+    hold(0, 4, 1.0, 0.01);    // twice the scale
+    hold(3, 1, 1.0, 0.002);   // shear
+    hold(0, 4, -1.0, 0.002);  // stretch
+    hold(6, 6, 0.0, 0.005);   // perspective
+    hold(7, 7, 0.0, 0.005);
+    hold(2, 2, 0.0, 1e3 * corner_sd_);  // a shift is as good as free
+    hold(5, 5, 0.0, 1e3 * corner_sd_);
+  }
+
+  Eigen::Matrix3d correction() const {
+    const Vector8 found = normal_.ldlt().solve(right_);
+    Eigen::Matrix3d correction = Eigen::Matrix3d::Identity();
+    correction.row(0) += found.segment<3>(0).transpose();
+    correction.row(1) += found.segment<3>(3).transpose();
+    correction(2, 0) += found(6);
+    correction(2, 1) += found(7);
+    return correction;
+  }
+
+ private:
+  using Vector8 = Eigen::Matrix<double, 8, 1>;
+
+  void add(const Vector8& row, double value, double sd) {
+    normal_ += row * row.transpose() / (sd * sd);
+    right_ += row * value / (sd * sd);
+  }
+  // Element i, plus `sign` times element j, is near zero.
+  void hold(int i, int j, double sign, double sd) {
+    Vector8 row = Vector8::Zero();
+    row(i) = 1.0;
+    if (j != i) row(j) = sign;
+    add(row, 0.0, sd);
+  }
+
+  double corner_sd_;
+  Eigen::Matrix<double, 8, 8> normal_ = Eigen::Matrix<double, 8, 8>::Zero();
+  Vector8 right_ = Vector8::Zero();
+};
+
 }  // namespace
 
 Eigen::Matrix3d ReducedFrame::to_full() const {
@@ -116,47 +175,13 @@ Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,
   const double unit = image.width / 2.0;
   Eigen::Matrix3d to_unit;
   to_unit << 1.0 / unit, 0.0, -1.0, 0.0, 1.0 / unit, -image.height / (2.0 * unit), 0.0, 0.0, 1.0;
-  const double noise = 0.3 / unit;
-  using Vector8 = Eigen::Matrix<double, 8, 1>;
-  Eigen::Matrix<double, 8, 8> normal = Eigen::Matrix<double, 8, 8>::Zero();
-  Vector8 right = Vector8::Zero();
-  const auto add = [&](const Vector8& row, double value) {
-    normal += row * row.transpose() / (noise * noise);
-    right += row * value / (noise * noise);
-  };
+  CorrectionFit fit(0.3 / unit);
   for (std::size_t i = 0; i < previous.size(); ++i) {
-    const Eigen::Vector2d p = transform(to_unit * guess, vector_of(previous[i]));
-    const Eigen::Vector2d d = transform(to_unit, vector_of(current[i])) - p;
-    // The correction's 3x3 less the unit matrix, row by row, without its last element.
-    Vector8 x_row;
-    x_row << p.x(), p.y(), 1.0, 0.0, 0.0, 0.0, -p.x() * (p.x() + d.x()), -p.y() * (p.x() + d.x());
-    Vector8 y_row;
-    y_row << 0.0, 0.0, 0.0, p.x(), p.y(), 1.0, -p.x() * (p.y() + d.y()), -p.y() * (p.y() + d.y());
-    add(x_row, d.x());
-    add(y_row, d.y());
+    fit.add_corner(transform(to_unit * guess, vector_of(previous[i])),
+                   transform(to_unit, vector_of(current[i])));
   }
-  const auto draw = [&](int i, int j, double sign, double sd) {
-    Vector8 row = Vector8::Zero();
-    row(i) = 1.0;
-    if (j >= 0) row(j) = sign;
-    normal += row * row.transpose() / (sd * sd);
-  };
-  // Between two frames a camera rolls and zooms a little; it hardly shears.
-  draw(3, 1, -1.0, 0.02);   // twice the roll
-  draw(0, 4, 1.0, 0.01);    // twice the scale
-  draw(3, 1, 1.0, 0.002);   // shear
-  draw(0, 4, -1.0, 0.002);  // stretch
-  draw(6, -1, 0.0, 0.005);  // perspective
-  draw(7, -1, 0.0, 0.005);
-  normal(2, 2) += 1e-6 / (noise * noise);
-  normal(5, 5) += 1e-6 / (noise * noise);
-  const Vector8 found = normal.ldlt().solve(right);
-  Eigen::Matrix3d correction = Eigen::Matrix3d::Identity();
-  correction.row(0) += found.segment<3>(0).transpose();
-  correction.row(1) += found.segment<3>(3).transpose();
-  correction(2, 0) += found(6);
-  correction(2, 1) += found(7);
-  const Eigen::Matrix3d full = to_unit.inverse() * correction * to_unit * guess;
+  fit.hold_rigid();
+  const Eigen::Matrix3d full = to_unit.inverse() * fit.correction() * to_unit * guess;
   return full / full(2, 2);
 }
 
