@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "edge/tracker/alignment.h"
 #include "edge/tracker/patch.h"
@@ -70,11 +71,13 @@ void widen_crescents(std::vector<Part>& parts) {
     const cv::Rect2d& box = part.candidate.box;
     // Of a slow mover only slivers differ.
     const cv::Rect2d near = box_of(centre_of(box), 3.0 * size_of(box) + Eigen::Vector2d(8.0, 8.0));
+    std::optional<Eigen::Vector2d> apart;
     for (const Part& other : parts) {
       if (other.brighter == part.brighter || (near & other.candidate.box).area() <= 0.0) continue;
-      const Eigen::Vector2d apart = other.candidate.pixel - part.candidate.pixel;
-      part.candidate.covariance_px2 += 0.25 * apart * apart.transpose();
+      const Eigen::Vector2d off = other.candidate.pixel - part.candidate.pixel;
+      if (!apart || off.norm() < apart->norm()) apart = off;
     }
+    if (apart) part.candidate.covariance_px2 += 0.25 * *apart * apart->transpose();
   }
 }
 

@@ -4,18 +4,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 namespace ols {
 namespace {
 
-constexpr double kContext = 1.3;      // of the box, looked at
-constexpr int kLeastSide = 7;         // samples along a side
-constexpr std::size_t kMost = 2500;   // samples; of a larger target those that tell most
-constexpr double kMostStep = 0.35;    // of the box, from where it starts
-constexpr double kMostGrowth = 0.25;  // of the box, from what it starts with
+constexpr double kContext = 1.3;       // of the box, looked at
+constexpr int kLeastSide = 7;          // samples along a side
+constexpr std::size_t kMost = 2500;    // samples; of a larger target those that tell most
+constexpr double kMostLookedAt = 1e5;  // for these
+constexpr double kLeastSeen = 0.5;     // of the samples' weight, in the picture
+constexpr double kMostStep = 0.35;     // of the box, from where it starts
+constexpr double kMostGrowth = 0.25;   // of the box, from what it starts with
 constexpr int kMostSteps = 15;
-constexpr double kSizeSd = 0.02;  // of the size that it starts with, relative
+constexpr double kMostUnsettled = 0.02;  // of the box, by the last of them
+constexpr double kSizeSd = 0.02;         // of the size that it starts with, relative
 
 int samples_along(double size_px, int reduction) {
   return std::max(kLeastSide, static_cast<int>(std::round(kContext * size_px / reduction)));
@@ -62,10 +66,17 @@ struct PositionRefiner::Normal {
   int block_count = 0;
   double squares = 0.0;
   double weights = 0.0;
+  double weight_squares = 0.0;
+  double seen = 0.0;  // weight of the samples that lie in the picture
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();  // of (template, image, 1), for correlation
 
-  // Both images are rounded to whole grey levels.
-  double variance() const { return std::max(2.0 / 12.0, squares / weights); }
+  // Both images are rounded to whole grey levels; the parameters have fitted some of the noise
+  // away.
+  double variance() const {
+    const double count = weights * weights / weight_squares;
+    const double left = std::max(1.0, count - static_cast<double>(Parameters::SizeAtCompileTime));
+    return std::max(2.0 / 12.0, squares / weights * count / left);
+  }
   double scale() const { return std::max(0.5, std::sqrt(variance())); }
   double correlation() const {
     const double n = moments(2, 2);
@@ -74,15 +85,20 @@ struct PositionRefiner::Normal {
     const double b = moments(1, 1) / n - moments(1, 2) * moments(1, 2) / (n * n);
     return a > 0.0 && b > 0.0 ? covariance / std::sqrt(a * b) : 0.0;
   }
-  // The size is known beforehand, to kSizeSd; `off` is how far it has gone from that.
+  // The size is what it was before, to kSizeSd; `off` is the logarithm of how far it has gone
+  // since.
   void hold_size(const Eigen::Vector2d& off) {
     const double stiffness = variance() / (kSizeSd * kSizeSd);
     matrix.diagonal().segment<2>(2).array() += stiffness;
+    spread.diagonal().segment<2>(2).array() += stiffness;
+    blocks.diagonal().segment<2>(2).array() += stiffness * variance();
     right.segment<2>(2) += stiffness * off;
   }
   void fix_size() {
-    matrix.middleRows<2>(2).setZero();
-    matrix.middleCols<2>(2).setZero();
+    for (Matrix* each : {&matrix, &spread, &blocks}) {
+      each->middleRows<2>(2).setZero();
+      each->middleCols<2>(2).setZero();
+    }
     matrix.diagonal().segment<2>(2).setConstant(matrix.trace());
     right.segment<2>(2).setZero();
   }
@@ -95,32 +111,45 @@ PositionRefiner::PositionRefiner(const View& view, const Eigen::Vector2d& pixel,
   const double centre_x = view.x_of(pixel.x());
   const double centre_y = view.y_of(pixel.y());
   // Whole pixels of the view: the template is not interpolated.
-  const double first_x = std::round(centre_x - (columns - 1) / 2.0);
-  const double first_y = std::round(centre_y - (rows - 1) / 2.0);
-  const double width = size_px.x() / view.reduction;
-  const double height = size_px.y() / view.reduction;
-  for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) {
-      const double x = first_x + i;
-      const double y = first_y + j;
-      const auto at = [&](double dx, double dy) {
-        return static_cast<double>(bilinear(view.image, x + dx, y + dy));
-      };
-      // Sobel's smoothed differences: half as noisy as plain ones.
-      const double along_x =
-          (2.0 * (at(1, 0) - at(-1, 0)) + at(1, -1) - at(-1, -1) + at(1, 1) - at(-1, 1)) / 8.0;
-      const double along_y =
-          (2.0 * (at(0, 1) - at(0, -1)) + at(-1, 1) - at(-1, -1) + at(1, 1) - at(1, -1)) / 8.0;
-      const double u = (x - centre_x) / width;
-      const double v = (y - centre_y) / height;
-      const double outside = std::max({std::abs(u), std::abs(v), 0.5}) - 0.5;
-      samples_.push_back({u, v, at(0, 0), along_x * width, along_y * height,
-                          1.0 / (1.0 + 40.0 * outside * outside * 4.0), block_of(i, j, columns)});
+  const auto first_x = static_cast<int>(std::round(centre_x - (columns - 1) / 2.0));
+  const auto first_y = static_cast<int>(std::round(centre_y - (rows - 1) / 2.0));
+  const Eigen::Vector2d size = size_px / view.reduction;
+  const int step = columns * rows > kMostLookedAt
+                       ? static_cast<int>(std::ceil(std::sqrt(columns * rows / kMostLookedAt)))
+                       : 1;
+  for (int j = 0; j < rows; j += step) {
+    for (int i = 0; i < columns; i += step) {
+      const cv::Point at(first_x + i, first_y + j);
+      if (!cv::Rect({0, 0}, view.image.size()).contains(at)) continue;
+      const Eigen::Vector2d place((at.x - centre_x) / size.x(), (at.y - centre_y) / size.y());
+      samples_.push_back(sample_of(view.image, at, place, size));
+      samples_.back().block = block_of(i, j, columns);
     }
   }
   keep_steepest(size_px);
   sort_by_blocks();
-  find_anchor(size_px);
+  find_anchor();
+}
+
+// `place` within the box, whose size is in the view's pixels.
+PositionRefiner::Sample PositionRefiner::sample_of(const cv::Mat& image, const cv::Point& at,
+                                                   const Eigen::Vector2d& place,
+                                                   const Eigen::Vector2d& size) {
+  const auto gray = [&](int dx, int dy) {
+    const int x = std::clamp(at.x + dx, 0, image.cols - 1);
+    const int y = std::clamp(at.y + dy, 0, image.rows - 1);
+    return static_cast<double>(image.at<std::uint8_t>(y, x));
+  };
+  // Sobel's smoothed differences: half as noisy as plain ones.
+  const double along_x =
+      (2.0 * (gray(1, 0) - gray(-1, 0)) + gray(1, -1) - gray(-1, -1) + gray(1, 1) - gray(-1, 1)) /
+      8.0;
+  const double along_y =
+      (2.0 * (gray(0, 1) - gray(0, -1)) + gray(-1, 1) - gray(-1, -1) + gray(1, 1) - gray(1, -1)) /
+      8.0;
+  const double outside = std::max(place.cwiseAbs().maxCoeff(), 0.5) - 0.5;  // of the box
+  const double weight = 1.0 / (1.0 + 160.0 * outside * outside);
+  return {place.x(), place.y(), gray(0, 0), along_x * size.x(), along_y * size.y(), weight, 0};
 }
 
 // A position is told by where the template is steep.
@@ -133,10 +162,11 @@ void PositionRefiner::keep_steepest(const Eigen::Vector2d& size_px) {
   std::nth_element(samples_.begin(), samples_.begin() + kMost, samples_.end(),
                    [&](const Sample& a, const Sample& b) { return tells(a) > tells(b); });
   samples_.resize(kMost);
+  samples_.shrink_to_fit();
 }
 
 // The middle of what tells the position: there the size and the place do not depend on each other.
-void PositionRefiner::find_anchor(const Eigen::Vector2d& size_px) {
+void PositionRefiner::find_anchor() {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Vector2d all = Eigen::Vector2d::Constant(1e-9);
   for (const Sample& sample : samples_) {
@@ -146,7 +176,8 @@ void PositionRefiner::find_anchor(const Eigen::Vector2d& size_px) {
     all += tells;
   }
   anchor_ = sum.cwiseQuotient(all);
-  anchor_px_ = anchor_.cwiseProduct(size_px);
+  all_weight_ = std::accumulate(samples_.begin(), samples_.end(), 0.0,
+                                [](double weight, const Sample& s) { return weight + s.weight; });
 }
 
 void PositionRefiner::set_mask(const MaskPatch& mask) {
@@ -163,6 +194,7 @@ void PositionRefiner::set_mask(const MaskPatch& mask) {
     }
     sample.weight = kBackground + (1.0 - kBackground) * most / 255.0;
   }
+  find_anchor();
 }
 
 void PositionRefiner::sort_by_blocks() {
@@ -175,6 +207,7 @@ PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const Stat
   Normal normal;
   Parameters of_block = Parameters::Zero();
   int block = samples_.front().block;
+  const Eigen::Vector2d last(view.image.cols - 0.5, view.image.rows - 0.5);
   const auto end_block = [&] {
     normal.blocks += of_block * of_block.transpose();
     ++normal.block_count;
@@ -187,6 +220,7 @@ PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const Stat
     const double v = sample.v - anchor_.y();
     const double x = view.x_of(state.anchor.x() + u * state.size_px.x());
     const double y = view.y_of(state.anchor.y() + v * state.size_px.y());
+    if (x < -0.5 || y < -0.5 || x > last.x() || y > last.y()) continue;
     const double now = cubic(view.image, x, y);
     const double residual = now - state.gain * sample.gray - state.offset;
     // Huber: what covers part of the target, or moves behind it, counts less.
@@ -203,6 +237,8 @@ PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const Stat
     of_block += weight * row * residual;
     normal.squares += weight * residual * residual;
     normal.weights += weight;
+    normal.weight_squares += weight * weight;
+    normal.seen += sample.weight;
     const Eigen::Vector3d moment(sample.gray, now, 1.0);
     normal.moments += sample.weight * moment * moment.transpose();
   }
@@ -213,35 +249,46 @@ PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const Stat
 std::optional<RefinedPosition> PositionRefiner::refine(
     const View& view, const Eigen::Vector2d& start, const Eigen::Vector2d& size_px,
     const std::optional<Eigen::Vector2d>& likely_size_px) const {
+  if (samples_.empty()) return std::nullopt;
   const Eigen::Vector2d first_anchor = start + anchor_.cwiseProduct(size_px);
   const Eigen::Vector2d first_size = likely_size_px.value_or(size_px);
-  const auto know_size = [&](Normal& normal, const Eigen::Vector2d& size) {
-    if (!likely_size_px) return normal.fix_size();
-    normal.hold_size(size.cwiseQuotient(first_size).array().log());
-  };
   State state{first_anchor, first_size};
+  Eigen::Vector2d shift;
   double scale = 1e3;  // no robust weights in the first step
   for (int step = 0; step < kMostSteps; ++step) {
-    Normal normal = accumulate(view, state, scale);
-    know_size(normal, state.size_px);
-    const Eigen::LDLT<Matrix> solver(normal.matrix);
+    const auto normal = normal_at(view, state, scale, likely_size_px);
+    if (!normal) return std::nullopt;
+    const Eigen::LDLT<Matrix> solver(normal->matrix);
     if (solver.info() != Eigen::Success || solver.rcond() < 1e-12) return std::nullopt;
-    const Parameters change = solver.solve(normal.right);
+    const Parameters change = solver.solve(normal->right);
     if (!change.allFinite()) return std::nullopt;
     state.step_back(change);
     const Eigen::Vector2d moved = (state.anchor - first_anchor).cwiseQuotient(first_size);
     const Eigen::Vector2d growth = state.size_px.cwiseQuotient(first_size).array().log();
     if (moved.cwiseAbs().maxCoeff() > kMostStep) return std::nullopt;
     if (growth.cwiseAbs().maxCoeff() > kMostGrowth) return std::nullopt;
-    scale = normal.scale();
-    const Eigen::Vector2d shift = change.head<2>().cwiseProduct(first_size);
+    scale = normal->scale();
+    shift = change.head<2>().cwiseProduct(first_size);
     const Eigen::Vector2d edges = change.segment<2>(2).cwiseProduct(first_size);
     if (step > 2 && shift.norm() < 1e-3 && edges.norm() < 0.02) break;
   }
-  if (state.gain < 0.2 || state.gain > 5.0) return std::nullopt;
+  const bool settled = shift.cwiseQuotient(first_size).norm() < kMostUnsettled;
+  if (!settled || state.gain < 0.2 || state.gain > 5.0) return std::nullopt;
+  const auto normal = normal_at(view, state, scale, likely_size_px);
+  return normal ? position_of(state, *normal, shift) : std::nullopt;
+}
+
+std::optional<PositionRefiner::Normal> PositionRefiner::normal_at(
+    const View& view, const State& state, double scale,
+    const std::optional<Eigen::Vector2d>& likely_size_px) const {
   Normal normal = accumulate(view, state, scale);
-  know_size(normal, first_size);
-  return position_of(state, normal);
+  if (normal.seen < kLeastSeen * all_weight_) return std::nullopt;
+  if (likely_size_px) {
+    normal.hold_size(state.size_px.cwiseQuotient(*likely_size_px).array().log());
+  } else {
+    normal.fix_size();
+  }
+  return normal;
 }
 
 // The image there is the template seen from change off it and larger: step back by that.
@@ -253,21 +300,27 @@ void PositionRefiner::State::step_back(const Parameters& change) {
 }
 
 std::optional<RefinedPosition> PositionRefiner::position_of(const State& state,
-                                                            const Normal& normal) const {
+                                                            const Normal& normal,
+                                                            const Eigen::Vector2d& shift) const {
   const Matrix inverse = normal.matrix.inverse();
   const Matrix covariance = normal.variance() * inverse * normal.spread * inverse.transpose();
   const double freed =
       std::max(1.0, normal.block_count - static_cast<double>(Parameters::SizeAtCompileTime));
   const Matrix by_blocks =
       normal.block_count / freed * inverse * normal.blocks * inverse.transpose();
-  const Eigen::Matrix2d to_px = state.size_px.asDiagonal();
   RefinedPosition refined;
-  refined.pixel = state.anchor - anchor_px_;
   refined.centre = state.anchor - anchor_.cwiseProduct(state.size_px);
   refined.size_px = state.size_px;
-  refined.covariance_px2 = to_px * covariance.topLeftCorner<2, 2>() * to_px;
-  refined.shared_noise =
-      (to_px * by_blocks.topLeftCorner<2, 2>() * to_px).trace() / refined.covariance_px2.trace();
+  // From shift and growth, in sizes, to centre and size, in pixels.
+  Eigen::Matrix4d to_px = Eigen::Matrix4d::Zero();
+  to_px.topLeftCorner<2, 2>() = to_px.bottomRightCorner<2, 2>() = state.size_px.asDiagonal();
+  to_px.topRightCorner<2, 2>() = (-anchor_.cwiseProduct(state.size_px)).asDiagonal();
+  refined.covariance_px2 = to_px * covariance.topLeftCorner<4, 4>() * to_px.transpose();
+  // What the last step still moved is not known.
+  refined.covariance_px2.topLeftCorner<2, 2>() += shift * shift.transpose();
+  const Eigen::Matrix2d size = state.size_px.asDiagonal();
+  refined.shared_noise = (size * by_blocks.topLeftCorner<2, 2>() * size).trace() /
+                         (size * covariance.topLeftCorner<2, 2>() * size).trace();
   refined.correlation = normal.correlation();
   if (!refined.covariance_px2.allFinite() || !std::isfinite(refined.correlation) ||
       !std::isfinite(refined.shared_noise)) {

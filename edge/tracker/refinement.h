@@ -10,15 +10,25 @@
 namespace ols {
 
 struct RefinedPosition {
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();   // of what was designated
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // of the box in which the first image fits
   Eigen::Vector2d size_px = Eigen::Vector2d::Ones();
-  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();  // from the image's noise
-  double correlation = 0.0;                                      // -1..1
+  // Of centre and size [px], from the image's noise.
+  Eigen::Matrix4d covariance_px2 = Eigen::Matrix4d::Identity();
+  double correlation = 0.0;  // -1..1
   // How many times more uncertain it is than by noise that no two pixels share, by what is left
   // over in neighbouring pixels: of a background that moves otherwise, of a lens, of a changed
   // look.
   double shared_noise = 1.0;
+
+  // A point of the target: its place in the box, in sizes from the centre.
+  Eigen::Vector2d point(const Eigen::Vector2d& place) const {
+    return centre + place.cwiseProduct(size_px);
+  }
+  Eigen::Matrix2d point_covariance_px2(const Eigen::Vector2d& place) const {
+    Eigen::Matrix<double, 2, 4> by = Eigen::Matrix<double, 2, 4>::Identity();
+    by.rightCols<2>() = place.asDiagonal();
+    return by * covariance_px2 * by.transpose();
+  }
 };
 
 class PositionRefiner {
@@ -29,9 +39,9 @@ class PositionRefiner {
   // M_t: what is not foreground moves otherwise, and counts little from now on.
   void set_mask(const MaskPatch& mask);
 
-  // From the centre of a box within about a third of the target; nothing when it does not converge
-  // there or the target shows too little structure. The size is that of the box, or, where a likely
-  // one is told, estimated from there.
+  // From the centre of a box within about a third of the target; nothing when it does not settle
+  // there, the target shows too little structure, or half of it is outside the picture. The size is
+  // that of the box, or, where a likely one is told, estimated from there.
   std::optional<RefinedPosition> refine(
       const View& view, const Eigen::Vector2d& start, const Eigen::Vector2d& size_px,
       const std::optional<Eigen::Vector2d>& likely_size_px = std::nullopt) const;
@@ -59,14 +69,19 @@ class PositionRefiner {
 
   void keep_steepest(const Eigen::Vector2d& size_px);
   void sort_by_blocks();
-  void find_anchor(const Eigen::Vector2d& size_px);
+  void find_anchor();
+  static Sample sample_of(const cv::Mat& image, const cv::Point& at, const Eigen::Vector2d& place,
+                          const Eigen::Vector2d& size);
   Normal accumulate(const View& view, const State& state, double scale) const;
-  std::optional<RefinedPosition> position_of(const State& state, const Normal& normal) const;
+  std::optional<Normal> normal_at(const View& view, const State& state, double scale,
+                                  const std::optional<Eigen::Vector2d>& likely_size_px) const;
+  std::optional<RefinedPosition> position_of(const State& state, const Normal& normal,
+                                             const Eigen::Vector2d& shift) const;
 
   std::vector<Sample> samples_;
-  // The size changes about this point of the box; the designated one stays a fixed step off it.
+  double all_weight_ = 0.0;
+  // The middle, in sizes from the centre, of what tells the place.
   Eigen::Vector2d anchor_ = Eigen::Vector2d::Zero();
-  Eigen::Vector2d anchor_px_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace ols

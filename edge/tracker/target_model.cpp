@@ -126,7 +126,10 @@ std::optional<RefinedPosition> TargetModel::measure(const Scene& scene,
   // Edges are lost in the reduced picture; but only its slopes reach as far as from a particle.
   const auto fine =
       fine_refiner_->refine(scene.whole, coarse->centre, coarse->size_px, coarse->size_px);
-  const bool better = fine && fine->covariance_px2.trace() < coarse->covariance_px2.trace();
+  const auto variance = [](const RefinedPosition& position) {
+    return position.covariance_px2.topLeftCorner<2, 2>().trace();
+  };
+  const bool better = fine && variance(*fine) < variance(*coarse);
   return better ? fine : coarse;
 }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kSamePattern = 0.5;  // correlation; less is no measurement of its place
 constexpr double kSameShape = 0.9;    // likewise; less is no measurement of its size
 constexpr double kNotPlaced = 0.1;    // of its size: 1 sigma where nothing tells its place better
-constexpr double kSharedByChance = 1.2;
+constexpr double kSharedByChance = 1.2;  // so much of it white noise has, by fluctuating
 constexpr double kSharedNoiseTime_s = 1.0;
 constexpr double kAgree = 2.0;  // sigmas of a step
 constexpr double kSureEnoughToLearn = 0.7;
@@ -44,7 +44,7 @@ TrackerCore::TrackerCore(const TrackerConfig& config, std::uint64_t seed, const 
       time_s_(frame.time_s) {
   last_.pixel = centre_of(core);
   last_.size_px = size_of(core);
-  label_.offset_px = centre_of(box) - last_.pixel;
+  label_.place = (centre_of(box) - last_.pixel).cwiseQuotient(last_.size_px);
   label_.scale = size_of(box).cwiseQuotient(last_.size_px);
   believed_ = last_;
   filter_.particles().assign(static_cast<std::size_t>(config.particles), last_);
@@ -53,8 +53,12 @@ TrackerCore::TrackerCore(const TrackerConfig& config, std::uint64_t seed, const 
   belief_.start();
 }
 
+Eigen::Vector2d TrackerCore::designated_point(const Particle& particle) const {
+  return particle.pixel + label_.place.cwiseProduct(particle.size_px);
+}
+
 cv::Rect2d TrackerCore::labelled(const Particle& particle) const {
-  return box_of(particle.pixel + label_.offset_px, label_.scale.cwiseProduct(particle.size_px));
+  return box_of(designated_point(particle), label_.scale.cwiseProduct(particle.size_px));
 }
 
 TrackerOutput TrackerCore::step(const TrackerInput& frame, StageTimer& timer) {
@@ -167,12 +171,12 @@ void TrackerCore::designate_late(const cv::Mat& gray) {
   const cv::Rect2d core = find_core(gray, wide);
   if (core == wide) return;
   target_ = TargetModel(config_, gray, core);
-  designation_sd_px_ = kNotPlaced * size_of(core);
+  forget_measured();
   last_.pixel = centre_of(core);
   last_.size_px = size_of(core);
   last_.velocity_px_s.setZero();
   believed_ = last_;
-  label_.offset_px.setZero();
+  label_.place.setZero();
   label_.scale = size_of(designated_).cwiseQuotient(last_.size_px);
   filter_.particles().assign(filter_.particles().size(), last_);
   velocity_ = Velocity::kUnknown;
@@ -231,30 +235,33 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, double interval_s, 
   last_.size_px = filter_.mean_size_px();
   timer.lap(Stage::kWeighting);
 
-  TrackerOutput output;
-  output.covariance_px2 = filter_.covariance_about(last_.pixel);
-  Eigen::Vector2d pixel = last_.pixel;
-  output.covariance_px2.diagonal() += (kNotPlaced * last_.size_px).cwiseAbs2();
-  if (const auto placed = target_.place(scene, last_.pixel, last_.size_px);
-      placed && placed->correlation > kSamePattern) {
-    last_.pixel = filter_.particles()[best].pixel = placed->centre;
-    const RefinedPosition measured = measure(scene, *placed);
-    pixel = measured.pixel;
-    const double share = 1.0 - std::exp(-interval_s / kSharedNoiseTime_s);
-    shared_noise_ += share * (measured.shared_noise - shared_noise_);
-    output.covariance_px2 =
-        std::max(1.0, shared_noise_ / kSharedByChance) * measured.covariance_px2;
-  } else {
-    measured_size_px_.reset();
-  }
-  const double floor = config_.pixel_sd_floor_px * config_.pixel_sd_floor_px;
-  output.covariance_px2.diagonal() += designation_sd_px_.cwiseAbs2();
-  output.covariance_px2.diagonal().array() += floor;
+  TrackerOutput output = locate(scene, best, interval_s);
   timer.lap(Stage::kPosition);
   judge(scene, background, interval_s);
   output.box = labelled(last_);
-  output.pixel = pixel + label_.offset_px;
   output.belief = identity_ * belief_.value();
+  return output;
+}
+
+// The designated point, where the target is placed, and its covariance.
+TrackerOutput TrackerCore::locate(const Scene& scene, std::size_t best, double interval_s) {
+  const double floor = config_.pixel_sd_floor_px * config_.pixel_sd_floor_px;
+  TrackerOutput output;
+  const auto placed = target_.place(scene, last_.pixel, last_.size_px);
+  if (placed && placed->correlation > kSamePattern) {
+    last_.pixel = filter_.particles()[best].pixel = placed->centre;
+    const RefinedPosition measured = measure(scene, *placed);
+    learn_shared_noise(measured.shared_noise, interval_s);
+    output.pixel = measured.point(label_.place);
+    output.covariance_px2 = std::max(1.0, shared_noise_ / kSharedByChance) *
+                            measured.point_covariance_px2(label_.place);
+  } else {
+    measured_size_px_.reset();
+    output.pixel = designated_point(last_);
+    output.covariance_px2 = filter_.covariance_about(last_.pixel);
+    output.covariance_px2.diagonal() += (kNotPlaced * last_.size_px).cwiseAbs2();
+  }
+  output.covariance_px2.diagonal().array() += floor;
   return output;
 }
 
@@ -266,6 +273,18 @@ RefinedPosition TrackerCore::measure(const Scene& scene, const RefinedPosition& 
   if (!measured || measured->correlation < kSamePattern) return placed;
   if (measured->correlation > kSameShape) measured_size_px_ = measured->size_px;
   return *measured;
+}
+
+// The mean of the first ones, and of the last second then: of one frame it is much by chance.
+void TrackerCore::learn_shared_noise(double shared_noise, double interval_s) {
+  const double share =
+      std::max(1.0 / ++shared_noise_count_, 1.0 - std::exp(-interval_s / kSharedNoiseTime_s));
+  shared_noise_ += share * (shared_noise - shared_noise_);
+}
+
+void TrackerCore::forget_measured() {
+  measured_size_px_.reset();
+  shared_noise_count_ = 0;
 }
 
 void TrackerCore::weigh_particles(const Scene& scene, double background) {

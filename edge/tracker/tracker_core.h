@@ -2,6 +2,8 @@
 // the facade, tracker.h.
 #pragma once
 
+#include <limits>
+
 #include "edge/tracker/belief.h"
 #include "edge/tracker/ego_motion.h"
 #include "edge/tracker/mover_detection.h"
@@ -31,11 +33,9 @@ class TrackerCore : public TargetFollower {
     double since_s = 0.0;
     bool told = false;  // by search_near(): it is there whether it moves or not
   };
-  // The designated box about what stands out in it: its centre off that part's, its size by that
-  // part's. What was designated stays a fixed step off what is followed: with the part's size it
-  // would share that estimate's noise.
+  // The designated box about what stands out in it, both in that part's sizes.
   struct Label {
-    Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();  // of its centre, from that part's
     Eigen::Vector2d scale = Eigen::Vector2d::Ones();
   };
   enum class Velocity { kEstimated, kUnknown };
@@ -54,7 +54,10 @@ class TrackerCore : public TargetFollower {
   cv::Rect2d reachable_area(double interval_s) const;
   void scatter_over_search(double fraction);
   TrackerOutput update(const TrackerInput& frame, double interval_s, StageTimer& timer);
+  TrackerOutput locate(const Scene& scene, std::size_t best, double interval_s);
   RefinedPosition measure(const Scene& scene, const RefinedPosition& placed);
+  void learn_shared_noise(double shared_noise, double interval_s);
+  void forget_measured();
   void weigh_particles(const Scene& scene, double background);
   std::size_t choose(const Scene& scene, double background, double interval_s) const;
   FrameEvidence evidence_of(const Scene& scene, const Particle& particle, double background) const;
@@ -71,6 +74,7 @@ class TrackerCore : public TargetFollower {
 
   TrackerCore(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
               const cv::Rect2d& box, const cv::Rect2d& core);
+  Eigen::Vector2d designated_point(const Particle& particle) const;
   cv::Rect2d labelled(const Particle& particle) const;
 
   TrackerConfig config_;
@@ -86,16 +90,18 @@ class TrackerCore : public TargetFollower {
   // is followed now.
   double believed_identity_ = 1.0, identity_ = 1.0;
   std::optional<Search> search_;
-  bool placed_ = false;          // the particles stand in the coming frame already
-  double scene_since_s_ = -1e9;  // when the camera's motion was lost: what is seen is another scene
-  bool scene_lost_ = false;      // it was followed up to the frame before: this may be a cut
+  bool placed_ = false;  // the particles stand in the coming frame already
+  double scene_since_s_ =
+      -std::numeric_limits<double>::infinity();  // when the camera's motion was lost: what is seen
+                                                 // is another scene
+  bool scene_lost_ = false;  // it was followed up to the frame before: this may be a cut
   Velocity velocity_ = Velocity::kUnknown;
   Label label_;
   Particle last_;  // best estimate in the newest frame
   // Of the first image in the newest frame: the box is of what has been learnt since, too.
   std::optional<Eigen::Vector2d> measured_size_px_;
-  Eigen::Vector2d designation_sd_px_ = Eigen::Vector2d::Zero();  // of a late one
-  double shared_noise_ = 1.0;                                    // RefinedPosition's, of late
+  int shared_noise_count_ = 0;
+  double shared_noise_ = 1.0;           // RefinedPosition's, of late
   std::vector<MoverCandidate> movers_;  // of this frame, while the target is looked for
   Particle believed_;                   // the last one seen, brought to the newest frame
   std::optional<Eigen::Matrix3d> image_homography_;

@@ -13,12 +13,13 @@ constexpr double kNearFirst = 1.0;  // [s] a lost target is looked for nearby, t
 }  // namespace
 
 void TrackerCore::search_near(const Eigen::Vector2d& designated, double sd_px) {
-  const Eigen::Vector2d pixel = designated - label_.offset_px;
+  const Eigen::Vector2d pixel = designated - label_.place.cwiseProduct(believed_.size_px);
   search_ = Search{pixel, sd_px, std::max(sd_px, config_.search_sd_most_px), time_s_, true};
   for (Particle& particle : filter_.particles()) particle = drawn_near(pixel, sd_px);
   last_.pixel = believed_.pixel = pixel;
   last_.size_px = believed_.size_px;
   belief_.doubt();
+  forget_measured();
   believed_identity_ = 1.0;  // who tells where it is knows which one it is
   placed_ = true;
 }
