@@ -51,6 +51,7 @@ void TargetModel::set_contrast(double contrast) {
 TargetModel::TargetModel(const TrackerConfig& config, const View& view, const cv::Rect2d& box)
     : config_(config),
       first_size_px_(size_of(box)),
+      usual_size_px_(first_size_px_),
       template_(make_template(view, centre_of(box), size_of(box))),
       objective_(smooth_template(template_, view, box)),
       refiner_(view, centre_of(box), size_of(box)) {}
@@ -140,6 +141,10 @@ void TargetModel::learn(const Scene& scene, const Eigen::Vector2d& pixel,
   set_contrast(now * contrast_ > 0.0 ? contrast_ + share * (now - contrast_) : now);
 }
 
+void TargetModel::learn_size(const Eigen::Vector2d& size_px, double share) {
+  usual_size_px_ += share * (size_px - usual_size_px_);
+}
+
 double TargetModel::log_likelihood(const Likeness& likeness, double background, double standing_out,
                                    const Eigen::Vector2d& size_px) const {
   const double room = std::max(0.02, 1.0 - background);
@@ -147,8 +152,8 @@ double TargetModel::log_likelihood(const Likeness& likeness, double background, 
       config_.sharpness * (likeness.similarity - 1.0) / room +
       config_.correlation_sharpness * (likeness.correlation - 1.0) +
       config_.contrast_sharpness * contrast_weight_ * (std::min(standing_out, 1.0) - 1.0);
-  const double wider = std::log(size_px.x() / first_size_px_.x());
-  const double higher = std::log(size_px.y() / first_size_px_.y());
+  const double wider = std::log(size_px.x() / usual_size_px_.x());
+  const double higher = std::log(size_px.y() / usual_size_px_.y());
   const double sd = config_.size_prior_sd_fraction;
   return alike - 0.5 * (wider * wider + higher * higher) / (sd * sd);
 }

@@ -50,6 +50,9 @@ class TargetModel {
   void learn(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px,
              double share);
 
+  // The size that it has now, as an image showed it well.
+  void learn_size(const Eigen::Vector2d& size_px, double share);
+
   // M_t, once: the candidate's foreground while it is surely the target.
   void learn_mask(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
 
@@ -61,6 +64,7 @@ class TargetModel {
   // From there the sub-pixel position, with the size and from all that the frame shows.
   std::optional<RefinedPosition> measure(const Scene& scene, const RefinedPosition& placed,
                                          const Eigen::Vector2d& likely_size_px) const;
+  const Eigen::Vector2d& usual_size_px() const { return usual_size_px_; }
   // Nothing stood out in the first box: there is nothing to recognise.
   bool empty() const { return template_.empty; }
 
@@ -71,6 +75,7 @@ class TargetModel {
 
   TrackerConfig config_;
   Eigen::Vector2d first_size_px_;
+  Eigen::Vector2d usual_size_px_;  // of late
   Template template_;
   Objective objective_;
   PositionRefiner refiner_;

@@ -77,6 +77,7 @@ TrackerOutput TrackerCore::step(const TrackerInput& frame, StageTimer& timer) {
   references_.offer(frame.gray, frame.time_s, box_of(last_.pixel, last_.size_px));
   reduced_ = reduced;
   filter_.resample(random_);
+  propose_usual_size();
   timer.lap(Stage::kLearning);
   return output;
 }
@@ -275,6 +276,18 @@ RefinedPosition TrackerCore::measure(const Scene& scene, const RefinedPosition& 
   return *measured;
 }
 
+// A target that comes nearer grows by more than particles find by chance. Evenly among the resampled
+// ones, which stand in order of their ancestors.
+void TrackerCore::propose_usual_size() {
+  constexpr std::size_t kEvery = 8;
+  constexpr double kOff = 0.15;
+  const Eigen::Vector2d& usual = target_.usual_size_px();
+  const Eigen::Vector2d off = usual.cwiseQuotient(last_.size_px).array().log();
+  if (off.cwiseAbs().maxCoeff() < kOff) return;
+  auto& particles = filter_.particles();
+  for (std::size_t i = 0; i < particles.size(); i += kEvery) particles[i].size_px = usual;
+}
+
 // The mean of the first ones, and of the last second then: of one frame it is much by chance.
 void TrackerCore::learn_shared_noise(double shared_noise, double interval_s) {
   const double share =
@@ -327,8 +340,9 @@ void TrackerCore::judge(const Scene& scene, double background, double interval_s
   if (search_) identity_ = std::min(believed_identity_, identity_of_found(scene, background));
   if (belief_.value() > kSureEnoughForMask) target_.learn_mask(scene, last_.pixel, last_.size_px);
   if (belief_.value() > kSureEnoughToLearn) {
-    target_.learn(scene, last_.pixel, last_.size_px,
-                  1.0 - std::exp(-interval_s / config_.learning_time_s));
+    const double share = 1.0 - std::exp(-interval_s / config_.learning_time_s);
+    target_.learn(scene, last_.pixel, last_.size_px, share);
+    if (measured_size_px_) target_.learn_size(*measured_size_px_, share);
   }
 }
 

@@ -56,6 +56,7 @@ class TrackerCore : public TargetFollower {
   TrackerOutput update(const TrackerInput& frame, double interval_s, StageTimer& timer);
   TrackerOutput locate(const Scene& scene, std::size_t best, double interval_s);
   RefinedPosition measure(const Scene& scene, const RefinedPosition& placed);
+  void propose_usual_size();
   void learn_shared_noise(double shared_noise, double interval_s);
   void forget_measured();
   void weigh_particles(const Scene& scene, double background);

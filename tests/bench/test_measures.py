@@ -137,11 +137,12 @@ def test_a_target_is_followed_on_until_a_doubt_or_a_leap():
     assert list(np.flatnonzero(followed_on(j))) == [7]
 
 
-def test_what_is_followed_on_to_a_label_of_something_else_counts_until_it_is_on_target_again():
-    j = judged([True, False, False, False, True, False], [1.0] * 6)
-    j.visible = np.array([True, True, False, True, True, True])
-    # The first is off a label that has not ended, the last off one that is new.
-    assert list(np.flatnonzero(followed_on(j))) == [2, 3]
+def test_nothing_is_followed_on_that_was_off_a_label():
+    j = judged([True] * 5 + [False] * 10, [1.0] * 15)
+    j.visible = np.array([True] * 5 + [False] + [True] * 5 + [False] * 4)
+    assert list(np.flatnonzero(followed_on(j))) == [5]
+    measures = belief_measures([j])["with_followed_on"]
+    assert measures["calibration_error"] == pytest.approx(9 / 15)
 
 
 def test_a_label_that_ends_is_no_loss_of_what_is_followed_on():

@@ -81,8 +81,8 @@ def about(ran: list[str], shown: list[str], seed: int) -> str:
             break
     text = (
         f"One thread on core {core} of {platform.machine()}, {model}; OpenCV {cv2.__version__}'s "
-        f"trackers; seed {seed}. Times are processor time inside the trackers' update alone, decoding "
-        "apart."
+        f"trackers; seed {seed}. Times are processor time inside the trackers' update alone, "
+        "decoding apart."
     )
     earlier = [tracker for tracker in shown if tracker not in ran]
     if earlier:

@@ -67,16 +67,15 @@ def losses(judged: Judged, on_target: np.ndarray) -> list[float]:
 
 
 def followed_on(judged: Judged) -> np.ndarray:
-    """Frames in which the label has gone, or has gone to something else since, while what was on
-    target in a labelled frame is followed still: believed in, and without a leap, in every frame
-    since."""
-    goes_on = label_ended = False
+    """Frames without a labelled target in which what was on target in a labelled one is followed
+    still: believed in, and without a leap, in every frame since. A tracker that slid from it onto
+    something else meanwhile is among them: look at the pictures."""
+    goes_on = False
     frames = np.zeros(len(judged.visible), dtype=bool)
     for k, visible in enumerate(judged.visible):
         unbroken = judged.believed[k] and judged.step[k] < LEAP_PX
-        goes_on = bool(unbroken and (goes_on or judged.on_target[k]))
-        label_ended = goes_on and not judged.on_target[k] and (label_ended or not visible)
-        frames[k] = label_ended
+        goes_on = bool(unbroken and (judged.on_target[k] if visible else goes_on))
+        frames[k] = goes_on and not visible
     return frames
 
 
@@ -105,10 +104,9 @@ def belief_measures(judged: list[Judged]) -> dict | None:
         return None
     same = [followed_on(j) for j in judged]
     absent = sum(int((~j.visible).sum()) for j in judged)
-    on_absent = sum(int((f & ~j.visible).sum()) for j, f in zip(judged, same, strict=True))
     on_target = [j.on_target | f for j, f in zip(judged, same, strict=True)]
     return {
-        "followed_on": on_absent / absent if absent else None,
+        "followed_on": sum(int(f.sum()) for f in same) / absent if absent else None,
         **measures_of(judged, [j.on_target for j in judged]),
         "with_followed_on": measures_of(judged, on_target),
         "believed_threshold": BELIEVED,

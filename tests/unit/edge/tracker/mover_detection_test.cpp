@@ -49,6 +49,7 @@ TEST(MoverDetection, FindsWhatMovesAgainstTheScene) {
 // an axis of the candidate nearest to it, and how often there is one.
 struct Consistency {
   double nees = 0.0;
+  double sd_px = 0.0;  // told, mean
   int found = 0;
 };
 
@@ -83,9 +84,11 @@ Consistency consistency_of(double size_px, double moved_px) {
         });
     const Eigen::Vector2d error = nearest->pixel - now;
     made.nees += 0.5 * error.dot(nearest->covariance_px2.inverse() * error);
+    made.sd_px += std::sqrt(0.5 * nearest->covariance_px2.trace());
     ++made.found;
   }
   made.nees /= std::max(1, made.found);
+  made.sd_px /= std::max(1, made.found);
   return made;
 }
 
@@ -96,6 +99,7 @@ TEST(MoverDetection, TheCovarianceHoldsWhereAMoverStandsInItsOwnShadow) {
       const Consistency seen = consistency_of(size_px, moved_px);
       EXPECT_GT(seen.found, 35) << size_px << " px moved by " << moved_px;
       EXPECT_LT(seen.nees, 1.0) << size_px << " px moved by " << moved_px;
+      EXPECT_LT(seen.sd_px, 0.75 * size_px) << size_px << " px moved by " << moved_px;
     }
   }
 }
