@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kLatestS = 2.0;  // a bearing later than this is no longer compared
+constexpr double kPlaceS = 1.0;   // who is silent for longer gives its states up to another
 constexpr int kUpset = 6;         // set-aside bearings in a row, of two stations
 constexpr double kLeastProbability = 1e-4;
 
@@ -79,7 +80,7 @@ RayFrame TrackFilter::frame_of(const Sighting& sighting, int station) const {
   return same ? ray_frame(sighting.sight, known.R_ecef_enu) : ray_frame(sighting.sight);
 }
 
-// A station's states; the one that is silent longest gives its place up.
+// A station's states, those of the one that is silent longest where all are given away; -1: none.
 int TrackFilter::enter(const Sighting& sighting, const BiasPrior& prior) {
   int index = static_cast<int>(stations_.size());
   if (index < kFilterStations) {
@@ -92,6 +93,7 @@ int TrackFilter::enter(const Sighting& sighting, const BiasPrior& prior) {
     }
   } else {
     const auto silent = std::ranges::min_element(stations_, {}, &FilterStation::offered_us);
+    if (seconds(sighting.utime_us - silent->offered_us) < kPlaceS) return -1;
     index = static_cast<int>(silent - stations_.begin());
   }
   reset(index, sighting, prior);
@@ -192,7 +194,7 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
 }
 
 // The station's states, new where it is new or has another calibration; its clock as it states it
-// now.
+// now. -1: it has none.
 int TrackFilter::states_of(const Sighting& sighting, const StationErrors& errors) {
   int station = index_of(sighting.station);
   const bool known = station >= 0;
@@ -202,6 +204,7 @@ int TrackFilter::states_of(const Sighting& sighting, const StationErrors& errors
     const BiasPrior prior = errors.prior(sighting.station, sighting.sight, range_m);
     if (known) reset(station, sighting, prior);
     if (!known) station = enter(sighting, prior);
+    if (station < 0) return station;
   }
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   entry.offered_us = std::max(entry.offered_us, sighting.utime_us);
@@ -219,6 +222,9 @@ int TrackFilter::states_of(const Sighting& sighting, const StationErrors& errors
 // At the state's own instant, or late.
 BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   const int station = states_of(sighting, errors);
+  if (station < 0) {
+    return nis(sighting, errors) < config_.gate_nis ? BearingUse::kNoPlace : BearingUse::kSetAside;
+  }
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   const Eigen::Matrix2d white =
       sighting.sight.covariance_white * errors.noise_scale(sighting.station);

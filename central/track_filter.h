@@ -39,14 +39,15 @@ struct FilterConfig {
   double in_common = 1.0;
 };
 
-inline constexpr int kFilterStations = 12;  // bias states of the latest so many
+inline constexpr int kFilterStations = 12;  // with states of their own; no more are used
 inline constexpr int kFilterStates = 9 + 3 * kFilterStations;
 using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
 using FilterMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kFilterStates, kFilterStates>;
 
-// What became of a bearing.
-enum class BearingUse { kUsed, kSetAside, kBehindCamera, kTooLate };
+// What became of a bearing. kNoPlace: all the states are those of stations that still deliver.
+// Their bearings without them would count as if each had a bias of its own, and none had any.
+enum class BearingUse { kUsed, kSetAside, kBehindCamera, kTooLate, kNoPlace };
 
 // Position, velocity, acceleration; three components each.
 struct KinematicState {

@@ -100,7 +100,8 @@ Association TrackKeeper::begin(const Sighting& sighting) {
 Association TrackKeeper::give_to(Track& track, const Sighting& sighting) {
   const BearingUse use = track.filter.update(sighting, errors_);
   glances_[static_cast<std::size_t>(&track - tracks_.data())] = glance_at(track);
-  if (use != BearingUse::kUsed) {
+  // One more than the filter has states for is of the target all the same, and begins no other.
+  if (use != BearingUse::kUsed && use != BearingUse::kNoPlace) {
     ++track.misses;
     ++counts_.set_aside;
     return {Association::Kind::kSetAside, track.id};

@@ -155,6 +155,36 @@ TEST(TrackFilter, TellsWhatErrorsThatNobodyStatedMakeOfItsCovariance) {
   EXPECT_GT(part.shown_m2.trace(), 0.5 * part.all_m2.trace());
 }
 
+// Twelve have states; one more is of the target without moving it, until one of them is silent.
+TEST(TrackFilter, AThirteenthStationWaitsForAPlace) {
+  const auto bearing = [](int station, double t_s) {
+    const double angle = 2.0 * kPi * station / 13.0;
+    const Vector3d place(300.0 * std::cos(angle), 300.0 * std::sin(angle), 0.0);
+    return sighting_of(ray_to(std::string(1, static_cast<char>('a' + station)), place, path(t_s)),
+                       kStart + std::llround(t_s * 1e6));
+  };
+  StationErrors errors;
+  TrackFilter filter = filter_at(path(0.0));
+  double t_s = 0.0;
+  for (; t_s < 2.0; t_s += 0.1) {
+    for (int i = 0; i < 12; ++i)
+      EXPECT_EQ(filter.update(bearing(i, t_s), errors), BearingUse::kUsed);
+    const Eigen::MatrixXd before = filter.at(filter.utime_us()).covariance;
+    EXPECT_EQ(filter.update(bearing(12, t_s), errors), BearingUse::kNoPlace);
+    EXPECT_EQ(filter.at(filter.utime_us()).covariance, before);
+    Sighting beside = bearing(12, t_s);
+    beside.sight.direction.elevation_rad += 0.05;
+    EXPECT_EQ(filter.update(beside, errors), BearingUse::kSetAside);
+  }
+  BearingUse last = BearingUse::kNoPlace;
+  for (const double end_s = t_s + 1.2; t_s < end_s; t_s += 0.1) {
+    for (int i = 1; i < 12; ++i) filter.update(bearing(i, t_s), errors);
+    last = filter.update(bearing(12, t_s), errors);
+  }
+  EXPECT_EQ(last, BearingUse::kUsed);
+  EXPECT_LT(error(filter, filter.utime_us()).norm(), 0.1);
+}
+
 TEST(TrackFilter, AClockThatWasBadForAMomentIsForgiven) {
   const auto sd_m = [](double clock_sd_s) {
     StationErrors errors;

@@ -1,0 +1,65 @@
+// More stations on one target than the filter has states for.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <set>
+
+#include "tools/estimators/bearing_world.h"
+
+namespace ols::bench {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Seen {
+  double nees = 0.0;  // over 3, of all targets
+  int count = 0;
+  std::set<std::int64_t> ids;
+  std::size_t most_at_once = 0;
+};
+
+// Each states its bias, and that is so great that only who believes it to be new in every frame
+// would be surer than twelve stations.
+void fly(int stations, double rate_hz, std::uint64_t seed, Seen& seen) {
+  constexpr double kDurationS = 8.0, kSettledS = 2.0;
+  std::mt19937_64 random(seed);
+  WorldConfig world{.stations_enu = circle(stations, 250.0), .aims_enu = {}, .rate_hz = rate_hz};
+  world.bias_sd_rad = 2e-3;
+  const Path path = cruising({{-60, 40, 80}, {9.0, -6.0, 1.0}}, 0.5, kDurationS, random);
+  Fusion fusion(FusionConfig{.paper_targets = 0});
+  for (const Sighting& sighting : measure(world, {path}, kDurationS, random)) {
+    const FusionOutput output = fusion.add(sighting);
+    seen.most_at_once = std::max(seen.most_at_once, output.targets.size());
+    for (const FusedTarget& target : output.targets) {
+      if (target.target_id != 0) seen.ids.insert(target.target_id);
+      const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
+      if (time_s < kSettledS || target.estimate.solution != Solution::kOk) continue;
+      const Vector3d e = target.estimate.position_ecef - site().to_ecef(at(path, time_s).p_enu);
+      seen.nees += e.dot(target.estimate.covariance_ecef.ldlt().solve(e)) / 3.0;
+      ++seen.count;
+    }
+  }
+}
+
+class ManyStations : public testing::TestWithParam<double> {};
+
+TEST_P(ManyStations, AreNoSurerThanTheirBiasesLetThem) {
+  constexpr int kRuns = 12;
+  double nees = 0.0;
+  for (int run = 1; run <= kRuns; ++run) {
+    Seen seen;
+    fly(16, GetParam(), static_cast<std::uint64_t>(run), seen);
+    ASSERT_GT(seen.count, 0) << "seed " << run;
+    EXPECT_EQ(seen.ids.size(), 1U) << "seed " << run;
+    EXPECT_EQ(seen.most_at_once, 1U) << "seed " << run;
+    nees += seen.nees / seen.count / kRuns;
+  }
+  // Of about three independent errors a run (the biases stay): 36 degrees of freedom.
+  EXPECT_GT(nees, 0.4);
+  EXPECT_LT(nees, 1.6);
+}
+
+INSTANTIATE_TEST_SUITE_P(RatesHz, ManyStations, testing::Values(15.0, 30.0));
+
+}  // namespace
+}  // namespace ols::bench
