@@ -323,8 +323,9 @@ void Fusion::tell_lines(std::int64_t epoch_us, FusionOutput& output) {
 // Of stations that follow an object which no track explains.
 std::vector<BearingOnly> Fusion::bearings_only(std::int64_t epoch_us) const {
   std::vector<BearingOnly> found;
-  for (const auto& [name, pool] : keeper_.births().pool()) {
-    if (pool.empty() || !pointing_.quarantine(name).empty()) continue;
+  for (const auto& [name, pooled] : keeper_.births().pool().stations()) {
+    const auto& pool = pooled.bearings;
+    if (!pointing_.quarantine(name).empty()) continue;
     std::vector<Sighting> own;
     for (const Sighting& s : pool) {
       if (s.track_id == pool.back().track_id) own.push_back(s);

@@ -7,15 +7,18 @@
 // true objects have taken their own bearings. The two stations that make a start are heard first:
 // then a third one that is wrong, or follows something else, is outside of the gate and spoils
 // none.
+//
+// A search costs as much as there are stations with such bearings. Where they are many they take
+// turns, so that what a bearing costs does not grow with their number.
 #pragma once
 
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "central/bearing_pool.h"
 #include "central/track.h"
 
 namespace ols {
@@ -34,20 +37,18 @@ struct BirthConfig {
 class TrackBirth {
  public:
   TrackBirth(const BirthConfig& config, const FilterConfig& filter)
-      : config_(config), filter_(filter) {}
+      : config_(config), filter_(filter), pool_(config.pool_s, config.pool_of_a_station) {}
 
   // Takes a bearing that belongs to no track. A new track, with the bearings that it explains taken
-  // out of the pool. `trusting`: two rays are enough for now; the pool keeps them, for a better
-  // one.
+  // out of the pool: of this one or, where many stations wait for their turn, of another.
+  // `trusting`: two rays are enough for now; the pool keeps them, for a better one.
   std::optional<Track> add(const Sighting& sighting, StationErrors& errors, bool trusting);
   // Keeps a bearing without looking for a track.
-  void store(const Sighting& sighting);
+  void store(const Sighting& sighting) { pool_.store(sighting); }
   // Takes out what a track explains that has just become sure.
   void give(const Track& track, const StationErrors& errors);
-  void forget(const std::string& station) { pool_.erase(station); }
-  void clear() { pool_.clear(); }
-  // The bearings without a track of one station, in order of time.
-  const std::map<std::string, std::deque<Sighting>>& pool() const { return pool_; }
+  void forget(const std::string& station) { pool_.forget(station); }
+  const BearingPool& pool() const { return pool_; }
   // Why the last bearing began no track: what its ray did with the last other one, kRaysMiss where
   // rays meet but the bearings of their stations do not agree on it, kTooFewRays where they do and
   // only more of them is needed, and where there was no other ray.
@@ -58,6 +59,8 @@ class TrackBirth {
     Eigen::Vector3d p_ecef;
     double range_m = 0.0;
     std::string first, second;  // the stations whose rays meet
+    double miss = 0.0;          // distance of the rays over the greatest one
+    int support = 0;            // other stations that look there
   };
   // A start that was good enough, and what the run over its bearings has shown of the stations.
   struct Begun {
@@ -66,22 +69,31 @@ class TrackBirth {
     double misfit = 0.0;  // mean squared normalised residual of its stations' frames
   };
   enum class Needed { kTwoRays, kHalf, kAll };  // for two stations' agreement: of its time
-  std::optional<Meeting> start_of(const Sighting& a, const Sighting& b,
-                                  const StationErrors& errors);
-  const Sighting* nearest(const std::deque<Sighting>& bearings, const Sighting& to,
-                          const Meeting* start, const StationErrors& errors) const;
+  std::optional<Track> search(const Sighting& sighting, StationErrors& errors, bool trusting);
+  std::optional<Sighting> next_turn(const Sighting& sighting);
+  std::optional<Meeting> start_of(const Sighting& a, const Look& look, const Sighting& b,
+                                  const Look& other, const StationErrors& errors);
+  std::ptrdiff_t nearest(const BearingPool::Station& own, const Sighting& to, const Meeting* start,
+                         const StationErrors& errors) const;
   std::vector<Meeting> starts_with(const Sighting& sighting, const StationErrors& errors);
+  std::vector<const BearingPool::Station*> looking_at(const Meeting& start,
+                                                      std::int64_t now_us) const;
   std::optional<Begun> try_start(const Sighting& newest, const Meeting& start,
                                  const StationErrors& errors, Needed needed);
   bool is_outdone(const Begun& begun, const Sighting& newest, const StationErrors& errors);
   double gate_rad(const Sighting& sighting, double dt_s, double range_m,
                   const StationErrors& errors) const;
+  double moved_rad(double dt_s) const;
   void take(const Track& track);
 
   BirthConfig config_;
   FilterConfig filter_;
-  std::map<std::string, std::deque<Sighting>> pool_;
+  BearingPool pool_;
   Solution failure_ = Solution::kTooFewRays;
+  // Stations that wait for a search, and what has been saved up for the next one.
+  std::deque<std::string> waiting_;
+  std::size_t saved_ = 0;
+  std::size_t turns_ = 0;
 };
 
 }  // namespace ols

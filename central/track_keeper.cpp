@@ -93,8 +93,11 @@ Association TrackKeeper::begin(const Sighting& sighting) {
   ++counts_.born;
   tracks_.push_back(std::move(*track));
   glances_.push_back(glance_at(tracks_.back()));
-  consider(tracks_.back());
-  return {Association::Kind::kTrack, tracks_.back().id};
+  Track& begun = tracks_.back();
+  consider(begun);
+  // It may be that of a station which has waited for its turn.
+  return begun.has_taken(sighting) ? Association{Association::Kind::kTrack, begun.id}
+                                   : Association{};
 }
 
 Association TrackKeeper::give_to(Track& track, const Sighting& sighting) {

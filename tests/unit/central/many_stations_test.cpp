@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <set>
 
 #include "tools/estimators/bearing_world.h"
@@ -41,9 +42,9 @@ void fly(int stations, double rate_hz, std::uint64_t seed, Seen& seen) {
   }
 }
 
-class ManyStations : public testing::TestWithParam<double> {};
+class ManyStationsRates : public testing::TestWithParam<double> {};
 
-TEST_P(ManyStations, AreNoSurerThanTheirBiasesLetThem) {
+TEST_P(ManyStationsRates, AreNoSurerThanTheirBiasesLetThem) {
   constexpr int kRuns = 12;
   double nees = 0.0;
   for (int run = 1; run <= kRuns; ++run) {
@@ -59,7 +60,41 @@ TEST_P(ManyStations, AreNoSurerThanTheirBiasesLetThem) {
   EXPECT_LT(nees, 1.6);
 }
 
-INSTANTIATE_TEST_SUITE_P(RatesHz, ManyStations, testing::Values(15.0, 30.0));
+// Where more stations than can search with each bearing see new targets in one instant, they take
+// turns; none is forgotten, also where each frame has false bearings too.
+TEST(ManyStations, WhatTheySeeAllAtOnceIsAllFound) {
+  constexpr int kGroups = 24, kEach = 4;
+  constexpr double kDurationS = 0.6;
+  std::mt19937_64 random(3);
+  std::vector<Sighting> all;
+  std::vector<Path> paths;
+  for (int group = 0; group < kGroups; ++group) {
+    const Vector3d centre(3000.0 * (group % 6), 3000.0 * (group / 6), 0.0);
+    WorldConfig world{.stations_enu = circle(kEach, 300.0), .aims_enu = {}, .false_per_frame = 0.5};
+    for (Vector3d& place : world.stations_enu) place += centre;
+    for (const Vector3d& place : world.stations_enu) {
+      world.aims_enu.push_back(centre + Vector3d(0, 0, 100) - 0.01 * (place - centre));
+    }
+    paths.push_back(cruising({centre + Vector3d(0, 0, 100), {8, 3, 0}}, 0.5, kDurationS, random));
+    for (Sighting& s : measure(world, {paths.back()}, kDurationS, random)) {
+      s.station.append("g").append(std::to_string(group));
+      all.push_back(std::move(s));
+    }
+  }
+  std::ranges::stable_sort(all, {}, &Sighting::utime_us);
+  Fusion fusion{FusionConfig{}};
+  for (const Sighting& sighting : all) fusion.add(sighting);
+  for (const Path& path : paths) {
+    const Vector3d there = site().to_ecef(at(path, kDurationS).p_enu);
+    const auto near = std::ranges::count_if(fusion.keeper().tracks(), [&](const Track& track) {
+      return is_sure(track) && (track.filter.position() - there).norm() < 3.0;
+    });
+    EXPECT_EQ(near, 1);
+  }
+  EXPECT_EQ(std::ranges::count_if(fusion.keeper().tracks(), is_sure), kGroups);
+}
+
+INSTANTIATE_TEST_SUITE_P(Hz, ManyStationsRates, testing::Values(15.0, 30.0));
 
 }  // namespace
 }  // namespace ols::bench
