@@ -5,35 +5,14 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "central/alignment.h"
-
 namespace ols {
 namespace {
 
 constexpr double kMemoryS = 1.0;      // exposures kept for the recognition of doubled ones
 constexpr double kForgottenS = 10.0;  // silent for longer: gives its place to any other
 constexpr double kStepBackS = 1.0;    // "now" going back by more is another time line
-constexpr int kLines = 16;            // of what is no target, told an epoch
-constexpr double kFollowsS = 1.0;     // a station that saw a target longer ago does not see it
 
 double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
-
-bool due(const std::optional<std::int64_t>& last_us, std::int64_t now_us, double rate_hz) {
-  // A tenth of tolerance: frames of the same rate must not be missed every other time.
-  return !last_us || static_cast<double>(now_us - *last_us) >= 0.9e6 / rate_hz;
-}
-
-FusedTarget target_of(std::int64_t epoch_us, const Track& track, const char* estimator,
-                      Located located) {
-  FusedTarget target;
-  target.utime_us = epoch_us;
-  target.target_id = track.id;
-  target.state = track.state;
-  target.estimator = estimator;
-  target.estimate = std::move(located.estimate);
-  target.stations = std::move(located.stations);
-  return target;
-}
 
 }  // namespace
 
@@ -81,9 +60,9 @@ FusionOutput Fusion::add(const Sighting& sighting) {
   if (output.refusal != SightingRefusal::kNone) refuse(output.refusal, sighting);
   const std::int64_t now = now_us();
   if (now == 0) return output;
-  if (last_epoch_us_ && seconds(*last_epoch_us_ - now) > kStepBackS) notice_step_back();
-  if (due(last_epoch_us_, now, config_.rate_hz)) locate(now, output);
-  if (due(last_slew_us_, now, config_.slew.rate_hz)) plan(now, output);
+  if (epoch_.utime_us && seconds(*epoch_.utime_us - now) > kStepBackS) notice_step_back();
+  locate(now, output);
+  plan(now, output);
   return output;
 }
 
@@ -245,8 +224,9 @@ void Fusion::refuse(SightingRefusal refusal, const Sighting& sighting) {
 void Fusion::notice_step_back() {
   ++counters_["time_stepped_back"];
   last_error_ = "time has stepped back: another replay, or most stations' clocks";
-  last_epoch_us_.reset();
-  last_slew_us_.reset();
+  epoch_ = {};
+  slewed_us_.reset();
+  slew_next_.reset();
   objects_.clear();
   keeper_.clear();
   planner_.clear();
@@ -256,104 +236,6 @@ void Fusion::notice_step_back() {
     time_.trust(name, true);
     station.follows = 0;
   }
-}
-
-void Fusion::locate(std::int64_t epoch_us, FusionOutput& output) {
-  last_epoch_us_ = epoch_us;
-  keeper_.advance(epoch_us);
-  std::erase_if(objects_, [&](const auto& object) {
-    return std::ranges::none_of(keeper_.tracks(),
-                                [&](const Track& t) { return t.id == object.first; });
-  });
-  for (const Track& track : keeper_.tracks()) {
-    if (is_sure(track)) locate(track, epoch_us, output);
-  }
-  std::ranges::sort(output.targets, {}, &FusedTarget::target_id);
-  std::ranges::sort(output.targets_paper, {}, &FusedTarget::target_id);
-  tell_lines(epoch_us, output);
-  for (const FusedTarget& target : output.targets) {
-    const bool located = target.estimate.solution == Solution::kOk;
-    ++counters_[located ? "targets" : "targets_without_position"];
-  }
-}
-
-void Fusion::locate(const Track& track, std::int64_t epoch_us, FusionOutput& output) {
-  Object& object = objects_[track.id];
-  if (!object.main) {
-    object.main = make_estimator(config_.estimator, config_.estimators);
-    object.paper = make_estimator("paper", config_.estimators);
-  }
-  const TrackView view{track.bearings, keeper_.errors(), &track.filter};
-  Located located = object.main->locate(view, epoch_us);
-  std::erase_if(located.stations, [this](const ContributingStation& station) {
-    return !clocks_.quarantine(station.station).empty();
-  });
-  output.targets.push_back(target_of(epoch_us, track, object.main->name(), std::move(located)));
-  if (static_cast<int>(output.targets_paper.size()) >= config_.paper_targets) return;
-  output.targets_paper.push_back(
-      target_of(epoch_us, track, object.paper->name(), object.paper->locate(view, epoch_us)));
-}
-
-// No object: why there is none, or the one line that there is. And the line of each station that
-// follows what is no target.
-void Fusion::tell_lines(std::int64_t epoch_us, FusionOutput& output) {
-  const bool located = !output.targets.empty();
-  const std::vector<BearingOnly> lines = bearings_only(epoch_us);
-  FusedTarget target;
-  target.utime_us = epoch_us;
-  target.estimator = config_.estimator;
-  if (!located && lines.size() != 1) {
-    target.estimate.solution =
-        lines.empty() ? Solution::kTooFewRays : keeper_.births().last_failure();
-    for (const BearingOnly& line : lines) target.stations.push_back({line.station, true, 1.0, 0.0});
-    output.targets.push_back(target);
-  }
-  target.estimate.solution = Solution::kBearingOnly;
-  int told = 0;
-  for (const BearingOnly& line : lines) {
-    const bool alone = !located && lines.size() == 1;
-    if (!alone && (line.track_id == 0 || sees(stations_[line.station], epoch_us))) continue;
-    if (++told > kLines) break;
-    target.stations = {{line.station, true, 1.0, 0.0}};
-    target.bearing_only = line;
-    output.targets.push_back(target);
-  }
-}
-
-// Of stations that follow an object which no track explains.
-std::vector<BearingOnly> Fusion::bearings_only(std::int64_t epoch_us) const {
-  std::vector<BearingOnly> found;
-  for (const auto& [name, pooled] : keeper_.births().pool().stations()) {
-    const auto& pool = pooled.bearings;
-    if (!pointing_.quarantine(name).empty()) continue;
-    std::vector<Sighting> own;
-    for (const Sighting& s : pool) {
-      if (s.track_id == pool.back().track_id) own.push_back(s);
-    }
-    const auto ray = align(own, epoch_us, std::nullopt, config_.estimators.alignment);
-    if (ray) found.push_back({name, own.back().track_id, ray->sight, ray->rate_rad_s});
-  }
-  return found;
-}
-
-// A target that it follows, or did a moment ago.
-bool Fusion::sees(const Station& station, std::int64_t now) {
-  return station.follows != 0 && seconds(now - station.followed_us) < kFollowsS;
-}
-
-void Fusion::plan(std::int64_t now, FusionOutput& output) {
-  last_slew_us_ = now;
-  std::vector<SlewStation> stations;
-  for (const auto& [name, station] : stations_) {
-    stations.push_back({name, station.traits, sees(station, now) ? station.follows : 0});
-  }
-  std::vector<CueRay> rays;
-  for (const BearingOnly& only : bearings_only(now)) {
-    if (only.track_id == 0) continue;  // one of many detections, not an object that it follows
-    rays.push_back({only.station, only.sight.origin_ecef, direction_ecef(only.sight)});
-  }
-  output.slews = planner_.plan(now, stations, keeper_.tracks(), rays);
-  counters_["slews"] += static_cast<double>(output.slews.size());
 }
 
 }  // namespace ols

@@ -1,9 +1,12 @@
 // The fusion: bearings in, targets and slews out. Pure: its time is that of the messages, so the
 // same bearings in the same order give the same targets to the last digit. It never waits: a target
-// is made as soon as "now" has gone on by a period, from what each station has delivered.
+// is made as soon as "now" has gone on by a period, from what each station has delivered. Where
+// there are many targets or stations, what a period brings is spread over some bearings
+// (fusion_epoch.cpp).
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <map>
 #include <memory>
@@ -51,7 +54,7 @@ struct BearingOnly {
 
 struct FusedTarget {
   std::int64_t utime_us = 0;   // the epoch
-  std::int64_t target_id = 0;  // 0: no object yet
+  std::int64_t target_id = 0;  // 0: no object yet. A line's becomes that of its position
   TrackState state = TrackState::kBorn;
   std::string estimator;  // its name
   Estimate estimate;
@@ -62,7 +65,8 @@ struct FusedTarget {
 struct FusionOutput {
   SightingRefusal refusal = SightingRefusal::kNone;  // what became of the bearing
   // Of one epoch: each confirmed object; where there is none, what there is in place of it; and the
-  // lines of stations that follow what is no target (with an id of their own, kBearingOnly).
+  // lines of stations that follow what is no target (kBearingOnly). Of many, some; the next
+  // bearings bring the others of the same epoch, in the order of their ids, the lines last.
   std::vector<FusedTarget> targets;
   std::vector<FusedTarget> targets_paper;  // the paper's estimate of the same objects
   std::vector<Slew> slews;
@@ -147,11 +151,15 @@ class Fusion {
   SightingRefusal associate(const Sighting& sighting);
   void refuse(SightingRefusal refusal, const Sighting& sighting);
   void notice_step_back();
-  void locate(std::int64_t epoch_us, FusionOutput& output);
-  void locate(const Track& track, std::int64_t epoch_us, FusionOutput& output);
-  void tell_lines(std::int64_t epoch_us, FusionOutput& output);
+  void begin_epoch(std::int64_t now_us);
+  void locate(std::int64_t now_us, FusionOutput& output);
+  const Track* next_of(std::deque<std::int64_t>& waiting) const;
+  FusedTarget locate(const Track& track, bool by_paper);
+  void tell_lines(FusionOutput& output);
   static bool sees(const Station& station, std::int64_t now);
-  std::vector<BearingOnly> bearings_only(std::int64_t epoch_us) const;
+  std::vector<std::string> on_a_line(std::int64_t epoch_us) const;
+  std::optional<BearingOnly> line_of(const std::string& station, std::int64_t epoch_us) const;
+  void begin_slews(std::int64_t now_us);
   void plan(std::int64_t now_us, FusionOutput& output);
   std::map<std::string, double> counters() const;
 
@@ -166,8 +174,18 @@ class Fusion {
   std::int64_t messages_ = 0;
   std::map<std::string, double> counters_;
   std::string last_error_;
-  std::optional<std::int64_t> last_epoch_us_;
-  std::optional<std::int64_t> last_slew_us_;
+  struct Epoch {
+    std::optional<std::int64_t> utime_us{};  // the last; nothing: there was none
+    std::deque<std::int64_t> targets{};      // that are not told yet; then come the lines,
+    bool lines_told = true;
+    std::deque<std::int64_t> papers{};  // then the paper's estimates
+
+    bool is_over() const { return lines_told && papers.empty(); }
+  };
+  Epoch epoch_;
+  SlewRound slew_round_;
+  std::optional<std::int64_t> slewed_us_;  // the last round began
+  std::optional<std::string> slew_next_;   // the station that is next in it; nothing: it is over
 };
 
 }  // namespace ols

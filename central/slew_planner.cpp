@@ -128,30 +128,24 @@ Slew SlewPlanner::along(const CueRay& ray, const SlewStation& station, std::int6
   return slew;
 }
 
-std::vector<Slew> SlewPlanner::plan(std::int64_t now_us, const std::vector<SlewStation>& stations,
-                                    const std::vector<Track>& tracks,
-                                    const std::vector<CueRay>& rays) {
+std::vector<Slew> SlewPlanner::plan(SlewRound& round, std::span<const SlewStation> stations,
+                                    const std::vector<Track>& tracks) {
+  const std::int64_t now_us = round.now_us;
   std::vector<const Track*> targets;
   for (const Track& track : tracks) {
-    const bool sure = track.state == TrackState::kConfirmed || track.state == TrackState::kCoasted;
-    if (sure && seconds(now_us - track.filter.utime_us()) <= config_.coast_s &&
+    if (is_sure(track) && seconds(now_us - track.filter.utime_us()) <= config_.coast_s &&
         seconds(now_us - track.located_us) <= config_.coast_s) {
       targets.push_back(&track);
     }
   }
-  std::map<std::int64_t, int> seen_by;
-  for (const SlewStation& station : stations) ++seen_by[station.follows];
   std::vector<Slew> slews;
   for (const SlewStation& station : stations) {
     if (!station.traits.commandable) continue;
-    const Track* target = target_for(station, targets, seen_by);
-    const auto ray =
-        std::ranges::find_if(rays, [&](const CueRay& r) { return r.station != station.station; });
-    const bool has_own_ray =
-        std::ranges::any_of(rays, [&](const CueRay& r) { return r.station == station.station; });
-    if (target == nullptr && (ray == rays.end() || has_own_ray)) continue;
+    const Track* target = target_for(station, targets, round.seen_by);
+    const bool searches = round.ray && !round.on_a_line.contains(station.station);
+    if (target == nullptr && !searches) continue;
     slews.push_back(target != nullptr ? towards(*target, station, now_us)
-                                      : along(*ray, station, now_us));
+                                      : along(*round.ray, station, now_us));
     slews.back().station = station.station;
     slews.back().utime_us = now_us;
   }

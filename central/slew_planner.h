@@ -14,6 +14,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -77,13 +80,22 @@ struct CueRay {
   Eigen::Vector3d direction_ecef = Eigen::Vector3d::UnitX();
 };
 
+// What is the same for all stations at one instant.
+struct SlewRound {
+  std::int64_t now_us = 0;
+  std::map<std::int64_t, int> seen_by{};  // how many stations see each target
+  std::set<std::string> on_a_line{};      // stations that follow what is no target
+  std::optional<CueRay> ray{};            // of one of them
+};
+
 class SlewPlanner {
  public:
   explicit SlewPlanner(const SlewConfig& config = {}) : config_(config) {}
 
-  // Of all stations for one instant. `tracks` are taken while confirmed, or coasted for coast_s.
-  std::vector<Slew> plan(std::int64_t now_us, const std::vector<SlewStation>& stations,
-                         const std::vector<Track>& tracks, const std::vector<CueRay>& rays);
+  // Of some stations or all; who is sent to a target is counted in the round. `tracks` are taken
+  // while confirmed, or coasted for coast_s.
+  std::vector<Slew> plan(SlewRound& round, std::span<const SlewStation> stations,
+                         const std::vector<Track>& tracks);
   void forget(const std::string& station) { searches_.erase(station); }
   void clear() { searches_.clear(); }
 

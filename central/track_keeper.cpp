@@ -112,7 +112,7 @@ Association TrackKeeper::give_to(Track& track, const Sighting& sighting) {
   ++track.hits[sighting.station];
   keep(track, sighting);
   if (sighting.track_id != 0 && track.id != 0) {
-    followed_[sighting.station] = {sighting.track_id, track.id};
+    followed_[sighting.station] = {sighting.track_id, track.id, 0};
   }
   if (stations_lately(track.filter, config_.seen_s) >= 2) {
     track.located_us = track.filter.utime_us();
@@ -178,21 +178,10 @@ void TrackKeeper::consider(Track& track) {
 void TrackKeeper::confirm(Track& track) {
   track.state = TrackState::kConfirmed;
   ++counts_.confirmed;
-  const KinematicState own = track.filter.at(track.filter.utime_us());
-  for (auto old = dropped_.begin(); old != dropped_.end() && track.id == 0; ++old) {
-    const KinematicState there = old->filter.at(own.utime_us);
-    const Eigen::Vector3d off = (own.mean - there.mean).head<3>();
-    const Eigen::Matrix3d P = (own.covariance + there.covariance).topLeftCorner<3, 3>();
-    constexpr double kThere = 11.3;  // chi^2 of 3 degrees of freedom, 0.99
-    if (!config_.one_target && off.dot(P.ldlt().solve(off)) > kThere) continue;
-    track.id = old->id;
-    dropped_.erase(old);
-    break;
-  }
-  if (track.id == 0) track.id = next_id_++;
+  if (track.id == 0) take_identity(track);
   for (const auto& [station, bearings] : track.bearings) {
     if (bearings.empty() || bearings.back().track_id == 0) continue;
-    followed_[station] = {bearings.back().track_id, track.id};
+    followed_[station] = {bearings.back().track_id, track.id, 0};
   }
   if (!config_.one_target) birth_.give(track, errors_);
 }

@@ -30,6 +30,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,11 @@ class TrackKeeper {
   const StationErrors& errors() const { return errors_; }
   StationErrors& errors() { return errors_; }
   const TrackBirth& births() const { return birth_; }
+  // The identity of what a station follows by its own word (the bearing's track_id) and no track
+  // explains: it is the target's that it was, and becomes that of the target which it turns out to
+  // be. 0 for the first confirm_s, while ordinary targets are found, and for what it does not name.
+  // `told`: those of others at the same instant; one id is one object.
+  std::int64_t identify(const Sighting& newest, std::set<std::int64_t>& told);
   struct Counts {
     std::int64_t born = 0, confirmed = 0, dropped = 0, ambiguous = 0, set_aside = 0,
                  unexplained = 0;
@@ -124,6 +130,8 @@ class TrackKeeper {
   static bool are_alike(const Track& track, const Track& other);
   bool is_double(const Track& track) const;
   void confirm(Track& track);
+  void take_identity(Track& track);
+  bool is_alive(std::int64_t id) const;
   void keep(Track& track, const Sighting& sighting) const;
   void age(Track& track, std::int64_t now_us);
 
@@ -134,10 +142,11 @@ class TrackKeeper {
   std::vector<Glance> glances_;  // of each track
   std::deque<Track> dropped_;    // confirmed ones, for their identities
   std::int64_t next_id_ = 1;
-  // Which track a station's own track was given to last, by station and its track id.
+  // What a station's own track is: the track that it was given to last, or a line's identity.
   struct Followed {
     std::int64_t station_track = 0;
-    std::int64_t id = 0;
+    std::int64_t id = 0;        // 0: none yet
+    std::int64_t since_us = 0;  // without one
   };
   std::map<std::string, Followed> followed_;
   Counts counts_;

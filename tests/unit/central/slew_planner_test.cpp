@@ -33,6 +33,13 @@ SlewStation station_at(const std::string& id, const Vector3d& p_enu, std::int64_
   return {id, {.camera_ecef = site().to_ecef(p_enu)}, follows};
 }
 
+std::vector<Slew> plan(SlewPlanner& planner, std::int64_t now_us,
+                       const std::vector<SlewStation>& stations, const std::vector<Track>& tracks) {
+  SlewRound round{.now_us = now_us};
+  for (const SlewStation& station : stations) ++round.seen_by[station.follows];
+  return planner.plan(round, stations, tracks);
+}
+
 double off_rad(const Slew& slew, const Vector3d& from_enu, const Vector3d& to_enu) {
   const auto expected = test::direction_to(site().to_ecef(from_enu), site().to_ecef(to_enu));
   return angle_between(enu_from_azimuth_elevation(slew.direction),
@@ -45,7 +52,7 @@ TEST(SlewPlanner, LeadsByTheStationsOwnLatency) {
   SlewPlanner planner;
   SlewStation slow = station_at("slow", {0, 0, 10}, 1);
   slow.traits.latency_s = 0.4;
-  const auto slews = planner.plan(now_us, {station_at("quick", {0, 0, 10}, 1), slow}, tracks, {});
+  const auto slews = plan(planner, now_us, {station_at("quick", {0, 0, 10}, 1), slow}, tracks);
   ASSERT_EQ(slews.size(), 2U);
   EXPECT_EQ(slews[0].effect_utime_us, now_us + 150'000);
   EXPECT_EQ(slews[1].effect_utime_us, now_us + 500'000);
@@ -61,7 +68,7 @@ TEST(SlewPlanner, TheOperatorComesFirst) {
   SlewPlanner planner;
   SlewStation held = station_at("held", {0, 0, 0});
   held.traits.commandable = false;
-  EXPECT_TRUE(planner.plan(tracks[0].filter.utime_us(), {held}, tracks, {}).empty());
+  EXPECT_TRUE(plan(planner, tracks[0].filter.utime_us(), {held}, tracks).empty());
 }
 
 TEST(SlewPlanner, WhoSeesNothingHelpsWhereTheFewestLook) {
@@ -70,7 +77,7 @@ TEST(SlewPlanner, WhoSeesNothingHelpsWhereTheFewestLook) {
   const std::vector<SlewStation> stations = {
       station_at("a", {0, 0, 0}, 1), station_at("b", {9, 0, 0}, 1), station_at("c", {0, 9, 0}, 2),
       station_at("d", {9, 9, 0})};
-  const auto slews = planner.plan(tracks[0].filter.utime_us(), stations, tracks, {});
+  const auto slews = plan(planner, tracks[0].filter.utime_us(), stations, tracks);
   ASSERT_EQ(slews.size(), 4U);
   EXPECT_EQ(slews[0].target_id, 1);
   EXPECT_EQ(slews[2].target_id, 2);
@@ -86,7 +93,8 @@ TEST(SlewPlanner, SearchesAlongARayWithinItsPlane) {
   const std::vector<SlewStation> stations = {station_at("a", from), station_at("b", camera)};
   double nearest = 10.0, farthest = 0.0;
   for (int i = 0; i < 2000; ++i) {
-    const auto slews = planner.plan(kStart + i * 100'000, stations, {}, {ray});
+    SlewRound round{.now_us = kStart + i * 100'000, .on_a_line = {"a"}, .ray = ray};
+    const auto slews = planner.plan(round, stations, {});
     ASSERT_EQ(slews.size(), 1U);  // not the one that sees it
     EXPECT_EQ(slews[0].station, "b");
     EXPECT_EQ(slews[0].target_id, 0);
@@ -148,9 +156,9 @@ TEST(SlewPlanner, AnUnsureDirectionIsSearchedInASpiral) {
   SlewStation narrow = station_at("b", {0, 0, 0});
   narrow.traits.field_of_view_rad = 0.004;
   double spread = 0.0, sd = 0.0;
-  const auto first = planner.plan(now_us, {narrow}, tracks, {}).at(0);
+  const auto first = plan(planner, now_us, {narrow}, tracks).at(0);
   for (int i = 1; i < 300; ++i) {
-    const auto slew = planner.plan(now_us + i * 1000, {narrow}, tracks, {}).at(0);
+    const auto slew = plan(planner, now_us + i * 1000, {narrow}, tracks).at(0);
     sd = slew.direction_sd_rad;
     spread = std::max(spread, angle_between(enu_from_azimuth_elevation(slew.direction),
                                             enu_from_azimuth_elevation(first.direction)));
@@ -159,7 +167,7 @@ TEST(SlewPlanner, AnUnsureDirectionIsSearchedInASpiral) {
   // By now it has been led on with the target by less than that, at most a step or two more.
   SlewPlanner patient({.coast_s = 60.0, .dwell_s = 1e-4});
   for (int i = 0; i < 300; ++i) {
-    const auto slew = patient.plan(now_us + i * 1000, {narrow}, tracks, {}).at(0);
+    const auto slew = plan(patient, now_us + i * 1000, {narrow}, tracks).at(0);
     spread = std::max(spread, angle_between(enu_from_azimuth_elevation(slew.direction),
                                             enu_from_azimuth_elevation(first.direction)));
   }

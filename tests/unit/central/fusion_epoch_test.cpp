@@ -1,0 +1,157 @@
+// What comes out of the fusion in a period: identities of lines, and many targets' share of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "flight.h"
+#include "tools/estimators/bearing_world.h"
+
+namespace ols {
+namespace {
+
+using test::flight;
+using test::kStart;
+using test::targets_of;
+
+std::int64_t us(double seconds) { return kStart + std::llround(seconds * 1e6); }
+
+// A flight whose stations follow something, each by the same name all the time.
+std::vector<Sighting> followed(double seconds) {
+  auto sightings = flight(seconds, 1e-4, 1e-4);
+  for (Sighting& sighting : sightings) sighting.track_id = 7;
+  return sightings;
+}
+
+void turn(Sighting& sighting, double azimuth_rad) {
+  double& azimuth = sighting.sight.direction.azimuth_rad;
+  azimuth = wrap_two_pi(azimuth + azimuth_rad);
+}
+
+// One station, then all, then that one again: a line, a position, a line of one object.
+TEST(FusionEpoch, ALineIsTheObjectThatItsPositionIs) {
+  auto sightings = followed(9.0);
+  std::erase_if(sightings, [](const Sighting& s) {
+    return s.station != "b" && (s.utime_us < us(2.0) || s.utime_us > us(4.0));
+  });
+  Fusion fusion{FusionConfig{}};
+  std::set<std::int64_t> ids;
+  int before = 0, positions = 0, after = 0;
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    if (target.utime_us < us(1.0) || target.target_id == 0) continue;
+    ids.insert(target.target_id);
+    before += target.bearing_only && target.utime_us < us(2.0) ? 1 : 0;
+    positions += target.estimate.solution == Solution::kOk ? 1 : 0;
+    after += target.bearing_only && target.utime_us > us(7.0) ? 1 : 0;
+  }
+  EXPECT_EQ(ids.size(), 1U);
+  EXPECT_GT(before, 10);
+  EXPECT_GT(positions, 20);
+  EXPECT_GT(after, 20);
+}
+
+TEST(FusionEpoch, WhatAStationFollowsNextIsAnotherObject) {
+  auto sightings = followed(4.0);
+  std::erase_if(sightings, [](const Sighting& s) { return s.station != "b"; });
+  for (Sighting& sighting : sightings) {
+    if (sighting.utime_us > us(2.0)) sighting.track_id = 8;
+  }
+  Fusion fusion{FusionConfig{}};
+  std::set<std::int64_t> first, second;
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    if (!target.bearing_only || target.target_id == 0) continue;
+    (target.utime_us < us(2.0) ? first : second).insert(target.target_id);
+  }
+  EXPECT_EQ(first.size(), 1U);
+  EXPECT_EQ(second.size(), 1U);
+  EXPECT_NE(first, second);
+}
+
+// Detections without a name of their own may be of anything.
+TEST(FusionEpoch, WhatAStationDoesNotNameHasNoIdentity) {
+  auto sightings = flight(3.0);
+  std::erase_if(sightings, [](const Sighting& s) { return s.station != "b"; });
+  Fusion fusion{FusionConfig{}};
+  for (const FusedTarget& target : targets_of(fusion, sightings)) EXPECT_EQ(target.target_id, 0);
+}
+
+// All have followed one object; then each follows something of its own by the same name.
+TEST(FusionEpoch, OneIdentityIsNotTwoLines) {
+  auto sightings = followed(9.0);
+  const std::map<std::string, double> turned = {{"a", 0.0}, {"b", 0.7}, {"c", 1.4}, {"d", 2.1}};
+  for (Sighting& sighting : sightings) {
+    if (sighting.utime_us > us(3.0)) {
+      turn(sighting, turned.at(sighting.station));
+      sighting.sight.direction.elevation_rad += 0.2 * turned.at(sighting.station);
+    }
+  }
+  Fusion fusion{FusionConfig{}};
+  std::map<std::int64_t, std::set<std::int64_t>> at_instant;
+  std::map<std::string, std::set<std::int64_t>> of_station;
+  int lines = 0;
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    if (target.target_id == 0) continue;
+    EXPECT_TRUE(at_instant[target.utime_us].insert(target.target_id).second);
+    if (!target.bearing_only || target.utime_us < us(7.0)) continue;
+    of_station[target.bearing_only->station].insert(target.target_id);
+    ++lines;
+  }
+  EXPECT_GT(lines, 60);
+  std::set<std::int64_t> all;
+  for (const auto& [station, ids] : of_station) {
+    EXPECT_EQ(ids.size(), 1U) << station;
+    all.insert(ids.begin(), ids.end());
+  }
+  EXPECT_EQ(all.size(), of_station.size());
+}
+
+// Each target once an epoch, few with one bearing, and every station is slewed in each round.
+TEST(FusionEpoch, ManyTargetsAreToldInTurn) {
+  constexpr int kTargets = 30, kEach = 3;
+  constexpr double kDurationS = 2.0;
+  std::mt19937_64 random(5);
+  std::vector<Sighting> all;
+  for (int group = 0; group < kTargets; ++group) {
+    const Eigen::Vector3d centre(3000.0 * (group % 6), 3000.0 * (group / 6), 0.0);
+    bench::WorldConfig world{.stations_enu = bench::circle(kEach, 300.0), .aims_enu = {}};
+    for (Eigen::Vector3d& place : world.stations_enu) place += centre;
+    const auto path =
+        bench::cruising({centre + Eigen::Vector3d(0, 0, 100), {8, 3, 0}}, 0.5, kDurationS, random);
+    for (Sighting& s : bench::measure(world, {path}, kDurationS, random)) {
+      s.station.append("g").append(std::to_string(group));
+      all.push_back(std::move(s));
+    }
+  }
+  std::ranges::stable_sort(all, {}, &Sighting::utime_us);
+  Fusion fusion{FusionConfig{}};
+  std::map<std::int64_t, std::vector<std::int64_t>> epochs;
+  std::map<std::int64_t, std::set<std::string>> rounds;
+  std::map<std::int64_t, int> papers;
+  for (const Sighting& sighting : all) {
+    const FusionOutput output = fusion.add(sighting);
+    EXPECT_LE(output.targets.size(), 10U);
+    EXPECT_LE(output.slews.size(), 20U);
+    if (sighting.utime_us < bench::kStartUs + 1'000'000) continue;
+    for (const FusedTarget& target : output.targets) {
+      epochs[target.utime_us].push_back(target.target_id);
+    }
+    papers[output.targets_paper.empty() ? 0 : output.targets_paper[0].utime_us] +=
+        static_cast<int>(output.targets_paper.size());
+    for (const Slew& slew : output.slews) rounds[slew.utime_us].insert(slew.station);
+  }
+  // The first and the last may be told in part.
+  ASSERT_GT(epochs.size(), 10U);
+  for (auto epoch = std::next(epochs.begin()); epoch != std::prev(epochs.end()); ++epoch) {
+    EXPECT_EQ(epoch->second.size(), static_cast<std::size_t>(kTargets));
+    EXPECT_TRUE(std::ranges::is_sorted(epoch->second));
+    EXPECT_EQ(papers[epoch->first], FusionConfig{}.paper_targets);
+  }
+  ASSERT_GT(rounds.size(), 5U);
+  for (auto round = std::next(rounds.begin()); round != std::prev(rounds.end()); ++round) {
+    EXPECT_EQ(round->second.size(), static_cast<std::size_t>(kTargets * kEach));
+  }
+}
+
+}  // namespace
+}  // namespace ols
