@@ -133,11 +133,7 @@ void run(const Options& options) {
   tell_unused(unused, bearings);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app{"Positions (WGS84, metres above the ellipsoid, 1-sigma) from recorded bearings."};
-  Options options;
+void add_files(CLI::App& app, Options& options) {
   app.add_option("--stations", options.stations,
                  "CSV: station,latitude_deg,longitude_deg,height_m[,position_sd_m,pointing_sd_deg]")
       ->required();
@@ -148,6 +144,9 @@ int main(int argc, char** argv) {
                  "CSV: utime_us,target,latitude_deg,longitude_deg,height_m,east_sd_m,north_sd_m,"
                  "up_sd_m,...")
       ->required();
+}
+
+void add_choices(CLI::App& app, Options& options) {
   app.add_option("--estimator", options.estimator,
                  "filter (over time), least-squares (all rays of an instant) or paper")
       ->check(CLI::IsMember({"filter", "least-squares", "paper"}))
@@ -173,6 +172,15 @@ int main(int argc, char** argv) {
                  "[fixes] with paper: mean of the last so many; 1: none")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Positions (WGS84, metres above the ellipsoid, 1-sigma) from recorded bearings."};
+  Options options;
+  add_files(app, options);
+  add_choices(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-fuse")) return *status;
   try {
     run(options);

@@ -14,6 +14,20 @@ using nlohmann::json;
 
 constexpr double kMostPoints = 1e6;
 
+// The same meridian, at most half a circle from another one.
+double near_to(double reference_deg, double longitude_deg) {
+  return longitude_deg + 360.0 * std::round((reference_deg - longitude_deg) / 360.0);
+}
+
+// Each edge goes the short way, also over the date line.
+void unroll(std::vector<GeoPosition>& ring, const GeoPosition& reference) {
+  double before_deg = reference.longitude_deg;
+  for (GeoPosition& p : ring) {
+    p.longitude_deg = near_to(before_deg, p.longitude_deg);
+    before_deg = p.longitude_deg;
+  }
+}
+
 // Collects what a file holds; `where` names the place in it for errors.
 class Reader {
  public:
@@ -102,13 +116,18 @@ class Reader {
     GeoPolygon polygon;
     if (!rings.is_array() || rings.empty()) fail(where, "a polygon must have a ring");
     for (const json& ring : rings) {
-      auto& points = polygon.emplace_back();
+      std::vector<GeoPosition> points;
       if (!ring.is_array()) fail(where, "a ring must be a list");
       for (const json& p : ring) points.push_back(position(p, where));
       const bool closed = points.size() >= 4 &&
                           points.front().longitude_deg == points.back().longitude_deg &&
                           points.front().latitude_deg == points.back().latitude_deg;
       if (!closed) fail(where, "a ring must have four positions or more and end where it begins");
+      unroll(points, polygon.empty() ? points.front() : polygon.front().front());
+      if (points.front().longitude_deg != points.back().longitude_deg) {
+        fail(where, "a ring must not go round a pole");
+      }
+      polygon.push_back(std::move(points));
     }
     shapes_.polygons.push_back(polygon);
   }
@@ -122,6 +141,8 @@ class Reader {
 GeoShapes read_geojson(const std::string& path) { return Reader(path).read(); }
 
 bool contains(const GeoPolygon& polygon, double longitude_deg, double latitude_deg) {
+  const auto [west, east] = std::ranges::minmax(polygon.front(), {}, &GeoPosition::longitude_deg);
+  longitude_deg = near_to((west.longitude_deg + east.longitude_deg) / 2.0, longitude_deg);
   bool inside = false;  // changes at every edge to the east
   for (const auto& ring : polygon) {
     for (std::size_t i = 1; i < ring.size(); ++i) {
@@ -135,47 +156,52 @@ bool contains(const GeoPolygon& polygon, double longitude_deg, double latitude_d
   return inside;
 }
 
+namespace {
+
+// Metres east a radian of longitude, and north a radian of latitude.
+Eigen::Vector2d metres_a_radian(const Geodetic& middle) {
+  const LocalFrame frame(middle);
+  constexpr double kStep_rad = 1e-5;
+  Geodetic north = middle, east = middle;
+  north.latitude_rad += kStep_rad;
+  east.longitude_rad += kStep_rad;
+  return Eigen::Vector2d(frame.to_enu(ecef_from_geodetic(east)).x(),
+                         frame.to_enu(ecef_from_geodetic(north)).y()) /
+         kStep_rad;
+}
+
+void fill_one(const GeoPolygon& polygon, double spacing_m, double height_m,
+              std::vector<Geodetic>& points) {
+  const auto& outline = polygon.front();
+  const auto [west, east] = std::ranges::minmax(outline, {}, &GeoPosition::longitude_deg);
+  const auto [south, north] = std::ranges::minmax(outline, {}, &GeoPosition::latitude_deg);
+  const Geodetic middle{radians(0.5 * (south.latitude_deg + north.latitude_deg)),
+                        radians(0.5 * (west.longitude_deg + east.longitude_deg)), height_m};
+  const Eigen::Vector2d step_rad = spacing_m * metres_a_radian(middle).cwiseInverse();
+  const double rows = radians(north.latitude_deg - south.latitude_deg) / step_rad.y();
+  const double columns = radians(east.longitude_deg - west.longitude_deg) / step_rad.x();
+  if (rows * columns > kMostPoints) {
+    throw std::invalid_argument("a spacing of " + std::to_string(spacing_m) +
+                                " m gives more than a million points");
+  }
+  for (int row = 0; row <= static_cast<int>(rows); ++row) {
+    for (int column = 0; column <= static_cast<int>(columns); ++column) {
+      const double latitude_rad =
+          middle.latitude_rad + (row - 0.5 * std::floor(rows)) * step_rad.y();
+      const double longitude_rad =
+          middle.longitude_rad + (column - 0.5 * std::floor(columns)) * step_rad.x();
+      if (!contains(polygon, degrees(longitude_rad), degrees(latitude_rad))) continue;
+      points.push_back({latitude_rad, wrap_pi(longitude_rad), height_m});
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<Geodetic> fill(const std::vector<GeoPolygon>& polygons, double spacing_m,
                            double height_m) {
   std::vector<Geodetic> points;
-  for (const GeoPolygon& polygon : polygons) {
-    const auto& outline = polygon.front();
-    const auto [west, east] = std::ranges::minmax(outline, {}, &GeoPosition::longitude_deg);
-    const auto [south, north] = std::ranges::minmax(outline, {}, &GeoPosition::latitude_deg);
-    const Geodetic middle{radians(0.5 * (south.latitude_deg + north.latitude_deg)),
-                          radians(0.5 * (west.longitude_deg + east.longitude_deg)), height_m};
-    // Metres a radian of latitude and of longitude there.
-    const LocalFrame frame(middle);
-    constexpr double kStep_rad = 1e-5;
-    const double north_m = frame
-                               .to_enu(ecef_from_geodetic({middle.latitude_rad + kStep_rad,
-                                                           middle.longitude_rad, height_m}))
-                               .y() /
-                           kStep_rad;
-    const double east_m =
-        frame
-            .to_enu(ecef_from_geodetic(
-                {middle.latitude_rad, middle.longitude_rad + kStep_rad, height_m}))
-            .x() /
-        kStep_rad;
-    const double rows = radians(north.latitude_deg - south.latitude_deg) * north_m / spacing_m;
-    const double columns = radians(east.longitude_deg - west.longitude_deg) * east_m / spacing_m;
-    if (rows * columns > kMostPoints) {
-      throw std::invalid_argument("a spacing of " + std::to_string(spacing_m) +
-                                  " m gives more than a million points");
-    }
-    for (int row = 0; row <= static_cast<int>(rows); ++row) {
-      for (int column = 0; column <= static_cast<int>(columns); ++column) {
-        const double latitude_rad =
-            middle.latitude_rad + (row - 0.5 * std::floor(rows)) * spacing_m / north_m;
-        const double longitude_rad =
-            middle.longitude_rad + (column - 0.5 * std::floor(columns)) * spacing_m / east_m;
-        if (contains(polygon, degrees(longitude_rad), degrees(latitude_rad))) {
-          points.push_back({latitude_rad, longitude_rad, height_m});
-        }
-      }
-    }
-  }
+  for (const GeoPolygon& polygon : polygons) fill_one(polygon, spacing_m, height_m, points);
   return points;
 }
 

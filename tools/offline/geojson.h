@@ -28,7 +28,8 @@ struct GeoPoint {
   GeoPosition position;
 };
 
-// The first ring is the outline, others are holes; each ends where it begins.
+// The first ring is the outline, others are holes; each ends where it begins. Over the date line
+// longitudes go on beyond 180 degrees: neighbours differ by less than half a circle.
 using GeoPolygon = std::vector<std::vector<GeoPosition>>;
 
 struct GeoShapes {
@@ -37,11 +38,11 @@ struct GeoShapes {
 };
 
 // Points and polygons, alone or in features and collections. GeoJsonError for anything else, for
-// positions out of range and for rings that are not closed.
+// positions out of range and for rings that are not closed or go round a pole.
 GeoShapes read_geojson(const std::string& path);
 
 // Inside the outline and outside the holes, taken as plane figures of longitude and latitude: fine
-// for areas of some kilometres that hold neither a pole nor the date line.
+// for areas of some kilometres that are not at a pole.
 bool contains(const GeoPolygon& polygon, double longitude_deg, double latitude_deg);
 
 // The points of an even east-north grid of this spacing that lie inside one of the polygons, at the
