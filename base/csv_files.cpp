@@ -41,6 +41,7 @@ class Row {
     throw CsvError(path_ + ":" + std::to_string(line_) + ": " + header_.names[column] + ": " +
                    what);
   }
+  unsigned line() const { return line_; }
   bool has(std::size_t column) const {
     return cells_[column] != nullptr && *cells_[column] != '\0';
   }
@@ -142,6 +143,11 @@ constexpr Header<7> kBearings{
 constexpr Header<6> kLandmarks{
     {"object", "distance_m", "alpha_rad", "side", "estimated_m", "measured_m"}, 3};
 
+constexpr Header<8> kSurvey{{"landmark", "height_m", "sd_m", "latitude_deg", "longitude_deg",
+                             "zone", "easting_m", "northing_m"},
+                            3};
+constexpr Header<5> kSighted{{"landmark", "pan_deg", "tilt_deg", "x_px", "y_px"}, 3};
+
 StationRow station_row(const Row<6>& row) {
   StationRow station;
   station.station = row.id(0);
@@ -151,6 +157,53 @@ StationRow station_row(const Row<6>& row) {
   station.position_sd_m = row.optional_number(4, 0.0, 1e6);
   station.pointing_sd_deg = row.optional_number(5, 0.0, 180.0);
   return station;
+}
+
+// "33N": the zone and its hemisphere, not a band of latitude.
+UtmCells utm_of(const Row<8>& row) {
+  UtmCells utm;
+  const std::string zone = row.text(5);
+  const auto [rest, error] = std::from_chars(zone.data(), zone.data() + zone.size(), utm.zone);
+  const std::string hemisphere(rest, zone.data() + zone.size());
+  if (error != std::errc() || utm.zone < 1 || utm.zone > 60 ||
+      (hemisphere != "N" && hemisphere != "S")) {
+    row.fail(5, "'" + zone + "' is not a zone 1 .. 60 and its hemisphere N or S, as 33N");
+  }
+  utm.northern = hemisphere == "N";
+  utm.easting_m = row.number<double>(6, 0.0, 1e6);
+  utm.northing_m = row.number<double>(7, 0.0, 1e7);
+  return utm;
+}
+
+SurveyRow survey_row(const Row<8>& row) {
+  SurveyRow point;
+  point.landmark = row.id(0);
+  point.height_m = row.number<double>(1, -1e3, 100e3);
+  point.sd_m = row.number<double>(2, 0.0, 1e4);
+  point.line = row.line();
+  const bool utm = row.has(5) || row.has(6) || row.has(7);
+  if (utm && (row.has(3) || row.has(4))) row.fail(5, "there are latitude and longitude as well");
+  if (utm) {
+    point.place = utm_of(row);
+  } else {
+    point.place =
+        GeodeticCells{row.number<double>(3, -90.0, 90.0), row.number<double>(4, -180.0, 360.0)};
+  }
+  return point;
+}
+
+SightedRow sighted_row(const Row<5>& row) {
+  SightedRow sighted;
+  sighted.landmark = row.id(0);
+  sighted.pan_deg = row.number<double>(1, -360.0, 360.0);
+  sighted.tilt_deg = row.number<double>(2, -180.0, 180.0);
+  sighted.x_px = row.optional_number(3, -1e5, 1e5);
+  sighted.y_px = row.optional_number(4, -1e5, 1e5);
+  if (sighted.x_px.has_value() != sighted.y_px.has_value()) {
+    row.fail(sighted.x_px ? 4 : 3, "is empty");
+  }
+  sighted.line = row.line();
+  return sighted;
 }
 
 BearingRow bearing_row(const Row<7>& row) {
@@ -212,6 +265,33 @@ std::vector<LandmarkRow> read_landmarks(const std::string& path) {
   });
   if (landmarks.empty()) throw CsvError(path + ":2: row: there is none");
   return landmarks;
+}
+
+std::vector<SurveyRow> read_survey(const std::string& path) {
+  std::vector<SurveyRow> points;
+  std::set<std::string> names;
+  for_each_row(path, kSurvey, [&](const Row<8>& row) {
+    points.push_back(survey_row(row));
+    if (!names.insert(points.back().landmark).second) {
+      row.fail(0, "'" + points.back().landmark + "' is there twice");
+    }
+  });
+  if (points.empty()) throw CsvError(path + ":2: row: there is none");
+  return points;
+}
+
+std::vector<SightedRow> read_sighted(const std::string& path,
+                                     const std::vector<SurveyRow>& survey) {
+  std::vector<SightedRow> sightings;
+  for_each_row(path, kSighted, [&](const Row<5>& row) {
+    sightings.push_back(sighted_row(row));
+    const std::string& name = sightings.back().landmark;
+    if (std::ranges::find(survey, name, &SurveyRow::landmark) == survey.end()) {
+      row.fail(0, "'" + name + "' is not one of the landmarks");
+    }
+  });
+  if (sightings.empty()) throw CsvError(path + ":2: row: there is none");
+  return sightings;
 }
 
 void write_fixes(const std::string& path, const std::vector<FixRow>& fixes) {

@@ -1,4 +1,5 @@
-// The offline formats: stations.csv and bearings.csv in, fixes.csv out. Degrees, as in the files.
+// The offline formats: stations.csv and bearings.csv in, fixes.csv out; a surveyor's landmarks and
+// their sightings in. Degrees, as in the files.
 //
 // Columns are found by the header's names, in any order; unknown ones are ignored. Numbers must be
 // plain decimal, finite and in range, ids without commas, quotes and control characters: there is
@@ -9,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace ols {
@@ -48,6 +50,34 @@ struct LandmarkRow {
   std::optional<double> measured_m;
 };
 
+struct GeodeticCells {
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+};
+struct UtmCells {
+  int zone = 0;  // 1..60
+  bool northern = true;
+  double easting_m = 0.0;
+  double northing_m = 0.0;
+};
+
+// A surveyor's point, as its row has it.
+struct SurveyRow {
+  std::string landmark;
+  std::variant<GeodeticCells, UtmCells> place;
+  double height_m = 0.0;  // above the WGS84 ellipsoid
+  double sd_m = 0.0;      // 1-sigma of each axis
+  unsigned line = 0;      // of the file
+};
+
+// A landmark in a station's picture.
+struct SightedRow {
+  std::string landmark;
+  double pan_deg = 0.0, tilt_deg = 0.0;  // as the PTU reports them
+  std::optional<double> x_px, y_px;      // both, or neither: where the optical axis meets it
+  unsigned line = 0;                     // of the file
+};
+
 struct FixRow {
   std::int64_t utime_us = 0;
   std::string target;
@@ -70,6 +100,10 @@ std::vector<BearingRow> read_bearings(const std::string& path,
                                       const std::vector<StationRow>& stations);
 // At least one row.
 std::vector<LandmarkRow> read_landmarks(const std::string& path);
+// At least one row; names are unique.
+std::vector<SurveyRow> read_survey(const std::string& path);
+// At least one row; every row's landmark is one of `survey`.
+std::vector<SightedRow> read_sighted(const std::string& path, const std::vector<SurveyRow>& survey);
 // The whole file or, on an error (std::system_error), none of it.
 void write_fixes(const std::string& path, const std::vector<FixRow>& fixes);
 

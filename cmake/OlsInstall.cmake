@@ -6,7 +6,8 @@ include(GNUInstallDirs)
 set(OLS_SYSTEM_LIBDIR lib)
 
 # Some programs come with their folder; all of them are installed.
-foreach(program IN ITEMS ols-station ols-fusion ols-ctl ols-doctor ols-logger ols-track ols-fuse ols-precision ols-sim
+foreach(program IN ITEMS ols-station ols-fusion ols-ctl ols-doctor ols-logger ols-track ols-fuse ols-precision
+                      ols-stationing ols-sim
                       ols-sim-ptu ols-sim-flood ols-sim-relay)
   if(TARGET ${program})
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

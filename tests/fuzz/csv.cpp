@@ -1,5 +1,5 @@
 // The offline formats. The first byte chooses: stations, bearings of two known stations, a
-// trajectory, landmarks.
+// trajectory, landmarks, a survey, sightings of two of its points.
 #include <cmath>
 #include <cstdlib>
 #include <new>
@@ -67,13 +67,33 @@ void landmarks(std::string_view content) {
   }
 }
 
+void survey(std::string_view content) {
+  const ols::fuzz::MemoryFile file(content);
+  for (const auto& row : ols::read_survey(file.path())) {
+    ols::fuzz::require(!row.landmark.empty() && row.sd_m >= 0.0, "a point has a name and an error");
+    const auto* utm = std::get_if<ols::UtmCells>(&row.place);
+    ols::fuzz::require(utm == nullptr || (utm->zone >= 1 && utm->zone <= 60), "a zone exists");
+  }
+}
+
+void sighted(std::string_view content) {
+  std::vector<ols::SurveyRow> known(2);
+  known[0].landmark = "tower";
+  known[1].landmark = "mast";
+  const ols::fuzz::MemoryFile file(content);
+  for (const auto& row : ols::read_sighted(file.path(), known)) {
+    ols::fuzz::require(std::isfinite(row.pan_deg) && std::isfinite(row.tilt_deg), "angles are");
+    ols::fuzz::require(row.x_px.has_value() == row.y_px.has_value(), "a pixel is whole");
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   ols::fuzz::Input input(data, size);
   const std::uint8_t kind = input.byte();
   try {
-    switch (kind % 4) {
+    switch (kind % 6) {
       case 0:
         stations(input.rest());
         break;
@@ -83,8 +103,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       case 2:
         trajectory(input.rest());
         break;
-      default:
+      case 3:
         landmarks(input.rest());
+        break;
+      case 4:
+        survey(input.rest());
+        break;
+      default:
+        sighted(input.rest());
     }
   } catch (const ols::CsvError&) {
     // Refused by name.

@@ -191,5 +191,32 @@ TEST_F(CsvFilesTest, WritesFixesWhole) {
   EXPECT_ANY_THROW(write_fixes(folder_ / "absent" / "fixes.csv", {fix}));
 }
 
+TEST_F(CsvFilesTest, ReadsASurveyOfBothForms) {
+  const auto points = read_survey(write("p.csv",
+                                        "landmark,height_m,sd_m,latitude_deg,longitude_deg,zone,"
+                                        "easting_m,northing_m\n"
+                                        "tower,310.5,0.14,49.2,16.6,,,\n"
+                                        "mast,300,0,,,33S,616800.25,5450000\n"));
+  ASSERT_EQ(points.size(), 2U);
+  const auto& tower = std::get<GeodeticCells>(points[0].place);
+  EXPECT_EQ(tower.latitude_deg, 49.2);
+  EXPECT_EQ(tower.longitude_deg, 16.6);
+  EXPECT_EQ(points[0].height_m, 310.5);
+  EXPECT_EQ(points[0].sd_m, 0.14);
+  const auto& mast = std::get<UtmCells>(points[1].place);
+  EXPECT_EQ(mast.zone, 33);
+  EXPECT_FALSE(mast.northern);
+  EXPECT_EQ(mast.easting_m, 616800.25);
+  EXPECT_EQ(mast.northing_m, 5450000.0);
+  EXPECT_EQ(points[1].line, 3U);
+  const auto sighted = read_sighted(
+      write("s.csv", "landmark,pan_deg,tilt_deg,x_px,y_px\nmast,-12.5,3,,\ntower,1,2,640,480\n"),
+      points);
+  ASSERT_EQ(sighted.size(), 2U);
+  EXPECT_EQ(sighted[0].pan_deg, -12.5);
+  EXPECT_FALSE(sighted[0].x_px || sighted[0].y_px);
+  EXPECT_EQ(sighted[1].y_px, 480.0);
+}
+
 }  // namespace
 }  // namespace ols

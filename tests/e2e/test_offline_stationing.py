@@ -1,0 +1,172 @@
+"""ols-stationing as a surveyor meets it."""
+
+import math
+import subprocess
+import tomllib
+
+import numpy as np
+import ols
+import pytest
+from conftest import BIN, lines_said
+
+CONFIG = """\
+id = "s1"
+[pose]
+latitude_deg = 49.2
+longitude_deg = 16.6
+height_m = 300.0
+heading_deg = 40.0
+level_sd_deg = 1.0
+[calibration]
+id = 4
+[calibration.sd]
+heading_deg = 2.0
+mount_deg = 0.1
+[camera]
+device = "127.0.0.99"
+[ptu]
+device = "/dev/null"
+[lens]
+fx_px = 13333.3
+fy_px = 13333.3
+"""
+PLACES = {
+    "tower": (800.0, 300.0, 40.0),
+    "spire": (-500.0, 900.0, 10.0),
+    "mast": (-1500.0, -700.0, 90.0),
+    "chimney": (200.0, -400.0, 5.0),
+}
+SITE = ols.Geodetic(
+    latitude_rad=math.radians(49.2), longitude_rad=math.radians(16.6), height_m=300.0
+)
+
+
+def truth():
+    """As it stands: neither level nor turned as its configuration says."""
+    station = ols.StationGeometry()
+    station.position = SITE
+    station.chain.heading_rad = math.radians(211.0)
+    station.chain.tilt_x_rad = math.radians(0.4)
+    station.chain.tilt_y_rad = math.radians(-0.3)
+    station.camera.fx_px = station.camera.fy_px = 13333.3
+    return station
+
+
+def point(name):
+    return ols.LocalFrame(SITE).to_ecef(np.array(PLACES[name]))
+
+
+def row(name, utm):
+    place = SITE if name == "mark" else ols.geodetic_from_ecef(point(name))
+    end = f"{place.height_m:.4f},0.05"
+    if not utm:
+        degrees = math.degrees(place.latitude_rad), math.degrees(place.longitude_rad)
+        return f"{name},{degrees[0]:.9f},{degrees[1]:.9f},,,,{end}"
+    grid = ols.utm_from_geodetic(place).position
+    return f"{name},,,{grid.zone}N,{grid.easting_m:.4f},{grid.northing_m:.4f},{end}"
+
+
+@pytest.fixture
+def survey(tmp_path):
+    """The files, landmarks in both forms; one is sighted beside the optical axis."""
+    header = "landmark,latitude_deg,longitude_deg,zone,easting_m,northing_m,height_m,sd_m"
+    rows = [row(name, utm=i % 2 == 0) for i, name in enumerate([*PLACES, "mark"])]
+    (tmp_path / "landmarks.csv").write_text("\n".join([header, *rows]) + "\n")
+    sighted = ["landmark,pan_deg,tilt_deg,x_px,y_px"]
+    for name in PLACES:
+        pixel = np.array([700.0, 400.0]) if name == "spire" else None
+        angles = ols.aim_at(truth(), point(name), pixel)
+        degrees = math.degrees(angles.pan_rad), math.degrees(angles.tilt_rad)
+        at = "700,400" if name == "spire" else ","
+        sighted.append(f"{name},{degrees[0]:.6f},{degrees[1]:.6f},{at}")
+    (tmp_path / "sightings.csv").write_text("\n".join(sighted) + "\n")
+    (tmp_path / "station.toml").write_text(CONFIG)
+    return tmp_path
+
+
+def run(folder, *more):
+    command = [BIN / "ols-stationing", "--station", folder / "station.toml"]
+    command += ["--landmarks", folder / "landmarks.csv", "--sightings", folder / "sightings.csv"]
+    command = [str(part) for part in (*command, *more)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+
+
+def change(path, old, new):
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new, 1))
+
+
+def test_finds_heading_and_tilt(survey):
+    result = run(survey)
+    assert result.returncode == 0, result.stderr
+    found = tomllib.loads(result.stdout)
+    pose, sd = found["pose"], found["calibration"]["sd"]
+    assert "latitude_deg" not in pose
+    assert abs(pose["heading_deg"] - 211.0) < 0.05
+    assert abs(pose["tilt_x_deg"] - 0.4) < 0.02 and abs(pose["tilt_y_deg"] + 0.3) < 0.02
+    assert 0.001 < sd["heading_deg"] < 0.1 and 0.001 < sd["tilt_deg"] < 0.1
+    assert found["calibration"]["id"] == 5
+    assert "stands out" not in result.stdout
+    for name in PLACES:
+        assert f"#   {name}: " in result.stdout
+
+
+def test_is_what_a_station_reads(survey):
+    """In the place of the configuration's own tables; the position is that of the mark."""
+    output = survey / "found.toml"
+    assert run(survey, "--at", "mark", "--output", output).returncode == 0
+    pose = tomllib.loads(output.read_text())["pose"]
+    assert abs(pose["latitude_deg"] - 49.2) < 1e-7 and abs(pose["longitude_deg"] - 16.6) < 1e-7
+    assert abs(pose["height_m"] - 300.0) < 1e-3
+    others = CONFIG[CONFIG.index("[camera]") :]
+    (survey / "new.toml").write_text(f'id = "s1"\n{output.read_text()}\n{others}')
+    command = [str(BIN / "ols-station"), "--check-config", "--config", str(survey / "new.toml")]
+    checked = subprocess.run(command, capture_output=True, text=True, timeout=30, check=False)
+    assert checked.returncode == 0, checked.stderr
+    assert f"heading {pose['heading_deg']:.3f} deg" in checked.stdout
+
+
+def test_names_a_landmark_that_was_mistaken(survey):
+    angles = ols.aim_at(truth(), point("mast"))
+    change(survey / "sightings.csv", f"mast,{math.degrees(angles.pan_rad):.6f}", "mast,77.0")
+    said = [line for line in run(survey).stdout.splitlines() if "stands out" in line]
+    assert any("mast" in line for line in said)
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "where"),
+    [
+        ("landmarks.csv", ",33N,", ",33U,", "landmarks.csv:2: zone: '33U'"),
+        ("landmarks.csv", ",33N,", ",61N,", "landmarks.csv:2: zone: '61N'"),
+        ("landmarks.csv", ",33N,", ",33N,9", "landmarks.csv:2: easting_m:"),
+        ("landmarks.csv", "tower,,", "tower,49.2,", "landmarks.csv:2: zone: there are latitude"),
+        ("landmarks.csv", "spire,", "tower,", "landmarks.csv:3: landmark: 'tower' is there twice"),
+        ("landmarks.csv", "sd_m", "sigma", "landmarks.csv:1: sd_m: there is no such column"),
+        ("sightings.csv", "mast,", "must,", "sightings.csv:4: landmark: 'must' is not one of"),
+        ("sightings.csv", "mast,", "mark,", "sightings.csv:4: landmark: the station stands at it"),
+        ("sightings.csv", ",700,400", ",700,", "sightings.csv:3: y_px: is empty"),
+        ("sightings.csv", "pan_deg", "pan", "sightings.csv:1: pan_deg: there is no such column"),
+        ("station.toml", "heading_deg = 40.0", "haeding_deg = 1", "station.toml:2: "),
+    ],
+)
+def test_refuses_bad_input_by_name(survey, name, old, new, where):
+    change(survey / name, old, new)
+    result = run(survey, "--at", "mark")
+    assert result.returncode == 2
+    assert result.stdout == ""
+    said = lines_said(result.stderr)
+    assert len(said) == 1 and where in said[0], said
+
+
+def test_says_where_the_place_is_missing(survey):
+    """Neither surveyed nor at a landmark: a receiver's position is not in the configuration."""
+    for key in ("latitude_deg = 49.2\n", "longitude_deg = 16.6\n", "height_m = 300.0\n"):
+        change(survey / "station.toml", key, "")
+    with (survey / "station.toml").open("a") as file:
+        file.write('[gnss]\nhost = "127.0.0.1"\n')
+    result = run(survey)
+    assert result.returncode == 2 and "pose.latitude_deg: is needed" in result.stderr
+    assert run(survey, "--at", "mark").returncode == 0
+    result = run(survey, "--at", "nowhere")
+    assert result.returncode == 2 and "--at: 'nowhere' is not in " in result.stderr
