@@ -1,5 +1,6 @@
 #include "central/track.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
@@ -32,6 +33,20 @@ bool is_sure(const Track& track) {
   return track.state == TrackState::kConfirmed || track.state == TrackState::kCoasted;
 }
 
+bool are_made_to_meet(const TrackFilter& filter) {
+  const auto& stations = filter.stations();
+  if (stations.size() != 2) return false;
+  double squared = 0.0;
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const SightLine& sight = stations[i].sight;
+    const double range_m = (filter.position() - sight.origin_ecef).norm();
+    const Eigen::Matrix2d stated = stated_covariance(sight, range_m) + sight.covariance_white;
+    const Eigen::Vector2d bias_rad = filter.bias(i).bias_rad;
+    squared += bias_rad.dot(stated.llt().solve(bias_rad));
+  }
+  return squared > filter.config().two_stations_nis;
+}
+
 Solution judge_position(const TrackFilter& filter, const KinematicState& state) {
   if (filter.stations().size() < 2) return Solution::kTooFewRays;
   double nearest_m = std::numeric_limits<double>::infinity();
@@ -45,7 +60,8 @@ Solution judge_position(const TrackFilter& filter, const KinematicState& state) 
   if (!(greatest < limit_m * limit_m)) {
     return stations_lately(filter, 1.0) < 2 ? Solution::kTooFewRays : Solution::kParallelRays;
   }
-  return nearest_m > filter.config().max_range_m ? Solution::kTooFar : Solution::kOk;
+  if (nearest_m > filter.config().max_range_m) return Solution::kTooFar;
+  return are_made_to_meet(filter) ? Solution::kRaysMiss : Solution::kOk;
 }
 
 int stations_lately(const TrackFilter& filter, double within_s) {

@@ -38,6 +38,11 @@ struct Track {
 // Confirmed or coasted.
 bool is_sure(const Track& track);
 
+// With two stations alone one residual has nothing to be checked against: whatever makes their rays
+// miss, two objects as well as a wrong heading, is learnt as bias. Whether that is more than what
+// they state allows.
+bool are_made_to_meet(const TrackFilter& filter);
+
 // What a filter's state is worth as a position: kOk, or the named reason why it is none.
 Solution judge_position(const TrackFilter& filter, const KinematicState& state);
 

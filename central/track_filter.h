@@ -34,6 +34,9 @@ struct FilterConfig {
   double mixing_s = 0.05;       // models are mixed and biases moved on at this interval
   double range_sd_limit = 0.3;  // greatest 1-sigma over range of a position that is one
   double max_range_m = 500e3;
+  // Two stations alone: squared turn over what they state of bias and noise, beyond which their
+  // rays are not made to meet.
+  double two_stations_nis = 25.0;
   // What all stations may have in common beyond what independent errors have, in variance: it moves
   // the target and no residual shows it. Over the part that biases make which the residuals show.
   double in_common = 1.0;

@@ -3,11 +3,19 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ols {
 namespace {
 
 double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
+
+// In a recording of one object two stations see the same one, however far they have to be turned.
+FilterConfig filter_config(const KeeperConfig& config) {
+  FilterConfig filter = config.filter;
+  if (config.one_target) filter.two_stations_nis = std::numeric_limits<double>::infinity();
+  return filter;
+}
 
 }  // namespace
 
@@ -32,7 +40,7 @@ bool TrackKeeper::Glance::may_see(const Sighting& sighting, const Eigen::Vector3
 }
 
 TrackKeeper::TrackKeeper(const KeeperConfig& config)
-    : config_(config), birth_(config.birth, config.filter), errors_(config.errors) {}
+    : config_(config), birth_(config.birth, filter_config(config)), errors_(config.errors) {}
 
 std::vector<TrackKeeper::Candidate> TrackKeeper::candidates(const Sighting& sighting,
                                                             bool confirmed) const {
@@ -191,6 +199,11 @@ void TrackKeeper::age(Track& track, std::int64_t now_us) {
   if (track.state == TrackState::kBorn) {
     if (unseen_s > config_.born_drop_s && !config_.one_target) track.state = TrackState::kDropped;
     if (unseen_s > config_.drop_s) track.state = TrackState::kDropped;
+    return;
+  }
+  if (are_made_to_meet(track.filter)) {  // what it has taught of them is not true, either
+    for (const FilterStation& station : track.filter.stations()) errors_.forget(station.station);
+    track.state = TrackState::kDropped;
     return;
   }
   if (unseen_s > config_.coast_s) track.state = TrackState::kCoasted;

@@ -30,7 +30,8 @@ std::vector<Sighting> groups_of_stations(int groups, int each) {
   std::mt19937_64 random(9);
   std::vector<Sighting> all;
   for (int group = 0; group < groups; ++group) {
-    const Vector3d centre(4000.0 * (group % 12), 4000.0 * (group / 12), 0.0);
+    const int row = group / 12;
+    const Vector3d centre(4000.0 * (group % 12), 4000.0 * row, 0.0);
     WorldConfig world{.stations_enu = circle(each, 300.0), .aims_enu = {}, .rate_hz = kRateHz};
     for (Vector3d& place : world.stations_enu) place += centre;
     const Path path = cruising({centre + Vector3d(0, 0, 100), {8, 3, 0}}, 0.5, kDurationS, random);

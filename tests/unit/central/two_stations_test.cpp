@@ -1,0 +1,76 @@
+// Two stations alone: one residual, and nothing to check it against.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "tools/estimators/bearing_world.h"
+
+namespace ols::bench {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDurationS = 8.0;
+
+std::vector<Vector3d> stations() { return {{-210, -210, 0}, {210, -210, 0}}; }
+
+Path climbing(const Vector3d& from, double speed_m_s) {
+  std::mt19937_64 random(1);
+  return cruising({from, {0, 0, speed_m_s}}, 1e-6, kDurationS, random);
+}
+
+// Each follows an object of its own; for a moment, three seconds after the start, their rays meet.
+// That is a position until they part again, and not what is learnt of both as if it were one
+// object.
+TEST(TwoStations, WhoFollowTwoObjectsAreAPositionOnlyWhileTheirRaysMeet) {
+  WorldConfig world{.stations_enu = stations(), .aims_enu = {}};
+  std::mt19937_64 random(2);
+  std::vector<Sighting> seen;
+  const Path paths[] = {climbing({0, 0, 80}, 0.0), climbing({20, 10, 81}, 1.0)};
+  for (const Path& path : paths) {
+    for (Sighting& s : measure(world, {path}, kDurationS, random)) {
+      s.track_id = 1;
+      if ((s.station == "s0") == (&path == &paths[0])) seen.push_back(std::move(s));
+    }
+  }
+  std::ranges::stable_sort(seen, {}, &Sighting::utime_us);
+  Fusion fusion(FusionConfig{});
+  double first_s = 0.0, last_s = 0.0;
+  for (const Sighting& sighting : seen) {
+    for (const FusedTarget& target : fusion.add(sighting).targets) {
+      if (target.estimate.solution != Solution::kOk) continue;
+      last_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
+      if (first_s == 0.0) first_s = last_s;
+    }
+  }
+  EXPECT_GT(first_s, 1.0) << "they meet: that cannot be told from one object";
+  EXPECT_LT(last_s, 5.0);
+}
+
+// What they state may be off is no miss.
+TEST(TwoStations, WhoseHeadingsAreAsStatedKeepTheirTarget) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    WorldConfig world{.stations_enu = stations(), .aims_enu = {}, .bias_sd_rad = 2e-3};
+    std::mt19937_64 random(seed);
+    const Path path = manoeuvring({{-30, 20, 80}, {12, 5, 0}}, 6.0, kDurationS, random);
+    Fusion fusion(FusionConfig{});
+    double nees = 0.0;
+    int located = 0;
+    for (const Sighting& sighting : measure(world, {path}, kDurationS, random)) {
+      for (const FusedTarget& target : fusion.add(sighting).targets) {
+        const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
+        if (time_s < 1.5) continue;
+        ASSERT_EQ(target.estimate.solution, Solution::kOk) << seed << ", " << time_s << " s";
+        const Vector3d e = target.estimate.position_ecef - site().to_ecef(at(path, time_s).p_enu);
+        nees += e.dot(target.estimate.covariance_ecef.ldlt().solve(e)) / 3.0;
+        ++located;
+      }
+    }
+    EXPECT_GT(located, 80) << seed;
+    EXPECT_LT(nees / located, 6.0) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace ols::bench
