@@ -13,7 +13,9 @@
 //  - confirmed -> coasted: no two stations have seen it for coast_s. coasted -> confirmed: two
 //  have.
 //  - coasted -> dropped: no two stations for drop_s.
-//  - A track that is confirmed where one that was dropped must be by now has its identity.
+//  - any -> dropped: two stations alone, whose rays meet only by more than they state.
+//  - A track that is confirmed where one that was dropped must be by now has its identity; or else
+//    that of the line which one of its stations has followed.
 //
 // In a recording of one object (one_target) every bearing is offered to the one track, and:
 //  - Two rays begin it, on trial, and it is confirmed when its position is one. It is proved by a
