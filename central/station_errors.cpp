@@ -78,15 +78,26 @@ Eigen::Array2d StationErrors::learnt(const std::string& station, const Eigen::Ar
   return (squared / (weight + seen.weight + seen.weight_now)).max(least * noise_rad2);
 }
 
+// A tilt or a wrong place shows on both axes and changes with the direction. What one axis has more
+// than the other is a heading, which stays: both change by as much in the same time.
+std::array<Eigen::Array2d, kSuppositions> StationErrors::times(
+    bool told, const Eigen::Array2d& variance) const {
+  const Eigen::Array2d untold = Eigen::Array2d::Constant(config_.untold_time_s);
+  if (!told) return {untold, untold};
+  constexpr double kNone = 1e-24;
+  const Eigen::Array2d ratio = (variance / std::max(kNone, variance.minCoeff())).max(1.0);
+  return {config_.stated_time_s * ratio, config_.stated_slow_s * ratio};
+}
+
 BiasPrior StationErrors::prior(const std::string& station, const SightLine& sight,
                                double range_m) const {
   BiasPrior prior;
   prior.covariance = stated_covariance(sight, range_m);
   const Eigen::Array2d stated = prior.covariance.diagonal();
-  prior.time_s = states_anything(stated) ? config_.stated_time_s : config_.untold_time_s;
   const Eigen::Array2d noise = sight.covariance_white.diagonal();
   const Eigen::Array2d all = learnt(station, stated, noise);
   prior.covariance.diagonal().array() += (all - stated).max(0.0);
+  prior.time_s = times(states_anything(stated), prior.covariance.diagonal());
   const double guess = config_.untold_over_noise * config_.untold_over_noise;
   prior.shown = (all - (states_anything(stated) ? stated : guess * noise)).max(0.0);
   return prior;

@@ -20,6 +20,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -29,7 +31,8 @@
 namespace ols {
 
 struct StationErrorsConfig {
-  double stated_time_s = 300.0;    // correlation time of a bias within what is stated
+  // Correlation time of a bias within what is stated: two suppositions, the bearings decide.
+  double stated_time_s = 300.0, stated_slow_s = 1500.0;
   double untold_time_s = 5.0;      // and of one that the station does not tell
   double memory_s = 600.0;         // what was seen longer ago counts less than 1/e
   double stated_weight = 20.0;     // seen biases that a statement is worth
@@ -46,10 +49,13 @@ struct StationErrorsConfig {
   double colour_memory = 500.0;  // second differences in whose mean the share is judged
 };
 
+inline constexpr std::size_t kSuppositions = 2;  // of how fast a stated bias wanders
+
 // The prior of one station's bias as seen towards a target.
 struct BiasPrior {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] stationary
-  double time_s = 1.0;                                   // correlation time
+  // Correlation times of the two axes, by each supposition; alike where nothing is stated.
+  std::array<Eigen::Array2d, kSuppositions> time_s{Eigen::Array2d::Ones(), Eigen::Array2d::Ones()};
   // Of its variances, what the residuals have shown beyond what was stated or guessed.
   Eigen::Array2d shown = Eigen::Array2d::Zero();  // [rad^2]
 };
@@ -96,6 +102,7 @@ class StationErrors {
     double white_share = 1.0;                            // of its noise, new in each frame
   };
   void count(const Seen& seen, double sign);
+  std::array<Eigen::Array2d, kSuppositions> times(bool told, const Eigen::Array2d& variance) const;
   Eigen::Array2d learnt(const std::string& station, const Eigen::Array2d& stated_rad2,
                         const Eigen::Array2d& noise_rad2) const;
 

@@ -49,7 +49,7 @@ struct TrackFilter::Innovation {
 
 TrackFilter::TrackFilter(const FilterConfig& config, std::int64_t utime_us,
                          const FilterStart& start)
-    : config_(config), utime_us_(utime_us), mixed_us_(utime_us) {
+    : config_(config), utime_us_(utime_us), mixed_us_(utime_us), models_(kMotions) {
   for (Model& model : models_) {
     model.mean = FilterVector::Zero(9);
     model.mean.head<3>() = start.p_ecef;
@@ -108,6 +108,7 @@ void TrackFilter::reset(int station, const Sighting& sighting, const BiasPrior& 
       .calibration_id = sighting.calibration_id,
       .aimed = direction_ecef(sighting.sight)};
   priors_[static_cast<std::size_t>(station)] = prior;
+  suppose(prior);
   const Eigen::Index at = 9 + 3 * station;
   for (Model& model : models_) {
     model.mean.segment<3>(at).setZero();
@@ -120,7 +121,7 @@ void TrackFilter::reset(int station, const Sighting& sighting, const BiasPrior& 
 TrackFilter::Innovation TrackFilter::innovation(const Model& model, const Sighting& sighting,
                                                 const RayFrame& frame, int station,
                                                 const BiasPrior& prior) const {
-  const auto motion = static_cast<Motion>(&model - models_.data());
+  const Motion motion = motion_of(static_cast<std::size_t>(&model - models_.data()));
   const double ahead_s = seconds(sighting.utime_us - utime_us_);  // < 0: late
   const Eigen::Vector3d v = model.mean.segment<3>(3);
   const double curved = motion == Motion::kConstantVelocity ? 0.0 : ahead_s * ahead_s / 2.0;
@@ -229,7 +230,7 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   const Eigen::Matrix2d white =
       sighting.sight.covariance_white * errors.noise_scale(sighting.station);
   const RayFrame frame = frame_of(sighting, station);
-  std::array<Innovation, kMotions> seen;
+  Innovations seen;
   double nis = kNever, squared = 0.0, expected = 0.0;  // of the noise's own part of the residual
   for (std::size_t m = 0; m < models_.size(); ++m) {
     seen[m] = innovation(models_[m], sighting, frame, station, {});
@@ -275,9 +276,8 @@ bool TrackFilter::shows_bias(int station, const RayFrame& frame, double depth_m,
   return second_order < kSmall * kSmall * white.trace() / 2.0;
 }
 
-void TrackFilter::correct(const std::array<Innovation, kMotions>& seen,
-                          const Eigen::Matrix2d& noise, bool finds_bias) {
-  std::array<double, kMotions> log_likelihood{};
+void TrackFilter::correct(const Innovations& seen, const Eigen::Matrix2d& noise, bool finds_bias) {
+  std::array<double, kModels> log_likelihood{};
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + noise);
     const Eigen::Matrix2d L = S.matrixL();
@@ -322,8 +322,9 @@ double TrackFilter::observe_noise(FilterStation& entry, const Sighting& sighting
   return first_s + second_s < kNearS ? errors.inflation(sighting.station, second_s) : 1.0;
 }
 
-void TrackFilter::weigh_models(const std::array<double, kMotions>& log_likelihood) {
-  const double most = *std::ranges::max_element(log_likelihood);
+void TrackFilter::weigh_models(const std::array<double, kModels>& log_likelihood) {
+  const double most = *std::ranges::max_element(log_likelihood.begin(),
+                                                log_likelihood.begin() + std::ssize(models_));
   double sum = 0.0;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     models_[m].probability *= std::exp(log_likelihood[m] - most);

@@ -9,14 +9,17 @@
 //
 // A bearing newer than the state moves it on. A late one is compared with where the target was at
 // its own instant, by the state's own velocity and acceleration. Three models (motion_model.h) are
-// mixed (IMM: Blom and Bar-Shalom, 1988). A bearing far off is set aside, one a little off is
-// weighted down; only such ones of two stations in a row say that the target has done what no model
-// allows, and it is given room.
+// mixed (IMM: Blom and Bar-Shalom, 1988). Where stations state errors, each model runs by either
+// supposition of how fast those wander (StationErrorsConfig), and what the bearings say of them
+// weighs them; they are not mixed (Magill, 1965). A bearing far off is set aside, one a little off
+// is weighted down; only such ones of two stations in a row say that the target has done what no
+// model allows, and it is given room.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +46,7 @@ struct FilterConfig {
 };
 
 inline constexpr int kFilterStations = 12;  // with states of their own; no more are used
+inline constexpr std::size_t kModels = kMotions * kSuppositions;  // at most
 inline constexpr int kFilterStates = 9 + 3 * kFilterStations;
 using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
 using FilterMatrix =
@@ -127,12 +131,13 @@ class TrackFilter {
   const FilterConfig& config() const { return config_; }
 
  private:
+  struct Innovation;
   struct Model {
     FilterVector mean;
     FilterMatrix covariance;
     double probability = 1.0 / kMotions;
   };
-  struct Innovation;
+  using Innovations = std::array<Innovation, kModels>;
   Innovation innovation(const Model& model, const Sighting& sighting, const RayFrame& frame,
                         int station, const BiasPrior& prior) const;
   RayFrame frame_of(const Sighting& sighting, int station) const;
@@ -142,24 +147,26 @@ class TrackFilter {
   int states_of(const Sighting& sighting, const StationErrors& errors);
   bool shows_bias(int station, const RayFrame& frame, double depth_m,
                   const Eigen::Matrix2d& white) const;
-  void correct(const std::array<Innovation, kMotions>& seen, const Eigen::Matrix2d& noise,
-               bool finds_bias);
+  void correct(const Innovations& seen, const Eigen::Matrix2d& noise, bool finds_bias);
   BearingUse take(const Sighting& sighting, StationErrors& errors);
   void move_to(std::int64_t utime_us, StationErrors& errors);
+  void suppose(const BiasPrior& prior);
   void mix(double dt_s);
+  void mix_motions(std::span<Model, kMotions> models, double dt_s) const;
   void move_biases(double dt_s, StationErrors& errors);
+  static Motion motion_of(std::size_t model) { return static_cast<Motion>(model % kMotions); }
   static double turned(FilterStation& station);
   void give_room();
   bool passes_gate(const Sighting& sighting, double nis);
   static double observe_noise(FilterStation& entry, const Sighting& sighting, const RayFrame& frame,
                               StationErrors& errors);
-  void weigh_models(const std::array<double, kMotions>& log_likelihood);
+  void weigh_models(const std::array<double, kModels>& log_likelihood);
   void refresh();
 
   FilterConfig config_;
   std::int64_t utime_us_;
-  std::int64_t mixed_us_;  // when the models were mixed last
-  std::array<Model, kMotions> models_;
+  std::int64_t mixed_us_;      // when the models were mixed last
+  std::vector<Model> models_;  // each motion; and once more for each supposition, if there are any
   std::vector<FilterStation> stations_;
   std::vector<BiasPrior> priors_;
   KinematicState summary_;     // mixed over the models

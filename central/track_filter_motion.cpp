@@ -22,8 +22,7 @@ void TrackFilter::move_to(std::int64_t utime_us, StationErrors& errors) {
   if (dt_s <= 0.0) return;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     Model& model = models_[m];
-    const Transition t =
-        transition(static_cast<Motion>(m), model.mean.head<9>(), dt_s, config_.motion);
+    const Transition t = transition(motion_of(m), model.mean.head<9>(), dt_s, config_.motion);
     transform_rows(t.f, model.mean);
     propagate_covariance(t, model.covariance);
   }
@@ -36,20 +35,35 @@ void TrackFilter::move_to(std::int64_t utime_us, StationErrors& errors) {
   mix(since_s);
 }
 
+// A station that states an error is the first reason for more than one supposition.
+void TrackFilter::suppose(const BiasPrior& prior) {
+  if (models_.size() == kModels || (prior.time_s.front() == prior.time_s.back()).all()) return;
+  for (Model& model : models_) model.probability /= kSuppositions;
+  const std::vector<Model> own = models_;
+  while (models_.size() < kModels) models_.insert(models_.end(), own.begin(), own.end());
+}
+
 void TrackFilter::mix(double dt_s) {
+  for (std::size_t first = 0; first < models_.size(); first += kMotions) {
+    mix_motions(std::span(models_).subspan(first).first<kMotions>(), dt_s);
+  }
+}
+
+void TrackFilter::mix_motions(std::span<Model, kMotions> models, double dt_s) const {
   std::array<std::array<double, kMotions>, kMotions> weight{};  // [to][from]
   for (std::size_t from = 0; from < kMotions; ++from) {
     const double stays = std::exp(-dt_s / config_.motion.dwell_s[from]);
     for (std::size_t to = 0; to < kMotions; ++to) {
       const double share = from == to ? stays : (1.0 - stays) / (kMotions - 1);
-      weight[to][from] = share * models_[from].probability;
+      weight[to][from] = share * models[from].probability;
     }
   }
-  const std::array<Model, kMotions> was = models_;
+  std::array<Model, kMotions> was;
+  std::ranges::copy(models, was.begin());
   for (std::size_t to = 0; to < kMotions; ++to) {
     double sum = 0.0;
     for (const double w : weight[to]) sum += w;
-    Model& model = models_[to];
+    Model& model = models[to];
     model.probability = sum;
     model.mean.setZero();
     model.covariance.setZero();
@@ -90,14 +104,18 @@ void TrackFilter::move_biases(double dt_s, StationErrors& errors) {
                      dt_s, range_m);
     }
     priors_[i] = errors.prior(station.station, station.sight, range_m);
-    const double decay = turned(station) * std::exp(-dt_s / priors_[i].time_s);
+    const double turn = turned(station);
     const double clock = std::exp(-dt_s / errors.clock_time_s());
     const auto at = static_cast<Eigen::Index>(9 + 3 * i);
-    for (Model& model : models_) {
-      model.mean.segment<2>(at) *= decay;
-      model.covariance.middleRows<2>(at) *= decay;
-      model.covariance.middleCols<2>(at) *= decay;
-      model.covariance.block<2, 2>(at, at) += (1.0 - decay * decay) * priors_[i].covariance;
+    for (std::size_t m = 0; m < models_.size(); ++m) {
+      Model& model = models_[m];
+      const Eigen::Array2d decay = turn * (-dt_s / priors_[i].time_s[m / kMotions]).exp();
+      model.mean.segment<2>(at).array() *= decay;
+      model.covariance.middleRows<2>(at).array().colwise() *= decay;
+      model.covariance.middleCols<2>(at).array().rowwise() *= decay.transpose();
+      const Eigen::Vector2d fresh = (1.0 - decay.square()).sqrt();
+      model.covariance.block<2, 2>(at, at) +=
+          fresh.asDiagonal() * priors_[i].covariance * fresh.asDiagonal();
       model.mean(at + 2) *= clock;
       model.covariance.row(at + 2) *= clock;
       model.covariance.col(at + 2) *= clock;

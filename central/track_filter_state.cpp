@@ -37,12 +37,12 @@ KinematicState TrackFilter::at(std::int64_t utime_us) const {
   const double dt_s = 1e-6 * static_cast<double>(utime_us - utime_us_);
   KinematicState state;
   state.utime_us = utime_us;
-  std::array<Vector9, kMotions> means;
-  std::array<Matrix9, kMotions> covariances;
+  std::array<Vector9, kModels> means;
+  std::array<Matrix9, kModels> covariances;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     means[m] = models_[m].mean.head<9>();
     covariances[m] = models_[m].covariance.topLeftCorner<9, 9>();
-    Transition t = transition(static_cast<Motion>(m), means[m], std::abs(dt_s), config_.motion);
+    Transition t = transition(motion_of(m), means[m], std::abs(dt_s), config_.motion);
     if (dt_s < 0.0) t.f << 1.0, dt_s, dt_s * dt_s / 2.0, 0.0, 1.0, dt_s, 0.0, 0.0, 1.0;
     transform_rows(t.f, means[m]);
     propagate_covariance(t, covariances[m]);
@@ -102,7 +102,7 @@ StationBias TrackFilter::bias(std::size_t station) const {
 
 std::array<double, kMotions> TrackFilter::probabilities() const {
   std::array<double, kMotions> result{};
-  for (std::size_t m = 0; m < models_.size(); ++m) result[m] = models_[m].probability;
+  for (std::size_t m = 0; m < models_.size(); ++m) result[m % kMotions] += models_[m].probability;
   return result;
 }
 

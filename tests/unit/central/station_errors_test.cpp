@@ -63,6 +63,33 @@ TEST(StationErrors, ForgetAStation) {
   EXPECT_EQ(errors.noise_scale("a"), 1.0);
 }
 
+TEST(StationErrors, SupposeTwoTimesForAStatedBiasAndOneForWhatNobodyTold) {
+  const StationErrorsConfig config;
+  const StationErrors errors(config);
+  const BiasPrior untold = errors.prior("a", sight(), 500.0);
+  for (const Eigen::Array2d& time_s : untold.time_s) {
+    EXPECT_TRUE((time_s == config.untold_time_s).all());
+  }
+  SightLine stated = sight();
+  stated.covariance_systematic = Eigen::Vector2d(1e-6, 1e-6).asDiagonal();
+  const BiasPrior alike = errors.prior("a", stated, 500.0);
+  EXPECT_TRUE(alike.time_s[0].isApproxToConstant(config.stated_time_s, 1e-6));
+  EXPECT_TRUE(alike.time_s[1].isApproxToConstant(config.stated_slow_s, 1e-6));
+}
+
+// Four times the variance on the first axis: three of it are a heading's.
+TEST(StationErrors, TakeForAHeadingWhatOneAxisHasMore) {
+  SightLine stated = sight();
+  stated.covariance_systematic = Eigen::Vector2d(4e-6, 1e-6).asDiagonal();
+  const BiasPrior prior = StationErrors().prior("a", stated, 500.0);
+  for (const Eigen::Array2d& time_s : prior.time_s) {
+    EXPECT_NEAR(time_s(0) / time_s(1), 4.0, 1e-3);
+    // As much is new on either axis in the same time.
+    const Eigen::Array2d fresh = prior.covariance.diagonal().array() / time_s;
+    EXPECT_NEAR(fresh(0) / fresh(1), 1.0, 1e-9);
+  }
+}
+
 class NoiseScale : public testing::TestWithParam<double> {};
 
 // A station's noise is found, be it less or more than what it states.
