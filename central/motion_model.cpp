@@ -16,6 +16,15 @@ Transition constant_velocity(double dt, double disturbance) {
   return t;
 }
 
+// Of (position, velocity, acceleration), from white noise of the jerk with this spectral density.
+Eigen::Matrix3d from_white_jerk(double dt, double s) {
+  const double dt2 = dt * dt, dt3 = dt2 * dt;
+  Eigen::Matrix3d q;
+  q << s * dt3 * dt2 / 20.0, s * dt2 * dt2 / 8.0, s * dt3 / 6.0, s * dt2 * dt2 / 8.0, s * dt3 / 3.0,
+      s * dt2 / 2.0, s * dt3 / 6.0, s * dt2 / 2.0, s * dt;
+  return q;
+}
+
 double turn_rate(const Vector9& state, double limit_rad_s) {
   const Eigen::Vector3d v = state.segment<3>(3), a = state.tail<3>();
   const double squared = v.squaredNorm();
@@ -32,9 +41,7 @@ Transition coordinated_turn(double dt, double rate_rad_s, double jerk) {
   const double s1 = angle < kStraight ? dt : sine / rate_rad_s;
   const double c2 = angle < kStraight ? dt * dt / 2.0 : (1.0 - cosine) / (rate_rad_s * rate_rad_s);
   t.f << 1.0, s1, c2, 0.0, cosine, s1, 0.0, -rate_rad_s * sine, cosine;
-  const double s = jerk * jerk, dt2 = dt * dt, dt3 = dt2 * dt;
-  t.q << s * dt3 * dt2 / 20.0, s * dt2 * dt2 / 8.0, s * dt3 / 6.0, s * dt2 * dt2 / 8.0,
-      s * dt3 / 3.0, s * dt2 / 2.0, s * dt3 / 6.0, s * dt2 / 2.0, s * dt;
+  t.q = from_white_jerk(dt, jerk * jerk);
   return t;
 }
 
@@ -45,9 +52,7 @@ Transition singer(double dt, double sd, double time_s) {
   Transition t;
   t.f << 1.0, dt, time_s * (dt - time_s * (1.0 - decay)), 0.0, 1.0, time_s * (1.0 - decay), 0.0,
       0.0, decay;
-  const double s = 2.0 * sd * sd / time_s, dt2 = dt * dt, dt3 = dt2 * dt;
-  t.q << s * dt3 * dt2 / 20.0, s * dt2 * dt2 / 8.0, s * dt3 / 6.0, s * dt2 * dt2 / 8.0,
-      s * dt3 / 3.0, s * dt2 / 2.0, s * dt3 / 6.0, s * dt2 / 2.0, s * dt;
+  t.q = from_white_jerk(dt, 2.0 * sd * sd / time_s);
   return t;
 }
 

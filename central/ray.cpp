@@ -16,13 +16,16 @@ RayFrame ray_frame(const SightLine& sight, const Eigen::Matrix3d& R) {
   return {R * enu_from_azimuth_elevation(sight.direction), R * tangent_basis(sight.direction)};
 }
 
+Eigen::Matrix2d stated_covariance(const SightLine& sight, double range_m) {
+  const Eigen::Matrix<double, 3, 2> tangent_enu = tangent_basis(sight.direction);
+  const Eigen::Vector3d variance_enu = sight.origin_sd_enu_m.array().square();
+  return sight.covariance_systematic +
+         tangent_enu.transpose() * variance_enu.asDiagonal() * tangent_enu / (range_m * range_m);
+}
+
 Eigen::Matrix2d systematic_covariance(const Ray& ray, double range_m) {
-  const Eigen::Matrix<double, 3, 2> tangent_enu = tangent_basis(ray.sight.direction);
-  const Eigen::Vector3d variance_enu = ray.sight.origin_sd_enu_m.array().square();
-  const Eigen::Matrix2d position =
-      tangent_enu.transpose() * variance_enu.asDiagonal() * tangent_enu / (range_m * range_m);
   const Eigen::Vector2d clock = ray.rate_rad_s * ray.clock_sd_s;
-  return ray.sight.covariance_systematic + position + clock * clock.transpose();
+  return stated_covariance(ray.sight, range_m) + clock * clock.transpose();
 }
 
 const char* to_string(Solution solution) {

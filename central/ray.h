@@ -32,9 +32,11 @@ RayFrame ray_frame(const SightLine& sight);
 // The same where the axes at its origin are known: R_ecef_enu(sight.origin_ecef).
 RayFrame ray_frame(const SightLine& sight, const Eigen::Matrix3d& R_ecef_enu);
 
-// What stays from frame to frame of a ray's direction error, on its tangent plane [rad^2]: the
-// calibration, the clock along the motion, and the station's position as seen from a target at this
-// distance.
+// What a sight line states of its systematic error, on its tangent plane [rad^2]: the calibration,
+// and the station's position as seen from a target at this distance.
+Eigen::Matrix2d stated_covariance(const SightLine& sight, double range_m);
+
+// What stays from frame to frame of a ray's direction error: that, and the clock along the motion.
 Eigen::Matrix2d systematic_covariance(const Ray& ray, double range_m);
 
 // Why there is no position. The numbers are those of target_t.

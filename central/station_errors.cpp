@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "central/ray.h"
+
 namespace ols {
 namespace {
 
 bool states_anything(const Eigen::Array2d& stated_rad2) { return stated_rad2.maxCoeff() > 0.0; }
 
 }  // namespace
-
-Eigen::Matrix2d stated_covariance(const SightLine& sight, double range_m) {
-  const Eigen::Matrix<double, 3, 2> tangent_enu = tangent_basis(sight.direction);
-  const Eigen::Vector3d variance_enu = sight.origin_sd_enu_m.array().square();
-  return sight.covariance_systematic +
-         tangent_enu.transpose() * variance_enu.asDiagonal() * tangent_enu / (range_m * range_m);
-}
 
 void StationErrors::observe_noise(const std::string& station, double squared_ratio) {
   constexpr double kMost = 9.0;  // an outlier says nothing of the noise

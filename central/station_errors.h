@@ -113,7 +113,4 @@ class StationErrors {
   Eigen::Array2d common_ratio_ = Eigen::Array2d::Zero();
 };
 
-// What a sight line states of its systematic error as seen towards a target at this range [rad^2].
-Eigen::Matrix2d stated_covariance(const SightLine& sight, double range_m);
-
 }  // namespace ols
