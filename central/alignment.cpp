@@ -41,14 +41,16 @@ const Sighting& nearest(std::span<const Sighting> window, std::int64_t epoch_us)
 }
 
 std::vector<Sample> samples_of(std::span<const Sighting> window, std::int64_t epoch_us,
-                               const Sighting& reference, const RayFrame& frame) {
+                               const Sighting& reference, const RayFrame& frame,
+                               double noise_scale) {
   std::vector<Sample> samples;
   for (const Sighting& sighting : window) {
     const RayFrame own = ray_frame(sighting.sight);
     const double ahead = frame.direction.dot(own.direction);
     if (ahead <= 0.1) continue;  // not on this tangent plane
     const Eigen::Matrix2d turn = frame.tangent.transpose() * own.tangent;
-    const Eigen::Matrix2d white = turn * sighting.sight.covariance_white * turn.transpose();
+    const Eigen::Matrix2d white =
+        noise_scale * turn * sighting.sight.covariance_white * turn.transpose();
     samples.push_back({seconds_between(sighting.utime_us, epoch_us),
                        frame.tangent.transpose() * own.direction / ahead, white,
                        sighting.sight.origin_ecef - reference.sight.origin_ecef,
@@ -147,7 +149,8 @@ bool all_finite(const Ray& ray) {
 }  // namespace
 
 std::optional<Ray> align(std::span<const Sighting> sightings, std::int64_t epoch_us,
-                         std::optional<double> range_m, const AlignmentConfig& config) {
+                         std::optional<double> range_m, const AlignmentConfig& config,
+                         double noise_scale) {
   if (sightings.empty()) return std::nullopt;
   const auto window = window_of(sightings, epoch_us, config.window_s);
   if (window.empty()) return std::nullopt;
@@ -156,10 +159,10 @@ std::optional<Ray> align(std::span<const Sighting> sightings, std::int64_t epoch
     return std::nullopt;
   }
   const RayFrame frame = ray_frame(reference.sight);
-  const auto samples = samples_of(window, epoch_us, reference, frame);
+  const auto samples = samples_of(window, epoch_us, reference, frame, noise_scale);
   Ray ray =
       ray_of(reference, frame, fit(samples, range_m.value_or(config.range_unknown_m), config));
-  ray.bearing_variance_rad2 = reference.sight.covariance_white.trace() / 2.0;
+  ray.bearing_variance_rad2 = noise_scale * reference.sight.covariance_white.trace() / 2.0;
   ray.clock_sd_s = reference.clock_sd_s;
   ray.age_s = seconds_between(epoch_us, sightings.back().utime_us);
   ray.belief = 0.0;

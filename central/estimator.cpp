@@ -21,7 +21,8 @@ class FilterEstimator : public Estimator {
   Located locate(const TrackView& target, std::int64_t epoch_us) override {
     if (target.filter == nullptr) return {};
     const KinematicState state = target.filter->at(epoch_us);
-    return {estimate_of(*target.filter, state), contributing(*target.filter, epoch_us)};
+    return {estimate_of(*target.filter, state, target.filter->systematic()),
+            contributing(*target.filter, epoch_us)};
   }
 };
 
@@ -56,9 +57,9 @@ class RayEstimator : public Estimator {
       if (located_us_ && seconds(epoch_us - *located_us_) < kRangeIsNewsS) {
         range_m = (position_ - bearings.back().sight.origin_ecef).norm();
       }
-      auto ray = align(bearings, epoch_us, range_m, config_.alignment);
+      auto ray =
+          align(bearings, epoch_us, range_m, config_.alignment, target.errors.noise_scale(station));
       if (!ray) continue;
-      ray->sight.covariance_white *= target.errors.noise_scale(station);
       ray->sight.covariance_systematic += target.errors.untold(station, bearings.back().sight);
       rays.push_back(std::move(*ray));
     }
@@ -86,7 +87,7 @@ class LeastSquaresEstimator : public RayEstimator {
 class PaperEstimator : public RayEstimator {
  public:
   explicit PaperEstimator(const EstimatorConfig& config)
-      : RayEstimator(config), average_(config.paper.moving_average) {}
+      : RayEstimator(config), average_(config.paper.moving_average, config.alignment.window_s) {}
   const char* name() const override { return "paper"; }
 
  protected:
@@ -95,7 +96,7 @@ class PaperEstimator : public RayEstimator {
     if (estimate.solution != Solution::kOk) return estimate;
     if (last_us_ && seconds(epoch_us - *last_us_) > kAverageGapS) average_.reset();
     last_us_ = epoch_us;
-    return average_.add(estimate);
+    return average_.add(estimate, epoch_us);
   }
 
  private:
@@ -103,9 +104,10 @@ class PaperEstimator : public RayEstimator {
   std::optional<std::int64_t> last_us_;
 };
 
-double greatest_crossing(const TrackFilter& filter, const Eigen::Vector3d& p_ecef) {
+// Between the lines from a position to each two of them.
+double greatest_crossing(const std::vector<FilterStation>& stations,
+                         const Eigen::Vector3d& p_ecef) {
   double greatest = 0.0;
-  const auto& stations = filter.stations();
   for (std::size_t i = 0; i < stations.size(); ++i) {
     for (std::size_t j = i + 1; j < stations.size(); ++j) {
       const double angle = angle_between(p_ecef - stations[i].sight.origin_ecef,
@@ -114,6 +116,19 @@ double greatest_crossing(const TrackFilter& filter, const Eigen::Vector3d& p_ece
     }
   }
   return greatest;
+}
+
+// What is told of those whose bearings make the position now.
+void tell_geometry(const TrackFilter& filter, std::int64_t utime_us, Estimate& estimate) {
+  std::vector<FilterStation> stations = filter.stations();
+  std::erase_if(stations, [&](const FilterStation& station) {
+    return seconds(utime_us - station.utime_us) > kContributesS;
+  });
+  estimate.crossing_angle_rad = greatest_crossing(stations, estimate.position_ecef);
+  if (stations.empty()) return;
+  double sum = 0.0;
+  for (const FilterStation& station : stations) sum += station.mean_nis;
+  estimate.residual = std::sqrt(sum / (2.0 * static_cast<double>(stations.size())));
 }
 
 }  // namespace
@@ -129,21 +144,18 @@ std::vector<ContributingStation> contributing(const TrackFilter& filter, std::in
   return stations;
 }
 
-Estimate estimate_of(const TrackFilter& filter, const KinematicState& state) {
+Estimate estimate_of(const TrackFilter& filter, const KinematicState& state,
+                     const SystematicPart& systematic) {
   Estimate estimate;
   estimate.solution = judge_position(filter, state);
   if (estimate.solution != Solution::kOk) return estimate;
   estimate.position_ecef = state.mean.head<3>();
-  const SystematicPart systematic = filter.systematic();
   estimate.covariance_ecef = state.covariance.topLeftCorner<3, 3>();
   estimate.covariance_white_ecef = estimate.covariance_ecef - systematic.all_m2;
   estimate.covariance_ecef += filter.config().in_common * systematic.shown_m2;
   estimate.velocity_ecef = state.mean.segment<3>(3);
   estimate.velocity_covariance_ecef = state.covariance.block<3, 3>(3, 3);
-  estimate.crossing_angle_rad = greatest_crossing(filter, estimate.position_ecef);
-  double sum = 0.0;
-  for (const FilterStation& station : filter.stations()) sum += station.mean_nis;
-  estimate.residual = std::sqrt(sum / (2.0 * static_cast<double>(filter.stations().size())));
+  tell_geometry(filter, state.utime_us, estimate);
   return estimate;
 }
 

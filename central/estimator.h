@@ -61,7 +61,10 @@ std::unique_ptr<Estimator> make_estimator(std::string_view name, const Estimator
 // The stations whose bearings a filter has had lately, in the order of their ids.
 std::vector<ContributingStation> contributing(const TrackFilter& filter, std::int64_t epoch_us);
 
-// A filter's state as an estimate, by the geometry guard (judge_position).
-Estimate estimate_of(const TrackFilter& filter, const KinematicState& state);
+// A filter's state as an estimate, by the geometry guard (judge_position), with what the biases
+// make of its covariance. The crossing angle and the residual are those of the stations that had a
+// bearing used lately by state.utime_us.
+Estimate estimate_of(const TrackFilter& filter, const KinematicState& state,
+                     const SystematicPart& systematic);
 
 }  // namespace ols

@@ -173,8 +173,12 @@ std::vector<FusedTarget> interpolating(const std::vector<Sighting>& bearings,
 std::vector<FusedTarget> smoothed(const std::vector<Sighting>& bearings,
                                   const std::vector<std::int64_t>& epochs,
                                   const OfflineConfig& config) {
+  Recording run(config);
+  for (const Sighting& sighting : bearings) run.add(sighting);
+  KnownStations known{run.keeper().errors(), {}};
+  for (const auto& [station, why] : run.beside()) known.beside.insert(station);
   std::vector<FusedTarget> targets;
-  for (Smoothed& fix : smooth(bearings, epochs, config.fusion.keeper)) {
+  for (Smoothed& fix : smooth(bearings, epochs, config.fusion.keeper, known)) {
     targets.push_back(target_of(fix.utime_us, "filter", std::move(fix.located)));
   }
   return targets;

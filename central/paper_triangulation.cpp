@@ -165,15 +165,25 @@ Estimate paper_estimate(const std::vector<Ray>& rays, const PaperConfig& config)
   return estimate;
 }
 
-Estimate MovingAverage::add(const Estimate& estimate) {
-  estimates_.push_back(estimate);
+// Of the noise of two estimates, by their windows.
+double MovingAverage::shared(std::int64_t first_us, std::int64_t second_us) const {
+  const double apart_s = 1e-6 * std::abs(static_cast<double>(second_us - first_us));
+  return apart_s < window_s_ ? 1.0 - apart_s / window_s_ : 0.0;
+}
+
+Estimate MovingAverage::add(const Estimate& estimate, std::int64_t utime_us) {
+  estimates_.push_back({utime_us, estimate});
   if (static_cast<int>(estimates_.size()) > h_) estimates_.pop_front();
   const double n = static_cast<double>(estimates_.size());
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   Eigen::Matrix3d white = Eigen::Matrix3d::Zero();
-  for (const Estimate& each : estimates_) {
-    offset += (each.position_ecef - estimate.position_ecef) / n;
-    white += each.covariance_white_ecef / (n * n);
+  for (const Timed& each : estimates_) {
+    offset += (each.estimate.position_ecef - estimate.position_ecef) / n;
+    double counts = 0.0;  // itself, and what the others have of it
+    for (const Timed& other : estimates_) {
+      counts += &each == &other ? 1.0 : shared(each.utime_us, other.utime_us);
+    }
+    white += counts * each.estimate.covariance_white_ecef / (n * n);
   }
   Estimate average = estimate;
   average.position_ecef += offset;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <deque>
 #include <vector>
 
@@ -57,16 +58,25 @@ Estimate paper_estimate(const std::vector<Ray>& rays, const PaperConfig& config 
 
 // The paper's smoothing: the mean of the last h estimates (h = 10). It trails a moving target by
 // half of its span; that lag (the newest estimate against the mean) is put into the covariance.
+// Estimates are made of the bearings of a window (AlignmentConfig::window_s): where the windows of
+// two overlap they have so much of their noise in common, which the mean does not make smaller.
 class MovingAverage {
  public:
-  explicit MovingAverage(int h = 10) : h_(h) {}
-  // Takes an estimate with a solution; gives the average in its place.
-  Estimate add(const Estimate& estimate);
+  MovingAverage(int h, double window_s) : h_(h), window_s_(window_s) {}
+  // Takes an estimate with a solution; gives the average in its place. In order of time.
+  Estimate add(const Estimate& estimate, std::int64_t utime_us);
   void reset() { estimates_.clear(); }
 
  private:
+  double shared(std::int64_t first_us, std::int64_t second_us) const;
+
+  struct Timed {
+    std::int64_t utime_us;
+    Estimate estimate;
+  };
   int h_;
-  std::deque<Estimate> estimates_;
+  double window_s_;
+  std::deque<Timed> estimates_;
 };
 
 }  // namespace ols

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace ols {
 namespace {
@@ -84,10 +85,34 @@ const Track* located(const TrackKeeper& keeper) {
   return found == tracks.end() ? nullptr : &*found;
 }
 
+// The forward and the backward track. One that still rests on two rays, of which either may be
+// wrong, is not joined: it is taken alone, and only where the other is no better.
+std::pair<const Track*, const Track*> worth_joining(const TrackKeeper& forward,
+                                                    const TrackKeeper& backward) {
+  const Track *ahead = located(forward), *behind = located(backward);
+  if (ahead == nullptr || behind == nullptr) return {ahead, behind};
+  if (!backward.proved()) return {ahead, nullptr};
+  if (!forward.proved()) return {nullptr, behind};
+  return {ahead, behind};
+}
+
+// What the biases make of the position is told as the better of the two tells it: how fast biases
+// change is the least known of all, and what of them does not change in some seconds is the same
+// before and after.
+SystematicPart told_biases(const std::optional<TrackFilter>& from_past,
+                           const std::optional<TrackFilter>& from_future) {
+  if (!from_past) return from_future->systematic();
+  const SystematicPart before = from_past->systematic();
+  if (!from_future) return before;
+  const SystematicPart after = from_future->systematic();
+  return after.all_m2.trace() < before.all_m2.trace() ? after : before;
+}
+
 // Goes through bearings up to an instant.
 struct Runner {
   TrackKeeper keeper;
   const std::vector<Sighting>* bearings;
+  const std::set<std::string>* beside;
   std::size_t next = 0;
 
   void run(std::int64_t utime_us, bool inclusive) {
@@ -95,22 +120,22 @@ struct Runner {
       const Sighting& sighting = (*bearings)[next];
       if (sighting.utime_us > utime_us || (sighting.utime_us == utime_us && !inclusive)) break;
       keeper.advance(sighting.utime_us);
-      keeper.add(sighting);
+      keeper.add(sighting, !beside->contains(sighting.station));
     }
   }
 };
 
 class Smoother {
  public:
-  Smoother(const std::vector<Sighting>& bearings, const KeeperConfig& config)
+  Smoother(const std::vector<Sighting>& bearings, const KeeperConfig& config,
+           const KnownStations& known)
       : forward_(bearings),
         about_us_(bearings.front().utime_us + bearings.back().utime_us),
         backward_(mirrored(bearings, about_us_)),
+        beside_(known.beside),
         learnt_(one_target(config)) {
-    Runner first{learnt_, &forward_};
-    first.run(bearings.back().utime_us, true);
-    learnt_ = TrackKeeper(one_target(config));
-    learnt_.errors() = first.keeper.errors();
+    learnt_.errors() = known.errors;
+    for (const std::string& station : beside_) learnt_.forget_station(station);
     for (const Sighting& sighting : bearings) {
       if (order_.try_emplace(sighting.station, 9 + 3 * static_cast<Eigen::Index>(order_.size()))
               .second) {
@@ -126,54 +151,72 @@ class Smoother {
     config.one_target = true;
     return config;
   }
-  Eigen::VectorXd prior(const Eigen::Vector3d& p_ecef) const;
+  std::vector<BiasPrior> priors(const Eigen::Vector3d& p_ecef) const;
+  Eigen::VectorXd prior(const std::vector<BiasPrior>& biases) const;
+  Whole both(const std::optional<TrackFilter>& from_past,
+             const std::optional<TrackFilter>& from_future, const Eigen::VectorXd& variance) const;
   std::optional<Smoothed> at(std::int64_t epoch_us, const TrackKeeper& forward,
                              const TrackKeeper& backward) const;
 
   const std::vector<Sighting>& forward_;
   std::int64_t about_us_;
   std::vector<Sighting> backward_;
-  TrackKeeper learnt_;  // empty, with what the first run has shown of the stations
+  std::set<std::string> beside_;
+  TrackKeeper learnt_;  // empty, with what is known of the stations
   Order order_;
-  std::vector<Sighting> sights_;  // one of each station
+  std::vector<Sighting> sights_;  // one of each station, in that order
 };
 
-// Variances of the stations' states before any bearing.
-Eigen::VectorXd Smoother::prior(const Eigen::Vector3d& p_ecef) const {
-  Eigen::VectorXd variance =
-      Eigen::VectorXd::Zero(9 + 3 * static_cast<Eigen::Index>(order_.size()));
+std::vector<BiasPrior> Smoother::priors(const Eigen::Vector3d& p_ecef) const {
+  std::vector<BiasPrior> biases;
   for (const Sighting& sighting : sights_) {
     const double range_m = (p_ecef - sighting.sight.origin_ecef).norm();
-    const BiasPrior bias = learnt_.errors().prior(sighting.station, sighting.sight, range_m);
-    const Eigen::Index at = order_.at(sighting.station);
-    variance.segment<2>(at) = bias.covariance.diagonal().array().max(kLeast);
-    variance(at + 2) = std::max(kLeast, sighting.clock_sd_s * sighting.clock_sd_s);
+    biases.push_back(learnt_.errors().prior(sighting.station, sighting.sight, range_m));
+  }
+  return biases;
+}
+
+// Variances of the stations' states before any bearing.
+Eigen::VectorXd Smoother::prior(const std::vector<BiasPrior>& biases) const {
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(9 + 3 * std::ssize(sights_));
+  for (std::size_t i = 0; i < sights_.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(9 + 3 * i);
+    variance.segment<2>(at) = biases[i].covariance.diagonal().array().max(kLeast);
+    variance(at + 2) = std::max(kLeast, sights_[i].clock_sd_s * sights_[i].clock_sd_s);
   }
   return variance;
 }
 
+// Both filters' states at the instant; one alone where the other has none, or cannot be joined.
+Whole Smoother::both(const std::optional<TrackFilter>& from_past,
+                     const std::optional<TrackFilter>& from_future,
+                     const Eigen::VectorXd& variance) const {
+  if (!from_past) return spread(*from_future, order_, variance, -1.0);
+  const Whole before = spread(*from_past, order_, variance, 1.0);
+  if (!from_future) return before;
+  Whole after = spread(*from_future, order_, variance, -1.0);
+  forget_acceleration(after);
+  return join(before, after, variance).value_or(before);
+}
+
 std::optional<Smoothed> Smoother::at(std::int64_t epoch_us, const TrackKeeper& forward,
                                      const TrackKeeper& backward) const {
-  const Track* ahead = located(forward);
-  const Track* behind = located(backward);
+  const auto [ahead, behind] = worth_joining(forward, backward);
   if (ahead == nullptr && behind == nullptr) return std::nullopt;
   StationErrors errors = learnt_.errors();
   std::optional<TrackFilter> from_past, from_future;
   if (ahead != nullptr) from_past.emplace(ahead->filter).advance(epoch_us, errors);
   if (behind != nullptr) from_future.emplace(behind->filter).advance(about_us_ - epoch_us, errors);
   const TrackFilter& any = from_past ? *from_past : *from_future;
-  const Eigen::VectorXd variance = prior(any.position());
-  std::optional<Whole> joint;
-  if (from_past && from_future) {
-    Whole after = spread(*from_future, order_, variance, -1.0);
-    forget_acceleration(after);
-    joint = join(spread(*from_past, order_, variance, 1.0), after, variance);
-  }
-  if (!joint) joint = spread(any, order_, variance, from_past ? 1.0 : -1.0);
-  const KinematicState state{epoch_us, joint->mean.head<9>(),
-                             joint->covariance.topLeftCorner<9, 9>()};
+  const std::vector<BiasPrior> biases = priors(any.position());
+  const Whole joint = both(from_past, from_future, prior(biases));
+  KinematicState state{any.utime_us(), joint.mean.head<9>(),
+                       joint.covariance.topLeftCorner<9, 9>()};
+  const SystematicPart part = told_biases(from_past, from_future);
+  state.covariance.topLeftCorner<3, 3>() +=
+      part.all_m2 - systematic_part(joint.covariance, biases).all_m2;
   Smoothed fix{epoch_us, {}};
-  fix.located.estimate = estimate_of(any, state);
+  fix.located.estimate = estimate_of(any, state, part);
   if (fix.located.estimate.solution != Solution::kOk) return std::nullopt;
   fix.located.stations = contributing(any, any.utime_us());
   return fix;
@@ -182,13 +225,13 @@ std::optional<Smoothed> Smoother::at(std::int64_t epoch_us, const TrackKeeper& f
 std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs) {
   constexpr std::size_t kBlock = 256;  // epochs between which the forward states are kept
   std::vector<Runner> starts;
-  Runner forward{learnt_, &forward_};
+  Runner forward{learnt_, &forward_, &beside_};
   for (std::size_t i = 0; i < epochs.size(); i += kBlock) {
     starts.push_back(forward);
     forward.run(epochs[std::min(i + kBlock, epochs.size()) - 1], true);
   }
   std::vector<Smoothed> fixes;
-  Runner backward{learnt_, &backward_};
+  Runner backward{learnt_, &backward_, &beside_};
   for (std::size_t block = starts.size(); block-- > 0;) {
     const std::size_t first = block * kBlock, last = std::min(first + kBlock, epochs.size());
     std::vector<TrackKeeper> past;
@@ -211,9 +254,10 @@ std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs) {
 }  // namespace
 
 std::vector<Smoothed> smooth(const std::vector<Sighting>& bearings,
-                             const std::vector<std::int64_t>& epochs, const KeeperConfig& config) {
+                             const std::vector<std::int64_t>& epochs, const KeeperConfig& config,
+                             const KnownStations& known) {
   if (bearings.empty()) return {};
-  return Smoother(bearings, config).run(epochs);
+  return Smoother(bearings, config, known).run(epochs);
 }
 
 }  // namespace ols

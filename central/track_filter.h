@@ -87,6 +87,11 @@ struct SystematicPart {
   Eigen::Matrix3d shown_m2 = Eigen::Matrix3d::Zero();
 };
 
+// Of the covariance of a whole state: position, velocity, acceleration, then three states for each
+// station that has a prior.
+SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
+                               const std::vector<BiasPrior>& priors);
+
 struct StationBias {
   Eigen::Vector2d bias_rad = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_rad2 = Eigen::Matrix2d::Zero();

@@ -59,21 +59,25 @@ SystematicPart TrackFilter::systematic() const {
   FilterVector mean;
   FilterMatrix P;
   mixed(mean, P);
-  const Eigen::Index biases = mean.size() - 9;
+  return systematic_part(P, priors_);
+}
+
+SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
+                               const std::vector<BiasPrior>& priors) {
+  const Eigen::Index biases = P.rows() - 9;
   if (biases == 0) return {};
-  FilterMatrix own = P.bottomRightCorner(biases, biases);
+  Eigen::MatrixXd own = P.bottomRightCorner(biases, biases);
   own.diagonal().array() += 1e-18;  // a clock that is known has no variance
   const auto cross = P.topRightCorner(3, biases);
   // What each bias moves the position by.
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kFilterStates> moves =
-      own.ldlt().solve(cross.transpose()).transpose();
+  Eigen::Matrix<double, 3, Eigen::Dynamic> moves = own.ldlt().solve(cross.transpose()).transpose();
   constexpr double kNone = 1e-24;
   SystematicPart part;
   part.all_m2 = moves * own * moves.transpose();
-  for (std::size_t i = 0; i < priors_.size(); ++i) {
+  for (std::size_t i = 0; i < priors.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(3 * i);
     const Eigen::Array2d shown =
-        priors_[i].shown / priors_[i].covariance.diagonal().array().max(kNone);
+        priors[i].shown / priors[i].covariance.diagonal().array().max(kNone);
     moves.middleCols<2>(at) *= shown.matrix().asDiagonal();
     moves.col(at + 2).setZero();
   }

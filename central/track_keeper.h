@@ -84,6 +84,8 @@ class TrackKeeper {
   const std::vector<Track>& tracks() const { return tracks_; }
   const StationErrors& errors() const { return errors_; }
   StationErrors& errors() { return errors_; }
+  // Of a recording's one object: has a start of several stations agreed with its track?
+  bool proved() const { return proved_; }
   const TrackBirth& births() const { return birth_; }
   // The identity of what a station follows by its own word (the bearing's track_id) and no track
   // explains: it is the target's that it was, and becomes that of the target which it turns out to

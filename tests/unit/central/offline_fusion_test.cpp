@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <stdexcept>
 
+#include "geometry/angles.h"
 #include "scene.h"
 
 namespace ols {
@@ -180,6 +182,60 @@ TEST(OfflineFusion, SmoothingIsBetterThanTheFilterAndAsHonest) {
     EXPECT_LT(normalised_square(targets), 1.5);
   }
   EXPECT_LT(rms[1], 0.8 * rms[0]);
+}
+
+// The part of the covariance that averaging makes smaller is one: none of its variances is
+// negative.
+TEST(OfflineFusion, SmoothingTellsAWhitePartThatIsOne) {
+  OfflineConfig config;
+  config.rate_hz = 10.0;
+  config.smooth = true;
+  const auto targets = fuse_offline(recording(20.0, 2e-4, 8, 3.0), config);
+  ASSERT_GT(targets.size(), 190U);
+  for (const FusedTarget& target : targets) {
+    const Eigen::Matrix3d white = target.estimate.covariance_white_ecef;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(white, Eigen::EigenvaluesOnly);
+    EXPECT_GT(eigen.eigenvalues()(0), 0.0);
+    EXPECT_LT(white.trace(), target.estimate.covariance_ecef.trace());
+  }
+}
+
+// Station "c" is silent in the second half: what is told of the rays is of the others then.
+TEST(OfflineFusion, TellsTheGeometryOfThoseThatStillSeeTheTarget) {
+  auto sightings = recording(12.0, 1e-4, 8, 1.0);
+  std::erase_if(sightings, [](const Sighting& s) {
+    return s.utime_us > kStart + 6'000'000 && s.station != "a" && s.station != "b";
+  });
+  OfflineConfig config;
+  config.rate_hz = 10.0;
+  const auto targets = fuse_offline(sightings, config);
+  ASSERT_FALSE(targets.empty());
+  const FusedTarget& last = targets.back();
+  ASSERT_GT(last.utime_us, kStart + 11'000'000);
+  const auto direction = [&](std::size_t station) -> Vector3d {
+    return (last.estimate.position_ecef - site().to_ecef(square()[station])).normalized();
+  };
+  const double angle = std::acos(direction(0).dot(direction(1)));
+  EXPECT_NEAR(last.estimate.crossing_angle_rad, std::min(angle, kPi - angle), 1e-3);
+}
+
+// The noise is four times what is stated, which the filter's run learns: the velocity knows, too.
+TEST(OfflineFusion, LeastSquaresVelocityCountsTheNoiseThatIsLearnt) {
+  auto sightings = recording(40.0, 8e-4, 9, 0.01);
+  for (Sighting& s : sightings) s.sight.covariance_white /= 16.0;
+  OfflineConfig config;
+  config.estimator = "least-squares";
+  config.rate_hz = 10.0;
+  double sum = 0.0;
+  const auto targets = fuse_offline(sightings, config);
+  ASSERT_GT(targets.size(), 300U);
+  for (const FusedTarget& target : targets) {
+    const double t_s = static_cast<double>(target.utime_us - kStart) * 1e-6;
+    const Vector3d v = (path(t_s + 0.01) - path(t_s - 0.01)) / 0.02;
+    const Vector3d off = target.estimate.velocity_ecef - site().R_ecef_enu() * v;
+    sum += off.squaredNorm() / target.estimate.velocity_covariance_ecef.trace();
+  }
+  EXPECT_LT(sum / static_cast<double>(targets.size()), 2.0);
 }
 
 // The filter at an instant knows nothing of what comes after it.

@@ -141,7 +141,7 @@ TEST(PaperEstimate, CovarianceIsThatOfTheLeastSquaresForOneSymmetricPair) {
 }
 
 TEST(MovingAverage, IsTheMeanOfTheLastTen) {
-  MovingAverage average(10);
+  MovingAverage average(10, 0.3);
   Estimate last;
   for (int i = 0; i < 25; ++i) {
     Estimate estimate;
@@ -149,12 +149,28 @@ TEST(MovingAverage, IsTheMeanOfTheLastTen) {
     estimate.position_ecef = Eigen::Vector3d(i, 0, 0);
     estimate.covariance_white_ecef = Eigen::Matrix3d::Identity();
     estimate.covariance_ecef = 3.0 * Eigen::Matrix3d::Identity();
-    last = average.add(estimate);
+    last = average.add(estimate, 1'000'000 * i);
   }
   EXPECT_NEAR(last.position_ecef.x(), (15 + 24) / 2.0, 1e-12);
   EXPECT_NEAR(last.covariance_white_ecef(1, 1), 0.1, 1e-12);
   EXPECT_NEAR(last.covariance_ecef(1, 1), 2.0 + 0.1, 1e-12);
   EXPECT_NEAR(last.covariance_ecef(0, 0), 2.0 + 0.1 + 4.5 * 4.5, 1e-12);  // trails by 4.5
+}
+
+// Of two estimates that are made of the same bearings the mean is no better than either.
+TEST(MovingAverage, CountsWhatWindowsShareOnce) {
+  Estimate estimate;
+  estimate.solution = Solution::kOk;
+  estimate.position_ecef.setZero();
+  estimate.covariance_white_ecef = estimate.covariance_ecef = Eigen::Matrix3d::Identity();
+  const auto of_two = [&](std::int64_t apart_us) {
+    MovingAverage average(10, 0.3);
+    average.add(estimate, 0);
+    return average.add(estimate, apart_us).covariance_white_ecef(0, 0);
+  };
+  EXPECT_NEAR(of_two(0), 1.0, 1e-12);
+  EXPECT_NEAR(of_two(150'000), 0.75, 1e-12);
+  EXPECT_NEAR(of_two(300'000), 0.5, 1e-12);
 }
 
 }  // namespace

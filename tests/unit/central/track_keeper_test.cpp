@@ -100,12 +100,16 @@ TEST(TrackKeeper, ARecordingWithAStationThatIsWrongAtFirst) {
   }
 }
 
+// At its end the backward filter has only begun, on two rays of which one may be the wrong one's.
 TEST(TrackKeeper, ASmoothedRecordingWithOneWrongStation) {
-  for (const char wrong : std::string("abcd")) {
-    const Fixes fixes = fuse(watch("abcd", 4.0, kNoise, off_by(wrong, 1.0)), ten_hertz(true));
-    EXPECT_GE(fixes.count, 38U) << wrong;
-    EXPECT_LT(fixes.worst_sigmas, 3.0) << wrong;
-    EXPECT_LT(fixes.worst_m, 0.5) << wrong;
+  for (const std::string stations : {"abcd", "abc"}) {
+    for (const char wrong : stations) {
+      const auto sightings = watch(stations, 4.0, kNoise, off_by(wrong, 1.0));
+      const Fixes fixes = fuse(sightings, ten_hertz(true));
+      EXPECT_GE(fixes.count, 35U) << stations << ' ' << wrong;
+      EXPECT_LT(fixes.worst_sigmas, 3.0) << stations << ' ' << wrong;
+      EXPECT_LT(fixes.worst_m, 0.5) << stations << ' ' << wrong;
+    }
   }
 }
 
