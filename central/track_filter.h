@@ -30,6 +30,8 @@
 
 namespace ols {
 
+inline constexpr std::size_t kModels = kMotions * kSuppositions;  // at most
+
 struct FilterConfig {
   MotionConfig motion{};
   double robust_nis = 9.0;      // squared normalised residual beyond which a bearing weighs less
@@ -46,7 +48,6 @@ struct FilterConfig {
 };
 
 inline constexpr int kFilterStations = 12;  // with states of their own; no more are used
-inline constexpr std::size_t kModels = kMotions * kSuppositions;  // at most
 inline constexpr int kFilterStates = 9 + 3 * kFilterStations;
 using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
 using FilterMatrix =
