@@ -276,8 +276,8 @@ RefinedPosition TrackerCore::measure(const Scene& scene, const RefinedPosition& 
   return *measured;
 }
 
-// A target that comes nearer grows by more than particles find by chance. Evenly among the resampled
-// ones, which stand in order of their ancestors.
+// A target that comes nearer grows by more than particles find by chance. Evenly among the
+// resampled ones, which stand in order of their ancestors.
 void TrackerCore::propose_usual_size() {
   constexpr std::size_t kEvery = 8;
   constexpr double kOff = 0.15;

@@ -63,7 +63,6 @@ class Take {
 
   struct Picture {
     ols::TrackerInput input;
-    Eigen::Vector2d truth_px;
     Eigen::Matrix2d bound_px2 = Eigen::Matrix2d::Zero();
     bool visible = true;
   };
@@ -71,7 +70,7 @@ class Take {
   Picture picture(int frame, const ols::bench::PixelNoise& noise) {
     const double time_s = frame * ols::bench::kFrameInterval_s;
     Picture result;
-    result.truth_px = path_.target_px(time_s);
+    const Eigen::Vector2d centre_px = path_.target_px(time_s);
     result.visible = !path_.hidden(time_s);
     cv::Mat1f light = landscape_.backdrop(case_.backdrop, path_.camera(time_s));
     const int smear = static_cast<int>(std::lround(path_.camera_smear_px()));
@@ -80,9 +79,9 @@ class Take {
       const double growth = path_.growth(time_s);
       const Eigen::Vector2d smear_px = path_.smear_px(time_s);
       // It changes slowly, and takes longer than the picture.
-      if (frame % 5 == 0) bound_px2_ = target_.bound(light, result.truth_px, smear_px, growth);
+      if (frame % 5 == 0) bound_px2_ = target_.bound(light, centre_px, smear_px, growth);
       result.bound_px2 = bound_px2_;
-      target_.draw(light, result.truth_px, smear_px, growth);
+      target_.draw(light, centre_px, smear_px, growth);
     }
     result.input = {noise.develop(light, random_), time_s, homography(time_s)};
     return result;
@@ -94,7 +93,16 @@ class Take {
     constexpr double kSd = 0.02;  // of its size
     box.x += kSd * box.width * random_.gaussian();
     box.y += kSd * box.height * random_.gaussian();
+    designated_off_px_ = centre(box) - path_.target_px(0.0);
     return box;
+  }
+  static Eigen::Vector2d centre(const cv::Rect2d& box) {
+    return {box.x + 0.5 * box.width - 0.5, box.y + 0.5 * box.height - 0.5};
+  }
+  // Where the designated point of the target is: it grows with it.
+  Eigen::Vector2d truth_px(int frame) const {
+    const double time_s = frame * ols::bench::kFrameInterval_s;
+    return path_.target_px(time_s) + path_.growth(time_s) * designated_off_px_;
   }
 
  private:
@@ -116,20 +124,22 @@ class Take {
   BenchPath path_;
   ols::bench::SyntheticTarget target_;
   Eigen::Matrix2d bound_px2_ = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d designated_off_px_ = Eigen::Vector2d::Zero();  // from the target's middle
   std::optional<ols::AzimuthElevation> read_;  // the PTU's angles at the frame before
 };
 
 void write_row(std::ostream& out, const BenchCase& which, std::uint64_t seed, int frame,
-               const Take::Picture& picture, const ols::TrackerOutput& output) {
+               const Take::Picture& picture, const Eigen::Vector2d& truth_px,
+               const ols::TrackerOutput& output) {
   std::array<char, 320> text{};
   const auto& c = output.covariance_px2;
   const auto& b = picture.bound_px2;
   std::snprintf(text.data(), text.size(),
                 "%s,%g,%lu,%d,%d,%.4f,%.4f,%.4f,%.4f,%.3f,%.3f,%.4g,%.4g,%.4f,%.4g,%.4g\n",
                 which.sweep.c_str(), which.value, static_cast<unsigned long>(seed), frame,
-                picture.visible ? 1 : 0, picture.truth_px.x(), picture.truth_px.y(),
-                output.pixel.x(), output.pixel.y(), output.box.width, output.box.height, c(0, 0),
-                c(1, 1), output.belief, b(0, 0), b(1, 1));
+                picture.visible ? 1 : 0, truth_px.x(), truth_px.y(), output.pixel.x(),
+                output.pixel.y(), output.box.width, output.box.height, c(0, 0), c(1, 1),
+                output.belief, b(0, 0), b(1, 1));
   out << text.data();
 }
 
@@ -148,16 +158,16 @@ void run_case(const BenchCase& which, std::uint64_t seed, const ols::TrackerConf
   ols::TrackerOutput output;
   output.box = box;
   // What the position is relative to.
-  output.pixel = {box.x + 0.5 * box.width - 0.5, box.y + 0.5 * box.height - 0.5};
+  output.pixel = Take::centre(box);
   output.covariance_px2.setZero();
   output.belief = 1.0;
-  write_row(out, which, seed, 0, picture, output);
+  write_row(out, which, seed, 0, picture, take.truth_px(0), output);
   const int frames = static_cast<int>(which.seconds / ols::bench::kFrameInterval_s);
   for (int frame = 1; frame < frames; ++frame) {
     picture = take.picture(frame, noise);
     const ols::TrackerResult result = tracker.track(picture.input);
     if (result.error) refused(which, *result.error);
-    write_row(out, which, seed, frame, picture, *result.output);
+    write_row(out, which, seed, frame, picture, take.truth_px(frame), *result.output);
   }
 }
 

@@ -50,11 +50,11 @@ class Point:
 
 def track_of(rows: list[dict]) -> Track:
     v = {name: np.array([float(row[name]) for row in rows]) for name in COLUMNS}
-    off = np.stack([v["x"] - v["true_x"], v["y"] - v["true_y"]], axis=1)
+    error = np.stack([v["x"] - v["true_x"], v["y"] - v["true_y"]], axis=1)
     rest = slice(1, None)
     return Track(
         visible=v["visible"][rest] > 0,
-        error=(off - off[0])[rest],
+        error=(error - error[0])[rest],
         variance=np.stack([v["var_x"], v["var_y"]], axis=1)[rest],
         bound=np.stack([v["bound_x"], v["bound_y"]], axis=1)[rest],
         belief=v["belief"][rest],
