@@ -21,6 +21,17 @@ const char* to_string(TrackState state) {
   return "unknown";
 }
 
+namespace {
+
+constexpr double kLately_s = 2.0;
+
+bool heard_lately(const TrackFilter& filter, const FilterStation& station, double within_s) {
+  const auto span_us = static_cast<std::int64_t>(within_s * 1e6);
+  return station.utime_us > 0 && filter.utime_us() - station.utime_us <= span_us;
+}
+
+}  // namespace
+
 bool Track::has_taken(const Sighting& sighting) const {
   const auto own = bearings.find(sighting.station);
   if (own == bearings.end()) return false;
@@ -34,10 +45,11 @@ bool is_sure(const Track& track) {
 }
 
 bool are_made_to_meet(const TrackFilter& filter) {
+  if (stations_lately(filter, kLately_s) != 2) return false;
   const auto& stations = filter.stations();
-  if (stations.size() != 2) return false;
   double squared = 0.0;
   for (std::size_t i = 0; i < stations.size(); ++i) {
+    if (!heard_lately(filter, stations[i], kLately_s)) continue;
     const SightLine& sight = stations[i].sight;
     const double range_m = (filter.position() - sight.origin_ecef).norm();
     const Eigen::Matrix2d stated = stated_covariance(sight, range_m) + sight.covariance_white;
@@ -65,9 +77,8 @@ Solution judge_position(const TrackFilter& filter, const KinematicState& state) 
 }
 
 int stations_lately(const TrackFilter& filter, double within_s) {
-  const auto span_us = static_cast<std::int64_t>(within_s * 1e6);
   return static_cast<int>(std::ranges::count_if(filter.stations(), [&](const FilterStation& s) {
-    return s.utime_us > 0 && filter.utime_us() - s.utime_us <= span_us;
+    return heard_lately(filter, s, within_s);
   }));
 }
 

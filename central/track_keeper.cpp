@@ -195,15 +195,15 @@ void TrackKeeper::confirm(Track& track) {
 }
 
 void TrackKeeper::age(Track& track, std::int64_t now_us) {
+  if (are_made_to_meet(track.filter)) {  // what it has taught of them is not true, either
+    for (const FilterStation& station : track.filter.stations()) errors_.forget(station.station);
+    track.state = TrackState::kDropped;
+    return;
+  }
   const double unseen_s = seconds(now_us - track.located_us);
   if (track.state == TrackState::kBorn) {
     if (unseen_s > config_.born_drop_s && !config_.one_target) track.state = TrackState::kDropped;
     if (unseen_s > config_.drop_s) track.state = TrackState::kDropped;
-    return;
-  }
-  if (are_made_to_meet(track.filter)) {  // what it has taught of them is not true, either
-    for (const FilterStation& station : track.filter.stations()) errors_.forget(station.station);
-    track.state = TrackState::kDropped;
     return;
   }
   if (unseen_s > config_.coast_s) track.state = TrackState::kCoasted;

@@ -168,7 +168,7 @@ void cover(StationGeometry& station, const PoseCovariance& covariance, double hi
     }
   }
   double tilt = 0.0, heading = 0.0;
-  for (const auto& [elevation_rad, C] : seen) tilt = std::max(tilt, C(1, 1));
+  for (const auto& [elevation_rad, C] : seen) tilt = std::max(C(1, 1), tilt);
   for (const auto& [elevation_rad, C] : seen) {
     const double by_tilt = tilt * std::pow(std::sin(elevation_rad), 2);
     heading = std::max(heading, (C(0, 0) - by_tilt) / std::pow(std::cos(elevation_rad), 2));
@@ -178,11 +178,22 @@ void cover(StationGeometry& station, const PoseCovariance& covariance, double hi
   station.sd.mount_rad = 0.0;
 }
 
+void check_heading(const Stationing& result) {
+  const double worst_rad = std::max(result.station.sd.heading_rad, result.station.sd.tilt_rad);
+  if (!result.covariance.allFinite() || !(worst_rad > 0.0 && worst_rad < radians(10.0))) {
+    throw std::invalid_argument(
+        "stationing: the landmarks leave the heading unknown; they are too near, or too high");
+  }
+}
+
 }  // namespace
 
 Stationing station_by_landmarks(const StationGeometry& rough,
                                 std::span<const LandmarkSighting> sightings, double highest_rad) {
   constexpr int kIterations = 10;
+  if (!std::isfinite(highest_rad)) {
+    throw std::invalid_argument("stationing: the highest elevation is not a finite number");
+  }
   check(rough, sightings);
   const Unknowns scale = scales(rough.sd);
   Unknowns z = Unknowns::Zero();
@@ -201,6 +212,7 @@ Stationing station_by_landmarks(const StationGeometry& rough,
   result.covariance = (scale.asDiagonal() * spread * scale.asDiagonal()).topLeftCorner<6, 6>();
   result.station.sd.mount_roll_rad = std::sqrt(result.covariance(4, 4));
   cover(result.station, result.covariance, highest_rad);
+  check_heading(result);
   for (const LandmarkSighting& s : sightings) {
     result.residuals.push_back(residual(best, s) / deviation_rad(best, s));
   }

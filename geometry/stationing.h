@@ -41,8 +41,8 @@ struct Stationing {
   std::vector<Eigen::Vector2d> residuals;
 };
 
-// std::invalid_argument, naming the sighting, for none, for what is not finite, or a landmark at
-// the station.
+// std::invalid_argument for no sighting; naming it, for one that is not finite or of a landmark at
+// the station; and where the landmarks leave the heading unknown (10 degrees).
 Stationing station_by_landmarks(const StationGeometry& rough,
                                 std::span<const LandmarkSighting> sightings, double highest_rad);
 

@@ -21,10 +21,8 @@ Path climbing(const Vector3d& from, double speed_m_s) {
 }
 
 // Each follows an object of its own; for a moment, three seconds after the start, their rays meet.
-// That is a position until they part again, and not what is learnt of both as if it were one
-// object.
-TEST(TwoStations, WhoFollowTwoObjectsAreAPositionOnlyWhileTheirRaysMeet) {
-  WorldConfig world{.stations_enu = stations(), .aims_enu = {}};
+std::vector<Sighting> of_two_objects() {
+  const WorldConfig world{.stations_enu = stations(), .aims_enu = {}};
   std::mt19937_64 random(2);
   std::vector<Sighting> seen;
   const Path paths[] = {climbing({0, 0, 80}, 0.0), climbing({20, 10, 81}, 1.0)};
@@ -35,17 +33,41 @@ TEST(TwoStations, WhoFollowTwoObjectsAreAPositionOnlyWhileTheirRaysMeet) {
     }
   }
   std::ranges::stable_sort(seen, {}, &Sighting::utime_us);
-  Fusion fusion(FusionConfig{});
-  double first_s = 0.0, last_s = 0.0;
-  for (const Sighting& sighting : seen) {
-    for (const FusedTarget& target : fusion.add(sighting).targets) {
-      if (target.estimate.solution != Solution::kOk) continue;
-      last_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
-      if (first_s == 0.0) first_s = last_s;
+  return seen;
+}
+
+// A third station's, of a place: what it takes for the target once.
+Sighting chance_bearing(const FusedTarget& target) {
+  const WorldConfig world{.stations_enu = {{0, 300, 0}}, .aims_enu = {}};
+  const Path there(100, PathPoint{site().to_enu(target.estimate.position_ecef), Vector3d::Zero()});
+  std::mt19937_64 random(7);
+  Sighting sighting = measure(world, {there}, 0.5, random).front();
+  sighting.station = "s9";
+  sighting.utime_us = target.utime_us;
+  return sighting;
+}
+
+// That is a position until they part again, and not what is learnt of both as if it were one
+// object; also where a third station has seen something there for a moment.
+TEST(TwoStations, WhoFollowTwoObjectsAreAPositionOnlyWhileTheirRaysMeet) {
+  for (const bool third : {false, true}) {
+    Fusion fusion(FusionConfig{});
+    double first_s = 0.0, last_s = 0.0;
+    bool had_third = false;
+    for (const Sighting& sighting : of_two_objects()) {
+      for (const FusedTarget& target : fusion.add(sighting).targets) {
+        if (target.estimate.solution != Solution::kOk) continue;
+        last_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
+        if (first_s == 0.0) first_s = last_s;
+        if (!third || had_third || last_s < first_s + 0.3) continue;
+        had_third = true;
+        fusion.add(chance_bearing(target));
+      }
     }
+    EXPECT_GT(first_s, 1.0) << "they meet: that cannot be told from one object";
+    EXPECT_LT(last_s, third ? 6.5 : 5.0);
+    EXPECT_EQ(had_third, third);
   }
-  EXPECT_GT(first_s, 1.0) << "they meet: that cannot be told from one object";
-  EXPECT_LT(last_s, 5.0);
 }
 
 // What they state may be off is no miss.

@@ -212,5 +212,15 @@ TEST(Stationing, RefusesWhatIsNoSighting) {
   EXPECT_THAT(refusal(c.rough, bad), testing::HasSubstr("sighting 5: the landmark is at"));
 }
 
+TEST(Stationing, RefusesWhatLeavesTheHeadingUnknown) {
+  const Case c = crooked_station();
+  LandmarkSighting near = sighting(c.truth, {4.0, 3.0, 1.0});
+  near.landmark_sd_m = 5000.0;
+  EXPECT_THROW(station_by_landmarks(c.rough, {{near}}, kHighest_rad), std::invalid_argument);
+  const auto sightings = all_around(c.truth);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(station_by_landmarks(c.rough, sightings, nan), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace ols
