@@ -158,7 +158,7 @@ def budget_basis(folder: Path, seeds: range) -> str:
     basis = f"Metres, root mean square over {len(seeds)} seeds, {len(runs)} runs."
     if not out:
         return basis
-    where = {f"{run.target} (seed {run.seed})" for run in out}
+    where = {f"{run.target or WALK} (seed {run.seed})" for run in out}
     return (
         f"{basis} {len(out)} of them have no fix of both stations, because the filter has set one "
         f"aside for good; they are not in the tables: {', '.join(sorted(where))}."
