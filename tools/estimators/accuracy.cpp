@@ -189,10 +189,10 @@ void filter_bounds(int runs, Limits& limits) {
     std::printf("filter, %s: RMSE %.4f m, %d runs, NEES inside at %.0f %% of the instants\n",
                 filter.name, std::sqrt(sums.squared / sums.count), runs,
                 100.0 * sums.inside(runs, half));
-    limits.at_most("RMSE over the bound", sums.over_bound(), 1.2);
     // By itself the filter leaves room for poses that are tilted, which these are not.
     const bool roomy = filter.bias_time_s == kNever && filter.bias_sd_rad == 1e-3 &&
                        filter.supposed_slow_s == slow_s;
+    limits.at_most("RMSE over the bound", sums.over_bound(), roomy ? 1.7 : 1.2);
     limits.within("normalised error squared", sums.mean_nees(runs), roomy ? 0.4 : 1.0 - half,
                   1.0 + half);
   }
