@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "central/time_span.h"
+
 namespace ols {
 namespace {
 
@@ -59,7 +61,7 @@ void ClockMonitor::hear(const Sighting& sighting, const MessageTime& time) {
   Station& station = stations_[sighting.station];
   station.error_s = sighting.clock_sd_s;
   station.synchronised = sighting.clock == StationClock::kSynchronised;
-  const double offset_s = 1e-6 * static_cast<double>(sighting.utime_us - time.middle_us());
+  const double offset_s = seconds(sighting.utime_us - time.middle_us());
   station.offsets_s.push_back(offset_s);
   if (station.offsets_s.size() > static_cast<std::size_t>(config_.stamps)) {
     station.offsets_s.pop_front();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "central/time_span.h"
 #include "geometry/angles.h"
 
 namespace ols {
@@ -12,8 +13,6 @@ namespace {
 constexpr double kRangeIsNewsS = 1.0;  // a position tells the range for so long
 constexpr double kAverageGapS = 1.0;   // the moving average starts anew after a gap
 constexpr double kContributesS = 0.5;  // a station whose last bearing is older does not
-
-double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
 
 class FilterEstimator : public Estimator {
  public:

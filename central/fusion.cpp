@@ -5,14 +5,14 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "central/time_span.h"
+
 namespace ols {
 namespace {
 
 constexpr double kMemoryS = 1.0;      // exposures kept for the recognition of doubled ones
 constexpr double kForgottenS = 10.0;  // silent for longer: gives its place to any other
 constexpr double kStepBackS = 1.0;    // "now" going back by more is another time line
-
-double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 
 #include "central/alignment.h"
 #include "central/fusion.h"
+#include "central/time_span.h"
 
 namespace ols {
 namespace {
@@ -14,8 +15,6 @@ constexpr double kFollowsS = 1.0;  // a station that saw a target longer ago doe
 // With one bearing: so many targets (the paper's estimate of one costs as much as several), and the
 // slews of so many stations.
 constexpr int kTargetsABearing = 8, kPaperIsWorth = 4, kSlewsABearing = 16;
-
-double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
 
 bool due(const std::optional<std::int64_t>& last_us, std::int64_t now_us, double rate_hz) {
   // A tenth of tolerance: frames of the same rate must not be missed every other time.

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "central/fusion.h"
+#include "central/time_span.h"
 
 namespace ols {
 
@@ -70,7 +71,7 @@ FusionHealth Fusion::health() const {
     one.station = name;
     one.bearings = station.bearings;
     one.rate_hz = station.rate_hz;
-    one.age_s = newest == 0 ? nan : 1e-6 * static_cast<double>(health.now_us - newest);
+    one.age_s = newest == 0 ? nan : seconds(health.now_us - newest);
     const auto nis = findings.nis.find(name);
     one.residual = nis == findings.nis.end() ? nan : std::sqrt(nis->second / 2.0);
     one.clock_offset_s = clocks_.offset_s(name);

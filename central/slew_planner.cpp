@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "central/time_span.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 
 namespace ols {
 namespace {
-
-double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
 
 void turn(Slew& slew, const Eigen::Vector2d& offset_rad) {
   AzimuthElevation& d = slew.direction;

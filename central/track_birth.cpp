@@ -6,14 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "central/time_span.h"
 #include "geometry/angles.h"
 
 namespace ols {
 namespace {
 
 constexpr std::size_t kMostStarts = 3;  // that are tried for one bearing
-
-double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
 
 }  // namespace
 

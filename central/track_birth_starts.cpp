@@ -5,13 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "central/time_span.h"
 #include "central/track_birth.h"
 #include "geometry/angles.h"
 
 namespace ols {
 namespace {
-
-double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
 
 double apart_s(const Sighting& a, const Sighting& b) {
   return std::abs(seconds(a.utime_us - b.utime_us));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "central/time_span.h"
 #include "geometry/wgs84.h"
 
 namespace ols {
@@ -15,8 +16,6 @@ constexpr double kLatestS = 2.0;  // a bearing later than this is no longer comp
 constexpr double kPlaceS = 1.0;   // who is silent for longer gives its states up to another
 constexpr int kUpset = 6;         // set-aside bearings in a row, of two stations
 constexpr double kLeastProbability = 1e-4;
-
-double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
 
 using MatrixN2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
 

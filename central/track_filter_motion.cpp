@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "central/time_span.h"
 #include "central/track_filter.h"
 
 namespace ols {
-namespace {
-
-double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
-
-}  // namespace
 
 void TrackFilter::advance(std::int64_t utime_us, StationErrors& errors) {
   move_to(utime_us, errors);

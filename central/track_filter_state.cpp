@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "central/time_span.h"
 #include "central/track_filter.h"
 
 namespace ols {
@@ -34,7 +35,7 @@ void TrackFilter::mixed(FilterVector& mean, FilterMatrix& covariance) const {
 }
 
 KinematicState TrackFilter::at(std::int64_t utime_us) const {
-  const double dt_s = 1e-6 * static_cast<double>(utime_us - utime_us_);
+  const double dt_s = seconds(utime_us - utime_us_);
   KinematicState state;
   state.utime_us = utime_us;
   std::array<Vector9, kModels> means;

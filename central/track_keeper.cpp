@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "central/time_span.h"
+
 namespace ols {
 namespace {
-
-double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
 
 // In a recording of one object two stations see the same one, however far they have to be turned.
 FilterConfig filter_config(const KeeperConfig& config) {

@@ -2,6 +2,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "central/time_span.h"
 #include "central/track_keeper.h"
 
 namespace ols {
@@ -46,7 +47,7 @@ std::int64_t TrackKeeper::identify(const Sighting& newest, std::set<std::int64_t
     own = {newest.track_id, 0, newest.utime_us};
   }
   if (own.id == 0) {
-    if (1e-6 * static_cast<double>(newest.utime_us - own.since_us) < config_.confirm_s) return 0;
+    if (seconds(newest.utime_us - own.since_us) < config_.confirm_s) return 0;
     own.id = next_id_++;
   }
   told.insert(own.id);

@@ -32,7 +32,11 @@ std::vector<Sighting> groups_of_stations(int groups, int each) {
   for (int group = 0; group < groups; ++group) {
     const int row = group / 12;
     const Vector3d centre(4000.0 * (group % 12), 4000.0 * row, 0.0);
-    WorldConfig world{.stations_enu = circle(each, 300.0), .aims_enu = {}, .rate_hz = kRateHz};
+    // Every real station states how far its pose may be off.
+    WorldConfig world{.stations_enu = circle(each, 300.0),
+                      .aims_enu = {},
+                      .rate_hz = kRateHz,
+                      .bias_sd_rad = 1e-3};
     for (Vector3d& place : world.stations_enu) place += centre;
     const Path path = cruising({centre + Vector3d(0, 0, 100), {8, 3, 0}}, 0.5, kDurationS, random);
     for (Sighting& s : measure(world, {path}, kDurationS, random)) {
