@@ -46,7 +46,6 @@ void read_motion(ConfigTable& table, MotionConfig& config) {
 
 void read_station_errors(ConfigTable& table, StationErrorsConfig& config) {
   config.stated_time_s = table.number("stated_time_s", config.stated_time_s, 0.1, 1e6);
-  config.stated_slow_s = table.number("stated_slow_s", config.stated_slow_s, 0.1, 1e6);
   config.untold_time_s = table.number("untold_time_s", config.untold_time_s, 0.1, 1e6);
   config.memory_s = table.number("memory_s", config.memory_s, 0.1, 1e6);
   config.untold_over_noise =

@@ -15,10 +15,11 @@ struct Whole {
   Eigen::MatrixXd covariance;
 };
 
-// Of a clock that is known: only so that it can be inverted. 10 ns, 10 nrad.
+// Of what is known: only so that it can be inverted. 10 ns, 10 nrad, 10 nm.
 constexpr double kLeast = 1e-16;
 
-using Order = std::map<std::string, Eigen::Index>;  // station -> first of its three states
+constexpr Eigen::Index kStationStates = kPoseStates + kPlaceStates;
+using Order = std::map<std::string, Eigen::Index>;  // station -> first of its states
 
 // The state spread over all stations' states; what it does not hold is known as by the prior.
 Whole spread(const TrackFilter& filter, const Order& order, const Eigen::VectorXd& prior,
@@ -30,12 +31,12 @@ Whole spread(const TrackFilter& filter, const Order& order, const Eigen::VectorX
   std::vector<double> sign(to.size(), 1.0);
   for (std::size_t i = 0; i < 9; ++i) to[i] = static_cast<Eigen::Index>(i);
   for (std::size_t i = 3; i < 6; ++i) sign[i] = clock_sign;  // velocities turn with time
-  for (std::size_t k = 0; k < filter.stations().size(); ++k) {
-    const Eigen::Index first = order.at(filter.stations()[k].station);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      to[9 + 3 * k + axis] = first + static_cast<Eigen::Index>(axis);
-    }
-    sign[9 + 3 * k + 2] = clock_sign;
+  std::size_t k = 9;
+  for (std::size_t i = 0; i < filter.stations().size(); ++i) {
+    const Eigen::Index first = order.at(filter.stations()[i].station);
+    sign[k + 3] = clock_sign;
+    for (Eigen::Index axis = 0; axis < states_of(filter.priors()[i]); ++axis)
+      to[k++] = first + axis;
   }
   Whole whole{Eigen::VectorXd::Zero(prior.size()), prior.asDiagonal()};
   for (std::size_t i = 0; i < to.size(); ++i) {
@@ -137,7 +138,9 @@ class Smoother {
     learnt_.errors() = known.errors;
     for (const std::string& station : beside_) learnt_.forget_station(station);
     for (const Sighting& sighting : bearings) {
-      if (order_.try_emplace(sighting.station, 9 + 3 * static_cast<Eigen::Index>(order_.size()))
+      if (order_
+              .try_emplace(sighting.station,
+                           9 + kStationStates * static_cast<Eigen::Index>(order_.size()))
               .second) {
         sights_.push_back(sighting);
       }
@@ -149,6 +152,7 @@ class Smoother {
  private:
   static KeeperConfig one_target(KeeperConfig config) {
     config.one_target = true;
+    config.filter.place_share = 0.0;  // the same states at both ends
     return config;
   }
   std::vector<BiasPrior> priors(const Eigen::Vector3d& p_ecef) const;
@@ -171,18 +175,19 @@ std::vector<BiasPrior> Smoother::priors(const Eigen::Vector3d& p_ecef) const {
   std::vector<BiasPrior> biases;
   for (const Sighting& sighting : sights_) {
     const double range_m = (p_ecef - sighting.sight.origin_ecef).norm();
-    biases.push_back(learnt_.errors().prior(sighting.station, sighting.sight, range_m));
+    biases.push_back(learnt_.errors().prior(sighting.station, sighting.sight, range_m, true));
   }
   return biases;
 }
 
 // Variances of the stations' states before any bearing.
 Eigen::VectorXd Smoother::prior(const std::vector<BiasPrior>& biases) const {
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(9 + 3 * std::ssize(sights_));
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(9 + kStationStates * std::ssize(sights_));
   for (std::size_t i = 0; i < sights_.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(9 + 3 * i);
-    variance.segment<2>(at) = biases[i].covariance.diagonal().array().max(kLeast);
-    variance(at + 2) = std::max(kLeast, sights_[i].clock_sd_s * sights_[i].clock_sd_s);
+    const auto at = static_cast<Eigen::Index>(9 + kStationStates * i);
+    variance.segment<3>(at) = biases[i].rotation.max(kLeast);
+    variance(at + 3) = std::max(kLeast, sights_[i].clock_sd_s * sights_[i].clock_sd_s);
+    variance.segment<kPlaceStates>(at + kPoseStates) = biases[i].place_m2.max(kLeast);
   }
   return variance;
 }

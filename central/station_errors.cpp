@@ -10,7 +10,24 @@ namespace {
 
 bool states_anything(const Eigen::Array2d& stated_rad2) { return stated_rad2.maxCoeff() > 0.0; }
 
+// A tilt shows on both axes, a heading, which stays with a level circle, as what cross-elevation
+// has more than that.
+Eigen::Array3d rotation_variance(const Eigen::Array2d& bias_rad2, double elevation_rad) {
+  constexpr double kLevel = 1e-3;  // towards the zenith a heading is hardly seen
+  const double up = std::pow(std::sin(elevation_rad), 2), level = std::max(kLevel, 1.0 - up);
+  const double tilt = bias_rad2.y();
+  return {tilt, tilt, std::max(0.0, (bias_rad2.x() - tilt * up) / level)};
+}
+
 }  // namespace
+
+// Rotated by r a direction moves by r x d. With the tangent (right, up): right . (r x d) =
+// r . (d x right) = -r . up, and up . (r x d) = r . right.
+Eigen::Matrix<double, 2, 3> bias_by_rotation(const Eigen::Matrix<double, 3, 2>& tangent) {
+  Eigen::Matrix<double, 2, 3> result;
+  result << -tangent.col(1).transpose(), tangent.col(0).transpose();
+  return result;
+}
 
 void StationErrors::observe_noise(const std::string& station, double squared_ratio) {
   constexpr double kMost = 9.0;  // an outlier says nothing of the noise
@@ -73,28 +90,27 @@ Eigen::Array2d StationErrors::learnt(const std::string& station, const Eigen::Ar
   return (squared / (weight + seen.weight + seen.weight_now)).max(least * noise_rad2);
 }
 
-// A tilt or a wrong place shows on both axes and changes with the direction. What one axis has more
-// than the other is a heading, which stays: both change by as much in the same time.
-std::array<Eigen::Array2d, kSuppositions> StationErrors::times(
-    bool told, const Eigen::Array2d& variance) const {
-  const Eigen::Array2d untold = Eigen::Array2d::Constant(config_.untold_time_s);
-  if (!told) return {untold, untold};
+BiasPrior StationErrors::prior(const std::string& station, const SightLine& sight, double range_m,
+                               bool place_apart) const {
   constexpr double kNone = 1e-24;
-  const Eigen::Array2d ratio = (variance / std::max(kNone, variance.minCoeff())).max(1.0);
-  return {config_.stated_time_s * ratio, config_.stated_slow_s * ratio};
-}
-
-BiasPrior StationErrors::prior(const std::string& station, const SightLine& sight,
-                               double range_m) const {
-  BiasPrior prior;
-  prior.covariance = stated_covariance(sight, range_m);
+  BiasPrior prior{.covariance = stated_covariance(sight, range_m), .place_apart = place_apart};
   const Eigen::Array2d stated = prior.covariance.diagonal();
   const Eigen::Array2d noise = sight.covariance_white.diagonal();
-  const Eigen::Array2d all = learnt(station, stated, noise);
-  prior.covariance.diagonal().array() += (all - stated).max(0.0);
-  prior.time_s = times(states_anything(stated), prior.covariance.diagonal());
+  const bool told = states_anything(stated);
+  const Eigen::Array2d more = (learnt(station, stated, noise) - stated).max(0.0);
+  const Eigen::Array2d pose = place_apart ? sight.covariance_systematic.diagonal().array() : stated;
   const double guess = config_.untold_over_noise * config_.untold_over_noise;
-  prior.shown = (all - (states_anything(stated) ? stated : guess * noise)).max(0.0);
+  const double elevation_rad = sight.direction.elevation_rad;
+  const Eigen::Array3d before =
+      rotation_variance(told ? pose : Eigen::Array2d(guess * noise), elevation_rad);
+  prior.covariance.diagonal().array() += more;
+  prior.rotation = rotation_variance(pose + more, elevation_rad);
+  prior.shown = (1.0 - before / prior.rotation.max(kNone)).max(0.0);
+  prior.time_s.setConstant(told ? config_.stated_time_s : config_.untold_time_s);
+  // What a heading has more than a tilt was wrong from the start on: all axes drift alike.
+  if (told) prior.time_s *= (prior.rotation / std::max(kNone, prior.rotation.minCoeff())).max(1.0);
+  prior.place_time_s = config_.stated_time_s;
+  if (place_apart) prior.place_m2 = sight.origin_sd_enu_m.array().square();
   return prior;
 }
 

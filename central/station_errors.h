@@ -31,9 +31,7 @@
 namespace ols {
 
 struct StationErrorsConfig {
-  // Correlation time of a bias within what is stated: two suppositions, the bearings decide. Alike
-  // by default: 1500 s as the other one made the covariance of a live site two times too small.
-  double stated_time_s = 300.0, stated_slow_s = 300.0;
+  double stated_time_s = 3600.0;   // correlation time of a pose's error within what is stated
   double untold_time_s = 5.0;      // and of one that the station does not tell
   double memory_s = 600.0;         // what was seen longer ago counts less than 1/e
   double stated_weight = 20.0;     // seen biases that a statement is worth
@@ -50,16 +48,24 @@ struct StationErrorsConfig {
   double colour_memory = 500.0;  // second differences in whose mean the share is judged
 };
 
-inline constexpr std::size_t kSuppositions = 2;  // of how fast a stated bias wanders
-
-// The prior of one station's bias as seen towards a target.
+// The prior of one station's bias as seen towards a target, and of what makes it: a small rotation
+// of the station (about east, north, up: two tilts alike and a heading), and where its place is
+// told apart, an error of that.
 struct BiasPrior {
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] stationary
-  // Correlation times of the two axes, by each supposition; alike where nothing is stated.
-  std::array<Eigen::Array2d, kSuppositions> time_s{Eigen::Array2d::Ones(), Eigen::Array2d::Ones()};
-  // Of its variances, what the residuals have shown beyond what was stated or guessed.
-  Eigen::Array2d shown = Eigen::Array2d::Zero();  // [rad^2]
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] stationary, tangent plane
+  Eigen::Array3d rotation = Eigen::Array3d::Zero();      // [rad^2] stationary variances
+  Eigen::Array3d time_s = Eigen::Array3d::Ones();        // its correlation times
+  bool place_apart = false;                              // otherwise the rotation contains it
+  Eigen::Array3d place_m2 = Eigen::Array3d::Zero();      // stationary variances: east, north, up
+  double place_time_s = 1.0;                             // its correlation time
+  // Of the rotation's variances, the share that the residuals have shown beyond what was stated or
+  // guessed.
+  Eigen::Array3d shown = Eigen::Array3d::Zero();
 };
+
+// The bias on the tangent plane that a small rotation of the station [rad] makes: 2 x 3, for a
+// rotation in the components that the tangent's columns have.
+Eigen::Matrix<double, 2, 3> bias_by_rotation(const Eigen::Matrix<double, 3, 2>& tangent);
 
 // A station's bias [rad], cross-elevation and elevation, each with its variance after and before.
 struct SeenBias {
@@ -73,7 +79,8 @@ class StationErrors {
   explicit StationErrors(const StationErrorsConfig& config = {}) : config_(config) {}
 
   // Stays of the sight line itself: calibration, and the station's place seen from the range.
-  BiasPrior prior(const std::string& station, const SightLine& sight, double range_m) const;
+  BiasPrior prior(const std::string& station, const SightLine& sight, double range_m,
+                  bool place_apart = false) const;
   // The same, added to what a ray states, for estimators without bias states [rad^2].
   Eigen::Matrix2d untold(const std::string& station, const SightLine& sight) const;
   // A bias as the filter has it and what its prior was, over dt_s since it was told last.
@@ -103,7 +110,6 @@ class StationErrors {
     double white_share = 1.0;                            // of its noise, new in each frame
   };
   void count(const Seen& seen, double sign);
-  std::array<Eigen::Array2d, kSuppositions> times(bool told, const Eigen::Array2d& variance) const;
   Eigen::Array2d learnt(const std::string& station, const Eigen::Array2d& stated_rad2,
                         const Eigen::Array2d& noise_rad2) const;
 

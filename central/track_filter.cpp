@@ -41,14 +41,24 @@ void add(const MatrixN2& gain, const Eigen::Vector2d& whitened, bool all, Filter
 // A model's expectation of one bearing against it.
 struct TrackFilter::Innovation {
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  // of the residual, without noise
-  MatrixN2 cross;                                            // covariance of state and residual
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the residual, without noise
+  MatrixN2 cross;                                        // covariance of state and residual
   double depth_m = 0.0;
+
+  void see(const StationPart& part, const Model& model, const Eigen::Matrix<double, 2, 3>& J);
+};
+
+// How a station's own states move its bearing on the tangent plane.
+struct TrackFilter::StationPart {
+  Eigen::Index first = 0;
+  bool has_place = false;
+  Eigen::Matrix<double, 2, 3> by_rotation;
+  Eigen::Matrix3d R_ecef_enu;
 };
 
 TrackFilter::TrackFilter(const FilterConfig& config, std::int64_t utime_us,
                          const FilterStart& start)
-    : config_(config), utime_us_(utime_us), mixed_us_(utime_us), models_(kMotions) {
+    : config_(config), utime_us_(utime_us), mixed_us_(utime_us) {
   for (Model& model : models_) {
     model.mean = FilterVector::Zero(9);
     model.mean.head<3>() = start.p_ecef;
@@ -79,48 +89,87 @@ RayFrame TrackFilter::frame_of(const Sighting& sighting, int station) const {
   return same ? ray_frame(sighting.sight, known.R_ecef_enu) : ray_frame(sighting.sight);
 }
 
-// A station's states, those of the one that is silent longest where all are given away; -1: none.
-int TrackFilter::enter(const Sighting& sighting, const BiasPrior& prior) {
-  int index = static_cast<int>(stations_.size());
-  if (index < kFilterStations) {
-    stations_.emplace_back();
-    priors_.emplace_back();
-    for (Model& model : models_) {
-      const Eigen::Index n = model.mean.size();
-      model.mean.conservativeResize(n + 3);
-      model.covariance.conservativeResize(n + 3, n + 3);
-    }
-  } else {
-    const auto silent = std::ranges::min_element(stations_, {}, &FilterStation::offered_us);
-    if (seconds(sighting.utime_us - silent->offered_us) < kPlaceS) return -1;
-    index = static_cast<int>(silent - stations_.begin());
-  }
-  reset(index, sighting, prior);
-  return index;
+Eigen::Index TrackFilter::first_of(int station) const {
+  Eigen::Index first = 9;
+  for (int i = 0; i < station; ++i) first += states_of(priors_[static_cast<std::size_t>(i)]);
+  return first;
 }
 
-void TrackFilter::reset(int station, const Sighting& sighting, const BiasPrior& prior) {
+TrackFilter::StationPart TrackFilter::part_of(int station, const RayFrame& frame) const {
+  const auto index = static_cast<std::size_t>(station);
+  const Eigen::Matrix3d& R = stations_[index].R_ecef_enu;
+  return {first_of(station), priors_[index].place_apart,
+          bias_by_rotation(R.transpose() * frame.tangent), R};
+}
+
+bool TrackFilter::place_matters(const SightLine& sight) const {
+  const double range_m = (models_[0].mean.head<3>() - sight.origin_ecef).norm();
+  const double all = stated_covariance(sight, range_m).trace();
+  const double of_place = all - sight.covariance_systematic.trace();
+  return of_place > 0.0 && of_place >= config_.place_share * all;
+}
+
+// New states, or those of the station that is silent longest where all are given away; -1: none.
+int TrackFilter::take_place(const Sighting& sighting) {
+  if (stations_.size() < kFilterStations) {
+    stations_.emplace_back();
+    priors_.push_back({.place_apart = place_matters(sighting.sight)});
+    const Eigen::Index n = models_[0].mean.size() + states_of(priors_.back());
+    for (Model& model : models_) {
+      model.mean.conservativeResize(n);
+      model.covariance.conservativeResize(n, n);
+    }
+    return static_cast<int>(stations_.size()) - 1;
+  }
+  const auto silent = std::ranges::min_element(stations_, {}, &FilterStation::offered_us);
+  if (seconds(sighting.utime_us - silent->offered_us) < kPlaceS) return -1;
+  return static_cast<int>(silent - stations_.begin());
+}
+
+void TrackFilter::enter(int station, const Sighting& sighting, const StationErrors& errors) {
   stations_[static_cast<std::size_t>(station)] = {
       .station = sighting.station,
       .sight = sighting.sight,
       .R_ecef_enu = R_ecef_enu(sighting.sight.origin_ecef),
-      .calibration_id = sighting.calibration_id,
-      .aimed = direction_ecef(sighting.sight)};
-  priors_[static_cast<std::size_t>(station)] = prior;
-  suppose(prior);
-  const Eigen::Index at = 9 + 3 * station;
+      .calibration_id = sighting.calibration_id};
+  BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
+  const double range_m = (models_[0].mean.head<3>() - sighting.sight.origin_ecef).norm();
+  prior = errors.prior(sighting.station, sighting.sight, range_m, prior.place_apart);
+  const Eigen::Index at = first_of(station), n = states_of(prior);
   for (Model& model : models_) {
-    model.mean.segment<3>(at).setZero();
-    model.covariance.middleRows<3>(at).setZero();
-    model.covariance.middleCols<3>(at).setZero();
-    model.covariance.block<2, 2>(at, at) = prior.covariance;
+    model.mean.segment(at, n).setZero();
+    model.covariance.middleRows(at, n).setZero();
+    model.covariance.middleCols(at, n).setZero();
+    model.covariance.diagonal().segment<3>(at) = prior.rotation;
+    if (!prior.place_apart) continue;
+    model.covariance.diagonal().segment<kPlaceStates>(at + kPoseStates) = prior.place_m2;
   }
+}
+
+// Adds what the station's states have to do with the residual.
+void TrackFilter::Innovation::see(const StationPart& part, const Model& model,
+                                  const Eigen::Matrix<double, 2, 3>& J) {
+  const auto& P = model.covariance;
+  const Eigen::Index at = part.first;
+  const Eigen::Vector2d clock = -J * model.mean.segment<3>(3);
+  const Eigen::Matrix<double, 3, 2> Bt = part.by_rotation.transpose();
+  cross += P.middleCols<3>(at).lazyProduct(Bt);
+  cross += P.col(at + 3) * clock.transpose();
+  residual -= part.by_rotation * model.mean.segment<3>(at) + clock * model.mean(at + 3);
+  if (part.has_place) {
+    const Eigen::Matrix<double, 2, 3> by_place = -J * part.R_ecef_enu;
+    const Eigen::Matrix<double, 3, 2> by_place_t = by_place.transpose();
+    cross += P.middleCols<3>(at + kPoseStates).lazyProduct(by_place_t);
+    residual -= by_place * model.mean.segment<3>(at + kPoseStates);
+    covariance = by_place * cross.middleRows<3>(at + kPoseStates);
+  }
+  covariance += part.by_rotation * cross.middleRows<3>(at) + clock * cross.row(at + 3);
 }
 
 TrackFilter::Innovation TrackFilter::innovation(const Model& model, const Sighting& sighting,
                                                 const RayFrame& frame, int station,
                                                 const BiasPrior& prior) const {
-  const Motion motion = motion_of(static_cast<std::size_t>(&model - models_.data()));
+  const auto motion = static_cast<Motion>(&model - models_.data());
   const double ahead_s = seconds(sighting.utime_us - utime_us_);  // < 0: late
   const Eigen::Vector3d v = model.mean.segment<3>(3);
   const double curved = motion == Motion::kConstantVelocity ? 0.0 : ahead_s * ahead_s / 2.0;
@@ -140,23 +189,15 @@ TrackFilter::Innovation TrackFilter::innovation(const Model& model, const Sighti
     result.cross += ahead_s * P.middleCols<3>(3).lazyProduct(Jt);
     result.cross += curved * P.middleCols<3>(6).lazyProduct(Jt);
   }
-  const auto seen_through = [&](const MatrixN2& cross) -> Eigen::Matrix2d {
-    return J * (cross.topRows<3>() + ahead_s * cross.middleRows<3>(3) +
-                curved * cross.middleRows<3>(6));
-  };
   result.residual = -predicted;
   if (station >= 0) {
-    const Eigen::Index at = 9 + 3 * station;
-    const Eigen::Vector2d clock = -J * v;
-    result.cross += P.middleCols<2>(at);
-    result.cross += P.col(at + 2) * clock.transpose();
-    result.residual -= model.mean.segment<2>(at) + clock * model.mean(at + 2);
-    result.covariance = seen_through(result.cross) + result.cross.middleRows<2>(at) +
-                        clock * result.cross.row(at + 2);
+    result.see(part_of(station, frame), model, J);
   } else {
     const Eigen::Vector2d clock = J * v * sighting.clock_sd_s;
-    result.covariance = seen_through(result.cross) + prior.covariance + clock * clock.transpose();
+    result.covariance = prior.covariance + clock * clock.transpose();
   }
+  result.covariance += J * (result.cross.topRows<3>() + ahead_s * result.cross.middleRows<3>(3) +
+                            curved * result.cross.middleRows<3>(6));
   if (ahead_s != 0.0) {
     const Transition between =
         transition(motion, model.mean.head<9>(), std::abs(ahead_s), config_.motion);
@@ -195,23 +236,19 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
 
 // The station's states, new where it is new or has another calibration; its clock as it states it
 // now. -1: it has none.
-int TrackFilter::states_of(const Sighting& sighting, const StationErrors& errors) {
+int TrackFilter::station_of(const Sighting& sighting, const StationErrors& errors) {
   int station = index_of(sighting.station);
-  const bool known = station >= 0;
-  if (!known ||
-      stations_[static_cast<std::size_t>(station)].calibration_id != sighting.calibration_id) {
-    const double range_m = (models_[0].mean.head<3>() - sighting.sight.origin_ecef).norm();
-    const BiasPrior prior = errors.prior(sighting.station, sighting.sight, range_m);
-    if (known) reset(station, sighting, prior);
-    if (!known) station = enter(sighting, prior);
-    if (station < 0) return station;
-  }
+  const bool is_new = station < 0;
+  if (is_new) station = take_place(sighting);
+  if (station < 0) return station;
+  const FilterStation& known = stations_[static_cast<std::size_t>(station)];
+  if (is_new || known.calibration_id != sighting.calibration_id) enter(station, sighting, errors);
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   entry.offered_us = std::max(entry.offered_us, sighting.utime_us);
   entry.weight = 0.0;
   // A worse clock counts at once, a better one as the old error fades.
   if (sighting.clock_sd_s > entry.clock_sd_s) {
-    const Eigen::Index at = 9 + 3 * station + 2;
+    const Eigen::Index at = first_of(station) + 3;
     const double more = std::pow(sighting.clock_sd_s, 2) - std::pow(entry.clock_sd_s, 2);
     for (Model& model : models_) model.covariance(at, at) += more;
   }
@@ -221,7 +258,7 @@ int TrackFilter::states_of(const Sighting& sighting, const StationErrors& errors
 
 // At the state's own instant, or late.
 BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
-  const int station = states_of(sighting, errors);
+  const int station = station_of(sighting, errors);
   if (station < 0) {
     return nis(sighting, errors) < config_.gate_nis ? BearingUse::kNoPlace : BearingUse::kSetAside;
   }
@@ -269,14 +306,22 @@ bool TrackFilter::shows_bias(int station, const RayFrame& frame, double depth_m,
   constexpr double kSmall = 0.1;
   const Eigen::Matrix3d P = summary_.covariance.topLeftCorner<3, 3>();
   const double depth_variance = frame.direction.dot(P * frame.direction);
-  const double bias_variance =
-      models_[0].covariance.diagonal().segment<2>(9 + 3 * station).maxCoeff();
+  const StationPart part = part_of(station, frame);
+  const FilterMatrix& own = models_[0].covariance;
+  double bias_variance =
+      (part.by_rotation * own.block<3, 3>(part.first, part.first) * part.by_rotation.transpose())
+          .diagonal()
+          .maxCoeff();
+  if (part.has_place) {
+    const auto place = own.diagonal().segment<kPlaceStates>(part.first + kPoseStates);
+    bias_variance += place.maxCoeff() / (depth_m * depth_m);
+  }
   const double second_order = bias_variance * depth_variance / (depth_m * depth_m);
   return second_order < kSmall * kSmall * white.trace() / 2.0;
 }
 
 void TrackFilter::correct(const Innovations& seen, const Eigen::Matrix2d& noise, bool finds_bias) {
-  std::array<double, kModels> log_likelihood{};
+  std::array<double, kMotions> log_likelihood{};
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + noise);
     const Eigen::Matrix2d L = S.matrixL();
@@ -321,9 +366,8 @@ double TrackFilter::observe_noise(FilterStation& entry, const Sighting& sighting
   return first_s + second_s < kNearS ? errors.inflation(sighting.station, second_s) : 1.0;
 }
 
-void TrackFilter::weigh_models(const std::array<double, kModels>& log_likelihood) {
-  const double most = *std::ranges::max_element(log_likelihood.begin(),
-                                                log_likelihood.begin() + std::ssize(models_));
+void TrackFilter::weigh_models(const std::array<double, kMotions>& log_likelihood) {
+  const double most = *std::ranges::max_element(log_likelihood);
   double sum = 0.0;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     models_[m].probability *= std::exp(log_likelihood[m] - most);

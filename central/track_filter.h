@@ -30,8 +30,6 @@
 
 namespace ols {
 
-inline constexpr std::size_t kModels = kMotions * kSuppositions;  // at most
-
 struct FilterConfig {
   MotionConfig motion{};
   double robust_nis = 9.0;      // squared normalised residual beyond which a bearing weighs less
@@ -42,13 +40,25 @@ struct FilterConfig {
   // Two stations alone: squared turn over what they state of bias and noise, beyond which their
   // rays are not made to meet.
   double two_stations_nis = 25.0;
+  // A station's place has states of its own where it makes at least so much of the stated bias's
+  // variance.
+  double place_share = 0.02;
   // What all stations may have in common beyond what independent errors have, in variance: it moves
   // the target and no residual shows it. Over the part that biases make which the residuals show.
   double in_common = 1.0;
 };
 
 inline constexpr int kFilterStations = 12;  // with states of their own; no more are used
-inline constexpr int kFilterStates = 9 + 3 * kFilterStations;
+// Of a station: its rotation about east, north and up, its clock's offset, and where that matters
+// the error of its place (east, north, up).
+inline constexpr int kPoseStates = 4, kPlaceStates = 3;
+inline constexpr int kFilterStates = 9 + (kPoseStates + kPlaceStates) * kFilterStations;
+inline Eigen::Index states_of(const BiasPrior& prior) {
+  return prior.place_apart ? kPoseStates + kPlaceStates : kPoseStates;
+}
+using StationMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                    kPoseStates + kPlaceStates, kPoseStates + kPlaceStates>;
+using StationVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kPoseStates + kPlaceStates, 1>;
 using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
 using FilterMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kFilterStates, kFilterStates>;
@@ -74,7 +84,6 @@ struct FilterStation {
   std::int64_t calibration_id = 0;
   double weight = 0.0;  // of the last one, 0: set aside
   double clock_sd_s = 0.0;
-  Eigen::Vector3d aimed = Eigen::Vector3d::Zero();  // towards where its bias was lately the same
   double mean_nis = 2.0;  // lately, of bearings that were used; 2 is ideal
   // The two bearings before the next one, for the colour of their noise.
   std::array<std::int64_t, 2> before_us{};
@@ -88,8 +97,8 @@ struct SystematicPart {
   Eigen::Matrix3d shown_m2 = Eigen::Matrix3d::Zero();
 };
 
-// Of the covariance of a whole state: position, velocity, acceleration, then three states for each
-// station that has a prior.
+// Of the covariance of a whole state: position, velocity, acceleration, then states_of() each
+// prior.
 SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
                                const std::vector<BiasPrior>& priors);
 
@@ -130,6 +139,7 @@ class TrackFilter {
   Eigen::Vector3d position() const { return summary_.mean.head<3>(); }
   Eigen::Vector3d velocity() const { return summary_.mean.segment<3>(3); }
   const std::vector<FilterStation>& stations() const { return stations_; }
+  const std::vector<BiasPrior>& priors() const { return priors_; }  // of each
   StationBias bias(std::size_t station) const;
   std::array<double, kMotions> probabilities() const;
   // The whole mixed state, for the smoother: kinematics, then three states a station.
@@ -138,41 +148,42 @@ class TrackFilter {
 
  private:
   struct Innovation;
+  struct StationPart;
   struct Model {
     FilterVector mean;
     FilterMatrix covariance;
     double probability = 1.0 / kMotions;
   };
-  using Innovations = std::array<Innovation, kModels>;
+  using Innovations = std::array<Innovation, kMotions>;
   Innovation innovation(const Model& model, const Sighting& sighting, const RayFrame& frame,
                         int station, const BiasPrior& prior) const;
   RayFrame frame_of(const Sighting& sighting, int station) const;
+  Eigen::Index first_of(int station) const;
+  StationPart part_of(int station, const RayFrame& frame) const;
   int index_of(const std::string& station) const;
-  int enter(const Sighting& sighting, const BiasPrior& prior);
-  void reset(int station, const Sighting& sighting, const BiasPrior& prior);
-  int states_of(const Sighting& sighting, const StationErrors& errors);
+  bool place_matters(const SightLine& sight) const;
+  int take_place(const Sighting& sighting);
+  void enter(int station, const Sighting& sighting, const StationErrors& errors);
+  int station_of(const Sighting& sighting, const StationErrors& errors);
   bool shows_bias(int station, const RayFrame& frame, double depth_m,
                   const Eigen::Matrix2d& white) const;
   void correct(const Innovations& seen, const Eigen::Matrix2d& noise, bool finds_bias);
   BearingUse take(const Sighting& sighting, StationErrors& errors);
   void move_to(std::int64_t utime_us, StationErrors& errors);
-  void suppose(const BiasPrior& prior);
   void mix(double dt_s);
-  void mix_motions(std::span<Model, kMotions> models, double dt_s) const;
   void move_biases(double dt_s, StationErrors& errors);
-  static Motion motion_of(std::size_t model) { return static_cast<Motion>(model % kMotions); }
-  static double turned(FilterStation& station);
+  void move_bias(int station, double dt_s, double clock_time_s);
   void give_room();
   bool passes_gate(const Sighting& sighting, double nis);
   static double observe_noise(FilterStation& entry, const Sighting& sighting, const RayFrame& frame,
                               StationErrors& errors);
-  void weigh_models(const std::array<double, kModels>& log_likelihood);
+  void weigh_models(const std::array<double, kMotions>& log_likelihood);
   void refresh();
 
   FilterConfig config_;
   std::int64_t utime_us_;
-  std::int64_t mixed_us_;      // when the models were mixed last
-  std::vector<Model> models_;  // each motion; and once more for each supposition, if there are any
+  std::int64_t mixed_us_;  // when the models were mixed last
+  std::array<Model, kMotions> models_;
   std::vector<FilterStation> stations_;
   std::vector<BiasPrior> priors_;
   KinematicState summary_;     // mixed over the models

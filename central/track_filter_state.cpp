@@ -38,12 +38,12 @@ KinematicState TrackFilter::at(std::int64_t utime_us) const {
   const double dt_s = seconds(utime_us - utime_us_);
   KinematicState state;
   state.utime_us = utime_us;
-  std::array<Vector9, kModels> means;
-  std::array<Matrix9, kModels> covariances;
+  std::array<Vector9, kMotions> means;
+  std::array<Matrix9, kMotions> covariances;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     means[m] = models_[m].mean.head<9>();
     covariances[m] = models_[m].covariance.topLeftCorner<9, 9>();
-    Transition t = transition(motion_of(m), means[m], std::abs(dt_s), config_.motion);
+    Transition t = transition(static_cast<Motion>(m), means[m], std::abs(dt_s), config_.motion);
     if (dt_s < 0.0) t.f << 1.0, dt_s, dt_s * dt_s / 2.0, 0.0, 1.0, dt_s, 0.0, 0.0, 1.0;
     transform_rows(t.f, means[m]);
     propagate_covariance(t, covariances[m]);
@@ -72,42 +72,50 @@ SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
   const auto cross = P.topRightCorner(3, biases);
   // What each bias moves the position by.
   Eigen::Matrix<double, 3, Eigen::Dynamic> moves = own.ldlt().solve(cross.transpose()).transpose();
-  constexpr double kNone = 1e-24;
   SystematicPart part;
   part.all_m2 = moves * own * moves.transpose();
-  for (std::size_t i = 0; i < priors.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(3 * i);
-    const Eigen::Array2d shown =
-        priors[i].shown / priors[i].covariance.diagonal().array().max(kNone);
-    moves.middleCols<2>(at) *= shown.matrix().asDiagonal();
-    moves.col(at + 2).setZero();
+  Eigen::Index at = 0;
+  for (const BiasPrior& prior : priors) {
+    moves.middleCols<3>(at) *= prior.shown.matrix().asDiagonal();
+    moves.middleCols(at + 3, states_of(prior) - 3).setZero();
+    at += states_of(prior);
   }
   part.shown_m2 = moves * own * moves.transpose();
   return part;
 }
 
 StationBias TrackFilter::bias(std::size_t station) const {
-  const auto at = static_cast<Eigen::Index>(9 + 3 * station);
-  StationBias result;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Model& model : models_) mean += model.probability * model.mean.segment<3>(at);
-  Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
+  const BiasPrior& prior = priors_[station];
+  const SightLine& sight = stations_[station].sight;
+  const Eigen::Index at = first_of(static_cast<int>(station)), n = states_of(prior);
+  StationVector mean = StationVector::Zero(n);
+  for (const Model& model : models_) mean += model.probability * model.mean.segment(at, n);
+  StationMatrix P = StationMatrix::Zero(n, n);
   for (const Model& model : models_) {
-    const Eigen::Vector3d off = model.mean.segment<3>(at) - mean;
-    P += model.probability * (model.covariance.block<3, 3>(at, at) + off * off.transpose());
+    const StationVector off = model.mean.segment(at, n) - mean;
+    P += model.probability * (model.covariance.block(at, at, n, n) + off * off.transpose());
   }
-  result.bias_rad = mean.head<2>();
-  result.covariance_rad2 = P.topLeftCorner<2, 2>();
-  result.prior_rad2 = priors_[station].covariance;
-  result.clock_s = mean(2);
-  result.clock_sd_s = std::sqrt(std::max(0.0, P(2, 2)));
+  const Eigen::Matrix<double, 3, 2> tangent = tangent_basis(sight.direction);
+  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kPoseStates + kPlaceStates> B(2, n);
+  B.setZero();
+  B.leftCols<3>() = bias_by_rotation(tangent);
+  if (prior.place_apart) {
+    const double range_m = (position() - sight.origin_ecef).norm();
+    B.rightCols<kPlaceStates>() = -tangent.transpose() / range_m;
+  }
+  StationBias result;
+  result.bias_rad = B * mean;
+  result.covariance_rad2 = B * P * B.transpose();
+  result.prior_rad2 = prior.covariance;
+  result.clock_s = mean(3);
+  result.clock_sd_s = std::sqrt(std::max(0.0, P(3, 3)));
   result.clock_prior_sd_s = stations_[station].clock_sd_s;
   return result;
 }
 
 std::array<double, kMotions> TrackFilter::probabilities() const {
   std::array<double, kMotions> result{};
-  for (std::size_t m = 0; m < models_.size(); ++m) result[m % kMotions] += models_[m].probability;
+  for (std::size_t m = 0; m < models_.size(); ++m) result[m] = models_[m].probability;
   return result;
 }
 

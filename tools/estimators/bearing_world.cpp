@@ -19,8 +19,9 @@ Vector3d draw(std::mt19937_64& random) {
 
 struct Station {
   std::string id;
-  Vector3d p_ecef;
-  Vector2d bias_rad = Vector2d::Zero();
+  Vector3d p_ecef;                           // true
+  Vector3d says_ecef;                        // it says
+  Vector3d rotation_rad = Vector3d::Zero();  // about east, north, up
   AzimuthElevation aim;
 };
 
@@ -33,14 +34,16 @@ Sighting sighting(const WorldConfig& config, const Station& station, std::int64_
   Sighting s;
   s.station = station.id;
   s.utime_us = utime_us;
-  s.sight.origin_ecef = station.p_ecef;
+  s.sight.origin_ecef = station.says_ecef;
   d.elevation_rad = std::clamp(d.elevation_rad + off_rad.y(), -kPi / 2.0, kPi / 2.0);
   d.azimuth_rad = wrap_two_pi(d.azimuth_rad + off_rad.x() / std::cos(d.elevation_rad));
   s.sight.direction = d;
   s.sight.covariance_white = Eigen::Matrix2d::Identity() * config.noise_rad * config.noise_rad;
   if (config.bias_stated) {
-    s.sight.covariance_systematic =
-        Eigen::Matrix2d::Identity() * config.bias_sd_rad * config.bias_sd_rad;
+    s.sight.origin_sd_enu_m.setConstant(config.place_sd_m);
+    const Eigen::Matrix<double, 2, 3> B = bias_by_rotation(tangent_basis(d));
+    const Vector3d variance = rotation_sd_rad(config).array().square();
+    s.sight.covariance_systematic = B * variance.asDiagonal() * B.transpose();
   }
   return s;
 }
@@ -56,15 +59,21 @@ std::string name_of(std::size_t i) {
 void wander(const WorldConfig& config, double dt_s, Station& station, std::mt19937_64& random) {
   const double decay = std::exp(-dt_s / config.bias_time_s);
   if (decay == 1.0) return;
-  const double fresh = config.bias_sd_rad * std::sqrt(1.0 - decay * decay);
-  station.bias_rad = decay * station.bias_rad + fresh * draw(random).head<2>();
+  const Vector3d fresh = std::sqrt(1.0 - decay * decay) * rotation_sd_rad(config);
+  station.rotation_rad = decay * station.rotation_rad + fresh.cwiseProduct(draw(random));
 }
 
 std::vector<Station> stations_of(const WorldConfig& config, std::mt19937_64& random) {
   std::vector<Station> stations;
   for (std::size_t i = 0; i < config.stations_enu.size(); ++i) {
-    Station station{name_of(i), site().to_ecef(config.stations_enu[i]), {}, {}};
-    station.bias_rad = config.bias_sd_rad * draw(random).head<2>();
+    Station station;
+    station.id = name_of(i);
+    station.p_ecef = site().to_ecef(config.stations_enu[i]);
+    station.rotation_rad = rotation_sd_rad(config).cwiseProduct(draw(random));
+    station.says_ecef = station.p_ecef;
+    if (config.place_sd_m > 0.0) {
+      station.says_ecef = site().to_ecef(config.stations_enu[i] + config.place_sd_m * draw(random));
+    }
     const Vector3d aim = config.aims_enu.empty() ? Vector3d(0, 0, 80) : config.aims_enu[i];
     station.aim = direction(station.p_ecef, site().to_ecef(aim));
     stations.push_back(station);
@@ -73,6 +82,11 @@ std::vector<Station> stations_of(const WorldConfig& config, std::mt19937_64& ran
 }
 
 }  // namespace
+
+Vector3d rotation_sd_rad(const WorldConfig& config) {
+  return {config.bias_sd_rad, config.bias_sd_rad,
+          std::hypot(config.bias_sd_rad, config.heading_sd_rad)};
+}
 
 const LocalFrame& site() {
   static const LocalFrame frame({radians(49.2), radians(16.6), 250.0});
@@ -143,10 +157,11 @@ std::vector<Sighting> measure(const WorldConfig& config, const std::vector<Path>
       wander(config, 1.0 / config.rate_hz, stations[k], random);
       for (const Path& path : targets) {
         if (uniform(random) < config.missed) continue;
-        const Vector3d there = site().to_ecef(at(path, time_s).p_enu);
-        const Vector2d off = stations[k].bias_rad + config.noise_rad * draw(random).head<2>();
-        sightings.push_back(
-            sighting(config, stations[k], utime_us, direction(stations[k].p_ecef, there), off));
+        const AzimuthElevation there =
+            direction(stations[k].p_ecef, site().to_ecef(at(path, time_s).p_enu));
+        const Vector2d off = bias_by_rotation(tangent_basis(there)) * stations[k].rotation_rad +
+                             config.noise_rad * draw(random).head<2>();
+        sightings.push_back(sighting(config, stations[k], utime_us, there, off));
       }
       for (int i = config.false_per_frame > 0.0 ? false_ones(random) : 0; i > 0; --i) {
         const double x = uniform(random), y = uniform(random);

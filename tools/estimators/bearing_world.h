@@ -20,13 +20,18 @@ struct WorldConfig {
   std::vector<Eigen::Vector3d> aims_enu;      // where each looks, for false bearings; empty: centre
   double rate_hz = 30.0;                      // frames of each station, evenly staggered
   double noise_rad = 3e-4;
-  double bias_sd_rad = 0.0;      // of each station, each axis
-  double bias_time_s = 1e12;     // its correlation time: constant
-  bool bias_stated = true;       // and the stations state it
+  double bias_sd_rad = 0.0;      // of each station's rotation about east, north and up: its bias
+  double heading_sd_rad = 0.0;   // about up, besides
+  double bias_time_s = 1e12;     // their correlation time: constant
+  double place_sd_m = 0.0;       // of where each station says it is: east, north, up; constant
+  bool bias_stated = true;       // and the stations state them
   double missed = 0.0;           // share of a station's detections
   double false_per_frame = 0.0;  // mean number, Poisson
   double view_rad = 0.5;         // half width of the field of the false ones
 };
+
+// 1-sigma of a station's rotation about east, north and up.
+Eigen::Vector3d rotation_sd_rad(const WorldConfig& config);
 
 // A target's position at a time, and its velocity.
 struct PathPoint {

@@ -48,7 +48,6 @@ KeeperConfig pinned() {
   config.filter.robust_nis = config.filter.gate_nis;
   config.errors.noise_weight = 1e9;
   config.errors.stated_weight = 1e9;
-  config.errors.stated_slow_s = config.errors.stated_time_s;  // no bias, nothing to suppose
   config.errors.least_over_noise = 0.0;
   config.errors.colour_time_s = 0.0;
   return config;

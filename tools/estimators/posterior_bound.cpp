@@ -12,12 +12,13 @@ namespace ols::bench {
 std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
                                     const std::vector<Sighting>& bearings, double disturbance,
                                     double position_sd_m, double velocity_sd_m_s) {
-  const auto n = static_cast<Eigen::Index>(6 + 2 * config.stations_enu.size());
+  const auto n = static_cast<Eigen::Index>(6 + 3 * config.stations_enu.size());
   Eigen::MatrixXd P = Eigen::MatrixXd::Zero(n, n);
   P.diagonal().head<3>().setConstant(position_sd_m * position_sd_m);
   P.diagonal().segment<3>(3).setConstant(velocity_sd_m_s * velocity_sd_m_s);
-  const double bias = std::max(1e-24, config.bias_sd_rad * config.bias_sd_rad);
-  P.diagonal().tail(n - 6).setConstant(bias);
+  const Eigen::Array3d rotation = rotation_sd_rad(config).array().square().max(1e-24);
+  const Eigen::VectorXd stays = rotation.matrix().replicate((n - 6) / 3, 1);
+  P.diagonal().tail(n - 6) = stays;
   std::vector<double> bound;
   std::int64_t last_us = bearings.front().utime_us;
   for (const Sighting& sighting : bearings) {
@@ -28,7 +29,7 @@ std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
     const double decay = std::exp(-dt / config.bias_time_s);
     F.diagonal().tail(n - 6).setConstant(decay);
     P = F * P * F.transpose();
-    P.diagonal().tail(n - 6).array() += (1.0 - decay * decay) * bias;
+    P.diagonal().tail(n - 6) += (1.0 - decay * decay) * stays;
     const double s = disturbance * disturbance;
     P.diagonal().head<3>().array() += s * dt * dt * dt / 3.0;
     P.diagonal().segment<3>(3).array() += s * dt;
@@ -41,7 +42,7 @@ std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
     const auto station = std::atoi(sighting.station.c_str() + 1);
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, n);
     H.leftCols<3>() = frame.tangent.transpose() / line.norm();
-    H.block<2, 2>(0, 6 + 2 * station).setIdentity();
+    H.middleCols<3>(6 + 3 * station) = bias_by_rotation(tangent_basis(sighting.sight.direction));
     const Eigen::Matrix2d S = H * P * H.transpose() + sighting.sight.covariance_white;
     P -= P * H.transpose() * S.inverse() * H * P;
     bound.push_back(P.topLeftCorner<3, 3>().trace());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <random>
 
@@ -63,31 +64,61 @@ TEST(StationErrors, ForgetAStation) {
   EXPECT_EQ(errors.noise_scale("a"), 1.0);
 }
 
-TEST(StationErrors, SupposeTwoTimesForAStatedBiasAndOneForWhatNobodyTold) {
-  const StationErrorsConfig config;
-  const StationErrors errors(config);
-  const BiasPrior untold = errors.prior("a", sight(), 500.0);
-  for (const Eigen::Array2d& time_s : untold.time_s) {
-    EXPECT_TRUE((time_s == config.untold_time_s).all());
-  }
-  SightLine stated = sight();
-  stated.covariance_systematic = Eigen::Vector2d(1e-6, 1e-6).asDiagonal();
-  const BiasPrior alike = errors.prior("a", stated, 500.0);
-  EXPECT_TRUE(alike.time_s[0].isApproxToConstant(config.stated_time_s, 1e-6));
-  EXPECT_TRUE(alike.time_s[1].isApproxToConstant(config.stated_slow_s, 1e-6));
+SightLine stated(double elevation_rad, double cross_rad2, double up_rad2) {
+  SightLine line = sight();
+  line.direction.elevation_rad = elevation_rad;
+  line.covariance_systematic = Eigen::Vector2d(cross_rad2, up_rad2).asDiagonal();
+  return line;
 }
 
-// Four times the variance on the first axis: three of it are a heading's.
+TEST(StationErrors, WhatIsStatedLastsAndWhatNobodyToldDoesNot) {
+  const StationErrorsConfig config;
+  const StationErrors errors(config);
+  EXPECT_TRUE((errors.prior("a", sight(), 500.0).time_s == config.untold_time_s).all());
+  const BiasPrior told = errors.prior("a", stated(0.3, 1e-6, 1e-6), 500.0);
+  EXPECT_TRUE(told.time_s.isApproxToConstant(config.stated_time_s, 1e-6));
+}
+
+// Four times the variance on the level axis: three of it are a heading's, which stays so much
+// longer that as much is new of each in the same time.
 TEST(StationErrors, TakeForAHeadingWhatOneAxisHasMore) {
-  SightLine stated = sight();
-  stated.covariance_systematic = Eigen::Vector2d(4e-6, 1e-6).asDiagonal();
-  const BiasPrior prior = StationErrors().prior("a", stated, 500.0);
-  for (const Eigen::Array2d& time_s : prior.time_s) {
-    EXPECT_NEAR(time_s(0) / time_s(1), 4.0, 1e-3);
-    // As much is new on either axis in the same time.
-    const Eigen::Array2d fresh = prior.covariance.diagonal().array() / time_s;
-    EXPECT_NEAR(fresh(0) / fresh(1), 1.0, 1e-9);
+  const BiasPrior prior = StationErrors().prior("a", stated(0.0, 4e-6, 1e-6), 500.0);
+  EXPECT_TRUE(prior.rotation.isApprox(Eigen::Array3d(1e-6, 1e-6, 4e-6), 1e-9));
+  EXPECT_NEAR(prior.time_s(2) / prior.time_s(0), 4.0, 1e-6);
+  EXPECT_NEAR(prior.time_s(1) / prior.time_s(0), 1.0, 1e-6);
+}
+
+// Whatever the elevation: a rotation with the prior's variances makes the bias that is stated.
+TEST(StationErrors, ARotationMakesWhatIsStated) {
+  for (const double elevation_rad : {-0.2, 0.0, 0.7, 1.4}) {
+    const SightLine line = stated(elevation_rad, 5e-6, 2e-6);
+    const BiasPrior prior = StationErrors().prior("a", line, 500.0);
+    const auto B = bias_by_rotation(tangent_basis(line.direction));
+    const Eigen::Matrix2d made = B * prior.rotation.matrix().asDiagonal() * B.transpose();
+    EXPECT_NEAR(made(0, 0), 5e-6, 1e-9) << elevation_rad;
+    EXPECT_NEAR(made(1, 1), 2e-6, 1e-9) << elevation_rad;
+    EXPECT_NEAR(made(0, 1), 0.0, 1e-12) << elevation_rad;
   }
+}
+
+TEST(StationErrors, ARotationMovesADirectionOnItsTangentPlane) {
+  const AzimuthElevation d{2.0, 0.6};
+  const Eigen::Vector3d rotation(3e-5, -7e-5, 5e-5);
+  const Eigen::Vector3d from = enu_from_azimuth_elevation(d);
+  const Eigen::Vector2d moved = tangent_basis(d).transpose() * rotation.cross(from);
+  EXPECT_TRUE((bias_by_rotation(tangent_basis(d)) * rotation).isApprox(moved, 1e-12));
+}
+
+// A place of its own is no rotation.
+TEST(StationErrors, APlaceIsPartOfTheRotationOrApart) {
+  SightLine line = stated(0.0, 1e-6, 1e-6);
+  line.origin_sd_enu_m.setConstant(1.0);
+  const BiasPrior within = StationErrors().prior("a", line, 500.0);
+  const BiasPrior apart = StationErrors().prior("a", line, 500.0, true);
+  EXPECT_NEAR(within.rotation(0), 1e-6 + 1.0 / (500.0 * 500.0), 1e-12);
+  EXPECT_NEAR(apart.rotation(0), 1e-6, 1e-12);
+  EXPECT_TRUE(apart.place_m2.isApproxToConstant(1.0, 1e-12));
+  EXPECT_TRUE(within.covariance.isApprox(apart.covariance, 1e-12));
 }
 
 class NoiseScale : public testing::TestWithParam<double> {};

@@ -1,0 +1,85 @@
+// Poses that are off by what the stations state, for as long as they stand: headings, tilts,
+// places.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <limits>
+
+#include "central/offline_fusion.h"
+#include "geometry/angles.h"
+#include "tools/estimators/bearing_world.h"
+
+namespace ols::bench {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDurationS = 60.0;
+
+// Twice around, so that each station looks into many directions.
+Path circling() {
+  Path path;
+  for (int i = 0; i < kDurationS * kPathHz + 3; ++i) {
+    const double turn = 4.0 * kPi * i / (kDurationS * kPathHz);
+    const double rate = 4.0 * kPi / kDurationS;
+    path.push_back({{120.0 * std::cos(turn), 120.0 * std::sin(turn), 60.0 + 20.0 * std::sin(turn)},
+                    120.0 * rate * Vector3d(-std::sin(turn), std::cos(turn), 0.0)});
+  }
+  return path;
+}
+
+struct Result {
+  double nees = 0.0, error_m = 0.0;
+};
+
+Result fly(const WorldConfig& world, const OfflineConfig& config) {
+  constexpr int kRuns = 12;
+  constexpr double kSettledS = 10.0;
+  const Path path = circling();
+  double nees = 0.0, squared = 0.0;
+  int fixes = 0;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    std::mt19937_64 random(seed);
+    for (const FusedTarget& target :
+         fuse_offline(measure(world, {path}, kDurationS, random), config)) {
+      const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
+      if (time_s < kSettledS) continue;
+      const Vector3d e = target.estimate.position_ecef - site().to_ecef(at(path, time_s).p_enu);
+      nees += e.dot(target.estimate.covariance_ecef.ldlt().solve(e)) / 3.0;
+      squared += e.squaredNorm();
+      ++fixes;
+    }
+  }
+  return {nees / fixes, std::sqrt(squared / fixes)};
+}
+
+WorldConfig world_of(double tilt_sd_rad, double heading_sd_rad, double place_sd_m) {
+  WorldConfig world{.stations_enu = circle(4, 300.0), .aims_enu = {}, .rate_hz = 10.0};
+  world.bias_sd_rad = tilt_sd_rad;
+  world.heading_sd_rad = heading_sd_rad;
+  world.place_sd_m = place_sd_m;
+  return world;
+}
+
+// What a minute shows of headings and tilts is learnt, and no more.
+TEST(PoseErrors, ARotationOfTheStationsIsFound) {
+  const Result result = fly(world_of(5e-4, 1e-3, 0.0), {});
+  EXPECT_GT(result.nees, 0.5);
+  EXPECT_LT(result.nees, 1.3);
+  // One instant by itself: 1 mrad at 300 m by four stations.
+  EXPECT_LT(result.error_m, 0.12);
+}
+
+TEST(PoseErrors, APlaceThatIsOffIsNotTakenForARotation) {
+  const WorldConfig world = world_of(5e-4, 1e-3, 0.5);
+  const Result apart = fly(world, {});
+  EXPECT_GT(apart.nees, 0.4);
+  EXPECT_LT(apart.nees, 1.6);
+  OfflineConfig within;
+  within.fusion.keeper.filter.place_share = std::numeric_limits<double>::infinity();
+  EXPECT_GT(fly(world, within).nees, 3.0 * apart.nees) << "and this is why";
+}
+
+}  // namespace
+}  // namespace ols::bench
