@@ -12,13 +12,16 @@ namespace ols::bench {
 std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
                                     const std::vector<Sighting>& bearings, double disturbance,
                                     double position_sd_m, double velocity_sd_m_s) {
-  const auto n = static_cast<Eigen::Index>(6 + 3 * config.stations_enu.size());
+  const auto stations = static_cast<Eigen::Index>(config.stations_enu.size());
+  // Of each station its rotation; then of each its place.
+  const Eigen::Index rotations = 6, places = 6 + 3 * stations, n = 6 + 6 * stations;
   Eigen::MatrixXd P = Eigen::MatrixXd::Zero(n, n);
   P.diagonal().head<3>().setConstant(position_sd_m * position_sd_m);
   P.diagonal().segment<3>(3).setConstant(velocity_sd_m_s * velocity_sd_m_s);
-  const Eigen::Array3d rotation = rotation_sd_rad(config).array().square().max(1e-24);
-  const Eigen::VectorXd stays = rotation.matrix().replicate((n - 6) / 3, 1);
-  P.diagonal().tail(n - 6) = stays;
+  const Eigen::Array3d variance = rotation_sd_rad(config).array().square().max(1e-24);
+  const Eigen::VectorXd stays = variance.matrix().replicate(stations, 1);
+  P.diagonal().segment(rotations, 3 * stations) = stays;
+  P.diagonal().tail(3 * stations).setConstant(config.place_sd_m * config.place_sd_m);
   std::vector<double> bound;
   std::int64_t last_us = bearings.front().utime_us;
   for (const Sighting& sighting : bearings) {
@@ -27,9 +30,9 @@ std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
     Eigen::MatrixXd F = Eigen::MatrixXd::Identity(n, n);
     F.block<3, 3>(0, 3).diagonal().setConstant(dt);
     const double decay = std::exp(-dt / config.bias_time_s);
-    F.diagonal().tail(n - 6).setConstant(decay);
+    F.diagonal().segment(rotations, 3 * stations).setConstant(decay);
     P = F * P * F.transpose();
-    P.diagonal().tail(n - 6) += (1.0 - decay * decay) * stays;
+    P.diagonal().segment(rotations, 3 * stations) += (1.0 - decay * decay) * stays;
     const double s = disturbance * disturbance;
     P.diagonal().head<3>().array() += s * dt * dt * dt / 3.0;
     P.diagonal().segment<3>(3).array() += s * dt;
@@ -42,7 +45,10 @@ std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
     const auto station = std::atoi(sighting.station.c_str() + 1);
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, n);
     H.leftCols<3>() = frame.tangent.transpose() / line.norm();
-    H.middleCols<3>(6 + 3 * station) = bias_by_rotation(tangent_basis(sighting.sight.direction));
+    H.middleCols<3>(rotations + 3 * station) =
+        bias_by_rotation(tangent_basis(sighting.sight.direction));
+    H.middleCols<3>(places + 3 * station) =
+        -tangent_basis(sighting.sight.direction).transpose() / line.norm();
     const Eigen::Matrix2d S = H * P * H.transpose() + sighting.sight.covariance_white;
     P -= P * H.transpose() * S.inverse() * H * P;
     bound.push_back(P.topLeftCorner<3, 3>().trace());
