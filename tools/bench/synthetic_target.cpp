@@ -93,8 +93,9 @@ void SyntheticTarget::draw(cv::Mat1f& picture, const Eigen::Vector2d& centre_px,
 
 cv::Rect2d SyntheticTarget::box(const Eigen::Vector2d& centre_px) const {
   const cv::Rect2d inner = sim::drone_box(view_of(px_per_m_, centre_px, {0, 0}));
-  // Pixel (0, 0) reaches from edge 0 to edge 1; half a pixel is added on each side.
-  return {inner.x, inner.y, inner.width + 1.0, inner.height + 1.0};
+  constexpr double kMargin = 0.5;
+  return {inner.x - kMargin, inner.y - kMargin, inner.width + 2 * kMargin,
+          inner.height + 2 * kMargin};
 }
 
 Eigen::Matrix2d SyntheticTarget::bound(const cv::Mat1f& backdrop, const Eigen::Vector2d& centre_px,

@@ -126,7 +126,8 @@ cv::Rect2d drone_box(const DroneView& view) {
     half = half.cwiseMax((ellipse.centre - view.centre_px).cwiseAbs() +
                          ellipse.Q.diagonal().cwiseMax(0.0).cwiseSqrt());
   }
-  return {view.centre_px.x() - half.x(), view.centre_px.y() - half.y(), 2 * half.x(), 2 * half.y()};
+  const Eigen::Vector2d corner = view.centre_px - half + Eigen::Vector2d(0.5, 0.5);
+  return {corner.x(), corner.y(), 2 * half.x(), 2 * half.y()};
 }
 
 DroneMatte drone_matte(const DroneView& view, cv::Size picture) {

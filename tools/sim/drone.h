@@ -19,7 +19,9 @@ struct DroneView {
   double brightness = 0.2;  // of the body, 0..1
 };
 
-// Smallest upright box around the silhouette, without smear; (0, 0) is the centre of a pixel.
+// Smallest upright box around the silhouette, without smear. As all boxes it is told by the edges
+// of pixels, while (0, 0) of view.centre_px is the centre of one: its middle is half a pixel
+// further.
 cv::Rect2d drone_box(const DroneView& view);
 
 // What a target adds to a picture: what was there times (1 - covered), plus `colour`.

@@ -23,7 +23,9 @@ std::optional<TrackerError> ViewTracker::initialise(const TrackerInput& frame,
                                                     const cv::Rect2d& box) {
   const ViewTruth* view = views_.at(frame.time_s);
   if (view == nullptr || !view->visible) return TrackerError::kBox;
-  offset_px_ = Eigen::Vector2d(box.x + 0.5 * box.width, box.y + 0.5 * box.height) - view->centre_px;
+  // A box begins at a pixel's edge, half a pixel before its centre.
+  offset_px_ = Eigen::Vector2d(box.x + 0.5 * box.width - 0.5, box.y + 0.5 * box.height - 0.5) -
+               view->centre_px;
   return std::nullopt;
 }
 

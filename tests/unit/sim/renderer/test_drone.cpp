@@ -63,6 +63,7 @@ TEST(Drone, BoxEnclosesWhatIsDrawn) {
     EXPECT_LT(p.y, box.y + box.height + 1.6);
   }
   EXPECT_NEAR(box.width, 40.0, 6.0);
+  EXPECT_NEAR(box.x + 0.5 * box.width - 0.5, view.centre_px.x(), 1e-9) << "edges, not centres";
 }
 
 TEST(Drone, CutOffAtTheEdgeOrOutsideIsFine) {
