@@ -26,10 +26,19 @@ void sync(const std::string& path) {
   if (failed != 0 && failed != EINVAL && failed != EROFS) throw file_error(path);
 }
 
+// A device or a pipe would be replaced by a file.
+const std::string& replaceable(const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none)) {
+    throw std::system_error(EINVAL, std::generic_category(), path + ": is not a plain file");
+  }
+  return path;
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const std::string& path)
-    : path_(path), temporary_(path + ".partial"), stream_(temporary_) {
+    : path_(replaceable(path)), temporary_(path + ".partial"), stream_(temporary_) {
   if (!stream_) throw file_error(temporary_);
 }
 

@@ -9,7 +9,7 @@ namespace ols {
 
 class AtomicFile {
  public:
-  // Throws std::system_error naming the path when it cannot be opened.
+  // Throws std::system_error naming the path when it cannot be opened, or is no plain file.
   explicit AtomicFile(const std::string& path);
   ~AtomicFile();  // without commit() the destination is left as it was
   AtomicFile(const AtomicFile&) = delete;

@@ -7,17 +7,25 @@
 // station's stated deviations as priors. The position is not changed, it is only not known exactly.
 // A turn of the mounting about the vertical looks like a heading; only the sum shows at the
 // horizon, and only the sum is needed there.
+//
+// The adjustment is tested as geodesists do (W. Baarda, A Testing Procedure for Use in Geodetic
+// Networks, 1968; P. Teunissen, Testing Theory): by data snooping for mistaken landmarks
+// (geometry/data_snooping.h), then by the global test for stated deviations that are too small.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "geometry/sight.h"
 
 namespace ols {
 
-// A landmark in a station's picture. A pixel and angles without any error are refused.
+// A landmark in a station's picture. A pixel and angles without any error are refused. Sightings of
+// exactly the same place are of one landmark, whose coordinates' error they share.
 struct LandmarkSighting {
   Eigen::Vector3d landmark_ecef = Eigen::Vector3d::Zero();  // [m] as the land register has it
   double landmark_sd_m = 0.0;                               // of each axis
@@ -27,23 +35,106 @@ struct LandmarkSighting {
   double angles_sd_rad = 0.0;
 };
 
+// A sighting that is none.
+class SightingRefused : public std::invalid_argument {
+ public:
+  SightingRefused(std::size_t sighting, const std::string& field, const std::string& why)
+      : std::invalid_argument("stationing: sighting " + std::to_string(sighting + 1) + ": " +
+                              field + ": " + why),
+        sighting_(sighting),
+        field_(field),
+        why_(why) {}
+  std::size_t sighting() const { return sighting_; }
+  const std::string& field() const { return field_; }  // landmark, pixel, angles or deviation
+  const std::string& why() const { return why_; }
+
+ private:
+  std::size_t sighting_;
+  std::string field_, why_;
+};
+
+// Without the sightings that it sets aside all others agree.
+struct StationingAlternative {
+  std::vector<std::size_t> set_aside;
+  double heading_rad = 0.0;
+};
+
+// Landmarks of which some must be mistaken, and it cannot be told which.
+class LandmarksContradict : public std::invalid_argument {
+ public:
+  LandmarksContradict(const std::string& why, std::vector<StationingAlternative> alternatives)
+      : std::invalid_argument("stationing: " + why), why_(why), alternatives_(alternatives) {}
+  const std::string& why() const { return why_; }
+  // The likeliest first, five at most. None: the landmarks agree, but not with what is stated of
+  // the station.
+  const std::vector<StationingAlternative>& alternatives() const { return alternatives_; }
+
+ private:
+  std::string why_;
+  std::vector<StationingAlternative> alternatives_;
+};
+
 // heading, tilt x, tilt y, mount z, mount x, mount y of ChainParameters.
 using PoseCovariance = Eigen::Matrix<double, 6, 6>;
+
+// Levels of significance: how often each test finds something where nothing is.
+struct StationingLevels {
+  double mistaken = 1e-3;  // the w-tests of all landmarks together
+  double misfit = 0.05;    // the global test
+};
+
+// The w-test of a landmark: of all its sightings at once, against the others.
+struct LandmarkTest {
+  std::vector<std::size_t> sightings;
+  bool set_aside = false;
+  // By how much its sightings stand out, the root of a chi-square with 2 degrees of freedom a
+  // sighting; beyond the critical value it is mistaken.
+  double w = 0.0;
+  double critical = 0.0;
+  // The minimal detectable bias (power 80 %): a shift of the landmark across and up, as seen from
+  // the station. Infinite where the others do not check it. One along the line of sight does not
+  // show.
+  Eigen::Vector2d detectable_m = Eigen::Vector2d::Zero();
+};
+
+// The global test (overall model test), of what is not set aside.
+struct GlobalTest {
+  double variance_factor = 0.0;  // a posteriori, of what was stated; expected: 1
+  double critical = 0.0;
+  int redundancy = 0;
+};
+
+// Of a line of sight along the horizon, 1-sigma.
+struct HorizonSd {
+  double azimuth_rad = 0.0;
+  double elevation_sd_rad = 0.0;
+};
 
 struct Stationing {
   // With the chain as found. Its sd gives to the heading and the tilts alone what is left of the
   // mounting: the least deviations that cover every line of sight no farther than `highest_rad`
   // from the horizon. What is left is strongly correlated, and deviations alone cannot say that.
   StationGeometry station;
-  PoseCovariance covariance = PoseCovariance::Zero();  // [rad^2]
-  // Of each sighting, (cross-elevation, elevation) over its deviation: a landmark that was mistaken
-  // for another stands out.
+  // [rad^2] Times the variance factor where the global test rejects the stated deviations: never
+  // less than they allow.
+  PoseCovariance covariance = PoseCovariance::Zero();
+  // Of each sighting, (cross-elevation, elevation) over its deviation.
   std::vector<Eigen::Vector2d> residuals;
+  std::vector<Eigen::Vector2d> residuals_rad;
+  std::vector<LandmarkTest> landmarks;
+  GlobalTest global;
+  // The w-test of what was stated of tilt x, tilt y, mount z, mount x, mount y, east, north and up:
+  // standard normal; 0 of what was stated without a deviation.
+  std::array<double, 8> stated_w{};
+  double scaled_by = 1.0;  // the deviations, for the global test
+  HorizonSd best, worst;   // where the landmarks determine the tilt best and least
 };
 
-// std::invalid_argument for no sighting; naming it, for one that is not finite or of a landmark at
-// the station; and where the landmarks leave the heading unknown (10 degrees).
+// std::invalid_argument for no sighting, and where the landmarks leave the heading unknown (10
+// degrees); SightingRefused for one that is not finite, outside of the lens model or of a landmark
+// at the station; LandmarksContradict.
 Stationing station_by_landmarks(const StationGeometry& rough,
-                                std::span<const LandmarkSighting> sightings, double highest_rad);
+                                std::span<const LandmarkSighting> sightings, double highest_rad,
+                                const StationingLevels& levels = {});
 
 }  // namespace ols

@@ -107,7 +107,7 @@ def test_finds_heading_and_tilt(survey):
     assert abs(pose["tilt_x_deg"] - 0.4) < 0.02 and abs(pose["tilt_y_deg"] + 0.3) < 0.02
     assert 0.001 < sd["heading_deg"] < 0.1 and 0.001 < sd["tilt_deg"] < 0.1
     assert found["calibration"]["id"] == 5
-    assert "stands out" not in result.stdout
+    assert "SET ASIDE" not in result.stdout and "accepted" in result.stdout
     for name in PLACES:
         assert f"#   {name}: " in result.stdout
 
@@ -127,11 +127,71 @@ def test_is_what_a_station_reads(survey):
     assert f"heading {pose['heading_deg']:.3f} deg" in checked.stdout
 
 
-def test_names_a_landmark_that_was_mistaken(survey):
-    angles = ols.aim_at(truth(), point("mast"))
-    change(survey / "sightings.csv", f"mast,{math.degrees(angles.pan_rad):.6f}", "mast,77.0")
-    said = [line for line in run(survey).stdout.splitlines() if "stands out" in line]
-    assert any("mast" in line for line in said)
+def mistake(survey, *names):
+    """Each of them was taken for something 10 degrees and more beside it."""
+    for i, name in enumerate(names):
+        pan_deg = math.degrees(ols.aim_at(truth(), point(name)).pan_rad)
+        change(survey / "sightings.csv", f"{name},{pan_deg:.6f}", f"{name},{pan_deg + 10 + 7 * i}")
+
+
+def test_sets_a_mistaken_landmark_aside_by_name(survey):
+    mistake(survey, "mast")
+    result = run(survey)
+    assert result.returncode == 0, result.stderr
+    (said,) = [line for line in result.stdout.splitlines() if "SET ASIDE" in line]
+    assert said.startswith("#   mast: w ") and "(line 4)" in said
+    assert "deg across" in said and "detectable: " in said
+    found = tomllib.loads(result.stdout)
+    assert abs(found["pose"]["heading_deg"] - 211.0) < 0.05
+
+
+def test_names_landmarks_that_contradict_each_other(survey):
+    mistake(survey, "mast", "tower")
+    result = run(survey, "--output", survey / "found.toml")
+    assert result.returncode == 2 and not (survey / "found.toml").exists()
+    (said,) = lines_said(result.stderr)
+    assert "sightings.csv: the landmarks contradict each other: " in said
+    assert "without tower (line 2), mast (line 4) on a heading of 211.0" in said
+
+
+def test_scales_the_deviations_with_the_misfit(survey):
+    """Pans that were read to half a degree and stated as a hundredth."""
+    sd = tomllib.loads(run(survey).stdout)["calibration"]["sd"]
+    text = (survey / "sightings.csv").read_text().splitlines()
+    for i, off in enumerate((0.06, -0.05, 0.05, -0.06), 1):
+        cells = text[i].split(",")
+        text[i] = ",".join([cells[0], str(float(cells[1]) + off), *cells[2:]])
+    (survey / "sightings.csv").write_text("\n".join(text) + "\n")
+    result = run(survey)
+    assert result.returncode == 0, result.stderr
+    assert "Global test (5 %)" in result.stdout and "scaled up by" in result.stdout
+    assert "SET ASIDE" not in result.stdout
+    scaled = tomllib.loads(result.stdout)["calibration"]["sd"]
+    assert scaled["heading_deg"] > 2.0 * sd["heading_deg"]
+    assert scaled["tilt_deg"] > 2.0 * sd["tilt_deg"]
+
+
+def test_says_what_one_landmark_leaves_open(survey):
+    lines = (survey / "sightings.csv").read_text().splitlines()
+    (survey / "sightings.csv").write_text("\n".join(lines[:2]) + "\n")
+    result = run(survey)
+    assert result.returncode == 0, result.stderr
+    for said in ("ONE LANDMARK ALONE", "nothing across", "NOT DETERMINED there"):
+        assert said in result.stdout
+
+
+def test_an_output_that_cannot_be_written_is_an_error(survey):
+    command = [str(BIN / "ols-stationing"), "--station", str(survey / "station.toml")]
+    command += ["--landmarks", str(survey / "landmarks.csv")]
+    command += ["--sightings", str(survey / "sightings.csv")]
+    with open("/dev/full", "w") as full:
+        result = subprocess.run(
+            command, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60, check=False
+        )
+    assert result.returncode == 2
+    assert "standard output: No space left on device" in result.stderr
+    result = run(survey, "--output", "/dev/full")
+    assert result.returncode == 2 and "/dev/full: is not a plain file" in result.stderr
 
 
 @pytest.mark.parametrize(
@@ -147,6 +207,10 @@ def test_names_a_landmark_that_was_mistaken(survey):
         ("sightings.csv", "mast,", "mark,", "sightings.csv:4: landmark: the station stands at it"),
         ("sightings.csv", ",700,400", ",700,", "sightings.csv:3: y_px: is empty"),
         ("sightings.csv", "pan_deg", "pan", "sightings.csv:1: pan_deg: there is no such column"),
+        ("sightings.csv", ",700,400", ",700,90000", "sightings.csv:3: x_px: 'spire' is outside"),
+        ("landmarks.csv", ",33N,", ",32N,", "sightings.csv:2: landmark: 'tower' is 4"),
+        ("landmarks.csv", ",33N,", ",33S,", "sightings.csv:2: landmark: 'tower' is "),
+        ("station.toml", "id = 4", f"id = {2**63 - 1}", "station.toml:9: calibration.id: there is"),
         ("station.toml", "heading_deg = 40.0", "haeding_deg = 1", "station.toml:2: "),
     ],
 )

@@ -233,6 +233,7 @@ int main(int argc, char** argv) {
   cv::setNumThreads(1);
   try {
     run(arguments);
+    ols::flush_output();
   } catch (const std::exception& error) {
     std::cerr << "ols-bench-tracker: " << error.what() << '\n';
     return ols::kExitBadInput;

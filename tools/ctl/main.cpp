@@ -144,8 +144,10 @@ int main(int argc, char** argv) {
   add_other_commands(app, words);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-ctl")) return *status;
   try {
-    if (words.stop) return stop(words.url, words.station);
-    return run(words.url, words.station, words.send, words.full);
+    const int status = words.stop ? stop(words.url, words.station)
+                                  : run(words.url, words.station, words.send, words.full);
+    ols::flush_output();
+    return status;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "ols-ctl: %s\n", error.what());
     return ols::kExitBadInput;

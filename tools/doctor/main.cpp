@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
     } else {
       for (const auto& finding : findings) std::printf("%s\n", ols::doctor::line(finding).c_str());
     }
+    ols::flush_output();
     return ols::doctor::exit_status(findings);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "ols-doctor: %s\n", error.what());

@@ -14,6 +14,25 @@
 using namespace ols;
 using namespace ols::bench;
 
+namespace {
+
+constexpr int kExitMissed = 1;
+
+// Whether every measure holds its limit.
+bool measure(const std::string& what, bool quick, int runs) {
+  if (quick) runs = std::max(2, runs / 5);
+  const bool all = what == "all";
+  Limits limits;
+  if (all || what == "least-squares") least_squares_bound(20 * runs, limits);
+  if (all || what == "filter") filter_bounds(runs, limits);
+  if (all || what == "paper") against_paper(std::max(20, runs / 5), limits);
+  if (all || what == "targets") several(std::max(2, runs / 5), limits);
+  if (what == "cost" || (all && !quick)) print_cost();
+  return limits.missed() == 0;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   CLI::App app{"Monte Carlo measures of the estimators on simulated bearings"};
@@ -33,17 +52,16 @@ int main(int argc, char** argv) {
   if (const auto status = parse_command_line(app, argc, argv, "ols-bench-estimators")) {
     return *status;
   }
-  if (!peer.empty()) {
-    write_peer_runs(peer, runs);
-    return 0;
+  try {
+    if (!peer.empty()) {
+      write_peer_runs(peer, runs);
+      return 0;
+    }
+    const bool holds = measure(what, quick, runs);
+    flush_output();
+    return holds ? 0 : kExitMissed;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ols-bench-estimators: %s\n", error.what());
+    return kExitBadInput;
   }
-  if (quick) runs = std::max(2, runs / 5);
-  const bool all = what == "all";
-  Limits limits;
-  if (all || what == "least-squares") least_squares_bound(20 * runs, limits);
-  if (all || what == "filter") filter_bounds(runs, limits);
-  if (all || what == "paper") against_paper(std::max(20, runs / 5), limits);
-  if (all || what == "targets") several(std::max(2, runs / 5), limits);
-  if (what == "cost" || (all && !quick)) print_cost();
-  return limits.missed() == 0 ? 0 : 1;
 }

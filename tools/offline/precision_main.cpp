@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
     if (const auto status = ols::parse_command_line(app, argc, argv, "ols-precision")) {
       return *status;
     }
+    ols::flush_output();
   } catch (const std::exception& error) {
     std::cerr << "ols-precision: " << error.what() << '\n';
     return ols::kExitBadInput;

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
 
 #include "base/csv_files.h"
+#include "base/toml_config.h"
 #include "geometry/angles.h"
 #include "geometry/utm.h"
 
@@ -27,6 +30,12 @@ Geodetic place_of(const SurveyRow& point, const std::string& path) {
 
 const SurveyRow& named(const std::vector<SurveyRow>& survey, const std::string& name) {
   return *std::ranges::find(survey, name, &SurveyRow::landmark);
+}
+
+// What is found gets the next one.
+void check_calibration_id(const std::string& path, std::int64_t id) {
+  if (id < std::numeric_limits<std::int64_t>::max()) return;
+  throw ConfigFile(path).root().table("calibration").error("id", "there is no higher one");
 }
 
 // What is known before a landmark is sighted: where the station stands, and how level.
@@ -60,15 +69,33 @@ LandmarkSighting sighting_of(const SightedRow& row, const SurveyRow& point,
   return sighting;
 }
 
-void write_residuals(std::ostream& out, const StationingCase& before, const Stationing& found) {
-  constexpr double kStandsOut = 4.0;
-  out << std::setprecision(1) << "# Each sighting's residual over its deviation, across and up:\n";
-  for (std::size_t i = 0; i < before.names.size(); ++i) {
-    const Eigen::Vector2d& off = found.residuals[i];
-    out << "#   " << before.names[i] << ": " << off.x() << ' ' << off.y();
-    if (off.norm() > kStandsOut) out << "  stands out: another landmark, or misread?";
-    out << '\n';
+std::string named(const StationingCase& before, const std::vector<std::size_t>& sightings) {
+  std::string text;
+  for (const std::size_t i : sightings) {
+    const SightingName& name = before.names[i];
+    if (!text.empty()) text += ", ";
+    text += name.landmark + " (line " + std::to_string(name.line) + ")";
   }
+  return text;
+}
+
+std::string contradiction(const StationingCase& before, const LandmarksContradict& problem) {
+  std::ostringstream text;
+  text << before.path << ": " << problem.why() << std::fixed << std::setprecision(3);
+  const char* separator = ": ";
+  for (const StationingAlternative& one : problem.alternatives()) {
+    text << separator << "all others agree without " << named(before, one.set_aside)
+         << " on a heading of " << degrees(one.heading_rad) << " deg";
+    separator = "; or ";
+  }
+  return text.str();
+}
+
+std::string refusal(const StationingCase& before, const SightingRefused& problem) {
+  const SightingName& name = before.names[problem.sighting()];
+  const std::string field = problem.field() == "pixel" ? "x_px" : "landmark";
+  return before.path + ":" + std::to_string(name.line) + ": " + field + ": '" + name.landmark +
+         "' " + problem.why();
 }
 
 }  // namespace
@@ -76,6 +103,8 @@ void write_residuals(std::ostream& out, const StationingCase& before, const Stat
 StationingCase read_stationing(const StationingOptions& options) {
   StationingCase result;
   result.settings = load_station_settings(options.station);
+  check_calibration_id(options.station, result.settings.calibration_id);
+  result.path = options.sightings;
   const auto survey = read_survey(options.landmarks);
   result.rough = rough_station(options, result.settings, survey);
   for (const SightedRow& row : read_sighted(options.sightings, survey)) {
@@ -83,42 +112,23 @@ StationingCase read_stationing(const StationingOptions& options) {
       throw CsvError(options.sightings + ":" + std::to_string(row.line) +
                      ": landmark: the station stands at it");
     }
-    result.names.push_back(row.landmark);
+    result.names.push_back({row.landmark, row.line});
     result.sightings.push_back(
         sighting_of(row, named(survey, row.landmark), result.rough.camera, options));
   }
   return result;
 }
 
-void write_stationing(std::ostream& out, const StationingCase& before, const Stationing& found,
-                      bool with_position) {
-  const StationGeometry& station = found.station;
-  const auto line = [&out](const char* key, double value, int digits) {
-    out << key << " = " << std::setprecision(digits) << value << '\n';
-  };
-  const auto angle = [&](const char* key, double rad) { line(key, degrees(rad), 5); };
-  out << std::fixed << "# Station " << before.settings.id << " by " << before.names.size()
-      << " sightings of landmarks.\n";
-  write_residuals(out, before, found);
-  out << "\n[pose]\n";
-  if (with_position) {
-    line("latitude_deg", degrees(station.position.latitude_rad), 9);
-    line("longitude_deg", degrees(station.position.longitude_rad), 9);
-    line("height_m", station.position.height_m, 3);
+Stationing find_station(const StationingCase& before, double highest_rad) {
+  try {
+    return station_by_landmarks(before.rough, before.sightings, highest_rad);
+  } catch (const LandmarksContradict& problem) {
+    throw CsvError(contradiction(before, problem));
+  } catch (const SightingRefused& problem) {
+    throw CsvError(refusal(before, problem));
+  } catch (const std::invalid_argument& problem) {
+    throw CsvError(before.path + ": " + problem.what());
   }
-  angle("heading_deg", station.chain.heading_rad);
-  angle("tilt_x_deg", station.chain.tilt_x_rad);
-  angle("tilt_y_deg", station.chain.tilt_y_rad);
-  out << "\n[chain]\n";
-  angle("mount_z_deg", station.chain.mount_z_rad);
-  angle("mount_x_deg", station.chain.mount_x_rad);
-  angle("mount_y_deg", station.chain.mount_y_rad);
-  out << "\n[calibration]\nid = " << before.settings.calibration_id + 1 << "\n\n[calibration.sd]\n";
-  angle("heading_deg", station.sd.heading_rad);
-  angle("tilt_deg", station.sd.tilt_rad);
-  angle("mount_deg", station.sd.mount_rad);
-  angle("mount_roll_deg", station.sd.mount_roll_rad);
-  line("position_m", station.sd.position_m, 3);
 }
 
 }  // namespace ols

@@ -20,10 +20,17 @@ struct StationingOptions {
   double highest_deg = 45.0;  // of targets
 };
 
+// A sighting's landmark and the line of its row.
+struct SightingName {
+  std::string landmark;
+  unsigned line = 0;
+};
+
 struct StationingCase {
   StationSettings settings;
   StationGeometry rough;
-  std::vector<std::string> names;  // of the sightings' landmarks
+  std::string path;  // of the sightings
+  std::vector<SightingName> names;
   std::vector<LandmarkSighting> sightings;
 };
 
@@ -31,8 +38,12 @@ struct StationingCase {
 // station's place is not known.
 StationingCase read_stationing(const StationingOptions& options);
 
-// The tables of the station's configuration that the stationing has found, with what each sighting
-// is off as a comment.
+// CsvError: the landmarks contradict each other, are none or leave the heading unknown; with the
+// names and lines of those that do.
+Stationing find_station(const StationingCase& before, double highest_rad);
+
+// The tables of the station's configuration that the stationing has found, with its tests, and
+// what the landmarks determine, as comments.
 void write_stationing(std::ostream& out, const StationingCase& before, const Stationing& found,
                       bool with_position);
 

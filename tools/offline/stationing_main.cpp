@@ -1,6 +1,5 @@
 // ols-stationing: a station's heading, tilt and mounting from sighted landmarks.
 #include <iostream>
-#include <sstream>
 
 #include "base/atomic_file.h"
 #include "base/command_line.h"
@@ -42,11 +41,12 @@ void add_options(CLI::App& app, Options& options) {
 
 void run(const Options& options) {
   const ols::StationingCase before = ols::read_stationing(options.stationing);
-  const ols::Stationing found = ols::station_by_landmarks(
-      before.rough, before.sightings, ols::radians(options.stationing.highest_deg));
+  const ols::Stationing found =
+      ols::find_station(before, ols::radians(options.stationing.highest_deg));
   const bool with_position = !options.stationing.at.empty();
   if (options.output.empty()) {
     ols::write_stationing(std::cout, before, found, with_position);
+    ols::flush_output();
     return;
   }
   ols::AtomicFile file(options.output);

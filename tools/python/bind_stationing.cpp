@@ -16,11 +16,25 @@ void bind_stationing(py::module_& m) {
       .def_readwrite("pixel_sd_px", &LandmarkSighting::pixel_sd_px, "Of each coordinate.")
       .def_readwrite("angles", &LandmarkSighting::angles, "PanTilt, as reported.")
       .def_readwrite("angles_sd_rad", &LandmarkSighting::angles_sd_rad, "Of each of them.");
+  data_class<LandmarkTest>(m, "LandmarkTest", "The w-test of a landmark's sightings.")
+      .def_readwrite("sightings", &LandmarkTest::sightings, "Their indices.")
+      .def_readwrite("set_aside", &LandmarkTest::set_aside)
+      .def_readwrite("w", &LandmarkTest::w)
+      .def_readwrite("critical", &LandmarkTest::critical)
+      .def_readwrite("detectable_m", &LandmarkTest::detectable_m, "(2,) across and up.");
+  data_class<GlobalTest>(m, "GlobalTest", "Of what is not set aside.")
+      .def_readwrite("variance_factor", &GlobalTest::variance_factor)
+      .def_readwrite("critical", &GlobalTest::critical)
+      .def_readwrite("redundancy", &GlobalTest::redundancy);
   data_class<Stationing>(m, "Stationing", "A station's pose as landmarks show it.")
       .def_readwrite("station", &Stationing::station, "StationGeometry with its sd.")
       .def_readwrite("covariance", &Stationing::covariance,
                      "(6, 6) [rad^2] heading, tilt x, tilt y, mount z, mount x, mount y.")
-      .def_readwrite("residuals", &Stationing::residuals, "(2,) of each sighting, normalised.");
+      .def_readwrite("residuals", &Stationing::residuals, "(2,) of each sighting, normalised.")
+      .def_readwrite("residuals_rad", &Stationing::residuals_rad, "(2,) of each sighting.")
+      .def_readwrite("landmarks", &Stationing::landmarks, "LandmarkTest of each.")
+      .def_readwrite("global_test", &Stationing::global)
+      .def_readwrite("scaled_by", &Stationing::scaled_by, "The deviations, for the global test.");
   m.def(
       "station_by_landmarks",
       [](const StationGeometry& rough, const std::vector<LandmarkSighting>& sightings,

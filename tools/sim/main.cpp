@@ -142,6 +142,7 @@ int main(int argc, char** argv) {
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-sim")) return *status;
   try {
     run(options);
+    ols::flush_output();
   } catch (const std::exception& problem) {
     std::cerr << "ols-sim: " << problem.what() << "\n";
     return 2;

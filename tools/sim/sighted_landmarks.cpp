@@ -99,8 +99,10 @@ void find_headings(const Scenario& scenario, std::uint64_t seed, double step_rad
     for (const Sighted& each : sighted) {
       sightings.push_back(sighting(before[i], each, on * how.mark_sd_px, step_rad, draw));
     }
+    // No landmark here is mistaken: a test that says so in one stationing of a thousand is wrong.
+    constexpr StationingLevels kLevels{.mistaken = 1e-12};
     stations[i].nominal =
-        station_by_landmarks(before[i].nominal, sightings, how.highest_rad).station;
+        station_by_landmarks(before[i].nominal, sightings, how.highest_rad, kLevels).station;
   }
 }
 

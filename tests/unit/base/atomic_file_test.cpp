@@ -1,6 +1,7 @@
 #include "base/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <sstream>
@@ -58,6 +59,14 @@ TEST_F(AtomicFileTest, NamesAPathThatCannotBeOpened) {
   } catch (const std::system_error& error) {
     EXPECT_NE(std::string(error.what()).find("/nonexistent/out.csv"), std::string::npos);
   }
+}
+
+TEST_F(AtomicFileTest, DoesNotReplaceWhatIsNoFile) {
+  const std::string pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(AtomicFile{pipe}, std::system_error);
+  EXPECT_THROW(AtomicFile{folder_.string()}, std::system_error);
+  EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
 }  // namespace

@@ -164,6 +164,8 @@ TEST(Stationing, IsAsWrongAsItSays) {
 
 TEST(Stationing, LandmarksTakeInTheMountingAndTheMoreTheNearerToTheHorizon) {
   Case c = crooked_station();
+  // A tilt or a roll would show the mounting about the vertical.
+  c.truth.chain.tilt_x_rad = c.truth.chain.tilt_y_rad = c.truth.chain.mount_x_rad = 0.0;
   c.rough.sd = {.mount_rad = radians(0.4)};
   const std::vector<LandmarkSighting> sightings = {sighting(c.truth, {800, 300, 10}),
                                                    sighting(c.truth, {-500, 900, 5}),
@@ -175,17 +177,6 @@ TEST(Stationing, LandmarksTakeInTheMountingAndTheMoreTheNearerToTheHorizon) {
   EXPECT_LT(stated(5.0), 0.01);
   EXPECT_GT(stated(60.0), 0.1);
   EXPECT_EQ(station_by_landmarks(c.rough, sightings, 0.1).station.sd.mount_rad, 0.0);
-}
-
-TEST(Stationing, AMistakenLandmarkStandsOut) {
-  const Case c = crooked_station();
-  auto sightings = all_around(c.truth);
-  sightings[2].landmark_ecef += LocalFrame(c.truth.position).R_ecef_enu() * Vector3d(20, -40, 0);
-  const Stationing found = station_by_landmarks(c.rough, sightings, kHighest_rad);
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
-    EXPECT_LE(found.residuals[i].norm(), found.residuals[2].norm());
-  }
-  EXPECT_GT(found.residuals[2].norm(), 100.0);
 }
 
 std::string refusal(const StationGeometry& rough, std::vector<LandmarkSighting> sightings) {
@@ -203,13 +194,16 @@ TEST(Stationing, RefusesWhatIsNoSighting) {
   EXPECT_THAT(refusal(c.rough, {}), testing::HasSubstr("no landmark"));
   auto bad = good;
   bad[1].pixel.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(refusal(c.rough, bad), testing::HasSubstr("sighting 2: not a finite"));
+  EXPECT_THAT(refusal(c.rough, bad), testing::HasSubstr("sighting 2: pixel: not a finite"));
   bad = good;
   bad[0].pixel_sd_px = 0.0;
-  EXPECT_THAT(refusal(c.rough, bad), testing::HasSubstr("sighting 1: a deviation"));
+  EXPECT_THAT(refusal(c.rough, bad), testing::HasSubstr("sighting 1: deviation: must be positive"));
   bad = good;
   bad[4].landmark_ecef = camera_centre_ecef(c.rough, bad[4].angles);
-  EXPECT_THAT(refusal(c.rough, bad), testing::HasSubstr("sighting 5: the landmark is at"));
+  EXPECT_THAT(refusal(c.rough, bad), testing::HasSubstr("sighting 5: landmark: is at the station"));
+  bad = good;
+  bad[3].landmark_ecef = ecef_from_geodetic({radians(16.6), radians(49.2), 300.0});
+  EXPECT_THAT(refusal(c.rough, bad), testing::HasSubstr("sighting 4: landmark: is 4"));
 }
 
 TEST(Stationing, RefusesWhatLeavesTheHeadingUnknown) {

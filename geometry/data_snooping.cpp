@@ -1,0 +1,274 @@
+#include "geometry/data_snooping.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "geometry/angles.h"
+#include "geometry/chi_square.h"
+
+namespace ols {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Twice the logarithm of odds of 1000.
+const double kNoDoubt = 2.0 * std::log(1000.0);
+
+using Rest = Eigen::Matrix<double, kPoseUnknowns - 1, kPoseUnknowns - 1>;
+
+// b^T N^-1 b. Of the heading alone nothing may be known: then it is what the others give.
+double quadratic(const PoseInformation& N, const PoseUnknowns& b, double least_heading) {
+  const auto cross = N.col(0).tail<kPoseUnknowns - 1>();
+  const auto rest = b.tail<kPoseUnknowns - 1>();
+  const auto solver = N.bottomRightCorner<kPoseUnknowns - 1, kPoseUnknowns - 1>().ldlt();
+  const double heading = N(0, 0) - cross.dot(solver.solve(cross));
+  const double of_rest = rest.dot(solver.solve(rest));
+  if (!(heading > least_heading)) return of_rest;
+  return of_rest + std::pow(b[0] - cross.dot(solver.solve(rest)), 2) / heading;
+}
+
+// Less than this is rounding: what of the heading's information is left.
+double least_heading(const PoseInformation& N) {
+  constexpr double kRounding = 1e-8;
+  return kRounding / N.ldlt().solve(PoseUnknowns::Unit(0))[0];
+}
+
+}  // namespace
+
+double leave_one_out(const LandmarkFit& fit, std::size_t landmark) {
+  const LandmarkEquations& own = fit.landmarks[landmark];
+  const double least = least_heading(fit.information);
+  if (!fit.kept[landmark]) {
+    return own.squares - quadratic(fit.information + own.information, own.gradient, least);
+  }
+  return own.squares + quadratic(fit.information - own.information, own.gradient, least);
+}
+
+double critical_value(const LandmarkAdjustment& adjustment, std::size_t landmark, double level) {
+  const auto& landmarks = adjustment.landmarks();
+  return chi_square_critical(level / static_cast<double>(landmarks.size()),
+                             2 * static_cast<int>(landmarks[landmark].size()));
+}
+
+Eigen::Vector2d detectable_m(const LandmarkAdjustment& adjustment, const LandmarkFit& fit,
+                             std::size_t landmark, double critical) {
+  constexpr double kPower = 0.8, kUnchecked = 1e-6;
+  const LandmarkEquations& own = fit.landmarks[landmark];
+  PoseInformation N = fit.information;
+  if (!fit.kept[landmark]) N += own.information;
+  const auto& sightings = adjustment.landmarks()[landmark];
+  const double noncentrality =
+      least_noncentrality(critical, 2 * static_cast<int>(sightings.size()), kPower);
+  Eigen::Vector2d result;
+  for (int axis = 0; axis < 2; ++axis) {
+    const PoseUnknowns pose = own.shift_pose.col(axis);
+    const double checked = own.shift_information - pose.dot(N.ldlt().solve(pose));
+    result[axis] =
+        checked < kUnchecked * own.shift_information
+            ? kInfinity
+            : std::sqrt(noncentrality / checked) * adjustment.distance_m(sightings.front());
+  }
+  return result;
+}
+
+namespace {
+
+class Snooping {
+ public:
+  Snooping(const LandmarkAdjustment& adjustment, double level)
+      : adjustment_(adjustment), count_(adjustment.landmarks().size()) {
+    for (std::size_t l = 0; l < count_; ++l) {
+      critical_.push_back(critical_value(adjustment, l, level));
+      headings_.push_back(adjustment.heading_by(l));
+    }
+  }
+
+  // What is found from the heading of each that no set found before explains; the cheapest first.
+  std::vector<LandmarkFit> candidates(const std::vector<bool>& among, double variance) const {
+    std::vector<LandmarkFit> found;
+    std::vector<std::size_t> rest = set(among, true);
+    while (!rest.empty()) {
+      const std::size_t seed = seed_of(rest);
+      found.push_back(grown(seed, among, variance));
+      const auto is_explained = [&](std::size_t l) { return l == seed || found.back().kept[l]; };
+      std::erase_if(rest, is_explained);
+    }
+    std::ranges::stable_sort(found, {}, [&](const LandmarkFit& f) { return cost(f, variance); });
+    return found;
+  }
+
+  double cost(const LandmarkFit& fit, double variance) const {
+    double sum = fit.misfit;
+    // -2 log likelihood at the best common factor of all variances.
+    if (variance > 1.0 && fit.misfit > fit.redundancy) {
+      sum = fit.redundancy * (1.0 + std::log(fit.misfit / fit.redundancy));
+    }
+    for (std::size_t l = 0; l < count_; ++l) sum += fit.kept[l] ? 0.0 : critical_[l];
+    return sum;
+  }
+
+  static std::vector<std::size_t> set(const std::vector<bool>& kept, bool which) {
+    std::vector<std::size_t> members;
+    for (std::size_t l = 0; l < kept.size(); ++l) {
+      if (kept[l] == which) members.push_back(l);
+    }
+    return members;
+  }
+
+  bool all_pass(const LandmarkFit& fit, double variance) const {
+    return std::ranges::all_of(set(fit.kept, true), [&](std::size_t l) {
+      return leave_one_out(fit, l) <= variance * critical_[l];
+    });
+  }
+
+  // One set aside and one kept, in each other's place, would do nearly as well.
+  std::optional<std::pair<std::size_t, std::size_t>> exchangeable(const LandmarkFit& fit) const {
+    const double variance = std::max(1.0, fit.misfit / fit.redundancy);
+    const double least = least_heading(fit.information);
+    for (const std::size_t in : set(fit.kept, false)) {
+      for (const std::size_t out : set(fit.kept, true)) {
+        const LandmarkEquations &i = fit.landmarks[in], &o = fit.landmarks[out];
+        const PoseInformation N = fit.information + i.information - o.information;
+        const double more = i.squares - o.squares - quadratic(N, i.gradient - o.gradient, least);
+        if (more < kNoDoubt * variance) return std::pair(in, out);
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  // The heading whose median difference from the others' is least (P. Rousseeuw, 1984).
+  std::size_t seed_of(const std::vector<std::size_t>& rest) const {
+    std::size_t best = rest.front();
+    double least = kInfinity;
+    std::vector<double> off(rest.size());
+    for (const std::size_t l : rest) {
+      std::ranges::transform(rest, off.begin(), [&](std::size_t other) {
+        return std::abs(wrap_pi(headings_[other] - headings_[l]));
+      });
+      const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+      std::ranges::nth_element(off, middle);
+      if (*middle < least) {
+        least = *middle;
+        best = l;
+      }
+    }
+    return best;
+  }
+
+  LandmarkFit grown(std::size_t seed, const std::vector<bool>& among, double variance) const {
+    std::vector<bool> kept(count_, false);
+    kept[seed] = true;
+    LandmarkFit fit = adjustment_.fit(kept, headings_[seed]);
+    for (std::size_t round = 0; round < 2 * count_; ++round) {
+      if (!improve(kept, fit, among, variance)) break;
+      fit = adjustment_.fit(kept, fit.station.chain.heading_rad);
+    }
+    return fit;
+  }
+
+  // Takes out the worst that fails, or takes in all that pass.
+  bool improve(std::vector<bool>& kept, const LandmarkFit& fit, const std::vector<bool>& among,
+               double variance) const {
+    std::size_t worst = count_, inside = 0;
+    double worst_ratio = variance;
+    std::vector<std::size_t> pass;
+    for (std::size_t l = 0; l < count_; ++l) {
+      if (!among[l]) continue;
+      const double ratio = leave_one_out(fit, l) / critical_[l];
+      if (kept[l]) ++inside;
+      if (kept[l] && ratio > worst_ratio) {
+        worst = l;
+        worst_ratio = ratio;
+      }
+      if (!kept[l] && ratio <= variance) pass.push_back(l);
+    }
+    if (worst != count_ && inside > 1) {
+      kept[worst] = false;
+      return true;
+    }
+    for (const std::size_t l : pass) kept[l] = true;
+    return !pass.empty();
+  }
+
+  const LandmarkAdjustment& adjustment_;
+  std::size_t count_;
+  std::vector<double> critical_, headings_;
+};
+
+StationingAlternative alternative(const LandmarkAdjustment& adjustment, const LandmarkFit& fit) {
+  StationingAlternative result;
+  for (const std::size_t l : Snooping::set(fit.kept, false)) {
+    const auto& sightings = adjustment.landmarks()[l];
+    result.set_aside.insert(result.set_aside.end(), sightings.begin(), sightings.end());
+  }
+  std::ranges::sort(result.set_aside);
+  result.heading_rad = wrap_two_pi(fit.station.chain.heading_rad);
+  return result;
+}
+
+[[noreturn]] void contradict(const LandmarkAdjustment& adjustment, const std::string& why,
+                             const std::vector<LandmarkFit>& fits) {
+  constexpr std::size_t kMost = 5;
+  std::vector<StationingAlternative> alternatives;
+  for (const LandmarkFit& fit : fits) {
+    if (alternatives.size() < kMost) alternatives.push_back(alternative(adjustment, fit));
+  }
+  throw LandmarksContradict(why, alternatives);
+}
+
+// Throws where it is not certain that just these are mistaken.
+void check(const LandmarkAdjustment& adjustment, const Snooping& snooping,
+           std::vector<LandmarkFit> found, double variance) {
+  const LandmarkFit& fit = found.front();
+  const std::size_t aside = Snooping::set(fit.kept, false).size();
+  const std::size_t inside = fit.kept.size() - aside;
+  if (!snooping.all_pass(fit, variance)) {
+    contradict(adjustment,
+               "the landmarks contradict what is stated of the station's tilt, "
+               "mounting or position",
+               {});
+  }
+  if (aside == 0) return;
+  if (inside <= aside) contradict(adjustment, "the landmarks contradict each other", found);
+  std::vector<bool> others = fit.kept;
+  others.flip();
+  const LandmarkFit rival = snooping.candidates(others, variance).front();
+  const std::size_t rivals = Snooping::set(rival.kept, true).size();
+  if (rivals >= 2 && 2 * rivals >= inside) {
+    contradict(adjustment, "two groups of landmarks contradict each other", {fit, rival});
+  }
+  if (const auto exchange = snooping.exchangeable(fit)) {
+    std::vector<bool> kept = fit.kept;
+    kept[exchange->first] = true;
+    kept[exchange->second] = false;
+    contradict(adjustment, "the landmarks contradict each other",
+               {fit, adjustment.fit(kept, fit.station.chain.heading_rad)});
+  }
+}
+
+}  // namespace
+
+LandmarkFit without_mistaken(const LandmarkAdjustment& adjustment, double level) {
+  const Snooping snooping(adjustment, level);
+  const std::vector<bool> all(adjustment.landmarks().size(), true);
+  double variance = 1.0;
+  auto found = snooping.candidates(all, variance);
+  if (found.front().kept != all) {
+    double least = snooping.cost(found.front(), variance) - kNoDoubt;
+    for (const double factor : {4.0, 16.0, 64.0}) {
+      auto larger = snooping.candidates(all, factor);
+      const double cost = snooping.cost(larger.front(), factor);
+      if (cost >= least) continue;
+      least = cost;
+      found = std::move(larger);
+      variance = factor;
+    }
+  }
+  check(adjustment, snooping, found, variance);
+  return found.front();
+}
+
+}  // namespace ols
