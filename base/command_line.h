@@ -4,9 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <optional>
+#include <string>
 #include <system_error>
 
 namespace ols {
@@ -22,9 +24,26 @@ inline void flush_output() {
   throw std::system_error(errno == 0 ? EIO : errno, std::generic_category(), "standard output");
 }
 
+// A check of numbers: CLI::Range compares, and lets a NaN through.
+inline std::string refuse_not_finite(const std::string& text) {
+  double value = 0.0;
+  const bool finite = !CLI::detail::lexical_cast(text, value) || std::isfinite(value);
+  return finite ? std::string() : "Value " + text + " is not a finite number";
+}
+
+inline void check_numbers(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_type_name().starts_with("FLOAT")) option->check(refuse_not_finite);
+  }
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    check_numbers(*command);
+  }
+}
+
 // The status to end with: 0 after --help, 2 after bad input. Nothing when the program shall go on.
 inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv,
                                              const char* program) {
+  check_numbers(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -13,8 +13,9 @@ namespace ols {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Twice the logarithm of odds of 1000.
+// Twice the logarithm of odds of 1000 and of 20.
 const double kNoDoubt = 2.0 * std::log(1000.0);
+const double kLikely = 2.0 * std::log(20.0);
 
 using Rest = Eigen::Matrix<double, kPoseUnknowns - 1, kPoseUnknowns - 1>;
 
@@ -85,11 +86,13 @@ class Snooping {
     }
   }
 
-  // What is found from the heading of each that no set found before explains; the cheapest first.
-  std::vector<LandmarkFit> candidates(const std::vector<bool>& among, double variance) const {
+  // What is found from the heading of each that no set found before explains, as long as there are
+  // `least` of them; the cheapest first.
+  std::vector<LandmarkFit> candidates(const std::vector<bool>& among, double variance,
+                                      std::size_t least) const {
     std::vector<LandmarkFit> found;
     std::vector<std::size_t> rest = set(among, true);
-    while (!rest.empty()) {
+    while (rest.size() >= least) {
       const std::size_t seed = seed_of(rest);
       found.push_back(grown(seed, among, variance));
       const auto is_explained = [&](std::size_t l) { return l == seed || found.back().kept[l]; };
@@ -221,7 +224,7 @@ StationingAlternative alternative(const LandmarkAdjustment& adjustment, const La
 
 // Throws where it is not certain that just these are mistaken.
 void check(const LandmarkAdjustment& adjustment, const Snooping& snooping,
-           std::vector<LandmarkFit> found, double variance) {
+           const std::vector<LandmarkFit>& found, double variance) {
   const LandmarkFit& fit = found.front();
   const std::size_t aside = Snooping::set(fit.kept, false).size();
   const std::size_t inside = fit.kept.size() - aside;
@@ -235,9 +238,9 @@ void check(const LandmarkAdjustment& adjustment, const Snooping& snooping,
   if (inside <= aside) contradict(adjustment, "the landmarks contradict each other", found);
   std::vector<bool> others = fit.kept;
   others.flip();
-  const LandmarkFit rival = snooping.candidates(others, variance).front();
-  const std::size_t rivals = Snooping::set(rival.kept, true).size();
-  if (rivals >= 2 && 2 * rivals >= inside) {
+  const std::size_t rivals = std::max<std::size_t>(2, (inside + 1) / 2);
+  for (const LandmarkFit& rival : snooping.candidates(others, variance, rivals)) {
+    if (Snooping::set(rival.kept, true).size() < rivals) continue;
     contradict(adjustment, "two groups of landmarks contradict each other", {fit, rival});
   }
   if (const auto exchange = snooping.exchangeable(fit)) {
@@ -249,26 +252,46 @@ void check(const LandmarkAdjustment& adjustment, const Snooping& snooping,
   }
 }
 
+// By how much all variances are supposed to be greater than stated, and what is found then.
+struct Hypothesis {
+  double variance = 1.0;
+  std::vector<LandmarkFit> found;
+  double cost = 0.0;
+};
+
+Hypothesis hypothesis(const Snooping& snooping, const std::vector<bool>& among, double variance,
+                      std::size_t least) {
+  Hypothesis result{.variance = variance, .found = snooping.candidates(among, variance, least)};
+  result.cost = snooping.cost(result.found.front(), variance);
+  return result;
+}
+
 }  // namespace
 
 LandmarkFit without_mistaken(const LandmarkAdjustment& adjustment, double level) {
   const Snooping snooping(adjustment, level);
   const std::vector<bool> all(adjustment.landmarks().size(), true);
-  double variance = 1.0;
-  auto found = snooping.candidates(all, variance);
-  if (found.front().kept != all) {
-    double least = snooping.cost(found.front(), variance) - kNoDoubt;
-    for (const double factor : {4.0, 16.0, 64.0}) {
-      auto larger = snooping.candidates(all, factor);
-      const double cost = snooping.cost(larger.front(), factor);
-      if (cost >= least) continue;
-      least = cost;
-      found = std::move(larger);
-      variance = factor;
+  // Of so many that most agree with the first heading, all others need not be tried.
+  constexpr std::size_t kMany = 50;
+  const std::size_t least = all.size() > kMany ? all.size() / 2 : 1;
+  const Hypothesis stated = hypothesis(snooping, all, 1.0, least);
+  Hypothesis noisier = stated;
+  if (stated.found.front().kept != all) {
+    for (const double variance : {4.0, 16.0, 64.0}) {
+      Hypothesis more = hypothesis(snooping, all, variance, least);
+      if (more.cost < noisier.cost) noisier = std::move(more);
     }
   }
-  check(adjustment, snooping, found, variance);
-  return found.front();
+  const double better = stated.cost - noisier.cost;
+  try {
+    const Hypothesis& best = better > kNoDoubt ? noisier : stated;
+    check(adjustment, snooping, best.found, best.variance);
+    return best.found.front();
+  } catch (const LandmarksContradict&) {
+    if (better > kNoDoubt || better < kLikely) throw;
+  }
+  check(adjustment, snooping, noisier.found, noisier.variance);
+  return noisier.found.front();
 }
 
 }  // namespace ols

@@ -6,9 +6,10 @@
 // value for each one set aside. From the heading of each landmark, the set that it leads to is
 // grown until no landmark inside fails its test and none outside would pass; the cheapest is taken.
 // The same is tried supposing that all stated deviations are too small by 2, 4 or 8: what is evenly
-// bad is not thrown away until a few remain that agree by chance.
+// bad is not thrown away until a few remain that agree by chance. That is believed at odds of 1000,
+// or of 20 where it cannot be told which landmarks are mistaken.
 //
-// Nobody is guessed to be wrong: as much must be kept as is set aside and more, no other landmarks
+// No landmark is guessed to be wrong: as much must be kept as is set aside and more, no other landmarks
 // must do as well in the place of those set aside (odds of 1000), and those must not agree with one
 // another as half of the kept do: then the tripod was moved, or the survey has two origins.
 #pragma once

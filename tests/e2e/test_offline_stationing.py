@@ -207,7 +207,6 @@ def test_an_output_that_cannot_be_written_is_an_error(survey):
         ("sightings.csv", "mast,", "mark,", "sightings.csv:4: landmark: the station stands at it"),
         ("sightings.csv", ",700,400", ",700,", "sightings.csv:3: y_px: is empty"),
         ("sightings.csv", "pan_deg", "pan", "sightings.csv:1: pan_deg: there is no such column"),
-        ("sightings.csv", ",700,400", ",700,90000", "sightings.csv:3: x_px: 'spire' is outside"),
         ("landmarks.csv", ",33N,", ",32N,", "sightings.csv:2: landmark: 'tower' is 4"),
         ("landmarks.csv", ",33N,", ",33S,", "sightings.csv:2: landmark: 'tower' is "),
         ("station.toml", "id = 4", f"id = {2**63 - 1}", "station.toml:9: calibration.id: there is"),
@@ -221,6 +220,21 @@ def test_refuses_bad_input_by_name(survey, name, old, new, where):
     assert result.stdout == ""
     said = lines_said(result.stderr)
     assert len(said) == 1 and where in said[0], said
+
+
+def test_a_pixel_outside_of_the_lens_model_is_named(survey):
+    change(survey / "station.toml", "fy_px = 13333.3", "fy_px = 13333.3\nk1 = -0.2")
+    change(survey / "sightings.csv", ",700,400", ",700,90000")
+    result = run(survey)
+    assert result.returncode == 2
+    assert "sightings.csv:3: x_px: 'spire' is outside of the lens model" in result.stderr
+
+
+@pytest.mark.parametrize("option", ["--pixel-sd", "--angles-sd", "--highest"])
+def test_refuses_options_that_are_no_number(survey, option):
+    for value in ("nan", "inf"):
+        result = run(survey, option, value)
+        assert result.returncode == 2 and option in result.stderr, result.stderr
 
 
 def test_says_where_the_place_is_missing(survey):

@@ -8,6 +8,12 @@
 namespace ols {
 namespace {
 
+// As it is printed: no -0.00.
+double rounded(double value, int digits) {
+  const double unit = std::pow(10.0, -digits);
+  return std::abs(value) < 0.5 * unit ? 0.0 : value;
+}
+
 void write_global_test(std::ostream& out, const Stationing& found) {
   const GlobalTest& test = found.global;
   out << std::setprecision(2) << "# Global test (5 %): variance factor " << test.variance_factor
@@ -40,9 +46,9 @@ void write_detectable(std::ostream& out, const Eigen::Vector2d& least_m) {
 void write_residual(std::ostream& out, const Stationing& found, std::size_t i) {
   const Eigen::Vector2d& rad = found.residuals_rad[i];
   const Eigen::Vector2d& over = found.residuals[i];
-  out << std::setprecision(4) << "off by " << degrees(rad.x()) << " deg across, "
-      << degrees(rad.y()) << " up (" << std::setprecision(1) << over.x() << " and " << over.y()
-      << " deviations)";
+  out << std::setprecision(4) << "off by " << rounded(degrees(rad.x()), 4) << " deg across, "
+      << rounded(degrees(rad.y()), 4) << " up (" << std::setprecision(1) << rounded(over.x(), 1)
+      << " and " << rounded(over.y(), 1) << " deviations)";
 }
 
 void write_landmarks(std::ostream& out, const StationingCase& before, const Stationing& found) {
@@ -101,7 +107,7 @@ void write_stationing(std::ostream& out, const StationingCase& before, const Sta
                       bool with_position) {
   const StationGeometry& station = found.station;
   const auto line = [&out](const char* key, double value, int digits) {
-    out << key << " = " << std::setprecision(digits) << value << '\n';
+    out << key << " = " << std::setprecision(digits) << rounded(value, digits) << '\n';
   };
   const auto angle = [&](const char* key, double rad) { line(key, degrees(rad), 5); };
   out << std::fixed << "# Station " << before.settings.id << " by " << before.names.size()

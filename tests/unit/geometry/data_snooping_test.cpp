@@ -1,4 +1,6 @@
 // The tests of geometry/stationing.h: mistaken landmarks, and deviations that are too small.
+#include "geometry/data_snooping.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -94,6 +96,25 @@ std::optional<LandmarksContradict> contradiction(const Sightings& sightings) {
 double heading_off_rad(const Stationing& found) {
   return std::abs(
       wrap_pi(found.station.chain.heading_rad + found.station.chain.mount_z_rad - kHeading_rad));
+}
+
+// Against adjustments with and without it.
+TEST(DataSnooping, TheTestIsWhatLeavingTheLandmarkOutSaves) {
+  Sightings sightings = landmarks(6);
+  sightings.push_back(sightings[2]);  // of one place, sighted twice
+  sightings.back().pixel += Vector2d(1.0, -2.0);
+  const LandmarkAdjustment adjustment(rough(), sightings);
+  const std::vector<bool> all(6, true);
+  const LandmarkFit with = adjustment.fit(all, kHeading_rad);
+  EXPECT_EQ(with.redundancy, 13);
+  for (std::size_t l = 0; l < all.size(); ++l) {
+    std::vector<bool> others = all;
+    others[l] = false;
+    const LandmarkFit without = adjustment.fit(others, kHeading_rad);
+    const double saved = with.misfit - without.misfit;
+    EXPECT_NEAR(leave_one_out(with, l), saved, 1e-3 * (1.0 + saved));
+    EXPECT_NEAR(leave_one_out(without, l), saved, 1e-3 * (1.0 + saved));
+  }
 }
 
 TEST(DataSnooping, LandmarksWithoutAMistakeAreAllKept) {
