@@ -14,11 +14,11 @@ double exceeds(double limit, double degrees) {
 // Where the monotonic `f` is zero, above 0.
 template <class F>
 double root(F f) {
-  constexpr int kHalvings = 100;
+  constexpr double kClose = 1e-13;
   const bool falls = f(0.0) > 0.0;
   double low = 0.0, high = 1.0;
   while ((f(high) > 0.0) == falls) high *= 2.0;
-  for (int i = 0; i < kHalvings; ++i) {
+  while (high - low > kClose * high) {
     const double middle = 0.5 * (low + high);
     ((f(middle) > 0.0) == falls ? low : high) = middle;
   }
@@ -41,15 +41,16 @@ double chi_square_power(double limit, int degrees, double noncentrality) {
   const double mean = 0.5 * noncentrality;
   if (!(mean > 0.0)) return exceeds(limit, degrees);
   const double middle = std::floor(mean);
-  const auto weight = [&](double j) {
-    return std::exp(j * std::log(mean) - mean - std::lgamma(j + 1.0));
-  };
-  double sum = 0.0;
-  for (double j = middle; j >= 0.0 && weight(j) > kNegligible; --j) {
-    sum += weight(j) * exceeds(limit, degrees + 2.0 * j);
+  const double most = std::exp(middle * std::log(mean) - mean - std::lgamma(middle + 1.0));
+  double sum = 0.0, weight = most;
+  for (double j = middle; j >= 0.0 && weight > kNegligible; --j) {
+    sum += weight * exceeds(limit, degrees + 2.0 * j);
+    weight *= j / mean;
   }
-  for (double j = middle + 1.0; weight(j) > kNegligible; ++j) {
-    sum += weight(j) * exceeds(limit, degrees + 2.0 * j);
+  weight = most * mean / (middle + 1.0);
+  for (double j = middle + 1.0; weight > kNegligible; ++j) {
+    sum += weight * exceeds(limit, degrees + 2.0 * j);
+    weight *= mean / (j + 1.0);
   }
   return sum;
 }

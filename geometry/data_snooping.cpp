@@ -54,22 +54,19 @@ double critical_value(const LandmarkAdjustment& adjustment, std::size_t landmark
 }
 
 Eigen::Vector2d detectable_m(const LandmarkAdjustment& adjustment, const LandmarkFit& fit,
-                             std::size_t landmark, double critical) {
-  constexpr double kPower = 0.8, kUnchecked = 1e-6;
+                             std::size_t landmark, double noncentrality) {
+  constexpr double kUnchecked = 1e-6;
   const LandmarkEquations& own = fit.landmarks[landmark];
   PoseInformation N = fit.information;
   if (!fit.kept[landmark]) N += own.information;
-  const auto& sightings = adjustment.landmarks()[landmark];
-  const double noncentrality =
-      least_noncentrality(critical, 2 * static_cast<int>(sightings.size()), kPower);
+  const std::size_t sighting = adjustment.landmarks()[landmark].front();
   Eigen::Vector2d result;
   for (int axis = 0; axis < 2; ++axis) {
     const PoseUnknowns pose = own.shift_pose.col(axis);
     const double checked = own.shift_information - pose.dot(N.ldlt().solve(pose));
-    result[axis] =
-        checked < kUnchecked * own.shift_information
-            ? kInfinity
-            : std::sqrt(noncentrality / checked) * adjustment.distance_m(sightings.front());
+    result[axis] = checked < kUnchecked * own.shift_information
+                       ? kInfinity
+                       : std::sqrt(noncentrality / checked) * adjustment.distance_m(sighting);
   }
   return result;
 }

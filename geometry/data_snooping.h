@@ -9,9 +9,10 @@
 // bad is not thrown away until a few remain that agree by chance. That is believed at odds of 1000,
 // or of 20 where it cannot be told which landmarks are mistaken.
 //
-// No landmark is guessed to be wrong: as much must be kept as is set aside and more, no other landmarks
-// must do as well in the place of those set aside (odds of 1000), and those must not agree with one
-// another as half of the kept do: then the tripod was moved, or the survey has two origins.
+// No landmark is guessed to be wrong: as much must be kept as is set aside and more, no other
+// landmarks must do as well in the place of those set aside (odds of 1000), and those must not
+// agree with one another as half of the kept do: then the tripod was moved, or the survey has two
+// origins.
 #pragma once
 
 #include "geometry/landmark_adjustment.h"
@@ -24,8 +25,8 @@ LandmarkFit without_mistaken(const LandmarkAdjustment& adjustment, double level)
 // Its test's chi-square, inside or outside: against the kept others.
 double leave_one_out(const LandmarkFit& fit, std::size_t landmark);
 double critical_value(const LandmarkAdjustment& adjustment, std::size_t landmark, double level);
-// The minimal detectable bias [m] across and up, at the critical value, with a power of 80 %.
+// The minimal detectable bias [m] across and up; the noncentrality is that of the test's power.
 Eigen::Vector2d detectable_m(const LandmarkAdjustment& adjustment, const LandmarkFit& fit,
-                             std::size_t landmark, double critical);
+                             std::size_t landmark, double noncentrality);
 
 }  // namespace ols

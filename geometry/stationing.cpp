@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "geometry/angles.h"
 #include "geometry/chi_square.h"
@@ -110,13 +111,20 @@ LandmarkFit tested_fit(const LandmarkAdjustment& adjustment, const StationGeomet
 
 void test_landmarks(Stationing& result, const LandmarkAdjustment& adjustment,
                     const LandmarkFit& fit, double level) {
+  constexpr double kPower = 0.8;
+  std::map<std::size_t, std::pair<double, double>> limits;  // by the number of sightings
   for (std::size_t l = 0; l < fit.kept.size(); ++l) {
-    const double critical = critical_value(adjustment, l, level);
-    result.landmarks.push_back({.sightings = adjustment.landmarks()[l],
+    const auto& sightings = adjustment.landmarks()[l];
+    auto& [critical, noncentrality] = limits[sightings.size()];
+    if (critical == 0.0) {
+      critical = critical_value(adjustment, l, level);
+      noncentrality = least_noncentrality(critical, 2 * static_cast<int>(sightings.size()), kPower);
+    }
+    result.landmarks.push_back({.sightings = sightings,
                                 .set_aside = !fit.kept[l],
                                 .w = std::sqrt(std::max(0.0, leave_one_out(fit, l))),
                                 .critical = std::sqrt(critical),
-                                .detectable_m = detectable_m(adjustment, fit, l, critical)});
+                                .detectable_m = detectable_m(adjustment, fit, l, noncentrality)});
   }
 }
 
