@@ -117,10 +117,11 @@ class Snooping {
     return members;
   }
 
-  bool all_pass(const LandmarkFit& fit, double variance) const {
-    return std::ranges::all_of(set(fit.kept, true), [&](std::size_t l) {
-      return leave_one_out(fit, l) <= variance * critical_[l];
-    });
+  std::vector<std::size_t> failing(const LandmarkFit& fit, double variance) const {
+    std::vector<std::size_t> kept = set(fit.kept, true);
+    std::erase_if(kept,
+                  [&](std::size_t l) { return leave_one_out(fit, l) <= variance * critical_[l]; });
+    return kept;
   }
 
   // One set aside and one kept, in each other's place, would do nearly as well.
@@ -198,15 +199,15 @@ class Snooping {
   std::vector<double> critical_, headings_;
 };
 
-StationingAlternative alternative(const LandmarkAdjustment& adjustment, const LandmarkFit& fit) {
-  StationingAlternative result;
-  for (const std::size_t l : Snooping::set(fit.kept, false)) {
+std::vector<std::size_t> sightings_of(const LandmarkAdjustment& adjustment,
+                                      const std::vector<std::size_t>& landmarks) {
+  std::vector<std::size_t> all;
+  for (const std::size_t l : landmarks) {
     const auto& sightings = adjustment.landmarks()[l];
-    result.set_aside.insert(result.set_aside.end(), sightings.begin(), sightings.end());
+    all.insert(all.end(), sightings.begin(), sightings.end());
   }
-  std::ranges::sort(result.set_aside);
-  result.heading_rad = wrap_two_pi(fit.station.chain.heading_rad);
-  return result;
+  std::ranges::sort(all);
+  return all;
 }
 
 [[noreturn]] void contradict(const LandmarkAdjustment& adjustment, const std::string& why,
@@ -214,7 +215,9 @@ StationingAlternative alternative(const LandmarkAdjustment& adjustment, const La
   constexpr std::size_t kMost = 5;
   std::vector<StationingAlternative> alternatives;
   for (const LandmarkFit& fit : fits) {
-    if (alternatives.size() < kMost) alternatives.push_back(alternative(adjustment, fit));
+    if (alternatives.size() == kMost) break;
+    alternatives.push_back({sightings_of(adjustment, Snooping::set(fit.kept, false)),
+                            wrap_two_pi(fit.station.chain.heading_rad)});
   }
   throw LandmarksContradict(why, alternatives);
 }
@@ -225,11 +228,12 @@ void check(const LandmarkAdjustment& adjustment, const Snooping& snooping,
   const LandmarkFit& fit = found.front();
   const std::size_t aside = Snooping::set(fit.kept, false).size();
   const std::size_t inside = fit.kept.size() - aside;
-  if (!snooping.all_pass(fit, variance)) {
-    contradict(adjustment,
-               "the landmarks contradict what is stated of the station's tilt, "
-               "mounting or position",
-               {});
+  const auto failing = snooping.failing(fit, variance);
+  if (!failing.empty()) {
+    throw LandmarksContradict(
+        "sightings contradict each other, or what is stated of the station's tilt, mounting or "
+        "position",
+        {}, sightings_of(adjustment, failing));
   }
   if (aside == 0) return;
   if (inside <= aside) contradict(adjustment, "the landmarks contradict each other", found);

@@ -105,7 +105,7 @@ LandmarkFit tested_fit(const LandmarkAdjustment& adjustment, const StationGeomet
     return without_mistaken(adjustment, level);
   } catch (const LandmarksContradict& problem) {
     throw LandmarksContradict(problem.why() + tilt_that_would_do(rough, sightings, level),
-                              problem.alternatives());
+                              problem.alternatives(), problem.failing());
   }
 }
 

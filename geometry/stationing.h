@@ -18,6 +18,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/sight.h"
@@ -62,16 +63,22 @@ struct StationingAlternative {
 // Landmarks of which some must be mistaken, and it cannot be told which.
 class LandmarksContradict : public std::invalid_argument {
  public:
-  LandmarksContradict(const std::string& why, std::vector<StationingAlternative> alternatives)
-      : std::invalid_argument("stationing: " + why), why_(why), alternatives_(alternatives) {}
+  LandmarksContradict(const std::string& why, std::vector<StationingAlternative> alternatives,
+                      std::vector<std::size_t> failing = {})
+      : std::invalid_argument("stationing: " + why),
+        why_(why),
+        alternatives_(std::move(alternatives)),
+        failing_(std::move(failing)) {}
   const std::string& why() const { return why_; }
-  // The likeliest first, five at most. None: the landmarks agree, but not with what is stated of
-  // the station.
+  // The likeliest first, five at most.
   const std::vector<StationingAlternative>& alternatives() const { return alternatives_; }
+  // Without alternatives: sightings that contradict each other or what is stated of the station.
+  const std::vector<std::size_t>& failing() const { return failing_; }
 
  private:
   std::string why_;
   std::vector<StationingAlternative> alternatives_;
+  std::vector<std::size_t> failing_;
 };
 
 // heading, tilt x, tilt y, mount z, mount x, mount y of ChainParameters.

@@ -141,6 +141,7 @@ def test_sets_a_mistaken_landmark_aside_by_name(survey):
     (said,) = [line for line in result.stdout.splitlines() if "SET ASIDE" in line]
     assert said.startswith("#   mast: w ") and "(line 4)" in said
     assert "deg across" in said and "detectable: " in said
+    assert "sightings.csv:4: landmark: 'mast' is set aside as mistaken" in result.stderr
     found = tomllib.loads(result.stdout)
     assert abs(found["pose"]["heading_deg"] - 211.0) < 0.05
 
@@ -152,6 +153,15 @@ def test_names_landmarks_that_contradict_each_other(survey):
     (said,) = lines_said(result.stderr)
     assert "sightings.csv: the landmarks contradict each other: " in said
     assert "without tower (line 2), mast (line 4) on a heading of 211.0" in said
+
+
+def test_names_a_landmark_that_contradicts_itself(survey):
+    lines = (survey / "sightings.csv").read_text().splitlines()
+    cells = lines[1].split(",")
+    again = ",".join([cells[0], str(float(cells[1]) + 3.0), *cells[2:]])
+    (survey / "sightings.csv").write_text("\r\n".join([*lines[:2], again]) + "\r\n")
+    result = run(survey)
+    assert result.returncode == 2 and "tower (line 2), tower (line 3)" in result.stderr
 
 
 def test_scales_the_deviations_with_the_misfit(survey):

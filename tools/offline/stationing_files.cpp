@@ -70,11 +70,15 @@ LandmarkSighting sighting_of(const SightedRow& row, const SurveyRow& point,
 }
 
 std::string named(const StationingCase& before, const std::vector<std::size_t>& sightings) {
+  constexpr std::size_t kMost = 8;
   std::string text;
-  for (const std::size_t i : sightings) {
-    const SightingName& name = before.names[i];
+  for (std::size_t k = 0; k < std::min(kMost, sightings.size()); ++k) {
+    const SightingName& name = before.names[sightings[k]];
     if (!text.empty()) text += ", ";
     text += name.landmark + " (line " + std::to_string(name.line) + ")";
+  }
+  if (sightings.size() > kMost) {
+    text += " and " + std::to_string(sightings.size() - kMost) + " more";
   }
   return text;
 }
@@ -83,6 +87,7 @@ std::string contradiction(const StationingCase& before, const LandmarksContradic
   std::ostringstream text;
   text << before.path << ": " << problem.why() << std::fixed << std::setprecision(3);
   const char* separator = ": ";
+  if (!problem.failing().empty()) text << separator << named(before, problem.failing());
   for (const StationingAlternative& one : problem.alternatives()) {
     text << separator << "all others agree without " << named(before, one.set_aside)
          << " on a heading of " << degrees(one.heading_rad) << " deg";

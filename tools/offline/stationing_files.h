@@ -47,4 +47,7 @@ Stationing find_station(const StationingCase& before, double highest_rad);
 void write_stationing(std::ostream& out, const StationingCase& before, const Stationing& found,
                       bool with_position);
 
+// Of what was set aside and scaled, a line each, for those who do not look into the output.
+std::vector<std::string> stationing_warnings(const StationingCase& before, const Stationing& found);
+
 }  // namespace ols

@@ -43,6 +43,9 @@ void run(const Options& options) {
   const ols::StationingCase before = ols::read_stationing(options.stationing);
   const ols::Stationing found =
       ols::find_station(before, ols::radians(options.stationing.highest_deg));
+  for (const std::string& warning : ols::stationing_warnings(before, found)) {
+    std::cerr << "ols-stationing: " << warning << '\n';
+  }
   const bool with_position = !options.stationing.at.empty();
   if (options.output.empty()) {
     ols::write_stationing(std::cout, before, found, with_position);

@@ -103,6 +103,22 @@ void write_determined(std::ostream& out, const Stationing& found) {
 
 }  // namespace
 
+std::vector<std::string> stationing_warnings(const StationingCase& before,
+                                             const Stationing& found) {
+  std::vector<std::string> lines;
+  for (const LandmarkTest& test : found.landmarks) {
+    if (!test.set_aside) continue;
+    const SightingName& name = before.names[test.sightings.front()];
+    lines.push_back(before.path + ":" + std::to_string(name.line) + ": landmark: '" +
+                    name.landmark + "' is set aside as mistaken");
+  }
+  if (found.scaled_by > 1.0) {
+    lines.push_back(before.path +
+                    ": the sightings disagree by more than was stated: deviations are scaled up");
+  }
+  return lines;
+}
+
 void write_stationing(std::ostream& out, const StationingCase& before, const Stationing& found,
                       bool with_position) {
   const StationGeometry& station = found.station;

@@ -260,6 +260,7 @@ TEST(DataSnooping, OneThatContradictsTheLevelIsRefused) {
   const auto problem = contradiction(sightings);
   ASSERT_TRUE(problem);
   EXPECT_THAT(problem->alternatives(), testing::IsEmpty());
+  EXPECT_THAT(problem->failing(), testing::ElementsAre(0));
 }
 
 TEST(GlobalTest, DeviationsGrowWithTheMisfitAndNeverShrink) {
