@@ -131,7 +131,8 @@ void TrackFilter::enter(int station, const Sighting& sighting, const StationErro
       .station = sighting.station,
       .sight = sighting.sight,
       .R_ecef_enu = R_ecef_enu(sighting.sight.origin_ecef),
-      .calibration_id = sighting.calibration_id};
+      .calibration_id = sighting.calibration_id,
+      .track_id = sighting.track_id};
   BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
   const double range_m = (models_[0].mean.head<3>() - sighting.sight.origin_ecef).norm();
   prior = errors.prior(sighting.station, sighting.sight, range_m, prior.place_apart);
@@ -234,15 +235,17 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
   return use;
 }
 
-// The station's states, new where it is new or has another calibration; its clock as it states it
-// now. -1: it has none.
+// The station's states, new where it is new, has another calibration or was shown the target anew
+// (another point of it); its clock as it states it now. -1: it has none.
 int TrackFilter::station_of(const Sighting& sighting, const StationErrors& errors) {
   int station = index_of(sighting.station);
   const bool is_new = station < 0;
   if (is_new) station = take_place(sighting);
   if (station < 0) return station;
   const FilterStation& known = stations_[static_cast<std::size_t>(station)];
-  if (is_new || known.calibration_id != sighting.calibration_id) enter(station, sighting, errors);
+  const bool same =
+      known.calibration_id == sighting.calibration_id && known.track_id == sighting.track_id;
+  if (is_new || !same) enter(station, sighting, errors);
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   entry.offered_us = std::max(entry.offered_us, sighting.utime_us);
   entry.weight = 0.0;

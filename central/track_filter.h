@@ -81,8 +81,8 @@ struct FilterStation {
   Eigen::Matrix3d R_ecef_enu = Eigen::Matrix3d::Identity();  // at that one's origin
   std::int64_t utime_us = 0;                                 // of the last one that was used
   std::int64_t offered_us = 0;                               // of the last one that was offered
-  std::int64_t calibration_id = 0;
-  double weight = 0.0;  // of the last one, 0: set aside
+  std::int64_t calibration_id = 0, track_id = 0;             // with others its bias is another
+  double weight = 0.0;                                       // of the last one, 0: set aside
   double clock_sd_s = 0.0;
   double mean_nis = 2.0;  // lately, of bearings that were used; 2 is ideal
   // The two bearings before the next one, for the colour of their noise.
