@@ -31,7 +31,7 @@
 namespace ols {
 
 struct StationErrorsConfig {
-  double stated_time_s = 3600.0;   // correlation time of a pose's error within what is stated
+  double stated_time_s = 1800.0;   // correlation time of a pose's error within what is stated
   double untold_time_s = 5.0;      // and of one that the station does not tell
   double memory_s = 600.0;         // what was seen longer ago counts less than 1/e
   double stated_weight = 20.0;     // seen biases that a statement is worth
