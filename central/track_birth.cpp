@@ -39,7 +39,8 @@ std::optional<Track> TrackBirth::add(const Sighting& sighting, StationErrors& er
 }
 
 // Each bearing pays for a search among so many stations. Among more, whoever waits longest is the
-// next: of its newest frame each bearing in turn.
+// next: of its newest frame any bearing. Were it each in turn, a station's turns could be in step
+// with all others' and fall on the same one for ever.
 std::optional<Sighting> TrackBirth::next_turn(const Sighting& sighting) {
   constexpr std::size_t kStationsABearing = 64;
   const std::size_t cost = pool_.stations().size();
@@ -60,7 +61,7 @@ std::optional<Sighting> TrackBirth::next_turn(const Sighting& sighting) {
     const auto frame =
         std::ranges::lower_bound(looks, looks.back().utime_us, {}, &Look::utime_us) - looks.begin();
     const auto bearings = looks.size() - static_cast<std::size_t>(frame);
-    return own->second.bearings[static_cast<std::size_t>(frame) + turns_++ % bearings];
+    return own->second.bearings[static_cast<std::size_t>(frame) + any_() % bearings];
   }
   return std::nullopt;
 }

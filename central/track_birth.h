@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -93,7 +94,7 @@ class TrackBirth {
   // Stations that wait for a search, and what has been saved up for the next one.
   std::deque<std::string> waiting_;
   std::size_t saved_ = 0;
-  std::size_t turns_ = 0;
+  std::minstd_rand any_;  // the same in every run
 };
 
 }  // namespace ols

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "geometry/angles.h"
 #include "tools/estimators/bearing_world.h"
 
 namespace ols::bench {
@@ -92,6 +93,38 @@ TEST(ManyStations, WhatTheySeeAllAtOnceIsAllFound) {
     EXPECT_EQ(near, 1);
   }
   EXPECT_EQ(std::ranges::count_if(fusion.keeper().tracks(), is_sure), kGroups);
+}
+
+// Up and away from all others: it meets nobody's.
+Sighting of_nothing(Sighting sighting, double elevation_rad) {
+  const Vector3d place = site().to_enu(sighting.sight.origin_ecef);
+  sighting.sight.direction = {wrap_two_pi(std::atan2(place.x(), place.y())), elevation_rad};
+  return sighting;
+}
+
+// 128 stations in a fixed order, two bearings in each frame: then each has its turn once in a round
+// of frames. The object's come second in the frames of every other station.
+TEST(ManyStations, NobodysTurnFallsOnTheSameBearingForEver) {
+  constexpr std::size_t kStations = 128;
+  constexpr int kFrames = 60;
+  const Path path(4000, PathPoint{Vector3d(0, 0, 200), Vector3d::Zero()});
+  for (const bool second : {false, true}) {
+    for (const std::size_t first_station : {0, 1}) {
+      std::mt19937_64 random(4);
+      WorldConfig world{.stations_enu = circle(kStations, 2000.0), .aims_enu = {}};
+      auto seen = measure(world, {path}, kFrames / world.rate_hz, random);
+      Fusion fusion{FusionConfig{}};
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        const std::size_t station = i % kStations;
+        const Sighting other = of_nothing(seen[i], 1.2);
+        const Sighting own = station % 32 == first_station ? seen[i] : of_nothing(seen[i], 1.1);
+        fusion.add(second ? other : own);
+        fusion.add(second ? own : other);
+      }
+      EXPECT_EQ(std::ranges::count_if(fusion.keeper().tracks(), is_sure), 1)
+          << second << ' ' << first_station;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Hz, ManyStationsRates, testing::Values(15.0, 30.0));
