@@ -13,12 +13,15 @@ bool Look::is_near(const Eigen::Vector3d& p_ecef, double more_rad) const {
   return (line.normalized() - direction_ecef).squaredNorm() < within * within;
 }
 
+// What has been learnt of the station's bias is within the least one: a track loses a station whose
+// bias grows beyond 0.02 rad and as much as here (TrackKeeper::Glance).
 Look look_of(const Sighting& sighting) {
   constexpr double kGenerous = 8.0, kLeastRad = 0.05;
   const SightLine& sight = sighting.sight;
   const double variance = sight.covariance_white.trace() + sight.covariance_systematic.trace();
-  return {sighting.utime_us, sight.origin_ecef, direction_ecef(sight),
-          kLeastRad + kGenerous * std::sqrt(variance), sighting.clock_sd_s};
+  return {sighting.utime_us,     sight.origin_ecef,
+          direction_ecef(sight), kLeastRad + kGenerous * std::sqrt(variance),
+          sighting.clock_sd_s,   sighting.track_id};
 }
 
 void BearingPool::store(const Sighting& sighting) {

@@ -20,6 +20,7 @@ struct Look {
   Eigen::Vector3d direction_ecef = Eigen::Vector3d::UnitX();
   double spread_rad = 0.0;  // generously, how far off its target it may point
   double clock_sd_s = 0.0;
+  std::int64_t track_id = 0;
 
   // Whether it points at a place, within what it may be off and something more.
   bool is_near(const Eigen::Vector3d& p_ecef, double more_rad) const;

@@ -60,6 +60,8 @@ FusionOutput Fusion::add(const Sighting& sighting) {
   if (output.refusal != SightingRefusal::kNone) refuse(output.refusal, sighting);
   const std::int64_t now = now_us();
   if (now == 0) return output;
+  // After a silence "now" is old until most stations are heard again: nothing is told by it.
+  if (seconds(sighting.utime_us - now) > config_.future_s) return output;
   if (epoch_.utime_us && seconds(*epoch_.utime_us - now) > kStepBackS) notice_step_back();
   locate(now, output);
   plan(now, output);

@@ -152,13 +152,15 @@ class Fusion {
   void refuse(SightingRefusal refusal, const Sighting& sighting);
   void notice_step_back();
   void begin_epoch(std::int64_t now_us);
+  void give_up_what_is_old(std::int64_t now_us);
   void locate(std::int64_t now_us, FusionOutput& output);
   const Track* next_of(std::deque<std::int64_t>& waiting) const;
   FusedTarget locate(const Track& track, bool by_paper);
   void tell_lines(FusionOutput& output);
   static bool sees(const Station& station, std::int64_t now);
   std::vector<std::string> on_a_line(std::int64_t epoch_us) const;
-  std::optional<BearingOnly> line_of(const std::string& station, std::int64_t epoch_us) const;
+  std::vector<const Sighting*> lines_of(const std::string& station, std::int64_t epoch_us) const;
+  std::optional<BearingOnly> line_of(const Sighting& newest, std::int64_t epoch_us) const;
   void begin_slews(std::int64_t now_us);
   void plan(std::int64_t now_us, FusionOutput& output);
   std::map<std::string, double> counters() const;

@@ -10,8 +10,9 @@
 namespace ols {
 namespace {
 
-constexpr int kLines = 16;         // of what is no target, told an epoch
-constexpr double kFollowsS = 1.0;  // a station that saw a target longer ago does not see it
+constexpr int kLines = 16;              // of what is no target, told an epoch,
+constexpr std::size_t kOfAStation = 4;  // and of one station
+constexpr double kFollowsS = 1.0;       // a station that saw a target longer ago does not see it
 // With one bearing: so many targets (the paper's estimate of one costs as much as several), and the
 // slews of so many stations.
 constexpr int kTargetsABearing = 8, kPaperIsWorth = 4, kSlewsABearing = 16;
@@ -58,7 +59,17 @@ const Track* Fusion::next_of(std::deque<std::int64_t>& waiting) const {
   return track == keeper_.tracks().end() || !is_sure(*track) ? nullptr : &*track;
 }
 
+// After a silence, what was not told yet is told no more: by now it may be dropped.
+void Fusion::give_up_what_is_old(std::int64_t now_us) {
+  const auto is_old = [&](std::int64_t begun_us) {
+    return seconds(now_us - begun_us) > config_.keeper.drop_s;
+  };
+  if (!epoch_.is_over() && is_old(*epoch_.utime_us)) epoch_ = {.utime_us = epoch_.utime_us};
+  if (slew_next_ && is_old(slew_round_.now_us)) slew_next_.reset();
+}
+
 void Fusion::locate(std::int64_t now_us, FusionOutput& output) {
+  give_up_what_is_old(now_us);
   if (epoch_.is_over() && due(epoch_.utime_us, now_us, config_.rate_hz)) begin_epoch(now_us);
   if (epoch_.is_over()) return;
   int work = 0;
@@ -117,15 +128,19 @@ void Fusion::tell_lines(FusionOutput& output) {
   std::set<std::int64_t> told;
   int lines = 0;
   for (const std::string& station : stations) {
-    const auto& newest = keeper_.births().pool().stations().at(station).bearings.back();
-    if (!alone && (newest.track_id == 0 || sees(stations_[station], epoch_us))) continue;
-    const auto line = line_of(station, epoch_us);
-    if (!line) continue;
-    if (++lines > kLines) break;
-    target.target_id = keeper_.identify(newest, told);
-    target.stations = {{station, true, 1.0, 0.0}};
-    target.bearing_only = line;
-    output.targets.push_back(target);
+    auto newest = lines_of(station, epoch_us);
+    if (newest.empty() && alone) {
+      newest.push_back(&keeper_.births().pool().stations().at(station).bearings.back());
+    }
+    for (const Sighting* const sighting : newest) {
+      const auto line = line_of(*sighting, epoch_us);
+      if (!line) continue;
+      if (++lines > kLines) return;
+      target.target_id = keeper_.identify(*sighting, told);
+      target.stations = {{station, true, 1.0, 0.0}};
+      target.bearing_only = line;
+      output.targets.push_back(target);
+    }
   }
 }
 
@@ -140,16 +155,33 @@ std::vector<std::string> Fusion::on_a_line(std::int64_t epoch_us) const {
   return found;
 }
 
-std::optional<BearingOnly> Fusion::line_of(const std::string& station,
-                                           std::int64_t epoch_us) const {
-  const auto& pool = keeper_.births().pool().stations().at(station).bearings;
-  const std::int64_t track_id = pool.back().track_id;
+// What a station follows by a name of its own and no track takes: the newest bearing of each, the
+// smallest names first, which most trackers gave first.
+std::vector<const Sighting*> Fusion::lines_of(const std::string& station,
+                                              std::int64_t epoch_us) const {
+  const BearingPool::Station& own = keeper_.births().pool().stations().at(station);
+  std::vector<const Sighting*> lines;
+  std::vector<std::int64_t> names;
+  for (std::size_t i = own.looks.size(); i-- > 0;) {
+    const Look& look = own.looks[i];
+    if (std::abs(seconds(epoch_us - look.utime_us)) > config_.estimators.alignment.max_age_s) break;
+    if (look.track_id == 0 || std::ranges::find(names, look.track_id) != names.end()) continue;
+    names.push_back(look.track_id);
+    if (!keeper_.takes(own.bearings[i], epoch_us, kFollowsS)) lines.push_back(&own.bearings[i]);
+  }
+  std::ranges::sort(lines, {}, [](const Sighting* line) { return line->track_id; });
+  if (lines.size() > kOfAStation) lines.resize(kOfAStation);
+  return lines;
+}
+
+std::optional<BearingOnly> Fusion::line_of(const Sighting& newest, std::int64_t epoch_us) const {
   std::vector<Sighting> own;
-  std::ranges::copy_if(pool, std::back_inserter(own),
-                       [&](const Sighting& s) { return s.track_id == track_id; });
+  std::ranges::copy_if(keeper_.births().pool().stations().at(newest.station).bearings,
+                       std::back_inserter(own),
+                       [&](const Sighting& s) { return s.track_id == newest.track_id; });
   const auto ray = align(own, epoch_us, std::nullopt, config_.estimators.alignment);
   if (!ray) return std::nullopt;
-  return BearingOnly{station, track_id, ray->sight, ray->rate_rad_s};
+  return BearingOnly{newest.station, newest.track_id, ray->sight, ray->rate_rad_s};
 }
 
 // A target that it follows, or did a moment ago.
@@ -165,11 +197,11 @@ void Fusion::begin_slews(std::int64_t now_us) {
     if (sees(station, now_us)) ++slew_round_.seen_by[station.follows];
   }
   for (const std::string& station : on_a_line(now_us)) {
-    const auto& newest = keeper_.births().pool().stations().at(station).bearings.back();
-    if (newest.track_id == 0) continue;  // one of many detections, not an object that it follows
+    const auto lines = lines_of(station, now_us);
+    if (lines.empty()) continue;  // many detections, not an object that it follows
     slew_round_.on_a_line.insert(station);
     if (slew_round_.ray) continue;
-    const auto line = line_of(station, now_us);
+    const auto line = line_of(*lines.front(), now_us);
     if (!line) continue;
     slew_round_.ray = CueRay{station, line->sight.origin_ecef, direction_ecef(line->sight)};
   }

@@ -13,6 +13,7 @@ std::map<std::string, double> Fusion::counters() const {
   counters["tracks_born"] = static_cast<double>(counts.born);
   counters["tracks_confirmed"] = static_cast<double>(counts.confirmed);
   counters["tracks_dropped"] = static_cast<double>(counts.dropped);
+  counters["tracks_merged"] = static_cast<double>(counts.merged);
   counters["bearings_ambiguous"] = static_cast<double>(counts.ambiguous);
   counters["bearings_set_aside"] = static_cast<double>(counts.set_aside);
   counters["bearings_unexplained"] = static_cast<double>(counts.unexplained);

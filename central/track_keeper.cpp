@@ -40,7 +40,10 @@ bool TrackKeeper::Glance::may_see(const Sighting& sighting, const Eigen::Vector3
 }
 
 TrackKeeper::TrackKeeper(const KeeperConfig& config)
-    : config_(config), birth_(config.birth, filter_config(config)), errors_(config.errors) {}
+    : config_(config),
+      birth_(config.birth, filter_config(config)),
+      errors_(config.errors),
+      rivals_(config.rivals) {}
 
 std::vector<TrackKeeper::Candidate> TrackKeeper::candidates(const Sighting& sighting,
                                                             bool confirmed) const {
@@ -61,10 +64,10 @@ std::vector<TrackKeeper::Candidate> TrackKeeper::candidates(const Sighting& sigh
 
 Track* TrackKeeper::follower(const Sighting& sighting) {
   if (sighting.track_id == 0) return nullptr;
-  const auto found = followed_.find(sighting.station);
-  if (found == followed_.end() || found->second.station_track != sighting.track_id) return nullptr;
-  const auto track = std::ranges::find_if(
-      tracks_, [&](const Track& t) { return is_sure(t) && t.id == found->second.id; });
+  const FollowedObjects::Object* const own = followed_.find(sighting);
+  if (own == nullptr) return nullptr;
+  const auto track =
+      std::ranges::find_if(tracks_, [&](const Track& t) { return is_sure(t) && t.id == own->id; });
   return track == tracks_.end() ? nullptr : &*track;
 }
 
@@ -73,6 +76,7 @@ Association TrackKeeper::add(const Sighting& sighting, bool may_begin) {
   for (const bool confirmed : {true, false}) {
     const auto near = candidates(sighting, confirmed);
     if (near.empty()) continue;
+    if (confirmed) note_rivals(sighting, near);
     Track* const own = follower(sighting);
     const bool by_id = own != nullptr && std::ranges::any_of(near, [&](const Candidate& c) {
                          return &tracks_[c.track] == own;
@@ -93,6 +97,16 @@ Association TrackKeeper::add(const Sighting& sighting, bool may_begin) {
   ++counts_.unexplained;
   const bool room = static_cast<int>(tracks_.size()) < config_.max_tracks;
   return may_begin && room ? begin(sighting) : Association{};
+}
+
+void TrackKeeper::note_rivals(const Sighting& sighting, const std::vector<Candidate>& near) {
+  if (near.size() < 2 && rivals_.empty()) return;
+  std::vector<std::int64_t> ids;
+  for (const Candidate& candidate : near) {
+    const Track& track = tracks_[candidate.track];
+    if (track.state == TrackState::kConfirmed) ids.push_back(track.id);
+  }
+  rivals_.note(sighting, ids);
 }
 
 Association TrackKeeper::begin(const Sighting& sighting) {
@@ -119,9 +133,7 @@ Association TrackKeeper::give_to(Track& track, const Sighting& sighting) {
   }
   ++track.hits[sighting.station];
   keep(track, sighting);
-  if (sighting.track_id != 0 && track.id != 0) {
-    followed_[sighting.station] = {sighting.track_id, track.id, 0};
-  }
+  follow(sighting, track);
   if (stations_lately(track.filter, config_.seen_s) >= 2) {
     track.located_us = track.filter.utime_us();
     if (track.state == TrackState::kCoasted) track.state = TrackState::kConfirmed;
@@ -188,15 +200,27 @@ void TrackKeeper::confirm(Track& track) {
   ++counts_.confirmed;
   if (track.id == 0) take_identity(track);
   for (const auto& [station, bearings] : track.bearings) {
-    if (bearings.empty() || bearings.back().track_id == 0) continue;
-    followed_[station] = {bearings.back().track_id, track.id, 0};
+    if (!bearings.empty()) follow(bearings.back(), track);
   }
   if (!config_.one_target) birth_.give(track, errors_);
 }
 
+// What a station's other tracks have taught of it stays true: they go on with it.
+void TrackKeeper::forget_what_it_taught(const Track& track) {
+  const auto has_another = [&](const std::string& station) {
+    return std::ranges::any_of(tracks_, [&](const Track& other) {
+      return &other != &track && is_sure(other) && other.bearings.contains(station) &&
+             !are_made_to_meet(other.filter);
+    });
+  };
+  for (const FilterStation& station : track.filter.stations()) {
+    if (!has_another(station.station)) errors_.forget(station.station);
+  }
+}
+
 void TrackKeeper::age(Track& track, std::int64_t now_us) {
   if (are_made_to_meet(track.filter)) {  // what it has taught of them is not true, either
-    for (const FilterStation& station : track.filter.stations()) errors_.forget(station.station);
+    forget_what_it_taught(track);
     track.state = TrackState::kDropped;
     return;
   }
@@ -225,6 +249,7 @@ void TrackKeeper::advance(std::int64_t now_us) {
   for (Track& track : tracks_) {
     if (track.state != TrackState::kDropped) age(track, now_us);
   }
+  for (const auto& [older, younger] : rivals_.same()) merge(older, younger);
   for (Track& track : tracks_) {
     if (track.state != TrackState::kDropped) continue;
     ++counts_.dropped;
@@ -260,7 +285,7 @@ std::optional<TrackKeeper::Nearest> TrackKeeper::nearest(const Sighting& sightin
 void TrackKeeper::forget_station(const std::string& station) {
   errors_.forget(station);
   birth_.forget(station);
-  followed_.erase(station);
+  followed_.forget(station);
 }
 
 void TrackKeeper::clear() {

@@ -14,6 +14,7 @@
 //  have.
 //  - coasted -> dropped: no two stations for drop_s.
 //  - any -> dropped: two stations alone, whose rays meet only by more than they state.
+//  - two confirmed ones -> one: they have been one object for a second (track_rivals.h).
 //  - A track that is confirmed where one that was dropped must be by now has its identity; or else
 //    that of the line which one of its stations has followed.
 //
@@ -36,8 +37,10 @@
 #include <string>
 #include <vector>
 
+#include "central/followed_objects.h"
 #include "central/track.h"
 #include "central/track_birth.h"
+#include "central/track_rivals.h"
 
 namespace ols {
 
@@ -59,6 +62,7 @@ struct KeeperConfig {
   BirthConfig birth{};
   FilterConfig filter{};
   StationErrorsConfig errors{};
+  RivalsConfig rivals{};
 };
 
 // What became of a bearing.
@@ -78,7 +82,7 @@ class TrackKeeper {
   void advance(std::int64_t now_us);
   void forget_station(const std::string& station);
   // Which object it follows: its ids mean something else from now on.
-  void forget_followed(const std::string& station) { followed_.erase(station); }
+  void forget_followed(const std::string& station) { followed_.forget(station); }
   void clear();
 
   const std::vector<Track>& tracks() const { return tracks_; }
@@ -92,8 +96,11 @@ class TrackKeeper {
   // be. 0 for the first confirm_s, while ordinary targets are found, and for what it does not name.
   // `told`: those of others at the same instant; one id is one object.
   std::int64_t identify(const Sighting& newest, std::set<std::int64_t>& told);
+  // Whether a track takes what the station follows by this name: the last bearing not longer ago.
+  bool takes(const Sighting& newest, std::int64_t now_us, double within_s) const;
+  const FollowedObjects& followed() const { return followed_; }
   struct Counts {
-    std::int64_t born = 0, confirmed = 0, dropped = 0, ambiguous = 0, set_aside = 0,
+    std::int64_t born = 0, confirmed = 0, dropped = 0, merged = 0, ambiguous = 0, set_aside = 0,
                  unexplained = 0;
   };
   const Counts& counts() const { return counts_; }
@@ -127,6 +134,7 @@ class TrackKeeper {
   bool is_better(const Track& start) const;
   int stations(bool explained) const;
   bool doubted() const;
+  void note_rivals(const Sighting& sighting, const std::vector<Candidate>& near);
   Association give_to(Track& track, const Sighting& sighting);
   Track* follower(const Sighting& sighting);
   void consider(Track& track);
@@ -134,25 +142,23 @@ class TrackKeeper {
   static bool are_alike(const Track& track, const Track& other);
   bool is_double(const Track& track) const;
   void confirm(Track& track);
+  void follow(const Sighting& sighting, const Track& track);
+  void merge(std::int64_t older, std::int64_t younger);
   void take_identity(Track& track);
   bool is_alive(std::int64_t id) const;
   void keep(Track& track, const Sighting& sighting) const;
   void age(Track& track, std::int64_t now_us);
+  void forget_what_it_taught(const Track& track);
 
   KeeperConfig config_;
   TrackBirth birth_;
   StationErrors errors_;
+  TrackRivals rivals_;
   std::vector<Track> tracks_;
   std::vector<Glance> glances_;  // of each track
   std::deque<Track> dropped_;    // confirmed ones, for their identities
   std::int64_t next_id_ = 1;
-  // What a station's own track is: the track that it was given to last, or a line's identity.
-  struct Followed {
-    std::int64_t station_track = 0;
-    std::int64_t id = 0;        // 0: none yet
-    std::int64_t since_us = 0;  // without one
-  };
-  std::map<std::string, Followed> followed_;
+  FollowedObjects followed_;
   Counts counts_;
   // Of a recording's one object: which share of a station's bearings its track explains, lately.
   struct Explains {

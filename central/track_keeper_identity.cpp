@@ -27,24 +27,55 @@ void TrackKeeper::take_identity(Track& track) {
     track.id = before->id;
   } else {
     for (const auto& [station, bearings] : track.bearings) {
-      const auto line = followed_.find(station);
-      if (bearings.empty() || line == followed_.end()) continue;
-      const auto& [station_track, id, since_us] = line->second;
-      if (id == 0 || station_track != bearings.back().track_id || is_alive(id)) continue;
-      track.id = track.id == 0 ? id : std::min(track.id, id);
+      if (bearings.empty() || bearings.back().track_id == 0) continue;
+      const FollowedObjects::Object* const line = followed_.find(bearings.back());
+      if (line == nullptr || line->id == 0 || is_alive(line->id)) continue;
+      track.id = track.id == 0 ? line->id : std::min(track.id, line->id);
     }
   }
   if (track.id == 0) track.id = next_id_++;
   std::erase_if(dropped_, [&](const Track& old) { return old.id == track.id; });
 }
 
+// The track takes what the station follows by this name.
+void TrackKeeper::follow(const Sighting& sighting, const Track& track) {
+  if (sighting.track_id == 0 || track.id == 0) return;
+  FollowedObjects::Object& own = followed_.at(sighting);
+  own.id = track.id;
+  own.given_us = std::max(own.given_us, sighting.utime_us);
+}
+
+bool TrackKeeper::takes(const Sighting& newest, std::int64_t now_us, double within_s) const {
+  const FollowedObjects::Object* const own = followed_.find(newest);
+  return own != nullptr && is_alive(own->id) &&
+         1e-6 * static_cast<double>(now_us - own->given_us) < within_s;
+}
+
+// Two tracks are one object. The one stays that has more of its bearings, with the older identity.
+void TrackKeeper::merge(std::int64_t older, std::int64_t younger) {
+  rivals_.forget(younger);
+  const auto own = std::ranges::find(tracks_, older, &Track::id);
+  const auto other = std::ranges::find(tracks_, younger, &Track::id);
+  if (own == tracks_.end() || other == tracks_.end() || !is_sure(*own) || !is_sure(*other)) return;
+  const auto bearings = [](const Track& track) {
+    std::size_t sum = 0;
+    for (const auto& [station, kept] : track.bearings) sum += kept.size();
+    return sum;
+  };
+  if (bearings(*other) > bearings(*own)) std::swap(*own, *other);
+  own->id = older;
+  other->id = 0;
+  other->state = TrackState::kDropped;
+  followed_.rename(younger, older);
+  ++counts_.merged;
+}
+
 std::int64_t TrackKeeper::identify(const Sighting& newest, std::set<std::int64_t>& told) {
   if (newest.track_id == 0) return 0;
-  const auto [position, is_new] = followed_.try_emplace(newest.station);
-  Followed& own = position->second;
-  const bool other = own.station_track != newest.track_id;
-  if (is_new || other || (own.id != 0 && (is_alive(own.id) || told.contains(own.id)))) {
-    own = {newest.track_id, 0, newest.utime_us};
+  FollowedObjects::Object& own = followed_.at(newest);
+  if (own.id != 0 && (is_alive(own.id) || told.contains(own.id))) {
+    own.id = 0;
+    own.since_us = newest.utime_us;
   }
   if (own.id == 0) {
     if (seconds(newest.utime_us - own.since_us) < config_.confirm_s) return 0;

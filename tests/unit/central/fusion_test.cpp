@@ -240,8 +240,16 @@ TEST(Fusion, ANewTrackIsAnotherObject) {
     sighting.sight.direction.azimuth_rad = wrap_two_pi(sighting.sight.direction.azimuth_rad + 0.2);
   }
   Fusion fusion{FusionConfig{}};
+  int lines = 0;
   for (const FusedTarget& target : targets_of(fusion, sightings)) {
     if (target.utime_us < kStart + 500'000) continue;
+    if (target.bearing_only) {
+      EXPECT_EQ(target.bearing_only->station, "a");
+      EXPECT_EQ(target.bearing_only->track_id, 2);
+      EXPECT_GT(target.utime_us, kStart + 1'000'000);
+      ++lines;
+      continue;
+    }
     ASSERT_EQ(target.estimate.solution, Solution::kOk);
     EXPECT_LT(error_m(target), 0.05);
     if (target.utime_us > kStart + 1'600'000) {
@@ -250,6 +258,7 @@ TEST(Fusion, ANewTrackIsAnotherObject) {
       EXPECT_TRUE(target.stations[0].used);
     }
   }
+  EXPECT_GT(lines, 10);
 }
 
 // Bearings that belong to nothing, late and in between, do not touch the target.

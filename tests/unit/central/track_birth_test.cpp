@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tools/estimators/bearing_world.h"
 #include "wrong_heading.h"
 
 namespace ols {
@@ -100,6 +101,36 @@ TEST(TrackBirth, AStartThatIsRejectedTeachesNothing) {
   }
   EXPECT_TRUE(begun);
   EXPECT_NE(errors.noise_scale("a"), 1.0);
+}
+
+// Headings that drift, by up to 2 deg and nobody says so, are learnt; without a target for a while
+// the next one is found at once, by all four.
+TEST(TrackBirth, StationsWithGreatLearntBiasesFindTheNextTarget) {
+  constexpr double kDriftS = 350.0, kEndS = kDriftS + 8.0;
+  constexpr double kDriftRadS = 1e-4;
+  bench::WorldConfig world{.stations_enu = bench::circle(4, 300.0), .aims_enu = {}};
+  world.noise_rad = 1e-3;
+  world.rate_hz = 15.0;
+  std::mt19937_64 random(1);
+  const auto path = bench::cruising({{30, 20, 80}, {0, 0, 0}}, 1e-3, kEndS, random);
+  Fusion fusion(FusionConfig{.paper_targets = 0});
+  double first_s = 1e9;
+  for (Sighting sighting : bench::measure(world, {path}, kEndS, random)) {
+    const double t_s = 1e-6 * static_cast<double>(sighting.utime_us - bench::kStartUs);
+    const double sign = sighting.station == "s0" || sighting.station == "s2" ? 1.0 : -1.0;
+    double& azimuth = sighting.sight.direction.azimuth_rad;
+    azimuth = wrap_two_pi(azimuth + sign * kDriftRadS * std::min(t_s, kDriftS));
+    if (t_s > kDriftS && t_s < kDriftS + 6.0) continue;
+    if (t_s <= kDriftS && kDriftS - t_s < 0.1) {
+      const BiasPrior prior = fusion.keeper().errors().prior("s0", sighting.sight, 300.0);
+      EXPECT_GT(std::sqrt(prior.covariance(0, 0)), 0.01);
+    }
+    for (const FusedTarget& target : fusion.add(sighting).targets) {
+      if (target.estimate.solution != Solution::kOk || target.stations.size() < 4) continue;
+      if (t_s > kDriftS) first_s = std::min(first_s, t_s - kDriftS - 6.0);
+    }
+  }
+  EXPECT_LT(first_s, 0.5);
 }
 
 }  // namespace
