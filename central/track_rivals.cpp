@@ -27,14 +27,14 @@ void TrackRivals::note(const Sighting& sighting, std::span<const std::int64_t> t
   }
   for (auto& [ids, pair] : pairs_) {
     if (ids.first != best.front() && ids.second != best.front()) continue;
-    count(pair, sighting, explains(ids.first) && explains(ids.second));
+    count(pair, sighting, explains(ids.first) && explains(ids.second), ids.first == best.front());
   }
   std::erase_if(pairs_, [&](const auto& entry) {
     return seconds(sighting.utime_us - entry.second.newest_us) > 3.0 * config_.memory_s;
   });
 }
 
-void TrackRivals::count(Pair& pair, const Sighting& sighting, bool shared) const {
+void TrackRivals::count(Pair& pair, const Sighting& sighting, bool shared, bool first) const {
   Tally& own = pair.stations[sighting.station];
   if (shared) pair.newest_us = std::max(pair.newest_us, sighting.utime_us);
   if (own.utime_us == sighting.utime_us) {
@@ -47,17 +47,19 @@ void TrackRivals::count(Pair& pair, const Sighting& sighting, bool shared) const
   const bool single = own.bearings == 1;
   own.single = decay * (own.single + (single ? 1.0 : 0.0));
   own.both_explain = decay * (own.both_explain + (single && own.shared ? 1.0 : 0.0));
+  own.first_best = decay * (own.first_best + (single && own.first ? 1.0 : 0.0));
   own.apart = decay * (own.apart + (own.bearings > 1 ? 1.0 : 0.0));
   own.utime_us = sighting.utime_us;
   own.bearings = 1;
   own.shared = shared;
+  own.first = first;
 }
 
 bool TrackRivals::are_same(const Pair& pair) const {
   if (seconds(pair.newest_us - pair.since_us) < config_.long_s) return false;
   constexpr double kLeast = 3.0;  // exposures by which a station is judged
   double single = 0.0, apart = 0.0;
-  int agree = 0;
+  int judged = 0, agree = 0;
   for (const auto& [station, own] : pair.stations) {
     const double past_s = std::max(0.0, seconds(pair.newest_us - own.utime_us));
     const double decay = std::exp(-past_s / config_.memory_s);
@@ -65,9 +67,12 @@ bool TrackRivals::are_same(const Pair& pair) const {
     apart += decay * own.apart;
     if (decay * own.single < kLeast) continue;
     if (own.both_explain < config_.both_explain * own.single) return false;
-    ++agree;
+    ++judged;
+    const double second_best = own.single - own.first_best;
+    agree += std::min(own.first_best, second_best) >= config_.each_best * own.single ? 1 : 0;
   }
-  return agree >= 2 && single >= config_.least_single && apart <= config_.most_apart * single;
+  return agree >= 2 && 2 * agree > judged && single >= config_.least_single &&
+         apart <= config_.most_apart * single;
 }
 
 std::vector<std::pair<std::int64_t, std::int64_t>> TrackRivals::same() const {

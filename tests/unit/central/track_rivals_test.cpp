@@ -150,6 +150,14 @@ TEST(TrackRivals, TwoObjectsThatNobodySeesBothOfStayTwo) {
   }
 }
 
+TEST(TrackRivals, AlsoWhenTheyAreNearToEachOther) {
+  for (std::uint64_t seed = 11; seed <= 16; ++seed) {
+    const Seen seen = fly({.stations = 8, .apart_m = 3.0, .named = true}, seed);
+    EXPECT_EQ(seen.merged, 0) << "seed " << seed;
+    EXPECT_GE(seen.at_the_end, 2U) << "seed " << seed;
+  }
+}
+
 // Ten thousand pairs that have nothing to do with each other take no memory for good.
 TEST(TrackRivals, PairsWithoutEvidenceAreForgotten) {
   TrackRivals rivals;
