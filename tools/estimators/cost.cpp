@@ -65,7 +65,7 @@ double percentile(std::vector<double>& values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-void print_for(int stations) {
+void cost_of(int stations, Limits& limits) {
   const int each = std::min(8, stations), groups = stations / each;
   Fusion fusion{FusionConfig{}};
   Spans born, later;
@@ -88,12 +88,16 @@ void print_for(int stations) {
               percentile(later.with_slews, 0.99));
   std::printf("of a core at %g Hz %.2f; first second: %.2f of a core, longest %.0f us\n", kRateHz,
               later_s / (kDurationS - kBornS), born_s / kBornS, percentile(born.all, 1.0));
+  limits.at_most("p99 of a bearing [ms]", 1e-3 * percentile(later.all, 0.99), 1.0);
+  limits.at_most("p99 of those that bring targets [ms]",
+                 1e-3 * percentile(later.with_targets, 0.99), 1.0);
+  limits.at_most("cores", later_s / (kDurationS - kBornS), 1.0);
 }
 
 }  // namespace
 
-void print_cost() {
-  for (const int stations : {4, 8, 40, 200, 1000}) print_for(stations);
+void cost(Limits& limits) {
+  for (const int stations : {4, 8, 40, 200, 1000}) cost_of(stations, limits);
 }
 
 }  // namespace ols::bench
