@@ -2,24 +2,23 @@
 // at its own instant. Pure.
 //
 // State: position, velocity, acceleration (ECEF components), and for each station that contributes
-// its bias on the tangent plane (cross-elevation, elevation) and its clock's offset. The biases are
-// Gauss-Markov processes with the prior of StationErrors: where the geometry shows them they are
-// estimated, where it does not they are only considered (Schmidt), and either way the position's
-// covariance contains them, so that averaging does not make them go away.
+// the rotation that its pose is off by (about its east, north, up), its clock's offset and, where
+// that matters, the error of its place. These are what stays while the tripod stands: the bias on
+// the tangent plane changes with the direction. They are Gauss-Markov processes with the prior of
+// StationErrors: where the geometry shows them they are estimated, where it does not they are only
+// considered (Schmidt), and either way the position's covariance contains them, so that averaging
+// does not make them go away.
 //
 // A bearing newer than the state moves it on. A late one is compared with where the target was at
 // its own instant, by the state's own velocity and acceleration. Three models (motion_model.h) are
-// mixed (IMM: Blom and Bar-Shalom, 1988). Where stations state errors, each model runs by either
-// supposition of how fast those wander (StationErrorsConfig), and what the bearings say of them
-// weighs them; they are not mixed (Magill, 1965). A bearing far off is set aside, one a little off
-// is weighted down; only such ones of two stations in a row say that the target has done what no
-// model allows, and it is given room.
+// mixed (IMM: Blom and Bar-Shalom, 1988). A bearing far off is set aside, one a little off is
+// weighted down; only such ones of two stations in a row say that the target has done what no model
+// allows, and it is given room.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
