@@ -235,17 +235,29 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
   return use;
 }
 
-// The station's states, new where it is new, has another calibration or was shown the target anew
-// (another point of it); its clock as it states it now. -1: it has none.
+// The target was designated to the station anew, and it follows another point of it. Added to what
+// is known of the station, so that one which changes its mind with each frame is not believed more.
+void TrackFilter::show_anew(int station, std::int64_t track_id) {
+  stations_[static_cast<std::size_t>(station)].track_id = track_id;
+  const BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
+  for (Model& model : models_) {
+    model.covariance.diagonal().segment<3>(first_of(station)).array() += prior.rotation;
+  }
+}
+
+// The station's states, new where it is new or has another calibration; its clock as it states it
+// now. -1: it has none.
 int TrackFilter::station_of(const Sighting& sighting, const StationErrors& errors) {
   int station = index_of(sighting.station);
   const bool is_new = station < 0;
   if (is_new) station = take_place(sighting);
   if (station < 0) return station;
   const FilterStation& known = stations_[static_cast<std::size_t>(station)];
-  const bool same =
-      known.calibration_id == sighting.calibration_id && known.track_id == sighting.track_id;
-  if (is_new || !same) enter(station, sighting, errors);
+  if (is_new || known.calibration_id != sighting.calibration_id) {
+    enter(station, sighting, errors);
+  } else if (known.track_id != sighting.track_id) {
+    show_anew(station, sighting.track_id);
+  }
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   entry.offered_us = std::max(entry.offered_us, sighting.utime_us);
   entry.weight = 0.0;

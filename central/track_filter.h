@@ -163,6 +163,7 @@ class TrackFilter {
   bool place_matters(const SightLine& sight) const;
   int take_place(const Sighting& sighting);
   void enter(int station, const Sighting& sighting, const StationErrors& errors);
+  void show_anew(int station, std::int64_t track_id);
   int station_of(const Sighting& sighting, const StationErrors& errors);
   bool shows_bias(int station, const RayFrame& frame, double depth_m,
                   const Eigen::Matrix2d& white) const;
