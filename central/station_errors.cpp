@@ -104,11 +104,14 @@ BiasPrior StationErrors::prior(const std::string& station, const SightLine& sigh
   const Eigen::Array3d before =
       rotation_variance(told ? pose : Eigen::Array2d(guess * noise), elevation_rad);
   prior.covariance.diagonal().array() += more;
-  prior.rotation = rotation_variance(pose + more, elevation_rad);
+  const double least = config_.least_over_noise * config_.least_over_noise;
+  prior.rotation = rotation_variance((pose + more).max(least * noise), elevation_rad);
   prior.shown = (1.0 - before / prior.rotation.max(kNone)).max(0.0);
   prior.time_s.setConstant(told ? config_.stated_time_s : config_.untold_time_s);
   // What a heading has more than a tilt was wrong from the start on: all axes drift alike.
-  if (told) prior.time_s *= (prior.rotation / std::max(kNone, prior.rotation.minCoeff())).max(1.0);
+  constexpr double kLongest = 100.0;
+  const double ratio = prior.rotation(2) / std::max(kNone, prior.rotation(0));
+  if (told) prior.time_s(2) *= std::clamp(ratio, 1.0, kLongest);
   prior.place_time_s = config_.stated_time_s;
   if (place_apart) prior.place_m2 = sight.origin_sd_enu_m.array().square();
   return prior;

@@ -1,14 +1,15 @@
 // What stays in each station's bearings: what it states of its calibration, and what its residuals
 // show beyond that. Pure.
 //
-// The filter carries each station's bias (cross-elevation, elevation) as a state with a prior of
-// zero mean. The prior's variance v is learnt here. A bias estimated as b with the variance P shows
-// the share k = 1 - P / v of itself, and its square is worth b^2 - k P with the weight k^2 (one
-// step of Fisher scoring on the marginal likelihood, Harville, 1977): nothing where the geometry
-// does not show the bias, all where it does. A source that tells no systematic error is first taken
-// to have one of half the size of its noise; what the others show of theirs, in units of what they
-// state as noise, counts for it too. There is no length and no time scale in this but that of the
-// bias' own memory, so it holds for a drone and for a meteor.
+// The filter carries what makes each station's bias (cross-elevation, elevation) as states with a
+// prior of zero mean. The variance v of the bias before any bearing is learnt here. A bias
+// estimated as b with the variance P shows the share k = 1 - P / v of itself, and its square is
+// worth b^2 - k P with the weight k^2 (one step of Fisher scoring on the marginal likelihood,
+// Harville, 1977): nothing where the geometry does not show the bias, all where it does. A source
+// that tells no systematic error is first taken to have one of half the size of its noise; what the
+// others show of theirs, in units of what they state as noise, counts for it too. There is no
+// length and no time scale in this but that of the bias' own memory, so it holds for a drone and
+// for a meteor.
 //
 // How great the noise is, is seen in the residuals: its expectation given the residual, squared, is
 // worth one bearing (expectation maximisation). It may be less or more than what is stated.

@@ -123,7 +123,10 @@ int TrackFilter::take_place(const Sighting& sighting) {
   }
   const auto silent = std::ranges::min_element(stations_, {}, &FilterStation::offered_us);
   if (seconds(sighting.utime_us - silent->offered_us) < kPlaceS) return -1;
-  return static_cast<int>(silent - stations_.begin());
+  const int station = static_cast<int>(silent - stations_.begin());
+  silent->sight = sighting.sight;
+  if (place_matters(sighting.sight)) tell_place_apart(station);
+  return station;
 }
 
 void TrackFilter::enter(int station, const Sighting& sighting, const StationErrors& errors) {
@@ -214,8 +217,13 @@ double TrackFilter::nis(const Sighting& sighting, const StationErrors& errors) c
     const double range_m = (position() - sighting.sight.origin_ecef).norm();
     prior = errors.prior(sighting.station, sighting.sight, range_m);
   }
-  const Eigen::Matrix2d white =
-      sighting.sight.covariance_white * errors.noise_scale(sighting.station);
+  Eigen::Matrix2d white = sighting.sight.covariance_white * errors.noise_scale(sighting.station);
+  if (station >= 0) {  // what it knows of its bias may be of another pose, or of another point
+    const FilterStation& known = stations_[static_cast<std::size_t>(station)];
+    const bool same =
+        known.calibration_id == sighting.calibration_id && known.track_id == sighting.track_id;
+    if (!same) white += priors_[static_cast<std::size_t>(station)].covariance;
+  }
   const RayFrame frame = frame_of(sighting, station);
   double least = kNever;
   for (const Model& model : models_) {
@@ -236,12 +244,14 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
 }
 
 // The target was designated to the station anew, and it follows another point of it. Added to what
-// is known of the station, so that one which changes its mind with each frame is not believed more.
+// is known of the station, and not in its place: of one which changes its mind with each frame the
+// bias would seem new each time, and average out.
 void TrackFilter::show_anew(int station, std::int64_t track_id) {
   stations_[static_cast<std::size_t>(station)].track_id = track_id;
   const BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
   for (Model& model : models_) {
-    model.covariance.diagonal().segment<3>(first_of(station)).array() += prior.rotation;
+    auto variance = model.covariance.diagonal().segment<3>(first_of(station)).array();
+    variance = variance.max(prior.rotation);
   }
 }
 
@@ -328,8 +338,10 @@ bool TrackFilter::shows_bias(int station, const RayFrame& frame, double depth_m,
           .diagonal()
           .maxCoeff();
   if (part.has_place) {
-    const auto place = own.diagonal().segment<kPlaceStates>(part.first + kPoseStates);
-    bias_variance += place.maxCoeff() / (depth_m * depth_m);
+    const Eigen::Matrix<double, 2, 3> across = frame.tangent.transpose() * part.R_ecef_enu;
+    const Eigen::Index at = part.first + kPoseStates;
+    bias_variance += (across * own.block<3, 3>(at, at) * across.transpose()).diagonal().maxCoeff() /
+                     (depth_m * depth_m);
   }
   const double second_order = bias_variance * depth_variance / (depth_m * depth_m);
   return second_order < kSmall * kSmall * white.trace() / 2.0;

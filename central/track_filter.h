@@ -39,9 +39,9 @@ struct FilterConfig {
   // Two stations alone: squared turn over what they state of bias and noise, beyond which their
   // rays are not made to meet.
   double two_stations_nis = 25.0;
-  // A station's place has states of its own where it makes at least so much of the stated bias's
-  // variance.
-  double place_share = 0.02;
+  // A station's place has states of its own from when it makes at least so much of the stated
+  // bias's variance on.
+  double place_share = 0.005;
   // What all stations may have in common beyond what independent errors have, in variance: it moves
   // the target and no residual shows it. Over the part that biases make which the residuals show.
   double in_common = 1.0;
@@ -141,7 +141,7 @@ class TrackFilter {
   const std::vector<BiasPrior>& priors() const { return priors_; }  // of each
   StationBias bias(std::size_t station) const;
   std::array<double, kMotions> probabilities() const;
-  // The whole mixed state, for the smoother: kinematics, then three states a station.
+  // The whole mixed state, for the smoother: kinematics, then the stations' states.
   void mixed(FilterVector& mean, FilterMatrix& covariance) const;
   const FilterConfig& config() const { return config_; }
 
@@ -164,6 +164,7 @@ class TrackFilter {
   int take_place(const Sighting& sighting);
   void enter(int station, const Sighting& sighting, const StationErrors& errors);
   void show_anew(int station, std::int64_t track_id);
+  void tell_place_apart(int station);
   int station_of(const Sighting& sighting, const StationErrors& errors);
   bool shows_bias(int station, const RayFrame& frame, double depth_m,
                   const Eigen::Matrix2d& white) const;

@@ -58,6 +58,8 @@ void TrackFilter::mix(double dt_s) {
       model.covariance += w * was[from].covariance;
       model.covariance.noalias() += (w * off) * off.transpose();
     }
+    // Rounding makes the two triangles differ, and what differs grows: by the minute, tenfold.
+    model.covariance = (0.5 * (model.covariance + model.covariance.transpose())).eval();
   }
 }
 
@@ -65,6 +67,8 @@ void TrackFilter::mix(double dt_s) {
 void TrackFilter::move_biases(double dt_s, StationErrors& errors) {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     FilterStation& station = stations_[i];
+    const int index = static_cast<int>(i);
+    if (place_matters(station.sight)) tell_place_apart(index);
     const double range_m = (position() - station.sight.origin_ecef).norm();
     if (seconds(utime_us_ - station.utime_us) < 2.0 * config_.mixing_s + dt_s) {
       const StationBias now = bias(i);
@@ -73,7 +77,30 @@ void TrackFilter::move_biases(double dt_s, StationErrors& errors) {
                      dt_s, range_m);
     }
     priors_[i] = errors.prior(station.station, station.sight, range_m, priors_[i].place_apart);
-    move_bias(static_cast<int>(i), dt_s, errors.clock_time_s());
+    move_bias(index, dt_s, errors.clock_time_s());
+  }
+}
+
+// The station has states for its place from now on: a target that has come nearer.
+void TrackFilter::tell_place_apart(int station) {
+  BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
+  if (prior.place_apart) return;
+  const Eigen::Index first = first_of(station) + kPoseStates, n = models_[0].mean.size();
+  const Eigen::Index rest = n - first, then = first + kPlaceStates;
+  prior.place_apart = true;
+  prior.place_m2 =
+      stations_[static_cast<std::size_t>(station)].sight.origin_sd_enu_m.array().square();
+  for (Model& model : models_) {
+    const Model was = model;
+    model.mean = FilterVector::Zero(n + kPlaceStates);
+    model.mean.head(first) = was.mean.head(first);
+    model.mean.tail(rest) = was.mean.tail(rest);
+    model.covariance = FilterMatrix::Zero(n + kPlaceStates, n + kPlaceStates);
+    model.covariance.topLeftCorner(first, first) = was.covariance.topLeftCorner(first, first);
+    model.covariance.block(0, then, first, rest) = was.covariance.topRightCorner(first, rest);
+    model.covariance.block(then, 0, rest, first) = was.covariance.bottomLeftCorner(rest, first);
+    model.covariance.bottomRightCorner(rest, rest) = was.covariance.bottomRightCorner(rest, rest);
+    model.covariance.diagonal().segment<kPlaceStates>(first) = prior.place_m2;
   }
 }
 

@@ -90,6 +90,71 @@ TEST(PoseErrors, APlaceThatIsOffIsNotTakenForARotation) {
 
 TEST(PoseErrors, WhoChangesItsMindWithEachFrameIsNotBelievedMore) {
   EXPECT_LT(fly(world_of(5e-4, 1e-3, 0.0), {}, true).nees, 1.3);
+  EXPECT_LT(fly(world_of(5e-4, 1e-3, 1.0), {}, true).nees, 1.6);
+}
+
+// Far away a place is nothing beside a heading; near by it is all.
+TEST(PoseErrors, APlaceBeginsToMatterAsATargetComesNearer) {
+  constexpr double kFlightS = 95.0;
+  WorldConfig world = world_of(3e-4, 1e-3, 0.5);
+  double nees = 0.0;
+  int fixes = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    std::mt19937_64 random(seed);
+    const Path path = cruising({{6000, 100, 400}, {-60, 0, -3}}, 0.1, kFlightS, random);
+    for (const FusedTarget& target : fuse_offline(measure(world, {path}, kFlightS, random), {})) {
+      const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
+      if (time_s < kFlightS - 10.0) continue;
+      const Vector3d e = target.estimate.position_ecef - site().to_ecef(at(path, time_s).p_enu);
+      nees += e.dot(target.estimate.covariance_ecef.ldlt().solve(e)) / 3.0;
+      ++fixes;
+    }
+  }
+  EXPECT_GT(fixes, 100);
+  EXPECT_LT(nees / fixes, 2.0);
+}
+
+// Rounding must not eat the covariance in a long flight: eight stations for minutes.
+TEST(PoseErrors, ALongFlightKeepsItsTrack) {
+  constexpr double kFlightS = 300.0;
+  WorldConfig world{.stations_enu = circle(8, 300.0), .aims_enu = {}};
+  world.bias_sd_rad = 3e-4;
+  world.place_sd_m = 1.0;
+  std::mt19937_64 random(3);
+  const Path path = cruising({{-100, 20, 120}, {0.7, 0.1, 0.0}}, 0.01, kFlightS, random);
+  Fusion fusion(FusionConfig{});
+  for (const Sighting& sighting : measure(world, {path}, kFlightS, random)) fusion.add(sighting);
+  EXPECT_EQ(fusion.keeper().counts().dropped, 0);
+  ASSERT_EQ(fusion.keeper().tracks().size(), 1U);
+  FilterVector mean;
+  FilterMatrix P;
+  fusion.keeper().tracks().front().filter.mixed(mean, P);
+  const Eigen::VectorXd sd = P.diagonal().cwiseSqrt();
+  const Eigen::MatrixXd differ = (P - P.transpose()).cwiseAbs().cwiseQuotient(sd * sd.transpose());
+  EXPECT_LT(differ.maxCoeff(), 1e-9);
+}
+
+// A station whose pose is known to be another from now on begins anew, and is not set aside.
+TEST(PoseErrors, ANewDesignationMayBeOffAsStated) {
+  constexpr double kFlightS = 30.0, kTurnedS = 10.0, kOffRad = 5e-3;
+  WorldConfig world = world_of(1e-5, kOffRad, 0.0);
+  std::mt19937_64 random(4);
+  const Path path = cruising({{-100, 20, 120}, {5, 1, 0}}, 0.1, kFlightS, random);
+  TrackFilter filter({}, kStartUs,
+                     {.p_ecef = site().to_ecef(path.front().p_enu),
+                      .position_sd_m = 10.0,
+                      .velocity_sd_m_s = 10.0});
+  StationErrors errors;
+  for (Sighting& sighting : measure(world, {path}, kFlightS, random)) {
+    sighting.track_id = 1;
+    const double time_s = 1e-6 * static_cast<double>(sighting.utime_us - kStartUs);
+    if (sighting.station == "s0" && time_s > kTurnedS) {
+      sighting.track_id = 2;
+      sighting.sight.direction.azimuth_rad += kOffRad;
+      ASSERT_LT(filter.nis(sighting, errors), 25.0) << time_s;
+    }
+    filter.update(sighting, errors);
+  }
 }
 
 }  // namespace
