@@ -126,15 +126,16 @@ def test_a_replay_gives_the_same_targets_and_moves_nothing(run, tmp_path):
 
 
 def test_a_replay_gives_the_targets_of_the_live_run(run, tmp_path):
-    """To the last bit, but where two packets of the same instant reached the logger and the live
-    fusion in different order: then one target was made a bearing earlier or later."""
+    """To the last bit, until two packets of the same instant reached the logger and the live fusion
+    in different order: then one target was made a bearing earlier or later, and what is known of
+    the stations' poses differs by rounding for minutes."""
     out, _ = replay(run / "run.lcmlog", tmp_path)
     live = {t[:3]: np.frombuffer(t[3]) for t in targets_of(run / "run.lcmlog")}
     again = {t[:3]: np.frombuffer(t[3]) for t in targets_of(out)}
     both = live.keys() & again.keys()
     assert len(both) >= 0.97 * max(len(live), len(again))
     apart = [np.linalg.norm(np.nan_to_num(live[key]) - np.nan_to_num(again[key])) for key in both]
-    assert np.median(apart) == 0.0
+    assert np.median(apart) < 1e-5
     assert max(apart) < 0.1
 
 
