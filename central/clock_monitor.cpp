@@ -75,9 +75,10 @@ void ClockMonitor::hear(const Sighting& sighting, const MessageTime& time) {
   }
 }
 
-std::string ClockMonitor::quarantine(const std::string& station) const {
+const std::string& ClockMonitor::quarantine(const std::string& station) const {
+  static const std::string kNone;
   const auto found = stations_.find(station);
-  return found == stations_.end() ? "" : found->second.quarantine;
+  return found == stations_.end() ? kNone : found->second.quarantine;
 }
 
 double ClockMonitor::added_sd_s(const std::string& station) const {

@@ -40,7 +40,7 @@ class ClockMonitor {
   // A bearing that `time` has heard already.
   void hear(const Sighting& sighting, const MessageTime& time);
   // Why a station is quarantined, in words; empty when it is not.
-  std::string quarantine(const std::string& station) const;
+  const std::string& quarantine(const std::string& station) const;
   // What to add to the 1-sigma of a station's stamps for being off the others' time.
   double added_sd_s(const std::string& station) const;
   // Of its stamps from the median lately, 0 within what is usual; NaN before the first.

@@ -69,8 +69,8 @@ FusionOutput Fusion::add(const Sighting& sighting) {
 }
 
 bool Fusion::full(const std::string& station) const {
-  return !stations_.contains(station) &&
-         stations_.size() >= static_cast<std::size_t>(config_.max_stations);
+  return stations_.size() >= static_cast<std::size_t>(config_.max_stations) &&
+         !stations_.contains(station);
 }
 
 // By messages, not by stamps: a station's clock may be wrong. Those without a bearing come first.
@@ -130,14 +130,14 @@ SightingRefusal Fusion::admit(const Sighting& sighting) {
   if (ahead_s > config_.future_s) return SightingRefusal::kFuture;
   if (ahead_s < -config_.stale_s) return SightingRefusal::kStale;
   if (sighting.belief < config_.min_belief) return SightingRefusal::kLowBelief;
-  const SightingRefusal doubled = store(sighting);
-  return doubled == SightingRefusal::kNone ? associate(sighting) : doubled;
+  const SightingRefusal doubled = store(sighting, station);
+  return doubled == SightingRefusal::kNone ? associate(sighting, station) : doubled;
 }
 
 bool Fusion::clock_is_believed(const Sighting& sighting) {
   const bool before = clocks_.quarantine(sighting.station).empty();
   clocks_.hear(sighting, time_);
-  const std::string why = clocks_.quarantine(sighting.station);
+  const std::string& why = clocks_.quarantine(sighting.station);
   time_.trust(sighting.station, why.empty());
   if (before && !why.empty()) {
     ++counters_["stations_quarantined"];
@@ -146,8 +146,7 @@ bool Fusion::clock_is_believed(const Sighting& sighting) {
   return why.empty();
 }
 
-SightingRefusal Fusion::store(const Sighting& sighting) {
-  Station& station = stations_[sighting.station];
+SightingRefusal Fusion::store(const Sighting& sighting, Station& station) {
   auto& lately = station.lately;
   const auto same_time =
       std::ranges::lower_bound(lately, sighting.utime_us, {}, &Exposure::utime_us);
@@ -190,13 +189,12 @@ SightingRefusal Fusion::store(const Sighting& sighting) {
 }
 
 // To the track that it belongs to. What a wrong pose shows is told to its monitor.
-SightingRefusal Fusion::associate(const Sighting& sighting) {
+SightingRefusal Fusion::associate(const Sighting& sighting, Station& station) {
   Sighting judged = sighting;
   judged.clock_sd_s = std::hypot(sighting.clock_sd_s, clocks_.added_sd_s(sighting.station));
   const bool believed = pointing_.quarantine(sighting.station).empty();
   const Association result = keeper_.add(judged, believed);
   const bool explained = result.kind == Association::Kind::kTrack;
-  Station& station = stations_[sighting.station];
   if (explained && result.track_id != 0) {
     station.follows = result.track_id;
     station.followed_us = sighting.utime_us;
@@ -208,7 +206,7 @@ SightingRefusal Fusion::associate(const Sighting& sighting) {
     if (nearest) off_rad = nearest->off_rad;
   }
   pointing_.hear(sighting.station, sighting.utime_us, explained, off_rad);
-  const std::string why = pointing_.quarantine(sighting.station);
+  const std::string& why = pointing_.quarantine(sighting.station);
   if (believed && !why.empty()) {
     ++counters_["stations_quarantined"];
     last_error_ = "station " + sighting.station + ": quarantined, " + why;

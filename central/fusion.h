@@ -147,8 +147,8 @@ class Fusion {
   void evict(std::map<std::string, Station>::iterator station);
   SightingRefusal admit(const Sighting& sighting);
   bool clock_is_believed(const Sighting& sighting);
-  SightingRefusal store(const Sighting& sighting);
-  SightingRefusal associate(const Sighting& sighting);
+  SightingRefusal store(const Sighting& sighting, Station& station);
+  SightingRefusal associate(const Sighting& sighting, Station& station);
   void refuse(SightingRefusal refusal, const Sighting& sighting);
   void notice_step_back();
   void begin_epoch(std::int64_t now_us);

@@ -1,8 +1,9 @@
 // How a target may move: three models on one state, so that they can be mixed. Pure.
 //
 // The state of each axis is (position, velocity, acceleration); the three axes of space share one
-// 3x3 transition f and one 3x3 noise q, F = f (x) I and Q = q (x) I. (Li and Jilkov, "Survey of
-// maneuvering target tracking, part I: dynamic models", 2003.)
+// 3x3 transition f and one 3x3 noise q, F = f (x) I and Q = q (x) I; no motion
+// makes velocity or acceleration of a position, the first column of f is (1 0 0). (Li and Jilkov,
+// "Survey of maneuvering target tracking, part I: dynamic models", 2003.)
 //  - constant velocity: white noise of the acceleration, which itself is not carried on;
 //  - coordinated turn: the acceleration turns with the velocity, w = |v x a| / |v|^2, in the plane
 //    of the two, whatever its attitude;
@@ -47,33 +48,5 @@ double manoeuvre_sd(const Eigen::Vector3d& velocity, const MotionConfig& config)
 
 // Over dt_s >= 0 from this state, (position, velocity, acceleration) of three components each.
 Transition transition(Motion motion, const Vector9& state, double dt_s, const MotionConfig& config);
-
-// (f (x) I) applied from the left to the first nine rows, and from both sides.
-template <class Derived>
-void transform_rows(const Eigen::Matrix3d& f, Eigen::MatrixBase<Derived>& m) {
-  const auto was = m.template topRows<9>().eval();
-  for (int i = 0; i < 3; ++i) {
-    m.template middleRows<3>(3 * i) = f(i, 0) * was.template topRows<3>() +
-                                      f(i, 1) * was.template middleRows<3>(3) +
-                                      f(i, 2) * was.template bottomRows<3>();
-  }
-}
-
-// P' = (F P F^T + Q) of a matrix whose first nine rows and columns are the target's state.
-template <class Derived>
-void propagate_covariance(const Transition& t, Eigen::MatrixBase<Derived>& P) {
-  transform_rows(t.f, P);
-  const auto was = P.template leftCols<9>().eval();
-  for (int i = 0; i < 3; ++i) {
-    P.template middleCols<3>(3 * i) = t.f(i, 0) * was.template leftCols<3>() +
-                                      t.f(i, 1) * was.template middleCols<3>(3) +
-                                      t.f(i, 2) * was.template rightCols<3>();
-  }
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      P.template block<3, 3>(3 * i, 3 * j).diagonal().array() += t.q(i, j);
-    }
-  }
-}
 
 }  // namespace ols

@@ -53,9 +53,10 @@ void PointingMonitor::judge(Station& station) const {
   station.quarantine = text;
 }
 
-std::string PointingMonitor::quarantine(const std::string& station) const {
+const std::string& PointingMonitor::quarantine(const std::string& station) const {
+  static const std::string kNone;
   const auto found = stations_.find(station);
-  return found == stations_.end() ? "" : found->second.quarantine;
+  return found == stations_.end() ? kNone : found->second.quarantine;
 }
 
 }  // namespace ols

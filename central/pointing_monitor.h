@@ -35,7 +35,7 @@ class PointingMonitor {
   void hear(const std::string& station, std::int64_t utime_us, bool explained,
             const std::optional<Eigen::Vector2d>& off_rad);
   // Why a station is quarantined, in words; empty when it is not.
-  std::string quarantine(const std::string& station) const;
+  const std::string& quarantine(const std::string& station) const;
   void forget(const std::string& station) { stations_.erase(station); }
   void clear() { stations_.clear(); }
 

@@ -1,5 +1,6 @@
 #include "central/ray.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +14,8 @@ RayFrame ray_frame(const SightLine& sight) {
 }
 
 RayFrame ray_frame(const SightLine& sight, const Eigen::Matrix3d& R) {
-  return {R * enu_from_azimuth_elevation(sight.direction), R * tangent_basis(sight.direction)};
+  const Eigen::Matrix<double, 3, 2> tangent = R * tangent_basis(sight.direction);
+  return {tangent.col(1).cross(tangent.col(0)), tangent};
 }
 
 Eigen::Matrix2d stated_covariance(const SightLine& sight, double range_m) {

@@ -18,15 +18,12 @@ struct Whole {
 // Of what is known: only so that it can be inverted. 10 ns, 10 nrad, 10 nm.
 constexpr double kLeast = 1e-16;
 
-constexpr Eigen::Index kStationStates = kPoseStates + kPlaceStates;
 using Order = std::map<std::string, Eigen::Index>;  // station -> first of its states
 
 // The state spread over all stations' states; what it does not hold is known as by the prior.
 Whole spread(const TrackFilter& filter, const Order& order, const Eigen::VectorXd& prior,
              double clock_sign) {
-  FilterVector mean;
-  FilterMatrix covariance;
-  filter.mixed(mean, covariance);
+  const auto [mean, covariance] = filter.mixed();
   std::vector<Eigen::Index> to(static_cast<std::size_t>(mean.size()));
   std::vector<double> sign(to.size(), 1.0);
   for (std::size_t i = 0; i < 9; ++i) to[i] = static_cast<Eigen::Index>(i);

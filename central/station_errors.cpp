@@ -21,14 +21,6 @@ Eigen::Array3d rotation_variance(const Eigen::Array2d& bias_rad2, double elevati
 
 }  // namespace
 
-// Rotated by r a direction moves by r x d. With the tangent (right, up): right . (r x d) =
-// r . (d x right) = -r . up, and up . (r x d) = r . right.
-Eigen::Matrix<double, 2, 3> bias_by_rotation(const Eigen::Matrix<double, 3, 2>& tangent) {
-  Eigen::Matrix<double, 2, 3> result;
-  result << -tangent.col(1).transpose(), tangent.col(0).transpose();
-  return result;
-}
-
 void StationErrors::observe_noise(const std::string& station, double squared_ratio) {
   constexpr double kMost = 9.0;  // an outlier says nothing of the noise
   double& share = stations_[station].white_share;

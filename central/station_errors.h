@@ -21,7 +21,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -63,10 +62,6 @@ struct BiasPrior {
   // guessed.
   Eigen::Array3d shown = Eigen::Array3d::Zero();
 };
-
-// The bias on the tangent plane that a small rotation of the station [rad] makes: 2 x 3, for a
-// rotation in the components that the tangent's columns have.
-Eigen::Matrix<double, 2, 3> bias_by_rotation(const Eigen::Matrix<double, 3, 2>& tangent);
 
 // A station's bias [rad], cross-elevation and elevation, each with its variance after and before.
 struct SeenBias {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "central/time_span.h"
 #include "geometry/wgs84.h"
@@ -17,36 +18,7 @@ constexpr double kPlaceS = 1.0;   // who is silent for longer gives its states u
 constexpr int kUpset = 6;         // set-aside bearings in a row, of two stations
 constexpr double kLeastProbability = 1e-4;
 
-using MatrixN2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
-
-// The gain and the residual whitened by the same factor. Without `all` the stations' states stay as
-// they are and are only considered. Two columns: Eigen's blocked product is slower.
-void add(const MatrixN2& gain, const Eigen::Vector2d& whitened, bool all, FilterVector& mean,
-         FilterMatrix& covariance) {
-  if (all) {
-    mean += gain * whitened;
-    covariance.noalias() -= gain.lazyProduct(gain.transpose());
-    return;
-  }
-  const Eigen::Matrix<double, 9, 2> own = gain.topRows<9>();
-  const Eigen::Index stations = gain.rows() - 9;
-  mean.head<9>() += own * whitened;
-  covariance.topLeftCorner<9, 9>() -= own.lazyProduct(own.transpose());
-  covariance.topRightCorner(9, stations) -= own.lazyProduct(gain.bottomRows(stations).transpose());
-  covariance.bottomLeftCorner(stations, 9) = covariance.topRightCorner(9, stations).transpose();
-}
-
 }  // namespace
-
-// A model's expectation of one bearing against it.
-struct TrackFilter::Innovation {
-  Eigen::Vector2d residual = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the residual, without noise
-  MatrixN2 cross;                                        // covariance of state and residual
-  double depth_m = 0.0;
-
-  void see(const StationPart& part, const Model& model, const Eigen::Matrix<double, 2, 3>& J);
-};
 
 // How a station's own states move its bearing on the tangent plane.
 struct TrackFilter::StationPart {
@@ -56,10 +28,27 @@ struct TrackFilter::StationPart {
   Eigen::Matrix3d R_ecef_enu;
 };
 
+// A model's expectation of one bearing against it: H = [J, ahead J, curved J] of the target, and of
+// the station its pose's and its place's.
+struct TrackFilter::Innovation {
+  double depth_m = 0.0;
+  Eigen::Vector2d residual = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the residual, without noise
+  Eigen::Matrix<double, 2, 3> J;
+  double ahead_s = 0.0, curved_s2 = 0.0;
+  Eigen::Matrix<double, 2, kPoseStates> by_pose;
+  Eigen::Matrix<double, 2, kPlaceStates> by_place;
+
+  void see_target(const FilterMatrix& P);
+  void see_station(const FilterGaussian& state, const StationPart& part);
+  FilterMatrix2 cross(const FilterMatrix& P, const StationPart& part) const;
+};
+
 TrackFilter::TrackFilter(const FilterConfig& config, std::int64_t utime_us,
                          const FilterStart& start)
     : config_(config), utime_us_(utime_us), mixed_us_(utime_us) {
-  for (Model& model : models_) {
+  probabilities_.fill(1.0 / kMotions);
+  for (FilterGaussian& model : models_) {
     model.mean = FilterVector::Zero(9);
     model.mean.head<3>() = start.p_ecef;
     model.mean.segment<3>(3) = start.v_ecef;
@@ -99,7 +88,7 @@ TrackFilter::StationPart TrackFilter::part_of(int station, const RayFrame& frame
   const auto index = static_cast<std::size_t>(station);
   const Eigen::Matrix3d& R = stations_[index].R_ecef_enu;
   return {first_of(station), priors_[index].place_apart,
-          bias_by_rotation(R.transpose() * frame.tangent), R};
+          shift_by_rotation(R.transpose() * frame.tangent), R};
 }
 
 bool TrackFilter::place_matters(const SightLine& sight) const {
@@ -114,11 +103,8 @@ int TrackFilter::take_place(const Sighting& sighting) {
   if (stations_.size() < kFilterStations) {
     stations_.emplace_back();
     priors_.push_back({.place_apart = place_matters(sighting.sight)});
-    const Eigen::Index n = models_[0].mean.size() + states_of(priors_.back());
-    for (Model& model : models_) {
-      model.mean.conservativeResize(n);
-      model.covariance.conservativeResize(n, n);
-    }
+    const Eigen::Index n = models_[0].mean.size(), more = states_of(priors_.back());
+    for (FilterGaussian& model : models_) insert_states(n, more, model);
     return static_cast<int>(stations_.size()) - 1;
   }
   const auto silent = std::ranges::min_element(stations_, {}, &FilterStation::offered_us);
@@ -140,7 +126,7 @@ void TrackFilter::enter(int station, const Sighting& sighting, const StationErro
   const double range_m = (models_[0].mean.head<3>() - sighting.sight.origin_ecef).norm();
   prior = errors.prior(sighting.station, sighting.sight, range_m, prior.place_apart);
   const Eigen::Index at = first_of(station), n = states_of(prior);
-  for (Model& model : models_) {
+  for (FilterGaussian& model : models_) {
     model.mean.segment(at, n).setZero();
     model.covariance.middleRows(at, n).setZero();
     model.covariance.middleCols(at, n).setZero();
@@ -150,86 +136,105 @@ void TrackFilter::enter(int station, const Sighting& sighting, const StationErro
   }
 }
 
-// Adds what the station's states have to do with the residual.
-void TrackFilter::Innovation::see(const StationPart& part, const Model& model,
-                                  const Eigen::Matrix<double, 2, 3>& J) {
-  const auto& P = model.covariance;
-  const Eigen::Index at = part.first;
-  const Eigen::Vector2d clock = -J * model.mean.segment<3>(3);
-  const Eigen::Matrix<double, 3, 2> Bt = part.by_rotation.transpose();
-  cross += P.middleCols<3>(at).lazyProduct(Bt);
-  cross += P.col(at + 3) * clock.transpose();
-  residual -= part.by_rotation * model.mean.segment<3>(at) + clock * model.mean(at + 3);
-  if (part.has_place) {
-    const Eigen::Matrix<double, 2, 3> by_place = -J * part.R_ecef_enu;
-    const Eigen::Matrix<double, 3, 2> by_place_t = by_place.transpose();
-    cross += P.middleCols<3>(at + kPoseStates).lazyProduct(by_place_t);
-    residual -= by_place * model.mean.segment<3>(at + kPoseStates);
-    covariance = by_place * cross.middleRows<3>(at + kPoseStates);
+// The part of the target's own states.
+void TrackFilter::Innovation::see_target(const FilterMatrix& P) {
+  Eigen::Matrix3d position = whole_block<3>(P, 0);
+  if (ahead_s != 0.0) {
+    const Matrix9 all = whole_block<9>(P, 0);
+    const Eigen::Matrix<double, 9, 3> then =
+        all.leftCols<3>() + ahead_s * all.middleCols<3>(3) + curved_s2 * all.rightCols<3>();
+    position =
+        then.topRows<3>() + ahead_s * then.middleRows<3>(3) + curved_s2 * then.bottomRows<3>();
   }
-  covariance += part.by_rotation * cross.middleRows<3>(at) + clock * cross.row(at + 3);
+  covariance = J * position * J.transpose();
 }
 
-TrackFilter::Innovation TrackFilter::innovation(const Model& model, const Sighting& sighting,
-                                                const RayFrame& frame, int station,
-                                                const BiasPrior& prior) const {
-  const auto motion = static_cast<Motion>(&model - models_.data());
-  const double ahead_s = seconds(sighting.utime_us - utime_us_);  // < 0: late
-  const Eigen::Vector3d v = model.mean.segment<3>(3);
-  const double curved = motion == Motion::kConstantVelocity ? 0.0 : ahead_s * ahead_s / 2.0;
-  const Eigen::Vector3d line = model.mean.head<3>() + ahead_s * v +
-                               curved * model.mean.segment<3>(6) - sighting.sight.origin_ecef;
+// That of the station's states.
+void TrackFilter::Innovation::see_station(const FilterGaussian& state, const StationPart& part) {
+  const Eigen::Index pose = part.first, place = part.first + kPoseStates;
+  const FilterMatrix& P = state.covariance;
+  const auto with_target = [&]<int K>(const Eigen::Matrix<double, 2, K>& H, Eigen::Index at) {
+    Eigen::Matrix<double, K, 3> then = P.block<K, 3>(at, 0);
+    if (ahead_s != 0.0) then += ahead_s * P.block<K, 3>(at, 3) + curved_s2 * P.block<K, 3>(at, 6);
+    return Eigen::Matrix2d(H * then * J.transpose());
+  };
+  by_pose << part.by_rotation, -J * state.mean.segment<3>(3);
+  Eigen::Matrix2d mixed = with_target(by_pose, pose);
+  residual -= by_pose * state.mean.segment<kPoseStates>(pose);
+  covariance += by_pose * whole_block<kPoseStates>(P, pose) * by_pose.transpose();
+  if (part.has_place) {
+    by_place = -J * part.R_ecef_enu;
+    residual -= by_place * state.mean.segment<kPlaceStates>(place);
+    covariance += by_place * whole_block<kPlaceStates>(P, place) * by_place.transpose();
+    mixed += with_target(by_place, place);
+    mixed += by_place * P.block<kPlaceStates, kPoseStates>(place, pose) * by_pose.transpose();
+  }
+  covariance += mixed + mixed.transpose();
+}
+
+// P H^T, the covariance of the whole state with the residual.
+FilterMatrix2 TrackFilter::Innovation::cross(const FilterMatrix& P, const StationPart& part) const {
+  FilterMatrix2 result = FilterMatrix2::Zero(P.rows(), 2);
+  add_product<3>(P, 0, J, result);
+  if (ahead_s != 0.0) {
+    add_product<3>(P, 3, ahead_s * J, result);
+    add_product<3>(P, 6, curved_s2 * J, result);
+  }
+  add_product<kPoseStates>(P, part.first, by_pose, result);
+  if (part.has_place) add_product<kPlaceStates>(P, part.first + kPoseStates, by_place, result);
+  return result;
+}
+
+// Without the station's part where the filter has no states of it.
+TrackFilter::Innovation TrackFilter::innovation(Motion motion, const Sighting& sighting,
+                                                const RayFrame& frame,
+                                                const StationPart* station) const {
+  const FilterGaussian& model = models_[static_cast<std::size_t>(motion)];
   Innovation result;
+  result.ahead_s = seconds(sighting.utime_us - utime_us_);  // < 0: late
+  if (motion != Motion::kConstantVelocity) result.curved_s2 = std::pow(result.ahead_s, 2) / 2.0;
+  const Eigen::Vector3d line = model.mean.head<3>() + result.ahead_s * model.mean.segment<3>(3) +
+                               result.curved_s2 * model.mean.segment<3>(6) -
+                               sighting.sight.origin_ecef;
   result.depth_m = frame.direction.dot(line);
   if (!(result.depth_m > 0.0)) return result;
-  const Eigen::Vector2d predicted = frame.tangent.transpose() * line / result.depth_m;
-  const Eigen::Matrix<double, 2, 3> J =
-      (frame.tangent.transpose() - predicted * frame.direction.transpose()) / result.depth_m;
-  // H = [J, ahead J, curved J]; products of so few columns without Eigen's blocking.
-  const auto& P = model.covariance;
-  const Eigen::Matrix<double, 3, 2> Jt = J.transpose();
-  result.cross = P.leftCols<3>().lazyProduct(Jt);
-  if (ahead_s != 0.0) {
-    result.cross += ahead_s * P.middleCols<3>(3).lazyProduct(Jt);
-    result.cross += curved * P.middleCols<3>(6).lazyProduct(Jt);
-  }
-  result.residual = -predicted;
-  if (station >= 0) {
-    result.see(part_of(station, frame), model, J);
-  } else {
-    const Eigen::Vector2d clock = J * v * sighting.clock_sd_s;
-    result.covariance = prior.covariance + clock * clock.transpose();
-  }
-  result.covariance += J * (result.cross.topRows<3>() + ahead_s * result.cross.middleRows<3>(3) +
-                            curved * result.cross.middleRows<3>(6));
-  if (ahead_s != 0.0) {
+  result.residual = -frame.tangent.transpose() * line / result.depth_m;
+  result.J =
+      (frame.tangent.transpose() + result.residual * frame.direction.transpose()) / result.depth_m;
+  result.see_target(model.covariance);
+  if (result.ahead_s != 0.0) {
     const Transition between =
-        transition(motion, model.mean.head<9>(), std::abs(ahead_s), config_.motion);
-    result.covariance += between.q(0, 0) * J * J.transpose();
+        transition(motion, model.mean.head<9>(), std::abs(result.ahead_s), config_.motion);
+    result.covariance += between.q(0, 0) * result.J * result.J.transpose();
   }
+  if (station != nullptr) result.see_station(model, *station);
   return result;
 }
 
 double TrackFilter::nis(const Sighting& sighting, const StationErrors& errors) const {
   const int station = index_of(sighting.station);
-  BiasPrior prior;
+  const RayFrame frame = frame_of(sighting, station);
+  Eigen::Matrix2d more = sighting.sight.covariance_white * errors.noise_scale(sighting.station);
+  std::optional<StationPart> part;
   if (station < 0) {
     const double range_m = (position() - sighting.sight.origin_ecef).norm();
-    prior = errors.prior(sighting.station, sighting.sight, range_m);
-  }
-  Eigen::Matrix2d white = sighting.sight.covariance_white * errors.noise_scale(sighting.station);
-  if (station >= 0) {  // what it knows of its bias may be of another pose, or of another point
+    more += errors.prior(sighting.station, sighting.sight, range_m).covariance;
+  } else {  // what it knows of its bias may be of another pose, or of another point
+    part = part_of(station, frame);
     const FilterStation& known = stations_[static_cast<std::size_t>(station)];
     const bool same =
         known.calibration_id == sighting.calibration_id && known.track_id == sighting.track_id;
-    if (!same) white += priors_[static_cast<std::size_t>(station)].covariance;
+    if (!same) more += priors_[static_cast<std::size_t>(station)].covariance;
   }
-  const RayFrame frame = frame_of(sighting, station);
   double least = kNever;
-  for (const Model& model : models_) {
-    const Innovation seen = innovation(model, sighting, frame, station, prior);
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    const auto seen = innovation(static_cast<Motion>(m), sighting, frame, part ? &*part : nullptr);
     if (seen.depth_m <= 0.0) continue;
-    const Eigen::Matrix2d S = seen.covariance + white;
+    Eigen::Matrix2d S = seen.covariance + more;
+    if (!part) {
+      const Eigen::Vector2d clock = seen.J * models_[m].mean.segment<3>(3) * sighting.clock_sd_s;
+      S += clock * clock.transpose();
+    }
     least = std::min(least, seen.residual.dot(S.llt().solve(seen.residual)));
   }
   return least;
@@ -243,13 +248,13 @@ BearingUse TrackFilter::update(const Sighting& sighting, StationErrors& errors) 
   return use;
 }
 
-// The target was designated to the station anew, and it follows another point of it. Added to what
-// is known of the station, and not in its place: of one which changes its mind with each frame the
-// bias would seem new each time, and average out.
+// The target was designated to the station anew, and it follows another point of it: its bias may
+// be as great as before any bearing, but what it shares with the other states stays. Of a station
+// which changes its mind with each frame the bias would else seem new each time, and average out.
 void TrackFilter::show_anew(int station, std::int64_t track_id) {
   stations_[static_cast<std::size_t>(station)].track_id = track_id;
   const BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
-  for (Model& model : models_) {
+  for (FilterGaussian& model : models_) {
     auto variance = model.covariance.diagonal().segment<3>(first_of(station)).array();
     variance = variance.max(prior.rotation);
   }
@@ -275,7 +280,7 @@ int TrackFilter::station_of(const Sighting& sighting, const StationErrors& error
   if (sighting.clock_sd_s > entry.clock_sd_s) {
     const Eigen::Index at = first_of(station) + 3;
     const double more = std::pow(sighting.clock_sd_s, 2) - std::pow(entry.clock_sd_s, 2);
-    for (Model& model : models_) model.covariance(at, at) += more;
+    for (FilterGaussian& model : models_) model.covariance(at, at) += more;
   }
   entry.clock_sd_s = sighting.clock_sd_s;
   return station;
@@ -291,10 +296,11 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   const Eigen::Matrix2d white =
       sighting.sight.covariance_white * errors.noise_scale(sighting.station);
   const RayFrame frame = frame_of(sighting, station);
+  const StationPart part = part_of(station, frame);
   Innovations seen;
   double nis = kNever, squared = 0.0, expected = 0.0;  // of the noise's own part of the residual
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    seen[m] = innovation(models_[m], sighting, frame, station, {});
+    seen[m] = innovation(static_cast<Motion>(m), sighting, frame, &part);
     if (seen[m].depth_m <= 0.0) return BearingUse::kBehindCamera;
     const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + white);
     const Eigen::Vector2d scaled = S.solve(seen[m].residual);
@@ -316,9 +322,9 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   entry.sight = sighting.sight;
   entry.utime_us = std::max(entry.utime_us, sighting.utime_us);
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);
-  const bool finds_bias = shows_bias(station, frame, seen[0].depth_m, white);
+  const bool finds_bias = shows_bias(part, frame, seen[0].depth_m, white);
   const double inflation = observe_noise(entry, sighting, frame, errors);
-  correct(seen, white * (inflation / entry.weight), finds_bias);
+  correct(seen, part, white * (inflation / entry.weight), finds_bias);
   return BearingUse::kUsed;
 }
 
@@ -326,35 +332,39 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
 // against the noise, the filter would find in it what the geometry hides, and be sure of it: two
 // stations side by side "learn" the difference of their headings, and a wrong range with it. Biases
 // are then considered but not learnt (the Schmidt-Kalman filter, 1966).
-bool TrackFilter::shows_bias(int station, const RayFrame& frame, double depth_m,
+bool TrackFilter::shows_bias(const StationPart& part, const RayFrame& frame, double depth_m,
                              const Eigen::Matrix2d& white) const {
   constexpr double kSmall = 0.1;
   const Eigen::Matrix3d P = summary_.covariance.topLeftCorner<3, 3>();
   const double depth_variance = frame.direction.dot(P * frame.direction);
-  const StationPart part = part_of(station, frame);
   const FilterMatrix& own = models_[0].covariance;
-  double bias_variance =
-      (part.by_rotation * own.block<3, 3>(part.first, part.first) * part.by_rotation.transpose())
-          .diagonal()
-          .maxCoeff();
+  const auto greatest = [&](const Eigen::Matrix<double, 2, 3>& H, Eigen::Index first) {
+    return (H * whole_block<3>(own, first) * H.transpose()).diagonal().maxCoeff();
+  };
+  double bias_variance = greatest(part.by_rotation, part.first);
   if (part.has_place) {
-    const Eigen::Matrix<double, 2, 3> across = frame.tangent.transpose() * part.R_ecef_enu;
-    const Eigen::Index at = part.first + kPoseStates;
-    bias_variance += (across * own.block<3, 3>(at, at) * across.transpose()).diagonal().maxCoeff() /
-                     (depth_m * depth_m);
+    bias_variance +=
+        greatest(frame.tangent.transpose() * part.R_ecef_enu / depth_m, part.first + kPoseStates);
   }
   const double second_order = bias_variance * depth_variance / (depth_m * depth_m);
   return second_order < kSmall * kSmall * white.trace() / 2.0;
 }
 
-void TrackFilter::correct(const Innovations& seen, const Eigen::Matrix2d& noise, bool finds_bias) {
+// Where biases are not found the stations' states stay as they are and are only considered.
+void TrackFilter::correct(const Innovations& seen, const StationPart& part,
+                          const Eigen::Matrix2d& noise, bool finds_bias) {
   std::array<double, kMotions> log_likelihood{};
   for (std::size_t m = 0; m < models_.size(); ++m) {
+    FilterGaussian& model = models_[m];
     const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + noise);
     const Eigen::Matrix2d L = S.matrixL();
     const Eigen::Vector2d whitened = S.matrixL().solve(seen[m].residual);
-    const MatrixN2 gain = S.matrixL().solve(seen[m].cross.transpose()).transpose();
-    add(gain, whitened, finds_bias, models_[m].mean, models_[m].covariance);
+    // The gain is G L^-1 with G = P H^T L^-T.
+    const Eigen::Matrix2d inverse_t = S.matrixU().solve(Eigen::Matrix2d::Identity());
+    const FilterMatrix2 G = seen[m].cross(model.covariance, part).lazyProduct(inverse_t);
+    const Eigen::Index found = finds_bias ? G.rows() : 9;
+    model.mean.head(found) += G.topRows(found) * whitened;
+    subtract_square(G, found, model.covariance);
     log_likelihood[m] = -whitened.squaredNorm() / 2.0 - std::log(L(0, 0) * L(1, 1));
   }
   weigh_models(log_likelihood);
@@ -397,11 +407,11 @@ void TrackFilter::weigh_models(const std::array<double, kMotions>& log_likelihoo
   const double most = *std::ranges::max_element(log_likelihood);
   double sum = 0.0;
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    models_[m].probability *= std::exp(log_likelihood[m] - most);
-    models_[m].probability = std::max(models_[m].probability, kLeastProbability);
-    sum += models_[m].probability;
+    probabilities_[m] *= std::exp(log_likelihood[m] - most);
+    probabilities_[m] = std::max(probabilities_[m], kLeastProbability);
+    sum += probabilities_[m];
   }
-  for (Model& model : models_) model.probability /= sum;
+  for (double& probability : probabilities_) probability /= sum;
 }
 
 // The target has done what no model allows: any of its accelerations, for the models' own time.
@@ -411,7 +421,7 @@ void TrackFilter::give_room() {
   const double hard = manoeuvre_sd(velocity(), config_.motion);
   const double time_s = config_.motion.acceleration_time_s;
   const double speed = 2.0 * hard * time_s;
-  for (Model& model : models_) {
+  for (FilterGaussian& model : models_) {
     model.covariance.diagonal().head<3>().array() += std::pow(speed * time_s / 2.0, 2);
     model.covariance.diagonal().segment<3>(3).array() += speed * speed;
     model.covariance.diagonal().segment<3>(6).array() += 4.0 * hard * hard;

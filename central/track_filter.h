@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "central/filter_gaussian.h"
 #include "central/motion_model.h"
 #include "central/ray.h"
 #include "central/sighting.h"
@@ -47,20 +48,12 @@ struct FilterConfig {
   double in_common = 1.0;
 };
 
-inline constexpr int kFilterStations = 12;  // with states of their own; no more are used
-// Of a station: its rotation about east, north and up, its clock's offset, and where that matters
-// the error of its place (east, north, up).
-inline constexpr int kPoseStates = 4, kPlaceStates = 3;
-inline constexpr int kFilterStates = 9 + (kPoseStates + kPlaceStates) * kFilterStations;
 inline Eigen::Index states_of(const BiasPrior& prior) {
-  return prior.place_apart ? kPoseStates + kPlaceStates : kPoseStates;
+  return prior.place_apart ? kStationStates : kPoseStates;
 }
-using StationMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
-                                    kPoseStates + kPlaceStates, kPoseStates + kPlaceStates>;
-using StationVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kPoseStates + kPlaceStates, 1>;
-using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
-using FilterMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kFilterStates, kFilterStates>;
+using StationMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kStationStates, kStationStates>;
+using StationVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kStationStates, 1>;
 
 // What became of a bearing. kNoPlace: all the states are those of stations that still deliver.
 // Their bearings without them would count as if each had a bias of its own, and none had any.
@@ -140,22 +133,17 @@ class TrackFilter {
   const std::vector<FilterStation>& stations() const { return stations_; }
   const std::vector<BiasPrior>& priors() const { return priors_; }  // of each
   StationBias bias(std::size_t station) const;
-  std::array<double, kMotions> probabilities() const;
+  const MixtureWeights& probabilities() const { return probabilities_; }
   // The whole mixed state, for the smoother: kinematics, then the stations' states.
-  void mixed(FilterVector& mean, FilterMatrix& covariance) const;
+  FilterGaussian mixed() const;
   const FilterConfig& config() const { return config_; }
 
  private:
   struct Innovation;
   struct StationPart;
-  struct Model {
-    FilterVector mean;
-    FilterMatrix covariance;
-    double probability = 1.0 / kMotions;
-  };
   using Innovations = std::array<Innovation, kMotions>;
-  Innovation innovation(const Model& model, const Sighting& sighting, const RayFrame& frame,
-                        int station, const BiasPrior& prior) const;
+  Innovation innovation(Motion motion, const Sighting& sighting, const RayFrame& frame,
+                        const StationPart* station) const;
   RayFrame frame_of(const Sighting& sighting, int station) const;
   Eigen::Index first_of(int station) const;
   StationPart part_of(int station, const RayFrame& frame) const;
@@ -166,14 +154,15 @@ class TrackFilter {
   void show_anew(int station, std::int64_t track_id);
   void tell_place_apart(int station);
   int station_of(const Sighting& sighting, const StationErrors& errors);
-  bool shows_bias(int station, const RayFrame& frame, double depth_m,
+  bool shows_bias(const StationPart& part, const RayFrame& frame, double depth_m,
                   const Eigen::Matrix2d& white) const;
-  void correct(const Innovations& seen, const Eigen::Matrix2d& noise, bool finds_bias);
+  void correct(const Innovations& seen, const StationPart& part, const Eigen::Matrix2d& noise,
+               bool finds_bias);
   BearingUse take(const Sighting& sighting, StationErrors& errors);
   void move_to(std::int64_t utime_us, StationErrors& errors);
   void mix(double dt_s);
   void move_biases(double dt_s, StationErrors& errors);
-  void move_bias(int station, double dt_s, double clock_time_s);
+  void fade_biases(double dt_s, double clock_time_s);
   void give_room();
   bool passes_gate(const Sighting& sighting, double nis);
   static double observe_noise(FilterStation& entry, const Sighting& sighting, const RayFrame& frame,
@@ -184,7 +173,8 @@ class TrackFilter {
   FilterConfig config_;
   std::int64_t utime_us_;
   std::int64_t mixed_us_;  // when the models were mixed last
-  std::array<Model, kMotions> models_;
+  FilterGaussians models_;
+  MixtureWeights probabilities_{};
   std::vector<FilterStation> stations_;
   std::vector<BiasPrior> priors_;
   KinematicState summary_;     // mixed over the models

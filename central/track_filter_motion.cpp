@@ -2,6 +2,7 @@
 // prior.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "central/time_span.h"
 #include "central/track_filter.h"
@@ -17,11 +18,8 @@ void TrackFilter::move_to(std::int64_t utime_us, StationErrors& errors) {
   const double dt_s = seconds(utime_us - utime_us_);
   if (dt_s <= 0.0) return;
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    Model& model = models_[m];
-    const Transition t =
-        transition(static_cast<Motion>(m), model.mean.head<9>(), dt_s, config_.motion);
-    transform_rows(t.f, model.mean);
-    propagate_covariance(t, model.covariance);
+    const Vector9 state = models_[m].mean.head<9>();
+    propagate(transition(static_cast<Motion>(m), state, dt_s, config_.motion), models_[m]);
   }
   utime_us_ = utime_us;
   const double since_s = seconds(utime_us_ - mixed_us_);
@@ -33,34 +31,19 @@ void TrackFilter::move_to(std::int64_t utime_us, StationErrors& errors) {
 }
 
 void TrackFilter::mix(double dt_s) {
-  std::array<std::array<double, kMotions>, kMotions> weight{};  // [to][from]
+  std::array<MixtureWeights, kMotions> weights{};  // [to][from]
   for (std::size_t from = 0; from < kMotions; ++from) {
     const double stays = std::exp(-dt_s / config_.motion.dwell_s[from]);
     for (std::size_t to = 0; to < kMotions; ++to) {
       const double share = from == to ? stays : (1.0 - stays) / (kMotions - 1);
-      weight[to][from] = share * models_[from].probability;
+      weights[to][from] = share * probabilities_[from];
     }
   }
-  const std::array<Model, kMotions> was = models_;
   for (std::size_t to = 0; to < kMotions; ++to) {
-    double sum = 0.0;
-    for (const double w : weight[to]) sum += w;
-    Model& model = models_[to];
-    model.probability = sum;
-    model.mean.setZero();
-    model.covariance.setZero();
-    for (std::size_t from = 0; from < kMotions; ++from) {
-      model.mean += weight[to][from] / sum * was[from].mean;
-    }
-    for (std::size_t from = 0; from < kMotions; ++from) {
-      const double w = weight[to][from] / sum;
-      const FilterVector off = was[from].mean - model.mean;
-      model.covariance += w * was[from].covariance;
-      model.covariance.noalias() += (w * off) * off.transpose();
-    }
-    // Rounding makes the two triangles differ, and what differs grows: by the minute, tenfold.
-    model.covariance = (0.5 * (model.covariance + model.covariance.transpose())).eval();
+    probabilities_[to] = std::accumulate(weights[to].begin(), weights[to].end(), 0.0);
+    for (double& weight : weights[to]) weight /= probabilities_[to];
   }
+  interact(weights, models_);
 }
 
 // Each station's bias is told to the errors' statistics, and moves on by its prior.
@@ -77,52 +60,44 @@ void TrackFilter::move_biases(double dt_s, StationErrors& errors) {
                      dt_s, range_m);
     }
     priors_[i] = errors.prior(station.station, station.sight, range_m, priors_[i].place_apart);
-    move_bias(index, dt_s, errors.clock_time_s());
   }
+  fade_biases(dt_s, errors.clock_time_s());
 }
 
 // The station has states for its place from now on: a target that has come nearer.
 void TrackFilter::tell_place_apart(int station) {
   BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
   if (prior.place_apart) return;
-  const Eigen::Index first = first_of(station) + kPoseStates, n = models_[0].mean.size();
-  const Eigen::Index rest = n - first, then = first + kPlaceStates;
+  const Eigen::Index first = first_of(station) + kPoseStates;
   prior.place_apart = true;
   prior.place_m2 =
       stations_[static_cast<std::size_t>(station)].sight.origin_sd_enu_m.array().square();
-  for (Model& model : models_) {
-    const Model was = model;
-    model.mean = FilterVector::Zero(n + kPlaceStates);
-    model.mean.head(first) = was.mean.head(first);
-    model.mean.tail(rest) = was.mean.tail(rest);
-    model.covariance = FilterMatrix::Zero(n + kPlaceStates, n + kPlaceStates);
-    model.covariance.topLeftCorner(first, first) = was.covariance.topLeftCorner(first, first);
-    model.covariance.block(0, then, first, rest) = was.covariance.topRightCorner(first, rest);
-    model.covariance.block(then, 0, rest, first) = was.covariance.bottomLeftCorner(rest, first);
-    model.covariance.bottomRightCorner(rest, rest) = was.covariance.bottomRightCorner(rest, rest);
+  for (FilterGaussian& model : models_) {
+    insert_states(first, kPlaceStates, model);
     model.covariance.diagonal().segment<kPlaceStates>(first) = prior.place_m2;
   }
 }
 
-// Each of a station's states fades, and has as much added as its prior wants.
-void TrackFilter::move_bias(int station, double dt_s, double clock_time_s) {
-  const BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
-  const double clock_sd_s = stations_[static_cast<std::size_t>(station)].clock_sd_s;
-  const Eigen::Index at = first_of(station), n = states_of(prior);
-  StationVector time_s(n), variance(n);
-  time_s.head<kPoseStates>() << prior.time_s, clock_time_s;
-  variance.head<kPoseStates>() << prior.rotation, clock_sd_s * clock_sd_s;
-  if (prior.place_apart) {
-    time_s.tail<kPlaceStates>().setConstant(prior.place_time_s);
-    variance.tail<kPlaceStates>() = prior.place_m2;
+// Each of the stations' states fades, and has as much added as its prior wants.
+void TrackFilter::fade_biases(double dt_s, double clock_time_s) {
+  const Eigen::Index n = models_[0].mean.size();
+  FilterVector rate = FilterVector::Zero(n), variance = FilterVector::Zero(n);
+  Eigen::Index at = 9;
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    const BiasPrior& prior = priors_[i];
+    rate.segment<kPoseStates>(at) << prior.time_s.inverse(), 1.0 / clock_time_s;
+    variance.segment<kPoseStates>(at) << prior.rotation, std::pow(stations_[i].clock_sd_s, 2);
+    if (prior.place_apart) {
+      rate.segment<kPlaceStates>(at + kPoseStates).setConstant(1.0 / prior.place_time_s);
+      variance.segment<kPlaceStates>(at + kPoseStates) = prior.place_m2;
+    }
+    at += states_of(prior);
   }
-  const StationVector decay = (-dt_s / time_s.array()).exp();
-  for (Model& model : models_) {
-    model.mean.segment(at, n).array() *= decay.array();
-    model.covariance.middleRows(at, n).array().colwise() *= decay.array();
-    model.covariance.middleCols(at, n).array().rowwise() *= decay.transpose().array();
-    model.covariance.diagonal().segment(at, n).array() +=
-        (1.0 - decay.array().square()) * variance.array();
+  const FilterVector decay = (-dt_s * rate.array()).exp();
+  const FilterVector added = (1.0 - decay.array().square()) * variance.array();
+  for (FilterGaussian& model : models_) {
+    scale(decay, model);
+    model.covariance.diagonal() += added;
   }
 }
 

@@ -9,58 +9,31 @@
 namespace ols {
 
 void TrackFilter::refresh() {
-  summary_.utime_us = utime_us_;
-  summary_.mean.setZero();
-  summary_.covariance.setZero();
-  for (const Model& model : models_) {
-    summary_.mean += model.probability * model.mean.head<9>();
-    summary_.covariance += model.probability * model.covariance.topLeftCorner<9, 9>();
-  }
-  for (const Model& model : models_) {
-    const Vector9 off = model.mean.head<9>() - summary_.mean;
-    summary_.covariance += model.probability * off * off.transpose();
-  }
+  const FilterGaussian target = mixture(models_, probabilities_, 9);
+  summary_ = {utime_us_, target.mean, target.covariance};
 }
 
-void TrackFilter::mixed(FilterVector& mean, FilterMatrix& covariance) const {
-  const Eigen::Index n = models_[0].mean.size();
-  mean = FilterVector::Zero(n);
-  covariance = FilterMatrix::Zero(n, n);
-  for (const Model& model : models_) mean += model.probability * model.mean;
-  for (const Model& model : models_) {
-    const FilterVector off = model.mean - mean;
-    covariance += model.probability * model.covariance;
-    covariance.noalias() += (model.probability * off) * off.transpose();
-  }
+FilterGaussian TrackFilter::mixed() const {
+  return mixture(models_, probabilities_, models_[0].mean.size());
 }
 
 KinematicState TrackFilter::at(std::int64_t utime_us) const {
   const double dt_s = seconds(utime_us - utime_us_);
-  KinematicState state;
-  state.utime_us = utime_us;
-  std::array<Vector9, kMotions> means;
-  std::array<Matrix9, kMotions> covariances;
+  FilterGaussians then;
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    means[m] = models_[m].mean.head<9>();
-    covariances[m] = models_[m].covariance.topLeftCorner<9, 9>();
-    Transition t = transition(static_cast<Motion>(m), means[m], std::abs(dt_s), config_.motion);
+    then[m].mean = models_[m].mean.head<9>();
+    then[m].covariance = models_[m].covariance.topLeftCorner<9, 9>();
+    const Vector9 now = then[m].mean;
+    Transition t = transition(static_cast<Motion>(m), now, std::abs(dt_s), config_.motion);
     if (dt_s < 0.0) t.f << 1.0, dt_s, dt_s * dt_s / 2.0, 0.0, 1.0, dt_s, 0.0, 0.0, 1.0;
-    transform_rows(t.f, means[m]);
-    propagate_covariance(t, covariances[m]);
-    state.mean += models_[m].probability * means[m];
+    propagate(t, then[m]);
   }
-  for (std::size_t m = 0; m < models_.size(); ++m) {
-    const Vector9 off = means[m] - state.mean;
-    state.covariance += models_[m].probability * (covariances[m] + off * off.transpose());
-  }
-  return state;
+  const FilterGaussian state = mixture(then, probabilities_, 9);
+  return {utime_us, state.mean, state.covariance};
 }
 
 SystematicPart TrackFilter::systematic() const {
-  FilterVector mean;
-  FilterMatrix P;
-  mixed(mean, P);
-  return systematic_part(P, priors_);
+  return systematic_part(mixed().covariance, priors_);
 }
 
 SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
@@ -89,16 +62,20 @@ StationBias TrackFilter::bias(std::size_t station) const {
   const SightLine& sight = stations_[station].sight;
   const Eigen::Index at = first_of(static_cast<int>(station)), n = states_of(prior);
   StationVector mean = StationVector::Zero(n);
-  for (const Model& model : models_) mean += model.probability * model.mean.segment(at, n);
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    mean += probabilities_[m] * models_[m].mean.segment(at, n);
+  }
   StationMatrix P = StationMatrix::Zero(n, n);
-  for (const Model& model : models_) {
-    const StationVector off = model.mean.segment(at, n) - mean;
-    P += model.probability * (model.covariance.block(at, at, n, n) + off * off.transpose());
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    const StationVector off = models_[m].mean.segment(at, n) - mean;
+    const StationMatrix own =
+        models_[m].covariance.block(at, at, n, n).selfadjointView<Eigen::Lower>();
+    P += probabilities_[m] * (own + off * off.transpose());
   }
   const Eigen::Matrix<double, 3, 2> tangent = tangent_basis(sight.direction);
-  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kPoseStates + kPlaceStates> B(2, n);
+  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kStationStates> B(2, n);
   B.setZero();
-  B.leftCols<3>() = bias_by_rotation(tangent);
+  B.leftCols<3>() = shift_by_rotation(tangent);
   if (prior.place_apart) {
     const double range_m = (position() - sight.origin_ecef).norm();
     B.rightCols<kPlaceStates>() = -tangent.transpose() / range_m;
@@ -110,12 +87,6 @@ StationBias TrackFilter::bias(std::size_t station) const {
   result.clock_s = mean(3);
   result.clock_sd_s = std::sqrt(std::max(0.0, P(3, 3)));
   result.clock_prior_sd_s = stations_[station].clock_sd_s;
-  return result;
-}
-
-std::array<double, kMotions> TrackFilter::probabilities() const {
-  std::array<double, kMotions> result{};
-  for (std::size_t m = 0; m < models_.size(); ++m) result[m] = models_[m].probability;
   return result;
 }
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "central/time_span.h"
+
 namespace ols {
 namespace {
 
 constexpr std::size_t kMostTracks = 4;  // that explain one bearing
 constexpr std::size_t kMostPairs = 64;
-
-double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
 
 }  // namespace
 

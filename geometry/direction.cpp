@@ -31,6 +31,14 @@ Eigen::Matrix<double, 3, 2> tangent_basis(const AzimuthElevation& direction) {
   return basis;
 }
 
+// Rotated by r a direction moves by r x d. With the tangent (right, up): right . (r x d) =
+// r . (d x right) = -r . up, and up . (r x d) = r . right.
+Eigen::Matrix<double, 2, 3> shift_by_rotation(const Eigen::Matrix<double, 3, 2>& tangent) {
+  Eigen::Matrix<double, 2, 3> result;
+  result << -tangent.col(1).transpose(), tangent.col(0).transpose();
+  return result;
+}
+
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }

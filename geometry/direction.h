@@ -25,6 +25,10 @@ AzimuthElevation azimuth_elevation_from_enu(const Eigen::Vector3d& v_enu);
 // orthogonal to the direction and to each other.
 Eigen::Matrix<double, 3, 2> tangent_basis(const AzimuthElevation& direction);
 
+// How a direction moves on its tangent plane when it is rotated by a small rotation [rad], whose
+// components are those that the tangent's columns have: 2x3.
+Eigen::Matrix<double, 2, 3> shift_by_rotation(const Eigen::Matrix<double, 3, 2>& tangent);
+
 // Angle between two vectors [rad], exact also when it is tiny.
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 

@@ -15,22 +15,15 @@ using Matrix32d = Eigen::Matrix<double, 3, 2>;
 constexpr int kAimIterations = 50;
 constexpr double kAimConvergedRad = 1e-12;
 
-// What a small rotation about an axis does to a direction, on the direction's tangent plane.
-Eigen::Vector2d tangent_shift(const Matrix32d& tangent, const Eigen::Vector3d& direction,
-                              const Eigen::Vector3d& axis) {
-  return tangent.transpose() * axis.cross(direction);
-}
-
 Eigen::Vector3d axis_of(const Eigen::Isometry3d& pose, int axis) { return pose.linear().col(axis); }
 
 const Eigen::Isometry3d& at(const std::array<Eigen::Isometry3d, kJoints>& poses, Joint joint) {
   return poses[static_cast<std::size_t>(joint)];
 }
 
-// Everything in GROUND: a direction, its tangent plane (the horizon's at the camera centre) and the
+// Everything in GROUND: a direction's tangent plane (the horizon's at the camera centre) and the
 // poses of the joints.
 struct Ray {
-  Eigen::Vector3d direction;
   Matrix32d tangent;
   std::array<Eigen::Isometry3d, kJoints> poses;
   Eigen::Matrix3d R_enu_cam;
@@ -38,11 +31,10 @@ struct Ray {
 
 // 2x2: tangent plane by (pan, tilt) as reported.
 Eigen::Matrix2d tangent_by_angles(const ChainParameters& chain, const Ray& ray) {
+  const Eigen::Matrix<double, 2, 3> shift = shift_by_rotation(ray.tangent);
   Eigen::Matrix2d jacobian;
-  jacobian.col(0) = chain.pan_sign * tangent_shift(ray.tangent, ray.direction,
-                                                   axis_of(at(ray.poses, Joint::kAzi), 2));
-  jacobian.col(1) = -chain.tilt_sign * tangent_shift(ray.tangent, ray.direction,
-                                                     axis_of(at(ray.poses, Joint::kEle), 1));
+  jacobian.col(0) = chain.pan_sign * shift * axis_of(at(ray.poses, Joint::kAzi), 2);
+  jacobian.col(1) = -chain.tilt_sign * shift * axis_of(at(ray.poses, Joint::kEle), 1);
   return jacobian;
 }
 
@@ -62,7 +54,7 @@ Eigen::Matrix2d calibration_covariance(const StationGeometry& station, const Ray
   }};
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
   for (const auto& [sd_rad, axis] : rotations) {
-    const Eigen::Vector2d shift = sd_rad * tangent_shift(ray.tangent, ray.direction, axis);
+    const Eigen::Vector2d shift = sd_rad * shift_by_rotation(ray.tangent) * axis;
     covariance += shift * shift.transpose();
   }
   return covariance;
@@ -109,7 +101,7 @@ std::optional<SightLine> sight(const StationGeometry& station, const PixelSight&
   line.direction = azimuth_elevation_from_enu(R_horizon.transpose() * direction);
   line.origin_sd_enu_m.setConstant(station.sd.position_m);
 
-  const Ray ray{direction, R_horizon * tangent_basis(line.direction),
+  const Ray ray{R_horizon * tangent_basis(line.direction),
                 joints(station.chain, measurement.angles), camera.linear()};
   const Eigen::Matrix2d tangent_by_pixel =
       (project_jacobian(station.camera, *ray_cam) * camera.linear().transpose() * ray.tangent)

@@ -41,7 +41,7 @@ Sighting sighting(const WorldConfig& config, const Station& station, std::int64_
   s.sight.covariance_white = Eigen::Matrix2d::Identity() * config.noise_rad * config.noise_rad;
   if (config.bias_stated) {
     s.sight.origin_sd_enu_m.setConstant(config.place_sd_m);
-    const Eigen::Matrix<double, 2, 3> B = bias_by_rotation(tangent_basis(d));
+    const Eigen::Matrix<double, 2, 3> B = shift_by_rotation(tangent_basis(d));
     const Vector3d variance = rotation_sd_rad(config).array().square();
     s.sight.covariance_systematic = B * variance.asDiagonal() * B.transpose();
   }
@@ -159,7 +159,7 @@ std::vector<Sighting> measure(const WorldConfig& config, const std::vector<Path>
         if (uniform(random) < config.missed) continue;
         const AzimuthElevation there =
             direction(stations[k].p_ecef, site().to_ecef(at(path, time_s).p_enu));
-        const Vector2d off = bias_by_rotation(tangent_basis(there)) * stations[k].rotation_rad +
+        const Vector2d off = shift_by_rotation(tangent_basis(there)) * stations[k].rotation_rad +
                              config.noise_rad * draw(random).head<2>();
         sightings.push_back(sighting(config, stations[k], utime_us, there, off));
       }

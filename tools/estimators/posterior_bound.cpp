@@ -46,7 +46,7 @@ std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, n);
     H.leftCols<3>() = frame.tangent.transpose() / line.norm();
     H.middleCols<3>(rotations + 3 * station) =
-        bias_by_rotation(tangent_basis(sighting.sight.direction));
+        shift_by_rotation(tangent_basis(sighting.sight.direction));
     H.middleCols<3>(places + 3 * station) =
         -tangent_basis(sighting.sight.direction).transpose() / line.norm();
     const Eigen::Matrix2d S = H * P * H.transpose() + sighting.sight.covariance_white;

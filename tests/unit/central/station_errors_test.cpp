@@ -93,7 +93,7 @@ TEST(StationErrors, ARotationMakesWhatIsStated) {
   for (const double elevation_rad : {-0.2, 0.0, 0.7, 1.4}) {
     const SightLine line = stated(elevation_rad, 5e-6, 2e-6);
     const BiasPrior prior = StationErrors().prior("a", line, 500.0);
-    const auto B = bias_by_rotation(tangent_basis(line.direction));
+    const auto B = shift_by_rotation(tangent_basis(line.direction));
     const Eigen::Matrix2d made = B * prior.rotation.matrix().asDiagonal() * B.transpose();
     EXPECT_NEAR(made(0, 0), 5e-6, 1e-9) << elevation_rad;
     EXPECT_NEAR(made(1, 1), 2e-6, 1e-9) << elevation_rad;
@@ -106,7 +106,7 @@ TEST(StationErrors, ARotationMovesADirectionOnItsTangentPlane) {
   const Eigen::Vector3d rotation(3e-5, -7e-5, 5e-5);
   const Eigen::Vector3d from = enu_from_azimuth_elevation(d);
   const Eigen::Vector2d moved = tangent_basis(d).transpose() * rotation.cross(from);
-  EXPECT_TRUE((bias_by_rotation(tangent_basis(d)) * rotation).isApprox(moved, 1e-12));
+  EXPECT_TRUE((shift_by_rotation(tangent_basis(d)) * rotation).isApprox(moved, 1e-12));
 }
 
 // A place of its own is no rotation.

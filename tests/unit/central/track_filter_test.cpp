@@ -253,9 +253,7 @@ TEST(TrackFilter, KeepsItsCovarianceSymmetricAndDefinite) {
   StationErrors errors;
   TrackFilter filter = filter_at(path(0.0));
   for (const Sighting& s : flight(20.0, 1e-5)) filter.update(s, errors);
-  FilterVector mean;
-  FilterMatrix P;
-  filter.mixed(mean, P);
+  const FilterMatrix P = filter.mixed().covariance;
   EXPECT_LT((P - P.transpose()).cwiseAbs().maxCoeff(), 1e-9 * P.cwiseAbs().maxCoeff());
   const FilterMatrix known = P.topLeftCorner(9, 9);
   EXPECT_TRUE(known.llt().info() == Eigen::Success);
