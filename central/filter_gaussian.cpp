@@ -1,5 +1,7 @@
 #include "central/filter_gaussian.h"
 
+#include <vector>
+
 namespace ols {
 namespace {
 
@@ -24,25 +26,25 @@ void propagate_columns(const Eigen::Matrix3d& f, FilterMatrix& P) {
 
 // A mixture's mean, and what the parts' means are off it.
 struct Mixture {
-  Mixture(const FilterGaussians& parts, const MixtureWeights& of_each, Eigen::Index states)
+  Mixture(std::span<const FilterGaussian> parts, std::span<const double> of_each,
+          Eigen::Index states)
       : weights(of_each), mean(FilterVector::Zero(states)) {
     for (std::size_t i = 0; i < parts.size(); ++i) mean += weights[i] * parts[i].mean.head(states);
     for (std::size_t i = 0; i < parts.size(); ++i) off[i] = parts[i].mean.head(states) - mean;
   }
 
   // Of its covariance, so many from the diagonal on.
-  void column(Eigen::Index j, Eigen::Index n, const FilterGaussians& parts,
+  void column(Eigen::Index j, Eigen::Index n, std::span<const FilterGaussian> parts,
               FilterVector& result) const {
-    static_assert(kMotions == 3);
-    result = weights[0] * parts[0].covariance.col(j).segment(j, n) +
-             weights[1] * parts[1].covariance.col(j).segment(j, n) +
-             weights[2] * parts[2].covariance.col(j).segment(j, n) +
-             (weights[0] * off[0](j)) * off[0].segment(j, n) +
-             (weights[1] * off[1](j)) * off[1].segment(j, n) +
-             (weights[2] * off[2](j)) * off[2].segment(j, n);
+    const auto of = [&](std::size_t i) {
+      return weights[i] * parts[i].covariance.col(j).segment(j, n) +
+             (weights[i] * off[i](j)) * off[i].segment(j, n);
+    };
+    result = of(0);
+    for (std::size_t i = 1; i < parts.size(); ++i) result += of(i);
   }
 
-  MixtureWeights weights;
+  std::span<const double> weights;
   FilterVector mean;
   std::array<FilterVector, kMotions> off;
 };
@@ -91,7 +93,7 @@ void insert_states(Eigen::Index before, Eigen::Index more, FilterGaussian& state
   state.covariance.bottomRightCorner(rest, rest) = was.covariance.bottomRightCorner(rest, rest);
 }
 
-FilterGaussian mixture(const FilterGaussians& parts, const MixtureWeights& weights,
+FilterGaussian mixture(std::span<const FilterGaussian> parts, std::span<const double> weights,
                        Eigen::Index states) {
   const Mixture all(parts, weights, states);
   FilterGaussian result{all.mean, FilterMatrix(states, states)};
@@ -104,20 +106,21 @@ FilterGaussian mixture(const FilterGaussians& parts, const MixtureWeights& weigh
   return result;
 }
 
-void interact(const std::array<MixtureWeights, kMotions>& weights, FilterGaussians& parts) {
+void interact(const std::array<MixtureWeights, kMotions>& weights,
+              std::span<FilterGaussian> parts) {
   const Eigen::Index n = parts[0].mean.size();
-  const std::array<Mixture, kMotions> mixtures = {
-      Mixture(parts, weights[0], n), Mixture(parts, weights[1], n), Mixture(parts, weights[2], n)};
+  std::vector<Mixture> mixtures;
+  for (std::size_t to = 0; to < parts.size(); ++to) mixtures.emplace_back(parts, weights[to], n);
   std::array<FilterVector, kMotions> columns;
   for (Eigen::Index j = 0; j < n; ++j) {
-    for (std::size_t to = 0; to < kMotions; ++to) {
+    for (std::size_t to = 0; to < parts.size(); ++to) {
       mixtures[to].column(j, n - j, parts, columns[to]);
     }
-    for (std::size_t to = 0; to < kMotions; ++to) {
+    for (std::size_t to = 0; to < parts.size(); ++to) {
       parts[to].covariance.col(j).tail(n - j) = columns[to];
     }
   }
-  for (std::size_t to = 0; to < kMotions; ++to) parts[to].mean = mixtures[to].mean;
+  for (std::size_t to = 0; to < parts.size(); ++to) parts[to].mean = mixtures[to].mean;
 }
 
 }  // namespace ols

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 
 #include "central/motion_model.h"
 
@@ -58,15 +59,12 @@ void scale(const FilterVector& factors, FilterGaussian& state);
 // Room for more states before the given one, or at the end; they are zero.
 void insert_states(Eigen::Index before, Eigen::Index more, FilterGaussian& state);
 
-// The states of a filter's models; and weights of each, whose sum is 1.
-using FilterGaussians = std::array<FilterGaussian, kMotions>;
-using MixtureWeights = std::array<double, kMotions>;
-
-// Of a mixture, mean and covariance of so many states; both triangles.
-FilterGaussian mixture(const FilterGaussians& parts, const MixtureWeights& weights,
+// Of a mixture with these weights, mean and covariance of so many states; both triangles.
+FilterGaussian mixture(std::span<const FilterGaussian> parts, std::span<const double> weights,
                        Eigen::Index states);
 
 // Each becomes a mixture of all, with weights of its own (Blom and Bar-Shalom's interaction).
-void interact(const std::array<MixtureWeights, kMotions>& weights, FilterGaussians& parts);
+using MixtureWeights = std::array<double, kMotions>;
+void interact(const std::array<MixtureWeights, kMotions>& weights, std::span<FilterGaussian> parts);
 
 }  // namespace ols

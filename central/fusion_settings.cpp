@@ -1,5 +1,7 @@
 #include "central/fusion_settings.h"
 
+#include <algorithm>
+
 #include "base/lcm_url.h"
 #include "base/toml_config.h"
 
@@ -32,7 +34,26 @@ void read_paper(ConfigTable& table, PaperConfig& config) {
       static_cast<int>(table.integer("moving_average", config.moving_average, 1, 1000));
 }
 
+// One at least, each once.
+std::vector<Motion> read_models(ConfigTable& table, const std::vector<Motion>& all) {
+  std::vector<std::string> names;
+  for (const Motion motion : all) names.emplace_back(to_string(motion));
+  std::vector<Motion> models;
+  for (const std::string& name : table.texts("models", names)) {
+    const auto known = std::ranges::find(names, name);
+    if (known == names.end()) throw table.error("models", "there is no model " + name);
+    const Motion motion = all[static_cast<std::size_t>(known - names.begin())];
+    if (std::ranges::find(models, motion) != models.end()) {
+      throw table.error("models", name + " is there twice");
+    }
+    models.push_back(motion);
+  }
+  if (models.empty()) throw table.error("models", "one at least is wanted");
+  return models;
+}
+
 void read_motion(ConfigTable& table, MotionConfig& config) {
+  config.models = read_models(table, config.models);
   config.acceleration_sd_m_s2 =
       table.number("acceleration_sd_m_s2", config.acceleration_sd_m_s2, 1e-3, 1e4);
   config.acceleration_per_speed_s =

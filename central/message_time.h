@@ -46,7 +46,7 @@ class MessageTime {
     double progress_s = 0.0;  // by its own clock, steps clipped
     double heard_s = 0.0;     // elapsed_s_ at its last message
   };
-  static constexpr std::size_t kMany = 64;
+  static constexpr std::size_t kMany = 32;
   bool delivers(const Station& station) const;
   void take_medians();
   double silence_s_;

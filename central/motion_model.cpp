@@ -69,6 +69,18 @@ Transition singer_in_steps(double dt, double sd, double time_s) {
 
 }  // namespace
 
+const char* to_string(Motion motion) {
+  switch (motion) {
+    case Motion::kConstantVelocity:
+      return "constant-velocity";
+    case Motion::kCoordinatedTurn:
+      return "coordinated-turn";
+    case Motion::kAcceleration:
+      return "acceleration";
+  }
+  return "unknown";
+}
+
 double manoeuvre_sd(const Eigen::Vector3d& velocity, const MotionConfig& config) {
   return std::hypot(config.acceleration_sd_m_s2, config.acceleration_per_speed_s * velocity.norm());
 }

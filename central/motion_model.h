@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
 namespace ols {
 
@@ -25,7 +26,13 @@ using Matrix9 = Eigen::Matrix<double, 9, 9>;
 enum class Motion { kConstantVelocity, kCoordinatedTurn, kAcceleration };
 inline constexpr int kMotions = 3;
 
+// "constant-velocity", "coordinated-turn", "acceleration".
+const char* to_string(Motion motion);
+
 struct MotionConfig {
+  // Those that are mixed: one at least, each once.
+  std::vector<Motion> models = {Motion::kConstantVelocity, Motion::kCoordinatedTurn,
+                                Motion::kAcceleration};
   // 1-sigma of the acceleration of what manoeuvres: that of a target at rest, and per speed.
   double acceleration_sd_m_s2 = 3.0;
   double acceleration_per_speed_s = 0.3;  // [1/s]
@@ -35,7 +42,7 @@ struct MotionConfig {
   double cruise_per_speed_s = 0.003;  // [1/s]
   double turn_share = 0.1;            // of the acceleration's sd, the turn's disturbance
   double turn_limit_rad_s = 2.0;
-  std::array<double, kMotions> dwell_s = {8.0, 4.0, 2.0};  // mean time in each model
+  std::array<double, kMotions> dwell_s = {8.0, 4.0, 2.0};  // mean time in each, as in Motion
 };
 
 struct Transition {

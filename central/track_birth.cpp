@@ -208,7 +208,7 @@ std::optional<TrackBirth::Begun> TrackBirth::try_start(const Sighting& newest, c
   // The second round is linearised where the first one has ended: what a clock's error does depends
   // on the velocity, and one taken for zero would make the clocks seem known.
   for (int round = 0; round < 2; ++round) {
-    begun.emplace(Begun{Track(TrackFilter(filter_, now_us, from)), errors});
+    begun.emplace(TrackFilter(filter_, now_us, from), errors);
     stations = explain(frames, begun->track.filter, begun->errors);
     from.p_ecef = begun->track.filter.position();
     from.v_ecef = begun->track.filter.velocity();

@@ -17,6 +17,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "central/bearing_pool.h"
@@ -65,6 +66,9 @@ class TrackBirth {
   };
   // A start that was good enough, and what the run over its bearings has shown of the stations.
   struct Begun {
+    Begun(TrackFilter start, StationErrors known)
+        : track(std::move(start)), errors(std::move(known)) {}
+
     Track track;
     StationErrors errors;
     double misfit = 0.0;  // mean squared normalised residual of its stations' frames

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 
 #include "central/time_span.h"
 #include "geometry/wgs84.h"
@@ -47,7 +48,11 @@ struct TrackFilter::Innovation {
 TrackFilter::TrackFilter(const FilterConfig& config, std::int64_t utime_us,
                          const FilterStart& start)
     : config_(config), utime_us_(utime_us), mixed_us_(utime_us) {
-  probabilities_.fill(1.0 / kMotions);
+  if (motions().empty() || motions().size() > kMotions) {
+    throw std::invalid_argument("a filter mixes one to three motion models");
+  }
+  models_.resize(motions().size());
+  probabilities_.assign(models_.size(), 1.0 / static_cast<double>(models_.size()));
   for (FilterGaussian& model : models_) {
     model.mean = FilterVector::Zero(9);
     model.mean.head<3>() = start.p_ecef;
@@ -186,10 +191,11 @@ FilterMatrix2 TrackFilter::Innovation::cross(const FilterMatrix& P, const Statio
 }
 
 // Without the station's part where the filter has no states of it.
-TrackFilter::Innovation TrackFilter::innovation(Motion motion, const Sighting& sighting,
+TrackFilter::Innovation TrackFilter::innovation(std::size_t which, const Sighting& sighting,
                                                 const RayFrame& frame,
                                                 const StationPart* station) const {
-  const FilterGaussian& model = models_[static_cast<std::size_t>(motion)];
+  const Motion motion = motions()[which];
+  const FilterGaussian& model = models_[which];
   Innovation result;
   result.ahead_s = seconds(sighting.utime_us - utime_us_);  // < 0: late
   if (motion != Motion::kConstantVelocity) result.curved_s2 = std::pow(result.ahead_s, 2) / 2.0;
@@ -228,7 +234,7 @@ double TrackFilter::nis(const Sighting& sighting, const StationErrors& errors) c
   }
   double least = kNever;
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    const auto seen = innovation(static_cast<Motion>(m), sighting, frame, part ? &*part : nullptr);
+    const auto seen = innovation(m, sighting, frame, part ? &*part : nullptr);
     if (seen.depth_m <= 0.0) continue;
     Eigen::Matrix2d S = seen.covariance + more;
     if (!part) {
@@ -300,7 +306,7 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   Innovations seen;
   double nis = kNever, squared = 0.0, expected = 0.0;  // of the noise's own part of the residual
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    seen[m] = innovation(static_cast<Motion>(m), sighting, frame, &part);
+    seen[m] = innovation(m, sighting, frame, &part);
     if (seen[m].depth_m <= 0.0) return BearingUse::kBehindCamera;
     const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + white);
     const Eigen::Vector2d scaled = S.solve(seen[m].residual);
@@ -367,7 +373,7 @@ void TrackFilter::correct(const Innovations& seen, const StationPart& part,
     subtract_square(G, found, model.covariance);
     log_likelihood[m] = -whitened.squaredNorm() / 2.0 - std::log(L(0, 0) * L(1, 1));
   }
-  weigh_models(log_likelihood);
+  weigh_models(std::span(log_likelihood).first(models_.size()));
 }
 
 bool TrackFilter::passes_gate(const Sighting& sighting, double nis) {
@@ -403,7 +409,7 @@ double TrackFilter::observe_noise(FilterStation& entry, const Sighting& sighting
   return first_s + second_s < kNearS ? errors.inflation(sighting.station, second_s) : 1.0;
 }
 
-void TrackFilter::weigh_models(const std::array<double, kMotions>& log_likelihood) {
+void TrackFilter::weigh_models(std::span<const double> log_likelihood) {
   const double most = *std::ranges::max_element(log_likelihood);
   double sum = 0.0;
   for (std::size_t m = 0; m < models_.size(); ++m) {

@@ -19,6 +19,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -113,7 +114,7 @@ struct FilterStart {
 
 class TrackFilter {
  public:
-  // A start for the first bearings.
+  // A start for the first bearings. std::invalid_argument for a configuration without models.
   TrackFilter(const FilterConfig& config, std::int64_t utime_us, const FilterStart& start);
 
   // The bearing's squared normalised residual (2 degrees of freedom); infinite behind the camera.
@@ -133,7 +134,7 @@ class TrackFilter {
   const std::vector<FilterStation>& stations() const { return stations_; }
   const std::vector<BiasPrior>& priors() const { return priors_; }  // of each
   StationBias bias(std::size_t station) const;
-  const MixtureWeights& probabilities() const { return probabilities_; }
+  const std::vector<double>& probabilities() const { return probabilities_; }  // of each model
   // The whole mixed state, for the smoother: kinematics, then the stations' states.
   FilterGaussian mixed() const;
   const FilterConfig& config() const { return config_; }
@@ -142,7 +143,7 @@ class TrackFilter {
   struct Innovation;
   struct StationPart;
   using Innovations = std::array<Innovation, kMotions>;
-  Innovation innovation(Motion motion, const Sighting& sighting, const RayFrame& frame,
+  Innovation innovation(std::size_t model, const Sighting& sighting, const RayFrame& frame,
                         const StationPart* station) const;
   RayFrame frame_of(const Sighting& sighting, int station) const;
   Eigen::Index first_of(int station) const;
@@ -167,14 +168,15 @@ class TrackFilter {
   bool passes_gate(const Sighting& sighting, double nis);
   static double observe_noise(FilterStation& entry, const Sighting& sighting, const RayFrame& frame,
                               StationErrors& errors);
-  void weigh_models(const std::array<double, kMotions>& log_likelihood);
+  void weigh_models(std::span<const double> log_likelihood);
+  const std::vector<Motion>& motions() const { return config_.motion.models; }
   void refresh();
 
   FilterConfig config_;
   std::int64_t utime_us_;
-  std::int64_t mixed_us_;  // when the models were mixed last
-  FilterGaussians models_;
-  MixtureWeights probabilities_{};
+  std::int64_t mixed_us_;               // when the models were mixed last
+  std::vector<FilterGaussian> models_;  // as motions()
+  std::vector<double> probabilities_;
   std::vector<FilterStation> stations_;
   std::vector<BiasPrior> priors_;
   KinematicState summary_;     // mixed over the models

@@ -19,7 +19,7 @@ void TrackFilter::move_to(std::int64_t utime_us, StationErrors& errors) {
   if (dt_s <= 0.0) return;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const Vector9 state = models_[m].mean.head<9>();
-    propagate(transition(static_cast<Motion>(m), state, dt_s, config_.motion), models_[m]);
+    propagate(transition(motions()[m], state, dt_s, config_.motion), models_[m]);
   }
   utime_us_ = utime_us;
   const double since_s = seconds(utime_us_ - mixed_us_);
@@ -31,15 +31,18 @@ void TrackFilter::move_to(std::int64_t utime_us, StationErrors& errors) {
 }
 
 void TrackFilter::mix(double dt_s) {
+  const std::size_t models = models_.size();
+  if (models == 1) return;
   std::array<MixtureWeights, kMotions> weights{};  // [to][from]
-  for (std::size_t from = 0; from < kMotions; ++from) {
-    const double stays = std::exp(-dt_s / config_.motion.dwell_s[from]);
-    for (std::size_t to = 0; to < kMotions; ++to) {
-      const double share = from == to ? stays : (1.0 - stays) / (kMotions - 1);
+  for (std::size_t from = 0; from < models; ++from) {
+    const double dwell_s = config_.motion.dwell_s[static_cast<std::size_t>(motions()[from])];
+    const double stays = std::exp(-dt_s / dwell_s);
+    for (std::size_t to = 0; to < models; ++to) {
+      const double share = from == to ? stays : (1.0 - stays) / static_cast<double>(models - 1);
       weights[to][from] = share * probabilities_[from];
     }
   }
-  for (std::size_t to = 0; to < kMotions; ++to) {
+  for (std::size_t to = 0; to < models; ++to) {
     probabilities_[to] = std::accumulate(weights[to].begin(), weights[to].end(), 0.0);
     for (double& weight : weights[to]) weight /= probabilities_[to];
   }

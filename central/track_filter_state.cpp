@@ -19,16 +19,16 @@ FilterGaussian TrackFilter::mixed() const {
 
 KinematicState TrackFilter::at(std::int64_t utime_us) const {
   const double dt_s = seconds(utime_us - utime_us_);
-  FilterGaussians then;
+  std::array<FilterGaussian, kMotions> then;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     then[m].mean = models_[m].mean.head<9>();
     then[m].covariance = models_[m].covariance.topLeftCorner<9, 9>();
     const Vector9 now = then[m].mean;
-    Transition t = transition(static_cast<Motion>(m), now, std::abs(dt_s), config_.motion);
+    Transition t = transition(motions()[m], now, std::abs(dt_s), config_.motion);
     if (dt_s < 0.0) t.f << 1.0, dt_s, dt_s * dt_s / 2.0, 0.0, 1.0, dt_s, 0.0, 0.0, 1.0;
     propagate(t, then[m]);
   }
-  const FilterGaussian state = mixture(then, probabilities_, 9);
+  const FilterGaussian state = mixture(std::span(then).first(models_.size()), probabilities_, 9);
   return {utime_us, state.mean, state.covariance};
 }
 

@@ -47,8 +47,7 @@ void TrackKeeper::follow(const Sighting& sighting, const Track& track) {
 
 bool TrackKeeper::takes(const Sighting& newest, std::int64_t now_us, double within_s) const {
   const FollowedObjects::Object* const own = followed_.find(newest);
-  return own != nullptr && is_alive(own->id) &&
-         seconds(now_us - own->given_us) < within_s;
+  return own != nullptr && is_alive(own->id) && seconds(now_us - own->given_us) < within_s;
 }
 
 // Two tracks are one object. The one stays that has more of its bearings, with the older identity.

@@ -26,7 +26,7 @@ double used_s() {
 }
 
 // Groups of stations, each with a target of its own, in the order of time.
-std::vector<Sighting> groups_of_stations(int groups, int each) {
+std::vector<Sighting> groups_of_stations(int groups, int each, double place_sd_m) {
   std::mt19937_64 random(9);
   std::vector<Sighting> all;
   for (int group = 0; group < groups; ++group) {
@@ -37,6 +37,7 @@ std::vector<Sighting> groups_of_stations(int groups, int each) {
                       .aims_enu = {},
                       .rate_hz = kRateHz,
                       .bias_sd_rad = 1e-3};
+    world.place_sd_m = place_sd_m;
     for (Vector3d& place : world.stations_enu) place += centre;
     const Path path = cruising({centre + Vector3d(0, 0, 100), {8, 3, 0}}, 0.5, kDurationS, random);
     for (Sighting& s : measure(world, {path}, kDurationS, random)) {
@@ -65,12 +66,13 @@ double percentile(std::vector<double>& values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-void cost_of(int stations, Limits& limits) {
+// Where the places are off by so much that they matter, each station has states for its own.
+void cost_of(int stations, double place_sd_m, Limits& limits) {
   const int each = std::min(8, stations), groups = stations / each;
   Fusion fusion{FusionConfig{}};
   Spans born, later;
   double born_s = 0.0, later_s = 0.0;
-  for (const Sighting& sighting : groups_of_stations(groups, each)) {
+  for (const Sighting& sighting : groups_of_stations(groups, each, place_sd_m)) {
     const bool first = sighting.utime_us - kStartUs <= std::llround(1e6 * kBornS);
     const double begun_s = used_s();
     const FusionOutput output = fusion.add(sighting);
@@ -78,8 +80,8 @@ void cost_of(int stations, Limits& limits) {
     (first ? born_s : later_s) += span_s;
     (first ? born : later).add(1e6 * span_s, output);
   }
-  std::printf("%5d stations, %3d targets (%g found): %6.2f us CPU a bearing, ", stations, groups,
-              fusion.health().counters.at("tracks_confirmed"),
+  std::printf("%5d stations, places to %g m, %3d targets (%g found): %6.2f us CPU a bearing, ",
+              stations, place_sd_m, groups, fusion.health().counters.at("tracks_confirmed"),
               1e6 * later_s / static_cast<double>(later.all.size()));
   std::printf("p50 %6.2f us, p99 %7.2f us, longest %7.2f us; ", percentile(later.all, 0.5),
               percentile(later.all, 0.99), percentile(later.all, 1.0));
@@ -97,7 +99,9 @@ void cost_of(int stations, Limits& limits) {
 }  // namespace
 
 void cost(Limits& limits) {
-  for (const int stations : {4, 8, 40, 200, 1000}) cost_of(stations, limits);
+  for (const double place_sd_m : {0.0, 1.0}) {
+    for (const int stations : {4, 8, 40, 200, 1000}) cost_of(stations, place_sd_m, limits);
+  }
 }
 
 }  // namespace ols::bench

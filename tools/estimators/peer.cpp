@@ -38,13 +38,13 @@ double user_s() {
 }
 
 // The filter of one object, as it runs on recordings, with what the other is given, too: the true
-// motion, so that the other models are left at once, and the noise, white and Gaussian as stated.
+// motion, and no other model, and the noise, white and Gaussian as stated.
 KeeperConfig pinned() {
   KeeperConfig config;
   config.one_target = true;
+  config.filter.motion.models = {Motion::kConstantVelocity};
   config.filter.motion.cruise_sd_m_s2 = kDisturbance;
   config.filter.motion.cruise_per_speed_s = 0.0;
-  config.filter.motion.dwell_s = {1e9, 1e-3, 1e-3};
   config.filter.robust_nis = config.filter.gate_nis;
   config.errors.noise_weight = 1e9;
   config.errors.stated_weight = 1e9;

@@ -113,7 +113,7 @@ TEST_F(FilterGaussianTest, InsertsStatesThatAreZero) {
 TEST_F(FilterGaussianTest, MixesMeansAndCovariances) {
   std::array<MatrixXd, kMotions> P;
   std::array<VectorXd, kMotions> means;
-  FilterGaussians parts;
+  std::array<FilterGaussian, kMotions> parts;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     P[i] = covariance();
     means[i] = random(kStates, 1);
@@ -121,7 +121,7 @@ TEST_F(FilterGaussianTest, MixesMeansAndCovariances) {
   }
   const std::array<MixtureWeights, kMotions> weights = {
       {{0.5, 0.3, 0.2}, {0.1, 0.8, 0.1}, {0.25, 0.0, 0.75}}};
-  FilterGaussians mixed = parts;
+  std::array<FilterGaussian, kMotions> mixed = parts;
   interact(weights, mixed);
   for (std::size_t to = 0; to < parts.size(); ++to) {
     VectorXd mean = VectorXd::Zero(kStates);

@@ -43,6 +43,29 @@ TEST(TrackFilter, FindsPositionAndVelocityFromStaggeredBearings) {
   EXPECT_LT(error(filter, filter.utime_us() + 200'000).norm(), 0.3);
 }
 
+// Of a target that is known never to turn, one model is enough.
+TEST(TrackFilter, OneModelAloneFollowsWhatMovesLikeThat) {
+  StationErrors errors;
+  FilterConfig config;
+  config.motion.models = {Motion::kConstantVelocity};
+  TrackFilter filter(config, kStart,
+                     {.p_ecef = site().to_ecef(path(0.0) + Vector3d(20, -10, 5)),
+                      .position_sd_m = 100.0,
+                      .velocity_sd_m_s = 50.0});
+  for (const Sighting& s : flight(3.0, 1e-4, 1e-4)) {
+    EXPECT_EQ(filter.update(s, errors), BearingUse::kUsed);
+  }
+  EXPECT_EQ(filter.probabilities(), std::vector<double>{1.0});
+  EXPECT_LT(error(filter, filter.utime_us()).norm(), 0.1);
+  EXPECT_LT(error(filter, filter.utime_us() + 200'000).norm(), 0.2);
+}
+
+TEST(TrackFilter, RefusesToMixNoModel) {
+  FilterConfig config;
+  config.motion.models.clear();
+  EXPECT_THROW(TrackFilter(config, kStart, {}), std::invalid_argument);
+}
+
 // Late bearings, out of order, each count at their own instant.
 TEST(TrackFilter, LateBearingsCountAtTheirOwnInstant) {
   auto sightings = flight(3.0, 1e-4, 1e-4);
