@@ -34,7 +34,7 @@ bool MessageTime::hear(const std::string& name, std::int64_t utime_us) {
   const bool stepped_back = station.older >= kStampsForStepBack;
   if (stepped_back) station.older = 0;
   if (stepped_back || utime_us > station.newest_us) station.newest_us = utime_us;
-  if (is_new || stepped_back || ++heard_ > stations_.size() / kMany) take_medians();
+  if (is_new || stepped_back || ++heard_ > delivering_ / kMany) take_medians();
   return stepped_back;
 }
 
