@@ -92,13 +92,13 @@ BiasPrior StationErrors::prior(const std::string& station, const SightLine& sigh
   const Eigen::Array2d more = (learnt(station, stated, noise) - stated).max(0.0);
   const Eigen::Array2d pose = place_apart ? sight.covariance_systematic.diagonal().array() : stated;
   const double guess = config_.untold_over_noise * config_.untold_over_noise;
-  const double elevation_rad = sight.direction.elevation_rad;
-  const Eigen::Array3d before =
-      rotation_variance(told ? pose : Eigen::Array2d(guess * noise), elevation_rad);
-  prior.covariance.diagonal().array() += more;
   const double least = config_.least_over_noise * config_.least_over_noise;
+  const double elevation_rad = sight.direction.elevation_rad;
+  const Eigen::Array2d before = told ? pose : Eigen::Array2d(guess * noise);
+  prior.covariance.diagonal().array() += more;
   prior.rotation = rotation_variance((pose + more).max(least * noise), elevation_rad);
-  prior.shown = (1.0 - before / prior.rotation.max(kNone)).max(0.0);
+  const Eigen::Array3d unseen = rotation_variance(before.max(least * noise), elevation_rad);
+  prior.shown = (1.0 - unseen / prior.rotation.max(kNone)).max(0.0);
   prior.time_s.setConstant(told ? config_.stated_time_s : config_.untold_time_s);
   // What a heading has more than a tilt was wrong from the start on: all axes drift alike.
   constexpr double kLongest = 100.0;
