@@ -2,7 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace ols {
@@ -28,6 +30,33 @@ constexpr double kLately_s = 2.0;
 bool heard_lately(const TrackFilter& filter, const FilterStation& station, double within_s) {
   const auto span_us = static_cast<std::int64_t>(within_s * 1e6);
   return station.utime_us > 0 && filter.utime_us() - station.utime_us <= span_us;
+}
+
+double may_be_off(const TrackFilter& filter, const FilterStation& station) {
+  const bool states_nothing = station.sight.covariance_systematic.isZero(0.0);
+  return states_nothing ? filter.config().untold_rad : 0.0;
+}
+
+// One bearing alone may be anywhere: from where two others seemed to meet, far off the truth, it
+// leads nowhere and seems to know.
+constexpr int kTwice = 2;
+
+// Two rays that cross at less than what they may be off by, untold, over the range's least accuracy
+// tell no range, however well they seem to: what they learn of each other is their errors.
+bool crosses_widely(const TrackFilter& filter, const Eigen::Vector3d& p_ecef) {
+  const auto& stations = filter.stations();
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    for (std::size_t k = i + 1; k < stations.size(); ++k) {
+      if (std::min(stations[i].used, stations[k].used) < kTwice) continue;
+      const double off_rad =
+          std::hypot(may_be_off(filter, stations[i]), may_be_off(filter, stations[k]));
+      const double least_rad = off_rad / filter.config().range_sd_limit;
+      const Eigen::Vector3d a = p_ecef - stations[i].sight.origin_ecef;
+      const Eigen::Vector3d b = p_ecef - stations[k].sight.origin_ecef;
+      if (a.cross(b).norm() >= std::sin(least_rad) * a.norm() * b.norm()) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -72,6 +101,7 @@ Solution judge_position(const TrackFilter& filter, const KinematicState& state) 
   if (!(greatest < limit_m * limit_m)) {
     return stations_lately(filter, 1.0) < 2 ? Solution::kTooFewRays : Solution::kParallelRays;
   }
+  if (!crosses_widely(filter, state.mean.head<3>())) return Solution::kParallelRays;
   if (nearest_m > filter.config().max_range_m) return Solution::kTooFar;
   return are_made_to_meet(filter) ? Solution::kRaysMiss : Solution::kOk;
 }

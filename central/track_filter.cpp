@@ -327,6 +327,7 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   }
   entry.sight = sighting.sight;
   entry.utime_us = std::max(entry.utime_us, sighting.utime_us);
+  ++entry.used;
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);
   const bool finds_bias = shows_bias(part, frame, seen[0].depth_m, white);
   const double inflation = observe_noise(entry, sighting, frame, errors);

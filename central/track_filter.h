@@ -38,6 +38,9 @@ struct FilterConfig {
   double mixing_s = 0.05;       // models are mixed and biases moved on at this interval
   double range_sd_limit = 0.3;  // greatest 1-sigma over range of a position that is one
   double max_range_m = 500e3;
+  // What a station that states nothing may be off by, clocks and poses together, when it is asked
+  // whether two rays cross widely enough to tell a range [rad].
+  double untold_rad = 1e-3;
   // Two stations alone: squared turn over what they state of bias and noise, beyond which their
   // rays are not made to meet.
   double two_stations_nis = 25.0;
@@ -74,6 +77,7 @@ struct FilterStation {
   Eigen::Matrix3d R_ecef_enu = Eigen::Matrix3d::Identity();  // at that one's origin
   std::int64_t utime_us = 0;                                 // of the last one that was used
   std::int64_t offered_us = 0;                               // of the last one that was offered
+  int used = 0;                                              // bearings
   std::int64_t calibration_id = 0, track_id = 0;             // with others its bias is another
   double weight = 0.0;                                       // of the last one, 0: set aside
   double clock_sd_s = 0.0;

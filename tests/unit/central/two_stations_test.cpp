@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "central/offline_fusion.h"
 #include "tools/estimators/bearing_world.h"
 
 namespace ols::bench {
@@ -123,6 +124,34 @@ TEST(TwoStations, WhoseHeadingsAreAsStatedKeepTheirTarget) {
     }
     EXPECT_GT(located, 80) << seed;
     EXPECT_LT(nees / located, 6.0) << seed;
+  }
+}
+
+// Side by side, and a milliradian apart: what they are off by, untold, looks like a target that is
+// twenty times nearer. With a third one far away the range is known.
+TEST(TwoStations, SideBySideTheyTellNoRangeOfWhatIsFar) {
+  constexpr double kOffRad = 2e-3, kFlightS = 5.0;
+  for (const bool third : {false, true}) {
+    WorldConfig world{.stations_enu = {{0, 0, 0}, {0, 25, 0}}, .aims_enu = {}};
+    if (third) world.stations_enu.emplace_back(20e3, 0, 0);
+    std::mt19937_64 random(1);
+    const Path path = cruising({{0, 150e3, 80e3}, {300, -900, 0}}, 0.1, kFlightS, random);
+    auto seen = measure(world, {path}, kFlightS, random);
+    for (Sighting& sighting : seen) {
+      const double off_rad = sighting.station == "s0" ? -0.5 * kOffRad : 0.5 * kOffRad;
+      sighting.sight.direction.elevation_rad += off_rad;
+    }
+    int fixes = 0;
+    double farthest_m = 0.0;
+    for (const FusedTarget& target : fuse_offline(seen, {})) {
+      if (target.estimate.solution != Solution::kOk) continue;
+      ++fixes;
+      const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
+      const Vector3d truth = site().to_ecef(at(path, time_s).p_enu);
+      farthest_m = std::max(farthest_m, (target.estimate.position_ecef - truth).norm());
+    }
+    EXPECT_EQ(fixes > 0, third);
+    EXPECT_LT(farthest_m, 10e3);
   }
 }
 
