@@ -146,17 +146,21 @@ bool Fusion::clock_is_believed(const Sighting& sighting) {
   return why.empty();
 }
 
+// The same exposure's bearing of the same object, or in the same direction, again?
+bool Fusion::is_doubled(const Sighting& sighting, const std::vector<Exposure>& lately) {
+  const auto at = std::ranges::lower_bound(lately, sighting.utime_us, {}, &Exposure::utime_us);
+  const auto end = std::ranges::upper_bound(lately, sighting.utime_us, {}, &Exposure::utime_us);
+  const AzimuthElevation& d = sighting.sight.direction;
+  return std::any_of(at, end, [&](const Exposure& e) {
+    const bool same_way =
+        e.direction.azimuth_rad == d.azimuth_rad && e.direction.elevation_rad == d.elevation_rad;
+    return same_way || (sighting.track_id != 0 && e.track_id == sighting.track_id);
+  });
+}
+
 SightingRefusal Fusion::store(const Sighting& sighting, Station& station) {
   auto& lately = station.lately;
-  const auto same_time =
-      std::ranges::lower_bound(lately, sighting.utime_us, {}, &Exposure::utime_us);
-  for (auto e = same_time; e != lately.end() && e->utime_us == sighting.utime_us; ++e) {
-    const AzimuthElevation& d = sighting.sight.direction;
-    const bool same_way =
-        e->direction.azimuth_rad == d.azimuth_rad && e->direction.elevation_rad == d.elevation_rad;
-    const bool same_object = sighting.track_id != 0 && e->track_id == sighting.track_id;
-    if (same_way || same_object) return SightingRefusal::kDuplicate;
-  }
+  if (is_doubled(sighting, lately)) return SightingRefusal::kDuplicate;
   // Also what is refused goes on in time, or a flood would lock its station out for good.
   const std::int64_t newest_us =
       lately.empty() ? sighting.utime_us : std::max(sighting.utime_us, lately.back().utime_us);
@@ -171,6 +175,14 @@ SightingRefusal Fusion::store(const Sighting& sighting, Station& station) {
   const double span_s = seconds(lately.back().utime_us - lately.front().utime_us);
   station.rate_hz = span_s > 0.0 ? static_cast<double>(lately.size() - 1) / span_s : 0.0;
   station.stands_where(sighting.sight);
+  notice_changes(sighting, station);
+  ++station.bearings;
+  ++counters_["bearings"];
+  return SightingRefusal::kNone;
+}
+
+// Of its calibration, and of the process that numbers its objects.
+void Fusion::notice_changes(const Sighting& sighting, Station& station) {
   if (station.bearings > 0 && station.calibration_id != sighting.calibration_id) {
     keeper_.errors().forget(sighting.station);
     pointing_.forget(sighting.station);
@@ -183,9 +195,6 @@ SightingRefusal Fusion::store(const Sighting& sighting, Station& station) {
     ++counters_["stations_restarted"];
   }
   station.boot_id = sighting.boot_id;
-  ++station.bearings;
-  ++counters_["bearings"];
-  return SightingRefusal::kNone;
 }
 
 // To the track that it belongs to. What a wrong pose shows is told to its monitor.

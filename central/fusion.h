@@ -147,7 +147,9 @@ class Fusion {
   void evict(std::map<std::string, Station>::iterator station);
   SightingRefusal admit(const Sighting& sighting);
   bool clock_is_believed(const Sighting& sighting);
+  static bool is_doubled(const Sighting& sighting, const std::vector<Exposure>& lately);
   SightingRefusal store(const Sighting& sighting, Station& station);
+  void notice_changes(const Sighting& sighting, Station& station);
   SightingRefusal associate(const Sighting& sighting, Station& station);
   void refuse(SightingRefusal refusal, const Sighting& sighting);
   void notice_step_back();

@@ -13,7 +13,6 @@
 namespace ols {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kLatestS = 2.0;  // a bearing later than this is no longer compared
 constexpr double kPlaceS = 1.0;   // who is silent for longer gives its states up to another
 constexpr int kUpset = 6;         // set-aside bearings in a row, of two stations
@@ -232,7 +231,7 @@ double TrackFilter::nis(const Sighting& sighting, const StationErrors& errors) c
         known.calibration_id == sighting.calibration_id && known.track_id == sighting.track_id;
     if (!same) more += priors_[static_cast<std::size_t>(station)].covariance;
   }
-  double least = kNever;
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const auto seen = innovation(m, sighting, frame, part ? &*part : nullptr);
     if (seen.depth_m <= 0.0) continue;
@@ -292,35 +291,56 @@ int TrackFilter::station_of(const Sighting& sighting, const StationErrors& error
   return station;
 }
 
+// Against all models: the least squared normalised residual, and what the bearing shows of its
+// noise's variance, over the one that is supposed: nothing behind a camera.
+std::optional<TrackFilter::Judged> TrackFilter::judge(const Innovations& seen,
+                                                      const Eigen::Matrix2d& white) const {
+  Judged judged;
+  double squared = 0.0, expected = 0.0;  // of the noise's own part of the residual
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    if (seen[m].depth_m <= 0.0) return std::nullopt;
+    const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + white);
+    const Eigen::Vector2d scaled = S.solve(seen[m].residual);
+    const double here = seen[m].residual.dot(scaled);
+    if (here >= judged.nis) continue;
+    judged.nis = here;
+    squared = scaled.dot(white * scaled);
+    expected = S.solve(white).trace();
+  }
+  // One far off counts as one at the gate (Huber): where noise is many times what is stated, most
+  // are, and the others would never show it.
+  squared *= std::min(1.0, config_.gate_nis / judged.nis);
+  judged.noise = 1.0 + (squared - expected) / 2.0;
+  return judged;
+}
+
 // At the state's own instant, or late.
 BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   const int station = station_of(sighting, errors);
   if (station < 0) {
     return nis(sighting, errors) < config_.gate_nis ? BearingUse::kNoPlace : BearingUse::kSetAside;
   }
-  FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   const Eigen::Matrix2d white =
       sighting.sight.covariance_white * errors.noise_scale(sighting.station);
   const RayFrame frame = frame_of(sighting, station);
   const StationPart part = part_of(station, frame);
   Innovations seen;
-  double nis = kNever, squared = 0.0, expected = 0.0;  // of the noise's own part of the residual
   for (std::size_t m = 0; m < models_.size(); ++m) {
     seen[m] = innovation(m, sighting, frame, &part);
-    if (seen[m].depth_m <= 0.0) return BearingUse::kBehindCamera;
-    const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + white);
-    const Eigen::Vector2d scaled = S.solve(seen[m].residual);
-    const double here = seen[m].residual.dot(scaled);
-    if (here >= nis) continue;
-    nis = here;
-    squared = scaled.dot(white * scaled);
-    expected = S.solve(white).trace();
   }
-  // One far off counts as one at the gate (Huber): where noise is many times what is stated, most
-  // are, and the others would never show it.
-  squared *= std::min(1.0, config_.gate_nis / nis);
-  errors.observe_residual(sighting.station, 1.0 + (squared - expected) / 2.0);
-  if (!passes_gate(sighting, nis)) return BearingUse::kSetAside;
+  const auto judged = judge(seen, white);
+  if (!judged) return BearingUse::kBehindCamera;
+  errors.observe_residual(sighting.station, judged->noise);
+  if (!passes_gate(sighting, judged->nis)) return BearingUse::kSetAside;
+  FilterStation& entry = stations_[static_cast<std::size_t>(station)];
+  note_use(entry, sighting, judged->nis);
+  const bool finds_bias = shows_bias(part, frame, seen[0].depth_m, white);
+  const double inflation = observe_noise(entry, sighting, frame, errors);
+  correct(seen, part, white * (inflation / entry.weight), finds_bias);
+  return BearingUse::kUsed;
+}
+
+void TrackFilter::note_use(FilterStation& entry, const Sighting& sighting, double nis) const {
   entry.weight = nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
   if (entry.sight.origin_ecef != sighting.sight.origin_ecef) {
     entry.R_ecef_enu = R_ecef_enu(sighting.sight.origin_ecef);
@@ -329,10 +349,6 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   entry.utime_us = std::max(entry.utime_us, sighting.utime_us);
   ++entry.used;
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);
-  const bool finds_bias = shows_bias(part, frame, seen[0].depth_m, white);
-  const double inflation = observe_noise(entry, sighting, frame, errors);
-  correct(seen, part, white * (inflation / entry.weight), finds_bias);
-  return BearingUse::kUsed;
 }
 
 // Bias times relative error of the range is what linearisation leaves out. While that is not small

@@ -19,6 +19,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -163,7 +165,12 @@ class TrackFilter {
                   const Eigen::Matrix2d& white) const;
   void correct(const Innovations& seen, const StationPart& part, const Eigen::Matrix2d& noise,
                bool finds_bias);
+  struct Judged {
+    double nis = std::numeric_limits<double>::infinity(), noise = 1.0;
+  };
+  std::optional<Judged> judge(const Innovations& seen, const Eigen::Matrix2d& white) const;
   BearingUse take(const Sighting& sighting, StationErrors& errors);
+  void note_use(FilterStation& entry, const Sighting& sighting, double nis) const;
   void move_to(std::int64_t utime_us, StationErrors& errors);
   void mix(double dt_s);
   void move_biases(double dt_s, StationErrors& errors);
