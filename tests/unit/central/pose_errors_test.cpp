@@ -157,5 +157,26 @@ TEST(PoseErrors, ANewDesignationMayBeOffAsStated) {
   }
 }
 
+// ... but by no more than that, however often it is designated.
+TEST(PoseErrors, ItIsNeverLessCertainThanStated) {
+  constexpr double kFlightS = 10.0;
+  const WorldConfig world = world_of(5e-4, 1e-3, 0.0);
+  std::mt19937_64 random(4);
+  const Path path = cruising({{-100, 20, 120}, {5, 1, 0}}, 0.1, kFlightS, random);
+  TrackFilter filter({}, kStartUs,
+                     {.p_ecef = site().to_ecef(path.front().p_enu),
+                      .position_sd_m = 10.0,
+                      .velocity_sd_m_s = 10.0});
+  StationErrors errors;
+  std::vector<Sighting> seen = measure(world, {path}, kFlightS, random);
+  rename_each(seen);
+  for (const Sighting& sighting : seen) filter.update(sighting, errors);
+  ASSERT_EQ(filter.stations().size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const StationBias bias = filter.bias(i);
+    EXPECT_LT(bias.covariance_rad2.trace(), 1.01 * bias.prior_rad2.trace());
+  }
+}
+
 }  // namespace
 }  // namespace ols::bench

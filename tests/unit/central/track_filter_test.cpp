@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 #include <random>
 
 #include "flight.h"
+#include "geometry/wgs84.h"
 
 namespace ols {
 namespace {
@@ -58,6 +60,51 @@ TEST(TrackFilter, OneModelAloneFollowsWhatMovesLikeThat) {
   EXPECT_EQ(filter.probabilities(), std::vector<double>{1.0});
   EXPECT_LT(error(filter, filter.utime_us()).norm(), 0.1);
   EXPECT_LT(error(filter, filter.utime_us() + 200'000).norm(), 0.2);
+}
+
+// With all that the stations' states have in common: rotation, clock and place. Of one model the
+// whole state is at hand, and the residual's covariance can be found from it at once.
+TEST(TrackFilter, GatesByTheWholeStatesCovariance) {
+  FilterConfig config;
+  config.motion.models = {Motion::kConstantVelocity};
+  TrackFilter filter(
+      config, kStart,
+      {.p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 50.0});
+  StationErrors errors;
+  std::vector<Sighting> seen = flight(2.0, 1e-4, 1e-4);
+  for (Sighting& sighting : seen) {
+    sighting.sight.covariance_systematic = 1e-6 * Eigen::Matrix2d::Identity();
+    sighting.sight.origin_sd_enu_m.setConstant(1.0);
+    sighting.clock_sd_s = 1e-2;
+    ASSERT_EQ(filter.update(sighting, errors), BearingUse::kUsed);
+  }
+  const auto [mean, P] = filter.mixed();
+  ASSERT_EQ(mean.size(), 9 + 4 * kStationStates);
+  for (const double ahead_s : {0.0, -0.1}) {
+    Sighting next = seen.back();
+    next.utime_us = filter.utime_us() + std::llround(1e6 * ahead_s);
+    const RayFrame frame = ray_frame(next.sight);
+    const Vector3d line = mean.head<3>() + ahead_s * mean.segment<3>(3) - next.sight.origin_ecef;
+    const double depth = frame.direction.dot(line);
+    const Eigen::Vector2d predicted = frame.tangent.transpose() * line / depth;
+    const Eigen::Matrix<double, 2, 3> J =
+        (frame.tangent.transpose() - predicted * frame.direction.transpose()) / depth;
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, mean.size());
+    const Eigen::Index last = mean.size() - kStationStates;
+    ASSERT_EQ(filter.stations().back().station, next.station);
+    H.leftCols<3>() = J;
+    H.middleCols<3>(3) = ahead_s * J;
+    H.middleCols<3>(last) = shift_by_rotation(tangent_basis(next.sight.direction));
+    H.col(last + 3) = -J * mean.segment<3>(3);
+    H.rightCols<3>() = -J * R_ecef_enu(next.sight.origin_ecef);
+    const Eigen::Vector2d r = -predicted - H.rightCols(kStationStates) * mean.tail(kStationStates);
+    const Transition between =
+        transition(Motion::kConstantVelocity, mean.head<9>(), std::abs(ahead_s), config.motion);
+    const Eigen::Matrix2d S = H * P * H.transpose() + between.q(0, 0) * J * J.transpose() +
+                              next.sight.covariance_white * errors.noise_scale(next.station);
+    const double expected = r.dot(S.inverse() * r);
+    EXPECT_NEAR(filter.nis(next, errors), expected, 1e-6 * expected) << ahead_s;
+  }
 }
 
 TEST(TrackFilter, RefusesToMixNoModel) {
