@@ -25,7 +25,8 @@ struct Look {
   // Whether it points at a place, within what it may be off and something more.
   bool is_near(const Eigen::Vector3d& p_ecef, double more_rad) const;
 };
-Look look_of(const Sighting& sighting);
+// With the axes at its origin: R_ecef_enu(sighting.sight.origin_ecef).
+Look look_of(const Sighting& sighting, const Eigen::Matrix3d& R_ecef_enu);
 
 class BearingPool {
  public:
@@ -33,6 +34,12 @@ class BearingPool {
   struct Station {
     std::deque<Sighting> bearings;
     std::vector<Look> looks;
+
+    Look look(const Sighting& sighting);
+
+   private:
+    Eigen::Vector3d origin_ecef_ = Eigen::Vector3d::Zero();     // of the look that was made last,
+    Eigen::Matrix3d R_ecef_enu_ = Eigen::Matrix3d::Identity();  // and the axes there
   };
 
   // A bearing is kept until one of its station is newer by so long, or so many are.

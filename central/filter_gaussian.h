@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "central/motion_model.h"
 
@@ -26,6 +27,9 @@ using FilterMatrix =
 using FilterMatrix2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
 
 struct FilterGaussian {
+  FilterGaussian() {}  // without states; its room of 70 kB is not set to zero
+  FilterGaussian(FilterVector m, FilterMatrix P) : mean(std::move(m)), covariance(std::move(P)) {}
+
   FilterVector mean;
   FilterMatrix covariance;  // its lower triangle
 };

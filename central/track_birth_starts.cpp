@@ -8,6 +8,7 @@
 #include "central/time_span.h"
 #include "central/track_birth.h"
 #include "geometry/angles.h"
+#include "geometry/wgs84.h"
 
 namespace ols {
 namespace {
@@ -93,7 +94,7 @@ std::ptrdiff_t TrackBirth::nearest(const BearingPool::Station& own, const Sighti
 std::vector<TrackBirth::Meeting> TrackBirth::starts_with(const Sighting& sighting,
                                                          const StationErrors& errors) {
   constexpr std::size_t kEnough = 16;
-  const Look look = look_of(sighting);
+  const Look look = look_of(sighting, R_ecef_enu(sighting.sight.origin_ecef));
   std::vector<Meeting> starts;
   for (const auto& [station, own] : pool_.stations()) {
     if (station == sighting.station) continue;

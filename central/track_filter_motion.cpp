@@ -54,7 +54,7 @@ void TrackFilter::move_biases(double dt_s, StationErrors& errors) {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     FilterStation& station = stations_[i];
     const int index = static_cast<int>(i);
-    if (place_matters(station.sight)) tell_place_apart(index);
+    if (!priors_[i].place_apart && place_matters(station.sight)) tell_place_apart(index);
     const double range_m = (position() - station.sight.origin_ecef).norm();
     if (seconds(utime_us_ - station.utime_us) < 2.0 * config_.mixing_s + dt_s) {
       const StationBias now = bias(i);
