@@ -33,26 +33,39 @@ bool heard_lately(const TrackFilter& filter, const FilterStation& station, doubl
 }
 
 double may_be_off(const TrackFilter& filter, const FilterStation& station) {
-  const bool states_nothing = station.sight.covariance_systematic.isZero(0.0);
-  return states_nothing ? filter.config().untold_rad : 0.0;
+  const bool states_pose = !station.sight.covariance_systematic.isZero(0.0);
+  return states_pose ? 0.0 : filter.config().untold_rad;
 }
 
-// One bearing alone may be anywhere: from where two others seemed to meet, far off the truth, it
-// leads nowhere and seems to know.
-constexpr int kTwice = 2;
+// One that states its errors counts. Any other does as long as what it has taught of the rest may
+// hold, and not by a single bearing where others have more: from where two seemed to meet, far off
+// the truth, one bearing leads nowhere and seems to know.
+std::vector<const FilterStation*> that_count(const TrackFilter& filter) {
+  constexpr double kRememberedS = 30.0;
+  constexpr int kTwice = 2;
+  std::vector<const FilterStation*> found;
+  int most = 0;
+  for (const FilterStation& station : filter.stations()) most = std::max(most, station.used);
+  for (const FilterStation& station : filter.stations()) {
+    const bool is_told = may_be_off(filter, station) == 0.0;
+    const bool enough = station.used >= std::min(most, kTwice);
+    const bool may_hold = enough && heard_lately(filter, station, kRememberedS);
+    if (is_told || may_hold) found.push_back(&station);
+  }
+  return found;
+}
 
 // Two rays that cross at less than what they may be off by, untold, over the range's least accuracy
 // tell no range, however well they seem to: what they learn of each other is their errors.
 bool crosses_widely(const TrackFilter& filter, const Eigen::Vector3d& p_ecef) {
-  const auto& stations = filter.stations();
+  const std::vector<const FilterStation*> stations = that_count(filter);
   for (std::size_t i = 0; i < stations.size(); ++i) {
     for (std::size_t k = i + 1; k < stations.size(); ++k) {
-      if (std::min(stations[i].used, stations[k].used) < kTwice) continue;
       const double off_rad =
-          std::hypot(may_be_off(filter, stations[i]), may_be_off(filter, stations[k]));
+          std::hypot(may_be_off(filter, *stations[i]), may_be_off(filter, *stations[k]));
       const double least_rad = off_rad / filter.config().range_sd_limit;
-      const Eigen::Vector3d a = p_ecef - stations[i].sight.origin_ecef;
-      const Eigen::Vector3d b = p_ecef - stations[k].sight.origin_ecef;
+      const Eigen::Vector3d a = p_ecef - stations[i]->sight.origin_ecef;
+      const Eigen::Vector3d b = p_ecef - stations[k]->sight.origin_ecef;
       if (a.cross(b).norm() >= std::sin(least_rad) * a.norm() * b.norm()) return true;
     }
   }

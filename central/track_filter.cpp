@@ -234,7 +234,7 @@ double TrackFilter::nis(const Sighting& sighting, const StationErrors& errors) c
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const auto seen = innovation(m, sighting, frame, part ? &*part : nullptr);
-    if (seen.depth_m <= 0.0) continue;
+    if (!(seen.depth_m > 0.0)) continue;
     Eigen::Matrix2d S = seen.covariance + more;
     if (!part) {
       const Eigen::Vector2d clock = seen.J * models_[m].mean.segment<3>(3) * sighting.clock_sd_s;
@@ -298,7 +298,7 @@ std::optional<TrackFilter::Judged> TrackFilter::judge(const Innovations& seen,
   Judged judged;
   double squared = 0.0, expected = 0.0;  // of the noise's own part of the residual
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    if (seen[m].depth_m <= 0.0) return std::nullopt;
+    if (!(seen[m].depth_m > 0.0)) return std::nullopt;
     const Eigen::LLT<Eigen::Matrix2d> S(seen[m].covariance + white);
     const Eigen::Vector2d scaled = S.solve(seen[m].residual);
     const double here = seen[m].residual.dot(scaled);

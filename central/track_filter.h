@@ -40,7 +40,7 @@ struct FilterConfig {
   double mixing_s = 0.05;       // models are mixed and biases moved on at this interval
   double range_sd_limit = 0.3;  // greatest 1-sigma over range of a position that is one
   double max_range_m = 500e3;
-  // What a station that states nothing may be off by, clocks and poses together, when it is asked
+  // What a station that states no error of its pose may be off by, with its clock, when it is asked
   // whether two rays cross widely enough to tell a range [rad].
   double untold_rad = 1e-3;
   // Two stations alone: squared turn over what they state of bias and noise, beyond which their

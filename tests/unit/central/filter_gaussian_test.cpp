@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <vector>
 
 namespace ols {
 namespace {
@@ -111,33 +112,37 @@ TEST_F(FilterGaussianTest, InsertsStatesThatAreZero) {
 }
 
 TEST_F(FilterGaussianTest, MixesMeansAndCovariances) {
-  std::array<MatrixXd, kMotions> P;
-  std::array<VectorXd, kMotions> means;
-  std::array<FilterGaussian, kMotions> parts;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    P[i] = covariance();
-    means[i] = random(kStates, 1);
-    parts[i] = {means[i], kept(P[i])};
-  }
-  const std::array<MixtureWeights, kMotions> weights = {
-      {{0.5, 0.3, 0.2}, {0.1, 0.8, 0.1}, {0.25, 0.0, 0.75}}};
-  std::array<FilterGaussian, kMotions> mixed = parts;
-  interact(weights, mixed);
-  for (std::size_t to = 0; to < parts.size(); ++to) {
-    VectorXd mean = VectorXd::Zero(kStates);
-    MatrixXd expected = MatrixXd::Zero(kStates, kStates);
-    for (std::size_t i = 0; i < parts.size(); ++i) mean += weights[to][i] * means[i];
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      expected += weights[to][i] * (P[i] + (means[i] - mean) * (means[i] - mean).transpose());
+  const std::array<std::array<MixtureWeights, kMotions>, 2> of_two_and_three = {
+      {{{{0.6, 0.4, 0.0}, {0.1, 0.9, 0.0}, {}}},
+       {{{0.5, 0.3, 0.2}, {0.1, 0.8, 0.1}, {0.25, 0.0, 0.75}}}}};
+  for (std::size_t count = 2; count <= 3; ++count) {
+    const auto& weights = of_two_and_three[count - 2];
+    std::vector<MatrixXd> P;
+    std::vector<VectorXd> means;
+    std::vector<FilterGaussian> parts;
+    for (std::size_t i = 0; i < count; ++i) {
+      P.push_back(covariance());
+      means.emplace_back(random(kStates, 1));
+      parts.emplace_back(means[i], kept(P[i]));
     }
-    EXPECT_TRUE(VectorXd(mixed[to].mean).isApprox(mean, 1e-12));
-    EXPECT_TRUE(whole(mixed[to].covariance).isApprox(expected, 1e-12));
-    const FilterGaussian one = mixture(parts, weights[to], kStates);
-    EXPECT_TRUE(VectorXd(one.mean).isApprox(mean, 1e-12));
-    EXPECT_TRUE(MatrixXd(one.covariance).isApprox(expected, 1e-12));
-    const FilterGaussian target = mixture(parts, weights[to], 9);
-    EXPECT_TRUE(VectorXd(target.mean).isApprox(mean.head(9), 1e-12));
-    EXPECT_TRUE(MatrixXd(target.covariance).isApprox(expected.topLeftCorner(9, 9), 1e-12));
+    std::vector<FilterGaussian> mixed = parts;
+    interact(weights, mixed);
+    for (std::size_t to = 0; to < count; ++to) {
+      VectorXd mean = VectorXd::Zero(kStates);
+      MatrixXd expected = MatrixXd::Zero(kStates, kStates);
+      for (std::size_t i = 0; i < count; ++i) mean += weights[to][i] * means[i];
+      for (std::size_t i = 0; i < count; ++i) {
+        expected += weights[to][i] * (P[i] + (means[i] - mean) * (means[i] - mean).transpose());
+      }
+      EXPECT_TRUE(VectorXd(mixed[to].mean).isApprox(mean, 1e-12));
+      EXPECT_TRUE(whole(mixed[to].covariance).isApprox(expected, 1e-12));
+      const FilterGaussian one = mixture(parts, weights[to], kStates);
+      EXPECT_TRUE(VectorXd(one.mean).isApprox(mean, 1e-12));
+      EXPECT_TRUE(MatrixXd(one.covariance).isApprox(expected, 1e-12));
+      const FilterGaussian target = mixture(parts, weights[to], 9);
+      EXPECT_TRUE(VectorXd(target.mean).isApprox(mean.head(9), 1e-12));
+      EXPECT_TRUE(MatrixXd(target.covariance).isApprox(expected.topLeftCorner(9, 9), 1e-12));
+    }
   }
 }
 

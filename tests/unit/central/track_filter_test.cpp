@@ -64,9 +64,11 @@ TEST(TrackFilter, OneModelAloneFollowsWhatMovesLikeThat) {
 
 // With all that the stations' states have in common: rotation, clock and place. Of one model the
 // whole state is at hand, and the residual's covariance can be found from it at once.
-TEST(TrackFilter, GatesByTheWholeStatesCovariance) {
+class OneModel : public testing::TestWithParam<Motion> {};
+
+TEST_P(OneModel, GatesByTheWholeStatesCovariance) {
   FilterConfig config;
-  config.motion.models = {Motion::kConstantVelocity};
+  config.motion.models = {GetParam()};
   TrackFilter filter(
       config, kStart,
       {.p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 50.0});
@@ -81,10 +83,13 @@ TEST(TrackFilter, GatesByTheWholeStatesCovariance) {
   const auto [mean, P] = filter.mixed();
   ASSERT_EQ(mean.size(), 9 + 4 * kStationStates);
   for (const double ahead_s : {0.0, -0.1}) {
+    const bool curves = GetParam() != Motion::kConstantVelocity;
+    const double curved_s2 = curves ? ahead_s * ahead_s / 2.0 : 0.0;
     Sighting next = seen.back();
     next.utime_us = filter.utime_us() + std::llround(1e6 * ahead_s);
     const RayFrame frame = ray_frame(next.sight);
-    const Vector3d line = mean.head<3>() + ahead_s * mean.segment<3>(3) - next.sight.origin_ecef;
+    const Vector3d line = mean.head<3>() + ahead_s * mean.segment<3>(3) +
+                          curved_s2 * mean.segment<3>(6) - next.sight.origin_ecef;
     const double depth = frame.direction.dot(line);
     const Eigen::Vector2d predicted = frame.tangent.transpose() * line / depth;
     const Eigen::Matrix<double, 2, 3> J =
@@ -94,18 +99,23 @@ TEST(TrackFilter, GatesByTheWholeStatesCovariance) {
     ASSERT_EQ(filter.stations().back().station, next.station);
     H.leftCols<3>() = J;
     H.middleCols<3>(3) = ahead_s * J;
+    H.middleCols<3>(6) = curved_s2 * J;
     H.middleCols<3>(last) = shift_by_rotation(tangent_basis(next.sight.direction));
     H.col(last + 3) = -J * mean.segment<3>(3);
     H.rightCols<3>() = -J * R_ecef_enu(next.sight.origin_ecef);
     const Eigen::Vector2d r = -predicted - H.rightCols(kStationStates) * mean.tail(kStationStates);
     const Transition between =
-        transition(Motion::kConstantVelocity, mean.head<9>(), std::abs(ahead_s), config.motion);
+        transition(GetParam(), mean.head<9>(), std::abs(ahead_s), config.motion);
     const Eigen::Matrix2d S = H * P * H.transpose() + between.q(0, 0) * J * J.transpose() +
                               next.sight.covariance_white * errors.noise_scale(next.station);
     const double expected = r.dot(S.inverse() * r);
     EXPECT_NEAR(filter.nis(next, errors), expected, 1e-6 * expected) << ahead_s;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Motions, OneModel,
+                         testing::Values(Motion::kConstantVelocity, Motion::kCoordinatedTurn,
+                                         Motion::kAcceleration));
 
 TEST(TrackFilter, RefusesToMixNoModel) {
   FilterConfig config;

@@ -127,10 +127,10 @@ TEST(TwoStations, WhoseHeadingsAreAsStatedKeepTheirTarget) {
   }
 }
 
-// Side by side, and a milliradian apart: what they are off by, untold, looks like a target that is
-// twenty times nearer. With a third one far away the range is known.
+// Side by side, and two milliradians apart: what they are off by, untold, looks like a target that
+// is twenty times nearer. With a third one far away the range is known.
 TEST(TwoStations, SideBySideTheyTellNoRangeOfWhatIsFar) {
-  constexpr double kOffRad = 2e-3, kFlightS = 5.0;
+  constexpr double kOffRad = 2e-3, kFlightS = 5.0, kSecondS = 0.03;
   for (const bool third : {false, true}) {
     WorldConfig world{.stations_enu = {{0, 0, 0}, {0, 25, 0}}, .aims_enu = {}};
     if (third) world.stations_enu.emplace_back(20e3, 0, 0);
@@ -148,11 +148,36 @@ TEST(TwoStations, SideBySideTheyTellNoRangeOfWhatIsFar) {
       ++fixes;
       const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
       const Vector3d truth = site().to_ecef(at(path, time_s).p_enu);
+      if (time_s < kSecondS) continue;  // one bearing of each is all there is to judge by
       farthest_m = std::max(farthest_m, (target.estimate.position_ecef - truth).norm());
     }
     EXPECT_EQ(fixes > 0, third);
     EXPECT_LT(farthest_m, 10e3);
   }
+}
+
+// ... and is no more when the third one has long left.
+TEST(TwoStations, SideBySideTheyForgetTheRangeThatAThirdHasTold) {
+  constexpr double kOffRad = 2e-3, kFlightS = 40.0, kLeavesS = 1.0;
+  WorldConfig world{.stations_enu = {{0, 0, 0}, {0, 25, 0}, {20e3, 0, 0}}, .aims_enu = {}};
+  world.rate_hz = 10.0;
+  std::mt19937_64 random(1);
+  const Path path = cruising({{0, 150e3, 80e3}, {300, -900, 0}}, 0.1, kFlightS, random);
+  auto seen = measure(world, {path}, kFlightS, random);
+  const auto leaves_us = kStartUs + static_cast<std::int64_t>(1e6 * kLeavesS);
+  std::erase_if(seen, [&](const Sighting& sighting) {
+    return sighting.station == "s2" && sighting.utime_us > leaves_us;
+  });
+  for (Sighting& sighting : seen) {
+    if (sighting.station == "s1") sighting.sight.direction.elevation_rad += kOffRad;
+  }
+  double last_s = 0.0;
+  for (const FusedTarget& target : fuse_offline(seen, {})) {
+    if (target.estimate.solution != Solution::kOk) continue;
+    last_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
+  }
+  EXPECT_GT(last_s, kLeavesS - 0.2);
+  EXPECT_LT(last_s, kLeavesS + 31.0);
 }
 
 }  // namespace
