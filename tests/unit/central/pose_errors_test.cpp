@@ -62,6 +62,13 @@ Result fly(const WorldConfig& world, const OfflineConfig& config, bool renamed =
   return {nees / fixes, std::sqrt(squared / fixes)};
 }
 
+TrackFilter filter_on(const Path& path) {
+  return TrackFilter({}, kStartUs,
+                     {.p_ecef = site().to_ecef(path.front().p_enu),
+                      .position_sd_m = 10.0,
+                      .velocity_sd_m_s = 10.0});
+}
+
 WorldConfig world_of(double tilt_sd_rad, double heading_sd_rad, double place_sd_m) {
   WorldConfig world{.stations_enu = circle(4, 300.0), .aims_enu = {}, .rate_hz = 10.0};
   world.bias_sd_rad = tilt_sd_rad;
@@ -140,10 +147,7 @@ TEST(PoseErrors, ANewDesignationMayBeOffAsStated) {
   WorldConfig world = world_of(1e-5, kOffRad, 0.0);
   std::mt19937_64 random(4);
   const Path path = cruising({{-100, 20, 120}, {5, 1, 0}}, 0.1, kFlightS, random);
-  TrackFilter filter({}, kStartUs,
-                     {.p_ecef = site().to_ecef(path.front().p_enu),
-                      .position_sd_m = 10.0,
-                      .velocity_sd_m_s = 10.0});
+  TrackFilter filter = filter_on(path);
   StationErrors errors;
   for (Sighting& sighting : measure(world, {path}, kFlightS, random)) {
     sighting.track_id = 1;
@@ -163,10 +167,7 @@ TEST(PoseErrors, ItIsNeverLessCertainThanStated) {
   const WorldConfig world = world_of(5e-4, 1e-3, 0.0);
   std::mt19937_64 random(4);
   const Path path = cruising({{-100, 20, 120}, {5, 1, 0}}, 0.1, kFlightS, random);
-  TrackFilter filter({}, kStartUs,
-                     {.p_ecef = site().to_ecef(path.front().p_enu),
-                      .position_sd_m = 10.0,
-                      .velocity_sd_m_s = 10.0});
+  TrackFilter filter = filter_on(path);
   StationErrors errors;
   std::vector<Sighting> seen = measure(world, {path}, kFlightS, random);
   rename_each(seen);
