@@ -5,8 +5,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <stdexcept>
+#include <vector>
 
 #include "flight.h"
 #include "geometry/wgs84.h"
@@ -22,6 +24,7 @@ using test::ray_to;
 using test::sighting_of;
 using test::site;
 using test::square;
+using test::turned;
 
 TrackFilter filter_at(const Vector3d& p_enu, double sd_m = 100.0) {
   return TrackFilter(
@@ -64,30 +67,46 @@ TEST(TrackFilter, OneModelAloneFollowsWhatMovesLikeThat) {
 }
 
 // With all that the stations' states have in common: rotation, clock and place. Of one model the
-// whole state is at hand, and the residual's covariance can be found from it at once.
-class OneModel : public testing::TestWithParam<Motion> {};
+// whole state is at hand, and what it expects of a bearing can be found from it at once.
+class OneModel : public testing::TestWithParam<Motion> {
+ protected:
+  struct Expected {
+    Eigen::Vector2d residual;
+    Eigen::MatrixXd H;
+    Eigen::Matrix2d S;
+  };
 
-TEST_P(OneModel, GatesByTheWholeStatesCovariance) {
-  FilterConfig config;
-  config.motion.models = {GetParam()};
-  TrackFilter filter(
-      config, kStart,
-      {.p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 50.0});
-  StationErrors errors;
-  std::vector<Sighting> seen = flight(2.0, 1e-4, 1e-4);
-  for (Sighting& sighting : seen) {
-    sighting.sight.covariance_systematic = 1e-6 * Eigen::Matrix2d::Identity();
-    sighting.sight.origin_sd_enu_m.setConstant(1.0);
-    sighting.clock_sd_s = 1e-2;
-    ASSERT_EQ(filter.update(sighting, errors), BearingUse::kUsed);
+  // After two seconds' flight.
+  OneModel() {
+    config.motion.models = {GetParam()};
+    filter.emplace(
+        config, kStart,
+        FilterStart{
+            .p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 50.0});
+    seen = flight(2.0, 1e-4, 1e-4);
+    for (Sighting& sighting : seen) {
+      sighting.sight.covariance_systematic = 1e-7 * Eigen::Matrix2d::Identity();
+      sighting.sight.origin_sd_enu_m.setConstant(0.2);
+      sighting.clock_sd_s = 1e-2;
+      EXPECT_EQ(filter->update(sighting, errors), BearingUse::kUsed);
+    }
   }
-  const auto [mean, P] = filter.mixed();
-  ASSERT_EQ(mean.size(), 9 + 4 * kStationStates);
-  for (const double ahead_s : {0.0, -0.1}) {
+
+  // Of the last station, so much off the state's own instant, with an error.
+  Sighting next(double ahead_s) const {
+    Sighting result = seen.back();
+    EXPECT_EQ(filter->stations().back().station, result.station);
+    result.utime_us = filter->utime_us() + std::llround(1e6 * ahead_s);
+    const double t_s = static_cast<double>(result.utime_us - kStart) * 1e-6;
+    const Ray ray = turned(ray_to("d", square()[3], path(t_s)), 1e-4, -1e-4);
+    result.sight.direction = ray.sight.direction;
+    return result;
+  }
+
+  Expected expected(const Sighting& next, double ahead_s) const {
+    const auto [mean, P] = filter->mixed();
     const bool curves = GetParam() != Motion::kConstantVelocity;
     const double curved_s2 = curves ? ahead_s * ahead_s / 2.0 : 0.0;
-    Sighting next = seen.back();
-    next.utime_us = filter.utime_us() + std::llround(1e6 * ahead_s);
     const RayFrame frame = ray_frame(next.sight);
     const Vector3d line = mean.head<3>() + ahead_s * mean.segment<3>(3) +
                           curved_s2 * mean.segment<3>(6) - next.sight.origin_ecef;
@@ -97,20 +116,50 @@ TEST_P(OneModel, GatesByTheWholeStatesCovariance) {
         (frame.tangent.transpose() - predicted * frame.direction.transpose()) / depth;
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, mean.size());
     const Eigen::Index last = mean.size() - kStationStates;
-    ASSERT_EQ(filter.stations().back().station, next.station);
     H.leftCols<3>() = J;
     H.middleCols<3>(3) = ahead_s * J;
     H.middleCols<3>(6) = curved_s2 * J;
     H.middleCols<3>(last) = shift_by_rotation(tangent_basis(next.sight.direction));
     H.col(last + 3) = -J * mean.segment<3>(3);
     H.rightCols<3>() = -J * R_ecef_enu(next.sight.origin_ecef);
-    const Eigen::Vector2d r = -predicted - H.rightCols(kStationStates) * mean.tail(kStationStates);
     const Transition between =
         transition(GetParam(), mean.head<9>(), std::abs(ahead_s), config.motion);
     const Eigen::Matrix2d S = H * P * H.transpose() + between.q(0, 0) * J * J.transpose() +
                               next.sight.covariance_white * errors.noise_scale(next.station);
-    const double expected = r.dot(S.inverse() * r);
-    EXPECT_NEAR(filter.nis(next, errors), expected, 1e-6 * expected) << ahead_s;
+    return {-predicted - H.rightCols(kStationStates) * mean.tail(kStationStates), H, S};
+  }
+
+  FilterConfig config;
+  StationErrors errors;
+  std::optional<TrackFilter> filter;
+  std::vector<Sighting> seen;
+};
+
+TEST_P(OneModel, GatesByTheWholeStatesCovariance) {
+  ASSERT_EQ(filter->mixed().mean.size(), 9 + 4 * kStationStates);
+  for (const double ahead_s : {0.0, -0.1}) {
+    const auto [r, H, S] = expected(next(ahead_s), ahead_s);
+    const double nis = r.dot(S.inverse() * r);
+    EXPECT_NEAR(filter->nis(next(ahead_s), errors), nis, 1e-6 * nis) << ahead_s;
+  }
+}
+
+// A late bearing teaches what it shows of now: of the velocity, too.
+TEST_P(OneModel, LearnsByTheWholeStatesGain) {
+  for (const double ahead_s : {0.0, -0.1}) {
+    TrackFilter after = *filter;
+    StationErrors others = errors;
+    const auto [mean, P] = filter->mixed();
+    const auto [r, H, S] = expected(next(ahead_s), ahead_s);
+    ASSERT_LT(r.dot(S.inverse() * r), config.robust_nis);
+    ASSERT_EQ(after.update(next(ahead_s), others), BearingUse::kUsed);
+    const Eigen::MatrixXd K = P * H.transpose() * S.inverse();
+    const Eigen::VectorXd sd = P.diagonal().cwiseSqrt();
+    const auto learnt = after.mixed();
+    EXPECT_LT(((learnt.mean - mean - K * r).array() / sd.array()).abs().maxCoeff(), 1e-6);
+    const Eigen::MatrixXd left = P - K * S * K.transpose() - learnt.covariance;
+    EXPECT_LT((left.array() / (sd * sd.transpose()).array()).abs().maxCoeff(), 1e-6) << ahead_s;
+    EXPECT_GT(((K * r).array() / sd.array()).abs().maxCoeff(), 0.01);
   }
 }
 
