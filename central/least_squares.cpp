@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "geometry/angles.h"
+#include "geometry/chi_square.h"
 
 namespace ols {
 namespace {
@@ -197,7 +198,7 @@ Fit fit_weighted(const Problem& problem, std::vector<double> weights,
 // chi^2 over its limit: up to 1 the rays agree.
 double disagreement(const Fit& fit, const LeastSquaresConfig& config) {
   if (fit.solution != Solution::kOk) return kNever;
-  return fit.chi2 / chi_square_limit(fit.degrees, config.gate_sigma);
+  return fit.chi2 / chi_square_critical(normal_level(config.gate_sigma), fit.degrees);
 }
 
 // Sets aside, one after the other, the ray without which the others agree best.
@@ -268,11 +269,6 @@ RayUse use_of(const Problem& problem, const Fit& fit, std::size_t i) {
 }
 
 }  // namespace
-
-double chi_square_limit(int degrees, double sigma) {
-  const double k = degrees;
-  return k * std::pow(1.0 - 2.0 / (9.0 * k) + sigma * std::sqrt(2.0 / (9.0 * k)), 3.0);
-}
 
 Estimate least_squares(const std::vector<Ray>& rays, const LeastSquaresConfig& config) {
   Estimate estimate;

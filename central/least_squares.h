@@ -30,8 +30,4 @@ Estimate least_squares(const std::vector<Ray>& rays, const LeastSquaresConfig& c
 // where the rates do not determine it.
 void estimate_velocity(const std::vector<Ray>& rays, Estimate& estimate);
 
-// The value that chi^2 of so many degrees of freedom stays below with the probability of the normal
-// deviate `sigma` (Wilson and Hilferty's approximation, within 4 % here).
-double chi_square_limit(int degrees, double sigma);
-
 }  // namespace ols

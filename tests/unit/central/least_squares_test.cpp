@@ -132,13 +132,6 @@ TEST(LeastSquares, NamesItsFailures) {
   EXPECT_EQ(least_squares(rays_from(square(), {0, 500, 0}), near).solution, Solution::kTooFar);
 }
 
-TEST(ChiSquareLimit, AgreesWithTables) {
-  // 0.999 quantiles.
-  EXPECT_NEAR(chi_square_limit(1, 3.0902), 10.828, 0.4);
-  EXPECT_NEAR(chi_square_limit(3, 3.0902), 16.266, 0.4);
-  EXPECT_NEAR(chi_square_limit(5, 3.0902), 20.515, 0.4);
-}
-
 TEST(Velocity, FollowsFromTheRates) {
   auto rays = rays_from(square(), {50, 80, 120});
   const Vector3d velocity(12.0, -7.0, 3.0);

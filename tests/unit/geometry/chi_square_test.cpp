@@ -17,6 +17,13 @@ TEST(ChiSquare, CriticalValuesAreThoseOfTheTables) {
   EXPECT_NEAR(chi_square_critical(0.05, 1999), 2104.128222359781, 1e-6);
 }
 
+// scipy.stats.norm.sf
+TEST(ChiSquare, LevelOfSigmasIsOneSided) {
+  EXPECT_NEAR(normal_level(0.0), 0.5, 1e-15);
+  EXPECT_NEAR(normal_level(3.090232306167813), 1e-3, 1e-12);
+  EXPECT_NEAR(normal_level(10.0) / 7.619853024160527e-24, 1.0, 1e-9);
+}
+
 // scipy.stats.ncx2.sf
 TEST(ChiSquare, PowerIsThatOfTheNoncentralDistribution) {
   EXPECT_NEAR(chi_square_power(10.8276, 1, 17.075), 0.80001052550709, 1e-9);
