@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "central/time_span.h"
+
 namespace ols {
 
 const char* to_string(TrackState state) {
@@ -101,6 +103,18 @@ bool are_made_to_meet(const TrackFilter& filter) {
   return squared > filter.config().two_stations_nis;
 }
 
+bool do_not_agree(const TrackFilter& filter) {
+  constexpr double kNowS = 0.5;
+  constexpr int kSeveral = 6;
+  int delivering = 0, upset = 0;
+  for (const FilterStation& station : filter.stations()) {
+    if (seconds(filter.utime_us() - station.offered_us) > kNowS) continue;
+    ++delivering;
+    upset += station.upset >= kSeveral ? 1 : 0;
+  }
+  return delivering == 2 && upset > 0;
+}
+
 Solution judge_position(const TrackFilter& filter, const KinematicState& state) {
   if (filter.stations().size() < 2) return Solution::kTooFewRays;
   double nearest_m = std::numeric_limits<double>::infinity();
@@ -116,7 +130,7 @@ Solution judge_position(const TrackFilter& filter, const KinematicState& state) 
   }
   if (!crosses_widely(filter, state.mean.head<3>())) return Solution::kParallelRays;
   if (nearest_m > filter.config().max_range_m) return Solution::kTooFar;
-  return are_made_to_meet(filter) ? Solution::kRaysMiss : Solution::kOk;
+  return are_made_to_meet(filter) || do_not_agree(filter) ? Solution::kRaysMiss : Solution::kOk;
 }
 
 int stations_lately(const TrackFilter& filter, double within_s) {

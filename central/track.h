@@ -43,6 +43,10 @@ bool is_sure(const Track& track);
 // they state allows.
 bool are_made_to_meet(const TrackFilter& filter);
 
+// Two stations deliver, and the rays of one do not meet those of the other any more: it follows
+// something else, or the target has turned as nobody thought. Nobody tells which.
+bool do_not_agree(const TrackFilter& filter);
+
 // What a filter's state is worth as a position: kOk, or the named reason why it is none.
 Solution judge_position(const TrackFilter& filter, const KinematicState& state);
 

@@ -1,5 +1,6 @@
 #include "central/track_birth.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,7 @@ namespace ols {
 namespace {
 
 constexpr std::size_t kMostStarts = 3;  // that are tried for one bearing
+constexpr int kMostRounds = 6;          // over its bearings
 
 }  // namespace
 
@@ -165,6 +167,14 @@ Agreement agree(std::map<std::string, Explained>& stations, double least_share, 
   return sum;
 }
 
+// Position and velocity are where the equations are linear, as well as they are known.
+bool is_settled(const KinematicState& found, const Vector9& about) {
+  constexpr double kNear = 0.1;  // squared, in sigmas
+  const Eigen::Matrix<double, 6, 1> off = (found.mean - about).head<6>();
+  const Eigen::Matrix<double, 6, 6> P = found.covariance.topLeftCorner<6, 6>();
+  return off.dot(P.ldlt().solve(off)) < kNear;
+}
+
 }  // namespace
 
 // Who has lately had a bearing towards the start: nobody else's bearings can be explained by it.
@@ -184,15 +194,22 @@ std::vector<const BearingPool::Station*> TrackBirth::looking_at(const Meeting& s
   return found;
 }
 
-std::optional<TrackBirth::Begun> TrackBirth::try_start(const Sighting& newest, const Meeting& start,
-                                                       const StationErrors& errors, Needed needed) {
-  std::int64_t now_us = newest.utime_us;
+// The newest instant of whoever is heard at the time of a bearing.
+std::int64_t TrackBirth::now_at(std::int64_t utime_us) const {
+  std::int64_t now_us = utime_us;
   for (const auto& [station, own] : pool_.stations()) {
-    const std::int64_t utime_us = own.looks.back().utime_us;
-    if (std::abs(seconds(utime_us - newest.utime_us)) <= config_.pair_s) {
-      now_us = std::max(now_us, utime_us);
+    const std::int64_t newest_us = own.looks.back().utime_us;
+    if (std::abs(seconds(newest_us - utime_us)) <= config_.pair_s) {
+      now_us = std::max(now_us, newest_us);
     }
   }
+  return now_us;
+}
+
+// Runs the filter backwards over what is kept, from `now_us` on: with the bearings that it takes of
+// the stations that agree on the start. Nothing where it diverges.
+std::optional<TrackBirth::Begun> TrackBirth::run(const Meeting& start, std::int64_t now_us,
+                                                 const StationErrors& errors) const {
   auto frames = frames_backwards(looking_at(start, now_us),
                                  now_us - static_cast<std::int64_t>(config_.pool_s * 1e6));
   // A start is vague: whoever is heard first, it goes to. So first the two that made it.
@@ -204,27 +221,50 @@ std::optional<TrackBirth::Begun> TrackBirth::try_start(const Sighting& newest, c
                    .position_sd_m = start.range_m / 2.0,
                    .velocity_sd_m_s = 2.0 * config_.rate_sd_rad_s * start.range_m};
   std::optional<Begun> begun;
+  std::optional<Vector9> about;
   std::map<std::string, Explained> stations;
-  // The second round is linearised where the first one has ended: what a clock's error does depends
-  // on the velocity, and one taken for zero would make the clocks seem known.
-  for (int round = 0; round < 2; ++round) {
+  // What is known after the first bearings is vague, and equations that are linear about that can
+  // lead astray and be sure of it. So each round is linear about where the one before has ended.
+  bool settled = false;
+  for (int round = 0; round < kMostRounds && !settled; ++round) {
     begun.emplace(TrackFilter(filter_, now_us, from), errors);
-    stations = explain(frames, begun->track.filter, begun->errors);
-    from.p_ecef = begun->track.filter.position();
-    from.v_ecef = begun->track.filter.velocity();
-    if (!from.p_ecef.allFinite() || !from.v_ecef.allFinite()) return std::nullopt;
+    TrackFilter& filter = begun->track.filter;
+    if (about) filter.linearise_about(*about);
+    stations = explain(frames, filter, begun->errors);
+    filter.linearise_about_itself();
+    const KinematicState& found = filter.summary();
+    if (!found.mean.allFinite()) return std::nullopt;
+    settled = about && is_settled(found, *about);
+    about = found.mean;
+    from.p_ecef = found.mean.head<3>();
+    from.v_ecef = found.mean.segment<3>(3);
   }
   begun->track.born_us = begun->track.located_us = now_us;
   const Agreement sum = agree(stations, config_.explained, begun->track);
+  begun->bearings = sum.hits;
+  begun->span_s = seconds(now_us - sum.oldest_us);
+  begun->misfit = sum.misfit / sum.frames;
+  return begun;
+}
+
+std::optional<TrackBirth::Begun> TrackBirth::try_start(const Sighting& newest, const Meeting& start,
+                                                       const StationErrors& errors, Needed needed) {
+  auto begun = run(start, now_at(newest.utime_us), errors);
+  if (!begun) return std::nullopt;
   const std::size_t agreeing = begun->track.hits.size();
   failure_ = Solution::kRaysMiss;
   if (agreeing < 2) return std::nullopt;
   failure_ = Solution::kTooFewRays;
   const double long_s = config_.two_stations_s * (needed == Needed::kAll ? 1.0 : 0.5);
-  const bool long_enough = agreeing > 2 || seconds(now_us - sum.oldest_us) >= long_s;
-  const bool enough = sum.hits >= config_.least_bearings && long_enough;
-  if (needed != Needed::kTwoRays && !enough) return std::nullopt;
-  begun->misfit = sum.misfit / sum.frames;
+  const bool long_enough = agreeing > 2 || begun->span_s >= long_s;
+  const bool enough = begun->bearings >= config_.least_bearings && long_enough;
+  if (needed == Needed::kTwoRays) return begun;
+  if (!enough) return std::nullopt;
+  // Rays that are parallel by chance meet somewhere far: what has no position explains everything,
+  // and would take the bearings of all that are nearer.
+  const TrackFilter& filter = begun->track.filter;
+  failure_ = judge_position(filter, filter.summary());
+  if (failure_ != Solution::kOk) return std::nullopt;
   return begun;
 }
 

@@ -71,7 +71,9 @@ class TrackBirth {
 
     Track track;
     StationErrors errors;
-    double misfit = 0.0;  // mean squared normalised residual of its stations' frames
+    int bearings = 0;     // that it explains, of the stations that agree on it
+    double span_s = 0.0;  // of them
+    double misfit = 0.0;  // mean squared normalised residual of their frames; NaN without any
   };
   enum class Needed { kTwoRays, kHalf, kAll };  // for two stations' agreement: of its time
   std::optional<Track> search(const Sighting& sighting, StationErrors& errors, bool trusting);
@@ -83,6 +85,9 @@ class TrackBirth {
   std::vector<Meeting> starts_with(const Sighting& sighting, const StationErrors& errors);
   std::vector<const BearingPool::Station*> looking_at(const Meeting& start,
                                                       std::int64_t now_us) const;
+  std::int64_t now_at(std::int64_t utime_us) const;
+  std::optional<Begun> run(const Meeting& start, std::int64_t now_us,
+                           const StationErrors& errors) const;
   std::optional<Begun> try_start(const Sighting& newest, const Meeting& start,
                                  const StationErrors& errors, Needed needed);
   bool is_outdone(const Begun& begun, const Sighting& newest, const StationErrors& errors);

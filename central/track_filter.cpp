@@ -198,14 +198,18 @@ TrackFilter::Innovation TrackFilter::innovation(std::size_t which, const Sightin
   Innovation result;
   result.ahead_s = seconds(sighting.utime_us - utime_us_);  // < 0: late
   if (motion != Motion::kConstantVelocity) result.curved_s2 = std::pow(result.ahead_s, 2) / 2.0;
-  const Eigen::Vector3d line = model.mean.head<3>() + result.ahead_s * model.mean.segment<3>(3) +
-                               result.curved_s2 * model.mean.segment<3>(6) -
-                               sighting.sight.origin_ecef;
+  const auto place_of = [&](const Vector9& state) -> Eigen::Vector3d {
+    return state.head<3>() + result.ahead_s * state.segment<3>(3) +
+           result.curved_s2 * state.tail<3>();
+  };
+  const Vector9 state = model.mean.head<9>(), about = about_.value_or(state);
+  const Eigen::Vector3d line = place_of(about) - sighting.sight.origin_ecef;
   result.depth_m = frame.direction.dot(line);
   if (!(result.depth_m > 0.0)) return result;
   result.residual = -frame.tangent.transpose() * line / result.depth_m;
   result.J =
       (frame.tangent.transpose() + result.residual * frame.direction.transpose()) / result.depth_m;
+  if (about_) result.residual -= result.J * place_of(state - about);
   result.see_target(model.covariance);
   if (result.ahead_s != 0.0) {
     const Transition between =
@@ -331,8 +335,8 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   const auto judged = judge(seen, white);
   if (!judged) return BearingUse::kBehindCamera;
   errors.observe_residual(sighting.station, judged->noise);
-  if (!passes_gate(sighting, judged->nis)) return BearingUse::kSetAside;
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
+  if (!passes_gate(entry, judged->nis)) return BearingUse::kSetAside;
   note_use(entry, sighting, judged->nis);
   const bool finds_bias = shows_bias(part, frame, seen[0].depth_m, white);
   const double inflation = observe_noise(entry, sighting, frame, errors);
@@ -393,16 +397,39 @@ void TrackFilter::correct(const Innovations& seen, const StationPart& part,
   weigh_models(std::span(log_likelihood).first(models_.size()));
 }
 
-bool TrackFilter::passes_gate(const Sighting& sighting, double nis) {
+bool TrackFilter::passes_gate(FilterStation& entry, double nis) {
   if (nis <= config_.gate_nis) {
-    upset_ = 0;
+    upset_ = entry.upset = 0;
     two_upset_ = false;
     return true;
   }
-  if (upset_ == 0) upset_station_ = sighting.station;
-  two_upset_ = two_upset_ || upset_station_ != sighting.station;
-  if (++upset_ >= kUpset && two_upset_) give_room();
+  if (upset_ == 0) upset_station_ = entry.station;
+  two_upset_ = two_upset_ || upset_station_ != entry.station;
+  ++entry.upset;
+  if (++upset_ >= kUpset && two_upset_) {
+    give_room(config_.motion.acceleration_time_s, Eigen::Matrix3d::Identity());
+  } else if (entry.upset % kUpset == 0) {
+    give_room_unseen_by_other(entry);
+  }
   return false;
+}
+
+// One station alone is always agreed with: the target goes along its ray, and where it has turned
+// hard along that, only the other of two stations sees it.
+void TrackFilter::give_room_unseen_by_other(const FilterStation& entry) {
+  constexpr double kLatelyS = 0.3;
+  if (entry.used == 0) return;
+  const FilterStation* only = nullptr;
+  for (const FilterStation& other : stations_) {
+    const bool agreed_since = other.utime_us > entry.utime_us;
+    if (!agreed_since || seconds(utime_us_ - other.utime_us) > kLatelyS) continue;
+    if (only != nullptr) return;
+    only = &other;
+  }
+  if (only == nullptr) return;
+  const Eigen::Vector3d line = (position() - only->sight.origin_ecef).normalized();
+  const double since_s = seconds(utime_us_ - entry.utime_us);
+  give_room(std::min(since_s, config_.motion.acceleration_time_s), line * line.transpose());
 }
 
 // Tells the errors how much a bearing differs from the line between its neighbours, and gives how
@@ -437,17 +464,17 @@ void TrackFilter::weigh_models(std::span<const double> log_likelihood) {
   for (double& probability : probabilities_) probability /= sum;
 }
 
-// The target has done what no model allows: any of its accelerations, for the models' own time.
-void TrackFilter::give_room() {
+// The target has done what no model allows: for so long, any of its accelerations in these
+// directions.
+void TrackFilter::give_room(double time_s, const Eigen::Matrix3d& along) {
   upset_ = 0;
   two_upset_ = false;
   const double hard = manoeuvre_sd(velocity(), config_.motion);
-  const double time_s = config_.motion.acceleration_time_s;
   const double speed = 2.0 * hard * time_s;
   for (FilterGaussian& model : models_) {
-    model.covariance.diagonal().head<3>().array() += std::pow(speed * time_s / 2.0, 2);
-    model.covariance.diagonal().segment<3>(3).array() += speed * speed;
-    model.covariance.diagonal().segment<3>(6).array() += 4.0 * hard * hard;
+    model.covariance.topLeftCorner<3, 3>() += std::pow(speed * time_s / 2.0, 2) * along;
+    model.covariance.block<3, 3>(3, 3) += speed * speed * along;
+    model.covariance.block<3, 3>(6, 6) += 4.0 * hard * hard * along;
   }
 }
 

@@ -12,8 +12,8 @@
 // A bearing newer than the state moves it on. A late one is compared with where the target was at
 // its own instant, by the state's own velocity and acceleration. Three models (motion_model.h) are
 // mixed (IMM: Blom and Bar-Shalom, 1988). A bearing far off is set aside, one a little off is
-// weighted down; only such ones of two stations in a row say that the target has done what no model
-// allows, and it is given room.
+// weighted down; only such ones of two stations in a row, or of one of the only two, say that the
+// target has done what no model allows, and it is given room.
 #pragma once
 
 #include <Eigen/Core>
@@ -80,6 +80,7 @@ struct FilterStation {
   std::int64_t utime_us = 0;                                 // of the last one that was used
   std::int64_t offered_us = 0;                               // of the last one that was offered
   int used = 0;                                              // bearings
+  int upset = 0;                                             // set aside since the last used one
   std::int64_t calibration_id = 0, track_id = 0;             // with others its bias is another
   double weight = 0.0;                                       // of the last one, 0: set aside
   double clock_sd_s = 0.0;
@@ -128,6 +129,10 @@ class TrackFilter {
   BearingUse update(const Sighting& sighting, StationErrors& errors);
   // Moves the state on without a bearing.
   void advance(std::int64_t utime_us, StationErrors& errors);
+  // The bearings' equations are linear about this motion from the state's own instant, instead of
+  // about what is known so far: for another round over the same bearings, while that is vague.
+  void linearise_about(const Vector9& motion) { about_ = motion; }
+  void linearise_about_itself() { about_.reset(); }
 
   std::int64_t utime_us() const { return utime_us_; }
   // Mixed over the models, at an instant before or after the state's own.
@@ -175,8 +180,9 @@ class TrackFilter {
   void mix(double dt_s);
   void move_biases(double dt_s, StationErrors& errors);
   void fade_biases(double dt_s, double clock_time_s);
-  void give_room();
-  bool passes_gate(const Sighting& sighting, double nis);
+  void give_room(double time_s, const Eigen::Matrix3d& along);
+  void give_room_unseen_by_other(const FilterStation& entry);
+  bool passes_gate(FilterStation& entry, double nis);
   static double observe_noise(FilterStation& entry, const Sighting& sighting, const RayFrame& frame,
                               StationErrors& errors);
   void weigh_models(std::span<const double> log_likelihood);
@@ -190,7 +196,8 @@ class TrackFilter {
   std::vector<double> probabilities_;
   std::vector<FilterStation> stations_;
   std::vector<BiasPrior> priors_;
-  KinematicState summary_;     // mixed over the models
+  KinematicState summary_;  // mixed over the models
+  std::optional<Vector9> about_;
   int upset_ = 0;              // set-aside bearings since the last used one
   std::string upset_station_;  // of the first of them
   bool two_upset_ = false;     // another station's is among them

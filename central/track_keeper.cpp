@@ -158,15 +158,15 @@ bool TrackKeeper::worth_confirming(const Track& track) const {
   const KinematicState now = track.filter.at(track.filter.utime_us());
   if (judge_position(track.filter, now) != Solution::kOk) return false;
   if (config_.one_target) return true;
-  int stations = 0, hits = 0;
+  int stations = 0, of_a_pair = 0, hits = 0;
   for (const auto& [name, count] : track.hits) {
     stations += count >= config_.confirm_hits ? 1 : 0;
+    of_a_pair += count >= config_.confirm_pair_hits ? 1 : 0;
     hits += count;
   }
   if (track.misses > hits) return false;
   if (stations >= config_.confirm_stations) return true;
-  return stations >= 2 && hits >= config_.confirm_pair_hits &&
-         seconds(track.filter.utime_us() - track.born_us) >= config_.confirm_s;
+  return of_a_pair >= 2 && seconds(track.filter.utime_us() - track.born_us) >= config_.confirm_s;
 }
 
 // Nearer to each other than both know.
@@ -230,7 +230,10 @@ void TrackKeeper::age(Track& track, std::int64_t now_us) {
     if (unseen_s > config_.drop_s) track.state = TrackState::kDropped;
     return;
   }
-  if (unseen_s > config_.coast_s) track.state = TrackState::kCoasted;
+  if (unseen_s > config_.coast_s) {
+    const bool parted = do_not_agree(track.filter) && !config_.one_target;
+    track.state = parted ? TrackState::kDropped : TrackState::kCoasted;
+  }
   if (unseen_s <= config_.drop_s) return;
   // One station alone is no position for long; of a recording's one object it is known by its own
   // covariance for how long.

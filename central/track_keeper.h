@@ -6,13 +6,14 @@
 //  - A bearing that two confirmed tracks explain about as well (they cross in that station's view)
 //    goes to none: the other stations tell them apart.
 //  - What no track explains is kept for births (track_birth.h).
-//  - born -> confirmed: three stations have given two bearings each, or two stations ten in all
+//  - born -> confirmed: three stations have given two bearings each, or two stations five each
 //    for confirm_s, most of what they gave being explained, and the position is one.
 //  - born -> dropped: no two stations have seen it for born_drop_s; or it is another track's
 //  double.
 //  - confirmed -> coasted: no two stations have seen it for coast_s. coasted -> confirmed: two
 //  have.
-//  - coasted -> dropped: no two stations for drop_s.
+//  - coasted -> dropped: no two stations for drop_s; or at once, when two deliver that no longer
+//    meet.
 //  - any -> dropped: two stations alone, whose rays meet only by more than they state.
 //  - two confirmed ones -> one: they have been one object for a second (track_rivals.h).
 //  - A track that is confirmed where one that was dropped must be by now has its identity; or else
@@ -49,8 +50,8 @@ struct KeeperConfig {
   double doubt_s = 1.0;     // two rays do not begin its track so soon after they were wrong
   int max_tracks = 256;     // born ones included
   int confirm_stations = 3;
-  int confirm_hits = 2;        // of each of them
-  int confirm_pair_hits = 10;  // of two stations together, where only two see it
+  int confirm_hits = 2;       // of each of them
+  int confirm_pair_hits = 5;  // of each of two, where only two see it
   double confirm_s = 0.7;
   double born_drop_s = 0.4;
   double seen_s = 0.3;  // "lately": a station's last bearing is not older

@@ -256,7 +256,7 @@ TEST(FusionEpoch, NothingOldIsToldAfterASilence) {
   }
   EXPECT_EQ(silent_us, kSilenceUs);
   EXPECT_GT(before, 100U);
-  EXPECT_GT(after, 50U);
+  EXPECT_GT(after, 200U) << "all are there again, though many rays are parallel by chance";
   EXPECT_GT(slews, 50U);
 }
 
