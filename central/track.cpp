@@ -74,6 +74,14 @@ bool crosses_widely(const TrackFilter& filter, const Eigen::Vector3d& p_ecef) {
   return false;
 }
 
+double nearest_m(const TrackFilter& filter, const KinematicState& state) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const FilterStation& station : filter.stations()) {
+    nearest = std::min(nearest, (state.mean.head<3>() - station.sight.origin_ecef).norm());
+  }
+  return nearest;
+}
+
 }  // namespace
 
 bool Track::has_taken(const Sighting& sighting) const {
@@ -103,34 +111,33 @@ bool are_made_to_meet(const TrackFilter& filter) {
   return squared > filter.config().two_stations_nis;
 }
 
-bool do_not_agree(const TrackFilter& filter) {
+int set_aside_in_a_row(const TrackFilter& filter, std::int64_t now_us) {
   constexpr double kNowS = 0.5;
-  constexpr int kSeveral = 6;
-  int delivering = 0, upset = 0;
+  int most = 0;
   for (const FilterStation& station : filter.stations()) {
-    if (seconds(filter.utime_us() - station.offered_us) > kNowS) continue;
-    ++delivering;
-    upset += station.upset >= kSeveral ? 1 : 0;
+    const bool delivers = seconds(now_us - station.offered_us) <= kNowS;
+    if (delivers && filter.agreed_since(station) < 2) most = std::max(most, station.upset);
   }
-  return delivering == 2 && upset > 0;
+  return most;
+}
+
+bool has_range(const TrackFilter& filter, const KinematicState& state, double share) {
+  const Eigen::Matrix3d P = state.covariance.topLeftCorner<3, 3>();
+  const double greatest =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(P, Eigen::EigenvaluesOnly).eigenvalues()(2);
+  const double limit_m = share * nearest_m(filter, state);
+  return greatest < limit_m * limit_m;
 }
 
 Solution judge_position(const TrackFilter& filter, const KinematicState& state) {
   if (filter.stations().size() < 2) return Solution::kTooFewRays;
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (const FilterStation& station : filter.stations()) {
-    nearest_m = std::min(nearest_m, (state.mean.head<3>() - station.sight.origin_ecef).norm());
-  }
-  const Eigen::Matrix3d P = state.covariance.topLeftCorner<3, 3>();
-  const double greatest =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(P, Eigen::EigenvaluesOnly).eigenvalues()(2);
-  const double limit_m = filter.config().range_sd_limit * nearest_m;
-  if (!(greatest < limit_m * limit_m)) {
+  if (!has_range(filter, state, filter.config().range_sd_limit)) {
     return stations_lately(filter, 1.0) < 2 ? Solution::kTooFewRays : Solution::kParallelRays;
   }
   if (!crosses_widely(filter, state.mean.head<3>())) return Solution::kParallelRays;
-  if (nearest_m > filter.config().max_range_m) return Solution::kTooFar;
-  return are_made_to_meet(filter) || do_not_agree(filter) ? Solution::kRaysMiss : Solution::kOk;
+  if (nearest_m(filter, state) > filter.config().max_range_m) return Solution::kTooFar;
+  const bool miss = set_aside_in_a_row(filter, filter.utime_us()) >= kPartedBearings;
+  return miss || are_made_to_meet(filter) ? Solution::kRaysMiss : Solution::kOk;
 }
 
 int stations_lately(const TrackFilter& filter, double within_s) {

@@ -43,9 +43,14 @@ bool is_sure(const Track& track);
 // they state allows.
 bool are_made_to_meet(const TrackFilter& filter);
 
-// Two stations deliver, and the rays of one do not meet those of the other any more: it follows
-// something else, or the target has turned as nobody thought. Nobody tells which.
-bool do_not_agree(const TrackFilter& filter);
+// Of a station that delivers, and that no two others have outvoted since its last used bearing: how
+// many in a row are set aside, at most. It follows something else, or the target has turned as
+// nobody thought; from kPartedBearings on there is no position, because nobody tells which.
+int set_aside_in_a_row(const TrackFilter& filter, std::int64_t now_us);
+inline constexpr int kPartedBearings = 6;
+
+// Whether the greatest 1-sigma of the position is below this share of the nearest station's range.
+bool has_range(const TrackFilter& filter, const KinematicState& state, double share);
 
 // What a filter's state is worth as a position: kOk, or the named reason why it is none.
 Solution judge_position(const TrackFilter& filter, const KinematicState& state);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kMostStarts = 3;  // that are tried for one bearing
 constexpr int kMostRounds = 6;          // over its bearings
+constexpr double kLeastKnown = 1.0;     // of the range, 1-sigma
 
 }  // namespace
 
@@ -172,7 +173,8 @@ bool is_settled(const KinematicState& found, const Vector9& about) {
   constexpr double kNear = 0.1;  // squared, in sigmas
   const Eigen::Matrix<double, 6, 1> off = (found.mean - about).head<6>();
   const Eigen::Matrix<double, 6, 6> P = found.covariance.topLeftCorner<6, 6>();
-  return off.dot(P.ldlt().solve(off)) < kNear;
+  const double squared = off.dot(P.ldlt().solve(off));
+  return squared >= 0.0 && squared < kNear;
 }
 
 }  // namespace
@@ -221,21 +223,20 @@ std::optional<TrackBirth::Begun> TrackBirth::run(const Meeting& start, std::int6
                    .position_sd_m = start.range_m / 2.0,
                    .velocity_sd_m_s = 2.0 * config_.rate_sd_rad_s * start.range_m};
   std::optional<Begun> begun;
-  std::optional<Vector9> about;
+  std::optional<KinematicState> about;
   std::map<std::string, Explained> stations;
   // What is known after the first bearings is vague, and equations that are linear about that can
   // lead astray and be sure of it. So each round is linear about where the one before has ended.
-  bool settled = false;
-  for (int round = 0; round < kMostRounds && !settled; ++round) {
+  for (int round = 0; round < kMostRounds && !(begun && begun->settled); ++round) {
     begun.emplace(TrackFilter(filter_, now_us, from), errors);
     TrackFilter& filter = begun->track.filter;
     if (about) filter.linearise_about(*about);
     stations = explain(frames, filter, begun->errors);
     filter.linearise_about_itself();
-    const KinematicState& found = filter.summary();
+    const KinematicState found = filter.at(now_us);
     if (!found.mean.allFinite()) return std::nullopt;
-    settled = about && is_settled(found, *about);
-    about = found.mean;
+    begun->settled = about && is_settled(found, about->mean);
+    about = found;
     from.p_ecef = found.mean.head<3>();
     from.v_ecef = found.mean.segment<3>(3);
   }
@@ -260,12 +261,12 @@ std::optional<TrackBirth::Begun> TrackBirth::try_start(const Sighting& newest, c
   const bool enough = begun->bearings >= config_.least_bearings && long_enough;
   if (needed == Needed::kTwoRays) return begun;
   if (!enough) return std::nullopt;
-  // Rays that are parallel by chance meet somewhere far: what has no position explains everything,
-  // and would take the bearings of all that are nearer.
+  // Rays that are parallel by chance meet somewhere far: what has no range explains everything, and
+  // would take the bearings of all that are nearer.
   const TrackFilter& filter = begun->track.filter;
-  failure_ = judge_position(filter, filter.summary());
-  if (failure_ != Solution::kOk) return std::nullopt;
-  return begun;
+  const bool is_somewhere = has_range(filter, filter.summary(), kLeastKnown);
+  if (!is_somewhere) failure_ = Solution::kParallelRays;
+  return is_somewhere && begun->settled ? std::move(begun) : std::nullopt;
 }
 
 void TrackBirth::take(const Track& track) {

@@ -71,9 +71,10 @@ class TrackBirth {
 
     Track track;
     StationErrors errors;
-    int bearings = 0;     // that it explains, of the stations that agree on it
-    double span_s = 0.0;  // of them
-    double misfit = 0.0;  // mean squared normalised residual of their frames; NaN without any
+    int bearings = 0;      // that it explains, of the stations that agree on it
+    double span_s = 0.0;   // of them
+    bool settled = false;  // its equations are linear about where it is
+    double misfit = 0.0;   // mean squared normalised residual of their frames; NaN without any
   };
   enum class Needed { kTwoRays, kHalf, kAll };  // for two stations' agreement: of its time
   std::optional<Track> search(const Sighting& sighting, StationErrors& errors, bool trusting);

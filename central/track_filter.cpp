@@ -18,6 +18,12 @@ constexpr double kPlaceS = 1.0;   // who is silent for longer gives its states u
 constexpr int kUpset = 6;         // set-aside bearings in a row, of two stations
 constexpr double kLeastProbability = 1e-4;
 
+Eigen::Vector3d moved_on(const KinematicState& state, std::int64_t utime_us) {
+  const double dt_s = seconds(utime_us - state.utime_us);
+  return state.mean.head<3>() + dt_s * state.mean.segment<3>(3) +
+         dt_s * dt_s / 2.0 * state.mean.tail<3>();
+}
+
 }  // namespace
 
 // How a station's own states move its bearing on the tangent plane.
@@ -36,6 +42,7 @@ struct TrackFilter::Innovation {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the residual, without noise
   Eigen::Matrix<double, 2, 3> J;
   double ahead_s = 0.0, curved_s2 = 0.0;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // at which a clock's error counts
   Eigen::Matrix<double, 2, kPoseStates> by_pose;
   Eigen::Matrix<double, 2, kPlaceStates> by_place;
 
@@ -162,7 +169,7 @@ void TrackFilter::Innovation::see_station(const FilterGaussian& state, const Sta
     if (ahead_s != 0.0) then += ahead_s * P.block<K, 3>(at, 3) + curved_s2 * P.block<K, 3>(at, 6);
     return Eigen::Matrix2d(H * then * J.transpose());
   };
-  by_pose << part.by_rotation, -J * state.mean.segment<3>(3);
+  by_pose << part.by_rotation, -J * velocity;
   Eigen::Matrix2d mixed = with_target(by_pose, pose);
   residual -= by_pose * state.mean.segment<kPoseStates>(pose);
   covariance += by_pose * whole_block<kPoseStates>(P, pose) * by_pose.transpose();
@@ -198,18 +205,18 @@ TrackFilter::Innovation TrackFilter::innovation(std::size_t which, const Sightin
   Innovation result;
   result.ahead_s = seconds(sighting.utime_us - utime_us_);  // < 0: late
   if (motion != Motion::kConstantVelocity) result.curved_s2 = std::pow(result.ahead_s, 2) / 2.0;
-  const auto place_of = [&](const Vector9& state) -> Eigen::Vector3d {
-    return state.head<3>() + result.ahead_s * state.segment<3>(3) +
-           result.curved_s2 * state.tail<3>();
-  };
-  const Vector9 state = model.mean.head<9>(), about = about_.value_or(state);
-  const Eigen::Vector3d line = place_of(about) - sighting.sight.origin_ecef;
+  result.velocity = model.mean.segment<3>(3);
+  if (about_) result.velocity = about_->mean.segment<3>(3);
+  const Eigen::Vector3d p_ecef = model.mean.head<3>() + result.ahead_s * model.mean.segment<3>(3) +
+                                 result.curved_s2 * model.mean.segment<3>(6);
+  const Eigen::Vector3d about_ecef = about_ ? moved_on(*about_, sighting.utime_us) : p_ecef;
+  const Eigen::Vector3d line = about_ecef - sighting.sight.origin_ecef;
   result.depth_m = frame.direction.dot(line);
   if (!(result.depth_m > 0.0)) return result;
   result.residual = -frame.tangent.transpose() * line / result.depth_m;
   result.J =
       (frame.tangent.transpose() + result.residual * frame.direction.transpose()) / result.depth_m;
-  if (about_) result.residual -= result.J * place_of(state - about);
+  result.residual -= result.J * (p_ecef - about_ecef);
   result.see_target(model.covariance);
   if (result.ahead_s != 0.0) {
     const Transition between =
@@ -241,7 +248,7 @@ double TrackFilter::nis(const Sighting& sighting, const StationErrors& errors) c
     if (!(seen.depth_m > 0.0)) continue;
     Eigen::Matrix2d S = seen.covariance + more;
     if (!part) {
-      const Eigen::Vector2d clock = seen.J * models_[m].mean.segment<3>(3) * sighting.clock_sd_s;
+      const Eigen::Vector2d clock = seen.J * seen.velocity * sighting.clock_sd_s;
       S += clock * clock.transpose();
     }
     least = std::min(least, seen.residual.dot(S.llt().solve(seen.residual)));
@@ -414,20 +421,17 @@ bool TrackFilter::passes_gate(FilterStation& entry, double nis) {
   return false;
 }
 
+std::ptrdiff_t TrackFilter::agreed_since(const FilterStation& station) const {
+  return std::ranges::count_if(
+      stations_, [&](const FilterStation& other) { return other.utime_us > station.utime_us; });
+}
+
 // One station alone is always agreed with: the target goes along its ray, and where it has turned
 // hard along that, only the other of two stations sees it.
 void TrackFilter::give_room_unseen_by_other(const FilterStation& entry) {
-  constexpr double kLatelyS = 0.3;
-  if (entry.used == 0) return;
-  const FilterStation* only = nullptr;
-  for (const FilterStation& other : stations_) {
-    const bool agreed_since = other.utime_us > entry.utime_us;
-    if (!agreed_since || seconds(utime_us_ - other.utime_us) > kLatelyS) continue;
-    if (only != nullptr) return;
-    only = &other;
-  }
-  if (only == nullptr) return;
-  const Eigen::Vector3d line = (position() - only->sight.origin_ecef).normalized();
+  if (entry.used == 0 || agreed_since(entry) != 1) return;
+  const auto other = std::ranges::max_element(stations_, {}, &FilterStation::utime_us);
+  const Eigen::Vector3d line = (position() - other->sight.origin_ecef).normalized();
   const double since_s = seconds(utime_us_ - entry.utime_us);
   give_room(std::min(since_s, config_.motion.acceleration_time_s), line * line.transpose());
 }

@@ -129,9 +129,9 @@ class TrackFilter {
   BearingUse update(const Sighting& sighting, StationErrors& errors);
   // Moves the state on without a bearing.
   void advance(std::int64_t utime_us, StationErrors& errors);
-  // The bearings' equations are linear about this motion from the state's own instant, instead of
-  // about what is known so far: for another round over the same bearings, while that is vague.
-  void linearise_about(const Vector9& motion) { about_ = motion; }
+  // The bearings' equations are linear about this motion, instead of about what is known so far:
+  // for another round over the same bearings, while that is vague.
+  void linearise_about(const KinematicState& motion) { about_ = motion; }
   void linearise_about_itself() { about_.reset(); }
 
   std::int64_t utime_us() const { return utime_us_; }
@@ -144,6 +144,8 @@ class TrackFilter {
   Eigen::Vector3d velocity() const { return summary_.mean.segment<3>(3); }
   const std::vector<FilterStation>& stations() const { return stations_; }
   const std::vector<BiasPrior>& priors() const { return priors_; }  // of each
+  // How many others have had a bearing used since this one's last.
+  std::ptrdiff_t agreed_since(const FilterStation& station) const;
   StationBias bias(std::size_t station) const;
   const std::vector<double>& probabilities() const { return probabilities_; }  // of each model
   // The whole mixed state, for the smoother: kinematics, then the stations' states.
@@ -197,7 +199,7 @@ class TrackFilter {
   std::vector<FilterStation> stations_;
   std::vector<BiasPrior> priors_;
   KinematicState summary_;  // mixed over the models
-  std::optional<Vector9> about_;
+  std::optional<KinematicState> about_;
   int upset_ = 0;              // set-aside bearings since the last used one
   std::string upset_station_;  // of the first of them
   bool two_upset_ = false;     // another station's is among them

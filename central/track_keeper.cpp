@@ -231,7 +231,9 @@ void TrackKeeper::age(Track& track, std::int64_t now_us) {
     return;
   }
   if (unseen_s > config_.coast_s) {
-    const bool parted = do_not_agree(track.filter) && !config_.one_target;
+    // The room that was given them has not helped, either.
+    const bool parted =
+        !config_.one_target && set_aside_in_a_row(track.filter, now_us) >= 2 * kPartedBearings;
     track.state = parted ? TrackState::kDropped : TrackState::kCoasted;
   }
   if (unseen_s <= config_.drop_s) return;

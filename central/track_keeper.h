@@ -12,8 +12,8 @@
 //  double.
 //  - confirmed -> coasted: no two stations have seen it for coast_s. coasted -> confirmed: two
 //  have.
-//  - coasted -> dropped: no two stations for drop_s; or at once, when two deliver that no longer
-//    meet.
+//  - coasted -> dropped: no two stations for drop_s; or for coast_s, when one is set aside all the
+//    time and no two others agree.
 //  - any -> dropped: two stations alone, whose rays meet only by more than they state.
 //  - two confirmed ones -> one: they have been one object for a second (track_rivals.h).
 //  - A track that is confirmed where one that was dropped must be by now has its identity; or else

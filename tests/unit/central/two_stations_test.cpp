@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "central/offline_fusion.h"
@@ -130,26 +131,33 @@ TEST(TwoStations, WhoseHeadingsAreAsStatedKeepTheirTarget) {
   }
 }
 
-// What is told as a position: how many, and when one was last off by more than five sigmas.
+// What is told as a position, and when one was last off by more than five sigmas.
 struct Told {
-  int fixes = 0;
-  double first_s = 0.0, last_wrong_s = 0.0;
+  int fixes = 0, rays_miss = 0;
+  std::size_t targets = 0;  // identities
+  double first_s = 0.0, last_s = 0.0, last_wrong_s = 0.0;
 };
 
 Told told_of(const std::vector<Sighting>& seen, const Path& path) {
   constexpr double kSigmas = 5.0;
   Fusion fusion(FusionConfig{});
   Told told;
+  std::set<std::int64_t> targets;
   for (const Sighting& sighting : seen) {
     for (const FusedTarget& target : fusion.add(sighting).targets) {
+      told.rays_miss += target.estimate.solution == Solution::kRaysMiss ? 1 : 0;
       if (target.estimate.solution != Solution::kOk) continue;
+      EXPECT_NE(target.target_id, 0);
+      targets.insert(target.target_id);
       const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
       if (told.fixes++ == 0) told.first_s = time_s;
+      told.last_s = time_s;
       const Vector3d e = target.estimate.position_ecef - site().to_ecef(at(path, time_s).p_enu);
       const double squared = e.dot(target.estimate.covariance_ecef.ldlt().solve(e));
       if (squared > kSigmas * kSigmas) told.last_wrong_s = time_s;
     }
   }
+  told.targets = targets.size();
   return told;
 }
 
@@ -227,7 +235,36 @@ TEST(TwoStations, FollowAHardTurnThatOnlyOneOfThemSees) {
   for (Sighting& sighting : seen) sighting.track_id = 1;
   const Told told = told_of(seen, path);
   EXPECT_GT(told.fixes, 85);
+  EXPECT_GT(told.rays_miss, 0);
   EXPECT_LT(told.last_wrong_s, kTurnS + 0.5);
+}
+
+// A third one that is seldom heard has said which of them is wrong: the target is theirs for good.
+TEST(TwoStations, OfWhichOneIsWrongAreToldApartByASlowThird) {
+  constexpr double kWrongS = 3.0;
+  constexpr std::int64_t kEachUs = 900'000;
+  const WorldConfig world{.stations_enu = {{-210, -210, 0}, {210, -210, 0}, {0, 300, 0}},
+                          .aims_enu = {}};
+  std::mt19937_64 random(1);
+  const Path path = cruising({{-30, 20, 80}, {6, 2, 0}}, 0.1, kDurationS, random);
+  auto seen = measure(world, {path}, kDurationS, random);
+  const auto wrong_us = kStartUs + static_cast<std::int64_t>(1e6 * kWrongS);
+  std::int64_t next_us = 0;
+  std::erase_if(seen, [&](const Sighting& sighting) {
+    if (sighting.station != "s2" || sighting.utime_us < wrong_us) return false;
+    if (sighting.utime_us < next_us) return true;
+    next_us = sighting.utime_us + kEachUs;
+    return false;
+  });
+  for (Sighting& sighting : seen) {
+    sighting.track_id = 1;
+    if (sighting.station != "s0" || sighting.utime_us < wrong_us) continue;
+    sighting.sight.direction.elevation_rad += 0.05;
+  }
+  const Told told = told_of(seen, path);
+  EXPECT_GT(told.last_s, kDurationS - 0.5);
+  EXPECT_EQ(told.targets, 1U);
+  EXPECT_EQ(told.last_wrong_s, 0.0);
 }
 
 // Side by side, and two milliradians apart: what they are off by, untold, looks like a target that
