@@ -345,9 +345,9 @@ BearingUse TrackFilter::take(const Sighting& sighting, StationErrors& errors) {
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   if (!passes_gate(entry, judged->nis)) return BearingUse::kSetAside;
   note_use(entry, sighting, judged->nis);
-  const bool finds_bias = shows_bias(part, frame, seen[0].depth_m, white);
+  const bool may_learn = is_linear(part, frame, seen[0].depth_m, white);
   const double inflation = observe_noise(entry, sighting, frame, errors);
-  correct(seen, part, white * (inflation / entry.weight), finds_bias);
+  correct(seen, part, white * (inflation / entry.weight), may_learn ? &frame.direction : nullptr);
   return BearingUse::kUsed;
 }
 
@@ -362,12 +362,13 @@ void TrackFilter::note_use(FilterStation& entry, const Sighting& sighting, doubl
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);
 }
 
-// Bias times relative error of the range is what linearisation leaves out. While that is not small
-// against the noise, the filter would find in it what the geometry hides, and be sure of it: two
-// stations side by side "learn" the difference of their headings, and a wrong range with it. Biases
-// are then considered but not learnt (the Schmidt-Kalman filter, 1966).
-bool TrackFilter::shows_bias(const StationPart& part, const RayFrame& frame, double depth_m,
-                             const Eigen::Matrix2d& white) const {
+// A base that is short for the range hides the difference of its headings, and a linear filter would
+// find one in it and be sure: two stations side by side "learn" it, and a wrong range with it. There
+// are two ways to that. Biases are then considered but not learnt (the Schmidt-Kalman filter, 1966).
+// One is that bias times relative error of the range, which linearisation leaves out, is not small
+// against the noise.
+bool TrackFilter::is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
+                            const Eigen::Matrix2d& white) const {
   constexpr double kSmall = 0.1;
   const Eigen::Matrix3d P = summary_.covariance.topLeftCorner<3, 3>();
   const double depth_variance = frame.direction.dot(P * frame.direction);
@@ -384,9 +385,37 @@ bool TrackFilter::shows_bias(const StationPart& part, const RayFrame& frame, dou
   return second_order < kSmall * kSmall * white.trace() / 2.0;
 }
 
+// The other is a drift. A bearing's equation is linear about the predicted direction, whose error is
+// also in the residual. What a state gains from it is therefore off to one side, in every bearing
+// anew, by what goes with the depth, over the depth. Where a bearing tells less than that of a
+// state, its mean goes away by sigmas while its variance stays (the same in mapping by a moving
+// camera: Huang, Mourikis and Roumeliotis, 2010). Of each state of the station's own pose and place:
+// the drift in sigmas, and what the bearing tells, over its variance. The depth is that from the
+// place, which moves the target along with it.
+bool TrackFilter::shows_bias(const FilterMatrix2& G, const FilterMatrix& P, const StationPart& part,
+                             const Eigen::Vector3d& along, double off_share) {
+  constexpr double kSmall = 3.0;
+  const Eigen::Index n = part.has_place ? kStationStates : 3;
+  for (Eigen::Index at = part.first; at < part.first + n; ++at) {
+    if (!(P(at, at) > 0.0)) continue;
+    double with_depth = P.block<1, 3>(at, 0).dot(along);
+    if (part.has_place) {
+      const Eigen::Index place = part.first + kPoseStates;
+      const Eigen::RowVector3d own =
+          at < place ? P.block<3, 1>(place, at).transpose().eval()
+                     : whole_block<3>(P, place).row(at - place).eval();
+      with_depth -= own.dot(part.R_ecef_enu.transpose() * along);
+    }
+    const double spurious = std::abs(with_depth) / std::sqrt(P(at, at)) * off_share;
+    if (spurious > kSmall * G.row(at).squaredNorm() / P(at, at)) return false;
+  }
+  return true;
+}
+
 // Where biases are not found the stations' states stay as they are and are only considered.
 void TrackFilter::correct(const Innovations& seen, const StationPart& part,
-                          const Eigen::Matrix2d& noise, bool finds_bias) {
+                          const Eigen::Matrix2d& noise, const Eigen::Vector3d* along) {
+  bool finds_bias = along != nullptr;
   std::array<double, kMotions> log_likelihood{};
   for (std::size_t m = 0; m < models_.size(); ++m) {
     FilterGaussian& model = models_[m];
@@ -396,6 +425,10 @@ void TrackFilter::correct(const Innovations& seen, const StationPart& part,
     // The gain is G L^-1 with G = P H^T L^-T.
     const Eigen::Matrix2d inverse_t = S.matrixU().solve(Eigen::Matrix2d::Identity());
     const FilterMatrix2 G = seen[m].cross(model.covariance, part).lazyProduct(inverse_t);
+    if (m == 0 && finds_bias) {
+      const double off_share = (1.0 - S.solve(noise).trace() / 2.0) / seen[m].depth_m;
+      finds_bias = shows_bias(G, model.covariance, part, *along, off_share);
+    }
     const Eigen::Index found = finds_bias ? G.rows() : 9;
     model.mean.head(found) += G.topRows(found) * whitened;
     subtract_square(G, found, model.covariance);

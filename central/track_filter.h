@@ -168,10 +168,13 @@ class TrackFilter {
   void show_anew(int station, std::int64_t track_id);
   void tell_place_apart(int station);
   int station_of(const Sighting& sighting, const StationErrors& errors);
-  bool shows_bias(const StationPart& part, const RayFrame& frame, double depth_m,
-                  const Eigen::Matrix2d& white) const;
+  bool is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
+                 const Eigen::Matrix2d& white) const;
+  static bool shows_bias(const FilterMatrix2& G, const FilterMatrix& P, const StationPart& part,
+                         const Eigen::Vector3d& along, double off_share);
+  // `along`: the bearing's direction where biases may be learnt of it.
   void correct(const Innovations& seen, const StationPart& part, const Eigen::Matrix2d& noise,
-               bool finds_bias);
+               const Eigen::Vector3d* along);
   struct Judged {
     double nis = std::numeric_limits<double>::infinity(), noise = 1.0;
   };

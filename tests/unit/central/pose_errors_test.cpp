@@ -122,6 +122,31 @@ TEST(PoseErrors, APlaceBeginsToMatterAsATargetComesNearer) {
   EXPECT_LT(nees / fixes, 2.0);
 }
 
+// A base of 30 m hides the difference of its headings: minutes of bearings must not find one. The
+// paper's walk.
+TEST(PoseErrors, WhatAShortBaseHidesIsNotFound) {
+  constexpr double kWalkS = 120.0;
+  for (const double noise_rad : {7e-6, 22e-6, 75e-6}) {
+    WorldConfig world{.stations_enu = circle(2, 15.0), .aims_enu = {}, .rate_hz = 15.0};
+    world.noise_rad = noise_rad;
+    world.bias_sd_rad = 75e-6;
+    world.heading_sd_rad = 5e-4;
+    world.place_sd_m = 0.01;
+    double squared = 0.0;
+    constexpr int kRuns = 8;
+    for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+      std::mt19937_64 random(seed);
+      const Path path = cruising({{0, 50, 1}, {0.1, 0.9, 0}}, 0.02, kWalkS, random);
+      const Estimate last =
+          fuse_offline(measure(world, {path}, kWalkS, random), {}).back().estimate;
+      const Vector3d e = last.position_ecef - site().to_ecef(at(path, kWalkS).p_enu);
+      squared += e.dot(last.covariance_ecef.ldlt().solve(e)) / 3.0;
+    }
+    EXPECT_LT(squared / kRuns, 2.1) << noise_rad;  // 24 degrees of freedom: 1 in 1000 is above
+    EXPECT_GT(squared / kRuns, 0.2) << noise_rad;
+  }
+}
+
 // Rounding must not eat the covariance in a long flight: eight stations for minutes.
 TEST(PoseErrors, ALongFlightKeepsItsTrack) {
   constexpr double kFlightS = 300.0;
