@@ -54,6 +54,11 @@ void Fusion::know_station(const std::string& station, const StationTraits& trait
   if (!known.delivered) known.heard = ++messages_;
 }
 
+void Fusion::allow_slews(const std::string& station, bool allowed) {
+  const auto known = stations_.find(station);
+  if (known != stations_.end()) known->second.traits.commandable = allowed;
+}
+
 FusionOutput Fusion::add(const Sighting& sighting) {
   FusionOutput output;
   output.refusal = admit(sighting);

@@ -105,6 +105,8 @@ class Fusion {
 
   // What a station's status tells: so that it can be slewed before its first bearing.
   void know_station(const std::string& station, const StationTraits& traits);
+  // ... and whether it may be slewed: also of a station that has lost its place.
+  void allow_slews(const std::string& station, bool allowed);
   // One bearing, in order of arrival.
   FusionOutput add(const Sighting& sighting);
 

@@ -65,7 +65,7 @@ void Fusion::give_up_what_is_old(std::int64_t now_us) {
     return seconds(now_us - begun_us) > config_.keeper.drop_s;
   };
   if (!epoch_.is_over() && is_old(*epoch_.utime_us)) epoch_ = {.utime_us = epoch_.utime_us};
-  if (slew_next_ && is_old(slew_round_.now_us)) slew_next_.reset();
+  if (slew_next_ && is_old(*slewed_us_)) slew_next_.reset();
 }
 
 void Fusion::locate(std::int64_t now_us, FusionOutput& output) {
@@ -210,10 +210,11 @@ void Fusion::begin_slews(std::int64_t now_us) {
 void Fusion::plan(std::int64_t now_us, FusionOutput& output) {
   if (!slew_next_ && due(slewed_us_, now_us, config_.slew.rate_hz)) begin_slews(now_us);
   if (!slew_next_) return;
+  slew_round_.now_us = now_us;  // a round may take a while; each slew is for when it is made
   std::vector<SlewStation> some;
   auto station = stations_.lower_bound(*slew_next_);
   for (; station != stations_.end() && some.size() < kSlewsABearing; ++station) {
-    const bool follows = sees(station->second, slew_round_.now_us);
+    const bool follows = sees(station->second, now_us);
     some.push_back({station->first, station->second.traits, follows ? station->second.follows : 0});
   }
   slew_next_.reset();

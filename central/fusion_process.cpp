@@ -124,7 +124,9 @@ void FusionProcess::on_status(const std::string& channel, const void* data, int 
     return refuse(*refusal, channel);
   }
   const auto& place = std::get<StationPlace>(decoded);
-  fusion_.know_station(place.station, place.traits);
+  if (!place.no_place) return fusion_.know_station(place.station, place.traits);
+  fusion_.allow_slews(place.station, place.traits.commandable);
+  refuse(*place.no_place, channel);
 }
 
 void FusionProcess::refuse(MessageRefusal refusal, const std::string& channel) {

@@ -97,10 +97,11 @@ void read_clocks(ConfigTable& table, ClockMonitorConfig& config) {
 
 void read_slew(ConfigTable& table, SlewConfig& config) {
   config.rate_hz = table.number("rate_hz", config.rate_hz, 0.1, 100.0);
-  config.act_s = table.number("act_s", config.act_s, 0.0, 5.0);
+  config.act_s = table.number("act_s", config.act_s, 0.0, kSlewLead_s);
   config.lease_s = table.number("lease_s", config.lease_s, 0.05, 5.0);
   config.coast_s = table.number("coast_s", config.coast_s, 0.0, 60.0);
-  config.rate_limit_rad_s = table.number("rate_limit_rad_s", config.rate_limit_rad_s, 0.01, 10.0);
+  config.rate_limit_rad_s =
+      table.number("rate_limit_rad_s", config.rate_limit_rad_s, 0.01, kSlewRateLimit_rad_s);
 }
 
 }  // namespace

@@ -146,18 +146,19 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
   ols_msg::station_status_t message;
   const auto refusal = decode_from_station(kStatusChannel, channel, data, bytes, message);
   if (refusal) return *refusal;
-  if (message.position_source == ols_msg::station_status_t::POSE_NONE) {
-    return MessageRefusal::kNoPosition;
-  }
   StationPlace place{message.station, {}};
+  place.traits.commandable = commandable(message.state);
+  if (message.position_source == ols_msg::station_status_t::POSE_NONE) {
+    place.no_place = MessageRefusal::kNoPosition;
+    return place;
+  }
   place.traits.camera_ecef = Eigen::Vector3d(message.camera_ecef_m);
   place.traits.camera_sd_enu_m = Eigen::Vector3d(message.position_sd_m);
   const StationTraits& traits = place.traits;
   if (!traits.camera_sd_enu_m.allFinite() ||
       !is_a_stations_place(traits.camera_ecef, traits.camera_sd_enu_m)) {
-    return MessageRefusal::kOutOfRange;
+    place.no_place = MessageRefusal::kOutOfRange;
   }
-  place.traits.commandable = commandable(message.state);
   const double view_rad = std::min(message.field_of_view_rad[0], message.field_of_view_rad[1]);
   if (view_rad > 1e-4 && view_rad < kPi) place.traits.field_of_view_rad = view_rad;
   constexpr double kLatestS = 2.0;

@@ -36,6 +36,7 @@ std::variant<Sighting, MessageRefusal> sighting_from(const std::string& channel,
 struct StationPlace {
   std::string station;
   StationTraits traits;
+  std::optional<MessageRefusal> no_place{};  // why the traits have none
 };
 std::variant<StationPlace, MessageRefusal> station_place_from(const std::string& channel,
                                                               const void* data, int bytes);

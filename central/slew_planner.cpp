@@ -11,6 +11,9 @@
 namespace ols {
 namespace {
 
+// A tenth is left for the difference of two clocks.
+constexpr double kLongestLead_s = 0.9 * kSlewLead_s;
+
 void turn(Slew& slew, const Eigen::Vector2d& offset_rad) {
   AzimuthElevation& d = slew.direction;
   const double elevation = std::clamp(d.elevation_rad + offset_rad.y(), -kPi / 2.0, kPi / 2.0);
@@ -46,7 +49,7 @@ Slew slew_to(const KinematicState& target, const StationTraits& station, const S
   const Eigen::Matrix3d own = R * station.camera_sd_enu_m.cwiseAbs2().asDiagonal() * R.transpose();
   const Eigen::Matrix2d spread =
       tangent.transpose() * (target.covariance.topLeftCorner<3, 3>() + own) * tangent;
-  slew.direction_sd_rad = std::sqrt(spread.trace() / 2.0) / range_m;
+  slew.direction_sd_rad = std::min(kPi, std::sqrt(spread.trace() / 2.0) / range_m);
   return slew;
 }
 
@@ -82,9 +85,13 @@ const Track* SlewPlanner::target_for(const SlewStation& station,
   return fewest;
 }
 
+std::int64_t SlewPlanner::effect_of(const StationTraits& station, std::int64_t now_us) const {
+  const double lead_s = std::min(kLongestLead_s, station.latency_s + config_.act_s);
+  return now_us + std::llround(lead_s * 1e6);
+}
+
 Slew SlewPlanner::towards(const Track& track, const SlewStation& station, std::int64_t now_us) {
-  const double lead_s = station.traits.latency_s + config_.act_s;
-  const std::int64_t effect_us = now_us + std::llround(lead_s * 1e6);
+  const std::int64_t effect_us = effect_of(station.traits, now_us);
   Slew slew = slew_to(track.filter.at(effect_us), station.traits, config_);
   slew.effect_utime_us = effect_us;
   slew.target_id = track.id;
@@ -93,8 +100,8 @@ Slew SlewPlanner::towards(const Track& track, const SlewStation& station, std::i
   const double step_rad = config_.view_share * station.traits.field_of_view_rad;
   const double reach_rad = config_.search_sigma * slew.direction_sd_rad;
   if (reach_rad <= step_rad) return slew;
-  const int points = 1 + static_cast<int>(kPi * std::pow(reach_rad / step_rad, 2));
-  const int k = static_cast<int>(searched / config_.dwell_s) % std::min(points, 10000);
+  const double points = std::min(1e4, 1.0 + kPi * std::pow(reach_rad / step_rad, 2));
+  const int k = static_cast<int>(std::fmod(searched / config_.dwell_s, std::floor(points)));
   turn(slew, step_rad * spiral_point(k));
   return slew;
 }
@@ -121,7 +128,7 @@ Slew SlewPlanner::along(const CueRay& ray, const SlewStation& station, std::int6
   if (v.allFinite()) line += std::sin(angle) * v;
   Slew slew;
   slew.lease_s = config_.lease_s;
-  slew.effect_utime_us = now_us + std::llround((station.traits.latency_s + config_.act_s) * 1e6);
+  slew.effect_utime_us = effect_of(station.traits, now_us);
   slew.direction = azimuth_elevation_from_enu(R_ecef_enu(camera).transpose() * line);
   slew.direction_sd_rad = sweep_rad / 4.0;
   return slew;

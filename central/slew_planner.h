@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "base/slew_limits.h"
 #include "central/track.h"
 #include "geometry/direction.h"
 
@@ -30,7 +31,7 @@ struct SlewConfig {
   double act_s = 0.1;             // from the command to its effect: way, servo cycle
   double lease_s = 0.5;           // without a newer command the station halts
   double coast_s = 2.0;           // a target is predicted for so long after its last bearings
-  double rate_limit_rad_s = 2.0;  // of the direction that is asked for
+  double rate_limit_rad_s = kSlewRateLimit_rad_s;  // of the direction that is asked for
   double view_share = 0.5;        // of the view, one step of a search
   double dwell_s = 0.4;           // at each step
   double search_sigma = 2.5;      // the spiral's reach
@@ -107,6 +108,7 @@ class SlewPlanner {
   };
   const Track* target_for(const SlewStation& station, const std::vector<const Track*>& targets,
                           std::map<std::int64_t, int>& seen_by);
+  std::int64_t effect_of(const StationTraits& station, std::int64_t now_us) const;
   Slew towards(const Track& track, const SlewStation& station, std::int64_t now_us);
   Slew along(const CueRay& ray, const SlewStation& station, std::int64_t now_us);
   double searched_s(const std::string& station, std::int64_t target_id, const std::string& ray,

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/slew_limits.h"
 #include "edge/station.h"
 #include "geometry/angles.h"
 
@@ -31,14 +32,12 @@ bool finite(const DesignateCommand& command) {
 }
 
 bool in_range(const SlewCommand& command, double now_s, double lease_max_s) {
-  constexpr double kSane_s = 1.0;  // the fusion's lead and the difference of two clocks
-  constexpr double kMaxRate_rad_s = 1.5;
   return command.lease_s > 0.0 && command.lease_s <= lease_max_s &&
-         std::abs(command.effect_s - now_s) <= kSane_s &&
+         std::abs(command.effect_s - now_s) <= kSlewLead_s &&
          std::abs(command.direction.azimuth_rad) <= 2.0 * kPi &&
          std::abs(command.direction.elevation_rad) <= kPi / 2.0 &&
-         std::abs(command.azimuth_rate_rad_s) <= kMaxRate_rad_s &&
-         std::abs(command.elevation_rate_rad_s) <= kMaxRate_rad_s &&
+         std::abs(command.azimuth_rate_rad_s) <= kSlewRateLimit_rad_s &&
+         std::abs(command.elevation_rate_rad_s) <= kSlewRateLimit_rad_s &&
          command.direction_sd_rad >= 0.0 && command.direction_sd_rad <= kPi;
 }
 

@@ -4,6 +4,7 @@
 
 #include "central/fusion.h"
 #include "central/messages.h"
+#include "geometry/angles.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace {
@@ -15,13 +16,29 @@ void check_target(const ols::FusedTarget& target) {
       "a solution is finite");
 }
 
+// What a station would refuse is not asked for.
+void check_slew(const ols::Slew& slew) {
+  const double rate_limit = ols::SlewConfig{}.rate_limit_rad_s;
+  const auto within = [](double value, double limit) { return std::abs(value) <= limit; };
+  ols::fuzz::require(within(slew.direction.azimuth_rad, 2.0 * ols::kPi) &&
+                         within(slew.direction.elevation_rad, ols::kPi / 2.0) &&
+                         within(slew.azimuth_rate_rad_s, rate_limit) &&
+                         within(slew.elevation_rate_rad_s, rate_limit) &&
+                         within(slew.direction_sd_rad, ols::kPi),
+                     "a slew is finite and within its limits");
+  ols::fuzz::require(slew.effect_utime_us >= slew.utime_us &&
+                         slew.effect_utime_us - slew.utime_us < 1'000'000,
+                     "a slew takes effect within a second");
+}
+
 void receive(ols::Fusion& fusion, bool is_status, const std::string& station,
              std::string_view bytes) {
   const int size = static_cast<int>(bytes.size());
   if (is_status) {
     const auto place = ols::station_place_from("OLS_STATUS_" + station, bytes.data(), size);
     if (const auto* known = std::get_if<ols::StationPlace>(&place)) {
-      fusion.know_station(known->station, known->traits);
+      fusion.allow_slews(known->station, known->traits.commandable);
+      if (!known->no_place) fusion.know_station(known->station, known->traits);
     }
     return;
   }
@@ -30,7 +47,7 @@ void receive(ols::Fusion& fusion, bool is_status, const std::string& station,
     const ols::FusionOutput output = fusion.add(*seen);
     for (const auto& target : output.targets) check_target(target);
     for (const auto& target : output.targets_paper) check_target(target);
-    for (const auto& slew : output.slews) static_cast<void>(ols::to_message(slew, {}));
+    for (const auto& slew : output.slews) check_slew(slew);
   }
 }
 

@@ -261,6 +261,42 @@ TEST(FusionEpoch, NothingOldIsToldAfterASilence) {
 }
 
 // Each target once an epoch, few with one bearing, and every station is slewed in each round.
+// A round of slews for many stations goes on with the bearings of a few: each is for when it is made.
+TEST(FusionEpoch, SlewsOfManyStationsAreEachForTheirOwnInstant) {
+  Fusion fusion{FusionConfig{}};
+  for (int i = 0; i < 200; ++i) {
+    fusion.know_station("watcher" + std::to_string(i),
+                        {.camera_ecef = test::site().to_ecef({5.0 * i, 50.0, 0.0})});
+  }
+  int slews = 0;
+  std::set<std::string> stations;
+  for (const Sighting& sighting : flight(4.0, 1e-4, 1e-4)) {
+    const FusionOutput output = fusion.add(sighting);
+    for (const Slew& slew : output.slews) {
+      EXPECT_EQ(slew.utime_us, fusion.now_us());
+      EXPECT_EQ(slew.effect_utime_us, fusion.now_us() + 150'000);
+      stations.insert(slew.station);
+      ++slews;
+    }
+  }
+  EXPECT_EQ(stations.size(), 204U);
+  EXPECT_GT(slews, 1000);
+}
+
+TEST(FusionEpoch, WhomAnOperatorTakesIsSlewedNoMore) {
+  Fusion fusion{FusionConfig{}};
+  std::map<bool, int> slews;  // of station b, by whether it is taken
+  for (const Sighting& sighting : flight(4.0, 1e-4, 1e-4)) {
+    const bool is_taken = sighting.utime_us > us(2.0);
+    fusion.allow_slews("b", !is_taken);
+    fusion.allow_slews("nobody", true);
+    for (const Slew& slew : fusion.add(sighting).slews) slews[is_taken] += slew.station == "b";
+  }
+  EXPECT_GT(slews[false], 5);
+  EXPECT_EQ(slews[true], 0);
+  EXPECT_EQ(fusion.health().stations.size(), 4U);
+}
+
 TEST(FusionEpoch, ManyTargetsAreToldInTurn) {
   Fusion fusion{FusionConfig{}};
   std::map<std::int64_t, std::vector<std::int64_t>> epochs;

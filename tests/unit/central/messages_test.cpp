@@ -78,6 +78,12 @@ auto decode_status(const Bytes& bytes, const std::string& channel = "OLS_STATUS_
   return station_place_from(channel, bytes.data(), static_cast<int>(bytes.size()));
 }
 
+std::optional<MessageRefusal> no_place(const Bytes& bytes) {
+  const auto result = decode_status(bytes);
+  const auto* place = std::get_if<StationPlace>(&result);
+  return place == nullptr ? std::nullopt : place->no_place;
+}
+
 TEST(Messages, BearingBecomesASighting) {
   const auto result = decode_bearing(encoded(bearing()));
   ASSERT_TRUE(std::holds_alternative<Sighting>(result));
@@ -109,6 +115,7 @@ TEST(Messages, StatusTellsWhereAStationStands) {
   EXPECT_EQ(place.traits.camera_ecef, there);
   EXPECT_EQ(place.traits.camera_sd_enu_m, Eigen::Vector3d(0.5, 1.5, 2.5));
   EXPECT_TRUE(place.traits.commandable);
+  EXPECT_FALSE(place.no_place);
 }
 
 TEST(Messages, NoStationIsWhereNoneCanBe) {
@@ -116,12 +123,12 @@ TEST(Messages, NoStationIsWhereNoneCanBe) {
   for (const double wrong : {nan, 1e9, -1e300}) {
     auto message = status();
     message.camera_ecef_m[1] = wrong;
-    EXPECT_TRUE(refused(decode_status(encoded(message)), MessageRefusal::kOutOfRange)) << wrong;
+    EXPECT_EQ(no_place(encoded(message)), MessageRefusal::kOutOfRange) << wrong;
   }
   for (const double wrong : {nan, -1.0, 1e9}) {
     auto message = status();
     message.position_sd_m[2] = wrong;
-    EXPECT_TRUE(refused(decode_status(encoded(message)), MessageRefusal::kOutOfRange)) << wrong;
+    EXPECT_EQ(no_place(encoded(message)), MessageRefusal::kOutOfRange) << wrong;
   }
 }
 
@@ -230,9 +237,20 @@ TEST(Messages, OtherSchemaStationOrPlaceIsRefused) {
       refused(decode_bearing(encoded(other), "OLS_BEARING_"), MessageRefusal::kOtherStation));
   auto nowhere = status();
   nowhere.camera_ecef_m[0] = std::nan("");
-  EXPECT_TRUE(refused(decode_status(encoded(nowhere)), MessageRefusal::kOutOfRange));
+  EXPECT_EQ(no_place(encoded(nowhere)), MessageRefusal::kOutOfRange);
   nowhere.position_source = ols_msg::station_status_t::POSE_NONE;
-  EXPECT_TRUE(refused(decode_status(encoded(nowhere)), MessageRefusal::kNoPosition));
+  EXPECT_EQ(no_place(encoded(nowhere)), MessageRefusal::kNoPosition);
+}
+
+// An operator's hand on a station counts, whether it knows its place or not.
+TEST(Messages, AStatusWithoutAPlaceTellsWhoHasTheStation) {
+  auto nowhere = status();
+  nowhere.position_source = ols_msg::station_status_t::POSE_NONE;
+  nowhere.state = ols_msg::station_status_t::STATE_MANUAL;
+  const auto result = decode_status(encoded(nowhere));
+  ASSERT_TRUE(std::holds_alternative<StationPlace>(result));
+  EXPECT_EQ(std::get<StationPlace>(result).station, "north");
+  EXPECT_FALSE(std::get<StationPlace>(result).traits.commandable);
 }
 
 TEST(Messages, TargetCarriesGeodeticPositionAndEnuCovariance) {

@@ -84,6 +84,53 @@ TEST(SlewPlanner, WhoSeesNothingHelpsWhereTheFewestLook) {
   EXPECT_EQ(slews[3].target_id, 2);
 }
 
+// What a station would refuse is not asked for: over the zenith the azimuth turns without a limit.
+TEST(SlewPlanner, NoTargetIsTooNearOrTooUnsureForAStationsLimits) {
+  StationTraits station = station_at("a", {0, 0, 0}).traits;
+  double fastest = 0.0;
+  for (int i = -100; i <= 100; ++i) {
+    for (const double sd_m : {0.1, 1e6}) {
+      KinematicState target;
+      target.mean.head<3>() = site().to_ecef({0.15 * i, 3.0, 60.0});
+      target.mean.segment<3>(3) = site().R_ecef_enu() * Vector3d(40.0, 0.0, 0.0);
+      target.covariance.diagonal().head<3>().setConstant(sd_m * sd_m);
+      const Slew slew = slew_to(target, station, {});
+      EXPECT_LE(std::abs(slew.azimuth_rate_rad_s), kSlewRateLimit_rad_s);
+      EXPECT_LE(std::abs(slew.elevation_rate_rad_s), kSlewRateLimit_rad_s);
+      EXPECT_LE(slew.direction_sd_rad, kPi);
+      fastest = std::max(fastest, std::abs(slew.azimuth_rate_rad_s));
+    }
+  }
+  EXPECT_EQ(fastest, kSlewRateLimit_rad_s);
+}
+
+TEST(SlewPlanner, ASlowStationIsLedByNoMoreThanItAccepts) {
+  const std::vector<Track> tracks = {track_of_flight(1, 3.0)};
+  const std::int64_t now_us = tracks[0].filter.utime_us();
+  SlewPlanner planner;
+  SlewStation slow = station_at("slow", {0, 0, 10}, 1);
+  slow.traits.latency_s = 1.9;
+  const auto slews = plan(planner, now_us, {slow}, tracks);
+  ASSERT_EQ(slews.size(), 1U);
+  EXPECT_LT(slews[0].effect_utime_us - now_us, std::llround(1e6 * kSlewLead_s));
+  EXPECT_GT(slews[0].effect_utime_us - now_us, std::llround(0.8e6 * kSlewLead_s));
+}
+
+TEST(SlewPlanner, WhoDoesNotKnowWhereItStandsStillGetsADirection) {
+  const std::vector<Track> tracks = {track_of_flight(1, 3.0)};
+  SlewPlanner planner({.dwell_s = 1e-4});
+  SlewStation lost = station_at("lost", {0, 0, 10});
+  lost.traits.camera_sd_enu_m.setConstant(1e6);
+  lost.traits.field_of_view_rad = 2e-4;
+  for (int i = 0; i < 100; ++i) {
+    const std::int64_t now_us = tracks[0].filter.utime_us() + i * 1000;
+    const auto slews = plan(planner, now_us, {lost}, tracks);
+    ASSERT_EQ(slews.size(), 1U);
+    EXPECT_TRUE(std::isfinite(slews[0].direction.azimuth_rad)) << i;
+    EXPECT_LE(std::abs(slews[0].direction.elevation_rad), kPi / 2.0) << i;
+  }
+}
+
 // Nobody has a position: the others look along the ray that there is, from near to far and back.
 TEST(SlewPlanner, SearchesAlongARayWithinItsPlane) {
   SlewPlanner planner;
