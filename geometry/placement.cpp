@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Matrix3d;
 
-// Where nothing determines a point its error is as large as this in each direction.
-constexpr double kUnknown_m = 1e6;
+// A camera does not see what is nearer, least of all its own place.
+constexpr double kNearest_m = 1.0;
 
 // The greatest error alone gives the search nothing to descend where several points share it: the
 // power mean of this order stands for it.
@@ -29,7 +29,7 @@ class Search {
  public:
   explicit Search(const PlacementProblem& problem) : problem_(problem) {
     for (const PlannedTarget& target : problem.area) {
-      Matrix3d kept = Matrix3d::Identity() / (kUnknown_m * kUnknown_m);
+      Matrix3d kept = Matrix3d::Identity() / (kUndetermined_m * kUndetermined_m);
       for (const PlannedStation& station : problem.kept) kept += information(station, target);
       kept_.push_back(kept);
     }
@@ -75,6 +75,7 @@ class Search {
 
  private:
   Matrix3d information(const PlannedStation& station, const PlannedTarget& target) const {
+    if ((target.p_ecef - station.place.origin_ecef()).norm() < kNearest_m) return Matrix3d::Zero();
     return bearing_information(bearing_precision(station, target, problem_.exposures),
                                target.p_ecef);
   }

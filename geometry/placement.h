@@ -16,6 +16,9 @@
 
 namespace ols {
 
+// A point's error is as large as this in each direction where nothing determines it.
+inline constexpr double kUndetermined_m = 1e6;
+
 // To protect an area means to protect its worst point: where the stations may stand anywhere around
 // it, that gives the paper's regular polygon on its edge. The mean gives it too from four stations
 // on; three it rather puts on one side, which the far side of the area pays for.
@@ -35,6 +38,8 @@ struct Placement {
   std::vector<std::size_t> chosen;  // of the places, in growing order
   double mean_m = 0.0;              // root of the mean squared 3-D error over the area
   double worst_m = 0.0;             // the greatest root mean squared 3-D error in it
+
+  bool determines_all() const { return worst_m < 0.1 * kUndetermined_m; }
 };
 
 // std::invalid_argument when there are fewer places than stations, no area or no station.

@@ -139,6 +139,18 @@ def test_advice_is_the_regular_polygon_where_nothing_prevents_it(tmp_path):
     assert "worst" in result.stdout
 
 
+def test_advice_says_what_a_lone_station_leaves_open(stations, tmp_path):
+    area, output = tmp_path / "area.geojson", tmp_path / "out.csv"
+    ring = circle(300, 24).tolist()
+    area.write_text(json.dumps({"type": "Polygon", "coordinates": [ring + ring[:1]]}))
+    result = precision(
+        *("advise", "--places", stations, "--area", area, "--stations", 1, "--ground", 250),
+        *("--spacing", 60, "--output", output),
+    )
+    assert result.returncode == 0 and len(rows(output)) == 1
+    assert "undetermined" in result.stdout and "e+" not in result.stdout
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
@@ -174,6 +186,7 @@ def test_bad_geojson_is_named_and_nothing_is_written(stations, tmp_path, text, e
         ("pillar,90,1.6,0", ":2: alpha_rad"),
         ("pillar,90,0.3,2", ":2: side"),
         ("", ":2: row: there is none"),
+        ("pillar,1,1.4,1", ": object pillar: distance_m"),
     ],
 )
 def test_a_bad_landmark_is_named(tmp_path, row, expected):
@@ -190,6 +203,9 @@ def test_bad_arguments_are_one_clear_line(stations, tmp_path):
         ((), "subcommand"),
         (("table", "--input", "none.csv", "--output", output), "none.csv: cannot be read"),
         (("budget", "--stations", stations, "--at", "49,16", "--output", output), "--at"),
+        (("budget", "--stations", stations, "--at", "95,16,300", "--output", output), "latitude"),
+        (("budget", "--stations", stations, "--at", "49,999,300", "--output", output), "longitude"),
+        (("budget", "--stations", stations, "--at", "49,16,nan", "--output", output), "height"),
         (("map", "--stations", stations, "--cells", 1, "--output", output), "--cells"),
     ):
         result = precision(*arguments)

@@ -112,6 +112,10 @@ void write_advice(const AdviceOptions& o) {
                   << row.height_m << '\n';
   }
   file.commit();
+  if (!placement.determines_all()) {
+    std::cout << "a part of the area stays undetermined: no two of the stations see it cross\n";
+    return;
+  }
   std::cout << std::setprecision(4) << "3-D error over the area, root mean square: mean "
             << placement.mean_m << " m, worst " << placement.worst_m << " m\n";
 }

@@ -212,8 +212,16 @@ void write_part(std::ostream& out, const char* name, const Matrix3d& C) {
       << ',' << std::sqrt(C(0, 0) + C(1, 1)) << '\n';
 }
 
+void require_place(const std::vector<double>& at) {
+  const auto within = [](double value, double limit) { return std::abs(value) <= limit; };
+  if (!within(at[0], 90.0)) throw std::invalid_argument("--at: latitude is outside of +-90");
+  if (!within(at[1], 360.0)) throw std::invalid_argument("--at: longitude is outside of +-360");
+  if (!within(at[2], 1e6)) throw std::invalid_argument("--at: height is outside of +-1e6");
+}
+
 void write_budget(const BudgetOptions& o) {
   const auto stations = planned_stations(read_stations(o.stations), o.measurement);
+  require_place(o.at);
   const Geodetic place{radians(o.at[0]), radians(o.at[1]), o.at[2]};
   const auto precision =
       position_precision(stations, planned_target(place, o.measurement), o.measurement.exposures);

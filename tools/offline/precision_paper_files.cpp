@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iomanip>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "base/atomic_file.h"
@@ -113,6 +114,10 @@ void write_table(const PaperOptions& o) {
       << std::setprecision(6);
   const Vector3d first(-0.5 * o.base_m, 0, 0), second(0.5 * o.base_m, 0, 0);
   for (const LandmarkRow& row : read_landmarks(o.input)) {
+    if (row.distance_m <= 0.5 * o.base_m) {
+      throw std::invalid_argument(o.input + ": object " + row.object +
+                                  ": distance_m is not over half of the base");
+    }
     const auto estimate = [&](int side) {
       return pair_error_m(first, second,
                           table_target(o.base_m, row.distance_m, row.alpha_rad, side),

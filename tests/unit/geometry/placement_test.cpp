@@ -97,11 +97,32 @@ TEST(Placement, AStationThatStandsIsNotDoubled) {
   EXPECT_NEAR(static_cast<double>(placement.chosen[1]), 40.0, 1.0);
 }
 
+// A station tells nothing of its own place, and all of the others.
+TEST(Placement, APlaceMayBeWhatIsToBeProtected) {
+  std::mt19937_64 generator(3);
+  PlacementProblem problem = around_the_disc(3);
+  for (const double x : {-300.0, 0.0, 300.0}) {
+    problem.places.push_back(place_at({x, 0.0, 80.0}));  // points of the area
+  }
+  for (const PlacementGoal goal : {PlacementGoal::kMean, PlacementGoal::kWorst}) {
+    problem.goal = goal;
+    const Placement placement = place_stations(problem, generator);
+    EXPECT_EQ(placement.chosen.size(), 3U);
+    EXPECT_TRUE(placement.determines_all());
+  }
+  const Placement among = rate_placement(problem, {kPlaces, kPlaces + 1, kPlaces + 2});
+  EXPECT_GT(among.mean_m, 0.0);
+  EXPECT_TRUE(std::isfinite(among.worst_m));
+  problem.kept = {problem.places.back()};
+  EXPECT_EQ(place_stations(problem, generator).chosen.size(), 3U);
+}
+
 TEST(Placement, OneStationAloneIsAnAnswerToo) {
   std::mt19937_64 generator(3);
   const Placement placement = place_stations(around_the_disc(1), generator);
   EXPECT_EQ(placement.chosen.size(), 1U);
   EXPECT_GT(placement.mean_m, 1e5);  // a ray has no depth
+  EXPECT_FALSE(placement.determines_all());
 }
 
 TEST(Placement, RefusesWhatHasNoAnswer) {
