@@ -129,11 +129,17 @@ FusedTarget target_of(std::int64_t epoch_us, const char* estimator, Located loca
   return target;
 }
 
-void locate(Estimator& estimator, const TrackView& view, std::int64_t epoch_us,
-            std::vector<FusedTarget>& targets) {
-  Located located = estimator.locate(view, epoch_us);
-  if (located.estimate.solution != Solution::kOk) return;
-  targets.push_back(target_of(epoch_us, estimator.name(), std::move(located)));
+FusedTarget unlocated(std::int64_t epoch_us, const char* estimator, Solution why) {
+  FusedTarget target = target_of(epoch_us, estimator, {});
+  target.estimate.solution = why;
+  return target;
+}
+
+// Why there is no track.
+Solution no_track(const TrackKeeper& keeper) {
+  const auto& heard = keeper.births().pool().stations();
+  if (heard.empty()) return Solution::kTooFewRays;
+  return heard.size() == 1 ? Solution::kBearingOnly : keeper.births().last_failure();
 }
 
 std::vector<FusedTarget> causal(const std::vector<Sighting>& bearings,
@@ -147,11 +153,15 @@ std::vector<FusedTarget> causal(const std::vector<Sighting>& bearings,
       recording.add(*next);
     }
     recording.advance(epoch_us);
-    for (const Track& track : recording.keeper().tracks()) {
-      if (track.id == 0) continue;
-      locate(estimator, {track.bearings, recording.keeper().errors(), &track.filter}, epoch_us,
-             targets);
+    const TrackKeeper& keeper = recording.keeper();
+    const auto track = std::ranges::find_if(keeper.tracks(), [](const Track& t) { return t.id; });
+    if (track == keeper.tracks().end()) {
+      targets.push_back(unlocated(epoch_us, estimator.name(), no_track(keeper)));
+      continue;
     }
+    targets.push_back(target_of(
+        epoch_us, estimator.name(),
+        estimator.locate({track->bearings, keeper.errors(), &track->filter}, epoch_us)));
   }
   return targets;
 }
@@ -165,7 +175,8 @@ std::vector<FusedTarget> interpolating(const std::vector<Sighting>& bearings,
   for (const Sighting& sighting : bearings) run.add(sighting);
   std::vector<FusedTarget> targets;
   for (const std::int64_t epoch_us : epochs) {
-    locate(estimator, {recording, run.keeper().errors()}, epoch_us, targets);
+    targets.push_back(target_of(epoch_us, estimator.name(),
+                                estimator.locate({recording, run.keeper().errors()}, epoch_us)));
   }
   return targets;
 }
@@ -177,9 +188,14 @@ std::vector<FusedTarget> smoothed(const std::vector<Sighting>& bearings,
   for (const Sighting& sighting : bearings) run.add(sighting);
   KnownStations known{run.keeper().errors(), {}};
   for (const auto& [station, why] : run.beside()) known.beside.insert(station);
+  std::vector<Smoothed> fixes = smooth(bearings, epochs, config.fusion.keeper, known);
+  const Solution why = fixes.empty() ? no_track(run.keeper()) : Solution::kTooFewRays;
   std::vector<FusedTarget> targets;
-  for (Smoothed& fix : smooth(bearings, epochs, config.fusion.keeper, known)) {
-    targets.push_back(target_of(fix.utime_us, "filter", std::move(fix.located)));
+  auto fix = fixes.begin();
+  for (const std::int64_t epoch_us : epochs) {
+    const bool is_fixed = fix != fixes.end() && fix->utime_us == epoch_us;
+    targets.push_back(is_fixed ? target_of(epoch_us, "filter", std::move((fix++)->located))
+                               : unlocated(epoch_us, "filter", why));
   }
   return targets;
 }
@@ -219,9 +235,16 @@ std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
   const StationBearings recording = recording_of(sightings, config.fusion.min_belief, unused);
   const std::vector<Sighting> bearings = in_order(recording);
   const std::vector<std::int64_t> epochs = epochs_of(bearings, config.rate_hz);
-  if (config.smooth) return smoothed(bearings, epochs, config);
-  if (is_filter) return causal(bearings, epochs, *estimator, config);
-  return interpolating(bearings, recording, epochs, *estimator, config);
+  std::vector<FusedTarget> targets =
+      config.smooth ? smoothed(bearings, epochs, config)
+      : is_filter   ? causal(bearings, epochs, *estimator, config)
+                    : interpolating(bearings, recording, epochs, *estimator, config);
+  if (!config.tell_unlocated) {
+    std::erase_if(targets, [](const FusedTarget& target) {
+      return target.estimate.solution != Solution::kOk;
+    });
+  }
+  return targets;
 }
 
 std::map<std::string, std::string> stations_beside(const std::vector<Sighting>& sightings,

@@ -20,6 +20,7 @@ struct OfflineConfig {
   std::string estimator = "filter";  // a name of make_estimator()
   bool smooth = false;               // the filter's alone
   double rate_hz = 0.0;              // epochs on an even grid; 0: at the instant of every bearing
+  bool tell_unlocated = false;       // targets without a position, too: the solution says why
   FusionConfig fusion{};             // what it shares with the live one
 };
 
@@ -35,8 +36,8 @@ UnusedBearings unused_bearings(const std::vector<Sighting>& sightings, const Off
 // half a frame of video, 0.02 s, at most. So a clock counts as much with a meteor as with a drone.
 void guess_clocks(std::vector<Sighting>& sightings);
 
-// One object's bearings, in any order. Targets with a position only, in order of time. Bearings
-// that check() refuses must not be among them. std::invalid_argument for a rate that is not finite
+// One object's bearings, in any order. One target for each epoch that has a position, in order of
+// time. Bearings that check() refuses must not be among them. std::invalid_argument for a rate that is not finite
 // or makes more than ten million epochs, for an unknown estimator, and for another one than the
 // filter smoothed.
 std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,

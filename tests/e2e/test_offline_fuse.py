@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 import subprocess
 import sys
 
@@ -104,6 +105,24 @@ def test_tells_what_was_not_used(folder):
     assert result.stderr == (
         "ols-fuse: 2 of 4 bearings not used: 1 of low belief, 1 a station and time given before\n"
     )
+
+
+@pytest.mark.parametrize("estimator", ["filter", "least-squares", "paper"])
+@pytest.mark.parametrize(
+    ("azimuth_deg", "why"), [(None, "bearing-only|too-few-rays"), (45, "parallel-rays")]
+)
+def test_says_why_there_is_no_position(folder, estimator, azimuth_deg, why):
+    rows = [BEARINGS.splitlines()[0]]
+    for i in range(60):
+        rows.append(f"{1600000000000000 + 40000 * i},west,45,10,0.01")
+        if azimuth_deg is not None:
+            rows.append(f"{1600000000000000 + 40000 * i},east,{azimuth_deg},10,0.01")
+    (folder / "bearings.csv").write_text("\n".join(rows))
+    result = fuse_in(folder, "--estimator", estimator)
+    assert result.returncode == 0
+    assert list(csv.DictReader((folder / "fixes.csv").open())) == []
+    said = r"ols-fuse: target 1: no position at .*60 instants \((" + why + r")\)"
+    assert re.search(said, result.stderr), result.stderr
 
 
 def test_bearings_without_rows(folder):
