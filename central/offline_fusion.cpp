@@ -159,9 +159,9 @@ std::vector<FusedTarget> causal(const std::vector<Sighting>& bearings,
       targets.push_back(unlocated(epoch_us, estimator.name(), no_track(keeper)));
       continue;
     }
-    targets.push_back(target_of(
-        epoch_us, estimator.name(),
-        estimator.locate({track->bearings, keeper.errors(), &track->filter}, epoch_us)));
+    targets.push_back(
+        target_of(epoch_us, estimator.name(),
+                  estimator.locate({track->bearings, keeper.errors(), &track->filter}, epoch_us)));
   }
   return targets;
 }

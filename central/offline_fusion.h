@@ -37,9 +37,9 @@ UnusedBearings unused_bearings(const std::vector<Sighting>& sightings, const Off
 void guess_clocks(std::vector<Sighting>& sightings);
 
 // One object's bearings, in any order. One target for each epoch that has a position, in order of
-// time. Bearings that check() refuses must not be among them. std::invalid_argument for a rate that is not finite
-// or makes more than ten million epochs, for an unknown estimator, and for another one than the
-// filter smoothed.
+// time. Bearings that check() refuses must not be among them. std::invalid_argument for a rate that
+// is not finite or makes more than ten million epochs, for an unknown estimator, and for another
+// one than the filter smoothed.
 std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
                                       const OfflineConfig& config);
 

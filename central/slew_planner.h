@@ -28,15 +28,16 @@ namespace ols {
 
 struct SlewConfig {
   double rate_hz = 10.0;
-  double act_s = 0.1;             // from the command to its effect: way, servo cycle
-  double lease_s = 0.5;           // without a newer command the station halts
-  double coast_s = 2.0;           // a target is predicted for so long after its last bearings
-  double rate_limit_rad_s = kSlewRateLimit_rad_s;  // of the direction that is asked for
-  double view_share = 0.5;        // of the view, one step of a search
-  double dwell_s = 0.4;           // at each step
-  double search_sigma = 2.5;      // the spiral's reach
-  double search_near_m = 30.0;    // along a ray, from here
-  double search_far_m = 20e3;     // to here
+  double act_s = 0.1;    // from the command to its effect: way, servo cycle
+  double lease_s = 0.5;  // without a newer command the station halts
+  double coast_s = 2.0;  // a target is predicted for so long after its last bearings
+  // Of the direction that is asked for.
+  double rate_limit_rad_s = kSlewRateLimit_rad_s;
+  double view_share = 0.5;      // of the view, one step of a search
+  double dwell_s = 0.4;         // at each step
+  double search_sigma = 2.5;    // the spiral's reach
+  double search_near_m = 30.0;  // along a ray, from here
+  double search_far_m = 20e3;   // to here
 };
 
 // What is known of a station that can be slewed.

@@ -362,11 +362,11 @@ void TrackFilter::note_use(FilterStation& entry, const Sighting& sighting, doubl
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);
 }
 
-// A base that is short for the range hides the difference of its headings, and a linear filter would
-// find one in it and be sure: two stations side by side "learn" it, and a wrong range with it. There
-// are two ways to that. Biases are then considered but not learnt (the Schmidt-Kalman filter, 1966).
-// One is that bias times relative error of the range, which linearisation leaves out, is not small
-// against the noise.
+// A base that is short for the range hides the difference of its headings, and a linear filter
+// would find one in it and be sure: two stations side by side "learn" it, and a wrong range with
+// it. There are two ways to that. Biases are then considered but not learnt (the Schmidt-Kalman
+// filter, 1966). One is that bias times relative error of the range, which linearisation leaves
+// out, is not small against the noise.
 bool TrackFilter::is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
                             const Eigen::Matrix2d& white) const {
   constexpr double kSmall = 0.1;
@@ -385,13 +385,13 @@ bool TrackFilter::is_linear(const StationPart& part, const RayFrame& frame, doub
   return second_order < kSmall * kSmall * white.trace() / 2.0;
 }
 
-// The other is a drift. A bearing's equation is linear about the predicted direction, whose error is
-// also in the residual. What a state gains from it is therefore off to one side, in every bearing
-// anew, by what goes with the depth, over the depth. Where a bearing tells less than that of a
-// state, its mean goes away by sigmas while its variance stays (the same in mapping by a moving
-// camera: Huang, Mourikis and Roumeliotis, 2010). Of each state of the station's own pose and place:
-// the drift in sigmas, and what the bearing tells, over its variance. The depth is that from the
-// place, which moves the target along with it.
+// The other is a drift. A bearing's equation is linear about the predicted direction, whose error
+// is also in the residual. What a state gains from it is therefore off to one side, in every
+// bearing anew, by what goes with the depth, over the depth. Where a bearing tells less than that
+// of a state, its mean goes away by sigmas while its variance stays (the same in mapping by a
+// moving camera: Huang, Mourikis and Roumeliotis, 2010). Of each state of the station's own pose
+// and place: the drift in sigmas, and what the bearing tells, over its variance. The depth is that
+// from the place, which moves the target along with it.
 bool TrackFilter::shows_bias(const FilterMatrix2& G, const FilterMatrix& P, const StationPart& part,
                              const Eigen::Vector3d& along, double off_share) {
   constexpr double kSmall = 3.0;
@@ -401,9 +401,8 @@ bool TrackFilter::shows_bias(const FilterMatrix2& G, const FilterMatrix& P, cons
     double with_depth = P.block<1, 3>(at, 0).dot(along);
     if (part.has_place) {
       const Eigen::Index place = part.first + kPoseStates;
-      const Eigen::RowVector3d own =
-          at < place ? P.block<3, 1>(place, at).transpose().eval()
-                     : whole_block<3>(P, place).row(at - place).eval();
+      const Eigen::RowVector3d own = at < place ? P.block<3, 1>(place, at).transpose().eval()
+                                                : whole_block<3>(P, place).row(at - place).eval();
       with_depth -= own.dot(part.R_ecef_enu.transpose() * along);
     }
     const double spurious = std::abs(with_depth) / std::sqrt(P(at, at)) * off_share;

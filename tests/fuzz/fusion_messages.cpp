@@ -26,9 +26,9 @@ void check_slew(const ols::Slew& slew) {
                          within(slew.elevation_rate_rad_s, rate_limit) &&
                          within(slew.direction_sd_rad, ols::kPi),
                      "a slew is finite and within its limits");
-  ols::fuzz::require(slew.effect_utime_us >= slew.utime_us &&
-                         slew.effect_utime_us - slew.utime_us < 1'000'000,
-                     "a slew takes effect within a second");
+  ols::fuzz::require(
+      slew.effect_utime_us >= slew.utime_us && slew.effect_utime_us - slew.utime_us < 1'000'000,
+      "a slew takes effect within a second");
 }
 
 void receive(ols::Fusion& fusion, bool is_status, const std::string& station,

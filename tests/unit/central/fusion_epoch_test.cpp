@@ -260,8 +260,8 @@ TEST(FusionEpoch, NothingOldIsToldAfterASilence) {
   EXPECT_GT(slews, 50U);
 }
 
-// Each target once an epoch, few with one bearing, and every station is slewed in each round.
-// A round of slews for many stations goes on with the bearings of a few: each is for when it is made.
+// A round of slews for many stations goes on with the bearings of a few: each is for when it is
+// made.
 TEST(FusionEpoch, SlewsOfManyStationsAreEachForTheirOwnInstant) {
   Fusion fusion{FusionConfig{}};
   for (int i = 0; i < 200; ++i) {
@@ -297,6 +297,7 @@ TEST(FusionEpoch, WhomAnOperatorTakesIsSlewedNoMore) {
   EXPECT_EQ(fusion.health().stations.size(), 4U);
 }
 
+// Each target once an epoch, few with one bearing, and every station is slewed in each round.
 TEST(FusionEpoch, ManyTargetsAreToldInTurn) {
   Fusion fusion{FusionConfig{}};
   std::map<std::int64_t, std::vector<std::int64_t>> epochs;
