@@ -20,9 +20,9 @@
 #include <string>
 #include <vector>
 
-#include "base/slew_limits.h"
 #include "central/track.h"
 #include "geometry/direction.h"
+#include "geometry/slew_limits.h"
 
 namespace ols {
 

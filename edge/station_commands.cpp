@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/slew_limits.h"
 #include "edge/station.h"
 #include "geometry/angles.h"
+#include "geometry/slew_limits.h"
 
 namespace ols {
 namespace {
