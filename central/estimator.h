@@ -6,7 +6,9 @@
 // Which bearings belong to the target is decided before (track_keeper.h), for all of them alike.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -36,6 +38,9 @@ struct Located {
   Estimate estimate;
   std::vector<ContributingStation> stations;  // in the order of their ids
 };
+
+// Instants without a position, by why.
+using Unlocated = std::map<Solution, std::size_t>;
 
 // What there is of one target. The estimators other than the filter need none.
 struct TrackView {

@@ -129,24 +129,25 @@ FusedTarget target_of(std::int64_t epoch_us, const char* estimator, Located loca
   return target;
 }
 
-FusedTarget unlocated(std::int64_t epoch_us, const char* estimator, Solution why) {
-  FusedTarget target = target_of(epoch_us, estimator, {});
-  target.estimate.solution = why;
-  return target;
-}
+// Those with a position; of the others, why they have none.
+struct Fixes {
+  std::vector<FusedTarget> targets{};
+  Unlocated unlocated{};
 
-// Why there is no track.
-Solution no_track(const TrackKeeper& keeper) {
-  const auto& heard = keeper.births().pool().stations();
-  if (heard.empty()) return Solution::kTooFewRays;
-  return heard.size() == 1 ? Solution::kBearingOnly : keeper.births().last_failure();
-}
+  void add(std::int64_t epoch_us, const char* estimator, Located located) {
+    const Solution solution = located.estimate.solution;
+    if (solution == Solution::kOk) {
+      targets.push_back(target_of(epoch_us, estimator, std::move(located)));
+    } else {
+      ++unlocated[solution];
+    }
+  }
+};
 
-std::vector<FusedTarget> causal(const std::vector<Sighting>& bearings,
-                                const std::vector<std::int64_t>& epochs, Estimator& estimator,
-                                const OfflineConfig& config) {
+Fixes causal(const std::vector<Sighting>& bearings, const std::vector<std::int64_t>& epochs,
+             Estimator& estimator, const OfflineConfig& config) {
   Recording recording(config);
-  std::vector<FusedTarget> targets;
+  Fixes fixes;
   auto next = bearings.begin();
   for (const std::int64_t epoch_us : epochs) {
     for (; next != bearings.end() && next->utime_us <= epoch_us; ++next) {
@@ -156,48 +157,40 @@ std::vector<FusedTarget> causal(const std::vector<Sighting>& bearings,
     const TrackKeeper& keeper = recording.keeper();
     const auto track = std::ranges::find_if(keeper.tracks(), [](const Track& t) { return t.id; });
     if (track == keeper.tracks().end()) {
-      targets.push_back(unlocated(epoch_us, estimator.name(), no_track(keeper)));
+      ++fixes.unlocated[keeper.births().why_none(epoch_us)];
       continue;
     }
-    targets.push_back(
-        target_of(epoch_us, estimator.name(),
-                  estimator.locate({track->bearings, keeper.errors(), &track->filter}, epoch_us)));
+    const TrackView view{track->bearings, keeper.errors(), &track->filter};
+    fixes.add(epoch_us, estimator.name(), estimator.locate(view, epoch_us));
   }
-  return targets;
+  return fixes;
 }
 
 // The estimators without memory have the whole recording.
-std::vector<FusedTarget> interpolating(const std::vector<Sighting>& bearings,
-                                       const StationBearings& recording,
-                                       const std::vector<std::int64_t>& epochs,
-                                       Estimator& estimator, const OfflineConfig& config) {
+Fixes interpolating(const std::vector<Sighting>& bearings, const StationBearings& recording,
+                    const std::vector<std::int64_t>& epochs, Estimator& estimator,
+                    const OfflineConfig& config) {
   Recording run(config);
   for (const Sighting& sighting : bearings) run.add(sighting);
-  std::vector<FusedTarget> targets;
+  Fixes fixes;
   for (const std::int64_t epoch_us : epochs) {
-    targets.push_back(target_of(epoch_us, estimator.name(),
-                                estimator.locate({recording, run.keeper().errors()}, epoch_us)));
+    fixes.add(epoch_us, estimator.name(),
+              estimator.locate({recording, run.keeper().errors()}, epoch_us));
   }
-  return targets;
+  return fixes;
 }
 
-std::vector<FusedTarget> smoothed(const std::vector<Sighting>& bearings,
-                                  const std::vector<std::int64_t>& epochs,
-                                  const OfflineConfig& config) {
+Fixes smoothed(const std::vector<Sighting>& bearings, const std::vector<std::int64_t>& epochs,
+               const OfflineConfig& config) {
   Recording run(config);
   for (const Sighting& sighting : bearings) run.add(sighting);
   KnownStations known{run.keeper().errors(), {}};
   for (const auto& [station, why] : run.beside()) known.beside.insert(station);
-  std::vector<Smoothed> fixes = smooth(bearings, epochs, config.fusion.keeper, known);
-  const Solution why = fixes.empty() ? no_track(run.keeper()) : Solution::kTooFewRays;
-  std::vector<FusedTarget> targets;
-  auto fix = fixes.begin();
-  for (const std::int64_t epoch_us : epochs) {
-    const bool is_fixed = fix != fixes.end() && fix->utime_us == epoch_us;
-    targets.push_back(is_fixed ? target_of(epoch_us, "filter", std::move((fix++)->located))
-                               : unlocated(epoch_us, "filter", why));
+  Fixes fixes;
+  for (Smoothed& fix : smooth(bearings, epochs, config.fusion.keeper, known, fixes.unlocated)) {
+    fixes.add(fix.utime_us, "filter", std::move(fix.located));
   }
-  return targets;
+  return fixes;
 }
 
 }  // namespace
@@ -226,7 +219,7 @@ void guess_clocks(std::vector<Sighting>& sightings) {
 }
 
 std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
-                                      const OfflineConfig& config) {
+                                      const OfflineConfig& config, Unlocated* unlocated) {
   const auto estimator = make_estimator(config.estimator, config.fusion.estimators);
   if (!estimator) throw std::invalid_argument("there is no estimator " + config.estimator);
   const bool is_filter = config.estimator == "filter";
@@ -235,16 +228,11 @@ std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
   const StationBearings recording = recording_of(sightings, config.fusion.min_belief, unused);
   const std::vector<Sighting> bearings = in_order(recording);
   const std::vector<std::int64_t> epochs = epochs_of(bearings, config.rate_hz);
-  std::vector<FusedTarget> targets =
-      config.smooth ? smoothed(bearings, epochs, config)
-      : is_filter   ? causal(bearings, epochs, *estimator, config)
-                    : interpolating(bearings, recording, epochs, *estimator, config);
-  if (!config.tell_unlocated) {
-    std::erase_if(targets, [](const FusedTarget& target) {
-      return target.estimate.solution != Solution::kOk;
-    });
-  }
-  return targets;
+  Fixes fixes = config.smooth ? smoothed(bearings, epochs, config)
+                : is_filter   ? causal(bearings, epochs, *estimator, config)
+                              : interpolating(bearings, recording, epochs, *estimator, config);
+  if (unlocated != nullptr) *unlocated = std::move(fixes.unlocated);
+  return std::move(fixes.targets);
 }
 
 std::map<std::string, std::string> stations_beside(const std::vector<Sighting>& sightings,

@@ -20,7 +20,6 @@ struct OfflineConfig {
   std::string estimator = "filter";  // a name of make_estimator()
   bool smooth = false;               // the filter's alone
   double rate_hz = 0.0;              // epochs on an even grid; 0: at the instant of every bearing
-  bool tell_unlocated = false;       // targets without a position, too: the solution says why
   FusionConfig fusion{};             // what it shares with the live one
 };
 
@@ -37,11 +36,11 @@ UnusedBearings unused_bearings(const std::vector<Sighting>& sightings, const Off
 void guess_clocks(std::vector<Sighting>& sightings);
 
 // One object's bearings, in any order. One target for each epoch that has a position, in order of
-// time. Bearings that check() refuses must not be among them. std::invalid_argument for a rate that
-// is not finite or makes more than ten million epochs, for an unknown estimator, and for another
-// one than the filter smoothed.
+// time; of the others it is counted why. Bearings that check() refuses must not be among them.
+// std::invalid_argument for a rate that is not finite or makes more than ten million epochs, for an
+// unknown estimator, and for another one than the filter smoothed.
 std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
-                                      const OfflineConfig& config);
+                                      const OfflineConfig& config, Unlocated* unlocated = nullptr);
 
 // Stations whose bearings are for seconds off the others' target by the same angle, and by how
 // much, in words; by station. A run of the filter by itself.

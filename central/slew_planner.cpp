@@ -59,7 +59,7 @@ double SlewPlanner::searched_s(const std::string& station, std::int64_t target_i
   if (search.begun_us == 0 || search.target_id != target_id || search.ray != ray) {
     search = {target_id, ray, now_us};
   }
-  return seconds(now_us - search.begun_us);
+  return std::max(0.0, seconds(now_us - search.begun_us));  // "now" may fall back a little
 }
 
 // The one that it sees; or the one that it is being led to; or the one that the fewest see.

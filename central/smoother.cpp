@@ -144,7 +144,7 @@ class Smoother {
     }
   }
 
-  std::vector<Smoothed> run(const std::vector<std::int64_t>& epochs);
+  std::vector<Smoothed> run(const std::vector<std::int64_t>& epochs, Unlocated& unlocated);
 
  private:
   static KeeperConfig one_target(KeeperConfig config) {
@@ -156,8 +156,7 @@ class Smoother {
   Eigen::VectorXd prior(const std::vector<BiasPrior>& biases) const;
   Whole both(const std::optional<TrackFilter>& from_past,
              const std::optional<TrackFilter>& from_future, const Eigen::VectorXd& variance) const;
-  std::optional<Smoothed> at(std::int64_t epoch_us, const TrackKeeper& forward,
-                             const TrackKeeper& backward) const;
+  Smoothed at(std::int64_t epoch_us, const TrackKeeper& forward, const TrackKeeper& backward) const;
 
   const std::vector<Sighting>& forward_;
   std::int64_t about_us_;
@@ -201,10 +200,14 @@ Whole Smoother::both(const std::optional<TrackFilter>& from_past,
   return join(before, after, variance).value_or(before);
 }
 
-std::optional<Smoothed> Smoother::at(std::int64_t epoch_us, const TrackKeeper& forward,
-                                     const TrackKeeper& backward) const {
+Smoothed Smoother::at(std::int64_t epoch_us, const TrackKeeper& forward,
+                      const TrackKeeper& backward) const {
+  Smoothed fix{epoch_us, {}};
   const auto [ahead, behind] = worth_joining(forward, backward);
-  if (ahead == nullptr && behind == nullptr) return std::nullopt;
+  if (ahead == nullptr && behind == nullptr) {
+    fix.located.estimate.solution = forward.births().why_none(epoch_us);
+    return fix;
+  }
   StationErrors errors = learnt_.errors();
   std::optional<TrackFilter> from_past, from_future;
   if (ahead != nullptr) from_past.emplace(ahead->filter).advance(epoch_us, errors);
@@ -217,14 +220,12 @@ std::optional<Smoothed> Smoother::at(std::int64_t epoch_us, const TrackKeeper& f
   const SystematicPart part = told_biases(from_past, from_future);
   state.covariance.topLeftCorner<3, 3>() +=
       part.all_m2 - systematic_part(joint.covariance, biases).all_m2;
-  Smoothed fix{epoch_us, {}};
   fix.located.estimate = estimate_of(any, state, part);
-  if (fix.located.estimate.solution != Solution::kOk) return std::nullopt;
   fix.located.stations = contributing(any, any.utime_us());
   return fix;
 }
 
-std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs) {
+std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs, Unlocated& unlocated) {
   constexpr std::size_t kBlock = 256;  // epochs between which the forward states are kept
   std::vector<Runner> starts;
   Runner forward{learnt_, &forward_, &beside_};
@@ -243,8 +244,12 @@ std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs) {
     }
     for (std::size_t i = last; i-- > first;) {
       backward.run(about_us_ - epochs[i], false);
-      if (auto fix = at(epochs[i], past[i - first], backward.keeper)) {
-        fixes.push_back(std::move(*fix));
+      Smoothed fix = at(epochs[i], past[i - first], backward.keeper);
+      const Solution solution = fix.located.estimate.solution;
+      if (solution == Solution::kOk) {
+        fixes.push_back(std::move(fix));
+      } else {
+        ++unlocated[solution];
       }
     }
     starts.pop_back();
@@ -257,9 +262,9 @@ std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs) {
 
 std::vector<Smoothed> smooth(const std::vector<Sighting>& bearings,
                              const std::vector<std::int64_t>& epochs, const KeeperConfig& config,
-                             const KnownStations& known) {
+                             const KnownStations& known, Unlocated& unlocated) {
   if (bearings.empty()) return {};
-  return Smoother(bearings, config, known).run(epochs);
+  return Smoother(bearings, config, known).run(epochs, unlocated);
 }
 
 }  // namespace ols

@@ -28,9 +28,10 @@ struct KnownStations {
   std::set<std::string> beside;
 };
 
-// One object's bearings and the instants, both in order of time; positions only.
+// One object's bearings and the instants, both in order of time; positions only. Of the other
+// instants it is counted why.
 std::vector<Smoothed> smooth(const std::vector<Sighting>& bearings,
                              const std::vector<std::int64_t>& epochs, const KeeperConfig& config,
-                             const KnownStations& known);
+                             const KnownStations& known, Unlocated& unlocated);
 
 }  // namespace ols

@@ -298,4 +298,12 @@ void TrackBirth::give(const Track& track, const StationErrors& errors) {
   }
 }
 
+Solution TrackBirth::why_none(std::int64_t now_us) const {
+  const auto heard = std::ranges::count_if(pool_.stations(), [&](const auto& station) {
+    return seconds(now_us - station.second.looks.back().utime_us) <= config_.pool_s;
+  });
+  if (heard == 0) return Solution::kTooFewRays;
+  return heard == 1 ? Solution::kBearingOnly : failure_;
+}
+
 }  // namespace ols

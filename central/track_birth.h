@@ -55,6 +55,9 @@ class TrackBirth {
   // rays meet but the bearings of their stations do not agree on it, kTooFewRays where they do and
   // only more of them is needed, and where there was no other ray.
   Solution last_failure() const { return failure_; }
+  // Why there is no track: by the stations whose bearings at this instant belong to none, and the
+  // last failure where they are several.
+  Solution why_none(std::int64_t now_us) const;
 
  private:
   struct Meeting {

@@ -384,30 +384,31 @@ bool TrackFilter::is_linear(const StationPart& part, const RayFrame& frame, doub
   return second_order < kSmall * kSmall * white.trace() / 2.0;
 }
 
-// The other is a drift. A bearing's equation is linear about the predicted direction, whose error
-// is also in the residual. What a state gains from it is therefore off to one side, in every
-// bearing anew, by what goes with the depth, over the depth. Where a bearing tells less than that
-// of a state, its mean goes away by sigmas while its variance stays (the same in mapping by a
-// moving camera: Huang, Mourikis and Roumeliotis, 2010). Of each state of the station's own pose
-// and place: the drift in sigmas, and what the bearing tells, over its variance. The depth is that
-// from the place, which moves the target along with it.
+// The other is a drift. A bearing's equation is linear about the predicted direction, whose
+// error is also in the residual. What a state gains from it is therefore off to one side, in
+// every bearing anew, by what goes with the depth, over the depth. Where a bearing tells less
+// than that of a state, its mean goes away by sigmas while its variance stays (the same in
+// mapping by a moving camera: Huang, Mourikis and Roumeliotis, 2010). Of the states of the
+// station's own pose and place, over their sigmas: the drift, and what the bearing tells along
+// that. The depth is that from the place, which moves the target along with it.
 bool TrackFilter::shows_bias(const FilterMatrix2& G, const FilterMatrix& P, const StationPart& part,
                              const Eigen::Vector3d& along, double off_share) {
   constexpr double kSmall = 3.0;
-  const Eigen::Index n = part.has_place ? kStationStates : 3;
-  for (Eigen::Index at = part.first; at < part.first + n; ++at) {
-    if (!(P(at, at) > 0.0)) continue;
+  const Eigen::Index place = part.first + kPoseStates, clock = part.first + 3;
+  double drift = 0.0;  // squared
+  Eigen::RowVector2d told = Eigen::RowVector2d::Zero();
+  for (Eigen::Index at = part.first; at < (part.has_place ? place + kPlaceStates : clock); ++at) {
+    if (at == clock || !(P(at, at) > 0.0)) continue;
     double with_depth = P.block<1, 3>(at, 0).dot(along);
     if (part.has_place) {
-      const Eigen::Index place = part.first + kPoseStates;
       const Eigen::RowVector3d own = at < place ? P.block<3, 1>(place, at).transpose().eval()
                                                 : whole_block<3>(P, place).row(at - place).eval();
       with_depth -= own.dot(part.R_ecef_enu.transpose() * along);
     }
-    const double spurious = std::abs(with_depth) / std::sqrt(P(at, at)) * off_share;
-    if (spurious > kSmall * G.row(at).squaredNorm() / P(at, at)) return false;
+    drift += with_depth * with_depth / P(at, at);
+    told += with_depth / P(at, at) * G.row(at);
   }
-  return true;
+  return drift * std::sqrt(drift) * off_share <= kSmall * told.squaredNorm();
 }
 
 // Where biases are not found the stations' states stay as they are and are only considered.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 namespace ols {
@@ -14,6 +15,15 @@ using Eigen::Matrix3d;
 
 // A camera does not see what is nearer, least of all its own place.
 constexpr double kNearest_m = 1.0;
+
+// The trace of the inverse of what all stations tell, or nothing where that is singular but for
+// rounding.
+std::optional<double> squared_error_m2(const Matrix3d& information) {
+  constexpr double kCondition = 1e13;
+  const double squared = information.inverse().trace();
+  if (!(squared > 0.0) || !(squared * information.trace() < kCondition)) return std::nullopt;
+  return squared;
+}
 
 // The greatest error alone gives the search nothing to descend where several points share it: the
 // power mean of this order stands for it.
@@ -29,27 +39,30 @@ class Search {
  public:
   explicit Search(const PlacementProblem& problem) : problem_(problem) {
     for (const PlannedTarget& target : problem.area) {
-      Matrix3d kept = Matrix3d::Identity() / (kUndetermined_m * kUndetermined_m);
-      for (const PlannedStation& station : problem.kept) kept += information(station, target);
+      Seen kept;
+      for (const PlannedStation& station : problem.kept) kept += seen(station, target);
       kept_.push_back(kept);
     }
     for (const PlannedStation& place : problem.places) {
       auto& row = places_.emplace_back();
-      for (const PlannedTarget& target : problem.area) row.push_back(information(place, target));
+      for (const PlannedTarget& target : problem.area) row.push_back(seen(place, target));
     }
   }
 
   Rated rate(const std::vector<std::size_t>& chosen) const {
-    double sum = 0.0, worst = 0.0, powers = 0.0;
+    double sum = 0.0, worst = 0.0, powers = 0.0, points = 0.0;
     for (std::size_t point = 0; point < kept_.size(); ++point) {
-      Matrix3d total = kept_[point];
+      Seen total = kept_[point];
       for (const std::size_t place : chosen) total += places_[place][point];
-      const double squared = total.inverse().trace();
+      const auto known = squared_error_m2(total.information);
+      if (!known && total.is_a_station) continue;
+      const double squared = known.value_or(kUndetermined_m * kUndetermined_m);
       sum += squared;
       worst = std::max(worst, squared);
       powers += std::pow(squared, kOrder);
+      points += 1.0;
     }
-    const auto points = static_cast<double>(kept_.size());
+    points = std::max(1.0, points);
     const double mean_m = std::sqrt(sum / points), worst_m = std::sqrt(worst);
     const bool for_mean = problem_.goal == PlacementGoal::kMean;
     return {{chosen, mean_m, worst_m}, for_mean ? mean_m : std::pow(powers / points, 0.5 / kOrder)};
@@ -74,10 +87,23 @@ class Search {
   }
 
  private:
-  Matrix3d information(const PlannedStation& station, const PlannedTarget& target) const {
-    if ((target.p_ecef - station.place.origin_ecef()).norm() < kNearest_m) return Matrix3d::Zero();
-    return bearing_information(bearing_precision(station, target, problem_.exposures),
-                               target.p_ecef);
+  // What stations tell of a point; one that stands there tells nothing of it.
+  struct Seen {
+    Matrix3d information = Matrix3d::Zero();
+    bool is_a_station = false;
+
+    void operator+=(const Seen& other) {
+      information += other.information;
+      is_a_station = is_a_station || other.is_a_station;
+    }
+  };
+
+  Seen seen(const PlannedStation& station, const PlannedTarget& target) const {
+    if ((target.p_ecef - station.place.origin_ecef()).norm() < kNearest_m) {
+      return {Matrix3d::Zero(), true};
+    }
+    const BearingPrecision precision = bearing_precision(station, target, problem_.exposures);
+    return {bearing_information(precision, target.p_ecef), false};
   }
 
   Rated best_exchange(const Rated& from, std::size_t i) const {
@@ -93,8 +119,8 @@ class Search {
   }
 
   const PlacementProblem& problem_;
-  std::vector<Matrix3d> kept_;                 // by point
-  std::vector<std::vector<Matrix3d>> places_;  // by place and point
+  std::vector<Seen> kept_;                 // by point
+  std::vector<std::vector<Seen>> places_;  // by place and point
 };
 
 void check(const PlacementProblem& problem) {

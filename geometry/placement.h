@@ -16,7 +16,8 @@
 
 namespace ols {
 
-// A point's error is as large as this in each direction where nothing determines it.
+// A point's error counts as so much where the stations do not determine it. Where one of them
+// stands it does not count then.
 inline constexpr double kUndetermined_m = 1e6;
 
 // To protect an area means to protect its worst point: where the stations may stand anywhere around

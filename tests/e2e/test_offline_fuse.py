@@ -107,7 +107,7 @@ def test_tells_what_was_not_used(folder):
     )
 
 
-@pytest.mark.parametrize("estimator", ["filter", "least-squares", "paper"])
+@pytest.mark.parametrize("estimator", ["filter", "filter --smooth", "least-squares", "paper"])
 @pytest.mark.parametrize(
     ("azimuth_deg", "why"), [(None, "bearing-only|too-few-rays"), (45, "parallel-rays")]
 )
@@ -118,7 +118,7 @@ def test_says_why_there_is_no_position(folder, estimator, azimuth_deg, why):
         if azimuth_deg is not None:
             rows.append(f"{1600000000000000 + 40000 * i},east,{azimuth_deg},10,0.01")
     (folder / "bearings.csv").write_text("\n".join(rows))
-    result = fuse_in(folder, "--estimator", estimator)
+    result = fuse_in(folder, "--estimator", *estimator.split())
     assert result.returncode == 0
     assert list(csv.DictReader((folder / "fixes.csv").open())) == []
     said = r"ols-fuse: target 1: no position at .*60 instants \((" + why + r")\)"

@@ -37,8 +37,11 @@ void receive(ols::Fusion& fusion, bool is_status, const std::string& station,
   if (is_status) {
     const auto place = ols::station_place_from("OLS_STATUS_" + station, bytes.data(), size);
     if (const auto* known = std::get_if<ols::StationPlace>(&place)) {
-      fusion.allow_slews(known->station, known->traits.commandable);
-      if (!known->no_place) fusion.know_station(known->station, known->traits);
+      if (known->no_place) {
+        fusion.allow_slews(known->station, known->traits.commandable);
+      } else {
+        fusion.know_station(known->station, known->traits);
+      }
     }
     return;
   }
@@ -47,7 +50,10 @@ void receive(ols::Fusion& fusion, bool is_status, const std::string& station,
     const ols::FusionOutput output = fusion.add(*seen);
     for (const auto& target : output.targets) check_target(target);
     for (const auto& target : output.targets_paper) check_target(target);
-    for (const auto& slew : output.slews) check_slew(slew);
+    for (const auto& slew : output.slews) {
+      check_slew(slew);
+      static_cast<void>(ols::to_message(slew, {}));
+    }
   }
 }
 

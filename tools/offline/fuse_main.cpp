@@ -106,15 +106,14 @@ void tell_unused(const ols::UnusedBearings& unused, std::size_t bearings) {
 }
 
 // The states in which there is no position, and at how many of the instants.
-void tell_unlocated(const std::vector<ols::FusedTarget>& targets, const std::string& id) {
-  std::map<ols::Solution, std::size_t> counts;
-  for (const ols::FusedTarget& target : targets) ++counts[target.estimate.solution];
-  counts.erase(ols::Solution::kOk);
-  if (counts.empty()) return;
+void tell_unlocated(const ols::Unlocated& unlocated, std::size_t fixes, const std::string& id) {
+  if (unlocated.empty()) return;
+  std::size_t instants = fixes;
+  for (const auto& [solution, count] : unlocated) instants += count;
   std::cerr << "ols-fuse: target " << id << ": no position at";
   const char* separator = " ";
-  for (const auto& [solution, count] : counts) {
-    std::cerr << separator << count << " of " << targets.size() << " instants ("
+  for (const auto& [solution, count] : unlocated) {
+    std::cerr << separator << count << " of " << instants << " instants ("
               << ols::to_string(solution) << ')';
     separator = ", ";
   }
@@ -123,7 +122,6 @@ void tell_unlocated(const std::vector<ols::FusedTarget>& targets, const std::str
 
 void run(const Options& options) {
   ols::OfflineConfig config;
-  config.tell_unlocated = true;
   config.estimator = options.estimator;
   config.smooth = options.smooth;
   config.rate_hz = options.rate_hz;
@@ -141,11 +139,10 @@ void run(const Options& options) {
     for (const auto& [station, why] : ols::stations_beside(sightings, config)) {
       std::cerr << "ols-fuse: station " << station << ", target " << id << ": " << why << '\n';
     }
-    const std::vector<ols::FusedTarget> targets = ols::fuse_offline(sightings, config);
-    for (const ols::FusedTarget& target : targets) {
-      if (target.estimate.solution == ols::Solution::kOk) fixes.push_back(fix_of(target, id));
-    }
-    tell_unlocated(targets, id);
+    ols::Unlocated unlocated;
+    const auto targets = ols::fuse_offline(sightings, config, &unlocated);
+    for (const auto& target : targets) fixes.push_back(fix_of(target, id));
+    tell_unlocated(unlocated, targets.size(), id);
   }
   std::ranges::stable_sort(fixes, {}, &ols::FixRow::utime_us);
   ols::write_fixes(options.output, fixes);

@@ -156,12 +156,15 @@ void bind_fusion(py::module_& m) {
       .def_readwrite("smooth", &OfflineConfig::smooth, "The filter's alone.")
       .def_readwrite("rate_hz", &OfflineConfig::rate_hz,
                      "Epochs on an even grid; 0: at the instant of every bearing.")
-      .def_readwrite("tell_unlocated", &OfflineConfig::tell_unlocated,
-                     "Targets without a position, too: the solution says why.")
       .def_readwrite("fusion", &OfflineConfig::fusion, "FusionConfig, replaced as a whole.");
 
-  m.def("fuse_offline", &fuse_offline, arg("sightings"), arg("config") = OfflineConfig{},
-        "One target's Sightings -> FusedTargets with a position; as the program ols-fuse.");
+  m.def(
+      "fuse_offline",
+      [](const std::vector<Sighting>& sightings, const OfflineConfig& config) {
+        return fuse_offline(sightings, config);
+      },
+      arg("sightings"), arg("config") = OfflineConfig{},
+      "One target's Sightings -> FusedTargets with a position; as the program ols-fuse.");
 }
 
 }  // namespace

@@ -118,17 +118,39 @@ TEST(SlewPlanner, ASlowStationIsLedByNoMoreThanItAccepts) {
 
 TEST(SlewPlanner, WhoDoesNotKnowWhereItStandsStillGetsADirection) {
   const std::vector<Track> tracks = {track_of_flight(1, 3.0)};
-  SlewPlanner planner({.dwell_s = 1e-4});
+  SlewPlanner planner({.coast_s = 60.0, .dwell_s = 1e-4});
   SlewStation lost = station_at("lost", {0, 0, 10});
   lost.traits.camera_sd_enu_m.setConstant(1e6);
   lost.traits.field_of_view_rad = 2e-4;
-  for (int i = 0; i < 100; ++i) {
+  double farthest = 0.0;
+  for (int i = 0; i < 3000; ++i) {
     const std::int64_t now_us = tracks[0].filter.utime_us() + i * 1000;
     const auto slews = plan(planner, now_us, {lost}, tracks);
     ASSERT_EQ(slews.size(), 1U);
-    EXPECT_TRUE(std::isfinite(slews[0].direction.azimuth_rad)) << i;
-    EXPECT_LE(std::abs(slews[0].direction.elevation_rad), kPi / 2.0) << i;
+    const auto target = tracks[0].filter.at(slews[0].effect_utime_us);
+    const double off_rad =
+        angle_between(enu_from_azimuth_elevation(slews[0].direction),
+                      enu_from_azimuth_elevation(slew_to(target, lost.traits, {}).direction));
+    ASSERT_LT(off_rad, 6e-3) << i;  // 10000 points of half a view each
+    farthest = std::max(farthest, off_rad);
   }
+  EXPECT_GT(farthest, 5e-3);
+}
+
+// "Now" is a median of stamps and may fall back by less than a second unnoticed.
+TEST(SlewPlanner, ASearchStaysADirectionWhenNowFallsBack) {
+  std::vector<Track> tracks = {track_of_flight(1, 3.0)};
+  StationErrors errors;
+  tracks[0].filter.advance(tracks[0].filter.utime_us() + 1'900'000, errors);
+  const std::int64_t now_us = tracks[0].filter.utime_us();
+  SlewPlanner planner({.coast_s = 60.0});
+  SlewStation narrow = station_at("b", {0, 0, 0});
+  narrow.traits.field_of_view_rad = 0.004;
+  plan(planner, now_us, {narrow}, tracks);
+  const auto slews = plan(planner, now_us - 850'000, {narrow}, tracks);
+  ASSERT_EQ(slews.size(), 1U);
+  EXPECT_TRUE(std::isfinite(slews[0].direction.azimuth_rad));
+  EXPECT_TRUE(std::isfinite(slews[0].direction.elevation_rad));
 }
 
 // Nobody has a position: the others look along the ray that there is, from near to far and back.

@@ -76,14 +76,14 @@ class OneModel : public testing::TestWithParam<Motion> {
     Eigen::Matrix2d S;
   };
 
-  // After two seconds' flight.
+  // After four seconds' flight: by then a bearing tells of biases.
   OneModel() {
     config.motion.models = {GetParam()};
     filter.emplace(
         config, kStart,
         FilterStart{
             .p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 50.0});
-    seen = flight(2.0, 1e-4, 1e-4);
+    seen = flight(4.0, 1e-4, 1e-4);
     for (Sighting& sighting : seen) {
       sighting.sight.covariance_systematic = 1e-7 * Eigen::Matrix2d::Identity();
       sighting.sight.origin_sd_enu_m.setConstant(0.2);

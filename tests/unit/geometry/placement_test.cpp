@@ -117,6 +117,35 @@ TEST(Placement, APlaceMayBeWhatIsToBeProtected) {
   EXPECT_EQ(place_stations(problem, generator).chosen.size(), 3U);
 }
 
+// What one ray leaves open is not closed by rounding, however sure the ray is.
+TEST(Placement, ASureRayHasNoDepthEither) {
+  for (const double white_rad : {1e-5, 1e-6, 1e-8}) {
+    PlacementProblem problem = around_the_disc(1);
+    for (PlannedStation& place : problem.places) place.white_rad = white_rad;
+    for (const PlacementGoal goal : {PlacementGoal::kMean, PlacementGoal::kWorst}) {
+      problem.goal = goal;
+      std::mt19937_64 generator(3);
+      const Placement placement = place_stations(problem, generator);
+      EXPECT_EQ(placement.chosen.size(), 1U) << white_rad;
+      EXPECT_FALSE(placement.determines_all()) << white_rad;
+      EXPECT_GT(placement.mean_m, 1e5) << white_rad;
+    }
+  }
+}
+
+// Two stations that stand in the area leave their own places out, and see all others.
+TEST(Placement, TwoOfTheAreasOwnPointsProtectTheRest) {
+  PlacementProblem problem = around_the_disc(2);
+  problem.places.clear();
+  for (const auto& [x, y] : {std::pair(-300.0, 0.0), {300.0, 0.0}, {0.0, 300.0}, {0.0, 0.0}}) {
+    problem.places.push_back(place_at({x, y, 80.0}));
+  }
+  std::mt19937_64 generator(3);
+  const Placement placement = place_stations(problem, generator);
+  EXPECT_EQ(placement.chosen.size(), 2U);
+  EXPECT_GT(placement.mean_m, 0.0);
+}
+
 TEST(Placement, OneStationAloneIsAnAnswerToo) {
   std::mt19937_64 generator(3);
   const Placement placement = place_stations(around_the_disc(1), generator);
