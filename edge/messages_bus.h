@@ -3,6 +3,7 @@
 // the station runs all the same: the connection is tried again once a second.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "base/bus_connector.h"
+#include "base/bus_watch.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/config.h"
 #include "edge/messages.h"
@@ -42,13 +44,15 @@ class StationBus {
   // then: of those that come at once only the newest is carried out.
   void end_turn();
 
+  // What a person should know of the bus's traffic; empty when nothing.
+  std::string alarm() const { return watch_.alarm(now_s_); }
   // Why there is no connection; empty when there is one.
   const std::string& trouble() const { return trouble_; }
   // The last refused command in words, and how many there were.
   const std::string& last_refusal() const { return last_refusal_; }
   std::uint64_t refusals() const { return refusals_; }
   // Refusals before the station, messages not sent; go into each status.
-  const std::map<std::string, double>& counters() const { return counters_; }
+  std::map<std::string, double> counters() const;
 
   void send(const Bearing& bearing);
   void send(StationReport report);
@@ -57,10 +61,11 @@ class StationBus {
  private:
   template <class Message>
   void publish(const std::string& channel, const Message& message);
-  // Messages that `passes` is true for need not be fresh.
   template <class Message>
-  void on_command(const std::string& kind, const std::function<Refusal(const Message&)>& execute,
-                  const std::function<bool(const Message&)>& passes);
+  void on_command(const std::string& kind, const std::function<Refusal(const Message&)>& execute);
+  void subscribe();
+  bool take_stop(const void* data, int bytes);
+  std::string ptu_channel() const;
   Refusal designate(const ols_msg::designate_t& message);
   void carry_out_designation();
   Refusal command_ptu(const ols_msg::ptu_command_t& message);
@@ -73,9 +78,14 @@ class StationBus {
   Record record_;
   Sender sender_;
   double now_s_ = 0.0;
-  std::vector<std::pair<std::string, LcmBus::Handler>> subscriptions_;
+  // One datagram of a channel.
+  using Receive = std::function<void(const void* data, int bytes)>;
+  std::vector<std::pair<std::string, Receive>> subscriptions_;
   BusConnector connector_;
+  // Set by the bus's own thread, before the queue of commands: no flood pushes a stop out.
+  std::atomic<bool> stop_ = false;
   std::unique_ptr<LcmBus> bus_;
+  BusWatch watch_;
   std::string trouble_ = "not connected yet";
   std::map<std::string, CommandGate> gates_;
   std::optional<ols_msg::designate_t> designation_;  // waits for the end of the turn

@@ -73,7 +73,10 @@ class Station {
   Refusal designate(const DesignateCommand& command, double now_s);
   Refusal slew(const SlewCommand& command, double now_s);
   Refusal point(const PointCommand& command, double now_s);
-  void stop(double now_s);  // take_stop() says so once: what the unit does by itself ends too
+  // take_stop() says so once: what the unit does by itself ends too. For kStopHold_s nothing but an
+  // emergency's rearming is obeyed: what was sent before a stop, or crosses it, must not undo it.
+  void stop(double now_s);
+  static constexpr double kStopHold_s = 1.0;
   Refusal release(double now_s);
   // After an emergency stop: leads to kStopped, from where the operator goes on.
   Refusal rearm(double now_s);
@@ -139,6 +142,7 @@ class Station {
   void expire(double now_s);
   void forget_angles();
   bool without_reference() const;
+  bool stop_holds(double now_s) const;
   std::optional<ServoGoal> slew_goal() const;
 
   StationConfig config_;
@@ -150,6 +154,7 @@ class Station {
   bool stop_pressed_ = false;
   PtuReference reference_ = PtuReference::kUnknown;
   bool home_ = false, reference_ok_ = false, stop_ = false;  // wanted
+  std::optional<double> stopped_s_;                          // by the last stop
   StationPose pose_;
   StationPose revision_pose_;  // of which the bearings' pose_revision speaks
   std::int64_t pose_revision_ = 0;

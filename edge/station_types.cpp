@@ -53,6 +53,8 @@ const char* to_string(Refusal refusal) {
       return "no_unit";
     case Refusal::kKeepOut:
       return "keep_out";
+    case Refusal::kJustStopped:
+      return "just_stopped";
     case Refusal::kNoDoubt:
       return "no_doubt";
   }

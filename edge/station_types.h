@@ -75,6 +75,7 @@ enum class Refusal {
   kNoUnit,       // to home
   kKeepOut,      // homing would sweep across the regions to keep out of
   kNoDoubt,      // about the reference, that a person could end
+  kJustStopped,  // a stop holds for a moment, whatever was sent before it or crosses it on the wire
 };
 const char* to_string(Refusal refusal);
 

@@ -92,12 +92,47 @@ TEST_F(StationBusTest, AStopAfterADesignationComesAfterIt) {
 TEST_F(StationBusTest, OtherCommandsBetweenDesignationsMakeNoMoreOfThem) {
   for (int i = 1; i <= 50; ++i) {
     designate(i);
-    command(Ptu::COMMAND_STOP);
+    command(Ptu::COMMAND_RELEASE);
   }
   designate(1);
   bus->end_turn();
   EXPECT_EQ(boxes, (std::vector<double>{1.0, 1.0}));
   EXPECT_EQ(bus->counters().at("designations_superseded"), 49.0);
+}
+
+TEST_F(StationBusTest, AStopNeedsNoFreshStampAndNoSequence) {
+  Ptu message{};
+  message.command = Ptu::COMMAND_STOP;
+  message.schema_version = Ptu::SCHEMA_VERSION;
+  message.station = "a";
+  message.utime = 1;
+  message.lease_s = -1.0;
+  std::vector<char> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  for (int i = 0; i < 3; ++i) {
+    bus->take("OLS_PTU_a", bytes.data(), static_cast<int>(bytes.size()));
+    bus->end_turn();
+    EXPECT_EQ(station->state(), StationState::kStopped);
+    EXPECT_TRUE(station->take_stop());
+  }
+  EXPECT_EQ(bus->refusals(), 0U);
+}
+
+TEST_F(StationBusTest, NothingThatCrossesAStopOnTheWireUndoesIt) {
+  command(Ptu::COMMAND_STOP);
+  command(Ptu::COMMAND_RELEASE);
+  designate(3);
+  bus->end_turn();
+  for (const std::int8_t what : {Ptu::COMMAND_RELEASE, Ptu::COMMAND_POINT, Ptu::COMMAND_HOME}) {
+    command(what);
+    designate(4);
+    bus->end_turn();
+    EXPECT_EQ(station->state(), StationState::kStopped) << int{what};
+  }
+  EXPECT_EQ(bus->last_refusal(), "DESIGNATE refused: just_stopped");
+  bus->set_time({kNow_s + Station::kStopHold_s + 0.01, kNow_us}, {});
+  command(Ptu::COMMAND_RELEASE);
+  EXPECT_NE(station->state(), StationState::kStopped);
 }
 
 TEST_F(StationBusTest, ARefusedDesignationIsTold) {

@@ -329,6 +329,7 @@ TEST_F(StationSafetyTest, AStopCallsOffAHoming) {
   EXPECT_FALSE(station_.take_home());
   EXPECT_TRUE(station_.take_stop());
   EXPECT_FALSE(station_.take_stop());
+  now_ += Station::kStopHold_s;
   EXPECT_EQ(station_.home(now_), Refusal::kNone);  // who says it afterwards means it
   EXPECT_TRUE(station_.take_home());
 }
