@@ -28,7 +28,8 @@ StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, St
         return station_.slew(from_message(message, sender_, now_s_), now_s_);
       },
       [](const ols_msg::slew_t&) { return false; });
-  // A stop is good at any age and from any clock: only what moves must be fresh.
+  // A stop is good at any age, from any clock and of any schema that can be read: only what moves
+  // must be fresh, and who says stop on this station's channel means this station.
   on_command<ols_msg::ptu_command_t>(
       "PTU", [this](const ols_msg::ptu_command_t& message) { return command_ptu(message); },
       [](const ols_msg::ptu_command_t& message) {
@@ -100,7 +101,7 @@ Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
     case ols_msg::ptu_command_t::COMMAND_RELEASE:
       return station_.release(now_s_);
     case ols_msg::ptu_command_t::COMMAND_REARM:
-      return station_.rearm(now_s_);
+      return station_.rearm_over_bus(now_s_);
     case ols_msg::ptu_command_t::COMMAND_HOME:
       return station_.home(now_s_);
     case ols_msg::ptu_command_t::COMMAND_REFERENCE_OK:
@@ -126,11 +127,11 @@ void StationBus::on_command(const std::string& kind,
                                                      int bytes) {
     Message message;
     if (!decode_exactly(data, bytes, message)) return refuse(kind, "malformed");
-    if (message.schema_version != Message::SCHEMA_VERSION) return refuse(kind, "schema");
-    if (message.station != settings_.id) return refuse(kind, "other_station");
     if (!passes(message)) {
+      if (message.schema_version != Message::SCHEMA_VERSION) return refuse(kind, "schema");
+      if (message.station != settings_.id) return refuse(kind, "other_station");
       const auto refusal = gates_.at(kind).admit(stamp_of(message), sender_.utime_us(now_s_));
-      if (refusal) return refuse(kind, to_string(*refusal));
+      if (refusal) return refuse_at_gate(kind, to_string(*refusal));
     }
     const Refusal result = execute(message);
     if (result != Refusal::kNone) note_refusal(kind + " refused: " + to_string(result));
@@ -153,6 +154,11 @@ void StationBus::refuse(const std::string& kind, const std::string& why) {
   counters_["messages_refused"] += 1;
   counters_["messages_refused_" + why] += 1;
   note_refusal(kind + " refused: " + why);
+}
+
+void StationBus::refuse_at_gate(const std::string& kind, const std::string& why) {
+  stale_.note(kind == "SLEW" ? "slews" : kind + " commands", why, now_s_);
+  refuse(kind, why);
 }
 
 void StationBus::note_refusal(const std::string& what) {

@@ -16,6 +16,7 @@
 #include "edge/clock/clock_pair.h"
 #include "edge/config.h"
 #include "edge/messages.h"
+#include "edge/refusal_watch.h"
 
 namespace ols {
 
@@ -47,6 +48,8 @@ class StationBus {
   // The last refused command in words, and how many there were.
   const std::string& last_refusal() const { return last_refusal_; }
   std::uint64_t refusals() const { return refusals_; }
+  // Of commands that keep being refused because they are not fresh.
+  std::vector<std::string> alarms() const { return stale_.alarms(now_s_); }
   // Refusals before the station, messages not sent; go into each status.
   const std::map<std::string, double>& counters() const { return counters_; }
 
@@ -57,7 +60,7 @@ class StationBus {
  private:
   template <class Message>
   void publish(const std::string& channel, const Message& message);
-  // Messages that `passes` is true for need not be fresh.
+  // Messages that `passes` is true for are obeyed whatever sender, time and schema they name.
   template <class Message>
   void on_command(const std::string& kind, const std::function<Refusal(const Message&)>& execute,
                   const std::function<bool(const Message&)>& passes);
@@ -66,6 +69,7 @@ class StationBus {
   Refusal command_ptu(const ols_msg::ptu_command_t& message);
   void record(const ols_msg::record_t& message);
   void refuse(const std::string& kind, const std::string& why);
+  void refuse_at_gate(const std::string& kind, const std::string& why);
   void note_refusal(const std::string& what);
 
   const StationSettings& settings_;
@@ -78,6 +82,7 @@ class StationBus {
   std::unique_ptr<LcmBus> bus_;
   std::string trouble_ = "not connected yet";
   std::map<std::string, CommandGate> gates_;
+  RefusalWatch stale_;                               // and all else that a gate refuses
   std::optional<ols_msg::designate_t> designation_;  // waits for the end of the turn
   bool designated_ = false;                          // in this turn
   std::map<std::string, double> counters_;

@@ -42,6 +42,7 @@ struct StationConfig {
   int disagreeing_frames = 5;  // in a row that raise the alarm
   AcquisitionConfig acquisition;
   bool homing_allowed = true;     // on command
+  bool rearm_over_bus = false;    // by whoever sends it; else by a hand at the station only
   double slew_lease_max_s = 2.0;  // a longer lease is refused
   double point_time_s = 15.0;     // an operator's move may take this long
   double max_age_s = 1.0;         // older frames are not tracked, older bearings not sent
@@ -75,8 +76,11 @@ class Station {
   Refusal point(const PointCommand& command, double now_s);
   void stop(double now_s);  // take_stop() says so once: what the unit does by itself ends too
   Refusal release(double now_s);
-  // After an emergency stop: leads to kStopped, from where the operator goes on.
+  // After an emergency stop, by a hand at the station: leads to kStopped, from where the operator
+  // goes on.
   Refusal rearm(double now_s);
+  // The same from afar, where anybody may send it: refused unless the site lets it.
+  Refusal rearm_over_bus(double now_s);
   // The unit shall home; take_home() says so once.
   Refusal home(double now_s);
   // A person vouches for the unit's reference; take_reference_ok() says so once.

@@ -156,6 +156,13 @@ Refusal Station::rearm(double now_s) {
   return count(Refusal::kNone, "rearm");
 }
 
+Refusal Station::rearm_over_bus(double now_s) {
+  now_s_ = std::max(now_s_, now_s);
+  if (stop_pressed_) return count(Refusal::kEmergency, "rearm");
+  if (!config_.rearm_over_bus) return count(Refusal::kRearmNeedsAHand, "rearm");
+  return rearm(now_s);
+}
+
 bool Station::without_reference() const {
   return reference_ == PtuReference::kMissing || reference_ == PtuReference::kDoubted;
 }

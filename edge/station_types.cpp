@@ -55,6 +55,8 @@ const char* to_string(Refusal refusal) {
       return "keep_out";
     case Refusal::kNoDoubt:
       return "no_doubt";
+    case Refusal::kRearmNeedsAHand:
+      return "rearm_needs_a_hand";
   }
   return "unknown";
 }
