@@ -90,10 +90,11 @@ TEST_F(WordMemoryTest, AFolderThatVanishesWhileItRunsIsATroubleUntilItIsBack) {
     WordMemory memory(file, kWords);
     if (!known) memory.set("worse");
     ASSERT_TRUE(eventually([&] { return content() == "worse"; }));
-    std::filesystem::remove_all(folder);
+    std::filesystem::rename(folder, folder + ".away");
     ASSERT_TRUE(eventually([&] { return !memory.trouble().empty(); }));
     std::filesystem::create_directories(folder);
     EXPECT_TRUE(eventually([&] { return memory.trouble().empty() && content() == "worse"; }));
+    std::filesystem::remove_all(folder + ".away");
   }
 }
 
