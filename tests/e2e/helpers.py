@@ -36,15 +36,19 @@ class StopSwitch:
             threading.Thread(target=self._answer, args=(client,), daemon=True).start()
 
     def _answer(self, client: socket.socket) -> None:
-        for text in client.makefile():
-            if text.startswith("read"):
-                self._tell(client, int(text.split()[1]))
+        try:
+            for text in client.makefile():
+                if text.startswith("read"):
+                    self._tell(client, int(text.split()[1]))
+        except ConnectionResetError:
+            pass  # a station that was killed
 
     def _tell(self, client: socket.socket, line: int) -> None:
         try:
             client.sendall(f"in {line} {self._levels[line]}\n".encode())
         except OSError:
-            self._clients.remove(client)  # a station that has ended
+            if client in self._clients:
+                self._clients.remove(client)  # a station that has ended
 
     def _set(self, line: int, level: int) -> None:
         self._levels[line] = level

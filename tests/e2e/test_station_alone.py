@@ -30,6 +30,8 @@ fx_px = 13333.3
 fy_px = 13333.3
 """
 
+LONG_LEASE_S = 9.0  # of what is played again some statuses later
+
 
 def starts_stopped(station):
     """It remembers nothing, so nobody knows how it was left."""
@@ -91,6 +93,7 @@ def test_foreign_and_truncated_messages_are_refused(station, kind):
 
 def test_commands_that_are_not_commands_are_refused(station):
     nan = slew("lone", 10, math.nan)
+    nan.lease_s = LONG_LEASE_S
     refused(station, "refused_not_finite", "OLS_SLEW_lone", nan.encode())
     far = slew("lone", 11, 0.1, 1.2)  # above the unit's travel
     refused(station, "refused_unreachable", "OLS_SLEW_lone", far.encode())
@@ -133,10 +136,11 @@ def test_an_operator_is_not_locked_out_by_stamps_from_ahead(station):
 
 
 def test_commands_that_keep_being_refused_are_an_alarm(station):
-    again = slew("lone", 9000, math.nan).encode()
-    refused(station, "refused_not_finite", "OLS_SLEW_lone", again)
+    again = slew("lone", 9000, math.nan)
+    again.lease_s = LONG_LEASE_S
+    refused(station, "refused_not_finite", "OLS_SLEW_lone", again.encode())
     for _ in range(4):
-        refused(station, "messages_refused_replayed", "OLS_SLEW_lone", again)
+        refused(station, "messages_refused_replayed", "OLS_SLEW_lone", again.encode())
     said = "refused in 10 s: replayed"
     station.wait(lambda: any(a.endswith(said) for a in alarms(station)), "the alarm")
     station.wait(lambda: not any(a.endswith(said) for a in alarms(station)), "its end")
