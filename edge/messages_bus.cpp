@@ -59,12 +59,11 @@ void StationBus::subscribe() {
 std::string StationBus::ptu_channel() const { return "OLS_PTU_" + settings_.id; }
 
 // In the bus's own thread: a stop goes ahead of whatever else waits, and no flood pushes it out. It
-// is good at any age and from any clock: only what moves must be fresh.
+// is good at any age, from any clock, sender and schema that can be read: only what moves must be
+// fresh, and who says stop on this station's channel means this station.
 bool StationBus::take_stop(const void* data, int bytes) {
   ols_msg::ptu_command_t command{};
   const bool is_stop = decode_exactly(data, bytes, command) &&
-                       command.schema_version == ols_msg::ptu_command_t::SCHEMA_VERSION &&
-                       command.station == settings_.id &&
                        command.command == ols_msg::ptu_command_t::COMMAND_STOP;
   if (is_stop) stop_ = true;
   return is_stop;
@@ -116,7 +115,7 @@ Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
     case ols_msg::ptu_command_t::COMMAND_RELEASE:
       return station_.release(now_s_);
     case ols_msg::ptu_command_t::COMMAND_REARM:
-      return station_.rearm(now_s_);
+      return station_.rearm_over_bus(now_s_);
     case ols_msg::ptu_command_t::COMMAND_HOME:
       return station_.home(now_s_);
     case ols_msg::ptu_command_t::COMMAND_REFERENCE_OK:
@@ -144,7 +143,7 @@ void StationBus::on_command(const std::string& kind,
     if (message.schema_version != Message::SCHEMA_VERSION) return refuse(kind, "schema");
     if (message.station != settings_.id) return refuse(kind, "other_station");
     const auto refusal = gates_.at(kind).admit(stamp_of(message), sender_.utime_us(now_s_));
-    if (refusal) return refuse(kind, to_string(*refusal));
+    if (refusal) return refuse_at_gate(kind, to_string(*refusal));
     const Refusal result = execute(message);
     if (result != Refusal::kNone) note_refusal(kind + " refused: " + to_string(result));
   };
@@ -168,6 +167,11 @@ void StationBus::refuse(const std::string& kind, const std::string& why) {
   note_refusal(kind + " refused: " + why);
 }
 
+void StationBus::refuse_at_gate(const std::string& kind, const std::string& why) {
+  stale_.note(kind == "SLEW" ? "slews" : kind + " commands", why, now_s_);
+  refuse(kind, why);
+}
+
 void StationBus::note_refusal(const std::string& what) {
   last_refusal_ = what;
   ++refusals_;
@@ -187,6 +191,12 @@ void StationBus::receive() {
     watch_.look(bus_->traffic(), now_s_);
   }
   end_turn();
+}
+
+std::vector<std::string> StationBus::alarms() const {
+  auto alarms = stale_.alarms(now_s_);
+  if (auto alarm = watch_.alarm(now_s_); !alarm.empty()) alarms.push_back(std::move(alarm));
+  return alarms;
 }
 
 std::map<std::string, double> StationBus::counters() const {

@@ -18,6 +18,7 @@
 #include "edge/clock/clock_pair.h"
 #include "edge/config.h"
 #include "edge/messages.h"
+#include "edge/refusal_watch.h"
 
 namespace ols {
 
@@ -44,13 +45,14 @@ class StationBus {
   // then: of those that come at once only the newest is carried out.
   void end_turn();
 
-  // What a person should know of the bus's traffic; empty when nothing.
-  std::string alarm() const { return watch_.alarm(now_s_); }
   // Why there is no connection; empty when there is one.
   const std::string& trouble() const { return trouble_; }
   // The last refused command in words, and how many there were.
   const std::string& last_refusal() const { return last_refusal_; }
   std::uint64_t refusals() const { return refusals_; }
+  // What a person should know of the bus: commands that keep being refused because they are not
+  // fresh, datagrams that are none.
+  std::vector<std::string> alarms() const;
   // Refusals before the station, messages not sent; go into each status.
   std::map<std::string, double> counters() const;
 
@@ -71,6 +73,7 @@ class StationBus {
   Refusal command_ptu(const ols_msg::ptu_command_t& message);
   void record(const ols_msg::record_t& message);
   void refuse(const std::string& kind, const std::string& why);
+  void refuse_at_gate(const std::string& kind, const std::string& why);
   void note_refusal(const std::string& what);
 
   const StationSettings& settings_;
@@ -88,6 +91,7 @@ class StationBus {
   BusWatch watch_;
   std::string trouble_ = "not connected yet";
   std::map<std::string, CommandGate> gates_;
+  RefusalWatch stale_;                               // and all else that a gate refuses
   std::optional<ols_msg::designate_t> designation_;  // waits for the end of the turn
   bool designated_ = false;                          // in this turn
   std::map<std::string, double> counters_;

@@ -118,6 +118,11 @@ Refusal Station::point(const PointCommand& command, double now_s) {
   return count(Refusal::kNone, "point");
 }
 
+void Station::begin_stopped() {
+  stop_ = true;
+  if (state_ != StationState::kEmergency) enter(StationState::kStopped);
+}
+
 bool Station::stop_holds(double now_s) const {
   return state_ == StationState::kStopped && stopped_s_ && now_s - *stopped_s_ < kStopHold_s;
 }
@@ -128,9 +133,8 @@ void Station::stop(double now_s) {
   slew_.reset();
   point_.reset();
   home_ = false;
-  stop_ = true;
+  begin_stopped();
   stopped_s_ = now_s;
-  if (state_ != StationState::kEmergency) enter(StationState::kStopped);
   count(Refusal::kNone, "stop");
 }
 
@@ -162,6 +166,13 @@ Refusal Station::rearm(double now_s) {
   if (stop_pressed_) return count(Refusal::kEmergency, "rearm");
   if (state_ == StationState::kEmergency) enter(StationState::kStopped);
   return count(Refusal::kNone, "rearm");
+}
+
+Refusal Station::rearm_over_bus(double now_s) {
+  now_s_ = std::max(now_s_, now_s);
+  if (stop_pressed_) return count(Refusal::kEmergency, "rearm");
+  if (!config_.rearm_over_bus) return count(Refusal::kRearmNeedsAHand, "rearm");
+  return rearm(now_s);
 }
 
 bool Station::without_reference() const {

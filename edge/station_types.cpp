@@ -57,6 +57,8 @@ const char* to_string(Refusal refusal) {
       return "just_stopped";
     case Refusal::kNoDoubt:
       return "no_doubt";
+    case Refusal::kRearmNeedsAHand:
+      return "rearm_needs_a_hand";
   }
   return "unknown";
 }

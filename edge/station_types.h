@@ -76,6 +76,7 @@ enum class Refusal {
   kKeepOut,      // homing would sweep across the regions to keep out of
   kNoDoubt,      // about the reference, that a person could end
   kJustStopped,  // a stop holds for a moment, whatever was sent before it or crosses it on the wire
+  kRearmNeedsAHand,  // at the station: after an emergency stop nobody frees it from afar
 };
 const char* to_string(Refusal refusal);
 

@@ -230,6 +230,7 @@ void LiveSite::apply_faults() {
       device->gpio->set_pressed(now.stop_pressed);
       device->stop_edge_utime = true_utime_us(scenario_s(clock_monotonic_ns()));
     }
+    if (device->gpio) device->gpio->hold_rearm(now.rearm_held);
     device->faults = now;
   }
 }

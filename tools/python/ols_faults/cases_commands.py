@@ -15,6 +15,8 @@ from ols_faults.session import Session
 POINT = ols_msg.ptu_command_t.COMMAND_POINT
 STILL_DEG = 0.02  # of the truth; one count is 0.003 deg
 WAY_RAD = np.radians(5.0)
+REPLAY_LEASE_S = 9.0  # of what is played again 6 s later
+SLEW_LEASE_S = 2.0  # the longest that a slew may have
 
 
 def refusals(status: Any) -> float:
@@ -135,6 +137,7 @@ def bad_manual_commands(session: Session, outcome: Outcome) -> None:
     channel = f"OLS_PTU_{station}"
     judge_refused(session, outcome, station, "manual command", bad, channel)
     good = away()
+    good.lease_s = REPLAY_LEASE_S
     start_us = session.now_us()
     session.publish(channel, good)
     session.run(2.0)
@@ -144,7 +147,7 @@ def bad_manual_commands(session: Session, outcome: Outcome) -> None:
     home.pan_rad = status.pan_rad
     session.publish(channel, home)
     session.run(2.0)
-    good.utime = session.now_us() + 500_000
+    # The very same bytes, still within their lease.
     judge_refused(session, outcome, station, "played-again command", [lambda: good], channel)
     session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
     outcome.recovered("tracking again", session.wait(lambda: session.tracks(station), 15.0), 15.0)
@@ -159,8 +162,10 @@ def bad_slews(session: Session, outcome: Outcome) -> None:
     station = session.stations[0]
     session.kill("ols-fusion")  # its own slews would move the station
     standing(session, station)
-    session.kill(session.process(station))  # a fresh one is idle and takes slews
+    session.kill(session.process(station))  # a fresh one has no target
     session.start_station(station)
+    session.wait(lambda: session.state(station) == "stopped", 15.0)  # as it was left
+    session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
     session.wait(lambda: np.isfinite(getattr(session.status(station), "pan_rad", np.nan)), 15.0)
     session.run(1.0)
     status = session.fresh_status(station)
@@ -198,10 +203,14 @@ def bad_slews(session: Session, outcome: Outcome) -> None:
         session.run(0.1)
     moved = measure.moved_deg(session.heard, station, start_us, session.now_us())
     outcome.at_least("moved by good ones", moved, 0.8 * np.degrees(WAY_RAD), "deg")
-    session.run(2.0)
-    good.utime = session.now_us() + 500_000
-    good.effect_utime = good.utime + 100_000
+    good = away()
+    good.lease_s = SLEW_LEASE_S
     good.azimuth_rad = status.azimuth_rad
+    session.publish(channel, good)
+    for _ in range(8):  # leads away from where that one pointed
+        session.publish(channel, away())
+        session.run(0.1)
+    # The very same bytes, still within their lease.
     judge_refused(session, outcome, station, "played-again slew", [lambda: good], channel)
     session.start_fusion()
     # What it takes to track again after a restart is another case's matter.

@@ -1,6 +1,7 @@
 """A disk that is full, and one that is read-only, under what a station records."""
 
 import errno
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -69,7 +70,15 @@ def judge_disk(session: Session, outcome: Outcome, what: str) -> None:
     outcome.holds("goes on tracking", not away, ", ".join(sorted(away)) or "yes")
 
 
+def fetch(session: Session) -> None:
+    """Somebody takes the recordings along: the station itself keeps them."""
+    for name in folders(session):
+        if not name.endswith(".partial"):
+            shutil.rmtree(session.disk / name)
+
+
 def judge_recorded_again(session: Session, outcome: Outcome, ended_us: int) -> None:
+    fetch(session)
     before = folders(session)
     recovered_s = None
     for _ in range(12):  # an operator who tries again

@@ -16,13 +16,17 @@ RATE_DEG_S = 20.0
 STARVED_S = 2.0
 
 
-def killed_and_back(session: Session, outcome: Outcome, station: str) -> None:
-    """Kills the station now; judges the PTU's rest and the way back to the target by slew."""
+def killed_and_back(session: Session, outcome: Outcome, station: str, held: bool = False) -> None:
+    """Kills the station now; judges the PTU's rest and the way back to the target by slew. `held`:
+    the operator had it in hand."""
     at_us = session.kill(session.process(station))
     session.run(REST_S + 2 * measure.REST_S)
     rest = measure.rest_s(session.heard, station, at_us, session.now_us())
     outcome.at_most("PTU at rest after the kill", rest, REST_S, "s")
     started_us = session.start_station(station)
+    if held:  # it comes up as it was left, until somebody releases it
+        session.wait(lambda: session.state(station) == "stopped", 5.0)
+        session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
     back_s = session.tracking_again_s(station, started_us, BACK_BY_SLEW_S + 7.0)
     outcome.recovered("tracking again after its start", back_s, BACK_BY_SLEW_S)
     designated = session.counter(station, "designate_accepted")
@@ -48,7 +52,7 @@ def station_killed_fast(session: Session, outcome: Outcome) -> None:
     start = session.status(station)
     speed = turn_steadily(session, station, start.pan_rad, start.tilt_rad, 2.5)
     outcome.at_least("PTU's speed at the kill", speed, 0.9 * RATE_DEG_S, "deg/s")
-    killed_and_back(session, outcome, station)
+    killed_and_back(session, outcome, station, held=True)
 
 
 def turn_steadily(

@@ -53,8 +53,8 @@ def emergency_stop(session: Session, outcome: Outcome) -> None:
     session.fault("emergency-stop", station, 0.0)
     session.run(1.0)
     stays_stopped(session, outcome, station, side, "released, not re-armed")
-    session.command(station, REARM)
-    session.run(0.5)
+    session.rearm(station)
+    session.wait(lambda: session.state(station) == "stopped", 4.0)
     start_us = session.now_us()
     swing(session, station, side * WAY_DEG / 2)
     session.run(2.0)
@@ -80,13 +80,12 @@ def judge_stop(outcome: Outcome, heard: Recording, station: str, window: tuple[i
 
 
 def stays_stopped(session: Session, outcome: Outcome, station: str, side: float, when: str) -> None:
-    """The operator points, the fusion slews, somebody releases: nothing moves."""
+    """The operator points, the fusion slews, somebody releases and re-arms: nothing moves."""
     start_us = session.now_us()
     for _ in range(4):
         swing(session, station, side * WAY_DEG / 2)
         session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
-        if when == "while pressed":
-            session.command(station, REARM)
+        session.command(station, REARM)  # from afar: nobody's hand at the station
         session.run(0.4)
     moved = measure.moved_deg(session.heard, station, start_us, session.now_us())
     outcome.at_most(f"moved {when}", moved, STILL_DEG, "deg")

@@ -23,6 +23,8 @@ from ols_faults import measure
 RESTORE_S = 90.0
 BY_SLEWS_S = 8.0  # after that the operator designates again
 OTHER_OBJECT_DEG = 0.5
+REARM_HELD_S = 1.5  # a second is asked for
+REARM_AGAIN_S = 2.5
 
 
 class Session:
@@ -37,6 +39,7 @@ class Session:
         self.operator = Operator(self.bus.lcm, self.observer, seed)
         self._sequence = 0
         self._restoring_us = 0
+        self._rearmed: dict[str, float] = {}
         self._handlers: list[Callable[[], None]] = []
 
     def add_handler(self, handler: Callable[[], None]) -> None:
@@ -174,6 +177,13 @@ class Session:
         message.command, message.pan_rad, message.tilt_rad = what, pan_rad, tilt_rad
         self.publish(f"OLS_PTU_{station}", message)
 
+    def rearm(self, station: str) -> None:
+        """A hand at the station's button, unless one is just there: it must be let go between."""
+        now = time.monotonic()
+        if now - self._rearmed.get(station, -REARM_AGAIN_S) >= REARM_AGAIN_S:
+            self._rearmed[station] = now
+            self.fault("rearm-button", station, REARM_HELD_S)
+
     def process(self, station: str) -> str:
         return f"ols-station-{station}"
 
@@ -252,7 +262,7 @@ class Session:
     def _free(self, by_hand: set[str]) -> None:
         for station in self.stations:
             if self.state(station) == "emergency":
-                self.command(station, ols_msg.ptu_command_t.COMMAND_REARM)
+                self.rearm(station)
             elif self.state(station) in ("manual", "stopped") and station not in by_hand:
                 self.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
 
