@@ -96,7 +96,9 @@ BusHeard listen(const std::string& lcm_url, double seconds) {
     });
     bus.subscribe("OLS_FUSION_STATUS", [&](const std::string&, const void* data, int bytes) {
       ols_msg::fusion_status_t status;
-      if (decode_exactly(data, bytes, status)) fusions.insert(status.boot_id);
+      if (!decode_exactly(data, bytes, status)) return;
+      fusions.insert(status.boot_id);
+      heard.fusion_alarms = status.alarm;
     });
     const double end_s = clock_monotonic_s() + seconds;
     while (clock_monotonic_s() < end_s) bus.handle(kPoll_ms);
