@@ -18,6 +18,8 @@ class NoTracker final : public ols::TargetTracker {
   }
   ols::TrackerResult track(const ols::TrackerInput&) override { return {}; }
   void search_near(const Eigen::Vector2d&, double) override {}
+  void set_aside() override {}
+  void take_back() override {}
 };
 
 ols::StationSettings settings() {
