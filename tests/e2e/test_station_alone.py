@@ -153,10 +153,15 @@ def test_designation_without_a_frame_is_refused(station):
 
 
 def release(station):
-    message = point("lone", time.time_ns(), 0.0)
-    message.command = ols_msg.ptu_command_t.COMMAND_RELEASE
-    station.publish("OLS_PTU_lone", message.encode())
-    station.wait(lambda: station.observer.state("lone") == "idle", "idle")
+    """Again and again: in the first second after a stop it is refused."""
+
+    def released():
+        message = point("lone", time.time_ns(), 0.0)
+        message.command = ols_msg.ptu_command_t.COMMAND_RELEASE
+        station.publish("OLS_PTU_lone", message.encode())
+        return station.observer.state("lone") == "idle"
+
+    station.wait(released, "idle")
 
 
 def test_a_stop_needs_neither_age_nor_order(station):

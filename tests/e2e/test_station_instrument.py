@@ -338,6 +338,8 @@ def test_a_stop_outlives_the_station(station):
         station.wait(lambda old=boot: station.observer.status["tool"].boot_id != old, "restarted")
         station.wait_for_state(state)
         if command is None:
+            # A release counts when it has been stable for a moment, also at the start.
+            station.wait(lambda: "gpio: emergency stop pressed" not in station.alarms(), "released")
             os.kill(station.pid(), signal.SIGUSR1)
             station.wait_for_state(status.STATE_STOPPED)
         else:

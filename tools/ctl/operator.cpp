@@ -134,8 +134,25 @@ std::optional<std::string> Operator::outcome(const std::string& station,
   return "no answer";
 }
 
+// A stop holds for a second; who goes on after it need not count.
+std::optional<std::string> Operator::patiently(
+    const std::function<std::optional<std::string>()>& send) {
+  constexpr double kPatience_s = 1.5;
+  const double end_s = clock_monotonic_s() + kPatience_s;
+  auto refusal = send();
+  while (refusal && refusal->starts_with("refused: just_stopped") && clock_monotonic_s() < end_s) {
+    refusal = send();
+  }
+  return refusal;
+}
+
 std::optional<std::string> Operator::designate(const std::string& station, double x, double y,
                                                double width, double height) {
+  return patiently([&] { return designate_once(station, x, y, width, height); });
+}
+
+std::optional<std::string> Operator::designate_once(const std::string& station, double x, double y,
+                                                    double width, double height) {
   ols_msg::designate_t message;
   address(message, station);
   message.frame_utime = 0;
@@ -160,8 +177,10 @@ void Operator::publish_ptu(const std::string& station, std::int8_t command, doub
 std::optional<std::string> Operator::send_ptu(const std::string& station, std::int8_t command,
                                               double pan_rad, double tilt_rad,
                                               const std::string& counter_name) {
-  publish_ptu(station, command, pan_rad, tilt_rad);
-  return outcome(station, counter_name);
+  return patiently([&] {
+    publish_ptu(station, command, pan_rad, tilt_rad);
+    return outcome(station, counter_name);
+  });
 }
 
 bool Operator::says_stopped(const std::string& station, double stops_before) const {

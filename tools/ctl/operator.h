@@ -49,6 +49,10 @@ class Operator {
  private:
   void hear(const BusMessage& message);
   bool says_stopped(const std::string& station, double stops_before) const;
+  std::optional<std::string> designate_once(const std::string& station, double x, double y,
+                                            double width, double height);
+  static std::optional<std::string> patiently(
+      const std::function<std::optional<std::string>()>& send);
   template <class Message>
   void address(Message& message, const std::string& station);
   void publish_ptu(const std::string& station, std::int8_t command, double pan_rad,
