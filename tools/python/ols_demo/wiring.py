@@ -65,9 +65,9 @@ class Wiring:
         for name in self.configs:
             self.start_station(site, name)
 
-    def start_fusion(self, site: Site, url: str = LIVE_URL) -> None:
+    def start_fusion(self, site: Site, url: str = LIVE_URL, name: str = "ols-fusion") -> None:
         command = [str(self._bin / "ols-fusion"), "--lcm-url", url]
-        site.start_and_wait("ols-fusion", command, "ready")
+        site.start_and_wait(name, command, "ready")
 
     def start_station(
         self, site: Site, name: str, environment: dict[str, str] | None = None
