@@ -13,6 +13,7 @@ from ols_demo.wiring import Wiring
 # Importing a module of cases registers them, in the order of the run.
 from ols_faults import (  # noqa: F401
     cases_baseline,
+    cases_bus,
     cases_camera,
     cases_clock,
     cases_commands,
@@ -22,6 +23,7 @@ from ols_faults import (  # noqa: F401
     cases_ptu,
     cases_sensors,
     cases_stop,
+    cases_stop_attacked,
     configuration,
     report,
 )

@@ -23,6 +23,8 @@ POINT = ols_msg.ptu_command_t.COMMAND_POINT
 STILL_DEG = 0.02  # of the truth; one count is 0.003 deg
 WAY_RAD = np.radians(5.0)
 WAY_DEG = float(np.degrees(WAY_RAD))
+REPLAY_LEASE_S = 9.0  # of what is played again 6 s later
+SLEW_LEASE_S = 2.0  # the longest that a slew may have
 
 Bad = tuple[str, str, Callable[[Any], None]]  # what it is, the reason that must be counted, how
 
@@ -180,13 +182,14 @@ def bad_manual_commands(session: Session, evidence: Evidence) -> None:
 
     send_bad(session, evidence, "manual commands", channel, altered(away, COMMON + MANUAL))
     good = away()
+    good.lease_s = REPLAY_LEASE_S
     session.publish(channel, good)
     evidence["good"] = session.run(2.0)
     home = away()
     home.pan_rad = status.pan_rad
     session.publish(channel, home)
     session.run(2.0)
-    good.utime = session.now_us() + 500_000
+    # The very same bytes, still within their lease.
     send_bad(session, evidence, "commands played again", channel, [lambda: good])
     evidence["freed_us"] = session.now_us()
     session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
@@ -232,8 +235,9 @@ def bad_slews(session: Session, evidence: Evidence) -> None:
     channel = f"OLS_SLEW_{station}"
     session.kill("ols-fusion")  # its own slews would move the station
     standing(session, station)
-    session.kill(session.process(station))  # a fresh one is idle and takes slews
+    session.kill(session.process(station))  # a fresh one has no target
     session.start_station(station)
+    session.release_held(station)
     session.wait(lambda: np.isfinite(getattr(session.status(station), "pan_rad", np.nan)), 15.0)
     session.run(1.0)
     status = session.fresh_status(station)
@@ -254,10 +258,14 @@ def bad_slews(session: Session, evidence: Evidence) -> None:
         session.publish(channel, good)
         session.run(0.1)
     evidence["good"] = start_us, session.now_us()
-    session.run(2.0)
-    good.utime = session.now_us() + 500_000
-    good.effect_utime = good.utime + 100_000
+    good = away()
+    good.lease_s = SLEW_LEASE_S
     good.azimuth_rad = status.azimuth_rad
+    session.publish(channel, good)
+    for _ in range(8):  # leads away from where that one pointed
+        session.publish(channel, away())
+        session.run(0.1)
+    # The very same bytes, still within their lease.
     send_bad(session, evidence, "slews played again", channel, [lambda: good])
     evidence["fusion_us"] = session.start_fusion()
     session.wait(lambda: session.state(station) in ("slewed", "tracking"), 20.0)

@@ -1,6 +1,7 @@
 """A disk that is full, and one that is read-only, under what a station records."""
 
 import errno
+import shutil
 import subprocess
 from functools import partial
 from pathlib import Path
@@ -98,7 +99,14 @@ def do(session: Session, evidence: Evidence, label: str, begin: Any, end: Any) -
     evidence["recorded_s"] = records_again_s(session)
 
 
+def fetch(session: Session) -> None:
+    """Somebody takes the recordings along: the station may keep what it has."""
+    for name in recorded(session.disk):
+        shutil.rmtree(session.disk / name)
+
+
 def records_again_s(session: Session) -> float | None:
+    fetch(session)
     ended_us, before = session.now_us(), recorded(session.disk)
     for _ in range(12):  # an operator who tries again
         record(session, session.disk_station, "after")

@@ -44,9 +44,12 @@ def kill(session: Session, evidence: Evidence, station: str) -> None:
     evidence["dead_until_us"] = session.now_us()
 
 
-def back(session: Session, evidence: Evidence) -> None:
+def back(session: Session, evidence: Evidence, held: bool = False) -> None:
+    """`held`: the operator had it in hand."""
     station = evidence["station"]
     evidence["started_us"] = session.start_station(station)
+    if held:
+        session.release_held(station)
     session.wait_for_tracking(station, evidence["started_us"], BACK_BY_SLEW_S + 7.0)
     session.fresh_status(station)
     evidence["judged_us"] = session.now_us()
@@ -131,7 +134,7 @@ def station_killed_fast(session: Session, evidence: Evidence) -> None:
     start = session.status(station)
     turn_steadily(session, station, start.pan_rad, start.tilt_rad, 2.5)
     kill(session, evidence, station)
-    back(session, evidence)
+    back(session, evidence, held=True)
 
 
 def turn_steadily(
@@ -175,7 +178,7 @@ def killed_at_full_speed(session: Session, evidence: Evidence) -> None:
     station = session.stations[1]
     swing_to_full_speed(session, station)
     kill(session, evidence, station)
-    back(session, evidence)
+    back(session, evidence, held=True)
 
 
 def swing_to_full_speed(session: Session, station: str) -> None:

@@ -11,6 +11,7 @@ from ols_faults.judges import judge_tracking_again
 from ols_faults.session import Session
 
 POINT = ols_msg.ptu_command_t.COMMAND_POINT
+REARM = ols_msg.ptu_command_t.COMMAND_REARM
 WAY_DEG = 90.0
 HALT_S = 0.05
 STILL_DEG = 0.02
@@ -118,12 +119,12 @@ def emergency_stop(session: Session, evidence: Evidence) -> None:
     evidence["at_us"] = session.fault("emergency-stop", station, 1e6)
     session.run(2.5)
     evidence["braked_us"] = session.now_us()
-    evidence["pressed"] = provoke(session, station, side, pressed=True)
+    evidence["pressed"] = provoke(session, station, side)
     session.fault("emergency-stop", station, 0.0)
     session.run(1.0)
-    evidence["released"] = provoke(session, station, side, pressed=False)
+    evidence["released"] = provoke(session, station, side)
     session.rearm(station)
-    session.run(0.5)
+    session.wait(lambda: session.state(station) == "stopped", 4.0)
     start_us = session.now_us()
     swing(session, station, side * WAY_DEG / 2)
     evidence["rearmed"] = start_us, session.run(2.0)[1]
@@ -132,13 +133,12 @@ def emergency_stop(session: Session, evidence: Evidence) -> None:
     session.wait_for_tracking(station, evidence["freed_us"], 20.0)
 
 
-def provoke(session: Session, station: str, side: float, pressed: bool) -> tuple[int, int]:
-    """The operator points, the fusion slews, somebody releases: nothing may move."""
+def provoke(session: Session, station: str, side: float) -> tuple[int, int]:
+    """The operator points, the fusion slews, somebody releases and re-arms: nothing may move."""
     start_us = session.now_us()
     for _ in range(4):
         swing(session, station, side * WAY_DEG / 2)
         session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
-        if pressed:
-            session.rearm(station)
+        session.command(station, REARM)  # from afar: nobody's hand at the station
         session.run(0.4)
     return start_us, session.now_us()

@@ -1,8 +1,8 @@
 """tools/fault-run --mutate: every check is seen to fail.
 
-Each case is done once. Then its evidence is altered, once for each of its checks, in the way in which
-a broken product (or a fault that was not done) would have altered it, and judged anew: that check
-must fail. A check that names no such mutation, or that still passes, fails the command.
+Each case is done once. Then its evidence is altered, once for each of its checks, in the way in
+which a broken product (or a fault that was not done) would have altered it, and judged anew: that
+check must fail. A check that names no such mutation, or that still passes, fails the command.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def try_case(case: Case, evidence: Evidence) -> Iterator[Trial]:
 
 
 def try_all(names: list[str], evidences: dict[str, Evidence]) -> list[Trial]:
-    """Of the named cases; one that was not done to its end has no evidence, and that is a failure."""
+    """Of the named cases; one that was not done to its end has no evidence: that is a failure."""
     trials = []
     for name in names:
         if name in evidences:

@@ -1,4 +1,4 @@
-"""Ways in which a product, or a fault, could be broken: what would have been heard and noted then."""
+"""Ways in which a product or a fault could be broken: what would then have been heard or noted."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import numpy as np
 import ols
 from ols_demo.evaluate import JOINT
 from ols_demo.observer import STATES
-from ols_demo.recording import Recording
 
 from ols_faults.case import Mutation
 from ols_faults.evidence import Evidence, heard, rewrite
@@ -24,7 +23,7 @@ ALWAYS: Window = (0, EVER)
 def altering(
     what: str, channel: str, change: Callable[[Any], Any], window: Window = ALWAYS
 ) -> Mutation:
-    """Messages that arrived in the window are what `change` makes of them; None: they never came."""
+    """What arrived in the window becomes what `change` makes of it; None: it never came."""
 
     def one(message: Any, at: int) -> list[tuple[Any, int]]:
         if not window[0] <= at <= window[1]:

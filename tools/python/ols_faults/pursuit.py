@@ -52,8 +52,8 @@ def rates(angles: np.ndarray) -> np.ndarray:
 
 
 def excess_deg_s(recording: Recording, station: str, start_us: int, end_us: int) -> float:
-    """The fastest motion beyond what standing, following and closing in on the target allow [deg/s];
-    NaN unknown."""
+    """The fastest motion beyond what standing, following and closing in on the target allow
+    [deg/s]; NaN unknown."""
     times, shafts = sampled(recording, station, start_us, end_us)
     h, lag = round(HALF_S / STEP_S), round(LAG_S / STEP_S)
     if len(times) <= 2 * h + lag or not recording.statuses.get(station):

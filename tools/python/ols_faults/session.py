@@ -71,7 +71,7 @@ class Session:
     @contextmanager
     def twin(self) -> Iterator[None]:
         """A second fusion meanwhile: it hears what the stations sent on a bus of its own, where
-        nothing is disturbed, and its targets are heard as OLS_TARGET_TWIN. Nobody heeds its slews."""
+        nothing is disturbed; its targets are heard as OLS_TARGET_TWIN. Nobody heeds its slews."""
 
         def hear_target(channel: str, message: Any, at_us: int) -> None:
             if channel == evaluate.JOINT:
@@ -247,6 +247,13 @@ class Session:
         at_us = self.now_us()
         self.wiring.start_fusion(self.site, url)
         return at_us
+
+    def release_held(self, station: str) -> None:
+        """A station that was in the operator's hand when it was killed comes up stopped, or idle
+        where it keeps no memory of it."""
+        self.fresh_status(station, 5.0)
+        if self.state(station) == "stopped":
+            self.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
 
     def rearm(self, station: str) -> None:
         """What ends an emergency whose stop was released."""
