@@ -65,6 +65,8 @@ std::function<ols::sim::Packet(std::uint64_t)> source(const Options& o) {
 void run(const Options& options) {
   using Clock = std::chrono::steady_clock;
   constexpr auto kTurn = std::chrono::milliseconds(1);
+  constexpr std::uint64_t kMostATurn = 10'000;  // one that cannot keep up can still be ended
+  constexpr auto kTell = std::chrono::seconds(1);
   ols::LcmBus bus(options.url);
   const auto next = source(options);
   const std::uint64_t most =
@@ -72,12 +74,17 @@ void run(const Options& options) {
   std::cout << "ready" << std::endl;
   const auto start = Clock::now();
   std::uint64_t sent = 0;
+  auto told = start;
   while (!ols::shutdown_requested() && sent < most) {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
     const auto due = std::min(most, static_cast<std::uint64_t>(elapsed_s * options.rate_hz));
-    for (; sent < due; ++sent) {
+    for (const auto until = std::min(due, sent + kMostATurn); sent < until; ++sent) {
       ols::sim::Packet packet = next(sent);
       bus.publish(packet.channel, ols::sim::RawMessage{std::move(packet.data)});
+    }
+    if (Clock::now() - told > kTell) {
+      told = Clock::now();
+      std::cout << "so far " << sent << std::endl;
     }
     std::this_thread::sleep_for(kTurn);
   }

@@ -1,5 +1,6 @@
 """Attacks on what reads the bus: datagrams that no message is made of, and channels without end."""
 
+import re
 import subprocess
 import time
 from pathlib import Path
@@ -35,8 +36,7 @@ def targets_of(session: Session) -> list[str]:
 
 
 class Logger:
-    """ols-logger, for one case: the public lcm-logger, which the run is recorded with, is no part
-    of the product and dies."""
+    """ols-logger, for one case."""
 
     def __init__(self, session: Session):
         self._session = session
@@ -45,8 +45,6 @@ class Logger:
         config = session.site.logs / "logger.toml"
         config.write_text(f'folder = "{folder}"\nlcm_url = "{LIVE_URL}"\ndisk_reserve_gb = 0.1\n')
         self._folder = folder
-        if "lcm-logger" in session.site.processes:
-            session.site.stop("lcm-logger")
         program = session.wiring.program("ols-logger")
         session.site.start("ols-logger", [program, "--config", str(config)])
         session.wait(lambda: self.recorded() > 0, 10.0)
@@ -142,6 +140,11 @@ def judge_fragments(evidence: Evidence, outcome: Outcome) -> None:
     judge_fragments,
 )
 def bus_fragments(session: Session, evidence: Evidence) -> None:
+    with session.without_log():
+        send_fragments(session, evidence)
+
+
+def send_fragments(session: Session, evidence: Evidence) -> None:
     for station in session.stations:
         session.fresh_status(station)
     logger, sender = Logger(session), Sender(LIVE_URL)
@@ -180,12 +183,6 @@ def judge_channels(evidence: Evidence, outcome: Outcome) -> None:
             "MB",
             broken_by=Mutation("105 bytes of each name stay", leaks),
         )
-    outcome.recovered(
-        "normal afterwards",
-        evidence["well_s"],
-        5.0,
-        broken_by=mutations.fact("it does not get well again", "well_s", None),
-    )
 
 
 @case(
@@ -195,27 +192,37 @@ def judge_channels(evidence: Evidence, outcome: Outcome) -> None:
     judge_channels,
 )
 def many_channels(session: Session, evidence: Evidence) -> None:
+    with session.without_log():
+        flood_with_channels(session, evidence)
+
+
+def flood_with_channels(session: Session, evidence: Evidence) -> None:
+    """As many as each must hear, and as many more as the kernel drops where one is overrun."""
     names = ours(session)
     pids = {name: session.pid(name) for name in names}
     before = {name: resident_bytes(pid) for name, pid in pids.items()}
     dropped = {name: datagrams_dropped(pid) for name, pid in pids.items()}
-    # A receiver that is overrun has not heard a name: there are as many more of them.
     command = [session.wiring.program("ols-sim-flood"), "--lcm-url", LIVE_URL]
     command += ["--rate", str(CHANNELS_HZ), "--unknown", str(10 * CHANNELS)]
     session.site.start_and_wait("channels", command, "ready")
-    began = time.monotonic()
+    log = session.site.logs / "channels.log"
 
-    def lost(name: str) -> int:
-        return datagrams_dropped(pids[name]) - dropped[name]
+    def heard(name: str, sent: int) -> int:
+        return sent - (datagrams_dropped(pids[name]) - dropped[name])
 
-    def enough() -> bool:
-        sent = (time.monotonic() - began) * CHANNELS_HZ
-        return all(sent - lost(name) > 1.02 * CHANNELS for name in names)
-
-    session.wait(enough, UNKNOWN_S)
+    deadline = time.monotonic() + UNKNOWN_S
+    while time.monotonic() < deadline and not session.ended():
+        session.run(1.0)
+        if min(heard(name, so_far(log)) for name in names) > CHANNELS:
+            break
     session.site.stop("channels")
-    sent, _ = flooded(session.site.logs / "channels.log")
-    evidence["names_heard"] = {name: sent - lost(name) for name in names}
+    sent, _ = flooded(log)
+    evidence["names_heard"] = {name: heard(name, sent) for name in names}
     session.run(1.0)
     evidence["grown"] = {name: resident_bytes(pids[name]) - before[name] for name in names}
-    evidence["well_s"] = session.wait(session.well, 10.0)
+
+
+def so_far(log: Path) -> int:
+    """What the newest flood has sent, as it says once a second."""
+    said = re.findall(r"so far (\d+)", log.read_text().rpartition("ready")[2])
+    return int(said[-1]) if said else 0

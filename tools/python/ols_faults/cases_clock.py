@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import ols_msg
-from ols_demo.evaluate import JOINT, OK
+from ols_demo.evaluate import JOINT
 
 from ols_faults import measure, mutations
 from ols_faults.case import Outcome, case
@@ -53,10 +53,6 @@ def is_marked(bearing: Any, step_s: float) -> bool:
     return bad or bearing.clock_error_s > 0.1 * abs(step_s)
 
 
-def used(target: Any) -> set[str]:
-    return {s for s, is_used in zip(target.station, target.used, strict=True) if is_used}
-
-
 def unmarked(bearing: Any) -> Any:
     return put(bearing, clock_state=ols_msg.bearing_t.CLOCK_SYNCHRONISED, clock_error_s=1e-3)
 
@@ -100,16 +96,15 @@ def judge_quarantine(evidence: Evidence, outcome: Outcome) -> None:
     station, window = evidence["station"], evidence["window"]
     others = set(evidence.stations) - {station}
     span = window[0] + round(QUARANTINED_S * 1e6), window[1]
-    arrived = measure.between_arrivals(evidence.heard, JOINT, *span)
-    later = [target for target, _ in arrived if target.solution == OK]
+    later = measure.positions(evidence.heard, *span)
     outcome.at_most(
         "targets with this station",
-        float(sum(station in used(target) for target in later)) if later else None,
+        float(sum(station in measure.used(target) for target in later)) if later else None,
         0,
         note=f"of {len(later)}",
         broken_by=mutations.rays("the stepped station is used", station, True, span),
     )
-    lacking = sum(not others <= used(target) for target in later)
+    lacking = sum(not others <= measure.used(target) for target in later)
     other = min(others)
     outcome.at_most(
         "share of targets that lack another station",
@@ -146,7 +141,7 @@ def judge(evidence: Evidence, outcome: Outcome, step_s: float) -> None:
     outcome.recovered(
         "in the targets again once the clock is right",
         measure.first_s(
-            evidence.heard, JOINT, back_us, mutations.EVER, lambda t: station in used(t)
+            evidence.heard, JOINT, back_us, mutations.EVER, lambda t: station in measure.used(t)
         ),
         RETURN_S,
         broken_by=mutations.rays("the station is not used again", station, False, late),
@@ -163,7 +158,7 @@ def clock_stepped(session: Session, evidence: Evidence, step_s: float) -> None:
         evidence["window"] = at_us, session.run(STEPPED_S)[1]
         evidence["back_us"] = clock.set(0.0)
         newest = session.heard.targets[JOINT]
-        session.wait(lambda: station in used(newest[-1]), RETURN_S)
+        session.wait(lambda: station in measure.used(newest[-1]), RETURN_S)
     finally:
         clock.close()
 

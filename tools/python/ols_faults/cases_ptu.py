@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import ols_msg
 from ols_demo.evaluate import JOINT
+from ols_demo.evaluate import OK as OK_POSITION
 
 from ols_faults import measure, mutations
 from ols_faults.case import Outcome, case
@@ -125,8 +126,7 @@ def judge_ridden_through(
     """A fault that must not interrupt the tracking."""
     station, window = evidence["station"], (evidence["at_us"], evidence["ended_us"])
     channel = f"OLS_STATUS_{station}"
-    for name in counters:
-        judge_counted(evidence, outcome, f"counted: {name}", channel, name, window, least)
+    judge_counted(evidence, outcome, "counted", channel, counters, window, least)
     judge_motion(evidence, outcome, station, window)
     judge_angles(evidence, outcome, station, window, (window[1] - window[0]) * 1e-6)
 
@@ -171,7 +171,7 @@ through(
     "ptu-garbled",
     "1 % of the PTU's replies garbled for 15 s",
     partial(ride_through, kind="ptu-garbled", number=1, seconds=15.0, value=0.01),
-    ("ptu_garbled",),
+    ("ptu_garbled", "ptu_timeouts"),
     3.0,
 )
 through(
@@ -185,7 +185,7 @@ through(
     "ptu-reply-lost",
     "a reply lost every 4 s (the table: every minute)",
     partial(ride_through, kind="ptu-reply-lost", number=3, seconds=13.0, value=4.0),
-    ("ptu_timeouts",),
+    ("ptu_timeouts", "ptu_garbled"),  # by which of a poll's replies it was
     3.0,
 )
 
@@ -281,37 +281,34 @@ def ptu_power_cycle_unhomed(session: Session, evidence: Evidence) -> None:
     home_and_back(session, evidence)
 
 
-def sets_aside(target: Any, station: str) -> bool:
-    return dict(zip(target.station, target.used, strict=True)).get(station) is False
+def is_without(target: Any, station: str) -> bool:
+    return target.solution == OK_POSITION and station not in measure.used(target)
 
 
 def judge_lost_steps(evidence: Evidence, outcome: Outcome) -> None:
     """No unit tells of it, and so no station can: the others show it."""
     station, at_us, window = (evidence[name] for name in ("station", "at_us", "window"))
-    heard = evidence.heard
-    aside = partial(sets_aside, station=station)
+    without = partial(is_without, station=station)
     outcome.at_most(
-        "rays set aside by the fusion",
-        measure.first_s(heard, JOINT, at_us, window[1], aside),
+        "positions without its rays",
+        measure.first_s(evidence.heard, JOINT, at_us, window[1], without),
         5.0,
         "s",
         broken_by=mutations.rays("its rays are used", station, True, (at_us, mutations.EVER)),
     )
-    told = measure.between_arrivals(heard, JOINT, *window)
-    without = float(np.mean([aside(target) for target, _ in told])) if told else None
-    outcome.at_least(
-        "share of targets without them",
-        without,
-        0.9,
+    found = measure.positions(evidence.heard, *window)
+    outcome.at_most(
+        "share of positions with its rays",
+        float(np.mean([not without(target) for target in found])) if found else None,
+        0.05,
         broken_by=mutations.rays("its rays are used again", station, True, window),
     )
-    other = evidence.stations[0]
-    lacking = float(np.mean([sets_aside(t, other) for t, _ in told])) if told else None
+    others = set(evidence.stations) - {station}
     outcome.at_most(
-        f"share of targets without {other}'s",
-        lacking,
+        "share of positions that lack another's",
+        float(np.mean([not others <= measure.used(t) for t in found])) if found else None,
         0.1,
-        broken_by=mutations.rays("the others' are set aside", other, False, window),
+        broken_by=mutations.rays("the others' are set aside", min(others), False, window),
     )
     judge_target(evidence, outcome, window, 8.0)
     judge_back(evidence, outcome, "ready after `home`")
@@ -327,9 +324,10 @@ def judge_lost_steps(evidence: Evidence, outcome: Outcome) -> None:
 def ptu_lost_steps(session: Session, evidence: Evidence) -> None:
     station = evidence["station"] = session.stations[3]
     evidence["at_us"] = at_us = session.fault("ptu-lost-steps", station, 1e6, SLIP_DEG)
-    aside = partial(sets_aside, station=station)
+    without = partial(is_without, station=station)
     session.wait(
-        lambda: measure.first_s(session.heard, JOINT, at_us, mutations.EVER, aside) is not None, 5.0
+        lambda: measure.first_s(session.heard, JOINT, at_us, mutations.EVER, without) is not None,
+        5.0,
     )
     session.run(1.5)  # until its filter has followed
     evidence["window"] = session.run(4.0)

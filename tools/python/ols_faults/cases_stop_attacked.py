@@ -128,8 +128,8 @@ def do(session: Session, evidence: Evidence, attack: object) -> None:
         session.run(0.5)
         for _ in range(STOPS):
             stops.append(stop_once(session, station))
-            if session.ended():
-                break  # there is nothing left to stop
+            if session.ended() or not any(stop["fast"] for stop in stops[-3:]):
+                break  # there is nothing (left) to stop
     evidence["stops"] = stops
     evidence["freed_us"] = session.now_us()
     session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)

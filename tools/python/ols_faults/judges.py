@@ -215,14 +215,18 @@ def judge_counted(
     outcome: Outcome,
     what: str,
     channel: str,
-    name: str,
+    names: str | tuple[str, ...],
     window: Window,
     least: float,
 ) -> None:
+    """By these counters together."""
+    names = (names,) if isinstance(names, str) else names
+    counted = [measure.grown(evidence.heard, channel, name, *window) for name in names]
+    silent = [mutations.without_counter(channel, name) for name in names]
     outcome.at_least(
         what,
-        measure.grown(evidence.heard, channel, name, *window),
+        None if None in counted else sum(counted),
         least,
-        note=name,
-        broken_by=mutations.without_counter(channel, name),
+        note=" + ".join(names),
+        broken_by=mutations.together(f"{' and '.join(names)} not counted", *silent),
     )

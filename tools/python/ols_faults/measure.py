@@ -210,9 +210,15 @@ def counter_at_end(
     return counters(during[-1][0]).get(name, 0.0) if during else None
 
 
-def target_error_m(recording: Recording, start_us: int, end_us: int) -> float | None:
-    """RMS error of the joint estimate's positions [m]; None without any."""
-    return evaluate.accuracy(recording, JOINT, (start_us, end_us))["rmse_m"]
+def used(target: Any) -> set[str]:
+    """The stations whose rays a target with a position comes from."""
+    return {s for s, is_used in zip(target.station, target.used, strict=True) if is_used}
+
+
+def positions(recording: Recording, start_us: int, end_us: int) -> list[Any]:
+    """Targets with a position that arrived in the window."""
+    arrived = between_arrivals(recording, JOINT, start_us, end_us)
+    return [target for target, _ in arrived if target.solution == OK]
 
 
 def target_arrivals_us(recording: Recording, start_us: int, end_us: int) -> list[int]:

@@ -140,6 +140,19 @@ class Session:
             self.turn()
         return time.monotonic() - start
 
+    @contextmanager
+    def without_log(self) -> Iterator[None]:
+        """The public lcm-logger, which the run is recorded with, is no part of the product: it dies
+        of fragments, and two million messages are much for a disk."""
+        logged = "lcm-logger" in self.site.processes
+        if logged:
+            self.site.stop("lcm-logger")
+        try:
+            yield
+        finally:
+            if logged:
+                self.wiring.start_log(self.site)
+
     # What stations say.
 
     def status(self, station: str) -> Any:
