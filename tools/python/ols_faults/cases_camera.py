@@ -19,6 +19,7 @@ SHORTLY_US = 700_000  # frames that are under way when the fault begins
 # A frame is some 17 of the large packets that a loopback carries; on a real network it is hundreds
 # of small ones, and 0.1 % does the same.
 LOSS = 0.04
+GONE = "camera:", "no frames for"
 WRONG_S = 8.0  # of which so long gone, so that it is opened anew:
 GONE_S = 3.0
 
@@ -40,7 +41,7 @@ def judge_gone(evidence: Evidence, outcome: Outcome) -> None:
     station, at_us, ended_us = (evidence[name] for name in ("station", "at_us", "ended_us"))
     channel = f"OLS_STATUS_{station}"
     judge_outage(evidence, outcome, station, (at_us + SHORTLY_US, ended_us))
-    judge_alarm(evidence, outcome, "reported", station, at_us, REPORTED_S, "camera:")
+    judge_alarm(evidence, outcome, "reported", station, at_us, REPORTED_S, *GONE)
     window = at_us, evidence["judged_us"]
     judge_counted(evidence, outcome, "counted", channel, "camera_reconnects", window, 1.0)
     judge_recovery(evidence, outcome)

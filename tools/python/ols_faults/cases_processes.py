@@ -163,7 +163,7 @@ def judge_full_speed(evidence: Evidence, outcome: Outcome) -> None:
         measure.moved_deg(evidence.heard, station, *window),
         speed * (AHEAD_S + braking_s / 2 + unsure_s),
         "deg",
-        broken_by=mutations.moves_on(station, (window[0], window[0] + 500_000), 20.0),
+        broken_by=mutations.goes_further(station, window, 1.25),
     )
     judge_back_by_slew(evidence, outcome)
 

@@ -78,9 +78,9 @@ def judge_whole(evidence: Evidence, outcome: Outcome, since_us: int, tracked_s: 
     judge_angles(evidence, outcome, station, window, tracked_s)
 
 
-def judge_line(evidence: Evidence, outcome: Outcome) -> None:
+def judge_line(evidence: Evidence, outcome: Outcome, words: str) -> None:
     station, at_us, ended_us = (evidence[name] for name in ("station", "at_us", "ended_us"))
-    judge_alarm(evidence, outcome, "reported", station, at_us, REPORTED_S, "ptu:")
+    judge_alarm(evidence, outcome, "reported", station, at_us, REPORTED_S, "ptu:", words)
     judge_outage(evidence, outcome, station, (at_us + 500_000, ended_us))
     judge_rest(evidence, outcome, station, (at_us, ended_us), REST_S)
     judge_well_again(evidence, outcome, "line healed", station, ended_us, 5.0)
@@ -102,12 +102,16 @@ def do_line(session: Session, evidence: Evidence, kind: str, number: int) -> Non
 
 
 HEALED = f"reported at once, healed, no runaway, {ANGLES}"
-case("ptu-line-cut", "PTU line cut for 5 s", HEALED, judge_line)(
+CUT, GONE = "halted, no ", "no serial port"  # words of the alarms
+case("ptu-line-cut", "PTU line cut for 5 s", HEALED, partial(judge_line, words=CUT))(
     partial(do_line, kind="ptu-line-cut", number=0)
 )
-case("ptu-line-gone", "PTU's serial adapter unplugged for 5 s", HEALED, judge_line)(
-    partial(do_line, kind="ptu-line-gone", number=3)
-)
+case(
+    "ptu-line-gone",
+    "PTU's serial adapter unplugged for 5 s",
+    HEALED,
+    partial(judge_line, words=GONE),
+)(partial(do_line, kind="ptu-line-gone", number=3))
 
 
 def aim_px(recording: Any, station: str, window: tuple[int, int]) -> float:
@@ -200,7 +204,8 @@ def power_cycle(session: Session, evidence: Evidence, number: int, homes: bool) 
 
 def judge_reported(evidence: Evidence, outcome: Outcome) -> None:
     station, at_us = evidence["station"], evidence["at_us"]
-    judge_alarm(evidence, outcome, "reported", station, at_us, REPORTED_S, "ptu:")
+    words = "ptu:", "switched off and on"
+    judge_alarm(evidence, outcome, "reported", station, at_us, REPORTED_S, *words)
 
 
 def home_and_back(session: Session, evidence: Evidence) -> None:

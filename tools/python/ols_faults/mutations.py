@@ -196,6 +196,23 @@ def moves_on(station: str, window: Window, deg_s: float) -> Mutation:
     return shafts_altered(f"the PTU moves at {deg_s:g} deg/s for {seconds:.2g} s", station, turn)
 
 
+def goes_further(station: str, window: Window, factor: float) -> Mutation:
+    """All its ways from the window's start on are so many times as long."""
+
+    def alter(evidence: Evidence) -> None:
+        before = [p for p in evidence.heard.ptus[station] if p.utime <= window[0]]
+        start = before[-1].pan_rad[-1]
+
+        def change(ptu: Any, at: int) -> list[tuple[Any, int]]:
+            if ptu.utime <= window[0]:
+                return [(ptu, at)]
+            return [(put(ptu, pan_rad=start + factor * (np.asarray(ptu.pan_rad) - start)), at)]
+
+        rewrite(evidence.heard, f"OLS_SIM_PTU_{station}", change)
+
+    return Mutation(f"the PTU goes {factor:g} times as far", alter)
+
+
 def stands(station: str, window: Window, what: str = "the PTU does not move") -> Mutation:
     """As it stood at the window's start."""
 
