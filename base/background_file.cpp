@@ -4,7 +4,8 @@
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
-#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -16,17 +17,20 @@ namespace ols {
 namespace {
 
 constexpr std::chrono::seconds kAgain{3};
+constexpr std::chrono::seconds kLook{2};  // until what was written is looked at again
 constexpr std::chrono::seconds kLast{1};  // for what is not written at the end
 
 // Throws std::system_error.
 void put(const std::string& path, const std::string& text) {
-  if (text.empty()) {
-    std::filesystem::remove(path);
-    return;
-  }
   AtomicFile file(path);
   file.stream() << text;
   file.commit();
+}
+
+bool holds(const std::string& path, const std::string& text) {
+  std::ifstream stream(path);
+  const std::string found{std::istreambuf_iterator<char>(stream), {}};
+  return stream.is_open() && !stream.bad() && found == text;
 }
 
 }  // namespace
@@ -34,18 +38,21 @@ void put(const std::string& path, const std::string& text) {
 struct BackgroundFile::Shared {
   void run(const std::string& path) {
     std::unique_lock lock(mutex);
-    while (wait(lock)) {
+    std::optional<std::string> kept;
+    while (wait(lock, kept)) {
       const bool last = end;
-      const std::string text = *std::exchange(waiting, std::nullopt);
+      const bool look = !waiting;
+      const std::string text = look ? *kept : *std::exchange(waiting, std::nullopt);
       lock.unlock();
       std::string failed;
       try {
-        put(path, text);
+        if (!look || !holds(path, text)) put(path, text);
       } catch (const std::exception& failure) {
         failed = failure.what();
       }
       lock.lock();
       trouble = failed;
+      kept = text;
       if (!failed.empty() && !waiting) waiting = text;
       if (!failed.empty() && last) break;
       done.notify_all();
@@ -54,12 +61,18 @@ struct BackgroundFile::Shared {
     done.notify_all();
   }
 
-  // Until there is something to write; after a failure a while longer. False: there is no more.
-  bool wait(std::unique_lock<std::mutex>& lock) {
+  // Until there is something to write, or to look at; after a failure a while longer. False: there
+  // is no more.
+  bool wait(std::unique_lock<std::mutex>& lock, const std::optional<std::string>& kept) {
     if (!trouble.empty()) {
       wake.wait_for(lock, kAgain, [this, before = written] { return end || written != before; });
     }
-    wake.wait(lock, [this] { return end || waiting; });
+    const auto is_due = [this] { return end || waiting; };
+    if (!kept) {
+      wake.wait(lock, is_due);
+    } else if (!wake.wait_for(lock, kLook, is_due)) {
+      return true;
+    }
     return waiting.has_value();
   }
 

@@ -1,4 +1,5 @@
-// A small file that is written whole, beside whoever must not wait for a disk.
+// A small file that is written whole, beside whoever must not wait for a disk, and that is looked
+// at from then on: taken away, or changed by somebody, it is written again.
 #pragma once
 
 #include <memory>
@@ -14,11 +15,12 @@ class BackgroundFile {
   BackgroundFile(const BackgroundFile&) = delete;
   BackgroundFile& operator=(const BackgroundFile&) = delete;
 
-  // To be all that is in the file soon, in place of what still waits; empty: no file. What fails
-  // is tried again every few seconds.
+  // To be all that is in the file soon, in place of what still waits. What fails, and what was
+  // taken away, is tried again every few seconds. The folder is never made: where it is a disk that
+  // is not there, the memory would end up beside it.
   void write(const std::string& text);
 
-  // Why it could not be written; empty when all is well.
+  // Why it is not in the file; empty when all is well.
   std::string trouble() const;
 
  private:

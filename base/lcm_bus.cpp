@@ -1,75 +1,112 @@
 #include "base/lcm_bus.h"
 
-#include <sys/socket.h>
-#include <unistd.h>
+#include <poll.h>
 
+#include <array>
 #include <cerrno>
-#include <cstring>
-#include <stdexcept>
+#include <system_error>
 
-#include "base/lcm_url.h"
+#include "base/clocks.h"
 
 namespace ols {
 namespace {
 
-// A datagram socket connected to the group has a route or fails at once; nothing is sent.
-void require_route(const sockaddr_in& group, const std::string& url) {
-  const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (descriptor < 0) throw BusError(url + ": " + std::strerror(errno));
-  const int failed = connect(descriptor, reinterpret_cast<const sockaddr*>(&group), sizeof group);
-  const int reason = errno;
-  close(descriptor);
-  if (failed != 0) {
-    throw BusError(url + ": no route for multicast (" + std::strerror(reason) +
+std::unique_ptr<MulticastSocket> open_socket(const std::string& url) {
+  try {
+    const BusAddress address = parse_lcm_url(url);
+    return address.group ? std::make_unique<MulticastSocket>(address) : nullptr;
+  } catch (const std::invalid_argument& problem) {
+    throw BusError(problem.what());
+  } catch (const std::system_error& problem) {
+    throw BusError(url + ": no route for multicast (" + problem.code().message() +
                    "); bring the interface up, or on one host: ip link set lo multicast on; "
                    "ip route add 224.0.0.0/4 dev lo");
   }
 }
 
-std::string checked(const std::string& url) {
+}  // namespace
+
+LcmBus::LcmBus(const std::string& url) : url_(url), socket_(open_socket(url)) {}
+
+LcmBus::~LcmBus() {
+  end_.set();
+  if (receiver_.joinable()) receiver_.join();
+}
+
+void LcmBus::listen() {
+  if (!socket_ || receiver_.joinable()) return;
   try {
-    if (const auto group = multicast_group(url)) require_route(*group, url);
+    socket_->listen();
+  } catch (const std::system_error& problem) {
+    throw BusError(url_ + ": " + problem.what());
+  }
+  receiver_ = std::thread([this] { receive_until_ended(); });
+  hear_oneself();
+}
+
+// A firewall, or a service's address filter, lets things out and nothing in.
+void LcmBus::hear_oneself() {
+  constexpr int kAgain_ms = 20;
+  const double end_s = clock_monotonic_s() + kSelfTest_s;
+  while (inbox_.traffic().received == 0) {
+    if (clock_monotonic_s() > end_s) {
+      throw BusError(
+          "nothing comes back on this host's bus; a firewall, or a service's address filter?");
+    }
+    send_self_test();
+    if (inbox_.traffic().received == 0) ::poll(nullptr, 0, kAgain_ms);
+  }
+}
+
+void LcmBus::receive_until_ended() {
+  std::vector<std::uint8_t> buffer(kLargestDatagram);
+  std::array<pollfd, 2> ready{{{socket_->descriptor(), POLLIN, 0}, {end_.descriptor(), POLLIN, 0}}};
+  while (::poll(ready.data(), ready.size(), -1) >= 0 || errno == EINTR) {
+    if (ready[1].revents != 0) return;
+    if (ready[0].revents == 0) continue;
+    if (const auto datagram = socket_->receive(buffer)) inbox_.put(*datagram, clock_utime_us());
+  }
+}
+
+void LcmBus::subscribe(const std::string& channel_regex, Handler handler, QueueLimits limits,
+                       Express express) {
+  listen();
+  try {
+    inbox_.subscribe(channel_regex, std::move(handler), limits, std::move(express));
   } catch (const std::invalid_argument& problem) {
     throw BusError(problem.what());
   }
-  return url;
 }
 
-}  // namespace
-
-struct LcmBus::Subscriber {
-  Handler handler;
-  void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    handler(channel, buffer->data, static_cast<int>(buffer->data_size));
+bool LcmBus::send(const std::string& channel, std::span<const std::uint8_t> payload) {
+  const auto datagram = make_datagram(sequence_++, channel, payload);
+  if (datagram.empty()) {
+    ++unsendable_;
+    return true;
   }
-};
-
-LcmBus::LcmBus(const std::string& url) : lcm_(checked(url)) {
-  if (!lcm_.good()) throw BusError(url + ": LCM cannot use this URL");
+  if (!socket_) {
+    inbox_.put(datagram, clock_utime_us());
+    return true;
+  }
+  const std::error_code failure = socket_->send(datagram);
+  if (failure == std::errc::message_size) ++unsendable_;
+  // A datagram that the network reports as undeliverable comes as the next one's error.
+  return !failure || failure == std::errc::message_size || failure == std::errc::connection_refused;
 }
 
-LcmBus::~LcmBus() = default;
-
-// Where the test fails (a firewall), LCM hands out subscriptions that crash when they are touched.
-void LcmBus::listen() {
-  if (lcm_.getFileno() >= 0) return;
-  throw BusError(
-      "nothing comes back on this host's bus; a firewall, or a service's address filter?");
-}
-
-void LcmBus::subscribe(const std::string& channel_regex, Handler handler, int queue_capacity) {
-  listen();
-  subscribers_.push_back(std::make_unique<Subscriber>(Subscriber{std::move(handler)}));
-  auto* subscription =
-      lcm_.subscribe(channel_regex, &Subscriber::receive, subscribers_.back().get());
-  subscription->setQueueCapacity(queue_capacity);
-}
+void LcmBus::send_self_test() { send(kSelfTestChannel, {}); }
 
 int LcmBus::handle(int timeout_ms) {
-  int handled = 0;
   constexpr int kMost = 256;
-  while (handled < kMost && lcm_.handleTimeout(handled == 0 ? timeout_ms : 0) > 0) ++handled;
+  int handled = 0;
+  while (handled < kMost && inbox_.handle_one(handled == 0 ? timeout_ms : 0)) ++handled;
   return handled;
+}
+
+BusTraffic LcmBus::traffic() const {
+  BusTraffic traffic = inbox_.traffic();
+  traffic.unsendable = unsendable_;
+  return traffic;
 }
 
 }  // namespace ols

@@ -1,17 +1,20 @@
-// An LCM connection that says what is wrong instead of going deaf.
-//
-// LCM's own self test blocks ten seconds when no multicast route exists, and the subscription is
-// then dead although the object says good(). Here the route is looked up first.
+// A connection to the bus: LCM messages over UDP multicast, or within one process. What the bytes
+// of a datagram mean is this project's own code (bus_datagram.h tells why); of LCM there are the
+// types, the format on the wire and the logs.
 #pragma once
 
 #include <cstdint>
 #include <exception>
-#include <functional>
-#include <lcm/lcm-cpp.hpp>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
+
+#include "base/bus_inbox.h"
+#include "base/multicast_socket.h"
+#include "base/wakeup.h"
 
 namespace ols {
 
@@ -22,32 +25,53 @@ class BusError : public std::runtime_error {
 
 class LcmBus {
  public:
+  using Handler = BusInbox::Handler;
+  using Express = BusInbox::Express;
+
   // Throws BusError with what to do about it when the URL is malformed or has no multicast route.
   explicit LcmBus(const std::string& url);
   ~LcmBus();
 
-  // Begins to receive; the first subscription does it too. LCM's self test of that takes up to ten
-  // seconds: throws BusError when nothing comes back.
+  // Begins to receive; the first subscription does it too. Throws BusError when nothing comes back
+  // within kSelfTest_s of what is sent.
   void listen();
+  static constexpr double kSelfTest_s = 3.0;
 
-  // A raw subscription: the handler decodes, so that what it cannot decode is counted by it.
-  using Handler = std::function<void(const std::string& channel, const void* data, int bytes)>;
-  void subscribe(const std::string& channel_regex, Handler handler, int queue_capacity = 1000);
+  // The handler decodes, so that what it cannot decode is counted by it.
+  void subscribe(const std::string& channel_regex, Handler handler, QueueLimits limits = {},
+                 Express express = {});
 
-  // False when the network takes it no longer.
+  // False when the network takes it no longer. What fits into no datagram is not sent, and counted
+  // (BusTraffic::unsendable): that is no fault of the network.
   template <class Message>
   bool publish(const std::string& channel, const Message& message) {
-    return lcm_.publish(channel, &message) == 0;
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+    const int size = static_cast<int>(bytes.size());
+    if (message.encode(bytes.data(), 0, size) == size) return send(channel, bytes);
+    ++unsendable_;
+    return true;
   }
 
   // Handles what has arrived, a few hundred messages at most, so that a flood cannot keep the
   // caller; waits at most timeout_ms for the first. Returns the number of messages handled.
   int handle(int timeout_ms);
 
+  BusTraffic traffic() const;
+  // A datagram to everybody that no subscription gets: where it comes back, traffic() counts it.
+  void send_self_test();
+
  private:
-  struct Subscriber;
-  lcm::LCM lcm_;
-  std::vector<std::unique_ptr<Subscriber>> subscribers_;
+  bool send(const std::string& channel, std::span<const std::uint8_t> payload);
+  void receive_until_ended();
+  void hear_oneself();
+
+  std::string url_;
+  std::unique_ptr<MulticastSocket> socket_;  // nothing: within this process
+  BusInbox inbox_;
+  std::uint32_t sequence_ = 0;
+  std::uint64_t unsendable_ = 0;
+  Wakeup end_;
+  std::thread receiver_;  // nothing else of this object that it shares but the inbox
 };
 
 // True when the whole of a datagram is one message of this type. Generated decoders throw on a
@@ -59,6 +83,12 @@ bool decode_exactly(const void* data, int bytes, Message& message) {
   } catch (const std::exception&) {
     return false;
   }
+}
+
+template <class Message>
+bool decode_exactly(const BusMessage& received, Message& message) {
+  return decode_exactly(received.payload.data(), static_cast<int>(received.payload.size()),
+                        message);
 }
 
 }  // namespace ols

@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 
+#include <algorithm>
 #include <charconv>
 #include <stdexcept>
 #include <string_view>
@@ -10,32 +11,30 @@
 namespace ols {
 namespace {
 
-std::uint16_t port_of(const std::string& text) {
-  std::uint16_t port = 0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), port);
-  if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() || port == 0) {
-    throw std::invalid_argument("\"" + text + "\" is not a port");
+constexpr std::string_view kMulticast = "udpm://", kInProcess = "memq://";
+constexpr int kLargestBuffer = 1 << 30;  // [byte]
+
+int number(std::string_view text, int least, int greatest, const std::string& what) {
+  int value = 0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() || value < least ||
+      value > greatest) {
+    throw std::invalid_argument("\"" + std::string(text) + "\" is not " + what);
   }
-  return port;
+  return value;
 }
 
-}  // namespace
-
-std::optional<sockaddr_in> multicast_group(const std::string& url) {
-  constexpr std::string_view kMulticast = "udpm://";
-  for (const char* other : {"tcpq://", "memq://", "file://", "mpudpm://"}) {
-    if (url.starts_with(other)) return std::nullopt;
-  }
-  if (!url.starts_with(kMulticast)) {
-    throw std::invalid_argument("\"" + url + "\" is not an LCM URL (udpm://ADDRESS:PORT?ttl=0)");
-  }
-  const std::string place = url.substr(kMulticast.size(), url.find('?') - kMulticast.size());
+sockaddr_in group_of(std::string_view place) {
   const std::size_t colon = place.find(':');
-  const std::string address =
-      colon == 0 || place.empty() ? "239.255.76.67" : place.substr(0, colon);
+  const std::string given(place.substr(0, colon));
+  const std::string address = given.empty() ? "239.255.76.67" : given;
   sockaddr_in group{};
   group.sin_family = AF_INET;
-  group.sin_port = htons(colon == std::string::npos ? 7667 : port_of(place.substr(colon + 1)));
+  group.sin_port = htons(7667);
+  if (colon != std::string_view::npos) {
+    group.sin_port =
+        htons(static_cast<std::uint16_t>(number(place.substr(colon + 1), 1, 65535, "a port")));
+  }
   if (inet_pton(AF_INET, address.c_str(), &group.sin_addr) != 1 ||
       !IN_MULTICAST(ntohl(group.sin_addr.s_addr))) {
     throw std::invalid_argument("\"" + address + "\" is not an IPv4 multicast address");
@@ -43,10 +42,47 @@ std::optional<sockaddr_in> multicast_group(const std::string& url) {
   return group;
 }
 
+void set_option(BusAddress& address, std::string_view option) {
+  const std::size_t equals = option.find('=');
+  const std::string_view name = option.substr(0, equals);
+  const std::string_view value =
+      equals == std::string_view::npos ? std::string_view() : option.substr(equals + 1);
+  if (name == "ttl") {
+    address.ttl = number(value, 0, 255, "a ttl (0 to 255)");
+  } else if (name == "recv_buf_size") {
+    address.receive_buffer_bytes = number(value, 1, kLargestBuffer, "a number of bytes");
+  } else {
+    throw std::invalid_argument("\"" + std::string(name) +
+                                "\" is no option of an LCM URL (ttl, recv_buf_size)");
+  }
+}
+
+}  // namespace
+
+BusAddress parse_lcm_url(const std::string& url) {
+  BusAddress address;
+  if (url == kInProcess) return address;
+  if (!url.starts_with(kMulticast)) {
+    throw std::invalid_argument("\"" + url +
+                                "\" is not the URL of a bus (udpm://ADDRESS:PORT?ttl=0)");
+  }
+  std::string_view rest = std::string_view(url).substr(kMulticast.size());
+  const std::size_t question = rest.find('?');
+  address.group = group_of(rest.substr(0, question));
+  if (question == std::string_view::npos) return address;
+  rest.remove_prefix(question + 1);
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('&'), rest.size());
+    set_option(address, rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return address;
+}
+
 std::string read_lcm_url(ConfigTable& table, const std::string& key, const std::string& fallback) {
   std::string url = table.text(key, fallback);
   try {
-    multicast_group(url);
+    parse_lcm_url(url);
   } catch (const std::invalid_argument& problem) {
     throw table.error(key, problem.what());
   }

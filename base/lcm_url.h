@@ -1,4 +1,5 @@
-// LCM's URLs, looked at before LCM sees them: it takes malformed ones without a word.
+// The address of a bus, written as LCM writes it: udpm://ADDRESS:PORT?ttl=N, or memq:// for a bus
+// within one process. LCM's other kinds (tcpq, file, mpudpm) are not spoken here.
 #pragma once
 
 #include <netinet/in.h>
@@ -10,9 +11,15 @@
 
 namespace ols {
 
-// The group of udpm://ADDRESS:PORT?options, LCM's defaults filled in; nothing for LCM's other kinds
-// (tcpq, memq, file, mpudpm). Throws std::invalid_argument saying what is wrong.
-std::optional<sockaddr_in> multicast_group(const std::string& url);
+struct BusAddress {
+  std::optional<sockaddr_in> group;      // nothing: within this process
+  int ttl = 0;                           // hops; 0: it does not leave this host
+  int receive_buffer_bytes = 8'388'608;  // asked for; the kernel gives net.core.rmem_max at most
+};
+
+// LCM's defaults filled in: 239.255.76.67, 7667, ttl=0. Throws std::invalid_argument saying what is
+// wrong.
+BusAddress parse_lcm_url(const std::string& url);
 
 // The key's URL, or the fallback. Throws ConfigError when it is malformed.
 std::string read_lcm_url(ConfigTable& table, const std::string& key, const std::string& fallback);

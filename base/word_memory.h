@@ -1,4 +1,5 @@
 // Remembers one word over a restart, or a loss of power: what a process must not forget by ending.
+// That there was no word is a word, too: a file that is not there means that nobody knows.
 #pragma once
 
 #include <string>
@@ -8,27 +9,38 @@
 
 namespace ols {
 
+// What the file said when the memory was made.
+enum class Recall {
+  kKnown,       // one of the words
+  kNoFile,      // nothing is to be remembered: no file was named
+  kMissing,     // the file, or its folder, is not there
+  kUnreadable,  // it cannot be read, or says something else
+};
+
 class WordMemory {
  public:
-  // `file` is there as long as there is a word; empty: nothing is remembered. `words` are those
-  // that it may say, the gravest last.
+  // `words` are those that it may say. `file` empty: nothing is remembered.
   WordMemory(const std::string& file, std::vector<std::string> words);
 
-  // What there was when this was made, or is now; empty when nothing. A file that cannot be read,
-  // or says something else, says the gravest: who cannot know takes the worst.
+  Recall recall() const { return recall_; }
+  // Why it is not known, in words: "FILE is missing"; empty when it is.
+  const std::string& why_unknown() const { return why_; }
+  // The word found or set last; empty when neither.
   const std::string& word() const { return word_; }
-  // One of `words`, or empty. Does not wait for the disk.
+  // One of `words`. Does not wait for the disk. What is set is kept in the file as long as this
+  // lives, whoever takes it away.
   void set(const std::string& word);
 
-  // Why the file could not be read, or cannot be written; empty when all is well.
-  std::string trouble() const;
+  // Why it cannot be written at the moment; empty when all is well.
+  std::string trouble() const { return file_.trouble(); }
 
  private:
   void read(const std::string& path);
 
   std::vector<std::string> words_;
   std::string word_;
-  std::string unreadable_;  // until it is written
+  Recall recall_ = Recall::kNoFile;
+  std::string why_;
   BackgroundFile file_;
 };
 

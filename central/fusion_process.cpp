@@ -57,19 +57,16 @@ void FusionProcess::connect(double wait_s) {
 
 void FusionProcess::subscribe() {
   bus_->subscribe(std::string(kBearingChannel) + ".*",
-                  [this](const std::string& channel, const void* data, int bytes) {
-                    on_bearing(channel, data, bytes);
-                  });
+                  [this](const BusMessage& message) { on_bearing(message); });
   bus_->subscribe(std::string(kStatusChannel) + ".*",
-                  [this](const std::string& channel, const void* data, int bytes) {
-                    on_status(channel, data, bytes);
-                  });
+                  [this](const BusMessage& message) { on_status(message); });
 }
 
 void FusionProcess::turn() {
   if (!bus_) connect(0.0);
   if (bus_) {
     bus_->handle(kWaitMs);
+    look_at_bus();
   } else {
     std::this_thread::sleep_for(std::chrono::milliseconds(kWaitMs));
   }
@@ -80,8 +77,18 @@ void FusionProcess::turn() {
     spdlog::warn("no bus, tried again each second: {}", trouble_);
     bus_.reset();
     slew_bus_.reset();
+    watch_.connection_ended();
   }
   send_failed_ = false;
+}
+
+void FusionProcess::look_at_bus() {
+  const double now_s = clock_monotonic_s();
+  watch_.look(bus_->traffic(), now_s);
+  const std::string alarm = watch_.alarm(now_s);
+  if (!alarm.empty()) last_error_ = alarm;
+  if (!alarm.empty() && bus_alarm_.empty()) spdlog::warn("{}", alarm);
+  bus_alarm_ = alarm;
 }
 
 template <class Message>
@@ -110,23 +117,25 @@ std::string FusionProcess::in_one_line() const {
   return line;
 }
 
-void FusionProcess::on_bearing(const std::string& channel, const void* data, int bytes) {
-  const auto decoded = sighting_from(channel, data, bytes);
+void FusionProcess::on_bearing(const BusMessage& message) {
+  const auto decoded = sighting_from(message.channel, message.payload.data(),
+                                     static_cast<int>(message.payload.size()));
   if (const auto* refusal = std::get_if<MessageRefusal>(&decoded)) {
-    return refuse(*refusal, channel);
+    return refuse(*refusal, message.channel);
   }
   publish(fusion_.add(std::get<Sighting>(decoded)));
 }
 
-void FusionProcess::on_status(const std::string& channel, const void* data, int bytes) {
-  const auto decoded = station_place_from(channel, data, bytes);
+void FusionProcess::on_status(const BusMessage& message) {
+  const auto decoded = station_place_from(message.channel, message.payload.data(),
+                                          static_cast<int>(message.payload.size()));
   if (const auto* refusal = std::get_if<MessageRefusal>(&decoded)) {
-    return refuse(*refusal, channel);
+    return refuse(*refusal, message.channel);
   }
   const auto& place = std::get<StationPlace>(decoded);
   if (!place.no_place) return fusion_.know_station(place.station, place.traits);
   fusion_.allow_slews(place.station, place.traits.commandable);
-  refuse(*place.no_place, channel);
+  refuse(*place.no_place, message.channel);
 }
 
 void FusionProcess::refuse(MessageRefusal refusal, const std::string& channel) {
@@ -192,6 +201,7 @@ void FusionProcess::publish_status_when_due() {
   status_s_ = now_s;
   FusionHealth health = fusion_.health();
   health.counters.insert(counters_.begin(), counters_.end());
+  watch_.count(health.counters);
   if (health.last_error.empty()) health.last_error = last_error_;
   send(kFusionStatusChannel,
        to_message(health, median_latency_s(), next_stamp(kFusionStatusChannel)));

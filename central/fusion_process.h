@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/bus_connector.h"
+#include "base/bus_watch.h"
 #include "central/fusion_settings.h"
 #include "central/messages.h"
 
@@ -37,13 +38,14 @@ class FusionProcess {
   void send(std::string_view channel, const Message& message);
   template <class Message>
   void send_slew(const std::string& channel, const Message& message);
-  void on_bearing(const std::string& channel, const void* data, int bytes);
-  void on_status(const std::string& channel, const void* data, int bytes);
+  void on_bearing(const BusMessage& message);
+  void on_status(const BusMessage& message);
   void refuse(MessageRefusal refusal, const std::string& channel);
   void publish(const FusionOutput& output);
   void publish_slews(const std::vector<Slew>& slews);
   void publish_status_when_due();
   double median_latency_s() const;
+  void look_at_bus();
   MessageStamp next_stamp(std::string_view channel);
   void forget_sequences();
 
@@ -53,7 +55,9 @@ class FusionProcess {
   BusConnector connector_;
   std::unique_ptr<LcmBus> bus_;       // nothing: no network
   std::unique_ptr<LcmBus> slew_bus_;  // nothing: slews go on the same bus
-  std::string trouble_;               // of the network
+  BusWatch watch_;
+  std::string bus_alarm_;
+  std::string trouble_;  // of the network
   bool send_failed_ = false;
   std::map<std::string, std::int64_t, std::less<>> sequences_;
   std::int64_t forgotten_sequence_ = 0;  // the greatest of a channel that was forgotten

@@ -31,39 +31,28 @@ std::optional<GateRefusal> CommandGate::admit(const CommandStamp& stamp,
   if (age_s > stamp.lease_s + config_.clock_margin_s) return GateRefusal::kStale;
   if (age_s < -config_.clock_margin_s) return GateRefusal::kFuture;
   if (is_replayed(stamp, now_utime_us)) return GateRefusal::kReplayed;
-  remember(stamp);
+  remember(stamp, now_utime_us);
   return std::nullopt;
 }
 
-// Whatever was let through is found here again: by its boot's sequence, which only grows, or, where
-// its boot is forgotten, by its time. Neither asks for the time it is now.
+// Whatever was let through is found here again, or is not later than what was forgotten.
 bool CommandGate::is_replayed(const CommandStamp& stamp, std::int64_t now_utime_us) const {
   // A clock that was set back since must not bar everybody until it gets there again.
   if (now_utime_us >= began_utime_us_ && stamp.utime_us < began_utime_us_) return true;
   if (forgotten_utime_us_ && stamp.utime_us <= *forgotten_utime_us_) return true;
-  const auto known = std::ranges::find(senders_, stamp.boot_id, &Sender::boot_id);
-  if (known != senders_.end() && stamp.sequence <= known->sequence) return true;
-  if (known != senders_.end() && known == senders_.end() - 1) return false;
-  // Another boot is a restarted sender only when it is the later one; of those whose time can have
-  // been: what came while a clock was fast would bar everybody until that time is reached.
-  const double latest_us = static_cast<double>(now_utime_us) + config_.clock_margin_s * 1e6;
-  return std::ranges::any_of(senders_, [&](const Sender& other) {
-    return static_cast<double>(other.utime_us) <= latest_us && stamp.utime_us <= other.utime_us;
-  });
+  return passed_.contains({stamp.utime_us, stamp.boot_id, stamp.sequence});
 }
 
-void CommandGate::remember(const CommandStamp& stamp) {
-  Sender sender{stamp.boot_id, stamp.sequence, stamp.utime_us, stamp.utime_us};
-  const auto known = std::ranges::find(senders_, stamp.boot_id, &Sender::boot_id);
-  if (known != senders_.end()) {
-    sender.latest_utime_us = std::max(sender.latest_utime_us, known->latest_utime_us);
-    senders_.erase(known);
+void CommandGate::remember(const CommandStamp& stamp, std::int64_t now_utime_us) {
+  passed_.emplace(stamp.utime_us, stamp.boot_id, stamp.sequence);
+  const std::int64_t fresh_utime_us =
+      now_utime_us - std::llround((config_.lease_max_s + config_.clock_margin_s) * 1e6);
+  while (passed_.size() > config_.kept) {
+    const std::int64_t oldest_utime_us = std::get<0>(*passed_.begin());
+    if (oldest_utime_us >= fresh_utime_us && passed_.size() <= config_.most) return;
+    forgotten_utime_us_ = std::max(forgotten_utime_us_.value_or(oldest_utime_us), oldest_utime_us);
+    passed_.erase(passed_.begin());
   }
-  senders_.push_back(sender);
-  if (senders_.size() <= kMostSenders) return;
-  const std::int64_t gone_utime_us = senders_.front().latest_utime_us;
-  forgotten_utime_us_ = std::max(forgotten_utime_us_.value_or(gone_utime_us), gone_utime_us);
-  senders_.pop_front();
 }
 
 }  // namespace ols

@@ -231,6 +231,7 @@ StationSettings load_station_settings(const std::string& path) {
   settings.station.limits = settings.ptu.limits;
   settings.station.homing_allowed =
       settings.ptu.limits.keep_out.empty() || settings.ptu.home_despite_keep_out;
+  settings.station.rearm_over_bus = settings.gpio.rearm_over_bus;
   file.finish();
   return settings;
 }

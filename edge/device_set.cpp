@@ -11,7 +11,8 @@ DeviceSet::DeviceSet(const StationSettings& settings)
   if (!settings.inclinometer.device.empty()) inclinometer_.emplace(settings.inclinometer);
   if (!settings.gnss.host.empty()) gnss_.emplace(settings.gnss);
   if (!settings.gpio.chip.empty()) {
-    gpio_.emplace(settings.gpio, [this](bool pressed) { on_stop(pressed); });
+    gpio_.emplace(
+        settings.gpio, [this](bool pressed) { on_stop(pressed); }, [this] { stop_.rearm(); });
   }
 }
 

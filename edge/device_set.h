@@ -29,6 +29,7 @@ class DeviceSet {
   std::optional<Gpio>& gpio() { return gpio_; }
   std::optional<Recorder>& recorder() { return recorder_; }
   StopLatch& stop() { return stop_; }
+  const StopLatch& stop() const { return stop_; }
 
   // What the sensors have read since the last call.
   void feed(PoseKeeper& keeper);

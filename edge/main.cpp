@@ -12,6 +12,7 @@
 #include "base/command_line.h"
 #include "base/shutdown.h"
 #include "base/toml_config.h"
+#include "edge/rearm_signal.h"
 #include "edge/station_process.h"
 
 namespace {
@@ -42,6 +43,7 @@ int main(int argc, char** argv) {
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-station")) return *status;
   spdlog::set_default_logger(spdlog::stderr_color_mt("ols-station"));
   ols::install_shutdown_handler();
+  ols::install_rearm_handler();
   try {
     ols::StationSettings settings = ols::load_station_settings(config);
     // systemd's StateDirectory=.

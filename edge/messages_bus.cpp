@@ -7,7 +7,7 @@
 namespace ols {
 namespace {
 
-constexpr int kQueue = 400;  // commands of one kind that wait for a turn; LCM drops the others
+constexpr QueueLimits kQueue{.messages = 400, .bytes = 1'000'000};  // commands of one kind
 
 }  // namespace
 
@@ -20,27 +20,16 @@ StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, St
   sender_.station = settings.id;
   sender_.boot_id = boot_id;
   on_command<ols_msg::designate_t>(
-      "DESIGNATE", [this](const ols_msg::designate_t& message) { return designate(message); },
-      [](const ols_msg::designate_t&) { return false; });
-  on_command<ols_msg::slew_t>(
-      "SLEW",
-      [this](const ols_msg::slew_t& message) {
-        return station_.slew(from_message(message, sender_, now_s_), now_s_);
-      },
-      [](const ols_msg::slew_t&) { return false; });
-  // A stop is good at any age and from any clock: only what moves must be fresh.
+      "DESIGNATE", [this](const ols_msg::designate_t& message) { return designate(message); });
+  on_command<ols_msg::slew_t>("SLEW", [this](const ols_msg::slew_t& message) {
+    return station_.slew(from_message(message, sender_, now_s_), now_s_);
+  });
   on_command<ols_msg::ptu_command_t>(
-      "PTU", [this](const ols_msg::ptu_command_t& message) { return command_ptu(message); },
-      [](const ols_msg::ptu_command_t& message) {
-        return message.command == ols_msg::ptu_command_t::COMMAND_STOP;
-      });
-  on_command<ols_msg::record_t>(
-      "RECORD",
-      [this](const ols_msg::record_t& message) {
-        record(message);
-        return Refusal::kNone;
-      },
-      [](const ols_msg::record_t&) { return false; });
+      "PTU", [this](const ols_msg::ptu_command_t& message) { return command_ptu(message); });
+  on_command<ols_msg::record_t>("RECORD", [this](const ols_msg::record_t& message) {
+    record(message);
+    return Refusal::kNone;
+  });
 }
 
 void StationBus::connect(double wait_s) {
@@ -49,9 +38,35 @@ void StationBus::connect(double wait_s) {
     if (!connector_.trouble().empty()) trouble_ = connector_.trouble();
     return;
   }
-  for (const auto& [channel, handler] : subscriptions_) bus_->subscribe(channel, handler, kQueue);
+  subscribe();
   trouble_.clear();
   counters_["bus_connects"] += 1;
+}
+
+void StationBus::subscribe() {
+  const LcmBus::Express stop = [this](const BusMessage& message) {
+    return take_stop(message.payload.data(), static_cast<int>(message.payload.size()));
+  };
+  for (const auto& [channel, receive] : subscriptions_) {
+    const auto handle = [&receive](const BusMessage& message) {
+      receive(message.payload.data(), static_cast<int>(message.payload.size()));
+    };
+    const bool may_stop = channel == ptu_channel();
+    bus_->subscribe(channel, handle, kQueue, may_stop ? stop : LcmBus::Express());
+  }
+}
+
+std::string StationBus::ptu_channel() const { return "OLS_PTU_" + settings_.id; }
+
+// In the bus's own thread: a stop goes ahead of whatever else waits, and no flood pushes it out. It
+// is good at any age, from any clock, sender and schema that can be read: only what moves must be
+// fresh, and who says stop on this station's channel means this station.
+bool StationBus::take_stop(const void* data, int bytes) {
+  ols_msg::ptu_command_t command{};
+  const bool is_stop = decode_exactly(data, bytes, command) &&
+                       command.command == ols_msg::ptu_command_t::COMMAND_STOP;
+  if (is_stop) stop_ = true;
+  return is_stop;
 }
 
 // What cannot be sent is not kept: a bearing of yesterday is of no use to anybody.
@@ -61,6 +76,7 @@ void StationBus::publish(const std::string& channel, const Message& message) {
   counters_["messages_not_sent"] += 1;
   if (!bus_) return;
   bus_.reset();
+  watch_.connection_ended();
   trouble_ = "the network takes no messages";
 }
 
@@ -82,6 +98,8 @@ void StationBus::carry_out_designation() {
 void StationBus::end_turn() {
   carry_out_designation();
   designated_ = false;
+  // Last, so that nothing which came before it in this turn moves the unit after it.
+  if (stop_.exchange(false)) station_.stop(now_s_);
 }
 
 Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
@@ -94,13 +112,10 @@ Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
   switch (message.command) {
     case ols_msg::ptu_command_t::COMMAND_POINT:
       return station_.point(from_message(message), now_s_);
-    case ols_msg::ptu_command_t::COMMAND_STOP:
-      station_.stop(now_s_);
-      return Refusal::kNone;
     case ols_msg::ptu_command_t::COMMAND_RELEASE:
       return station_.release(now_s_);
     case ols_msg::ptu_command_t::COMMAND_REARM:
-      return station_.rearm(now_s_);
+      return station_.rearm_over_bus(now_s_);
     case ols_msg::ptu_command_t::COMMAND_HOME:
       return station_.home(now_s_);
     case ols_msg::ptu_command_t::COMMAND_REFERENCE_OK:
@@ -112,26 +127,23 @@ Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
 }
 
 void StationBus::take(const std::string& channel, const void* data, int bytes) {
-  for (const auto& [name, handler] : subscriptions_) {
-    if (name == channel) handler(channel, data, bytes);
+  if (channel == ptu_channel() && take_stop(data, bytes)) return;
+  for (const auto& [name, receive] : subscriptions_) {
+    if (name == channel) receive(data, bytes);
   }
 }
 
 template <class Message>
 void StationBus::on_command(const std::string& kind,
-                            const std::function<Refusal(const Message&)>& execute,
-                            const std::function<bool(const Message&)>& passes) {
+                            const std::function<Refusal(const Message&)>& execute) {
   gates_.emplace(kind, CommandGate(settings_.gate, clock_utime_us()));
-  const auto receive = [this, kind, execute, passes](const std::string&, const void* data,
-                                                     int bytes) {
+  const auto receive = [this, kind, execute](const void* data, int bytes) {
     Message message;
     if (!decode_exactly(data, bytes, message)) return refuse(kind, "malformed");
     if (message.schema_version != Message::SCHEMA_VERSION) return refuse(kind, "schema");
     if (message.station != settings_.id) return refuse(kind, "other_station");
-    if (!passes(message)) {
-      const auto refusal = gates_.at(kind).admit(stamp_of(message), sender_.utime_us(now_s_));
-      if (refusal) return refuse(kind, to_string(*refusal));
-    }
+    const auto refusal = gates_.at(kind).admit(stamp_of(message), sender_.utime_us(now_s_));
+    if (refusal) return refuse_at_gate(kind, to_string(*refusal));
     const Refusal result = execute(message);
     if (result != Refusal::kNone) note_refusal(kind + " refused: " + to_string(result));
   };
@@ -155,6 +167,11 @@ void StationBus::refuse(const std::string& kind, const std::string& why) {
   note_refusal(kind + " refused: " + why);
 }
 
+void StationBus::refuse_at_gate(const std::string& kind, const std::string& why) {
+  stale_.note(kind == "SLEW" ? "slews" : kind + " commands", why, now_s_);
+  refuse(kind, why);
+}
+
 void StationBus::note_refusal(const std::string& what) {
   last_refusal_ = what;
   ++refusals_;
@@ -169,8 +186,23 @@ void StationBus::set_time(const ClockPair& now, const ClockQuality& quality) {
 // A bounded number of messages: a flood costs messages, not the control loop.
 void StationBus::receive() {
   if (!bus_) connect(0.0);
-  if (bus_) bus_->handle(0);
+  if (bus_) {
+    bus_->handle(0);
+    watch_.look(bus_->traffic(), now_s_);
+  }
   end_turn();
+}
+
+std::vector<std::string> StationBus::alarms() const {
+  auto alarms = stale_.alarms(now_s_);
+  if (auto alarm = watch_.alarm(now_s_); !alarm.empty()) alarms.push_back(std::move(alarm));
+  return alarms;
+}
+
+std::map<std::string, double> StationBus::counters() const {
+  auto counters = counters_;
+  watch_.count(counters);
+  return counters;
 }
 
 void StationBus::send(const Bearing& bearing) {
@@ -179,7 +211,7 @@ void StationBus::send(const Bearing& bearing) {
 }
 
 void StationBus::send(StationReport report) {
-  report.counters.insert(counters_.begin(), counters_.end());
+  report.counters.merge(counters());
   publish("OLS_STATUS_" + settings_.id,
           to_message(report, sender_, settings_, now_s_, ++sequences_["status"]));
 }

@@ -3,6 +3,7 @@
 // the station runs all the same: the connection is tried again once a second.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -13,9 +14,11 @@
 #include <vector>
 
 #include "base/bus_connector.h"
+#include "base/bus_watch.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/config.h"
 #include "edge/messages.h"
+#include "edge/refusal_watch.h"
 
 namespace ols {
 
@@ -47,8 +50,11 @@ class StationBus {
   // The last refused command in words, and how many there were.
   const std::string& last_refusal() const { return last_refusal_; }
   std::uint64_t refusals() const { return refusals_; }
+  // What a person should know of the bus: commands that keep being refused because they are not
+  // fresh, datagrams that are none.
+  std::vector<std::string> alarms() const;
   // Refusals before the station, messages not sent; go into each status.
-  const std::map<std::string, double>& counters() const { return counters_; }
+  std::map<std::string, double> counters() const;
 
   void send(const Bearing& bearing);
   void send(StationReport report);
@@ -57,15 +63,17 @@ class StationBus {
  private:
   template <class Message>
   void publish(const std::string& channel, const Message& message);
-  // Messages that `passes` is true for need not be fresh.
   template <class Message>
-  void on_command(const std::string& kind, const std::function<Refusal(const Message&)>& execute,
-                  const std::function<bool(const Message&)>& passes);
+  void on_command(const std::string& kind, const std::function<Refusal(const Message&)>& execute);
+  void subscribe();
+  bool take_stop(const void* data, int bytes);
+  std::string ptu_channel() const;
   Refusal designate(const ols_msg::designate_t& message);
   void carry_out_designation();
   Refusal command_ptu(const ols_msg::ptu_command_t& message);
   void record(const ols_msg::record_t& message);
   void refuse(const std::string& kind, const std::string& why);
+  void refuse_at_gate(const std::string& kind, const std::string& why);
   void note_refusal(const std::string& what);
 
   const StationSettings& settings_;
@@ -73,11 +81,17 @@ class StationBus {
   Record record_;
   Sender sender_;
   double now_s_ = 0.0;
-  std::vector<std::pair<std::string, LcmBus::Handler>> subscriptions_;
+  // One datagram of a channel.
+  using Receive = std::function<void(const void* data, int bytes)>;
+  std::vector<std::pair<std::string, Receive>> subscriptions_;
   BusConnector connector_;
+  // Set by the bus's own thread, before the queue of commands: no flood pushes a stop out.
+  std::atomic<bool> stop_ = false;
   std::unique_ptr<LcmBus> bus_;
+  BusWatch watch_;
   std::string trouble_ = "not connected yet";
   std::map<std::string, CommandGate> gates_;
+  RefusalWatch stale_;                               // and all else that a gate refuses
   std::optional<ols_msg::designate_t> designation_;  // waits for the end of the turn
   bool designated_ = false;                          // in this turn
   std::map<std::string, double> counters_;

@@ -42,6 +42,7 @@ struct StationConfig {
   int disagreeing_frames = 5;  // in a row that raise the alarm
   AcquisitionConfig acquisition;
   bool homing_allowed = true;     // on command
+  bool rearm_over_bus = false;    // by whoever sends it; else by a hand at the station only
   double slew_lease_max_s = 2.0;  // a longer lease is refused
   double point_time_s = 15.0;     // an operator's move may take this long
   double max_age_s = 1.0;         // older frames are not tracked, older bearings not sent
@@ -73,10 +74,18 @@ class Station {
   Refusal designate(const DesignateCommand& command, double now_s);
   Refusal slew(const SlewCommand& command, double now_s);
   Refusal point(const PointCommand& command, double now_s);
-  void stop(double now_s);  // take_stop() says so once: what the unit does by itself ends too
+  // take_stop() says so once: what the unit does by itself ends too. For kStopHold_s nothing but an
+  // emergency's rearming is obeyed: what was sent before a stop, or crosses it, must not undo it.
+  void stop(double now_s);
+  // As a station that was stopped begins again: like stop(), but an operator may go on at once.
+  void begin_stopped();
+  static constexpr double kStopHold_s = 1.0;
   Refusal release(double now_s);
-  // After an emergency stop: leads to kStopped, from where the operator goes on.
+  // After an emergency stop, by a hand at the station: leads to kStopped, from where the operator
+  // goes on.
   Refusal rearm(double now_s);
+  // The same from afar, where anybody may send it: refused unless the site lets it.
+  Refusal rearm_over_bus(double now_s);
   // The unit shall home; take_home() says so once.
   Refusal home(double now_s);
   // A person vouches for the unit's reference; take_reference_ok() says so once.
@@ -139,6 +148,7 @@ class Station {
   void expire(double now_s);
   void forget_angles();
   bool without_reference() const;
+  bool stop_holds(double now_s) const;
   std::optional<ServoGoal> slew_goal() const;
 
   StationConfig config_;
@@ -150,6 +160,7 @@ class Station {
   bool stop_pressed_ = false;
   PtuReference reference_ = PtuReference::kUnknown;
   bool home_ = false, reference_ok_ = false, stop_ = false;  // wanted
+  std::optional<double> stopped_s_;                          // by the last stop
   StationPose pose_;
   StationPose revision_pose_;  // of which the bearings' pose_revision speaks
   std::int64_t pose_revision_ = 0;

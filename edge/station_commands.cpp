@@ -53,6 +53,7 @@ Refusal Station::count(Refusal refusal, const char* command) {
 Refusal Station::designate(const DesignateCommand& command, double now_s) {
   now_s_ = std::max(now_s_, now_s);
   if (state_ == StationState::kEmergency) return count(Refusal::kEmergency, "designate");
+  if (stop_holds(now_s)) return count(Refusal::kJustStopped, "designate");
   if (!finite(command)) return count(Refusal::kNotFinite, "designate");
   const Frame* start = remembered(command.frame_time_s);
   if (start == nullptr) return count(Refusal::kNoFrame, "designate");
@@ -102,6 +103,7 @@ Refusal Station::slew(const SlewCommand& command, double now_s) {
 Refusal Station::point(const PointCommand& command, double now_s) {
   now_s_ = std::max(now_s_, now_s);
   if (state_ == StationState::kEmergency) return count(Refusal::kEmergency, "point");
+  if (stop_holds(now_s)) return count(Refusal::kJustStopped, "point");
   if (!finite(command.angles)) return count(Refusal::kNotFinite, "point");
   // It would go there whenever it comes, when nobody expects it any more.
   if (reference_ == PtuReference::kUnknown) return count(Refusal::kNoUnit, "point");
@@ -116,20 +118,30 @@ Refusal Station::point(const PointCommand& command, double now_s) {
   return count(Refusal::kNone, "point");
 }
 
+void Station::begin_stopped() {
+  stop_ = true;
+  if (state_ != StationState::kEmergency) enter(StationState::kStopped);
+}
+
+bool Station::stop_holds(double now_s) const {
+  return state_ == StationState::kStopped && stopped_s_ && now_s - *stopped_s_ < kStopHold_s;
+}
+
 // Also in an emergency: who says stop shall never read that it was refused.
 void Station::stop(double now_s) {
   now_s_ = std::max(now_s_, now_s);
   slew_.reset();
   point_.reset();
   home_ = false;
-  stop_ = true;
-  if (state_ != StationState::kEmergency) enter(StationState::kStopped);
+  begin_stopped();
+  stopped_s_ = now_s;
   count(Refusal::kNone, "stop");
 }
 
 Refusal Station::release(double now_s) {
   now_s_ = std::max(now_s_, now_s);
   if (state_ == StationState::kEmergency) return count(Refusal::kEmergency, "release");
+  if (stop_holds(now_s)) return count(Refusal::kJustStopped, "release");
   if (state_ == StationState::kManual || state_ == StationState::kStopped) {
     point_.reset();
     enter(template_ != Template::kNone ? StationState::kLost : StationState::kIdle);
@@ -154,6 +166,13 @@ Refusal Station::rearm(double now_s) {
   if (stop_pressed_) return count(Refusal::kEmergency, "rearm");
   if (state_ == StationState::kEmergency) enter(StationState::kStopped);
   return count(Refusal::kNone, "rearm");
+}
+
+Refusal Station::rearm_over_bus(double now_s) {
+  now_s_ = std::max(now_s_, now_s);
+  if (stop_pressed_) return count(Refusal::kEmergency, "rearm");
+  if (!config_.rearm_over_bus) return count(Refusal::kRearmNeedsAHand, "rearm");
+  return rearm(now_s);
 }
 
 bool Station::without_reference() const {
@@ -183,6 +202,7 @@ void Station::forget_angles() {
 Refusal Station::home(double now_s) {
   now_s_ = std::max(now_s_, now_s);
   if (state_ == StationState::kEmergency) return count(Refusal::kEmergency, "home");
+  if (stop_holds(now_s)) return count(Refusal::kJustStopped, "home");
   if (!config_.homing_allowed) return count(Refusal::kKeepOut, "home");
   if (reference_ == PtuReference::kUnknown) return count(Refusal::kNoUnit, "home");
   forget_angles();

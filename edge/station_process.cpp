@@ -5,40 +5,22 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string_view>
 #include <vector>
 
 #include "base/clocks.h"
 #include "edge/clock/clock_pair.h"
+#include "edge/rearm_signal.h"
 
 namespace ols {
 namespace {
 
-constexpr const char* kStopped = "stopped";
-constexpr const char* kEmergency = "emergency";
-// The gravest last; of PtuLegacy.
-const std::vector<std::string> kDoubts{"reference", "homing", "gears", "homing-gears"};
 constexpr double kFrameWait_s = 0.004;
 constexpr double kPoseInterval_s = 0.1;
 constexpr double kPoseKept_s = 10.0;  // the file is written so often
 
-// What is kept over a restart: a file for each subject.
-std::string state_file(const StationSettings& settings, const char* subject) {
+std::string pose_file(const StationSettings& settings) {
   if (settings.state_folder.empty()) return {};
-  return settings.state_folder + "/" + settings.id + "." + subject;
-}
-
-// A station that an operator has in hand begins again stopped.
-const char* hold_of(StationState state) {
-  switch (state) {
-    case StationState::kEmergency:
-      return kEmergency;
-    case StationState::kStopped:
-    case StationState::kManual:
-      return kStopped;
-    default:
-      return "";
-  }
+  return settings.state_folder + "/" + settings.id + ".pose";
 }
 
 // A receiver that has never had a fix starts for ever; without camera or PTU there is no station.
@@ -68,14 +50,14 @@ StationProcess::StationProcess(const StationSettings& settings, std::int64_t boo
       clock_(settings_.clock),
       clock_source_(settings_.clock_interval_s),
       pose_(settings_.pose),
-      pose_memory_(state_file(settings_, "pose")),
+      pose_memory_(pose_file(settings_)),
       station_(settings_.station,
                std::make_unique<ParticleFilterTracker>(settings_.tracker, settings_.tracker_seed)),
       bus_(settings_, boot_id, station_,
            [this](const RecordCommand& command) { return record(command); }),
       host_(settings_.host),
-      hold_(state_file(settings_, "hold"), {kStopped, kEmergency}),
-      doubt_(state_file(settings_, "doubt"), kDoubts),
+      memory_(settings_.state_folder, settings_.id,
+              !settings_.gpio.chip.empty() && settings_.gpio.stop_line >= 0),
       devices_(settings_) {
   const double now_s = clock_monotonic_s();
   resume_pose(now_s);
@@ -106,8 +88,9 @@ void StationProcess::run(const std::function<bool()>& ends) {
 void StationProcess::turn() {
   const ClockPair start = look_at_clocks();
   heed_emergency_stop(start.monotonic_s);
+  heed_rearming(start.monotonic_s);
   receive_commands();
-  remember();
+  memory_.remember(station_.state(), devices_.ptu().legacy(), devices_.ptu().reference());
   keep_pose(start.monotonic_s);
   take_frame();
   take_angles();
@@ -132,26 +115,12 @@ ClockPair StationProcess::look_at_clocks() {
 
 // Whatever ended it since somebody stopped it is no leave to move.
 void StationProcess::resume_hold(double now_s) {
-  const auto doubt = std::ranges::find(kDoubts, doubt_.word());
-  if (doubt != kDoubts.end()) {
-    devices_.ptu().inherit(static_cast<PtuLegacy>(doubt - kDoubts.begin() + 1));
-  }
+  devices_.ptu().inherit(memory_.legacy());
   halted_ = !devices_.stop().known();
-  if (hold_.word() == kStopped) station_.stop(now_s);
-  if (hold_.word() != kEmergency) return;
+  if (memory_.begin() == StationState::kStopped) station_.begin_stopped();
+  if (memory_.begin() != StationState::kEmergency) return;
   devices_.ptu().emergency_halt();
   station_.emergency_stop(true, now_s);
-}
-
-void StationProcess::remember() {
-  hold_.set(hold_of(station_.state()));
-  // While there is no unit, what was known of it stays.
-  const PtuLegacy legacy = devices_.ptu().legacy();
-  if (legacy != PtuLegacy::kNone) {
-    doubt_.set(kDoubts[static_cast<std::size_t>(legacy) - 1]);
-  } else if (devices_.ptu().reference() == PtuReference::kTrusted) {
-    doubt_.set("");
-  }
 }
 
 // The GPIO's thread has halted the unit already; here the station learns of it.
@@ -163,10 +132,23 @@ void StationProcess::heed_emergency_stop(double now_s) {
   halted_ = halted_ || station_.state() == StationState::kEmergency;
 }
 
+// The button beside it, or somebody who is logged in on its computer.
+void StationProcess::heed_rearming(double now_s) {
+  const bool button = devices_.stop().take_rearm();
+  const bool signal = take_rearm_signal();
+  if (!button && !signal) return;
+  const char* by = button ? "its button" : "a signal";
+  if (!devices_.stop().known() || station_.rearm(now_s) != Refusal::kNone) {
+    spdlog::warn("re-arming by {} refused: the stop is pressed, or its level is not known yet", by);
+  } else {
+    spdlog::info("re-arming by {}: {}", by, to_string(station_.state()));
+  }
+}
+
 void StationProcess::receive_commands() {
   station_.set_reference(devices_.ptu().reference());
   bus_.receive();
-  devices_.ptu().allow_rehoming(std::string_view(hold_of(station_.state())).empty());
+  devices_.ptu().allow_rehoming(!is_held(station_.state()));
   if (station_.take_stop()) devices_.ptu().stop_homing();
   if (station_.take_home()) devices_.ptu().home();
   if (station_.take_reference_ok()) devices_.ptu().reference_ok();
@@ -237,22 +219,27 @@ StationReport StationProcess::report(const ClockPair& now) {
   report.snapshot = station_.snapshot();
   report.devices = devices_.reports();
   if (report.snapshot.state == StationState::kEmergency) {
-    report.alarms.emplace_back(devices_.stop().pressed() ? "emergency stop: pressed"
-                                                         : "emergency stop: not rearmed yet");
+    report.alarms.push_back(emergency_alarm());
   }
   if (report.snapshot.motion_disagrees) {
     report.alarms.emplace_back("ptu: the picture moves otherwise than the angles say");
   }
-  if (!hold_.trouble().empty()) {
-    report.alarms.push_back("stop: not remembered: " + hold_.trouble());
-  }
-  if (!doubt_.trouble().empty()) {
-    report.alarms.push_back("ptu: doubt not remembered: " + doubt_.trouble());
-  }
+  for (const std::string& alarm : memory_.alarms()) report.alarms.push_back(alarm);
+  for (const std::string& alarm : bus_.alarms()) report.alarms.push_back(alarm);
   add_pose_and_clock(now.monotonic_s, report);
   add_host(now.monotonic_s, report);
   note_troubles(now, report);
   return report;
+}
+
+std::string StationProcess::emergency_alarm() const {
+  if (devices_.stop().pressed()) return "emergency stop: pressed";
+  const std::string what = "emergency stop: not rearmed yet: ";
+  const GpioConfig& gpio = settings_.gpio;
+  if (gpio.rearm_over_bus) return what + "ols-ctl " + settings_.id + " rearm";
+  if (!gpio.chip.empty() && gpio.rearm_line >= 0) return what + "hold its re-arm button";
+  return what + "on its computer, systemctl kill --kill-who=main -s USR1 ols-station@" +
+         settings_.id;
 }
 
 void StationProcess::add_pose_and_clock(double now_s, StationReport& report) const {

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/service_notifier.h"
-#include "base/word_memory.h"
 #include "edge/clock/clock_source.h"
 #include "edge/clock/clock_watch.h"
 #include "edge/device_set.h"
@@ -15,6 +14,7 @@
 #include "edge/journal.h"
 #include "edge/messages_bus.h"
 #include "edge/pose_memory.h"
+#include "edge/station_memory.h"
 #include "edge/trouble_log.h"
 
 namespace ols {
@@ -35,8 +35,8 @@ class StationProcess {
   ClockPair look_at_clocks();
   void resume_pose(double now_s);
   void resume_hold(double now_s);
-  void remember();
   void heed_emergency_stop(double now_s);
+  void heed_rearming(double now_s);
   void receive_commands();
   void keep_pose(double now_s);
   void take_frame();
@@ -44,6 +44,7 @@ class StationProcess {
   void trigger_camera(double now_s);
   void send_reports(const ClockPair& now);
   StationReport report(const ClockPair& now);
+  std::string emergency_alarm() const;
   void add_pose_and_clock(double now_s, StationReport& report) const;
   void add_host(double now_s, StationReport& report);
   void note_troubles(const ClockPair& now, StationReport& report);
@@ -60,8 +61,7 @@ class StationProcess {
   StationBus bus_;
   HostWatch host_;
   TroubleLog troubles_;
-  WordMemory hold_;   // somebody has taken the PTU's leave to move
-  WordMemory doubt_;  // nobody knows what the PTU's angles are worth
+  StationMemory memory_;
   Journal journal_;
   DeviceSet devices_;
   std::optional<Frame> newest_;

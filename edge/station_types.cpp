@@ -53,8 +53,12 @@ const char* to_string(Refusal refusal) {
       return "no_unit";
     case Refusal::kKeepOut:
       return "keep_out";
+    case Refusal::kJustStopped:
+      return "just_stopped";
     case Refusal::kNoDoubt:
       return "no_doubt";
+    case Refusal::kRearmNeedsAHand:
+      return "rearm_needs_a_hand";
   }
   return "unknown";
 }

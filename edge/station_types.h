@@ -75,6 +75,8 @@ enum class Refusal {
   kNoUnit,       // to home
   kKeepOut,      // homing would sweep across the regions to keep out of
   kNoDoubt,      // about the reference, that a person could end
+  kJustStopped,  // a stop holds for a moment, whatever was sent before it or crosses it on the wire
+  kRearmNeedsAHand,  // at the station: after an emergency stop nobody frees it from afar
 };
 const char* to_string(Refusal refusal);
 

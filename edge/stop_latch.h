@@ -15,6 +15,7 @@ class StopLatch {
   // From the thread that sees the edges; before it halts the unit.
   void set(bool pressed) {
     if (pressed) ++presses_;
+    if (pressed) rearm_ = false;  // it was held before
     pressed_ = pressed;
     known_ = true;
   }
@@ -27,10 +28,14 @@ class StopLatch {
     seen_ = presses;
     return news;
   }
+  // A hand at the station re-arms it; from the same thread.
+  void rearm() { rearm_ = true; }
+  bool take_rearm() { return rearm_.exchange(false); }
 
  private:
   std::atomic<bool> known_;
   std::atomic<bool> pressed_ = false;
+  std::atomic<bool> rearm_ = false;
   std::atomic<std::uint64_t> presses_ = 0;
   std::uint64_t seen_ = 0;  // of the control loop
 };

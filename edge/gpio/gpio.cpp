@@ -3,7 +3,6 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <exception>
@@ -13,10 +12,12 @@
 #include <stop_token>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "base/clocks.h"
 #include "base/wakeup.h"
 #include "edge/gpio/gpio_lines.h"
+#include "edge/gpio/rearm_input.h"
 #include "edge/gpio/stop_input.h"
 
 namespace ols {
@@ -28,9 +29,12 @@ constexpr double kNever_s = std::numeric_limits<double>::infinity();
 
 LineUse line_use(const GpioConfig& config) {
   LineUse use;
-  use.input = config.stop_line;
   // Towards "pressed": a broken wire then reads as an opened contact.
-  use.input_bias = config.stop_active_low ? LineBias::kPullDown : LineBias::kPullUp;
+  const LineBias to_pressed = config.stop_active_low ? LineBias::kPullDown : LineBias::kPullUp;
+  // Towards "open": a broken wire re-arms nothing.
+  const LineBias to_open = config.rearm_active_low ? LineBias::kPullUp : LineBias::kPullDown;
+  if (config.stop_line >= 0) use.inputs.push_back({config.stop_line, to_pressed});
+  if (config.rearm_line >= 0) use.inputs.push_back({config.rearm_line, to_open});
   for (const int line : {config.led_line, config.trigger_line}) {
     if (line >= 0) use.outputs.push_back(line);
   }
@@ -40,8 +44,13 @@ LineUse line_use(const GpioConfig& config) {
 }  // namespace
 
 struct Gpio::Impl {
-  Impl(const GpioConfig& gpio_config, std::function<void(bool)> callback)
-      : config(gpio_config), on_stop(std::move(callback)), stop(gpio_config.stop_release_s) {}
+  Impl(const GpioConfig& gpio_config, std::function<void(bool)> stop_callback,
+       std::function<void()> rearm_callback)
+      : config(gpio_config),
+        on_stop(std::move(stop_callback)),
+        on_rearm(std::move(rearm_callback)),
+        stop(gpio_config.stop_release_s),
+        rearm(gpio_config.rearm_hold_s) {}
 
   void run(const std::stop_token& ended) {
     const std::stop_callback wake(ended, [this] { wakeup.set(); });
@@ -66,6 +75,7 @@ struct Gpio::Impl {
       // First: after a standstill the answer may be there, however long ago it was asked for.
       take_levels(lines);
       tell_stop();
+      tell_rearm();
       double now_s = clock_monotonic_s();
       if (now_s >= refresh_s) {
         lines.refresh();
@@ -79,20 +89,26 @@ struct Gpio::Impl {
       if (const auto due_s = stop.due_s(); due_s && told != false) {
         until_s = std::min(until_s, *due_s);
       }
-      wait(lines.fd(), until_s - now_s);
+      if (const auto due_s = rearm.due_s()) until_s = std::min(until_s, *due_s);
+      wait(lines.fds(), until_s - now_s);
     }
   }
 
   void take_levels(GpioLines& lines) {
-    const std::vector<LineLevel> levels = lines.receive();
+    std::vector<LineLevel> levels = lines.receive();
+    std::ranges::stable_sort(levels, {}, &LineLevel::time_s);
     for (const LineLevel& level : levels) {
+      if (level.line == config.rearm_line) {
+        rearm.level(level.high != config.rearm_active_low, level.time_s);
+        continue;
+      }
       const bool pressed = level.high != config.stop_active_low;
       stop.level(pressed, level.time_s);
       // Told edge by edge: a press that was over before this thread woke is a press all the same.
       if (pressed) tell_stop();
     }
     const std::lock_guard lock(mutex);
-    if (!levels.empty() || config.stop_line < 0) {
+    if (!levels.empty() || (config.stop_line < 0 && config.rearm_line < 0)) {
       last_good_s = clock_monotonic_s();
       readable = true;
     }
@@ -111,7 +127,19 @@ struct Gpio::Impl {
       told = pressed;
       if (pressed) ++presses;
     }
+    rearm.interrupted();
     if (on_stop) on_stop(pressed);
+  }
+
+  // Held while the stop is pressed it is nothing.
+  void tell_rearm() {
+    if (config.rearm_line < 0 || !rearm.take(clock_monotonic_s())) return;
+    {
+      const std::lock_guard lock(mutex);
+      if (config.stop_line >= 0 && told != false) return;
+      ++rearms;
+    }
+    if (on_rearm) on_rearm();
   }
 
   double next_led_slot_s(double now_s) {
@@ -148,9 +176,9 @@ struct Gpio::Impl {
   }
 
   // Until an edge, a wakeup or the time.
-  void wait(int fd, double timeout_s) {
-    std::array<pollfd, 2> entries{
-        {{wakeup.descriptor(), POLLIN, 0}, {fd, POLLIN, 0}}};  // fd -1: ignored
+  void wait(const std::vector<int>& fds, double timeout_s) {
+    std::vector<pollfd> entries{{wakeup.descriptor(), POLLIN, 0}};
+    for (const int fd : fds) entries.push_back({fd, POLLIN, 0});
     const double bounded_s = std::clamp(timeout_s, 0.0, 1.0);
     const timespec timeout{static_cast<time_t>(bounded_s),
                            static_cast<long>(std::fmod(bounded_s, 1.0) * 1e9)};
@@ -160,7 +188,7 @@ struct Gpio::Impl {
 
   void sleep_until(double end_s, const std::stop_token& ended) {
     while (!ended.stop_requested() && clock_monotonic_s() < end_s) {
-      wait(-1, end_s - clock_monotonic_s());
+      wait({}, end_s - clock_monotonic_s());
     }
   }
 
@@ -173,6 +201,7 @@ struct Gpio::Impl {
 
   void note_failure(const std::string& what) {
     stop.lost();
+    rearm.interrupted();
     {
       const std::lock_guard lock(mutex);
       open = readable = false;
@@ -184,7 +213,9 @@ struct Gpio::Impl {
 
   const GpioConfig config;
   const std::function<void(bool)> on_stop;
-  StopInput stop;  // of the thread alone
+  const std::function<void()> on_rearm;
+  StopInput stop;  // this and the next: of the thread alone
+  RearmInput rearm;
   Wakeup wakeup;
 
   mutable std::mutex mutex;  // of everything below
@@ -196,12 +227,13 @@ struct Gpio::Impl {
   bool trigger_wanted = false;
   std::optional<double> last_good_s;
   std::string error;
-  std::uint64_t failures = 0, presses = 0, triggers = 0;
+  std::uint64_t failures = 0, presses = 0, rearms = 0, triggers = 0;
   std::jthread thread;  // last: it uses the rest
 };
 
-Gpio::Gpio(const GpioConfig& config, std::function<void(bool pressed)> on_stop)
-    : impl_(std::make_unique<Impl>(config, std::move(on_stop))) {
+Gpio::Gpio(const GpioConfig& config, std::function<void(bool pressed)> on_stop,
+           std::function<void()> on_rearm)
+    : impl_(std::make_unique<Impl>(config, std::move(on_stop), std::move(on_rearm))) {
   if (config.chip.empty()) return;
   impl_->thread = std::jthread([impl = impl_.get()](const std::stop_token& t) { impl->run(t); });
 }
@@ -244,6 +276,7 @@ DeviceReport Gpio::report() const {
   report.errors = impl_->failures;
   report.counters = {{"gpio_failures", impl_->failures},
                      {"gpio_stop_presses", impl_->presses},
+                     {"gpio_rearms", impl_->rearms},
                      {"gpio_triggers", impl_->triggers}};
   if (impl_->open && impl_->readable) {
     report.state = DeviceState::kOk;

@@ -1,4 +1,5 @@
-// The station's GPIO: a status LED, the emergency stop input, an optional camera trigger. A thread
+// The station's GPIO: a status LED, the inputs of emergency stop and re-arming, an optional camera
+// trigger. A thread
 // of its own waits for the edges. libgpiod stays behind edge/gpio/gpio_lines.h.
 //
 // The emergency stop in software only assists a hardware stop that takes the power off the motors;
@@ -23,7 +24,12 @@ struct GpioConfig {
   // Whether the contact opens to a high level (it closes to ground, the line is pulled up) or to a
   // low one (it closes to the supply, the line is pulled down).
   bool stop_active_low = false;
-  double stop_release_s = 0.05;   // a release counts when stable for so long; a press at once
+  double stop_release_s = 0.05;  // a release counts when stable for so long; a press at once
+  // The button beside the station that re-arms it after an emergency stop; normally open.
+  int rearm_line = -1;            // -1: none
+  bool rearm_active_low = true;   // it closes to ground (pulled up); false: to the supply
+  double rearm_hold_s = 1.0;      // it must be seen open, and then be held for so long
+  bool rearm_over_bus = false;    // anybody on the bus may re-arm it, too
   int trigger_line = -1;          // camera trigger, one pulse a frame
   double trigger_pulse_s = 1e-3;  // its length
 };
@@ -35,8 +41,10 @@ class Gpio {
  public:
   // `on_stop(pressed)` is called from Gpio's thread at every edge of the emergency stop and once
   // for its first level; the lines gone or unreadable counts as pressed when stop_line is
-  // configured.
-  Gpio(const GpioConfig& config, std::function<void(bool pressed)> on_stop);
+  // configured. `on_rearm()` likewise, each time that the button was held while the stop is not
+  // pressed.
+  Gpio(const GpioConfig& config, std::function<void(bool pressed)> on_stop,
+       std::function<void()> on_rearm = {});
   ~Gpio();
   Gpio(const Gpio&) = delete;
   Gpio& operator=(const Gpio&) = delete;

@@ -1,5 +1,5 @@
-// GPIO lines as this product needs them: one input that is watched, a few outputs. Behind it stand
-// libgpiod (gpio_lines_libgpiod.cpp, the one file that knows its version) and a Unix socket
+// GPIO lines as this product needs them: a few inputs that are watched, a few outputs. Behind it
+// stand libgpiod (gpio_lines_libgpiod.cpp, the one file that knows its version) and a Unix socket
 // (gpio_lines_socket.cpp): lines that another process serves, for a remote I/O box, for a machine
 // without a gpiochip, and for tests.
 //
@@ -19,13 +19,18 @@ namespace ols {
 
 enum class LineBias { kPullUp, kPullDown };
 
+struct LineInput {
+  int line = 0;
+  LineBias bias = LineBias::kPullUp;
+};
+
 struct LineUse {
-  int input = -1;  // -1: none
-  LineBias input_bias = LineBias::kPullUp;
+  std::vector<LineInput> inputs;
   std::vector<int> outputs;  // low at first
 };
 
 struct LineLevel {
+  int line = 0;
   bool high = false;
   double time_s = 0.0;  // CLOCK_MONOTONIC of the edge, or of the reading
 };
@@ -39,11 +44,12 @@ class GpioLines {
   GpioLines(const GpioLines&) = delete;
   GpioLines& operator=(const GpioLines&) = delete;
 
-  // To be polled for reading; -1 when there is nothing to wait for.
-  virtual int fd() const = 0;
-  // Levels of the input that have come in, oldest first. Never waits.
+  // To be polled for reading; empty when there is nothing to wait for.
+  virtual std::vector<int> fds() const = 0;
+  // Levels of the inputs that have come in, of each the oldest first. Never waits.
   virtual std::vector<LineLevel> receive() = 0;
-  // Asks for the input's level anew, which receive() then brings: finds lost edges and dead lines.
+  // Asks for the level of each input anew, which receive() then brings: finds lost edges and dead
+  // lines.
   virtual void refresh() = 0;
   virtual void write(int line, bool high) = 0;
 };

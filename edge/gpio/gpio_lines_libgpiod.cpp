@@ -22,32 +22,30 @@ class ChipLines : public GpioLines {
       : name_(chip), chip_(gpiod_chip_open(chip.c_str())) {
     if (!chip_) fail("cannot be opened");
     for (const int line : use.outputs) request_output(line);
-    if (use.input >= 0) request_input(use);
+    for (const LineInput& input : use.inputs) request_input(input);
   }
 
-  int fd() const override { return fd_; }
+  std::vector<int> fds() const override {
+    std::vector<int> fds;
+    for (const Input& input : inputs_) fds.push_back(input.fd);
+    return fds;
+  }
 
   std::vector<LineLevel> receive() override {
     std::vector<LineLevel> levels = std::move(fresh_);
     fresh_.clear();
-    std::array<gpiod_line_event, 16> events;
-    while (input_) {
-      const int n = gpiod_line_event_read_fd_multiple(fd_, events.data(), events.size());
-      if (n < 0 && errno == EAGAIN) break;
-      if (n <= 0) fail("has vanished");
-      for (int i = 0; i < n; ++i) levels.push_back(level_of(events[static_cast<std::size_t>(i)]));
-    }
+    for (const Input& input : inputs_) receive(input, levels);
     return levels;
   }
 
   void refresh() override {
-    if (!input_) return;
-    const int value = gpiod_line_get_value(input_);
-    if (value < 0) fail("cannot be read");
-    // Edges that came before this reading must not overtake it.
-    std::vector<LineLevel> edges = receive();
-    edges.push_back({value != 0, clock_monotonic_s()});
-    fresh_ = std::move(edges);
+    for (const Input& input : inputs_) {
+      const int value = gpiod_line_get_value(input.line);
+      if (value < 0) fail("cannot be read");
+      // Edges that came before this reading must not overtake it.
+      receive(input, fresh_);
+      fresh_.push_back({input.number, value != 0, clock_monotonic_s()});
+    }
   }
 
   void write(int line, bool high) override {
@@ -59,9 +57,27 @@ class ChipLines : public GpioLines {
     void operator()(gpiod_chip* chip) const { gpiod_chip_close(chip); }  // releases its lines too
   };
 
+  struct Input {
+    int number = 0;
+    gpiod_line* line = nullptr;
+    int fd = -1;
+  };
+
+  void receive(const Input& input, std::vector<LineLevel>& levels) const {
+    std::array<gpiod_line_event, 16> events;
+    while (true) {
+      const int n = gpiod_line_event_read_fd_multiple(input.fd, events.data(), events.size());
+      if (n < 0 && errno == EAGAIN) return;
+      if (n <= 0) fail("has vanished");
+      for (int i = 0; i < n; ++i) {
+        levels.push_back(level_of(input.number, events[static_cast<std::size_t>(i)]));
+      }
+    }
+  }
+
   // The kernel stamps edges by CLOCK_MONOTONIC since 5.7.
-  static LineLevel level_of(const gpiod_line_event& event) {
-    return {event.event_type == GPIOD_LINE_EVENT_RISING_EDGE,
+  static LineLevel level_of(int line, const gpiod_line_event& event) {
+    return {line, event.event_type == GPIOD_LINE_EVENT_RISING_EDGE,
             static_cast<double>(event.ts.tv_sec) + 1e-9 * static_cast<double>(event.ts.tv_nsec)};
   }
 
@@ -79,16 +95,16 @@ class ChipLines : public GpioLines {
     outputs_[offset] = output;
   }
 
-  void request_input(const LineUse& use) {
-    gpiod_line* input = line(use.input);
-    const int bias = use.input_bias == LineBias::kPullUp ? GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_UP
-                                                         : GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_DOWN;
+  void request_input(const LineInput& wanted) {
+    gpiod_line* input = line(wanted.line);
+    const int bias = wanted.bias == LineBias::kPullUp ? GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_UP
+                                                      : GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_DOWN;
     if (gpiod_line_request_both_edges_events_flags(input, kConsumer, bias) != 0) {
-      fail("line " + std::to_string(use.input) + " cannot be watched");
+      fail("line " + std::to_string(wanted.line) + " cannot be watched");
     }
-    fd_ = gpiod_line_event_get_fd(input);
-    ::fcntl(fd_, F_SETFL, ::fcntl(fd_, F_GETFL) | O_NONBLOCK);
-    input_ = input;
+    const int fd = gpiod_line_event_get_fd(input);
+    ::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) | O_NONBLOCK);
+    inputs_.push_back({wanted.line, input, fd});
   }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -97,8 +113,7 @@ class ChipLines : public GpioLines {
 
   std::string name_;
   std::unique_ptr<gpiod_chip, CloseChip> chip_;
-  gpiod_line* input_ = nullptr;
-  int fd_ = -1;
+  std::vector<Input> inputs_;
   std::map<int, gpiod_line*> outputs_;
   std::vector<LineLevel> fresh_;
 };

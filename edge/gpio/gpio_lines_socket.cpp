@@ -5,7 +5,7 @@
 
 #include <array>
 #include <cerrno>
-#include <optional>
+#include <map>
 #include <string_view>
 #include <system_error>
 
@@ -20,10 +20,16 @@ constexpr double kAnswer_s = 0.5;  // a server that takes longer is as good as g
 constexpr std::size_t kMostAtOnce = 4096;
 constexpr std::string_view kSocket = "socket:";
 
+std::vector<int> lines_of(const std::vector<LineInput>& inputs) {
+  std::vector<int> lines;
+  for (const LineInput& input : inputs) lines.push_back(input.line);
+  return lines;
+}
+
 class SocketLines : public GpioLines {
  public:
   SocketLines(const std::string& path, const LineUse& use)
-      : path_(path), input_(use.input), protocol_(use.input) {
+      : path_(path), inputs_(lines_of(use.inputs)), protocol_(inputs_) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     if (path.size() >= sizeof address.sun_path) fail(ENAMETOOLONG, "is no socket");
@@ -42,7 +48,7 @@ class SocketLines : public GpioLines {
   }
   ~SocketLines() override { ::close(fd_); }
 
-  int fd() const override { return fd_; }
+  std::vector<int> fds() const override { return {fd_}; }
 
   std::vector<LineLevel> receive() override {
     std::array<char, kMostAtOnce> buffer;
@@ -56,18 +62,24 @@ class SocketLines : public GpioLines {
     if (n <= 0) return levels;
     const auto heard = protocol_.receive({buffer.data(), static_cast<std::size_t>(n)});
     if (!heard) fail(EPROTO, "sends what is no level");
-    for (const bool high : *heard) levels.push_back({high, clock_monotonic_s()});
-    if (!levels.empty()) asked_s_.reset();
+    for (const LineProtocol::Level& level : *heard) {
+      levels.push_back({level.line, level.high, clock_monotonic_s()});
+      asked_s_.erase(level.line);
+    }
     return levels;
   }
 
   void refresh() override {
-    if (input_ < 0) return;
     const double now_s = clock_monotonic_s();
-    if (asked_s_ && now_s - *asked_s_ > kAnswer_s) fail(ETIMEDOUT, "does not answer");
-    if (asked_s_) return;
-    send("read " + std::to_string(input_) + "\n");
-    asked_s_ = now_s;
+    for (const int input : inputs_) {
+      const auto asked = asked_s_.find(input);
+      if (asked == asked_s_.end()) {
+        send("read " + std::to_string(input) + "\n");
+        asked_s_[input] = now_s;
+      } else if (now_s - asked->second > kAnswer_s) {
+        fail(ETIMEDOUT, "does not answer");
+      }
+    }
   }
 
   void write(int line, bool high) override {
@@ -87,10 +99,10 @@ class SocketLines : public GpioLines {
   }
 
   std::string path_;
-  int input_;
+  std::vector<int> inputs_;
   int fd_ = -1;
   LineProtocol protocol_;
-  std::optional<double> asked_s_;  // since when an answer is due
+  std::map<int, double> asked_s_;  // of which line, and since when, an answer is due
 };
 
 }  // namespace

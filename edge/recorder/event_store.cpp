@@ -1,11 +1,13 @@
 #include "edge/recorder/event_store.h"
 
+#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -20,6 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kNoRoom =
+    "no room: the quota is full of events that are kept; fetch some and remove them";
+// A file of the store: when it was written last, an event made room, or the store was new.
+constexpr const char* kRemoval = ".removal";
 constexpr const char* kPattern = "dddddddd?dddddd.ddd?_";  // d: a digit, ?: whatever stands there
 
 // Whatever else lies in the folder is not ours to count or to remove.
@@ -31,6 +37,12 @@ bool is_event(const std::string& name) {
     if (pattern[i] == 'd' ? !digit : pattern[i] != '?' && name[i] != pattern[i]) return false;
   }
   return true;
+}
+
+std::string label_of(const std::string& name) {
+  std::string label = name.substr(std::string(kPattern).size());
+  if (label.ends_with(kPartial)) label.resize(label.size() - std::string(kPartial).size());
+  return label;
 }
 
 double size_of(const fs::path& event) {
@@ -56,16 +68,14 @@ std::string utc_name(std::int64_t utime_us) {
   return name;
 }
 
-EventStore::EventStore(const std::string& folder, double quota_bytes, double reserve_bytes)
-    : folder_(folder), quota_bytes_(quota_bytes), reserve_bytes_(reserve_bytes) {}
-
 void EventStore::survey() {
-  fs::create_directories(folder_);
-  if (::access(folder_.c_str(), W_OK | X_OK) != 0) {
-    throw std::system_error(errno, std::generic_category(), folder_);
+  fs::create_directories(config_.folder);
+  if (::access(config_.folder.c_str(), W_OK | X_OK) != 0) {
+    throw std::system_error(errno, std::generic_category(), config_.folder);
   }
+  if (!fs::exists(config_.folder + "/" + kRemoval)) remember_removal();
   std::map<std::string, double> found;
-  for (const auto& entry : fs::directory_iterator(folder_)) {
+  for (const auto& entry : fs::directory_iterator(config_.folder)) {
     std::error_code ignored;
     const std::string name = entry.path().filename().string();
     if (is_event(name) && entry.is_directory(ignored)) found[name] = size_of(entry.path());
@@ -77,20 +87,21 @@ void EventStore::survey() {
 void EventStore::try_writing() {
   survey();
   if (full()) return;
-  const std::string path = folder_ + "/.probe";
+  const std::string path = config_.folder + "/.probe";
   errno = 0;
   std::ofstream probe(path);
   probe << std::string(4096, '.');
   probe.close();
   const int error = errno;
   ::unlink(path.c_str());
-  if (!probe) throw std::system_error(error == 0 ? EIO : error, std::generic_category(), folder_);
+  if (!probe)
+    throw std::system_error(error == 0 ? EIO : error, std::generic_category(), config_.folder);
 }
 
 void EventStore::measure_room() {
   struct statvfs disk {};
-  if (::statvfs(folder_.c_str(), &disk) != 0) {
-    throw std::system_error(errno, std::generic_category(), folder_);
+  if (::statvfs(config_.folder.c_str(), &disk) != 0) {
+    throw std::system_error(errno, std::generic_category(), config_.folder);
   }
   free_bytes_ = static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
 }
@@ -104,24 +115,56 @@ std::string EventStore::free_name(std::int64_t utime_us, const std::string& labe
   return candidate;
 }
 
-void EventStore::make_room(double bytes, const std::set<std::string>& open) {
-  while (this->bytes() + bytes > quota_bytes_) {
-    if (!remove_oldest(open)) throw DiskFull("what is being recorded is greater than the quota");
-  }
-  measure_room();
-  if (free_bytes_ - bytes < reserve_bytes_) throw DiskFull(full_text());
-}
-
-bool EventStore::remove_oldest(const std::set<std::string>& open) {
-  for (auto event = events_.begin(); event != events_.end(); ++event) {
-    const auto is_this = [&](const std::string& name) { return event->first == name + kPartial; };
-    if (std::ranges::any_of(open, is_this)) continue;
-    fs::remove_all(folder_ + "/" + event->first);
+void EventStore::make_room(double bytes, const Names& open, std::int64_t now_utime_us) {
+  if (this->bytes() + bytes > config_.quota_bytes) {
+    const auto event = removable(open, now_utime_us);
+    // None goes for nothing.
+    if (this->bytes() + bytes - (event == events_.end() ? 0.0 : event->second) >
+        config_.quota_bytes) {
+      throw DiskFull(kNoRoom);
+    }
+    remember_removal();  // first: who cannot write that down may not remove
+    fs::remove_all(config_.folder + "/" + event->first);
     events_.erase(event);
     ++removed_;
-    return true;
   }
-  return false;
+  measure_room();
+  if (free_bytes_ - bytes < config_.reserve_bytes) throw DiskFull(full_text());
+}
+
+double EventStore::room_bytes(const Names& open, std::int64_t now_utime_us) const {
+  const auto event = removable(open, now_utime_us);
+  const double gained = event == events_.end() ? 0.0 : event->second;
+  return std::max(0.0, config_.quota_bytes - bytes() + gained);
+}
+
+void EventStore::remember_removal() const {
+  std::ofstream file(config_.folder + "/" + kRemoval);
+  file << "when an event last made room\n";
+  file.close();
+  if (!file) throw std::system_error(EIO, std::generic_category(), config_.folder);
+}
+
+EventStore::Events::const_iterator EventStore::removable(const Names& open,
+                                                         std::int64_t now_utime_us) const {
+  const std::int64_t before_utime_us = now_utime_us - std::llround(config_.protect_s * 1e6);
+  struct stat last {};
+  if (::stat((config_.folder + "/" + kRemoval).c_str(), &last) != 0) return events_.end();
+  if (last.st_mtim.tv_sec * 1'000'000LL + last.st_mtim.tv_nsec / 1000 > before_utime_us) {
+    return events_.end();
+  }
+  std::map<std::string, double> labels;
+  for (const auto& [name, bytes] : events_) labels[label_of(name)] += bytes;
+  const std::string protected_from = utc_name(before_utime_us);
+  auto found = events_.end();
+  for (auto event = events_.begin(); event != events_.end(); ++event) {  // the oldest first
+    if (event->first >= protected_from) break;
+    const auto is_this = [&](const std::string& name) { return event->first == name + kPartial; };
+    if (std::ranges::any_of(open, is_this)) continue;
+    const double taken = labels[label_of(event->first)];
+    if (found == events_.end() || taken > labels[label_of(found->first)]) found = event;
+  }
+  return found;
 }
 
 void EventStore::finished(const std::string& name) {

@@ -1,4 +1,8 @@
-// The folder of all events: how much there is, how much room the disk has, and which is the oldest.
+// The folder of all events: how much there is, how much room the disk has, and which may go.
+//
+// Anybody on the bus may ask for recordings, so they must not push out what was there before: once
+// in `protect_s` one event makes room for new ones, and only one that is older than that: the
+// oldest of the label that takes most room.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace ols {
 
@@ -20,7 +25,14 @@ class DiskFull : public std::runtime_error {
 
 class EventStore {
  public:
-  EventStore(const std::string& folder, double quota_bytes, double reserve_bytes);
+  struct Config {
+    std::string folder;
+    double quota_bytes = 0.0, reserve_bytes = 0.0;
+    double protect_s = 0.0;
+  };
+  using Names = std::set<std::string>;
+
+  explicit EventStore(Config config) : config_(std::move(config)) {}
 
   // Looks at the disk: makes the folder where it is missing, and takes stock of events and room.
   // Throws std::system_error when the folder is none, or cannot be written.
@@ -30,14 +42,16 @@ class EventStore {
 
   // A name that is still free.
   std::string free_name(std::int64_t utime_us, const std::string& label) const;
-  // Removes the oldest events until `bytes` more fit into the quota, never those of `open`, whose
+  // Removes what may go when `bytes` more do not fit into the quota, never what is of `open`, whose
   // frames are still coming. Throws DiskFull when they do not fit all the same, or the disk's
-  // reserve would be touched.
-  void make_room(double bytes, const std::set<std::string>& open);
+  // reserve would be touched. UTC decides what is how old.
+  void make_room(double bytes, const Names& open, std::int64_t now_utime_us);
+  // What fits into the quota, with what may go.
+  double room_bytes(const Names& open, std::int64_t now_utime_us) const;
   void add(const std::string& name, double bytes) { events_[name] += bytes; }
   void finished(const std::string& name);
 
-  bool full() const { return free_bytes_ < reserve_bytes_; }
+  bool full() const { return free_bytes_ < config_.reserve_bytes; }
   std::string full_text() const;  // "disk full (0.2 GB free)"
   double free_bytes() const { return free_bytes_; }
   double bytes() const;
@@ -45,12 +59,14 @@ class EventStore {
   std::uint64_t removed() const { return removed_; }
 
  private:
-  void measure_room();
-  bool remove_oldest(const std::set<std::string>& open);
+  using Events = std::map<std::string, double>;
 
-  std::string folder_;
-  double quota_bytes_, reserve_bytes_;
-  std::map<std::string, double> events_;  // by folder name; partial ones too
+  void measure_room();
+  void remember_removal() const;
+  Events::const_iterator removable(const Names& open, std::int64_t now_utime_us) const;
+
+  Config config_;
+  Events events_;  // by folder name; partial ones too
   double free_bytes_ = 0.0;
   std::uint64_t removed_ = 0;
 };

@@ -34,18 +34,21 @@ constexpr double kSurvey_s = 2.0;       // the disk is looked at so often
 constexpr double kRetry_s = 2.0;        // until an event that could not be finished is tried again
 constexpr double kAtEnd_s = 5.0;        // for what is unwritten when the station stops
 constexpr std::size_t kMostEvents = 4;  // at the same time
-constexpr int kNice = 10;               // the control loop goes first
+constexpr double kMostAtOnce = 8.0;     // recordings; then one more each kAnother_s
+constexpr double kAnother_s = 10.0;
+constexpr int kNice = 10;  // the control loop goes first
 
 struct Event {
   std::string label;
   std::int64_t utime_us;
   double start_s, end_s;
   std::deque<RecordedFrame> waiting;
-  bool closed = false;        // no frame of it will come any more
-  std::uint64_t written = 0;  // frames
-  std::string unfinished;     // why its end failed; all its frames are on the disk
-  double retry_s = 0.0;       // then its end is tried again
-  std::string name;           // from here on: of the writing thread alone
+  double expected_bytes = 0.0;  // of which so many are still to be written
+  bool closed = false;          // no frame of it will come any more
+  std::uint64_t written = 0;    // frames
+  std::string unfinished;       // why its end failed; all its frames are on the disk
+  double retry_s = 0.0;         // then its end is tried again
+  std::string name;             // from here on: of the writing thread alone
   std::optional<EventFolder> folder;
 };
 
@@ -54,7 +57,7 @@ struct Event {
 struct Recorder::Impl {
   explicit Impl(const RecorderConfig& recorder_config)
       : config(recorder_config),
-        store(config.folder, config.quota_bytes, config.disk_reserve_bytes),
+        store({config.folder, config.quota_bytes, config.disk_reserve_bytes, config.protect_s}),
         memory(config.memory_s, config.memory_max_bytes) {}
 
   // --- of any thread
@@ -84,6 +87,41 @@ struct Recorder::Impl {
     waiting_bytes += bytes_of(frame);
   }
 
+  // What the frames of such a command take on the disk at most, by those that are remembered.
+  double expected_bytes(const RecordCommand& command) const {
+    const auto& frames = memory.frames();
+    if (frames.size() < 2) return 0.0;
+    const double span_s = frames.back().mid_exposure_s - frames.front().mid_exposure_s;
+    return static_cast<double>(memory.bytes()) / span_s * (command.before_s + command.after_s);
+  }
+
+  double still_to_write() const {
+    double bytes = 0.0;
+    for (const Event& event : events) bytes += event.expected_bytes;
+    return bytes;
+  }
+
+  // Whoever asks again and again gets a few.
+  bool too_many(double now_s) {
+    tokens = std::min(kMostAtOnce, tokens + (now_s - tokens_s) / kAnother_s);
+    tokens_s = now_s;
+    if (tokens < 1.0) return true;
+    tokens -= 1.0;
+    return false;
+  }
+
+  std::string refusal_of_more(const RecordCommand& command, double now_s) {
+    const double wanted = expected_bytes(command);
+    if (good_s && wanted + still_to_write() > room_bytes) {
+      ++refused_no_room;
+      wanted_bytes = wanted;
+      return "no room for " + std::to_string(std::llround(wanted * 1e-6)) + " MB";
+    }
+    if (!too_many(now_s)) return {};
+    ++refused_too_many;
+    return "too many recordings in a short time";
+  }
+
   std::string refusal(const RecordCommand& command, double now_s) const {
     if (std::string why = wrong_with(command, config, now_s); !why.empty()) return why;
     const bool over = command.event_s + command.after_s < now_s;
@@ -101,12 +139,16 @@ struct Recorder::Impl {
   std::string record(const RecordCommand& command) {
     const double now_s = clock_monotonic_s();
     const std::lock_guard lock(mutex);
-    if (std::string why = refusal(command, now_s); !why.empty()) {
+    std::string why = refusal(command, now_s);
+    if (why.empty()) why = refusal_of_more(command, now_s);
+    if (!why.empty()) {
       ++refused;
       return why;
     }
+    wanted_bytes = 0.0;
     Event event{};
     event.label = command.label;
+    event.expected_bytes = expected_bytes(command);
     event.start_s = command.event_s - command.before_s;
     event.end_s = command.event_s + command.after_s;
     event.utime_us = clock_utime_us() - std::llround((now_s - command.event_s) * 1e6);
@@ -177,11 +219,13 @@ struct Recorder::Impl {
   }
 
   void set_trouble(const std::string& what) {
+    const double room = store.room_bytes(open_names(), clock_utime_us());
     const std::lock_guard lock(mutex);
     // The room left changes all the time; only that it became too little is news.
     if (!what.empty() && trouble.empty()) note(what);
     trouble = what;
     free_bytes = store.free_bytes();
+    room_bytes = room;
     stored_bytes = store.bytes();
     stored_events = store.events();
     events_removed = store.removed();
@@ -240,7 +284,7 @@ struct Recorder::Impl {
         if (event.name.empty()) event.name = store.free_name(event.utime_us, event.label);
       }
       // A frame is hardly ever greater as PNG.
-      store.make_room(static_cast<double>(bytes_of(frame)), open_names());
+      store.make_room(static_cast<double>(bytes_of(frame)), open_names(), clock_utime_us());
       if (!event.folder) event.folder.emplace(config.folder, event.name);
       const std::size_t bytes = event.folder->write(frame, encode_png(frame));
       store.add(event.name + kPartial, static_cast<double>(bytes));
@@ -255,6 +299,8 @@ struct Recorder::Impl {
     if (lost) event.written = 0;
     failed.empty() ? ++frames_written : ++frames_dropped;
     if (failed.empty()) ++event.written;
+    event.expected_bytes =
+        std::max(0.0, event.expected_bytes - static_cast<double>(bytes_of(frame)));
   }
 
   void end_event(Event& event) {
@@ -304,10 +350,13 @@ struct Recorder::Impl {
   std::string error;    // the last trouble
   std::string beside;   // why its thread does not stand back for the control loop; empty: it does
   std::optional<double> good_s;
-  double free_bytes = 0.0, stored_bytes = 0.0;
+  double free_bytes = 0.0, stored_bytes = 0.0, room_bytes = 0.0;
+  double wanted_bytes = 0.0;  // of the last recording, where there was no room for it
+  double tokens = kMostAtOnce, tokens_s = 0.0;
   std::size_t stored_events = 0;
   std::uint64_t errors = 0, frames_written = 0, frames_dropped = 0, events_written = 0,
-                events_failed = 0, events_removed = 0, refused = 0;
+                events_failed = 0, events_removed = 0, refused = 0, refused_no_room = 0,
+                refused_too_many = 0;
   std::jthread thread;  // last: it uses the rest
 };
 
@@ -338,10 +387,18 @@ DeviceReport Recorder::report() const {
                      {"recorder_events_written", impl_->events_written},
                      {"recorder_events_failed", impl_->events_failed},
                      {"recorder_events_removed", impl_->events_removed},
-                     {"recorder_commands_refused", impl_->refused}};
+                     {"recorder_commands_refused", impl_->refused},
+                     {"recorder_refused_no_room", impl_->refused_no_room},
+                     {"recorder_refused_too_many", impl_->refused_too_many}};
   report.readings = {{"disk_free_bytes", impl_->free_bytes},
                      {"recorder_events", static_cast<double>(impl_->stored_events)},
-                     {"recorder_bytes", impl_->stored_bytes}};
+                     {"recorder_bytes", impl_->stored_bytes},
+                     {"recorder_room_bytes", impl_->room_bytes}};
+  if (impl_->wanted_bytes > impl_->room_bytes) {
+    report.alarms.emplace_back(
+        "recorder: recordings are refused, the quota is full of events that are kept: fetch some "
+        "and remove them");
+  }
   if (const std::string wrong = impl_->wrong(); !wrong.empty()) {
     report.state = DeviceState::kFault;
     report.text = wrong;

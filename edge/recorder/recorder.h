@@ -19,7 +19,10 @@ struct RecorderConfig {
   std::string folder;     // empty: the station records nothing
   double memory_s = 5.0;  // frames remembered before an event
   double memory_max_bytes = 256e6;
-  double quota_bytes = 4e9;         // all events together: the oldest go
+  double quota_bytes = 4e9;  // all events together
+  // Once in this time one event that is older makes room for new ones; otherwise recordings that do
+  // not fit are refused. A day: a site is looked at that often, and alarms by then.
+  double protect_s = 86400.0;
   double disk_reserve_bytes = 1e9;  // never less than this left free on the disk
   double event_max_s = 60.0;
 };

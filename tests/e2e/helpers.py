@@ -1,5 +1,7 @@
 """Talks to running processes as another member of the site's bus would."""
 
+import socket
+import threading
 import time
 from typing import Any
 
@@ -8,6 +10,56 @@ from ols_demo.bus import LIVE_URL, Bus, counters
 from ols_demo.observer import Observer
 
 DEADLINE_S = 20.0
+STOP_LINE, REARM_LINE = 17, 18
+
+
+class StopSwitch:
+    """The server of a GPIO socket with an emergency stop and a re-arm button, as
+    edge/gpio/gpio_lines.h has it."""
+
+    def __init__(self, path: Any):
+        self._server = socket.socket(socket.AF_UNIX)
+        self._server.bind(str(path))
+        self._server.listen()
+        # The stop is normally closed to ground with a pull-up: pressed is high. The button closes
+        # to ground: held is low.
+        self._levels = {STOP_LINE: 0, REARM_LINE: 1}
+        self._clients: list[socket.socket] = []
+        threading.Thread(target=self._serve, daemon=True).start()
+
+    def _serve(self) -> None:
+        while True:
+            client, _ = self._server.accept()
+            self._clients.append(client)
+            for line in self._levels:
+                self._tell(client, line)
+            threading.Thread(target=self._answer, args=(client,), daemon=True).start()
+
+    def _answer(self, client: socket.socket) -> None:
+        try:
+            for text in client.makefile():
+                if text.startswith("read"):
+                    self._tell(client, int(text.split()[1]))
+        except ConnectionResetError:
+            pass  # a station that was killed
+
+    def _tell(self, client: socket.socket, line: int) -> None:
+        try:
+            client.sendall(f"in {line} {self._levels[line]}\n".encode())
+        except OSError:
+            if client in self._clients:
+                self._clients.remove(client)  # a station that has ended
+
+    def _set(self, line: int, level: int) -> None:
+        self._levels[line] = level
+        for client in list(self._clients):
+            self._tell(client, line)
+
+    def press(self, pressed: bool) -> None:
+        self._set(STOP_LINE, int(pressed))
+
+    def hold_rearm(self, held: bool) -> None:
+        self._set(REARM_LINE, int(not held))
 
 
 class Listener:

@@ -34,7 +34,8 @@ def fixture_configs(network, tmp_path_factory):
     command = [str(BIN / "ols-sim"), "--scenario", str(SCENARIO), "--seed", "1"]
     command += ["--lcm-url", LIVE_URL, "--directory", str(folder / "lines")]
     (folder / "lines").mkdir()
-    subprocess.run([*command, "--write-configs", str(folder / "config")], check=True)
+    write = ["--write-configs", str(folder / "config"), "--state-folder", str(folder / "state")]
+    subprocess.run([*command, *write], check=True)
     return command, folder
 
 

@@ -62,10 +62,10 @@ def loop(network, tmp_path_factory):
     simulator += ["--directory", str(folder / "lines")]
     listener = Listener()
     with Site(folder / "logs") as site:
-        subprocess.run([*simulator, "--write-configs", folder / "configs"], check=True)
+        write = ["--write-configs", folder / "configs", "--state-folder", folder / "state"]
+        subprocess.run([*simulator, *write], check=True)
         site.start_and_wait("simulator", simulator, "ready")
         config = folder / f"configs/{STATION}.toml"
-        config.write_text(f'state_folder = "{folder}"\n{config.read_text()}')
         station = [str(BIN / "ols-station"), "--config", str(config)]
         listener.start_station = lambda: site.start_and_wait("station", station, "ready")
         listener.start_station()

@@ -1,10 +1,10 @@
-"""The site's logger with the real lcm-logger: quota, full and read-only disks, death and end."""
+"""The site's logger: quota, full and read-only disks, files taken away, forged datagrams, end."""
 
 import json
 import os
-import shutil
 import signal
 import socket
+import struct
 import subprocess
 import time
 from pathlib import Path
@@ -17,8 +17,6 @@ from ols_demo.bus import LIVE_URL
 DEADLINE_S = 30.0
 SPLIT_BYTES = 50_000
 QUOTA_BYTES = 300_000
-
-pytestmark = pytest.mark.skipif(shutil.which("lcm-logger") is None, reason="no lcm-logger")
 
 
 def wait(condition, what):
@@ -174,8 +172,8 @@ def test_its_own_logs_never_fill_the_disk(start):
     assert logger.status().get("failures") == 0
 
 
-def test_a_disk_without_any_room_ends_only_lcm_logger(start):
-    """ENOSPC under lcm-logger's hands: it dies of it."""
+def test_a_disk_without_any_room_is_waited_for(start):
+    """ENOSPC in the middle of a file."""
     logger = start(disk_bytes=300_000)
     logger.wait_recording()
     filler = logger.logs / "filler"
@@ -197,34 +195,73 @@ def test_waits_for_a_read_only_folder_to_become_writable(start):
     logger.wait_recording()
 
 
-def test_lcm_logger_killed_is_started_again(start):
-    logger = start()
+@pytest.mark.parametrize("how", ["rm {0}", "mv {0} {0}.away", "cp {0} {0}.2 && mv {0}.2 {0}"])
+def test_a_file_that_is_taken_away_is_said_and_another_begun(start, how):
+    logger = start(split_mb=10.0, quota_gb=0.04)
     logger.wait_recording()
-    child = logger.status()["logger_pid"]
-    os.kill(child, signal.SIGKILL)
-    logger.wait_for("a second start", lambda s: s["starts"] == 2 and s["recording"])
+    logger.wait_for("a status", lambda s: s["recording"])
+    taken = logger.status()["text"]
+    logger.shell.run(how.format(taken))
+    logger.wait_for("another file", lambda s: s["files_lost"] == 1 and s["text"] != taken)
     logger.wait_recording()
+    assert logger.status()["starts"] == 1
     code, error = logger.end()
     assert code == 0
-    assert "was ended by signal 9" in error
+    assert "was deleted, renamed or replaced while it was written" in error
+    begun = Path(logger.status()["text"])
+    assert {event.channel for event in lcm.EventLog(str(begun))} == {"FLOOD"}
 
 
-@pytest.mark.parametrize("sent", [signal.SIGTERM, signal.SIGKILL])
-def test_leaves_no_lcm_logger_behind(start, sent):
+def send_raw(datagrams):
+    group, port = LIVE_URL.split("//")[1].split("?")[0].split(":")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+        sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)
+        for datagram in datagrams:
+            sender.sendto(datagram, (group, int(port)))
+
+
+def fragment(sequence, size, offset, number, count, payload):
+    return struct.pack(">IIIIHH", 0x4C433033, sequence, size, offset, number, count) + payload
+
+
+def test_forged_fragments_do_nothing_but_count(start):
+    """The two datagrams that end every program with liblcm 1.3.1 on the bus."""
     logger = start()
     logger.wait_recording()
-    child = logger.status()["logger_pid"]
-    logger.end(sent)
+    first = fragment(7, 100, 0, 0, 3, b"OLS_STATUS_x\0AAAA")
+    second = fragment(7, 100, 0xFFFFFF00, 1, 3, b"B" * 272)
+    send_raw([first, second, b"", b"LC02", b"LC02abcd\x1b[2J\0"])
+    counted = lambda s: s["bus_fragments_refused"] == 2 and s["bus_datagrams_malformed"] == 3  # noqa: E731
+    logger.wait_for("what was refused", counted)
+    assert "2 fragments and 3 malformed datagrams refused" in logger.status()["bus_alarm"]
+    logger.wait_recording()
+    assert logger.status()["starts"] == 1
 
-    def gone():
-        try:
-            os.kill(child, 0)
-        except ProcessLookupError:
-            return True
-        # Without its parent it is this process's to reap: the first of the namespace.
-        return os.getpid() == 1 and os.waitpid(child, os.WNOHANG)[0] == child
 
-    wait(gone, "the end of lcm-logger")
+@pytest.fixture
+def flight(tmp_path, network):
+    log = tmp_path / "flight.lcmlog"
+    program = [str(BIN / "ols-logger"), "--lcm-url", LIVE_URL, "--output", str(log)]
+    with subprocess.Popen(program, stderr=subprocess.PIPE, text=True) as process:
+        assert "ready" in process.stderr.readline()
+        yield process, log, program
+        process.kill()
+
+
+def test_records_a_flight_into_one_file(flight):
+    process, log, program = flight
+    bus = lcm.LCM(LIVE_URL)
+    for number in range(100):
+        bus.publish("FLIGHT", bytes([number]))
+    # What was sent before the end was asked for may still be on its way.
+    wait(lambda: log.exists() and log.stat().st_size >= 100 * (28 + 7), "100 messages")
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(DEADLINE_S) == 0
+    assert [event.data for event in lcm.EventLog(str(log))] == [bytes([n]) for n in range(100)]
+    again = subprocess.run(program, capture_output=True, text=True, timeout=DEADLINE_S)
+    assert again.returncode == 2
+    assert str(log) in again.stderr
+    assert len(list(lcm.EventLog(str(log)))) == 100  # it is not overwritten
 
 
 def test_tells_the_service_manager(start, tmp_path, monkeypatch):

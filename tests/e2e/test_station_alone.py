@@ -30,6 +30,23 @@ fx_px = 13333.3
 fy_px = 13333.3
 """
 
+LONG_LEASE_S = 9.0  # of what is played again some statuses later
+
+
+def starts_stopped(station):
+    """It remembers nothing, so nobody knows how it was left."""
+    status = station.observer.status["lone"]
+    assert status.state == ols_msg.station_status_t.STATE_STOPPED
+    unknown = "is not known (no state_folder is configured): check it, then ols-ctl lone "
+    assert f"stop: how the station was left {unknown}release" in status.alarm
+    assert f"ptu: whether its reference was in doubt {unknown}reference-ok" in status.alarm
+    release(station)
+    station.wait(lambda: not any("left" in a for a in alarms(station)), "its alarm to go")
+
+
+def alarms(station):
+    return station.observer.status["lone"].alarm
+
 
 @pytest.fixture(scope="module")
 def station(network, tmp_path_factory):
@@ -41,6 +58,7 @@ def station(network, tmp_path_factory):
         command = [str(BIN / "ols-station"), "--config", str(config)]
         site.start_and_wait("station", command, "ready")
         listener.wait_for_status("lone")
+        starts_stopped(listener)
         listener.site = site
         yield listener
 
@@ -75,6 +93,7 @@ def test_foreign_and_truncated_messages_are_refused(station, kind):
 
 def test_commands_that_are_not_commands_are_refused(station):
     nan = slew("lone", 10, math.nan)
+    nan.lease_s = LONG_LEASE_S
     refused(station, "refused_not_finite", "OLS_SLEW_lone", nan.encode())
     far = slew("lone", 11, 0.1, 1.2)  # above the unit's travel
     refused(station, "refused_unreachable", "OLS_SLEW_lone", far.encode())
@@ -92,8 +111,39 @@ def test_commands_that_are_not_commands_are_refused(station):
     refused(station, "messages_refused_schema", "OLS_SLEW_lone", schema.encode())
     other = slew("other", 16, 0.1)
     refused(station, "messages_refused_other_station", "OLS_SLEW_lone", other.encode())
-    replay = slew("lone", 10, 0.1)  # a sequence that was there before
-    refused(station, "messages_refused_replayed", "OLS_SLEW_lone", replay.encode())
+    refused(station, "messages_refused_replayed", "OLS_SLEW_lone", nan.encode())  # the same bytes
+
+
+def test_nobodys_sequence_or_stamp_bars_another(station):
+    """One slew with the greatest sequence and the fusion's boot id, stamped ahead; then others."""
+    forged = slew("lone", 2**63 - 1, math.nan)
+    forged.utime += 450_000
+    refused(station, "refused_not_finite", "OLS_SLEW_lone", forged.encode())
+    before = station.counter("lone", "refused_not_finite")
+    replayed = station.counter("lone", "messages_refused_replayed")
+    for sequence in (*range(100, 150), -1, -(2**63)):
+        station.publish("OLS_SLEW_lone", slew("lone", sequence, math.nan).encode())
+    station.wait_for_counter("lone", "refused_not_finite", before + 52)
+    assert station.counter("lone", "messages_refused_replayed") == replayed
+
+
+def test_an_operator_is_not_locked_out_by_stamps_from_ahead(station):
+    for i in range(5):
+        ahead = point("lone", 7000 + i, 0.1)
+        ahead.utime += 450_000
+        refused(station, "refused_no_unit", "OLS_PTU_lone", ahead.encode())
+        assert ctl("lone", "release").returncode == 0
+
+
+def test_commands_that_keep_being_refused_are_an_alarm(station):
+    again = slew("lone", 9000, math.nan)
+    again.lease_s = LONG_LEASE_S
+    refused(station, "refused_not_finite", "OLS_SLEW_lone", again.encode())
+    for _ in range(4):
+        refused(station, "messages_refused_replayed", "OLS_SLEW_lone", again.encode())
+    said = "refused in 10 s: replayed"
+    station.wait(lambda: any(a.endswith(said) for a in alarms(station)), "the alarm")
+    station.wait(lambda: not any(a.endswith(said) for a in alarms(station)), "its end")
 
 
 def test_designation_without_a_frame_is_refused(station):

@@ -12,10 +12,9 @@ from pathlib import Path
 import ols_msg
 import pytest
 from conftest import BIN
-from helpers import Listener, addressed, point
+from helpers import Listener, StopSwitch, addressed, point
 from ols_demo.site import Site
 
-STOP_LINE = 17
 CONFIG = """\
 id = "tool"
 state_folder = "{folder}"
@@ -38,44 +37,13 @@ device = "/nonexistent/ptu"
 chip = "socket:{folder}/gpio"
 led_line = 22
 stop_line = 17
+rearm_line = 18
 [recorder]
 folder = "{folder}/events"
 """
 WATCHDOG_S = 1.0
 DRAINED = b"DRAINED"
-
-
-class StopSwitch:
-    """The server of a GPIO socket with one emergency stop, as edge/gpio/gpio_lines.h has it."""
-
-    def __init__(self, path):
-        self._server = socket.socket(socket.AF_UNIX)
-        self._server.bind(str(path))
-        self._server.listen()
-        self._pressed = False
-        self._clients = []
-        threading.Thread(target=self._serve, daemon=True).start()
-
-    def _serve(self):
-        while True:
-            client, _ = self._server.accept()
-            self._clients.append(client)
-            self._tell(client)
-            threading.Thread(target=self._answer, args=(client,), daemon=True).start()
-
-    def _answer(self, client):
-        for line in client.makefile():
-            if line.startswith("read"):
-                self._tell(client)
-
-    def _tell(self, client):
-        # Normally closed to ground with a pull-up: pressed is high.
-        client.sendall(f"in {STOP_LINE} {int(self._pressed)}\n".encode())
-
-    def press(self, pressed):
-        self._pressed = pressed
-        for client in self._clients:
-            self._tell(client)
+NOT_REARMED = "emergency stop: not rearmed yet: hold its re-arm button"
 
 
 class Manager:
@@ -149,6 +117,10 @@ def station(network, tmp_path_factory):
         listener.start()
         listener.site, listener.config = site, config
         listener.wait_for_status("tool")
+        # Nobody knows how it was left: it has just been set up.
+        listener.wait_for_state(ols_msg.station_status_t.STATE_STOPPED)
+        listener.command(ols_msg.ptu_command_t.COMMAND_RELEASE)
+        listener.wait_for_state(ols_msg.station_status_t.STATE_IDLE)
         yield listener
 
 
@@ -206,12 +178,43 @@ def test_the_emergency_stop_holds_until_released_and_rearmed(station):
     assert "emergency stop: pressed" in station.alarms()
     assert "emergency" in ctl("tool", "manual", "1", "2").stdout
     assert "emergency" in ctl("tool", "rearm").stdout
+    os.kill(station.pid(), signal.SIGUSR1)
     assert ctl("tool", "stop").returncode == 0
     station.switch.press(False)
-    station.wait(lambda: "emergency stop: not rearmed yet" in station.alarms(), "released")
+    station.wait(lambda: NOT_REARMED in station.alarms(), "released")
     assert "emergency" in ctl("tool", "release").stdout
     assert station.state() == status.STATE_EMERGENCY
-    assert ctl("tool", "rearm").returncode == 0
+    station.switch.hold_rearm(True)
+    station.wait_for_state(status.STATE_STOPPED)
+    station.switch.hold_rearm(False)
+    assert ctl("tool", "release").returncode == 0
+    station.wait_for_state(status.STATE_IDLE)
+
+
+def test_nobody_rearms_it_from_afar(station):
+    """Forged commands right behind the release, and a touch of the button: it stays."""
+    status, ptu = ols_msg.station_status_t, ols_msg.ptu_command_t
+    station.switch.press(True)
+    station.wait_for_state(status.STATE_EMERGENCY)
+    station.switch.press(False)
+    station.wait(lambda: NOT_REARMED in station.alarms(), "released")
+    before = station.counter("tool", "refused_rearm_needs_a_hand")
+    points = station.counter("tool", "refused_emergency")
+    for _ in range(5):
+        station.command(ptu.COMMAND_REARM)
+        station.publish("OLS_PTU_tool", point("tool", time.time_ns(), 0.3).encode())
+        station.command(ptu.COMMAND_RELEASE)
+    station.wait_for_counter("tool", "refused_rearm_needs_a_hand", before + 5)
+    station.wait_for_counter("tool", "refused_emergency", points + 10)
+    assert station.state() == status.STATE_EMERGENCY
+    assert "rearm_needs_a_hand" in ctl("tool", "rearm").stdout
+    station.switch.hold_rearm(True)
+    time.sleep(0.3)  # the touch itself: a second is asked for
+    station.switch.hold_rearm(False)
+    time.sleep(1.5)
+    station.wait_for_status("tool")
+    assert station.state() == status.STATE_EMERGENCY
+    os.kill(station.pid(), signal.SIGUSR1)  # who is logged in on its computer
     station.wait_for_state(status.STATE_STOPPED)
     assert ctl("tool", "release").returncode == 0
     station.wait_for_state(status.STATE_IDLE)
@@ -322,9 +325,9 @@ def test_a_stop_outlives_the_station(station):
     station.switch.press(True)
     station.wait_for_state(status.STATE_EMERGENCY)
     station.switch.press(False)
-    station.wait(lambda: "emergency stop: not rearmed yet" in station.alarms(), "released")
+    station.wait(lambda: NOT_REARMED in station.alarms(), "released")
     states = [
-        (status.STATE_EMERGENCY, "rearm"),
+        (status.STATE_EMERGENCY, None),
         (status.STATE_STOPPED, "release"),
         (status.STATE_IDLE, "stop"),
     ]
@@ -334,7 +337,11 @@ def test_a_stop_outlives_the_station(station):
         station.start()
         station.wait(lambda old=boot: station.observer.status["tool"].boot_id != old, "restarted")
         station.wait_for_state(state)
-        assert ctl("tool", command).returncode == 0
+        if command is None:
+            os.kill(station.pid(), signal.SIGUSR1)
+            station.wait_for_state(status.STATE_STOPPED)
+        else:
+            assert ctl("tool", command).returncode == 0
 
 
 def test_it_ends_in_order(station):

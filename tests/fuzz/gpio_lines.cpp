@@ -4,11 +4,11 @@
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  constexpr int kInput = 17;
+  const std::vector<int> inputs{17, 18};
   const std::string_view bytes = ols::fuzz::text(data, size);
-  ols::LineProtocol whole(kInput), split(kInput);
+  ols::LineProtocol whole(inputs), split(inputs);
   const auto at_once = whole.receive(bytes);
-  std::vector<bool> by_byte;
+  std::vector<ols::LineProtocol::Level> by_byte;
   bool refused = false;
   for (std::size_t i = 0; i < bytes.size() && !refused; ++i) {
     const auto levels = split.receive(bytes.substr(i, 1));

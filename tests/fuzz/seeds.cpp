@@ -134,6 +134,19 @@ std::string framed(char kind, const std::string& bytes) {
   return {kind + std::string(1, static_cast<char>(bytes.size() & 255U)) + bytes};
 }
 
+// Datagrams of `fuzz_datagrams`: as it is on the wire; or the payload of one of its channels.
+std::string whole(const std::string& bytes) {
+  const std::size_t length = 2 * bytes.size();
+  return {static_cast<char>(length & 255U) + std::string(1, static_cast<char>(length >> 8U)) +
+          bytes};
+}
+
+std::string of_channel(char channel, const std::string& payload) {
+  const std::size_t length = 2 * payload.size() + 1;
+  return {static_cast<char>(length & 255U) + std::string(1, static_cast<char>(length >> 8U)) +
+          std::string(1, channel) + payload};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -162,6 +175,16 @@ int main(int argc, char** argv) {
   write(folder / "fusion_messages" / "status", framed('\1', encoded(status())));
   write(folder / "fault_plan" / "two", framed('\12', encoded(fault("ptu-garbled", 5.0, 0.01))) +
                                            framed('\12', encoded(fault("all", 0.0, 0.0))));
+  // Of the two datagrams that end a program with liblcm 1.3.1, and of a message cut in the middle.
+  const std::string first = std::string("LC03\0\0\0\7\0\0\0\x64\0\0\0\0\0\0\0\3", 20) +
+                            "OLS_STATUS_x" + std::string(1, '\0') + "AAAA";
+  const std::string second =
+      std::string("LC03\0\0\0\7\0\0\0\x64\xff\xff\xff\0\0\1\0\3", 20) + std::string(272, 'B');
+  write(folder / "datagrams" / "fragments", whole(first) + whole(second));
+  write(folder / "datagrams" / "cut", whole("LC02abcdOLS_STATUS_a"));
+  write(folder / "datagrams" / "messages",
+        of_channel(0, encoded(slew())) + of_channel(1, encoded(command<ols_msg::ptu_command_t>())) +
+            of_channel(4, encoded(status())) + of_channel(5, from_a));
   int kind = 0;
   for (const auto& bytes : {encoded(slew()), encoded(command<ols_msg::ptu_command_t>()),
                             encoded(designation()), encoded(command<ols_msg::record_t>())}) {

@@ -95,7 +95,10 @@ void add_ptu_commands(CLI::App& app, Words& words) {
   app.add_subcommand("stop", "Halt the PTU, and stay stopped until told otherwise")
       ->callback([&words] { words.stop = true; });
   simple("release", "Give the PTU back to automatic control", &ols::Operator::release);
-  simple("rearm", "After an emergency stop that is released: leave the emergency, stopped",
+  simple("rearm",
+         "Leave the emergency, stopped, once the stop is released: only where the site lets it be "
+         "done "
+         "from afar",
          &ols::Operator::rearm);
   simple("home", "Have the PTU home, a sweep over its whole travel: clear the way first",
          &ols::Operator::home);

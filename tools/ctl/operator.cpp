@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 #include "base/clocks.h"
+#include "tools/ctl/heard_status.h"
 
 namespace ols {
 namespace {
@@ -89,10 +91,14 @@ Operator::Operator(const std::string& lcm_url, std::string station)
   std::random_device source;
   boot_id_ = static_cast<std::int64_t>(source());
   const std::string which = station_ == "all" ? ".*" : station_;
-  bus_.subscribe("OLS_STATUS_" + which, [this](const std::string&, const void* data, int bytes) {
-    ols_msg::station_status_t status;
-    if (decode_exactly(data, bytes, status)) statuses_[status.station] = status;
-  });
+  bus_.subscribe("OLS_STATUS_" + which, [this](const BusMessage& message) { hear(message); });
+}
+
+void Operator::hear(const BusMessage& message) {
+  auto status = heard_status(message);
+  if (!status) return;
+  if (!statuses_.contains(status->station) && statuses_.size() >= kMostStationsHeard) return;
+  statuses_[status->station] = std::move(*status);
 }
 
 const Operator::Statuses& Operator::listen(double timeout_s) {
@@ -166,7 +172,8 @@ bool Operator::says_stopped(const std::string& station, double stops_before) con
 }
 
 std::map<std::string, bool> Operator::stop(double timeout_s) {
-  constexpr double kAgain_s = 0.2;
+  constexpr double kAgain_s = 0.02;  // a flooded network loses some, and a stop is in a hurry
+  constexpr int kTurn_ms = 10;
   struct Addressed {
     double sent_s = -kAgain_s;
     std::optional<double> stops;  // as it was first heard to count them: one more has arrived
@@ -190,7 +197,7 @@ std::map<std::string, bool> Operator::stop(double timeout_s) {
     const bool every =
         std::ranges::all_of(addressed, [](const auto& a) { return a.second.stopped; });
     if (every && !addressed.empty() && (!all || now_s > start_s + kTwoIntervals_s)) break;
-    bus_.handle(kPoll_ms);
+    bus_.handle(kTurn_ms);
   }
   std::map<std::string, bool> result;
   for (const auto& [id, one] : addressed) result[id] = one.stopped;

@@ -47,6 +47,7 @@ class Operator {
                                     const std::string& label);
 
  private:
+  void hear(const BusMessage& message);
   bool says_stopped(const std::string& station, double stops_before) const;
   template <class Message>
   void address(Message& message, const std::string& station);

@@ -13,6 +13,7 @@
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/station_status_t.hpp"
+#include "tools/ctl/heard_status.h"
 #include "tools/ctl/operator.h"
 #include "tools/doctor/judge_site.h"
 
@@ -21,6 +22,7 @@ namespace {
 
 constexpr int kPoll_ms = 50;
 constexpr double kCommand_s = 2.0;
+constexpr std::size_t kMostBoots = 100;  // that are told apart; invented ones must not fill memory
 
 DeviceState device_state_of(std::int8_t code) {
   using M = ols_msg::station_status_t;
@@ -68,11 +70,11 @@ StationHeard station_from(const ols_msg::station_status_t& status) {
 
 void look_at_network(BusHeard& bus) {
   std::ifstream("/proc/sys/net/core/rmem_max") >> bus.rmem_max;
-  bus.ttl = parse_ttl(bus.url);
-  const auto group = multicast_group(bus.url);
-  if (!group) return;
+  const BusAddress bus_address = parse_lcm_url(bus.url);
+  bus.ttl = bus_address.ttl;
+  if (!bus_address.group) return;
   std::array<char, INET_ADDRSTRLEN> address{};
-  inet_ntop(AF_INET, &group->sin_addr, address.data(), address.size());
+  inet_ntop(AF_INET, &bus_address.group->sin_addr, address.data(), address.size());
   if (const auto route = command_output({"ip", "-o", "route", "get", address.data()}, kCommand_s)) {
     bus.interface = parse_route(*route);
   }
@@ -88,15 +90,19 @@ BusHeard listen(const std::string& lcm_url, double seconds) {
   try {
     look_at_network(heard);
     LcmBus bus(lcm_url);
-    bus.subscribe("OLS_STATUS_.*", [&](const std::string&, const void* data, int bytes) {
-      ols_msg::station_status_t status;
-      if (!decode_exactly(data, bytes, status)) return;
-      boots[status.station].insert(status.boot_id);
-      heard.stations[status.station] = station_from(status);
+    bus.subscribe("OLS_STATUS_.*", [&](const BusMessage& message) {
+      const auto status = heard_status(message);
+      if (!status) return;
+      const bool known = heard.stations.contains(status->station);
+      if (!known && heard.stations.size() >= kMostStationsHeard) return;
+      std::set<std::int64_t>& of_station = boots[status->station];
+      if (of_station.size() < kMostBoots) of_station.insert(status->boot_id);
+      heard.stations[status->station] = station_from(*status);
     });
-    bus.subscribe("OLS_FUSION_STATUS", [&](const std::string&, const void* data, int bytes) {
+    bus.subscribe("OLS_FUSION_STATUS", [&](const BusMessage& message) {
       ols_msg::fusion_status_t status;
-      if (decode_exactly(data, bytes, status)) fusions.insert(status.boot_id);
+      const bool decoded = decode_exactly(message, status);
+      if (decoded && fusions.size() < kMostBoots) fusions.insert(status.boot_id);
     });
     const double end_s = clock_monotonic_s() + seconds;
     while (clock_monotonic_s() < end_s) bus.handle(kPoll_ms);

@@ -1,7 +1,9 @@
 #include "tools/doctor/finding.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "base/plain_text.h"
 
 namespace ols::doctor {
 namespace {
@@ -24,24 +26,8 @@ Verdict gravest(const Findings& findings) {
   return verdict;
 }
 
-// RFC 8259, section 7. Devices may answer with any byte.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (byte < 0x20) {
-      char code[8];
-      std::snprintf(code, sizeof code, "\\u%04x", byte);
-      out += code;
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
+// Devices may answer with any byte.
+std::string quoted(const std::string& text) { return nlohmann::json(plain_text(text)).dump(); }
 
 }  // namespace
 
@@ -54,7 +40,7 @@ std::string line(const Finding& finding) {
   text.resize(6, ' ');
   text += finding.what;
   if (!finding.advice.empty()) text += "  — " + finding.advice;
-  return text;
+  return plain_text(text);
 }
 
 std::string to_json(const Findings& findings) {

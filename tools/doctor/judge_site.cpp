@@ -222,9 +222,4 @@ std::string parse_route(const std::string& text) {
   return {};
 }
 
-int parse_ttl(const std::string& lcm_url) {
-  const auto at = lcm_url.find("ttl=");
-  return at == std::string::npos ? 0 : std::atoi(lcm_url.c_str() + at + std::strlen("ttl="));
-}
-
 }  // namespace ols::doctor

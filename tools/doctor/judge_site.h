@@ -23,7 +23,5 @@ std::optional<Finding> judge(const UnitFacts& unit);
 std::vector<UnitFacts> parse_units(const std::string& text);
 // The interface in the words of `ip -o route get ADDRESS`; empty: none.
 std::string parse_route(const std::string& text);
-// The ttl of an LCM URL; LCM's default is 0.
-int parse_ttl(const std::string& lcm_url);
 
 }  // namespace ols::doctor

@@ -42,8 +42,9 @@ DeviceReport ask_gpio(const GpioConfig& config) {
   DeviceReport report;
   report.name = "gpio";
   try {
-    const auto lines =
-        open_gpio_lines(config.chip, LineUse{.input = config.stop_line, .outputs = {}});
+    LineUse use;
+    if (config.stop_line >= 0) use.inputs.push_back({config.stop_line, LineBias::kPullUp});
+    const auto lines = open_gpio_lines(config.chip, use);
     report.state = DeviceState::kOk;
     report.text = config.chip;
     if (config.stop_line < 0) return report;

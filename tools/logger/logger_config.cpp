@@ -1,11 +1,10 @@
 #include "tools/logger/logger_config.h"
 
-#include <glib.h>
-
 #include <algorithm>
 #include <cctype>
-#include <memory>
+#include <stdexcept>
 
+#include "base/channel_pattern.h"
 #include "base/lcm_url.h"
 #include "base/toml_config.h"
 
@@ -23,18 +22,12 @@ void check_name(ConfigTable& table, const std::string& name) {
   if (!good) throw table.error("name", "may have 40 letters, digits, - and _");
 }
 
-// By the library with which LCM itself will read it.
 void check_channels(ConfigTable& table, const std::string& channels) {
-  struct Unref {
-    void operator()(GRegex* regex) const { g_regex_unref(regex); }
-    void operator()(GError* error) const { g_error_free(error); }
-  };
-  GError* failure = nullptr;
-  const std::unique_ptr<GRegex, Unref> regex(
-      g_regex_new(channels.c_str(), GRegexCompileFlags{}, GRegexMatchFlags{}, &failure));
-  const std::unique_ptr<GError, Unref> error(failure);
-  if (!regex)
-    throw table.error("channels", std::string("is no regular expression: ") + error->message);
+  try {
+    ChannelPattern{channels};
+  } catch (const std::invalid_argument& problem) {
+    throw table.error("channels", problem.what());
+  }
 }
 
 LoggerConfig read(ConfigFile& file) {

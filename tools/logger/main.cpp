@@ -1,4 +1,4 @@
-// ols-logger: records the bus with lcm-logger, under a quota. Parses, loads, wires and loops.
+// ols-logger: records the bus, under a quota or into one file. Parses, loads, wires and loops.
 #include <poll.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
+#include <system_error>
 
 #include "base/atomic_file.h"
 #include "base/clocks.h"
@@ -14,6 +15,7 @@
 #include "base/service_notifier.h"
 #include "base/shutdown.h"
 #include "base/toml_config.h"
+#include "tools/logger/bus_recorder.h"
 #include "tools/logger/supervisor.h"
 
 namespace {
@@ -25,7 +27,8 @@ std::string in_words(const ols::LoggerStatus& status) {
   char room[96];
   std::snprintf(room, sizeof room, "; %.1f GB in %zu files, %.1f GB free", status.bytes * 1e-9,
                 status.files, status.free_bytes * 1e-9);
-  return (status.recording ? "recording " : "NOT recording: ") + status.text + room;
+  return (status.recording ? "recording " : "NOT recording: ") + status.text + room +
+         (status.bus_alarm.empty() ? "" : "; " + status.bus_alarm);
 }
 
 // A status that cannot be written must not end what it tells of.
@@ -41,6 +44,21 @@ void write_status(const std::string& path, const ols::LoggerStatus& status) {
     if (!told) spdlog::warn("status: {}", failure.what());
     told = true;
   }
+}
+
+// A flight: one file, until the program is asked to end.
+int run_into(const std::string& file, const ols::LoggerConfig& config) {
+  ols::BusRecorder recorder(config, file);
+  ols::ServiceNotifier service_manager;
+  service_manager.ready("recording " + file);
+  spdlog::info("ready: records {} to {}", config.lcm_url, file);
+  while (!ols::shutdown_requested() && !recorder.report().ended) ::poll(nullptr, 0, kTurn_ms);
+  service_manager.stopping();
+  const ols::RecorderReport report = recorder.report();
+  spdlog::info("{} messages recorded, {} dropped", report.messages, report.dropped);
+  if (!report.ended) return 0;
+  spdlog::error("{}", *report.ended);
+  return 1;
 }
 
 int run(const ols::LoggerConfig& config) {
@@ -71,12 +89,15 @@ int run(const ols::LoggerConfig& config) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Records the bus with lcm-logger: the oldest files go when the quota (GB) is used up or the "
-      "disk has less than its reserve (GB) left"};
-  std::string config_path, folder, lcm_url;
+      "Records the bus: the oldest files go when the quota (GB) is used up or the disk has less "
+      "than "
+      "its reserve (GB) left"};
+  std::string config_path, folder, lcm_url, output;
   bool check = false;
   app.add_option("--config", config_path, "Configuration file (TOML); all keys have defaults");
   app.add_option("--folder", folder, "Folder of the logs, in place of the configuration's");
+  app.add_option("--output", output,
+                 "Record into this one new file instead, without a quota, until ended");
   app.add_option("--lcm-url", lcm_url, "Bus, in place of the configuration's");
   app.add_flag("--check-config", check, "Only read and check the configuration");
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-logger")) return *status;
@@ -87,11 +108,18 @@ int main(int argc, char** argv) {
     if (!config_path.empty()) config = ols::load_logger_config(config_path);
     if (!folder.empty()) config.folder = folder;
     if (!lcm_url.empty()) config.lcm_url = lcm_url;
-    ols::multicast_group(config.lcm_url);  // throws when it is malformed
-    return check ? 0 : run(config);
+    ols::parse_lcm_url(config.lcm_url);  // throws when it is malformed
+    if (check) return 0;
+    return output.empty() ? run(config) : run_into(output, config);
   } catch (const ols::ConfigError& error) {
     std::fprintf(stderr, "ols-logger: %s\n", error.what());
     return ols::kExitBadInput;
+  } catch (const std::system_error& error) {
+    std::fprintf(stderr, "ols-logger: %s\n", error.what());
+    return ols::kExitBadInput;
+  } catch (const ols::BusError& error) {
+    std::fprintf(stderr, "ols-logger: %s\n", error.what());
+    return 1;
   } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "ols-logger: --lcm-url: %s\n", error.what());
     return ols::kExitBadInput;

@@ -3,9 +3,12 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
-#include <stdexcept>
+#include <nlohmann/json.hpp>
+
+#include "base/plain_text.h"
 
 namespace ols {
 namespace {
@@ -20,31 +23,24 @@ std::string disk_full(double free_bytes) {
   return text;
 }
 
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return result + '"';
-}
-
 }  // namespace
 
 std::string to_json(const LoggerStatus& status, std::int64_t utime_us) {
-  char numbers[320];
-  std::snprintf(numbers, sizeof numbers,
-                ", \"logger_pid\": %d, \"files\": %zu, \"bytes\": %.0f, \"disk_free_bytes\": %.0f, "
-                "\"starts\": %llu, "
-                "\"failures\": %llu, \"files_removed\": %llu, \"messages_dropped\": %llu}",
-                status.logger_pid, status.files, status.bytes, status.free_bytes,
-                static_cast<unsigned long long>(status.starts),
-                static_cast<unsigned long long>(status.failures),
-                static_cast<unsigned long long>(status.removed),
-                static_cast<unsigned long long>(status.dropped));
-  return "{\"utime_us\": " + std::to_string(utime_us) +
-         ", \"recording\": " + (status.recording ? "true" : "false") +
-         ", \"text\": " + quoted(status.text) + numbers;
+  const nlohmann::ordered_json json{{"utime_us", utime_us},
+                                    {"recording", status.recording},
+                                    {"text", plain_text(status.text)},
+                                    {"bus_alarm", status.bus_alarm},
+                                    {"files", status.files},
+                                    {"bytes", std::llround(status.bytes)},
+                                    {"disk_free_bytes", std::llround(status.free_bytes)},
+                                    {"starts", status.starts},
+                                    {"failures", status.failures},
+                                    {"files_removed", status.removed},
+                                    {"files_lost", status.files_lost},
+                                    {"messages_dropped", status.dropped},
+                                    {"bus_fragments_refused", status.fragments},
+                                    {"bus_datagrams_malformed", status.malformed}};
+  return json.dump();
 }
 
 Supervisor::Supervisor(const LoggerConfig& config)
@@ -53,37 +49,36 @@ Supervisor::Supervisor(const LoggerConfig& config)
 Supervisor::~Supervisor() = default;
 
 void Supervisor::turn(double now_s) {
-  if (child_) look_after_child(now_s);
+  if (recorder_) look_after_recorder(now_s);
   try {
     folder_.survey();
     // Room for what is written until the next turn, and for one file more.
     folder_.make_room(config_.quota_bytes, config_.disk_reserve_bytes, 2.0 * config_.split_bytes,
-                      child_ ? child_->current_file() : std::string());
+                      recorder_ ? recorder_->report().file : std::string());
   } catch (const std::exception& failure) {
     fail(failure.what(), now_s + kFirstPause_s);
     return;
   }
-  if (child_ && folder_.free_bytes() < config_.disk_reserve_bytes) {
+  if (recorder_ && folder_.free_bytes() < config_.disk_reserve_bytes) {
     fail(disk_full(folder_.free_bytes()), now_s + kFirstPause_s);
-  } else if (!child_ && now_s >= retry_s_) {
+  } else if (!recorder_ && now_s >= retry_s_) {
     start(now_s);
   }
 }
 
-void Supervisor::look_after_child(double now_s) {
-  const std::uint64_t dropped_before = child_->dropped();
-  std::string last;
-  for (const std::string& line : child_->listen()) {
-    spdlog::warn("lcm-logger: {}", line);
-    last = line;
-  }
-  dropped_ += child_->dropped() - dropped_before;
-  if (const auto why = child_->ended()) {
-    fail(*why + (last.empty() ? "" : ": " + last), now_s + pause_s_);
+void Supervisor::look_after_recorder(double now_s) {
+  if (const auto why = recorder_->report().ended) {
+    fail(*why, now_s + pause_s_);
     pause_s_ = std::min(2.0 * pause_s_, kLongestPause_s);
   } else if (now_s - started_s_ > kHealthy_s) {
     pause_s_ = kFirstPause_s;
   }
+}
+
+void Supervisor::end_recorder() {
+  if (!recorder_) return;
+  ended_ = status();
+  recorder_.reset();
 }
 
 void Supervisor::start(double now_s) {
@@ -93,9 +88,10 @@ void Supervisor::start(double now_s) {
     return;
   }
   try {
-    child_ = std::make_unique<ChildLogger>(logger_command(config_));
+    recorder_ = std::make_unique<BusRecorder>(config_);
   } catch (const std::exception& failure) {
-    fail(failure.what(), now_s + kLongestPause_s);
+    fail(failure.what(), now_s + pause_s_);
+    pause_s_ = std::min(2.0 * pause_s_, kLongestPause_s);
     return;
   }
   ++starts_;
@@ -105,7 +101,7 @@ void Supervisor::start(double now_s) {
 }
 
 void Supervisor::fail(const std::string& why, double retry_s) {
-  child_.reset();
+  end_recorder();
   // One trouble is told and counted once, not at every try.
   if (why != trouble_) {
     ++failures_;
@@ -116,17 +112,24 @@ void Supervisor::fail(const std::string& why, double retry_s) {
 }
 
 LoggerStatus Supervisor::status() const {
-  LoggerStatus status;
-  status.recording = child_ != nullptr;
-  status.text = child_ ? child_->current_file() : trouble_;
-  status.logger_pid = child_ ? child_->pid() : 0;
+  LoggerStatus status = ended_;
+  status.recording = recorder_ != nullptr;
+  status.text = trouble_;
+  status.bus_alarm.clear();
   status.files = folder_.files().size();
   status.bytes = folder_.bytes();
   status.free_bytes = folder_.free_bytes();
   status.starts = starts_;
   status.failures = failures_;
   status.removed = folder_.removed();
-  status.dropped = dropped_;
+  if (!recorder_) return status;
+  const RecorderReport report = recorder_->report();
+  status.text = report.file;
+  status.bus_alarm = report.bus_alarm;
+  status.files_lost += report.files_lost;
+  status.dropped += report.dropped;
+  status.fragments += report.traffic.fragments;
+  status.malformed += report.traffic.malformed;
   return status;
 }
 

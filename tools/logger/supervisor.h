@@ -1,11 +1,11 @@
-// Keeps lcm-logger running, within its quota, and off a disk that is full or cannot be written.
+// Keeps a recording going, within its quota, and off a disk that is full or cannot be written.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <string>
 
-#include "tools/logger/child_logger.h"
+#include "tools/logger/bus_recorder.h"
 #include "tools/logger/log_folder.h"
 #include "tools/logger/logger_config.h"
 
@@ -13,15 +13,17 @@ namespace ols {
 
 struct LoggerStatus {
   bool recording = false;
-  std::string text;    // the file that is written; or why none is
-  int logger_pid = 0;  // of lcm-logger; 0: none
+  std::string text;  // the file that is written; or why none is
   std::size_t files = 0;
   double bytes = 0.0, free_bytes = 0.0;
-  std::uint64_t starts = 0;  // of lcm-logger
-  std::uint64_t failures =
-      0;                      // ends of it that nobody asked for, and disks that were not to be had
-  std::uint64_t removed = 0;  // files
-  std::uint64_t dropped = 0;  // messages that the disk was too slow for
+  std::string bus_alarm;         // what a person should know of the bus
+  std::uint64_t starts = 0;      // of a recording
+  std::uint64_t failures = 0;    // its ends that nobody asked for; buses and disks not to be had
+  std::uint64_t removed = 0;     // files, for the quota
+  std::uint64_t files_lost = 0;  // deleted, renamed or replaced while they were written
+  std::uint64_t dropped = 0;     // messages that the disk was too slow for
+  std::uint64_t fragments = 0;   // datagrams of the bus that were refused
+  std::uint64_t malformed = 0;   // likewise
 };
 
 // JSON, one line.
@@ -37,18 +39,20 @@ class Supervisor {
   LoggerStatus status() const;
 
  private:
-  void look_after_child(double now_s);
+  void look_after_recorder(double now_s);
+  void end_recorder();
   void start(double now_s);
   void fail(const std::string& why, double retry_s);
 
   const LoggerConfig config_;
   LogFolder folder_;
-  std::unique_ptr<ChildLogger> child_;
-  std::string trouble_;  // why nothing is recorded; empty while lcm-logger runs
+  std::unique_ptr<BusRecorder> recorder_;
+  std::string trouble_;  // why nothing is recorded; empty while something is
   double started_s_ = 0.0;
   double retry_s_ = 0.0;  // not started again before
   double pause_s_;
-  std::uint64_t starts_ = 0, failures_ = 0, dropped_ = 0;
+  std::uint64_t starts_ = 0, failures_ = 0;
+  LoggerStatus ended_;  // what the recordings before this one counted
 };
 
 }  // namespace ols

@@ -49,6 +49,7 @@ const std::array kKinds = {
     Kind{"inclinometer-garbled", 0.01, 0.0, 1.0,
          [](F& f, double v) { f.inclinometer.garble_share = v; }},
     flag("emergency-stop", [](F& f, double) { f.stop_pressed = true; }),
+    flag("rearm-button", [](F& f, double) { f.rearm_held = true; }),
 };
 
 const Kind* find(std::string_view name) {

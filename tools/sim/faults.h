@@ -48,6 +48,7 @@ struct StationFaults {
   GnssFaults gnss;
   InclinometerFaults inclinometer;
   bool stop_pressed = false;  // emergency stop
+  bool rearm_held = false;    // no fault: a hand at its re-arm button
   bool operator==(const StationFaults&) const = default;
 };
 

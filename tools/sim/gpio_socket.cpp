@@ -77,12 +77,15 @@ struct GpioServer::Impl {
     const int fd = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (fd < 0) return;
     clients[fd];
-    if (!silent) tell_level(fd);
+    if (silent) return;
+    tell(fd, config.stop_line);
+    tell(fd, config.rearm_line);
   }
 
-  void tell_level(int fd) const {
-    const bool high = pressed != config.stop_active_low;
-    const std::string text = "in " + std::to_string(config.stop_line) + (high ? " 1\n" : " 0\n");
+  void tell(int fd, int line) const {
+    const bool high = line == config.stop_line ? pressed != config.stop_active_low
+                                               : rearm_held != config.rearm_active_low;
+    const std::string text = "in " + std::to_string(line) + (high ? " 1\n" : " 0\n");
     // Who does not read is told no more; the next poll finds who is gone.
     [[maybe_unused]] const ssize_t n = ::send(fd, text.data(), text.size(), MSG_NOSIGNAL);
   }
@@ -111,7 +114,7 @@ struct GpioServer::Impl {
     int line = -1, level = -1;
     char more = 0;
     if (std::sscanf(text.c_str(), "read %d%c", &line, &more) == 1) {
-      if (line == config.stop_line) tell_level(fd);
+      if (line == config.stop_line || line == config.rearm_line) tell(fd, line);
       return true;
     }
     if (std::sscanf(text.c_str(), "out %d %d%c", &line, &level, &more) != 2) return false;
@@ -133,7 +136,7 @@ struct GpioServer::Impl {
 
   mutable std::mutex mutex;            // of everything below
   std::map<int, std::string> clients;  // what each has sent of an unfinished line
-  bool pressed = false, silent = false;
+  bool pressed = false, rearm_held = false, silent = false;
   bool led = false, trigger = false;
   std::uint64_t led_changes = 0, triggers = 0;
   std::jthread thread;
@@ -150,7 +153,15 @@ void GpioServer::set_pressed(bool pressed) {
   if (impl_->pressed == pressed) return;
   impl_->pressed = pressed;
   if (impl_->silent) return;
-  for (const auto& [fd, pending] : impl_->clients) impl_->tell_level(fd);
+  for (const auto& [fd, pending] : impl_->clients) impl_->tell(fd, impl_->config.stop_line);
+}
+
+void GpioServer::hold_rearm(bool held) {
+  const std::lock_guard lock(impl_->mutex);
+  if (impl_->rearm_held == held) return;
+  impl_->rearm_held = held;
+  if (impl_->silent) return;
+  for (const auto& [fd, pending] : impl_->clients) impl_->tell(fd, impl_->config.rearm_line);
 }
 
 void GpioServer::set_silent(bool silent) {

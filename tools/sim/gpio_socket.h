@@ -1,5 +1,5 @@
-// GPIO lines on a Unix socket, as edge/gpio/gpio_lines.h has its protocol: an emergency stop to
-// press, a status LED and a camera trigger to look at. Thread-safe.
+// GPIO lines on a Unix socket, as edge/gpio/gpio_lines.h has its protocol: an emergency stop and
+// a re-arm button to press, a status LED and a camera trigger to look at. Thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,8 @@ struct GpioServerConfig {
   std::string path;  // of the socket; a leftover there is replaced
   int stop_line = 17;
   bool stop_active_low = false;  // as in GpioConfig
+  int rearm_line = 18;
+  bool rearm_active_low = true;
   int led_line = 22;
   int trigger_line = 27;
 };
@@ -24,6 +26,7 @@ class GpioServer {
   GpioServer& operator=(const GpioServer&) = delete;
 
   void set_pressed(bool pressed);
+  void hold_rearm(bool held);
   // Connections stay open and nothing is answered: a process that hangs.
   void set_silent(bool silent);
 

@@ -69,8 +69,8 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
     devices_.push_back(std::move(device));
   }
   for (const Fault& fault : s.faults) faults_.add(fault);
-  bus.subscribe("OLS_SIM_FAULT", [this](const std::string&, const void* data, int bytes) {
-    receive_fault(data, bytes);
+  bus.subscribe("OLS_SIM_FAULT", [this](const BusMessage& message) {
+    receive_fault(message.payload.data(), static_cast<int>(message.payload.size()));
   });
 }
 
@@ -230,6 +230,7 @@ void LiveSite::apply_faults() {
       device->gpio->set_pressed(now.stop_pressed);
       device->stop_edge_utime = true_utime_us(scenario_s(clock_monotonic_ns()));
     }
+    if (device->gpio) device->gpio->hold_rearm(now.rearm_held);
     device->faults = now;
   }
 }

@@ -27,6 +27,7 @@ struct Options {
   bool pixels = false;
   double pixel_sd_px = 0.3;
   double seconds = 60.0;
+  std::string state_folder;
   std::string output;
   std::string target;
   std::vector<std::string> without;
@@ -44,6 +45,9 @@ void define(CLI::App& app, Options& o) {
       ->capture_default_str();
   app.add_option("--write-configs", o.config_folder,
                  "write the stations' configuration files into this folder, and end");
+  app.add_option("--state-folder", o.state_folder,
+                 "with --write-configs: where the stations remember how they were left; what is "
+                 "new there is left released, with its unit's reference checked");
   app.add_flag("--list", o.list,
                "print id, camera address and serial line of each station, and end");
   app.add_option("--target", o.target, "keep only this one of the scenario's targets (its id)");
@@ -111,8 +115,8 @@ void run(const Options& options) {
   if (options.list) {
     list(scenario, options.line_folder);
   } else if (!options.config_folder.empty()) {
-    ols::sim::write_station_files(world, {options.lcm_url, options.line_folder},
-                                  options.config_folder);
+    ols::sim::write_station_files(
+        world, {options.lcm_url, options.line_folder, options.state_folder}, options.config_folder);
   } else if (options.lockstep) {
     run_lockstep(world, options);
   } else {

@@ -54,13 +54,12 @@ void define(CLI::App& app, Options& o) {
 void receive(ols::LcmBus& bus, const std::string& channels, const std::string& but_not,
              ols::sim::RelayQueue& queue) {
   const std::regex excluded(but_not);
-  bus.subscribe(channels, [&queue, excluded, exclude = !but_not.empty()](
-                              const std::string& channel, const void* data, int bytes) {
-    // What this relay itself has sent comes back to it on this bus.
-    if (exclude && std::regex_match(channel, excluded)) return;
-    const auto* begin = static_cast<const std::uint8_t*>(data);
-    queue.offer({channel, {begin, begin + bytes}}, ols::clock_monotonic_s());
-  });
+  bus.subscribe(channels,
+                [&queue, excluded, exclude = !but_not.empty()](const ols::BusMessage& message) {
+                  // What this relay itself has sent comes back to it on this bus.
+                  if (exclude && std::regex_match(message.channel, excluded)) return;
+                  queue.offer({message.channel, message.payload}, ols::clock_monotonic_s());
+                });
 }
 
 void send(ols::LcmBus& bus, ols::sim::RelayQueue& queue) {

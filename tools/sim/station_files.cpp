@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/atomic_file.h"
+#include "edge/station_memory.h"
 #include "tools/sim/gpio_socket.h"
 
 namespace ols::sim {
@@ -79,7 +80,16 @@ void write_gpio(std::ostream& out, const Scenario& s, const std::string& line_st
   const GpioServerConfig lines;
   out << "\n[gpio]"
       << "\nchip = \"socket:" << line_stem << ".gpio\""
-      << "\nled_line = " << lines.led_line << "\nstop_line = " << lines.stop_line << "\n";
+      << "\nled_line = " << lines.led_line << "\nstop_line = " << lines.stop_line
+      << "\nrearm_line = " << lines.rearm_line << "\n";
+}
+
+void leave_in_order(const std::string& state_folder, const std::string& id) {
+  if (state_folder.empty()) return;
+  std::filesystem::create_directories(state_folder);
+  if (std::filesystem::exists(state_folder + "/" + id + ".hold")) return;
+  StationMemory memory(state_folder, id, false);
+  memory.remember(StationState::kIdle, PtuLegacy::kNone, PtuReference::kTrusted);
 }
 
 }  // namespace
@@ -92,6 +102,7 @@ std::string station_file(const World& world, std::size_t station,
   out << std::setprecision(17);
   out << "# Station " << truth.id << " of the simulated site \"" << world.scenario().name << "\".\n"
       << "id = \"" << truth.id << "\"\nlcm_url = \"" << options.lcm_url << "\"\n"
+      << (options.state_folder.empty() ? "" : "state_folder = \"" + options.state_folder + "\"\n")
       << "tracker_seed = " << (derived_seed(world.seed(), 3000 + station) >> 1) << "\n";
   write_pose(out, truth.nominal);
   write_chain(out, truth.nominal.chain);
@@ -111,6 +122,7 @@ void write_station_files(const World& world, const StationFileOptions& options,
     AtomicFile file(folder + "/" + world.stations()[i].id + ".toml");
     file.stream() << station_file(world, i, options);
     file.commit();
+    leave_in_order(options.state_folder, world.stations()[i].id);
   }
 }
 

@@ -11,6 +11,9 @@ namespace ols::sim {
 struct StationFileOptions {
   std::string lcm_url;
   std::string line_folder;  // where the simulator links the serial lines
+  // What the stations remember; made. Each that is new there is left as by a team that has checked
+  // the unit's reference and released it. Empty: they keep nothing.
+  std::string state_folder;
 };
 
 std::string station_file(const World& world, std::size_t station,

@@ -21,7 +21,7 @@ TEST(BusConnector, HandsOverABusOnce) {
   ASSERT_NE(bus, nullptr);
   EXPECT_EQ(connector.trouble(), "");
   int heard = 0;
-  bus->subscribe("A", [&](const std::string&, const void*, int) { ++heard; });
+  bus->subscribe("A", [&](const BusMessage&) { ++heard; });
   EXPECT_EQ(bus->handle(0), 0);
 }
 

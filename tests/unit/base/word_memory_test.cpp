@@ -5,79 +5,123 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "tests/unit/eventually.h"
 
 namespace ols {
 namespace {
 
-const std::vector<std::string> kWords{"bad", "worse"};
+const std::vector<std::string> kWords{"good", "bad", "worse"};
 
-std::string fresh_file() {
-  const std::string file = testing::TempDir() + "ols_word_" + std::to_string(::getpid());
-  std::filesystem::remove(file);
-  return file;
-}
+class WordMemoryTest : public testing::Test {
+ protected:
+  WordMemoryTest() {
+    folder = testing::TempDir() + "ols_word_" + std::to_string(::getpid());
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    file = folder + "/word";
+  }
+  ~WordMemoryTest() override { std::filesystem::remove_all(folder); }
 
-TEST(WordMemory, OutlivesItsOwnerUntilItIsCleared) {
-  const std::string file = fresh_file();
-  EXPECT_EQ(WordMemory(file, kWords).word(), "");
-  for (const char* word : {"bad", "worse", "bad", ""}) {
+  std::string content() const {
+    std::string text;
+    std::getline(std::ifstream(file), text);
+    return text;
+  }
+
+  std::string folder, file;
+};
+
+TEST_F(WordMemoryTest, OutlivesItsOwner) {
+  for (const char* word : {"good", "worse", "bad", "good"}) {
     WordMemory(file, kWords).set(word);
     const WordMemory next(file, kWords);
+    EXPECT_EQ(next.recall(), Recall::kKnown);
     EXPECT_EQ(next.word(), word);
+    EXPECT_EQ(next.why_unknown(), "");
     EXPECT_EQ(next.trouble(), "");
   }
-  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
-TEST(WordMemory, SaysWhyItCannotRemember) {
+// "Nothing to remember" is in the file as well: none at all means that nobody knows.
+TEST_F(WordMemoryTest, AFileOrFolderThatIsNotThereIsUnknown) {
+  const WordMemory without_file(file, kWords);
+  EXPECT_EQ(without_file.recall(), Recall::kMissing);
+  EXPECT_EQ(without_file.word(), "");
+  EXPECT_EQ(without_file.why_unknown(), file + " is missing");
+  const WordMemory without_folder("/nonexistent/word", kWords);
+  EXPECT_EQ(without_folder.recall(), Recall::kMissing);
+  EXPECT_EQ(without_folder.why_unknown(), "/nonexistent is missing");
+}
+
+TEST_F(WordMemoryTest, WhatCannotBeReadIsUnknown) {
+  std::ofstream(file) << "rubbish\n";
+  EXPECT_EQ(WordMemory(file, kWords).recall(), Recall::kUnreadable);
+  EXPECT_EQ(WordMemory(file, kWords).why_unknown(), file + ": is damaged");
+  std::ofstream(file, std::ios::trunc);  // the power went while it was written
+  EXPECT_EQ(WordMemory(file, kWords).recall(), Recall::kUnreadable);
+  const WordMemory unknown(std::string(300, 'x'), kWords);  // longer than names may be
+  EXPECT_EQ(unknown.recall(), Recall::kUnreadable);
+  EXPECT_NE(unknown.why_unknown().find("too long"), std::string::npos) << unknown.why_unknown();
+}
+
+TEST_F(WordMemoryTest, SaysWhyItCannotRemember) {
   WordMemory memory("/nonexistent/word", kWords);
-  EXPECT_EQ(memory.word(), "");
   memory.set("bad");
   EXPECT_EQ(memory.word(), "bad");  // as long as it lives
   EXPECT_TRUE(eventually([&] { return !memory.trouble().empty(); }));
   EXPECT_NE(memory.trouble().find("/nonexistent/word"), std::string::npos) << memory.trouble();
+  EXPECT_FALSE(std::filesystem::exists("/nonexistent")) << "and makes no folder";
 }
 
-TEST(WordMemory, TriesAgainWhatItCouldNotWrite) {
-  const std::string folder = fresh_file();
-  WordMemory memory(folder + "/word", kWords);
+TEST_F(WordMemoryTest, TriesAgainWhatItCouldNotWrite) {
+  std::filesystem::remove_all(folder);
+  WordMemory memory(file, kWords);
   memory.set("bad");
   ASSERT_TRUE(eventually([&] { return !memory.trouble().empty(); }));
   std::filesystem::create_directories(folder);
   EXPECT_TRUE(eventually([&] { return memory.trouble().empty(); }));
-  EXPECT_EQ(WordMemory(folder + "/word", kWords).word(), "bad");
-  std::filesystem::remove_all(folder);
+  EXPECT_EQ(WordMemory(file, kWords).word(), "bad");
 }
 
-TEST(WordMemory, TriesALastTimeAtTheEnd) {
-  const std::string folder = fresh_file();
+TEST_F(WordMemoryTest, AFolderThatVanishesWhileItRunsIsATroubleUntilItIsBack) {
+  for (const bool known : {false, true}) {  // a word that was set, one that was found
+    WordMemory memory(file, kWords);
+    if (!known) memory.set("worse");
+    ASSERT_TRUE(eventually([&] { return content() == "worse"; }));
+    std::filesystem::rename(folder, folder + ".away");
+    ASSERT_TRUE(eventually([&] { return !memory.trouble().empty(); }));
+    std::filesystem::create_directories(folder);
+    EXPECT_TRUE(eventually([&] { return memory.trouble().empty() && content() == "worse"; }));
+    std::filesystem::remove_all(folder + ".away");
+  }
+}
+
+TEST_F(WordMemoryTest, AFileThatIsTakenAwayOrChangedIsWrittenAgain) {
+  WordMemory memory(file, kWords);
+  memory.set("worse");
+  ASSERT_TRUE(eventually([&] { return content() == "worse"; }));
+  std::filesystem::remove(file);
+  EXPECT_TRUE(eventually([&] { return content() == "worse"; }));
+  std::ofstream(file, std::ios::trunc) << "good\n";
+  EXPECT_TRUE(eventually([&] { return content() == "worse"; }));
+}
+
+TEST_F(WordMemoryTest, TriesALastTimeAtTheEnd) {
+  std::filesystem::remove_all(folder);
   {
-    WordMemory memory(folder + "/word", kWords);
+    WordMemory memory(file, kWords);
     memory.set("bad");
     ASSERT_TRUE(eventually([&] { return !memory.trouble().empty(); }));
     std::filesystem::create_directories(folder);
   }
-  EXPECT_EQ(WordMemory(folder + "/word", kWords).word(), "bad");
-  std::filesystem::remove_all(folder);
+  EXPECT_EQ(WordMemory(file, kWords).word(), "bad");
 }
 
-TEST(WordMemory, WhatCannotBeReadIsTheGravest) {
-  const std::string file = fresh_file();
-  std::ofstream(file) << "rubbish\n";
-  EXPECT_EQ(WordMemory(file, kWords).word(), "worse");
-  EXPECT_EQ(WordMemory(file, kWords).trouble(), file + ": cannot be read");
-  std::ofstream(file, std::ios::trunc);  // the power went while it was written
-  EXPECT_EQ(WordMemory(file, kWords).word(), "worse");
-  std::filesystem::remove(file);
-  const WordMemory unknown(std::string(300, 'x'), kWords);  // longer than names may be
-  EXPECT_EQ(unknown.word(), "worse");
-  EXPECT_NE(unknown.trouble(), "");
-}
-
-TEST(WordMemory, WithoutAFileNothingIsRemembered) {
+TEST_F(WordMemoryTest, WithoutAFileNothingIsRemembered) {
   WordMemory memory("", kWords);
+  EXPECT_EQ(memory.recall(), Recall::kNoFile);
   memory.set("worse");
   EXPECT_EQ(memory.word(), "worse");
   EXPECT_EQ(memory.trouble(), "");

@@ -12,6 +12,8 @@ TEST(Finding, IsOneLineWithWhatToDo) {
             "FAIL  ptu: no answer  — check its supply");
 }
 
+TEST(Finding, MovesNoCursor) { EXPECT_EQ(line(ok("ptu: \x1b[2J\nok")), "ok    ptu: ?[2J?ok"); }
+
 TEST(Finding, TheGravestDecidesTheExitStatus) {
   EXPECT_EQ(exit_status({}), 0);
   EXPECT_EQ(exit_status({ok("a")}), 0);
@@ -20,10 +22,9 @@ TEST(Finding, TheGravestDecidesTheExitStatus) {
 }
 
 TEST(Finding, JsonHoldsWhateverADeviceSaid) {
-  EXPECT_EQ(
-      to_json({fail("ptu: \"!\\\x01", "a")}),
-      "{\"verdict\": \"FAIL\", \"findings\": [\n"
-      "  {\"verdict\": \"FAIL\", \"what\": \"ptu: \\\"!\\\\\\u0001\", \"advice\": \"a\"}\n]}");
+  EXPECT_EQ(to_json({fail("ptu: \"!\\\x01\xff", "a")}),
+            "{\"verdict\": \"FAIL\", \"findings\": [\n"
+            "  {\"verdict\": \"FAIL\", \"what\": \"ptu: \\\"!\\\\??\", \"advice\": \"a\"}\n]}");
   EXPECT_EQ(to_json({}), "{\"verdict\": \"ok\", \"findings\": [\n]}");
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,6 +46,10 @@ class StationBusTest : public testing::Test {
     message.boot_id = 3;
     message.sequence = ++sequence;
     message.lease_s = 1.0;
+    publish(channel, message);
+  }
+  template <class Message>
+  void publish(const std::string& channel, const Message& message) {
     std::vector<char> bytes(static_cast<std::size_t>(message.getEncodedSize()));
     message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
     bus->take(channel, bytes.data(), static_cast<int>(bytes.size()));
@@ -92,12 +97,90 @@ TEST_F(StationBusTest, AStopAfterADesignationComesAfterIt) {
 TEST_F(StationBusTest, OtherCommandsBetweenDesignationsMakeNoMoreOfThem) {
   for (int i = 1; i <= 50; ++i) {
     designate(i);
-    command(Ptu::COMMAND_STOP);
+    command(Ptu::COMMAND_RELEASE);
   }
   designate(1);
   bus->end_turn();
   EXPECT_EQ(boxes, (std::vector<double>{1.0, 1.0}));
   EXPECT_EQ(bus->counters().at("designations_superseded"), 49.0);
+}
+
+// Whatever else it says: none of it makes a stop less meant.
+TEST_F(StationBusTest, AStopIsNeverRefused) {
+  Ptu foreign{};
+  foreign.command = Ptu::COMMAND_STOP;
+  foreign.schema_version = 99;
+  foreign.station = "nobody";
+  foreign.utime = -5;
+  foreign.sequence = std::numeric_limits<std::int64_t>::min();
+  foreign.lease_s = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 3; ++i) {  // and again
+    const double later_s = i * (Station::kStopHold_s + 0.1);
+    bus->set_time({kNow_s + later_s, kNow_us}, {});
+    command(Ptu::COMMAND_RELEASE);
+    ASSERT_EQ(station->state(), StationState::kIdle);
+    publish("OLS_PTU_a", foreign);
+    bus->end_turn();
+    EXPECT_EQ(station->state(), StationState::kStopped);
+  }
+  EXPECT_EQ(bus->refusals(), 0U);
+}
+
+TEST_F(StationBusTest, NothingThatCrossesAStopOnTheWireUndoesIt) {
+  command(Ptu::COMMAND_STOP);
+  command(Ptu::COMMAND_RELEASE);
+  designate(3);
+  bus->end_turn();
+  for (const std::int8_t what : {Ptu::COMMAND_RELEASE, Ptu::COMMAND_POINT, Ptu::COMMAND_HOME}) {
+    command(what);
+    designate(4);
+    bus->end_turn();
+    EXPECT_EQ(station->state(), StationState::kStopped) << int{what};
+  }
+  EXPECT_EQ(bus->last_refusal(), "DESIGNATE refused: just_stopped");
+  bus->set_time({kNow_s + Station::kStopHold_s + 0.01, kNow_us}, {});
+  command(Ptu::COMMAND_RELEASE);
+  EXPECT_NE(station->state(), StationState::kStopped);
+}
+
+TEST_F(StationBusTest, ReleaseWithAForeignSchemaOrStationIsRefused) {
+  command(Ptu::COMMAND_STOP);
+  bus->end_turn();
+  Ptu message{};
+  message.command = Ptu::COMMAND_RELEASE;
+  message.utime = kNow_us;
+  message.lease_s = 1.0;
+  message.schema_version = 99;
+  message.station = "a";
+  publish("OLS_PTU_a", message);
+  message.schema_version = Ptu::SCHEMA_VERSION;
+  message.station = "b";
+  publish("OLS_PTU_a", message);
+  EXPECT_EQ(station->state(), StationState::kStopped);
+  EXPECT_EQ(bus->refusals(), 2U);
+}
+
+TEST_F(StationBusTest, CommandsThatKeepBeingRefusedAreAnAlarm) {
+  Ptu message{};
+  message.schema_version = Ptu::SCHEMA_VERSION;
+  message.station = "a";
+  message.command = Ptu::COMMAND_RELEASE;
+  message.utime = kNow_us;
+  message.boot_id = 9;
+  message.lease_s = 1.0;
+  for (int i = 0; i < 13; ++i) publish("OLS_PTU_a", message);  // the first is let through
+  EXPECT_EQ(bus->alarms(),
+            std::vector<std::string>{"commands: 12 PTU commands refused in 10 s: replayed"});
+  bus->set_time({kNow_s + 11.0, kNow_us + 11'000'000}, {});
+  EXPECT_EQ(bus->alarms(), std::vector<std::string>{});
+}
+
+TEST_F(StationBusTest, ARearmOverTheBusNeedsTheSitesLeave) {
+  station->emergency_stop(true, kNow_s);
+  station->emergency_stop(false, kNow_s);
+  command(Ptu::COMMAND_REARM);
+  EXPECT_EQ(station->state(), StationState::kEmergency);
+  EXPECT_EQ(bus->last_refusal(), "PTU refused: rearm_needs_a_hand");
 }
 
 TEST_F(StationBusTest, ARefusedDesignationIsTold) {

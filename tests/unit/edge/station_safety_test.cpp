@@ -157,6 +157,33 @@ TEST_F(StationSafetyTest, AfterRearmingOnlyANewCommandOfTheOperatorMoves) {
   EXPECT_TRUE(station_.goal(now_));
 }
 
+// Forged REARM and POINT right behind the release of the button.
+TEST_F(StationSafetyTest, FromAfarNobodyRearmsAndMovesIt) {
+  press();
+  EXPECT_EQ(station_.rearm_over_bus(now_), Refusal::kEmergency) << "still pressed";
+  let_go();
+  EXPECT_EQ(station_.rearm_over_bus(now_), Refusal::kRearmNeedsAHand);
+  EXPECT_EQ(station_.point({{0.2, 0.1}}, now_), Refusal::kEmergency);
+  EXPECT_EQ(station_.release(now_), Refusal::kEmergency);
+  run_until(now_ + 0.2);
+  EXPECT_EQ(station_.state(), StationState::kEmergency);
+  EXPECT_FALSE(station_.goal(now_));
+  EXPECT_EQ(counter("refused_rearm_needs_a_hand"), 1.0);
+  EXPECT_EQ(station_.rearm(now_), Refusal::kNone) << "a hand at the station";
+  EXPECT_EQ(station_.state(), StationState::kStopped);
+}
+
+TEST_F(StationSafetyTest, ASiteMayLetItBeRearmedFromAfar) {
+  StationConfig open = config();
+  open.rearm_over_bus = true;
+  Station station(open, std::make_unique<test::ScriptedTracker>(script_));
+  station.emergency_stop(true, now_);
+  EXPECT_EQ(station.rearm_over_bus(now_), Refusal::kEmergency) << "still pressed";
+  station.emergency_stop(false, now_);
+  EXPECT_EQ(station.rearm_over_bus(now_), Refusal::kNone);
+  EXPECT_EQ(station.state(), StationState::kStopped);
+}
+
 TEST_F(StationSafetyTest, RearmingAStationInOrderChangesNothing) {
   designated();
   run_until(now_ + 0.5);
@@ -329,6 +356,7 @@ TEST_F(StationSafetyTest, AStopCallsOffAHoming) {
   EXPECT_FALSE(station_.take_home());
   EXPECT_TRUE(station_.take_stop());
   EXPECT_FALSE(station_.take_stop());
+  now_ += Station::kStopHold_s;
   EXPECT_EQ(station_.home(now_), Refusal::kNone);  // who says it afterwards means it
   EXPECT_TRUE(station_.take_home());
 }

@@ -249,7 +249,9 @@ TEST_F(StationTest, TheOperatorHasPrecedenceOverSlews) {
   EXPECT_EQ(station_.state(), StationState::kStopped);
   EXPECT_FALSE(station_.goal(now_));
   EXPECT_EQ(station_.slew(slew(20.0), now_), Refusal::kPrecedence);
-  station_.release(now_);
+  EXPECT_EQ(station_.release(now_), Refusal::kJustStopped);
+  now_ += Station::kStopHold_s;
+  EXPECT_EQ(station_.release(now_), Refusal::kNone);
   EXPECT_EQ(station_.state(), StationState::kIdle);
   EXPECT_EQ(station_.slew(slew(20.0), now_), Refusal::kNone);
 }

@@ -24,6 +24,19 @@ TEST(StopLatch, IsUnknownUntilTheFirstLevelWhereThereIsAStop) {
   EXPECT_TRUE(StopLatch(false).known());
 }
 
+TEST(StopLatch, ARearmCountsOnceAndNotAfterAnotherPress) {
+  StopLatch stop(true);
+  stop.set(false);
+  EXPECT_FALSE(stop.take_rearm());
+  stop.rearm();
+  EXPECT_TRUE(stop.take_rearm());
+  EXPECT_FALSE(stop.take_rearm());
+  stop.rearm();
+  stop.set(true);
+  stop.set(false);
+  EXPECT_FALSE(stop.take_rearm()) << "it was held before the press";
+}
+
 TEST(StopLatch, HoldsItsLevel) {
   StopLatch stop(true);
   stop.set(true);

@@ -1,4 +1,4 @@
-// What can be judged without a bus; tests/e2e has the real lcm-logger under a flood.
+// What can be judged without a bus; tests/e2e has the logger under a flood.
 #include "tools/logger/supervisor.h"
 
 #include <gmock/gmock.h>
@@ -42,10 +42,11 @@ TEST(LoggerStatus, IsJson) {
   status.text = "a \"quoted\"\nword\\";
   status.bytes = 1.5e9;
   EXPECT_EQ(to_json(status, 7),
-            "{\"utime_us\": 7, \"recording\": false, \"text\": \"a \\\"quoted\\\" word\\\\\", "
-            "\"logger_pid\": 0, \"files\": 0, \"bytes\": 1500000000, \"disk_free_bytes\": 0, "
-            "\"starts\": 0, "
-            "\"failures\": 0, \"files_removed\": 0, \"messages_dropped\": 0}");
+            "{\"utime_us\":7,\"recording\":false,\"text\":\"a "
+            "\\\"quoted\\\"?word\\\\\",\"bus_alarm\":\"\","
+            "\"files\":0,\"bytes\":1500000000,\"disk_free_bytes\":0,\"starts\":0,\"failures\":0,"
+            "\"files_removed\":0,\"files_lost\":0,\"messages_dropped\":0,"
+            "\"bus_fragments_refused\":0,\"bus_datagrams_malformed\":0}");
 }
 
 }  // namespace

@@ -40,12 +40,13 @@ class Wiring:
         folder = self._output / "config"
         shutil.rmtree(folder, ignore_errors=True)
         shutil.rmtree(self._output / "logs", ignore_errors=True)
+        state = self._output / "state"
+        shutil.rmtree(state, ignore_errors=True)
         folder.mkdir(parents=True)
         (self._output / "lines").mkdir(exist_ok=True)
         self.log.unlink(missing_ok=True)
-        done = subprocess.run(
-            self._sim("--write-configs", str(folder)), capture_output=True, text=True, check=False
-        )
+        write = self._sim("--write-configs", str(folder), "--state-folder", str(state))
+        done = subprocess.run(write, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise SiteError(done.stderr.strip() or "ols-sim failed")
         self.configs = {path.stem: path for path in sorted(folder.glob("*.toml"))}

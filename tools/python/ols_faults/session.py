@@ -29,6 +29,8 @@ TO_FUSION = ("OLS_BEARING_", "OLS_STATUS_")
 RESTORE_S = 90.0
 BY_SLEWS_S = 8.0  # after that the operator designates again
 OTHER_OBJECT_DEG = 0.5
+REARM_HELD_S = 1.5  # a second is asked for
+REARM_AGAIN_S = 2.5
 OF_STATIONS = ("OLS_BEARING_", "OLS_STATUS_", "OLS_SIM_VIEW_", "OLS_SIM_PTU_")
 
 
@@ -50,6 +52,7 @@ class Session:
         self.operator = Operator(self.bus.lcm, self.observer, seed)
         self._sequence = 0
         self._restoring_us = 0
+        self._rearmed: dict[str, float] = {}
         self._handlers: list[Callable[[], None]] = []
         self._listeners: list[Callable[[str, Any], None]] = []
 
@@ -262,15 +265,16 @@ class Session:
         return at_us
 
     def release_held(self, station: str) -> None:
-        """A station that was in the operator's hand when it was killed comes up stopped, or idle
-        where it keeps no memory of it."""
-        self.fresh_status(station, 5.0)
-        if self.state(station) == "stopped":
-            self.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
+        """A station that was in the operator's hand when it was killed comes up stopped."""
+        self.wait(lambda: self.state(station) == "stopped", 5.0)
+        self.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
 
     def rearm(self, station: str) -> None:
-        """What ends an emergency whose stop was released."""
-        self.command(station, ols_msg.ptu_command_t.COMMAND_REARM)
+        """A hand at the station's button, unless one is just there: it must be let go between."""
+        now = time.monotonic()
+        if now - self._rearmed.get(station, -REARM_AGAIN_S) >= REARM_AGAIN_S:
+            self._rearmed[station] = now
+            self.fault("rearm-button", station, REARM_HELD_S)
 
     # Processes that ended by themselves.
 

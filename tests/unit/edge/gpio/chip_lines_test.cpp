@@ -17,13 +17,13 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int kStop = 17, kLed = 22;
+constexpr int kStop = 17, kRearm = 18, kLed = 22;
 
 class ChipLines : public testing::Test {
  protected:
   ChipLines() {
     fake::chip() = {};
-    use.input = kStop;
+    use.inputs = {{kStop}};
     use.outputs = {kLed};
   }
   std::unique_ptr<GpioLines> open() { return open_chip_lines(fake::chip().path, use); }
@@ -52,7 +52,7 @@ TEST_F(ChipLines, RequestsWhatIsUsedAndGivesItBack) {
     EXPECT_EQ(fake::chip().requested.at(kStop).flags, GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_UP);
   }
   EXPECT_EQ(fake::chip().open, 0);
-  use.input_bias = LineBias::kPullDown;
+  use.inputs[0].bias = LineBias::kPullDown;
   const auto lines = open();
   EXPECT_EQ(fake::chip().requested.at(kStop).flags, GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_DOWN);
 }
@@ -60,10 +60,10 @@ TEST_F(ChipLines, RequestsWhatIsUsedAndGivesItBack) {
 TEST_F(ChipLines, BringsEdgesWithTheirTimesInOrder) {
   const auto lines = open();
   EXPECT_TRUE(lines->receive().empty());  // and does not wait
-  EXPECT_FALSE(readable(lines->fd()));
+  EXPECT_FALSE(readable(lines->fds().at(0)));
   fake::chip().change(kStop, 1, 100.25);
   fake::chip().change(kStop, 0, 100.5);
-  EXPECT_TRUE(readable(lines->fd()));
+  EXPECT_TRUE(readable(lines->fds().at(0)));
   const auto levels = lines->receive();
   ASSERT_EQ(levels.size(), 2U);
   EXPECT_TRUE(levels[0].high);
@@ -89,6 +89,25 @@ TEST_F(ChipLines, ARefreshFindsALostEdgeAndKeepsTheOrder) {
   EXPECT_FALSE(levels[1].high);
 }
 
+TEST_F(ChipLines, EachInputHasEdgesAndABiasOfItsOwn) {
+  use.inputs = {{kStop, LineBias::kPullDown}, {kRearm, LineBias::kPullUp}};
+  const auto lines = open();
+  EXPECT_EQ(fake::chip().requested.at(kStop).flags, GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_DOWN);
+  EXPECT_EQ(fake::chip().requested.at(kRearm).flags, GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_UP);
+  fake::chip().change(kRearm, 1, 100.0);
+  ASSERT_EQ(lines->fds().size(), 2U);
+  EXPECT_FALSE(readable(lines->fds()[0]));
+  EXPECT_TRUE(readable(lines->fds()[1]));
+  auto levels = lines->receive();
+  ASSERT_EQ(levels.size(), 1U);
+  EXPECT_TRUE(levels[0].line == kRearm && levels[0].high);
+  lines->refresh();
+  levels = lines->receive();
+  ASSERT_EQ(levels.size(), 2U);
+  EXPECT_TRUE(levels[0].line == kStop && !levels[0].high);
+  EXPECT_TRUE(levels[1].line == kRearm && levels[1].high);
+}
+
 TEST_F(ChipLines, ManyEdgesAtOnce) {
   const auto lines = open();
   for (int i = 0; i < 100; ++i) fake::chip().change(kStop, i % 2, i);
@@ -104,9 +123,9 @@ TEST_F(ChipLines, WritesOutputs) {
 }
 
 TEST_F(ChipLines, WithoutAnInputThereIsNothingToWaitFor) {
-  use.input = -1;
+  use.inputs.clear();
   const auto lines = open();
-  EXPECT_EQ(lines->fd(), -1);
+  EXPECT_TRUE(lines->fds().empty());
   lines->refresh();
   EXPECT_TRUE(lines->receive().empty());
 }

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <vector>
 
+#include "base/clocks.h"
 #include "edge/gpio/gpio_lines.h"
 #include "tests/unit/eventually.h"
 #include "tools/sim/gpio_socket.h"
@@ -32,6 +33,8 @@ class GpioTest : public testing::Test {
                              .string();
     config.chip = "socket:" + server_config.path;
     config.stop_line = server_config.stop_line;
+    config.rearm_line = server_config.rearm_line;
+    config.rearm_hold_s = 0.3;
     config.led_line = server_config.led_line;
     config.trigger_line = server_config.trigger_line;
   }
@@ -50,10 +53,22 @@ class GpioTest : public testing::Test {
     return eventually([&] { return heard() == wanted; });
   }
 
+  std::function<void()> rearms() {
+    return [this] {
+      const std::lock_guard lock(mutex);
+      ++rearmed;
+    };
+  }
+  int rearm_count() {
+    const std::lock_guard lock(mutex);
+    return rearmed;
+  }
+
   GpioServerConfig server_config;
   GpioConfig config;
   std::mutex mutex;
   std::vector<bool> calls;
+  int rearmed = 0;
 };
 
 TEST_F(GpioTest, TellsTheFirstLevelThenEveryEdge) {
@@ -78,6 +93,42 @@ TEST_F(GpioTest, APressThatIsOverAtOnceIsAPressAllTheSame) {
   server.set_pressed(true);
   server.set_pressed(false);
   ASSERT_TRUE(hears({false, true, false}));
+}
+
+TEST_F(GpioTest, AHeldButtonRearmsOnceAfterTheRelease) {
+  GpioServer server(server_config);
+  const Gpio gpio(config, listener(), rearms());
+  ASSERT_TRUE(hears({false}));
+  server.set_pressed(true);
+  ASSERT_TRUE(hears({false, true}));
+  server.hold_rearm(true);  // while the stop is pressed, and on
+  server.set_pressed(false);
+  ASSERT_TRUE(hears({false, true, false}));
+  server.set_pressed(true);
+  ASSERT_TRUE(hears({false, true, false, true})) << "longer than it must be held: still nothing";
+  EXPECT_EQ(rearm_count(), 0);
+  server.set_pressed(false);
+  ASSERT_TRUE(hears({false, true, false, true, false}));
+  server.hold_rearm(false);
+  ASSERT_TRUE(eventually([&] {  // until it is seen open, and then held
+    server.hold_rearm(false);
+    const double end_s = clock_monotonic_s() + 0.2;
+    if (!eventually([&] { return clock_monotonic_s() > end_s; })) return false;
+    server.hold_rearm(true);
+    return eventually([&] { return rearm_count() > 0; }, 5.0);
+  }));
+  EXPECT_EQ(rearm_count(), 1);
+  EXPECT_EQ(gpio.report().counters.at("gpio_rearms"), 1U);
+}
+
+TEST_F(GpioTest, AButtonThatIsStuckFromTheStartRearmsNothing) {
+  GpioServer server(server_config);
+  server.hold_rearm(true);
+  const Gpio gpio(config, listener(), rearms());
+  ASSERT_TRUE(hears({false}));
+  const double end_s = clock_monotonic_s() + 4.0 * config.rearm_hold_s;
+  ASSERT_TRUE(eventually([&] { return clock_monotonic_s() > end_s; }));
+  EXPECT_EQ(rearm_count(), 0);
 }
 
 TEST_F(GpioTest, PressedFromTheStart) {

@@ -33,7 +33,7 @@ class SocketLines : public testing::Test {
     listener_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
     EXPECT_EQ(::bind(listener_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
     EXPECT_EQ(::listen(listener_, 1), 0);
-    lines_ = open_gpio_lines("socket:" + path_, {17, LineBias::kPullUp, {22}});
+    lines_ = open_gpio_lines("socket:" + path_, {{{17}, {18}}, {22}});
     client_ = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
   }
   ~SocketLines() override {
@@ -74,15 +74,16 @@ TEST_F(SocketLines, SpeaksTheProtocol) {
   lines_->write(22, true);
   EXPECT_EQ(hear(), "out 22 1\n");
   lines_->refresh();
-  EXPECT_EQ(hear(), "read 17\n");
+  EXPECT_EQ(hear(), "read 17\nread 18\n");
 }
 
-TEST_F(SocketLines, BringsTheLevelsOfItsInputOnly) {
-  say("in 17 1\nin 3 1\nin 17 0\n");
+TEST_F(SocketLines, BringsTheLevelsOfItsInputsOnly) {
+  say("in 17 1\nin 3 1\nin 18 1\nin 17 0\n");
   const auto levels = lines_->receive();
-  ASSERT_EQ(levels.size(), 2U);
-  EXPECT_TRUE(levels[0].high);
-  EXPECT_FALSE(levels[1].high);
+  ASSERT_EQ(levels.size(), 3U);
+  EXPECT_TRUE(levels[0].line == 17 && levels[0].high);
+  EXPECT_TRUE(levels[1].line == 18 && levels[1].high);
+  EXPECT_TRUE(levels[2].line == 17 && !levels[2].high);
 }
 
 TEST_F(SocketLines, PutsTogetherWhatComesInPieces) {
@@ -99,7 +100,7 @@ TEST_F(SocketLines, WhatIsNoLevelEndsTheConnection) {
        {"hello", "in", "in 17", "in 17 2", "in -1 1", "in 17 1 1", "in x 1", ""}) {
     say(std::string(text) + "\n");
     EXPECT_THAT(error_of_receive(), HasSubstr("sends what is no level")) << text;
-    lines_ = open_gpio_lines("socket:" + path_, {17, LineBias::kPullUp, {}});
+    lines_ = open_gpio_lines("socket:" + path_, {{{17}}, {}});
     hang_up();
     client_ = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
   }

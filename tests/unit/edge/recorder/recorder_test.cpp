@@ -50,7 +50,11 @@ class RecorderTest : public testing::Test {
   }
   double time_of(int frame) const { return start_s + 0.1 * frame; }
 
-  std::set<std::string> events() const { return names_in(config.folder); }
+  std::set<std::string> events() const {
+    auto names = names_in(config.folder);
+    names.erase(".removal");
+    return names;
+  }
   bool has_events(std::size_t count) {
     return eventually([&] {
       const auto names = events();
@@ -146,18 +150,52 @@ TEST_F(RecorderTest, AnEventWithoutAFrameLeavesNothingAndIsCounted) {
   EXPECT_THAT(events(), ElementsAre());
 }
 
-TEST_F(RecorderTest, TheOldestEventsGo) {
+// Six commands must not empty the store.
+TEST_F(RecorderTest, RecordingsDoNotPushOutWhatIsThere) {
   config.quota_bytes = 4096.0 * 25;  // two events of ten frames of 4 kB and a little
   Recorder recorder(config);
+  ASSERT_TRUE(eventually([&] { return recorder.report().state == DeviceState::kOk; }));
   film(recorder, 100);
-  for (int i = 0; i < 4; ++i) {
+  int accepted = 0;
+  for (int i = 0; i < 6; ++i) {
     const std::string label{'e', static_cast<char>('0' + i)};
-    EXPECT_EQ(recorder.record({time_of(60 + 10 * i), 0.45, 0.45, label}), "");
-    ASSERT_TRUE(counts(recorder, "recorder_events_written", static_cast<std::uint64_t>(i) + 1));
+    const std::string why = recorder.record({time_of(60 + 5 * i), 0.45, 0.45, label});
+    if (why.empty()) {
+      ++accepted;
+      ASSERT_TRUE(counts(recorder, "recorder_events_written", static_cast<std::uint64_t>(i) + 1));
+      ASSERT_TRUE(eventually([&] {
+        return recorder.report().readings.at("recorder_events") == static_cast<double>(accepted);
+      }));
+    } else {
+      EXPECT_THAT(why, HasSubstr("no room"));
+    }
   }
-  ASSERT_TRUE(has_events(2));
-  EXPECT_THAT(*events().begin(), HasSubstr("_e2"));
-  EXPECT_EQ(count(recorder, "recorder_events_removed"), 2U);
+  EXPECT_GE(accepted, 2);
+  EXPECT_LT(accepted, 6);
+  EXPECT_THAT(*events().begin(), HasSubstr("_e0"));
+  EXPECT_EQ(count(recorder, "recorder_events_removed"), 0U);
+  EXPECT_EQ(count(recorder, "recorder_refused_no_room"), static_cast<std::uint64_t>(6 - accepted));
+  EXPECT_THAT(recorder.report().alarms,
+              testing::Contains(HasSubstr("recorder: recordings are refused, the quota is full")));
+  std::filesystem::remove_all(std::filesystem::path(config.folder) / *events().begin());
+  EXPECT_TRUE(eventually([&] { return recorder.report().alarms.empty(); })) << "room was made";
+}
+
+TEST_F(RecorderTest, OfManyRecordingsInAShortTimeAFewAreMade) {
+  Recorder recorder(config);
+  film(recorder, 100);
+  std::uint64_t accepted = 0;
+  for (int i = 0; i < 20; ++i) {
+    const std::string why = recorder.record({time_of(90), 0.05, 0.05, ""});
+    if (why.empty()) {
+      ASSERT_TRUE(counts(recorder, "recorder_events_written", ++accepted));
+    } else {
+      EXPECT_THAT(why, HasSubstr("too many"));
+    }
+  }
+  EXPECT_GE(accepted, 8U);
+  EXPECT_EQ(count(recorder, "recorder_refused_too_many"), 20U - accepted);
+  EXPECT_GE(count(recorder, "recorder_refused_too_many"), 1U);
 }
 
 TEST_F(RecorderTest, AFullDiskIsReportedAndNothingIsWritten) {
@@ -206,25 +244,20 @@ TEST_F(RecorderTest, AFolderThatVanishesInAnEventCostsFramesOnly) {
   EXPECT_TRUE(has_events(1));
 }
 
-TEST_F(RecorderTest, EventsAtTheSameTimeDoNotRemoveEachOther) {
-  config.quota_bytes = 4096.0 * 20;  // one event of 14 frames of 4 kB, and a third
+TEST_F(RecorderTest, EventsAtTheSameTimeDoNotTakeEachOthersRoom) {
+  config.quota_bytes = 4096.0 * 400;  // one event of 310 frames of 4 kB
   config.memory_s = 100.0;
   Recorder recorder(config);
+  ASSERT_TRUE(eventually([&] { return recorder.report().state == DeviceState::kOk; }));
   film(recorder, 150);
-  for (const char* label : {"a", "b"}) {
-    EXPECT_EQ(recorder.record({time_of(145), 0.95, 30.0, label}), "");
-    ASSERT_TRUE(eventually([&] {
-      return count(recorder, "recorder_frames_written") +
-                 count(recorder, "recorder_frames_dropped") >=
-             (label[0] == 'a' ? 14U : 28U);
-    }));
-  }
+  EXPECT_EQ(recorder.record({time_of(145), 0.95, 30.0, "a"}), "");
+  EXPECT_THAT(recorder.record({time_of(145), 0.95, 30.0, "b"}), HasSubstr("no room"));
+  ASSERT_TRUE(counts(recorder, "recorder_frames_written", 14));
   number = 500;
-  film(recorder, 1);  // both end
-  EXPECT_TRUE(counts(recorder, "recorder_events_written", 2));
+  film(recorder, 1);  // it ends, and took less than was thought
+  EXPECT_TRUE(counts(recorder, "recorder_events_written", 1));
   EXPECT_EQ(count(recorder, "recorder_events_removed"), 0U);
-  EXPECT_THAT(recorder.report().last_error, HasSubstr("greater than the quota"));
-  EXPECT_TRUE(has_events(2));
+  EXPECT_TRUE(has_events(1));
 }
 
 // An event with all its frames on the disk, that ends with the next frame of close_last().

@@ -40,9 +40,8 @@ TEST(LiveSite, SteppedHostClockMovesNeitherTargetNorItsStamp) {
   const World world(without_stations(), 1);
   LcmBus bus("memq://");
   ols_msg::truth_target_t received{};
-  bus.subscribe("OLS_SIM_TRUTH", [&](const std::string&, const void* data, int bytes) {
-    EXPECT_TRUE(decode_exactly(data, bytes, received));
-  });
+  bus.subscribe("OLS_SIM_TRUTH",
+                [&](const BusMessage& message) { EXPECT_TRUE(decode_exactly(message, received)); });
   LiveSite site(world, testing::TempDir() + "ols_live_site_" + std::to_string(::getpid()), bus);
 
   const std::int64_t utc_us = clock_utime_us();

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "edge/config.h"
+#include "edge/station_memory.h"
 #include "tools/sim/station_files.h"
 
 namespace ols::sim {
@@ -12,11 +13,16 @@ TEST(StationFiles, AreReadByTheStationAsTheNominalGeometry) {
   const World world(load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml"), 5);
   const auto folder =
       std::filesystem::path(::testing::TempDir()) / ("files_" + std::to_string(::getpid()));
-  write_station_files(world, {"udpm://239.255.76.67:7667?ttl=0", "/tmp/lines"}, folder);
+  const std::string state = folder / "state";
+  write_station_files(world, {"udpm://239.255.76.67:7667?ttl=0", "/tmp/lines", state}, folder);
   for (const StationTruth& truth : world.stations()) {
     const StationSettings read = load_station_settings(folder / (truth.id + ".toml"));
     const StationGeometry& g = read.station.geometry;
     EXPECT_EQ(read.id, truth.id);
+    EXPECT_EQ(read.state_folder, state);
+    const StationMemory memory(state, truth.id, true);
+    EXPECT_EQ(memory.begin(), StationState::kIdle);
+    EXPECT_EQ(memory.legacy(), PtuLegacy::kNone);
     EXPECT_LT((ecef_from_geodetic(g.position) - ecef_from_geodetic(truth.nominal.position)).norm(),
               1e-6);
     const PanTilt angles{0.3, 0.2};

@@ -1,0 +1,97 @@
+#include "base/bus_inbox.h"
+
+#include <chrono>
+#include <utility>
+#include <variant>
+
+namespace ols {
+namespace {
+
+// What a message that waits takes of the memory.
+std::size_t cost(const BusMessage& message) {
+  constexpr std::size_t kKeeping = 160;  // [byte] of its records beside names and payload
+  return kKeeping + message.channel.size() + message.payload.size();
+}
+
+}  // namespace
+
+void BusInbox::subscribe(const std::string& channel_regex, Handler handler, QueueLimits limits,
+                         Express express) {
+  auto subscription = std::make_unique<Subscription>(Subscription{
+      ChannelPattern(channel_regex), std::move(handler), limits, std::move(express), {}, 0});
+  const std::lock_guard lock(mutex_);
+  subscriptions_.push_back(std::move(subscription));
+}
+
+void BusInbox::put(std::span<const std::uint8_t> datagram, std::int64_t utime_us) {
+  const auto parsed = parse_datagram(datagram);
+  const std::lock_guard lock(mutex_);
+  if (const auto* fault = std::get_if<DatagramFault>(&parsed)) {
+    ++(*fault == DatagramFault::kFragment ? traffic_.fragments : traffic_.malformed);
+    return;
+  }
+  ++traffic_.received;
+  deliver(std::get<BusDatagram>(parsed), utime_us);
+}
+
+void BusInbox::deliver(const BusDatagram& datagram, std::int64_t utime_us) {
+  if (datagram.channel == kSelfTestChannel) return;
+  for (const auto& subscription : subscriptions_) {
+    if (!subscription->pattern.matches(datagram.channel)) continue;
+    BusMessage message{std::string(datagram.channel),
+                       {datagram.payload.begin(), datagram.payload.end()},
+                       utime_us};
+    if (subscription->express && subscription->express(message)) continue;
+    enqueue(*subscription, std::move(message));
+  }
+}
+
+void BusInbox::enqueue(Subscription& subscription, BusMessage message) {
+  subscription.bytes += cost(message);
+  subscription.queue.push_back({++numbers_, std::move(message)});
+  while (subscription.queue.size() > subscription.limits.messages ||
+         subscription.bytes > subscription.limits.bytes) {
+    subscription.bytes -= cost(subscription.queue.front().message);
+    subscription.queue.pop_front();
+    ++traffic_.overflowed;
+  }
+  arrived_.notify_one();
+}
+
+BusInbox::Subscription* BusInbox::first_waiting() {
+  Subscription* first = nullptr;
+  for (const auto& one : subscriptions_) {
+    if (one->queue.empty()) continue;
+    if (first == nullptr || one->queue.front().number < first->queue.front().number) {
+      first = one.get();
+    }
+  }
+  return first;
+}
+
+std::optional<BusInbox::Taken> BusInbox::take(int timeout_ms) {
+  std::unique_lock lock(mutex_);
+  if (timeout_ms > 0) {
+    arrived_.wait_for(lock, std::chrono::milliseconds(timeout_ms),
+                      [this] { return first_waiting() != nullptr; });
+  }
+  Subscription* const first = first_waiting();
+  if (first == nullptr) return std::nullopt;
+  Taken taken{first, std::move(first->queue.front().message)};
+  first->queue.pop_front();
+  first->bytes -= cost(taken.message);
+  return taken;
+}
+
+bool BusInbox::handle_one(int timeout_ms) {
+  const auto taken = take(timeout_ms);
+  if (taken) taken->subscription->handler(taken->message);
+  return taken.has_value();
+}
+
+BusTraffic BusInbox::traffic() const {
+  const std::lock_guard lock(mutex_);
+  return traffic_;
+}
+
+}  // namespace ols

@@ -1,0 +1,98 @@
+// What came from the bus and waits to be handled: parsed, filtered by channel, bounded. Nothing is
+// kept of a channel that nobody here reads. One thread puts datagrams in, another takes messages
+// out.
+#pragma once
+
+#include <array>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/bus_datagram.h"
+#include "base/channel_pattern.h"
+
+namespace ols {
+
+// On which LCM's programs hear whether they hear themselves; no subscription gets it.
+inline constexpr const char* kSelfTestChannel = "LCM_SELF_TEST";
+
+struct BusMessage {
+  std::string channel;
+  std::vector<std::uint8_t> payload;
+  std::int64_t received_utime_us = 0;  // this host's clock
+};
+
+// What may wait of one subscription. The oldest give way: a newer message is worth more.
+struct QueueLimits {
+  std::size_t messages = 1000;
+  std::size_t bytes = 4'000'000;  // of names and payloads, and what their keeping costs
+};
+
+// Counters that only go up.
+struct BusTraffic {
+  std::uint64_t received = 0;    // whole messages, of any channel
+  std::uint64_t fragments = 0;   // refused, see DatagramFault
+  std::uint64_t malformed = 0;   // refused: foreign, or with a damaged channel name
+  std::uint64_t overflowed = 0;  // gave way to newer ones before they were handled
+  std::uint64_t unsendable = 0;  // own messages that fit into no datagram
+};
+
+class BusInbox {
+ public:
+  using Handler = std::function<void(const BusMessage&)>;
+  // In the thread that puts datagrams in, before the queue: true when this is all that the message
+  // is for. It is then not queued, so that no flood can push it out.
+  using Express = std::function<bool(const BusMessage&)>;
+
+  // Throws std::invalid_argument when it is no regular expression.
+  void subscribe(const std::string& channel_regex, Handler handler, QueueLimits limits = {},
+                 Express express = {});
+
+  void put(std::span<const std::uint8_t> datagram, std::int64_t utime_us);
+
+  // Hands the oldest message that waits to its subscriber, in the caller's thread; waits for one so
+  // long at most. Whether there was one. Messages of all subscriptions come in the order in which
+  // they were put in.
+  bool handle_one(int timeout_ms);
+
+  BusTraffic traffic() const;
+
+ private:
+  struct Waiting {
+    std::uint64_t number = 0;
+    BusMessage message;
+  };
+  struct Subscription {
+    ChannelPattern pattern;
+    Handler handler;
+    QueueLimits limits;
+    Express express;
+    std::deque<Waiting> queue;
+    std::size_t bytes = 0;  // of what waits
+  };
+
+  void deliver(const BusDatagram& datagram, std::int64_t utime_us);
+  void enqueue(Subscription& subscription, BusMessage message);
+  Subscription* first_waiting();
+  struct Taken {
+    Subscription* subscription;
+    BusMessage message;
+  };
+  std::optional<Taken> take(int timeout_ms);
+
+  mutable std::mutex mutex_;
+  std::condition_variable arrived_;
+  std::vector<std::unique_ptr<Subscription>> subscriptions_;  // none is ever removed
+  std::uint64_t numbers_ = 0;
+  BusTraffic traffic_;
+};
+
+}  // namespace ols

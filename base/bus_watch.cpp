@@ -1,0 +1,44 @@
+#include "base/bus_watch.h"
+
+namespace ols {
+namespace {
+
+BusTraffic operator+(const BusTraffic& a, const BusTraffic& b) {
+  return {a.received + b.received, a.fragments + b.fragments, a.malformed + b.malformed,
+          a.overflowed + b.overflowed, a.unsendable + b.unsendable};
+}
+
+}  // namespace
+
+BusTraffic BusWatch::total() const { return ended_ + current_; }
+
+void BusWatch::look(const BusTraffic& connection, double now_s) {
+  if (is_calm(now_s)) calm_ = total();
+  const bool more =
+      connection.fragments > current_.fragments || connection.malformed > current_.malformed;
+  if (more) refused_s_ = now_s;
+  current_ = connection;
+}
+
+void BusWatch::connection_ended() {
+  ended_ = total();
+  current_ = {};
+}
+
+void BusWatch::count(std::map<std::string, double>& counters) const {
+  const BusTraffic all = total();
+  counters["bus_fragments_refused"] = static_cast<double>(all.fragments);
+  counters["bus_datagrams_malformed"] = static_cast<double>(all.malformed);
+  counters["bus_messages_overflowed"] = static_cast<double>(all.overflowed);
+  counters["bus_messages_unsendable"] = static_cast<double>(all.unsendable);
+}
+
+std::string BusWatch::alarm(double now_s) const {
+  if (is_calm(now_s)) return {};
+  const BusTraffic all = total();
+  return "bus: " + std::to_string(all.fragments - calm_.fragments) + " fragments and " +
+         std::to_string(all.malformed - calm_.malformed) +
+         " malformed datagrams refused: some program here is not of this site, or attacks it";
+}
+
+}  // namespace ols

@@ -1,0 +1,27 @@
+// Which channels a reader of the bus wants: a regular expression (GLib's, as LCM takes it) that the
+// whole name must match. A plain name, and a plain beginning followed by ".*", cost no expression.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+struct _GRegex;
+
+namespace ols {
+
+class ChannelPattern {
+ public:
+  // Throws std::invalid_argument saying what is wrong with the expression.
+  explicit ChannelPattern(const std::string& regex);
+
+  bool matches(std::string_view channel) const;
+
+ private:
+  enum class Kind { kName, kBeginning, kExpression };
+  Kind kind_;
+  std::string text_;
+  std::shared_ptr<_GRegex> expression_;
+};
+
+}  // namespace ols

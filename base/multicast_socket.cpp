@@ -1,0 +1,81 @@
+#include "base/multicast_socket.h"
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace ols {
+namespace {
+
+int checked(int result, const char* what) {
+  if (result >= 0) return result;
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+template <class Value>
+void set_option(int socket, int level, int name, const Value& value, const char* what) {
+  checked(::setsockopt(socket, level, name, &value, sizeof value), what);
+}
+
+const sockaddr* as_address(const sockaddr_in& address) {
+  return reinterpret_cast<const sockaddr*>(&address);
+}
+
+}  // namespace
+
+// Connecting a datagram socket sends nothing; it fails where there is no route.
+MulticastSocket::MulticastSocket(const BusAddress& address) : address_(address) {
+  sending_ = checked(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0), "socket");
+  try {
+    const auto ttl = static_cast<unsigned char>(address.ttl);
+    set_option(sending_, IPPROTO_IP, IP_MULTICAST_TTL, ttl, "IP_MULTICAST_TTL");
+    checked(::connect(sending_, as_address(*address_.group), sizeof(sockaddr_in)), "no route");
+  } catch (...) {
+    ::close(sending_);
+    throw;
+  }
+}
+
+MulticastSocket::~MulticastSocket() {
+  ::close(sending_);
+  if (receiving_ >= 0) ::close(receiving_);
+}
+
+// Bound to the group's address, not to any: what is sent to this host alone does not come in.
+void MulticastSocket::listen() {
+  if (receiving_ >= 0) return;
+  const int fresh =
+      checked(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0), "socket");
+  try {
+    set_option(fresh, SOL_SOCKET, SO_REUSEADDR, 1, "SO_REUSEADDR");
+    // The kernel gives what it allows.
+    const int bytes = address_.receive_buffer_bytes;
+    set_option(fresh, SOL_SOCKET, SO_RCVBUF, bytes, "SO_RCVBUF");
+    checked(::bind(fresh, as_address(*address_.group), sizeof(sockaddr_in)), "bind");
+    ip_mreq membership{};
+    membership.imr_multiaddr = address_.group->sin_addr;
+    membership.imr_interface.s_addr = htonl(INADDR_ANY);
+    set_option(fresh, IPPROTO_IP, IP_ADD_MEMBERSHIP, membership, "IP_ADD_MEMBERSHIP");
+  } catch (...) {
+    ::close(fresh);
+    throw;
+  }
+  receiving_ = fresh;
+}
+
+std::optional<std::span<const std::uint8_t>> MulticastSocket::receive(
+    std::span<std::uint8_t> buffer) {
+  const ssize_t bytes = ::recv(receiving_, buffer.data(), buffer.size(), 0);
+  if (bytes < 0) return std::nullopt;
+  return buffer.first(static_cast<std::size_t>(bytes));
+}
+
+std::error_code MulticastSocket::send(std::span<const std::uint8_t> datagram) {
+  while (::send(sending_, datagram.data(), datagram.size(), 0) < 0) {
+    if (errno != EINTR) return {errno, std::generic_category()};
+  }
+  return {};
+}
+
+}  // namespace ols

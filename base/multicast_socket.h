@@ -1,0 +1,39 @@
+// The two sockets of a multicast bus: one that sends to the group, one that hears it.
+#pragma once
+
+#include <netinet/in.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <system_error>
+
+#include "base/lcm_url.h"
+
+namespace ols {
+
+class MulticastSocket {
+ public:
+  // Throws std::system_error, also where no route leads to the group.
+  explicit MulticastSocket(const BusAddress& address);
+  ~MulticastSocket();
+  MulticastSocket(const MulticastSocket&) = delete;
+  MulticastSocket& operator=(const MulticastSocket&) = delete;
+
+  // Joins the group. Throws std::system_error.
+  void listen();
+  // Readable when a datagram waits; -1 before listen().
+  int descriptor() const { return receiving_; }
+  // The next datagram, in `buffer`; nothing when none waits.
+  std::optional<std::span<const std::uint8_t>> receive(std::span<std::uint8_t> buffer);
+
+  // Why it could not be sent; no error when it was.
+  std::error_code send(std::span<const std::uint8_t> datagram);
+
+ private:
+  BusAddress address_;
+  int sending_ = -1;
+  int receiving_ = -1;
+};
+
+}  // namespace ols

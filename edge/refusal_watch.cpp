@@ -1,0 +1,34 @@
+#include "edge/refusal_watch.h"
+
+#include <cmath>
+
+namespace ols {
+namespace {
+
+constexpr std::uint64_t kAlarm = 3;  // a doubled datagram or two are none
+
+}  // namespace
+
+void RefusalWatch::note(const std::string& kind, const std::string& why, double now_s) {
+  const auto second_s = static_cast<std::int64_t>(std::floor(now_s));
+  Second& second = refused_[{kind, why}][static_cast<std::size_t>(second_s) % kSpan_s];
+  if (second.at_s != second_s) second = {second_s, 0};
+  ++second.count;
+}
+
+std::vector<std::string> RefusalWatch::alarms(double now_s) const {
+  const auto second_s = static_cast<std::int64_t>(std::floor(now_s));
+  std::vector<std::string> alarms;
+  for (const auto& [what, seconds] : refused_) {
+    std::uint64_t count = 0;
+    for (const Second& second : seconds) {
+      if (second.at_s > second_s - static_cast<std::int64_t>(kSpan_s)) count += second.count;
+    }
+    if (count < kAlarm) continue;
+    alarms.push_back("commands: " + std::to_string(count) + " " + what.first + " refused in " +
+                     std::to_string(kSpan_s) + " s: " + what.second);
+  }
+  return alarms;
+}
+
+}  // namespace ols

@@ -1,0 +1,32 @@
+// Says in words that commands keep being refused before they are looked at: who sends them in good
+// faith is locked out and should know why. Pure.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ols {
+
+class RefusalWatch {
+ public:
+  // One command of this kind ("slews") was refused. Kinds and reasons are a few of our own words.
+  void note(const std::string& kind, const std::string& why, double now_s);
+  // "commands: 12 slews refused in 10 s: replayed", for each kind and reason with three or more.
+  std::vector<std::string> alarms(double now_s) const;
+
+ private:
+  static constexpr std::size_t kSpan_s = 10;
+  struct Second {
+    std::int64_t at_s = -1;
+    std::uint64_t count = 0;
+  };
+
+  std::map<std::pair<std::string, std::string>, std::array<Second, kSpan_s>> refused_;
+};
+
+}  // namespace ols

@@ -1,0 +1,88 @@
+#include "edge/station_memory.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace ols {
+namespace {
+
+constexpr const char* kFree = "free";
+constexpr const char* kStopped = "stopped";
+constexpr const char* kUnknown = "unknown";  // and nobody has acted since
+constexpr const char* kEmergency = "emergency";
+// By PtuLegacy.
+const std::vector<std::string> kDoubts{"none", "reference", "homing", "gears", "homing-gears"};
+
+std::string file_of(const std::string& folder, const std::string& id, const char* subject) {
+  return folder.empty() ? std::string() : folder + "/" + id + "." + subject;
+}
+
+}  // namespace
+
+bool is_held(StationState state) {
+  return state == StationState::kEmergency || state == StationState::kStopped ||
+         state == StationState::kManual;
+}
+
+StationMemory::StationMemory(const std::string& folder, const std::string& id, bool has_stop)
+    : id_(id),
+      hold_(file_of(folder, id, "hold"), {kFree, kStopped, kUnknown, kEmergency}),
+      doubt_(file_of(folder, id, "doubt"), kDoubts) {
+  hold_unknown_ = hold_.recall() != Recall::kKnown || hold_.word() == kUnknown;
+  const bool perhaps_emergency = has_stop && hold_.recall() == Recall::kUnreadable;
+  if (hold_.word() == kEmergency || perhaps_emergency) {
+    begin_ = StationState::kEmergency;
+  } else if (hold_.word() == kFree) {
+    begin_ = StationState::kIdle;
+  }
+  doubt_unknown_ = doubt_.recall() != Recall::kKnown;
+  if (doubt_.recall() == Recall::kUnreadable) {
+    legacy_ = PtuLegacy::kBrokenHomingGearsLost;
+  } else if (doubt_unknown_) {
+    legacy_ = PtuLegacy::kDoubt;
+  } else {
+    const auto found = std::ranges::find(kDoubts, doubt_.word());
+    legacy_ = static_cast<PtuLegacy>(found - kDoubts.begin());
+  }
+}
+
+void StationMemory::remember(StationState state, PtuLegacy legacy, PtuReference reference) {
+  hold_unknown_ = hold_unknown_ && state == begin_;
+  if (state == StationState::kEmergency) {
+    // What a damaged file said stays with it until somebody has re-armed the station.
+    if (!hold_unknown_) hold_.set(kEmergency);
+  } else if (is_held(state)) {
+    hold_.set(hold_unknown_ ? kUnknown : kStopped);
+  } else {
+    hold_.set(kFree);
+  }
+  // While there is no unit, what was known of it stays.
+  if (legacy != PtuLegacy::kNone) {
+    doubt_.set(kDoubts[static_cast<std::size_t>(legacy)]);
+  } else if (reference == PtuReference::kTrusted) {
+    doubt_.set(kDoubts.front());
+    doubt_unknown_ = false;
+  }
+}
+
+std::vector<std::string> StationMemory::alarms() const {
+  std::vector<std::string> alarms;
+  if (hold_unknown_) {
+    const std::string why = hold_.why_unknown().empty() ? "nor was it before" : hold_.why_unknown();
+    const std::string act = begin_ == StationState::kEmergency
+                                ? "check it, then re-arm it"
+                                : "check it, then ols-ctl " + id_ + " release";
+    alarms.push_back("stop: how the station was left is not known (" + why + "): " + act);
+  }
+  if (!hold_.trouble().empty()) alarms.push_back("stop: not remembered: " + hold_.trouble());
+  if (doubt_unknown_) {
+    alarms.push_back("ptu: whether its reference was in doubt is not known (" +
+                     doubt_.why_unknown() + "): check it, then ols-ctl " + id_ + " reference-ok");
+  }
+  if (!doubt_.trouble().empty()) {
+    alarms.push_back("ptu: doubt not remembered: " + doubt_.trouble());
+  }
+  return alarms;
+}
+
+}  // namespace ols

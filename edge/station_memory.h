@@ -1,0 +1,44 @@
+// How a station was left, over a restart or a loss of power: whether somebody had taken its leave
+// to move, and whether its unit's reference was in doubt. A station that does not know how it was
+// left starts stopped, its reference in doubt, and says so in an alarm.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/word_memory.h"
+#include "edge/ptu/driver.h"
+#include "edge/station_types.h"
+
+namespace ols {
+
+class StationMemory {
+ public:
+  // Files ID.hold and ID.doubt in `folder`; empty: nothing is remembered, so nothing is known.
+  // `has_stop`: the station has an emergency stop. A file that is damaged may have told of one.
+  StationMemory(const std::string& folder, const std::string& id, bool has_stop);
+
+  // As it shall begin: kIdle, kStopped or kEmergency.
+  StationState begin() const { return begin_; }
+  // What the unit must be told of the process before this one.
+  PtuLegacy legacy() const { return legacy_; }
+
+  // What there is to remember by now; in every turn. `begin()` is unknown no longer once the
+  // station has left that state: a person has acted. Does not wait for the disk.
+  void remember(StationState state, PtuLegacy legacy, PtuReference reference);
+
+  // What is not known and what to do; what is not remembered.
+  std::vector<std::string> alarms() const;
+
+ private:
+  std::string id_;
+  WordMemory hold_, doubt_;
+  StationState begin_ = StationState::kStopped;
+  PtuLegacy legacy_ = PtuLegacy::kNone;
+  bool hold_unknown_ = false, doubt_unknown_ = false;
+};
+
+// Whether an operator, or the emergency stop, has the station in hand: it begins again stopped.
+bool is_held(StationState state);
+
+}  // namespace ols

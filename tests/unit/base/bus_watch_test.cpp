@@ -1,0 +1,37 @@
+#include "base/bus_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace ols {
+namespace {
+
+TEST(BusWatch, AlarmsWhileDatagramsAreRefusedAndForAWhileAfterwards) {
+  BusWatch watch;
+  watch.look({.received = 100}, 0.0);
+  EXPECT_EQ(watch.alarm(0.0), "");
+  watch.look({.received = 100, .fragments = 2}, 1.0);
+  watch.look({.received = 100, .fragments = 2, .malformed = 1}, 2.0);
+  EXPECT_EQ(watch.alarm(2.0),
+            "bus: 2 fragments and 1 malformed datagrams refused: some program here is not of this "
+            "site, or attacks it");
+  EXPECT_NE(watch.alarm(2.0 + BusWatch::kAlarm_s), "");
+  EXPECT_EQ(watch.alarm(2.1 + BusWatch::kAlarm_s), "");
+  watch.look({.received = 100, .fragments = 5, .malformed = 1}, 30.0);
+  EXPECT_NE(watch.alarm(30.0).find("bus: 3 fragments and 0 malformed"), std::string::npos);
+}
+
+TEST(BusWatch, CountsOverAllConnections) {
+  BusWatch watch;
+  watch.look({.fragments = 2, .overflowed = 7, .unsendable = 1}, 1.0);
+  watch.connection_ended();
+  watch.look({.fragments = 3, .malformed = 4}, 2.0);
+  std::map<std::string, double> counters;
+  watch.count(counters);
+  EXPECT_EQ(counters.at("bus_fragments_refused"), 5.0);
+  EXPECT_EQ(counters.at("bus_datagrams_malformed"), 4.0);
+  EXPECT_EQ(counters.at("bus_messages_overflowed"), 7.0);
+  EXPECT_EQ(counters.at("bus_messages_unsendable"), 1.0);
+}
+
+}  // namespace
+}  // namespace ols

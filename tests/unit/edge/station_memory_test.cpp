@@ -1,0 +1,242 @@
+// Every state file in every condition: a station that does not know how it was left starts stopped.
+#include "edge/station_memory.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <linux/capability.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "tests/unit/eventually.h"
+
+namespace ols {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+namespace fs = std::filesystem;
+
+class StationMemoryTest : public testing::Test {
+ protected:
+  StationMemoryTest() {
+    root = testing::TempDir() + "ols_memory_" + std::to_string(::getpid());
+    fs::remove_all(root);
+    folder = root + "/state";
+    fs::create_directories(folder);
+  }
+  ~StationMemoryTest() override { fs::remove_all(root); }
+
+  void put(const char* subject, const std::string& text) const {
+    std::ofstream(folder + "/a." + subject) << text;
+  }
+  std::string content(const char* subject) const {
+    std::string text;
+    std::getline(std::ifstream(folder + "/a." + subject), text);
+    return text;
+  }
+  StationMemory memory(bool has_stop = true) const { return {folder, "a", has_stop}; }
+
+  std::string root, folder;
+};
+
+TEST_F(StationMemoryTest, WhatIsKnownIsTakenUpWithoutAnAlarm) {
+  struct Case {
+    const char* hold;
+    StationState state;
+  };
+  for (const Case& c : {Case{"free\n", StationState::kIdle},
+                        {"stopped\n", StationState::kStopped},
+                        {"emergency\n", StationState::kEmergency}}) {
+    put("hold", c.hold);
+    put("doubt", "none\n");
+    const StationMemory m = memory();
+    EXPECT_EQ(m.begin(), c.state) << c.hold;
+    EXPECT_EQ(m.legacy(), PtuLegacy::kNone);
+    EXPECT_THAT(m.alarms(), IsEmpty());
+  }
+  put("hold", "free\n");
+  const std::vector<std::string> doubts{"none", "reference", "homing", "gears", "homing-gears"};
+  for (std::size_t i = 0; i < doubts.size(); ++i) {
+    put("doubt", doubts[i] + "\n");
+    EXPECT_EQ(memory().legacy(), static_cast<PtuLegacy>(i)) << doubts[i];
+  }
+}
+
+// Each condition of a file: what makes it so, and whether somebody may have pressed the stop.
+struct Condition {
+  const char* name;
+  std::function<void(const std::string& folder, const std::string& file)> make;
+  bool unreadable;
+};
+
+const std::vector<Condition> kConditions{
+    {"missing", [](const auto&, const auto& file) { fs::remove(file); }, false},
+    {"empty", [](const auto&, const auto& file) { std::ofstream(file, std::ios::trunc); }, true},
+    {"foreign", [](const auto&, const auto& file) { std::ofstream(file) << "holiday\n"; }, true},
+    {"half", [](const auto&, const auto& file) { std::ofstream(file) << "emerg"; }, true},
+    {"directory",
+     [](const auto&, const auto& file) {
+       fs::remove(file);
+       fs::create_directories(file);
+     },
+     true},
+    // Also for root.
+    {"unreadable",
+     [](const auto&, const auto& file) {
+       fs::remove(file);
+       fs::create_symlink(file, file);
+     },
+     true},
+    {"folder missing", [](const auto& folder, const auto&) { fs::remove_all(folder); }, false},
+    {"folder is a file",
+     [](const auto& folder, const auto&) {
+       fs::remove_all(folder);
+       std::ofstream{folder} << "x";
+     },
+     true},
+};
+
+TEST_F(StationMemoryTest, AHoldThatIsNotKnownStartsStoppedWithAnAlarm) {
+  for (const Condition& condition : kConditions) {
+    for (const bool has_stop : {false, true}) {
+      SCOPED_TRACE(std::string(condition.name) + (has_stop ? ", stop" : ", no stop"));
+      fs::remove_all(folder);
+      fs::create_directories(folder);
+      put("hold", "free\n");
+      put("doubt", "none\n");
+      condition.make(folder, folder + "/a.hold");
+      const StationMemory m = memory(has_stop);
+      EXPECT_EQ(m.begin(), condition.unreadable && has_stop ? StationState::kEmergency
+                                                            : StationState::kStopped);
+      EXPECT_THAT(m.alarms(),
+                  Contains(HasSubstr("stop: how the station was left is not known (" + folder)));
+      EXPECT_THAT(m.alarms(), Contains(HasSubstr(m.begin() == StationState::kEmergency
+                                                     ? "check it, then re-arm it"
+                                                     : "check it, then ols-ctl a release")));
+    }
+  }
+}
+
+TEST_F(StationMemoryTest, ADoubtThatIsNotKnownIsADoubtWithAnAlarm) {
+  for (const Condition& condition : kConditions) {
+    SCOPED_TRACE(condition.name);
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    put("hold", "free\n");
+    put("doubt", "none\n");
+    condition.make(folder, folder + "/a.doubt");
+    StationMemory m = memory();
+    EXPECT_EQ(m.legacy(),
+              condition.unreadable ? PtuLegacy::kBrokenHomingGearsLost : PtuLegacy::kDoubt);
+    EXPECT_THAT(m.alarms(),
+                Contains(HasSubstr("ptu: whether its reference was in doubt is not known")));
+    m.remember(StationState::kIdle, PtuLegacy::kNone, PtuReference::kUnknown);
+    EXPECT_THAT(m.alarms(), Contains(HasSubstr("in doubt is not known"))) << "no unit yet";
+    m.remember(StationState::kIdle, PtuLegacy::kNone, PtuReference::kTrusted);
+    EXPECT_THAT(m.alarms(), Not(Contains(HasSubstr("in doubt is not known"))));
+  }
+}
+
+TEST_F(StationMemoryTest, TheUnknownStaysUnknownOverRestartsUntilAPersonActs) {
+  {
+    StationMemory m = memory();
+    EXPECT_EQ(m.begin(), StationState::kStopped);
+    m.remember(StationState::kStopped, PtuLegacy::kNone, PtuReference::kTrusted);
+  }
+  ASSERT_EQ(content("hold"), "unknown");
+  StationMemory m = memory();
+  EXPECT_EQ(m.begin(), StationState::kStopped);
+  m.remember(StationState::kStopped, PtuLegacy::kNone, PtuReference::kTrusted);
+  EXPECT_THAT(m.alarms(), Contains(HasSubstr("is not known (nor was it before)")));
+  m.remember(StationState::kManual, PtuLegacy::kNone, PtuReference::kTrusted);
+  EXPECT_THAT(m.alarms(), IsEmpty());
+  m.remember(StationState::kStopped, PtuLegacy::kNone, PtuReference::kTrusted);
+  EXPECT_THAT(m.alarms(), IsEmpty()) << "stopped by a person";
+  EXPECT_TRUE(eventually([&] { return content("hold") == "stopped"; }));
+}
+
+// Pressed, released, not re-armed, killed; the file damaged, or the folder taken away.
+TEST_F(StationMemoryTest, APressedStopIsNotForgotten) {
+  {
+    StationMemory m = memory();
+    m.remember(StationState::kIdle, PtuLegacy::kNone, PtuReference::kTrusted);
+    m.remember(StationState::kEmergency, PtuLegacy::kNone, PtuReference::kTrusted);
+  }
+  EXPECT_EQ(content("hold"), "emergency");
+  EXPECT_EQ(memory().begin(), StationState::kEmergency);
+  put("hold", "emer");
+  for (int start = 0; start < 2; ++start) {
+    StationMemory damaged = memory();
+    EXPECT_EQ(damaged.begin(), StationState::kEmergency);
+    damaged.remember(StationState::kEmergency, PtuLegacy::kNone, PtuReference::kTrusted);
+    EXPECT_THAT(damaged.alarms(), Contains(HasSubstr("check it, then re-arm it"))) << start;
+  }
+  fs::remove_all(folder);
+  EXPECT_EQ(memory().begin(), StationState::kStopped);
+}
+
+TEST_F(StationMemoryTest, WithoutAFolderNothingIsKnownAndNothingAlarmsOnceAPersonActed) {
+  StationMemory m("", "a", true);
+  EXPECT_EQ(m.begin(), StationState::kStopped);
+  EXPECT_EQ(m.legacy(), PtuLegacy::kDoubt);
+  EXPECT_THAT(m.alarms(), Contains("stop: how the station was left is not known (no state_folder "
+                                   "is configured): check it, then ols-ctl a release"));
+  m.remember(StationState::kIdle, PtuLegacy::kNone, PtuReference::kTrusted);
+  EXPECT_THAT(m.alarms(), IsEmpty());
+}
+
+TEST_F(StationMemoryTest, AFolderThatVanishesIsAnAlarmForAsLong) {
+  put("hold", "free\n");
+  put("doubt", "none\n");
+  StationMemory m = memory();
+  const auto told = [&] {
+    for (const std::string& alarm : m.alarms()) {
+      if (alarm.starts_with("stop: not remembered: ")) return true;
+    }
+    return false;
+  };
+  ASSERT_TRUE(eventually([&] { return m.alarms().empty(); }));
+  fs::rename(folder, folder + ".away");
+  EXPECT_TRUE(eventually(told));
+  fs::create_directories(folder);
+  EXPECT_TRUE(eventually([&] { return !told() && content("hold") == "free"; }));
+}
+
+// Of this thread and those that it starts: root, too, is bound by permissions then.
+bool heed_permissions() {
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  __user_cap_data_struct data[2]{};
+  return ::syscall(SYS_capset, &header, data) == 0;
+}
+
+TEST_F(StationMemoryTest, AFolderThatCannotBeWrittenIsAnAlarmFromTheStart) {
+  put("hold", "free\n");
+  put("doubt", "none\n");
+  fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
+  bool bound = false, told = false;
+  std::jthread([&] {
+    bound = heed_permissions();
+    if (!bound) return;
+    const StationMemory m = memory();
+    EXPECT_EQ(m.begin(), StationState::kIdle) << "what it says is known";
+    told = eventually([&] {
+      const auto alarms = m.alarms();
+      return alarms.size() == 2 && alarms[0].starts_with("stop: not remembered: ") &&
+             alarms[1].starts_with("ptu: doubt not remembered: ");
+    });
+  }).join();
+  fs::permissions(folder, fs::perms::owner_all);
+  if (!bound) GTEST_SKIP() << "capabilities cannot be dropped here";
+  EXPECT_TRUE(told);
+}
+
+}  // namespace
+}  // namespace ols

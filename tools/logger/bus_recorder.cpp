@@ -1,0 +1,128 @@
+#include "tools/logger/bus_recorder.h"
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <limits>
+#include <stdexcept>
+
+#include "base/clocks.h"
+
+namespace ols {
+namespace {
+
+constexpr int kTurn_ms = 50;
+constexpr double kFlush_s = 0.1;
+constexpr double kLook_s = 1.0;    // at the file's place
+constexpr double kProbe_s = 10.0;  // of the bus: it must carry at least our own word
+
+QueueLimits limits_of(const LoggerConfig& config) {
+  return {.messages = std::numeric_limits<std::size_t>::max(),
+          .bytes = static_cast<std::size_t>(config.max_unwritten_mb * 1e6)};
+}
+
+// All channels but those of the expression: a name that it matches is one that ".*" does not get.
+std::string wanted(const LoggerConfig& config) {
+  return config.invert ? "(?!(?:" + config.channels + ")\\z).*" : config.channels;
+}
+
+}  // namespace
+
+BusRecorder::BusRecorder(const LoggerConfig& config, const std::string& file)
+    : config_(config),
+      single_file_(file),
+      names_(config.folder, config.name),
+      bus_(config.lcm_url) {
+  begin_file();
+  bus_.subscribe(
+      wanted(config_), [this](const BusMessage& message) { write(message); }, limits_of(config_));
+  thread_ = std::thread([this] { run(); });
+}
+
+BusRecorder::~BusRecorder() {
+  end_ = true;
+  thread_.join();
+}
+
+RecorderReport BusRecorder::report() const {
+  const std::lock_guard lock(mutex_);
+  return report_;
+}
+
+void BusRecorder::run() {
+  try {
+    record();
+  } catch (const std::exception& failure) {
+    const std::lock_guard lock(mutex_);
+    report_.ended = failure.what();
+  }
+}
+
+void BusRecorder::record() {
+  while (!end_) {
+    bus_.handle(kTurn_ms);
+    const double now_s = clock_monotonic_s();
+    if (now_s >= flush_due_s_) {
+      flush_due_s_ = now_s + kFlush_s;
+      writer_->flush();
+    }
+    if (now_s >= look_due_s_) {
+      look_due_s_ = now_s + kLook_s;
+      look_after_file();
+    }
+    look_at_bus(now_s);
+  }
+  while (bus_.handle(0) > 0) {
+  }
+  writer_->flush();
+}
+
+void BusRecorder::write(const BusMessage& message) {
+  const bool full =
+      single_file_.empty() && static_cast<double>(writer_->bytes()) >= config_.split_bytes;
+  if (full) {
+    writer_->flush();
+    begin_file();
+  }
+  writer_->write(message);
+  const std::lock_guard lock(mutex_);
+  ++report_.messages;
+}
+
+void BusRecorder::look_after_file() {
+  if (writer_->is_in_place()) return;
+  spdlog::error("{}: was deleted, renamed or replaced while it was written", writer_->path());
+  begin_file();
+  const std::lock_guard lock(mutex_);
+  ++report_.files_lost;
+}
+
+void BusRecorder::begin_file() {
+  const std::string path = single_file_.empty() ? names_.next(clock_utime_us()) : single_file_;
+  writer_.emplace(path);
+  const std::lock_guard lock(mutex_);
+  report_.file = path;
+}
+
+// An interface that went away takes its membership of the group along, and nothing says so.
+void BusRecorder::look_at_bus(double now_s) {
+  const BusTraffic traffic = bus_.traffic();
+  watch_.look(traffic, now_s);
+  const std::string alarm = watch_.alarm(now_s);
+  {
+    const std::lock_guard lock(mutex_);
+    if (!alarm.empty() && report_.bus_alarm.empty()) spdlog::warn("{}", alarm);
+    report_.bus_alarm = alarm;
+    report_.traffic = traffic;
+    report_.dropped = traffic.overflowed;
+  }
+  if (now_s < probe_due_s_) return;
+  if (probe_due_s_ > 0.0 && traffic.received == heard_at_probe_) {
+    throw std::runtime_error("the bus carries nothing, not even this program's own word");
+  }
+  probe_due_s_ = now_s + kProbe_s;
+  heard_at_probe_ = traffic.received;
+  bus_.send_self_test();
+}
+
+}  // namespace ols

@@ -1,0 +1,44 @@
+#include "tools/logger/log_names.h"
+
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace ols {
+namespace {
+
+std::string time_text(std::int64_t utime_us) {
+  const std::time_t seconds = utime_us / 1'000'000;
+  std::tm utc{};
+  ::gmtime_r(&seconds, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y%m%dT%H%M%SZ", &utc);
+  return text;
+}
+
+}  // namespace
+
+LogNames::LogNames(std::string folder, std::string name)
+    : folder_(std::move(folder)), name_(std::move(name)) {}
+
+// A number is not given again when its file is gone: the quota removes the oldest by their names.
+std::string LogNames::next(std::int64_t utime_us) {
+  using std::filesystem::file_type;
+  if (std::string now = time_text(utime_us); now != time_) {
+    time_ = std::move(now);
+    number_ = 0;
+  }
+  while (true) {
+    char end[32];
+    std::snprintf(end, sizeof end, ".lcmlog.%02d", number_++);
+    const auto path = std::filesystem::path(folder_) / (name_ + "-" + time_ + end);
+    std::error_code failure;
+    const file_type there = std::filesystem::symlink_status(path, failure).type();
+    if (there == file_type::not_found) return path.string();
+    if (there == file_type::none) throw std::system_error(failure, path.string());
+  }
+}
+
+}  // namespace ols

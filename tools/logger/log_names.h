@@ -1,0 +1,23 @@
+// The names of a logger's files: FOLDER/NAME-<UTC>.lcmlog.NN, later ones always sort after earlier
+// ones.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace ols {
+
+class LogNames {
+ public:
+  LogNames(std::string folder, std::string name);
+
+  // One that is not there yet. Throws std::system_error when that cannot be seen.
+  std::string next(std::int64_t utime_us);
+
+ private:
+  std::string folder_, name_;
+  std::string time_;  // of the last name
+  int number_ = 0;    // of the next name of that time
+};
+
+}  // namespace ols
