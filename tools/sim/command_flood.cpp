@@ -25,6 +25,10 @@ std::vector<std::uint8_t> encoded(const Message& message) {
 
 }  // namespace
 
+double swing_goal_rad(std::int64_t utime_us) {
+  return utime_us / kSwing_us % 2 == 0 ? kSwing_rad : -kSwing_rad;
+}
+
 CommandFlood::CommandFlood(std::string station, std::uint64_t seed)
     : station_(std::move(station)), random_(seed) {}
 
@@ -75,10 +79,13 @@ bool CommandFlood::spoil(Message& message, int how) {
 Packet CommandFlood::ptu(std::int64_t utime_us) {
   ols_msg::ptu_command_t message{};
   address(message, utime_us);
-  const int how = below(8);
+  const int how = below(9);
   if (spoil(message, how)) {
     message.command = below(2) == 0 ? ols_msg::ptu_command_t::COMMAND_POINT
                                     : ols_msg::ptu_command_t::COMMAND_RELEASE;
+  } else if (how == 8) {
+    message.command = ols_msg::ptu_command_t::COMMAND_POINT;
+    message.pan_rad = swing_goal_rad(utime_us);
   } else {  // fresh for all that a gate can see; refused for where it points
     message.utime += how == 6 ? kAhead_us : 0;
     message.command = ols_msg::ptu_command_t::COMMAND_POINT;

@@ -1,9 +1,9 @@
-// Forged commands to one station, as somebody sends them who wants its operator unheard. None is
-// one that the station may obey: stale, played again, from the future, for another station, of
+// Forged commands to one station, as somebody sends them who wants its operator unheard. Most are
+// such as no station may obey: stale, played again, from the future, for another station, of
 // another schema, damaged, out of limits (these pass for fresh, from ever new senders with stamps
-// somewhat ahead), slews with the greatest of sequences beside an operator who has precedence. What
-// a fresh and well-formed command does needs no flood: without signatures it is obeyed. Pure;
-// deterministic by its seed and the times it is given.
+// somewhat ahead), slews with the greatest of sequences. One in eighteen is fresh and well-formed,
+// and without signatures it is obeyed: it points the unit to one side and to the other, in turns.
+// Pure; deterministic by its seed and the times it is given.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,11 @@
 #include "tools/sim/relay_queue.h"
 
 namespace ols::sim {
+
+// Where the obeyed ones point at this instant: +- kSwing_rad, for kSwing_us each.
+constexpr double kSwing_rad = 1.4;
+constexpr std::int64_t kSwing_us = 4'000'000;
+double swing_goal_rad(std::int64_t utime_us);
 
 class CommandFlood {
  public:

@@ -39,7 +39,7 @@ void define(CLI::App& app, Options& o) {
       ->capture_default_str();
   auto* commands =
       app.add_option("--commands", o.commanded,
-                     "send forged commands to this station instead, none of which it may obey");
+                     "send forged commands to this station instead: most refused, some obeyed");
   app.add_option("--unknown", o.unknown,
                  "send instead one message each on so many channels that nobody knows, and end")
       ->check(CLI::Range(1, 1'000'000'000))

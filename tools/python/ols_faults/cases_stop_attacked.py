@@ -3,9 +3,10 @@
 import subprocess
 import threading
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from functools import partial
+from typing import Any
 
 import numpy as np
 import ols_msg
@@ -27,25 +28,41 @@ SWING_DEG = 80.0
 FAST_DEG_S = 50.0
 CTL_S = 6.0  # ols-ctl itself gives up before
 FLOOD_HZ = 20_000
+FLOOD_GOAL_DEG = np.degrees(1.4)  # kSwing_rad, kSwing_us in tools/sim/command_flood.h
+FLOOD_SWING_US = 4_000_000
+AFTER_S = 1.3
 PAIRS_HZ = 500
 
 
-def swing(session: Session, station: str) -> bool:
+def swung_by_hand(session: Session, station: str) -> bool:
     """To the side that is further off; whether it got fast."""
     status = session.status(station)
     side = -1.0 if status.pan_rad > 0 else 1.0
     deadline = time.monotonic() + 6.0
-    while time.monotonic() < deadline:  # an operator who tries again: it is under attack
+    while time.monotonic() < deadline:  # an operator who tries again: a stop holds for a moment
         session.command(station, POINT, float(np.radians(side * SWING_DEG)), status.tilt_rad)
-        found = session.wait(lambda: session.speed_deg_s(station) > FAST_DEG_S, 1.5)
+        found = session.wait(lambda: session.speed_deg_s(station) > FAST_DEG_S, 1.2)
         if found is not None:
             return True
     return False
 
 
-def stop_once(session: Session, station: str) -> dict[str, object]:
-    """Swings, has `ols-ctl STATION stop` do its work, and notes when that was."""
-    fast = swing(session, station)
+def swung_by_the_flood(session: Session, station: str) -> bool:
+    """The forged commands that are obeyed swing it: whether it got fast, with a way to go yet."""
+
+    def has_far_to_go() -> bool:
+        pan_deg = np.degrees(session.heard.ptus[station][-1].pan_rad[-1])
+        goal_deg = FLOOD_GOAL_DEG * (1 if session.now_us() // FLOOD_SWING_US % 2 == 0 else -1)
+        return abs(goal_deg - pan_deg) > 55.0 and session.speed_deg_s(station) > FAST_DEG_S
+
+    return session.wait(has_far_to_go, 10.0) is not None
+
+
+def stop_once(
+    session: Session, station: str, swung: Callable[[Session, str], bool]
+) -> dict[str, Any]:
+    """Has `ols-ctl STATION stop` do its work while the PTU swings, and notes when that was."""
+    fast = swung(session, station)
     heard_before = len(session.bus.stops_us.get(station, []))
     program = session.wiring.program("ols-ctl")
     started_us = session.now_us()
@@ -55,13 +72,13 @@ def stop_once(session: Session, station: str) -> dict[str, object]:
         session.wait(lambda: process.poll() is not None, CTL_S)
         if process.poll() is None:
             process.kill()
-    session.wait(lambda: session.speed_deg_s(station) < 0.5, 2.0)
+    # At rest, as long as a stop holds against everybody.
+    session.wait(lambda: session.now_us() - started_us > 1e6 * AFTER_S, AFTER_S)
     sent = session.bus.stops_us.get(station, [])[heard_before:]
     return {
         "fast": fast,
         "started_us": started_us,
         "sent_us": sent[0] if sent else None,
-        "ended_us": session.now_us(),
         "status": process.returncode,
     }
 
@@ -118,21 +135,35 @@ def one_dies(evidence: Evidence) -> None:
     evidence["stops"][-1]["status"] = -11
 
 
-def do(session: Session, evidence: Evidence, attack: object) -> None:
+def release(session: Session, station: str) -> bool:
+    """An operator who tries again: a stop holds for a moment. Whether it is released."""
+    if session.state(station) in ("stopped", "manual"):
+        session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
+        session.run(0.6)
+        return False
+    return True
+
+
+def do(
+    session: Session,
+    evidence: Evidence,
+    attack: Callable[[Session, str, Evidence], AbstractContextManager[None]],
+    swung: Callable[[Session, str], bool],
+) -> None:
     station = evidence["station"] = session.stations[1]
     status = session.status(station)
     session.command(station, POINT, status.pan_rad, status.tilt_rad)
     session.wait(lambda: session.state(station) == "manual", 3.0)
-    stops: list[dict[str, object]] = []
-    with attack(session, station, evidence):
+    stops: list[dict[str, Any]] = []
+    with session.without_log(), attack(session, station, evidence):
         session.run(0.5)
         for _ in range(STOPS):
-            stops.append(stop_once(session, station))
+            stops.append(stop_once(session, station, swung))
             if session.ended() or not any(stop["fast"] for stop in stops[-3:]):
                 break  # there is nothing (left) to stop
     evidence["stops"] = stops
     evidence["freed_us"] = session.now_us()
-    session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
+    session.wait(lambda: release(session, station), 5.0)
     session.wait_for_tracking(station, evidence["freed_us"], 15.0)
 
 
@@ -181,10 +212,10 @@ case(
     f"{STOPS} times `ols-ctl STATION stop` at full speed, under {FLOOD_HZ} forged commands/s",
     CRITERION,
     partial(judge, least_hz=0.9 * FLOOD_HZ),
-)(partial(do, attack=forged_commands))
+)(partial(do, attack=forged_commands, swung=swung_by_the_flood))
 case(
     "stop-under-fragments",
     f"the same under the two datagrams that ended every process, {PAIRS_HZ} times a second",
     CRITERION,
     partial(judge, least_hz=0.9 * PAIRS_HZ),
-)(partial(do, attack=fragment_pairs))
+)(partial(do, attack=fragment_pairs, swung=swung_by_hand))

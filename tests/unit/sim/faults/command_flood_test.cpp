@@ -42,9 +42,9 @@ TEST(CommandFlood, SpeaksOnTheChannelsOfOneStation) {
   EXPECT_NEAR(seen.at("OLS_DESIGNATE_alfa"), kMany / 4, kMany / 20);
 }
 
-TEST(CommandFlood, NothingThatAStationMayObey) {
+TEST(CommandFlood, WhatAStationMayObeyIsAFewPointsToAndFro) {
   CommandFlood flood("alfa", 2);
-  int valid = 0, damaged = 0;
+  int valid = 0, damaged = 0, obeyed = 0;
   std::set<std::int64_t> senders;
   for (int i = 0; i < kMany; ++i) {
     const Packet packet = flood.next(kNow_us);
@@ -59,13 +59,17 @@ TEST(CommandFlood, NothingThatAStationMayObey) {
       ++valid;
       senders.insert(m.boot_id);
       EXPECT_EQ(m.command, kPoint);
-      EXPECT_GT(m.tilt_rad, 1.0);
+      if (m.tilt_rad > 1.0) continue;
+      ++obeyed;
+      EXPECT_EQ(m.pan_rad, swing_goal_rad(kNow_us));
     } else if (packet.channel == "OLS_DESIGNATE_alfa") {
       ols_msg::designate_t m;
       const bool whole = decodes(packet, m);
       EXPECT_TRUE(!whole || m.x_px > 1e5);
     }
   }
+  EXPECT_NEAR(obeyed, kMany / 18, kMany / 100);
+  EXPECT_EQ(swing_goal_rad(kNow_us), -swing_goal_rad(kNow_us + kSwing_us));
   EXPECT_GT(damaged, kMany / 40);
   EXPECT_GT(valid, kMany / 20);
   EXPECT_GT(senders.size(), 900U);  // each from another sender: a memory of senders fills up
