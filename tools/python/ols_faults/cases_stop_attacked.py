@@ -51,9 +51,13 @@ def swung_by_the_flood(session: Session, station: str) -> bool:
     """The forged commands that are obeyed swing it: whether it got fast, with a way to go yet."""
 
     def has_far_to_go() -> bool:
-        pan_deg = np.degrees(session.heard.ptus[station][-1].pan_rad[-1])
-        goal_deg = FLOOD_GOAL_DEG * (1 if session.now_us() // FLOOD_SWING_US % 2 == 0 else -1)
-        return abs(goal_deg - pan_deg) > 55.0 and session.speed_deg_s(station) > FAST_DEG_S
+        now_us = session.now_us()
+        pan_deg = np.degrees(session.heard.ptus[station][-1].pan_rad)
+        side = 1.0 if now_us // FLOOD_SWING_US % 2 == 0 else -1.0
+        onward = side * (pan_deg[-1] - pan_deg[0]) > 0.0
+        far = side * (side * FLOOD_GOAL_DEG - pan_deg[-1]) > 50.0
+        lasts = now_us % FLOOD_SWING_US < FLOOD_SWING_US - 800_000
+        return onward and far and lasts and session.speed_deg_s(station) > FAST_DEG_S
 
     return session.wait(has_far_to_go, 10.0) is not None
 

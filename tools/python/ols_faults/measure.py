@@ -91,13 +91,18 @@ def braking(recording: Recording, station: str, edge_us: int) -> tuple[float, fl
     """Of a PTU that turns steadily and then brakes: its speed before [deg/s], when it begins to
     brake after the edge [s], and its deceleration [deg/s^2]. A line through the middle of the
     braking, drawn back to the speed before, is far finer than the first slower sample."""
-    before_us = edge_us - 50_000
-    times, angles = ptu_track(recording, station, before_us, edge_us + 2_500_000)
-    times = times - 0.05
+    times, angles = ptu_track(recording, station, edge_us - 150_000, edge_us + 2_500_000)
+    times = times - 0.15
     speed = speeds(times, angles)
     if len(speed) < 50:
         return float("nan"), float("nan"), float("nan")
-    steady = float(np.median(speed[times <= 0.0]))
+    shortly = (times >= -0.05) & (times <= 0.0)
+    if not shortly.any():  # where some of what the shafts did was not heard
+        shortly = times <= 0.0
+    if not shortly.any():
+        return float("nan"), float("nan"), float("nan")
+    steady = float(np.median(speed[shortly]))
+    speed, times = speed[times >= -0.05], times[times >= -0.05]
     slow = np.flatnonzero(speed < 0.3 * steady)
     end = slow[0] if len(slow) else len(speed)
     chosen = np.flatnonzero((speed < 0.85 * steady) & (np.arange(len(speed)) < end))

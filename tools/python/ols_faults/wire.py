@@ -76,8 +76,7 @@ class Ear:
         group, port = address(url)
         ear = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         ear.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        with contextlib.suppress(OSError):
-            ear.setsockopt(socket.SOL_SOCKET, getattr(socket, "SO_RCVBUFFORCE", 33), BUFFER)
+        ear.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER)
         ear.bind(("", port))
         member = struct.pack("4s4s", socket.inet_aton(group), socket.inet_aton("0.0.0.0"))
         ear.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, member)
