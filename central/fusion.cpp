@@ -21,6 +21,7 @@ Fusion::Fusion(const FusionConfig& config)
       time_(config.silence_s),
       clocks_(config.clocks),
       pointing_(config.pointing),
+      strays_(config.strays),
       keeper_(config.keeper),
       planner_(config.slew) {
   if (!make_estimator(config.estimator, config.estimators)) {
@@ -106,6 +107,7 @@ void Fusion::evict(std::map<std::string, Station>::iterator station) {
   time_.forget(station->first);
   clocks_.forget(station->first);
   pointing_.forget(station->first);
+  strays_.forget(station->first);
   keeper_.forget_station(station->first);
   planner_.forget(station->first);
   stations_.erase(station);
@@ -196,6 +198,7 @@ void Fusion::notice_changes(const Sighting& sighting, Station& station) {
   station.calibration_id = sighting.calibration_id;
   if (station.bearings > 0 && station.boot_id != sighting.boot_id) {
     keeper_.forget_followed(sighting.station);
+    strays_.forget(sighting.station);
     station.follows = 0;
     ++counters_["stations_restarted"];
   }
@@ -213,6 +216,7 @@ SightingRefusal Fusion::associate(const Sighting& sighting, Station& station) {
     station.follows = result.track_id;
     station.followed_us = sighting.utime_us;
   }
+  note_stray(sighting, result);
   if (result.kind == Association::Kind::kAmbiguous) return SightingRefusal::kNone;
   std::optional<Eigen::Vector2d> off_rad;
   if (!explained) {
@@ -226,6 +230,20 @@ SightingRefusal Fusion::associate(const Sighting& sighting, Station& station) {
     last_error_ = "station " + sighting.station + ": quarantined, " + why;
   }
   return explained || why.empty() ? SightingRefusal::kNone : SightingRefusal::kQuarantine;
+}
+
+// A track that is only born explains nothing yet, nor does it deny.
+void Fusion::note_stray(const Sighting& sighting, const Association& result) {
+  const bool by_none =
+      result.kind == Association::Kind::kUnexplained || result.kind == Association::Kind::kSetAside;
+  if (!by_none) {
+    const bool by_born = result.kind == Association::Kind::kTrack && result.track_id == 0;
+    if (!by_born) strays_.agrees(sighting.station);
+  } else if (!std::ranges::any_of(keeper_.tracks(), is_sure)) {
+    strays_.agrees(sighting.station);
+  } else if (sighting.track_id != 0) {
+    strays_.strays(sighting.station, sighting.utime_us);
+  }
 }
 
 void Fusion::refuse(SightingRefusal refusal, const Sighting& sighting) {
@@ -246,6 +264,7 @@ void Fusion::notice_step_back() {
   planner_.clear();
   clocks_.clear();
   pointing_.clear();
+  strays_.clear();
   for (auto& [name, station] : stations_) {
     time_.trust(name, true);
     station.follows = 0;

@@ -20,6 +20,7 @@
 #include "central/pointing_monitor.h"
 #include "central/sighting_check.h"
 #include "central/slew_planner.h"
+#include "central/stray_monitor.h"
 #include "central/track_keeper.h"
 
 namespace ols {
@@ -42,6 +43,7 @@ struct FusionConfig {
   SlewConfig slew{};
   ClockMonitorConfig clocks{};
   PointingConfig pointing{};
+  StrayConfig strays{};
 };
 
 // A station that has a target in view which no other one sees: where it is known to lie.
@@ -95,6 +97,7 @@ struct FusionHealth {
   std::int64_t now_us = 0;
   std::vector<StationHealth> stations;     // in the order of their ids
   std::map<std::string, double> counters;  // only go up
+  std::vector<std::string> alarms;         // what is wrong now, in words
   std::string last_error;
 };
 
@@ -153,6 +156,7 @@ class Fusion {
   SightingRefusal store(const Sighting& sighting, Station& station);
   void notice_changes(const Sighting& sighting, Station& station);
   SightingRefusal associate(const Sighting& sighting, Station& station);
+  void note_stray(const Sighting& sighting, const Association& result);
   void refuse(SightingRefusal refusal, const Sighting& sighting);
   void notice_step_back();
   void begin_epoch(std::int64_t now_us);
@@ -173,6 +177,7 @@ class Fusion {
   MessageTime time_;
   ClockMonitor clocks_;
   PointingMonitor pointing_;
+  StrayMonitor strays_;
   TrackKeeper keeper_;
   SlewPlanner planner_;
   std::map<std::int64_t, Object> objects_;  // by target id

@@ -62,8 +62,11 @@ Findings findings_of(const std::vector<Track>& tracks) {
 }  // namespace
 
 FusionHealth Fusion::health() const {
-  FusionHealth health{
-      .now_us = now_us(), .stations = {}, .counters = counters(), .last_error = last_error_};
+  FusionHealth health{.now_us = now_us(),
+                      .stations = {},
+                      .counters = counters(),
+                      .alarms = {},
+                      .last_error = last_error_};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Findings findings = findings_of(keeper_.tracks());
   for (const auto& [name, station] : stations_) {
@@ -80,6 +83,10 @@ FusionHealth Fusion::health() const {
     if (one.quarantine.empty()) one.quarantine = pointing_.quarantine(name);
     const auto found = findings.by_station.find(name);
     if (found != findings.by_station.end()) one.finding = found->second;
+    const std::string alarm = one.quarantine.empty()
+                                  ? strays_.alarm(name, health.now_us)
+                                  : "station " + name + ": not used, " + one.quarantine;
+    if (!alarm.empty()) health.alarms.push_back(alarm);
     health.stations.push_back(std::move(one));
   }
   return health;

@@ -25,8 +25,12 @@ FusionProcess::FusionProcess(const FusionSettings& settings, const FusionProcess
       options_(options),
       fusion_(settings.fusion),
       connector_(settings.lcm_url),
+      present_(settings.slew_clock_tolerance_s),
+      others_(options.boot_id),
       status_s_(clock_monotonic_s()) {
-  for (const char* name : {"slews_withheld", "messages_not_sent"}) counters_[name] = 0.0;
+  for (const char* name :
+       {"targets_withheld", "slews_withheld", "messages_not_sent", "other_fusions"})
+    counters_[name] = 0.0;
   for (int i = 0; i <= static_cast<int>(MessageRefusal::kNoPosition); ++i) {
     counters_[to_string(static_cast<MessageRefusal>(i))] = 0.0;
   }
@@ -60,6 +64,10 @@ void FusionProcess::subscribe() {
                   [this](const BusMessage& message) { on_bearing(message); });
   bus_->subscribe(std::string(kStatusChannel) + ".*",
                   [this](const BusMessage& message) { on_status(message); });
+  // A recording has the status of the fusion that it was recorded with.
+  if (options_.replay) return;
+  bus_->subscribe(std::string(kFusionStatusChannel),
+                  [this](const BusMessage& message) { on_fusion_status(message); });
 }
 
 void FusionProcess::turn() {
@@ -86,7 +94,6 @@ void FusionProcess::look_at_bus() {
   const double now_s = clock_monotonic_s();
   watch_.look(bus_->traffic(), now_s);
   const std::string alarm = watch_.alarm(now_s);
-  if (!alarm.empty()) last_error_ = alarm;
   if (!alarm.empty() && bus_alarm_.empty()) spdlog::warn("{}", alarm);
   bus_alarm_ = alarm;
 }
@@ -108,12 +115,14 @@ void FusionProcess::send_slew(const std::string& channel, const Message& message
 
 std::string FusionProcess::in_one_line() const {
   if (!bus_) return "no bus: " + trouble_;
-  const FusionHealth health = fusion_.health();
+  const FusionHealth health = watched_health();
   std::string line = std::to_string(health.stations.size()) + " stations";
   for (const StationHealth& station : health.stations) {
     if (!station.quarantine.empty()) line += "; " + station.station + " quarantined";
   }
-  if (!health.last_error.empty()) line += "; last error: " + health.last_error;
+  if (!health.alarms.empty()) line += "; " + health.alarms.front();
+  const std::string& error = last_error_.empty() ? health.last_error : last_error_;
+  if (!error.empty()) line += "; last error: " + error;
   return line;
 }
 
@@ -138,6 +147,19 @@ void FusionProcess::on_status(const BusMessage& message) {
   refuse(*place.no_place, message.channel);
 }
 
+void FusionProcess::on_fusion_status(const BusMessage& message) {
+  const auto boot_id =
+      fusion_boot_from(message.payload.data(), static_cast<int>(message.payload.size()));
+  if (const auto* refusal = std::get_if<MessageRefusal>(&boot_id)) {
+    return refuse(*refusal, std::string(kFusionStatusChannel));
+  }
+  const double now_s = clock_monotonic_s();
+  if (others_.hear(std::get<std::int64_t>(boot_id), now_s)) ++counters_["other_fusions"];
+  if (!others_.take_news()) return;
+  last_error_ = others_.alarm(now_s);
+  spdlog::warn("{}", last_error_);
+}
+
 void FusionProcess::refuse(MessageRefusal refusal, const std::string& channel) {
   ++counters_[to_string(refusal)];
   if (refusal == MessageRefusal::kNoPosition) return;  // it will know one day
@@ -160,32 +182,32 @@ void FusionProcess::forget_sequences() {
   sequences_.clear();
 }
 
+// What waited for a standing process is still worked off, so that the tracks go on.
+bool FusionProcess::is_present(std::int64_t utime_us, const char* counter) {
+  if (options_.replay) return true;
+  const double now_s = clock_monotonic_s();
+  if (present_.passes(utime_us, clock_utime_us(), now_s)) return true;
+  ++counters_[counter];
+  if (present_.take_news()) {
+    last_error_ = present_.alarm(now_s);
+    spdlog::warn("{}", last_error_);
+  }
+  return false;
+}
+
 void FusionProcess::publish(const FusionOutput& output) {
   for (const FusedTarget& target : output.targets) {
+    if (!is_present(target.utime_us, "targets_withheld")) continue;
     send(kTargetChannel, to_message(target, next_stamp(kTargetChannel)));
     latencies_s_.push_back(static_cast<double>(clock_utime_us() - target.utime_us) * 1e-6);
     if (latencies_s_.size() > kLatencies) latencies_s_.pop_front();
   }
   for (const FusedTarget& target : output.targets_paper) {
+    if (!is_present(target.utime_us, "targets_withheld")) continue;
     send(kPaperTargetChannel, to_message(target, next_stamp(kPaperTargetChannel)));
   }
-  publish_slews(output.slews);
-}
-
-void FusionProcess::publish_slews(const std::vector<Slew>& slews) {
-  for (const Slew& slew : slews) {
-    const double off_s = static_cast<double>(slew.utime_us - clock_utime_us()) * 1e-6;
-    if (!options_.replay && std::abs(off_s) > settings_.slew_clock_tolerance_s) {
-      ++counters_["slews_withheld"];
-      if (!said_withheld_) {
-        spdlog::warn(
-            "slews withheld: the messages' time is {:.1f} s from this host's clock; "
-            "is this a replay? use --replay",
-            off_s);
-      }
-      said_withheld_ = true;
-      continue;
-    }
+  for (const Slew& slew : output.slews) {
+    if (!is_present(slew.utime_us, "slews_withheld")) continue;
     const std::string channel = std::string(kSlewChannel) + slew.station;
     send_slew(channel, to_message(slew, next_stamp(channel)));
   }
@@ -199,12 +221,32 @@ void FusionProcess::publish_status_when_due() {
   if (std::abs(by_messages_s) < interval_s && now_s - status_s_ < interval_s) return;
   status_message_us_ = fusion_.now_us();
   status_s_ = now_s;
+  FusionHealth health = watched_health();
+  health.last_error = newest_error(health.last_error);
+  send(kFusionStatusChannel,
+       to_message(health, median_latency_s(), next_stamp(kFusionStatusChannel)));
+}
+
+// The fusion's own, and what this process sees beside it.
+FusionHealth FusionProcess::watched_health() const {
+  const double now_s = clock_monotonic_s();
   FusionHealth health = fusion_.health();
   health.counters.insert(counters_.begin(), counters_.end());
   watch_.count(health.counters);
-  if (health.last_error.empty()) health.last_error = last_error_;
-  send(kFusionStatusChannel,
-       to_message(health, median_latency_s(), next_stamp(kFusionStatusChannel)));
+  for (const std::string& alarm :
+       {present_.alarm(now_s), others_.alarm(now_s), watch_.alarm(now_s)}) {
+    if (!alarm.empty()) health.alarms.insert(health.alarms.begin(), alarm);
+  }
+  return health;
+}
+
+// Of the fusion's last error and this process's the one that is new since the last status.
+const std::string& FusionProcess::newest_error(const std::string& of_fusion) {
+  const bool untold = last_error_ != told_error_;
+  if (of_fusion != fusion_error_ && !untold) last_error_ = of_fusion;
+  fusion_error_ = of_fusion;
+  told_error_ = last_error_;
+  return last_error_;
 }
 
 double FusionProcess::median_latency_s() const {

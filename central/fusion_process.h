@@ -13,6 +13,8 @@
 #include "base/bus_watch.h"
 #include "central/fusion_settings.h"
 #include "central/messages.h"
+#include "central/other_fusions.h"
+#include "central/present_watch.h"
 
 namespace ols {
 
@@ -40,9 +42,12 @@ class FusionProcess {
   void send_slew(const std::string& channel, const Message& message);
   void on_bearing(const BusMessage& message);
   void on_status(const BusMessage& message);
+  void on_fusion_status(const BusMessage& message);
   void refuse(MessageRefusal refusal, const std::string& channel);
+  bool is_present(std::int64_t utime_us, const char* counter);
+  FusionHealth watched_health() const;
+  const std::string& newest_error(const std::string& of_fusion);
   void publish(const FusionOutput& output);
-  void publish_slews(const std::vector<Slew>& slews);
   void publish_status_when_due();
   double median_latency_s() const;
   void look_at_bus();
@@ -62,11 +67,14 @@ class FusionProcess {
   std::map<std::string, std::int64_t, std::less<>> sequences_;
   std::int64_t forgotten_sequence_ = 0;  // the greatest of a channel that was forgotten
   std::map<std::string, double> counters_;
-  std::string last_error_;
+  PresentWatch present_;
+  OtherFusions others_;
+  std::string last_error_;  // the newest, of the fusion or of this process
+  std::string told_error_;  // in the last status
+  std::string fusion_error_;
   std::deque<double> latencies_s_;
   std::int64_t status_message_us_ = 0;  // "now" of the last status
   double status_s_ = 0.0;               // this host's monotonic clock at the last status
-  bool said_withheld_ = false;
 };
 
 }  // namespace ols

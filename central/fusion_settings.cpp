@@ -126,6 +126,7 @@ FusionSettings load_fusion_settings(const std::string& path) {
       static_cast<int>(root.integer("max_stations", fusion.max_stations, 2, 100000));
   fusion.estimator =
       root.choice("estimator", fusion.estimator, {"filter", "least-squares", "paper"});
+  fusion.strays.alarm_s = root.number("stray_alarm_s", fusion.strays.alarm_s, 1.0, 3600.0);
   read_alignment(root.table("alignment"), fusion.estimators.alignment);
   read_least_squares(root.table("least_squares"), fusion.estimators.least_squares);
   read_paper(root.table("paper"), fusion.estimators.paper);

@@ -16,6 +16,8 @@
 namespace ols {
 namespace {
 
+constexpr std::size_t kAlarms = 16;  // told in a status
+
 // What every message of a station must fulfil.
 template <class Message>
 std::optional<MessageRefusal> decode_from_station(std::string_view prefix,
@@ -168,6 +170,15 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
   return place;
 }
 
+std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, int bytes) {
+  ols_msg::fusion_status_t message;
+  if (!decode_exactly(data, bytes, message)) return MessageRefusal::kMalformed;
+  if (message.schema_version != ols_msg::fusion_status_t::SCHEMA_VERSION) {
+    return MessageRefusal::kSchema;
+  }
+  return message.boot_id;
+}
+
 ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stamp) {
   ols_msg::target_t message;
   message.utime = target.utime_us;
@@ -240,6 +251,14 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
     message.counter_name.push_back(name);
     message.counter_value.push_back(value);
   }
+  const std::size_t alarms = std::min(health.alarms.size(), kAlarms);
+  message.alarm.assign(health.alarms.begin(),
+                       health.alarms.begin() + static_cast<std::ptrdiff_t>(alarms));
+  if (health.alarms.size() > alarms) {
+    message.alarm.push_back("and " + std::to_string(health.alarms.size() - alarms) +
+                            " more alarms");
+  }
+  message.alarms = static_cast<std::int16_t>(message.alarm.size());
   message.last_error = health.last_error;
   return message;
 }

@@ -41,6 +41,9 @@ struct StationPlace {
 std::variant<StationPlace, MessageRefusal> station_place_from(const std::string& channel,
                                                               const void* data, int bytes);
 
+// Which boot of a fusion the status is of.
+std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, int bytes);
+
 // Who sends, and which message of its channel in this boot it is.
 struct MessageStamp {
   std::int64_t boot_id = 0;

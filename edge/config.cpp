@@ -182,6 +182,9 @@ void read_logic(ConfigTable& table, StationConfig& station) {
       table.number("search_interval_s", station.search_interval_s, 0.0, 60.0);
   read_search_sd(table, station);
   station.acquire_by_slew = table.boolean("acquire_by_slew", station.acquire_by_slew);
+  station.own_target_s = table.number("own_target_s", station.own_target_s, 0.0, 3600.0);
+  station.unacquired_alarm_s =
+      table.number("unacquired_alarm_s", station.unacquired_alarm_s, 1.0, 3600.0);
   station.acquisition_sd_px =
       table.number("acquisition_sd_px", station.acquisition_sd_px, 0.0, 100.0);
   station.prediction_error_px =

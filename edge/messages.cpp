@@ -278,6 +278,7 @@ SlewCommand from_message(const ols_msg::slew_t& message, const Sender& sender, d
   command.effect_s = sender.monotonic_s(message.effect_utime);
   command.received_s = now_s;
   command.lease_s = message.lease_s;
+  command.sender = message.boot_id;
   command.target_id = message.target_id;
   command.direction = {message.azimuth_rad, message.elevation_rad};
   command.azimuth_rate_rad_s = message.azimuth_rate_rad_s;

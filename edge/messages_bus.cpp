@@ -47,12 +47,12 @@ void StationBus::subscribe() {
   const LcmBus::Express stop = [this](const BusMessage& message) {
     return take_stop(message.payload.data(), static_cast<int>(message.payload.size()));
   };
-  for (const auto& [channel, receive] : subscriptions_) {
-    const auto handle = [&receive](const BusMessage& message) {
+  for (const auto& subscription : subscriptions_) {
+    const auto handle = [&receive = subscription.second](const BusMessage& message) {
       receive(message.payload.data(), static_cast<int>(message.payload.size()));
     };
-    const bool may_stop = channel == ptu_channel();
-    bus_->subscribe(channel, handle, kQueue, may_stop ? stop : LcmBus::Express());
+    const bool may_stop = subscription.first == ptu_channel();
+    bus_->subscribe(subscription.first, handle, kQueue, may_stop ? stop : LcmBus::Express());
   }
 }
 

@@ -43,6 +43,7 @@ void Station::enter(StationState state) {
   if (state == state_) return;
   state_ = state;
   acquisition_.clear();
+  if (state == StationState::kTracking) in_view_ = {};
   counters_[std::string("entered_") + to_string(state)] += 1;
   believed_in_a_row_ = 0;
   // At the first frame of a search the tracker is told where to look.
@@ -73,9 +74,9 @@ void Station::on_frame(const Frame& frame, double now_s) {
   if (follows_target()) {
     track(frame);
     drop_unproven(frame.mid_exposure_s);
-  } else if (config_.acquire_by_slew && state_ == StationState::kSlewed) {
-    acquire(frame);
   }
+  note_in_view(frame);
+  if (looks_for_anything()) acquire(frame);
 }
 
 TrackerInput Station::tracker_input(const Frame& frame) const {
@@ -143,6 +144,7 @@ void Station::judge(bool believed, double time_s) {
       if (believed_in_a_row_ >= config_.reacquire_frames) {
         motion_.clear();
         if (template_ == Template::kUnproven) template_ = Template::kAcquired;
+        own_.reset();
         enter(StationState::kTracking);
       }
       break;
@@ -318,6 +320,10 @@ StationSnapshot Station::snapshot() const {
   snapshot.motion_disagrees =
       follows_target() && disagreeing_in_a_row_ >= config_.disagreeing_frames;
   snapshot.pose = pose_;
+  if (auto words = slewed_in_vain(); !words.empty()) snapshot.alarms.push_back(std::move(words));
+  if (slew_senders_.are_several(now_s_)) {
+    snapshot.alarms.emplace_back("commands: slews from two fusions, end one of them");
+  }
   snapshot.counters = counters_;
   return snapshot;
 }

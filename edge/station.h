@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "edge/ptu/angle_history.h"
 #include "edge/ptu/driver.h"
 #include "edge/ptu/servo.h"
+#include "edge/slew_senders.h"
 #include "edge/station_types.h"
 #include "edge/target_tracker.h"
 #include "edge/tracker/acquisition.h"
@@ -27,16 +29,18 @@ struct StationConfig {
   AngleHistory::Config angles;
   PtuLimits limits;
   AngularTrack::Config motion;
-  double designation_sd_px = 1.0;  // how well a designated box is centred on the target
-  double tracking_belief = 0.5;    // at least this to be tracking
-  double coast_s = 0.7;            // on the motion model after the last believed frame
-  int reacquire_frames = 3;        // believed frames in a row that end a search
-  double angle_wait_s = 0.03;      // how long a frame may wait for the PTU sample after it
-  double frame_memory_s = 1.0;     // frames kept for a designation in the past
-  double search_interval_s = 0.5;  // while searching, the tracker is sent to the slew's pixel
-  double search_sd_px = 25.0;      // at least, around that pixel; not above search_sd_most_px()
-  bool acquire_by_slew = true;     // a slewed station without a target looks for one itself
-  double acquisition_sd_px = 3.0;  // how well the box found is centred on the target
+  double designation_sd_px = 1.0;    // how well a designated box is centred on the target
+  double tracking_belief = 0.5;      // at least this to be tracking
+  double coast_s = 0.7;              // on the motion model after the last believed frame
+  int reacquire_frames = 3;          // believed frames in a row that end a search
+  double angle_wait_s = 0.03;        // how long a frame may wait for the PTU sample after it
+  double frame_memory_s = 1.0;       // frames kept for a designation in the past
+  double search_interval_s = 0.5;    // while searching, the tracker is sent to the slew's pixel
+  double search_sd_px = 25.0;        // at least, around that pixel; not above search_sd_most_px()
+  bool acquire_by_slew = true;       // a slewed station without a target looks for one itself,
+  double own_target_s = 5.0;         // one with a target after it has looked for that for so long
+  double unacquired_alarm_s = 10.0;  // slewed for so long without a target: an alarm
+  double acquisition_sd_px = 3.0;    // how well the box found is centred on the target
   // The picture's own motion between two frames may differ so far from that of the PTU's angles.
   double prediction_error_px = 20.0;
   int disagreeing_frames = 5;  // in a row that raise the alarm
@@ -120,6 +124,19 @@ class Station {
   // which is dropped again when it is not believed in soon.
   enum class Template { kNone, kDesignated, kUnproven, kAcquired };
 
+  // What the station looked for before it tries what it has found along a slew.
+  struct OwnTarget {
+    Template kind = Template::kNone;
+    std::int64_t track_id = 0;
+    std::optional<double> tracked_s;
+  };
+  // The time in which a slew has led to a place that is in the picture, by frames.
+  struct InView {
+    static constexpr double kNever = -std::numeric_limits<double>::infinity();
+    double from_s = 0.0, to_s = kNever;
+    double own_from_s = kNever;  // since when it has been the own target that is looked for
+  };
+
   Refusal count(Refusal refusal, const char* command);
   Refusal judge(const SlewCommand& command, double now_s) const;
   void enter(StationState state);
@@ -139,9 +156,13 @@ class Station {
   std::optional<Expected> expected(const Frame& frame) const;
   bool is_where_slewed(const Frame& frame, const TrackerOutput& output) const;
   double search_sd_px() const;
+  void note_in_view(const Frame& frame);
+  bool looks_for_anything() const;
+  std::string slewed_in_vain() const;
   void acquire(const Frame& frame);
   void take(const Frame& frame, const cv::Rect2d& box);
   void drop_unproven(double time_s);
+  void take_back_own(double time_s);
   void compare_motion(const TrackerOutput& output);
   // The PTU angles for a direction, or nothing when the unit cannot point there.
   std::optional<PanTilt> reachable(const AzimuthElevation& direction) const;
@@ -172,11 +193,14 @@ class Station {
   double believed_s_ = 0.0;  // mid-exposure of the last believed frame
   int believed_in_a_row_ = 0;
   double searched_s_ = 0.0;  // when the tracker was last told where to search
-  std::int64_t track_id_ = 0;
+  std::int64_t track_id_ = 0, last_track_id_ = 0;
   Template template_ = Template::kNone;
+  std::optional<OwnTarget> own_;  // while another one is unproven
+  InView in_view_;
   Acquisition acquisition_;
   double acquired_s_ = 0.0;  // mid-exposure of the frame with the box found
   std::optional<SlewCommand> slew_;
+  SlewSenders slew_senders_;
   std::optional<ServoGoal> point_;
   double now_s_ = 0.0;  // of the last step
   double frame_latency_s_ = 0.0;

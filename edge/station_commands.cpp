@@ -59,8 +59,9 @@ Refusal Station::designate(const DesignateCommand& command, double now_s) {
   if (start == nullptr) return count(Refusal::kNoFrame, "designate");
   const TrackerInput first{start->gray, start->mid_exposure_s, std::nullopt};
   if (tracker_->initialise(first, command.box)) return count(Refusal::kTracker, "designate");
-  track_id_ += 1;
+  track_id_ = ++last_track_id_;
   template_ = Template::kDesignated;
+  own_.reset();
   tracked_s_ = believed_s_ = start->mid_exposure_s;
   last_output_.reset();
   motion_.clear();
@@ -94,6 +95,7 @@ Refusal Station::slew(const SlewCommand& command, double now_s) {
   const Refusal refusal = judge(command, now_s);
   if (refusal != Refusal::kNone) return count(refusal, "slew");
   slew_ = command;
+  slew_senders_.note(command.sender, now_s_);
   if (state_ == StationState::kIdle || state_ == StationState::kLost) {
     enter(StationState::kSlewed);
   }
@@ -192,6 +194,7 @@ void Station::forget_angles() {
   motion_.clear();
   waiting_.clear();
   tracked_s_.reset();
+  if (own_) own_->tracked_s.reset();
   slew_.reset();
   point_.reset();
   if (state_ == StationState::kTracking || state_ == StationState::kCoasting) {

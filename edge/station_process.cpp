@@ -218,6 +218,7 @@ StationReport StationProcess::report(const ClockPair& now) {
   report.limits_known = ptu.port_open && ptu.state == PtuState::kReady;
   report.snapshot = station_.snapshot();
   report.devices = devices_.reports();
+  report.alarms = report.snapshot.alarms;
   if (report.snapshot.state == StationState::kEmergency) {
     report.alarms.push_back(emergency_alarm());
   }

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "edge/camera/frame.h"
 #include "edge/ptu/angle_history.h"
@@ -49,6 +50,7 @@ struct SlewCommand {
   double effect_s = 0.0;  // the instant at which the direction holds
   double received_s = 0.0;
   double lease_s = 0.0;
+  std::int64_t sender = 0;  // the boot of the fusion that sent it
   std::int64_t target_id = 0;
   AzimuthElevation direction;  // at the camera centre
   double azimuth_rate_rad_s = 0.0;
@@ -93,6 +95,7 @@ struct StationSnapshot {
   double frame_latency_s = 0.0;                           // mid-exposure to bearing, smoothed
   bool motion_disagrees = false;  // the picture moves otherwise than the PTU's angles say
   StationPose pose;
+  std::vector<std::string> alarms;         // what a person should do something about
   std::map<std::string, double> counters;  // only go up; state times are "seconds_<state>"
 };
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "edge/tracker/tracker.h"
 
@@ -16,11 +17,16 @@ class TargetTracker {
                                                  const cv::Rect2d& box) = 0;
   virtual TrackerResult track(const TrackerInput& frame) = 0;
   virtual void search_near(const Eigen::Vector2d& pixel, double sd_px) = 0;
+  // Puts the target aside, in place of one that was; initialise() begins another one then.
+  virtual void set_aside() = 0;
+  // Goes on with the one that was put aside; once.
+  virtual void take_back() = 0;
 };
 
 class ParticleFilterTracker : public TargetTracker {
  public:
-  ParticleFilterTracker(const TrackerConfig& config, std::uint64_t seed) : tracker_(config, seed) {}
+  ParticleFilterTracker(const TrackerConfig& config, std::uint64_t seed)
+      : config_(config), seed_(seed), tracker_(config, seed) {}
   std::optional<TrackerError> initialise(const TrackerInput& frame,
                                          const cv::Rect2d& box) override {
     return tracker_.initialise(frame, box);
@@ -29,9 +35,17 @@ class ParticleFilterTracker : public TargetTracker {
   void search_near(const Eigen::Vector2d& pixel, double sd_px) override {
     tracker_.search_near(pixel, sd_px);
   }
+  void set_aside() override { aside_ = std::exchange(tracker_, Tracker(config_, seed_)); }
+  void take_back() override {
+    if (aside_) tracker_ = std::move(*aside_);
+    aside_.reset();
+  }
 
  private:
+  TrackerConfig config_;
+  std::uint64_t seed_;
   Tracker tracker_;
+  std::optional<Tracker> aside_;
 };
 
 }  // namespace ols

@@ -33,4 +33,12 @@ std::string wrong_with(const RecordCommand& command, const RecorderConfig& confi
   return {};
 }
 
+bool RecordRate::admit(double now_s) {
+  left_ = std::min(kMostAtOnce, left_ + (now_s - at_s_) / kAnother_s);
+  at_s_ = now_s;
+  if (left_ < 1.0) return false;
+  left_ -= 1.0;
+  return true;
+}
+
 }  // namespace ols

@@ -34,9 +34,7 @@ constexpr double kSurvey_s = 2.0;       // the disk is looked at so often
 constexpr double kRetry_s = 2.0;        // until an event that could not be finished is tried again
 constexpr double kAtEnd_s = 5.0;        // for what is unwritten when the station stops
 constexpr std::size_t kMostEvents = 4;  // at the same time
-constexpr double kMostAtOnce = 8.0;     // recordings; then one more each kAnother_s
-constexpr double kAnother_s = 10.0;
-constexpr int kNice = 10;  // the control loop goes first
+constexpr int kNice = 10;               // the control loop goes first
 
 struct Event {
   std::string label;
@@ -101,15 +99,6 @@ struct Recorder::Impl {
     return bytes;
   }
 
-  // Whoever asks again and again gets a few.
-  bool too_many(double now_s) {
-    tokens = std::min(kMostAtOnce, tokens + (now_s - tokens_s) / kAnother_s);
-    tokens_s = now_s;
-    if (tokens < 1.0) return true;
-    tokens -= 1.0;
-    return false;
-  }
-
   std::string refusal_of_more(const RecordCommand& command, double now_s) {
     const double wanted = expected_bytes(command);
     if (good_s && wanted + still_to_write() > room_bytes) {
@@ -117,7 +106,7 @@ struct Recorder::Impl {
       wanted_bytes = wanted;
       return "no room for " + std::to_string(std::llround(wanted * 1e-6)) + " MB";
     }
-    if (!too_many(now_s)) return {};
+    if (rate.admit(now_s)) return {};
     ++refused_too_many;
     return "too many recordings in a short time";
   }
@@ -352,7 +341,7 @@ struct Recorder::Impl {
   std::optional<double> good_s;
   double free_bytes = 0.0, stored_bytes = 0.0, room_bytes = 0.0;
   double wanted_bytes = 0.0;  // of the last recording, where there was no room for it
-  double tokens = kMostAtOnce, tokens_s = 0.0;
+  RecordRate rate;
   std::size_t stored_events = 0;
   std::uint64_t errors = 0, frames_written = 0, frames_dropped = 0, events_written = 0,
                 events_failed = 0, events_removed = 0, refused = 0, refused_no_room = 0,

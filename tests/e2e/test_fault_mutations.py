@@ -241,11 +241,12 @@ def test_motion_that_nobody_asked_for_is_excess(motion, least):
 def test_swings_that_are_put_in_are_seen():
     recording, window = flight(follows)
     evidence = Evidence(recording, [STATION], {"ended": []})
-    mutations.swings(STATION, window, 46.0).alter(evidence)
-    assert pursuit.excess_deg_s(evidence.heard, STATION, *window) > 10.0
+    swinging, pushed = evidence.copy(), evidence.copy()
+    mutations.swings(STATION, window, 46.0).alter(swinging)
+    assert pursuit.excess_deg_s(swinging.heard, STATION, *window) > 10.0
     assert pursuit.acceleration_deg_s2(recording, STATION, *window) < 5.0
-    mutations.jerks(STATION, window, 170.0).alter(evidence)
-    assert pursuit.acceleration_deg_s2(evidence.heard, STATION, *window) > 100.0
+    mutations.jerks(STATION, window, 170.0).alter(pushed)
+    assert pursuit.acceleration_deg_s2(pushed.heard, STATION, *window) > 100.0
 
 
 # The bus as bare datagrams.

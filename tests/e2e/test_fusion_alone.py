@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import signal
 import time
 
 import lcm
@@ -47,6 +48,7 @@ class FusionAlone:
         self.wrong_us = {}  # of one station's stamps from the others'
         self.clock_error_s = {}  # that a station states
         self.slews = 0
+        self.ages_s = []  # of the targets with a position, when they were heard
         self.observer = Observer()
         self.lcm = lcm.LCM(LIVE_URL)
         # Not the bearings: some of them cannot be decoded.
@@ -54,7 +56,10 @@ class FusionAlone:
         self.lcm.subscribe("OLS_SLEW_.+", self.count_slew)
 
     def receive(self, channel, data):
-        self.observer.receive(channel, decode(channel, data))
+        message = decode(channel, data)
+        self.observer.receive(channel, message)
+        if channel == "OLS_TARGET" and message.solution == ols_msg.target_t.SOLUTION_OK:
+            self.ages_s.append(time.time() - 1e-6 * message.utime)
 
     def count_slew(self, _channel, _data):
         self.slews += 1
@@ -78,6 +83,10 @@ class FusionAlone:
 
     def count(self, name):
         return counters(self.observer.fusion).get(name, 0.0) if self.observer.fusion else 0.0
+
+    def alarms(self, words):
+        status = self.observer.fusion
+        return [alarm for alarm in status.alarm if words in alarm] if status else []
 
     def located(self):
         target = self.observer.target.get("OLS_TARGET")
@@ -148,14 +157,51 @@ def test_a_station_that_marks_its_stepped_clock_is_quarantined_alone(fusion, ste
     )
 
 
-def test_old_messages_move_nothing(fusion):
-    """Without --replay, what is an hour old is located but nobody is slewed by it."""
+def test_old_messages_move_and_tell_nothing(fusion):
+    """Without --replay, what is an hour old is neither told as a target nor slewed by; and said."""
     fusion.offset_us = -HOUR_US
     fusion.feed_until(lambda: fusion.count("slews_withheld") > 10, "slews withheld")
-    assert fusion.located()
+    fusion.feed_until(lambda: fusion.count("targets_withheld") > 10, "targets withheld")
+    fusion.feed_until(lambda: fusion.alarms("-3600.0 s from this host's clock"), "an alarm")
+    assert "host's clock" in fusion.observer.fusion.last_error
+    assert not fusion.observer.target
     assert fusion.slews == 0
     log = (fusion.site.logs / "fusion.log").read_text()
     assert log.count("use --replay") == 1
+
+
+def test_after_a_standstill_nothing_old_is_told(fusion):
+    """A closed lid: what has waited is worked off, and what is made of it withheld."""
+    stands_s = 6.0
+    fusion.feed_until(fusion.located, "a target")
+    fusion.site.processes["fusion"].send_signal(signal.SIGSTOP)
+    end = time.monotonic() + stands_s
+    fusion.feed_until(lambda: time.monotonic() > end, "the standstill")
+    fusion.ages_s.clear()
+    fusion.site.processes["fusion"].send_signal(signal.SIGCONT)
+    fusion.feed_until(lambda: len(fusion.ages_s) > 30, "targets again")
+    assert max(fusion.ages_s) < 2.5
+    fusion.feed_until(lambda: fusion.count("targets_withheld") > 10, "targets withheld")
+    assert "host's clock" in fusion.observer.fusion.last_error
+    fusion.feed_until(lambda: not fusion.alarms("host's clock"), "the end of the alarm")
+
+
+def test_two_fusions_say_so(fusion):
+    fusion.feed_until(lambda: fusion.observer.fusion is not None, "a status")
+    assert not fusion.observer.fusion.alarm
+    fusion.site.start_and_wait("other", [str(BIN / "ols-fusion"), "--lcm-url", LIVE_URL], "ready")
+    told = set()
+
+    def both_tell():
+        if fusion.alarms("another fusion") and fusion.count("other_fusions") > 0:
+            told.add(fusion.observer.fusion.boot_id)
+        return len(told) == 2
+
+    fusion.feed_until(both_tell, "the alarm of both")
+    assert "another fusion" in fusion.observer.fusion.last_error
+    assert "another fusion" in (fusion.site.logs / "fusion.log").read_text()
+    assert fusion.site.stop("other") == 0
+    fusion.feed_until(lambda: not fusion.alarms("another fusion"), "the end of the alarm")
 
 
 def test_replay_slews_on_a_bus_of_its_own(network, tmp_path):

@@ -11,6 +11,7 @@
 #include "central/messages.h"
 #include "edge/messages_bus.h"
 #include "tests/fuzz/fuzz_input.h"
+#include "tests/fuzz/no_tracker.h"
 #include "tools/ctl/heard_status.h"
 #include "tools/logger/log_writer.h"
 
@@ -19,16 +20,6 @@ namespace {
 constexpr double kNow_s = 1000.0;
 constexpr std::int64_t kNow_us = 1'700'000'000'000'000;
 constexpr ols::QueueLimits kLimits{.messages = 16, .bytes = 20'000};
-
-class NoTracker final : public ols::TargetTracker {
- public:
-  std::optional<ols::TrackerError> initialise(const ols::TrackerInput&,
-                                              const cv::Rect2d&) override {
-    return std::nullopt;
-  }
-  ols::TrackerResult track(const ols::TrackerInput&) override { return {}; }
-  void search_near(const Eigen::Vector2d&, double) override {}
-};
 
 ols::StationSettings settings() {
   ols::StationSettings made;
@@ -89,7 +80,7 @@ std::string datagram_of(ols::fuzz::Input& input) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const ols::StationSettings kSettings = settings();
   static Recorder recorder;
-  ols::Station station(kSettings.station, std::make_unique<NoTracker>());
+  ols::Station station(kSettings.station, std::make_unique<ols::fuzz::NoTracker>());
   ols::StationBus station_bus(kSettings, 1, station,
                               [](const ols::RecordCommand&) { return std::string(); });
   station_bus.set_time({kNow_s, kNow_us}, {});

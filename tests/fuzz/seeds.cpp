@@ -99,6 +99,8 @@ ols_msg::fusion_status_t fusion_status() {
   message.counters = 1;
   message.counter_name = {"targets"};
   message.counter_value = {3.0};
+  message.alarms = 1;
+  message.alarm = {"another fusion is on the bus: end one of them"};
   return message;
 }
 

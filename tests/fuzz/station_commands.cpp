@@ -4,21 +4,12 @@
 
 #include "edge/messages_bus.h"
 #include "tests/fuzz/fuzz_input.h"
+#include "tests/fuzz/no_tracker.h"
 
 namespace {
 
 constexpr double kNow_s = 1000.0;
 constexpr std::int64_t kNow_us = 1'700'000'000'000'000;
-
-class NoTracker final : public ols::TargetTracker {
- public:
-  std::optional<ols::TrackerError> initialise(const ols::TrackerInput&,
-                                              const cv::Rect2d&) override {
-    return std::nullopt;
-  }
-  ols::TrackerResult track(const ols::TrackerInput&) override { return {}; }
-  void search_near(const Eigen::Vector2d&, double) override {}
-};
 
 ols::StationSettings settings() {
   ols::StationSettings made;
@@ -43,7 +34,7 @@ void check_goal(const ols::Station& station, const ols::PtuLimits& limits, doubl
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size > 4096) return 0;
   static const ols::StationSettings kSettings = settings();
-  ols::Station station(kSettings.station, std::make_unique<NoTracker>());
+  ols::Station station(kSettings.station, std::make_unique<ols::fuzz::NoTracker>());
   station.set_reference(ols::PtuReference::kTrusted);
   station.on_angles({kNow_s - 0.02, 1e-4, {0.0, 0.0}, {}});
   ols::StationBus bus(kSettings, 1, station,

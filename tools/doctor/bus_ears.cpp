@@ -101,8 +101,9 @@ BusHeard listen(const std::string& lcm_url, double seconds) {
     });
     bus.subscribe("OLS_FUSION_STATUS", [&](const BusMessage& message) {
       ols_msg::fusion_status_t status;
-      const bool decoded = decode_exactly(message, status);
-      if (decoded && fusions.size() < kMostBoots) fusions.insert(status.boot_id);
+      if (!decode_exactly(message, status)) return;
+      if (fusions.size() < kMostBoots) fusions.insert(status.boot_id);
+      heard.fusion_alarms = status.alarm;
     });
     const double end_s = clock_monotonic_s() + seconds;
     while (clock_monotonic_s() < end_s) bus.handle(kPoll_ms);

@@ -36,6 +36,7 @@ struct BusHeard {
   std::int64_t rmem_max = 0;  // net.core.rmem_max [byte]; 0: not known
   std::map<std::string, StationHeard> stations;
   int fusions = 0;
+  std::vector<std::string> fusion_alarms;
 };
 
 struct SerialFacts {

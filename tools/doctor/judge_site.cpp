@@ -104,6 +104,9 @@ Findings judge_company(const BusHeard& bus, const std::string& own) {
   } else {
     findings.push_back(ok("fusion: heard"));
   }
+  for (const std::string& alarm : bus.fusion_alarms) {
+    findings.push_back(warn("fusion: alarm: " + alarm, "docs/operations.md lists the alarms"));
+  }
   return findings;
 }
 

@@ -117,6 +117,7 @@ std::size_t Lockstep::index_of(const std::string& station) const {
 
 LockstepResult Lockstep::result() const {
   LockstepResult result = result_;
+  result.alarms = fusion_.health().alarms;
   for (const auto& station : stations_) result.stations.push_back(station->record());
   return result;
 }

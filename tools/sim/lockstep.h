@@ -27,7 +27,8 @@ struct Fix {
 struct LockstepResult {
   std::vector<Fix> joint, paper;
   std::vector<StationRecord> stations;
-  double designated_s = -1.0;  // when the last station that is to be was; < 0: not all were
+  std::vector<std::string> alarms;  // of the fusion at the end
+  double designated_s = -1.0;       // when the last station that is to be was; < 0: not all were
 };
 
 class Lockstep {

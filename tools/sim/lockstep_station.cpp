@@ -110,8 +110,8 @@ void LockstepStation::expose(double time_s) {
   const ViewTruth view =
       renderer_ ? renderer_->draw(exposure, frame.gray) : view_truth(world_, index_, exposure);
   views_.add(stamp_s, view);
-  seen_.push_back({mid_s, stamp_s, view});
-  if (mid_s - seen_.front().mid_s > 1.0) seen_.pop_front();
+  seen_.push_back({stamp_s, exposure, view});
+  if (mid_s - seen_.front().exposure.mid_s > 1.0) seen_.pop_front();
   station_.on_frame(frame);
   if (designated_ || left_alone_) take_note(mid_s, view);
 }
@@ -119,8 +119,8 @@ void LockstepStation::expose(double time_s) {
 void LockstepStation::take_note(double mid_s, const ViewTruth& view) {
   const CameraIntrinsics& camera = config_.geometry.camera;
   const StationSnapshot snapshot = station_.snapshot();
-  FrameNote note{mid_s,       snapshot.state, snapshot.belief, view, inside_third(camera, view),
-                 std::nullopt};
+  FrameNote note{mid_s,        snapshot.state, snapshot.belief, view, inside_third(camera, view),
+                 std::nullopt, snapshot.alarms};
   if (snapshot.state == StationState::kTracking && snapshot.target_offset_px) {
     note.error_px =
         *snapshot.target_offset_px + Eigen::Vector2d(camera.cx_px, camera.cy_px) - view.centre_px;
@@ -160,20 +160,35 @@ bool LockstepStation::stands_since(double from_s, double time_s) const {
 void LockstepStation::designate_seen(double time_s) {
   constexpr double kMargin_px = 60.0;
   const auto frame = std::find_if(seen_.rbegin(), seen_.rend(), [&](const Seen& seen) {
-    return time_s - seen.mid_s >= kOperatorDelay_s;
+    return time_s - seen.exposure.mid_s >= kOperatorDelay_s;
   });
   if (frame == seen_.rend() || !frame->view.visible || !seen_.back().view.visible) return;
-  if (!stands_since(frame->mid_s - kStill_s, time_s)) return;
+  if (!stands_since(frame->exposure.mid_s - kStill_s, time_s)) return;
   const Eigen::Vector2d c = frame->view.centre_px;
   const auto& camera = config_.geometry.camera;
   if (c.x() < kMargin_px || c.y() < kMargin_px || c.x() > camera.width_px - kMargin_px ||
       c.y() > camera.height_px - kMargin_px) {
     return;
   }
-  cv::Rect2d box = frame->view.box;
-  box.x += config_.designation_sd_px * normal_(generator_);
-  box.y += config_.designation_sd_px * normal_(generator_);
-  designated_ = station_.designate({frame->stamp_s, box}, monotonic_s(time_s)) == Refusal::kNone;
+  auto box = marked(*frame);
+  if (!box) return;
+  box->x += config_.designation_sd_px * normal_(generator_);
+  box->y += config_.designation_sd_px * normal_(generator_);
+  designated_ = station_.designate({frame->stamp_s, *box}, monotonic_s(time_s)) == Refusal::kNone;
+}
+
+// The target's box, or what this operator takes for it; nothing: it is not in the picture.
+std::optional<cv::Rect2d> LockstepStation::marked(const Seen& seen) const {
+  const std::string& id = world_.stations()[index_].id;
+  const auto wrong = std::ranges::find(fidelity_.misdesignated, id, &Misdesignation::station);
+  if (wrong == fidelity_.misdesignated.end()) return seen.view.box;
+  const ViewTruth view = view_truth(world_, index_, seen.exposure, wrong->target);
+  if (!view.visible) return std::nullopt;
+  const cv::Rect2d& box = view.box;
+  const double grown = 0.5 * (wrong->scale - 1.0);
+  return cv::Rect2d(box.x + wrong->off_px.x() - grown * box.width,
+                    box.y + wrong->off_px.y() - grown * box.height, wrong->scale * box.width,
+                    wrong->scale * box.height);
 }
 
 Refusal LockstepStation::slew(SlewCommand command, double time_s) {

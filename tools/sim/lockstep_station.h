@@ -20,10 +20,19 @@
 
 namespace ols::sim {
 
+// What the operator marks at one station in place of the first target.
+struct Misdesignation {
+  std::string station;
+  std::size_t target = 0;                            // of the scenario; its box,
+  Eigen::Vector2d off_px = Eigen::Vector2d::Zero();  // beside it by this,
+  double scale = 1.0;                                // and so many times as large
+};
+
 struct Fidelity {
   bool pictures = true;  // false: the pixel is the truth with noise of this deviation
   double pixel_sd_px = 0.3;
   std::vector<std::string> not_designated = {};  // stations that the operator leaves alone
+  std::vector<Misdesignation> misdesignated = {};
 };
 
 // One frame after the designation, or of a station that is left alone: what the station made of it,
@@ -35,6 +44,7 @@ struct FrameNote {
   ViewTruth view;
   bool inside_third = false;                // the target is inside the central third, both ways
   std::optional<Eigen::Vector2d> error_px;  // of the pixel measured, while tracking
+  std::vector<std::string> alarms;          // of the station's own decisions
 };
 
 struct StationRecord {
@@ -62,12 +72,18 @@ class LockstepStation {
   bool left_alone() const { return left_alone_; }
 
  private:
+  struct Seen {  // by the operator
+    double stamp_s = 0.0;
+    ExposureTruth exposure;
+    ViewTruth view;
+  };
   void exchange_bytes(double time_s);
   void expose(double time_s);
   void take_note(double mid_s, const ViewTruth& view);
   void operate(double time_s);
   void point_roughly(double time_s);
   void designate_seen(double time_s);
+  std::optional<cv::Rect2d> marked(const Seen& seen) const;
   bool stands_since(double from_s, double time_s) const;
 
   const World& world_;
@@ -86,10 +102,6 @@ class LockstepStation {
   std::int64_t next_frame_ = 0;
 
   // The operator.
-  struct Seen {
-    double mid_s = 0.0, stamp_s = 0.0;
-    ViewTruth view;
-  };
   std::deque<Seen> seen_;
   PanTilt aiming_error_;
   double ready_s_ = -1.0, pointed_s_ = -1.0;

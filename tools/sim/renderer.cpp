@@ -87,9 +87,10 @@ void develop_row(const std::vector<std::uint16_t>& column_gain, std::uint16_t fa
 
 }  // namespace
 
-ViewTruth view_truth(const World& world, std::size_t station, const ExposureTruth& exposure) {
+ViewTruth view_truth(const World& world, std::size_t station, const ExposureTruth& exposure,
+                     std::size_t target) {
   const StationTruth& truth = world.stations()[station];
-  const auto view = drone_view(world, truth, 0, exposure);
+  const auto view = drone_view(world, truth, target, exposure);
   if (!view) return {};
   const CameraIntrinsics& camera = truth.truth.camera;
   const Eigen::Vector2d& c = view->centre_px;

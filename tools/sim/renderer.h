@@ -27,8 +27,9 @@ struct ViewTruth {
   cv::Rect2d box;
 };
 
-// The truth about one picture without drawing it (the scenario's first target).
-ViewTruth view_truth(const World& world, std::size_t station, const ExposureTruth& exposure);
+// The truth about one picture without drawing it; of the scenario's first target, or another one.
+ViewTruth view_truth(const World& world, std::size_t station, const ExposureTruth& exposure,
+                     std::size_t target = 0);
 
 // One renderer for each station of the world.
 class Renderer;

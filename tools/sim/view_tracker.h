@@ -31,13 +31,15 @@ class ViewTracker final : public TargetTracker {
   std::optional<TrackerError> initialise(const TrackerInput& frame, const cv::Rect2d& box) override;
   TrackerResult track(const TrackerInput& frame) override;
   void search_near(const Eigen::Vector2d&, double) override {}
+  void set_aside() override { aside_px_ = offset_px_; }
+  void take_back() override { offset_px_ = aside_px_; }
 
  private:
   const ViewMemory& views_;
   double pixel_sd_px_;
   std::mt19937_64 generator_;
   std::normal_distribution<double> normal_;
-  std::optional<Eigen::Vector2d> offset_px_;
+  std::optional<Eigen::Vector2d> offset_px_, aside_px_;
 };
 
 }  // namespace ols::sim

@@ -58,6 +58,13 @@ TEST(DoctorOnSite, SmallBuffersLonelinessAndRivalsAreTold) {
   EXPECT_EQ(exit_status(judge_company(bus, "alfa")), 2);
 }
 
+TEST(DoctorOnSite, TheFusionsAlarmsAreTold) {
+  BusHeard bus = good_bus();
+  bus.fusion_alarms = {"another fusion is on the bus: end one of them"};
+  EXPECT_EQ(exit_status(judge_company(bus, "alfa")), 1);
+  EXPECT_THAT(lines(judge_company(bus, "alfa")), HasSubstr("fusion: alarm: another fusion is"));
+}
+
 StationHeard good_station() {
   StationHeard station;
   station.id = "alfa";

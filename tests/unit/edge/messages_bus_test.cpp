@@ -21,6 +21,8 @@ struct CountingTracker final : TargetTracker {
   }
   TrackerResult track(const TrackerInput&) override { return {}; }
   void search_near(const Eigen::Vector2d&, double) override {}
+  void set_aside() override {}
+  void take_back() override {}
   std::vector<double>& boxes;
 };
 

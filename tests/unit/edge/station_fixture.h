@@ -20,7 +20,7 @@ struct ScriptedTracker : TargetTracker {
     Eigen::Vector2d pixel{639.5, 479.5};
     bool accept = true, prediction_dropped = false;
     std::optional<double> prediction_error_px;
-    int initialised = 0, searches = 0, tracked = 0;
+    int initialised = 0, searches = 0, tracked = 0, set_aside = 0, taken_back = 0;
     Eigen::Vector2d searched_pixel = Eigen::Vector2d::Zero();
     std::optional<TrackerInput> last;
     cv::Rect2d first_box;
@@ -48,6 +48,8 @@ struct ScriptedTracker : TargetTracker {
     ++s.searches;
     s.searched_pixel = pixel;
   }
+  void set_aside() override { ++s.set_aside; }
+  void take_back() override { ++s.taken_back; }
   Script& s;
 };
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 
 #include "geometry/angles.h"
 #include "station_fixture.h"
@@ -337,40 +336,6 @@ TEST_F(StationTest, WaitsForTheAnglesAfterTheExposureButNotForever) {
   EXPECT_GT(station_.snapshot().counters.at("frames_without_angles"), 5.0);
 }
 
-// Slewed without ever having been designated; the target is a spot in the sky where the slew says.
-class AcquisitionBySlewTest : public StationTest {
- protected:
-  // Frames show the spot at this pixel, slews lead to the optical axis.
-  void run_slewed(double seconds, const std::optional<cv::Point>& spot) {
-    sky_ = cv::Mat(960, 1280, CV_8U, cv::Scalar(180));
-    if (spot) cv::circle(sky_, *spot, 12, cv::Scalar(60), cv::FILLED);
-    for (const double end_s = now_ + seconds; now_ < end_s;) {
-      station_.slew(slew(30.0), now_);
-      run_until(now_ + 0.1, true, sky_);
-    }
-  }
-  double counter(const char* name) const {
-    const auto counters = station_.snapshot().counters;
-    return counters.contains(name) ? counters.at(name) : 0.0;
-  }
-  cv::Mat sky_;
-};
-
-TEST_F(AcquisitionBySlewTest, FindsTheTargetTracksItAndIsHonestAboutTheBox) {
-  run_slewed(1.5, cv::Point(660, 470));
-  EXPECT_EQ(script_.initialised, 1);
-  EXPECT_EQ(script_.searches, 0) << "the first frames are judged by the template that was found";
-  EXPECT_NEAR(script_.first_box.x + 0.5 * script_.first_box.width, 660.5, 1.0);
-  EXPECT_NEAR(script_.first_box.y + 0.5 * script_.first_box.height, 470.5, 1.0);
-  EXPECT_EQ(station_.state(), StationState::kTracking);
-  EXPECT_EQ(counter("acquisitions"), 1.0);
-  EXPECT_GE(counter("acquisition_candidates"), 3.0);
-  ASSERT_FALSE(bearings_.empty());
-  EXPECT_EQ(bearings_.back().track_id, 1);
-  EXPECT_NEAR(std::sqrt(bearings_.back().sight.covariance_systematic(0, 0)),
-              std::hypot(radians(0.02), config().acquisition_sd_px * 75e-6), 2e-6);
-}
-
 TEST_F(StationTest, CountsFramesThatMoveOtherwiseThanTheAnglesSay) {
   const auto counter = [this](const char* name) { return station_.snapshot().counters[name]; };
   designated();
@@ -399,32 +364,6 @@ TEST_F(StationTest, CountsPredictionsThatTheTrackerDropped) {
   run_until(now_ + 0.5);
   EXPECT_GT(script_.tracked, tracked);
   EXPECT_EQ(station_.snapshot().counters["predictions_dropped"], script_.tracked - tracked);
-}
-
-TEST_F(AcquisitionBySlewTest, FindsNothingWhereNothingIs) {
-  run_slewed(5.0, std::nullopt);
-  EXPECT_EQ(script_.initialised, 0);
-  EXPECT_EQ(station_.state(), StationState::kSlewed);
-  run_until(now_ + 0.6);
-  EXPECT_EQ(station_.state(), StationState::kIdle);
-}
-
-TEST_F(AcquisitionBySlewTest, ForgetsWhatTheTrackerDoesNotBelieveIn) {
-  script_.belief = 0.1;
-  run_slewed(1.5, cv::Point(660, 470));
-  EXPECT_EQ(counter("acquisitions_dropped"), 1.0);
-  EXPECT_TRUE(bearings_.empty());
-  EXPECT_EQ(station_.state(), StationState::kSlewed);
-}
-
-TEST_F(AcquisitionBySlewTest, ADesignationTakesPrecedence) {
-  designated();
-  script_.belief = 0.1;
-  run_slewed(3.0, cv::Point(660, 470));
-  EXPECT_EQ(station_.state(), StationState::kSlewed);
-  EXPECT_EQ(script_.initialised, 1);
-  EXPECT_EQ(counter("acquisitions"), 0.0);
-  EXPECT_GE(script_.searches, 2);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(StationFiles, AreReadByTheStationAsTheNominalGeometry) {
 TEST(StationFiles, HaveNoSensorsWhereTheScenarioHasNone) {
   Scenario scenario = load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml");
   scenario.inclinometer.on = scenario.gnss.on = false;
-  const std::string file = station_file(World(scenario, 5), 0, {"", "/tmp/lines"});
+  const std::string file = station_file(World(scenario, 5), 0, {"", "/tmp/lines", ""});
   EXPECT_EQ(file.find("[inclinometer]"), std::string::npos);
   EXPECT_EQ(file.find("[gnss]"), std::string::npos);
 }

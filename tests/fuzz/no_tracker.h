@@ -1,0 +1,21 @@
+// A tracker that takes every box and sees nothing: for fuzzers of what commands do to a station.
+#pragma once
+
+#include <optional>
+
+#include "edge/target_tracker.h"
+
+namespace ols::fuzz {
+
+class NoTracker final : public TargetTracker {
+ public:
+  std::optional<TrackerError> initialise(const TrackerInput&, const cv::Rect2d&) override {
+    return std::nullopt;
+  }
+  TrackerResult track(const TrackerInput&) override { return {}; }
+  void search_near(const Eigen::Vector2d&, double) override {}
+  void set_aside() override {}
+  void take_back() override {}
+};
+
+}  // namespace ols::fuzz
