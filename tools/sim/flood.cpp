@@ -95,4 +95,8 @@ Packet Flood::next() {
   return {foreign_channel(), rubbish(kMostRubbish)};
 }
 
+Packet unknown_channel(std::uint64_t number) {
+  return {"SOMEBODY_ELSES_CHANNEL_" + std::to_string(number), std::vector<std::uint8_t>(16)};
+}
+
 }  // namespace ols::sim

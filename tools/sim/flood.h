@@ -31,4 +31,7 @@ class Flood {
   std::mt19937_64 random_;
 };
 
+// A message on a channel that nobody knows; each number has a name of its own, of ordinary length.
+Packet unknown_channel(std::uint64_t number);
+
 }  // namespace ols::sim

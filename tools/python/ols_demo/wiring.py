@@ -57,18 +57,24 @@ class Wiring:
     def start(self, site: Site, log: bool = True) -> None:
         """Everything up, the log running; raises SiteError when something does not come up."""
         print(f"starting simulator, {len(self.configs)} stations, fusion and logger", flush=True)
-        logger = ["lcm-logger", "--lcm-url", LIVE_URL, "--quiet", str(self.log)]
         if log:
-            site.start("lcm-logger", logger)
+            self.start_log(site)
         site.start_and_wait("ols-sim", self._sim(), "ready")
         self._start_gpsds(site)
         self.start_fusion(site)
         for name in self.configs:
             self.start_station(site, name)
 
-    def start_fusion(self, site: Site, url: str = LIVE_URL) -> None:
+    def start_log(self, site: Site) -> None:
+        """Into a file of its own each time."""
+        path, number = self.log, 1
+        while path.exists():
+            path, number = self.log.with_stem(f"{self.log.stem}-{number}"), number + 1
+        site.start("lcm-logger", ["lcm-logger", "--lcm-url", LIVE_URL, "--quiet", str(path)])
+
+    def start_fusion(self, site: Site, url: str = LIVE_URL, name: str = "ols-fusion") -> None:
         command = [str(self._bin / "ols-fusion"), "--lcm-url", url]
-        site.start_and_wait("ols-fusion", command, "ready")
+        site.start_and_wait(name, command, "ready")
 
     def start_station(
         self, site: Site, name: str, environment: dict[str, str] | None = None

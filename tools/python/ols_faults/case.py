@@ -1,4 +1,9 @@
-"""What a case of the fault run is, and what came of it."""
+"""What a case of the fault run is, and what came of it.
+
+A case is two functions: one does something to the site and notes it, the other one judges the
+evidence and asks nobody. So the same evidence can be judged again after it was altered in the way
+in which a broken product would have altered it: see mutate.py.
+"""
 
 from __future__ import annotations
 
@@ -7,18 +12,30 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from ols_faults.evidence import Evidence
+
 if TYPE_CHECKING:
     from ols_faults.session import Session
+
+
+@dataclass(frozen=True)
+class Mutation:
+    """A way in which the product, or the fault itself, could be broken: what would then have been
+    heard and noted instead. `alter` changes a copy of the evidence, never a verdict."""
+
+    what: str
+    alter: Callable[[Evidence], None]
 
 
 @dataclass
 class Check:
     """One thing that was measured, and the limit that it is held against."""
 
-    what: str
+    what: str  # its name: the same in every run
     measured: str
     limit: str
     passed: bool
+    broken_by: Mutation | None = None  # with which it must fail
 
 
 @dataclass
@@ -34,23 +51,62 @@ class Outcome:
     def passed(self) -> bool:
         return not self.error and bool(self.checks) and all(check.passed for check in self.checks)
 
-    def at_most(self, what: str, value: float | None, limit: float, unit: str = "") -> None:
+    def at_most(
+        self,
+        what: str,
+        value: float | None,
+        limit: float,
+        unit: str = "",
+        *,
+        broken_by: Mutation | None = None,
+        note: str = "",
+    ) -> None:
         passed = value is not None and bool(math.isfinite(value) and value <= limit)
-        self.checks.append(Check(what, figure(value, unit), f"<= {limit:g} {unit}".strip(), passed))
+        self._add(what, value, f"<= {limit:.3g}", unit, passed, broken_by, note)
 
-    def at_least(self, what: str, value: float | None, limit: float, unit: str = "") -> None:
+    def at_least(
+        self,
+        what: str,
+        value: float | None,
+        limit: float,
+        unit: str = "",
+        *,
+        broken_by: Mutation | None = None,
+        note: str = "",
+    ) -> None:
         passed = value is not None and bool(math.isfinite(value) and value >= limit)
-        self.checks.append(Check(what, figure(value, unit), f">= {limit:g} {unit}".strip(), passed))
+        self._add(what, value, f">= {limit:.3g}", unit, passed, broken_by, note)
 
-    def holds(self, what: str, passed: bool, measured: str = "") -> None:
-        self.checks.append(
-            Check(what, measured or ("yes" if passed else "no"), "yes", bool(passed))
-        )
+    def holds(
+        self, what: str, passed: bool, measured: str = "", *, broken_by: Mutation | None = None
+    ) -> None:
+        said = measured or ("yes" if passed else "no")
+        self.checks.append(Check(what, said, "yes", bool(passed), broken_by))
 
-    def recovered(self, what: str, seconds: float | None, limit_s: float) -> None:
+    def recovered(
+        self,
+        what: str,
+        seconds: float | None,
+        limit_s: float,
+        *,
+        broken_by: Mutation | None = None,
+    ) -> None:
         """The recovery time of the table, and a check that it came at all and in time."""
         self.recovery_s = seconds
-        self.at_most(what, seconds, limit_s, "s")
+        self.at_most(what, seconds, limit_s, "s", broken_by=broken_by)
+
+    def _add(
+        self,
+        what: str,
+        value: float | None,
+        limit: str,
+        unit: str,
+        passed: bool,
+        broken_by: Mutation | None,
+        note: str,
+    ) -> None:
+        measured = figure(value, unit) + (f" ({note})" if note else "")
+        self.checks.append(Check(what, measured, f"{limit} {unit}".strip(), passed, broken_by))
 
 
 def figure(value: float | None, unit: str) -> str:
@@ -64,17 +120,36 @@ class Case:
     name: str
     fault: str  # what is done
     criterion: str  # what must happen
-    run: Callable[[Session, Outcome], None]
+    do: Callable[[Session, Evidence], None]
+    judge: Callable[[Evidence, Outcome], None]  # pure
 
 
 CASES: dict[str, Case] = {}
 
 
-def case(name: str, fault: str, criterion: str) -> Any:
+def case(name: str, fault: str, criterion: str, judge: Callable[[Evidence, Outcome], None]) -> Any:
     """Registers the function as a case; cases run in the order in which they are registered."""
 
-    def register(run: Callable[[Session, Outcome], None]) -> Callable[[Session, Outcome], None]:
-        CASES[name] = Case(name, fault, criterion, run)
-        return run
+    def register(do: Callable[[Session, Evidence], None]) -> Callable[[Session, Evidence], None]:
+        CASES[name] = Case(name, fault, criterion, do, judge)
+        return do
 
     return register
+
+
+def judged(case: Case, evidence: Evidence) -> Outcome:
+    """The case's own checks, and what every fault must leave alone: no process of ours ends."""
+    outcome = Outcome()
+    case.judge(evidence, outcome)
+    ended = evidence["ended"]
+
+    def end_one(altered: Evidence) -> None:
+        altered["ended"] = ["ols-fusion"]
+
+    outcome.holds(
+        "no process ended by itself",
+        not ended,
+        ", ".join(ended) or "yes",
+        broken_by=Mutation("the fusion ends", end_one),
+    )
+    return outcome

@@ -1,14 +1,18 @@
 """A station's clock that is stepped: for its process alone."""
 
 import sys
+from functools import partial
 from typing import Any
 
 import numpy as np
 import ols_msg
 from ols_demo.evaluate import JOINT
 
+from ols_faults import measure, mutations
 from ols_faults.case import Outcome, case
+from ols_faults.evidence import Evidence
 from ols_faults.judges import judge_target
+from ols_faults.mutations import put
 from ols_faults.session import Session
 
 MARKED_S = 3.0
@@ -43,83 +47,130 @@ class SteppedClock:
         self._session.start_station(self._station)
 
 
-def marked_s(session: Session, station: str, since_us: int, step_s: float) -> tuple[float, str]:
-    """When the first bearing that was marked came, and how; the mark must cover the step."""
-    arrivals = session.heard.arrivals_us[f"OLS_BEARING_{station}"]
-    for bearing, at in zip(session.heard.bearings[station], arrivals, strict=True):
-        bad = bearing.clock_state == ols_msg.bearing_t.CLOCK_UNSYNCHRONISED
-        if at > since_us and (bad or bearing.clock_error_s > 0.1 * abs(step_s)):
-            text = f"state {bearing.clock_state}, error {bearing.clock_error_s:.3g} s"
-            return (at - since_us) * 1e-6, text
-    return float("nan"), "not marked"
+def is_marked(bearing: Any, step_s: float) -> bool:
+    """The mark must cover the step."""
+    bad = bearing.clock_state == ols_msg.bearing_t.CLOCK_UNSYNCHRONISED
+    return bad or bearing.clock_error_s > 0.1 * abs(step_s)
 
 
-def used(target: Any) -> set[str]:
-    return {s for s, is_used in zip(target.station, target.used, strict=True) if is_used}
+def unmarked(bearing: Any) -> Any:
+    return put(bearing, clock_state=ols_msg.bearing_t.CLOCK_SYNCHRONISED, clock_error_s=1e-3)
 
 
-def clock_stepped(session: Session, outcome: Outcome, step_s: float) -> None:
-    station = session.clock_station
-    others = set(session.stations) - {station}
+def judge_marks(evidence: Evidence, outcome: Outcome, step_s: float) -> None:
+    station, window = evidence["station"], evidence["window"]
+    channel = f"OLS_BEARING_{station}"
+    stamps = [b.utime - at for b, at in measure.between_arrivals(evidence.heard, channel, *window)]
+    ahead_s = float(np.median(stamps[-20:])) * 1e-6 if stamps else float("nan")
+
+    def not_stepped(bearing: Any) -> Any:
+        return put(bearing, utime=bearing.utime - round(step_s * 1e6))
+
+    outcome.holds(
+        "the clock was stepped",
+        abs(ahead_s - step_s) < 0.5,
+        f"{ahead_s:+.2f} s",
+        broken_by=mutations.altering("the clock is not stepped", channel, not_stepped, window),
+    )
+    marked = partial(is_marked, step_s=step_s)
+    outcome.at_most(
+        "bearings marked",
+        measure.first_s(evidence.heard, channel, *window, marked),
+        MARKED_S,
+        "s",
+        broken_by=mutations.altering("bearings are not marked", channel, unmarked),
+    )
+    before = measure.between_arrivals(evidence.heard, channel, window[0] - 3_000_000, window[0])
+
+    def always_marked(bearing: Any) -> Any:
+        return put(bearing, clock_error_s=abs(step_s))
+
+    outcome.holds(
+        "and not before",
+        bool(before) and not any(marked(bearing) for bearing, _ in before),
+        broken_by=mutations.altering("bearings are always marked", channel, always_marked),
+    )
+
+
+def judge_quarantine(evidence: Evidence, outcome: Outcome) -> None:
+    station, window = evidence["station"], evidence["window"]
+    others = set(evidence.stations) - {station}
+    span = window[0] + round(QUARANTINED_S * 1e6), window[1]
+    later = measure.positions(evidence.heard, *span)
+    outcome.at_most(
+        "targets with this station",
+        float(sum(station in measure.used(target) for target in later)) if later else None,
+        0,
+        note=f"of {len(later)}",
+        broken_by=mutations.rays("the stepped station is used", station, True, span),
+    )
+    lacking = sum(not others <= measure.used(target) for target in later)
+    other = min(others)
+    outcome.at_most(
+        "share of targets that lack another station",
+        lacking / len(later) if later else None,
+        0.1,
+        broken_by=mutations.rays(f"{other} is left out too", other, False, span),
+    )
+    told = [m for m, _ in measure.between_arrivals(evidence.heard, "OLS_FUSION_STATUS", *span)]
+    named = {
+        name
+        for status in told
+        for name, why in zip(status.station, status.quarantine, strict=True)
+        if why
+    }
+
+    def silent(status: Any) -> Any:
+        return put(status, quarantine=[""] * status.stations)
+
+    outcome.holds(
+        "the fusion names it, and it alone",
+        named == {station},
+        ", ".join(sorted(named)) or "nobody",
+        broken_by=mutations.altering("no quarantine is told", "OLS_FUSION_STATUS", silent),
+    )
+
+
+def judge(evidence: Evidence, outcome: Outcome, step_s: float) -> None:
+    station, window = evidence["station"], evidence["window"]
+    judge_marks(evidence, outcome, step_s)
+    judge_quarantine(evidence, outcome)
+    judge_target(evidence, outcome, window, 5.0)
+    back_us = evidence["back_us"]
+    late = back_us, back_us + round((RETURN_S + 1.0) * 1e6)
+    outcome.recovered(
+        "in the targets again once the clock is right",
+        measure.first_s(
+            evidence.heard, JOINT, back_us, mutations.EVER, lambda t: station in measure.used(t)
+        ),
+        RETURN_S,
+        broken_by=mutations.rays("the station is not used again", station, False, late),
+    )
+
+
+def clock_stepped(session: Session, evidence: Evidence, step_s: float) -> None:
+    station = evidence["station"] = session.clock_station
     clock = SteppedClock(session, station)
     try:
         session.restore()
         session.run(8.0)
         at_us = clock.set(step_s)
-        window = session.run(STEPPED_S)
-        judge_step(session, outcome, station, others, (at_us, window[1]), step_s)
-        back_us = clock.set(0.0)
-        came = session.wait(lambda: station in used(newest_target(session)), RETURN_S)
-        back_s = (session.now_us() - back_us) * 1e-6 if came is not None else None
-        outcome.recovered("in the targets again once the clock is right", back_s, RETURN_S)
+        evidence["window"] = at_us, session.run(STEPPED_S)[1]
+        evidence["back_us"] = clock.set(0.0)
+        newest = session.heard.targets[JOINT]
+        session.wait(lambda: station in measure.used(newest[-1]), RETURN_S)
     finally:
         clock.close()
 
 
-def newest_target(session: Session) -> Any:
-    return session.heard.targets[JOINT][-1]
+CRITERION = "bearings marked; fusion quarantines that station alone"
 
 
-def judge_step(
-    session: Session,
-    outcome: Outcome,
-    station: str,
-    others: set[str],
-    window: tuple[int, int],
-    step_s: float,
-) -> None:
-    stamps = [b.utime for b in session.heard.bearings[station][-5:]]
-    ahead = (float(np.median(stamps)) - window[1]) * 1e-6
-    outcome.holds("the clock was stepped", abs(ahead - step_s) < 0.5, f"{ahead:+.2f} s")
-    seen_s, text = marked_s(session, station, window[0], step_s)
-    outcome.at_most(f"bearings marked ({text})", seen_s, MARKED_S, "s")
-    arrivals = session.heard.arrivals_us[JOINT]
-    later = [
-        target
-        for target, at in zip(session.heard.targets[JOINT], arrivals, strict=True)
-        if window[0] + int(QUARANTINED_S * 1e6) < at < window[1] and target.solution == 0
-    ]
-    outcome.at_least("targets meanwhile", len(later) / (STEPPED_S - QUARANTINED_S), 5.0, "Hz")
-    with_it = sum(station in used(target) for target in later)
-    outcome.at_most("of them with this station", with_it, 0)
-    lacking = sum(not others <= used(target) for target in later)
-    outcome.at_most("share of them that lack another", lacking / max(1, len(later)), 0.1)
-    judge_target(session, outcome, window)
+@case("clock-ahead", "a station's clock stepped by +2 s", CRITERION, partial(judge, step_s=2.0))
+def clock_ahead(session: Session, evidence: Evidence) -> None:
+    clock_stepped(session, evidence, 2.0)
 
 
-@case(
-    "clock-ahead",
-    "a station's clock stepped by +2 s",
-    "bearings marked; fusion quarantines that station alone",
-)
-def clock_ahead(session: Session, outcome: Outcome) -> None:
-    clock_stepped(session, outcome, 2.0)
-
-
-@case(
-    "clock-behind",
-    "a station's clock stepped by -2 s",
-    "bearings marked; fusion quarantines that station alone",
-)
-def clock_behind(session: Session, outcome: Outcome) -> None:
-    clock_stepped(session, outcome, -2.0)
+@case("clock-behind", "a station's clock stepped by -2 s", CRITERION, partial(judge, step_s=-2.0))
+def clock_behind(session: Session, evidence: Evidence) -> None:
+    clock_stepped(session, evidence, -2.0)

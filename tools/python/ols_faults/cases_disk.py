@@ -3,14 +3,17 @@
 import errno
 import shutil
 import subprocess
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import ols_msg
 from ols_demo.site import SiteError
 
-from ols_faults import measure
+from ols_faults import mutations
 from ols_faults.case import Outcome, case
-from ols_faults.cases_sensors import flagged_s
+from ols_faults.evidence import Evidence
+from ols_faults.judges import FRAME_HZ, alarm_of, judge_alarm, judge_goes_on
 from ols_faults.session import Session
 
 DISK_BYTES = 24_000_000
@@ -52,58 +55,89 @@ def record(session: Session, station: str, label: str) -> None:
     session.publish(f"OLS_RECORD_{station}", message)
 
 
-def folders(session: Session) -> set[str]:
-    return {path.name for path in session.disk.iterdir() if path.is_dir()}
+def recorded(folder: Path) -> set[str]:
+    """Events that are complete: one that is not is called .partial, and has no list of frames."""
+    return {path.parent.name for path in folder.glob("*/frames.csv") if is_complete(path)}
 
 
-def judge_disk(session: Session, outcome: Outcome, what: str) -> None:
+def is_complete(frames: Path) -> bool:
+    return not frames.parent.name.endswith(".partial") and any(frames.parent.glob("*.png"))
+
+
+def judge(evidence: Evidence, outcome: Outcome, words: tuple[str, ...]) -> None:
     """Tracking goes on as before, and what cannot be written is reported."""
-    station = session.disk_station
-    start_us = session.now_us()
-    record(session, station, what)
-    window = session.run(JUDGED_S)
-    seen_s, text = flagged_s(session, station, start_us, "record")
-    outcome.at_most(f"reported ({text})", seen_s, REPORTED_S, "s")
-    ages = measure.bearing_ages_s(session.heard, station, *window)
-    outcome.at_least("bearings meanwhile", len(ages) / JUDGED_S, 0.85 * 12.0, "Hz")
-    away = session.state_since(station, start_us) - {"tracking", "coasting"}
-    outcome.holds("goes on tracking", not away, ", ".join(sorted(away)) or "yes")
+    station, window = evidence["station"], evidence["window"]
+    judge_alarm(evidence, outcome, "reported", station, window[0], REPORTED_S, *words)
+    judge_goes_on(evidence, outcome, station, window, 0.85 * FRAME_HZ)
+    outcome.holds(
+        "nothing is recorded meanwhile",
+        not evidence["meanwhile"],
+        ", ".join(evidence["meanwhile"]) or "yes",
+        broken_by=mutations.fact("the disk takes it", "meanwhile", ["20261122_full"]),
+    )
+    outcome.recovered(
+        "records again",
+        evidence["recorded_s"],
+        8.0,
+        broken_by=mutations.fact("no event is ever complete", "recorded_s", None),
+    )
+
+
+def do(session: Session, evidence: Evidence, label: str, begin: Any, end: Any) -> None:
+    station = evidence["station"] = session.disk_station
+    session.wait(lambda: not alarm_of(session.status(station), "recorder:"), 10.0)
+    session.fresh_status(station)
+    # What is complete already and is removed for the quota meanwhile is no event.
+    before = recorded(session.disk)
+    undo = begin(session.disk)
+    try:
+        record(session, station, label)
+        evidence["window"] = session.run(JUDGED_S)
+        evidence["meanwhile"] = sorted(recorded(session.disk) - before)
+    finally:
+        end(undo)
+    evidence["recorded_s"] = records_again_s(session)
 
 
 def fetch(session: Session) -> None:
-    """Somebody takes the recordings along: the station itself keeps them."""
-    for name in folders(session):
-        if not name.endswith(".partial"):
-            shutil.rmtree(session.disk / name)
+    """Somebody takes the recordings along: the station may keep what it has."""
+    for name in recorded(session.disk):
+        shutil.rmtree(session.disk / name)
 
 
-def judge_recorded_again(session: Session, outcome: Outcome, ended_us: int) -> None:
+def records_again_s(session: Session) -> float | None:
     fetch(session)
-    before = folders(session)
-    recovered_s = None
+    ended_us, before = session.now_us(), recorded(session.disk)
     for _ in range(12):  # an operator who tries again
         record(session, session.disk_station, "after")
-        if session.wait(lambda: bool(folders(session) - before), 1.0) is not None:
-            recovered_s = (session.now_us() - ended_us) * 1e-6
-            break
-    outcome.recovered("records again", recovered_s, 8.0)
+        if session.wait(lambda: bool(recorded(session.disk) - before), 1.0) is not None:
+            return (session.now_us() - ended_us) * 1e-6
+    return None
 
 
-@case("disk-full", "the station's disk is full", "tracking untouched, reported")
-def disk_full(session: Session, outcome: Outcome) -> None:
-    path = fill(session.disk)
-    try:
-        judge_disk(session, outcome, "full")
-    finally:
-        path.unlink()
-    judge_recorded_again(session, outcome, session.now_us())
+def read_only(folder: Path) -> Path:
+    remount(folder, "ro")
+    return folder
 
 
-@case("disk-read-only", "the station's log directory is read-only", "tracking untouched, reported")
-def disk_read_only(session: Session, outcome: Outcome) -> None:
-    remount(session.disk, "ro")
-    try:
-        judge_disk(session, outcome, "readonly")
-    finally:
-        remount(session.disk, "rw")
-    judge_recorded_again(session, outcome, session.now_us())
+CRITERION = "tracking untouched, reported"
+
+
+@case(
+    "disk-full",
+    "the station's disk is full",
+    CRITERION,
+    partial(judge, words=("recorder:", "disk full")),
+)
+def disk_full(session: Session, evidence: Evidence) -> None:
+    do(session, evidence, "full", fill, Path.unlink)
+
+
+@case(
+    "disk-read-only",
+    "the station's log directory is read-only",
+    CRITERION,
+    partial(judge, words=("recorder:", "Read-only")),
+)
+def disk_read_only(session: Session, evidence: Evidence) -> None:
+    do(session, evidence, "readonly", read_only, lambda folder: remount(folder, "rw"))

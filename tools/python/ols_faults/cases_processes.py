@@ -4,129 +4,295 @@ import signal
 
 import numpy as np
 import ols_msg
+from ols_demo.evaluate import JOINT, OK
 
-from ols_faults import measure
+from ols_faults import measure, mutations
 from ols_faults.case import Outcome, case
+from ols_faults.configuration import ACCELERATION_DEG_S2
+from ols_faults.evidence import Evidence
+from ols_faults.judges import (
+    FRAME_HZ,
+    judge_goes_on,
+    judge_rest,
+    judge_target,
+    judge_tracking_again,
+)
+from ols_faults.mutations import put
 from ols_faults.session import Session
 
 REST_S = 1.0
 BACK_BY_SLEW_S = 8.0
 BACK_FUSION_S = 2.0
 RATE_DEG_S = 20.0
+FOLLOWING_DEG_S = 0.5  # a PTU that hardly moves is soon at rest
 STARVED_S = 2.0
+KILLED_S = 3.0
+
+# From full speed: as ServoConfig has it (runs_on_s in edge/ptu/servo.h).
+FULL_DEG_S = 57.0
+AHEAD_S = max(0.3, 1.0 / 3.0)  # look_ahead_s, 1 / gain_hz
+SWING_DEG = 160.0
+POLL_S = 0.025  # a command may just have been sent
 
 
-def killed_and_back(session: Session, outcome: Outcome, station: str, held: bool = False) -> None:
-    """Kills the station now; judges the PTU's rest and the way back to the target by slew. `held`:
-    the operator had it in hand."""
-    at_us = session.kill(session.process(station))
-    session.run(REST_S + 2 * measure.REST_S)
-    rest = measure.rest_s(session.heard, station, at_us, session.now_us())
-    outcome.at_most("PTU at rest after the kill", rest, REST_S, "s")
-    started_us = session.start_station(station)
-    if held:  # it comes up as it was left, until somebody releases it
-        session.wait(lambda: session.state(station) == "stopped", 5.0)
-        session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
-    back_s = session.tracking_again_s(station, started_us, BACK_BY_SLEW_S + 7.0)
-    outcome.recovered("tracking again after its start", back_s, BACK_BY_SLEW_S)
-    designated = session.counter(station, "designate_accepted")
-    outcome.holds("by slew alone", designated == 0, f"{designated:g} designations")
+def kill(session: Session, evidence: Evidence, station: str) -> None:
+    """Now; and lets it be for as long as its PTU may take to come to rest."""
+    evidence["station"] = station
+    evidence["boot"] = session.status(station).boot_id
+    evidence["at_us"] = session.kill(session.process(station))
+    session.run(REST_S + 3 * measure.REST_S)
+    evidence["dead_until_us"] = session.now_us()
+
+
+def back(session: Session, evidence: Evidence, held: bool = False) -> None:
+    """`held`: the operator had it in hand."""
+    station = evidence["station"]
+    evidence["started_us"] = session.start_station(station)
+    if held:
+        session.release_held(station)
+    session.wait_for_tracking(station, evidence["started_us"], BACK_BY_SLEW_S + 7.0)
+    session.fresh_status(station)
+    evidence["judged_us"] = session.now_us()
+
+
+def judge_speed(evidence: Evidence, outcome: Outcome, what: str, least_deg_s: float) -> None:
+    """Before the kill: what stood already has not come to rest."""
+    station, at_us = evidence["station"], evidence["at_us"]
+    window = at_us - 150_000, at_us
+    speed = measure.speeds(*measure.ptu_track(evidence.heard, station, *window))
+    outcome.at_least(
+        what,
+        float(np.median(speed)) if len(speed) else None,
+        least_deg_s,
+        "deg/s",
+        broken_by=mutations.stands(station, (window[0] - 100_000, at_us)),
+    )
+
+
+def judge_back_by_slew(evidence: Evidence, outcome: Outcome) -> None:
+    station, since_us = evidence["station"], evidence["started_us"]
+    what = "tracking again after its start"
+    judge_tracking_again(evidence, outcome, what, station, since_us, BACK_BY_SLEW_S)
+    window = since_us, evidence["judged_us"]
+    said = measure.statuses(evidence.heard, station, *window)
+    outcome.holds(
+        "it is another process",
+        bool(said) and all(status.boot_id != evidence["boot"] for status in said),
+        broken_by=mutations.status_altered(
+            "it was not killed", station, lambda s: put(s, boot_id=evidence["boot"])
+        ),
+    )
+    channel = f"OLS_STATUS_{station}"
+    found = measure.counter_at_end(evidence.heard, channel, "acquisitions", *window)
+    outcome.at_least(
+        "found along a slew",
+        found,
+        1.0,
+        note="acquisitions",
+        broken_by=mutations.without_counter(channel, "acquisitions"),
+    )
+    by_hand = measure.counter_at_end(evidence.heard, channel, "designate_accepted", *window)
+    outcome.at_most(
+        "designations by hand",
+        by_hand,
+        0.0,
+        broken_by=mutations.counter_more(channel, "designate_accepted", 1.0, window),
+    )
+
+
+def judge_killed(evidence: Evidence, outcome: Outcome, least_deg_s: float) -> None:
+    judge_speed(evidence, outcome, "PTU's speed at the kill", least_deg_s)
+    window = evidence["at_us"], evidence["dead_until_us"]
+    judge_rest(evidence, outcome, evidence["station"], window, REST_S)
+    judge_back_by_slew(evidence, outcome)
+
+
+CRITERION = "PTU at rest within 1 s; tracking again by slew within 8 s of start"
 
 
 @case(
     "station-killed",
     "station killed while it tracks, restarted",
-    "PTU at rest within 1 s; tracking again by slew within 8 s of start",
+    CRITERION,
+    lambda evidence, outcome: judge_killed(evidence, outcome, FOLLOWING_DEG_S),
 )
-def station_killed(session: Session, outcome: Outcome) -> None:
-    killed_and_back(session, outcome, session.stations[0])
+def station_killed(session: Session, evidence: Evidence) -> None:
+    station = session.stations[0]
+    session.wait_until_turning(station, 2 * FOLLOWING_DEG_S, 30.0)
+    kill(session, evidence, station)
+    back(session, evidence)
 
 
 @case(
     "station-killed-fast",
-    "station killed while its PTU turns at 20 deg/s",
-    "PTU at rest within 1 s; tracking again by slew within 8 s of start",
+    f"station killed while its PTU turns at {RATE_DEG_S:g} deg/s",
+    CRITERION,
+    lambda evidence, outcome: judge_killed(evidence, outcome, 0.9 * RATE_DEG_S),
 )
-def station_killed_fast(session: Session, outcome: Outcome) -> None:
+def station_killed_fast(session: Session, evidence: Evidence) -> None:
     station = session.stations[1]
     start = session.status(station)
-    speed = turn_steadily(session, station, start.pan_rad, start.tilt_rad, 2.5)
-    outcome.at_least("PTU's speed at the kill", speed, 0.9 * RATE_DEG_S, "deg/s")
-    killed_and_back(session, outcome, station, held=True)
+    turn_steadily(session, station, start.pan_rad, start.tilt_rad, 2.5)
+    kill(session, evidence, station)
+    back(session, evidence, held=True)
 
 
 def turn_steadily(
     session: Session, station: str, pan_rad: float, tilt_rad: float, seconds: float
-) -> float:
-    """Leads the PTU by hand at RATE_DEG_S for so long; its true speed at the end [deg/s]."""
+) -> None:
+    """Leads the PTU by hand at RATE_DEG_S for so long."""
     way = -1.0 if pan_rad > 0 else 1.0
     begin_us = session.now_us()
     while (elapsed := (session.now_us() - begin_us) * 1e-6) < seconds:
         goal = pan_rad + way * np.radians(RATE_DEG_S) * elapsed
         session.command(station, ols_msg.ptu_command_t.COMMAND_POINT, goal, tilt_rad)
         session.run(0.04)
-    now_us = session.now_us()
-    times, angles = measure.ptu_track(session.heard, station, now_us - 400_000, now_us)
-    return float(np.median(measure.speeds(times, angles))) if len(times) else float("nan")
+
+
+def judge_full_speed(evidence: Evidence, outcome: Outcome) -> None:
+    """Whether it goes on for as long, and as far, as its servo says, and no longer."""
+    station = evidence["station"]
+    window = evidence["at_us"], evidence["dead_until_us"]
+    judge_speed(evidence, outcome, "PTU's speed at the kill", 0.95 * FULL_DEG_S)
+    speed = 57.5  # ServoConfig::max_speed_rad_s
+    braking_s = speed / ACCELERATION_DEG_S2
+    unsure_s = POLL_S + measure.SMOOTH_S
+    judge_rest(evidence, outcome, station, window, AHEAD_S + braking_s + unsure_s)
+    outcome.at_most(
+        "travels on",
+        measure.moved_deg(evidence.heard, station, *window),
+        speed * (AHEAD_S + braking_s / 2 + unsure_s),
+        "deg",
+        broken_by=mutations.goes_further(station, window, 1.25),
+    )
+    judge_back_by_slew(evidence, outcome)
+
+
+@case(
+    "killed-at-full-speed",
+    "station killed while its PTU swings at full speed (57 deg/s)",
+    "PTU at rest after the servo's look-ahead plus v/a; tracking again by slew",
+    judge_full_speed,
+)
+def killed_at_full_speed(session: Session, evidence: Evidence) -> None:
+    station = session.stations[1]
+    swing_to_full_speed(session, station)
+    kill(session, evidence, station)
+    back(session, evidence, held=True)
+
+
+def swing_to_full_speed(session: Session, station: str) -> None:
+    status = session.status(station)
+    side = 1.0 if status.pan_rad > 0 else -1.0
+    point = ols_msg.ptu_command_t.COMMAND_POINT
+    for at in (side, -side):
+        goal_rad = float(np.radians(at * SWING_DEG / 2))
+        session.command(station, point, goal_rad, status.tilt_rad)
+        session.wait_until_turning(station, 0.97 * FULL_DEG_S, 2.0)
+        if at == side:
+            session.wait(lambda: session.speed_deg_s(station) < 0.5, 6.0)
+
+
+def judge_fusion_killed(evidence: Evidence, outcome: Outcome) -> None:
+    window, started_us = evidence["window"], evidence["started_us"]
+    for station in evidence.stations:
+        judge_goes_on(evidence, outcome, station, window, 5.0)
+    shortly = window[0] + 300_000, window[1]
+    outcome.at_most(
+        "targets while there was none",
+        float(len(measure.target_arrivals_us(evidence.heard, *shortly))),
+        0.0,
+        broken_by=mutations.late("the fusion goes on", JOINT, (0, window[0]), 1.0),
+    )
+    late = started_us, started_us + round((BACK_FUSION_S + 1.0) * 1e6)
+    outcome.recovered(
+        "targets again after its start",
+        measure.first_s(
+            evidence.heard, JOINT, started_us, mutations.EVER, lambda t: t.solution == OK
+        ),
+        BACK_FUSION_S,
+        broken_by=mutations.targets_lost(late),
+    )
+    judge_target(evidence, outcome, evidence["after"], 8.0)
 
 
 @case(
     "fusion-killed",
     "fusion killed, restarted after 3 s",
     "stations go on tracking; targets again within 2 s of start",
+    judge_fusion_killed,
 )
-def fusion_killed(session: Session, outcome: Outcome) -> None:
+def fusion_killed(session: Session, evidence: Evidence) -> None:
     killed_us = session.kill("ols-fusion")
-    start_us, end_us = session.run(3.0)
-    for station in session.stations:
-        ages = measure.bearing_ages_s(session.heard, station, start_us, end_us)
-        outcome.at_least(f"{station}: bearings without fusion", len(ages) / 3.0, 5.0, "Hz")
-        away = session.state_since(station, start_us) - {"tracking", "coasting"}
-        outcome.holds(f"{station}: goes on tracking", not away, ", ".join(away) or "yes")
-    started_us = session.start_fusion()
-    came = session.wait(
-        lambda: bool(measure.target_arrivals_us(session.heard, started_us, session.now_us())),
+    evidence["window"] = killed_us, session.run(KILLED_S)[1]
+    evidence["started_us"] = session.start_fusion()
+    since_us = evidence["started_us"]
+    session.wait(
+        lambda: bool(measure.target_arrivals_us(session.heard, since_us, session.now_us())),
         BACK_FUSION_S + 5.0,
     )
-    arrivals = measure.target_arrivals_us(session.heard, started_us, session.now_us())
-    back = (arrivals[0] - started_us) * 1e-6 if came is not None and arrivals else None
-    outcome.recovered("targets again after its start", back, BACK_FUSION_S)
-    gap = measure.longest_gap_s(arrivals[-1:], killed_us, session.now_us())
-    outcome.holds("there really was an outage", gap > 2.0, f"{gap:.1f} s")
+    session.run(1.0)
+    evidence["after"] = session.run(2.0)
+
+
+def judge_starved(evidence: Evidence, outcome: Outcome) -> None:
+    station, stopped_us, going_us = (evidence[n] for n in ("station", "stopped_us", "going_us"))
+    end_us = evidence["judged_us"]
+    channel = f"OLS_BEARING_{station}"
+    judge_rest(evidence, outcome, station, (stopped_us, going_us), REST_S)
+    ages = measure.bearing_ages_s(evidence.heard, station, going_us, end_us)
+    outcome.at_most(
+        "bearings older than 0.5 s that were still sent",
+        float((ages[:, 1] > 0.5).sum()) if len(ages) else None,
+        2.0,
+        broken_by=mutations.late("frames are queued", channel, (going_us, end_us), 0.8),
+    )
+    before = measure.bearing_ages_s(evidence.heard, station, stopped_us - 4_000_000, stopped_us)
+    usual_s = float(np.median(before[:, 1])) if len(before) else float("nan")
+    late = ages[ages[:, 0] > 1.0]
+    outcome.at_most(
+        "age of bearings from 1 s after (90 %)",
+        float(np.percentile(late[:, 1], 90)) if len(late) else None,
+        max(0.25, 2 * usual_s),
+        "s",
+        broken_by=mutations.late("a backlog stays", channel, (going_us, end_us), 0.4),
+    )
+    status = f"OLS_STATUS_{station}"
+    expected = (end_us - stopped_us) * 1e-6 * FRAME_HZ
+    handled = measure.grown(evidence.heard, status, "frames_tracked", stopped_us, end_us)
+    share = handled / expected if handled is not None else None
+    outcome.at_most(
+        "share of that time's frames handled",
+        share,
+        0.85,
+        broken_by=mutations.counter_more(
+            status, "frames_tracked", STARVED_S * FRAME_HZ, (going_us, end_us)
+        ),
+    )
+    outcome.at_least(
+        "and at least",
+        share,
+        0.35,
+        broken_by=mutations.without_counter(status, "frames_tracked"),
+    )
+    judge_tracking_again(evidence, outcome, "tracking again", station, going_us, 8.0)
 
 
 @case(
     "cpu-starved",
     "station's process does not run for 2 s (SIGSTOP)",
     "PTU at rest; late frames dropped, not queued; recovers",
+    judge_starved,
 )
-def cpu_starved(session: Session, outcome: Outcome) -> None:
-    station = session.stations[2]
-    before_us = session.now_us() - 4_000_000
-    before = measure.bearing_ages_s(session.heard, station, before_us, session.now_us())
-    usual_s = float(np.median(before[:, 1])) if len(before) else float("nan")
-    frames = frames_seen(session, station)
-    name = session.process(station)
-    stopped_us = session.send_signal(name, signal.SIGSTOP)
-    session.run(STARVED_S)
-    rest = measure.rest_s(session.heard, station, stopped_us, session.now_us())
-    going_us = session.send_signal(name, signal.SIGCONT)
-    outcome.at_most("PTU at rest after the stop", rest, REST_S, "s")
-    back_s = session.tracking_again_s(station, going_us, 10.0)
-    session.run(3.0)
-    ages = measure.bearing_ages_s(session.heard, station, going_us, session.now_us())
-    stale = int((ages[:, 1] > 0.5).sum()) if len(ages) else 0
-    outcome.at_most("bearings older than 0.5 s that were still sent", stale, 2)
-    late = ages[ages[:, 0] > 1.0]
-    worst = float(np.percentile(late[:, 1], 90)) if len(late) else float("nan")
-    outcome.at_most("age of bearings from 1 s after (90 %)", worst, max(0.25, 2 * usual_s), "s")
-    passed_s = (session.now_us() - stopped_us) * 1e-6
-    expected = passed_s * 12.0
-    handled = frames_seen(session, station) - frames
-    outcome.at_most("share of that time's frames handled", handled / expected, 0.85)
-    outcome.recovered("tracking again", back_s, 8.0)
-
-
-def frames_seen(session: Session, station: str) -> float:
+def cpu_starved(session: Session, evidence: Evidence) -> None:
+    station = evidence["station"] = session.stations[2]
+    session.wait_until_turning(station, 2 * FOLLOWING_DEG_S, 30.0)
     session.fresh_status(station)
-    return session.counter(station, "frames_tracked")
+    name = session.process(station)
+    evidence["stopped_us"] = session.send_signal(name, signal.SIGSTOP)
+    session.run(STARVED_S)
+    evidence["going_us"] = session.send_signal(name, signal.SIGCONT)
+    session.wait_for_tracking(station, evidence["going_us"], 10.0)
+    session.run(3.0)
+    session.fresh_status(station)
+    evidence["judged_us"] = session.now_us()

@@ -1,12 +1,17 @@
 """Faults of the GNSS receiver and the inclinometer of a station whose pose comes from them."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 import ols
 from ols_demo.places import geodetic
 
+from ols_faults import measure, mutations
 from ols_faults.case import Outcome, case
+from ols_faults.evidence import Evidence
+from ols_faults.judges import alarm_of, judge_alarm, judge_goes_on
+from ols_faults.mutations import put
 from ols_faults.session import Session
 
 HELD_S = 14.0
@@ -14,6 +19,7 @@ FLAGGED_S = 12.0  # a receiver may be silent for some seconds, an inclinometer s
 KEPT_M = 0.2
 KEPT_DEG = 0.01
 POSE_SENSOR = 2  # station_status_t.POSE_SENSOR
+GONE_S = 15.0
 
 
 def place(status: Any) -> np.ndarray:
@@ -22,65 +28,128 @@ def place(status: Any) -> np.ndarray:
     )
 
 
-def flagged_s(session: Session, station: str, since_us: int, word: str) -> tuple[float, str]:
-    """When an alarm with this word first came after then [s], and its text."""
-    arrivals = session.heard.arrivals_us[f"OLS_STATUS_{station}"]
-    for status, at in zip(session.heard.statuses[station], arrivals, strict=True):
-        for alarm in status.alarm:
-            if at > since_us and word in alarm:
-                return (at - since_us) * 1e-6, alarm
-    return float("nan"), "no alarm"
+def around(evidence: Evidence) -> tuple[Any, Any]:
+    """Its last statuses before the fault and before the fault's end."""
+    station = evidence["station"]
+    before = measure.statuses(evidence.heard, station, 0, evidence["at_us"])
+    during = measure.statuses(evidence.heard, station, evidence["at_us"], evidence["ended_us"])
+    return before[-1], during[-1]
 
 
-def flag_is_gone(session: Session, station: str, word: str) -> bool:
-    return not any(word in alarm for alarm in session.status(station).alarm)
+def judge_position(evidence: Evidence, outcome: Outcome) -> None:
+    station, since = evidence["station"], (evidence["at_us"], mutations.EVER)
+    before, during = around(evidence)
+    outcome.at_most(
+        "position moved",
+        float(np.linalg.norm(place(during) - place(before))),
+        KEPT_M,
+        "m",
+        broken_by=mutations.status_altered(
+            "the pose goes with the sensor by 1 m",
+            station,
+            lambda s: put(s, height_m=s.height_m + 1.0),
+            since,
+        ),
+    )
+    outcome.at_least(
+        "its 1-sigma grown",
+        max(during.position_sd_m) - max(before.position_sd_m),
+        1e-4,
+        "m",
+        broken_by=mutations.status_altered(
+            "the sigma stays",
+            station,
+            lambda s: put(s, position_sd_m=before.position_sd_m),
+            since,
+        ),
+    )
 
 
-def pose_kept(session: Session, outcome: Outcome, kind: str, word: str, value: float) -> None:
-    station = session.sensor_station
-    before = session.fresh_status(station)
-    of_position = word == "gnss"
+def judge_tilt(evidence: Evidence, outcome: Outcome) -> None:
+    station, since = evidence["station"], (evidence["at_us"], mutations.EVER)
+    before, during = around(evidence)
+    tilts = [(s.tilt_x_rad, s.tilt_y_rad) for s in (before, during)]
+    outcome.at_most(
+        "tilt changed",
+        float(np.degrees(np.abs(np.subtract(*tilts)).max())),
+        KEPT_DEG,
+        "deg",
+        broken_by=mutations.status_altered(
+            "the tilt goes off by 0.05 deg",
+            station,
+            lambda s: put(s, tilt_x_rad=s.tilt_x_rad + np.radians(0.05)),
+            since,
+        ),
+    )
+    outcome.at_least(
+        "its 1-sigma grown",
+        float(np.degrees(during.tilt_sd_rad - before.tilt_sd_rad)),
+        1e-5,
+        "deg",
+        broken_by=mutations.status_altered(
+            "the sigma stays", station, lambda s: put(s, tilt_sd_rad=before.tilt_sd_rad), since
+        ),
+    )
+
+
+def judge(evidence: Evidence, outcome: Outcome, words: tuple[str, ...]) -> None:
+    station, at_us, ended_us = (evidence[name] for name in ("station", "at_us", "ended_us"))
+    of_position = words[0].startswith("gnss")
+    before, _ = around(evidence)
     source = before.position_source if of_position else before.tilt_source
-    outcome.holds("its pose is the sensors'", source == POSE_SENSOR, f"source {source}")
-    at_us = session.fault(kind, station, HELD_S, value)
+    outcome.holds(
+        "its pose is the sensors'",
+        source == POSE_SENSOR,
+        f"source {source}",
+        broken_by=mutations.status_altered(
+            "the pose is a survey's", station, lambda s: put(s, position_source=1, tilt_source=1)
+        ),
+    )
+    judge_alarm(evidence, outcome, "flagged", station, at_us, FLAGGED_S, *words)
+    (judge_position if of_position else judge_tilt)(evidence, outcome)
+    judge_goes_on(evidence, outcome, station, (at_us, ended_us), 8.0)
+    still = ended_us, ended_us + round((GONE_S + 6.0) * 1e6)
+    outcome.recovered(
+        "alarm gone",
+        measure.first_s(
+            evidence.heard,
+            f"OLS_STATUS_{station}",
+            ended_us,
+            mutations.EVER,
+            lambda status: not alarm_of(status, words[0]),
+        ),
+        GONE_S,
+        broken_by=mutations.alarm_instead(station, " ".join(words), still),
+    )
+
+
+def do(session: Session, evidence: Evidence, kind: str, word: str, value: float) -> None:
+    station = evidence["station"] = session.sensor_station
+    session.wait(lambda: not alarm_of(session.status(station), word), 10.0)
+    session.fresh_status(station)
+    evidence["at_us"] = session.fault(kind, station, HELD_S, value)
     session.run(HELD_S)
-    during = session.status(station)
-    ended_us = session.now_us()
-    seen_s, text = flagged_s(session, station, at_us, word)
-    outcome.at_most(f"flagged ({text})", seen_s, FLAGGED_S, "s")
-    if of_position:
-        moved_m = float(np.linalg.norm(place(during) - place(before)))
-        outcome.at_most("position moved", moved_m, KEPT_M, "m")
-        grown = max(during.position_sd_m) - max(before.position_sd_m)
-        outcome.at_least("its 1-sigma grown", grown, 1e-4, "m")
-    else:
-        tilts = [(s.tilt_x_rad, s.tilt_y_rad) for s in (before, during)]
-        turned_deg = float(np.degrees(np.abs(np.subtract(*tilts)).max()))
-        outcome.at_most("tilt changed", turned_deg, KEPT_DEG, "deg")
-        grown = np.degrees(during.tilt_sd_rad - before.tilt_sd_rad)
-        outcome.at_least("its 1-sigma grown", float(grown), 1e-5, "deg")
-    away = session.state_since(station, at_us) - {"tracking", "coasting"}
-    outcome.holds("goes on tracking", not away, ", ".join(sorted(away)) or "yes")
-    session.wait(lambda: flag_is_gone(session, station, word), 20.0)
-    gone = flag_is_gone(session, station, word)
-    outcome.recovered("alarm gone", (session.now_us() - ended_us) * 1e-6 if gone else None, 15.0)
+    evidence["ended_us"] = session.now_us()
+    session.wait(lambda: not alarm_of(session.status(station), word), 20.0)
 
 
-@case("gnss-fix-lost", "GNSS fix lost for 14 s", "pose kept, flagged, uncertainty grows")
-def gnss_fix_lost(session: Session, outcome: Outcome) -> None:
-    pose_kept(session, outcome, "gnss-no-fix", "gnss", float("nan"))
+# By the fault's name: what is done, its value, and the words of the alarm.
+FAULTS = {
+    "gnss-fix-lost": ("GNSS fix lost", "gnss-no-fix", float("nan"), ("gnss:", "no fix", "kept")),
+    "gnss-jump": ("GNSS position jumps by 100 m", "gnss-jump", 100.0, ("gnss:", " m from the")),
+    "gnss-silent": ("GNSS receiver silent", "gnss-silent", float("nan"), ("gnss:", "silent")),
+    "inclinometer-stuck": (
+        "inclinometer stuck",
+        "inclinometer-stuck",
+        float("nan"),
+        ("inclinometer:", "stuck", "kept"),
+    ),
+}
 
-
-@case("gnss-jump", "GNSS position jumps by 100 m for 14 s", "pose kept, flagged, uncertainty grows")
-def gnss_jump(session: Session, outcome: Outcome) -> None:
-    pose_kept(session, outcome, "gnss-jump", "gnss", 100.0)
-
-
-@case("gnss-silent", "GNSS receiver silent for 14 s", "pose kept, flagged, uncertainty grows")
-def gnss_silent(session: Session, outcome: Outcome) -> None:
-    pose_kept(session, outcome, "gnss-silent", "gnss", float("nan"))
-
-
-@case("inclinometer-stuck", "inclinometer stuck for 14 s", "pose kept, flagged, uncertainty grows")
-def inclinometer_stuck(session: Session, outcome: Outcome) -> None:
-    pose_kept(session, outcome, "inclinometer-stuck", "inclinometer", float("nan"))
+for name, (what, kind, value, words) in FAULTS.items():
+    case(
+        name,
+        f"{what} for {HELD_S:g} s",
+        "pose kept, flagged, uncertainty grows",
+        partial(judge, words=words),
+    )(partial(do, kind=kind, word=words[0], value=value))

@@ -1,39 +1,234 @@
-"""What several cases judge in the same way."""
+"""What several cases judge in the same way. Pure."""
 
 import numpy as np
 from ols_demo import evaluate
 
-from ols_faults import measure
+from ols_faults import measure, mutations, pursuit
 from ols_faults.case import Outcome
-from ols_faults.session import Session
+from ols_faults.configuration import ACCELERATION_DEG_S2
+from ols_faults.evidence import Evidence
 
-SPEED_LIMIT_DEG_S = 57.5  # ServoConfig::max_speed_rad_s
+Window = tuple[int, int]
+
+FRAME_HZ = 12.0  # of the scenario's cameras
 SIGMAS = 3.0
 HONEST = 2.0  # RMS error of a few seconds over what the covariances say
+SIGMA_DEG = 0.06  # greater ones say nothing: errors of 0.03 deg are put into the scenario
+ERROR_M = 0.5  # of targets, RMS; 0.03 to 0.2 are seen
+PREDICTED_M = 0.3  # what the fusion may say of it; likewise
+EXCESS_DEG_S = 2.0  # calm and after faults 0.1 to 0.3 are seen
+ACCELERATION_MARGIN = 1.25  # of the shafts, taken over 60 ms
+GOES_ON = {"tracking", "coasting"}
 
 
-def judge_angles(session: Session, outcome: Outcome, station: str, window: tuple[int, int]) -> None:
-    """No bearing beyond three of its sigmas, but for what a Gaussian has there."""
-    errors, sigmas = measure.bearing_errors(session.heard, station, *window)
-    outcome.at_least("bearings to judge", float(len(errors)), 5.0)
-    if not len(errors):
-        return
-    ratio = np.abs(errors / sigmas).max(axis=1)
+def seconds(window: Window) -> float:
+    return (window[1] - window[0]) * 1e-6
+
+
+def judge_angles(
+    evidence: Evidence, outcome: Outcome, station: str, window: Window, tracked_s: float
+) -> None:
+    """No bearing beyond three of its sigmas, but for what a Gaussian has there; and sigmas that say
+    something. `tracked_s`: so long of the window it should have published."""
+    errors, sigmas = measure.bearing_errors(evidence.heard, station, *window)
+    # A third is for frames that are lost, and coasting.
+    outcome.at_least(
+        f"{station}: bearings to judge",
+        float(len(errors)),
+        0.66 * FRAME_HZ * tracked_s,
+        broken_by=mutations.bearings_lost(station, share=0.78),
+    )
+    ratio = np.abs(errors / sigmas).max(axis=1) if len(errors) else np.zeros(0)
     # Of n pairs so many are beyond by right; three deviations of that count on top.
     expected = 2 * 0.0027 * len(ratio)
     allowed = int(np.ceil(expected + 3.0 * np.sqrt(expected))) if len(ratio) >= 20 else 0
-    beyond = int((ratio > SIGMAS).sum())
-    outcome.at_most(f"of {len(ratio)} bearings beyond {SIGMAS:g} sigmas", beyond, allowed)
-    outcome.at_most("greatest error in sigmas", float(ratio.max()), 4.5)
+    wide_deg = float(np.degrees(np.median(sigmas))) if len(errors) else float("nan")
+    off_deg = 6.0 * wide_deg
+    outcome.at_most(
+        f"{station}: bearings beyond {SIGMAS:g} sigmas",
+        float((ratio > SIGMAS).sum()) if len(ratio) else None,
+        allowed,
+        note=f"of {len(ratio)}",
+        broken_by=mutations.bearings_turned(station, off_deg, every=5),
+    )
+    outcome.at_most(
+        f"{station}: greatest error in sigmas",
+        float(ratio.max()) if len(ratio) else None,
+        4.5,
+        broken_by=mutations.bearings_turned(station, 2 * off_deg, every=10),
+    )
+    outcome.at_most(
+        f"{station}: median of the published sigmas",
+        wide_deg,
+        SIGMA_DEG,
+        "deg",
+        broken_by=mutations.sigmas_scaled(station, 5.0),
+    )
 
 
-def judge_motion(session: Session, outcome: Outcome, station: str, window: tuple[int, int]) -> None:
-    fastest = measure.fastest_deg_s(session.heard, station, *window)
-    outcome.at_most("fastest motion", fastest, SPEED_LIMIT_DEG_S, "deg/s")
+def judge_motion(evidence: Evidence, outcome: Outcome, station: str, window: Window) -> None:
+    """It moves as one that follows the target: by the true shafts and the true target."""
+    outcome.at_most(
+        f"{station}: motion beyond what follows the target",
+        pursuit.excess_deg_s(evidence.heard, station, *window),
+        EXCESS_DEG_S,
+        "deg/s",
+        broken_by=mutations.swings(station, window),
+    )
+    outcome.at_most(
+        f"{station}: hardest acceleration",
+        pursuit.acceleration_deg_s2(evidence.heard, station, *window),
+        ACCELERATION_MARGIN * ACCELERATION_DEG_S2,
+        "deg/s^2",
+        broken_by=mutations.jerks(station, window, 3 * ACCELERATION_DEG_S2),
+    )
 
 
-def judge_target(session: Session, outcome: Outcome, window: tuple[int, int]) -> None:
+def judge_target(evidence: Evidence, outcome: Outcome, window: Window, least_hz: float) -> None:
     """Fewer stations are less exact: what they publish of their own error counts."""
-    found = evaluate.accuracy(session.heard, evaluate.JOINT, window)
-    outcome.at_most("RMS error over predicted", found.get("rmse_over_predicted"), HONEST)
-    outcome.at_most("RMS error", found["rmse_m"], 1.0, "m")
+    found = evaluate.accuracy(evidence.heard, evaluate.JOINT, window)
+    outcome.at_least(
+        "targets",
+        found["fixes"] / seconds(window),
+        least_hz,
+        "Hz",
+        broken_by=mutations.targets_lost(share=0.78),
+    )
+    outcome.at_most(
+        "RMS error over predicted",
+        found.get("rmse_over_predicted"),
+        HONEST,
+        broken_by=mutations.target_sigmas_scaled(0.1),
+    )
+    outcome.at_most(
+        "RMS error", found["rmse_m"], ERROR_M, "m", broken_by=mutations.targets_shifted(0.7)
+    )
+    outcome.at_most(
+        "error that the fusion predicts",
+        found["predicted_rmse_m"],
+        PREDICTED_M,
+        "m",
+        broken_by=mutations.target_sigmas_scaled(10.0),
+    )
+
+
+def judge_goes_on(
+    evidence: Evidence, outcome: Outcome, station: str, window: Window, least_hz: float
+) -> None:
+    """It says so, and its bearings come."""
+    seen = measure.states(evidence.heard, station, *window)
+    outcome.holds(
+        f"{station}: goes on tracking",
+        bool(seen) and not seen - GOES_ON,
+        ", ".join(sorted(seen - GOES_ON)) or ("yes" if seen else "no status"),
+        broken_by=mutations.in_state(station, "lost", window),
+    )
+    outcome.at_least(
+        f"{station}: bearings meanwhile",
+        measure.bearings_hz(evidence.heard, station, *window),
+        least_hz,
+        "Hz",
+        broken_by=mutations.bearings_lost(station, window, 0.78),
+    )
+
+
+def judge_outage(evidence: Evidence, outcome: Outcome, station: str, window: Window) -> None:
+    """While the device is away there can be no bearing: else the fault was not done, or they are
+    made up."""
+    sent = measure.between(evidence.heard.bearings.get(station, []), *window)
+    outcome.at_most(
+        f"{station}: bearings meanwhile",
+        float(len(sent)),
+        0.0,
+        broken_by=mutations.goes_on_publishing(station, window),
+    )
+
+
+def judge_tracking_again(
+    evidence: Evidence, outcome: Outcome, what: str, station: str, since_us: int, limit_s: float
+) -> None:
+    """The recovery: its first bearing of a picture that was taken since."""
+    outcome.recovered(
+        what,
+        measure.tracking_again_s(evidence.heard, station, since_us, mutations.EVER),
+        limit_s,
+        broken_by=mutations.not_tracking_for(station, since_us, limit_s),
+    )
+
+
+def judge_rest(
+    evidence: Evidence, outcome: Outcome, station: str, window: Window, limit_s: float
+) -> None:
+    """The PTU comes to rest within the limit after the window's start."""
+    after_us = window[0] + round((limit_s + 0.1) * 1e6)
+    outcome.at_most(
+        "PTU at rest",
+        measure.rest_s(evidence.heard, station, *window),
+        limit_s,
+        "s",
+        broken_by=mutations.moves_on(station, (window[0], after_us), 3.0),
+    )
+
+
+def alarm_of(status: object, *words: str) -> str:
+    """The first alarm that has all of these words; empty: none."""
+    return next((a for a in status.alarm if all(word in a for word in words)), "")
+
+
+def judge_alarm(
+    evidence: Evidence,
+    outcome: Outcome,
+    what: str,
+    station: str,
+    since_us: int,
+    limit_s: float,
+    *words: str,
+) -> None:
+    """An alarm with all these words comes in time; before, there was none with the first."""
+    recording, channel = evidence.heard, f"OLS_STATUS_{station}"
+    before = [s for s in measure.statuses(recording, station, 0, since_us)][-1:]
+    text = ""
+
+    def alarmed(status: object) -> bool:
+        nonlocal text
+        text = alarm_of(status, *words)
+        return bool(text)
+
+    seen_s = measure.first_s(recording, channel, since_us, mutations.EVER, alarmed)
+    outcome.at_most(
+        what,
+        seen_s,
+        limit_s,
+        "s",
+        note=text or "no such alarm",
+        broken_by=mutations.alarm_instead(
+            station, words[0] + " trouble", (since_us, mutations.EVER)
+        ),
+    )
+    outcome.holds(
+        f"{what}: not before it",
+        bool(before) and not any(alarm_of(status, *words) for status in before),
+        broken_by=mutations.alarm_instead(station, " ".join(words), (0, since_us)),
+    )
+
+
+def judge_counted(
+    evidence: Evidence,
+    outcome: Outcome,
+    what: str,
+    channel: str,
+    names: str | tuple[str, ...],
+    window: Window,
+    least: float,
+) -> None:
+    """By these counters together."""
+    names = (names,) if isinstance(names, str) else names
+    counted = [measure.grown(evidence.heard, channel, name, *window) for name in names]
+    silent = [mutations.without_counter(channel, name) for name in names]
+    outcome.at_least(
+        what,
+        None if None in counted else sum(counted),
+        least,
+        note=" + ".join(names),
+        broken_by=mutations.together(f"{' and '.join(names)} not counted", *silent),
+    )

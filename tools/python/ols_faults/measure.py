@@ -6,18 +6,24 @@ Times are microseconds of true UTC; the host's own clock is never stepped in a f
 from __future__ import annotations
 
 import bisect
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import ols
 from ols_demo import evaluate
+from ols_demo.bus import counters
 from ols_demo.evaluate import JOINT, OK
+from ols_demo.observer import STATES
 from ols_demo.recording import Recording
+
+from ols_faults.evidence import heard
 
 REST_DEG_S = 0.1
 REST_S = 0.25
 SMOOTH_S = 0.01
 SAME_FRAME_US = 10_000
+SAME_EPOCH_US = 5_000
 
 
 def ptu_track(
@@ -25,10 +31,11 @@ def ptu_track(
 ) -> tuple[np.ndarray, np.ndarray]:
     """True shaft angles: times [s after start] (n,), pan and tilt [deg] (n, 2)."""
     times, angles = [np.zeros(0)], [np.zeros((0, 2))]
-    for message in recording.ptus.get(station, []):
+    ptus = recording.ptus.get(station, [])
+    for message in ptus[bisect.bisect_left(ptus, start_us - 1_000_000, key=lambda p: p.utime) :]:
+        if message.utime > end_us:
+            break
         first_s = (message.utime - start_us) * 1e-6
-        if message.utime > end_us or first_s < -1.0:
-            continue
         times.append(first_s + np.arange(message.samples) * message.interval_s)
         angles.append(np.degrees(np.column_stack([message.pan_rad, message.tilt_rad])))
     t, a = np.concatenate(times), np.concatenate(angles)
@@ -84,13 +91,18 @@ def braking(recording: Recording, station: str, edge_us: int) -> tuple[float, fl
     """Of a PTU that turns steadily and then brakes: its speed before [deg/s], when it begins to
     brake after the edge [s], and its deceleration [deg/s^2]. A line through the middle of the
     braking, drawn back to the speed before, is far finer than the first slower sample."""
-    before_us = edge_us - 50_000
-    times, angles = ptu_track(recording, station, before_us, edge_us + 2_500_000)
-    times = times - 0.05
+    times, angles = ptu_track(recording, station, edge_us - 150_000, edge_us + 2_500_000)
+    times = times - 0.15
     speed = speeds(times, angles)
     if len(speed) < 50:
         return float("nan"), float("nan"), float("nan")
-    steady = float(np.median(speed[times <= 0.0]))
+    shortly = (times >= -0.05) & (times <= 0.0)
+    if not shortly.any():  # where some of what the shafts did was not heard
+        shortly = times <= 0.0
+    if not shortly.any():
+        return float("nan"), float("nan"), float("nan")
+    steady = float(np.median(speed[shortly]))
+    speed, times = speed[times >= -0.05], times[times >= -0.05]
     slow = np.flatnonzero(speed < 0.3 * steady)
     end = slow[0] if len(slow) else len(speed)
     chosen = np.flatnonzero((speed < 0.85 * steady) & (np.arange(len(speed)) < end))
@@ -141,9 +153,77 @@ def bearing_errors(
     return np.array(errors).reshape(-1, 2), np.array(sigmas).reshape(-1, 2)
 
 
-def target_error_m(recording: Recording, start_us: int, end_us: int) -> float | None:
-    """RMS error of the joint estimate's positions [m]; None without any."""
-    return evaluate.accuracy(recording, JOINT, (start_us, end_us))["rmse_m"]
+def between_arrivals(
+    recording: Recording, channel: str, start_us: int, end_us: int
+) -> list[tuple[Any, int]]:
+    """Messages that arrived in the window, with the instant [us] at which each did."""
+    return [(m, at) for m, at in heard(recording, channel) if start_us <= at <= end_us]
+
+
+def statuses(recording: Recording, station: str, start_us: int, end_us: int) -> list[Any]:
+    found = between_arrivals(recording, f"OLS_STATUS_{station}", start_us, end_us)
+    return [status for status, _ in found]
+
+
+def states(recording: Recording, station: str, start_us: int, end_us: int) -> set[str]:
+    found = statuses(recording, station, start_us, end_us)
+    return {STATES.get(status.state, "unknown") for status in found}
+
+
+def first_s(
+    recording: Recording,
+    channel: str,
+    start_us: int,
+    end_us: int,
+    condition: Callable[[Any], bool],
+) -> float | None:
+    """How long after the start the first message came for which the condition holds, or None."""
+    for message, at in between_arrivals(recording, channel, start_us, end_us):
+        if condition(message):
+            return (at - start_us) * 1e-6
+    return None
+
+
+def tracking_again_s(
+    recording: Recording, station: str, start_us: int, end_us: int
+) -> float | None:
+    """How long after the start its first bearing of a picture taken since came, or None."""
+
+    def since(bearing: Any) -> bool:
+        return bearing.utime >= start_us
+
+    return first_s(recording, f"OLS_BEARING_{station}", start_us, end_us, since)
+
+
+def grown(
+    recording: Recording, channel: str, name: str, start_us: int, end_us: int
+) -> float | None:
+    """What a counter grew by: from the last status before the window to the last in it. None
+    without both, or without the counter at the end."""
+    before = [m for m, at in heard(recording, channel) if at < start_us]
+    during = between_arrivals(recording, channel, start_us, end_us)
+    if not before or not during or name not in (last := counters(during[-1][0])):
+        return None
+    return last[name] - counters(before[-1]).get(name, 0.0)
+
+
+def counter_at_end(
+    recording: Recording, channel: str, name: str, start_us: int, end_us: int
+) -> float | None:
+    """Of the last status in the window: 0 where it has no such counter (yet); None without one."""
+    during = between_arrivals(recording, channel, start_us, end_us)
+    return counters(during[-1][0]).get(name, 0.0) if during else None
+
+
+def used(target: Any) -> set[str]:
+    """The stations whose rays a target with a position comes from."""
+    return {s for s, is_used in zip(target.station, target.used, strict=True) if is_used}
+
+
+def positions(recording: Recording, start_us: int, end_us: int) -> list[Any]:
+    """Targets with a position that arrived in the window."""
+    arrived = between_arrivals(recording, JOINT, start_us, end_us)
+    return [target for target, _ in arrived if target.solution == OK]
 
 
 def target_arrivals_us(recording: Recording, start_us: int, end_us: int) -> list[int]:
@@ -180,3 +260,35 @@ def aim_offsets_px(recording: Recording, station: str, start_us: int, end_us: in
     views = [v for v in recording.views.get(station, []) if start_us <= v.utime <= end_us]
     offsets = [np.hypot(*(np.array(v.centre_px) - middle)) for v in views]
     return np.array([o for o in offsets if np.isfinite(o)])
+
+
+def bearings_hz(recording: Recording, station: str, start_us: int, end_us: int) -> float:
+    ages = bearing_ages_s(recording, station, start_us, end_us)
+    return len(ages) / ((end_us - start_us) * 1e-6)
+
+
+def same_epochs_m(
+    recording: Recording, channel: str, other: str, start_us: int, end_us: int
+) -> tuple[np.ndarray, float]:
+    """Errors (n, 2) [m] of the positions of two fusions that hold at the same instants, and the
+    share of the second one's positions for which the first one has one."""
+    ours, theirs = (
+        evaluate.solved(recording, name, (start_us, end_us)) for name in (channel, other)
+    )
+    if not ours or not theirs:
+        return np.zeros((0, 2)), 0.0
+    distances = [
+        np.linalg.norm(evaluate.errors_enu(recording, name, indices), axis=1)
+        for name, indices in ((channel, ours), (other, theirs))
+    ]
+    times = np.array([recording.targets[channel][i].utime for i in ours])
+    wanted = np.array([recording.targets[other][i].utime for i in theirs])
+    order = np.argsort(times)
+    times = times[order]
+    after = np.clip(np.searchsorted(times, wanted), 1, max(1, len(times) - 1))
+    before = after - 1
+    after = np.minimum(after, len(times) - 1)
+    nearest = np.where(wanted - times[before] <= times[after] - wanted, before, after)
+    close = np.abs(times[nearest] - wanted) <= SAME_EPOCH_US
+    pairs = np.column_stack([distances[0][order][nearest[close]], distances[1][close]])
+    return pairs[np.isfinite(pairs).all(axis=1)], float(close.mean())

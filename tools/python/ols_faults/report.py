@@ -1,7 +1,6 @@
 """The table of a fault run: Markdown to read, JSON to compare."""
 
 import json
-from dataclasses import asdict
 from pathlib import Path
 
 from ols_faults.case import CASES, Outcome
@@ -33,6 +32,20 @@ def table(outcomes: dict[str, Outcome]) -> str:
     return "\n".join(rows)
 
 
+def as_json(outcome: Outcome) -> dict[str, object]:
+    checks = [
+        {name: getattr(check, name) for name in ("what", "measured", "limit", "passed")}
+        for check in outcome.checks
+    ]
+    return {
+        "passed": outcome.passed,
+        "checks": checks,
+        "recovery_s": outcome.recovery_s,
+        "seconds": outcome.seconds,
+        "error": outcome.error,
+    }
+
+
 def write(folder: Path, about: dict[str, object], outcomes: dict[str, Outcome]) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     passed = sum(outcome.passed for outcome in outcomes.values())
@@ -46,8 +59,7 @@ def write(folder: Path, about: dict[str, object], outcomes: dict[str, Outcome]) 
             name: {
                 "fault": CASES[name].fault,
                 "criterion": CASES[name].criterion,
-                "passed": outcome.passed,
-                **asdict(outcome),
+                **as_json(outcome),
             }
             for name, outcome in outcomes.items()
         },

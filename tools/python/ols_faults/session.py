@@ -5,13 +5,15 @@ from __future__ import annotations
 import os
 import signal
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import ols_msg
-from ols_demo.bus import LIVE_URL, Bus, counters
+from ols_demo import evaluate
+from ols_demo.bus import LIVE_URL, counters
 from ols_demo.observer import STATES, Observer
 from ols_demo.operator import Operator
 from ols_demo.recording import Recording
@@ -19,12 +21,23 @@ from ols_demo.site import Site, SiteError
 from ols_demo.wiring import Wiring
 
 from ols_faults import measure
+from ols_faults.evidence import TWIN
+from ols_faults.wire import Ear
 
+QUIET_URL = "udpm://239.255.76.70:7670?ttl=0"  # of a second, undisturbed fusion
+TO_FUSION = ("OLS_BEARING_", "OLS_STATUS_")
 RESTORE_S = 90.0
 BY_SLEWS_S = 8.0  # after that the operator designates again
 OTHER_OBJECT_DEG = 0.5
 REARM_HELD_S = 1.5  # a second is asked for
 REARM_AGAIN_S = 2.5
+OF_STATIONS = ("OLS_BEARING_", "OLS_STATUS_", "OLS_SIM_VIEW_", "OLS_SIM_PTU_")
+
+
+def belongs(channel: str, message: Any) -> bool:
+    """Not what calls itself another station's than its channel is."""
+    prefix = next((p for p in OF_STATIONS if channel.startswith(p)), None)
+    return prefix is None or message.station == channel.removeprefix(prefix)
 
 
 class Session:
@@ -35,12 +48,13 @@ class Session:
         self.disk = disk  # of disk_station: a small one of its own
         self.heard = Recording()
         self.observer = Observer()
-        self.bus = Bus(LIVE_URL, self.hear)
+        self.bus = Ear(LIVE_URL, self.hear)
         self.operator = Operator(self.bus.lcm, self.observer, seed)
         self._sequence = 0
         self._restoring_us = 0
         self._rearmed: dict[str, float] = {}
         self._handlers: list[Callable[[], None]] = []
+        self._listeners: list[Callable[[str, Any], None]] = []
 
     def add_handler(self, handler: Callable[[], None]) -> None:
         """Called at every turn."""
@@ -49,9 +63,43 @@ class Session:
     def remove_handler(self, handler: Callable[[], None]) -> None:
         self._handlers.remove(handler)
 
-    def hear(self, channel: str, message: Any) -> None:
-        self.heard.receive(channel, message, self.now_us())
+    def hear(self, channel: str, message: Any, at_us: int) -> None:
+        if not belongs(channel, message):
+            return
+        self.heard.receive(channel, message, at_us)
         self.observer.receive(channel, message)
+        for listener in self._listeners:
+            listener(channel, message)
+
+    @contextmanager
+    def twin(self) -> Iterator[None]:
+        """A second fusion meanwhile: it hears what the stations sent on a bus of its own, where
+        nothing is disturbed; its targets are heard as OLS_TARGET_TWIN. Nobody heeds its slews."""
+
+        def hear_target(channel: str, message: Any, at_us: int) -> None:
+            if channel == evaluate.JOINT:
+                self.heard.receive(TWIN, message, at_us)
+
+        ear = Ear(QUIET_URL, hear_target)
+
+        def pass_on(channel: str, message: Any) -> None:
+            if channel.startswith(TO_FUSION):
+                ear.lcm.publish(channel, message.encode())
+
+        def handle() -> None:
+            ear.handle(0.0)
+
+        self.wiring.start_fusion(self.site, QUIET_URL, "twin")
+        self._listeners.append(pass_on)
+        self.add_handler(handle)
+        try:
+            yield
+        finally:
+            self.remove_handler(handle)
+            self._listeners.remove(pass_on)
+            if "twin" in self.site.processes:
+                self.site.stop("twin")
+            ear.close()
 
     @property
     def sensor_station(self) -> str:
@@ -95,6 +143,19 @@ class Session:
             self.turn()
         return time.monotonic() - start
 
+    @contextmanager
+    def without_log(self) -> Iterator[None]:
+        """The public lcm-logger, which the run is recorded with, is no part of the product: it dies
+        of fragments, and two million messages are much for a disk."""
+        logged = "lcm-logger" in self.site.processes
+        if logged:
+            self.site.stop("lcm-logger")
+        try:
+            yield
+        finally:
+            if logged:
+                self.wiring.start_log(self.site)
+
     # What stations say.
 
     def status(self, station: str) -> Any:
@@ -127,26 +188,23 @@ class Session:
         recent = self.statuses_since(station, since_us)
         return bool(recent) and STATES.get(recent[-1].state) == "tracking"
 
-    def tracking_again_s(self, station: str, since_us: int, deadline_s: float) -> float | None:
-        """Seconds from then to its first bearing of a picture taken since, or None."""
-        channel = f"OLS_BEARING_{station}"
+    def wait_for_tracking(self, station: str, since_us: int, deadline_s: float) -> None:
+        """Until it has sent a bearing of a picture taken since then, or the deadline."""
+        self.wait(
+            lambda: (
+                measure.tracking_again_s(self.heard, station, since_us, self.now_us()) is not None
+            ),
+            deadline_s,
+        )
 
-        def first() -> int | None:
-            both = zip(
-                reversed(self.heard.bearings.get(station, [])),
-                reversed(self.heard.arrivals_us.get(channel, [])),
-                strict=True,
-            )
-            found = None
-            for bearing, at in both:
-                if at < since_us:
-                    break
-                found = at if bearing.utime >= since_us else found
-            return found
+    def speed_deg_s(self, station: str) -> float:
+        """Of the PTU's true shafts, newest."""
+        now_us = self.now_us()
+        times, angles = measure.ptu_track(self.heard, station, now_us - 150_000, now_us)
+        return float(np.median(measure.speeds(times, angles))) if len(times) > 10 else 0.0
 
-        self.wait(lambda: first() is not None, deadline_s)
-        at_us = first()
-        return None if at_us is None else (at_us - since_us) * 1e-6
+    def wait_until_turning(self, station: str, deg_s: float, deadline_s: float) -> None:
+        self.wait(lambda: self.speed_deg_s(station) > deg_s, deadline_s)
 
     # What is done to the site.
 
@@ -177,13 +235,6 @@ class Session:
         message.command, message.pan_rad, message.tilt_rad = what, pan_rad, tilt_rad
         self.publish(f"OLS_PTU_{station}", message)
 
-    def rearm(self, station: str) -> None:
-        """A hand at the station's button, unless one is just there: it must be let go between."""
-        now = time.monotonic()
-        if now - self._rearmed.get(station, -REARM_AGAIN_S) >= REARM_AGAIN_S:
-            self._rearmed[station] = now
-            self.fault("rearm-button", station, REARM_HELD_S)
-
     def process(self, station: str) -> str:
         return f"ols-station-{station}"
 
@@ -212,6 +263,37 @@ class Session:
         at_us = self.now_us()
         self.wiring.start_fusion(self.site, url)
         return at_us
+
+    def release_held(self, station: str) -> None:
+        """A station that was in the operator's hand when it was killed comes up stopped."""
+        self.wait(lambda: self.state(station) == "stopped", 5.0)
+        self.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
+
+    def rearm(self, station: str) -> None:
+        """A hand at the station's button, unless one is just there: it must be let go between."""
+        now = time.monotonic()
+        if now - self._rearmed.get(station, -REARM_AGAIN_S) >= REARM_AGAIN_S:
+            self._rearmed[station] = now
+            self.fault("rearm-button", station, REARM_HELD_S)
+
+    # Processes that ended by themselves.
+
+    def ended(self) -> list[str]:
+        return [name for name, p in self.site.processes.items() if p.poll() is not None]
+
+    def bury(self) -> list[str]:
+        """Names them, and forgets them, so that restore() starts them anew."""
+        names = self.ended()
+        for name in names:
+            del self.site.processes[name]
+        return names
+
+    def can_go_on(self) -> bool:
+        """Stations and fusion can be started anew, the world cannot."""
+        return "ols-sim" in self.site.processes and not self.ended()
+
+    def close(self) -> None:
+        self.bus.close()
 
     # Back to normal.
 

@@ -53,5 +53,13 @@ TEST(Flood, TheSameSeedGivesTheSameMessages) {
   }
 }
 
+TEST(Flood, EachUnknownChannelHasANameOfItsOwn) {
+  std::set<std::string> names;
+  for (std::uint64_t i = 0; i < 10000; ++i) names.insert(unknown_channel(i).channel);
+  EXPECT_EQ(names.size(), 10000U);
+  EXPECT_FALSE(names.begin()->starts_with("OLS_"));
+  EXPECT_LE(unknown_channel(2'000'000'000).channel.size(), 63U);
+}
+
 }  // namespace
 }  // namespace ols::sim
