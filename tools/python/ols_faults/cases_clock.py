@@ -17,7 +17,7 @@ from ols_faults.session import Session
 
 MARKED_S = 3.0
 QUARANTINED_S = 3.0
-STEPPED_S = 15.0
+STEPPED_S = 12.0
 RETURN_S = 20.0  # it is distrusted for a while: see configuration.py
 
 

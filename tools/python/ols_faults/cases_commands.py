@@ -211,7 +211,7 @@ def judge_slews(evidence: Evidence, outcome: Outcome) -> None:
             f"OLS_STATUS_{station}",
             since_us,
             mutations.EVER,
-            lambda status: status.state in (LED_STATES),
+            lambda status: status.state in LED_STATES,
         ),
         10.0,
         broken_by=mutations.in_state(station, "idle", late),

@@ -14,8 +14,8 @@ from ols_faults.judges import alarm_of, judge_alarm, judge_goes_on
 from ols_faults.mutations import put
 from ols_faults.session import Session
 
-HELD_S = 14.0
-FLAGGED_S = 12.0  # a receiver may be silent for some seconds, an inclinometer still for stuck_s
+HELD_S = 10.0
+FLAGGED_S = 9.0  # a receiver may be silent for some seconds, an inclinometer still for stuck_s
 KEPT_M = 0.2
 KEPT_DEG = 0.01
 POSE_SENSOR = 2  # station_status_t.POSE_SENSOR

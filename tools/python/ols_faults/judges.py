@@ -12,7 +12,7 @@ Window = tuple[int, int]
 
 FRAME_HZ = 12.0  # of the scenario's cameras
 SIGMAS = 3.0
-HONEST = 2.0  # RMS error of a few seconds over what the covariances say
+HONEST = 3.0  # RMS error over what the covariances say: what stays is one draw for all of a window
 SIGMA_DEG = 0.06  # greater ones say nothing: errors of 0.03 deg are put into the scenario
 ERROR_M = 0.5  # of targets, RMS; 0.03 to 0.2 are seen
 PREDICTED_M = 0.3  # what the fusion may say of it; likewise
