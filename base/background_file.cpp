@@ -4,14 +4,13 @@
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "base/small_file.h"
 
 namespace ols {
 namespace {
@@ -28,9 +27,11 @@ void put(const std::string& path, const std::string& text) {
 }
 
 bool holds(const std::string& path, const std::string& text) {
-  std::ifstream stream(path);
-  const std::string found{std::istreambuf_iterator<char>(stream), {}};
-  return stream.is_open() && !stream.bad() && found == text;
+  try {
+    return read_small_file(path, text.size()) == text;
+  } catch (const std::exception&) {
+    return false;
+  }
 }
 
 }  // namespace
@@ -43,6 +44,7 @@ struct BackgroundFile::Shared {
       const bool last = end;
       const bool look = !waiting;
       const std::string text = look ? *kept : *std::exchange(waiting, std::nullopt);
+      const std::uint64_t number = written;
       lock.unlock();
       std::string failed;
       try {
@@ -53,6 +55,7 @@ struct BackgroundFile::Shared {
       lock.lock();
       trouble = failed;
       kept = text;
+      if (failed.empty()) stored = number;
       if (!failed.empty() && !waiting) waiting = text;
       if (!failed.empty() && last) break;
       done.notify_all();
@@ -80,6 +83,7 @@ struct BackgroundFile::Shared {
   std::condition_variable wake, done;
   bool end = false, ended = false;
   std::uint64_t written = 0;  // calls of write()
+  std::uint64_t stored = 0;   // the last of them that is in the file
   std::optional<std::string> waiting;
   std::string trouble;
 };
@@ -104,6 +108,16 @@ void BackgroundFile::write(const std::string& text) {
   shared_->waiting = text;
   ++shared_->written;
   shared_->wake.notify_all();
+}
+
+bool BackgroundFile::is_written(double wait_s) const {
+  std::unique_lock lock(shared_->mutex);
+  const auto is_stored = [this] {
+    return shared_->stored == shared_->written && shared_->trouble.empty();
+  };
+  shared_->done.wait_for(lock, std::chrono::duration<double>(wait_s),
+                         [&] { return is_stored() || !shared_->trouble.empty(); });
+  return is_stored();
 }
 
 std::string BackgroundFile::trouble() const {

@@ -20,6 +20,8 @@ class BackgroundFile {
   // is not there, the memory would end up beside it.
   void write(const std::string& text);
 
+  // Whether it is in the file, as soon as that is known: waits so long at most.
+  bool is_written(double wait_s) const;
   // Why it is not in the file; empty when all is well.
   std::string trouble() const;
 

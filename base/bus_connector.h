@@ -1,5 +1,5 @@
-// Makes an LCM connection beside the loop that wants one: where multicast is blocked, LCM's self
-// test takes ten seconds, and a control loop must not stand still for that.
+// Makes a connection to the bus beside the loop that wants one: where multicast is blocked, its
+// self test takes seconds, and a control loop must not stand still for that.
 #pragma once
 
 #include <future>

@@ -14,8 +14,9 @@ BusTraffic BusWatch::total() const { return ended_ + current_; }
 
 void BusWatch::look(const BusTraffic& connection, double now_s) {
   if (is_calm(now_s)) calm_ = total();
-  const bool more =
-      connection.fragments > current_.fragments || connection.malformed > current_.malformed;
+  const bool more = connection.fragments > current_.fragments ||
+                    connection.malformed > current_.malformed ||
+                    connection.overflowed > current_.overflowed;
   if (more) refused_s_ = now_s;
   current_ = connection;
 }
@@ -37,8 +38,9 @@ std::string BusWatch::alarm(double now_s) const {
   if (is_calm(now_s)) return {};
   const BusTraffic all = total();
   return "bus: " + std::to_string(all.fragments - calm_.fragments) + " fragments and " +
-         std::to_string(all.malformed - calm_.malformed) +
-         " malformed datagrams refused: some program here is not of this site, or attacks it";
+         std::to_string(all.malformed - calm_.malformed) + " malformed datagrams refused, " +
+         std::to_string(all.overflowed - calm_.overflowed) +
+         " messages pushed out by newer ones: a flood, or a program that is not of this site";
 }
 
 }  // namespace ols

@@ -19,7 +19,7 @@ class BusWatch {
   // Counters that only go up over all connections: bus_fragments_refused, bus_datagrams_malformed,
   // bus_messages_overflowed, bus_messages_unsendable.
   void count(std::map<std::string, double>& counters) const;
-  // In words, while something was refused within the last kAlarm_s; else empty.
+  // In words, while something was refused or pushed out within the last kAlarm_s; else empty.
   std::string alarm(double now_s) const;
   static constexpr double kAlarm_s = 10.0;
 

@@ -28,9 +28,12 @@ std::unique_ptr<MulticastSocket> open_socket(const std::string& url) {
 
 LcmBus::LcmBus(const std::string& url) : url_(url), socket_(open_socket(url)) {}
 
-LcmBus::~LcmBus() {
+LcmBus::~LcmBus() { stop_listening(); }
+
+void LcmBus::stop_listening() {
   end_.set();
   if (receiver_.joinable()) receiver_.join();
+  end_.clear();
 }
 
 void LcmBus::listen() {
@@ -41,7 +44,12 @@ void LcmBus::listen() {
     throw BusError(url_ + ": " + problem.what());
   }
   receiver_ = std::thread([this] { receive_until_ended(); });
-  hear_oneself();
+  try {
+    hear_oneself();
+  } catch (...) {
+    stop_listening();
+    throw;
+  }
 }
 
 // A firewall, or a service's address filter, lets things out and nothing in.
@@ -96,8 +104,21 @@ bool LcmBus::send(const std::string& channel, std::span<const std::uint8_t> payl
 
 void LcmBus::send_self_test() { send(kSelfTestChannel, {}); }
 
+void LcmBus::check_hearing() {
+  const double now_s = clock_monotonic_s();
+  if (!receiver_.joinable() || now_s < checked_s_ + kCheck_s) return;
+  const std::uint64_t received = inbox_.traffic().received;
+  const bool heard = received != received_;
+  unanswered_ = heard ? 0 : unanswered_ + (tested_ ? 1 : 0);
+  received_ = received;
+  checked_s_ = now_s;
+  tested_ = !heard;
+  if (tested_) send_self_test();
+}
+
 int LcmBus::handle(int timeout_ms) {
   constexpr int kMost = 256;
+  check_hearing();
   int handled = 0;
   while (handled < kMost && inbox_.handle_one(handled == 0 ? timeout_ms : 0)) ++handled;
   return handled;

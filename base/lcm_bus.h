@@ -56,14 +56,22 @@ class LcmBus {
   // caller; waits at most timeout_ms for the first. Returns the number of messages handled.
   int handle(int timeout_ms);
 
+  // Receives no more; what waits can still be handled. A later subscription begins again.
+  void stop_listening();
+
+  // True when for some seconds nothing has come in, not even what this connection then sends to
+  // itself while it is handled: an interface that goes away takes the membership of the group
+  // along, and nothing else tells. It does not end; a new connection may hear again.
+  bool is_deaf() const { return unanswered_ >= kUnanswered; }
+
   BusTraffic traffic() const;
-  // A datagram to everybody that no subscription gets: where it comes back, traffic() counts it.
-  void send_self_test();
 
  private:
   bool send(const std::string& channel, std::span<const std::uint8_t> payload);
   void receive_until_ended();
   void hear_oneself();
+  void send_self_test();
+  void check_hearing();
 
   std::string url_;
   std::unique_ptr<MulticastSocket> socket_;  // nothing: within this process
@@ -71,7 +79,13 @@ class LcmBus {
   std::uint32_t sequence_ = 0;
   std::uint64_t unsendable_ = 0;
   Wakeup end_;
-  std::thread receiver_;  // nothing else of this object that it shares but the inbox
+  std::thread receiver_;  // shares the inbox and nothing else with the others
+  static constexpr double kCheck_s = 2.0;
+  static constexpr int kUnanswered = 2;  // self-tests in a row
+  double checked_s_ = 0.0;
+  std::uint64_t received_ = 0;  // at the last check
+  bool tested_ = false;         // at the last check: nothing had come since the one before
+  int unanswered_ = 0;
 };
 
 // True when the whole of a datagram is one message of this type. Generated decoders throw on a

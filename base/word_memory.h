@@ -15,11 +15,14 @@ enum class Recall {
   kNoFile,      // nothing is to be remembered: no file was named
   kMissing,     // the file, or its folder, is not there
   kUnreadable,  // it cannot be read, or says something else
+  kUnwritable,  // it says the first word, which may be old: the last could not be written
 };
 
 class WordMemory {
  public:
-  // `words` are those that it may say. `file` empty: nothing is remembered.
+  // `words` are those that it may say, first the one that permits most: that one is believed only
+  // once it was written again, because a disk that takes nothing has perhaps not taken a later,
+  // graver one. `file` empty: nothing is remembered. Waits for the disk, at most kProof_s.
   WordMemory(const std::string& file, std::vector<std::string> words);
 
   Recall recall() const { return recall_; }
@@ -35,7 +38,10 @@ class WordMemory {
   std::string trouble() const { return file_.trouble(); }
 
  private:
+  static constexpr double kProof_s = 3.0;
   void read(const std::string& path);
+  void recall(const std::string& path, const std::string& word);
+  void explain_missing(const std::string& path);
 
   std::vector<std::string> words_;
   std::string word_;

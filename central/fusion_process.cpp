@@ -79,9 +79,10 @@ void FusionProcess::turn() {
     std::this_thread::sleep_for(std::chrono::milliseconds(kWaitMs));
   }
   publish_status_when_due();
-  // What a network no longer takes, it may take from a new connection.
-  if (bus_ && send_failed_) {
-    trouble_ = "the network takes no messages";
+  // A new connection may do what this one no longer does.
+  if (bus_ && (send_failed_ || bus_->is_deaf())) {
+    trouble_ = send_failed_ ? "the network takes no messages"
+                            : "nothing comes in any more, not even the fusion's own word";
     spdlog::warn("no bus, tried again each second: {}", trouble_);
     bus_.reset();
     slew_bus_.reset();

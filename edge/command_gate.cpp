@@ -30,9 +30,19 @@ std::optional<GateRefusal> CommandGate::admit(const CommandStamp& stamp,
       (static_cast<double>(now_utime_us) - static_cast<double>(stamp.utime_us)) * 1e-6;
   if (age_s > stamp.lease_s + config_.clock_margin_s) return GateRefusal::kStale;
   if (age_s < -config_.clock_margin_s) return GateRefusal::kFuture;
+  look_at_clock(now_utime_us);
   if (is_replayed(stamp, now_utime_us)) return GateRefusal::kReplayed;
   remember(stamp, now_utime_us);
   return std::nullopt;
+}
+
+// A clock that was set back by more than a command can be fresh must not bar everybody until it
+// gets there again: what is forgotten by then may pass once more, as after a restart.
+void CommandGate::look_at_clock(std::int64_t now_utime_us) {
+  const double back_s =
+      (static_cast<double>(latest_utime_us_) - static_cast<double>(now_utime_us)) * 1e-6;
+  if (back_s > config_.lease_max_s + config_.clock_margin_s) forgotten_utime_us_.reset();
+  latest_utime_us_ = now_utime_us;
 }
 
 // Whatever was let through is found here again, or is not later than what was forgotten.

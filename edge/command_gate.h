@@ -4,12 +4,14 @@
 // boot id, its sequence and its stamp are remembered for longer than it can be fresh. It is fresh
 // when its own stamp is not older than its lease by the station's UTC (a margin covers the
 // difference of two clocks). Sequences are never compared, and no sender's stamps bar another's:
-// who cannot tell senders apart must not let one speak for the others. Nothing passes twice,
-// whatever the clocks do meanwhile.
+// who cannot tell senders apart must not let one speak for the others. Nothing passes twice that is
+// remembered; when the station's clock is set back by more than a lease, what is forgotten may, as
+// after a restart.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -33,7 +35,7 @@ class CommandGate {
     double clock_margin_s = 0.5;  // two clocks may differ by this much
     double lease_max_s = 10.0;
     // So many are remembered in any case, however old: a clock that is set back makes them fresh
-    // again. Seven minutes of slews.
+    // again. Four minutes of slews.
     std::size_t kept = 4096;
     // So many at most. Forged commands of the latest stamp bar others only when more of them than
     // this come within the margin: 130 000 a second, which no station can read.
@@ -53,11 +55,14 @@ class CommandGate {
   // Stamp [us], boot id and sequence: the oldest first.
   using Passed = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
 
+  void look_at_clock(std::int64_t now_utime_us);
   bool is_replayed(const CommandStamp& stamp, std::int64_t now_utime_us) const;
   void remember(const CommandStamp& stamp, std::int64_t now_utime_us);
 
   Config config_;
   std::int64_t began_utime_us_;
+  std::int64_t latest_utime_us_ =
+      std::numeric_limits<std::int64_t>::min();  // "now" of the last one
   std::set<Passed> passed_;
   // No stamp of a command that passed and is remembered no more is later.
   std::optional<std::int64_t> forgotten_utime_us_;

@@ -69,15 +69,18 @@ bool StationBus::take_stop(const void* data, int bytes) {
   return is_stop;
 }
 
+void StationBus::disconnect(const std::string& why) {
+  bus_.reset();
+  watch_.connection_ended();
+  trouble_ = why;
+}
+
 // What cannot be sent is not kept: a bearing of yesterday is of no use to anybody.
 template <class Message>
 void StationBus::publish(const std::string& channel, const Message& message) {
   if (bus_ && bus_->publish(channel, message)) return;
   counters_["messages_not_sent"] += 1;
-  if (!bus_) return;
-  bus_.reset();
-  watch_.connection_ended();
-  trouble_ = "the network takes no messages";
+  if (bus_) disconnect("the network takes no messages");
 }
 
 Refusal StationBus::designate(const ols_msg::designate_t& message) {
@@ -89,6 +92,11 @@ Refusal StationBus::designate(const ols_msg::designate_t& message) {
 void StationBus::carry_out_designation() {
   const auto message = std::exchange(designation_, std::nullopt);
   if (!message) return;
+  // To follow what was marked costs the tracker time; a stop waits for nothing.
+  if (stop_) {
+    counters_["designations_superseded"] += 1;
+    return;
+  }
   designated_ = true;
   const Refusal result = station_.designate(from_message(*message, sender_), now_s_);
   if (result != Refusal::kNone)
@@ -189,6 +197,7 @@ void StationBus::receive() {
   if (bus_) {
     bus_->handle(0);
     watch_.look(bus_->traffic(), now_s_);
+    if (bus_->is_deaf()) disconnect("nothing comes in any more, not even this station's own word");
   }
   end_turn();
 }

@@ -41,6 +41,8 @@ class StationBus {
   void receive();
   // One datagram, as it came from the network.
   void take(const std::string& channel, const void* data, int bytes);
+  // A stop, in whatever thread it comes; false for anything else. end_turn() carries it out.
+  bool take_stop(const void* data, int bytes);
   // After the datagrams of a turn. Each designation lets the tracker run through the frames since
   // then: of those that come at once only the newest is carried out.
   void end_turn();
@@ -66,7 +68,7 @@ class StationBus {
   template <class Message>
   void on_command(const std::string& kind, const std::function<Refusal(const Message&)>& execute);
   void subscribe();
-  bool take_stop(const void* data, int bytes);
+  void disconnect(const std::string& why);
   std::string ptu_channel() const;
   Refusal designate(const ols_msg::designate_t& message);
   void carry_out_designation();

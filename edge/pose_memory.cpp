@@ -1,29 +1,29 @@
 #include "edge/pose_memory.h"
 
-#include <cerrno>
 #include <exception>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <variant>
+
+#include "base/small_file.h"
 
 namespace ols {
 namespace {
 
 // A file that is not there is an empty memory. Throws std::system_error.
 RememberedPose read(const std::string& file) {
-  errno = 0;
-  std::ifstream stream(file);
-  if (!stream && errno == ENOENT) return {};
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad()) {
-    throw std::system_error(errno == 0 ? EIO : errno, std::generic_category());
+  constexpr std::size_t kMost = 16384;  // [byte]
+  try {
+    auto found = remembered_pose_from(read_small_file(file, kMost));
+    if (const auto* wrong = std::get_if<std::string>(&found)) {
+      throw std::runtime_error(file + ": " + *wrong);
+    }
+    return std::get<RememberedPose>(found);
+  } catch (const std::system_error& failure) {
+    if (failure.code() == std::errc::no_such_file_or_directory) return {};
+    throw;
   }
-  auto found = remembered_pose_from(text);
-  if (const auto* wrong = std::get_if<std::string>(&found)) throw std::runtime_error(*wrong);
-  return std::get<RememberedPose>(found);
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ PoseMemory::PoseMemory(const std::string& file) : file_(file) {
   try {
     found_ = read(file);
   } catch (const std::exception& failure) {
-    refused_ = "the kept one is refused, " + file + ": " + failure.what();
+    refused_ = std::string("the kept one is refused, ") + failure.what();
   }
 }
 

@@ -29,10 +29,13 @@ StationMemory::StationMemory(const std::string& folder, const std::string& id, b
       hold_(file_of(folder, id, "hold"), {kFree, kStopped, kUnknown, kEmergency}),
       doubt_(file_of(folder, id, "doubt"), kDoubts) {
   hold_unknown_ = hold_.recall() != Recall::kKnown || hold_.word() == kUnknown;
-  const bool perhaps_emergency = has_stop && hold_.recall() == Recall::kUnreadable;
+  // A damaged file, or one that could not be written any more, may have told of an emergency.
+  const bool may_be_grave =
+      hold_.recall() == Recall::kUnreadable || hold_.recall() == Recall::kUnwritable;
+  const bool perhaps_emergency = has_stop && may_be_grave;
   if (hold_.word() == kEmergency || perhaps_emergency) {
     begin_ = StationState::kEmergency;
-  } else if (hold_.word() == kFree) {
+  } else if (hold_.recall() == Recall::kKnown && hold_.word() == kFree) {
     begin_ = StationState::kIdle;
   }
   doubt_unknown_ = doubt_.recall() != Recall::kKnown;
@@ -68,7 +71,8 @@ void StationMemory::remember(StationState state, PtuLegacy legacy, PtuReference 
 std::vector<std::string> StationMemory::alarms() const {
   std::vector<std::string> alarms;
   if (hold_unknown_) {
-    const std::string why = hold_.why_unknown().empty() ? "nor was it before" : hold_.why_unknown();
+    const std::string why =
+        hold_.why_unknown().empty() ? "not since an earlier start" : hold_.why_unknown();
     const std::string act = begin_ == StationState::kEmergency
                                 ? "check it, then re-arm it"
                                 : "check it, then ols-ctl " + id_ + " release";

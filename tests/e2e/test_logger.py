@@ -264,6 +264,21 @@ def test_records_a_flight_into_one_file(flight):
     assert len(list(lcm.EventLog(str(log)))) == 100  # it is not overwritten
 
 
+def test_ends_though_messages_do_not(start):
+    logger = start(split_mb=1.0, quota_gb=0.02, max_unwritten_mb=50.0)
+    logger.wait_recording()
+    flood = [str(BIN / "ols-sim-flood"), "--lcm-url", LIVE_URL, "--rate", "20000"]
+    with subprocess.Popen(flood, stdout=subprocess.PIPE, text=True) as flooding:
+        try:
+            assert flooding.stdout.readline() == "ready\n"
+            logger.wait_for("a flood", lambda s: s["files_removed"] > 0)
+            code, _ = logger.end()
+            assert code == 0
+            assert flooding.poll() is None
+        finally:
+            flooding.terminate()
+
+
 def test_tells_the_service_manager(start, tmp_path, monkeypatch):
     path = tmp_path / "notify"
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:

@@ -90,7 +90,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     station_bus.take(message.channel, message.payload.data(),
                      static_cast<int>(message.payload.size()));
   };
-  inbox.subscribe("OLS_(SLEW|PTU|DESIGNATE|RECORD)_a", to_station, kLimits);
+  const auto stop = [&](const ols::BusMessage& message) {
+    return station_bus.take_stop(message.payload.data(), static_cast<int>(message.payload.size()));
+  };
+  inbox.subscribe("OLS_PTU_a", to_station, kLimits, stop);
+  inbox.subscribe("OLS_(SLEW|DESIGNATE|RECORD)_a", to_station, kLimits);
   inbox.subscribe(
       "OLS_BEARING_.*", [&](const auto& m) { to_fusion(fusion, m); }, kLimits);
   inbox.subscribe("OLS_STATUS_.*", to_person, kLimits);

@@ -1,4 +1,6 @@
 // ols-ctl: the operator's hand on the command line.
+#include <poll.h>
+
 #include <cstdio>
 #include <functional>
 #include <optional>
@@ -34,14 +36,30 @@ int no_status(const std::string& station, const std::string& url) {
   return kExitRefused;
 }
 
+void warn_when_full(const ols::Operator& hand) {
+  if (!hand.is_full()) return;
+  std::fprintf(
+      stderr,
+      "ols-ctl: more than %zu stations are heard, not all are shown: name the one that you "
+      "mean\n",
+      ols::kMostStationsHeard);
+}
+
+// It returns when the stop's hold is over (Station::kStopHold_s): who stops and then releases is
+// obeyed.
 int stop(const std::string& url, const std::string& station) {
-  const auto stopped = ols::Operator(url, station).stop(kPatience_s);
+  constexpr int kHold_ms = 1100;
+  ols::Operator hand(url, station);
+  const auto stopped = hand.stop(kPatience_s);
+  warn_when_full(hand);
   if (stopped.empty()) return no_status(station, url);
   int result = 0;
   for (const auto& [id, said] : stopped) {
     std::printf("%s: %s\n", id.c_str(), said ? "done" : "sent again and again, no answer");
     if (!said) result = kExitRefused;
   }
+  ols::flush_output();
+  ::poll(nullptr, 0, kHold_ms);
   return result;
 }
 
@@ -50,6 +68,7 @@ int run(const std::string& url, const std::string& station, const std::optional<
   ols::Operator hand(url, station);
   const auto& statuses = hand.listen(kPatience_s);
   if (statuses.empty()) return no_status(station, url);
+  warn_when_full(hand);
   if (send) {
     std::vector<std::string> ids;  // of now: the hand goes on listening while it sends
     for (const auto& [id, status] : statuses) ids.push_back(id);

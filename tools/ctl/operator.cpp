@@ -14,18 +14,17 @@ constexpr double kLease_s = 2.0;
 constexpr double kTwoIntervals_s = 1.2;  // stations send their status twice a second
 constexpr int kPoll_ms = 50;
 
-// The reason whose counter has grown; nothing when none has.
+// The reason whose counter has grown, of those that begin with `prefix`; nothing when none has.
 std::optional<std::string> new_refusal(const ols_msg::station_status_t& before,
-                                       const ols_msg::station_status_t& now) {
+                                       const ols_msg::station_status_t& now,
+                                       const std::string& prefix) {
   for (const auto& name : now.counter_name) {
-    for (const std::string prefix : {"refused_", "messages_refused_"}) {
-      if (name.starts_with(prefix) && counter(now, name) > counter(before, name)) {
-        // The station's own words where it has more to say ("RECORD refused: disk full").
-        const std::string why = name.substr(prefix.size());
-        return "refused: " + why +
-               (now.last_error != before.last_error ? " (" + now.last_error + ")" : "");
-      }
-    }
+    if (!name.starts_with(prefix) || counter(now, name) <= counter(before, name)) continue;
+    const std::string why = name.substr(prefix.size());
+    if (why == "just_stopped") return "refused: it was stopped a moment ago; say it again";
+    // The station's own words where it has more to say ("RECORD refused: disk full").
+    return "refused: " + why +
+           (now.last_error != before.last_error ? " (" + now.last_error + ")" : "");
   }
   return std::nullopt;
 }
@@ -97,6 +96,8 @@ Operator::Operator(const std::string& lcm_url, std::string station)
 void Operator::hear(const BusMessage& message) {
   auto status = heard_status(message);
   if (!status) return;
+  // Whoever is heard, also when there are more than can be remembered.
+  if (stopping_) publish_ptu(status->station, ols_msg::ptu_command_t::COMMAND_STOP, 0.0, 0.0);
   if (!statuses_.contains(status->station) && statuses_.size() >= kMostStationsHeard) return;
   statuses_[status->station] = std::move(*status);
 }
@@ -129,30 +130,14 @@ std::optional<std::string> Operator::outcome(const std::string& station,
     if (counter(now, command + "_accepted") > counter(before, command + "_accepted")) {
       return std::nullopt;
     }
-    if (auto refusal = new_refusal(before, now)) return refusal;
+    if (auto refusal = new_refusal(before, now, "refused_")) return refusal;
   }
-  return "no answer";
-}
-
-// A stop holds for a second; who goes on after it need not count.
-std::optional<std::string> Operator::patiently(
-    const std::function<std::optional<std::string>()>& send) {
-  constexpr double kPatience_s = 1.5;
-  const double end_s = clock_monotonic_s() + kPatience_s;
-  auto refusal = send();
-  while (refusal && refusal->starts_with("refused: just_stopped") && clock_monotonic_s() < end_s) {
-    refusal = send();
-  }
-  return refusal;
+  // Others' messages are counted among these, too: only when nothing else was said.
+  return new_refusal(before, statuses_[station], "messages_refused_").value_or("no answer");
 }
 
 std::optional<std::string> Operator::designate(const std::string& station, double x, double y,
                                                double width, double height) {
-  return patiently([&] { return designate_once(station, x, y, width, height); });
-}
-
-std::optional<std::string> Operator::designate_once(const std::string& station, double x, double y,
-                                                    double width, double height) {
   ols_msg::designate_t message;
   address(message, station);
   message.frame_utime = 0;
@@ -177,10 +162,8 @@ void Operator::publish_ptu(const std::string& station, std::int8_t command, doub
 std::optional<std::string> Operator::send_ptu(const std::string& station, std::int8_t command,
                                               double pan_rad, double tilt_rad,
                                               const std::string& counter_name) {
-  return patiently([&] {
-    publish_ptu(station, command, pan_rad, tilt_rad);
-    return outcome(station, counter_name);
-  });
+  publish_ptu(station, command, pan_rad, tilt_rad);
+  return outcome(station, counter_name);
 }
 
 bool Operator::says_stopped(const std::string& station, double stops_before) const {
@@ -191,14 +174,16 @@ bool Operator::says_stopped(const std::string& station, double stops_before) con
 }
 
 std::map<std::string, bool> Operator::stop(double timeout_s) {
-  constexpr double kAgain_s = 0.02;  // a flooded network loses some, and a stop is in a hurry
+  constexpr double kAgain_s = 0.02;   // a flooded network loses some, and a stop is in a hurry
+  constexpr double kMostRate = 2000;  // [1/s] of stops, however many stations there are
   constexpr int kTurn_ms = 10;
   struct Addressed {
-    double sent_s = -kAgain_s;
+    double sent_s = -1.0;
     std::optional<double> stops;  // as it was first heard to count them: one more has arrived
     bool stopped = false;
   };
   const bool all = station_ == "all";
+  stopping_ = all;
   std::map<std::string, Addressed> addressed;
   if (!all) addressed[station_] = {};
   const double start_s = clock_monotonic_s();
@@ -208,8 +193,9 @@ std::map<std::string, bool> Operator::stop(double timeout_s) {
       if (!one.stops) one.stops = counter(status, "stop_accepted");
       one.stopped = says_stopped(id, *one.stops);
     }
+    const double again_s = std::max(kAgain_s, static_cast<double>(addressed.size()) / kMostRate);
     for (auto& [id, one] : addressed) {
-      if (one.stopped || now_s < one.sent_s + kAgain_s) continue;
+      if (one.stopped || now_s < one.sent_s + again_s) continue;
       publish_ptu(id, ols_msg::ptu_command_t::COMMAND_STOP, 0.0, 0.0);
       one.sent_s = now_s;
     }
@@ -218,6 +204,7 @@ std::map<std::string, bool> Operator::stop(double timeout_s) {
     if (every && !addressed.empty() && (!all || now_s > start_s + kTwoIntervals_s)) break;
     bus_.handle(kTurn_ms);
   }
+  stopping_ = false;
   std::map<std::string, bool> result;
   for (const auto& [id, one] : addressed) result[id] = one.stopped;
   return result;

@@ -13,6 +13,7 @@
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/record_t.hpp"
 #include "ols_msg/station_status_t.hpp"
+#include "tools/ctl/heard_status.h"
 
 namespace ols {
 
@@ -26,6 +27,8 @@ class Operator {
   // The newest status of each addressed station, after listening. One named station: until it is
   // heard, at most timeout_s; all: for two status intervals.
   const Statuses& listen(double timeout_s);
+  // There are as many stations as are remembered: invented ones may hide others.
+  bool is_full() const { return statuses_.size() >= kMostStationsHeard; }
 
   // Sends stops to the addressed station, or to each as soon as it is heard, again and again until
   // a status counts one and says so, or timeout_s is over: a stop needs no status and may get lost.
@@ -49,10 +52,6 @@ class Operator {
  private:
   void hear(const BusMessage& message);
   bool says_stopped(const std::string& station, double stops_before) const;
-  std::optional<std::string> designate_once(const std::string& station, double x, double y,
-                                            double width, double height);
-  static std::optional<std::string> patiently(
-      const std::function<std::optional<std::string>()>& send);
   template <class Message>
   void address(Message& message, const std::string& station);
   void publish_ptu(const std::string& station, std::int8_t command, double pan_rad,
@@ -66,6 +65,7 @@ class Operator {
   Statuses statuses_;
   std::int64_t boot_id_;
   std::int64_t sequence_ = 0;
+  bool stopping_ = false;  // every station that is heard
 };
 
 // The value of a counter in a status; 0 when it is not there.

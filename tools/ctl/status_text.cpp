@@ -1,5 +1,6 @@
 #include "tools/ctl/status_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -107,7 +108,11 @@ std::string full_status(const ols_msg::station_status_t& s, std::int64_t now_uti
                s.clock_error_s, shown(s.frame_latency_s, 3).c_str());
   text += device_text(s);
   text += s.alarm.empty() ? "no alarm\n" : "alarms\n";
-  for (const std::string& alarm : s.alarm) text += "  " + alarm + "\n";
+  constexpr std::size_t kMost = 16;  // a forged status may have thousands
+  for (std::size_t i = 0; i < std::min(s.alarm.size(), kMost); ++i) {
+    text += "  " + s.alarm[i] + "\n";
+  }
+  if (s.alarm.size() > kMost) text += "  and " + std::to_string(s.alarm.size() - kMost) + " more\n";
   if (!s.last_error.empty()) {
     text += "last error, " + ago_s(s.last_error_utime) + " s ago: " + s.last_error + "\n";
   }

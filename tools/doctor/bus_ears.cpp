@@ -82,7 +82,7 @@ void look_at_network(BusHeard& bus) {
 
 }  // namespace
 
-BusHeard listen(const std::string& lcm_url, double seconds) {
+BusHeard listen(const std::string& lcm_url, double seconds, const std::string& own) {
   BusHeard heard;
   heard.url = lcm_url;
   std::map<std::string, std::set<std::int64_t>> boots;
@@ -93,7 +93,7 @@ BusHeard listen(const std::string& lcm_url, double seconds) {
     bus.subscribe("OLS_STATUS_.*", [&](const BusMessage& message) {
       const auto status = heard_status(message);
       if (!status) return;
-      const bool known = heard.stations.contains(status->station);
+      const bool known = heard.stations.contains(status->station) || status->station == own;
       if (!known && heard.stations.size() >= kMostStationsHeard) return;
       std::set<std::int64_t>& of_station = boots[status->station];
       if (of_station.size() < kMostBoots) of_station.insert(status->boot_id);

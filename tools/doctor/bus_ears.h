@@ -7,7 +7,8 @@
 
 namespace ols::doctor {
 
-// Never throws: what keeps it from listening is in the answer.
-BusHeard listen(const std::string& lcm_url, double seconds);
+// Never throws: what keeps it from listening is in the answer. However many stations are invented,
+// `own` is among those heard when it is.
+BusHeard listen(const std::string& lcm_url, double seconds, const std::string& own = "");
 
 }  // namespace ols::doctor

@@ -95,7 +95,7 @@ Findings examine_station(const std::string& path, const Request& request) {
     return {refused(error)};
   }
   Findings findings{ok("configuration: " + path + ", station " + settings.id)};
-  const BusHeard bus = listen(settings.lcm_url, request.listen_s);
+  const BusHeard bus = listen(settings.lcm_url, request.listen_s, settings.id);
   append(findings, judge(bus));
   append(findings, examine_own(settings, path, bus, request.patience_s));
   append(findings, examine_host(settings));

@@ -1,5 +1,6 @@
 #include "tools/doctor/judge_site.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -56,6 +57,20 @@ std::optional<Finding> judge_frames(const StationHeard& station) {
               "60-ols.conf");
 }
 
+// A forged status may have thousands: the other findings must not scroll away.
+Findings judge_alarms(const std::string& whose, const std::vector<std::string>& alarms) {
+  constexpr std::size_t kMost = 16;
+  Findings findings;
+  for (std::size_t i = 0; i < std::min(alarms.size(), kMost); ++i) {
+    findings.push_back(warn(whose + alarms[i], "docs/operations.md lists the alarms"));
+  }
+  if (alarms.size() > kMost) {
+    const std::string more = std::to_string(alarms.size() - kMost);
+    findings.push_back(warn(whose + more + " more", "is it really one of the site that says so?"));
+  }
+  return findings;
+}
+
 }  // namespace
 
 Findings judge(const BusHeard& bus) {
@@ -104,9 +119,7 @@ Findings judge_company(const BusHeard& bus, const std::string& own) {
   } else {
     findings.push_back(ok("fusion: heard"));
   }
-  for (const std::string& alarm : bus.fusion_alarms) {
-    findings.push_back(warn("fusion: alarm: " + alarm, "docs/operations.md lists the alarms"));
-  }
+  append(findings, judge_alarms("fusion: alarm: ", bus.fusion_alarms));
   return findings;
 }
 
@@ -126,9 +139,7 @@ Findings judge(const StationHeard& station) {
                             "survey the place into [pose], or wait for the GNSS receiver's fix"));
   }
   if (const auto frames = judge_frames(station)) findings.push_back(*frames);
-  for (const std::string& alarm : station.alarms) {
-    findings.push_back(warn("alarm: " + alarm, "docs/operations.md lists the alarms"));
-  }
+  append(findings, judge_alarms("alarm: ", station.alarms));
   if (!station.last_error.empty() && station.last_error_age_s < kRecent_s) {
     findings.push_back(
         warn("last error, " + number(station.last_error_age_s, "%.0f s ago: ") + station.last_error,

@@ -34,8 +34,10 @@ class BusRecorder {
   // With `file` all goes into that one; otherwise into new ones in the configured folder. Throws
   // BusError, or std::system_error when the first file cannot be made.
   explicit BusRecorder(const LoggerConfig& config, const std::string& file = "");
-  // What waits is written.
+  // What waits is written, unless it is discarded.
   ~BusRecorder();
+  // The disk has no room for what waits.
+  void discard() { discard_ = true; }
 
   RecorderReport report() const;
 
@@ -43,6 +45,7 @@ class BusRecorder {
   void run();
   void record();
   void write(const BusMessage& message);
+  void write_rest();
   void look_after_file();
   void begin_file();
   void look_at_bus(double now_s);
@@ -52,12 +55,11 @@ class BusRecorder {
   LogNames names_;
   std::optional<LogWriter> writer_;  // of the thread alone
   BusWatch watch_;                   // likewise
-  double flush_due_s_ = 0.0, look_due_s_ = 0.0, probe_due_s_ = 0.0;
-  std::uint64_t heard_at_probe_ = 0;
+  double flush_due_s_ = 0.0, look_due_s_ = 0.0;
 
   mutable std::mutex mutex_;
   RecorderReport report_;
-  std::atomic<bool> end_ = false;
+  std::atomic<bool> end_ = false, discard_ = false;
   LcmBus bus_;
   std::thread thread_;
 };

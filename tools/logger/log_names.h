@@ -1,5 +1,5 @@
-// The names of a logger's files: FOLDER/NAME-<UTC>.lcmlog.NN, later ones always sort after earlier
-// ones.
+// The names of a logger's files: FOLDER/NAME-<UTC>.lcmlog.NN. Later ones sort after earlier ones as
+// long as UTC is not set back.
 #pragma once
 
 #include <cstdint>

@@ -60,6 +60,7 @@ void Supervisor::turn(double now_s) {
     return;
   }
   if (recorder_ && folder_.free_bytes() < config_.disk_reserve_bytes) {
+    recorder_->discard();
     fail(disk_full(folder_.free_bytes()), now_s + kFirstPause_s);
   } else if (!recorder_ && now_s >= retry_s_) {
     start(now_s);

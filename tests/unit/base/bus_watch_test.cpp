@@ -12,12 +12,19 @@ TEST(BusWatch, AlarmsWhileDatagramsAreRefusedAndForAWhileAfterwards) {
   watch.look({.received = 100, .fragments = 2}, 1.0);
   watch.look({.received = 100, .fragments = 2, .malformed = 1}, 2.0);
   EXPECT_EQ(watch.alarm(2.0),
-            "bus: 2 fragments and 1 malformed datagrams refused: some program here is not of this "
-            "site, or attacks it");
+            "bus: 2 fragments and 1 malformed datagrams refused, 0 messages pushed out by newer "
+            "ones: a flood, or a program that is not of this site");
   EXPECT_NE(watch.alarm(2.0 + BusWatch::kAlarm_s), "");
   EXPECT_EQ(watch.alarm(2.1 + BusWatch::kAlarm_s), "");
   watch.look({.received = 100, .fragments = 5, .malformed = 1}, 30.0);
   EXPECT_NE(watch.alarm(30.0).find("bus: 3 fragments and 0 malformed"), std::string::npos);
+}
+
+TEST(BusWatch, AlarmsOfWhatWasPushedOutUnread) {
+  BusWatch watch;
+  watch.look({.received = 100}, 0.0);
+  watch.look({.received = 5000, .overflowed = 7}, 1.0);
+  EXPECT_NE(watch.alarm(1.0).find("7 messages pushed out"), std::string::npos);
 }
 
 TEST(BusWatch, CountsOverAllConnections) {

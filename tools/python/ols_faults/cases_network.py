@@ -1,7 +1,7 @@
 """A network that loses, doubles and reorders; a network that is flooded.
 
 How good the targets are is compared with a second fusion that hears the same bearings at the same
-time on an undisturbed bus, at the same instants: the target's place in the site, and what the
+time on an undisturbed bus, within half a period of each other: the target's place in the site, and what the
 stations see of it there, matter more than any of this.
 """
 
@@ -79,7 +79,7 @@ class FarFusion:
 def judge_beside_the_twin(evidence: Evidence, outcome: Outcome, window: tuple[int, int]) -> None:
     errors, share = measure.same_epochs_m(evidence.heard, JOINT, TWIN, *window)
     outcome.at_least(
-        "share of the undisturbed fusion's positions that it has too",
+        "positions, over those of the undisturbed fusion",
         share,
         FIXES,
         broken_by=mutations.targets_lost(window, 0.5),
@@ -89,7 +89,7 @@ def judge_beside_the_twin(evidence: Evidence, outcome: Outcome, window: tuple[in
         "RMS error over that of the undisturbed fusion",
         float(rms[0] / rms[1]),
         WORSE_AT_MOST,
-        note=f"{rms[0]:.3f} m, {rms[1]:.3f} m at {len(errors)} same instants",
+        note=f"{rms[0]:.3f} m, {rms[1]:.3f} m at {len(errors)} instants",
         broken_by=mutations.targets_shifted(0.5, window),
     )
     middle_us = sum(window) // 2

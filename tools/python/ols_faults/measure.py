@@ -23,7 +23,7 @@ REST_DEG_S = 0.1
 REST_S = 0.25
 SMOOTH_S = 0.01
 SAME_FRAME_US = 10_000
-SAME_EPOCH_US = 5_000
+SAME_EPOCH_US = 45_000  # half of what lies between two targets: fusions choose their own instants
 
 
 def ptu_track(
@@ -270,8 +270,8 @@ def bearings_hz(recording: Recording, station: str, start_us: int, end_us: int) 
 def same_epochs_m(
     recording: Recording, channel: str, other: str, start_us: int, end_us: int
 ) -> tuple[np.ndarray, float]:
-    """Errors (n, 2) [m] of the positions of two fusions that hold at the same instants, and the
-    share of the second one's positions for which the first one has one."""
+    """Errors (n, 2) [m] of the positions of two fusions that hold at nearly the same instants, each
+    against the truth of its own; and how many positions the first one has for one of the second."""
     ours, theirs = (
         evaluate.solved(recording, name, (start_us, end_us)) for name in (channel, other)
     )
@@ -291,4 +291,4 @@ def same_epochs_m(
     nearest = np.where(wanted - times[before] <= times[after] - wanted, before, after)
     close = np.abs(times[nearest] - wanted) <= SAME_EPOCH_US
     pairs = np.column_stack([distances[0][order][nearest[close]], distances[1][close]])
-    return pairs[np.isfinite(pairs).all(axis=1)], float(close.mean())
+    return pairs[np.isfinite(pairs).all(axis=1)], len(ours) / len(theirs)
