@@ -155,7 +155,7 @@ TEST_F(StationMemoryTest, TheUnknownStaysUnknownOverRestartsUntilAPersonActs) {
   StationMemory m = memory();
   EXPECT_EQ(m.begin(), StationState::kStopped);
   m.remember(StationState::kStopped, PtuLegacy::kNone, PtuReference::kTrusted);
-  EXPECT_THAT(m.alarms(), Contains(HasSubstr("is not known (nor was it before)")));
+  EXPECT_THAT(m.alarms(), Contains(HasSubstr("is not known (not since an earlier start)")));
   m.remember(StationState::kManual, PtuLegacy::kNone, PtuReference::kTrusted);
   EXPECT_THAT(m.alarms(), IsEmpty());
   m.remember(StationState::kStopped, PtuLegacy::kNone, PtuReference::kTrusted);

@@ -1,8 +1,8 @@
 """A network that loses, doubles and reorders; a network that is flooded.
 
 How good the targets are is compared with a second fusion that hears the same bearings at the same
-time on an undisturbed bus, within half a period of each other: the target's place in the site, and what the
-stations see of it there, matter more than any of this.
+time on an undisturbed bus: the target's place in the site, and what the stations see of it there,
+matter more than any of this.
 """
 
 import re
