@@ -23,6 +23,7 @@ CASES = [
     "ptu-reply-lost",
     "ptu-line-cut",
     "bad-manual-commands",
+    "bus-fragments",
     "emergency-stop",
 ]
 STEP_S = 0.0025
@@ -155,6 +156,16 @@ def test_bad_commands_move_nothing(cases):
     assert checks["moved by bad manual commands"]
     assert checks["each of the bad manual commands refused for its reason"]
     assert checks["moved by a well-formed one, whoever sent it"]
+
+
+def test_forged_fragments_end_nobody_and_are_counted(cases):
+    checks = checks_of(cases["bus-fragments"])
+    assert checks["ols-ctl lists the stations meanwhile"]
+    assert checks["the recorder is the same process"]
+    assert checks["no process ended by itself"]
+    counted = [passed for what, passed in checks.items() if "bus_fragments_refused" in what]
+    assert len(counted) == 5  # four stations and the fusion
+    assert all(counted)
 
 
 def test_an_unknown_case_is_refused():
