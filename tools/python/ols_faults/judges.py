@@ -98,7 +98,7 @@ def judge_target(evidence: Evidence, outcome: Outcome, window: Window, least_hz:
         "RMS error over predicted",
         found.get("rmse_over_predicted"),
         HONEST,
-        broken_by=mutations.target_sigmas_scaled(0.1),
+        broken_by=mutations.target_sigmas_scaled(0.02),
     )
     outcome.at_most(
         "RMS error", found["rmse_m"], ERROR_M, "m", broken_by=mutations.targets_shifted(0.7)
