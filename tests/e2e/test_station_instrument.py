@@ -192,7 +192,7 @@ def test_the_emergency_stop_holds_until_released_and_rearmed(station):
 
 
 def test_nobody_rearms_it_from_afar(station):
-    """Forged commands right behind the release: it stays. (tests/unit has the touch of the button.)"""
+    """Forged commands right behind the release. The unit test of the input has the short touch."""
     status, ptu = ols_msg.station_status_t, ols_msg.ptu_command_t
     station.switch.press(True)
     station.wait_for_state(status.STATE_EMERGENCY)
