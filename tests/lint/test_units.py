@@ -167,7 +167,7 @@ def test_the_installed_tree_is_complete(tmp_path):
         "lib/sysctl.d/60-ols.conf",
         "lib/udev/rules.d/61-ols.rules",
         "share/ols/scenarios/fig7.toml",
-        "share/doc/ols/operations.md",
+        "share/doc/ols/docs/field-guide.md",
     ):
         assert (usr / path).exists(), path
     for program in ("station", "fusion", "logger"):
