@@ -1,4 +1,4 @@
-"""The documents: every link leads somewhere, and troubleshooting.md knows what the sources can say."""
+"""The documents: every link leads somewhere; troubleshooting.md knows what the sources can say."""
 
 import functools
 import re
@@ -201,7 +201,7 @@ def test_troubleshooting_knows_no_other_alarm():
 
 
 def reasons_of_the_sources() -> set[str]:
-    """What to_string() makes of a reason, and what a message is refused with before it is a command."""
+    """What to_string() makes of reasons, and why a message is refused before it is a command."""
     found: set[str] = set()
     for path in SOURCES:
         source = path.read_text()
