@@ -72,7 +72,10 @@ void Lockstep::fuse(const Sighting& sighting, double time_s) {
     for (const FusedTarget& target : output.targets) record(target, result_.joint);
     for (const FusedTarget& target : output.targets_paper) record(target, result_.paper);
   }
-  for (const Slew& slew : output.slews) slews_.send({index_of(slew.station), slew}, time_s);
+  for (const Slew& slew : output.slews) {
+    result_.slews.push_back(slew);
+    slews_.send({index_of(slew.station), slew}, time_s);
+  }
 }
 
 void Lockstep::record(const FusedTarget& target, std::vector<Fix>& fixes) const {
@@ -117,7 +120,9 @@ std::size_t Lockstep::index_of(const std::string& station) const {
 
 LockstepResult Lockstep::result() const {
   LockstepResult result = result_;
-  result.alarms = fusion_.health().alarms;
+  const FusionHealth health = fusion_.health();
+  result.alarms = health.alarms;
+  result.counters = health.counters;
   for (const auto& station : stations_) result.stations.push_back(station->record());
   return result;
 }

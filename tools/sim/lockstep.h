@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,9 +27,11 @@ struct Fix {
 
 struct LockstepResult {
   std::vector<Fix> joint, paper;
+  std::vector<Slew> slews;  // as the fusion made them
   std::vector<StationRecord> stations;
-  std::vector<std::string> alarms;  // of the fusion at the end
-  double designated_s = -1.0;       // when the last station that is to be was; < 0: not all were
+  std::map<std::string, double> counters;  // of the fusion at the end
+  std::vector<std::string> alarms;         // of the fusion at the end
+  double designated_s = -1.0;  // when the last station that is to be was; < 0: not all were
 };
 
 class Lockstep {

@@ -120,7 +120,7 @@ void LockstepStation::take_note(double mid_s, const ViewTruth& view) {
   const CameraIntrinsics& camera = config_.geometry.camera;
   const StationSnapshot snapshot = station_.snapshot();
   FrameNote note{mid_s,        snapshot.state, snapshot.belief, view, inside_third(camera, view),
-                 std::nullopt, snapshot.alarms};
+                 std::nullopt, snapshot.box,   snapshot.alarms};
   if (snapshot.state == StationState::kTracking && snapshot.target_offset_px) {
     note.error_px =
         *snapshot.target_offset_px + Eigen::Vector2d(camera.cx_px, camera.cy_px) - view.centre_px;
@@ -175,6 +175,19 @@ void LockstepStation::designate_seen(double time_s) {
   box->x += config_.designation_sd_px * normal_(generator_);
   box->y += config_.designation_sd_px * normal_(generator_);
   designated_ = station_.designate({frame->stamp_s, *box}, monotonic_s(time_s)) == Refusal::kNone;
+}
+
+StationRecord LockstepStation::record() const {
+  StationRecord record = record_;
+  record.counters = station_.snapshot().counters;
+  const PtuCounters& ptu = driver_.counters();
+  record.counters.merge(std::map<std::string, double>{
+      {"ptu_requests", static_cast<double>(ptu.requests)},
+      {"ptu_replies", static_cast<double>(ptu.replies)},
+      {"ptu_timeouts", static_cast<double>(ptu.timeouts)},
+      {"ptu_refused_positions", static_cast<double>(ptu.refused_positions)},
+      {"ptu_limit_hits", static_cast<double>(ptu.limit_hits)}});
+  return record;
 }
 
 // The target's box, or what this operator takes for it; nothing: it is not in the picture.

@@ -44,12 +44,14 @@ struct FrameNote {
   ViewTruth view;
   bool inside_third = false;                // the target is inside the central third, both ways
   std::optional<Eigen::Vector2d> error_px;  // of the pixel measured, while tracking
+  std::optional<cv::Rect2d> box;            // [px] as the tracker has it
   std::vector<std::string> alarms;          // of the station's own decisions
 };
 
 struct StationRecord {
   std::vector<FrameNote> frames;
   int frames_lost = 0;
+  std::map<std::string, double> counters;  // of the station and its PTU driver at the end
 };
 
 class LockstepStation {
@@ -66,7 +68,7 @@ class LockstepStation {
   static double monotonic_s(double time_s);
 
   const Station& station() const { return station_; }
-  const StationRecord& record() const { return record_; }
+  StationRecord record() const;
   const PtuCounters& ptu_counters() const { return driver_.counters(); }
   bool designated() const { return designated_; }
   bool left_alone() const { return left_alone_; }

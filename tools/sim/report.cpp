@@ -91,7 +91,7 @@ void write_frames(const World& world, const LockstepResult& result, const std::s
   AtomicFile file(path);
   std::ostream& out = file.stream();
   out << "station,time_s,state,belief,true_x_px,true_y_px,width_px,height_px,error_x_px,"
-         "error_y_px\n";
+         "error_y_px,box_x_px,box_y_px,box_width_px,box_height_px\n";
   for (std::size_t i = 0; i < result.stations.size(); ++i) {
     for (const FrameNote& note : result.stations[i].frames) {
       out << world.stations()[i].id << "," << std::setprecision(9) << note.mid_s
@@ -102,8 +102,43 @@ void write_frames(const World& world, const LockstepResult& result, const std::s
         out << note.error_px->x() << "," << note.error_px->y();
       else
         out << ",";
-      out << "\n";
+      if (note.box)
+        out << "," << note.box->x << "," << note.box->y << "," << note.box->width << ","
+            << note.box->height << "\n";
+      else
+        out << ",,,,\n";
     }
+  }
+  file.commit();
+}
+
+void write_slews(const std::vector<Slew>& slews, const std::string& path) {
+  AtomicFile file(path);
+  std::ostream& out = file.stream();
+  out << "utime_us,station,target,effect_utime_us,azimuth_deg,elevation_deg,azimuth_rate_deg_s,"
+         "elevation_rate_deg_s,direction_sd_deg\n"
+      << std::setprecision(9);
+  for (const Slew& slew : slews) {
+    out << slew.utime_us << "," << slew.station << "," << slew.target_id << ","
+        << slew.effect_utime_us;
+    for (const double angle_rad :
+         {slew.direction.azimuth_rad, slew.direction.elevation_rad, slew.azimuth_rate_rad_s,
+          slew.elevation_rate_rad_s, slew.direction_sd_rad})
+      out << "," << degrees(angle_rad);
+    out << "\n";
+  }
+  file.commit();
+}
+
+void write_counters(const World& world, const LockstepResult& result, const std::string& path) {
+  AtomicFile file(path);
+  std::ostream& out = file.stream();
+  out << "of,counter,value\n";
+  for (const auto& [name, value] : result.counters)
+    out << "fusion," << name << "," << value << "\n";
+  for (std::size_t i = 0; i < result.stations.size(); ++i) {
+    for (const auto& [name, value] : result.stations[i].counters)
+      out << world.stations()[i].id << "," << name << "," << value << "\n";
   }
   file.commit();
 }
@@ -204,6 +239,8 @@ void write_report(const World& world, const LockstepResult& result, double durat
   write_fixes(result.joint, folder + "/fixes.csv");
   write_fixes(result.paper, folder + "/fixes_paper.csv");
   write_frames(world, result, folder + "/frames.csv");
+  write_slews(result.slews, folder + "/slews.csv");
+  write_counters(world, result, folder + "/counters.csv");
   write_summary(world, result, duration_s, folder + "/summary.json");
 }
 

@@ -35,7 +35,8 @@ struct PixelSummary {
 };
 PixelSummary summarise_pixels(const std::vector<StationRecord>& stations);
 
-// truth.csv, fixes.csv, fixes_paper.csv, frames.csv and summary.json in `folder`, which is made.
+// truth.csv, fixes.csv, fixes_paper.csv, frames.csv, slews.csv, counters.csv and summary.json in
+// `folder`, which is made.
 void write_report(const World& world, const LockstepResult& result, double duration_s,
                   const std::string& folder);
 
