@@ -78,7 +78,17 @@ def test_a_unit_names_a_document_that_is_installed(installed):
 
 
 def test_sources_name_documents_that_exist():
-    for folder in ("base", "central", "edge", "geometry", "lcmtypes", "systemd", "tools"):
+    for folder in (
+        "base",
+        "central",
+        "dev",
+        "edge",
+        "geometry",
+        "lcmtypes",
+        "sim",
+        "systemd",
+        "tools",
+    ):
         for path in (ROOT / folder).rglob("*"):
             if path.is_file() and b"\0" not in path.read_bytes()[:1000]:
                 for name in re.findall(r"docs/[\w-]+\.md", path.read_text(errors="ignore")):
