@@ -1,4 +1,4 @@
-// Everything that the fusion's configuration file holds. docs/operations.md explains each key.
+// Everything that the fusion's configuration file holds. docs/configuration.md lists each key.
 #pragma once
 
 #include <string>

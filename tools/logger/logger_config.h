@@ -1,4 +1,4 @@
-// What ols-logger's configuration file holds. docs/operations.md explains each key.
+// What ols-logger's configuration file holds. docs/configuration.md lists each key.
 #pragma once
 
 #include <string>
