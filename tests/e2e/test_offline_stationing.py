@@ -136,7 +136,7 @@ def test_changes_the_configuration_in_place(survey):
     target.write_text(old)
     (survey / "station.toml").unlink()
     (survey / "station.toml").symlink_to("real.toml")
-    for copy in ("real.toml.old", "real.toml.old-2"):
+    for copy in ("station.toml.old", "station.toml.old-2"):
         before = target.read_text()
         result = run(survey, "--at", "mark", "--in-place")
         assert result.returncode == 0 and copy in result.stderr

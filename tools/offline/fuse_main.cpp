@@ -11,6 +11,7 @@
 #include "base/command_line.h"
 #include "base/csv_files.h"
 #include "base/output_check.h"
+#include "base/progress.h"
 #include "central/offline_fusion.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
@@ -90,10 +91,14 @@ void tell_unlocated(const ols::Unlocated& unlocated, std::size_t fixes, const st
   std::cerr << '\n';
 }
 
-// How many positions there are.
-std::size_t run(const Options& options) {
-  ols::check_outputs({{"--stations", options.stations}, {"--bearings", options.bearings}},
-                     {{"--output", options.output}});
+std::size_t count(const ols::RecordedBearings& recording) {
+  std::size_t bearings = 0;
+  for (const auto& [id, sightings] : recording) bearings += sightings.size();
+  return bearings;
+}
+
+ols::OfflineConfig config_of(const Options& options, std::size_t bearings) {
+  constexpr std::size_t kRuns = 2;  // of the filter: who looks beside the target, and where it is
   ols::OfflineConfig config;
   config.estimator = options.estimator;
   config.smooth = options.smooth;
@@ -101,14 +106,24 @@ std::size_t run(const Options& options) {
   config.fusion.estimators.paper = options.paper;
   config.fusion.estimators.paper.pairs = kPaperPairs.at(options.paper_pairs);
   config.fusion.estimators.paper.by_belief = !options.paper_halves;
+  config.tell = [bearings, progress = ols::Progress("ols-fuse", "bearings"),
+                 taken = std::size_t{0}]() mutable { progress(++taken / kRuns, bearings); };
+  return config;
+}
+
+// How many positions there are.
+std::size_t run(const Options& options) {
+  ols::check_outputs({{"--stations", options.stations}, {"--bearings", options.bearings}},
+                     {{"--output", options.output}});
+  auto recording = ols::read_recorded_bearings(options.stations, options.bearings);
+  const std::size_t bearings = count(recording);
+  const ols::OfflineConfig config = config_of(options, bearings);
   std::vector<ols::FixRow> fixes;
   ols::UnusedBearings unused;
-  std::size_t bearings = 0;
-  for (auto& [id, sightings] : ols::read_recorded_bearings(options.stations, options.bearings)) {
+  for (auto& [id, sightings] : recording) {
     if (options.clock_sd_s) {
       for (ols::Sighting& sighting : sightings) sighting.clock_sd_s = *options.clock_sd_s;
     }
-    bearings += sightings.size();
     const ols::UnusedBearings here = ols::unused_bearings(sightings, config);
     unused.low_belief += here.low_belief;
     unused.duplicate += here.duplicate;
