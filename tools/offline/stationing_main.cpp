@@ -7,9 +7,9 @@
 #include "base/atomic_file.h"
 #include "base/command_line.h"
 #include "base/output_check.h"
+#include "base/toml_merge.h"
 #include "geometry/angles.h"
 #include "tools/offline/stationing_files.h"
-#include "tools/offline/toml_merge.h"
 
 namespace {
 

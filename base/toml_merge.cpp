@@ -1,4 +1,4 @@
-#include "tools/offline/toml_merge.h"
+#include "base/toml_merge.h"
 
 #include <toml++/toml.h>
 
