@@ -52,9 +52,7 @@ void add_alarms(const PtuConfig& config, const PtuStatus& status, double now_s,
   if (report.state == DeviceState::kFault) alarm("halted, " + status.last_error);
   if (status.not_referenced) alarm("does not know where it is: home it");
   if (status.homing) alarm("homing");
-  if (status.doubt != PtuDoubt::kNone && status.last_error != words(status.doubt)) {
-    alarm(words(status.doubt));
-  }
+  if (status.doubt && status.last_error != words(*status.doubt)) alarm(words(*status.doubt));
   if (status.lowered_speed) alarm(lowered_words(*status.lowered_speed));
   const bool silent = !status.last_good_s || now_s - *status.last_good_s > kOld_s;
   if (report.state == DeviceState::kOk && silent) alarm("no angles");

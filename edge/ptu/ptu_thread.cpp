@@ -38,7 +38,7 @@ struct PtuThread::Impl {
         pause_s = kFirstPause_s;
         serve(port, stop);
         // The process ends, or the port is opened anew: the unit stands meanwhile.
-        port.write_first(PtuDriver::halt_request());
+        port.write_first(halt_request());
         port.drain(kHaltOut_s);
       } catch (const std::exception& failure) {
         note_failure(failure.what());
@@ -162,9 +162,9 @@ void PtuThread::allow_rehoming(bool allowed) {
   impl_->driver.allow_rehoming(allowed);
 }
 
-void PtuThread::inherit(PtuLegacy legacy) {
+void PtuThread::restore_doubt(const std::optional<PtuReferenceDoubt>& doubt) {
   const std::lock_guard lock(impl_->mutex);
-  impl_->driver.inherit(legacy);
+  impl_->driver.restore_doubt(doubt);
 }
 
 void PtuThread::reference_ok() {
@@ -177,9 +177,9 @@ PtuReference PtuThread::reference() const {
   return impl_->open ? impl_->driver.reference() : PtuReference::kUnknown;
 }
 
-PtuLegacy PtuThread::legacy() const {
+std::optional<PtuReferenceDoubt> PtuThread::doubt_to_persist() const {
   const std::lock_guard lock(impl_->mutex);
-  return impl_->driver.legacy();
+  return impl_->driver.doubt_to_persist();
 }
 
 PtuStatus PtuThread::status() const {
@@ -201,8 +201,6 @@ PtuStatus PtuThread::status() const {
   status.environment = driver.environment();
   status.counters = driver.counters();
   status.limits = driver.limits();
-  status.pan_resolution_rad = driver.pan_resolution_rad();
-  status.tilt_resolution_rad = driver.tilt_resolution_rad();
   status.firmware = driver.firmware();
   status.last_error = impl_->open ? driver.last_error() : impl_->port_error;
   return status;

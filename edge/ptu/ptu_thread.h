@@ -24,15 +24,13 @@ struct PtuStatus {
   bool standing = false;            // seen not to move
   bool not_referenced = false;      // must be homed
   bool homing = false;
-  PtuDoubt doubt = PtuDoubt::kNone;
+  std::optional<PtuDoubtCause> doubt;
   std::optional<PtuLoweredSpeed> lowered_speed;
   int line_baud = 0;
   std::optional<double> last_good_s;  // CLOCK_MONOTONIC of the last angle
   std::optional<PtuEnvironment> environment;
   PtuCounters counters;
-  PtuLimits limits;  // meaningful once ready
-  double pan_resolution_rad = 0.0;
-  double tilt_resolution_rad = 0.0;
+  PtuLimits limits;        // meaningful once ready
   std::string firmware;    // the unit's answer to V; empty until ready
   std::string last_error;  // of the port or of the unit; empty when there was none
 };
@@ -61,10 +59,10 @@ class PtuThread {
   void home();
   void stop_homing();
   void allow_rehoming(bool allowed);  // it is not, at first
-  void inherit(PtuLegacy legacy);
+  void restore_doubt(const std::optional<PtuReferenceDoubt>& doubt);
   void reference_ok();
   PtuReference reference() const;
-  PtuLegacy legacy() const;
+  std::optional<PtuReferenceDoubt> doubt_to_persist() const;
 
   PtuStatus status() const;
   DeviceReport report() const;

@@ -38,8 +38,7 @@ PtuSteadyState::PtuSteadyState(const PtuConfig& config, const PtuFacts& facts, d
       last_byte_s_(time_s),
       next_environment_s_(time_s) {}
 
-std::string PtuSteadyState::step(const std::optional<ServoGoal>& goal, bool emergency,
-                                 double time_s) {
+std::string PtuSteadyState::step(bool emergency, double time_s) {
   if (trouble_) return {};
   if (waiting_since_s_ && time_s - *waiting_since_s_ > config_.reply_timeout_s) {
     const bool silent = time_s - last_byte_s_ > config_.reply_timeout_s;
@@ -54,7 +53,7 @@ std::string PtuSteadyState::step(const std::optional<ServoGoal>& goal, bool emer
   next_poll_s_ = time_s + config_.poll_interval_s;
   line_garbled_ = false;
   checking_modes_ = check_modes_;
-  const PtuRequest commands = commands_for(goal, emergency, time_s);
+  const PtuRequest commands = commands_for(emergency, time_s);
   const PanTilt& change = commands_.speed_change_rad_s();
   told_ = {std::max(told_.pan_rad, change.pan_rad), std::max(told_.tilt_rad, change.tilt_rad)};
   cycle_.emplace(commands, questions_for(time_s), time_s, byte_s_, latency_s_);
@@ -63,8 +62,7 @@ std::string PtuSteadyState::step(const std::optional<ServoGoal>& goal, bool emer
   return cycle_->bytes();
 }
 
-PtuRequest PtuSteadyState::commands_for(const std::optional<ServoGoal>& goal, bool emergency,
-                                        double time_s) {
+PtuRequest PtuSteadyState::commands_for(bool emergency, double time_s) {
   const auto interpolated = history_.at(time_s);
   const auto newest = history_.newest();
   MotionCommands::Now now;
@@ -78,7 +76,7 @@ PtuRequest PtuSteadyState::commands_for(const std::optional<ServoGoal>& goal, bo
   // Replies that are read too late to tell when keep the link up, but nobody drives by them.
   if (time_s - newest->time_s > config_.reply_timeout_s) return commands_.halt(now, time_s);
   now.angles = interpolated ? interpolated->angles : newest->angles;
-  return commands_.next(goal, now, time_s);
+  return commands_.next(goal_, now, time_s);
 }
 
 PtuRequest PtuSteadyState::questions_for(double time_s) {

@@ -7,11 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "edge/ptu/driver.h"
+#include "edge/ptu/driver_types.h"
 #include "edge/ptu/motion_commands.h"
 #include "edge/ptu/poll_cycle.h"
 #include "edge/ptu/position_check.h"
 #include "edge/ptu/start_sequence.h"
+#include "edge/ptu/unit_model.h"
 
 namespace ols {
 
@@ -37,7 +38,9 @@ class PtuSteadyState {
   };
 
   // Bytes to write now. Nothing moves in an emergency.
-  std::string step(const std::optional<ServoGoal>& goal, bool emergency, double time_s);
+  std::string step(bool emergency, double time_s);
+  // Where the unit shall go from now on; nothing: halt.
+  void set_goal(const std::optional<ServoGoal>& goal) { goal_ = goal; }
   // `late_s`: the reply's bytes may have been there for so long before they were read.
   void take(const PtuReply& reply, double time_s, double late_s);
   void bytes_came(double time_s) { last_byte_s_ = time_s; }
@@ -48,6 +51,7 @@ class PtuSteadyState {
 
   const std::optional<Trouble>& trouble() const { return trouble_; }
   std::vector<AngleSample> take_samples() { return std::exchange(samples_, {}); }
+  const PtuFacts& facts() const { return facts_; }
   const PtuLimits& limits() const { return commands_.limits(); }
   const std::optional<PtuEnvironment>& environment() const { return environment_; }
   std::optional<double> last_good_s() const { return last_sample_s_; }
@@ -56,7 +60,7 @@ class PtuSteadyState {
   const std::optional<PtuLoweredSpeed>& lowered_speed() const { return commands_.lowered_speed(); }
 
  private:
-  PtuRequest commands_for(const std::optional<ServoGoal>& goal, bool emergency, double time_s);
+  PtuRequest commands_for(bool emergency, double time_s);
   PtuRequest questions_for(double time_s);
   std::string watch(double time_s);
   void finish(double time_s);
@@ -68,7 +72,8 @@ class PtuSteadyState {
   void fail(Trouble::Kind kind, std::string reason);
 
   const PtuConfig& config_;
-  const PtuFacts& facts_;
+  const PtuFacts facts_;
+  std::optional<ServoGoal> goal_;
   const double byte_s_;
   PtuCounters& counters_;
   MotionCommands commands_;

@@ -49,12 +49,12 @@ TEST(PtuReport, SaysWhatIsWrong) {
               Contains("ptu: emergency stop, still moving"));
   EXPECT_THAT(alarms([](PtuStatus& s) { s.emergency = s.standing = true; }),
               Contains("ptu: emergency stop"));
-  EXPECT_THAT(alarms([](PtuStatus& s) { s.doubt = PtuDoubt::kLimitHit; }),
+  EXPECT_THAT(alarms([](PtuStatus& s) { s.doubt = PtuDoubtCause::kLimitHit; }),
               Contains(HasSubstr("lost steps")));
   EXPECT_THAT(alarms([](PtuStatus& s) {
                 s.state = PtuState::kFault;
-                s.doubt = PtuDoubt::kPowerCycle;
-                s.last_error = words(s.doubt);
+                s.doubt = PtuDoubtCause::kPowerCycle;
+                s.last_error = words(*s.doubt);
               }),
               ElementsAre(HasSubstr("switched off and on")));
   EXPECT_THAT(alarms([](PtuStatus& s) {

@@ -133,7 +133,7 @@ TEST(PtuThread, OpensThePortAgainWhenItVanished) {
   // It is another one, as after a power cycle: nobody saw it home.
   line = std::make_unique<PtuLine>(unit(), 2, link);
   EXPECT_TRUE(eventually([&] { return ptu.reference() == PtuReference::kDoubted; }));
-  EXPECT_EQ(ptu.status().doubt, PtuDoubt::kPowerCycle);
+  EXPECT_EQ(ptu.status().doubt, PtuDoubtCause::kPowerCycle);
   ptu.take_samples();
   ptu.reference_ok();
   EXPECT_TRUE(eventually([&] { return ready(ptu); }));
