@@ -215,7 +215,7 @@ StationReport StationProcess::report(const ClockPair& now) {
   const PtuStatus ptu = devices_.ptu().status();
   if (ptu.state == PtuState::kReady) station_.set_limits(ptu.limits);
   report.limits = ptu.limits;
-  report.limits_known = ptu.port_open && ptu.state == PtuState::kReady;
+  report.limits_known = ptu.port.open && ptu.state == PtuState::kReady;
   report.snapshot = station_.snapshot();
   report.devices = devices_.reports();
   report.alarms = report.snapshot.alarms;

@@ -64,7 +64,7 @@ struct PtuThread::Impl {
         if (!halt_wanted) request = driver.step(clock_monotonic_s());
         wanted_rate = driver.line_baud();
         link_lost = driver.take_link_loss();
-        reopens += link_lost ? 1 : 0;
+        port_status.reopens += link_lost ? 1 : 0;
       }
       if (wanted_rate != rate) port.set_baud(rate = wanted_rate);
       if (!request.empty()) port.write(request);
@@ -94,14 +94,14 @@ struct PtuThread::Impl {
   void set_open() {
     const std::lock_guard lock(mutex);
     // After a mere silence the driver goes on with its own pauses.
-    if (!open) driver.restart(clock_monotonic_s());
-    open = true;
+    if (!port_status.open) driver.restart(clock_monotonic_s());
+    port_status.open = true;
   }
 
   void note_failure(const std::string& what) {
     const std::lock_guard lock(mutex);
-    open = false;
-    ++port_failures;
+    port_status.open = false;
+    ++port_status.failures;
     port_error = what;
   }
 
@@ -112,8 +112,7 @@ struct PtuThread::Impl {
   mutable std::mutex mutex;               // of everything below
   std::condition_variable_any wake;
   PtuDriver driver;
-  bool open = false;
-  std::uint64_t port_failures = 0, reopens = 0;
+  PtuStatus::Port port_status;
   std::string port_error;
   std::jthread thread;  // last: it uses the rest
 };
@@ -174,7 +173,7 @@ void PtuThread::reference_ok() {
 
 PtuReference PtuThread::reference() const {
   const std::lock_guard lock(impl_->mutex);
-  return impl_->open ? impl_->driver.reference() : PtuReference::kUnknown;
+  return impl_->port_status.open ? impl_->driver.reference() : PtuReference::kUnknown;
 }
 
 std::optional<PtuReferenceDoubt> PtuThread::doubt_to_persist() const {
@@ -186,10 +185,8 @@ PtuStatus PtuThread::status() const {
   const std::lock_guard lock(impl_->mutex);
   const PtuDriver& driver = impl_->driver;
   PtuStatus status;
-  status.port_open = impl_->open;
-  status.state = impl_->open || impl_->port_failures == 0 ? driver.state() : PtuState::kFault;
-  status.port_failures = impl_->port_failures;
-  status.reopens = impl_->reopens;
+  status.port = impl_->port_status;
+  status.state = impl_->port_status.open || impl_->port_status.failures == 0 ? driver.state() : PtuState::kFault;
   status.emergency = impl_->emergency;
   status.standing = driver.standing();
   status.not_referenced = driver.not_referenced();
@@ -202,7 +199,7 @@ PtuStatus PtuThread::status() const {
   status.counters = driver.counters();
   status.limits = driver.limits();
   status.firmware = driver.firmware();
-  status.last_error = impl_->open ? driver.last_error() : impl_->port_error;
+  status.last_error = impl_->port_status.open ? driver.last_error() : impl_->port_error;
   return status;
 }
 

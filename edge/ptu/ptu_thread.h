@@ -17,9 +17,11 @@ namespace ols {
 // What there is to know of a PTU at one moment.
 struct PtuStatus {
   PtuState state = PtuState::kStarting;
-  bool port_open = false;
-  std::uint64_t port_failures = 0;  // opens that failed and ports that vanished; only goes up
-  std::uint64_t reopens = 0;        // of the port because the unit did not answer
+  struct Port {
+    bool open = false;
+    std::uint64_t failures = 0;  // opens that failed and ports that vanished; only goes up
+    std::uint64_t reopens = 0;   // because the unit did not answer; only goes up
+  } port;
   bool emergency = false;           // nothing moves until clear_emergency()
   bool standing = false;            // seen not to move
   bool not_referenced = false;      // must be homed

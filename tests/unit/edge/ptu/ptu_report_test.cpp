@@ -15,7 +15,7 @@ using testing::IsEmpty;
 PtuStatus good() {
   PtuStatus status;
   status.state = PtuState::kReady;
-  status.port_open = true;
+  status.port.open = true;
   status.line_baud = 38400;
   status.last_good_s = 100.0;
   status.firmware = "Pan-Tilt Controller v2.12.1d1(C14/E), (C)2003 DP";
@@ -75,7 +75,7 @@ TEST(PtuReport, SaysWhatIsWrong) {
               }),
               Contains("ptu: halted, no reply"));
   EXPECT_THAT(alarms([](PtuStatus& s) {
-                s.port_open = false;
+                s.port.open = false;
                 s.last_error = "/dev/x: cannot be opened";
               }),
               Contains(HasSubstr("/dev/x")));
