@@ -5,14 +5,15 @@ include(GNUInstallDirs)
 # Outside lib/<architecture>: systemd and udev look there.
 set(OLS_SYSTEM_LIBDIR lib)
 
-# Some programs come with their folder; all of them are installed.
-foreach(program IN ITEMS ols-station ols-fusion ols-ctl ols-doctor ols-logger ols-track ols-fuse ols-precision
-                      ols-stationing ols-sim
-                      ols-sim-ptu ols-sim-flood ols-sim-relay)
-  if(TARGET ${program})
-    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  endif()
+foreach(program IN ITEMS ols-station ols-fusion ols-ctl ols-doctor ols-logger ols-track ols-fuse
+                         ols-precision ols-stationing)
+  install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endforeach()
+# The simulated site is not for a tripod: cmake --install BUILD --component simulator.
+install(TARGETS ols-sim ols-sim-ptu RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+        COMPONENT simulator EXCLUDE_FROM_ALL)
+install(DIRECTORY sim/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/ols
+        COMPONENT simulator EXCLUDE_FROM_ALL)
 
 install(PROGRAMS systemd/ols-bus-route DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY systemd/units/ DESTINATION ${OLS_SYSTEM_LIBDIR}/systemd/system)
@@ -20,6 +21,5 @@ install(DIRECTORY systemd/modules-load.d systemd/sysusers.d systemd/tmpfiles.d s
         DESTINATION ${OLS_SYSTEM_LIBDIR})
 install(DIRECTORY systemd/udev/ DESTINATION ${OLS_SYSTEM_LIBDIR}/udev/rules.d)
 install(DIRECTORY systemd/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/ols/examples)
-install(DIRECTORY tools/sim/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/ols)
 install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ols)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ols FILES_MATCHING PATTERN "*.md")

@@ -7,7 +7,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 BIN = Path(os.environ.get("OLS_BIN", ROOT / "build/release/bin"))
-SCENARIO = ROOT / "tools/sim/scenarios/fig7.toml"
+SCENARIO = ROOT / "sim/scenarios/fig7.toml"
 
 
 @pytest.fixture(scope="session")

@@ -29,7 +29,7 @@ from ols_accuracy.runs import (
     usable,
 )
 
-TABLE1 = ROOT / "tools/python/ols_accuracy/table1.csv"
+TABLE1 = ROOT / "dev/python/ols_accuracy/table1.csv"
 
 
 def without(run):

@@ -10,7 +10,7 @@ import pytest
 from conftest import BIN, lines_said
 
 ROOT = Path(__file__).resolve().parents[2]
-TABLE1 = ROOT / "tools/python/ols_accuracy/table1.csv"
+TABLE1 = ROOT / "dev/python/ols_accuracy/table1.csv"
 STATIONS = """\
 station,latitude_deg,longitude_deg,height_m
 west,49.2,16.598,250

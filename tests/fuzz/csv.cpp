@@ -7,8 +7,8 @@
 
 #include "base/csv_files.h"
 #include "base/toml_config.h"
+#include "sim/trajectory_file.h"
 #include "tests/fuzz/fuzz_input.h"
-#include "tools/sim/trajectory_file.h"
 
 static void* large_buffer = nullptr;
 

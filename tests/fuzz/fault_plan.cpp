@@ -1,6 +1,6 @@
 // Faults that a simulated site is told of over the bus: a run of OLS_SIM_FAULT datagrams, each with
 // its length. Refused by name, or a plan whose faults end when they are told to.
-#include "tools/sim/fault_plan.h"
+#include "sim/fault_plan.h"
 
 #include <cmath>
 #include <stdexcept>

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "edge/ptu/driver.h"
+#include "sim/ptu_unit.h"
 #include "tests/fuzz/fuzz_input.h"
-#include "tools/sim/ptu_unit.h"
 
 namespace {
 

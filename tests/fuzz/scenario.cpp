@@ -1,5 +1,5 @@
 // A simulator's scenario: a world, or one error.
-#include "tools/sim/scenario.h"
+#include "sim/scenario.h"
 
 #include "base/toml_config.h"
 #include "tests/fuzz/fuzz_input.h"

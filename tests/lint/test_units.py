@@ -166,10 +166,10 @@ def test_the_installed_tree_is_complete(tmp_path):
         "lib/modules-load.d/ols.conf",
         "lib/sysctl.d/60-ols.conf",
         "lib/udev/rules.d/61-ols.rules",
-        "share/ols/scenarios/fig7.toml",
         "share/doc/ols/operations.md",
     ):
         assert (usr / path).exists(), path
+    assert sorted(path.name for path in (usr / "bin").glob("ols-sim*")) == []
     for program in ("station", "fusion", "logger"):
         config = usr / "share/ols/examples" / f"{program}.toml"
         done = run(usr / "bin" / f"ols-{program}", "--config", config, "--check-config")

@@ -1,4 +1,4 @@
-#include "tools/estimators/limits.h"
+#include "dev/estimators/limits.h"
 
 #include <gtest/gtest.h>
 

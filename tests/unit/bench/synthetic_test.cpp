@@ -5,8 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "dev/bench/synthetic_cases.h"
 #include "geometry/angles.h"
-#include "tools/bench/synthetic_cases.h"
 
 namespace ols::bench {
 namespace {

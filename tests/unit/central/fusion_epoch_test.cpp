@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
+#include "dev/estimators/bearing_world.h"
 #include "flight.h"
-#include "tools/estimators/bearing_world.h"
 
 namespace ols {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "dev/estimators/bearing_world.h"
 #include "geometry/angles.h"
-#include "tools/estimators/bearing_world.h"
 
 namespace ols::bench {
 namespace {

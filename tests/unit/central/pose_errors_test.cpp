@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "central/offline_fusion.h"
+#include "dev/estimators/bearing_world.h"
 #include "geometry/angles.h"
-#include "tools/estimators/bearing_world.h"
 
 namespace ols::bench {
 namespace {

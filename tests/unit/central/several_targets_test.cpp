@@ -1,4 +1,4 @@
-#include "tools/estimators/several_targets.h"
+#include "dev/estimators/several_targets.h"
 
 #include <gtest/gtest.h>
 

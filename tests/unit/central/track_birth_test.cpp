@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tools/estimators/bearing_world.h"
+#include "dev/estimators/bearing_world.h"
 #include "wrong_heading.h"
 
 namespace ols {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "central/offline_fusion.h"
-#include "tools/estimators/bearing_world.h"
+#include "dev/estimators/bearing_world.h"
 #include "wrong_heading.h"
 
 namespace ols {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "tools/estimators/bearing_world.h"
+#include "dev/estimators/bearing_world.h"
 
 namespace ols::bench {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "central/offline_fusion.h"
 #include "central/track_birth.h"
-#include "tools/estimators/bearing_world.h"
+#include "dev/estimators/bearing_world.h"
 
 namespace ols::bench {
 namespace {

@@ -26,7 +26,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--headless", action="store_true", help="no live picture in the terminal")
     parser.add_argument("--report", type=Path, help="JSON file; a plot is written beside it")
     parser.add_argument(
-        "--scenario", type=Path, default=root / "tools/sim/scenarios/fig7.toml", help="TOML file"
+        "--scenario", type=Path, default=root / "sim/scenarios/fig7.toml", help="TOML file"
     )
     parser.add_argument("--seed", type=int, default=1, help="of the simulated errors")
     parser.add_argument(

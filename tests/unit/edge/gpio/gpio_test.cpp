@@ -13,8 +13,8 @@
 
 #include "base/clocks.h"
 #include "edge/gpio/gpio_lines.h"
+#include "sim/gpio_socket.h"
 #include "tests/unit/eventually.h"
-#include "tools/sim/gpio_socket.h"
 
 namespace ols {
 namespace {

@@ -18,8 +18,8 @@
 #include "base/clocks.h"
 #include "edge/ptu/serial_port.h"
 #include "geometry/angles.h"
+#include "sim/ptu_line.h"
 #include "tests/unit/eventually.h"
-#include "tools/sim/ptu_line.h"
 
 namespace ols {
 namespace {

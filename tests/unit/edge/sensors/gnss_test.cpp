@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "geometry/angles.h"
+#include "sim/gnss_line.h"
 #include "tests/unit/edge/sensors/gpsd_process.h"
 #include "tests/unit/eventually.h"
-#include "tools/sim/gnss_line.h"
 
 namespace ols {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "edge/ptu/serial_port.h"
 #include "geometry/angles.h"
+#include "sim/inclinometer_line.h"
 #include "tests/unit/eventually.h"
-#include "tools/sim/inclinometer_line.h"
 
 namespace ols {
 namespace {

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "edge/camera/aravis_camera.h"
-#include "tools/sim/camera_server.h"
+#include "sim/camera_server.h"
 
 namespace ols {
 

@@ -1,4 +1,4 @@
-#include "tools/sim/gige_stream.h"
+#include "sim/gige_stream.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <array>
 
 #include "base/clocks.h"
-#include "tools/sim/gige_registers.h"
+#include "sim/gige_registers.h"
 
 namespace ols::sim {
 namespace {

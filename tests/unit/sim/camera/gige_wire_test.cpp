@@ -1,4 +1,4 @@
-#include "tools/sim/gige_wire.h"
+#include "sim/gige_wire.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

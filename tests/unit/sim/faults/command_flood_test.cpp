@@ -1,4 +1,4 @@
-#include "tools/sim/command_flood.h"
+#include "sim/command_flood.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/sim/fault_plan.h"
+#include "sim/fault_plan.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "base/toml_config.h"
-#include "tools/sim/scenario.h"
+#include "sim/scenario.h"
 
 namespace ols::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/sim/flood.h"
+#include "sim/flood.h"
 
 #include <gtest/gtest.h>
 

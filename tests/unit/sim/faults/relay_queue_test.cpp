@@ -1,4 +1,4 @@
-#include "tools/sim/relay_queue.h"
+#include "sim/relay_queue.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include "base/clocks.h"
 #include "ols_msg/truth_target_t.hpp"
-#include "tools/sim/live_site.h"
+#include "sim/live_site.h"
 
 namespace {
 std::atomic<std::int64_t> utc_step_s{0};

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tools/sim/report.h"
+#include "sim/report.h"
 
 namespace ols::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "tools/sim/report.h"
+#include "sim/report.h"
 
 namespace ols::sim {
 namespace {

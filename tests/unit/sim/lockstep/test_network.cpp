@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tools/sim/network.h"
+#include "sim/network.h"
 
 namespace ols::sim {
 namespace {

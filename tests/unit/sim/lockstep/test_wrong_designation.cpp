@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <ostream>
 
-#include "tools/sim/lockstep.h"
+#include "sim/lockstep.h"
 
 namespace ols::sim {
 namespace {

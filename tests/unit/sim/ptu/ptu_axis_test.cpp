@@ -1,4 +1,4 @@
-#include "tools/sim/ptu_axis.h"
+#include "sim/ptu_axis.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/sim/ptu_console.h"
+#include "sim/ptu_console.h"
 
 #include <gtest/gtest.h>
 

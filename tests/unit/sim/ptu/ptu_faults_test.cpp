@@ -1,4 +1,4 @@
-#include "tools/sim/ptu_faults.h"
+#include "sim/ptu_faults.h"
 
 #include <gtest/gtest.h>
 

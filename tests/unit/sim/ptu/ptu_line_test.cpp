@@ -1,4 +1,4 @@
-#include "tools/sim/ptu_line.h"
+#include "sim/ptu_line.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "geometry/angles.h"
-#include "tools/sim/ptu_faults.h"
+#include "sim/ptu_faults.h"
 
 namespace ols::sim {
 

@@ -1,6 +1,6 @@
 // A real unit is stood in for by a simulated one behind a line of its own; the product's own driver
 // is the master.
-#include "tools/sim/ptu_tap.h"
+#include "sim/ptu_tap.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -15,9 +15,9 @@
 #include "base/clocks.h"
 #include "edge/ptu/driver.h"
 #include "edge/ptu/serial_port.h"
+#include "sim/ptu_line.h"
+#include "sim/ptu_tap_watch.h"
 #include "tests/unit/sim/ptu/ptu_master.h"
-#include "tools/sim/ptu_line.h"
-#include "tools/sim/ptu_tap_watch.h"
 
 namespace ols::sim {
 namespace {

@@ -1,6 +1,6 @@
 // The simulated unit as a master sees it. The texts are those of the PTU-D46's manual and of
 // transcripts of real units.
-#include "tools/sim/ptu_unit.h"
+#include "sim/ptu_unit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/sim/pty.h"
+#include "sim/pty.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tools/sim/drone.h"
+#include "sim/drone.h"
 
 namespace ols::sim {
 namespace {

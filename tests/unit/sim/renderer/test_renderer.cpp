@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <opencv2/imgproc.hpp>
 
-#include "tools/sim/renderer.h"
+#include "sim/renderer.h"
 
 namespace ols::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/sim/inclinometer_line.h"
+#include "sim/inclinometer_line.h"
 
 #include <gtest/gtest.h>
 

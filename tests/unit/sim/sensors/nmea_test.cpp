@@ -1,4 +1,4 @@
-#include "tools/sim/nmea.h"
+#include "sim/nmea.h"
 
 #include <gtest/gtest.h>
 

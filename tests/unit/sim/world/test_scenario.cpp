@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "base/toml_config.h"
-#include "tools/sim/scenario.h"
+#include "sim/scenario.h"
 
 namespace ols::sim {
 namespace {

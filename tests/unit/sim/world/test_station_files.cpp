@@ -4,7 +4,7 @@
 
 #include "edge/config.h"
 #include "edge/station_memory.h"
-#include "tools/sim/station_files.h"
+#include "sim/station_files.h"
 
 namespace ols::sim {
 namespace {

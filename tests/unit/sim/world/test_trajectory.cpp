@@ -4,8 +4,8 @@
 
 #include "base/toml_config.h"
 #include "geometry/angles.h"
-#include "tools/sim/trajectory.h"
-#include "tools/sim/trajectory_file.h"
+#include "sim/trajectory.h"
+#include "sim/trajectory_file.h"
 
 namespace ols::sim {
 namespace {

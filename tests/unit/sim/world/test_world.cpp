@@ -4,7 +4,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "tools/sim/world.h"
+#include "sim/world.h"
 
 namespace ols::sim {
 namespace {

@@ -1,0 +1,68 @@
+// What the synthetic benchmark asks of a tracker: sweeps of one property each, and events.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dev/bench/synthetic_scene.h"
+
+namespace ols::bench {
+
+enum class CameraPath {
+  kTurning,   // steadily in azimuth; the target keeps its path in the picture
+  kSwinging,  // to and fro, so that a target that stands in the sky crosses the picture
+};
+enum class TargetPath {
+  kCircle,    // in the picture
+  kVertical,  // up and down across the middle of the picture
+  kStill,     // in the world
+};
+
+struct BenchCase {
+  std::string sweep;
+  double value = 0.0;  // of what the sweep varies
+  TargetLook look;
+  Backdrop backdrop = Backdrop::kBlankSky;
+  CameraPath camera_path = CameraPath::kTurning;
+  TargetPath target_path = TargetPath::kCircle;
+  double speed_px_s = 40.0;             // of the target in the picture
+  double growth_per_s = 0.0;            // of its size, relative
+  double pan_rate_deg_s = 0.0;          // of the camera
+  double elevation_deg = 0.0;           // of the camera; 0 is woods, without a ridge line
+  bool on_ridge = false;                // the camera looks at the ridge line instead
+  bool angles_given = false;            // the homography of the PTU's angles is given
+  std::optional<double> hidden_from_s;  // for a second
+  double seconds = 2.0;
+};
+
+inline constexpr double kHidden_s = 1.0;
+inline constexpr double kFrameInterval_s = 1.0 / 30.0;
+inline constexpr double kExposure_s = 0.002;
+inline constexpr double kAngleSd_rad =
+    25e-6;  // of the PTU's angles, each frame: a third of a pixel
+
+std::vector<BenchCase> bench_cases();
+
+// One run of a case: what is drawn by chance is drawn.
+class BenchPath {
+ public:
+  BenchPath(const BenchCase& which, const Landscape& landscape, Random& random);
+
+  AzimuthElevation camera(double time_s) const;
+  Eigen::Vector2d target_px(double time_s) const;
+  Eigen::Vector2d smear_px(double time_s) const;
+  bool hidden(double time_s) const;
+  double growth(double time_s) const;
+  double camera_smear_px() const;
+
+ private:
+  BenchCase case_;
+  CameraIntrinsics camera_model_;
+  AzimuthElevation axis_;       // at the beginning
+  Eigen::Vector3d stands_enu_;  // TargetPath::kStill
+  Eigen::Vector2d middle_px_;
+  double phase_rad_ = 0.0;
+};
+
+}  // namespace ols::bench

@@ -1,0 +1,53 @@
+// Pictures of a synthetic target before the simulator's landscape, with pixel noise.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "dev/bench/synthetic_target.h"
+#include "edge/tracker/random.h"
+#include "geometry/direction.h"
+#include "sim/panorama.h"
+
+namespace ols::bench {
+
+// 50 mm before pixels of 3.75 um, 1 px = 75 urad, without distortion; 2.7 by 2.2 degrees.
+CameraIntrinsics bench_camera(cv::Size picture = {640, 512});
+
+// Camera to east-north-up for a level camera that looks there.
+Eigen::Matrix3d camera_rotation(const AzimuthElevation& axis);
+
+// K R_2^T R_1 K^-1: takes pixels of a picture taken at `from` to pixels of one taken at `to`.
+Eigen::Matrix3d rotation_between(const CameraIntrinsics& camera, const AzimuthElevation& from,
+                                 const AzimuthElevation& to);
+
+enum class Backdrop { kBlankSky, kLandscape };
+
+// One for all cases: the landscape takes a second to make.
+class Landscape {
+ public:
+  explicit Landscape(const CameraIntrinsics& camera);
+
+  cv::Mat1f backdrop(Backdrop kind, const AzimuthElevation& axis);
+  double ridge_rad(double azimuth_rad) const { return panorama_.ridge_rad(azimuth_rad); }
+  const CameraIntrinsics& camera() const { return camera_; }
+
+ private:
+  CameraIntrinsics camera_;
+  sim::Panorama panorama_;
+  cv::Mat drawn_;
+};
+
+// Noise of every pixel, standard deviation kNoiseSd: read at random places of a long strip.
+class PixelNoise {
+ public:
+  PixelNoise();
+  // The picture as the sensor gives it: noise added, rounded to 8 bits.
+  cv::Mat develop(const cv::Mat1f& picture, Random& random) const;
+
+ private:
+  cv::Mat1f strip_;
+};
+
+}  // namespace ols::bench

@@ -1,0 +1,99 @@
+// Google Benchmark of the whole tracker with ego-motion: a camera that turns before woods, a target
+// that moves, at the sizes of the cameras in use. Time is processor time of this thread.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <opencv2/core/utility.hpp>
+#include <vector>
+
+#include "dev/bench/synthetic_cases.h"
+#include "edge/tracker/tracker.h"
+#include "tools/offline/timing_csv.h"
+
+namespace {
+
+constexpr int kPictures = 60;
+
+struct Clip {
+  std::vector<cv::Mat> pictures;
+  cv::Rect2d box;
+};
+
+Clip make_clip(const cv::Size& size) {
+  ols::bench::Landscape landscape(ols::bench::bench_camera(size));
+  const ols::bench::PixelNoise noise;
+  ols::Random random(1);
+  ols::bench::BenchCase which;
+  which.look.contrast_sigma = 0.0;
+  which.pan_rate_deg_s = 2.0;
+  const ols::bench::BenchPath path(which, landscape, random);
+  const ols::bench::SyntheticTarget target(which.look);
+  Clip clip;
+  for (int frame = 0; frame < kPictures; ++frame) {
+    const double time_s = frame * ols::bench::kFrameInterval_s;
+    cv::Mat1f light = landscape.backdrop(ols::bench::Backdrop::kLandscape, path.camera(time_s));
+    target.draw(light, path.target_px(time_s), path.smear_px(time_s), 1.0);
+    clip.pictures.push_back(noise.develop(light, random));
+  }
+  clip.box = target.box(path.target_px(0.0));
+  return clip;
+}
+
+double quantile(std::vector<double> values, double share) {
+  const auto index = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + index, values.end());
+  return values[static_cast<std::size_t>(index)];
+}
+
+// Forwards and backwards through the clip: it never ends, and nothing leaps.
+int picture_of(int frame) {
+  const int place = frame % (2 * kPictures - 2);
+  return place < kPictures ? place : 2 * kPictures - 2 - place;
+}
+
+void track(benchmark::State& state, ols::TrackerMode mode) {
+  const Clip clip = make_clip({static_cast<int>(state.range(0)), static_cast<int>(state.range(1))});
+  ols::TrackerConfig config;
+  config.mode = mode;
+  ols::Tracker tracker(config, 1);
+  int frame = 0;
+  const auto input = [&] {
+    const auto index = static_cast<std::size_t>(picture_of(frame));
+    return ols::TrackerInput{clip.pictures[index], frame * ols::bench::kFrameInterval_s, {}};
+  };
+  if (tracker.initialise(input(), clip.box)) state.SkipWithError("the box is refused");
+  std::vector<double> taken_ms;
+  for ([[maybe_unused]] auto _ : state) {
+    ++frame;
+    const ols::TrackerInput given = input();
+    const double began_s = ols::thread_time_s();
+    const ols::TrackerResult result = tracker.track(given);
+    const double taken_s = ols::thread_time_s() - began_s;
+    if (!result.output) state.SkipWithError("a frame is refused");
+    taken_ms.push_back(1e3 * taken_s);
+    state.SetIterationTime(taken_s);
+  }
+  state.counters["median_ms"] = quantile(taken_ms, 0.5);
+  state.counters["p99_ms"] = quantile(taken_ms, 0.99);
+}
+
+void in_full_mode(benchmark::State& state) { track(state, ols::TrackerMode::kFull); }
+void in_paper_mode(benchmark::State& state) { track(state, ols::TrackerMode::kPaper); }
+
+void sizes(benchmark::internal::Benchmark* one) {
+  one->Args({640, 512})->Args({1280, 960})->Iterations(600)->UseManualTime();
+  one->Unit(benchmark::kMillisecond)->ArgNames({"width", "height"});
+}
+
+BENCHMARK(in_full_mode)->Apply(sizes);
+BENCHMARK(in_paper_mode)->Apply(sizes);
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

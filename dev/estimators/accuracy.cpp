@@ -1,0 +1,243 @@
+#include "dev/estimators/accuracy.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "central/least_squares.h"
+#include "central/offline_fusion.h"
+#include "dev/estimators/posterior_bound.h"
+#include "dev/estimators/several_targets.h"
+#include "geometry/angles.h"
+
+namespace ols::bench {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+struct Sums {
+  double squared = 0.0, bound = 0.0;
+  int count = 0;
+  std::vector<double> nees;  // over 3, of each instant, summed over the runs
+
+  void add(std::size_t instant, const Vector3d& error, double bound_m2, const Matrix3d& P) {
+    squared += error.squaredNorm();
+    bound += bound_m2;
+    ++count;
+    if (nees.size() <= instant) nees.resize(instant + 1, 0.0);
+    nees[instant] += error.dot(P.ldlt().solve(error)) / 3.0;
+  }
+
+  double over_bound() const { return std::sqrt(squared / bound); }
+  double mean_nees(int runs) const {
+    double mean = 0.0;
+    for (const double sum : nees) mean += sum / runs / static_cast<double>(nees.size());
+    return mean;
+  }
+  // Share of the instants at which the mean over the runs is that near to 1.
+  double inside(int runs, double half) const {
+    const auto near = [&](double sum) { return std::abs(sum / runs - 1.0) <= half; };
+    return static_cast<double>(std::ranges::count_if(nees, near)) /
+           static_cast<double>(nees.size());
+  }
+};
+
+// Over N runs the mean at one instant is a chi-squared variable of 3 N degrees of freedom over that
+// number: half of its 95 % interval (Bar-Shalom, Li and Kirubarajan, 2001, section 5.4).
+double half_of_interval(int runs) { return 1.96 * std::sqrt(2.0 / (3.0 * runs)); }
+
+struct Geometry {
+  double size_m;
+  double systematic_rad;
+};
+
+// Each geometry counts alike, whatever its size.
+void one_epoch(const Geometry& geometry, int run, std::mt19937_64& random, Sums& sums) {
+  std::uniform_real_distribution<double> uniform;
+  WorldConfig world{.stations_enu = circle(2 + run % 5, geometry.size_m), .aims_enu = {}};
+  world.noise_rad = 3e-4;
+  world.bias_sd_rad = geometry.systematic_rad;
+  const double angle = 2.0 * kPi * uniform(random);
+  const double far_m = geometry.size_m * (0.2 + uniform(random));
+  const PathPoint there{{far_m * std::cos(angle), far_m * std::sin(angle), geometry.size_m * 0.6},
+                        Vector3d::Zero()};
+  const Vector3d p_ecef = site().to_ecef(there.p_enu);
+  std::vector<Ray> rays;
+  Matrix3d information = Matrix3d::Zero();
+  for (const Sighting& s : measure(world, {Path(3, there)}, 0.99 / world.rate_hz * 1.02, random)) {
+    rays.push_back({.station = s.station, .sight = s.sight});
+    const RayFrame frame = ray_frame(s.sight);
+    const double range_m = (p_ecef - s.sight.origin_ecef).norm();
+    const Eigen::Matrix2d R = s.sight.covariance_white + s.sight.covariance_systematic;
+    information += frame.tangent * R.inverse() * frame.tangent.transpose() / (range_m * range_m);
+  }
+  const Estimate estimate = least_squares(rays);
+  if (estimate.solution != Solution::kOk) return;
+  const double size_m2 = information.inverse().trace();
+  sums.add(0, (estimate.position_ecef - p_ecef) / std::sqrt(size_m2), 1.0,
+           estimate.covariance_ecef / size_m2);
+}
+
+struct FilterCase {
+  const char* name;
+  double tilt_sd_rad, heading_sd_rad, time_s;
+  double place_sd_m = 0.0;
+  double told_s = StationErrorsConfig{}.stated_time_s;  // what the filter supposes of that
+};
+
+constexpr double kFlightS = 12.0, kWarmS = 4.0, kDisturbance = 0.5;
+
+// The bound is that of the true motion: the filter is told the same.
+OfflineConfig told(const FilterCase& filter) {
+  OfflineConfig config;
+  config.fusion.keeper.filter.motion.cruise_sd_m_s2 = kDisturbance;
+  config.fusion.keeper.filter.motion.cruise_per_speed_s = 0.0;
+  config.fusion.keeper.errors.stated_time_s = filter.told_s;
+  return config;
+}
+
+// The stations state their biases, so that what is known beforehand is true: what a station that
+// states nothing may have is guessed, and no bound knows that.
+Sums fly(const FilterCase& filter, int runs) {
+  Sums sums;
+  for (int run = 0; run < runs; ++run) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(run) + 1);
+    WorldConfig world{.stations_enu = circle(4, 250.0), .aims_enu = {}};
+    world.bias_sd_rad = filter.tilt_sd_rad;
+    world.heading_sd_rad = filter.heading_sd_rad;
+    world.bias_time_s = filter.time_s;
+    world.place_sd_m = filter.place_sd_m;
+    const Path path = cruising({{-60, 40, 80}, {9.0, -6.0, 1.0}}, kDisturbance, kFlightS, random);
+    const auto bearings = measure(world, {path}, kFlightS, random);
+    const auto bound = posterior_bound(world, path, bearings, kDisturbance, 100.0, 100.0);
+    std::size_t instant = 0;
+    for (const FusedTarget& target : fuse_offline(bearings, told(filter))) {
+      const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
+      if (time_s < kWarmS) continue;
+      const auto index = static_cast<std::size_t>(
+          std::ranges::lower_bound(bearings, target.utime_us, {}, &Sighting::utime_us) -
+          bearings.begin());
+      const Vector3d e = target.estimate.position_ecef - site().to_ecef(at(path, time_s).p_enu);
+      sums.add(instant++, e, bound[index], target.estimate.covariance_ecef);
+    }
+  }
+  return sums;
+}
+
+struct Way {
+  const char* name;
+  const char* estimator;
+  int average;
+};
+
+// Sum of squared errors and their number.
+struct Squares {
+  double sum = 0.0;
+  int count = 0;
+  double rms() const { return std::sqrt(sum / count); }
+};
+
+void follow(const Way& way, const std::vector<Sighting>& bearings, const Path& path,
+            Squares& squares) {
+  constexpr double kBegunS = 2.0;
+  FusionConfig config{.estimator = way.estimator, .paper_targets = 0};
+  config.estimators.paper.moving_average = way.average;
+  Fusion fusion(config);
+  for (const Sighting& sighting : bearings) {
+    const FusionOutput output = fusion.add(sighting);
+    if (output.targets.empty()) continue;
+    const FusedTarget& target = output.targets.front();
+    const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
+    if (target.estimate.solution != Solution::kOk || time_s < kBegunS) continue;
+    squares.sum +=
+        (target.estimate.position_ecef - site().to_ecef(at(path, time_s).p_enu)).squaredNorm();
+    ++squares.count;
+  }
+}
+
+}  // namespace
+
+void least_squares_bound(int runs, Limits& limits) {
+  for (const double size_m : {30.0, 300.0, 3e3, 50e3}) {
+    for (const double systematic : {0.0, 1e-3}) {
+      Sums sums;
+      std::mt19937_64 random(5);
+      for (int run = 0; run < runs; ++run) one_epoch({size_m, systematic}, run, random, sums);
+      std::printf("least squares, %g m, bias %g mrad: %d geometries\n", size_m, 1e3 * systematic,
+                  sums.count);
+      limits.at_most("RMSE over the bound", sums.over_bound(), 1.05);
+      limits.within("normalised error squared", sums.mean_nees(sums.count), 0.9, 1.1);
+    }
+  }
+}
+
+void filter_bounds(int runs, Limits& limits) {
+  const double half = half_of_interval(runs);
+  constexpr double kNever = 1e12, kHalfHour = 1800.0, kMinutes = 300.0;
+  for (const FilterCase& filter :
+       {FilterCase{"no bias", 1e-6, 0.0, kNever},
+        FilterCase{"headings off by 1 mrad", 1e-5, 1e-3, kNever},
+        FilterCase{"headings off by 5 mrad, tilts by 0.3", 3e-4, 5e-3, kNever},
+        FilterCase{"headings off by 1 mrad, places by 1 m", 1e-5, 1e-3, kNever, 1.0},
+        FilterCase{"headings and tilts off by 1 mrad", 1e-3, 0.0, kNever},
+        FilterCase{"the same, wander within half an hour", 1e-3, 0.0, kHalfHour},
+        FilterCase{"the same, wander within five minutes, of which it is told", 1e-3, 0.0, kMinutes,
+                   0.0, kMinutes}}) {
+    const Sums sums = fly(filter, runs);
+    std::printf("filter, %s: RMSE %.4f m, %d runs, NEES inside at %.0f %% of the instants\n",
+                filter.name, std::sqrt(sums.squared / sums.count), runs,
+                100.0 * sums.inside(runs, half));
+    limits.at_most("RMSE over the bound", sums.over_bound(), 1.2);
+    // Tilts that never change at all are less than the filter leaves room for.
+    const bool roomy = filter.tilt_sd_rad == 1e-3 && filter.time_s == kNever;
+    limits.within("normalised error squared", sums.mean_nees(runs), roomy ? 0.7 : 1.0 - half,
+                  1.0 + half);
+  }
+}
+
+void against_paper(int runs, Limits& limits) {
+  constexpr double kDurationS = 30.0;
+  const Way ways[] = {
+      {"filter", "filter", 1}, {"pairs", "paper", 1}, {"pairs, average of 10", "paper", 10}};
+  std::map<std::string, Squares> squares;
+  for (int run = 0; run < runs; ++run) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(run) + 1);
+    const WorldConfig world{.stations_enu = circle(4, 400.0), .aims_enu = {}, .bias_sd_rad = 0.0};
+    const Path path = manoeuvring({{0, 0, 150}, {12, 5, 0}}, 6.0, kDurationS, random);
+    const auto bearings = measure(world, {path}, kDurationS, random);
+    for (const Way& way : ways) follow(way, bearings, path, squares[way.name]);
+  }
+  for (const Way& way : ways) {
+    std::printf("manoeuvring drone, %s: RMSE %.4f m\n", way.name, squares[way.name].rms());
+  }
+  const double own = squares["filter"].rms();
+  limits.at_most("filter over pairs", own / squares["pairs"].rms(), 0.75);
+  limits.at_most("filter over their average", own / squares["pairs, average of 10"].rms(), 0.1);
+}
+
+void several(int runs, Limits& limits) {
+  double right = 0.0, worst = 1.0, ghost_s = 0.0;
+  int switches = 0;
+  for (int run = 1; run <= runs; ++run) {
+    const IdentityScore score = run_several({}, static_cast<std::uint64_t>(run));
+    right += score.by_right_identity / runs;
+    worst = std::min(worst, score.by_right_identity);
+    ghost_s = std::max(ghost_s, score.longest_ghost_s);
+    switches += score.switches;
+  }
+  std::printf(
+      "5 targets, 4 stations: right identity %.4f of target-seconds (worst run %.4f), "
+      "longest ghost %.2f s, %d switches in %d runs\n",
+      right, worst, ghost_s, switches, runs);
+  limits.at_least("target-seconds by the right identity", right, 0.95);
+  limits.at_most("longest ghost [s]", ghost_s, 1.0);
+}
+
+}  // namespace ols::bench

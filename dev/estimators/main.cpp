@@ -1,0 +1,67 @@
+// ols-bench-estimators: how near the estimators come to their bounds, how honest their covariances
+// are, how well targets are kept apart, and what a bearing costs. Prints one table a measure; exits
+// with 1 where a measure of accuracy misses its limit.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "base/command_line.h"
+#include "dev/estimators/accuracy.h"
+#include "dev/estimators/cost.h"
+#include "dev/estimators/peer.h"
+
+using namespace ols;
+using namespace ols::bench;
+
+namespace {
+
+constexpr int kExitMissed = 1;
+
+// Whether every measure holds its limit.
+bool measure(const std::string& what, bool quick, int runs) {
+  if (quick) runs = std::max(2, runs / 2);
+  const bool all = what == "all";
+  Limits limits;
+  if (all || what == "least-squares") least_squares_bound(20 * runs, limits);
+  if (all || what == "filter") filter_bounds(runs, limits);
+  if (all || what == "paper") against_paper(std::max(20, runs / 5), limits);
+  if (all || what == "targets") several(std::max(2, runs / 5), limits);
+  if (what == "cost" || (all && !quick)) cost(limits);
+  return limits.missed() == 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  CLI::App app{"Monte Carlo measures of the estimators on simulated bearings"};
+  int runs = 100;
+  bool quick = false;
+  std::string what = "all";
+  app.add_option("--runs", runs, "Monte Carlo runs of each measure")
+      ->check(CLI::Range(2, 100000))
+      ->capture_default_str();
+  app.add_flag("--quick", quick, "the measures of accuracy alone, in half of the runs");
+  app.add_option("measure", what, "all, least-squares, filter, paper, targets or cost")
+      ->check(CLI::IsMember({"all", "least-squares", "filter", "paper", "targets", "cost"}));
+  std::string peer;
+  app.add_option("--write-peer", peer,
+                 "instead: a folder for bearings and our filter's fixes, as tools/bench-estimators "
+                 "gives them to Stone Soup");
+  if (const auto status = parse_command_line(app, argc, argv, "ols-bench-estimators")) {
+    return *status;
+  }
+  try {
+    if (!peer.empty()) {
+      write_peer_runs(peer, runs);
+      return 0;
+    }
+    const bool holds = measure(what, quick, runs);
+    flush_output();
+    return holds ? 0 : kExitMissed;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ols-bench-estimators: %s\n", error.what());
+    return kExitBadInput;
+  }
+}

@@ -1,0 +1,27 @@
+// The Cramer-Rao bound of a target's position at one instant, one exposure of each station: from
+// the true geometry, the scenario's error sigmas and the actual pixel noise. What each error does
+// to the pixel comes from differences of the projection, none of the product's covariances, so that
+// the bound (geometry/precision.h) can judge them.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "sim/world.h"
+
+namespace ols::sim {
+
+struct MeasurementNoise {
+  double pixel_sd_px = 0.3;        // white
+  double designation_sd_px = 1.0;  // stays
+  // What is left of the white part; 0: as if averaged away, the bound that no smoothing gets below.
+  double white_share = 1.0;
+};
+
+// Covariance [m^2] in the site's east, north, up; nothing when these stations do not determine it.
+std::optional<Eigen::Matrix3d> position_bound_enu(const World& world, double time_s,
+                                                  const std::vector<std::size_t>& stations,
+                                                  const MeasurementNoise& noise);
+
+}  // namespace ols::sim

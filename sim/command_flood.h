@@ -1,0 +1,43 @@
+// Forged commands to one station, as somebody sends them who wants its operator unheard. Most are
+// such as no station may obey: stale, played again, from the future, for another station, of
+// another schema, damaged, out of limits (these pass for fresh, from ever new senders with stamps
+// somewhat ahead), slews with the greatest of sequences. One in eighteen is fresh and well-formed,
+// and without signatures it is obeyed: it points the unit to one side and to the other, in turns.
+// Pure; deterministic by its seed and the times it is given.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+
+#include "sim/relay_queue.h"
+
+namespace ols::sim {
+
+// Where the obeyed ones point at this instant: +- kSwing_rad, for kSwing_us each.
+constexpr double kSwing_rad = 1.4;
+constexpr std::int64_t kSwing_us = 4'000'000;
+double swing_goal_rad(std::int64_t utime_us);
+
+class CommandFlood {
+ public:
+  CommandFlood(std::string station, std::uint64_t seed);
+
+  // `utime_us`: UTC since 1970, by which stamps are fresh or stale.
+  Packet next(std::int64_t utime_us);
+
+ private:
+  template <class Message>
+  void address(Message& message, std::int64_t utime_us);
+  template <class Message>
+  bool spoil(Message& message, int how);
+  Packet ptu(std::int64_t utime_us);
+  Packet slew(std::int64_t utime_us);
+  Packet designate(std::int64_t utime_us);
+  int below(int limit);
+
+  std::string station_;
+  std::mt19937_64 random_;
+};
+
+}  // namespace ols::sim

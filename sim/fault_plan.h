@@ -1,0 +1,49 @@
+// Which fault holds when: from a scenario's [[fault]] tables, and by command while the site runs.
+// Pure; deterministic.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/faults.h"
+
+namespace ols::sim {
+
+struct Fault {
+  std::string kind;     // "ptu-line-cut", ...: fault_kinds()
+  std::string station;  // empty: all of them
+  double at_s = 0.0;    // since the scenario's start
+  double for_s = std::numeric_limits<double>::infinity();
+  double value = std::numeric_limits<double>::quiet_NaN();  // NaN: the kind's default
+};
+
+std::vector<std::string> fault_kinds();
+
+// What is wrong with a fault that cannot be had, and with which of its keys; both empty when it
+// can.
+struct FaultProblem {
+  std::string key, what;
+};
+FaultProblem check(const Fault& fault);
+
+class FaultPlan {
+ public:
+  // Throws std::invalid_argument with what check() finds.
+  void add(const Fault& fault);
+
+  // By command: the same from now on. With for_s = 0 it ends what is going on or planned of this
+  // kind (kind "all": of every kind) at this station (station empty: at all of them).
+  void command(Fault fault, double now_s);
+
+  // What is wrong at one station at one moment. Of faults of one kind that overlap the one that
+  // began last counts.
+  StationFaults at(std::string_view station, double time_s) const;
+
+ private:
+  void forget(double before_s);
+  std::vector<Fault> faults_;  // in the order in which they were added
+};
+
+}  // namespace ols::sim

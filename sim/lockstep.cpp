@@ -1,0 +1,130 @@
+#include "sim/lockstep.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ols::sim {
+namespace {
+
+constexpr double kTick_s = 1e-3;
+constexpr std::uint64_t kBearingTag = 8000, kSlewTag = 9000;
+
+std::int64_t utime_us(double time_s) {
+  return Lockstep::kStartUtime_us + std::llround(time_s * 1e6);
+}
+
+double time_of(std::int64_t utime_us) {
+  return 1e-6 * static_cast<double>(utime_us - Lockstep::kStartUtime_us);
+}
+
+}  // namespace
+
+Lockstep::Lockstep(const World& world, const Fidelity& fidelity)
+    : world_(world),
+      bearings_(world.scenario().errors.messages, derived_seed(world.seed(), kBearingTag)),
+      slews_(world.scenario().errors.messages, derived_seed(world.seed(), kSlewTag)),
+      newest_slew_us_(world.stations().size(), 0),
+      fusion_(FusionConfig{}) {
+  auto renderers = fidelity.pictures
+                       ? make_renderers(world)
+                       : std::vector<std::unique_ptr<Renderer>>(world.stations().size());
+  for (std::size_t i = 0; i < world.stations().size(); ++i) {
+    stations_.push_back(
+        std::make_unique<LockstepStation>(world, i, fidelity, std::move(renderers[i])));
+    const StationTruth& station = world.stations()[i];
+    fusion_.know_station(station.id, {.camera_ecef = camera_centre_ecef(station.nominal, {})});
+  }
+}
+
+void Lockstep::run(double duration_s) {
+  const auto ticks = static_cast<std::int64_t>(std::llround(duration_s / kTick_s));
+  for (; tick_ < ticks; ++tick_) advance(static_cast<double>(tick_) * kTick_s);
+}
+
+void Lockstep::advance(double time_s) {
+  for (const AddressedSlew& slew : slews_.receive(time_s)) deliver(slew, time_s);
+  bool all_designated = true;
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    for (const Bearing& bearing : stations_[i]->advance(time_s)) send(i, bearing, time_s);
+    all_designated = all_designated && (stations_[i]->designated() || stations_[i]->left_alone());
+  }
+  if (all_designated && result_.designated_s < 0.0) result_.designated_s = time_s;
+  for (const Sighting& sighting : bearings_.receive(time_s)) fuse(sighting, time_s);
+}
+
+void Lockstep::send(std::size_t station, const Bearing& bearing, double time_s) {
+  const StationTruth& truth = world_.stations()[station];
+  Sighting sighting;
+  sighting.station = truth.id;
+  // The station's clock is off; its own times of frame and angles agree with each other.
+  const double exposed_s = bearing.mid_exposure_s - LockstepStation::monotonic_s(0.0);
+  sighting.utime_us = utime_us(exposed_s + truth.clock_offset_s);
+  sighting.sight = bearing.sight;
+  sighting.belief = bearing.belief;
+  sighting.clock_sd_s = std::hypot(truth.clock_sd_s, bearing.stamp_sd_s);
+  sighting.track_id = bearing.track_id;
+  bearings_.send(sighting, time_s);
+}
+
+void Lockstep::fuse(const Sighting& sighting, double time_s) {
+  const FusionOutput output = fusion_.add(sighting);
+  if (result_.designated_s >= 0.0) {
+    for (const FusedTarget& target : output.targets) record(target, result_.joint);
+    for (const FusedTarget& target : output.targets_paper) record(target, result_.paper);
+  }
+  for (const Slew& slew : output.slews) {
+    result_.slews.push_back(slew);
+    slews_.send({index_of(slew.station), slew}, time_s);
+  }
+}
+
+void Lockstep::record(const FusedTarget& target, std::vector<Fix>& fixes) const {
+  if (target.estimate.solution != Solution::kOk) return;
+  Fix fix;
+  fix.utime_us = target.utime_us;
+  fix.time_s = time_of(target.utime_us);
+  fix.position = geodetic_from_ecef(target.estimate.position_ecef);
+  const Eigen::Matrix3d R_enu_ecef = world_.site().R_ecef_enu().transpose();
+  fix.error_enu_m =
+      R_enu_ecef * (target.estimate.position_ecef - world_.target(0, fix.time_s).p_ecef);
+  fix.covariance_enu_m2 = R_enu_ecef * target.estimate.covariance_ecef * R_enu_ecef.transpose();
+  for (const ContributingStation& station : target.stations) {
+    if (station.used) fix.used.push_back(index_of(station.station));
+  }
+  fixes.push_back(fix);
+}
+
+void Lockstep::deliver(const AddressedSlew& addressed, double time_s) {
+  const Slew& slew = addressed.slew;
+  std::int64_t& newest_us = newest_slew_us_[addressed.station];
+  if (slew.utime_us <= newest_us) return;  // doubled or overtaken
+  newest_us = slew.utime_us;
+  SlewCommand command;
+  const double offset_s = world_.stations()[addressed.station].clock_offset_s;
+  command.effect_s = LockstepStation::monotonic_s(time_of(slew.effect_utime_us) - offset_s);
+  command.lease_s = slew.lease_s;
+  command.target_id = slew.target_id;
+  command.direction = slew.direction;
+  command.azimuth_rate_rad_s = slew.azimuth_rate_rad_s;
+  command.elevation_rate_rad_s = slew.elevation_rate_rad_s;
+  command.direction_sd_rad = slew.direction_sd_rad;
+  stations_[addressed.station]->slew(command, time_s);
+}
+
+std::size_t Lockstep::index_of(const std::string& station) const {
+  const auto& all = world_.stations();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const StationTruth& s) { return s.id == station; });
+  return static_cast<std::size_t>(found - all.begin());
+}
+
+LockstepResult Lockstep::result() const {
+  LockstepResult result = result_;
+  const FusionHealth health = fusion_.health();
+  result.alarms = health.alarms;
+  result.counters = health.counters;
+  for (const auto& station : stations_) result.stations.push_back(station->record());
+  return result;
+}
+
+}  // namespace ols::sim

@@ -1,0 +1,70 @@
+// The whole site in simulated time, in one process and without sockets: the product's stations and
+// fusion stepped in a fixed order. The same scenario and seed give the same result to the last bit.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "central/fusion.h"
+#include "sim/lockstep_station.h"
+#include "sim/network.h"
+#include "sim/world.h"
+
+namespace ols::sim {
+
+// One published target beside the truth, in the site's east, north, up.
+struct Fix {
+  std::int64_t utime_us = 0;
+  double time_s = 0.0;  // of the scenario
+  Geodetic position;
+  Eigen::Vector3d error_enu_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_enu_m2 = Eigen::Matrix3d::Zero();
+  std::vector<std::size_t> used;  // stations
+};
+
+struct LockstepResult {
+  std::vector<Fix> joint, paper;
+  std::vector<Slew> slews;  // as the fusion made them
+  std::vector<StationRecord> stations;
+  std::map<std::string, double> counters;  // of the fusion at the end
+  std::vector<std::string> alarms;         // of the fusion at the end
+  double designated_s = -1.0;  // when the last station that is to be was; < 0: not all were
+};
+
+class Lockstep {
+ public:
+  // `world` must outlive it.
+  Lockstep(const World& world, const Fidelity& fidelity);
+
+  void run(double duration_s);
+  LockstepResult result() const;
+
+  // UTC of the scenario's start.
+  static constexpr std::int64_t kStartUtime_us = 1'700'000'000'000'000;
+
+ private:
+  struct AddressedSlew {
+    std::size_t station = 0;
+    Slew slew;
+  };
+  void advance(double time_s);
+  void send(std::size_t station, const Bearing& bearing, double time_s);
+  void fuse(const Sighting& sighting, double time_s);
+  void record(const FusedTarget& target, std::vector<Fix>& fixes) const;
+  void deliver(const AddressedSlew& addressed, double time_s);
+  std::size_t index_of(const std::string& station) const;
+
+  const World& world_;
+  std::vector<std::unique_ptr<LockstepStation>> stations_;
+  Network<Sighting> bearings_;
+  Network<AddressedSlew> slews_;
+  std::vector<std::int64_t> newest_slew_us_;
+  Fusion fusion_;
+  LockstepResult result_;
+  std::int64_t tick_ = 0;
+};
+
+}  // namespace ols::sim

@@ -1,0 +1,59 @@
+// What stands behind the target: wooded slopes below a ridge line, sky and clouds above it. All of
+// it at infinity, so that the background moves by a pure rotation's homography.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "geometry/pinhole.h"
+#include "sim/scenario.h"
+
+namespace ols::sim {
+
+// The wood on the slopes, for cameras of this size; takes a second or so.
+cv::Mat slopes_texture(const Landscape& landscape, const CameraIntrinsics& camera);
+
+class Panorama {
+ public:
+  // One panorama a station, of about one texel per pixel of this camera. `slopes` is a texture from
+  // slopes_texture(), which stations share.
+  Panorama(const Landscape& landscape, const CameraIntrinsics& camera, const cv::Mat& slopes,
+           std::uint64_t seed);
+
+  // Draws the background of a picture taken with this rotation (camera to east-north-up).
+  void draw(const Eigen::Matrix3d& R_enu_cam, cv::Mat& gray);
+
+  // Elevation of the ridge line at an azimuth.
+  double ridge_rad(double azimuth_rad) const;
+
+ private:
+  struct Node {   // of the coarse grid, exact through the camera
+    float u = 0;  // texels of the slopes' texture, growing with azimuth
+    float v = 0;  // growing downwards
+  };
+  void compute_nodes(const Eigen::Matrix3d& R_enu_cam);
+  Node node_at(float x, float y) const;
+  void draw_sky(int end, cv::Mat& gray) const;  // rows before `end`
+  void find_ridge_rows();
+  // Rows from `first` hold slopes, rows from `pure` nothing else.
+  void draw_slopes(int first, int pure, cv::Mat& gray) const;
+  void sample_row(int y, std::uint8_t* out) const;
+  void blend_row(int y, const std::uint8_t* in, std::uint8_t* out) const;
+
+  CameraIntrinsics camera_;
+  double texels_per_rad_ = 0.0;
+  cv::Mat slopes_;            // 8-bit, its period repeated once in both directions
+  cv::Mat sky_;               // float, whole panorama, coarse
+  std::vector<float> ridge_;  // elevation in texels, for each texel of azimuth
+
+  // Per picture.
+  int columns_ = 0, rows_ = 0;             // of the grid
+  std::vector<Eigen::Vector3d> rays_cam_;  // of the grid's nodes
+  std::vector<Node> nodes_;
+  double u_origin_ = 0.0, v_origin_ = 0.0;  // texels, subtracted from the nodes
+  std::vector<float> ridge_row_;            // of each image column
+};
+
+}  // namespace ols::sim

@@ -1,0 +1,25 @@
+// What a simulated station's camera stands on: the simulated unit, or a real one on its line.
+#pragma once
+
+#include "geometry/kinematic_chain.h"
+#include "sim/faults.h"
+
+namespace ols::sim {
+
+class PtuDevice {
+ public:
+  virtual ~PtuDevice() = default;
+
+  // From any thread.
+  virtual void set_faults(const PtuFaults& faults) = 0;
+
+  // Waits, but never for long, until as much is known of that instant of CLOCK_MONOTONIC [s] as
+  // ever will be.
+  virtual void await(double /*monotonic_s*/) {}
+
+  // Shaft angles at an instant of CLOCK_MONOTONIC [s], from two seconds ago to now. From any
+  // thread.
+  virtual PanTilt angles_at(double monotonic_s) = 0;
+};
+
+}  // namespace ols::sim

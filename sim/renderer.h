@@ -1,0 +1,60 @@
+// What one station's camera sees, from where its PTU really points, with the truth about it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "sim/drone.h"
+#include "sim/panorama.h"
+#include "sim/world.h"
+
+namespace ols::sim {
+
+struct ExposureTruth {
+  double mid_s = 0.0;  // true time since the scenario's start
+  double exposure_s = 0.0;
+  PanTilt start, mid, end;  // PTU angles [rad] at those instants, continuous
+  std::uint64_t frame = 0;
+  double light = 1.0;  // of exposure and gain, against the scenario's exposure without gain
+};
+
+struct ViewTruth {
+  bool visible = false;  // the target's centre is inside the picture
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
+  cv::Rect2d box;
+};
+
+// The truth about one picture without drawing it; of the scenario's first target, or another one.
+ViewTruth view_truth(const World& world, std::size_t station, const ExposureTruth& exposure,
+                     std::size_t target = 0);
+
+// One renderer for each station of the world.
+class Renderer;
+std::vector<std::unique_ptr<Renderer>> make_renderers(const World& world);
+
+class Renderer {
+ public:
+  // `world` must outlive the renderer; `slopes` as for Panorama.
+  Renderer(const World& world, std::size_t station, const cv::Mat& slopes);
+
+  // Draws the picture; the same exposure gives the same picture.
+  ViewTruth draw(const ExposureTruth& exposure, cv::Mat& gray);
+
+  const Panorama& panorama() const { return panorama_; }
+
+ private:
+  void smear(const ExposureTruth& exposure, cv::Mat& gray) const;
+  void develop(const ExposureTruth& exposure, cv::Mat& gray) const;
+
+  const World& world_;
+  std::size_t station_;
+  Panorama panorama_;
+  std::vector<std::int16_t> noise_;         // a long strip, read at random places
+  std::vector<std::uint16_t> column_gain_;  // of a row through the image's centre
+  std::vector<std::uint16_t> row_falloff_;
+};
+
+}  // namespace ols::sim

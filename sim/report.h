@@ -1,0 +1,43 @@
+// What a lockstep run writes down: fixes beside the truth, and a summary.
+#pragma once
+
+#include <string>
+
+#include "sim/bound.h"
+#include "sim/lockstep.h"
+
+namespace ols::sim {
+
+struct EstimatorSummary {
+  int fixes = 0;
+  double rmse_m = 0.0;
+  double predicted_rmse_m = 0.0;  // root of the mean trace of the published covariances
+  Eigen::Vector3d nees_axis = Eigen::Vector3d::Zero();  // mean error^2 / variance: east, north, up
+  double nees = 0.0;                                    // mean of e' C^-1 e / 3
+};
+
+struct BoundSummary {
+  double crb_rmse_m = 0.0;             // root of the mean trace, one exposure of each station
+  double crb_horizontal_rmse_m = 0.0;  // of its horizontal part
+  double crb_floor_rmse_m = 0.0;       // of the whole, with all white noise averaged away
+};
+
+EstimatorSummary summarise(const std::vector<Fix>& fixes);
+// The bound at the epochs and with the stations of these fixes; every `stride`-th of them.
+BoundSummary summarise_bound(const World& world, const std::vector<Fix>& fixes,
+                             const MeasurementNoise& noise, std::size_t stride = 10);
+
+// Of all believed pixels of all stations, the part that is new with every frame (about the mean of
+// its station) and the mean.
+struct PixelSummary {
+  double white_sd_px = 0.0;
+  double mean_px = 0.0;
+};
+PixelSummary summarise_pixels(const std::vector<StationRecord>& stations);
+
+// truth.csv, fixes.csv, fixes_paper.csv, frames.csv, slews.csv, counters.csv and summary.json in
+// `folder`, which is made.
+void write_report(const World& world, const LockstepResult& result, double duration_s,
+                  const std::string& folder);
+
+}  // namespace ols::sim

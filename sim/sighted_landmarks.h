@@ -1,0 +1,18 @@
+// The stationing of the world's stations, as a field team does it: each station sights landmarks
+// (or the other stations), and the product's stationing finds its pose (geometry/stationing.h).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/world.h"
+
+namespace ols::sim {
+
+// Puts what was found in the place of `nominal`. A landmark is wrong by the same for all stations;
+// marks are drawn for each. step_rad: of the PTUs' encoders. std::invalid_argument where a landmark
+// is out of reach of a station.
+void find_headings(const Scenario& scenario, std::uint64_t seed, double step_rad,
+                   std::vector<StationTruth>& stations);
+
+}  // namespace ols::sim

@@ -1,0 +1,129 @@
+#include "sim/station_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+
+#include "base/atomic_file.h"
+#include "edge/station_memory.h"
+#include "sim/gpio_socket.h"
+
+namespace ols::sim {
+namespace {
+
+void write_pose(std::ostream& out, const StationGeometry& g) {
+  out << "\n[pose]"
+      << "\nlatitude_deg = " << degrees(g.position.latitude_rad)
+      << "\nlongitude_deg = " << degrees(g.position.longitude_rad)
+      << "\nheight_m = " << g.position.height_m
+      << "\nheading_deg = " << degrees(g.chain.heading_rad)
+      << "\ntilt_x_deg = " << degrees(g.chain.tilt_x_rad)
+      << "\ntilt_y_deg = " << degrees(g.chain.tilt_y_rad) << "\n";
+}
+
+void write_chain(std::ostream& out, const ChainParameters& c) {
+  out << "\n[chain]"
+      << "\nmount_z_deg = " << degrees(c.mount_z_rad)
+      << "\nmount_x_deg = " << degrees(c.mount_x_rad)
+      << "\nmount_y_deg = " << degrees(c.mount_y_rad) << "\n";
+}
+
+void write_lens(std::ostream& out, const CameraIntrinsics& c) {
+  out << "\n[lens]"
+      << "\nfx_px = " << c.fx_px << "\nfy_px = " << c.fy_px << "\ncx_px = " << c.cx_px
+      << "\ncy_px = " << c.cy_px << "\nk1 = " << c.k1 << "\nk2 = " << c.k2 << "\np1 = " << c.p1
+      << "\np2 = " << c.p2 << "\nk3 = " << c.k3 << "\n";
+}
+
+void write_sd(std::ostream& out, const World& world, const CalibrationSd& sd) {
+  out << "\n[calibration]"
+      << "\nid = " << world.seed() % 1'000'000'007 << "\n\n[calibration.sd]"
+      << "\nheading_deg = " << degrees(sd.heading_rad) << "\ntilt_deg = " << degrees(sd.tilt_rad)
+      << "\nmount_deg = " << degrees(sd.mount_rad)
+      << "\nmount_roll_deg = " << degrees(sd.mount_roll_rad) << "\nposition_m = " << sd.position_m
+      << "\n";
+}
+
+void write_devices(std::ostream& out, const Scenario& s, const StationScenario& station,
+                   const std::string& line_folder) {
+  out << "\n[camera]"
+      << "\ndevice = \"" << station.camera_address << "\""
+      << "\nwidth_px = " << s.camera.width_px << "\nheight_px = " << s.camera.height_px
+      << "\nframe_rate_hz = " << s.frame_rate_hz << "\nexposure_us = " << 1e6 * s.exposure_s
+      << "\nreadout_s = " << s.readout_s << "\n\n[ptu]"
+      << "\ndevice = \"" << line_folder << "/" << station.ptu_line << "\""
+      << "\nbaud = " << s.ptu.baud << "\npoll_interval_s = " << s.ptu.poll_interval_s << "\n";
+}
+
+void write_sensors(std::ostream& out, const Scenario& s, std::size_t station,
+                   const std::string& line_stem) {
+  if (s.inclinometer.on) {
+    constexpr double kLeastSd_rad = radians(0.002);
+    out << "\n[inclinometer]"
+        << "\ndevice = \"" << line_stem << ".inclinometer\""
+        << "\nstuck_s = 10"
+        << "\nsd_deg = " << degrees(std::max(s.inclinometer.zero_sd_rad, kLeastSd_rad)) << "\n";
+  }
+  if (s.gnss.on) {
+    const Eigen::Vector3d& antenna = s.gnss.ground_to_antenna_enu_m;
+    out << "\n[gnss]"
+        << "\nhost = \"127.0.0.1\""
+        << "\nport = " << s.gnss.gpsd_port + static_cast<int>(station)
+        << "\nground_to_antenna_enu_m = [" << antenna.x() << ", " << antenna.y() << ", "
+        << antenna.z() << "]\n";
+  }
+}
+
+void write_gpio(std::ostream& out, const Scenario& s, const std::string& line_stem) {
+  if (!s.gpio.on) return;
+  const GpioServerConfig lines;
+  out << "\n[gpio]"
+      << "\nchip = \"socket:" << line_stem << ".gpio\""
+      << "\nled_line = " << lines.led_line << "\nstop_line = " << lines.stop_line
+      << "\nrearm_line = " << lines.rearm_line << "\n";
+}
+
+void leave_in_order(const std::string& state_folder, const std::string& id) {
+  if (state_folder.empty()) return;
+  std::filesystem::create_directories(state_folder);
+  if (std::filesystem::exists(state_folder + "/" + id + ".hold")) return;
+  StationMemory memory(state_folder, id, false);
+  memory.remember(StationState::kIdle, std::nullopt, PtuReference::kTrusted);
+}
+
+}  // namespace
+
+std::string station_file(const World& world, std::size_t station,
+                         const StationFileOptions& options) {
+  const StationTruth& truth = world.stations()[station];
+  std::ostringstream out;
+  // As many digits as a double has: what is read is what was written.
+  out << std::setprecision(17);
+  out << "# Station " << truth.id << " of the simulated site \"" << world.scenario().name << "\".\n"
+      << "id = \"" << truth.id << "\"\nlcm_url = \"" << options.lcm_url << "\"\n"
+      << (options.state_folder.empty() ? "" : "state_folder = \"" + options.state_folder + "\"\n")
+      << "tracker_seed = " << (derived_seed(world.seed(), 3000 + station) >> 1) << "\n";
+  write_pose(out, truth.nominal);
+  write_chain(out, truth.nominal.chain);
+  write_lens(out, truth.nominal.camera);
+  write_sd(out, world, truth.nominal.sd);
+  out << "\n[clock]\nsd_s = " << truth.clock_sd_s << "\n";
+  write_devices(out, world.scenario(), world.scenario().stations[station], options.line_folder);
+  write_sensors(out, world.scenario(), station, options.line_folder + "/" + truth.id);
+  write_gpio(out, world.scenario(), options.line_folder + "/" + truth.id);
+  return out.str();
+}
+
+void write_station_files(const World& world, const StationFileOptions& options,
+                         const std::string& folder) {
+  std::filesystem::create_directories(folder);
+  for (std::size_t i = 0; i < world.stations().size(); ++i) {
+    AtomicFile file(folder + "/" + world.stations()[i].id + ".toml");
+    file.stream() << station_file(world, i, options);
+    file.commit();
+    leave_in_order(options.state_folder, world.stations()[i].id);
+  }
+}
+
+}  // namespace ols::sim

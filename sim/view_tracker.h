@@ -1,0 +1,45 @@
+// Stands where the visual tracker stands, but measures the true pixel with drawn noise of the
+// stated covariance: Monte Carlo runs without pictures.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <random>
+
+#include "edge/target_tracker.h"
+#include "sim/renderer.h"
+
+namespace ols::sim {
+
+// The truth about a station's last frames, by their time stamps.
+class ViewMemory {
+ public:
+  void add(double time_s, const ViewTruth& view);
+  // Nothing when there was no frame with this very stamp.
+  const ViewTruth* at(double time_s) const;
+
+ private:
+  std::deque<std::pair<double, ViewTruth>> views_;
+};
+
+class ViewTracker final : public TargetTracker {
+ public:
+  // `views` must outlive the tracker. pixel_sd_px: of each coordinate, new with every frame.
+  ViewTracker(const ViewMemory& views, double pixel_sd_px, std::uint64_t seed);
+
+  // What the box is off from the target's centre stays in all that follows, as a template would.
+  std::optional<TrackerError> initialise(const TrackerInput& frame, const cv::Rect2d& box) override;
+  TrackerResult track(const TrackerInput& frame) override;
+  void search_near(const Eigen::Vector2d&, double) override {}
+  void set_aside() override { aside_px_ = offset_px_; }
+  void take_back() override { offset_px_ = aside_px_; }
+
+ private:
+  const ViewMemory& views_;
+  double pixel_sd_px_;
+  std::mt19937_64 generator_;
+  std::normal_distribution<double> normal_;
+  std::optional<Eigen::Vector2d> offset_px_, aside_px_;
+};
+
+}  // namespace ols::sim

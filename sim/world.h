@@ -1,0 +1,55 @@
+// The world of one run: the scenario with its errors drawn. Pure; the same seed, the same world.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/sight.h"
+#include "sim/ptu_unit.h"
+#include "sim/scenario.h"
+
+namespace ols::sim {
+
+struct StationTruth {
+  std::string id;
+  // What the station is told, with the sigmas of what it is not told. After a stationing: what that
+  // has found.
+  StationGeometry nominal;
+  StationGeometry truth;
+  double clock_offset_s = 0.0;  // the station's UTC minus true UTC
+  double clock_sd_s = 0.0;
+  double brightness_gain = 1.0;
+};
+
+struct TargetTruth {
+  Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_ecef = Eigen::Vector3d::Zero();
+};
+
+// A seed for one purpose of one run: different tags give unrelated streams.
+std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t tag);
+
+class World {
+ public:
+  World(const Scenario& scenario, std::uint64_t seed);
+
+  const Scenario& scenario() const { return scenario_; }
+  std::uint64_t seed() const { return seed_; }
+  const std::vector<StationTruth>& stations() const { return stations_; }
+  const LocalFrame& site() const { return site_; }
+
+  // time_s: true time since the scenario's start.
+  TargetTruth target(std::size_t index, double time_s) const;
+
+  PtuUnitConfig ptu_unit_config() const;
+
+ private:
+  Scenario scenario_;
+  std::uint64_t seed_;
+  LocalFrame site_;
+  std::vector<StationTruth> stations_;
+};
+
+}  // namespace ols::sim

@@ -1,0 +1,148 @@
+"""Made the recorded bearing logs of the goldens, once; kept so that they can be understood.
+
+two_drones.json is what a fusion hears, offline/*.csv the clean bearings of the drones for ols-fuse.
+
+Seven stations around a field follow two drones that cross 8 m apart, and the log has what a real
+site has: bearings out of order, doubled, stale, ahead of time, of low belief and not finite; a
+station whose clock is 0.8 s off; one that reboots; one that follows a bird; a drone that leaves.
+
+    python tests/golden/make_log.py FOLDER        (with the module `ols` on PYTHONPATH)
+"""
+
+import json
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+import ols
+
+SEED = 20
+START_US = 1_700_000_000_000_000
+RATE_HZ, SECONDS = 5.0, 18.0
+PIXEL_RAD, HEADING_RAD = 7.5e-5, 3e-4
+FRAME = ols.LocalFrame(
+    ols.Geodetic(
+        latitude_rad=math.radians(49.2266), longitude_rad=math.radians(16.5969), height_m=310.0
+    )
+)
+STATIONS = {
+    "alfa": ((-300.0, -250.0, 2.0), "a"),
+    "bravo": ((320.0, -240.0, 4.0), "a"),
+    "charlie": ((310.0, 260.0, 0.0), "a"),
+    "delta": ((-290.0, 270.0, 3.0), "b"),
+    "echo": ((10.0, -330.0, 1.0), "b"),
+    "foxtrot": ((0.0, 350.0, 6.0), "bird"),
+    "golf": ((-340.0, 10.0, 2.0), "b"),
+}
+CLOCK_OFF_S = {"golf": 0.8}
+REBOOTS_S = {"echo": 9.0}
+
+
+def place(target: str, time_s: float) -> np.ndarray:
+    """Metres east, north, up."""
+    if target == "a":
+        return np.array([-120.0 + 14.0 * time_s, 20.0 * math.sin(0.4 * time_s), 70.0])
+    if target == "b":
+        return np.array([120.0 - 13.0 * time_s, 4.0 - 3.0 * math.sin(0.3 * time_s), 77.0])
+    return np.array([60.0 * math.cos(0.5 * time_s), 420.0 + 9.0 * time_s, 40.0])
+
+
+def seen(target: str, time_s: float) -> bool:
+    return not (target == "b" and 13.0 < time_s < 16.0)
+
+
+def bearing_row(station, time_s, noise_rad, heading_rad):
+    position, target = STATIONS[station]
+    line = place(target, time_s) - np.array(position)
+    azimuth = math.atan2(line[0], line[1]) + heading_rad
+    elevation = math.atan2(line[2], math.hypot(line[0], line[1]))
+    boot = 200 if time_s > REBOOTS_S.get(station, math.inf) else 100
+    stamp_s = time_s + CLOCK_OFF_S.get(station, 0.0)
+    belief = 0.3 if 6.0 < time_s < 6.6 and station == "alfa" else 0.9
+    return {
+        "utime": START_US + round(1e6 * stamp_s),
+        "station": station,
+        "boot_id": boot,
+        "track_id": 1 if boot == 200 or time_s < 11.0 else 2,
+        "belief": belief,
+        "azimuth_rad": round((azimuth + noise_rad[0] / math.cos(elevation)) % math.tau, 9),
+        "elevation_rad": round(elevation + noise_rad[1], 9),
+    }
+
+
+def spoil(rows, random):
+    """What the way brings: doubled, late, early and broken messages. In order of arrival."""
+    arrivals = []
+    for number, (time_s, row) in enumerate(rows):
+        late_s = 0.02 + (0.25 if random.random() < 0.03 else 0.0)
+        arrivals.append((time_s + late_s, row))
+        if random.random() < 0.02:
+            arrivals.append((time_s + late_s + 0.01, row))
+        if number % 97 == 40:
+            arrivals.append((time_s + 0.03, {**row, "utime": row["utime"] - 3_000_000}))
+        if number % 97 == 50:
+            arrivals.append((time_s + 0.03, {**row, "utime": row["utime"] + 2_000_000}))
+        if number % 97 == 60:
+            arrivals.append((time_s + 0.03, {**row, "elevation_rad": None}))
+        if number % 97 == 70:
+            arrivals.append((time_s + 0.03, {**row, "azimuth_rad": 7.5}))
+    return [row for _, row in sorted(arrivals, key=lambda arrival: arrival[0])]
+
+
+def write_offline(folder: Path, rows) -> None:
+    folder.mkdir(exist_ok=True)
+    stations = ["station,latitude_deg,longitude_deg,height_m,position_sd_m,pointing_sd_deg"]
+    for station, (position, _) in STATIONS.items():
+        at = ols.geodetic_from_ecef(FRAME.to_ecef(np.array(position)))
+        latitude_deg, longitude_deg = math.degrees(at.latitude_rad), math.degrees(at.longitude_rad)
+        stations.append(
+            f"{station},{latitude_deg:.9f},{longitude_deg:.9f},{at.height_m:.4f},0.02,0.017"
+        )
+    bearings = ["utime_us,station,azimuth_deg,elevation_deg,sigma_deg,belief,target"]
+    for row in rows:
+        target = STATIONS[row["station"]][1]
+        azimuth_deg, elevation_deg = (
+            math.degrees(row[name]) for name in ("azimuth_rad", "elevation_rad")
+        )
+        if target != "bird" and row["station"] not in CLOCK_OFF_S:
+            bearings.append(
+                f"{row['utime']},{row['station']},{azimuth_deg:.6f},{elevation_deg:.6f},0.005,"
+                f"{row['belief']},{target}"
+            )
+    (folder / "stations.csv").write_text("\n".join(stations) + "\n")
+    (folder / "bearings.csv").write_text("\n".join(bearings) + "\n")
+
+
+def main() -> None:
+    random = np.random.default_rng(SEED)
+    headings = {station: HEADING_RAD * random.standard_normal() for station in STATIONS}
+    rows = []
+    for frame in range(int(RATE_HZ * SECONDS)):
+        for number, station in enumerate(STATIONS):
+            time_s = (frame + number / len(STATIONS)) / RATE_HZ
+            noise_rad = PIXEL_RAD * random.standard_normal(2)
+            if seen(STATIONS[station][1], time_s) and random.random() > 0.02:
+                rows.append((time_s, bearing_row(station, time_s, noise_rad, headings[station])))
+    log = {
+        "stations": {
+            station: {
+                "camera_ecef_m": [round(x, 4) for x in FRAME.to_ecef(np.array(position))],
+                "covariance_white_rad2": [PIXEL_RAD**2, 0.0, PIXEL_RAD**2],
+                "covariance_systematic_rad2": [HEADING_RAD**2, 0.0, (HEADING_RAD / 3) ** 2],
+                "camera_position_sd_m": [0.02, 0.02, 0.03],
+                "clock_error_s": 5e-4,
+            }
+            for station, (position, _) in STATIONS.items()
+        },
+        "bearings": [list(row.values()) for row in spoil(rows, random)],
+    }
+    folder = Path(sys.argv[1])
+    write_offline(folder / "offline", [row for _, row in rows])
+    text = json.dumps(log).replace("], [", "],\n[").replace('"bearings"', '\n"bearings"')
+    (folder / "two_drones.json").write_text(text + "\n")
+    print(f"seed {SEED}: {len(log['bearings'])} bearings")
+
+
+if __name__ == "__main__":
+    main()
