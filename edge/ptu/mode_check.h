@@ -30,7 +30,7 @@ class ModeCheck {
   Result take(const PollCycle& done);
 
  private:
-  const std::int32_t pan_acceleration_;
+  std::int32_t pan_acceleration_;
   bool needed_ = false;
   bool checking_ = false;  // in the cycle that is under way
   int failed_ = 0;

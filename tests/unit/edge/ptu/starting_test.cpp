@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/edge/ptu/unit_replies.h"
+
 namespace ols {
 namespace {
 
@@ -25,13 +27,6 @@ class Starting : public testing::Test {
     EXPECT_EQ(until_event(1.0).event, Event::kLineDropped);
     EXPECT_EQ(until_event(1.0).bytes, "ED ");
   }
-  static PtuReply reply(bool ok, const std::string& text = {}) {
-    PtuReply reply;
-    reply.ok = ok;
-    reply.text = text;
-    return reply;
-  }
-
   PtuCounters counters_;
   double time_s_ = 0.0;
   PtuStarting starting_{{}, kTimeout_s, PtuStarting::Purpose::kDrive, time_s_, counters_};
@@ -75,7 +70,7 @@ TEST_F(Starting, AUnitThatNeverAnsweredIsAskedOnce) {
 
 TEST_F(Starting, AUnitThatAnsweredIsAskedTwiceMoreInAll) {
   ask();
-  EXPECT_TRUE(starting_.take(reply(true)));
+  EXPECT_TRUE(starting_.take(reply()));
   for (int retry = 0; retry < 2; ++retry) {
     EXPECT_EQ(until_event(20.0).bytes, "FT ");
     EXPECT_EQ(until_event(20.0).event, Event::kLineDropped) << retry;  // silence; flushed again
@@ -90,11 +85,11 @@ TEST_F(Starting, AUnitThatAnsweredIsAskedTwiceMoreInAll) {
 TEST_F(Starting, SaysWhichReplyCannotBeUsed) {
   ask();
   for (const char* next : {"FT ", "H ", "CI "}) {
-    EXPECT_TRUE(starting_.take(reply(true)));
+    EXPECT_TRUE(starting_.take(reply()));
     EXPECT_FALSE(starting_.waits_for_reply());
     EXPECT_EQ(until_event(20.0).bytes, next);
   }
-  const PtuReply refused = reply(false, "Illegal");
+  const PtuReply refused = ols::refusal("Illegal");
   EXPECT_FALSE(starting_.take(refused));
   EXPECT_EQ(starting_.refusal(refused),
             "the unit may take speeds for velocities: unusable reply to CI: ! Illegal");
