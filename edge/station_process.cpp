@@ -90,7 +90,7 @@ void StationProcess::turn() {
   heed_emergency_stop(start.monotonic_s);
   heed_rearming(start.monotonic_s);
   receive_commands();
-  memory_.remember(station_.state(), devices_.ptu().legacy(), devices_.ptu().reference());
+  memory_.remember(station_.state(), devices_.ptu().doubt_to_persist(), devices_.ptu().reference());
   keep_pose(start.monotonic_s);
   take_frame();
   take_angles();
@@ -115,7 +115,7 @@ ClockPair StationProcess::look_at_clocks() {
 
 // Whatever ended it since somebody stopped it is no leave to move.
 void StationProcess::resume_hold(double now_s) {
-  devices_.ptu().inherit(memory_.legacy());
+  devices_.ptu().restore_doubt(memory_.doubt());
   halted_ = !devices_.stop().known();
   if (memory_.begin() == StationState::kStopped) station_.begin_stopped();
   if (memory_.begin() != StationState::kEmergency) return;
@@ -215,7 +215,7 @@ StationReport StationProcess::report(const ClockPair& now) {
   const PtuStatus ptu = devices_.ptu().status();
   if (ptu.state == PtuState::kReady) station_.set_limits(ptu.limits);
   report.limits = ptu.limits;
-  report.limits_known = ptu.port_open && ptu.state == PtuState::kReady;
+  report.limits_known = ptu.port.open && ptu.state == PtuState::kReady;
   report.snapshot = station_.snapshot();
   report.devices = devices_.reports();
   report.alarms = report.snapshot.alarms;
