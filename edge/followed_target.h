@@ -21,7 +21,7 @@ class FollowedTarget {
   FollowedTarget(const StationConfig& config, std::unique_ptr<TargetTracker> tracker)
       : config_(config), tracker_(std::move(tracker)) {}
 
-  // Begins with the box; false: the tracker refuses it, and nothing has changed.
+  // Begins with the box; an error: the tracker refuses it, and nothing has changed.
   std::optional<TrackerError> designate(const Frame& frame, const cv::Rect2d& box);
   // The same on trial, the own target put aside.
   bool try_found(const Frame& frame, const cv::Rect2d& box);
