@@ -95,6 +95,7 @@ TEST_F(SteadyState, MovesNothingWhileTheUnitMayTakeSpeedsForVelocities) {
   };
   run(0.028);  // the cycle in which the echo shows
   EXPECT_EQ(counters_.echoes, 1u);
+  goal = PanTilt{-0.2, 0.1};  // another one: there would be something new to send
   EXPECT_FALSE(moves(run(1.0)));
   ASSERT_TRUE(unit_.trouble());
   EXPECT_EQ(unit_.trouble()->kind, Kind::kBeganAnew);
