@@ -31,6 +31,11 @@ bool finite(const DesignateCommand& command) {
   return true;
 }
 
+bool in_range(const PanTilt& angles) {
+  return std::abs(angles.pan_rad) <= kPointPanLimit_rad &&
+         std::abs(angles.tilt_rad) <= kPointTiltLimit_rad;
+}
+
 bool in_range(const SlewCommand& command, double now_s, double lease_max_s) {
   return command.lease_s > 0.0 && command.lease_s <= lease_max_s &&
          std::abs(command.effect_s - now_s) <= kSlewLead_s &&
@@ -58,7 +63,10 @@ Refusal Station::designate(const DesignateCommand& command, double now_s) {
   const Frame* start = remembered(command.frame_time_s);
   if (start == nullptr) return count(Refusal::kNoFrame, "designate");
   const TrackerInput first{start->gray, start->mid_exposure_s, std::nullopt};
-  if (tracker_->initialise(first, command.box)) return count(Refusal::kTracker, "designate");
+  if (const auto error = tracker_->initialise(first, command.box)) {
+    const bool no_box = *error == TrackerError::kBox;
+    return count(no_box ? Refusal::kBox : Refusal::kTracker, "designate");
+  }
   track_id_ = ++last_track_id_;
   template_ = Template::kDesignated;
   own_.reset();
@@ -107,6 +115,7 @@ Refusal Station::point(const PointCommand& command, double now_s) {
   if (state_ == StationState::kEmergency) return count(Refusal::kEmergency, "point");
   if (stop_holds(now_s)) return count(Refusal::kJustStopped, "point");
   if (!finite(command.angles)) return count(Refusal::kNotFinite, "point");
+  if (!in_range(command.angles)) return count(Refusal::kOutOfRange, "point");
   // It would go there whenever it comes, when nobody expects it any more.
   if (reference_ == PtuReference::kUnknown) return count(Refusal::kNoUnit, "point");
   if (without_reference()) return count(Refusal::kNoReference, "point");
