@@ -103,15 +103,16 @@ SUBJECT = re.compile(
     r"(bus|camera|clock|commands|computer|emergency stop|gnss|gpio|inclinometer|pose|ptu|recorder"
     r"|stop|target): (?=\S)"
 )
-# Files whose texts become alarms elsewhere, with what is put before them there.
+# Texts and files whose texts become alarms elsewhere, with what is put before them there.
+CARRIED_ON = {
+    r"its \w+ (is|are) ": "station …: not used, ",
+    r"follows for ": "station …: ",
+    r"[^:]*: home it, or reference-ok": "ptu: ",
+}
 PASSED_ON = {
-    "clock_monitor.cpp": "station …: not used, ",
-    "pointing_monitor.cpp": "station …: not used, ",
-    "stray_monitor.cpp": "station …: ",
     "present_watch.cpp": "",
     "other_fusions.cpp": "",
     "clock_watch.cpp": "clock: ",
-    "reference_watch.cpp": "ptu: ",
     "ptu_report.cpp": "ptu: ",
     "pose_memory.cpp": "pose: ",
     "gpsd_link.cpp": "gnss: ",
@@ -173,6 +174,8 @@ def alarms_of_the_sources() -> set[str]:
                 found.add(text.replace("camera", "camera:", 1))
             elif SUBJECT.match(plain):
                 found.add(text)
+            elif before := [CARRIED_ON[t] for t in CARRIED_ON if re.match(t, plain)]:
+                found.add(re.escape(before[0]) + text)
             elif path.name in PASSED_ON and is_a_sentence(text):
                 found.add(re.escape(PASSED_ON[path.name]) + text)
         found |= {f"ptu: {re.escape(what)}" for what in re.findall(r'\balarm\("([^"]+)"', source)}
@@ -224,7 +227,7 @@ def counters_of_the_sources() -> set[str]:
     found: set[str] = set()
     for path in SOURCES:
         source = path.read_text()
-        for inside in re.findall(r"counters_?\[(.*?)\]", source, flags=re.S):
+        for inside in re.findall(r"\b(?:counters_?|all)\[(.*?)\]", source, flags=re.S):
             if "+" not in inside:
                 found |= set(re.findall(r'"(\w+)"', inside))
         for block in re.findall(
