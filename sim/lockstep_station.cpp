@@ -71,9 +71,9 @@ std::vector<Bearing> LockstepStation::advance(double time_s) {
   expose(time_s);
   operate(time_s);
   const double now_s = monotonic_s(time_s);
-  std::vector<Bearing> bearings = station_.step(now_s);
-  driver_.set_goal(station_.goal(now_s));
-  return bearings;
+  StationOutput output = station_.step(now_s);
+  driver_.set_goal(output.goal);
+  return std::move(output.bearings);
 }
 
 void LockstepStation::exchange_bytes(double time_s) {

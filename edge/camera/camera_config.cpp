@@ -12,7 +12,7 @@ Rows image_rows(CameraConfig& c) {
   // GigE Vision carries sizes in 32 bits; no sensor in use comes near 16384.
   return {
       config::text("device", c.device,
-                   "Aravis id (vendor-serial, user name, MAC) or IPv4 address of the camera.",
+                   "Aravis id, as arv-tool-0.8 lists it, or IPv4 address of the camera.",
                    config::not_empty)
           .required(),
       config::integer("width_px", c.width_px, 16, 16384, "px", "Width of the image."),

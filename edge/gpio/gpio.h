@@ -3,7 +3,7 @@
 // of its own waits for the edges. libgpiod stays behind edge/gpio/gpio_lines.h.
 //
 // The emergency stop in software only assists a hardware stop that takes the power off the motors;
-// docs/operations.md says so.
+// docs/field-guide.md says so.
 #pragma once
 
 #include <functional>

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 Finding refused(const ConfigError& error) {
   return fail(std::string("configuration: ") + error.what(),
-              "correct that line; docs/operations.md lists every key");
+              "correct that line; docs/configuration.md lists every key");
 }
 
 Findings examine_inclinometer(const InclinometerConfig& config, double patience_s) {
