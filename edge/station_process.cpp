@@ -15,6 +15,7 @@ namespace ols {
 namespace {
 
 constexpr double kFrameWait_s = 0.004;
+constexpr double kClockInterval_s = 5.0;  // between two questions to kernel and chrony
 constexpr double kPoseInterval_s = 0.1;
 constexpr double kPoseKept_s = 10.0;  // the file is written so often
 
@@ -48,7 +49,7 @@ LedPattern led_pattern(const StationReport& report) {
 StationProcess::StationProcess(const StationSettings& settings, std::int64_t boot_id)
     : settings_(settings),
       clock_(settings_.clock),
-      clock_source_(settings_.clock_interval_s),
+      clock_source_(kClockInterval_s),
       pose_(settings_.pose),
       pose_memory_(pose_file(settings_)),
       station_(settings_.station,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/toml_config.h"
 #include "central/fusion_settings.h"
 #include "edge/config.h"
 #include "tools/doctor/bus_ears.h"

@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "base/toml_config.h"
+#include "base/config_section.h"
 #include "edge/tracker/tracker.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
@@ -143,13 +143,12 @@ TEST(PaperTracker, IsToldAPixelOfTheFrameGivenNext) {
 }
 
 TEST(PaperTracker, IsChosenByTheConfiguration) {
-  ConfigFile file("[tracker]\nmode = \"paper\"\n[tracker.paper]\nsize_sd_px = 0.5\n", "t.toml");
-  const TrackerConfig config = read_tracker_config(file.root().table("tracker"));
-  file.finish();
+  ConfigFile file("[tracker]\nmode = \"paper\"\n", "t.toml");
+  TrackerConfig config;
+  config::read(tracker_section(config), file.root().table("tracker"));
   EXPECT_EQ(config.mode, TrackerMode::kPaper);
-  EXPECT_EQ(config.paper.size_sd_px, 0.5);
   ConfigFile wrong("[tracker]\nmode = \"fast\"\n", "t.toml");
-  EXPECT_THROW(read_tracker_config(wrong.root().table("tracker")), ConfigError);
+  EXPECT_THROW(config::read(tracker_section(config), wrong.root().table("tracker")), ConfigError);
 }
 
 // A clock that goes on by one at each look: every stage that is run takes a second.

@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "base/toml_config.h"
+#include "base/config_section.h"
 #include "edge/tracker/belief.h"
 #include "edge/tracker/difference_candidates.h"
 #include "edge/tracker/ego_motion.h"
@@ -408,16 +408,15 @@ TEST(Belief, FallsAndRisesOverSomeFrames) {
 }
 
 TEST(TrackerConfig, IsReadStrictly) {
-  ConfigFile file("[tracker]\nparticles = 500\nsharpness = 9.5\n", "t.toml");
-  const TrackerConfig config = read_tracker_config(file.root().table("tracker"));
+  ConfigFile file("[tracker]\nparticles = 500\nlearning_time_s = 0.7\n", "t.toml");
+  TrackerConfig config;
+  config::read(tracker_section(config), file.root().table("tracker"));
   EXPECT_EQ(config.particles, 500);
-  EXPECT_EQ(config.sharpness, 9.5);
-  EXPECT_NO_THROW(file.finish());
+  EXPECT_EQ(config.learning_time_s, 0.7);
   ConfigFile few("[tracker]\nparticles = 3\n", "t.toml");
-  EXPECT_THROW(read_tracker_config(few.root().table("tracker")), ConfigError);
+  EXPECT_THROW(config::read(tracker_section(config), few.root().table("tracker")), ConfigError);
   ConfigFile unknown("[tracker]\nparticle = 300\n", "t.toml");
-  read_tracker_config(unknown.root().table("tracker"));
-  EXPECT_THROW(unknown.finish(), ConfigError);
+  EXPECT_THROW(config::read(tracker_section(config), unknown.root().table("tracker")), ConfigError);
 }
 
 }  // namespace
