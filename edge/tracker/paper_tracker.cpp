@@ -12,7 +12,7 @@ namespace ols {
 namespace {
 
 // The whole frame: the paper's patches are sampled from the image itself.
-View whole(const cv::Mat& gray) { return {gray, {0, 0}, 1}; }
+FrameView whole(const cv::Mat& gray) { return {gray, {0, 0}, 1}; }
 
 cv::Rect enclosing(const cv::Rect2d& box) {
   return {static_cast<int>(std::floor(box.x)), static_cast<int>(std::floor(box.y)),
@@ -145,10 +145,10 @@ void PaperTracker::force_subset_onto_differences(const ReducedFrame& reduced) {
 // subtraction of the two images where the bounding boxes denoting the position of the target do not
 // overlap." Until there are two such images no pixel counts as foreground.
 void PaperTracker::weigh(const cv::Mat& gray) {
-  View mask;
+  FrameView mask;
   const auto* reference = references_.without_overlap(box_of(last_.pixel, last_.size_px));
   if (reference) mask = foreground_mask(gray, *reference, area_of(particles_), template_);
-  const View view = whole(gray);
+  const FrameView view = whole(gray);
   const MaskPatch nothing{};
   weights_.resize(particles_.size());
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -188,7 +188,8 @@ void PaperTracker::estimate_template_mask(const cv::Mat& gray, const cv::Rect2d&
   const cv::Rect2d there = box_of(transform(to_first, last_.pixel), last_.size_px);
   if ((there & first_.target_box).area() > 0.0) return;
   const ReferenceFrames::Reference present{gray, to_first, {}, time_s_};
-  const View mask = foreground_mask(first_.gray, present, enclosing(first_.target_box), template_);
+  const FrameView mask =
+      foreground_mask(first_.gray, present, enclosing(first_.target_box), template_);
   template_mask_ = sample_mask(mask, centre_of(first_.target_box), size_of(first_.target_box));
   first_.gray.release();
 }

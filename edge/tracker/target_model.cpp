@@ -22,8 +22,8 @@ cv::Rect looked_at(const std::vector<Particle>& particles, const cv::Rect2d& exp
   return widened(area, 0.0);
 }
 
-Template smooth_template(Template made, const View& view, const cv::Rect2d& box) {
-  const View smooth = smoothed(view, widened(box, 0.5), size_of(box));
+Template smooth_template(Template made, const FrameView& view, const cv::Rect2d& box) {
+  const FrameView smooth = smoothed(view, widened(box, 0.5), size_of(box));
   made.gray = sample_patch(smooth, centre_of(box), size_of(box));
   return made;
 }
@@ -48,7 +48,7 @@ void TargetModel::set_contrast(double contrast) {
   contrast_weight_ = contrast * contrast / (contrast * contrast + noise * noise);
 }
 
-TargetModel::TargetModel(const TrackerConfig& config, const View& view, const cv::Rect2d& box)
+TargetModel::TargetModel(const TrackerConfig& config, const FrameView& view, const cv::Rect2d& box)
     : config_(config),
       first_size_px_(size_of(box)),
       usual_size_px_(first_size_px_),

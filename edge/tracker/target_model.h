@@ -14,10 +14,10 @@ namespace ols {
 
 // One frame as the objective sees it.
 struct Scene {
-  View whole;                        // the frame as taken
-  View view;                         // reduced to the target's size
-  View smooth;                       // sampled for the candidates
-  View mask;                         // foreground
+  FrameView whole;                   // the frame as taken
+  FrameView view;                    // reduced to the target's size
+  FrameView smooth;                  // sampled for the candidates
+  FrameView mask;                    // foreground
   bool mask_by_subtraction = false;  // of an earlier image, not of the surroundings' level
   LocalContrast contrast;
   cv::Size frame;
@@ -69,7 +69,7 @@ class TargetModel {
   bool empty() const { return template_.empty; }
 
  private:
-  TargetModel(const TrackerConfig& config, const View& view, const cv::Rect2d& box);
+  TargetModel(const TrackerConfig& config, const FrameView& view, const cv::Rect2d& box);
 
   void set_contrast(double contrast);
 

@@ -48,7 +48,7 @@ TEST(Patch, SamplesPixelCentres) {
   EXPECT_NEAR(patch[1] - patch[0], 2.0, 1e-4);
   EXPECT_NEAR(patch[kPatchSide] - patch[0], 1.0, 1e-4);
   // Reduced by two, the same place has the same grey value.
-  const View half = make_view(ramp, {10, 10, 40, 40}, 2);
+  const FrameView half = make_view(ramp, {10, 10, 40, 40}, 2);
   EXPECT_EQ(half.image.cols, 20);
   EXPECT_NEAR(bilinear(half.image, half.x_of(30.0), half.y_of(30.0)), 90.0, 1.0);
 }
@@ -58,7 +58,7 @@ TEST(Patch, IsBilinearWhereverAndHoweverLargeTheBox) {
   cv::RNG random(5);
   random.fill(picture, cv::RNG::UNIFORM, 0, 256);
   // Inside, over each border, wider than what is worked on at once, and of an image of few columns.
-  const auto expect_bilinear = [](const View& view, const Eigen::Vector2d& pixel,
+  const auto expect_bilinear = [](const FrameView& view, const Eigen::Vector2d& pixel,
                                   const Eigen::Vector2d& size_px) {
     const Patch patch = sample_patch(view, pixel, size_px);
     for (int i = 0; i < kPatchArea; ++i) {
@@ -69,7 +69,7 @@ TEST(Patch, IsBilinearWhereverAndHoweverLargeTheBox) {
       ASSERT_NEAR(patch[static_cast<std::size_t>(i)], expected, 0.01) << i << " of " << size_px;
     }
   };
-  const View whole{picture, {0, 0}, 1};
+  const FrameView whole{picture, {0, 0}, 1};
   for (const double width : {3.0, 23.7, 60.0, 400.0, 650.0}) {
     for (const double x : {-5.0, 30.3, 350.6, 699.0}) {
       expect_bilinear(whole, {x, 40.2}, {width, 30.0});
@@ -92,7 +92,7 @@ TEST(Template, IsEmptyWithoutStructureBeyondNoiseAndGradient) {
             80.0 + 0.5 * row + random.gaussian(1.5) - (target ? contrast : 0.0));
       }
     }
-    const View view{sky, {0, 0}, 1};
+    const FrameView view{sky, {0, 0}, 1};
     EXPECT_NEAR(pixel_noise(sky), 1.5, 0.3);
     EXPECT_EQ(make_template(view, {100.0, 100.0}, {24.0, 18.0}).empty, contrast == 0.0);
   }
@@ -380,7 +380,7 @@ TEST(ForegroundMask, ShowsTheTargetByAnEarlierAlignedImage) {
   Template target;
   target.contrast = 100.0F;
   target.noise = 3.0F;
-  const View mask = foreground_mask(frame, *reference, cv::Rect(200, 150, 200, 180), target);
+  const FrameView mask = foreground_mask(frame, *reference, cv::Rect(200, 150, 200, 180), target);
   const MaskPatch at_target = sample_mask(mask, {now.x, now.y}, {12.0, 8.0});
   const MaskPatch beside = sample_mask(mask, {now.x - 60.0, now.y}, {12.0, 8.0});
   const auto mean = [](const MaskPatch& patch) {

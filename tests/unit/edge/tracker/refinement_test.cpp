@@ -42,7 +42,7 @@ class Picture {
     gray_.convertTo(gray_, CV_8U);
   }
   const cv::Mat& gray() const { return gray_; }
-  ols::View view() const { return {gray_, {0, 0}, 1}; }
+  ols::FrameView view() const { return {gray_, {0, 0}, 1}; }
 
  private:
   cv::Mat gray_;
