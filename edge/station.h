@@ -19,8 +19,8 @@
 #include "edge/ptu/servo.h"
 #include "edge/slew_senders.h"
 #include "edge/station_types.h"
-#include "edge/target_tracker.h"
 #include "edge/tracker/acquisition.h"
+#include "edge/tracker/target_tracker.h"
 
 namespace ols {
 

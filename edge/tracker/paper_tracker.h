@@ -7,7 +7,8 @@
 #include "edge/tracker/ego_motion.h"
 #include "edge/tracker/foreground_mask.h"
 #include "edge/tracker/random.h"
-#include "edge/tracker/target_follower.h"
+#include "edge/tracker/stage_times.h"
+#include "edge/tracker/target_tracker.h"
 
 namespace ols {
 
@@ -16,14 +17,14 @@ namespace ols {
 double paper_objective(const Patch& template_gray, const MaskPatch& template_mask,
                        const Patch& candidate_gray, const MaskPatch& candidate_mask);
 
-class PaperTracker : public TargetFollower {
+class PaperTracker {
  public:
   PaperTracker(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
                const cv::Rect2d& box);
-  TrackerOutput step(const TrackerInput& frame, StageTimer& timer) override;
-  const std::optional<Eigen::Matrix3d>& image_homography() const override { return homography_; }
+  TrackerOutput step(const TrackerInput& frame, StageTimer& timer);
+  const std::optional<Eigen::Matrix3d>& image_homography() const { return homography_; }
   // The paper's operator marks the target again; here the particles go where it is said to be.
-  void search_near(const Eigen::Vector2d& pixel, double sd_px) override;
+  void search_near(const Eigen::Vector2d& pixel, double sd_px);
 
  private:
   EgoMotion transform_by_homography(const ReducedFrame& reduced);

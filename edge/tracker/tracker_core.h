@@ -8,21 +8,20 @@
 #include "edge/tracker/ego_motion.h"
 #include "edge/tracker/mover_detection.h"
 #include "edge/tracker/particle_filter.h"
-#include "edge/tracker/target_follower.h"
+#include "edge/tracker/stage_times.h"
 #include "edge/tracker/target_model.h"
+#include "edge/tracker/target_tracker.h"
 
 namespace ols {
 
-class TrackerCore : public TargetFollower {
+class TrackerCore {
  public:
   TrackerCore(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
               const cv::Rect2d& box);
 
-  TrackerOutput step(const TrackerInput& frame, StageTimer& timer) override;
-  void search_near(const Eigen::Vector2d& pixel, double sd_px) override;
-  const std::optional<Eigen::Matrix3d>& image_homography() const override {
-    return image_homography_;
-  }
+  TrackerOutput step(const TrackerInput& frame, StageTimer& timer);
+  void search_near(const Eigen::Vector2d& pixel, double sd_px);
+  const std::optional<Eigen::Matrix3d>& image_homography() const { return image_homography_; }
 
  private:
   // Where the target is looked for while it is not believed in; the present frame's pixels.

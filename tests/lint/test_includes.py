@@ -33,7 +33,6 @@ PURE = [
     "edge/angular_track.*",
     "edge/command_gate.*",
     "edge/refusal_watch.*",
-    "edge/target_tracker.h",
     "edge/camera/frame.h",
     "edge/camera/clock_map.*",
     "edge/camera/frame_clock.*",
