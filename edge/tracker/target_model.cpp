@@ -158,6 +158,17 @@ double TargetModel::log_likelihood(const Likeness& likeness, double background, 
   return alike - 0.5 * (wider * wider + higher * higher) / (sd * sd);
 }
 
+FrameEvidence TargetModel::evidence(const Scene& scene, const Particle& candidate) const {
+  const auto& [pixel, velocity_px_s, size_px] = candidate;
+  const Likeness found = likeness(scene, pixel, size_px);
+  FrameEvidence evidence{found.similarity, scene.background_similarity, found.correlation,
+                         found.contrast};
+  evidence.standing_out = standing_out(scene, pixel, size_px);
+  evidence.foreground = foreground(scene, pixel, size_px);
+  evidence.by_subtraction = scene.mask_by_subtraction;
+  return evidence;
+}
+
 void TargetModel::learn_mask(const Scene& scene, const Eigen::Vector2d& pixel,
                              const Eigen::Vector2d& size_px) {
   if (mask_learnt_ || !scene.mask_by_subtraction) return;
