@@ -13,18 +13,22 @@ constexpr double kAnywhere = 1e-4;
 
 }  // namespace
 
-void ParticleFilter::predict(const MotionModel& motion, Random& random) {
+void ParticleFilter::advance(const MotionModel& motion) {
+  for (Particle& particle : particles_) particle = motion.advance(particle);
+}
+
+void ParticleFilter::disturb(const MotionModel& motion, Random& random) {
   const auto count = static_cast<double>(particles_.size());
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   double noise = 0.0;
-  const Eigen::Vector2d origin = motion.advance(particles_.front()).pixel;
+  const Eigen::Vector2d origin = particles_.front().pixel;
   for (Particle& particle : particles_) {
-    const Eigen::Vector2d offset = motion.advance(particle).pixel - origin;
+    const Eigen::Vector2d offset = particle.pixel - origin;
     sum += offset;
     squares += offset * offset.transpose();
     noise += motion.position_sd(particle.size_px);
-    particle = motion.predict(particle, random);
+    particle = motion.disturbed(particle, random);
   }
   const Eigen::Vector2d mean = sum / count;
   const double sd = noise / count;

@@ -13,8 +13,11 @@ class ParticleFilter {
   std::vector<Particle>& particles() { return particles_; }
   const std::vector<Particle>& particles() const { return particles_; }
 
-  // Moves every particle by the motion model; remembers where they would be without noise.
-  void predict(const MotionModel& motion, Random& random);
+  // Brings every particle to this frame, without noise.
+  void advance(const MotionModel& motion);
+  // Adds the motion model's noise to particles that stand in this frame; remembers where they would
+  // be without it.
+  void disturb(const MotionModel& motion, Random& random);
   // The prediction is uncertain by this standard deviation more than its particles are.
   void widen_prediction(double sd_px) {
     predicted_covariance_px2_ += sd_px * sd_px * Eigen::Matrix2d::Identity();

@@ -30,16 +30,12 @@ void Reacquisition::start_near(const Eigen::Vector2d& pixel, double sd_px) {
   believed_identity_ = 1.0;  // who tells where it is knows which one it is
 }
 
-void Reacquisition::step_back(const MotionModel& motion) {
-  believed_.pixel -= motion.advance(believed_).pixel - believed_.pixel;
-}
-
 void Reacquisition::predict(const MotionModel& motion, const SceneMotion& scene, bool placed) {
   time_s_ = scene.time_s();
   unaligned_since_s_ = scene.unaligned_since_s();
   movers_.clear();
   const cv::Size& frame = scene.frame_size();
-  believed_ = bounded(motion.advance(believed_), frame);
+  believed_ = bounded(placed ? believed_ : motion.advance(believed_), frame);
   if (!region_) return;
   Particle centre = believed_;
   centre.pixel = region_->pixel;

@@ -48,8 +48,7 @@ class Reacquisition {
   void change_velocity(const Eigen::Vector2d& change_px_s) {
     believed_.velocity_px_s += change_px_s;
   }
-  void step_back(const MotionModel& motion);
-  // Brings target and region to the newest frame.
+  // Brings target and region to the newest frame, unless they were placed there.
   void predict(const MotionModel& motion, const SceneMotion& scene, bool placed);
   // Redraws a share of the particles over the region.
   void scatter(std::vector<Particle>& particles, Random& random) const;

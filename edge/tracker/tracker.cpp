@@ -78,6 +78,8 @@ struct Tracker::Followed {
 
 Tracker::Tracker(const TrackerConfig& config, std::uint64_t seed) : config_(config), seed_(seed) {}
 Tracker::~Tracker() = default;
+Tracker::Tracker(Tracker&&) noexcept = default;
+Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
 std::optional<TrackerError> Tracker::initialise(const TrackerInput& frame, const cv::Rect2d& box) {
   if (const auto error = check_image(frame)) return error;

@@ -19,6 +19,8 @@ class Tracker final : public TargetTracker {
  public:
   Tracker(const TrackerConfig& config, std::uint64_t seed);
   ~Tracker() override;
+  Tracker(Tracker&&) noexcept;
+  Tracker& operator=(Tracker&&) noexcept;
 
   std::optional<TrackerError> initialise(const TrackerInput& frame, const cv::Rect2d& box) override;
   // One step: ego-motion, prediction (2)-(4), weighting (5), MAP, resampling.

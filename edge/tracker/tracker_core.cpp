@@ -54,6 +54,7 @@ TrackerOutput TrackerCore::step(const TrackerInput& frame, StageTimer& timer) {
   scene_motion_.remember(frame.gray, box_of(last_.pixel, last_.size_px));
   filter_.resample(random_);
   propose_usual_size();
+  placed_ = false;
   timer.lap(Stage::kLearning);
   return output;
 }
@@ -104,14 +105,8 @@ void TrackerCore::designate_late(const cv::Mat& gray) {
 
 void TrackerCore::predict(EgoMotion ego_motion, StageTimer& timer) {
   if (placed_ || velocity_ == Velocity::kUnknown) guess_velocities();
-  if (placed_) {
-    // search_near() spoke of this frame's pixels: undo the step that follows.
-    const auto step_back = [this](Particle& p) { p.pixel -= motion_.advance(p).pixel - p.pixel; };
-    for (Particle& particle : filter_.particles()) step_back(particle);
-    step_back(last_);
-    reacquisition_.step_back(motion_);
-  }
-  filter_.predict(motion_, random_);
+  if (!placed_) filter_.advance(motion_);
+  filter_.disturb(motion_, random_);
   if (other_step_px_) move_half_by_other();
   reacquisition_.predict(motion_, scene_motion_, placed_);
   timer.lap(Stage::kPrediction);
@@ -123,7 +118,6 @@ void TrackerCore::predict(EgoMotion ego_motion, StageTimer& timer) {
   if (velocity_ == Velocity::kUnknown) {
     filter_.widen_prediction(config_.leap_most_px_s * motion_.interval_s() / 3.0);
   }
-  placed_ = false;
   timer.lap(Stage::kPrediction);
 }
 
@@ -151,10 +145,21 @@ void TrackerCore::move_half_by_other() {
   filter_.widen_prediction(other_step_px_->norm());
 }
 
+// Where the target is expected in this frame.
+Eigen::Vector2d TrackerCore::expected_px() const {
+  return placed_ ? last_.pixel : motion_.advance(last_).pixel;
+}
+
+// Where it would be in this frame if it had not moved against the scene.
+Eigen::Vector2d TrackerCore::unmoved_px() const {
+  return placed_ ? last_.pixel - last_.velocity_px_s * motion_.interval_s()
+                 : motion_.still(last_.pixel);
+}
+
 // Where a target of unknown velocity may be found.
 cv::Rect2d TrackerCore::reachable_area() const {
   const auto& region = reacquisition_.region();
-  const Eigen::Vector2d centre = region ? region->pixel : motion_.still(last_.pixel);
+  const Eigen::Vector2d centre = region ? region->pixel : unmoved_px();
   const double reach =
       config_.leap_most_px_s * motion_.interval_s() + (region ? 2.0 * region->sd_px : 0.0);
   return box_of(centre, last_.size_px + Eigen::Vector2d::Constant(2.0 * reach));
@@ -188,13 +193,13 @@ void TrackerCore::force_onto_differences(const cv::Rect2d& area) {
         maxima[i % maxima.size()] + 0.1 * Eigen::Vector2d(x, y).cwiseProduct(particle.size_px);
     // The leap since the last frame tells the velocity, if the target was there then.
     if (moves_unknown && random_.uniform() < 0.5) {
-      particle.velocity_px_s = motion_.velocity_between(last_.pixel, particle.pixel);
+      particle.velocity_px_s = (particle.pixel - unmoved_px()) / motion_.interval_s();
     }
   }
 }
 
 TrackerOutput TrackerCore::update(const TrackerInput& frame, StageTimer& timer) {
-  const cv::Rect2d expected = box_of(motion_.advance(last_).pixel, last_.size_px);
+  const cv::Rect2d expected = box_of(expected_px(), last_.size_px);
   Scene scene =
       target_.make_scene(frame.gray, filter_.particles(), expected, scene_motion_.references());
   timer.lap(Stage::kMasks);

@@ -40,6 +40,8 @@ class TrackerCore {
   void move_half_by_other();
   void guess_velocities();
   void force_onto_differences(const cv::Rect2d& area);
+  Eigen::Vector2d expected_px() const;
+  Eigen::Vector2d unmoved_px() const;
   cv::Rect2d reachable_area() const;
   TrackerOutput update(const TrackerInput& frame, StageTimer& timer);
   void weigh_particles(const Scene& scene);
@@ -67,7 +69,7 @@ class TrackerCore {
   Velocity velocity_ = Velocity::kUnknown;
   // By the mount's homography from where the image's takes the target, where the two disagree.
   std::optional<Eigen::Vector2d> other_step_px_;
-  bool placed_ = false;  // the particles stand in the coming frame already
+  bool placed_ = false;  // particles and last_ stand in the coming frame already
 };
 
 }  // namespace ols
