@@ -1,5 +1,3 @@
-#include "edge/tracker/refinement.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -7,6 +5,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "edge/tracker/refinement.h"
 #include "edge/tracker/target_model.h"
 
 namespace {
