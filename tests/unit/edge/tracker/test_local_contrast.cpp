@@ -18,7 +18,7 @@ TEST(LocalContrast, IsTheMiddleLessItsSurroundings) {
 TEST(LocalContrast, IsNothingOutsideOfItsArea) {
   cv::Mat gray(200, 200, CV_8U, cv::Scalar(150));
   cv::rectangle(gray, cv::Rect(90, 90, 20, 20), cv::Scalar(50), cv::FILLED);
-  const LocalContrast contrast({gray, {0, 0}, 1}, {0, 0, 100, 200});
+  const LocalContrast contrast({gray, {0, 0}, 1}, {0, 0, 60, 200});
   EXPECT_EQ(contrast({99.5, 99.5}, {20.0, 20.0}), 0.0);
 }
 
