@@ -12,7 +12,7 @@
 #include "edge/camera/frame.h"
 #include "edge/pointing_model.h"
 #include "edge/station_config.h"
-#include "edge/target_tracker.h"
+#include "edge/tracker/target_tracker.h"
 
 namespace ols {
 

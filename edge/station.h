@@ -21,7 +21,8 @@
 #include "edge/station_config.h"
 #include "edge/station_mode.h"
 #include "edge/station_types.h"
-#include "edge/target_tracker.h"
+#include "edge/tracker/acquisition.h"
+#include "edge/tracker/target_tracker.h"
 
 namespace ols {
 

@@ -10,6 +10,7 @@
 #include "base/clocks.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/rearm_signal.h"
+#include "edge/tracker/tracker.h"
 
 namespace ols {
 namespace {
@@ -53,7 +54,7 @@ StationProcess::StationProcess(const StationSettings& settings, std::int64_t boo
       pose_(settings_.pose),
       pose_memory_(pose_file(settings_)),
       station_(settings_.station,
-               std::make_unique<ParticleFilterTracker>(settings_.tracker, settings_.tracker_seed)),
+               std::make_unique<Tracker>(settings_.tracker, settings_.tracker_seed)),
       turn_commands_(station_),
       bus_(settings_, boot_id, station_, turn_commands_,
            [this](const RecordCommand& command) { return record(command); }),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge/tracker/tracker.h"
+
 namespace ols::sim {
 namespace {
 
@@ -32,7 +34,7 @@ StationConfig station_config(const World& world, std::size_t index) {
 std::unique_ptr<TargetTracker> make_tracker(const Fidelity& fidelity, const ViewMemory& views,
                                             std::uint64_t seed) {
   if (!fidelity.pictures) return std::make_unique<ViewTracker>(views, fidelity.pixel_sd_px, seed);
-  return std::make_unique<ParticleFilterTracker>(TrackerConfig{}, seed);
+  return std::make_unique<Tracker>(TrackerConfig{}, seed);
 }
 
 bool inside_third(const CameraIntrinsics& camera, const ViewTruth& view) {

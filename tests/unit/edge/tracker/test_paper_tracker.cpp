@@ -1,11 +1,9 @@
-#include "edge/tracker/paper_tracker.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "base/config_section.h"
+#include "edge/tracker/paper_tracker.h"
 #include "edge/tracker/tracker.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
@@ -26,21 +24,6 @@ TrackerConfig paper_mode() {
   TrackerConfig config;
   config.mode = TrackerMode::kPaper;
   return config;
-}
-
-// Eq. (5) by hand: two pixels' share of it.
-TEST(PaperObjective, IsEquationFive) {
-  Patch target{}, candidate{};
-  MaskPatch target_mask{}, candidate_mask{};
-  const double identical = paper_objective(target, target_mask, candidate, candidate_mask);
-  EXPECT_DOUBLE_EQ(identical, kPatchArea);
-  candidate[7] = 51.0F;  // |It - Ic| = 0.2
-  EXPECT_NEAR(paper_objective(target, target_mask, candidate, candidate_mask),
-              kPatchArea - 1.0 + 0.64, 1e-9);
-  target_mask[7] = 255;
-  candidate_mask[7] = 102;  // min(Mt, Mc) = 0.4
-  EXPECT_NEAR(paper_objective(target, target_mask, candidate, candidate_mask),
-              kPatchArea - 1.0 + std::exp(0.4) * 0.64, 1e-9);
 }
 
 TEST(PaperTracker, FollowsATargetBeforeAMovingBackground) {
@@ -140,36 +123,6 @@ TEST(PaperTracker, IsToldAPixelOfTheFrameGivenNext) {
   const auto output = *tracker.track(frame_at(10, scene.picture({700, 300}, truth))).output;
   EXPECT_EQ(output.ego_motion, EgoMotion::kImage);
   EXPECT_LT(distance(output.pixel, truth), 3.0);
-}
-
-TEST(PaperTracker, IsChosenByTheConfiguration) {
-  ConfigFile file("[tracker]\nmode = \"paper\"\n", "t.toml");
-  TrackerConfig config;
-  config::read(tracker_section(config), file.root().table("tracker"));
-  EXPECT_EQ(config.mode, TrackerMode::kPaper);
-  ConfigFile wrong("[tracker]\nmode = \"fast\"\n", "t.toml");
-  EXPECT_THROW(config::read(tracker_section(config), wrong.root().table("tracker")), ConfigError);
-}
-
-// A clock that goes on by one at each look: every stage that is run takes a second.
-TEST(StageTimes, ChargeEachStageByTheClockHandedIn) {
-  for (const TrackerMode mode : {TrackerMode::kPaper, TrackerMode::kFull}) {
-    SyntheticScene scene(Backdrop::kTextured, 1);
-    TrackerConfig config;
-    config.mode = mode;
-    Tracker tracker(config, 3);
-    ASSERT_FALSE(tracker.initialise(frame_at(0, scene.picture({400, 300}, kStart)),
-                                    SyntheticScene::box_around(kStart)));
-    tracker.track(frame_at(1, scene.picture({400, 300}, kStart)));
-    EXPECT_EQ(tracker.stage_times().of(Stage::kWeighting), 0.0);  // no clock, no times
-    double now = 0.0;
-    tracker.set_stage_clock([&now] { return now += 1.0; });
-    tracker.track(frame_at(2, scene.picture({400, 300}, kStart)));
-    for (const Stage stage : {Stage::kReduction, Stage::kEgoMotion, Stage::kPrediction,
-                              Stage::kProposals, Stage::kWeighting, Stage::kLearning}) {
-      EXPECT_GE(tracker.stage_times().of(stage), 1.0) << static_cast<int>(stage);
-    }
-  }
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-#include "edge/tracker/core_box.h"
-
 #include <gtest/gtest.h>
+
+#include "edge/tracker/core_box.h"
 
 namespace ols {
 namespace {

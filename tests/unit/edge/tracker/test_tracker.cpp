@@ -1,11 +1,10 @@
-#include "edge/tracker/tracker.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <limits>
 #include <opencv2/core/utility.hpp>
 
+#include "edge/tracker/tracker.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols {
@@ -13,23 +12,11 @@ namespace {
 
 using testing::Backdrop;
 using testing::distance;
+using testing::frame_at;
+using testing::kStart;
 using testing::shift_homography;
+using testing::started;
 using testing::SyntheticScene;
-
-constexpr double kInterval = 1.0 / 15.0;
-const cv::Point2d kStart(300.0, 220.0);
-
-TrackerInput frame_at(int frame, const cv::Mat& gray) {
-  return {gray, 100.0 + kInterval * frame, std::nullopt};
-}
-
-Tracker started(SyntheticScene& scene, const TrackerConfig& config = {}) {
-  Tracker tracker(config, 5);
-  const auto error = tracker.initialise(frame_at(0, scene.picture({400, 300}, kStart)),
-                                        SyntheticScene::box_around(kStart));
-  EXPECT_FALSE(error.has_value());
-  return tracker;
-}
 
 TEST(Tracker, FollowsBeforeMovingBackground) {
   SyntheticScene scene(Backdrop::kTextured, 1);
@@ -44,41 +31,6 @@ TEST(Tracker, FollowsBeforeMovingBackground) {
     EXPECT_GT(result.output->belief, 0.8) << k;
     EXPECT_NEAR(result.output->box.width, 24.0, 5.0);
   }
-}
-
-TEST(Tracker, FollowsBeforeBlankSkyWithoutPrediction) {
-  SyntheticScene scene(Backdrop::kSky, 2);
-  Tracker tracker = started(scene);
-  for (int k = 1; k < 40; ++k) {
-    const cv::Point2d truth(300.0 + 6.0 * k, 220.0 - 2.0 * k);
-    const TrackerResult result = tracker.track(frame_at(k, scene.picture({400, 300}, truth)));
-    ASSERT_TRUE(result.output.has_value());
-    EXPECT_EQ(result.output->ego_motion, EgoMotion::kNone) << k;
-    EXPECT_LT(distance(result.output->pixel, truth), 1.0) << k;
-    EXPECT_GT(result.output->belief, 0.8) << k;
-  }
-}
-
-// Paper, section 5: without a homography, particles forced onto the frame difference find a target
-// that the motion model lost.
-TEST(Tracker, DifferenceParticlesCatchALeapBeforeSky) {
-  SyntheticScene scene(Backdrop::kSky, 3);
-  Tracker with = started(scene);
-  TrackerConfig config;
-  config.difference_fraction = 0.0;
-  config.search_fraction = 0.0;
-  SyntheticScene same(Backdrop::kSky, 3);
-  Tracker without = started(same, config);
-  const cv::Point2d leapt(480.0, 330.0);
-  double off_with = 0.0;
-  double off_without = 0.0;
-  for (int k = 1; k < 4; ++k) {
-    const cv::Mat gray = scene.picture({400, 300}, leapt);
-    off_with = distance(with.track(frame_at(k, gray)).output->pixel, leapt);
-    off_without = distance(without.track(frame_at(k, gray)).output->pixel, leapt);
-  }
-  EXPECT_LT(off_with, 1.0);
-  EXPECT_GT(off_without, 50.0);
 }
 
 // A camera that turns 150 px a frame before blank sky; only the PTU knows.
@@ -208,100 +160,6 @@ TEST(Tracker, TellsThatAPredictionWasDroppedBeforeBlankSkyToo) {
   EXPECT_EQ(output.ego_motion, EgoMotion::kNone);
 }
 
-// A piece of empty sky looks like every other one.
-TEST(Tracker, DoesNotBelieveInADesignationOfNothing) {
-  for (const double noise_sd : {0.0, 2.0}) {
-    SyntheticScene scene(Backdrop::kSky, 13, noise_sd);
-    Tracker tracker(TrackerConfig{}, 5);
-    const cv::Mat blank = scene.picture({400, 300}, std::nullopt);
-    ASSERT_FALSE(tracker.initialise(frame_at(0, blank), SyntheticScene::box_around(kStart)));
-    for (int k = 1; k < 10; ++k) {
-      const cv::Mat gray = scene.picture({400, 300}, std::nullopt);
-      EXPECT_LT(tracker.track(frame_at(k, gray)).output->belief, 0.5) << k;
-    }
-  }
-}
-
-// Nobody knows the velocity of a target just designated, here in a camera that stands still.
-TEST(Tracker, CatchesAFastTargetFromItsFirstFrame) {
-  for (const Backdrop backdrop : {Backdrop::kTextured, Backdrop::kSky}) {
-    SyntheticScene scene(backdrop, 12);
-    Tracker tracker = started(scene);
-    for (int k = 1; k < 10; ++k) {
-      const cv::Point2d truth(300.0 - 30.0 * k, 220.0 + 14.0 * k);
-      const TrackerResult result = tracker.track(frame_at(k, scene.picture({400, 300}, truth)));
-      ASSERT_TRUE(result.output.has_value());
-      EXPECT_LT(distance(result.output->pixel, truth), 1.0) << k;
-      EXPECT_GT(result.output->belief, 0.8) << k;
-    }
-  }
-}
-
-TEST(Tracker, CoastsThroughOcclusionAndFindsAgain) {
-  SyntheticScene scene(Backdrop::kTextured, 5);
-  Tracker tracker = started(scene);
-  double lowest = 1.0;
-  for (int k = 1; k < 40; ++k) {
-    const cv::Point2d truth(300.0 + 2.0 * k, 220.0);
-    const bool hidden = k >= 15 && k < 22;
-    const cv::Mat gray =
-        scene.picture({400, 300}, hidden ? std::nullopt : std::optional<cv::Point2d>(truth));
-    const TrackerResult result = tracker.track(frame_at(k, gray));
-    ASSERT_TRUE(result.output.has_value());
-    lowest = std::min(lowest, result.output->belief);
-    if (k >= 34) {
-      EXPECT_LT(distance(result.output->pixel, truth), 1.5) << k;
-      EXPECT_GT(result.output->belief, 0.5) << k;
-    }
-  }
-  EXPECT_LT(lowest, 0.5);
-}
-
-TEST(Tracker, BeliefDropsWithinAThirdOfASecond) {
-  for (const Backdrop backdrop : {Backdrop::kTextured, Backdrop::kSky}) {
-    SyntheticScene scene(backdrop, 6);
-    Tracker tracker = started(scene);
-    double belief = 1.0;
-    for (int k = 1; k < 15; ++k) {
-      belief = tracker.track(frame_at(k, scene.picture({400, 300}, kStart))).output->belief;
-      EXPECT_GT(belief, 0.8);
-    }
-    for (int k = 15; k < 20; ++k) {
-      belief = tracker.track(frame_at(k, scene.picture({400, 300}, std::nullopt))).output->belief;
-    }
-    EXPECT_LT(belief, 0.5);
-    for (int k = 20; k < 60; ++k) {
-      belief = tracker.track(frame_at(k, scene.picture({400, 300}, std::nullopt))).output->belief;
-      EXPECT_LT(belief, 0.5) << k;
-    }
-  }
-}
-
-TEST(Tracker, SearchNearFindsTheTargetAndOnlyTheTarget) {
-  for (const bool there : {true, false}) {
-    SyntheticScene scene(Backdrop::kTextured, 7);
-    Tracker tracker = started(scene);
-    int k = 1;
-    for (; k < 20; ++k) tracker.track(frame_at(k, scene.picture({400, 300}, std::nullopt)));
-    const cv::Point2d truth(150.0, 360.0);
-    tracker.search_near({165.0, 345.0}, 20.0);
-    double belief = 0.0;
-    Eigen::Vector2d pixel;
-    for (const int until = k + 15; k < until; ++k) {
-      const auto target = there ? std::optional<cv::Point2d>(truth) : std::nullopt;
-      const TrackerResult result = tracker.track(frame_at(k, scene.picture({400, 300}, target)));
-      belief = result.output->belief;
-      pixel = result.output->pixel;
-    }
-    if (there) {
-      EXPECT_GT(belief, 0.5);
-      EXPECT_LT(distance(pixel, truth), 1.5);
-    } else {
-      EXPECT_LT(belief, 0.5);
-    }
-  }
-}
-
 TEST(Tracker, IsTheSameTwiceToTheBit) {
   std::vector<TrackerOutput> runs[2];
   for (auto& run : runs) {
@@ -322,28 +180,6 @@ TEST(Tracker, IsTheSameTwiceToTheBit) {
     EXPECT_EQ(runs[0][i].belief, runs[1][i].belief);
     EXPECT_EQ(runs[0][i].box, runs[1][i].box);
   }
-}
-
-TEST(Tracker, CovarianceIsHonest) {
-  double sum = 0.0;
-  int count = 0;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    SyntheticScene scene(Backdrop::kSky, seed, 6.0);
-    Tracker tracker = started(scene);
-    for (int k = 1; k <= 6; ++k) {
-      // Fractions of a pixel of every size.
-      const cv::Point2d truth(300.0 + 1.37 * k, 220.0 + 0.73 * k);
-      const auto result = tracker.track(frame_at(k, scene.picture({400, 300}, truth)));
-      const Eigen::Vector2d error(result.output->pixel.x() - truth.x,
-                                  result.output->pixel.y() - truth.y);
-      sum += error.dot(result.output->covariance_px2.inverse() * error) / 2.0;
-      ++count;
-    }
-  }
-  const double nees = sum / count;
-  RecordProperty("nees", std::to_string(nees));
-  EXPECT_GT(nees, 0.5);
-  EXPECT_LT(nees, 2.0);
 }
 
 TEST(Tracker, RefusesWhatItCannotUse) {
@@ -426,6 +262,53 @@ TEST(Tracker, GivesFiniteOutputForSenselessInput) {
     EXPECT_TRUE(std::isfinite(result.output->box.width) && result.output->box.width > 0.0);
     EXPECT_GE(result.output->belief, 0.0);
     EXPECT_LE(result.output->belief, 1.0);
+  }
+}
+
+// A target put aside goes on to the bit as if the other one had never been.
+TEST(Tracker, TakesBackWhatWasSetAside) {
+  SyntheticScene scene(Backdrop::kTextured, 8);
+  const auto picture = [&](int k) {
+    return scene.picture({400.0 + 5.0 * k, 300.0}, cv::Point2d(300.0 + 2.0 * k, 220.0));
+  };
+  std::vector<cv::Mat> pictures;
+  for (int k = 0; k < 8; ++k) pictures.push_back(picture(k));
+  Tracker one({}, 5), other({}, 5);
+  for (Tracker* tracker : {&one, &other}) {
+    ASSERT_FALSE(tracker->initialise(frame_at(0, pictures[0]), SyntheticScene::box_around(kStart)));
+    for (int k = 1; k < 4; ++k) ASSERT_TRUE(tracker->track(frame_at(k, pictures[k])).output);
+  }
+  one.set_aside();
+  EXPECT_FALSE(one.initialised());
+  ASSERT_FALSE(one.initialise(frame_at(4, pictures[4]), {100.0, 100.0, 30.0, 30.0}));
+  ASSERT_TRUE(one.track(frame_at(5, pictures[5])).output);
+  one.take_back();
+  for (int k = 4; k < 8; ++k) {
+    EXPECT_EQ(one.track(frame_at(k, pictures[k])).output->pixel,
+              other.track(frame_at(k, pictures[k])).output->pixel);
+  }
+  one.take_back();  // once
+  EXPECT_TRUE(one.initialised());
+}
+
+// A clock that goes on by one at each look: every stage that is run takes a second.
+TEST(StageTimes, ChargeEachStageByTheClockHandedIn) {
+  for (const TrackerMode mode : {TrackerMode::kPaper, TrackerMode::kFull}) {
+    SyntheticScene scene(Backdrop::kTextured, 1);
+    TrackerConfig config;
+    config.mode = mode;
+    Tracker tracker(config, 3);
+    ASSERT_FALSE(tracker.initialise(frame_at(0, scene.picture({400, 300}, kStart)),
+                                    SyntheticScene::box_around(kStart)));
+    tracker.track(frame_at(1, scene.picture({400, 300}, kStart)));
+    EXPECT_EQ(tracker.stage_times().of(Stage::kWeighting), 0.0);  // no clock, no times
+    double now = 0.0;
+    tracker.set_stage_clock([&now] { return now += 1.0; });
+    tracker.track(frame_at(2, scene.picture({400, 300}, kStart)));
+    for (const Stage stage : {Stage::kReduction, Stage::kEgoMotion, Stage::kPrediction,
+                              Stage::kProposals, Stage::kWeighting, Stage::kLearning}) {
+      EXPECT_GE(tracker.stage_times().of(stage), 1.0) << static_cast<int>(stage);
+    }
   }
 }
 

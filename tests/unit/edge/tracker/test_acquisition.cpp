@@ -1,11 +1,10 @@
-#include "edge/tracker/acquisition.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <deque>
 #include <functional>
 
+#include "edge/tracker/acquisition.h"
 #include "synthetic.h"
 
 namespace ols {

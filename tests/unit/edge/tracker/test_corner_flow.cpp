@@ -1,10 +1,9 @@
-#include "edge/tracker/corner_flow.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "edge/tracker/corner_flow.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols {

@@ -56,19 +56,17 @@ TEST(Allocation, TheFiltersInnerLoopHasNone) {
   Random random(1);
   const Scene scene = target.make_scene(gray, filter.particles(), box,
                                         ReferenceFrames(config.reference_interval_s));
-  std::vector<double> log_likelihood;
   long counted = 0;
   for (int frame = 0; frame < 3; ++frame) {
     const long before = allocations;
-    filter.predict(motion, random);
-    log_likelihood.clear();
-    for (const Particle& p : filter.particles()) {
+    filter.advance(motion);
+    filter.disturb(motion, random);
+    filter.weigh([&](const Particle& p) {
       const Likeness likeness = target.likeness(scene, p.pixel, p.size_px);
       const double out = target.standing_out(scene, p.pixel, p.size_px);
-      log_likelihood.push_back(target.log_likelihood(likeness, 0.3, out, p.size_px));
-    }
-    filter.weigh(log_likelihood);
-    filter.maximum_a_posteriori(log_likelihood);
+      return target.log_likelihood(likeness, 0.3, out, p.size_px);
+    });
+    filter.maximum_a_posteriori();
     filter.resample(random);
     counted = allocations - before;
     if (frame == 0) {

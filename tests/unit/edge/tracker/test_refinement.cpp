@@ -1,5 +1,3 @@
-#include "edge/tracker/refinement.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -7,6 +5,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "edge/tracker/refinement.h"
 #include "edge/tracker/target_model.h"
 
 namespace {
@@ -42,7 +41,7 @@ class Picture {
     gray_.convertTo(gray_, CV_8U);
   }
   const cv::Mat& gray() const { return gray_; }
-  ols::View view() const { return {gray_, {0, 0}, 1}; }
+  ols::FrameView view() const { return {gray_, {0, 0}, 1}; }
 
  private:
   cv::Mat gray_;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "edge/tracker/belief.h"
-#include "edge/tracker/foreground_mask.h"
+#include "edge/tracker/reacquisition.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols {
@@ -21,7 +21,7 @@ cv::Mat with_post(cv::Mat gray) {
   return gray;
 }
 
-TEST(Search, DoesNotTakeAPostForTheTargetAfterACut) {
+TEST(Reacquisition, DoesNotTakeAPostForTheTargetAfterACut) {
   SyntheticScene scene(Backdrop::kTextured, 21);
   Tracker tracker(TrackerConfig{}, 5);
   const cv::Point2d start(300.0, 220.0);
@@ -44,7 +44,7 @@ TEST(Search, DoesNotTakeAPostForTheTargetAfterACut) {
 }
 
 // The prediction is of the scene before: what comes into the new one may be anywhere.
-TEST(Search, FindsItsTargetAnywhereSoonAfterACut) {
+TEST(Reacquisition, FindsItsTargetAnywhereSoonAfterACut) {
   constexpr int kCut = 20, kComes = 28;
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     SyntheticScene scene(Backdrop::kTextured, seed);
@@ -71,7 +71,7 @@ TEST(Search, FindsItsTargetAnywhereSoonAfterACut) {
 }
 
 // Two alike cross the sky side by side, and the target turns a wing away now and then.
-TEST(Search, StaysWithItsTargetBesideAnotherLikeIt) {
+TEST(Reacquisition, StaysWithItsTargetBesideAnotherLikeIt) {
   SyntheticScene scene(Backdrop::kSky, 31);
   Tracker tracker(TrackerConfig{}, 5);
   const auto picture = [&](int k) {
@@ -100,7 +100,7 @@ TEST(Search, StaysWithItsTargetBesideAnotherLikeIt) {
 }
 
 // Lost for seconds, and then there are two.
-TEST(Search, OfTwoAlikeNeitherIsBelievedIn) {
+TEST(Reacquisition, OfTwoAlikeNeitherIsBelievedIn) {
   for (const bool two : {false, true}) {
     SyntheticScene scene(Backdrop::kTextured, 31);
     Tracker tracker(TrackerConfig{}, 5);
@@ -129,7 +129,7 @@ TEST(Search, OfTwoAlikeNeitherIsBelievedIn) {
 }
 
 // Found elsewhere, it is believed in but partly; then the fusion says that it is there.
-TEST(Search, WhoIsToldWhereItIsBelievesInItWholly) {
+TEST(Reacquisition, WhoIsToldWhereItIsBelievesInItWholly) {
   SyntheticScene scene(Backdrop::kTextured, 31);
   Tracker tracker(TrackerConfig{}, 5);
   const cv::Point2d start(150.0, 200.0);
@@ -149,40 +149,6 @@ TEST(Search, WhoIsToldWhereItIsBelievesInItWholly) {
   tracker.search_near({moving(30).x, moving(30).y}, 5.0);
   for (int i = 30; i < 60; ++i) belief = track(moving(i));
   EXPECT_GT(belief, 0.9);
-}
-
-TEST(Search, RemembersWhatIsBehindATargetThatStands) {
-  ReferenceFrames references(0.3);
-  const cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(7));
-  const cv::Rect2d before(5.0, 5.0, 10.0, 10.0), stands(60.0, 60.0, 10.0, 10.0);
-  references.offer(gray, 0.0, before);
-  for (int k = 1; k < 30; ++k) references.offer(gray, 0.4 * k, stands);
-  const auto* behind = references.without_overlap(stands);
-  ASSERT_NE(behind, nullptr);
-  EXPECT_EQ(behind->time_s, 0.0);
-  ASSERT_NE(references.older_than(29 * 0.4), nullptr);
-  EXPECT_NEAR(references.older_than(29 * 0.4)->time_s, 29 * 0.4, 1e-9);
-}
-
-TEST(Search, UsualIsWhatTheTargetHasLookedLikeOfLate) {
-  Belief steady, varied;
-  steady.start();
-  varied.start();
-  FrameEvidence seen{0.8, 0.3, 0.95, 1.0};
-  for (int k = 0; k < 100; ++k) {
-    steady.update(seen, kInterval_s);
-    FrameEvidence beating = seen;
-    beating.correlation = k % 2 == 0 ? 0.95 : 0.7;
-    varied.update(beating, kInterval_s);
-  }
-  FrameEvidence other = seen;
-  other.correlation = 0.7;
-  EXPECT_FALSE(steady.usual(other));
-  EXPECT_TRUE(varied.usual(other));
-  EXPECT_TRUE(steady.usual(seen));
-  other = seen;
-  other.standing_out = 0.2;
-  EXPECT_FALSE(varied.usual(other));
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include "edge/tracker/mover_detection.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -7,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "edge/tracker/mover_detection.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols {
