@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -16,14 +15,6 @@ namespace ols {
 namespace {
 
 constexpr double kFrameWait_s = 0.004;
-constexpr double kClockInterval_s = 5.0;  // between two questions to kernel and chrony
-constexpr double kPoseInterval_s = 0.1;
-constexpr double kPoseKept_s = 10.0;  // the file is written so often
-
-std::string pose_file(const StationSettings& settings) {
-  if (settings.state_folder.empty()) return {};
-  return settings.state_folder + "/" + settings.id + ".pose";
-}
 
 // A receiver that has never had a fix starts for ever; without camera or PTU there is no station.
 LedPattern led_pattern(const StationReport& report) {
@@ -50,32 +41,21 @@ LedPattern led_pattern(const StationReport& report) {
 StationProcess::StationProcess(const StationSettings& settings, std::int64_t boot_id)
     : settings_(settings),
       clock_(settings_.clock),
-      clock_source_(kClockInterval_s),
-      pose_(settings_.pose),
-      pose_memory_(pose_file(settings_)),
+      pose_(settings_, clock_monotonic_s()),
       station_(settings_.station,
                std::make_unique<Tracker>(settings_.tracker, settings_.tracker_seed)),
-      turn_commands_(station_),
-      bus_(settings_, boot_id, station_, turn_commands_,
+      command_turn_(station_),
+      bus_(settings_, boot_id, station_, command_turn_,
            [this](const RecordCommand& command) { return record(command); }),
       host_(settings_.host),
       memory_(settings_.state_folder, settings_.id,
               !settings_.gpio.chip.empty() && settings_.gpio.stop_line >= 0),
       devices_(settings_) {
   const double now_s = clock_monotonic_s();
-  resume_pose(now_s);
+  station_.set_pose(pose_.pose(now_s));
   resume_hold(now_s);
   // Who says that it is ready shall hear what it is told.
   bus_.connect(BusConnector::kLongest_s);
-}
-
-// Of the sensors that it still has.
-void StationProcess::resume_pose(double now_s) {
-  RememberedPose known = pose_memory_.found();
-  if (settings_.gnss.host.empty()) known.position.reset();
-  if (settings_.inclinometer.device.empty()) known.tilt.reset();
-  pose_.resume(known, now_s, clock_utime_us());
-  station_.set_pose(pose_.pose(now_s));
 }
 
 void StationProcess::run(const std::function<bool()>& ends) {
@@ -94,7 +74,7 @@ void StationProcess::turn() {
   heed_rearming(start.monotonic_s);
   receive_commands();
   memory_.remember(station_.state(), devices_.ptu().doubt_to_persist(), devices_.ptu().reference());
-  keep_pose(start.monotonic_s);
+  if (const auto pose = pose_.look(devices_, start.monotonic_s)) station_.set_pose(*pose);
   take_frame();
   take_angles();
   // Again, because the tracker takes its time: what is published is stamped by the clocks of now.
@@ -109,11 +89,8 @@ void StationProcess::turn() {
 }
 
 ClockPair StationProcess::look_at_clocks() {
-  const ClockPair now = read_clock_pair();
-  clock_.tick(now.monotonic_s, now.utime_us);
-  if (const auto reading = clock_source_.take()) clock_.add(*reading);
+  const ClockPair now = clock_.look();
   bus_.set_time(now, clock_.quality(now.monotonic_s));
-  utc_minus_monotonic_us_ = now.utime_us - std::llround(now.monotonic_s * 1e6);
   return now;
 }
 
@@ -164,21 +141,11 @@ void StationProcess::receive_commands() {
   }
 }
 
-void StationProcess::keep_pose(double now_s) {
-  if (now_s < pose_due_s_) return;
-  pose_due_s_ = now_s + kPoseInterval_s;
-  devices_.feed(pose_);
-  station_.set_pose(pose_.pose(now_s));
-  if (now_s < pose_kept_due_s_) return;
-  pose_kept_due_s_ = now_s + kPoseKept_s;
-  pose_memory_.keep(pose_.to_remember(now_s, clock_utime_us()));
-}
-
 void StationProcess::take_frame() {
   auto frame = devices_.camera().next(kFrameWait_s);
   if (!frame) return;
   if (auto& recorder = devices_.recorder()) {
-    recorder->add(*frame, std::llround(frame->mid_exposure_s * 1e6) + utc_minus_monotonic_us_);
+    recorder->add(*frame, clock_.utime_us(frame->mid_exposure_s));
   }
   take_angles();  // first: the frame's homography is predicted from them
   station_.on_frame(*frame, clock_monotonic_s());
@@ -194,23 +161,23 @@ void StationProcess::take_angles() {
 void StationProcess::trigger_camera(double now_s) {
   const bool by_line = settings_.gpio.trigger_line >= 0;
   const bool by_software = settings_.camera.trigger == TriggerMode::kSoftware;
-  if (now_s < trigger_due_s_ || (!by_line && !by_software)) return;
+  if (now_s < due_.trigger_s || (!by_line && !by_software)) return;
   const double period_s = 1.0 / settings_.camera.frame_rate_hz;
   // In step with the rate, but without a burst after a pause.
-  trigger_due_s_ = std::max(trigger_due_s_ + period_s, now_s);
+  due_.trigger_s = std::max(due_.trigger_s + period_s, now_s);
   if (by_software) devices_.camera().trigger();
   if (by_line) devices_.gpio()->trigger();
 }
 
 void StationProcess::send_reports(const ClockPair& now) {
-  if (now.monotonic_s >= status_due_s_) {
-    status_due_s_ = now.monotonic_s + settings_.status_interval_s;
+  if (now.monotonic_s >= due_.status_s) {
+    due_.status_s = now.monotonic_s + settings_.status_interval_s;
     StationReport status = report(now);
     show(status);
     bus_.send(std::move(status));
   }
-  if (settings_.preview_interval_s > 0.0 && now.monotonic_s >= preview_due_s_ && newest_) {
-    preview_due_s_ = now.monotonic_s + settings_.preview_interval_s;
+  if (settings_.preview_interval_s > 0.0 && now.monotonic_s >= due_.preview_s && newest_) {
+    due_.preview_s = now.monotonic_s + settings_.preview_interval_s;
     bus_.send_preview(*newest_, station_.target_box());
   }
 }
@@ -234,7 +201,8 @@ StationReport StationProcess::report(const ClockPair& now) {
   for (const std::string& alarm : bus_.alarms()) report.alarms.push_back(alarm);
   add_pose_and_clock(now.monotonic_s, report);
   add_host(now.monotonic_s, report);
-  note_troubles(now, report);
+  journal_.note(now, {settings_.lcm_url, bus_.trouble(), bus_.last_refusal(), bus_.refusals()},
+                report);
   return report;
 }
 
@@ -250,12 +218,6 @@ std::string StationProcess::emergency_alarm() const {
 
 void StationProcess::add_pose_and_clock(double now_s, StationReport& report) const {
   for (const std::string& alarm : pose_.alarms(now_s)) report.alarms.push_back(alarm);
-  if (report.snapshot.pose.position_source == PoseSource::kNone) {
-    report.alarms.emplace_back("pose: no position yet, no bearings");
-  }
-  if (const std::string trouble = pose_memory_.trouble(); !trouble.empty()) {
-    report.alarms.push_back("pose: " + trouble);
-  }
   const ClockQuality clock = clock_.quality(now_s);
   if (!clock.alarm.empty()) report.alarms.push_back(clock.alarm);
   report.counters["clock_steps"] = static_cast<double>(clock.steps);
@@ -267,31 +229,6 @@ void StationProcess::add_host(double now_s, StationReport& report) {
   report.alarms.insert(report.alarms.end(), host.alarms.begin(), host.alarms.end());
   report.readings.merge(host.readings);
   report.counters["slow_turns"] = static_cast<double>(host_.slow_turns());
-}
-
-void StationProcess::note_troubles(const ClockPair& now, StationReport& report) {
-  const std::int64_t utime_us = now.utime_us;
-  for (const DeviceReport& device : report.devices) {
-    troubles_.note(device.name, device.last_error, device.errors, utime_us);
-    const bool ails = device.state == DeviceState::kAbsent || device.state == DeviceState::kFault;
-    troubles_.note_state(device.name, to_string(device.state), ails ? device.text : "", ails);
-  }
-  troubles_.note_alarms(all_alarms(report), utime_us);
-  troubles_.note_event("command", bus_.last_refusal(), bus_.refusals(), utime_us);
-  troubles_.note("bus", bus_.trouble(), 0, utime_us);
-  if (bus_.trouble().empty()) {
-    troubles_.note_state("bus", "connected", settings_.lcm_url, false);
-  } else {
-    troubles_.note_state("bus", "none", "tried again each second", true);
-  }
-  const StationState state = report.snapshot.state;
-  const bool bad = state == StationState::kLost || state == StationState::kEmergency;
-  troubles_.note_state("station", to_string(state), "", bad);
-  for (const JournalLine& line : journal_.pass(troubles_.take_news(), now.monotonic_s)) {
-    spdlog::log(line.bad ? spdlog::level::warn : spdlog::level::info, "{}", line.text);
-  }
-  report.last_error = troubles_.text();
-  report.last_error_utime_us = troubles_.utime_us();
 }
 
 void StationProcess::show(const StationReport& report) {

@@ -7,15 +7,13 @@
 #include <string>
 
 #include "base/service_notifier.h"
-#include "edge/clock/clock_source.h"
-#include "edge/clock/clock_watch.h"
 #include "edge/device_set.h"
 #include "edge/host_watch.h"
-#include "edge/journal.h"
+#include "edge/kept_pose.h"
 #include "edge/messages_bus.h"
-#include "edge/pose_memory.h"
+#include "edge/station_clock.h"
+#include "edge/station_journal.h"
 #include "edge/station_memory.h"
-#include "edge/trouble_log.h"
 
 namespace ols {
 
@@ -33,12 +31,10 @@ class StationProcess {
   // tracker takes for a frame.
   void turn();
   ClockPair look_at_clocks();
-  void resume_pose(double now_s);
   void resume_hold(double now_s);
   void heed_emergency_stop(double now_s);
   void heed_rearming(double now_s);
   void receive_commands();
-  void keep_pose(double now_s);
   void take_frame();
   void take_angles();
   void trigger_camera(double now_s);
@@ -47,32 +43,28 @@ class StationProcess {
   std::string emergency_alarm() const;
   void add_pose_and_clock(double now_s, StationReport& report) const;
   void add_host(double now_s, StationReport& report);
-  void note_troubles(const ClockPair& now, StationReport& report);
   void show(const StationReport& report);
   std::string record(const RecordCommand& command);
 
+  // The monotonic instants at which something is done next.
+  struct Due {
+    double trigger_s = 0.0, status_s = 0.0, preview_s = 0.0;
+  };
+
   const StationSettings settings_;
   ServiceNotifier service_;
-  ClockWatch clock_;
-  ClockSource clock_source_;
-  PoseKeeper pose_;
-  PoseMemory pose_memory_;
+  StationClock clock_;
+  KeptPose pose_;
   Station station_;
-  CommandTurn turn_commands_;
+  CommandTurn command_turn_;
   StationBus bus_;
   HostWatch host_;
-  TroubleLog troubles_;
   StationMemory memory_;
-  Journal journal_;
+  StationJournal journal_;
   DeviceSet devices_;
   std::optional<Frame> newest_;
-  std::int64_t utc_minus_monotonic_us_ = 0;
   bool halted_ = false;  // the PTU refuses to move until it is rearmed
-  double pose_due_s_ = 0.0;
-  double pose_kept_due_s_ = 0.0;
-  double trigger_due_s_ = 0.0;
-  double status_due_s_ = 0.0;
-  double preview_due_s_ = 0.0;
+  Due due_;
 };
 
 }  // namespace ols

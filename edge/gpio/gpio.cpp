@@ -41,6 +41,15 @@ LineUse line_use(const GpioConfig& config) {
   return use;
 }
 
+struct ShownPattern {
+  LedPattern pattern = LedPattern::kOff;
+  double began_s = 0.0;
+};
+
+struct GpioCounters {
+  std::uint64_t failures = 0, presses = 0, rearms = 0, triggers = 0;
+};
+
 }  // namespace
 
 struct Gpio::Impl {
@@ -125,7 +134,7 @@ struct Gpio::Impl {
       const std::lock_guard lock(mutex);
       if (told == pressed) return;
       told = pressed;
-      if (pressed) ++presses;
+      if (pressed) ++counters.presses;
     }
     rearm.interrupted();
     if (on_stop) on_stop(pressed);
@@ -137,15 +146,15 @@ struct Gpio::Impl {
     {
       const std::lock_guard lock(mutex);
       if (config.stop_line >= 0 && told != false) return;
-      ++rearms;
+      ++counters.rearms;
     }
     if (on_rearm) on_rearm();
   }
 
   double next_led_slot_s(double now_s) {
     const std::lock_guard lock(mutex);
-    const double slots = std::floor((now_s - pattern_began_s) / kLedSlot_s + 1e-6) + 1.0;
-    return pattern_began_s + slots * kLedSlot_s;
+    const double slots = std::floor((now_s - shown.began_s) / kLedSlot_s + 1e-6) + 1.0;
+    return shown.began_s + slots * kLedSlot_s;
   }
 
   void drive_led(GpioLines& lines, std::optional<bool>& lit) {
@@ -153,7 +162,7 @@ struct Gpio::Impl {
     bool wanted = false;
     {
       const std::lock_guard lock(mutex);
-      wanted = led_lit(pattern, clock_monotonic_s() - pattern_began_s);
+      wanted = led_lit(shown.pattern, clock_monotonic_s() - shown.began_s);
     }
     if (lit == wanted) return;
     lines.write(config.led_line, wanted);
@@ -169,7 +178,7 @@ struct Gpio::Impl {
     {
       const std::lock_guard lock(mutex);
       if (end_s != kNever_s || !std::exchange(trigger_wanted, false)) return;
-      ++triggers;
+      ++counters.triggers;
     }
     lines.write(config.trigger_line, true);
     end_s = clock_monotonic_s() + config.trigger_pulse_s;
@@ -205,7 +214,7 @@ struct Gpio::Impl {
     {
       const std::lock_guard lock(mutex);
       open = readable = false;
-      ++failures;
+      ++counters.failures;
       error = what;
     }
     if (config.stop_line >= 0) tell(true);
@@ -222,12 +231,11 @@ struct Gpio::Impl {
   bool open = false;
   bool readable = false;     // a level has come since the lines were opened
   std::optional<bool> told;  // pressed, as last called back
-  LedPattern pattern = LedPattern::kOff;
-  double pattern_began_s = 0.0;
+  ShownPattern shown;
   bool trigger_wanted = false;
   std::optional<double> last_good_s;
   std::string error;
-  std::uint64_t failures = 0, presses = 0, rearms = 0, triggers = 0;
+  GpioCounters counters;
   std::jthread thread;  // last: it uses the rest
 };
 
@@ -243,9 +251,9 @@ Gpio::~Gpio() = default;  // the jthread asks to stop and joins
 void Gpio::show(LedPattern pattern) {
   {
     const std::lock_guard lock(impl_->mutex);
-    if (impl_->pattern == pattern) return;
-    impl_->pattern = pattern;
-    impl_->pattern_began_s = clock_monotonic_s();
+    if (impl_->shown.pattern == pattern) return;
+    impl_->shown.pattern = pattern;
+    impl_->shown.began_s = clock_monotonic_s();
   }
   impl_->wakeup.set();
 }
@@ -273,11 +281,11 @@ DeviceReport Gpio::report() const {
   report.name = "gpio";
   report.last_good_s = impl_->last_good_s;
   report.last_error = impl_->error;
-  report.errors = impl_->failures;
-  report.counters = {{"gpio_failures", impl_->failures},
-                     {"gpio_stop_presses", impl_->presses},
-                     {"gpio_rearms", impl_->rearms},
-                     {"gpio_triggers", impl_->triggers}};
+  report.errors = impl_->counters.failures;
+  report.counters = {{"gpio_failures", impl_->counters.failures},
+                     {"gpio_stop_presses", impl_->counters.presses},
+                     {"gpio_rearms", impl_->counters.rearms},
+                     {"gpio_triggers", impl_->counters.triggers}};
   if (impl_->open && impl_->readable) {
     report.state = DeviceState::kOk;
     report.text = config.chip;
@@ -286,7 +294,7 @@ DeviceReport Gpio::report() const {
     if (config.stop_line >= 0 && stop_pressed_now) {
       report.alarms.push_back("gpio: emergency stop pressed");
     }
-  } else if (impl_->open || impl_->failures == 0) {
+  } else if (impl_->open || impl_->counters.failures == 0) {
     report.state = DeviceState::kStarting;
     report.text = config.chip + ": waiting for the first level";
   } else {

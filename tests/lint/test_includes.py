@@ -48,7 +48,8 @@ NOT_PURE = {
     "simulated devices on real wires": "sim/camera_server.cpp sim/gige_device.* sim/gige_stream.* "
     "sim/gnss_line.cpp sim/gpio_socket.cpp sim/inclinometer_line.cpp sim/live_site.* sim/nmea.cpp "
     "sim/ptu_line.cpp sim/ptu_tap.cpp sim/pty.cpp sim/stepped_clock.cpp",
-    "programs": "edge/main.cpp edge/config.cpp edge/station_process.* central/main.cpp "
+    "programs": "edge/main.cpp edge/config.cpp edge/station_process.* edge/kept_pose.cpp "
+    "edge/station_journal.cpp central/main.cpp "
     "central/fusion_process.* central/fusion_settings.cpp sim/*main.cpp",
 }
 FORBIDDEN_IN_PURE = re.compile(

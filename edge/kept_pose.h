@@ -1,0 +1,32 @@
+// The station's pose by survey and sensors, kept in a file over a restart.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/config.h"
+#include "edge/device_set.h"
+#include "edge/pose_memory.h"
+#include "edge/sensors/pose_keeper.h"
+
+namespace ols {
+
+class KeptPose {
+ public:
+  // Resumes what was kept of the sensors that the station still has.
+  KeptPose(const StationSettings& settings, double now_s);
+
+  StationPose pose(double now_s) const { return keeper_.pose(now_s); }
+  // In every turn; the pose when it is due. Does not wait for the disk.
+  std::optional<StationPose> look(DeviceSet& devices, double now_s);
+  std::vector<std::string> alarms(double now_s) const;
+
+ private:
+  PoseKeeper keeper_;
+  PoseMemory memory_;
+  double due_s_ = 0.0;
+  double kept_due_s_ = 0.0;
+};
+
+}  // namespace ols

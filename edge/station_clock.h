@@ -1,0 +1,30 @@
+// The clocks of a station's process: both read at one instant, and how good its UTC is.
+#pragma once
+
+#include <cstdint>
+
+#include "edge/clock/clock_pair.h"
+#include "edge/clock/clock_source.h"
+#include "edge/clock/clock_watch.h"
+
+namespace ols {
+
+class StationClock {
+ public:
+  explicit StationClock(const ClockWatch::Config& config) : watch_(config) {}
+
+  // In every turn, before anything is published.
+  ClockPair look();
+  ClockQuality quality(double now_s) const { return watch_.quality(now_s); }
+  // By the clocks of the last look.
+  std::int64_t utime_us(double monotonic_s) const;
+
+ private:
+  static constexpr double kInterval_s = 5.0;  // between two questions to kernel and chrony
+
+  ClockWatch watch_;
+  ClockSource source_{kInterval_s};
+  std::int64_t utc_minus_monotonic_us_ = 0;
+};
+
+}  // namespace ols

@@ -1,0 +1,33 @@
+// Writes into the journal what has come up or ended at a station, and tells its newest trouble.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "edge/clock/clock_pair.h"
+#include "edge/journal.h"
+#include "edge/station_report.h"
+#include "edge/trouble_log.h"
+
+namespace ols {
+
+class StationJournal {
+ public:
+  struct Bus {
+    std::string url;
+    std::string trouble;  // empty: it is connected
+    std::string last_refusal;
+    std::uint64_t refusals = 0;
+  };
+  // Fills in the report's last error.
+  void note(const ClockPair& now, const Bus& bus, StationReport& report);
+
+ private:
+  void note_devices(const StationReport& report, std::int64_t utime_us);
+  void note_bus(const Bus& bus, std::int64_t utime_us);
+
+  TroubleLog troubles_;
+  Journal journal_;
+};
+
+}  // namespace ols
