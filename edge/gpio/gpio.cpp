@@ -41,9 +41,10 @@ LineUse line_use(const GpioConfig& config) {
   return use;
 }
 
-struct ShownPattern {
+struct Wanted {  // by the control loop
   LedPattern pattern = LedPattern::kOff;
-  double began_s = 0.0;
+  double pattern_began_s = 0.0;
+  bool trigger = false;
 };
 
 struct GpioCounters {
@@ -153,20 +154,20 @@ struct Gpio::Impl {
 
   double next_led_slot_s(double now_s) {
     const std::lock_guard lock(mutex);
-    const double slots = std::floor((now_s - shown.began_s) / kLedSlot_s + 1e-6) + 1.0;
-    return shown.began_s + slots * kLedSlot_s;
+    const double slots = std::floor((now_s - wanted.pattern_began_s) / kLedSlot_s + 1e-6) + 1.0;
+    return wanted.pattern_began_s + slots * kLedSlot_s;
   }
 
   void drive_led(GpioLines& lines, std::optional<bool>& lit) {
     if (config.led_line < 0) return;
-    bool wanted = false;
+    bool light = false;
     {
       const std::lock_guard lock(mutex);
-      wanted = led_lit(shown.pattern, clock_monotonic_s() - shown.began_s);
+      light = led_lit(wanted.pattern, clock_monotonic_s() - wanted.pattern_began_s);
     }
-    if (lit == wanted) return;
-    lines.write(config.led_line, wanted);
-    lit = wanted;
+    if (lit == light) return;
+    lines.write(config.led_line, light);
+    lit = light;
   }
 
   void drive_trigger(GpioLines& lines, double& end_s) {
@@ -177,7 +178,7 @@ struct Gpio::Impl {
     }
     {
       const std::lock_guard lock(mutex);
-      if (end_s != kNever_s || !std::exchange(trigger_wanted, false)) return;
+      if (end_s != kNever_s || !std::exchange(wanted.trigger, false)) return;
       ++counters.triggers;
     }
     lines.write(config.trigger_line, true);
@@ -205,7 +206,7 @@ struct Gpio::Impl {
     const std::lock_guard lock(mutex);
     open = true;
     readable = false;
-    trigger_wanted = false;  // of frames long past
+    wanted.trigger = false;  // of frames long past
   }
 
   void note_failure(const std::string& what) {
@@ -231,8 +232,7 @@ struct Gpio::Impl {
   bool open = false;
   bool readable = false;     // a level has come since the lines were opened
   std::optional<bool> told;  // pressed, as last called back
-  ShownPattern shown;
-  bool trigger_wanted = false;
+  Wanted wanted;
   std::optional<double> last_good_s;
   std::string error;
   GpioCounters counters;
@@ -251,9 +251,9 @@ Gpio::~Gpio() = default;  // the jthread asks to stop and joins
 void Gpio::show(LedPattern pattern) {
   {
     const std::lock_guard lock(impl_->mutex);
-    if (impl_->shown.pattern == pattern) return;
-    impl_->shown.pattern = pattern;
-    impl_->shown.began_s = clock_monotonic_s();
+    if (impl_->wanted.pattern == pattern) return;
+    impl_->wanted.pattern = pattern;
+    impl_->wanted.pattern_began_s = clock_monotonic_s();
   }
   impl_->wakeup.set();
 }
@@ -262,7 +262,7 @@ void Gpio::trigger() {
   if (impl_->config.trigger_line < 0) return;
   {
     const std::lock_guard lock(impl_->mutex);
-    impl_->trigger_wanted = impl_->open;
+    impl_->wanted.trigger = impl_->open;
   }
   impl_->wakeup.set();
 }
