@@ -32,10 +32,10 @@ PURE_FOLDERS = ("geometry", "base", "edge", "central", "sim")
 NOT_PURE = {
     "files": "base/atomic_file.* base/background_file.cpp base/csv_files.cpp base/small_file.cpp "
     "base/toml_config.cpp base/word_memory.cpp edge/recorder/event_folder.cpp "
-    "edge/recorder/event_store.cpp sim/report.cpp sim/station_files.cpp sim/trajectory_file.cpp",
+    "edge/recorder/event_store.cpp sim/report.cpp sim/station_files.cpp",
     "the message bus": "base/bus_* base/channel_pattern.cpp base/lcm_bus.* base/lcm_url.* "
     "base/multicast_socket.* edge/messages* central/messages* sim/*flood.cpp",
-    "the operating system": "base/clocks.h base/command_line.h base/plain_text.cpp "
+    "the operating system": "base/boot_id.cpp base/clocks.h base/command_line.h base/plain_text.cpp "
     "base/service_notifier.cpp base/shutdown.cpp base/wakeup.cpp edge/host_watch.cpp "
     "edge/rearm_signal.cpp edge/clock/clock_pair.cpp edge/clock/clock_source.cpp "
     "edge/clock/command_output.cpp",
