@@ -40,11 +40,11 @@ NOT_PURE = {
     "edge/rearm_signal.cpp edge/clock/clock_pair.cpp edge/clock/clock_source.cpp "
     "edge/clock/command_output.cpp",
     "devices and their threads": "edge/camera/aravis_*.cpp edge/camera/aravis_error.h "
-    "edge/camera/tai_reference.cpp "
+    "edge/camera/aravis_session.h edge/camera/camera_handover.* edge/camera/tai_reference.cpp "
     "edge/gpio/gpio.cpp edge/gpio/gpio_lines_* edge/ptu/ptu_thread.cpp edge/ptu/serial_port.cpp "
     "edge/recorder/recorder.cpp edge/sensors/gnss.cpp edge/sensors/gnss_from_gpsd.* "
     "edge/sensors/gpsd_link.* edge/sensors/inclinometer.cpp",
-    "simulated devices on real wires": "sim/camera_server.cpp sim/gige_device.* sim/gige_stream.* "
+    "simulated devices on real wires": "sim/camera_server.cpp sim/exposure_cue.* sim/gige_control.* sim/gige_device.* sim/gige_stream.* "
     "sim/gnss_line.cpp sim/gpio_socket.cpp sim/inclinometer_line.cpp sim/live_site.* sim/nmea.cpp "
     "sim/ptu_line.cpp sim/ptu_tap.cpp sim/pty.cpp sim/stepped_clock.cpp",
     "programs": "edge/main.cpp edge/config.cpp edge/station_process.* central/main.cpp "
