@@ -17,6 +17,7 @@
 #include "base/clocks.h"
 #include "base/wakeup.h"
 #include "edge/gpio/gpio_lines.h"
+#include "edge/gpio/gpio_report.h"
 #include "edge/gpio/rearm_input.h"
 #include "edge/gpio/stop_input.h"
 
@@ -85,8 +86,8 @@ struct Gpio::Impl {
       drive_trigger(lines, trigger_end_s);
       now_s = clock_monotonic_s();
       double until_s = std::min({refresh_s, next_led_slot_s(now_s), trigger_end_s});
-      // (Only this thread writes `told`.)
-      if (const auto due_s = stop.due_s(); due_s && told != false) {
+      // (Only this thread writes `facts.pressed`.)
+      if (const auto due_s = stop.due_s(); due_s && facts.pressed != false) {
         until_s = std::min(until_s, *due_s);
       }
       if (const auto due_s = rearm.due_s()) until_s = std::min(until_s, *due_s);
@@ -109,8 +110,8 @@ struct Gpio::Impl {
     }
     const std::lock_guard lock(mutex);
     if (!levels.empty() || (config.stop_line < 0 && config.rearm_line < 0)) {
-      last_good_s = clock_monotonic_s();
-      readable = true;
+      facts.last_good_s = clock_monotonic_s();
+      facts.readable = true;
     }
   }
 
@@ -123,9 +124,9 @@ struct Gpio::Impl {
   void tell(bool pressed) {
     {
       const std::lock_guard lock(mutex);
-      if (told == pressed) return;
-      told = pressed;
-      if (pressed) ++presses;
+      if (facts.pressed == pressed) return;
+      facts.pressed = pressed;
+      if (pressed) ++facts.presses;
     }
     rearm.interrupted();
     if (on_stop) on_stop(pressed);
@@ -136,8 +137,8 @@ struct Gpio::Impl {
     if (config.rearm_line < 0 || !rearm.take(clock_monotonic_s())) return;
     {
       const std::lock_guard lock(mutex);
-      if (config.stop_line >= 0 && told != false) return;
-      ++rearms;
+      if (config.stop_line >= 0 && facts.pressed != false) return;
+      ++facts.rearms;
     }
     if (on_rearm) on_rearm();
   }
@@ -169,7 +170,7 @@ struct Gpio::Impl {
     {
       const std::lock_guard lock(mutex);
       if (end_s != kNever_s || !std::exchange(trigger_wanted, false)) return;
-      ++triggers;
+      ++facts.triggers;
     }
     lines.write(config.trigger_line, true);
     end_s = clock_monotonic_s() + config.trigger_pulse_s;
@@ -194,8 +195,8 @@ struct Gpio::Impl {
 
   void opened() {
     const std::lock_guard lock(mutex);
-    open = true;
-    readable = false;
+    facts.open = true;
+    facts.readable = false;
     trigger_wanted = false;  // of frames long past
   }
 
@@ -204,9 +205,9 @@ struct Gpio::Impl {
     rearm.interrupted();
     {
       const std::lock_guard lock(mutex);
-      open = readable = false;
-      ++failures;
-      error = what;
+      facts.open = facts.readable = false;
+      ++facts.failures;
+      facts.error = what;
     }
     if (config.stop_line >= 0) tell(true);
   }
@@ -219,15 +220,10 @@ struct Gpio::Impl {
   Wakeup wakeup;
 
   mutable std::mutex mutex;  // of everything below
-  bool open = false;
-  bool readable = false;     // a level has come since the lines were opened
-  std::optional<bool> told;  // pressed, as last called back
+  GpioFacts facts;
   LedPattern pattern = LedPattern::kOff;
   double pattern_began_s = 0.0;
   bool trigger_wanted = false;
-  std::optional<double> last_good_s;
-  std::string error;
-  std::uint64_t failures = 0, presses = 0, rearms = 0, triggers = 0;
   std::jthread thread;  // last: it uses the rest
 };
 
@@ -254,49 +250,19 @@ void Gpio::trigger() {
   if (impl_->config.trigger_line < 0) return;
   {
     const std::lock_guard lock(impl_->mutex);
-    impl_->trigger_wanted = impl_->open;
+    impl_->trigger_wanted = impl_->facts.open;
   }
   impl_->wakeup.set();
 }
 
 bool Gpio::stop_pressed() const {
-  if (impl_->config.stop_line < 0) return false;
   const std::lock_guard lock(impl_->mutex);
-  return impl_->told.value_or(true);
+  return ols::stop_pressed(impl_->config, impl_->facts);
 }
 
 DeviceReport Gpio::report() const {
-  const bool stop_pressed_now = stop_pressed();
-  const GpioConfig& config = impl_->config;
   const std::lock_guard lock(impl_->mutex);
-  DeviceReport report;
-  report.name = "gpio";
-  report.last_good_s = impl_->last_good_s;
-  report.last_error = impl_->error;
-  report.errors = impl_->failures;
-  report.counters = {{"gpio_failures", impl_->failures},
-                     {"gpio_stop_presses", impl_->presses},
-                     {"gpio_rearms", impl_->rearms},
-                     {"gpio_triggers", impl_->triggers}};
-  if (impl_->open && impl_->readable) {
-    report.state = DeviceState::kOk;
-    report.text = config.chip;
-    if (config.stop_line >= 0)
-      report.text += stop_pressed_now ? ", stop pressed" : ", stop released";
-    if (config.stop_line >= 0 && stop_pressed_now) {
-      report.alarms.push_back("gpio: emergency stop pressed");
-    }
-  } else if (impl_->open || impl_->failures == 0) {
-    report.state = DeviceState::kStarting;
-    report.text = config.chip + ": waiting for the first level";
-  } else {
-    report.state = DeviceState::kAbsent;
-    report.text = impl_->error;
-    report.alarms.push_back(config.stop_line >= 0
-                                ? "gpio: stop unreadable, taken as pressed: " + impl_->error
-                                : "gpio: " + impl_->error);
-  }
-  return report;
+  return make_gpio_report(impl_->config, impl_->facts);
 }
 
 }  // namespace ols
