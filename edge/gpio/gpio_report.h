@@ -13,10 +13,10 @@ namespace ols {
 // What the GPIO's thread knows.
 struct GpioFacts {
   bool open = false;
-  bool readable = false;        // a level has come since the lines were opened
-  std::optional<bool> pressed;  // the emergency stop, as last called back
-  std::optional<double> last_good_s;
-  std::string error;
+  bool readable = false;          // a level has come since the lines were opened
+  std::optional<bool> pressed{};  // the emergency stop, as last called back
+  std::optional<double> last_good_s{};
+  std::string error{};
   std::uint64_t failures = 0, presses = 0, rearms = 0, triggers = 0;
 };
 
