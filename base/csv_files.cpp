@@ -87,18 +87,30 @@ template <std::size_t kColumns>
 using Reader = io::CSVReader<kColumns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
                              io::throw_on_overflow, io::empty_line_comment>;
 
+// What a spreadsheet may have written between the columns of this header in place of commas.
+std::string other_separator(const std::string& content) {
+  const std::string header = content.substr(0, content.find('\n'));
+  if (header.find(',') != std::string::npos) return "";
+  if (header.find(';') != std::string::npos) return "semicolons";
+  return header.find('\t') != std::string::npos ? "tabs" : "";
+}
+
 template <std::size_t kColumns>
-void read_header(Reader<kColumns>& reader, const std::string& path,
-                 const Header<kColumns>& header) {
+void read_header(Reader<kColumns>& reader, const std::string& path, const Header<kColumns>& header,
+                 const std::string& content) {
   std::apply(
       [&](auto... names) {
         reader.read_header(io::ignore_extra_column | io::ignore_missing_column, names...);
       },
       header.names);
   for (std::size_t i = 0; i < header.required; ++i) {
-    if (!reader.has_column(header.names[i])) {
-      throw CsvError(path + ":1: " + header.names[i] + ": there is no such column");
+    if (reader.has_column(header.names[i])) continue;
+    const std::string separator = other_separator(content);
+    if (!separator.empty()) {
+      throw CsvError(path + ":1: header: columns are separated by " + separator +
+                     ", commas are needed");
     }
+    throw CsvError(path + ":1: " + header.names[i] + ": there is no such column");
   }
 }
 
@@ -118,7 +130,7 @@ void for_each_row(const std::string& path, const Header<kColumns>& header, Take 
   try {
     const std::string content = content_of(path);
     Reader<kColumns> reader(path, content.data(), content.data() + content.size());
-    read_header<kColumns>(reader, path, header);
+    read_header<kColumns>(reader, path, header, content);
     std::array<const char*, kColumns> cells{};
     const auto next = [&](auto&... cell) { return reader.read_row(cell...); };
     while (std::apply(next, cells)) {
@@ -209,10 +221,24 @@ SightedRow sighted_row(const Row<5>& row) {
   return sighted;
 }
 
+// Seconds or milliseconds of any year to come would be microseconds of the 1970s, before there
+// was a GPS to measure them.
+std::int64_t utime_of(const Row<7>& row) {
+  constexpr std::int64_t kGreatest = 9'000'000'000'000'000;  // differences do not overflow
+  constexpr std::int64_t kLeast = 315'964'800'000'000;       // 1980-01-06
+  const auto utime_us = row.number<std::int64_t>(0, 0, kGreatest);
+  if (utime_us >= kLeast) return utime_us;
+  const char* unit = utime_us >= kLeast / 1'000       ? "; these seem to be milliseconds"
+                     : utime_us >= kLeast / 1'000'000 ? "; these seem to be seconds"
+                                                      : "";
+  row.fail(0, std::to_string(utime_us) +
+                  " is before 1980: microseconds since 1970 (UTC) are needed" + unit);
+}
+
 BearingRow bearing_row(const Row<7>& row) {
   constexpr double kLeastSigmaDeg = 1e-7;
   BearingRow bearing;
-  bearing.utime_us = row.number<std::int64_t>(0, 0, kGreatestUtime);
+  bearing.utime_us = utime_of(row);
   bearing.station = row.id(1);
   bearing.azimuth_deg = row.number<double>(2, -360.0, 360.0);
   bearing.elevation_deg = row.number<double>(3, -90.0, 90.0);

@@ -79,14 +79,4 @@ BusAddress parse_lcm_url(const std::string& url) {
   return address;
 }
 
-std::string read_lcm_url(ConfigTable& table, const std::string& key, const std::string& fallback) {
-  std::string url = table.text(key, fallback);
-  try {
-    parse_lcm_url(url);
-  } catch (const std::invalid_argument& problem) {
-    throw table.error(key, problem.what());
-  }
-  return url;
-}
-
 }  // namespace ols

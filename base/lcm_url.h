@@ -7,8 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "base/toml_config.h"
-
 namespace ols {
 
 struct BusAddress {
@@ -20,8 +18,5 @@ struct BusAddress {
 // LCM's defaults filled in: 239.255.76.67, 7667, ttl=0. Throws std::invalid_argument saying what is
 // wrong.
 BusAddress parse_lcm_url(const std::string& url);
-
-// The key's URL, or the fallback. Throws ConfigError when it is malformed.
-std::string read_lcm_url(ConfigTable& table, const std::string& key, const std::string& fallback);
 
 }  // namespace ols

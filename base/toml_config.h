@@ -1,14 +1,11 @@
 // Strict configuration tables over toml++: every error names file, line and key.
 //
 //   ConfigFile file("station.toml");                 // throws ConfigError when it cannot be parsed
-//   ConfigTable& root = file.root();
-//   config.baud = root.table("ptu").integer("baud", config.baud, 600, 115200);
-//   file.finish();                                   // throws on keys that nobody asked for
+//   config::read(station_section(settings), file.root());    // base/config_section.h
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -27,7 +24,10 @@ class ConfigTable {
   ~ConfigTable();
   ConfigTable(ConfigTable&&) noexcept;
 
+  bool exists() const;  // otherwise every key is absent
   bool has(std::string_view key) const;
+  // Throws ConfigError for the first key that is not one of these, with the most similar of them.
+  void refuse_unknown(const std::vector<std::string>& known) const;
   // Each getter returns `fallback` when the key is absent, and throws ConfigError when the value
   // has another type, is not finite or is outside least..greatest.
   double number(std::string_view key, double fallback, double least, double greatest);
@@ -42,9 +42,6 @@ class ConfigTable {
   std::vector<double> numbers(std::string_view key, const std::vector<double>& fallback,
                               double least, double greatest);
   std::vector<std::string> texts(std::string_view key, const std::vector<std::string>& fallback);
-  // The same, but the key must be there.
-  double required_number(std::string_view key, double least, double greatest);
-  std::string required_text(std::string_view key);
 
   // A sub-table; an empty one when absent.
   ConfigTable& table(std::string_view key);
@@ -67,8 +64,6 @@ class ConfigFile {
   // The same from text, `name` standing for the path in errors.
   ConfigFile(std::string_view text, const std::string& name);
   ConfigTable& root() { return *root_; }
-  // Throws ConfigError naming the first key that no getter has read.
-  void finish() const;
 
  private:
   std::unique_ptr<ConfigTable> root_;

@@ -1,10 +1,13 @@
-// Everything that the fusion's configuration file holds. docs/operations.md explains each key.
+// Everything that the fusion's configuration file holds: docs/configuration.md.
 #pragma once
 
 #include <string>
 
 #include "central/fusion.h"
 
+namespace ols::config {
+struct Section;
+}
 namespace ols {
 
 struct FusionSettings {
@@ -14,6 +17,7 @@ struct FusionSettings {
   FusionConfig fusion{};
 };
 
+config::Section fusion_section(FusionSettings& settings);  // the whole file
 // Throws ConfigError ("file:line: key: what").
 FusionSettings load_fusion_settings(const std::string& path);
 

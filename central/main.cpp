@@ -5,10 +5,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
+#include <string>
 
 #include "base/boot_id.h"
 #include "base/clocks.h"
 #include "base/command_line.h"
+#include "base/lcm_url.h"
 #include "base/service_notifier.h"
 #include "base/shutdown.h"
 #include "base/toml_config.h"
@@ -26,6 +29,16 @@ struct Arguments {
   bool replay = false;
   bool check_config = false;
 };
+
+// For the command line: what is wrong with the URL; empty if nothing.
+std::string url_problem(const std::string& url) {
+  try {
+    ols::parse_lcm_url(url);
+    return "";
+  } catch (const std::invalid_argument& problem) {
+    return problem.what();
+  }
+}
 
 int run(const Arguments& arguments) {
   ols::FusionSettings settings;
@@ -62,13 +75,15 @@ int main(int argc, char** argv) {
   CLI::App app{"Fusion of the stations' bearings: targets and slew commands over LCM"};
   Arguments arguments;
   app.add_option("--config", arguments.config, "Configuration file (TOML); all keys have defaults");
-  app.add_option("--lcm-url", arguments.lcm_url, "Bus, in place of the configuration's");
+  app.add_option("--lcm-url", arguments.lcm_url, "Bus, in place of the configuration's")
+      ->check(url_problem);
   app.add_flag("--replay", arguments.replay,
                "The messages are recorded ones: their time is not the present, and slews go to a "
                "bus of their own, so that no real PTU moves");
   app.add_option(
-      "--slew-url", arguments.slew_url,
-      std::string("Bus for slews; default: the same, or with --replay ") + kReplaySlewUrl);
+         "--slew-url", arguments.slew_url,
+         std::string("Bus for slews; default: the same, or with --replay ") + kReplaySlewUrl)
+      ->check(url_problem);
   app.add_flag("--check-config", arguments.check_config, "Only read and check the configuration");
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-fusion")) return *status;
   spdlog::set_default_logger(spdlog::stderr_color_mt("ols-fusion"));

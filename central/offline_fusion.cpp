@@ -90,9 +90,10 @@ double mean_square_speed(const std::vector<const Sighting*>& bearings) {
 class Recording {
  public:
   explicit Recording(const OfflineConfig& config)
-      : keeper_(keeper_of(config)), pointing_(config.fusion.pointing) {}
+      : keeper_(keeper_of(config)), pointing_(config.fusion.pointing), tell_(config.tell) {}
 
   void add(const Sighting& sighting) {
+    if (tell_) tell_();
     keeper_.advance(sighting.utime_us);
     const bool believed = pointing_.quarantine(sighting.station).empty();
     const Association result = keeper_.add(sighting, believed);
@@ -116,6 +117,7 @@ class Recording {
 
   TrackKeeper keeper_;
   PointingMonitor pointing_;
+  std::function<void()> tell_;
   std::map<std::string, std::string> beside_;
 };
 

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct OfflineConfig {
   bool smooth = false;               // the filter's alone
   double rate_hz = 0.0;              // epochs on an even grid; 0: at the instant of every bearing
   FusionConfig fusion{};             // what it shares with the live one
+  std::function<void()> tell{};      // called with every bearing that the filter has taken
 };
 
 // What fuse_offline leaves out before it looks at the geometry.

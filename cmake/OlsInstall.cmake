@@ -21,5 +21,6 @@ install(DIRECTORY systemd/modules-load.d systemd/sysusers.d systemd/tmpfiles.d s
         DESTINATION ${OLS_SYSTEM_LIBDIR})
 install(DIRECTORY systemd/udev/ DESTINATION ${OLS_SYSTEM_LIBDIR}/udev/rules.d)
 install(DIRECTORY systemd/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/ols/examples)
-install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ols)
-install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ols FILES_MATCHING PATTERN "*.md")
+# As in the tree, docs/ below README.md, so that links work in both (tests/lint/test_docs.py).
+install(FILES README.md CONTRIBUTING.md LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ols)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ols)

@@ -2,240 +2,270 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
+#include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "base/lcm_url.h"
-#include "base/toml_config.h"
+#include "edge/config_units.h"
 #include "edge/sensors/pose_keeper_config.h"
-#include "geometry/angles.h"
 
 namespace ols {
 namespace {
 
-constexpr double kLengthMax_m = 100.0;
+using config::Row;
+using config::Section;
 
-double angle(ConfigTable& table, const char* key_deg, double fallback_rad, double limit_deg) {
-  return radians(table.number(key_deg, degrees(fallback_rad), -limit_deg, limit_deg));
+void check_id(const std::string& id) {
+  const bool valid = !id.empty() && id.size() <= 32 && std::ranges::all_of(id, [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_';
+  });
+  if (!valid) throw std::invalid_argument("must be 1 to 32 letters, digits, - or _");
 }
 
-double angle_sd(ConfigTable& table, const char* key_deg, double fallback_rad) {
-  return radians(table.number(key_deg, degrees(fallback_rad), 0.0, 90.0));
+Row angle(const char* key, double& field_rad, double limit_deg, const char* sentence) {
+  return config::number(key, field_rad, {-limit_deg, limit_deg}, in_degrees(), sentence);
 }
 
-Eigen::Vector3d vector(ConfigTable& table, const char* key, const Eigen::Vector3d& fallback) {
-  const auto v =
-      table.numbers(key, {fallback.x(), fallback.y(), fallback.z()}, -kLengthMax_m, kLengthMax_m);
-  return {v[0], v[1], v[2]};
+Row angle_sd(const char* key, double& field_rad, const char* sentence) {
+  return config::number(key, field_rad, {0.0, 90.0}, in_degrees(), sentence);
 }
 
-int sign(ConfigTable& table, const char* key, int fallback) {
-  const auto value = table.integer(key, fallback, -1, 1);
-  if (value == 0) throw table.error(key, "must be 1 or -1");
-  return static_cast<int>(value);
-}
-
-std::string station_id(ConfigTable& root) {
-  std::string id = root.required_text("id");
-  bool valid = !id.empty() && id.size() <= 32;
-  for (const char c : id) {
-    valid = valid && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_');
-  }
-  if (!valid) throw root.error("id", "1 to 32 letters, digits, - or _ are wanted");
-  return id;
-}
-
-Geodetic read_position(ConfigTable& pose) {
-  Geodetic position;
-  position.latitude_rad = radians(pose.required_number("latitude_deg", -90.0, 90.0));
-  position.longitude_rad = radians(pose.required_number("longitude_deg", -180.0, 360.0));
-  position.height_m = pose.required_number("height_m", -1000.0, 100000.0);
-  return position;
-}
-
-// The survey overrides the sensors; what it leaves out is theirs. Without position and receiver the
-// position is asked for, without tilt and inclinometer the head is taken as level, roughly: unless
-// [calibration.sd] says how well it was levelled.
-void read_pose(ConfigTable& pose, ConfigTable& calibration_sd, StationSettings& settings) {
-  StationGeometry& geometry = settings.station.geometry;
+Section pose_section(StationSettings& settings) {
+  constexpr const char* kFromGnss = "required without [gnss]";
+  constexpr const char* kFromInclinometer = "by [inclinometer], or level";
+  StationGeometry& g = settings.station.geometry;
   PoseKeeper::Config& keeper = settings.pose;
-  geometry.chain.heading_rad = radians(pose.required_number("heading_deg", -360.0, 360.0));
-  const bool any = pose.has("latitude_deg") || pose.has("longitude_deg") || pose.has("height_m");
-  if (any || settings.gnss.host.empty()) {
-    keeper.surveyed_position = geometry.position = read_position(pose);
+  return {"pose",
+          "The survey of GROUND; it overrides GNSS and inclinometer, which then only check it.",
+          {config::number("latitude_deg", g.position.latitude_rad, {-90.0, 90.0}, in_degrees(),
+                          "WGS84 latitude.")
+               .default_is(kFromGnss),
+           config::number("longitude_deg", g.position.longitude_rad, {-180.0, 360.0}, in_degrees(),
+                          "WGS84 longitude, east positive.")
+               .default_is(kFromGnss),
+           config::number("height_m", g.position.height_m, {-1000.0, 100000.0}, "m",
+                          "Height above the ellipsoid, not above mean sea level.")
+               .default_is(kFromGnss),
+           angle("heading_deg", g.chain.heading_rad, 360.0,
+                 "Direction of the PTU's zero pan, clockwise from true north.")
+               .required(),
+           angle("tilt_x_deg", g.chain.tilt_x_rad, 45.0,
+                 "Inclination of ORIGIN about X, right side down positive.")
+               .default_is(kFromInclinometer),
+           angle("tilt_y_deg", g.chain.tilt_y_rad, 45.0,
+                 "Inclination of ORIGIN about Y, nose down positive.")
+               .default_is(kFromInclinometer),
+           angle_sd("level_sd_deg", keeper.level_sd_rad,
+                    "1-sigma of a tilt that is neither surveyed nor measured."),
+           config::number("alarm_sigma", keeper.alarm_sigma, {1.0, 100.0}, "sigma",
+                          "A sensor reading further from the pose is not believed.")}};
+}
+
+Section chain_section(ChainParameters& c) {
+  constexpr double kMaxLength_m = 100.0;
+  const auto lever = [](const char* key, Eigen::Vector3d& field, const char* sentence) {
+    return config::numbers(key, {field.data(), 3}, {-kMaxLength_m, kMaxLength_m}, "m", sentence);
+  };
+  return {
+      "chain",
+      "The kinematic chain of eq. (1); X forward, Y left, Z up.",
+      {lever("ground_to_origin_m", c.ground_to_origin_m, "ORIGIN from GROUND: east, north, up."),
+       lever("origin_to_azi_m", c.origin_to_azi_m, "Crossing of the PTU's axes from its base."),
+       lever("azi_to_ele_m", c.azi_to_ele_m, "Tilt axis from the pan axis."),
+       lever("ele_to_focus_m", c.ele_to_focus_m, "Camera mounting from the tilt axis."),
+       lever("focus_to_camera_m", c.focus_to_camera_m,
+             "Camera's centre of projection from its mounting."),
+       angle("mount_z_deg", c.mount_z_rad, 180.0, "Rotation of the camera on the PTU about Z."),
+       angle("mount_x_deg", c.mount_x_rad, 180.0, "Rotation of the camera on the PTU about X."),
+       angle("mount_y_deg", c.mount_y_rad, 180.0, "Rotation of the camera on the PTU about Y."),
+       config::one_of("pan_sign", c.pan_sign, {1, -1}, "",
+                      "1: the unit counts pan to the left, -1: to the right."),
+       config::one_of("tilt_sign", c.tilt_sign, {1, -1}, "",
+                      "1: the unit counts tilt upwards, -1: downwards."),
+       angle("pan_zero_deg", c.pan_zero_rad, 360.0,
+             "Shaft angle of the pan axis at reported zero: shaft = sign * reported + zero."),
+       angle("tilt_zero_deg", c.tilt_zero_rad, 360.0,
+             "Shaft angle of the tilt axis at reported zero.")}};
+}
+
+Section lens_section(StationSettings& settings) {
+  CameraIntrinsics& lens = settings.station.geometry.camera;
+  const auto term = [](const char* key, double& field, double limit, const char* sentence) {
+    return config::number(key, field, {-limit, limit}, "", sentence);
+  };
+  return {
+      "lens",
+      "The camera's calibration, in OpenCV's model.",
+      {config::number("fx_px", lens.fx_px, {1.0, 1e7}, "px", "Focal length along x.").required(),
+       config::number("fy_px", lens.fy_px, {1.0, 1e7}, "px", "Focal length along y.").required(),
+       config::number("cx_px", lens.cx_px, {-1e5, 1e5}, "px", "Principal point, x.")
+           .default_is("middle of the image"),
+       config::number("cy_px", lens.cy_px, {-1e5, 1e5}, "px", "Principal point, y.")
+           .default_is("middle of the image"),
+       config::number("skew", lens.skew, {-1e5, 1e5}, "px", "Skew of the pixel axes."),
+       term("k1", lens.k1, 1e3, "Radial distortion, second order."),
+       term("k2", lens.k2, 1e6, "Radial distortion, fourth order."),
+       term("p1", lens.p1, 1e3, "Tangential distortion."),
+       term("p2", lens.p2, 1e3, "Tangential distortion."),
+       term("k3", lens.k3, 1e9, "Radial distortion, sixth order.")},
+      {},
+      [&settings, &lens](ConfigTable& table) {
+        lens.width_px = settings.camera.width_px;
+        lens.height_px = settings.camera.height_px;
+        if (!table.has("cx_px")) lens.cx_px = (lens.width_px - 1) / 2.0;
+        if (!table.has("cy_px")) lens.cy_px = (lens.height_px - 1) / 2.0;
+      }};
+}
+
+// How well the heading and the camera's mounting are known only a person can tell, and a zero that
+// nobody meant would make every position overconfident.
+Section calibration_section(StationSettings& settings) {
+  CalibrationSd& sd = settings.station.geometry.sd;
+  return {"calibration",
+          "Which calibration this is.",
+          {config::integer("id", settings.calibration_id, 0, INT64_MAX, "",
+                           "Its number, stated in every bearing.")},
+          {{"sd",
+            "1-sigma of the errors that the calibration left; they stay from frame to frame.",
+            {angle_sd("heading_deg", sd.heading_rad,
+                      "Of the heading: 0.5 by a good compass, 0.01 by a sighted landmark.")
+                 .required(),
+             angle_sd("tilt_deg", sd.tilt_rad, "Of each of the two tilts."),
+             angle_sd("mount_deg", sd.mount_rad,
+                      "Of the camera's rotation on the PTU, across the optical axis.")
+                 .required(),
+             angle_sd("mount_roll_deg", sd.mount_roll_rad,
+                      "Of the camera's rotation on the PTU, about the optical axis."),
+             config::number("position_m", sd.position_m, {0.0, 1e5}, "m",
+                            "Of the position, each of east, north, up.")}}}};
+}
+
+Section clock_section(ClockWatch::Config& clock) {
+  return {"clock",
+          "The clock of the station's computer.",
+          {config::number("sd_s", clock.assumed_sd_s, {0.0, 1e4}, "s",
+                          "1-sigma of UTC where no time service states one."),
+           config::number("distrust_s", clock.distrust_s, {0.0, 1e5}, "s",
+                          "A step that no time service confirms is distrusted for this long."),
+           config::number("drift_per_s", clock.drift_per_s, {0.0, 1e-2}, "s/s",
+                          "Drift of the clock without its time service.")}};
+}
+
+Section watchdog_section(StationSettings& settings) {
+  HostConfig& host = settings.host;
+  return {"watchdog",
+          "Alarms of the station's own computer.",
+          {config::text("disk_folder", host.disk_folder, "Folder whose file system is watched.")
+               .default_is("the recorder's folder, or \"/\""),
+           config::number("disk_alarm_bytes", host.disk_alarm_bytes, {0.0, 1e15}, "byte",
+                          "Less free space raises an alarm."),
+           config::number("cpu_alarm_degC", host.cpu_alarm_degC, {0.0, 200.0}, "degC",
+                          "A higher processor temperature raises an alarm.")},
+          {},
+          [&settings](ConfigTable& table) {
+            const std::string& recordings = settings.recorder.folder;
+            if (!table.has("disk_folder") && !recordings.empty())
+              settings.host.disk_folder = recordings;
+          }};
+}
+
+Section logic_section(StationConfig& station) {
+  return {"logic",
+          "How the station designates, tracks, loses and finds a target.",
+          {config::number("designation_sd_px", station.designation_sd_px, {0.0, 100.0}, "px",
+                          "1-sigma of a designated box's centre on the target."),
+           config::number("tracking_belief", station.tracking_belief, {0.0, 1.0}, "",
+                          "Minimum belief of the tracker to count as tracking."),
+           config::number("coast_s", station.coast_s, {0.0, 60.0}, "s",
+                          "Time on the motion model after the last believed frame."),
+           config::flag("acquire_by_slew", station.acquire_by_slew,
+                        "A slewed station without a target searches for one."),
+           config::number("own_target_s", station.own_target_s, {0.0, 3600.0}, "s",
+                          "A slewed station with a lost target searches for that one for this long "
+                          "first."),
+           config::number("unacquired_alarm_s", station.unacquired_alarm_s, {1.0, 3600.0}, "s",
+                          "Slewed for this long without finding a target raises an alarm."),
+           config::number("slew_lease_max_s", station.slew_lease_max_s, {0.1, 5.0}, "s",
+                          "Slews with a longer lease are refused."),
+           config::number("max_age_s", station.max_age_s, {0.1, 10.0}, "s",
+                          "Older frames are not tracked, older bearings not sent."),
+           config::number("target_acceleration_deg_s2", station.motion.acceleration_sd_rad_s2,
+                          {0.0, 90.0}, in_degrees("deg/s^2"),
+                          "1-sigma of the target's angular acceleration, in the motion model.")}};
+}
+
+// What the survey leaves out comes from the sensors. Without tilt and inclinometer the head is
+// taken as roughly level, unless [calibration.sd] states how well it was levelled.
+void use_survey(ConfigTable& root, StationSettings& settings) {
+  ConfigTable& pose = root.table("pose");
+  const StationGeometry& geometry = settings.station.geometry;
+  PoseKeeper::Config& keeper = settings.pose;
+  bool any_place = settings.gnss.host.empty();
+  for (const char* key : {"latitude_deg", "longitude_deg", "height_m"})
+    any_place = any_place || pose.has(key);
+  if (any_place) {
+    for (const char* key : {"latitude_deg", "longitude_deg", "height_m"})
+      if (!pose.has(key)) throw pose.error(key, "is missing");
+    keeper.surveyed_position = geometry.position;
     keeper.surveyed_position_sd_m = geometry.sd.position_m;
   }
-  const bool levelled = settings.inclinometer.device.empty() && calibration_sd.has("tilt_deg");
+  const bool levelled =
+      settings.inclinometer.device.empty() && root.table("calibration").table("sd").has("tilt_deg");
   if (pose.has("tilt_x_deg") || pose.has("tilt_y_deg") || levelled) {
-    geometry.chain.tilt_x_rad = angle(pose, "tilt_x_deg", 0.0, 45.0);
-    geometry.chain.tilt_y_rad = angle(pose, "tilt_y_deg", 0.0, 45.0);
     keeper.surveyed_tilt_rad =
         Eigen::Vector2d(geometry.chain.tilt_x_rad, geometry.chain.tilt_y_rad);
     keeper.surveyed_tilt_sd_rad = geometry.sd.tilt_rad;
   }
-  keeper.level_sd_rad = angle_sd(pose, "level_sd_deg", keeper.level_sd_rad);
-  keeper.alarm_sigma = pose.number("alarm_sigma", keeper.alarm_sigma, 1.0, 100.0);
-  keeper.growth_m_sqrt_s = pose.number("growth_m_sqrt_s", keeper.growth_m_sqrt_s, 0.0, 10.0);
-  keeper.growth_rad_sqrt_s = angle_sd(pose, "growth_deg_sqrt_s", keeper.growth_rad_sqrt_s);
 }
 
-void read_chain(ConfigTable& table, ChainParameters& chain) {
-  chain.ground_to_origin_m = vector(table, "ground_to_origin_m", chain.ground_to_origin_m);
-  chain.origin_to_azi_m = vector(table, "origin_to_azi_m", chain.origin_to_azi_m);
-  chain.azi_to_ele_m = vector(table, "azi_to_ele_m", chain.azi_to_ele_m);
-  chain.ele_to_focus_m = vector(table, "ele_to_focus_m", chain.ele_to_focus_m);
-  chain.focus_to_camera_m = vector(table, "focus_to_camera_m", chain.focus_to_camera_m);
-  chain.mount_z_rad = angle(table, "mount_z_deg", chain.mount_z_rad, 180.0);
-  chain.mount_x_rad = angle(table, "mount_x_deg", chain.mount_x_rad, 180.0);
-  chain.mount_y_rad = angle(table, "mount_y_deg", chain.mount_y_rad, 180.0);
-  chain.pan_sign = sign(table, "pan_sign", chain.pan_sign);
-  chain.tilt_sign = sign(table, "tilt_sign", chain.tilt_sign);
-  chain.pan_zero_rad = angle(table, "pan_zero_deg", chain.pan_zero_rad, 360.0);
-  chain.tilt_zero_rad = angle(table, "tilt_zero_deg", chain.tilt_zero_rad, 360.0);
-}
-
-void read_lens(ConfigTable& lens, CameraIntrinsics& camera) {
-  camera.fx_px = lens.required_number("fx_px", 1.0, 1e7);
-  camera.fy_px = lens.required_number("fy_px", 1.0, 1e7);
-  camera.cx_px = lens.number("cx_px", (camera.width_px - 1) / 2.0, -1e5, 1e5);
-  camera.cy_px = lens.number("cy_px", (camera.height_px - 1) / 2.0, -1e5, 1e5);
-  camera.skew = lens.number("skew", camera.skew, -1e5, 1e5);
-  camera.k1 = lens.number("k1", camera.k1, -1e3, 1e3);
-  camera.k2 = lens.number("k2", camera.k2, -1e6, 1e6);
-  camera.p1 = lens.number("p1", camera.p1, -1e3, 1e3);
-  camera.p2 = lens.number("p2", camera.p2, -1e3, 1e3);
-  camera.k3 = lens.number("k3", camera.k3, -1e9, 1e9);
-}
-
-// How well the heading and the camera's mounting are known nobody but a person can tell, and a zero
-// that nobody meant would make every position overconfident.
-void read_calibration_sd(ConfigTable& table, CalibrationSd& sd) {
-  sd.heading_rad = radians(table.required_number("heading_deg", 0.0, 90.0));
-  sd.tilt_rad = angle_sd(table, "tilt_deg", sd.tilt_rad);
-  sd.mount_rad = radians(table.required_number("mount_deg", 0.0, 90.0));
-  sd.mount_roll_rad = angle_sd(table, "mount_roll_deg", sd.mount_roll_rad);
-  sd.position_m = table.number("position_m", sd.position_m, 0.0, 1e5);
-}
-
-void read_clock(ConfigTable& table, StationSettings& settings) {
-  ClockWatch::Config& clock = settings.clock;
-  clock.assumed_sd_s = table.number("sd_s", clock.assumed_sd_s, 0.0, 1e4);
-  clock.never_set_sd_s = table.number("never_set_sd_s", clock.never_set_sd_s, 0.0, 1e4);
-  clock.step_s = table.number("step_s", clock.step_s, 1e-3, 10.0);
-  clock.distrust_s = table.number("distrust_s", clock.distrust_s, 0.0, 1e5);
-  clock.drift_per_s = table.number("drift_per_s", clock.drift_per_s, 0.0, 1e-2);
-  clock.silence_s = table.number("silence_s", clock.silence_s, 1.0, 1e5);
-  settings.clock_interval_s = table.number("interval_s", settings.clock_interval_s, 0.1, 600.0);
-}
-
-void read_watchdog(ConfigTable& table, StationSettings& settings) {
-  HostConfig& host = settings.host;
-  if (!settings.recorder.folder.empty()) host.disk_folder = settings.recorder.folder;
-  host.disk_folder = table.text("disk_folder", host.disk_folder);
-  host.disk_alarm_bytes = table.number("disk_alarm_bytes", host.disk_alarm_bytes, 0.0, 1e15);
-  host.cpu_alarm_degC = table.number("cpu_alarm_degC", host.cpu_alarm_degC, 0.0, 200.0);
-  host.slow_turn_s = table.number("slow_turn_s", host.slow_turn_s, 0.01, 60.0);
-}
-
-void read_devices(ConfigTable& root, StationSettings& settings) {
-  settings.camera = read_camera_config(root.table("camera"));
-  settings.ptu = read_ptu_config(root.table("ptu"));
-  settings.inclinometer = read_inclinometer_config(root.table("inclinometer"));
-  settings.gnss = read_gnss_config(root.table("gnss"));
-  settings.gpio = read_gpio_config(root.table("gpio"));
-  settings.recorder = read_recorder_config(root.table("recorder"));
+// One part's setting that is another part's input.
+void pass_on(StationSettings& settings) {
+  StationConfig& station = settings.station;
+  set_sensors(settings.pose, settings.inclinometer, settings.gnss);
   settings.camera.keep_raw = !settings.recorder.folder.empty();
-  settings.pose = pose_keeper_config(settings.inclinometer, settings.gnss);
-  // An empty text says that there is none; a section that leaves it out is a mistake.
-  for (const auto& [name, key] : {std::pair("inclinometer", "device"),
-                                  {"gnss", "host"},
-                                  {"gpio", "chip"},
-                                  {"recorder", "folder"}}) {
-    if (root.has(name) && !root.table(name).has(key))
-      throw root.error(name, "lacks its " + std::string(key));
-  }
-}
-
-// A search is as wide as the doubt of the direction, between this and a part of the picture.
-void read_search_sd(ConfigTable& table, StationConfig& station) {
-  const double most_px = station.search_sd_most_px();
-  station.search_sd_px =
-      table.number("search_sd_px", std::min(station.search_sd_px, most_px), 1.0, 1000.0);
-  if (station.search_sd_px <= most_px) return;
-  char text[80];
-  std::snprintf(text, sizeof text, "is more than a quarter of the picture's width (%g px)",
-                most_px);
-  throw table.error("search_sd_px", text);
-}
-
-void read_logic(ConfigTable& table, StationConfig& station) {
-  station.designation_sd_px =
-      table.number("designation_sd_px", station.designation_sd_px, 0.0, 100.0);
-  station.tracking_belief = table.number("tracking_belief", station.tracking_belief, 0.0, 1.0);
-  station.coast_s = table.number("coast_s", station.coast_s, 0.0, 60.0);
-  station.reacquire_frames =
-      static_cast<int>(table.integer("reacquire_frames", station.reacquire_frames, 1, 100));
-  station.angle_wait_s = table.number("angle_wait_s", station.angle_wait_s, 0.0, 1.0);
-  station.frame_memory_s = table.number("frame_memory_s", station.frame_memory_s, 0.0, 10.0);
-  station.search_interval_s =
-      table.number("search_interval_s", station.search_interval_s, 0.0, 60.0);
-  read_search_sd(table, station);
-  station.acquire_by_slew = table.boolean("acquire_by_slew", station.acquire_by_slew);
-  station.own_target_s = table.number("own_target_s", station.own_target_s, 0.0, 3600.0);
-  station.unacquired_alarm_s =
-      table.number("unacquired_alarm_s", station.unacquired_alarm_s, 1.0, 3600.0);
-  station.acquisition_sd_px =
-      table.number("acquisition_sd_px", station.acquisition_sd_px, 0.0, 100.0);
-  station.prediction_error_px =
-      table.number("prediction_error_px", station.prediction_error_px, 1.0, 10000.0);
-  station.disagreeing_frames =
-      static_cast<int>(table.integer("disagreeing_frames", station.disagreeing_frames, 1, 1000));
-  station.acquisition.frames =
-      static_cast<int>(table.integer("acquisition_frames", station.acquisition.frames, 2, 100));
-  station.slew_lease_max_s = table.number("slew_lease_max_s", station.slew_lease_max_s, 0.1, 5.0);
-  station.point_time_s = table.number("point_time_s", station.point_time_s, 0.1, 60.0);
-  station.max_age_s = table.number("max_age_s", station.max_age_s, 0.1, 10.0);
-  station.motion.acceleration_sd_rad_s2 =
-      angle_sd(table, "target_acceleration_deg_s2", station.motion.acceleration_sd_rad_s2);
+  station.search_sd_px = std::min(station.search_sd_px, station.search_sd_most_px());
+  station.angles = settings.ptu.history;
+  station.limits = settings.ptu.limits;
+  station.homing_allowed =
+      settings.ptu.limits.keep_out.empty() || settings.ptu.home_despite_keep_out;
+  station.rearm_over_bus = settings.gpio.rearm_over_bus;
 }
 
 }  // namespace
 
+Section station_section(StationSettings& s) {
+  return {
+      "",
+      "",
+      {config::text("id", s.id, "Name of the station, part of the names of its channels.", check_id)
+           .required(),
+       config::text("lcm_url", s.lcm_url,
+                    "The bus; ttl=0: only this host, ttl=1: also the other hosts of the site.",
+                    [](const std::string& url) { parse_lcm_url(url); }),
+       config::text("state_folder", s.state_folder,
+                    "Folder of the state that survives a restart; it must exist.")
+           .default_is("$STATE_DIRECTORY"),
+       config::number("status_interval_s", s.status_interval_s, {0.05, 60.0}, "s",
+                      "Interval of the status messages."),
+       config::number("preview_interval_s", s.preview_interval_s, {0.0, 60.0}, "s",
+                      "Interval of the preview images; 0: none."),
+       config::integer("tracker_seed", s.tracker_seed, 0, INT64_MAX, "",
+                       "Seed of the tracker's random numbers.")},
+      {pose_section(s), chain_section(s.station.geometry.chain), calibration_section(s),
+       camera_section(s.camera), lens_section(s), ptu_section(s.ptu), tracker_section(s.tracker),
+       logic_section(s.station), inclinometer_section(s.inclinometer), gnss_section(s.gnss),
+       gpio_section(s.gpio), recorder_section(s.recorder), clock_section(s.clock),
+       watchdog_section(s)},
+      [&s](ConfigTable& root) {
+        use_survey(root, s);
+        pass_on(s);
+      }};
+}
+
 StationSettings load_station_settings(const std::string& path) {
   ConfigFile file(path);
-  ConfigTable& root = file.root();
   StationSettings settings;
-  settings.id = station_id(root);
-  settings.lcm_url = read_lcm_url(root, "lcm_url", settings.lcm_url);
-  settings.state_folder = root.text("state_folder", settings.state_folder);
-  settings.tracker_seed = static_cast<std::uint64_t>(root.integer("tracker_seed", 1, 0, INT64_MAX));
-  settings.status_interval_s =
-      root.number("status_interval_s", settings.status_interval_s, 0.05, 60.0);
-  settings.preview_interval_s =
-      root.number("preview_interval_s", settings.preview_interval_s, 0.0, 60.0);
-
-  StationGeometry& geometry = settings.station.geometry;
-  read_devices(root, settings);
-  settings.tracker = read_tracker_config(root.table("tracker"));
-  geometry.camera.width_px = settings.camera.width_px;
-  geometry.camera.height_px = settings.camera.height_px;
-  read_chain(root.table("chain"), geometry.chain);
-  read_lens(root.table("lens"), geometry.camera);
-
-  ConfigTable& calibration = root.table("calibration");
-  settings.calibration_id = calibration.integer("id", 0, 0, INT64_MAX);
-  read_calibration_sd(calibration.table("sd"), geometry.sd);
-  read_pose(root.table("pose"), calibration.table("sd"), settings);
-  read_clock(root.table("clock"), settings);
-  read_watchdog(root.table("watchdog"), settings);
-  read_logic(root.table("logic"), settings.station);
-  settings.station.angles = settings.ptu.history;
-  settings.station.limits = settings.ptu.limits;
-  settings.station.homing_allowed =
-      settings.ptu.limits.keep_out.empty() || settings.ptu.home_despite_keep_out;
-  settings.station.rearm_over_bus = settings.gpio.rearm_over_bus;
-  file.finish();
+  config::read(station_section(settings), file.root());
   return settings;
 }
 

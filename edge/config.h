@@ -1,4 +1,4 @@
-// Everything that a station's configuration file holds. docs/operations.md explains each key.
+// Everything that a station's configuration file holds: docs/configuration.md.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,9 @@
 #include "edge/station.h"
 #include "edge/tracker/tracker_config.h"
 
+namespace ols::config {
+struct Section;
+}
 namespace ols {
 
 struct StationSettings {
@@ -37,12 +40,12 @@ struct StationSettings {
   GpioConfig gpio;
   RecorderConfig recorder;
   ClockWatch::Config clock;
-  double clock_interval_s = 5.0;  // between two questions to kernel and chrony
   HostConfig host;
   TrackerConfig tracker;
   CommandGate::Config gate;
 };
 
+config::Section station_section(StationSettings& settings);  // the whole file
 // Throws ConfigError ("file:line: key: what").
 StationSettings load_station_settings(const std::string& path);
 

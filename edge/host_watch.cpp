@@ -19,6 +19,8 @@
 namespace ols {
 namespace {
 
+constexpr double kSlowTurn_s = 0.5;  // of the control loop, which takes some ms: counted
+
 // The hottest zone, whatever it is called: kernels name them as they like.
 std::optional<double> hottest_degC(const std::string& folder) {
   std::optional<double> hottest;
@@ -106,7 +108,7 @@ HostWatch::~HostWatch() {
 
 void HostWatch::note_turn(double seconds) {
   slowest_s_ = std::max(slowest_s_, seconds);
-  if (seconds > config_.slow_turn_s) ++slow_turns_;
+  if (seconds > kSlowTurn_s) ++slow_turns_;
 }
 
 HostReport HostWatch::look(double now_s) {

@@ -17,7 +17,6 @@ struct HostConfig {
   std::string disk_folder = "/";  // of the file system whose room is watched
   double cpu_alarm_degC = 85.0;
   double disk_alarm_bytes = 5e8;
-  double slow_turn_s = 0.5;  // a turn of the control loop that takes longer is counted
   double interval_s = 2.0;   // between two readings
   double silence_s = 10.0;   // without a reading: an alarm
 };

@@ -13,15 +13,18 @@ constexpr QueueLimits kQueue{.messages = 400, .bytes = 1'000'000};  // commands 
 }  // namespace
 
 StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
-                       Record recorder)
+                       CommandTurn& turn, Record recorder)
     : settings_(settings),
       station_(station),
+      turn_(turn),
       record_(std::move(recorder)),
       connector_(settings.lcm_url) {
   sender_.station = settings.id;
   sender_.boot_id = boot_id;
-  on_command<ols_msg::designate_t>(
-      "DESIGNATE", [this](const ols_msg::designate_t& message) { return designate(message); });
+  on_command<ols_msg::designate_t>("DESIGNATE", [this](const ols_msg::designate_t& message) {
+    turn_.designate(from_message(message, sender_));
+    return Refusal::kNone;
+  });
   on_command<ols_msg::slew_t>("SLEW", [this](const ols_msg::slew_t& message) {
     return station_.slew(from_message(message, sender_, now_s_), now_s_);
   });
@@ -66,7 +69,7 @@ bool StationBus::take_stop(const void* data, int bytes) {
   ols_msg::ptu_command_t command{};
   const bool is_stop = decode_exactly(data, bytes, command) &&
                        command.command == ols_msg::ptu_command_t::COMMAND_STOP;
-  if (is_stop) stop_ = true;
+  if (is_stop) turn_.stop();
   return is_stop;
 }
 
@@ -84,40 +87,10 @@ void StationBus::publish(const std::string& channel, const Message& message) {
   if (bus_) disconnect("the network takes no messages");
 }
 
-Refusal StationBus::designate(const ols_msg::designate_t& message) {
-  if (designation_) counters_["designations_superseded"] += 1;
-  designation_ = message;
-  return Refusal::kNone;
-}
-
-void StationBus::carry_out_designation() {
-  const auto message = std::exchange(designation_, std::nullopt);
-  if (!message) return;
-  // To follow what was marked costs the tracker time; a stop waits for nothing.
-  if (stop_) {
-    counters_["designations_superseded"] += 1;
-    return;
-  }
-  designated_ = true;
-  const Refusal result = station_.designate(from_message(*message, sender_), now_s_);
-  if (result != Refusal::kNone)
-    note_refusal(std::string("DESIGNATE refused: ") + to_string(result));
-}
-
-void StationBus::end_turn() {
-  carry_out_designation();
-  designated_ = false;
-  // Last, so that nothing which came before it in this turn moves the unit after it.
-  if (stop_.exchange(false)) station_.stop(now_s_);
-}
+void StationBus::end_turn() { note("DESIGNATE", turn_.end(now_s_)); }
 
 Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
-  // In the order in which they came; but two designations a turn are the most.
-  if (designated_ && designation_) {
-    counters_["designations_superseded"] += 1;
-    designation_.reset();
-  }
-  carry_out_designation();
+  note("DESIGNATE", turn_.before_other_command(now_s_));
   switch (message.command) {
     case ols_msg::ptu_command_t::COMMAND_POINT:
       return station_.point(from_message(message), now_s_);
@@ -130,7 +103,7 @@ Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
     case ols_msg::ptu_command_t::COMMAND_REFERENCE_OK:
       return station_.reference_ok(now_s_);
     default:
-      refuse("PTU", "unknown_command");
+      refused_.refuse("PTU", "unknown_command");
       return Refusal::kNone;
   }
 }
@@ -148,13 +121,12 @@ void StationBus::on_command(const std::string& kind,
   gates_.emplace(kind, CommandGate(settings_.gate, clock_utime_us()));
   const auto receive = [this, kind, execute](const void* data, int bytes) {
     Message message;
-    if (!decode_exactly(data, bytes, message)) return refuse(kind, "malformed");
-    if (message.schema_version != Message::SCHEMA_VERSION) return refuse(kind, "schema");
-    if (message.station != settings_.id) return refuse(kind, "other_station");
+    if (!decode_exactly(data, bytes, message)) return refused_.refuse(kind, "malformed");
+    if (message.schema_version != Message::SCHEMA_VERSION) return refused_.refuse(kind, "schema");
+    if (message.station != settings_.id) return refused_.refuse(kind, "other_station");
     const auto refusal = gates_.at(kind).admit(stamp_of(message), sender_.utime_us(now_s_));
-    if (refusal) return refuse_at_gate(kind, to_string(*refusal));
-    const Refusal result = execute(message);
-    if (result != Refusal::kNone) note_refusal(kind + " refused: " + to_string(result));
+    if (refusal) return refused_.refuse_at_gate(kind, to_string(*refusal), now_s_);
+    note(kind, execute(message));
   };
   subscriptions_.emplace_back("OLS_" + kind + "_" + settings_.id, receive);
 }
@@ -165,25 +137,13 @@ void StationBus::record(const ols_msg::record_t& message) {
   if (refusal.empty()) {
     counters_["record_accepted"] += 1;
   } else {
-    refuse("RECORD", "recorder");
-    note_refusal("RECORD refused: " + refusal);
+    refused_.refuse("RECORD", "recorder");
+    refused_.note("RECORD refused: " + refusal);
   }
 }
 
-void StationBus::refuse(const std::string& kind, const std::string& why) {
-  counters_["messages_refused"] += 1;
-  counters_["messages_refused_" + why] += 1;
-  note_refusal(kind + " refused: " + why);
-}
-
-void StationBus::refuse_at_gate(const std::string& kind, const std::string& why) {
-  stale_.note(kind == "SLEW" ? "slews" : kind + " commands", why, now_s_);
-  refuse(kind, why);
-}
-
-void StationBus::note_refusal(const std::string& what) {
-  last_refusal_ = what;
-  ++refusals_;
+void StationBus::note(const std::string& kind, Refusal refusal) {
+  if (refusal != Refusal::kNone) refused_.note(kind + " refused: " + to_string(refusal));
 }
 
 void StationBus::set_time(const ClockPair& now, const ClockQuality& quality) {
@@ -204,13 +164,17 @@ void StationBus::receive() {
 }
 
 std::vector<std::string> StationBus::alarms() const {
-  auto alarms = stale_.alarms(now_s_);
+  auto alarms = refused_.alarms(now_s_);
   if (auto alarm = watch_.alarm(now_s_); !alarm.empty()) alarms.push_back(std::move(alarm));
   return alarms;
 }
 
 std::map<std::string, double> StationBus::counters() const {
   auto counters = counters_;
+  counters.insert(refused_.counters().begin(), refused_.counters().end());
+  if (turn_.superseded() > 0) {
+    counters["designations_superseded"] = static_cast<double>(turn_.superseded());
+  }
   watch_.count(counters);
   return counters;
 }

@@ -1,9 +1,8 @@
 // A station on the bus: takes commands in, sends bearings, status and previews out. Decodes, checks
-// who is meant and whether the command is fresh, and counts whatever it refuses. Without a network
-// the station runs all the same: the connection is tried again once a second.
+// who is meant and whether the command is fresh, and counts whatever it refuses; decides nothing.
+// Without a network the station runs all the same: the connection is tried again once a second.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -16,9 +15,10 @@
 #include "base/bus_connector.h"
 #include "base/bus_watch.h"
 #include "edge/clock/clock_pair.h"
+#include "edge/command_turn.h"
 #include "edge/config.h"
 #include "edge/messages.h"
-#include "edge/refusal_watch.h"
+#include "edge/refusal_log.h"
 
 namespace ols {
 
@@ -29,7 +29,7 @@ class StationBus {
 
   // The references must outlive the bus.
   StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
-             Record recorder);
+             CommandTurn& turn, Record recorder);
 
   // The clocks of this moment, for everything until the next call.
   void set_time(const ClockPair& now, const ClockQuality& quality);
@@ -43,15 +43,14 @@ class StationBus {
   void take(const std::string& channel, const void* data, int bytes);
   // A stop, in whatever thread it comes; false for anything else. end_turn() carries it out.
   bool take_stop(const void* data, int bytes);
-  // After the datagrams of a turn. Each designation lets the tracker run through the frames since
-  // then: of those that come at once only the newest is carried out.
+  // After the datagrams of a turn.
   void end_turn();
 
   // Why there is no connection; empty when there is one.
   const std::string& trouble() const { return trouble_; }
   // The last refused command in words, and how many there were.
-  const std::string& last_refusal() const { return last_refusal_; }
-  std::uint64_t refusals() const { return refusals_; }
+  const std::string& last_refusal() const { return refused_.last(); }
+  std::uint64_t refusals() const { return refused_.number(); }
   // What a person should know of the bus: commands that keep being refused because they are not
   // fresh, datagrams that are none.
   std::vector<std::string> alarms() const;
@@ -70,16 +69,13 @@ class StationBus {
   void subscribe();
   void disconnect(const std::string& why);
   std::string ptu_channel() const;
-  Refusal designate(const ols_msg::designate_t& message);
-  void carry_out_designation();
   Refusal command_ptu(const ols_msg::ptu_command_t& message);
   void record(const ols_msg::record_t& message);
-  void refuse(const std::string& kind, const std::string& why);
-  void refuse_at_gate(const std::string& kind, const std::string& why);
-  void note_refusal(const std::string& what);
+  void note(const std::string& kind, Refusal refusal);
 
   const StationSettings& settings_;
   Station& station_;
+  CommandTurn& turn_;
   Record record_;
   Sender sender_;
   double now_s_ = 0.0;
@@ -87,19 +83,13 @@ class StationBus {
   using Receive = std::function<void(const void* data, int bytes)>;
   std::vector<std::pair<std::string, Receive>> subscriptions_;
   BusConnector connector_;
-  // Set by the bus's own thread, before the queue of commands: no flood pushes a stop out.
-  std::atomic<bool> stop_ = false;
   std::unique_ptr<LcmBus> bus_;
   BusWatch watch_;
   std::string trouble_ = "not connected yet";
   std::map<std::string, CommandGate> gates_;
-  RefusalWatch stale_;                               // and all else that a gate refuses
-  std::optional<ols_msg::designate_t> designation_;  // waits for the end of the turn
-  bool designated_ = false;                          // in this turn
+  RefusalLog refused_;
   std::map<std::string, double> counters_;
   std::map<std::string, std::int64_t> sequences_;
-  std::string last_refusal_;
-  std::uint64_t refusals_ = 0;
 };
 
 }  // namespace ols

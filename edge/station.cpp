@@ -2,137 +2,62 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include "geometry/angles.h"
 
 namespace ols {
+
 Station::Station(const StationConfig& config, std::unique_ptr<TargetTracker> tracker)
     : config_(config),
-      tracker_(std::move(tracker)),
-      history_(config.angles),
-      motion_(config.motion),
-      acquisition_(config.acquisition) {
-  for (int i = 0; i <= static_cast<int>(StationState::kEmergency); ++i) {
-    counters_[std::string("seconds_") + to_string(static_cast<StationState>(i))] = 0.0;
-  }
-  const StationGeometry& geometry = config_.geometry;
-  pose_.position = geometry.position;
-  pose_.position_sd_enu_m.setConstant(geometry.sd.position_m);
-  pose_.position_source = pose_.tilt_source = PoseSource::kSurveyed;
-  pose_.tilt_x_rad = geometry.chain.tilt_x_rad;
-  pose_.tilt_y_rad = geometry.chain.tilt_y_rad;
-  pose_.tilt_sd_rad = geometry.sd.tilt_rad;
-  revision_pose_ = pose_;
-}
+      pointing_(config),
+      frames_(config.frame_memory_s),
+      target_(config, std::move(tracker)),
+      search_(config),
+      bearings_(config),
+      motion_(config.motion) {}
 
-void Station::set_pose(const StationPose& pose) {
-  if (differs(revision_pose_, pose)) {
-    revision_pose_ = pose;
-    ++pose_revision_;
-    counters_["pose_revisions"] += 1;
-  }
-  pose_ = pose;
-  config_.geometry.position = pose.position;
-  config_.geometry.chain.tilt_x_rad = pose.tilt_x_rad;
-  config_.geometry.chain.tilt_y_rad = pose.tilt_y_rad;
-  config_.geometry.sd.tilt_rad = pose.tilt_sd_rad;
-}
+// --- What happens
 
-void Station::enter(StationState state) {
-  if (state == state_) return;
-  state_ = state;
-  acquisition_.clear();
-  if (state == StationState::kTracking) in_view_ = {};
-  counters_[std::string("entered_") + to_string(state)] += 1;
-  believed_in_a_row_ = 0;
-  // At the first frame of a search the tracker is told where to look.
-  searched_s_ = -std::numeric_limits<double>::infinity();
-}
-
-bool Station::follows_target() const {
-  return template_ != Template::kNone && state_ != StationState::kIdle &&
-         state_ != StationState::kManual && state_ != StationState::kStopped &&
-         state_ != StationState::kEmergency;
-}
-
-void Station::on_angles(const AngleSample& sample) { history_.add(sample); }
+void Station::on_angles(const AngleSample& sample) { pointing_.add(sample); }
 
 void Station::on_frame(const Frame& frame, double now_s) {
   if (now_s - frame.mid_exposure_s > config_.max_age_s) {
     counters_["frames_too_old"] += 1;
     return;
   }
-  if (!frames_.empty() && frame.mid_exposure_s <= frames_.back().mid_exposure_s) {
+  if (!frames_.add(frame)) {
     counters_["frames_out_of_order"] += 1;
     return;
-  }
-  frames_.push_back(frame);
-  while (frame.mid_exposure_s - frames_.front().mid_exposure_s > config_.frame_memory_s) {
-    frames_.pop_front();
   }
   if (follows_target()) {
     track(frame);
     drop_unproven(frame.mid_exposure_s);
   }
-  note_in_view(frame);
-  if (looks_for_anything()) acquire(frame);
-}
-
-TrackerInput Station::tracker_input(const Frame& frame) const {
-  TrackerInput input{frame.gray, frame.mid_exposure_s, std::nullopt};
-  if (tracked_s_) {
-    const auto from = history_.at(*tracked_s_);
-    const auto to = history_.at(frame.mid_exposure_s);
-    if (from && to) {
-      input.predicted_homography = rotation_homography(config_.geometry, from->angles, to->angles);
-    }
-  }
-  return input;
+  if (mode_.is(StationState::kSlewed)) look_along_slew(frame);
 }
 
 void Station::track(const Frame& frame) {
-  const TrackerInput input = tracker_input(frame);
-  if (state_ == StationState::kSlewed && believed_in_a_row_ == 0 &&
-      frame.mid_exposure_s - searched_s_ > config_.search_interval_s) {
-    search_along_slew();
+  const bool slewed = mode_.is(StationState::kSlewed);
+  if (slewed && believed_in_a_row_ == 0) {
+    const auto place = search_.send_tracker(frame, pointing_, slew_.command());
+    if (place) target_.search_near(place->pixel, place->sd_px);
   }
-  const TrackerResult result = tracker_->track(input);
-  if (!result.output) {
-    counters_[std::string("frames_refused_") + to_string(*result.error)] += 1;
-    return;
-  }
-  tracked_s_ = frame.mid_exposure_s;
-  last_output_ = result.output;
-  counters_["frames_tracked"] += 1;
-  compare_motion(*result.output);
-  const bool there = state_ != StationState::kSlewed || is_where_slewed(frame, *result.output);
+  const auto output = target_.track(frame, pointing_);
+  if (!output) return;
+  const bool there = !slewed || search_.is_where_slewed(frame, *output, pointing_, slew_.command());
   if (!there) counters_["frames_elsewhere"] += 1;
-  judge(there && result.output->belief >= config_.tracking_belief, frame.mid_exposure_s);
-  if (state_ == StationState::kTracking && result.output->belief >= config_.tracking_belief) {
-    waiting_.push_back({std::max(now_s_, frame.mid_exposure_s), frame.mid_exposure_s,
-                        frame.stamp_sd_s, frame.stamp_source, *result.output, track_id_,
-                        template_ == Template::kDesignated ? config_.designation_sd_px
-                                                           : config_.acquisition_sd_px});
+  const bool believed = output->belief >= config_.tracking_belief;
+  judge_belief(there && believed, frame.mid_exposure_s);
+  if (mode_.is(StationState::kTracking) && believed) {
+    bearings_.add({std::max(now_s_, frame.mid_exposure_s), frame.mid_exposure_s, frame.stamp_sd_s,
+                   frame.stamp_source, *output, target_.track_id(), target_.centring_sd_px()});
   }
-}
-
-// The camera's motion by the PTU's angles and by the picture: wrong angles, times or mounting show
-// here before they show in a position.
-void Station::compare_motion(const TrackerOutput& output) {
-  if (output.prediction_dropped) counters_["predictions_dropped"] += 1;
-  if (!output.prediction_error_px) return;
-  const bool disagree = *output.prediction_error_px > config_.prediction_error_px;
-  if (disagree) counters_["predictions_disagreeing"] += 1;
-  disagreeing_in_a_row_ = disagree ? disagreeing_in_a_row_ + 1 : 0;
 }
 
 // Belief decides: one believed frame ends coasting (the tracker was still near), several in a row
 // end a search.
-void Station::judge(bool believed, double time_s) {
+void Station::judge_belief(bool believed, double time_s) {
   believed_in_a_row_ = believed ? believed_in_a_row_ + 1 : 0;
   if (believed) believed_s_ = time_s;
-  switch (state_) {
+  switch (mode_.state()) {
     case StationState::kTracking:
       if (!believed) enter(StationState::kCoasting);
       break;
@@ -143,8 +68,7 @@ void Station::judge(bool believed, double time_s) {
     case StationState::kSlewed:
       if (believed_in_a_row_ >= config_.reacquire_frames) {
         motion_.clear();
-        if (template_ == Template::kUnproven) template_ = Template::kAcquired;
-        own_.reset();
+        target_.confirm();
         enter(StationState::kTracking);
       }
       break;
@@ -153,127 +77,223 @@ void Station::judge(bool believed, double time_s) {
   }
 }
 
-const Frame* Station::remembered(const std::optional<double>& time_s) const {
-  if (frames_.empty()) return nullptr;
-  if (!time_s) return &frames_.back();
-  const auto nearest =
-      std::min_element(frames_.begin(), frames_.end(), [&](const Frame& a, const Frame& b) {
-        return std::abs(a.mid_exposure_s - *time_s) < std::abs(b.mid_exposure_s - *time_s);
-      });
-  constexpr double kSameFrame_s = 0.02;
-  return std::abs(nearest->mid_exposure_s - *time_s) < kSameFrame_s ? &*nearest : nullptr;
-}
-
-std::optional<PanTilt> Station::reachable(const AzimuthElevation& direction) const {
-  auto angles = aim_along(config_.geometry, direction);
-  if (!angles) return std::nullopt;
-  const auto newest = history_.newest();
-  const PanTilt here = newest ? newest->angles : *angles;
-  if (reach(config_.limits, here, *angles) == Reach::kUnreachable) return std::nullopt;
-  return angles;
-}
-
-std::vector<Bearing> Station::step(double now_s) {
-  if (now_s_ > 0.0 && now_s > now_s_) {
-    counters_[std::string("seconds_") + to_string(state_)] += now_s - now_s_;
+void Station::drop_unproven(double time_s) {
+  switch (target_.drop_unproven(time_s)) {
+    case FollowedTarget::Dropped::kNothing:
+      break;
+    case FollowedTarget::Dropped::kBackToOwn:
+      believed_in_a_row_ = 0;
+      search_.end_trial(time_s);
+      break;
+    case FollowedTarget::Dropped::kNothingLeft:
+      if (mode_.is(StationState::kLost)) enter(StationState::kIdle);
+      break;
   }
-  now_s_ = std::max(now_s_, now_s);
+}
+
+void Station::look_along_slew(const Frame& frame) {
+  search_.note_in_view(frame, pointing_, slew_.command());
+  if (!search_.looks_for_anything(target_)) return;
+  const auto box = search_.acquire(frames_.frames(), pointing_, slew_.command());
+  if (!box || !target_.try_found(frame, *box)) return;
+  search_.begin_trial(frame.mid_exposure_s);
+  believed_in_a_row_ = 0;
+}
+
+void Station::set_reference(PtuReference reference) {
+  const bool had_angles = !mode_.has_doubtful_angles();
+  mode_.set_reference(reference);
+  if (reference == PtuReference::kUnknown) point_.reset();
+  if (had_angles && mode_.has_doubtful_angles()) forget_angles();
+}
+
+// Angles of before and after are not in the same frame. Who followed a target looks for it again.
+void Station::forget_angles() {
+  pointing_.forget_angles();
+  motion_.clear();
+  bearings_.clear();
+  target_.forget_angles();
+  slew_.clear();
+  point_.reset();
+  if (mode_.is(StationState::kTracking) || mode_.is(StationState::kCoasting)) {
+    enter(StationState::kLost);
+  }
+}
+
+void Station::enter(StationState state) {
+  if (!mode_.enter(state)) return;
+  search_.restart(state == StationState::kTracking);
+  believed_in_a_row_ = 0;
+}
+
+// --- Commands
+
+void Station::pass_time(double now_s) { now_s_ = std::max(now_s_, now_s); }
+
+Refusal Station::count(Refusal refusal, const char* command) {
+  const bool accepted = refusal == Refusal::kNone;
+  counters_[std::string(command) + (accepted ? "_accepted" : "_refused")] += 1;
+  if (!accepted) counters_[std::string("refused_") + to_string(refusal)] += 1;
+  return refusal;
+}
+
+Refusal Station::designate(const DesignateCommand& command, double now_s) {
+  pass_time(now_s);
+  const Refusal refusal = judge(command, situation(now_s));
+  if (refusal != Refusal::kNone) return count(refusal, "designate");
+  const Frame* start = frames_.find(command.frame_time_s);
+  if (start == nullptr) return count(Refusal::kNoFrame, "designate");
+  if (const auto error = target_.designate(*start, command.box)) {
+    const bool no_box = *error == TrackerError::kBox;
+    return count(no_box ? Refusal::kBox : Refusal::kTracker, "designate");
+  }
+  believed_s_ = start->mid_exposure_s;
+  motion_.clear();
+  bearings_.clear();
+  enter(StationState::kTracking);
+  // The operator saw an old frame: catch up with the frames since then.
+  for (const Frame& frame : frames_.frames()) {
+    if (frame.mid_exposure_s > start->mid_exposure_s && follows_target()) track(frame);
+  }
+  return count(Refusal::kNone, "designate");
+}
+
+Refusal Station::slew(const SlewCommand& command, double now_s) {
+  pass_time(now_s);
+  const Refusal refusal = judge(command, situation(now_s));
+  if (refusal != Refusal::kNone) return count(refusal, "slew");
+  slew_.give(command, now_s_);
+  if (mode_.is(StationState::kIdle) || mode_.is(StationState::kLost)) {
+    enter(StationState::kSlewed);
+  }
+  return count(Refusal::kNone, "slew");
+}
+
+Refusal Station::point(const PointCommand& command, double now_s) {
+  pass_time(now_s);
+  const Refusal refusal = judge(command, situation(now_s));
+  if (refusal != Refusal::kNone) return count(refusal, "point");
+  const PanTilt angles = pointing_.reachable(command.angles).value();
+  point_ = ServoGoal{now_s, angles, {}, now_s + config_.point_time_s};
+  enter(StationState::kManual);
+  return count(Refusal::kNone, "point");
+}
+
+void Station::begin_stopped() {
+  actions_.stop = true;
+  if (!mode_.is(StationState::kEmergency)) enter(StationState::kStopped);
+}
+
+// No goal of a command is left, and no homing that was not begun.
+void Station::give_up_unit() {
+  slew_.clear();
+  point_.reset();
+  actions_.home = false;
+}
+
+// Also in an emergency: who says stop shall never read that it was refused.
+void Station::stop(double now_s) {
+  pass_time(now_s);
+  give_up_unit();
+  begin_stopped();
+  mode_.note_stop(now_s);
+  count(Refusal::kNone, "stop");
+}
+
+Refusal Station::release(double now_s) {
+  pass_time(now_s);
+  const Refusal refusal = mode_.refuses_operator(now_s);
+  if (refusal != Refusal::kNone) return count(refusal, "release");
+  if (mode_.is(StationState::kManual) || mode_.is(StationState::kStopped)) {
+    point_.reset();
+    enter(target_.exists() ? StationState::kLost : StationState::kIdle);
+  }
+  return count(Refusal::kNone, "release");
+}
+
+void Station::emergency_stop(bool pressed, double now_s) {
+  pass_time(now_s);
+  mode_.set_pressed(pressed);
+  if (!pressed || mode_.is(StationState::kEmergency)) return;
+  give_up_unit();
+  motion_.clear();
+  bearings_.clear();
+  enter(StationState::kEmergency);
+}
+
+Refusal Station::rearm(double now_s) {
+  pass_time(now_s);
+  const Refusal refusal = judge_rearm(situation(now_s));
+  if (refusal == Refusal::kNone && mode_.is(StationState::kEmergency)) {
+    enter(StationState::kStopped);
+  }
+  return count(refusal, "rearm");
+}
+
+Refusal Station::rearm_over_bus(double now_s) {
+  const Refusal refusal = judge_rearm_over_bus(situation(now_s));
+  if (refusal == Refusal::kNone) return rearm(now_s);
+  pass_time(now_s);
+  return count(refusal, "rearm");
+}
+
+Refusal Station::home(double now_s) {
+  pass_time(now_s);
+  const Refusal refusal = judge_home(situation(now_s));
+  if (refusal == Refusal::kNone) {
+    forget_angles();
+    actions_.home = true;
+  }
+  return count(refusal, "home");
+}
+
+Refusal Station::reference_ok(double now_s) {
+  pass_time(now_s);
+  const Refusal refusal = judge_reference_ok(situation(now_s));
+  if (refusal == Refusal::kNone) actions_.reference_ok = true;
+  return count(refusal, "reference_ok");
+}
+
+// --- What comes out
+
+StationOutput Station::step(double now_s) {
+  if (now_s_ > 0.0 && now_s > now_s_) mode_.count_seconds(now_s - now_s_);
+  pass_time(now_s);
   expire(now_s_);
-  std::vector<Bearing> bearings;
-  while (!waiting_.empty()) {
-    const Measured& measured = waiting_.front();
-    const auto angles = history_.at(measured.mid_exposure_s);
-    const bool bracketed = angles && angles->interpolated;
-    if (!bracketed && now_s_ - measured.arrived_s < config_.angle_wait_s) break;
-    if (auto made = bearing(measured); made && worth_sending(*made)) {
-      constexpr double kSmoothing = 0.1;
-      frame_latency_s_ += kSmoothing * (now_s_ - made->mid_exposure_s - frame_latency_s_);
-      bearings.push_back(*made);
-    }
-    waiting_.pop_front();
+  StationOutput output;
+  for (const MadeBearing& made : bearings_.take(pointing_, now_s_)) {
+    follow(made);
+    if (made.to_send) output.bearings.push_back(made.bearing);
   }
-  return bearings;
+  output.goal = goal(now_s);
+  return output;
 }
 
 void Station::expire(double now_s) {
-  const bool slew_over = slew_ && now_s > slew_->received_s + slew_->lease_s;
-  if (slew_over) slew_.reset();
-  if (state_ == StationState::kSlewed && !slew_) {
-    enter(template_ != Template::kNone ? StationState::kLost : StationState::kIdle);
+  slew_.expire(now_s);
+  if (mode_.is(StationState::kSlewed) && !slew_.command()) {
+    enter(target_.exists() ? StationState::kLost : StationState::kIdle);
   }
-  const bool following = state_ == StationState::kTracking || state_ == StationState::kCoasting;
+  const bool following = mode_.is(StationState::kTracking) || mode_.is(StationState::kCoasting);
   // Also when frames stop coming: no believed frame, no motion.
   if (following && now_s - believed_s_ > config_.coast_s) {
     motion_.clear();
-    enter(slew_ ? StationState::kSlewed : StationState::kLost);
+    enter(slew_.command() ? StationState::kSlewed : StationState::kLost);
   }
 }
 
-std::optional<Bearing> Station::bearing(const Measured& measured) {
-  const auto angles = history_.at(measured.mid_exposure_s);
-  if (!angles) {
-    counters_["frames_without_angles"] += 1;
-    return std::nullopt;
-  }
-  PixelSight pixel;
-  pixel.pixel = measured.output.pixel;
-  pixel.covariance_px2 = measured.output.covariance_px2;
-  const double sd = measured.designation_sd_px;
-  pixel.covariance_systematic_px2 = Eigen::Matrix2d::Identity() * (sd * sd);
-  pixel.angles = angles->angles;
-  // The frame's own stamp adds to the time jitter of the angles.
-  const Eigen::Vector2d rate(angles->rate.pan_rad, angles->rate.tilt_rad);
-  pixel.angles_covariance_rad2 =
-      angles->covariance + rate * rate.transpose() * std::pow(measured.stamp_sd_s, 2);
-  const auto line = sight(config_.geometry, pixel);
-  if (!line) {
-    counters_["pixels_outside_lens_model"] += 1;
-    return std::nullopt;
-  }
-  Bearing result{measured.mid_exposure_s, *line,
-                 measured.output.belief,  measured.track_id,
-                 measured.stamp_sd_s,     measured.stamp_source};
-  result.pose_revision = pose_revision_;
-  result.sight.origin_sd_enu_m = pose_.position_sd_enu_m;
-  follow(result, pixel);
-  return result;
-}
-
-bool Station::worth_sending(const Bearing& bearing) {
-  if (pose_.position_source == PoseSource::kNone) {
-    counters_["bearings_without_pose"] += 1;
-    return false;
-  }
-  if (now_s_ - bearing.mid_exposure_s > config_.max_age_s) {
-    counters_["bearings_too_old"] += 1;
-    return false;
-  }
-  counters_["bearings"] += 1;
-  return true;
-}
-
-void Station::follow(const Bearing& bearing, const PixelSight& pixel) {
-  auto centred = aim_along(config_.geometry, bearing.sight.direction);
+void Station::follow(const MadeBearing& made) {
+  const SightLine& sight = made.bearing.sight;
+  const auto centred = aim_along(pointing_.geometry(), sight.direction);
   if (!centred) return;
-  if (reach(config_.limits, pixel.angles, *centred) == Reach::kUnreachable) {
-    counters_["target_beyond_travel"] += 1;  // the servo goes as far as it may
-  }
-  motion_.update(bearing.mid_exposure_s, *centred,
-                 std::sqrt(bearing.sight.covariance_white.trace() / 2.0));
-}
-
-std::optional<ServoGoal> Station::slew_goal() const {
-  constexpr double kStep_s = 0.05;
-  const auto here = reachable(slew_->direction);
-  const auto later = aim_along(config_.geometry, direction_at(*slew_, slew_->effect_s + kStep_s));
-  if (!here || !later) return std::nullopt;
-  const PanTilt rate{wrap_pi(later->pan_rad - here->pan_rad) / kStep_s,
-                     (later->tilt_rad - here->tilt_rad) / kStep_s};
-  return ServoGoal{slew_->effect_s, *here, rate, slew_->received_s + slew_->lease_s};
+  const auto within = pointing_.reachable_from(made.angles, *centred);
+  if (!within) counters_["target_beyond_travel"] += 1;  // the servo goes as far as it may
+  motion_.update(made.bearing.mid_exposure_s, within.value_or(*centred),
+                 std::sqrt(sight.covariance_white.trace() / 2.0));
 }
 
 std::optional<ServoGoal> Station::goal(double now_s) const {
-  switch (state_) {
+  switch (mode_.state()) {
     case StationState::kManual:
       if (point_) {
         ServoGoal here = *point_;  // does not move: as good now as when it was given
@@ -288,44 +308,66 @@ std::optional<ServoGoal> Station::goal(double now_s) const {
       }
       return std::nullopt;
     case StationState::kSlewed:
-      if (slew_ && now_s <= slew_->received_s + slew_->lease_s) return slew_goal();
-      return std::nullopt;
+      return slew_.goal(pointing_, now_s);
     default:
       return std::nullopt;
   }
 }
 
 std::optional<cv::Rect2d> Station::target_box() const {
-  if (!last_output_ || !follows_target()) return std::nullopt;
-  return last_output_->box;
+  if (!target_.last_output() || !follows_target()) return std::nullopt;
+  return target_.last_output()->box;
 }
 
 StationSnapshot Station::snapshot() const {
   StationSnapshot snapshot;
-  snapshot.state = state_;
-  snapshot.track_id = track_id_;
-  snapshot.angles = history_.newest();
+  snapshot.state = mode_.state();
+  snapshot.track_id = target_.track_id();
+  snapshot.angles = pointing_.newest_angles();
   if (snapshot.angles) {
-    snapshot.optical_axis = optical_axis(config_.geometry, snapshot.angles->angles);
+    snapshot.optical_axis = optical_axis(pointing_.geometry(), snapshot.angles->angles);
   }
   const PanTilt angles = snapshot.angles ? snapshot.angles->angles : PanTilt{};
-  snapshot.camera_ecef = camera_centre_ecef(config_.geometry, angles);
-  if (last_output_ && follows_target()) {
+  snapshot.camera_ecef = camera_centre_ecef(pointing_.geometry(), angles);
+  if (target_.last_output() && follows_target()) {
     const auto& camera = config_.geometry.camera;
-    snapshot.belief = last_output_->belief;
-    snapshot.target_offset_px = last_output_->pixel - Eigen::Vector2d(camera.cx_px, camera.cy_px);
+    snapshot.belief = target_.last_output()->belief;
+    snapshot.target_offset_px =
+        target_.last_output()->pixel - Eigen::Vector2d(camera.cx_px, camera.cy_px);
   }
   snapshot.box = target_box();
-  snapshot.frame_latency_s = frame_latency_s_;
-  snapshot.motion_disagrees =
-      follows_target() && disagreeing_in_a_row_ >= config_.disagreeing_frames;
-  snapshot.pose = pose_;
-  if (auto words = slewed_in_vain(); !words.empty()) snapshot.alarms.push_back(std::move(words));
-  if (slew_senders_.are_several(now_s_)) {
-    snapshot.alarms.emplace_back("commands: slews from two fusions, end one of them");
-  }
-  snapshot.counters = counters_;
+  snapshot.frame_latency_s = bearings_.frame_latency_s();
+  snapshot.motion_disagrees = follows_target() && target_.motion_disagrees();
+  snapshot.pose = pointing_.pose();
+  snapshot.alarms = alarms();
+  snapshot.counters = counters();
   return snapshot;
+}
+
+std::vector<std::string> Station::alarms() const {
+  std::vector<std::string> alarms;
+  if (mode_.is(StationState::kSlewed)) {
+    if (auto alarm = search_.slewed_in_vain(slew_.command()); !alarm.empty()) {
+      alarms.push_back(std::move(alarm));
+    }
+  }
+  if (slew_.has_several_senders(now_s_)) {
+    alarms.emplace_back("commands: slews from two fusions, end one of them");
+  }
+  return alarms;
+}
+
+// Each part counts under names of its own.
+std::map<std::string, double> Station::counters() const {
+  auto all = counters_;
+  for (const auto* part :
+       {&mode_.counters(), &target_.counters(), &search_.counters(), &bearings_.counters()}) {
+    all.insert(part->begin(), part->end());
+  }
+  if (pointing_.pose_revision() > 0) {
+    all["pose_revisions"] = static_cast<double>(pointing_.pose_revision());
+  }
+  return all;
 }
 
 }  // namespace ols

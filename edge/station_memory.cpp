@@ -1,8 +1,5 @@
 #include "edge/station_memory.h"
 
-#include <algorithm>
-#include <cstddef>
-
 namespace ols {
 namespace {
 
@@ -10,8 +7,6 @@ constexpr const char* kFree = "free";
 constexpr const char* kStopped = "stopped";
 constexpr const char* kUnknown = "unknown";  // and nobody has acted since
 constexpr const char* kEmergency = "emergency";
-// By PtuLegacy.
-const std::vector<std::string> kDoubts{"none", "reference", "homing", "gears", "homing-gears"};
 
 std::string file_of(const std::string& folder, const std::string& id, const char* subject) {
   return folder.empty() ? std::string() : folder + "/" + id + "." + subject;
@@ -27,7 +22,7 @@ bool is_held(StationState state) {
 StationMemory::StationMemory(const std::string& folder, const std::string& id, bool has_stop)
     : id_(id),
       hold_(file_of(folder, id, "hold"), {kFree, kStopped, kUnknown, kEmergency}),
-      doubt_(file_of(folder, id, "doubt"), kDoubts) {
+      doubt_(file_of(folder, id, "doubt"), doubt_words()) {
   hold_unknown_ = hold_.recall() != Recall::kKnown || hold_.word() == kUnknown;
   // A damaged file, or one that could not be written any more, may have told of an emergency.
   const bool may_be_grave =
@@ -40,16 +35,16 @@ StationMemory::StationMemory(const std::string& folder, const std::string& id, b
   }
   doubt_unknown_ = doubt_.recall() != Recall::kKnown;
   if (doubt_.recall() == Recall::kUnreadable) {
-    legacy_ = PtuLegacy::kBrokenHomingGearsLost;
+    begin_doubt_ = PtuReferenceDoubt{true, true};
   } else if (doubt_unknown_) {
-    legacy_ = PtuLegacy::kDoubt;
+    begin_doubt_.emplace();
   } else {
-    const auto found = std::ranges::find(kDoubts, doubt_.word());
-    legacy_ = static_cast<PtuLegacy>(found - kDoubts.begin());
+    begin_doubt_ = doubt_from_word(doubt_.word());
   }
 }
 
-void StationMemory::remember(StationState state, PtuLegacy legacy, PtuReference reference) {
+void StationMemory::remember(StationState state, const std::optional<PtuReferenceDoubt>& doubt,
+                             PtuReference reference) {
   hold_unknown_ = hold_unknown_ && state == begin_;
   if (state == StationState::kEmergency) {
     // What a damaged file said stays with it until somebody has re-armed the station.
@@ -60,10 +55,10 @@ void StationMemory::remember(StationState state, PtuLegacy legacy, PtuReference 
     hold_.set(kFree);
   }
   // While there is no unit, what was known of it stays.
-  if (legacy != PtuLegacy::kNone) {
-    doubt_.set(kDoubts[static_cast<std::size_t>(legacy)]);
+  if (doubt) {
+    doubt_.set(to_word(doubt));
   } else if (reference == PtuReference::kTrusted) {
-    doubt_.set(kDoubts.front());
+    doubt_.set(to_word(std::nullopt));
     doubt_unknown_ = false;
   }
 }

@@ -3,11 +3,13 @@
 // left starts stopped, its reference in doubt, and says so in an alarm.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/word_memory.h"
-#include "edge/ptu/driver.h"
+#include "edge/ptu/driver_types.h"
+#include "edge/ptu/reference_doubt.h"
 #include "edge/station_types.h"
 
 namespace ols {
@@ -20,12 +22,13 @@ class StationMemory {
 
   // As it shall begin: kIdle, kStopped or kEmergency.
   StationState begin() const { return begin_; }
-  // What the unit must be told of the process before this one.
-  PtuLegacy legacy() const { return legacy_; }
+  // The doubt about the unit's reference that the process before this one left.
+  const std::optional<PtuReferenceDoubt>& doubt() const { return begin_doubt_; }
 
   // What there is to remember by now; in every turn. `begin()` is unknown no longer once the
   // station has left that state: a person has acted. Does not wait for the disk.
-  void remember(StationState state, PtuLegacy legacy, PtuReference reference);
+  void remember(StationState state, const std::optional<PtuReferenceDoubt>& doubt,
+                PtuReference reference);
 
   // What is not known and what to do; what is not remembered.
   std::vector<std::string> alarms() const;
@@ -34,7 +37,7 @@ class StationMemory {
   std::string id_;
   WordMemory hold_, doubt_;
   StationState begin_ = StationState::kStopped;
-  PtuLegacy legacy_ = PtuLegacy::kNone;
+  std::optional<PtuReferenceDoubt> begin_doubt_;
   bool hold_unknown_ = false, doubt_unknown_ = false;
 };
 

@@ -10,11 +10,13 @@
 #include "base/clocks.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/rearm_signal.h"
+#include "edge/tracker/tracker.h"
 
 namespace ols {
 namespace {
 
 constexpr double kFrameWait_s = 0.004;
+constexpr double kClockInterval_s = 5.0;  // between two questions to kernel and chrony
 constexpr double kPoseInterval_s = 0.1;
 constexpr double kPoseKept_s = 10.0;  // the file is written so often
 
@@ -48,12 +50,13 @@ LedPattern led_pattern(const StationReport& report) {
 StationProcess::StationProcess(const StationSettings& settings, std::int64_t boot_id)
     : settings_(settings),
       clock_(settings_.clock),
-      clock_source_(settings_.clock_interval_s),
+      clock_source_(kClockInterval_s),
       pose_(settings_.pose),
       pose_memory_(pose_file(settings_)),
       station_(settings_.station,
-               std::make_unique<ParticleFilterTracker>(settings_.tracker, settings_.tracker_seed)),
-      bus_(settings_, boot_id, station_,
+               std::make_unique<Tracker>(settings_.tracker, settings_.tracker_seed)),
+      turn_commands_(station_),
+      bus_(settings_, boot_id, station_, turn_commands_,
            [this](const RecordCommand& command) { return record(command); }),
       host_(settings_.host),
       memory_(settings_.state_folder, settings_.id,
@@ -90,14 +93,15 @@ void StationProcess::turn() {
   heed_emergency_stop(start.monotonic_s);
   heed_rearming(start.monotonic_s);
   receive_commands();
-  memory_.remember(station_.state(), devices_.ptu().legacy(), devices_.ptu().reference());
+  memory_.remember(station_.state(), devices_.ptu().doubt_to_persist(), devices_.ptu().reference());
   keep_pose(start.monotonic_s);
   take_frame();
   take_angles();
   // Again, because the tracker takes its time: what is published is stamped by the clocks of now.
   const ClockPair now = look_at_clocks();
-  for (const Bearing& bearing : station_.step(now.monotonic_s)) bus_.send(bearing);
-  devices_.ptu().set_goal(station_.goal(now.monotonic_s));
+  const StationOutput output = station_.step(now.monotonic_s);
+  for (const Bearing& bearing : output.bearings) bus_.send(bearing);
+  devices_.ptu().set_goal(output.goal);
   trigger_camera(now.monotonic_s);
   send_reports(now);
   host_.note_turn(now.monotonic_s - start.monotonic_s);
@@ -115,7 +119,7 @@ ClockPair StationProcess::look_at_clocks() {
 
 // Whatever ended it since somebody stopped it is no leave to move.
 void StationProcess::resume_hold(double now_s) {
-  devices_.ptu().inherit(memory_.legacy());
+  devices_.ptu().restore_doubt(memory_.doubt());
   halted_ = !devices_.stop().known();
   if (memory_.begin() == StationState::kStopped) station_.begin_stopped();
   if (memory_.begin() != StationState::kEmergency) return;
@@ -149,9 +153,10 @@ void StationProcess::receive_commands() {
   station_.set_reference(devices_.ptu().reference());
   bus_.receive();
   devices_.ptu().allow_rehoming(!is_held(station_.state()));
-  if (station_.take_stop()) devices_.ptu().stop_homing();
-  if (station_.take_home()) devices_.ptu().home();
-  if (station_.take_reference_ok()) devices_.ptu().reference_ok();
+  const UnitActions actions = station_.take_actions();
+  if (actions.stop) devices_.ptu().stop_homing();
+  if (actions.home) devices_.ptu().home();
+  if (actions.reference_ok) devices_.ptu().reference_ok();
   const bool may_move = devices_.stop().known() && station_.state() != StationState::kEmergency;
   if (halted_ && may_move) {
     halted_ = false;
@@ -215,7 +220,7 @@ StationReport StationProcess::report(const ClockPair& now) {
   const PtuStatus ptu = devices_.ptu().status();
   if (ptu.state == PtuState::kReady) station_.set_limits(ptu.limits);
   report.limits = ptu.limits;
-  report.limits_known = ptu.port_open && ptu.state == PtuState::kReady;
+  report.limits_known = ptu.port.open && ptu.state == PtuState::kReady;
   report.snapshot = station_.snapshot();
   report.devices = devices_.reports();
   report.alarms = report.snapshot.alarms;

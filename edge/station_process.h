@@ -58,6 +58,7 @@ class StationProcess {
   PoseKeeper pose_;
   PoseMemory pose_memory_;
   Station station_;
+  CommandTurn turn_commands_;
   StationBus bus_;
   HostWatch host_;
   TroubleLog troubles_;

@@ -41,6 +41,8 @@ const char* to_string(Refusal refusal) {
       return "unreachable";
     case Refusal::kNoFrame:
       return "no_frame";
+    case Refusal::kBox:
+      return "box_outside_or_too_small";
     case Refusal::kTracker:
       return "tracker";
     case Refusal::kPrecedence:

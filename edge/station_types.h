@@ -67,10 +67,11 @@ struct PointCommand {
 enum class Refusal {
   kNone,
   kNotFinite,
-  kOutOfRange,   // not an angle, a lease that is not positive or too long, an instant far from now
+  kOutOfRange,   // no such angle, a lease that is not positive or too long, an instant far from now
   kUnreachable,  // outside the unit's travel
   kNoFrame,      // designation without a frame at that time
-  kTracker,      // the tracker refused the box
+  kBox,          // designation of a box outside the picture or too small
+  kTracker,      // the tracker refused the picture
   kPrecedence,   // a slew while the operator has the PTU (manual or stopped)
   kEmergency,    // after an emergency stop, until it is released and rearmed
   kNoReference,  // what the unit's angles mean is not known

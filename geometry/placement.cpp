@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace ols {
 namespace {
@@ -37,13 +38,15 @@ struct Rated {
 // The information that every place gives about every point of the area.
 class Search {
  public:
-  explicit Search(const PlacementProblem& problem) : problem_(problem) {
+  explicit Search(const PlacementProblem& problem, TellStarts told = {})
+      : problem_(problem), tell_(std::move(told)) {
     for (const PlannedTarget& target : problem.area) {
       Seen kept;
       for (const PlannedStation& station : problem.kept) kept += seen(station, target);
       kept_.push_back(kept);
     }
     for (const PlannedStation& place : problem.places) {
+      tell();
       auto& row = places_.emplace_back();
       for (const PlannedTarget& target : problem.area) row.push_back(seen(place, target));
     }
@@ -69,7 +72,7 @@ class Search {
   }
 
   // Exchanges one place at a time until none helps.
-  Rated improve(const std::vector<std::size_t>& chosen) const {
+  Rated improve(const std::vector<std::size_t>& chosen) {
     constexpr double kWorthIt = 1.0 - 1e-9;
     Rated best = rate(chosen);
     for (bool improved = true; improved;) {
@@ -83,6 +86,7 @@ class Search {
       }
     }
     std::ranges::sort(best.placement.chosen);
+    ++done_;
     return best;
   }
 
@@ -111,6 +115,7 @@ class Search {
     std::vector<std::size_t> chosen = from.placement.chosen;
     for (std::size_t place = 0; place < places_.size(); ++place) {
       if (std::ranges::count(from.placement.chosen, place) > 0) continue;
+      tell();
       chosen[i] = place;
       const Rated other = rate(chosen);
       if (other.cost < best.cost) best = other;
@@ -118,7 +123,13 @@ class Search {
     return best;
   }
 
+  void tell() const {
+    if (tell_) tell_(done_, static_cast<std::size_t>(problem_.starts));
+  }
+
   const PlacementProblem& problem_;
+  TellStarts tell_;
+  std::size_t done_ = 0;                   // starts
   std::vector<Seen> kept_;                 // by point
   std::vector<std::vector<Seen>> places_;  // by place and point
 };
@@ -133,9 +144,10 @@ void check(const PlacementProblem& problem) {
 
 }  // namespace
 
-Placement place_stations(const PlacementProblem& problem, std::mt19937_64& generator) {
+Placement place_stations(const PlacementProblem& problem, std::mt19937_64& generator,
+                         const TellStarts& tell) {
   check(problem);
-  const Search search(problem);
+  Search search(problem, tell);
   std::vector<std::size_t> order(problem.places.size());
   std::iota(order.begin(), order.end(), 0);
   Rated best{{}, std::numeric_limits<double>::infinity()};

@@ -8,6 +8,8 @@
 // one until none helps (V. Fedorov's exchange algorithm).
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <random>
 #include <span>
 #include <vector>
@@ -43,8 +45,12 @@ struct Placement {
   bool determines_all() const { return worst_m < 0.1 * kUndetermined_m; }
 };
 
+// Called again and again during a search: how many of the starts are done, and all of them.
+using TellStarts = std::function<void(std::size_t done, std::size_t all)>;
+
 // std::invalid_argument when there are fewer places than stations, no area or no station.
-Placement place_stations(const PlacementProblem& problem, std::mt19937_64& generator);
+Placement place_stations(const PlacementProblem& problem, std::mt19937_64& generator,
+                         const TellStarts& tell = {});
 
 // The cost of a given choice, for comparison.
 Placement rate_placement(const PlacementProblem& problem, std::vector<std::size_t> chosen);

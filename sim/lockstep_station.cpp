@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge/tracker/tracker.h"
+
 namespace ols::sim {
 namespace {
 
@@ -27,7 +29,7 @@ StationConfig station_config(const World& world, std::size_t index) {
 std::unique_ptr<TargetTracker> make_tracker(const Fidelity& fidelity, const ViewMemory& views,
                                             std::uint64_t seed) {
   if (!fidelity.pictures) return std::make_unique<ViewTracker>(views, fidelity.pixel_sd_px, seed);
-  return std::make_unique<ParticleFilterTracker>(TrackerConfig{}, seed);
+  return std::make_unique<Tracker>(TrackerConfig{}, seed);
 }
 
 bool inside_third(const CameraIntrinsics& camera, const ViewTruth& view) {
@@ -58,9 +60,9 @@ std::vector<Bearing> LockstepStation::advance(double time_s) {
   expose(time_s);
   operate(time_s);
   const double now_s = monotonic_s(time_s);
-  std::vector<Bearing> bearings = station_.step(now_s);
-  driver_.set_goal(station_.goal(now_s));
-  return bearings;
+  StationOutput output = station_.step(now_s);
+  driver_.set_goal(output.goal);
+  return std::move(output.bearings);
 }
 
 void LockstepStation::exchange_bytes(double time_s) {

@@ -1,280 +1,328 @@
 #include "sim/scenario.h"
 
 #include <algorithm>
-#include <set>
+#include <array>
+#include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
-#include "base/toml_config.h"
+#include "edge/config_units.h"
 #include "sim/scenario_places.h"
-#include "sim/trajectory_file.h"
+#include "sim/scenario_trajectory.h"
 
 namespace ols::sim {
 namespace {
 
-using Eigen::Vector3d;
+using config::Row;
+using config::Section;
 
-constexpr double kFar = 1e6;  // [m] a site is no larger than this
+// What a row cannot hold: the camera's optics as data sheets have them.
+struct Optics {
+  double focal_length_mm = 50.0, pixel_um = 3.75;
+  std::array<double, 5> distortion{};
+};
 
-Vector3d vector3(ConfigTable& table, std::string_view key, const Vector3d& fallback, double least,
-                 double greatest) {
-  const auto v = table.numbers(key, {fallback.x(), fallback.y(), fallback.z()}, least, greatest);
-  return {v[0], v[1], v[2]};
+Row angle(const char* key, double& field_rad, config::Range range_deg, const char* sentence) {
+  return config::number(key, field_rad, range_deg, in_degrees(), sentence);
 }
 
-double degrees_of(ConfigTable& table, std::string_view key, double fallback_rad, double least,
-                  double greatest) {
-  return radians(table.number(key, degrees(fallback_rad), least, greatest));
+Section site_section(Geodetic& origin) {
+  return {"site",
+          "Origin of the site's east-north-up frame.",
+          {angle("latitude_deg", origin.latitude_rad, {-90, 90}, "WGS84 latitude.").required(),
+           angle("longitude_deg", origin.longitude_rad, {-180, 180}, "WGS84 longitude.").required(),
+           config::number("height_m", origin.height_m, {-1000, 9000}, "m",
+                          "Height above the ellipsoid.")
+               .required()}};
 }
 
-void read_site(ConfigTable& table, Scenario& s) {
-  s.origin.latitude_rad = radians(table.required_number("latitude_deg", -90, 90));
-  s.origin.longitude_rad = radians(table.required_number("longitude_deg", -180, 180));
-  s.origin.height_m = table.required_number("height_m", -1000, 9000);
+void use_optics(ConfigTable& table, const Optics& optics, CameraIntrinsics& c) {
+  c.fx_px = c.fy_px = optics.focal_length_mm * 1e3 / optics.pixel_um;
+  const auto centre = [&table](const char* key, double& field, int size) {
+    if (!table.has(key)) field = 0.5 * (size - 1);
+    if (field > size) throw table.error(key, "is outside of the image");
+  };
+  centre("cx_px", c.cx_px, c.width_px);
+  centre("cy_px", c.cy_px, c.height_px);
+  c.k1 = optics.distortion[0], c.k2 = optics.distortion[1];
+  c.p1 = optics.distortion[2], c.p2 = optics.distortion[3], c.k3 = optics.distortion[4];
 }
 
-void read_camera(ConfigTable& table, Scenario& s) {
+Section camera_section(Scenario& s) {
+  constexpr config::Range kPixels{0, 2048};
   CameraIntrinsics& c = s.camera;
-  c.width_px = static_cast<int>(table.integer("width_px", c.width_px, 64, 2048));
-  c.height_px = static_cast<int>(table.integer("height_px", c.height_px, 64, 2048));
-  const double focal_mm = table.number("focal_length_mm", 50.0, 4.0, 1000.0);
-  const double pitch_um = table.number("pixel_um", 3.75, 1.0, 20.0);
-  c.fx_px = c.fy_px = focal_mm * 1e3 / pitch_um;
-  c.cx_px = table.number("cx_px", 0.5 * (c.width_px - 1), 0, c.width_px);
-  c.cy_px = table.number("cy_px", 0.5 * (c.height_px - 1), 0, c.height_px);
-  const auto d = table.numbers("distortion", {0, 0, 0, 0, 0}, -10, 10);
-  c.k1 = d[0], c.k2 = d[1], c.p1 = d[2], c.p2 = d[3], c.k3 = d[4];
-  s.frame_rate_hz = table.number("frame_rate_hz", s.frame_rate_hz, 1, 60);
-  s.exposure_s = 1e-3 * table.number("exposure_ms", 1e3 * s.exposure_s, 0.01, 100);
-  s.readout_s = 1e-3 * table.number("readout_ms", 1e3 * s.readout_s, 0, 100);
+  auto optics = std::make_shared<Optics>();
+  return {
+      "camera",
+      "The camera of every station.",
+      {config::integer("width_px", c.width_px, 64, 2048, "px", "Width of the image."),
+       config::integer("height_px", c.height_px, 64, 2048, "px", "Height of the image."),
+       config::number("focal_length_mm", optics->focal_length_mm, {4, 1000}, "mm", "Focal length."),
+       config::number("pixel_um", optics->pixel_um, {1, 20}, "um", "Pixel pitch."),
+       config::number("cx_px", c.cx_px, kPixels, "px", "Principal point, x.")
+           .default_is("middle of the image"),
+       config::number("cy_px", c.cy_px, kPixels, "px", "Principal point, y.")
+           .default_is("middle of the image"),
+       config::numbers("distortion", optics->distortion, {-10, 10}, "", "k1, k2, p1, p2, k3."),
+       config::number("frame_rate_hz", s.frame_rate_hz, {1, 60}, "Hz", "Frame rate."),
+       config::number("exposure_ms", s.exposure_s, {0.01, 100}, config::kMilliseconds,
+                      "Exposure time."),
+       config::number("readout_ms", s.readout_s, {0, 100}, config::kMilliseconds,
+                      "From the end of the exposure to the first packet.")},
+      {},
+      [&c, optics](ConfigTable& table) { use_optics(table, *optics, c); }};
 }
 
-void read_ptu(ConfigTable& table, PtuScenario& p) {
-  p.baud = static_cast<int>(table.integer("baud", p.baud, 600, 115200));
-  p.poll_interval_s = 1e-3 * table.number("poll_interval_ms", 1e3 * p.poll_interval_s, 5, 1000);
-  p.home_at_power_up = table.boolean("home_at_power_up", p.home_at_power_up);
+Section ptu_section(PtuScenario& p) {
+  return {"ptu",
+          "The pan-tilt unit of every station.",
+          {config::integer("baud", p.baud, 600, 115200, "baud", "Rate of the serial line."),
+           config::number("poll_interval_ms", p.poll_interval_s, {5, 1000}, config::kMilliseconds,
+                          "Interval of the station's polls."),
+           config::flag("home_at_power_up", p.home_at_power_up,
+                        "Whether it homes first, for about 20 s, without answering.")}};
 }
 
-void read_inclinometer(ConfigTable& table, InclinometerScenario& i) {
-  i.on = table.boolean("on", i.on);
-  i.zero_sd_rad = degrees_of(table, "zero_sd_deg", i.zero_sd_rad, 0, 5);
-  i.noise_sd_rad = degrees_of(table, "noise_sd_deg", i.noise_sd_rad, 0, 5);
+Section inclinometer_section(InclinometerScenario& i) {
+  return {"inclinometer",
+          "The inclinometer of every station.",
+          {config::flag("on", i.on, "Whether there is one."),
+           angle("zero_sd_deg", i.zero_sd_rad, {0, 5}, "1-sigma of the zero of each axis."),
+           angle("noise_sd_deg", i.noise_sd_rad, {0, 5}, "1-sigma of the noise.")}};
 }
 
-void read_gnss(ConfigTable& table, GnssScenario& g) {
-  g.on = table.boolean("on", g.on);
-  g.sd_m = table.number("sd_m", g.sd_m, 1e-3, 100);
-  g.ground_to_antenna_enu_m =
-      vector3(table, "ground_to_antenna_enu_m", g.ground_to_antenna_enu_m, -100, 100);
-  g.gpsd_port = static_cast<int>(table.integer("gpsd_port", g.gpsd_port, 1024, 65000));
+Section gnss_section(GnssScenario& g) {
+  return {"gnss",
+          "The GNSS receiver of every station.",
+          {config::flag("on", g.on, "Whether there is one."),
+           config::number("sd_m", g.sd_m, {1e-3, 100}, "m",
+                          "1-sigma of each of east and north; of up half as much again."),
+           config::numbers("ground_to_antenna_enu_m", {g.ground_to_antenna_enu_m.data(), 3},
+                           {-100, 100}, "m", "Antenna from GROUND: east, north, up."),
+           config::integer("gpsd_port", g.gpsd_port, 1024, 65000, "",
+                           "Port of the first station's gpsd; the others follow.")}};
 }
 
-void read_landscape(ConfigTable& table, Landscape& l) {
-  l.ridge_mean_rad = degrees_of(table, "ridge_mean_deg", l.ridge_mean_rad, -10, 40);
-  l.ridge_relief_rad = degrees_of(table, "ridge_relief_deg", l.ridge_relief_rad, 0, 30);
-  l.cloudiness = table.number("cloudiness", l.cloudiness, 0, 2);
-  l.haze = table.number("haze", l.haze, 0, 1);
-  l.seed = static_cast<int>(table.integer("seed", l.seed, 0, 1 << 30));
+Section landscape_section(Landscape& l) {
+  return {
+      "landscape",
+      "What stands around the site.",
+      {angle("ridge_mean_deg", l.ridge_mean_rad, {-10, 40}, "Mean elevation of the ridge."),
+       angle("ridge_relief_deg", l.ridge_relief_rad, {0, 30}, "Its greatest departure from it."),
+       config::number("cloudiness", l.cloudiness, {0, 2}, "", "0: clear sky."),
+       config::number("haze", l.haze, {0, 1}, "", "Share of air light before the slopes."),
+       config::integer("seed", l.seed, 0, 1 << 30, "", "Seed of its shapes.")}};
 }
 
-// A table of the errors with its switch read.
-ConfigTable& error_table(ConfigTable& errors, std::string_view key, Errors::Switch& error) {
-  ConfigTable& table = errors.table(key);
-  error.on = table.boolean("on", error.on);
-  return table;
+Section error_section(const char* name, const char* sentence, Errors::Switch& error,
+                      const std::vector<Row>& rows = {}) {
+  std::vector<Row> all{config::flag("on", error.on, "Whether there is this error.")};
+  all.insert(all.end(), rows.begin(), rows.end());
+  return {name, sentence, all};
 }
 
-void read_pose_errors(ConfigTable& table, Errors& e) {
-  ConfigTable& heading = error_table(table, "heading", e.heading);
-  e.heading.sd_rad = degrees_of(heading, "sd_deg", e.heading.sd_rad, 0, 5);
-  ConfigTable& tilt = error_table(table, "tilt", e.tilt);
-  e.tilt.sd_rad = degrees_of(tilt, "sd_deg", e.tilt.sd_rad, 0, 5);
-  ConfigTable& mounting = error_table(table, "mounting", e.mounting);
-  e.mounting.sd_rad = degrees_of(mounting, "sd_deg", e.mounting.sd_rad, 0, 5);
-  e.mounting.roll_sd_rad = degrees_of(mounting, "roll_sd_deg", e.mounting.roll_sd_rad, 0, 5);
-  ConfigTable& position = error_table(table, "position", e.position);
-  e.position.sd_m = position.number("sd_m", e.position.sd_m, 0, 100);
+std::vector<Section> pose_errors(Errors& e) {
+  return {
+      error_section("heading", "What calibration left of the heading.", e.heading,
+                    {angle("sd_deg", e.heading.sd_rad, {0, 5}, "1-sigma.")}),
+      error_section("tilt", "What calibration left of the tilt.", e.tilt,
+                    {angle("sd_deg", e.tilt.sd_rad, {0, 5}, "1-sigma of each axis.")}),
+      error_section("mounting", "What calibration left of the camera's mounting.", e.mounting,
+                    {angle("sd_deg", e.mounting.sd_rad, {0, 5}, "1-sigma across the optical axis."),
+                     angle("roll_sd_deg", e.mounting.roll_sd_rad, {0, 5},
+                           "1-sigma about the optical axis.")}),
+      error_section("position", "What the survey left of the position.", e.position,
+                    {config::number("sd_m", e.position.sd_m, {0, 100}, "m",
+                                    "1-sigma of each of east, north, up.")})};
 }
 
-void read_image_errors(ConfigTable& table, Errors& e) {
-  ConfigTable& distortion = error_table(table, "distortion", e.distortion);
-  e.distortion.residual_k1_sd =
-      distortion.number("residual_k1_sd", e.distortion.residual_k1_sd, 0, 10);
-  ConfigTable& noise = error_table(table, "noise", e.noise);
-  e.noise.sd_gray = noise.number("sd_gray", e.noise.sd_gray, 0, 30);
-  error_table(table, "motion_blur", e.motion_blur);
-  ConfigTable& brightness = error_table(table, "brightness", e.brightness);
-  e.brightness.vignetting = brightness.number("vignetting", e.brightness.vignetting, 0, 0.9);
-  e.brightness.gain_sd = brightness.number("gain_sd", e.brightness.gain_sd, 0, 0.3);
+std::vector<Section> image_errors(Errors& e) {
+  return {error_section("distortion", "What calibration left of the distortion.", e.distortion,
+                        {config::number("residual_k1_sd", e.distortion.residual_k1_sd, {0, 10}, "",
+                                        "1-sigma of k1.")}),
+          error_section(
+              "noise", "Noise of the pixels.", e.noise,
+              {config::number("sd_gray", e.noise.sd_gray, {0, 30}, "gray level", "1-sigma.")}),
+          error_section("motion_blur", "Blur by the motion during the exposure.", e.motion_blur),
+          error_section("brightness", "Uneven brightness.", e.brightness,
+                        {config::number("vignetting", e.brightness.vignetting, {0, 0.9}, "",
+                                        "Share of the light that is missing in the corners."),
+                         config::number("gain_sd", e.brightness.gain_sd, {0, 0.3}, "",
+                                        "1-sigma from station to station.")})};
 }
 
-void read_device_errors(ConfigTable& table, Errors& e) {
-  ConfigTable& encoder = error_table(table, "encoder", e.encoder);
-  e.encoder.step_arcsec = encoder.number("step_arcsec", e.encoder.step_arcsec, 0.1, 1000);
-  ConfigTable& clock = error_table(table, "clock", e.clock);
-  e.clock.sd_s = 1e-3 * clock.number("sd_ms", 1e3 * e.clock.sd_s, 0, 1e4);
-  ConfigTable& reply = error_table(table, "ptu_reply", e.ptu_reply);
-  e.ptu_reply.jitter_s = 1e-3 * reply.number("jitter_ms", 1e3 * e.ptu_reply.jitter_s, 0, 100);
-  ConfigTable& messages = error_table(table, "messages", e.messages);
-  e.messages.lost = messages.number("lost", e.messages.lost, 0, 1);
-  e.messages.doubled = messages.number("doubled", e.messages.doubled, 0, 1);
-  e.messages.late = messages.number("late", e.messages.late, 0, 1);
-  e.messages.delay_s = 1e-3 * messages.number("delay_ms", 1e3 * e.messages.delay_s, 0, 1e4);
-  e.messages.late_s = 1e-3 * messages.number("late_ms", 1e3 * e.messages.late_s, 0, 1e5);
-  ConfigTable& frames = error_table(table, "frames", e.frames);
-  e.frames.lost = frames.number("lost", e.frames.lost, 0, 1);
+std::vector<Row> message_rows(Errors::Messages& m) {
+  return {config::number("lost", m.lost, {0, 1}, "", "Probability of a loss."),
+          config::number("doubled", m.doubled, {0, 1}, "", "Probability of a duplicate."),
+          config::number("late", m.late, {0, 1}, "", "Probability of a late message."),
+          config::number("delay_ms", m.delay_s, {0, 1e4}, config::kMilliseconds,
+                         "Delay of every message."),
+          config::number("late_ms", m.late_s, {0, 1e5}, config::kMilliseconds,
+                         "Further delay of a late message.")};
 }
 
-void read_chain(ConfigTable& table, ChainParameters& c) {
-  c.heading_rad = degrees_of(table, "heading_deg", 0.0, -360, 360);
-  const auto tilt = table.numbers("tilt_xy_deg", {0, 0}, -10, 10);
-  c.tilt_x_rad = radians(tilt[0]), c.tilt_y_rad = radians(tilt[1]);
-  const Vector3d mount = vector3(table, "mount_zxy_deg", Vector3d::Zero(), -45, 45);
-  c.mount_z_rad = radians(mount[0]);
-  c.mount_x_rad = radians(mount[1]);
-  c.mount_y_rad = radians(mount[2]);
+std::vector<Section> device_errors(Errors& e) {
+  return {
+      error_section("encoder", "Steps of the PTU's encoders.", e.encoder,
+                    {config::number("step_arcsec", e.encoder.step_arcsec, {0.1, 1000}, "arcsec",
+                                    "One step.")}),
+      error_section(
+          "clock", "Errors of the stations' clocks.", e.clock,
+          {config::number("sd_ms", e.clock.sd_s, {0, 1e4}, config::kMilliseconds, "1-sigma.")}),
+      error_section("ptu_reply", "Jitter of the PTU's replies.", e.ptu_reply,
+                    {config::number("jitter_ms", e.ptu_reply.jitter_s, {0, 100},
+                                    config::kMilliseconds, "Uniform, plus or minus.")}),
+      error_section("messages", "The network between stations and fusion.", e.messages,
+                    message_rows(e.messages)),
+      error_section("frames", "Frames that the camera loses.", e.frames,
+                    {config::number("lost", e.frames.lost, {0, 1}, "", "Probability of a loss.")})};
 }
 
-StationScenario read_station(ConfigTable& table) {
-  StationScenario s;
-  s.id = table.required_text("id");
-  if (s.id.empty() || s.id.find_first_of("/ ") != std::string::npos) {
-    throw table.error("id", "must be a word");
-  }
-  s.p_enu = vector3(table, "position_enu_m", Vector3d::Zero(), -kFar, kFar);
-  read_chain(table, s.chain);
-  s.camera_address = table.required_text("camera_address");
-  s.ptu_line = table.text("ptu_line", s.id + ".ptu");
-  s.ptu_device = table.text("ptu_device", "");
-  return s;
+Section errors_section(Errors& e) {
+  Section section{"errors", "The errors of a real site, each with a switch."};
+  for (auto* part : {pose_errors, image_errors, device_errors})
+    std::ranges::move(part(e), std::back_inserter(section.sections));
+  return section;
 }
 
-std::unique_ptr<Trajectory> read_lissajous(ConfigTable& table) {
-  auto path = std::make_unique<Lissajous>();
-  path->centre_enu = vector3(table, "centre_enu_m", Vector3d::Zero(), -kFar, kFar);
-  path->amplitude_m = vector3(table, "amplitude_m", Vector3d::Zero(), 0, kFar);
-  path->period_s = vector3(table, "period_s", Vector3d::Constant(60.0), 0.1, 1e6);
-  path->phase_rad = vector3(table, "phase_deg", Vector3d::Zero(), -360, 360) * radians(1.0);
-  return path;
+template <class T>
+void check_id(ConfigTable& table, const std::vector<T>& all, const char* what) {
+  const std::string& id = all.back().id;
+  if (std::ranges::count(all, id, &T::id) > 1)
+    throw table.error("id", std::string("is used by two ") + what);
 }
 
-std::unique_ptr<Trajectory> read_circle(ConfigTable& table) {
-  auto path = std::make_unique<Lissajous>();
-  path->centre_enu = vector3(table, "centre_enu_m", Vector3d::Zero(), -kFar, kFar);
-  const double radius_m = table.required_number("radius_m", 0.1, kFar);
-  const double speed_m_s = table.required_number("speed_m_s", 0.01, 1000);
-  path->amplitude_m = {radius_m, radius_m, 0.0};
-  path->period_s.setConstant(2.0 * kPi * radius_m / speed_m_s);
-  path->phase_rad = {0.5 * kPi, 0.0, 0.0};
-  return path;
+void check_word(const std::string& id) {
+  if (id.empty() || id.find_first_of("/ ") != std::string::npos)
+    throw std::invalid_argument("must be a word");
 }
 
-std::unique_ptr<Trajectory> read_waypoints(ConfigTable& table) {
-  std::vector<Vector3d> points;
-  for (ConfigTable* point : table.tables("waypoint")) {
-    points.push_back(vector3(*point, "enu_m", Vector3d::Zero(), -kFar, kFar));
-  }
-  const double speed_m_s = table.required_number("speed_m_s", 0.01, 1000);
-  try {
-    return through_waypoints(points, speed_m_s);
-  } catch (const std::invalid_argument& problem) {
-    throw table.error("waypoint", problem.what());
-  }
+std::vector<Row> station_rows(StationScenario& station) {
+  ChainParameters& c = station.chain;
+  return {config::text("id", station.id, "Its name.", check_word).required(),
+          config::numbers("position_enu_m", {station.p_enu.data(), 3}, {-kFar_m, kFar_m}, "m",
+                          "GROUND in the site's frame: east, north, up."),
+          angle("heading_deg", c.heading_rad, {-360, 360},
+                "Direction of the PTU's zero pan, clockwise from true north."),
+          config::text("camera_address", station.camera_address, "IPv4 address of its camera.")
+              .required(),
+          config::text("ptu_line", station.ptu_line, "Name of the PTU's serial line.")
+              .default_is("ID.ptu"),
+          config::text("ptu_device", station.ptu_device,
+                       "Serial device of a real PTU in place of the simulated one; empty: none.")};
 }
 
-// A landmark as a land register has it: it stands still.
-std::unique_ptr<Trajectory> read_utm(ConfigTable& table, const LocalFrame& site) {
-  auto path = std::make_unique<Line>();
-  path->start_enu = site.to_enu(ecef_from_geodetic(read_utm_place(table)));
-  return path;
+Section station_section(std::vector<StationScenario>& stations) {
+  Section section{"station", "A station."};
+  section.append = [&stations] {
+    struct Keys {
+      StationScenario station;
+      std::array<double, 2> tilt_xy_rad{};
+      std::array<double, 3> mount_zxy_rad{};
+    };
+    auto keys = std::make_shared<Keys>();
+    auto rows = station_rows(keys->station);
+    rows.push_back(config::numbers("tilt_xy_deg", keys->tilt_xy_rad, {-10, 10}, in_degrees(),
+                                   "Inclination about X and Y."));
+    rows.push_back(config::numbers("mount_zxy_deg", keys->mount_zxy_rad, {-45, 45}, in_degrees(),
+                                   "Rotation of the camera on the PTU about Z, X, Y."));
+    return Section{"", "", rows, {}, [keys, &stations](ConfigTable& table) {
+                     StationScenario& s = keys->station;
+                     ChainParameters& c = s.chain;
+                     c.tilt_x_rad = keys->tilt_xy_rad[0], c.tilt_y_rad = keys->tilt_xy_rad[1];
+                     c.mount_z_rad = keys->mount_zxy_rad[0];
+                     c.mount_x_rad = keys->mount_zxy_rad[1];
+                     c.mount_y_rad = keys->mount_zxy_rad[2];
+                     if (!table.has("ptu_line")) s.ptu_line = s.id + ".ptu";
+                     stations.push_back(s);
+                     check_id(table, stations, "stations");
+                   }};
+  };
+  return section;
 }
 
-std::unique_ptr<Trajectory> read_trajectory(ConfigTable& table, const LocalFrame& site,
-                                            const std::string& folder) {
-  const std::string kind = table.choice(
-      "kind", "lissajous", {"lissajous", "circle", "line", "waypoints", "file", "utm"});
-  if (kind == "lissajous") return read_lissajous(table);
-  if (kind == "circle") return read_circle(table);
-  if (kind == "waypoints") return read_waypoints(table);
-  if (kind == "utm") return read_utm(table, site);
-  if (kind == "file") {
-    const std::string name = table.required_text("file");
-    return load_trajectory_file(name.starts_with('/') ? name : folder + "/" + name, site);
-  }
-  auto path = std::make_unique<Line>();
-  path->start_enu = vector3(table, "start_enu_m", Vector3d::Zero(), -kFar, kFar);
-  path->v_enu = vector3(table, "velocity_enu_m_s", Vector3d::Zero(), -1000, 1000);
-  return path;
+Section target_section(Scenario& s, const std::string& folder) {
+  Section section{"target", "A target."};
+  section.append = [&s, folder] {
+    auto target = std::make_shared<TargetScenario>();
+    return Section{
+        "",
+        "",
+        {config::text("id", target->id, "Its name, a word.").default_is("its number, from 1"),
+         config::number("span_m", target->span_m, {0.05, 100}, "m", "From rotor tip to rotor tip."),
+         config::number("brightness", target->brightness, {0, 2}, "",
+                        "0: black, 1: as bright as the sky.")},
+        {trajectory_section(target->trajectory, {s.origin, folder})},
+        [target, &s](ConfigTable& table) {
+          s.targets.push_back(*target);
+          std::string& id = s.targets.back().id;
+          if (id.empty()) id = std::to_string(s.targets.size());
+          check_id(table, s.targets, "targets");
+        }};
+  };
+  return section;
 }
 
-TargetScenario read_target(ConfigTable& table, const LocalFrame& site, const std::string& folder) {
-  TargetScenario t;
-  t.id = table.text("id", "");
-  t.span_m = table.number("span_m", t.span_m, 0.05, 100);
-  t.brightness = table.number("brightness", t.brightness, 0, 2);
-  t.trajectory = read_trajectory(table.table("trajectory"), site, folder);
-  return t;
-}
-
-void read_stations(ConfigTable& root, Scenario& s) {
-  std::set<std::string> ids;
-  for (ConfigTable* table : root.tables("station")) {
-    s.stations.push_back(read_station(*table));
-    if (!ids.insert(s.stations.back().id).second) {
-      throw table->error("id", "is used by two stations");
-    }
-  }
-  if (s.stations.empty()) throw root.error("station", "at least one is needed");
-}
-
-Fault read_fault(ConfigTable& table, const std::vector<StationScenario>& stations) {
-  Fault f;
-  f.kind = table.required_text("kind");
-  f.station = table.text("station", "");
-  f.at_s = table.required_number("at_s", 0.0, 1e9);
-  if (table.has("for_s")) f.for_s = table.required_number("for_s", 0.0, 1e9);
-  if (table.has("value")) f.value = table.required_number("value", -1e9, 1e9);
-  const FaultProblem problem = check(f);
+void check_fault(ConfigTable& table, const Fault& fault, const Scenario& s) {
+  const FaultProblem problem = check(fault);
   if (!problem.key.empty()) throw table.error(problem.key, problem.what);
-  const bool known = std::any_of(stations.begin(), stations.end(),
-                                 [&f](const StationScenario& s) { return s.id == f.station; });
-  if (!f.station.empty() && !known) throw table.error("station", "there is none of this id");
-  return f;
+  if (!fault.station.empty() &&
+      std::ranges::count(s.stations, fault.station, &StationScenario::id) == 0)
+    throw table.error("station", "there is no station of this id");
+}
+
+Section fault_section(Scenario& s) {
+  Section section{"fault", "A fault of the simulated devices."};
+  section.append = [&s] {
+    Fault& fault = s.faults.emplace_back();
+    return Section{
+        "",
+        "",
+        {config::text("kind", fault.kind, "Its kind, for example ptu-line-cut.").required(),
+         config::text("station", fault.station, "Where; empty: at all stations."),
+         config::number("at_s", fault.at_s, {0.0, 1e9}, "s", "Begin, from the start.").required(),
+         config::number("for_s", fault.for_s, {0.0, 1e9}, "s", "Duration.")
+             .default_is("to the end"),
+         config::number("value", fault.value, {-1e9, 1e9}, "", "What the kind takes.")
+             .default_is("by kind")},
+        {},
+        [&fault, &s](ConfigTable& table) { check_fault(table, fault, s); }};
+  };
+  return section;
 }
 
 Scenario read_scenario(ConfigFile& file, const std::string& folder) {
-  ConfigTable& root = file.root();
-  Scenario s;
-  s.name = root.required_text("name");
-  read_site(root.table("site"), s);
-  read_camera(root.table("camera"), s);
-  read_ptu(root.table("ptu"), s.ptu);
-  read_inclinometer(root.table("inclinometer"), s.inclinometer);
-  read_gnss(root.table("gnss"), s.gnss);
-  s.gpio.on = root.table("gpio").boolean("on", s.gpio.on);
-  read_landscape(root.table("landscape"), s.landscape);
-  ConfigTable& errors = root.table("errors");
-  read_pose_errors(errors, s.errors);
-  read_image_errors(errors, s.errors);
-  read_device_errors(errors, s.errors);
-  s.stationing = read_stationing(root.table("stationing"));
-  read_stations(root, s);
-  const LocalFrame site(s.origin);
-  std::set<std::string> ids;
-  for (ConfigTable* table : root.tables("target")) {
-    TargetScenario& target = s.targets.emplace_back(read_target(*table, site, folder));
-    if (target.id.empty()) target.id = std::to_string(s.targets.size());
-    if (!ids.insert(target.id).second) throw table->error("id", "is used by two targets");
-  }
-  if (s.targets.empty()) throw root.error("target", "at least one is needed");
-  for (ConfigTable* table : root.tables("fault")) {
-    s.faults.push_back(read_fault(*table, s.stations));
-  }
-  file.finish();
-  return s;
+  Scenario scenario;
+  config::read(scenario_section(scenario, folder), file.root());
+  return scenario;
 }
 
 }  // namespace
+
+Section scenario_section(Scenario& s, const std::string& folder) {
+  return {"",
+          "",
+          {config::text("name", s.name, "Its name.").required()},
+          {site_section(s.origin),
+           camera_section(s),
+           ptu_section(s.ptu),
+           inclinometer_section(s.inclinometer),
+           gnss_section(s.gnss),
+           {"gpio",
+            "The emergency stop input of every station.",
+            {config::flag("on", s.gpio.on, "Whether there is one.")}},
+           landscape_section(s.landscape),
+           errors_section(s.errors),
+           stationing_section(s.stationing),
+           station_section(s.stations),
+           target_section(s, folder),
+           fault_section(s)},
+          [&s](ConfigTable& root) {
+            if (s.stations.empty()) throw root.error("station", "at least one is needed");
+            if (s.targets.empty()) throw root.error("target", "at least one is needed");
+          }};
+}
 
 void switch_off(Errors& e, const std::string& name) {
   const std::pair<const char*, Errors::Switch*> switches[] = {

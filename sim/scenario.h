@@ -12,6 +12,9 @@
 #include "sim/fault_plan.h"
 #include "sim/trajectory.h"
 
+namespace ols::config {
+struct Section;
+}
 namespace ols::sim {
 
 // What a real site has. A switched-off error has no effect and is stated as zero to the stations.
@@ -164,9 +167,11 @@ void choose_stationing(StationingScenario& stationing, const std::string& by);
 // Leaves only this one of the targets. std::invalid_argument when there is none of this id.
 void keep_target(Scenario& scenario, const std::string& id);
 
+// The whole file; files named in it are relative to `folder`.
+config::Section scenario_section(Scenario& scenario, const std::string& folder);
 // Throws ConfigError naming file, line and key.
 Scenario load_scenario(const std::string& path);
-// The same from text; files named in it are relative to `folder`.
+// The same from text.
 Scenario parse_scenario(const std::string& text, const std::string& name,
                         const std::string& folder);
 

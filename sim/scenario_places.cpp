@@ -1,9 +1,11 @@
 #include "sim/scenario_places.h"
 
+#include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
-#include "geometry/utm.h"
+#include "edge/config_units.h"
 
 namespace ols::sim {
 namespace {
@@ -12,39 +14,70 @@ constexpr std::pair<const char*, StationingBy> kWays[] = {{"drawn", StationingBy
                                                           {"each-other", StationingBy::kEachOther},
                                                           {"landmarks", StationingBy::kLandmarks}};
 
+config::Section landmark_section(std::vector<StationingScenario::Landmark>& landmarks) {
+  config::Section section{"landmark", "A landmark that the stations sight, in UTM."};
+  section.append = [&landmarks] {
+    struct Keys {
+      StationingScenario::Landmark landmark;
+      UtmPlace place;
+    };
+    auto keys = std::make_shared<Keys>();
+    auto rows = utm_rows(keys->place);
+    rows.push_back(config::text("id", keys->landmark.id, "Its name.").required());
+    rows.push_back(
+        config::number("sd_m", keys->landmark.sd_m, {0.0, 100.0}, "m", "1-sigma of each axis.")
+            .required());
+    for (config::Row& row : rows)
+      if (row.key != "hemisphere") row.presence = config::Presence::kRequired;
+    return config::Section{"", "", rows, {}, [keys, &landmarks](ConfigTable& table) {
+                             keys->landmark.p_ecef =
+                                 ecef_from_geodetic(geodetic(table, keys->place));
+                             landmarks.push_back(keys->landmark);
+                           }};
+  };
+  return section;
+}
+
 }  // namespace
 
-Geodetic read_utm_place(ConfigTable& table) {
-  Utm utm;
-  utm.zone = static_cast<int>(table.integer("zone", 0, 0, 60));
-  utm.northern = table.choice("hemisphere", "north", {"north", "south"}) == "north";
-  utm.easting_m = table.required_number("easting_m", 0, 1e6);
-  utm.northing_m = table.required_number("northing_m", 0, 1e7);
-  const double height_m = table.required_number("height_m", -1000, 20000);
+std::vector<config::Row> utm_rows(UtmPlace& place) {
+  return {config::integer("zone", place.utm.zone, 0, 60, "", "UTM zone.").default_is("required"),
+          config::word("hemisphere", place.utm.northern, {{"north", true}, {"south", false}},
+                       "Hemisphere."),
+          config::number("easting_m", place.utm.easting_m, {0.0, 1e6}, "m", "UTM easting.")
+              .default_is("required"),
+          config::number("northing_m", place.utm.northing_m, {0.0, 1e7}, "m", "UTM northing.")
+              .default_is("required"),
+          config::number("height_m", place.height_m, {-1000.0, 20000.0}, "m",
+                         "Height above the ellipsoid.")
+              .default_is("required")};
+}
+
+Geodetic geodetic(ConfigTable& table, const UtmPlace& place) {
   try {
-    return geodetic_from_utm(utm, height_m);
+    return geodetic_from_utm(place.utm, place.height_m);
   } catch (const std::invalid_argument& problem) {
     throw table.error("zone", problem.what());
   }
 }
 
-StationingScenario read_stationing(ConfigTable& table) {
-  StationingScenario s;
-  const std::string by = table.text("by", "drawn");
-  s.mark_sd_px = table.number("mark_sd_px", s.mark_sd_px, 0, 100);
-  s.each_other_sd_m = table.number("each_other_sd_m", s.each_other_sd_m, 0, 100);
-  s.highest_rad = radians(table.number("highest_deg", degrees(s.highest_rad), 0, 80));
-  for (ConfigTable* row : table.tables("landmark")) {
-    const std::string id = row->required_text("id");
-    const double sd_m = row->required_number("sd_m", 0, 100);
-    s.landmarks.push_back({id, ecef_from_geodetic(read_utm_place(*row)), sd_m});
-  }
-  try {
-    choose_stationing(s, by);
-  } catch (const std::invalid_argument& problem) {
-    throw table.error("by", problem.what());
-  }
-  return s;
+config::Section stationing_section(StationingScenario& s) {
+  return {"stationing",
+          "How the stations find their headings.",
+          {config::word("by", s.by, {std::begin(kWays), std::end(kWays)},
+                        "drawn: not at all, the error is errors.heading; or by sighting each other "
+                        "or landmarks."),
+           config::number("mark_sd_px", s.mark_sd_px, {0.0, 100.0}, "px",
+                          "1-sigma of the operator's mark, each coordinate."),
+           config::number("each_other_sd_m", s.each_other_sd_m, {0.0, 100.0}, "m",
+                          "1-sigma of the point of a station that the others mark, each axis."),
+           config::number("highest_deg", s.highest_rad, {0.0, 80.0}, in_degrees(),
+                          "Greatest elevation or depression of a sighting.")},
+          {landmark_section(s.landmarks)},
+          [&s](ConfigTable& table) {
+            if (s.by == StationingBy::kLandmarks && s.landmarks.empty())
+              throw table.error("by", "the scenario has no landmarks to sight");
+          }};
 }
 
 void choose_stationing(StationingScenario& stationing, const std::string& by) {

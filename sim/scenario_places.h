@@ -2,17 +2,25 @@
 // the stations find their headings by sighting them.
 #pragma once
 
-#include <string>
+#include <vector>
 
-#include "base/toml_config.h"
-#include "geometry/wgs84.h"
+#include "base/config_section.h"
+#include "geometry/utm.h"
 #include "sim/scenario.h"
 
 namespace ols::sim {
 
-// zone, hemisphere, easting_m, northing_m, height_m. ConfigError for a place outside its zone.
-Geodetic read_utm_place(ConfigTable& table);
+inline constexpr double kFar_m = 1e6;  // a site is no larger than this
 
-StationingScenario read_stationing(ConfigTable& table);
+struct UtmPlace {
+  Utm utm{.zone = 0};
+  double height_m = 0.0;
+};
+
+std::vector<config::Row> utm_rows(UtmPlace& place);
+// ConfigError for a place outside its zone.
+Geodetic geodetic(ConfigTable& table, const UtmPlace& place);
+
+config::Section stationing_section(StationingScenario& stationing);
 
 }  // namespace ols::sim

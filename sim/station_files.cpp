@@ -89,7 +89,7 @@ void leave_in_order(const std::string& state_folder, const std::string& id) {
   std::filesystem::create_directories(state_folder);
   if (std::filesystem::exists(state_folder + "/" + id + ".hold")) return;
   StationMemory memory(state_folder, id, false);
-  memory.remember(StationState::kIdle, PtuLegacy::kNone, PtuReference::kTrusted);
+  memory.remember(StationState::kIdle, std::nullopt, PtuReference::kTrusted);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <deque>
 #include <random>
 
-#include "edge/target_tracker.h"
+#include "edge/tracker/target_tracker.h"
 #include "sim/renderer.h"
 
 namespace ols::sim {

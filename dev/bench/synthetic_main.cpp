@@ -224,6 +224,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  ols::remove_temporary_files_on_signals();
   CLI::App app("Runs the tracker on synthetic pictures with exact truth.", "ols-bench-tracker");
   Arguments arguments;
   declare(app, arguments);

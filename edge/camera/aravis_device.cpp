@@ -20,6 +20,7 @@ constexpr guint64 kTimestampLow = 0x094c;
 constexpr guint32 kTimestampLatch = 2;
 constexpr guint64 kPrivilege = 0x0a00;
 
+constexpr int kBuffers = 8;  // frames between the network and the station
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 // A frame whose packets stay away is given up after this; those behind it wait for that. Aravis
@@ -100,7 +101,7 @@ void AravisDevice::start(const CameraConfig& config) {
   g_object_set(stream_.get(), "packet-request-ratio", 1.0, nullptr);
   const guint payload = arv_camera_get_payload(camera_.get(), error.out());
   error.check<CameraAbsent>("camera does not tell its payload");
-  for (int i = 0; i < config.buffers; ++i)
+  for (int i = 0; i < kBuffers; ++i)
     arv_stream_push_buffer(stream_.get(), arv_buffer_new(payload, nullptr));
   arv_camera_start_acquisition(camera_.get(), error.out());
   error.check<CameraAbsent>("camera does not start");

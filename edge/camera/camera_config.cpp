@@ -1,65 +1,122 @@
 #include "edge/camera/camera_config.h"
 
-#include <array>
-#include <utility>
+#include "base/config_section.h"
 
 namespace ols {
 namespace {
 
-constexpr std::array<std::pair<const char*, TriggerMode>, 7> kTriggers{{
-    {"fixed-rate", TriggerMode::kFixedRate},
-    {"free-run", TriggerMode::kFreeRun},
-    {"software", TriggerMode::kSoftware},
-    {"line1", TriggerMode::kLine1},
-    {"line2", TriggerMode::kLine2},
-    {"line3", TriggerMode::kLine3},
-    {"line4", TriggerMode::kLine4},
-}};
+using config::Row;
+using Rows = std::vector<Row>;
 
-void read_trigger(ConfigTable& table, CameraConfig& c) {
-  std::vector<std::string> names;
-  for (const auto& [name, mode] : kTriggers) names.emplace_back(name);
-  const std::string chosen = table.choice("trigger", names.front(), names);
-  for (const auto& [name, mode] : kTriggers)
-    if (chosen == name) c.trigger = mode;
-  c.trigger_activation = table.choice("trigger_activation", c.trigger_activation,
-                                      {"rising-edge", "falling-edge", "any-edge"});
-  c.trigger_delay_us = table.number("trigger_delay_us", c.trigger_delay_us, 0.0, 1e7);
+Rows image_rows(CameraConfig& c) {
+  // GigE Vision carries sizes in 32 bits; no sensor in use comes near 16384.
+  return {
+      config::text("device", c.device,
+                   "Aravis id, as arv-tool-0.8 lists it, or IPv4 address of the camera.",
+                   config::not_empty)
+          .required(),
+      config::integer("width_px", c.width_px, 16, 16384, "px", "Width of the image."),
+      config::integer("height_px", c.height_px, 16, 16384, "px", "Height of the image."),
+      config::choice("pixel_format", c.pixel_format,
+                     {"Mono8", "BayerRG8", "BayerGR8", "BayerGB8", "BayerBG8", "RGB8", "BGR8"},
+                     "Pixel format, by its GenICam name."),
+      config::number("frame_rate_hz", c.frame_rate_hz, {0.1, 1000.0}, "Hz",
+                     "Frame rate; with a trigger, the maximum to expect."),
+  };
 }
 
-void read_exposure(ConfigTable& table, CameraConfig& c) {
-  c.exposure_us = table.number("exposure_us", c.exposure_us, 1.0, 1e7);
-  c.gain_dB = table.number("gain_dB", c.gain_dB, 0.0, 60.0);
-  c.auto_exposure = table.boolean("auto_exposure", c.auto_exposure);
+Rows trigger_rows(CameraConfig& c) {
+  return {
+      config::word(
+          "trigger", c.trigger,
+          {{"fixed-rate", TriggerMode::kFixedRate},
+           {"free-run", TriggerMode::kFreeRun},
+           {"software", TriggerMode::kSoftware},
+           {"line1", TriggerMode::kLine1},
+           {"line2", TriggerMode::kLine2},
+           {"line3", TriggerMode::kLine3},
+           {"line4", TriggerMode::kLine4}},
+          "What starts an exposure: the camera's timer, itself at its maximum rate, the station, "
+          "or a pulse on an input."),
+      config::choice("trigger_activation", c.trigger_activation,
+                     {"rising-edge", "falling-edge", "any-edge"},
+                     "Edge of the input line that triggers."),
+      config::number("trigger_delay_us", c.trigger_delay_us, {0.0, 1e7}, "us",
+                     "Delay from the trigger to the exposure."),
+  };
+}
+
+Rows exposure_rows(CameraConfig& c) {
   ExposureLimits& l = c.limits;
-  l.exposure_min_us = table.number("exposure_min_us", l.exposure_min_us, 1.0, 1e7);
-  l.exposure_max_us = table.number("exposure_max_us", l.exposure_max_us, 1.0, 1e7);
-  l.gain_min_dB = table.number("gain_min_dB", l.gain_min_dB, 0.0, 60.0);
-  l.gain_max_dB = table.number("gain_max_dB", l.gain_max_dB, 0.0, 60.0);
-  if (l.exposure_max_us < l.exposure_min_us)
-    throw table.error("exposure_max_us", "must not be less than exposure_min_us");
-  if (l.gain_max_dB < l.gain_min_dB)
-    throw table.error("gain_max_dB", "must not be less than gain_min_dB");
-  c.auto_levels.bright_level =
-      table.number("auto_bright_level", c.auto_levels.bright_level, 50.0, 245.0);
-  c.auto_levels.mean_level = table.number("auto_mean_level", c.auto_levels.mean_level, 20.0, 200.0);
-  c.auto_levels.settle_frames =
-      static_cast<int>(table.integer("auto_settle_frames", c.auto_levels.settle_frames, 1, 1000));
+  return {
+      config::number("exposure_us", c.exposure_us, {1.0, 1e7}, "us",
+                     "Exposure time; automatic exposure starts from it."),
+      config::number("gain_dB", c.gain_dB, {0.0, 60.0}, "dB",
+                     "Gain; automatic exposure starts from it."),
+      config::flag("auto_exposure", c.auto_exposure,
+                   "Adapts the exposure, then the gain, to the target or to the whole image."),
+      config::number("exposure_min_us", l.exposure_min_us, {1.0, 1e7}, "us",
+                     "Minimum of automatic exposure."),
+      config::number("exposure_max_us", l.exposure_max_us, {1.0, 1e7}, "us",
+                     "Maximum of automatic exposure: what motion blur allows."),
+      config::number("gain_min_dB", l.gain_min_dB, {0.0, 60.0}, "dB",
+                     "Minimum gain of automatic exposure."),
+      config::number("gain_max_dB", l.gain_max_dB, {0.0, 60.0}, "dB",
+                     "Maximum gain of automatic exposure."),
+      config::number("auto_bright_level", c.auto_levels.bright_level, {50.0, 245.0}, "gray level",
+                     "Goal for the brighter of target and surround."),
+      config::number("auto_mean_level", c.auto_levels.mean_level, {20.0, 200.0}, "gray level",
+                     "Goal for the mean of the image without a target."),
+      config::integer("auto_settle_frames", c.auto_levels.settle_frames, 1, 1000, "frames",
+                      "Frames from a change until the camera's images show it."),
+  };
 }
 
-void read_transport(ConfigTable& table, CameraConfig& c) {
-  c.packet_size = static_cast<int>(table.integer("packet_size", c.packet_size, 0, 65535));
+Rows time_rows(CameraConfig& c) {
+  return {
+      config::word(
+          "stamp_at", c.stamp_at,
+          {{"exposure-start", StampAt::kExposureStart}, {"exposure-end", StampAt::kExposureEnd}},
+          "Instant that the camera's time stamp marks; differs by model."),
+      config::number("readout_s", c.readout_s, {0.0, 1.0}, "s",
+                     "From the end of the exposure to the arrival of the first packet; used while "
+                     "the camera's clock cannot be read."),
+      config::number("readout_sd_s", c.readout_sd_s, {1e-6, 1.0}, "s", "1-sigma of readout_s."),
+      config::choice("ptp", c.ptp, {"off", "slave", "auto"},
+                     "Whether the camera's clock follows a PTP master."),
+      config::integer("tai_minus_utc_s", c.tai_minus_utc_s, 30, 60, "s",
+                      "Leap seconds, where the kernel does not know them."),
+      config::number("ptp_sd_s", c.ptp_sd_s, {1e-9, 1.0}, "s",
+                     "1-sigma of the PTP master and the path to it."),
+  };
+}
+
+Rows transport_rows(CameraConfig& c) {
+  return {
+      config::integer("packet_size", c.packet_size, 0, 65535, "byte",
+                      "IP packet size of the stream; 0: as large as the network path allows."),
+      config::flag("packet_socket", c.packet_socket,
+                   "Receives through the kernel's packet ring; needs CAP_NET_RAW."),
+      config::integer("socket_buffer", c.socket_buffer, 65536, 1 << 30, "byte",
+                      "Receive buffer to ask for; the kernel grants up to net.core.rmem_max."),
+      config::number("packet_delay_us", c.packet_delay_us, {-1.0, 1e6}, "us",
+                     "Pause between two packets; -1: automatic, none if the receive buffer holds "
+                     "three frames."),
+      config::number("packet_spread", c.packet_spread, {0.05, 0.9}, "frame periods",
+                     "Duration of a frame's packets with an automatic pause."),
+      config::flag("packet_resend", c.packet_resend, "Asks the camera to send lost packets again."),
+  };
+}
+
+void check(ConfigTable& table, const CameraConfig& c) {
+  if (c.limits.exposure_max_us < c.limits.exposure_min_us)
+    throw table.error("exposure_max_us", "must not be less than exposure_min_us");
+  if (c.limits.gain_max_dB < c.limits.gain_min_dB)
+    throw table.error("gain_max_dB", "must not be less than gain_min_dB");
   if (c.packet_size != 0 && c.packet_size < 576)
     throw table.error("packet_size", "must be 0 (automatic) or 576..65535");
-  c.packet_socket = table.boolean("packet_socket", c.packet_socket);
-  c.socket_buffer =
-      static_cast<int>(table.integer("socket_buffer", c.socket_buffer, 65536, 1 << 30));
-  c.packet_delay_us = table.number("packet_delay_us", c.packet_delay_us, -1.0, 1e6);
   if (c.packet_delay_us < 0.0 && c.packet_delay_us != -1.0)
     throw table.error("packet_delay_us", "must be -1 (automatic) or 0..1e6");
-  c.packet_spread = table.number("packet_spread", c.packet_spread, 0.05, 0.9);
-  c.packet_resend = table.boolean("packet_resend", c.packet_resend);
-  c.buffers = static_cast<int>(table.integer("buffers", c.buffers, 3, 100));
 }
 
 }  // namespace
@@ -68,31 +125,12 @@ bool is_timed(TriggerMode trigger) {
   return trigger == TriggerMode::kFixedRate || trigger == TriggerMode::kFreeRun;
 }
 
-CameraConfig read_camera_config(ConfigTable& table) {
-  CameraConfig c;
-  c.device = table.required_text("device");
-  if (c.device.empty()) throw table.error("device", "must not be empty");
-  // GigE Vision carries sizes in 32 bits; no sensor of ours comes near these.
-  c.width_px = static_cast<int>(table.integer("width_px", c.width_px, 16, 16384));
-  c.height_px = static_cast<int>(table.integer("height_px", c.height_px, 16, 16384));
-  c.pixel_format =
-      table.choice("pixel_format", c.pixel_format,
-                   {"Mono8", "BayerRG8", "BayerGR8", "BayerGB8", "BayerBG8", "RGB8", "BGR8"});
-  c.frame_rate_hz = table.number("frame_rate_hz", c.frame_rate_hz, 0.1, 1000.0);
-  read_trigger(table, c);
-  read_exposure(table, c);
-  const std::string stamp_at =
-      table.choice("stamp_at", "exposure-start", {"exposure-start", "exposure-end"});
-  c.stamp_at = stamp_at == "exposure-start" ? StampAt::kExposureStart : StampAt::kExposureEnd;
-  c.readout_s = table.number("readout_s", c.readout_s, 0.0, 1.0);
-  c.readout_sd_s = table.number("readout_sd_s", c.readout_sd_s, 1e-6, 1.0);
-  c.ptp = table.choice("ptp", c.ptp, {"off", "slave", "auto"});
-  c.tai_minus_utc_s = static_cast<int>(table.integer("tai_minus_utc_s", c.tai_minus_utc_s, 30, 60));
-  c.ptp_sd_s = table.number("ptp_sd_s", c.ptp_sd_s, 1e-9, 1.0);
-  c.no_frame_timeout_s = table.number("no_frame_timeout_s", c.no_frame_timeout_s, 0.1, 60.0);
-  c.retry_s = table.number("retry_s", c.retry_s, 0.01, 60.0);
-  read_transport(table, c);
-  return c;
+config::Section camera_section(CameraConfig& c) {
+  Rows rows;
+  for (auto* part : {image_rows, trigger_rows, exposure_rows, time_rows, transport_rows})
+    std::ranges::move(part(c), std::back_inserter(rows));
+  return {
+      "camera", "The GigE Vision camera.", rows, {}, [&c](ConfigTable& table) { check(table, c); }};
 }
 
 }  // namespace ols

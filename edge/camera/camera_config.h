@@ -3,10 +3,12 @@
 
 #include <string>
 
-#include "base/toml_config.h"
 #include "edge/camera/auto_exposure.h"
 #include "edge/camera/exposure.h"
 
+namespace ols::config {
+struct Section;
+}
 namespace ols {
 
 // The instant of the exposure that the camera's time stamp marks; differs by model.
@@ -67,7 +69,6 @@ struct CameraConfig {
   double packet_delay_us = -1.0;
   double packet_spread = 0.6;
   bool packet_resend = true;  // ask again for lost packets where the camera can
-  int buffers = 8;            // frames between the network and the station
 
   bool keep_raw = false;  // beside the gray picture, what the camera sent: for a recorder
 };
@@ -75,7 +76,6 @@ struct CameraConfig {
 // Whether it exposes by itself.
 bool is_timed(TriggerMode trigger);
 
-// Reads and checks the table; throws ConfigError.
-CameraConfig read_camera_config(ConfigTable& table);
+config::Section camera_section(CameraConfig& config);  // [camera]
 
 }  // namespace ols

@@ -11,6 +11,10 @@ constexpr std::int64_t kDay_us = 86'400'000'000;
 constexpr double kLeapTolerance_s = 0.05;
 constexpr double kLeapAround_s = 5.0;  // of midnight
 constexpr double kLongestSlew_s = 0.5;
+constexpr double kStep_s = 0.05;         // a greater jump between two calls is a step
+constexpr double kSlewPerSecond = 1e-3;  // the service may steer this much: not a step
+constexpr double kNeverSetSd_s = 1.0;    // 1-sigma of a battery clock, never synchronised
+constexpr double kSilence_s = 30.0;      // without a reading the clock counts as free-running
 // A new measurement is dated at least so much apart from the one before.
 constexpr double kNewMeasurement_s = 1e-3;
 
@@ -39,8 +43,8 @@ void ClockWatch::tick(double monotonic_s, std::int64_t utime_us) {
   const std::int64_t offset_us = utime_us - std::llround(monotonic_s * 1e6);
   if (offset_us_) {
     const double jump_s = 1e-6 * static_cast<double>(offset_us - *offset_us_);
-    const double slew_s = config_.slew_per_s * std::max(0.0, monotonic_s - tick_s_);
-    if (std::abs(jump_s) > config_.step_s + std::min(slew_s, kLongestSlew_s) &&
+    const double slew_s = kSlewPerSecond * std::max(0.0, monotonic_s - tick_s_);
+    if (std::abs(jump_s) > kStep_s + std::min(slew_s, kLongestSlew_s) &&
         !is_leap_second(jump_s, utime_us)) {
       ++steps_;
       last_step_s_ = jump_s;
@@ -92,13 +96,13 @@ ClockQuality ClockWatch::unstepped(double monotonic_s) const {
   }
   if (!good_) {
     quality.state = ClockState::kUnsynchronised;
-    quality.error_s = config_.never_set_sd_s;
+    quality.error_s = kNeverSetSd_s;
     quality.text = "not synchronised yet (" + reading_->source + ")";
     quality.alarm = "clock: " + quality.text;
     return quality;
   }
   const double age_s = std::max(0.0, monotonic_s - good_->time_s);
-  const bool silent = monotonic_s - reading_->monotonic_s > config_.silence_s;
+  const bool silent = monotonic_s - reading_->monotonic_s > kSilence_s;
   if (reading_->synchronised && !silent) {
     quality.state = ClockState::kSynchronised;
     quality.error_s = good_->error_s;

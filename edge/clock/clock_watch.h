@@ -54,12 +54,8 @@ class ClockWatch {
  public:
   struct Config {
     double assumed_sd_s = 1e-3;   // of a clock of unknown quality
-    double never_set_sd_s = 1.0;  // of one whose service has never been synchronised: battery clock
-    double step_s = 0.05;         // a jump of more between two calls is a step
-    double slew_per_s = 1e-3;     // the service may steer this much: not a step
     double distrust_s = 60.0;     // after a step without a service that confirms the new time
     double drift_per_s = 2e-5;    // of a free-running clock: the error grows
-    double silence_s = 30.0;      // no reading for so long: the clock counts as free-running
   };
   explicit ClockWatch(const Config& config) : config_(config) {}
 

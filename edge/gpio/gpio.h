@@ -3,17 +3,19 @@
 // of its own waits for the edges. libgpiod stays behind edge/gpio/gpio_lines.h.
 //
 // The emergency stop in software only assists a hardware stop that takes the power off the motors;
-// docs/operations.md says so.
+// docs/field-guide.md says so.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <string>
 
-#include "base/toml_config.h"
 #include "edge/device_report.h"
 #include "edge/gpio/led_pattern.h"
 
+namespace ols::config {
+struct Section;
+}
 namespace ols {
 
 struct GpioConfig {
@@ -34,8 +36,7 @@ struct GpioConfig {
   double trigger_pulse_s = 1e-3;  // its length
 };
 
-// `table` is [gpio]. Throws ConfigError.
-GpioConfig read_gpio_config(ConfigTable& table);
+config::Section gpio_section(GpioConfig& config);  // [gpio]
 
 class Gpio {
  public:

@@ -98,6 +98,10 @@ PtuRequest& PtuRequest::finish() {
   return *this;
 }
 
+std::string halt_request() {
+  return " " + PtuRequest().plain("H").bytes();  // the blank ends half a command
+}
+
 std::optional<std::int32_t> PtuReply::count() const {
   if (!number || std::trunc(*number) != *number) return std::nullopt;
   if (*number < std::numeric_limits<std::int32_t>::min() ||

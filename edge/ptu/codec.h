@@ -53,6 +53,9 @@ class PtuRequest {
   std::vector<std::size_t> ends_;
 };
 
+// Bytes that stop the unit at once, whatever the line was doing.
+std::string halt_request();
+
 struct PtuReply {
   bool ok = true;                // `*`; else `!`
   bool echoed = false;           // an echo stood before it: the unit's echo is on

@@ -1,172 +1,390 @@
 #include "edge/ptu/driver.h"
 
 #include <algorithm>
-#include <utility>
 
-#include "edge/ptu/driver_impl.h"
+#include "edge/ptu/budget.h"
+#include "edge/ptu/motion_commands.h"
 
 namespace ols {
 
-PtuDriver::PtuDriver(const PtuConfig& config) : impl_(std::make_unique<Impl>(config)) {}
-PtuDriver::~PtuDriver() = default;
-PtuDriver::PtuDriver(PtuDriver&&) noexcept = default;
+namespace {
+
+// The other baud rate is tried between the pauses, so that a lost unit is found within 4 s.
+constexpr double kLongestPause_s = 1.0;
+constexpr double kHaltOut_s = 0.1;  // the halt goes out before the baud rate changes
+constexpr double kShortestHoming_s = 2.0, kLongestHoming_s = 90.0;
+
+}  // namespace
 
 void PtuDriver::receive(std::string_view bytes, double time_s) {
-  Impl& d = *impl_;
-  d.note_call(time_s);
+  read_delay_.note_call(time_s);
   if (bytes.empty()) return;
-  d.last_byte_s = std::max(d.last_byte_s, time_s);
-  if (d.steady) d.steady->bytes_came(time_s);
-  const std::uint64_t garbled = d.parser.garbled();
-  const std::vector<PtuReply> replies = d.parser.feed(bytes, time_s, d.byte_s());
-  d.note_limit_hits(replies, time_s);
-  for (const PtuReply& reply : replies) d.take(reply, time_s);
-  const std::uint64_t more = d.parser.garbled() - garbled;
-  // What stands in the line at the start, a banner for example, is nobody's fault.
-  if (d.phase != Impl::Phase::kFlush) d.counters.garbled += more;
-  if (d.steady && more > 0) d.steady->line_was_garbled();
-  if (d.steady && d.parser.banners() != d.banners_at_start) d.steady->unit_began_anew();
-  d.counters.limit_hits = d.parser.limit_hits().pan + d.parser.limit_hits().tilt;
-  d.heed_trouble(time_s);
+  if (auto* starting = std::get_if<PtuStarting>(&phase_)) starting->bytes_came(time_s);
+  if (ready()) ready()->bytes_came(time_s);
+  const std::uint64_t garbled = parser_.garbled(), banners = parser_.banners();
+  const std::vector<PtuReply> replies = parser_.feed(bytes, time_s, byte_s());
+  note_limit_hits(replies, time_s);
+  for (const PtuReply& reply : replies) take(reply, time_s);
+  const std::uint64_t more = parser_.garbled() - garbled;
+  // What is on the line at the start, a banner for example, is not an error.
+  const auto* starting = std::get_if<PtuStarting>(&phase_);
+  if (!starting || !starting->flushing()) counters_.garbled += more;
+  if (ready() && more > 0) ready()->line_was_garbled();
+  if (ready() && parser_.banners() != banners) ready()->unit_began_anew();
+  counters_.limit_hits = parser_.limit_hits().pan + parser_.limit_hits().tilt;
+  heed_trouble(time_s);
 }
 
-std::string PtuDriver::step(double time_s) { return impl_->step(time_s); }
+std::string PtuDriver::step(double time_s) {
+  if (!urgent_.empty()) return std::exchange(urgent_, {});
+  return std::visit([&](auto& phase) { return step(phase, time_s); }, phase_);
+}
 
-int PtuDriver::line_baud() const { return impl_->line_rate(); }
+void PtuDriver::take(const PtuReply& reply, double time_s) {
+  ++counters_.replies;
+  if (auto* starting = std::get_if<PtuStarting>(&phase_)) {
+    take(*starting, reply, time_s);
+  } else if (auto* homing = std::get_if<Homing>(&phase_)) {
+    take(*homing, reply, time_s);
+  } else if (ready()) {
+    ready()->take(reply, time_s, read_delay_.longest_s);
+  }
+}
+
+std::string PtuDriver::step(NotStarted& /*phase*/, double time_s) {
+  start(PtuStarting::Purpose::kDrive, time_s);
+  return {};
+}
+
+void PtuDriver::start(PtuStarting::Purpose purpose, double time_s) {
+  drop_line(time_s);
+  leave_homing();
+  const PtuStartOptions options{config_.acceleration_rad_s2,
+                                baud_ == config_.baud ? 0 : config_.baud, config_.step_mode,
+                                config_.hold_power, config_.move_power};
+  phase_.emplace<PtuStarting>(options, config_.reply_timeout_s, purpose, time_s, counters_);
+}
+
+std::string PtuDriver::step(PtuStarting& phase, double time_s) {
+  PtuStarting::Step result = phase.step(time_s, byte_s(), emergency_);
+  switch (result.event) {
+    case PtuStarting::Event::kNone:
+      break;
+    case PtuStarting::Event::kLineDropped:
+      drop_line(time_s);
+      break;
+    case PtuStarting::Event::kLineNotQuiet:
+      fault(time_s, "the line does not become quiet");
+      change_rate(time_s);
+      break;
+    case PtuStarting::Event::kNoReply:
+      fault(time_s, "no reply to " + phase.asked());
+      link_lost_ = true;
+      change_rate(time_s);
+      break;
+    case PtuStarting::Event::kComplete:
+      become_ready(PtuFacts(phase.facts()), phase.purpose(), time_s);
+      break;
+  }
+  return std::move(result.bytes);
+}
+
+void PtuDriver::take(PtuStarting& phase, const PtuReply& reply, double time_s) {
+  if (!phase.waits_for_reply()) return;
+  // A unit that was switched off and on has another baud rate than it was left with, or echoes
+  // again.
+  const bool forgot = baud_ != config_.baud || reply.echoed;
+  const bool homed_itself = progress_ != Progress::kReady && config_.homes_at_power_up;
+  if (!phase.answered() && forgot && !homed_itself) note_power_cycle();
+  reference_.rate_is(baud_);
+  if (!phase.take(reply)) {
+    const bool wanted = phase.purpose() == PtuStarting::Purpose::kHome;
+    const bool not_referenced = phase.not_referenced();
+    fault(time_s, phase.refusal(reply));
+    reference_.set_missing(not_referenced);
+    if (not_referenced) home_if(wanted);
+  } else if (phase.changed_baud()) {
+    baud_ = config_.baud;
+    drop_line(time_s);
+    phase.flush(time_s);
+  }
+}
+
+void PtuDriver::become_ready(const PtuFacts& facts, PtuStarting::Purpose purpose, double time_s) {
+  if (std::string conflict = limits_conflict(config_.limits, facts); !conflict.empty()) {
+    fault(time_s, std::move(conflict));
+    return;
+  }
+  reference_.step_is(facts.pan.resolution_rad);
+  const bool wanted = purpose == PtuStarting::Purpose::kHome;
+  if (!wanted) reference_.ready();
+  if ((wanted || doubt()) && home_if(wanted)) return;
+  phase_.emplace<PtuSteadyState>(config_, facts, byte_s(), time_s, counters_);
+  next_pause_s_ = kFirstPause_s;
+  progress_ = Progress::kReady;
+  reference_.set_missing(false);
+}
+
+std::string PtuDriver::step(Homing& phase, double time_s) {
+  if (!phase.ordered_s) {
+    phase.ordered_s = time_s;
+    reference_.homing_ordered();
+    return " R ";
+  }
+  if (time_s - *phase.ordered_s > kLongestHoming_s) fault(time_s, "homing does not end");
+  return {};
+}
+
+// The `*` of R comes after the limit hits of homing. A `*` without them does not prove a homing,
+// and one that comes at once is the late reply to something else.
+void PtuDriver::take(Homing& phase, const PtuReply& reply, double time_s) {
+  if (!phase.ordered_s) return;
+  if (!reply.ok) return fault(time_s, "homing refused: " + reply.text);
+  const bool both = reference_.saw_both_ends();
+  if (!both && time_s - *phase.ordered_s < kShortestHoming_s) return;
+  if (both) {
+    reference_.homing_complete();
+    phase.ordered_s.reset();
+  }
+  start(PtuStarting::Purpose::kDriveAfterHoming, time_s);
+}
+
+std::string PtuDriver::step(PtuSteadyState& phase, double time_s) {
+  if (doubt()) {
+    phase.set_goal(std::nullopt);
+    if (may_rehome()) {
+      home(time_s);
+      return std::exchange(urgent_, {});
+    }
+  }
+  std::string bytes = phase.step(emergency_, time_s);
+  heed_trouble(time_s);
+  return bytes;
+}
+
+std::string PtuDriver::step(Paused& phase, double time_s) {
+  if (time_s >= phase.until_s) {
+    start(PtuStarting::Purpose::kDrive, time_s);
+  } else if (!phase.listening_baud && !phase.answered && progress_ == Progress::kReady &&
+             time_s >= phase.since_s + kHaltOut_s) {
+    drop_line(time_s);
+    phase.listening_baud = reference_.homes_at(time_s).value_or(config_.line_baud);
+  }
+  return {};
+}
+
+// At the first of several faults in a row the unit is told to halt.
+void PtuDriver::fault(double time_s, std::string reason) {
+  error_ = std::move(reason);
+  ++counters_.restarts;
+  if (ready()) urgent_ = halt_request();
+  leave_homing();
+  const auto* starting = std::get_if<PtuStarting>(&phase_);
+  const bool answered = !starting || starting->answered();
+  phase_ = Paused{time_s, time_s + next_pause_s_, answered};
+  progress_ = std::max(progress_, Progress::kFaulted);
+  next_pause_s_ = std::min(2.0 * next_pause_s_, kLongestPause_s);
+}
+
+void PtuDriver::heed_trouble(double time_s) {
+  if (!ready() || !ready()->trouble()) return;
+  using Kind = PtuSteadyState::Trouble::Kind;
+  const PtuSteadyState::Trouble trouble = *ready()->trouble();
+  fault(time_s, trouble.reason);
+  link_lost_ = link_lost_ || trouble.kind == Kind::kNoReply;
+  if (trouble.kind == Kind::kBeganAnew) {
+    note_power_cycle();
+    reference_.restarts_at(baud_, time_s);
+  }
+  if (trouble.kind == Kind::kNotReferenced) {
+    reference_.set_missing(true);
+    home_if(false);
+  }
+}
+
+// The rest of a line that was begun is dropped; limit hits in it count at the rate until now.
+void PtuDriver::drop_line(double time_s) {
+  parser_.reset();
+  note_limit_hits({}, time_s);
+}
+
+// No unit answers at this baud rate: the other one is next, unless a unit homes at this one.
+void PtuDriver::change_rate(double time_s) {
+  drop_line(time_s);
+  if (std::get<Paused>(phase_).answered) return;
+  const int other = baud_ == config_.baud ? config_.line_baud : config_.baud;
+  baud_ = reference_.homes_at(time_s).value_or(other);
+}
+
+// In a pause the port has the rate at which a unit that was switched on homes and reports it.
+int PtuDriver::line_baud() const {
+  const auto* paused = std::get_if<Paused>(&phase_);
+  return paused ? paused->listening_baud.value_or(baud_) : baud_;
+}
+
+double PtuDriver::byte_s() const { return byte_time_s(baud_); }
+
+// Before the replies that came with the hits are taken.
+void PtuDriver::note_limit_hits(const std::vector<PtuReply>& replies, double time_s) {
+  const PtuLimitHits hits = parser_.limit_hits() - hits_noted_;
+  hits_noted_ = parser_.limit_hits();
+  if (!ready()) {
+    reference_.while_not_driven(hits, line_baud(), time_s);
+    return;
+  }
+  const bool homing_hits = std::any_of(replies.begin(), replies.end(), [](const PtuReply& r) {
+    return r.limit_hits >= PtuSteadyState::kHomingHits;
+  });
+  reference_.while_driven(hits, homing_hits);
+}
+
+void PtuDriver::note_power_cycle() {
+  ++counters_.power_cycles;
+  reference_.power_cycled();
+}
+
+bool PtuDriver::may_rehome() const {
+  return config_.rehome == PtuRehome::kWhenUnreferenced && rehoming_allowed_ && !emergency_ &&
+         reference_.may_home_automatically();
+}
+
+// `wanted` by a person; otherwise if it may home automatically. The start sequence has halted the
+// unit.
+bool PtuDriver::home_if(bool wanted) {
+  if (emergency_ || !(wanted || may_rehome())) return false;
+  reference_.homing_decided();
+  ++counters_.homings;
+  phase_ = Homing{};
+  return true;
+}
+
+void PtuDriver::home(double time_s) {
+  if (emergency_ || std::holds_alternative<Homing>(phase_)) return;
+  if (ready()) urgent_ = halt_request();
+  start(PtuStarting::Purpose::kHome, time_s);
+}
+
+void PtuDriver::stop_homing(double time_s) {
+  const bool under_way = std::holds_alternative<Homing>(phase_);
+  give_up_homing(time_s);
+  if (under_way) urgent_ = halt_request();
+}
+
+void PtuDriver::give_up_homing(double time_s) {
+  if (auto* starting = std::get_if<PtuStarting>(&phase_)) starting->give_up_homing();
+  if (std::holds_alternative<Homing>(phase_)) start(PtuStarting::Purpose::kDrive, time_s);
+}
+
+// Nobody knows where a unit is whose homing was ordered and is abandoned.
+void PtuDriver::leave_homing() {
+  const auto* homing = std::get_if<Homing>(&phase_);
+  if (homing && homing->ordered_s) reference_.homing_interrupted();
+}
 
 void PtuDriver::set_goal(const std::optional<ServoGoal>& goal) {
-  const bool heeded = reference() == PtuReference::kTrusted && !impl_->emergency;
-  impl_->goal = heeded ? goal : std::nullopt;
+  const bool accepted = reference() == PtuReference::kTrusted && !emergency_;
+  if (ready()) ready()->set_goal(accepted ? goal : std::nullopt);
 }
 
 std::string PtuDriver::emergency_halt(double time_s) {
-  if (!impl_->emergency) ++impl_->counters.emergencies;
-  impl_->emergency = true;
-  impl_->goal.reset();
-  impl_->urgent.clear();
-  if (impl_->steady) impl_->steady->abandon(time_s);
-  if (impl_->phase == Impl::Phase::kStart) impl_->begin_flush(time_s);
-  impl_->give_up_homing(time_s);
+  if (!emergency_) ++counters_.emergencies;
+  emergency_ = true;
+  urgent_.clear();
+  if (ready()) {
+    ready()->set_goal(std::nullopt);
+    ready()->abandon(time_s);
+  }
+  if (auto* starting = std::get_if<PtuStarting>(&phase_); starting && !starting->flushing()) {
+    drop_line(time_s);
+    starting->flush(time_s);
+  }
+  give_up_homing(time_s);
   return halt_request();
 }
 
-void PtuDriver::clear_emergency() { impl_->emergency = false; }
-
-bool PtuDriver::in_emergency() const { return impl_->emergency; }
-
-void PtuDriver::home(double time_s) { impl_->want_home(time_s); }
-
-void PtuDriver::stop_homing(double time_s) {
-  const bool under_way = impl_->phase == Impl::Phase::kHoming;
-  impl_->give_up_homing(time_s);
-  if (under_way) impl_->urgent = halt_request();
-}
-
-void PtuDriver::allow_rehoming(bool allowed) { impl_->rehoming_allowed = allowed; }
-
-void PtuDriver::inherit(PtuLegacy legacy) {
-  if (legacy == PtuLegacy::kNone) return;
-  const bool both = legacy == PtuLegacy::kBrokenHomingGearsLost;
-  impl_->reference.doubted_before(both || legacy == PtuLegacy::kBrokenHoming);
-  impl_->gears_lost = both || legacy == PtuLegacy::kGearsLost;
-}
-
 void PtuDriver::reference_ok() {
-  if (reference() != PtuReference::kDoubted) return;
-  impl_->reference.acknowledge();
-  impl_->trust();
+  if (reference() == PtuReference::kDoubted) reference_.acknowledge();
 }
 
+void PtuDriver::restore_doubt(const std::optional<PtuReferenceDoubt>& doubt) {
+  if (doubt) reference_.restore(*doubt);
+}
+
+// Homing that was wanted is given up: the port may have been gone for days.
 void PtuDriver::restart(double time_s) {
-  if (impl_->start) ++impl_->counters.restarts;
-  impl_->begin(time_s);
-  impl_->home_wanted = impl_->homing = false;  // a port may come back days later
+  if (!std::holds_alternative<NotStarted>(phase_)) ++counters_.restarts;
+  start(PtuStarting::Purpose::kDrive, time_s);
 }
-
-bool PtuDriver::take_link_loss() { return std::exchange(impl_->link_lost, false); }
 
 std::vector<AngleSample> PtuDriver::take_samples() {
-  if (!impl_->steady) return {};
-  std::vector<AngleSample> samples = impl_->steady->take_samples();
+  if (!ready()) return {};
+  std::vector<AngleSample> samples = ready()->take_samples();
   if (reference() != PtuReference::kTrusted) samples.clear();
   return samples;
 }
 
-// Whatever is tried after a fault: it is one until the unit can be driven again.
+// After a fault it stays a fault until the unit can be driven again.
 PtuState PtuDriver::state() const {
-  const PtuReference worth = reference();
-  if (worth == PtuReference::kTrusted) return PtuState::kReady;
-  if (impl_->homing || !(impl_->failed || impl_->was_ready)) return PtuState::kStarting;
-  return PtuState::kFault;
+  if (reference() == PtuReference::kTrusted) return PtuState::kReady;
+  return homing() || progress_ == Progress::kNone ? PtuState::kStarting : PtuState::kFault;
 }
 
 PtuReference PtuDriver::reference() const {
-  if (impl_->phase == Impl::Phase::kReady) {
-    if (doubt() == PtuDoubt::kNone) return PtuReference::kTrusted;
-    return impl_->gears_lost ? PtuReference::kMissing : PtuReference::kDoubted;
+  if (ready()) {
+    const auto doubt = reference_.doubt();
+    if (!doubt) return PtuReference::kTrusted;
+    return doubt->gears_lost ? PtuReference::kMissing : PtuReference::kDoubted;
   }
-  return impl_->homing || impl_->unreferenced ? PtuReference::kMissing : PtuReference::kUnknown;
+  return homing() || reference_.missing() ? PtuReference::kMissing : PtuReference::kUnknown;
 }
 
-bool PtuDriver::homing() const { return impl_->homing; }
-
-PtuDoubt PtuDriver::doubt() const { return impl_->reference.doubt(); }
-
-PtuLegacy PtuDriver::legacy() const {
-  const bool must_home = reference() == PtuReference::kMissing;
-  const bool broken = impl_->reference.broken() || (must_home && impl_->homing);
-  if (impl_->gears_lost) {
-    return broken ? PtuLegacy::kBrokenHomingGearsLost : PtuLegacy::kGearsLost;
-  }
-  if (broken) return PtuLegacy::kBrokenHoming;
-  return doubt() != PtuDoubt::kNone || must_home ? PtuLegacy::kDoubt : PtuLegacy::kNone;
+bool PtuDriver::homing() const {
+  const auto* starting = std::get_if<PtuStarting>(&phase_);
+  return std::holds_alternative<Homing>(phase_) ||
+         (starting && starting->purpose() != PtuStarting::Purpose::kDrive);
 }
 
-const PtuCounters& PtuDriver::counters() const { return impl_->counters; }
-
-const PtuLimits& PtuDriver::limits() const {
-  return impl_->steady ? impl_->steady->limits() : impl_->config.limits;
-}
-
-double PtuDriver::pan_resolution_rad() const {
-  return impl_->start ? impl_->start->facts().pan.resolution_rad : 0.0;
-}
-
-double PtuDriver::tilt_resolution_rad() const {
-  return impl_->start ? impl_->start->facts().tilt.resolution_rad : 0.0;
-}
-
-std::string PtuDriver::firmware() const {
-  return impl_->start ? impl_->start->facts().firmware : std::string();
-}
-
-std::string PtuDriver::last_error() const {
-  if (impl_->phase == Impl::Phase::kReady && doubt() != PtuDoubt::kNone) return words(doubt());
-  const std::string mended = impl_->steady ? impl_->steady->last_error() : std::string();
-  return mended.empty() ? impl_->error : mended;
-}
-
-std::optional<PtuEnvironment> PtuDriver::environment() const {
-  return impl_->steady ? impl_->steady->environment() : std::nullopt;
-}
-
-std::optional<double> PtuDriver::last_good_s() const {
-  return impl_->steady ? impl_->steady->last_good_s() : std::nullopt;
+// A unit that must be homed is in doubt; should the process end while it homes, the homing counts
+// as broken off.
+std::optional<PtuReferenceDoubt> PtuDriver::doubt_to_persist() const {
+  std::optional<PtuReferenceDoubt> doubt = reference_.doubt();
+  if (!doubt && reference() == PtuReference::kMissing) doubt.emplace();
+  if (doubt && homing()) doubt->homing_broken_off = true;
+  return doubt;
 }
 
 bool PtuDriver::not_referenced() const {
-  return impl_->unreferenced ||
-         (impl_->phase == Impl::Phase::kReady && reference() == PtuReference::kMissing);
+  return reference_.missing() || (ready() && reference() == PtuReference::kMissing);
+}
+
+const PtuLimits& PtuDriver::limits() const { return ready() ? ready()->limits() : config_.limits; }
+
+double PtuDriver::pan_resolution_rad() const {
+  return ready() ? ready()->facts().pan.resolution_rad : 0.0;
+}
+
+std::string PtuDriver::firmware() const {
+  return ready() ? ready()->facts().firmware : std::string();
+}
+
+std::string PtuDriver::last_error() const {
+  if (ready() && doubt()) return words(*doubt());
+  const std::string mended = ready() ? ready()->last_error() : std::string();
+  return mended.empty() ? error_ : mended;
+}
+
+std::optional<PtuEnvironment> PtuDriver::environment() const {
+  return ready() ? ready()->environment() : std::nullopt;
+}
+
+std::optional<double> PtuDriver::last_good_s() const {
+  return ready() ? ready()->last_good_s() : std::nullopt;
 }
 
 std::optional<PtuLoweredSpeed> PtuDriver::lowered_speed() const {
-  return impl_->steady ? impl_->steady->lowered_speed() : std::nullopt;
+  return ready() ? ready()->lowered_speed() : std::nullopt;
 }
 
-bool PtuDriver::standing() const { return impl_->steady && impl_->steady->standing(); }
-
-std::string PtuDriver::halt_request() {
-  return " " + PtuRequest().plain("H").bytes();  // the blank ends half a command
-}
+bool PtuDriver::standing() const { return ready() && ready()->standing(); }
 
 }  // namespace ols

@@ -3,84 +3,27 @@
 // the same class from simulated time.
 #pragma once
 
-#include <cstdint>
-#include <memory>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
-#include "edge/ptu/angle_history.h"
+#include "edge/ptu/driver_types.h"
 #include "edge/ptu/reference_watch.h"
-#include "edge/ptu/servo.h"
+#include "edge/ptu/starting.h"
+#include "edge/ptu/steady_state.h"
 #include "edge/ptu/unit_model.h"
 
 namespace ols {
 
-// What happens when a unit does not know where it is, or may be wrong about it. Homing sweeps the
-// whole travel, whatever stands there, so that only the configuration or a person can allow it.
-enum class PtuRehome {
-  kNever,             // the unit is a fault until somebody homed it or vouched for it
-  kWhenUnreferenced,  // R, once after each loss
-};
-
-// What the unit's angles are worth.
-enum class PtuReference {
-  kUnknown,  // no unit that could be driven
-  kMissing,  // the unit says itself that it must be homed, or it is homing
-  kDoubted,  // PtuDoubt: no samples come, no goals are heeded, until it was homed or vouched for
-  kTrusted,
-};
-
-// What whoever ends now must leave to the next process about the unit's counts: nothing; that they
-// are in doubt; that a homing was broken off, or is under way; that the unit does not know its
-// gears and must be homed, whatever a person says; both of these. Only a homing, or a person where
-// one may vouch, makes it less.
-enum class PtuLegacy { kNone, kDoubt, kBrokenHoming, kGearsLost, kBrokenHomingGearsLost };
-
-// A unit that accelerates less than configured, and is driven no faster than it can stop in time.
-struct PtuLoweredSpeed {
-  double acceleration_rad_s2, speed_rad_s;
-};
-
-struct PtuConfig {
-  std::string device;              // serial device, for example /dev/ttyUSB0
-  int baud = 38400;                // to be used
-  int line_baud = 9600;            // at which a unit may answer that was just switched on
-  double poll_interval_s = 0.025;  // one request for both positions and the servo's commands
-  double reply_timeout_s =
-      0.5;  // nothing to be believed for so long: the link is down, begin again
-  double acceleration_rad_s2 = 1.0;     // set at start
-  double environment_interval_s = 5.0;  // supply voltage and temperatures; 0: never
-  double supply_min_V = 11.5;           // an alarm below
-  PtuRehome rehome = PtuRehome::kNever;
-  // The unit's own setting, as it leaves the factory: one that was switched on just before it is
-  // first spoken to answers when it has homed, and is believed.
-  bool homes_at_power_up = true;
-  bool home_despite_keep_out = false;                  // on command
-  char step_mode = 0, hold_power = 0, move_power = 0;  // PtuStartOptions
-  PtuLimits limits;                                    // narrowed by what the unit reports
-  AngleHistory::Config history;
-  ServoConfig servo;
-};
-
-enum class PtuState { kStarting, kReady, kFault };
-
-struct PtuCounters {  // only go up
-  std::uint64_t requests = 0, replies = 0, timeouts = 0, errors = 0, garbled = 0, restarts = 0;
-  std::uint64_t limit_hits = 0;
-  std::uint64_t refused_positions = 0;  // pairs that contradicted each other or the motion
-  std::uint64_t echoes = 0;             // echo or verbose replies that came on in mid-run
-  std::uint64_t power_cycles = 0;       // noticed in mid-run
-  std::uint64_t homings = 0;            // sent from here
-  std::uint64_t emergencies = 0;
-};
-
 class PtuDriver {
  public:
-  explicit PtuDriver(const PtuConfig& config);
-  ~PtuDriver();
-  PtuDriver(PtuDriver&&) noexcept;
+  explicit PtuDriver(const PtuConfig& config) : config_(config), baud_(config.baud) {}
+  PtuDriver(const PtuDriver&) = delete;  // its phases refer to it
+  PtuDriver& operator=(const PtuDriver&) = delete;
 
   // Bytes that arrived, with an instant [s, monotonic] by which all of them were there: the moment
   // after the read.
@@ -89,66 +32,127 @@ class PtuDriver {
   // Advances time: returns bytes to write now (may be empty). Call at least every few milliseconds.
   std::string step(double time_s);
 
-  // Rate of the line, at which step()'s bytes are to be written. Changes while the unit is searched
-  // for and when it was told another one.
+  // Baud rate at which step()'s bytes are to be written. Changes while the driver searches for the
+  // unit and when it sets another rate.
   int line_baud() const;
 
-  // Where the unit shall go from now on; nothing: halt. Takes effect with the next poll. Forgotten
-  // in an emergency and whenever the unit or its reference is lost.
+  // Where the unit shall go from now on; nothing: halt. Takes effect with the next poll. Dropped in
+  // an emergency and whenever the unit or its reference is lost.
   void set_goal(const std::optional<ServoGoal>& goal);
 
-  // From now on nothing moves: halts go out, again and again until the unit was seen to stand, and
-  // no other command of motion until clear_emergency(). Returns what to write at once, whatever is
-  // under way; bytes that are not on the line yet are better thrown away before.
+  // Nothing moves from now on: halts are sent until the unit was seen to stand, and no other motion
+  // command before clear_emergency(). Returns what to write at once, whatever is under way; bytes
+  // that are not on the line yet should be dropped before.
   std::string emergency_halt(double time_s);
-  void clear_emergency();
-  bool in_emergency() const;
+  void clear_emergency() { emergency_ = false; }
+  bool in_emergency() const { return emergency_; }
 
-  // Halts the unit, waits until it stands and has it home: R sweeps the whole travel. Not in an
+  // Halts the unit, waits until it stands and homes it: R sweeps the whole travel. Ignored in an
   // emergency, and given up when the unit does not answer.
   void home(double time_s);
-  // Sends a halt to a unit that homes, which it may heed or not, and gives up what was wanted;
-  // nothing while it does not home.
+  // Gives up homing, and sends a halt to a unit that homes already. Some units ignore it.
   void stop_homing(double time_s);
-  // Whether PtuRehome::kWhenUnreferenced is heeded now; it is at first. home() always is.
-  void allow_rehoming(bool allowed);
-  // A person vouches for the reference: it was homed by hand, or checked.
+  // Whether PtuRehome::kWhenUnreferenced applies now. home() is always possible.
+  void allow_rehoming(bool allowed) { rehoming_allowed_ = allowed; }
+  // An operator confirms the reference: the unit was homed by hand, or checked.
   void reference_ok();
-  // What the process before this one left.
-  void inherit(PtuLegacy legacy);
+  // What an earlier process persisted.
+  void restore_doubt(const std::optional<PtuReferenceDoubt>& doubt);
 
-  // Begins again from power-up, for example when the port was reopened.
+  // Starts the unit again, for example because the port was reopened.
   void restart(double time_s);
 
-  // True once after the unit had stopped answering: the port is better opened anew.
-  bool take_link_loss();
+  // True once after the unit stopped answering: the port should be reopened.
+  bool take_link_loss() { return std::exchange(link_lost_, false); }
 
   // Angle samples since the last call.
   std::vector<AngleSample> take_samples();
 
   PtuState state() const;
-  const PtuCounters& counters() const;
+  const PtuCounters& counters() const { return counters_; }
   const PtuLimits& limits() const;    // those in force; meaningful once ready
-  double pan_resolution_rad() const;  // [rad] per count as queried
-  double tilt_resolution_rad() const;
-  std::string firmware() const;    // answer to V; empty until ready
-  std::string last_error() const;  // empty when there was none
+  double pan_resolution_rad() const;  // per count; 0 until ready
+  std::string firmware() const;       // answer to V; empty until ready
+  std::string last_error() const;     // empty when there was none
   std::optional<PtuEnvironment> environment() const;
-  std::optional<double> last_good_s() const;  // when the last angle was taken in
-  bool not_referenced() const;                // the unit says that it does not know where it is
-  bool homing() const;                        // since home() or by itself, until it is ready
+  std::optional<double> last_good_s() const;  // time of the newest angle sample
+  bool not_referenced() const;                // the unit must be homed
+  bool homing() const;                        // from home() until the unit is ready again
   PtuReference reference() const;
-  PtuDoubt doubt() const;
-  PtuLegacy legacy() const;
+  std::optional<PtuDoubtCause> doubt() const { return reference_.cause(); }
+  // What the next process has to know, should this one end now.
+  std::optional<PtuReferenceDoubt> doubt_to_persist() const;
   std::optional<PtuLoweredSpeed> lowered_speed() const;
   bool standing() const;  // seen not to move
 
-  // Bytes that stop the unit at once, whatever the driver was doing: for the end of the process.
-  static std::string halt_request();
-
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  // Each phase owns what exists only in it.
+  struct NotStarted {};
+  struct Homing {
+    std::optional<double> ordered_s = {};  // when R was sent
+  };
+  struct Paused {  // after a fault, before the next start
+    double since_s, until_s;
+    bool answered;  // the unit had answered at this baud rate
+    std::optional<int> listening_baud = {};
+  };
+  // How far the unit ever came; never goes back.
+  enum class Progress { kNone, kFaulted, kReady };
+
+  // How long bytes may have been there before they were read: the last two pauses between calls.
+  struct ReadDelay {
+    void note_call(double time_s) {
+      const double pause_s = std::max(0.0, time_s - called_s);
+      longest_s = std::max(pause_s, std::exchange(last_pause_s, pause_s));
+      called_s = time_s;
+    }
+    double called_s = 0.0, last_pause_s = 0.0, longest_s = 0.0;
+  };
+
+  std::string step(NotStarted& phase, double time_s);
+  std::string step(PtuStarting& phase, double time_s);
+  std::string step(Homing& phase, double time_s);
+  std::string step(PtuSteadyState& phase, double time_s);
+  std::string step(Paused& phase, double time_s);
+  void take(PtuStarting& phase, const PtuReply& reply, double time_s);
+  void take(Homing& phase, const PtuReply& reply, double time_s);
+  void take(const PtuReply& reply, double time_s);
+
+  // Changes of the phase: the object of the phase before is gone afterwards.
+  void start(PtuStarting::Purpose purpose, double time_s);
+  void fault(double time_s, std::string reason);
+  bool home_if(bool wanted);
+  void become_ready(const PtuFacts& facts, PtuStarting::Purpose purpose, double time_s);
+  void give_up_homing(double time_s);
+  void heed_trouble(double time_s);
+
+  void leave_homing();
+  void drop_line(double time_s);
+  void change_rate(double time_s);
+  void note_limit_hits(const std::vector<PtuReply>& replies, double time_s);
+  void note_power_cycle();
+  bool may_rehome() const;
+  double byte_s() const;
+  PtuSteadyState* ready() { return std::get_if<PtuSteadyState>(&phase_); }
+  const PtuSteadyState* ready() const { return std::get_if<PtuSteadyState>(&phase_); }
+
+  const PtuConfig config_;
+  int baud_;  // that is tried or in use
+  PtuReplyParser parser_;
+  PtuLimitHits hits_noted_;
+  ReadDelay read_delay_;
+  PtuCounters counters_;
+  ReferenceWatch reference_;
+  Progress progress_ = Progress::kNone;
+  std::string error_;
+  std::string urgent_;  // sent ahead of anything else
+  bool emergency_ = false;
+  bool link_lost_ = false;
+  bool rehoming_allowed_ = true;
+  double next_pause_s_ = kFirstPause_s;
+  std::variant<NotStarted, PtuStarting, Homing, PtuSteadyState, Paused> phase_;
+
+  static constexpr double kFirstPause_s = 0.25;  // after a fault; doubles
 };
 
 }  // namespace ols

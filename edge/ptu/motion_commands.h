@@ -6,7 +6,7 @@
 #include <string>
 
 #include "edge/ptu/codec.h"
-#include "edge/ptu/driver.h"
+#include "edge/ptu/driver_types.h"
 #include "edge/ptu/start_sequence.h"
 
 namespace ols {

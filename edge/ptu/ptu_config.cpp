@@ -2,85 +2,121 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <string>
-#include <vector>
 
+#include "edge/config_units.h"
 #include "edge/ptu/budget.h"
-#include "geometry/angles.h"
 
 namespace ols {
 
 namespace {
 
-double angle(ConfigTable& table, std::string_view key, double fallback_rad, double least_deg,
-             double greatest_deg) {
-  return radians(table.number(key, degrees(fallback_rad), least_deg, greatest_deg));
+constexpr config::Range kPan_deg{-720.0, 720.0}, kTilt_deg{-180.0, 180.0};
+
+// Of the travel and of each region.
+void check_order(ConfigTable& table, double pan_min_rad, double pan_max_rad, double tilt_min_rad,
+                 double tilt_max_rad) {
+  if (pan_min_rad >= pan_max_rad)
+    throw table.error("pan_max_deg", "must be greater than pan_min_deg");
+  if (tilt_min_rad >= tilt_max_rad)
+    throw table.error("tilt_max_deg", "must be greater than tilt_min_deg");
 }
 
-// Two keys of a range, the lesser one first.
-void read_range(ConfigTable& table, const std::string& least_key, const std::string& greatest_key,
-                double limit_deg, double& least_rad, double& greatest_rad) {
-  least_rad = angle(table, least_key, least_rad, -limit_deg, limit_deg);
-  greatest_rad = angle(table, greatest_key, greatest_rad, -limit_deg, limit_deg);
-  if (least_rad >= greatest_rad) {
-    throw table.error(greatest_key, "must be greater than " + least_key);
-  }
+std::vector<config::Row> keep_out_rows(KeepOut& region) {
+  return {
+      config::number("pan_min_deg", region.pan_min_rad, kPan_deg, in_degrees(),
+                     "Border at the lesser pan angle.")
+          .required(),
+      config::number("pan_max_deg", region.pan_max_rad, kPan_deg, in_degrees(),
+                     "Border at the greater pan angle.")
+          .required(),
+      config::number("tilt_min_deg", region.tilt_min_rad, kTilt_deg, in_degrees(), "Lower border.")
+          .required(),
+      config::number("tilt_max_deg", region.tilt_max_rad, kTilt_deg, in_degrees(), "Upper border.")
+          .required(),
+  };
 }
 
-KeepOut read_keep_out(ConfigTable& table) {
-  KeepOut region;
-  for (const char* key : {"pan_min_deg", "pan_max_deg", "tilt_min_deg", "tilt_max_deg"}) {
-    table.required_number(key, -720.0, 720.0);
-  }
-  read_range(table, "pan_min_deg", "pan_max_deg", 720.0, region.pan_min_rad, region.pan_max_rad);
-  read_range(table, "tilt_min_deg", "tilt_max_deg", 180.0, region.tilt_min_rad,
-             region.tilt_max_rad);
-  return region;
+config::Section keep_out_section(PtuLimits& limits) {
+  config::Section section{
+      "keep_out",
+      "A region that the unit never enters or sweeps across, in the angles that "
+      "it reports; up to 12 of them."};
+  section.append = [&limits] {
+    KeepOut& region = limits.keep_out.emplace_back();
+    return config::Section{"", "", keep_out_rows(region), {}, [&region](ConfigTable& table) {
+                             check_order(table, region.pan_min_rad, region.pan_max_rad,
+                                         region.tilt_min_rad, region.tilt_max_rad);
+                           }};
+  };
+  return section;
 }
 
-PtuLimits read_limits(ConfigTable& table) {
-  constexpr std::size_t kMostRegions = 12;  // a way round is searched for in every cycle
-  PtuLimits limits;
-  read_range(table, "pan_min_deg", "pan_max_deg", 720.0, limits.pan_min_rad, limits.pan_max_rad);
-  read_range(table, "tilt_min_deg", "tilt_max_deg", 180.0, limits.tilt_min_rad,
-             limits.tilt_max_rad);
-  for (ConfigTable* region : table.tables("keep_out")) {
-    limits.keep_out.push_back(read_keep_out(*region));
-  }
-  if (limits.keep_out.size() > kMostRegions) throw table.error("keep_out", "at most 12 regions");
-  return limits;
+config::Section servo_section(ServoConfig& servo) {
+  return {"servo",
+          "How the unit follows its goal.",
+          {config::number("gain_hz", servo.gain_hz, {0.1, 10.0}, "1/s",
+                          "Proportional gain on the angle error."),
+           config::number("look_ahead_s", servo.look_ahead_s, {0.05, 2.0}, "s",
+                          "The commanded position is this far ahead, and the unit runs on this "
+                          "long if the station dies."),
+           config::number("max_speed_deg_s", servo.max_speed_rad_s, {0.1, 360.0},
+                          in_degrees("deg/s"), "Maximum speed of each axis.")}};
 }
 
-// The letter of the mode that the key names; 0: as the unit has it.
-char letter(ConfigTable& table, std::string_view key, const std::map<std::string, char>& letters) {
-  std::vector<std::string> names{"keep"};
-  for (const auto& [name, unused] : letters) names.push_back(name);
-  const std::string chosen = table.choice(key, "keep", names);
-  return chosen == "keep" ? '\0' : letters.at(chosen);
+std::vector<config::Row> line_rows(PtuConfig& c) {
+  const std::vector<int> rates{600, 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200};
+  return {
+      config::text("device", c.device, "Serial device of the unit.", config::not_empty).required(),
+      config::one_of("baud", c.baud, rates, "baud",
+                     "Rate to use; 9600 carries 13 polls a second, 38400 carries 40."),
+      config::one_of("line_baud", c.line_baud, rates, "baud",
+                     "Rate at which a unit may answer that was just switched on."),
+      config::number("poll_interval_s", c.poll_interval_s, {0.005, 1.0}, "s",
+                     "Interval of the polls; not shorter than the rate can carry."),
+      config::number("reply_timeout_s", c.reply_timeout_s, {0.05, 10.0}, "s",
+                     "Without a credible reply for this long, the unit is halted and the port "
+                     "opened again."),
+      config::number("acceleration_deg_s2", c.acceleration_rad_s2, {1.0, 1000.0},
+                     in_degrees("deg/s^2"), "Acceleration of each axis, set at start."),
+      config::number("environment_interval_s", c.environment_interval_s, {0.0, 3600.0}, "s",
+                     "Interval of reading supply voltage and temperatures; 0: never."),
+      config::number("supply_min_V", c.supply_min_V, {0.0, 60.0}, "V",
+                     "A lower supply voltage raises an alarm."),
+  };
 }
 
-void read_modes(ConfigTable& table, PtuConfig& config) {
-  config.step_mode =
-      letter(table, "step_mode", {{"half", 'H'}, {"quarter", 'Q'}, {"eighth", 'E'}, {"auto", 'A'}});
-  config.hold_power = letter(table, "hold_power", {{"regular", 'R'}, {"low", 'L'}, {"off", 'O'}});
-  config.move_power = letter(table, "move_power", {{"high", 'H'}, {"regular", 'R'}, {"low", 'L'}});
-  const std::string rehome = table.choice("rehome", "never", {"never", "when-unreferenced"});
-  config.rehome = rehome == "never" ? PtuRehome::kNever : PtuRehome::kWhenUnreferenced;
-  config.homes_at_power_up = table.boolean("homes_at_power_up", config.homes_at_power_up);
-  config.home_despite_keep_out =
-      table.boolean("home_despite_keep_out", config.home_despite_keep_out);
-  if (config.rehome != PtuRehome::kNever && !config.limits.keep_out.empty()) {
-    throw table.error("rehome", "homing sweeps the whole travel, keep_out and all");
-  }
-}
-
-int rate(ConfigTable& table, std::string_view key, int fallback) {
-  const int baud = static_cast<int>(table.integer(key, fallback, 600, 115200));
-  for (const int known : {600, 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200}) {
-    if (baud == known) return baud;
-  }
-  throw table.error(key, "is not a rate of serial lines");
+std::vector<config::Row> motion_rows(PtuConfig& c) {
+  PtuLimits& l = c.limits;
+  return {
+      config::number("pan_min_deg", l.pan_min_rad, kPan_deg, in_degrees(),
+                     "Narrows the unit's own travel."),
+      config::number("pan_max_deg", l.pan_max_rad, kPan_deg, in_degrees(),
+                     "Narrows the unit's own travel."),
+      config::number("tilt_min_deg", l.tilt_min_rad, kTilt_deg, in_degrees(),
+                     "Narrows the unit's own travel."),
+      config::number("tilt_max_deg", l.tilt_max_rad, kTilt_deg, in_degrees(),
+                     "Narrows the unit's own travel."),
+      config::flag("homes_at_power_up", c.homes_at_power_up,
+                   "The unit's own setting: true as it leaves the factory (RE), false after RD."),
+      config::word(
+          "rehome", c.rehome,
+          {{"never", PtuRehome::kNever}, {"when-unreferenced", PtuRehome::kWhenUnreferenced}},
+          "Whether the station homes a unit whose reference is missing or in doubt; "
+          "homing sweeps the whole travel."),
+      config::flag("home_despite_keep_out", c.home_despite_keep_out,
+                   "Lets the operator home a unit that has regions to keep out of."),
+      config::word(
+          "step_mode", c.step_mode,
+          {{"keep", '\0'}, {"auto", 'A'}, {"eighth", 'E'}, {"half", 'H'}, {"quarter", 'Q'}},
+          "Step mode of an E-series unit."),
+      config::word("hold_power", c.hold_power,
+                   {{"keep", '\0'}, {"low", 'L'}, {"off", 'O'}, {"regular", 'R'}},
+                   "Power of the motors at rest; off loses the position."),
+      config::word("move_power", c.move_power,
+                   {{"keep", '\0'}, {"high", 'H'}, {"low", 'L'}, {"regular", 'R'}},
+                   "Power of the motors in motion."),
+  };
 }
 
 std::string text(const char* format, double a, double b) {
@@ -89,7 +125,15 @@ std::string text(const char* format, double a, double b) {
   return line;
 }
 
-// What does not go together.
+void check_limits(ConfigTable& table, const PtuConfig& c) {
+  constexpr std::size_t kMaxRegions = 12;  // every cycle searches for a way round them
+  check_order(table, c.limits.pan_min_rad, c.limits.pan_max_rad, c.limits.tilt_min_rad,
+              c.limits.tilt_max_rad);
+  if (c.limits.keep_out.size() > kMaxRegions) throw table.error("keep_out", "at most 12 regions");
+  if (c.rehome != PtuRehome::kNever && !c.limits.keep_out.empty())
+    throw table.error("rehome", "homing sweeps the whole travel, keep_out and all");
+}
+
 void check_budget(ConfigTable& table, const PtuConfig& config) {
   constexpr double kRounding_s = 1e-6;
   const double cycle_s = longest_cycle_s(config.baud);
@@ -117,50 +161,25 @@ void check_running_on(ConfigTable& table, const PtuConfig& config) {
   }
 }
 
-ServoConfig read_servo(ConfigTable& table) {
-  ServoConfig servo;
-  servo.gain_hz = table.number("gain_hz", servo.gain_hz, 0.1, 10.0);
-  servo.look_ahead_s = table.number("look_ahead_s", servo.look_ahead_s, 0.05, 2.0);
-  servo.max_speed_rad_s = angle(table, "max_speed_deg_s", servo.max_speed_rad_s, 0.1, 360.0);
-  servo.goal_timeout_s = table.number("goal_timeout_s", servo.goal_timeout_s, 0.05, 10.0);
-  return servo;
-}
-
-AngleHistory::Config read_angles(ConfigTable& table, double acceleration_rad_s2) {
-  constexpr double kShare = 0.04;
-  AngleHistory::Config angles;
-  angles.span_s = table.number("span_s", angles.span_s, 0.5, 60.0);
-  angles.max_gap_s = table.number("max_gap_s", angles.max_gap_s, 0.01, 2.0);
-  angles.max_extrapolation_s =
-      table.number("max_extrapolation_s", angles.max_extrapolation_s, 0.0, 1.0);
-  angles.acceleration_max_rad_s2 = acceleration_rad_s2;
-  angles.acceleration_sd_rad_s2 =
-      angle(table, "acceleration_sd_deg_s2", kShare * acceleration_rad_s2, 0.0, 1000.0);
-  return angles;
-}
+// A unit's motion departs from its commanded profile by about this share of its acceleration.
+constexpr double kAccelerationSdShare = 0.04;
 
 }  // namespace
 
-PtuConfig read_ptu_config(ConfigTable& table) {
-  PtuConfig config;
-  config.device = table.required_text("device");
-  if (config.device.empty()) throw table.error("device", "must not be empty");
-  config.baud = rate(table, "baud", config.baud);
-  config.line_baud = rate(table, "line_baud", config.line_baud);
-  config.poll_interval_s = table.number("poll_interval_s", config.poll_interval_s, 0.005, 1.0);
-  config.reply_timeout_s = table.number("reply_timeout_s", config.reply_timeout_s, 0.05, 10.0);
-  config.acceleration_rad_s2 =
-      angle(table, "acceleration_deg_s2", config.acceleration_rad_s2, 1.0, 1000.0);
-  config.environment_interval_s =
-      table.number("environment_interval_s", config.environment_interval_s, 0.0, 3600.0);
-  config.supply_min_V = table.number("supply_min_V", config.supply_min_V, 0.0, 60.0);
-  config.limits = read_limits(table);
-  read_modes(table, config);
-  config.servo = read_servo(table.table("servo"));
-  config.history = read_angles(table.table("angles"), config.acceleration_rad_s2);
-  check_budget(table, config);
-  check_running_on(table, config);
-  return config;
+config::Section ptu_section(PtuConfig& c) {
+  auto rows = line_rows(c);
+  std::ranges::move(motion_rows(c), std::back_inserter(rows));
+  return {"ptu",
+          "The pan-tilt unit.",
+          rows,
+          {keep_out_section(c.limits), servo_section(c.servo)},
+          [&c](ConfigTable& table) {
+            check_limits(table, c);
+            check_budget(table, c);
+            check_running_on(table, c);
+            c.history.acceleration_max_rad_s2 = c.acceleration_rad_s2;
+            c.history.acceleration_sd_rad_s2 = kAccelerationSdShare * c.acceleration_rad_s2;
+          }};
 }
 
 }  // namespace ols

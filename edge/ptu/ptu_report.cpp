@@ -21,7 +21,7 @@ std::string lowered_words(const PtuLoweredSpeed& lowered) {
 }
 
 DeviceState state_of(const PtuStatus& status) {
-  if (!status.port_open) return DeviceState::kAbsent;
+  if (!status.port.open) return DeviceState::kAbsent;
   switch (status.state) {
     case PtuState::kStarting:
       return DeviceState::kStarting;
@@ -52,9 +52,7 @@ void add_alarms(const PtuConfig& config, const PtuStatus& status, double now_s,
   if (report.state == DeviceState::kFault) alarm("halted, " + status.last_error);
   if (status.not_referenced) alarm("does not know where it is: home it");
   if (status.homing) alarm("homing");
-  if (status.doubt != PtuDoubt::kNone && status.last_error != words(status.doubt)) {
-    alarm(words(status.doubt));
-  }
+  if (status.doubt && status.last_error != words(*status.doubt)) alarm(words(*status.doubt));
   if (status.lowered_speed) alarm(lowered_words(*status.lowered_speed));
   const bool silent = !status.last_good_s || now_s - *status.last_good_s > kOld_s;
   if (report.state == DeviceState::kOk && silent) alarm("no angles");
@@ -82,7 +80,7 @@ void add_counters(const PtuStatus& status, DeviceReport& report) {
       {"ptu_limit_hits", c.limit_hits}, {"ptu_refused_positions", c.refused_positions},
       {"ptu_echoes", c.echoes},         {"ptu_power_cycles", c.power_cycles},
       {"ptu_homings", c.homings},       {"ptu_emergencies", c.emergencies},
-      {"ptu_reopens", status.reopens},  {"ptu_port_failures", status.port_failures}};
+      {"ptu_reopens", status.port.reopens},  {"ptu_port_failures", status.port.failures}};
 }
 
 }  // namespace
@@ -95,7 +93,7 @@ DeviceReport ptu_report(const PtuConfig& config, const PtuStatus& status, double
   report.text = text_of(status, report.state);
   report.last_good_s = status.last_good_s;
   report.last_error = status.last_error;
-  report.errors = status.port_failures + c.timeouts + c.errors + c.garbled + c.restarts +
+  report.errors = status.port.failures + c.timeouts + c.errors + c.garbled + c.restarts +
                   c.refused_positions + c.echoes;
   add_alarms(config, status, now_s, report);
   add_readings(status, report);

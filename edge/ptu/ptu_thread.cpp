@@ -38,7 +38,7 @@ struct PtuThread::Impl {
         pause_s = kFirstPause_s;
         serve(port, stop);
         // The process ends, or the port is opened anew: the unit stands meanwhile.
-        port.write_first(PtuDriver::halt_request());
+        port.write_first(halt_request());
         port.drain(kHaltOut_s);
       } catch (const std::exception& failure) {
         note_failure(failure.what());
@@ -64,7 +64,7 @@ struct PtuThread::Impl {
         if (!halt_wanted) request = driver.step(clock_monotonic_s());
         wanted_rate = driver.line_baud();
         link_lost = driver.take_link_loss();
-        reopens += link_lost ? 1 : 0;
+        port_status.reopens += link_lost ? 1 : 0;
       }
       if (wanted_rate != rate) port.set_baud(rate = wanted_rate);
       if (!request.empty()) port.write(request);
@@ -94,14 +94,14 @@ struct PtuThread::Impl {
   void set_open() {
     const std::lock_guard lock(mutex);
     // After a mere silence the driver goes on with its own pauses.
-    if (!open) driver.restart(clock_monotonic_s());
-    open = true;
+    if (!port_status.open) driver.restart(clock_monotonic_s());
+    port_status.open = true;
   }
 
   void note_failure(const std::string& what) {
     const std::lock_guard lock(mutex);
-    open = false;
-    ++port_failures;
+    port_status.open = false;
+    ++port_status.failures;
     port_error = what;
   }
 
@@ -112,8 +112,7 @@ struct PtuThread::Impl {
   mutable std::mutex mutex;               // of everything below
   std::condition_variable_any wake;
   PtuDriver driver;
-  bool open = false;
-  std::uint64_t port_failures = 0, reopens = 0;
+  PtuStatus::Port port_status;
   std::string port_error;
   std::jthread thread;  // last: it uses the rest
 };
@@ -162,9 +161,9 @@ void PtuThread::allow_rehoming(bool allowed) {
   impl_->driver.allow_rehoming(allowed);
 }
 
-void PtuThread::inherit(PtuLegacy legacy) {
+void PtuThread::restore_doubt(const std::optional<PtuReferenceDoubt>& doubt) {
   const std::lock_guard lock(impl_->mutex);
-  impl_->driver.inherit(legacy);
+  impl_->driver.restore_doubt(doubt);
 }
 
 void PtuThread::reference_ok() {
@@ -174,22 +173,20 @@ void PtuThread::reference_ok() {
 
 PtuReference PtuThread::reference() const {
   const std::lock_guard lock(impl_->mutex);
-  return impl_->open ? impl_->driver.reference() : PtuReference::kUnknown;
+  return impl_->port_status.open ? impl_->driver.reference() : PtuReference::kUnknown;
 }
 
-PtuLegacy PtuThread::legacy() const {
+std::optional<PtuReferenceDoubt> PtuThread::doubt_to_persist() const {
   const std::lock_guard lock(impl_->mutex);
-  return impl_->driver.legacy();
+  return impl_->driver.doubt_to_persist();
 }
 
 PtuStatus PtuThread::status() const {
   const std::lock_guard lock(impl_->mutex);
   const PtuDriver& driver = impl_->driver;
   PtuStatus status;
-  status.port_open = impl_->open;
-  status.state = impl_->open || impl_->port_failures == 0 ? driver.state() : PtuState::kFault;
-  status.port_failures = impl_->port_failures;
-  status.reopens = impl_->reopens;
+  status.port = impl_->port_status;
+  status.state = impl_->port_status.open || impl_->port_status.failures == 0 ? driver.state() : PtuState::kFault;
   status.emergency = impl_->emergency;
   status.standing = driver.standing();
   status.not_referenced = driver.not_referenced();
@@ -201,10 +198,8 @@ PtuStatus PtuThread::status() const {
   status.environment = driver.environment();
   status.counters = driver.counters();
   status.limits = driver.limits();
-  status.pan_resolution_rad = driver.pan_resolution_rad();
-  status.tilt_resolution_rad = driver.tilt_resolution_rad();
   status.firmware = driver.firmware();
-  status.last_error = impl_->open ? driver.last_error() : impl_->port_error;
+  status.last_error = impl_->port_status.open ? driver.last_error() : impl_->port_error;
   return status;
 }
 

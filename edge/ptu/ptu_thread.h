@@ -17,22 +17,22 @@ namespace ols {
 // What there is to know of a PTU at one moment.
 struct PtuStatus {
   PtuState state = PtuState::kStarting;
-  bool port_open = false;
-  std::uint64_t port_failures = 0;  // opens that failed and ports that vanished; only goes up
-  std::uint64_t reopens = 0;        // of the port because the unit did not answer
+  struct Port {
+    bool open = false;
+    std::uint64_t failures = 0;  // opens that failed and ports that vanished; only goes up
+    std::uint64_t reopens = 0;   // because the unit did not answer; only goes up
+  } port;
   bool emergency = false;           // nothing moves until clear_emergency()
   bool standing = false;            // seen not to move
   bool not_referenced = false;      // must be homed
   bool homing = false;
-  PtuDoubt doubt = PtuDoubt::kNone;
+  std::optional<PtuDoubtCause> doubt;
   std::optional<PtuLoweredSpeed> lowered_speed;
   int line_baud = 0;
   std::optional<double> last_good_s;  // CLOCK_MONOTONIC of the last angle
   std::optional<PtuEnvironment> environment;
   PtuCounters counters;
-  PtuLimits limits;  // meaningful once ready
-  double pan_resolution_rad = 0.0;
-  double tilt_resolution_rad = 0.0;
+  PtuLimits limits;        // meaningful once ready
   std::string firmware;    // the unit's answer to V; empty until ready
   std::string last_error;  // of the port or of the unit; empty when there was none
 };
@@ -61,10 +61,10 @@ class PtuThread {
   void home();
   void stop_homing();
   void allow_rehoming(bool allowed);  // it is not, at first
-  void inherit(PtuLegacy legacy);
+  void restore_doubt(const std::optional<PtuReferenceDoubt>& doubt);
   void reference_ok();
   PtuReference reference() const;
-  PtuLegacy legacy() const;
+  std::optional<PtuReferenceDoubt> doubt_to_persist() const;
 
   PtuStatus status() const;
   DeviceReport report() const;

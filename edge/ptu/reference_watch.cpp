@@ -1,37 +1,21 @@
 #include "edge/ptu/reference_watch.h"
 
+#include <cmath>
+
 namespace ols {
 
 namespace {
 
 constexpr double kBetweenEnds_s = 15.0;  // the slowest axis from one end to the other
+constexpr double kSameStep = 0.01;       // relative difference
 
 }  // namespace
-
-const char* words(PtuDoubt doubt) {
-  switch (doubt) {
-    case PtuDoubt::kNone:
-      break;
-    case PtuDoubt::kPowerCycle:
-      return "was switched off and on and not seen to home itself: home it, or reference-ok once "
-             "it was checked";
-    case PtuDoubt::kLimitHit:
-      return "ran into a limit and may have lost steps: home it, or reference-ok once it was "
-             "checked";
-    case PtuDoubt::kHomingInterrupted:
-      return "its homing did not come to an end: home it, or reference-ok once it was checked";
-    case PtuDoubt::kBefore:
-      return "its reference was in doubt already before this start: home it, or reference-ok once "
-             "it was checked";
-  }
-  return "";
-}
 
 void ReferenceWatch::while_driven(const PtuLimitHits& hits, bool homing) {
   if (homing) {
     ends_ += hits;
-  } else if (hits.any() && doubt_ == PtuDoubt::kNone) {
-    doubt_ = PtuDoubt::kLimitHit;
+  } else if (hits.any() && !doubt_) {
+    doubt_for(PtuDoubtCause::kLimitHit);
   }
 }
 
@@ -55,10 +39,14 @@ std::optional<int> ReferenceWatch::homes_at(double time_s) const {
   return std::nullopt;
 }
 
+void ReferenceWatch::power_cycled() {
+  if (!doubt_ || !doubt_->persisted.homing_broken_off) doubt_for(PtuDoubtCause::kPowerCycle);
+}
+
 void ReferenceWatch::homing_ordered() {
   heard_.clear();
   ends_ = {};
-  over_ = false;
+  complete_ = false;
 }
 
 bool ReferenceWatch::saw_both_ends() const {
@@ -69,19 +57,53 @@ bool ReferenceWatch::saw_both_ends() const {
 
 void ReferenceWatch::homing_interrupted() {
   homing_ordered();
-  doubt_ = PtuDoubt::kHomingInterrupted;
-  broken_ = true;
+  doubt_for(PtuDoubtCause::kHomingInterrupted).persisted.homing_broken_off = true;
+}
+
+void ReferenceWatch::step_is(double pan_step_rad) {
+  step_rad_ = pan_step_rad;
+  if (trusted_step_rad_ <= 0.0) trusted_step_rad_ = pan_step_rad;
+  if (std::abs(pan_step_rad / trusted_step_rad_ - 1.0) <= kSameStep) return;
+  if (!doubt_) power_cycled();
+  doubt_->persisted.gears_lost = true;
 }
 
 void ReferenceWatch::ready() {
   const bool homed = ends_.pan > 0 && ends_.tilt > 0;
-  if (homed && (over_ || !broken_)) {
-    acknowledge();
-  } else if (was_ready_ && ends_.any() && doubt_ == PtuDoubt::kNone) {
-    doubt_ = PtuDoubt::kLimitHit;
+  const bool broken_off = doubt_ && doubt_->persisted.homing_broken_off;
+  if (homed && (complete_ || !broken_off)) {
+    doubt_.reset();
+  } else if (was_ready_ && ends_.any() && !doubt_) {
+    doubt_for(PtuDoubtCause::kLimitHit);
   }
   homing_ordered();
   was_ready_ = true;
+  if (!doubt_) acknowledge();
+}
+
+void ReferenceWatch::acknowledge() {
+  doubt_.reset();
+  homed_since_trusted_ = false;
+  trusted_step_rad_ = step_rad_;
+}
+
+std::optional<PtuDoubtCause> ReferenceWatch::cause() const {
+  return doubt_ ? std::optional(doubt_->cause) : std::nullopt;
+}
+
+std::optional<PtuReferenceDoubt> ReferenceWatch::doubt() const {
+  return doubt_ ? std::optional(doubt_->persisted) : std::nullopt;
+}
+
+bool ReferenceWatch::may_home_automatically() const {
+  return !homed_since_trusted_ && !(doubt_ && doubt_->persisted.homing_broken_off);
+}
+
+// A newer cause replaces an older one; the rest of the doubt stays.
+ReferenceWatch::Doubt& ReferenceWatch::doubt_for(PtuDoubtCause cause) {
+  if (!doubt_) doubt_ = Doubt{};
+  doubt_->cause = cause;
+  return *doubt_;
 }
 
 }  // namespace ols

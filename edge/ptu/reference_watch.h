@@ -1,71 +1,81 @@
-// Whether a unit's counts still mean what they did. A unit that was switched off and on begins to
-// count where it happens to stand; one that ran into a limit may have lost steps. Either way its
-// angles, limits and regions are in a frame that nobody knows, until it was homed or a person
-// vouches for it. Pure.
+// Watches whether a unit's step counter still matches its head. A unit that was switched off and on
+// begins to count from wherever it stands; one that ran into a limit may have lost steps. Either
+// way its angles, limits and keep-out regions are in an unknown frame until it was homed or an
+// operator confirms the reference. Pure.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <optional>
 
 #include "edge/ptu/codec.h"
+#include "edge/ptu/reference_doubt.h"
 
 namespace ols {
 
-enum class PtuDoubt { kNone, kPowerCycle, kLimitHit, kHomingInterrupted, kBefore };
-// What is wrong and what to do; empty for kNone.
-const char* words(PtuDoubt doubt);
-
-// Homing runs into both ends of both axes and says so: `!T!T!P!P`. Of the four some may be lost on
-// the line or said at another rate than was listened at; one of each axis is enough, because
-// nothing else moves a unit that is not driven.
+// A homing runs into both ends of both axes and reports them: `!T!T!P!P`. Some of the four may be
+// lost on the line, or sent at another baud rate than the port's. One of each axis is enough,
+// because nothing else moves a unit that is not driven.
 class ReferenceWatch {
  public:
-  // Limit hits of a unit that is driven. `homing`: they came all at once, in one reply.
+  // Limit hits of a unit that is driven. `homing`: several came in one reply, as from a homing.
   void while_driven(const PtuLimitHits& hits, bool homing);
-  // Limit hits of one that is not, heard at this rate of the line, which may be a wrong one.
+  // Limit hits of a unit that is not driven, read at this baud rate, which may be the wrong one.
   void while_not_driven(const PtuLimitHits& hits, int baud, double time_s);
-  // The unit answers at this rate: what was heard at any other was noise.
+  // The unit answers at this baud rate: whatever was read at any other one was noise.
   void rate_is(int baud);
-  // A unit was heard to begin anew at this rate.
-  void begins(int baud, double time_s) { heard_[baud].time_s = time_s; }
-  // The rate at which a unit begins or homes: it will answer there when it is done.
+  // A unit was heard to restart at this baud rate.
+  void restarts_at(int baud, double time_s) { heard_[baud].time_s = time_s; }
+  // The baud rate at which a unit restarts or homes: it will answer at that one when it is done.
   std::optional<int> homes_at(double time_s) const;
 
-  void power_cycled() {
-    if (!broken_) doubt_ = PtuDoubt::kPowerCycle;
-  }
-  // A homing of our own: it was asked for, the unit said that it is over, or it was left before.
-  // After one that was broken off only a whole one of our own is believed: some units go on.
-  void homing_ordered();
-  bool saw_both_ends() const;  // since then
-  void homing_over() { over_ = true; }
-  void homing_interrupted();
-  // When the process before this one ended, perhaps in the middle of a homing.
-  void doubted_before(bool broken) {
-    doubt_ = PtuDoubt::kBefore;
-    broken_ = broken;
-  }
-  // It can be driven again. The first time it is believed: whoever set the station up saw to it.
-  void ready();
-  void acknowledge() {
-    doubt_ = PtuDoubt::kNone;
-    broken_ = false;
-  }
+  void power_cycled();
 
-  PtuDoubt doubt() const { return doubt_; }
-  bool broken() const { return broken_; }  // a homing was, and none was whole since then
+  // A homing by the driver: it is decided, R is sent, the unit says that it is complete, or the
+  // driver abandons it. After an abandoned homing only another complete one by the driver restores
+  // the reference, because some units finish the abandoned one.
+  void homing_decided() { homed_since_trusted_ = true; }
+  void homing_ordered();
+  bool saw_both_ends() const;  // since homing_ordered()
+  void homing_complete() { complete_ = true; }
+  void homing_interrupted();
+
+  // The doubt that an earlier process persisted.
+  void restore(const PtuReferenceDoubt& doubt) { doubt_ = {PtuDoubtCause::kBeforeStart, doubt}; }
+  // The unit states its pan step. Another step than before means that it was switched off and on.
+  void step_is(double pan_step_rad);
+  // The unit is ready. The first time its reference is trusted: the installer checked it.
+  void ready();
+  // The reference is trusted.
+  void acknowledge();
+  // Whether the unit itself reports that it must be homed.
+  void set_missing(bool missing) { missing_ = missing; }
+  bool missing() const { return missing_; }
+
+  std::optional<PtuDoubtCause> cause() const;
+  std::optional<PtuReferenceDoubt> doubt() const;
+  // Neither was the unit homed since its reference was last trusted nor was a homing broken off.
+  bool may_home_automatically() const;
 
  private:
   struct Heard {
     PtuLimitHits hits;
     double time_s = 0.0;
   };
-  PtuDoubt doubt_ = PtuDoubt::kNone;
-  std::map<int, Heard> heard_;  // by rate of the line
-  PtuLimitHits ends_;           // since it was ready, for certain
-  bool over_ = false, broken_ = false;
+  struct Doubt {
+    PtuDoubtCause cause;
+    PtuReferenceDoubt persisted;
+  };
+  Doubt& doubt_for(PtuDoubtCause cause);
+
+  std::optional<Doubt> doubt_;
+  std::map<int, Heard> heard_;  // by baud rate
+  PtuLimitHits ends_;           // since the unit was ready, read at the right baud rate
+  bool complete_ = false;       // a homing by the driver
   bool was_ready_ = false;
+  bool missing_ = false;
+  bool homed_since_trusted_ = false;
+  double step_rad_ = 0.0;
+  double trusted_step_rad_ = 0.0;  // 0: not known yet
 };
 
 }  // namespace ols

@@ -1,27 +1,13 @@
 #include "edge/ptu/steady_state.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace ols {
 
 namespace {
 
-constexpr double kReplySlack_s = 0.08;      // what a unit may take over one cycle
-constexpr double kQuiet_s = 0.06;           // silence after a cycle whose replies are missing
-constexpr double kShortQuiet_s = 0.02;      // after one whose replies came, but wrong
-constexpr double kLatencyShare = 0.05;      // of a new one in the running average
-constexpr int kChecksAtMost = 5;            // of the modes, before the unit is started again
-constexpr int kBoundsRefused = 3;           // refusals for travel or speed within
-constexpr double kBoundsRefused_s = 5.0;    // this time: what was read at the start is not so
-constexpr std::size_t kSamplesKept = 1000;  // when nobody takes them
-
-AngleHistory::Config history_config(const PtuConfig& config, const PtuFacts& facts) {
-  AngleHistory::Config history = config.history;
-  history.step_rad = facts.pan.resolution_rad;
-  return history;
-}
+constexpr int kBoundsRefused = 3;         // refusals for travel or speed within
+constexpr double kBoundsRefused_s = 5.0;  // this time: the unit's bounds are not those of the start
 
 }  // namespace
 
@@ -29,97 +15,81 @@ PtuSteadyState::PtuSteadyState(const PtuConfig& config, const PtuFacts& facts, d
                                double time_s, PtuCounters& counters)
     : config_(config),
       facts_(facts),
-      byte_s_(byte_s),
       counters_(counters),
       commands_(config, facts),
-      check_(facts),
-      history_(history_config(config, facts)),
-      next_poll_s_(time_s),
-      last_byte_s_(time_s),
-      next_environment_s_(time_s) {}
+      polling_(config.poll_interval_s, byte_s, time_s),
+      angles_(config, facts),
+      modes_(facts.pan.acceleration),
+      environment_{time_s} {}
 
-std::string PtuSteadyState::step(const std::optional<ServoGoal>& goal, bool emergency,
-                                 double time_s) {
+std::string PtuSteadyState::step(bool emergency, double time_s) {
   if (trouble_) return {};
   if (waiting_since_s_ && time_s - *waiting_since_s_ > config_.reply_timeout_s) {
-    const bool silent = time_s - last_byte_s_ > config_.reply_timeout_s;
-    if (silent && cycle_) ++counters_.timeouts;
-    fail(silent ? Trouble::Kind::kNoReply : Trouble::Kind::kNotItself,
-         silent ? "no reply" : "no position to be believed: " + error_);
+    give_up_waiting(time_s);
     return {};
   }
-  if (cycle_) return watch(time_s);
-  if (time_s < next_poll_s_ || time_s < last_byte_s_ + quiet_s_) return {};
-  quiet_s_ = 0.0;
-  next_poll_s_ = time_s + config_.poll_interval_s;
-  line_garbled_ = false;
-  checking_modes_ = check_modes_;
-  const PtuRequest commands = commands_for(goal, emergency, time_s);
-  const PanTilt& change = commands_.speed_change_rad_s();
-  told_ = {std::max(told_.pan_rad, change.pan_rad), std::max(told_.tilt_rad, change.tilt_rad)};
-  cycle_.emplace(commands, questions_for(time_s), time_s, byte_s_, latency_s_);
+  if (polling_.under_way()) {
+    watch(time_s);
+    return {};
+  }
+  if (!polling_.due(time_s)) return {};
+  modes_.begin_cycle();
+  const PtuRequest commands = commands_for(emergency, time_s);
+  angles_.commanded(commands_.speed_change_rad_s());
   ++counters_.requests;
   if (!waiting_since_s_) waiting_since_s_ = time_s;
-  return cycle_->bytes();
+  return polling_.send(commands, questions_for(time_s), time_s);
 }
 
-PtuRequest PtuSteadyState::commands_for(const std::optional<ServoGoal>& goal, bool emergency,
-                                        double time_s) {
-  const auto interpolated = history_.at(time_s);
-  const auto newest = history_.newest();
+PtuRequest PtuSteadyState::commands_for(bool emergency, double time_s) {
   MotionCommands::Now now;
-  now.rate_rad_s = check_.rate_rad_s();
-  now.standing = check_.standing();
-  if (emergency)
+  now.rate_rad_s = angles_.rate_rad_s();
+  now.standing = angles_.standing();
+  if (emergency) {
     return now.standing ? commands_.halt(now, time_s) : commands_.halt_anew(now, time_s);
-  // As long as it may take speeds for velocities it is told nothing.
-  if (check_modes_) return PtuRequest().plain("ED").plain("FT");
-  if (!newest) return {};
-  // Replies that are read too late to tell when keep the link up, but nobody drives by them.
-  if (time_s - newest->time_s > config_.reply_timeout_s) return commands_.halt(now, time_s);
-  now.angles = interpolated ? interpolated->angles : newest->angles;
-  return commands_.next(goal, now, time_s);
+  }
+  if (modes_.needed()) return ModeCheck::commands();
+  const auto newest_s = angles_.newest_s();
+  if (!newest_s) return {};
+  // Replies that are read too late to date them keep the link up, but the servo needs newer angles.
+  if (time_s - *newest_s > config_.reply_timeout_s) return commands_.halt(now, time_s);
+  now.angles = *angles_.angles_at(time_s);
+  return commands_.next(goal_, now, time_s);
 }
 
 PtuRequest PtuSteadyState::questions_for(double time_s) {
-  PtuRequest questions;
-  if (check_modes_) {
-    questions.plain("C").query(PtuAxis::kPan, PtuQuantity::kAcceleration);
-    return questions;
-  }
-  ask_environment_ = config_.environment_interval_s > 0.0 && time_s >= next_environment_s_;
-  if (ask_environment_) {
-    next_environment_s_ = time_s + config_.environment_interval_s;
-    questions.plain("O");
-  }
-  return questions;
+  environment_.asked =
+      !modes_.needed() && config_.environment_interval_s > 0.0 && time_s >= environment_.next_s;
+  if (modes_.needed()) return ModeCheck::questions();
+  if (!environment_.asked) return {};
+  environment_.next_s = time_s + config_.environment_interval_s;
+  return PtuRequest().plain("O");
 }
 
-// A cycle that is under way: is it still to come to an end?
-std::string PtuSteadyState::watch(double time_s) {
-  const bool damaged = line_garbled_ || cycle_->spoilt();
-  const double silent_since_s = std::max(last_byte_s_, cycle_->sent_out_s());
-  if (damaged && time_s > silent_since_s + kShortQuiet_s) {
-    ++counters_.garbled;
-    give_up_cycle(time_s, 0.0, "a reply was garbled");
-  } else if (time_s > cycle_->due_s(kReplySlack_s)) {
-    ++counters_.timeouts;
-    give_up_cycle(time_s, kQuiet_s, "replies are missing");
-  }
-  return {};
+void PtuSteadyState::give_up_waiting(double time_s) {
+  const bool silent = polling_.silent_for(config_.reply_timeout_s, time_s);
+  if (silent && polling_.under_way()) ++counters_.timeouts;
+  fail(silent ? Trouble::Kind::kNoReply : Trouble::Kind::kNotItself,
+       silent ? "no reply" : "no plausible position: " + error_);
 }
 
-void PtuSteadyState::give_up_cycle(double time_s, double quiet_s, std::string reason) {
-  error_ = std::move(reason);
-  cycle_.reset();
-  commands_.send_all_again();
-  quiet_s_ = quiet_s;
-  next_poll_s_ = std::min(next_poll_s_, time_s);
+void PtuSteadyState::watch(double time_s) {
+  const auto failure = polling_.watch(time_s);
+  if (!failure) return;
+  const bool garbled = *failure == Polling::Failure::kGarbled;
+  ++(garbled ? counters_.garbled : counters_.timeouts);
+  send_all_again(garbled ? "a reply was garbled" : "replies are missing");
 }
 
 void PtuSteadyState::abandon(double time_s) {
-  give_up_cycle(time_s, kShortQuiet_s, "interrupted");
-  last_byte_s_ = std::max(last_byte_s_, time_s);
+  polling_.abandon(time_s);
+  send_all_again("interrupted");
+}
+
+// Some of the commands may not have reached the unit.
+void PtuSteadyState::send_all_again(std::string because) {
+  error_ = std::move(because);
+  commands_.send_all_again();
 }
 
 void PtuSteadyState::fail(Trouble::Kind kind, std::string reason) {
@@ -133,107 +103,72 @@ void PtuSteadyState::unit_began_anew() {
 void PtuSteadyState::take(const PtuReply& reply, double time_s, double late_s) {
   if (reply.limit_hits >= kHomingHits) {
     unit_began_anew();
-    return;
-  }
-  if (!cycle_) {
+  } else if (!polling_.under_way()) {
     ++counters_.garbled;
-    error_ = "a reply to nothing";
-    quiet_s_ = std::max(quiet_s_, kShortQuiet_s);
-    return;
+    error_ = "an unexpected reply";
+    polling_.unexpected_reply();
+  } else if (const auto done = polling_.take(reply, late_s)) {
+    finish(*done, time_s);
   }
-  cycle_->take(reply, late_s);
-  if (cycle_->complete() && !cycle_->spoilt()) finish(time_s);
 }
 
-void PtuSteadyState::finish(double time_s) {
-  const PollCycle done = std::move(*cycle_);
-  cycle_.reset();
-  latency_s_ += (latency_s_ == 0.0 ? 1.0 : kLatencyShare) * (done.latency_s() - latency_s_);
+void PtuSteadyState::finish(const PollCycle& done, double time_s) {
   if (done.command_lost()) {
     ++counters_.garbled;
-    error_ = "a reply to a command is missing";
-    commands_.send_all_again();
+    send_all_again("a reply to a command is missing");
   }
   judge_refusals(done.refusals(), time_s);
   judge_modes(done);
-  if (ask_environment_ && !checking_modes_ && !done.answers().empty()) {
-    if (const auto said = ptu_environment(done.answers().front().text)) environment_ = said;
+  if (environment_.asked && !done.answers().empty()) {
+    const auto said = ptu_environment(done.answers().front().text);
+    if (said) environment_.newest = said;
   }
-  // Echoes stand in the way of replies: nobody knows when these positions were read.
-  if (done.modes_forgotten()) return;
-  switch (check_.take(done.pan(), done.tilt(), told_rad_s2(time_s))) {
+  // Echoes delay the replies, so the instants of these positions are not known.
+  if (!done.modes_forgotten()) take_angles(done, time_s);
+}
+
+void PtuSteadyState::take_angles(const PollCycle& done, double time_s) {
+  switch (angles_.take(done, commands_.speed_change_rad_s(), time_s)) {
     case PositionCheck::Verdict::kFirst:
     case PositionCheck::Verdict::kLate:
-      waiting_since_s_.reset();
-      break;
     case PositionCheck::Verdict::kBelieved:
-      believe(check_.sample(), time_s);
+      waiting_since_s_.reset();
       break;
     case PositionCheck::Verdict::kRefused:
       ++counters_.refused_positions;
-      error_ = "positions that contradict each other";
-      commands_.send_all_again();
+      send_all_again("positions that contradict each other");
       break;
   }
 }
 
-// Echo or verbose replies in mid-run: switched off again, without a new start. But the unit may
-// have been switched off and on, and then takes speeds for velocities or has other ramps.
 void PtuSteadyState::judge_modes(const PollCycle& done) {
-  if (checking_modes_ && !done.modes_forgotten()) {
-    const auto& answers = done.answers();
-    const bool itself = answers.size() == 2 && says_independent(answers[0]) && answers[1].ok &&
-                        answers[1].count() == facts_.pan.acceleration;
-    if (itself) {
-      check_modes_ = false;
-      checks_failed_ = 0;
+  switch (modes_.take(done)) {
+    case ModeCheck::Result::kUnchanged:
+      break;
+    case ModeCheck::Result::kForgotten:
+      ++counters_.echoes;
+      break;
+    case ModeCheck::Result::kRestored:
       commands_.send_all_again();
-      return;
-    }
+      break;
+    case ModeCheck::Result::kUnitRestarted:
+      fail(Trouble::Kind::kBeganAnew, "the unit has forgotten its modes");
+      break;
   }
-  if (checking_modes_ && ++checks_failed_ >= kChecksAtMost) {
-    fail(Trouble::Kind::kBeganAnew, "the unit has forgotten its modes");
-  }
-  if (!done.modes_forgotten()) return;
-  if (!check_modes_) ++counters_.echoes;
-  check_modes_ = true;
-}
-
-// About as much as the unit was told to accelerate by since the last sample. When a cycle was lost
-// between them the speed may have changed all at once in the middle.
-PanTilt PtuSteadyState::told_rad_s2(double time_s) const {
-  constexpr double kShare = 0.8;  // it may begin or end anywhere between the samples
-  const double gap_s = std::max(1e-3, time_s - last_sample_s_.value_or(time_s));
-  const double at_once = gap_s > 1.8 * config_.poll_interval_s ? 2.0 : 1.0;
-  const auto told = [=, this](double change_rad_s) {
-    return kShare *
-           std::min(config_.history.acceleration_max_rad_s2, at_once * change_rad_s / gap_s);
-  };
-  return {told(told_.pan_rad), told(told_.tilt_rad)};
-}
-
-void PtuSteadyState::believe(const AngleSample& sample, double time_s) {
-  waiting_since_s_.reset();
-  told_ = commands_.speed_change_rad_s();  // may still be going on
-  if (!history_.add(sample)) return;
-  last_sample_s_ = time_s;
-  if (samples_.size() >= kSamplesKept) samples_.erase(samples_.begin());
-  samples_.push_back(sample);
 }
 
 void PtuSteadyState::judge_refusals(const std::vector<std::string>& refusals, double time_s) {
   for (const std::string& text : refusals) {
     ++counters_.errors;
-    error_ = text;
-    commands_.send_all_again();
+    send_all_again(text);
     const PtuComplaint what = complaint(text);
     if (what == PtuComplaint::kNotReferenced) fail(Trouble::Kind::kNotReferenced, text);
     const bool bounds = what == PtuComplaint::kPositionLimit || what == PtuComplaint::kSpeedLimit;
     if (!bounds) continue;
-    // One may be a command that was changed on its way.
-    if (time_s - bounds_refused_s_ > kBoundsRefused_s) bounds_refused_ = 0;
-    bounds_refused_s_ = time_s;
-    if (++bounds_refused_ >= kBoundsRefused) {
+    // A single one may be a command that was changed on its way.
+    if (time_s - bounds_refused_.last_s > kBoundsRefused_s) bounds_refused_.times = 0;
+    bounds_refused_.last_s = time_s;
+    if (++bounds_refused_.times >= kBoundsRefused) {
       fail(Trouble::Kind::kNotItself, "the unit's bounds have changed: " + text);
     }
   }

@@ -9,10 +9,12 @@
 #include <memory>
 #include <string>
 
-#include "base/toml_config.h"
 #include "edge/camera/frame.h"
 #include "edge/device_report.h"
 
+namespace ols::config {
+struct Section;
+}
 namespace ols {
 
 struct RecorderConfig {
@@ -27,8 +29,7 @@ struct RecorderConfig {
   double event_max_s = 60.0;
 };
 
-// `table` is [recorder]. Throws ConfigError.
-RecorderConfig read_recorder_config(ConfigTable& table);
+config::Section recorder_section(RecorderConfig& config);  // [recorder]
 
 struct RecordCommand {
   double event_s = 0.0;  // station's monotonic clock

@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "base/toml_config.h"
 #include "edge/device_report.h"
 #include "edge/sensors/gnss_reading.h"
 
+namespace ols::config {
+struct Section;
+}
 namespace ols {
 
 struct GnssConfig {
@@ -24,8 +26,7 @@ struct GnssConfig {
   double accept_move_s = 0.0;  // a new position that holds for so long is taken; 0: never
 };
 
-// `table` is [gnss]. Throws ConfigError.
-GnssConfig read_gnss_config(ConfigTable& table);
+config::Section gnss_section(GnssConfig& config);  // [gnss]
 
 class Gnss {
  public:

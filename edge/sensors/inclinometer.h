@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "base/toml_config.h"
 #include "edge/device_report.h"
 #include "edge/sensors/dpg2.h"
 #include "edge/sensors/tilt_reading.h"
 
+namespace ols::config {
+struct Section;
+}
 namespace ols {
 
 struct InclinometerConfig {
@@ -28,8 +30,7 @@ struct InclinometerConfig {
   double sd_rad = 2e-4;    // 1-sigma of its zero and mounting; averaging does not make it smaller
 };
 
-// `table` is [inclinometer]. Throws ConfigError.
-InclinometerConfig read_inclinometer_config(ConfigTable& table);
+config::Section inclinometer_section(InclinometerConfig& config);  // [inclinometer]
 
 // What the sensor's axes show, as the tilt of ORIGIN. Each axis of the sensor shows the inclination
 // of that axis to the horizontal, while tilt_y is applied after tilt_x in the chain: at 10 degrees

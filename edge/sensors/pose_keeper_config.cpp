@@ -2,9 +2,8 @@
 
 namespace ols {
 
-PoseKeeper::Config pose_keeper_config(const InclinometerConfig& inclinometer,
-                                      const GnssConfig& gnss) {
-  PoseKeeper::Config c;
+void set_sensors(PoseKeeper::Config& c, const InclinometerConfig& inclinometer,
+                 const GnssConfig& gnss) {
   c.ground_to_antenna_enu_m = gnss.ground_to_antenna_enu_m;
   c.least_fix = gnss.least_fix;
   c.gnss_sd_floor_m = gnss.sd_floor_m;
@@ -13,7 +12,6 @@ PoseKeeper::Config pose_keeper_config(const InclinometerConfig& inclinometer,
   c.inclinometer_sd_rad = inclinometer.sd_rad;
   c.inclinometer_stale_s = inclinometer.stale_s;
   c.stuck_s = inclinometer.stuck_s;
-  return c;
 }
 
 }  // namespace ols

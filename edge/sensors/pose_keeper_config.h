@@ -7,8 +7,8 @@
 
 namespace ols {
 
-// Everything but the survey, which stands in [pose].
-PoseKeeper::Config pose_keeper_config(const InclinometerConfig& inclinometer,
-                                      const GnssConfig& gnss);
+// Everything but what [pose] configures.
+void set_sensors(PoseKeeper::Config& keeper, const InclinometerConfig& inclinometer,
+                 const GnssConfig& gnss);
 
 }  // namespace ols

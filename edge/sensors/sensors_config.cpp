@@ -1,73 +1,62 @@
-#include <array>
-#include <utility>
-
+#include "edge/config_units.h"
 #include "edge/sensors/gnss.h"
 #include "edge/sensors/inclinometer.h"
-#include "geometry/angles.h"
 
 namespace ols {
 
-namespace {
-
-int sign(ConfigTable& table, const char* key, int fallback) {
-  const auto value = table.integer(key, fallback, -1, 1);
-  if (value == 0) throw table.error(key, "must be 1 or -1");
-  return static_cast<int>(value);
+config::Section inclinometer_section(InclinometerConfig& c) {
+  return {
+      "inclinometer",
+      "The inclinometer (TE DPG2).",
+      {config::text("device", c.device, "Serial device; empty: none.").required_with_section(),
+       config::one_of("baud", c.baud, {600, 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200},
+                      "baud", "Rate of the serial line."),
+       config::word("parity", c.even_parity, {{"none", false}, {"even", true}},
+                    "Parity of the serial line; the BEI and AGS variants use even (8E1)."),
+       config::number("stale_s", c.stale_s, {0.2, 600.0}, "s",
+                      "Without a good reading for this long, the sensor has a fault."),
+       config::number("stuck_s", c.stuck_s, {1.0, 86400.0}, "s",
+                      "Without any change of a digit for this long, the sensor is stuck."),
+       config::flag("swap_axes", c.swap_axes, "Whether the sensor's X lies along ORIGIN's Y."),
+       config::one_of("x_sign", c.x_sign, {1, -1}, "",
+                      "Sign of the X axis, after swapping and zero."),
+       config::one_of("y_sign", c.y_sign, {1, -1}, "",
+                      "Sign of the Y axis, after swapping and zero."),
+       config::number("x_zero_deg", c.x_zero_rad, {-30.0, 30.0}, in_degrees(),
+                      "Reading of the X axis, after swapping, when ORIGIN is level."),
+       config::number("y_zero_deg", c.y_zero_rad, {-30.0, 30.0}, in_degrees(),
+                      "Reading of the Y axis, after swapping, when ORIGIN is level."),
+       config::number("range_deg", c.range_rad, {0.1, 80.0}, in_degrees(),
+                      "Readings beyond are refused."),
+       config::number("sd_deg", c.sd_rad, {1e-4, 10.0}, in_degrees(),
+                      "1-sigma of zero and mounting; averaging does not reduce it.")}};
 }
 
-double angle(ConfigTable& table, const char* key_deg, double fallback_rad, double least_deg,
-             double greatest_deg) {
-  return radians(table.number(key_deg, degrees(fallback_rad), least_deg, greatest_deg));
-}
-
-int baud_rate(ConfigTable& table, int fallback) {
-  const auto baud = table.integer("baud", fallback, 600, 115200);
-  for (const int known : {600, 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200}) {
-    if (baud == known) return known;
-  }
-  throw table.error("baud", "is no rate of a serial line");
-}
-
-GnssFix least_fix(ConfigTable& table) {
-  const std::string name =
-      table.choice("least_fix", "3d", {"3d", "differential", "rtk-float", "rtk-fixed"});
-  if (name == "differential") return GnssFix::kDifferential;
-  if (name == "rtk-float") return GnssFix::kRtkFloat;
-  if (name == "rtk-fixed") return GnssFix::kRtkFixed;
-  return GnssFix::k3D;
-}
-
-}  // namespace
-
-InclinometerConfig read_inclinometer_config(ConfigTable& table) {
-  InclinometerConfig c;
-  c.device = table.text("device", c.device);
-  c.baud = baud_rate(table, c.baud);
-  c.even_parity = table.choice("parity", "none", {"none", "even"}) == "even";
-  c.stale_s = table.number("stale_s", c.stale_s, 0.2, 600.0);
-  c.stuck_s = table.number("stuck_s", c.stuck_s, 1.0, 86400.0);
-  c.swap_axes = table.boolean("swap_axes", c.swap_axes);
-  c.x_sign = sign(table, "x_sign", c.x_sign);
-  c.y_sign = sign(table, "y_sign", c.y_sign);
-  c.x_zero_rad = angle(table, "x_zero_deg", c.x_zero_rad, -30.0, 30.0);
-  c.y_zero_rad = angle(table, "y_zero_deg", c.y_zero_rad, -30.0, 30.0);
-  c.range_rad = angle(table, "range_deg", c.range_rad, 0.1, 80.0);
-  c.sd_rad = angle(table, "sd_deg", c.sd_rad, 1e-4, 10.0);
-  return c;
-}
-
-GnssConfig read_gnss_config(ConfigTable& table) {
-  GnssConfig c;
-  c.host = table.text("host", c.host);
-  c.port = std::to_string(table.integer("port", 2947, 1, 65535));
-  c.stale_s = table.number("stale_s", c.stale_s, 0.5, 600.0);
-  c.least_fix = least_fix(table);
-  const auto antenna = table.numbers("ground_to_antenna_enu_m", {0.0, 0.0, 0.0}, -100.0, 100.0);
-  c.ground_to_antenna_enu_m = {antenna[0], antenna[1], antenna[2]};
-  c.sd_floor_m = table.number("sd_floor_m", c.sd_floor_m, 1e-4, 100.0);
-  c.error_sigmas = table.number("error_sigmas", c.error_sigmas, 0.5, 3.0);
-  c.accept_move_s = table.number("accept_move_s", c.accept_move_s, 0.0, 86400.0);
-  return c;
+config::Section gnss_section(GnssConfig& c) {
+  return {
+      "gnss",
+      "The GNSS receiver, through gpsd.",
+      {config::text("host", c.host, "Host of gpsd; empty: no receiver.").required_with_section(),
+       config::integer_row(
+           "port", std::stoi(c.port), 1, 65535, "",
+           [&c](std::int64_t port) { c.port = std::to_string(port); }, "Port of gpsd."),
+       config::number("stale_s", c.stale_s, {0.5, 600.0}, "s",
+                      "Without a report for this long, the receiver has a fault."),
+       config::word("least_fix", c.least_fix,
+                    {{"3d", GnssFix::k3D},
+                     {"differential", GnssFix::kDifferential},
+                     {"rtk-float", GnssFix::kRtkFloat},
+                     {"rtk-fixed", GnssFix::kRtkFixed}},
+                    "Worse fixes are not used."),
+       config::numbers("ground_to_antenna_enu_m", {c.ground_to_antenna_enu_m.data(), 3},
+                       {-100.0, 100.0}, "m", "Antenna from GROUND: east, north, up."),
+       config::number("sd_floor_m", c.sd_floor_m, {1e-4, 100.0}, "m",
+                      "Minimum that a stated 1-sigma is taken for."),
+       config::number("error_sigmas", c.error_sigmas, {0.5, 3.0}, "sigma",
+                      "What gpsd's own error estimate means; used where the receiver sends no "
+                      "GST."),
+       config::number("accept_move_s", c.accept_move_s, {0.0, 86400.0}, "s",
+                      "A new position is adopted when it holds for this long; 0: never.")}};
 }
 
 }  // namespace ols

@@ -242,7 +242,7 @@ CornerMatches EgoMotionEstimator::follow(const Eigen::Matrix3d& guess) const {
 
 EgoMotionEstimator::Agreement EgoMotionEstimator::agreeing(const CornerMatches& matches,
                                                            const Eigen::Matrix3d& guess) const {
-  const bool only_ransac = config_.mode == TrackerMode::kPaper;
+  const bool only_ransac = fit_ == HomographyFit::kRansac;
   const auto fitted = [&](const CornerMatches& kept) {
     return fit_homography(kept.previous, kept.current, guess, previous_.image.size());
   };

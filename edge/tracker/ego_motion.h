@@ -27,9 +27,14 @@ struct CornerMatches {
   std::vector<cv::Point2f> current;
 };
 
+enum class HomographyFit {
+  kRansac,        // RANSAC's own, and nothing else
+  kLeastSquares,  // of the corners that agree on one
+};
+
 class EgoMotionEstimator {
  public:
-  explicit EgoMotionEstimator(const TrackerConfig& config) : config_(config) {}
+  EgoMotionEstimator(const TrackerConfig& config, HomographyFit fit) : config_(config), fit_(fit) {}
 
   struct Estimate {
     std::optional<Eigen::Matrix3d> homography;  // full-frame pixels, previous to this frame
@@ -47,7 +52,7 @@ class EgoMotionEstimator {
   void provide_corners(const cv::Rect2d& target_box);
   std::vector<cv::Point2f> detect_corners(const cv::Rect2d& target);
   CornerMatches follow(const Eigen::Matrix3d& guess) const;
-  // The corners that one homography explains, and that one: in the mode "paper" RANSAC's own.
+  // The corners that one homography explains, and that one.
   struct Agreement {
     CornerMatches corners;  // none when they are too few to trust
     Eigen::Matrix3d homography = Eigen::Matrix3d::Identity();
@@ -55,6 +60,7 @@ class EgoMotionEstimator {
   Agreement agreeing(const CornerMatches& matches, const Eigen::Matrix3d& guess) const;
 
   TrackerConfig config_;
+  HomographyFit fit_;
   ReducedFrame previous_;
   ImagePyramid previous_pyramid_;
   ImagePyramid pyramid_;

@@ -17,7 +17,7 @@ cv::Rect2d moved_box(const cv::Rect2d& box, const Eigen::Matrix3d& homography) {
   return box_of(transform(homography, centre_of(box)), size_of(box));
 }
 
-cv::Matx33d mask_to_reference(const View& mask, const Eigen::Matrix3d& to_present) {
+cv::Matx33d mask_to_reference(const FrameView& mask, const Eigen::Matrix3d& to_present) {
   Eigen::Matrix3d to_frame = Eigen::Matrix3d::Identity();
   const double offset = (mask.reduction - 1.0) / 2.0;
   to_frame(0, 0) = to_frame(1, 1) = mask.reduction;
@@ -28,7 +28,7 @@ cv::Matx33d mask_to_reference(const View& mask, const Eigen::Matrix3d& to_presen
 }
 
 // The part of the frame, smaller where it is large: the mask is coarse anyway.
-View reduced_part(const cv::Mat& frame, const cv::Rect& area) {
+FrameView reduced_part(const cv::Mat& frame, const cv::Rect& area) {
   cv::Rect inside = area & cv::Rect(0, 0, frame.cols, frame.rows);
   if (inside.empty()) return {};
   const int reduction =
@@ -37,7 +37,7 @@ View reduced_part(const cv::Mat& frame, const cv::Rect& area) {
   if (size.empty()) return {};
   inside.width = size.width * reduction;
   inside.height = size.height * reduction;
-  View part{cv::Mat(), inside.tl(), reduction};
+  FrameView part{cv::Mat(), inside.tl(), reduction};
   cv::resize(frame(inside), part.image, size, 0, 0, cv::INTER_LINEAR);
   return part;
 }
@@ -97,18 +97,18 @@ const ReferenceFrames::Reference* ReferenceFrames::without_overlap(
   return nullptr;
 }
 
-View foreground_mask(const cv::Mat& frame, double level, const cv::Rect& area,
-                     const Template& target) {
-  View mask = reduced_part(frame, area);
+FrameView foreground_mask(const cv::Mat& frame, double level, const cv::Rect& area,
+                          const Template& target) {
+  FrameView mask = reduced_part(frame, area);
   if (mask.image.empty()) return mask;
   cv::absdiff(mask.image, cv::Scalar(level), mask.image);
   scale_to_mask(mask.image, target);
   return mask;
 }
 
-View foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference& reference,
-                     const cv::Rect& area, const Template& target) {
-  View mask = reduced_part(frame, area);
+FrameView foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference& reference,
+                          const cv::Rect& area, const Template& target) {
+  FrameView mask = reduced_part(frame, area);
   if (mask.image.empty()) return mask;
   cv::Mat then;
   cv::warpPerspective(reference.gray, then, mask_to_reference(mask, reference.to_present),

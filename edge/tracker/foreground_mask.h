@@ -39,12 +39,12 @@ class ReferenceFrames {
 
 // Where no earlier image shows the background alone: |frame - `level`|, the grey level around the
 // target. Against a sky that is the same thing.
-View foreground_mask(const cv::Mat& frame, double level, const cv::Rect& area,
-                     const Template& target);
+FrameView foreground_mask(const cv::Mat& frame, double level, const cv::Rect& area,
+                          const Template& target);
 
 // |frame - reference| inside `area` of the frame, 0..255 as 0..1 of foreground: `noise` grey levels
 // are nothing, half of `contrast` is certain.
-View foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference& reference,
-                     const cv::Rect& area, const Template& target);
+FrameView foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference& reference,
+                          const cv::Rect& area, const Template& target);
 
 }  // namespace ols

@@ -6,7 +6,7 @@
 
 namespace ols {
 
-LocalContrast::LocalContrast(const View& view, const cv::Rect& area) : view_(view) {
+LocalContrast::LocalContrast(const FrameView& view, const cv::Rect& area) : view_(view) {
   const int left = static_cast<int>(std::floor(view.x_of(area.x)));
   const int top = static_cast<int>(std::floor(view.y_of(area.y)));
   const cv::Rect wanted(left, top, area.width / view.reduction + 1,

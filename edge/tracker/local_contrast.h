@@ -13,7 +13,7 @@ class LocalContrast {
  public:
   LocalContrast() = default;
   // Of the view's pixels within `area` of the full frame.
-  LocalContrast(const View& view, const cv::Rect& area);
+  LocalContrast(const FrameView& view, const cv::Rect& area);
 
   // [grey levels] mean of the box's middle less that of a frame around the box; 0 where that does
   // not lie within the area. Full-frame pixels.
@@ -24,7 +24,7 @@ class LocalContrast {
 
   cv::Mat sums_;  // integral image of the view's part
   cv::Point corner_;
-  View view_;
+  FrameView view_;
 };
 
 }  // namespace ols

@@ -61,11 +61,11 @@ double MotionModel::position_sd(const Eigen::Vector2d& size_px) const {
   return motion_.homography ? known : std::hypot(known, config_.unknown_motion_sd_px);
 }
 
-Particle MotionModel::predict(const Particle& particle, Random& random) const {
+Particle MotionModel::disturbed(const Particle& particle, Random& random) const {
   const bool surprised = random.uniform() < config_.surprise_fraction;
   const double sd = position_sd(particle.size_px) * (surprised ? config_.surprise_scale : 1.0);
   const Eigen::Vector2d moved = noise(random, sd);
-  Particle next = advance(particle);
+  Particle next = particle;
   next.pixel += moved;  // eq. (2)
   // Eq. (3): what moves a target off its course is an acceleration, so that the two noises belong
   // together, and choosing among positions chooses among velocities.

@@ -38,17 +38,13 @@ class MotionModel {
 
   // Where the particle would be without noise.
   Particle advance(const Particle& particle) const;
-  // Eq. (2)-(4).
-  Particle predict(const Particle& particle, Random& random) const;
+  // Eq. (2)-(4)'s noise, on a particle that stands in this frame.
+  Particle disturbed(const Particle& particle, Random& random) const;
 
   const std::optional<Eigen::Matrix3d>& homography() const { return motion_.homography; }
   double interval_s() const { return motion_.interval_s; }
   // Where the scene at this pixel of the previous frame is now.
   Eigen::Vector2d still(const Eigen::Vector2d& pixel) const;
-  // The velocity that takes a target from one pixel of the previous frame to one of this frame.
-  Eigen::Vector2d velocity_between(const Eigen::Vector2d& then, const Eigen::Vector2d& now) const {
-    return (now - still(then)) / motion_.interval_s;
-  }
   // The velocity of something that stands still in the image.
   Eigen::Vector2d image_fixed_velocity() const { return -camera_rate_px_s_; }
   // Standard deviation of eq. (2)'s noise for a box of this size.

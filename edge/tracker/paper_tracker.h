@@ -4,58 +4,42 @@
 #include <optional>
 #include <vector>
 
-#include "edge/tracker/ego_motion.h"
-#include "edge/tracker/foreground_mask.h"
-#include "edge/tracker/random.h"
-#include "edge/tracker/target_follower.h"
+#include "edge/tracker/paper_template.h"
+#include "edge/tracker/particle_filter.h"
+#include "edge/tracker/scene_motion.h"
 
 namespace ols {
 
-// Eq. (5): the sum over the patch of exp(min(Mt, Mc)) * (1 - |It - Ic|)^2, intensities and masks
-// being 0..1. Between 0 and kPatchArea * e.
-double paper_objective(const Patch& template_gray, const MaskPatch& template_mask,
-                       const Patch& candidate_gray, const MaskPatch& candidate_mask);
-
-class PaperTracker : public TargetFollower {
+class PaperTracker {
  public:
   PaperTracker(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
                const cv::Rect2d& box);
-  TrackerOutput step(const TrackerInput& frame, StageTimer& timer) override;
-  const std::optional<Eigen::Matrix3d>& image_homography() const override { return homography_; }
+  TrackerOutput step(const TrackerInput& frame, StageTimer& timer);
+  // By the image, the previous frame's pixels to the newest one's; nothing without texture.
+  const std::optional<Eigen::Matrix3d>& image_homography() const {
+    return scene_motion_.image_homography();
+  }
   // The paper's operator marks the target again; here the particles go where it is said to be.
-  void search_near(const Eigen::Vector2d& pixel, double sd_px) override;
+  void search_near(const Eigen::Vector2d& pixel, double sd_px);
 
  private:
-  EgoMotion transform_by_homography(const ReducedFrame& reduced);
-  void predict(double interval_s);
-  void force_subset_onto_differences(const ReducedFrame& reduced);
+  EgoMotion transform_by_homography(const TrackerInput& frame, StageTimer& timer);
+  void predict();
+  void force_subset_onto_differences();
   void weigh(const cv::Mat& gray);
-  void normalise_weights();
-  void estimate_template_mask(const cv::Mat& gray, const cv::Rect2d& box);
+  std::vector<double> normalised(std::vector<double> weights);
   const Particle& maximum_a_posteriori() const;
   TrackerOutput output_of(const Particle& best) const;
-  void resample();
   Eigen::Vector2d noise(double sd);
 
   TrackerConfig config_;
   Random random_;
-  EgoMotionEstimator ego_motion_;
-  ReducedFrame reduced_;
-  ReferenceFrames references_;
-  // The template's frame, or the first one since its alignment was lost, until the template's mask
-  // is made.
-  ReferenceFrames::Reference first_;
-  Template template_;
-  std::optional<MaskPatch> template_mask_;  // Mt
-  std::vector<Particle> particles_;
-  std::vector<Particle> resampled_;
-  std::vector<double> weights_;
+  SceneMotion scene_motion_;
+  PaperTemplate template_;
+  ParticleFilter filter_;
   double greatest_objective_ = 0.0;  // eq. (5) of the best particle
-  bool placed_ = false;              // the particles stand in the coming frame already
   Particle last_;
-  std::optional<Eigen::Matrix3d> homography_;  // previous frame to this one
-  cv::Size frame_size_;
-  double time_s_;
+  bool placed_ = false;  // the particles stand in the coming frame already
 };
 
 }  // namespace ols

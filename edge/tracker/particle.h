@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <opencv2/core.hpp>
 
 namespace ols {
@@ -21,6 +22,12 @@ inline cv::Rect2d box_of(const Eigen::Vector2d& pixel, const Eigen::Vector2d& si
 
 inline Eigen::Vector2d centre_of(const cv::Rect2d& box) {
   return {box.x + box.width / 2.0 - 0.5, box.y + box.height / 2.0 - 0.5};
+}
+
+// The whole pixels that a box touches.
+inline cv::Rect enclosing(const cv::Rect2d& box) {
+  return {static_cast<int>(std::floor(box.x)), static_cast<int>(std::floor(box.y)),
+          static_cast<int>(std::ceil(box.width)) + 1, static_cast<int>(std::ceil(box.height)) + 1};
 }
 
 inline Eigen::Vector2d size_of(const cv::Rect2d& box) { return {box.width, box.height}; }

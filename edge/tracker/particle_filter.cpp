@@ -13,18 +13,22 @@ constexpr double kAnywhere = 1e-4;
 
 }  // namespace
 
-void ParticleFilter::predict(const MotionModel& motion, Random& random) {
+void ParticleFilter::advance(const MotionModel& motion) {
+  for (Particle& particle : particles_) particle = motion.advance(particle);
+}
+
+void ParticleFilter::disturb(const MotionModel& motion, Random& random) {
   const auto count = static_cast<double>(particles_.size());
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   double noise = 0.0;
-  const Eigen::Vector2d origin = motion.advance(particles_.front()).pixel;
+  const Eigen::Vector2d origin = particles_.front().pixel;
   for (Particle& particle : particles_) {
-    const Eigen::Vector2d offset = motion.advance(particle).pixel - origin;
+    const Eigen::Vector2d offset = particle.pixel - origin;
     sum += offset;
     squares += offset * offset.transpose();
     noise += motion.position_sd(particle.size_px);
-    particle = motion.predict(particle, random);
+    particle = motion.disturbed(particle, random);
   }
   const Eigen::Vector2d mean = sum / count;
   const double sd = noise / count;
@@ -33,12 +37,12 @@ void ParticleFilter::predict(const MotionModel& motion, Random& random) {
   predicted_covariance_px2_ += sd * sd * Eigen::Matrix2d::Identity();
 }
 
-void ParticleFilter::weigh(const std::vector<double>& log_likelihood) {
-  const double greatest = *std::max_element(log_likelihood.begin(), log_likelihood.end());
+void ParticleFilter::weigh_by_log_likelihood() {
+  const double greatest = *std::max_element(log_likelihood_.begin(), log_likelihood_.end());
   weights_.assign(particles_.size(), 1.0);
   if (std::isfinite(greatest)) {
     for (std::size_t i = 0; i < weights_.size(); ++i) {
-      weights_[i] = std::exp(log_likelihood[i] - greatest);
+      weights_[i] = std::exp(log_likelihood_[i] - greatest);
     }
   }
   double sum = 0.0;
@@ -46,14 +50,14 @@ void ParticleFilter::weigh(const std::vector<double>& log_likelihood) {
   for (double& weight : weights_) weight /= sum;
 }
 
-std::size_t ParticleFilter::maximum_a_posteriori(const std::vector<double>& log_likelihood) const {
+std::size_t ParticleFilter::maximum_a_posteriori() const {
   const Eigen::Matrix2d information = predicted_covariance_px2_.inverse();
   std::size_t best = 0;
   double greatest = -INFINITY;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const Eigen::Vector2d off = particles_[i].pixel - predicted_mean_px_;
     const double prior = std::log(std::exp(-0.5 * off.dot(information * off)) + kAnywhere);
-    const double posterior = log_likelihood[i] + prior;
+    const double posterior = log_likelihood_[i] + prior;
     if (posterior > greatest) {
       greatest = posterior;
       best = i;

@@ -1,6 +1,7 @@
 // The bootstrap particle filter's bookkeeping: weights, maximum a posteriori, resampling.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "edge/tracker/motion_model.h"
@@ -12,19 +13,33 @@ class ParticleFilter {
   std::vector<Particle>& particles() { return particles_; }
   const std::vector<Particle>& particles() const { return particles_; }
 
-  // Moves every particle by the motion model; remembers where they would be without noise.
-  void predict(const MotionModel& motion, Random& random);
+  // Brings every particle to this frame, without noise.
+  void advance(const MotionModel& motion);
+  // Adds the motion model's noise to particles that stand in this frame; remembers where they would
+  // be without it.
+  void disturb(const MotionModel& motion, Random& random);
   // The prediction is uncertain by this standard deviation more than its particles are.
   void widen_prediction(double sd_px) {
     predicted_covariance_px2_ += sd_px * sd_px * Eigen::Matrix2d::Identity();
   }
 
-  // Weights from the logarithms of the likelihoods; all equal when none is finite.
-  void weigh(const std::vector<double>& log_likelihood);
+  // Weights from the logarithm of each particle's likelihood; all equal when none is finite.
+  template <typename LogLikelihood>
+  void weigh(const LogLikelihood& log_likelihood_of) {
+    log_likelihood_.clear();
+    for (const Particle& particle : particles_) {
+      log_likelihood_.push_back(log_likelihood_of(particle));
+    }
+    weigh_by_log_likelihood();
+  }
+  const std::vector<double>& log_likelihood() const { return log_likelihood_; }
+  // Weights as they are, of a sum of one.
+  void set_weights(std::vector<double> weights) { weights_ = std::move(weights); }
+  const std::vector<double>& weights() const { return weights_; }
 
   // Index of the maximum a posteriori: likelihood times the density that the motion model predicts
   // at the particle, which is what tells the target from something that looks like it elsewhere.
-  std::size_t maximum_a_posteriori(const std::vector<double>& log_likelihood) const;
+  std::size_t maximum_a_posteriori() const;
 
   Eigen::Vector2d mean_size_px() const;
   Eigen::Vector2d mean_velocity_px_s() const;
@@ -35,8 +50,11 @@ class ParticleFilter {
   void resample(Random& random);
 
  private:
+  void weigh_by_log_likelihood();
+
   std::vector<Particle> particles_;
   std::vector<Particle> resampled_;  // memory that is used again: no allocation in steady state
+  std::vector<double> log_likelihood_;
   std::vector<double> weights_;
   Eigen::Vector2d predicted_mean_px_ = Eigen::Vector2d::Zero();
   Eigen::Matrix2d predicted_covariance_px2_ = Eigen::Matrix2d::Identity();

@@ -61,7 +61,7 @@ void between(const std::uint8_t* upper, const std::uint8_t* lower, float weight,
 }
 
 // Grey values around the box, at 0.7 of its size from the centre.
-std::vector<float> surroundings(const View& view, const Eigen::Vector2d& pixel,
+std::vector<float> surroundings(const FrameView& view, const Eigen::Vector2d& pixel,
                                 const Eigen::Vector2d& size_px) {
   constexpr int kSamples = 96;
   std::vector<float> values;
@@ -124,25 +124,25 @@ int reduction_for(const Eigen::Vector2d& size_px) {
   return std::max(1, static_cast<int>(std::min(size_px.x(), size_px.y()) / kPatchSide));
 }
 
-View make_view(const cv::Mat& frame, const cv::Rect& area, int reduction) {
+FrameView make_view(const cv::Mat& frame, const cv::Rect& area, int reduction) {
   const cv::Rect inside = area & cv::Rect(0, 0, frame.cols, frame.rows);
   const int width = inside.width / reduction * reduction;
   const int height = inside.height / reduction * reduction;
   if (reduction <= 1 || width == 0 || height == 0) return {frame, {0, 0}, 1};
-  View view{cv::Mat(), inside.tl(), reduction};
+  FrameView view{cv::Mat(), inside.tl(), reduction};
   cv::resize(frame(cv::Rect(inside.x, inside.y, width, height)), view.image,
              cv::Size(width / reduction, height / reduction), 0, 0, cv::INTER_AREA);
   return view;
 }
 
-View smoothed(const View& view, const cv::Rect& area, const Eigen::Vector2d& size_px) {
+FrameView smoothed(const FrameView& view, const cv::Rect& area, const Eigen::Vector2d& size_px) {
   constexpr double kLeastSd = 0.4;  // [px] less is none
   const cv::Rect part(static_cast<int>(std::floor(view.x_of(area.x))),
                       static_cast<int>(std::floor(view.y_of(area.y))),
                       area.width / view.reduction + 2, area.height / view.reduction + 2);
   const cv::Rect inside = part & cv::Rect(0, 0, view.image.cols, view.image.rows);
   if (inside.empty()) return view;
-  View smooth{view.image(inside), view.origin + view.reduction * inside.tl(), view.reduction};
+  FrameView smooth{view.image(inside), view.origin + view.reduction * inside.tl(), view.reduction};
   const double sd_x = size_px.x() / kPatchSide / view.reduction;
   const double sd_y = size_px.y() / kPatchSide / view.reduction;
   if (std::max(sd_x, sd_y) < kLeastSd) return smooth;
@@ -170,7 +170,8 @@ float bilinear(const cv::Mat& image, double x, double y) {
   return top + wy * (bottom - top);
 }
 
-Patch sample_patch(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px) {
+Patch sample_patch(const FrameView& view, const Eigen::Vector2d& pixel,
+                   const Eigen::Vector2d& size_px) {
   const double scale = 1.0 / view.reduction;
   const Axis x = make_axis(view.x_of(pixel.x()), size_px.x() * scale, view.image.cols);
   const Axis y = make_axis(view.y_of(pixel.y()), size_px.y() * scale, view.image.rows);
@@ -203,7 +204,7 @@ Patch sample_patch(const View& view, const Eigen::Vector2d& pixel, const Eigen::
   return patch;
 }
 
-MaskPatch sample_mask(const View& mask, const Eigen::Vector2d& pixel,
+MaskPatch sample_mask(const FrameView& mask, const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& size_px) {
   const double scale = 1.0 / mask.reduction;
   const auto columns = nearest_pixels(mask.x_of(pixel.x()), size_px.x() * scale);
@@ -226,11 +227,12 @@ MaskPatch sample_mask(const View& mask, const Eigen::Vector2d& pixel,
   return patch;
 }
 
-float level_around(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px) {
+float level_around(const FrameView& view, const Eigen::Vector2d& pixel,
+                   const Eigen::Vector2d& size_px) {
   return median(surroundings(view, pixel, size_px));
 }
 
-Template make_template(const View& view, const Eigen::Vector2d& pixel,
+Template make_template(const FrameView& view, const Eigen::Vector2d& pixel,
                        const Eigen::Vector2d& size_px) {
   constexpr float kLeastContrast = 8.0F;  // a fainter target would be compared by its noise
   Template made;

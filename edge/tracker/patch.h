@@ -16,7 +16,7 @@ using MaskPatch = std::array<std::uint8_t, kPatchArea>;  // foreground, 255 is c
 
 // A part of a frame, reduced where the target is much larger than a patch, so that patches are
 // sampled without aliasing. Positions asked for are pixels of the full frame.
-struct View {
+struct FrameView {
   cv::Mat image;  // 8-bit, one channel
   cv::Point origin{0, 0};
   int reduction = 1;
@@ -28,20 +28,21 @@ struct View {
 // How much a target of this size is reduced.
 int reduction_for(const Eigen::Vector2d& size_px);
 // The part of `frame` inside `area`; shares the frame's memory where nothing is reduced.
-View make_view(const cv::Mat& frame, const cv::Rect& area, int reduction);
+FrameView make_view(const cv::Mat& frame, const cv::Rect& area, int reduction);
 
 // The part of the view inside `area` of the full frame, smoothed by a pixel of the patch that a
 // target of this size is sampled to: small changes of its shape, and half a pixel between the
 // particles, then cost little.
-View smoothed(const View& view, const cv::Rect& area, const Eigen::Vector2d& size_px);
+FrameView smoothed(const FrameView& view, const cv::Rect& area, const Eigen::Vector2d& size_px);
 
 // Grey value between the pixels, the border continued outside; image coordinates.
 float bilinear(const cv::Mat& image, double x, double y);
 
 // Eq. (5)'s I: the box, brought to 24x24. Bilinear.
-Patch sample_patch(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
+Patch sample_patch(const FrameView& view, const Eigen::Vector2d& pixel,
+                   const Eigen::Vector2d& size_px);
 // The same of a foreground mask. Nearest neighbour; nothing is foreground outside the mask.
-MaskPatch sample_mask(const View& mask, const Eigen::Vector2d& pixel,
+MaskPatch sample_mask(const FrameView& mask, const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& size_px);
 
 // The target's appearance, made once at initialisation.
@@ -57,9 +58,10 @@ struct Template {
 double pixel_noise(const cv::Mat& image);
 
 // Median grey level around a box.
-float level_around(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
+float level_around(const FrameView& view, const Eigen::Vector2d& pixel,
+                   const Eigen::Vector2d& size_px);
 
-Template make_template(const View& view, const Eigen::Vector2d& pixel,
+Template make_template(const FrameView& view, const Eigen::Vector2d& pixel,
                        const Eigen::Vector2d& size_px);
 
 }  // namespace ols

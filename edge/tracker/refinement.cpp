@@ -104,7 +104,7 @@ struct PositionRefiner::Normal {
   }
 };
 
-PositionRefiner::PositionRefiner(const View& view, const Eigen::Vector2d& pixel,
+PositionRefiner::PositionRefiner(const FrameView& view, const Eigen::Vector2d& pixel,
                                  const Eigen::Vector2d& size_px) {
   const int columns = samples_along(size_px.x(), view.reduction);
   const int rows = samples_along(size_px.y(), view.reduction);
@@ -202,7 +202,7 @@ void PositionRefiner::sort_by_blocks() {
                    [](const Sample& a, const Sample& b) { return a.block < b.block; });
 }
 
-PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const State& state,
+PositionRefiner::Normal PositionRefiner::accumulate(const FrameView& view, const State& state,
                                                     double scale) const {
   Normal normal;
   Parameters of_block = Parameters::Zero();
@@ -247,7 +247,7 @@ PositionRefiner::Normal PositionRefiner::accumulate(const View& view, const Stat
 }
 
 std::optional<RefinedPosition> PositionRefiner::refine(
-    const View& view, const Eigen::Vector2d& start, const Eigen::Vector2d& size_px,
+    const FrameView& view, const Eigen::Vector2d& start, const Eigen::Vector2d& size_px,
     const std::optional<Eigen::Vector2d>& likely_size_px) const {
   if (samples_.empty()) return std::nullopt;
   const Eigen::Vector2d first_anchor = start + anchor_.cwiseProduct(size_px);
@@ -279,7 +279,7 @@ std::optional<RefinedPosition> PositionRefiner::refine(
 }
 
 std::optional<PositionRefiner::Normal> PositionRefiner::normal_at(
-    const View& view, const State& state, double scale,
+    const FrameView& view, const State& state, double scale,
     const std::optional<Eigen::Vector2d>& likely_size_px) const {
   Normal normal = accumulate(view, state, scale);
   if (normal.seen < kLeastSeen * all_weight_) return std::nullopt;

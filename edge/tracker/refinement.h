@@ -34,7 +34,8 @@ struct RefinedPosition {
 class PositionRefiner {
  public:
   // Keeps the target's image on a grid of the sampling view's own pixels, a little beyond the box.
-  PositionRefiner(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
+  PositionRefiner(const FrameView& view, const Eigen::Vector2d& pixel,
+                  const Eigen::Vector2d& size_px);
 
   // M_t: what is not foreground moves otherwise, and counts little from now on.
   void set_mask(const MaskPatch& mask);
@@ -43,7 +44,7 @@ class PositionRefiner {
   // there, the target shows too little structure, or half of it is outside the picture. The size is
   // that of the box, or, where a likely one is told, estimated from there.
   std::optional<RefinedPosition> refine(
-      const View& view, const Eigen::Vector2d& start, const Eigen::Vector2d& size_px,
+      const FrameView& view, const Eigen::Vector2d& start, const Eigen::Vector2d& size_px,
       const std::optional<Eigen::Vector2d>& likely_size_px = std::nullopt) const;
 
  private:
@@ -72,8 +73,8 @@ class PositionRefiner {
   void find_anchor();
   static Sample sample_of(const cv::Mat& image, const cv::Point& at, const Eigen::Vector2d& place,
                           const Eigen::Vector2d& size);
-  Normal accumulate(const View& view, const State& state, double scale) const;
-  std::optional<Normal> normal_at(const View& view, const State& state, double scale,
+  Normal accumulate(const FrameView& view, const State& state, double scale) const;
+  std::optional<Normal> normal_at(const FrameView& view, const State& state, double scale,
                                   const std::optional<Eigen::Vector2d>& likely_size_px) const;
   std::optional<RefinedPosition> position_of(const State& state, const Normal& normal,
                                              const Eigen::Vector2d& shift) const;

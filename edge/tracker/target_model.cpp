@@ -22,8 +22,8 @@ cv::Rect looked_at(const std::vector<Particle>& particles, const cv::Rect2d& exp
   return widened(area, 0.0);
 }
 
-Template smooth_template(Template made, const View& view, const cv::Rect2d& box) {
-  const View smooth = smoothed(view, widened(box, 0.5), size_of(box));
+Template smooth_template(Template made, const FrameView& view, const cv::Rect2d& box) {
+  const FrameView smooth = smoothed(view, widened(box, 0.5), size_of(box));
   made.gray = sample_patch(smooth, centre_of(box), size_of(box));
   return made;
 }
@@ -48,7 +48,7 @@ void TargetModel::set_contrast(double contrast) {
   contrast_weight_ = contrast * contrast / (contrast * contrast + noise * noise);
 }
 
-TargetModel::TargetModel(const TrackerConfig& config, const View& view, const cv::Rect2d& box)
+TargetModel::TargetModel(const TrackerConfig& config, const FrameView& view, const cv::Rect2d& box)
     : config_(config),
       first_size_px_(size_of(box)),
       usual_size_px_(first_size_px_),
@@ -156,6 +156,17 @@ double TargetModel::log_likelihood(const Likeness& likeness, double background, 
   const double higher = std::log(size_px.y() / usual_size_px_.y());
   const double sd = config_.size_prior_sd_fraction;
   return alike - 0.5 * (wider * wider + higher * higher) / (sd * sd);
+}
+
+FrameEvidence TargetModel::evidence(const Scene& scene, const Particle& candidate) const {
+  const auto& [pixel, velocity_px_s, size_px] = candidate;
+  const Likeness found = likeness(scene, pixel, size_px);
+  FrameEvidence evidence{found.similarity, scene.background_similarity, found.correlation,
+                         found.contrast};
+  evidence.standing_out = standing_out(scene, pixel, size_px);
+  evidence.foreground = foreground(scene, pixel, size_px);
+  evidence.by_subtraction = scene.mask_by_subtraction;
+  return evidence;
 }
 
 void TargetModel::learn_mask(const Scene& scene, const Eigen::Vector2d& pixel,

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "edge/tracker/belief.h"
 #include "edge/tracker/foreground_mask.h"
 #include "edge/tracker/local_contrast.h"
 #include "edge/tracker/objective.h"
@@ -14,11 +15,12 @@ namespace ols {
 
 // One frame as the objective sees it.
 struct Scene {
-  View whole;                        // the frame as taken
-  View view;                         // reduced to the target's size
-  View smooth;                       // sampled for the candidates
-  View mask;                         // foreground
-  bool mask_by_subtraction = false;  // of an earlier image, not of the surroundings' level
+  FrameView whole;                     // the frame as taken
+  FrameView view;                      // reduced to the target's size
+  FrameView smooth;                    // sampled for the candidates
+  FrameView mask;                      // foreground
+  bool mask_by_subtraction = false;    // of an earlier image, not of the surroundings' level
+  double background_similarity = 0.0;  // what TargetModel::background_similarity() gives for it
   LocalContrast contrast;
   cv::Size frame;
 };
@@ -46,6 +48,9 @@ class TargetModel {
   double log_likelihood(const Likeness& likeness, double background, double standing_out,
                         const Eigen::Vector2d& size_px) const;
 
+  // What the scene says for a candidate.
+  FrameEvidence evidence(const Scene& scene, const Particle& candidate) const;
+
   // The target's look and contrast of now, taken in by this share.
   void learn(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px,
              double share);
@@ -69,7 +74,7 @@ class TargetModel {
   bool empty() const { return template_.empty; }
 
  private:
-  TargetModel(const TrackerConfig& config, const View& view, const cv::Rect2d& box);
+  TargetModel(const TrackerConfig& config, const FrameView& view, const cv::Rect2d& box);
 
   void set_contrast(double contrast);
 

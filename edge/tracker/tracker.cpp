@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "edge/tracker/motion_model.h"
 #include "edge/tracker/paper_tracker.h"
@@ -56,41 +57,26 @@ double disagreement_px(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b,
   return off < most ? off : most;  // one that is no number is far off
 }
 
-}  // namespace
+using Filter = std::variant<PaperTracker, TrackerCore>;
 
-const char* to_string(TrackerError error) {
-  switch (error) {
-    case TrackerError::kNotInitialised:
-      return "not initialised";
-    case TrackerError::kEmptyFrame:
-      return "empty frame";
-    case TrackerError::kFrameFormat:
-      return "frame is not 8-bit with one channel";
-    case TrackerError::kFrameSize:
-      return "frame has another size";
-    case TrackerError::kTime:
-      return "frame is not later than the previous one";
-    case TrackerError::kHomography:
-      return "predicted homography is not finite";
-    case TrackerError::kBox:
-      return "box is outside the image, too small or not finite";
+Filter make_filter(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
+                   const cv::Rect2d& box) {
+  if (config.mode == TrackerMode::kPaper) {
+    return Filter(std::in_place_type<PaperTracker>, config, seed, frame, box);
   }
-  return "unknown";
+  return Filter(std::in_place_type<TrackerCore>, config, seed, frame, box);
 }
 
-struct Tracker::Impl {
-  TrackerConfig config;
-  std::uint64_t seed = 0;
-  std::unique_ptr<TargetFollower> follower;
-  StageTimer timer;
+}  // namespace
+
+struct Tracker::Followed {
+  Filter filter;
   cv::Size size;
-  double time_s = 0.0;
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // of the target in the newest frame
+  double time_s;
+  Eigen::Vector2d pixel;  // of the target in the newest frame
 };
 
-Tracker::Tracker(const TrackerConfig& config, std::uint64_t seed)
-    : impl_(std::make_unique<Impl>(
-          Impl{config, seed, nullptr, {}, {}, 0.0, Eigen::Vector2d::Zero()})) {}
+Tracker::Tracker(const TrackerConfig& config, std::uint64_t seed) : config_(config), seed_(seed) {}
 Tracker::~Tracker() = default;
 Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
@@ -98,47 +84,47 @@ Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 std::optional<TrackerError> Tracker::initialise(const TrackerInput& frame, const cv::Rect2d& box) {
   if (const auto error = check_image(frame)) return error;
   if (!usable_box(box, frame.gray.size())) return TrackerError::kBox;
-  if (impl_->config.mode == TrackerMode::kPaper) {
-    impl_->follower = std::make_unique<PaperTracker>(impl_->config, impl_->seed, frame, box);
-  } else {
-    impl_->follower = std::make_unique<TrackerCore>(impl_->config, impl_->seed, frame, box);
-  }
-  impl_->size = frame.gray.size();
-  impl_->time_s = frame.time_s;
-  impl_->pixel = centre_of(box);
+  followed_ = std::make_unique<Followed>(Followed{make_filter(config_, seed_, frame, box),
+                                                  frame.gray.size(), frame.time_s, centre_of(box)});
   return std::nullopt;
 }
 
 TrackerResult Tracker::track(const TrackerInput& frame) {
-  if (!impl_->follower) return {std::nullopt, TrackerError::kNotInitialised};
+  if (!followed_) return {std::nullopt, TrackerError::kNotInitialised};
   if (const auto error = check_image(frame)) return {std::nullopt, error};
-  if (frame.gray.size() != impl_->size) return {std::nullopt, TrackerError::kFrameSize};
-  if (frame.time_s <= impl_->time_s) return {std::nullopt, TrackerError::kTime};
-  impl_->time_s = frame.time_s;
-  impl_->timer.start();
+  if (frame.gray.size() != followed_->size) return {std::nullopt, TrackerError::kFrameSize};
+  if (frame.time_s <= followed_->time_s) return {std::nullopt, TrackerError::kTime};
+  followed_->time_s = frame.time_s;
+  timer_.start();
   const TrackerInput usable = with_sane_prediction(frame);
-  TrackerOutput output = impl_->follower->step(usable, impl_->timer);
-  const auto& given = frame.predicted_homography;
-  output.prediction_dropped = given && !usable.predicted_homography;
-  if (const auto& seen = impl_->follower->image_homography(); given && seen) {
-    output.prediction_error_px = disagreement_px(*given, *seen, impl_->pixel, impl_->size);
-  }
-  impl_->pixel = output.pixel;
-  return {output, std::nullopt};
+  return std::visit(
+      [&](auto& filter) -> TrackerResult {
+        TrackerOutput output = filter.step(usable, timer_);
+        const auto& given = frame.predicted_homography;
+        output.prediction_dropped = given && !usable.predicted_homography;
+        if (const auto& seen = filter.image_homography(); given && seen) {
+          output.prediction_error_px =
+              disagreement_px(*given, *seen, followed_->pixel, followed_->size);
+        }
+        followed_->pixel = output.pixel;
+        return {output, std::nullopt};
+      },
+      followed_->filter);
 }
 
 void Tracker::search_near(const Eigen::Vector2d& pixel, double sd_px) {
   const bool usable = pixel.allFinite() && std::isfinite(sd_px) && sd_px >= 0.0;
-  if (!impl_->follower || !usable) return;
-  const cv::Size& size = impl_->size;
+  if (!followed_ || !usable) return;
+  const cv::Size& size = followed_->size;
   const Particle hint = bounded({pixel, {0.0, 0.0}, {0.0, 0.0}}, size);
-  impl_->follower->search_near(hint.pixel, std::min(sd_px, static_cast<double>(size.width)));
+  const double near_px = std::min(sd_px, static_cast<double>(size.width));
+  std::visit([&](auto& filter) { filter.search_near(hint.pixel, near_px); }, followed_->filter);
 }
 
-bool Tracker::initialised() const { return impl_->follower != nullptr; }
+void Tracker::set_aside() { aside_ = std::move(followed_); }
 
-void Tracker::set_stage_clock(StageClock clock) { impl_->timer.set_clock(std::move(clock)); }
-
-const StageTimes& Tracker::stage_times() const { return impl_->timer.times(); }
+void Tracker::take_back() {
+  if (aside_) followed_ = std::move(aside_);
+}
 
 }  // namespace ols

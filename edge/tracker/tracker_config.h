@@ -1,9 +1,10 @@
 // Parameters of the visual tracker with their defaults.
 #pragma once
 
+namespace ols::config {
+struct Section;
+}
 namespace ols {
-
-class ConfigTable;
 
 enum class TrackerMode {
   kPaper,  // the paper's section 5, word for word
@@ -69,7 +70,6 @@ struct TrackerConfig {
   double pixel_sd_floor_px = 0.005;   // of the refined position
 };
 
-// Reads the table `[tracker]` of a configuration. Throws ConfigError.
-TrackerConfig read_tracker_config(ConfigTable& table);
+config::Section tracker_section(TrackerConfig& config);  // [tracker]
 
 }  // namespace ols

@@ -48,7 +48,20 @@ def test_a_good_configuration_passes(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "line", "key"),
     [
-        ("height_m = 250.0", "heigth_m = 250.0", 2, "height_m"),
+        (
+            "height_m = 250.0",
+            "heigth_m = 250.0",
+            5,
+            "heigth_m: unknown key; did you mean height_m?",
+        ),
+        (
+            "heading_deg = 0.0",
+            "headign_deg = 0.0",
+            6,
+            "pose.headign_deg: unknown key; did you mean heading_deg?",
+        ),
+        ("[lens]", "[lense]", 11, "lense: unknown key; did you mean lens?"),
+        ('id = "s1"', 'id = "s1"\nlcm_url = "udpm://239.255.76.67:7667?ttl=x"', 2, "lcm_url"),
         ("heading_deg = 0.0", "heading_deg = 0.0\nhaeding_deg = 1.0", 7, "haeding_deg"),
         ("latitude_deg = 49.2", "latitude_deg = 149.2", 3, "latitude_deg"),
         ("latitude_deg = 49.2", "latitude_deg = nan", 3, "latitude_deg"),
@@ -83,6 +96,12 @@ def test_fusion_names_file_line_and_key(tmp_path):
     config = tmp_path / "f.toml"
     config.write_text("# fusion\nno_such_key = 1\n")
     refused(run("ols-fusion", "--config", str(config)), f"{config}:2:", "no_such_key")
+
+
+@pytest.mark.parametrize("option", ["--lcm-url", "--slew-url"])
+def test_fusion_checks_the_urls_of_its_command_line(option):
+    url = "udpm://239.255.76.67:7667?ttl=x"
+    refused(run("ols-fusion", "--check-config", option, url), option, "is not a ttl")
 
 
 def test_scenario_names_file_line_and_key(tmp_path):

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 import re
 import subprocess
 import sys
@@ -119,10 +120,33 @@ def test_says_why_there_is_no_position(folder, estimator, azimuth_deg, why):
             rows.append(f"{1600000000000000 + 40000 * i},east,{azimuth_deg},10,0.01")
     (folder / "bearings.csv").write_text("\n".join(rows))
     result = fuse_in(folder, "--estimator", *estimator.split())
-    assert result.returncode == 0
+    assert result.returncode == 1
+    assert "no position at all" in result.stderr
     assert list(csv.DictReader((folder / "fixes.csv").open())) == []
     said = r"ols-fuse: target 1: no position at .*60 instants \((" + why + r")\)"
     assert re.search(said, result.stderr), result.stderr
+
+
+@pytest.mark.parametrize("sigma_deg", [0.01, 0.0001745])
+def test_radians_are_told_from_degrees(folder, sigma_deg):
+    """A target east of both stations that flies north; their headings are far from north."""
+    rows = [BEARINGS.splitlines()[0]]
+    for i in range(60):
+        utime_us = 1600000000000000 + 100_000 * i
+        for station, east_m in (("west", 1000), ("east", 708.5)):
+            azimuth_rad = math.atan2(east_m, 20.0 * i / 10)
+            elevation_rad = math.atan2(100, math.hypot(east_m, 20.0 * i / 10))
+            rows.append(f"{utime_us},{station},{azimuth_rad:.9f},{elevation_rad:.9f},{sigma_deg}")
+    (folder / "bearings.csv").write_text("\n".join(rows))
+    result = fuse_in(folder)
+    assert result.returncode == 2 and not (folder / "fixes.csv").exists()
+    assert "bearings.csv: azimuth_deg, elevation_deg: these seem to be radians" in result.stderr
+
+
+def test_small_angles_are_no_radians(folder):
+    text = BEARINGS.replace("45,10", "3,1").replace("315,10", "-3,1")
+    (folder / "bearings.csv").write_text(text)
+    assert fuse_in(folder).returncode == 0
 
 
 def test_bearings_without_rows(folder):

@@ -77,6 +77,14 @@ def test_map_of_a_site(stations, tmp_path):
     assert ring[0] == ring[-1] and 16 < ring[0][0] < 17 and 49 < ring[0][1] < 50
 
 
+def test_a_map_that_one_station_determines_nowhere_is_refused(stations, tmp_path):
+    stations.write_text("\n".join(STATIONS.splitlines()[:2]) + "\n")
+    output = tmp_path / "map.csv"
+    result = precision("map", "--stations", stations, "--output", output)
+    assert result.returncode == 2 and not output.exists()
+    assert f"{stations}: the stations determine no position 50 m above them" in result.stderr
+
+
 @pytest.mark.parametrize("middle_deg", [180.0, -180.0])
 def test_map_across_the_date_line_is_cut_there(tmp_path, middle_deg):
     places = {"west": 179.998, "east": -179.998, "north": middle_deg}

@@ -127,6 +127,36 @@ def test_is_what_a_station_reads(survey):
     assert f"heading {pose['heading_deg']:.3f} deg" in checked.stdout
 
 
+def test_changes_the_configuration_in_place(survey):
+    """The values alone: comments, order and all other tables stay; the old file is kept."""
+    old = CONFIG.replace("heading_deg = 40.0", "heading_deg = 40.0  # by compass").replace(
+        "[camera]", "# beside the ladder\n[camera]"
+    )
+    target = survey / "real.toml"
+    target.write_text(old)
+    (survey / "station.toml").unlink()
+    (survey / "station.toml").symlink_to("real.toml")
+    for copy in ("station.toml.old", "station.toml.old-2"):
+        before = target.read_text()
+        result = run(survey, "--at", "mark", "--in-place")
+        assert result.returncode == 0 and copy in result.stderr
+        assert (survey / copy).read_text() == before
+    text, found = target.read_text(), tomllib.loads(result.stdout)
+    assert "  # by compass\n" in text and "# beside the ladder\n[camera]\n" in text
+    merged = tomllib.loads(text)
+    assert merged["calibration"]["id"] == 6
+    for table in ("pose", "chain", "calibration"):
+        for key, value in found[table].items():
+            assert merged[table][key] == value
+    others = tomllib.loads(old)
+    for table in ("camera", "ptu", "lens"):
+        assert merged[table] == others[table]
+    assert merged["pose"]["level_sd_deg"] == 1.0
+    command = [str(BIN / "ols-station"), "--check-config", "--config", str(target)]
+    assert subprocess.run(command, capture_output=True, timeout=30, check=False).returncode == 0
+    assert run(survey, "--in-place", "--output", survey / "x.toml").returncode == 2
+
+
 def mistake(survey, *names):
     """Each of them was taken for something 10 degrees and more beside it."""
     for i, name in enumerate(names):

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "edge/target_tracker.h"
+#include "edge/tracker/target_tracker.h"
 
 namespace ols::fuzz {
 

@@ -2,7 +2,6 @@
 // real dialogue says, with an operator who homes, stops and vouches in between: the unit stays
 // within the limits unless it homes, stands after an emergency stop, is not told to home in one,
 // and samples are finite. Some hundred steps an input: slower than the other fuzzers.
-#include <array>
 #include <cmath>
 
 #include "edge/ptu/driver.h"
@@ -35,10 +34,8 @@ void interfere(ols::PtuDriver& driver, std::uint8_t what, double now_s) {
     case 10:
     case 11:
     case 12: {
-      constexpr std::array kLegacies{ols::PtuLegacy::kDoubt, ols::PtuLegacy::kBrokenHoming,
-                                     ols::PtuLegacy::kGearsLost,
-                                     ols::PtuLegacy::kBrokenHomingGearsLost};
-      return driver.inherit(kLegacies.at(what == 5 ? 0 : what - 9));
+      return driver.restore_doubt(
+          ols::doubt_from_word(ols::doubt_words().at(what == 5 ? 1 : what - 8)));
     }
     case 6:
       return driver.reference_ok();
@@ -145,7 +142,7 @@ void dialogue(ols::fuzz::Input input) {
     if (!done && now_s >= when_s) {
       done = true;
       interfere(driver, what, now_s);
-      if (driver.in_emergency()) unit.receive(ols::PtuDriver::halt_request(), now_s);
+      if (driver.in_emergency()) unit.receive(ols::halt_request(), now_s);
     }
     driver.receive(line.through(unit.transmit(now_s + 0.005)), now_s + 0.005);
     check(driver);

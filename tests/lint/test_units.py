@@ -166,7 +166,7 @@ def test_the_installed_tree_is_complete(tmp_path):
         "lib/modules-load.d/ols.conf",
         "lib/sysctl.d/60-ols.conf",
         "lib/udev/rules.d/61-ols.rules",
-        "share/doc/ols/operations.md",
+        "share/doc/ols/docs/field-guide.md",
     ):
         assert (usr / path).exists(), path
     assert sorted(path.name for path in (usr / "bin").glob("ols-sim*")) == []

@@ -1,15 +1,18 @@
 // ols-ctl: the operator's hand on the command line.
 #include <poll.h>
 
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/clocks.h"
 #include "base/command_line.h"
 #include "geometry/angles.h"
+#include "geometry/slew_limits.h"
 #include "tools/ctl/operator.h"
 #include "tools/ctl/status_text.h"
 
@@ -94,12 +97,21 @@ struct Words {
   std::optional<Send> send;  // nothing: stop or status
 };
 
+void require_angle(const char* name, double angle_deg, double limit_deg) {
+  if (std::abs(angle_deg) <= limit_deg) return;
+  std::ostringstream what;
+  what << name << ' ' << angle_deg << " is outside " << -limit_deg << " .. " << limit_deg << " deg";
+  throw CLI::ValidationError("manual", what.str());
+}
+
 void add_ptu_commands(CLI::App& app, Words& words) {
   auto* manual = app.add_subcommand("manual", "Point the PTU and stay there");
   manual->add_option("angles", words.angles_deg, "PAN TILT [deg] as the PTU counts them")
       ->expected(2)
       ->required();
   manual->callback([&words] {
+    require_angle("PAN", words.angles_deg[0], ols::degrees(ols::kPointPanLimit_rad));
+    require_angle("TILT", words.angles_deg[1], ols::degrees(ols::kPointTiltLimit_rad));
     words.send = [&words](ols::Operator& hand, const std::string& id) {
       return hand.point(id, ols::radians(words.angles_deg[0]), ols::radians(words.angles_deg[1]));
     };

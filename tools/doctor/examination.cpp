@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/toml_config.h"
 #include "central/fusion_settings.h"
 #include "edge/config.h"
 #include "tools/doctor/bus_ears.h"
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 Finding refused(const ConfigError& error) {
   return fail(std::string("configuration: ") + error.what(),
-              "correct that line; docs/operations.md lists every key");
+              "correct that line; docs/configuration.md lists every key");
 }
 
 Findings examine_inclinometer(const InclinometerConfig& config, double patience_s) {

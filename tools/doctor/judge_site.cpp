@@ -62,7 +62,7 @@ Findings judge_alarms(const std::string& whose, const std::vector<std::string>& 
   constexpr std::size_t kMost = 16;
   Findings findings;
   for (std::size_t i = 0; i < std::min(alarms.size(), kMost); ++i) {
-    findings.push_back(warn(whose + alarms[i], "docs/operations.md lists the alarms"));
+    findings.push_back(warn(whose + alarms[i], "docs/troubleshooting.md lists the alarms"));
   }
   if (alarms.size() > kMost) {
     const std::string more = std::to_string(alarms.size() - kMost);

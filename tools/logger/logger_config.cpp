@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "base/channel_pattern.h"
+#include "base/config_section.h"
 #include "base/lcm_url.h"
-#include "base/toml_config.h"
 
 namespace ols {
 namespace {
@@ -14,47 +14,54 @@ namespace {
 // Room for the file that is written and for the next, beside what is kept.
 constexpr double kLeastSplits = 4.0;
 
-void check_name(ConfigTable& table, const std::string& name) {
+void check_name(const std::string& name) {
   const bool good =
       !name.empty() && name.size() <= 40 && std::ranges::all_of(name, [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '-' || c == '_';
       });
-  if (!good) throw table.error("name", "may have 40 letters, digits, - and _");
-}
-
-void check_channels(ConfigTable& table, const std::string& channels) {
-  try {
-    ChannelPattern{channels};
-  } catch (const std::invalid_argument& problem) {
-    throw table.error("channels", problem.what());
-  }
+  if (!good) throw std::invalid_argument("must be 1 to 40 letters, digits, - or _");
 }
 
 LoggerConfig read(ConfigFile& file) {
-  LoggerConfig c;
-  ConfigTable& root = file.root();
-  c.folder = root.text("folder", c.folder);
-  if (c.folder.empty()) throw root.error("folder", "must not be empty");
-  c.name = root.text("name", c.name);
-  check_name(root, c.name);
-  c.lcm_url = read_lcm_url(root, "lcm_url", c.lcm_url);
-  c.channels = root.text("channels", c.channels);
-  check_channels(root, c.channels);
-  c.invert = root.boolean("invert", c.invert);
-  c.split_bytes = 1e6 * root.number("split_mb", c.split_bytes * 1e-6, 0.01, 1e4);
-  c.quota_bytes = 1e9 * root.number("quota_gb", c.quota_bytes * 1e-9, 1e-5, 1e5);
-  c.disk_reserve_bytes =
-      1e9 * root.number("disk_reserve_gb", c.disk_reserve_bytes * 1e-9, 0.0, 1e5);
-  c.max_unwritten_mb = root.number("max_unwritten_mb", c.max_unwritten_mb, 0.1, 1e4);
-  c.status_file = root.text("status_file", c.status_file);
-  file.finish();
-  if (c.quota_bytes < kLeastSplits * c.split_bytes) {
-    throw root.error("quota_gb", "must be four times split_mb at least");
-  }
-  return c;
+  LoggerConfig config;
+  config::read(logger_section(config), file.root());
+  return config;
 }
 
 }  // namespace
+
+config::Section logger_section(LoggerConfig& c) {
+  return {
+      "",
+      "",
+      {config::text("folder", c.folder, "Folder of the logs.", config::not_empty),
+       config::text("name", c.name,
+                    "Files are NAME-<UTC>.lcmlog.NN; no other file is ever removed.", check_name),
+       config::text("lcm_url", c.lcm_url,
+                    "The bus; ttl=0: only this host, ttl=1: also the other hosts of the site.",
+                    [](const std::string& url) { parse_lcm_url(url); }),
+       config::text("channels", c.channels, "Channels to record, a regular expression.",
+                    [](const std::string& pattern) { ChannelPattern{pattern}; }),
+       config::flag("invert", c.invert, "Records all channels but those."),
+       config::number("split_mb", c.split_bytes, {0.01, 1e4}, config::kMegabytes,
+                      "Size at which a new file is begun."),
+       config::number("quota_gb", c.quota_bytes, {1e-5, 1e5}, config::kGigabytes,
+                      "Maximum size of all files, at least four times split_mb; the oldest are "
+                      "removed."),
+       config::number("disk_reserve_gb", c.disk_reserve_bytes, {0.0, 1e5}, config::kGigabytes,
+                      "With less free space the oldest files are removed; then recording "
+                      "pauses."),
+       config::number("max_unwritten_mb", c.max_unwritten_mb, {0.1, 1e4}, "MB",
+                      "Maximum size in memory while the disk is slow; more is lost and "
+                      "counted."),
+       config::text("status_file", c.status_file,
+                    "JSON file that is rewritten every second; empty: none.")},
+      {},
+      [&c](ConfigTable& root) {
+        if (c.quota_bytes < kLeastSplits * c.split_bytes)
+          throw root.error("quota_gb", "must be at least four times split_mb");
+      }};
+}
 
 LoggerConfig load_logger_config(const std::string& path) {
   ConfigFile file(path);

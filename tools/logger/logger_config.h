@@ -1,8 +1,11 @@
-// What ols-logger's configuration file holds. docs/operations.md explains each key.
+// What ols-logger's configuration file holds: docs/configuration.md.
 #pragma once
 
 #include <string>
 
+namespace ols::config {
+struct Section;
+}
 namespace ols {
 
 struct LoggerConfig {
@@ -18,6 +21,7 @@ struct LoggerConfig {
   std::string status_file;         // JSON, written again and again; empty: none
 };
 
+config::Section logger_section(LoggerConfig& config);  // the whole file
 // Throws ConfigError.
 LoggerConfig load_logger_config(const std::string& path);
 // The same from text, `name` standing for the path in errors.

@@ -170,7 +170,8 @@ FrameSource::FrameSource(const std::string& input) : input_(input) {
     frames_per_second_ = rate;
     // Where the container has none it is made of the rate: of one that is none, nonsense.
     const double count = clip_.get(cv::CAP_PROP_FRAME_COUNT);
-    if (std::isfinite(count) && count > 0.0) announced_ = std::lround(count);
+    if (std::isfinite(count) && count > 0.0)
+      announced_ = static_cast<std::size_t>(std::llround(count));
   }
 }
 
@@ -184,7 +185,7 @@ std::optional<cv::Mat> FrameSource::next_of_clip() {
   cv::Mat picture;
   if (clip_.read(picture) && !picture.empty()) return to_gray(picture);
   // Containers count a frame or two that no decoder gives: only more is a damaged clip.
-  constexpr long kTolerated = 2;
+  constexpr std::size_t kTolerated = 2;
   if (read_ == 0 || read_ + kTolerated < announced_) {
     throw FrameSourceError(input_ + ": ends or is damaged after " + std::to_string(read_) + " of " +
                            std::to_string(announced_) + " frames");
@@ -193,10 +194,9 @@ std::optional<cv::Mat> FrameSource::next_of_clip() {
 }
 
 std::optional<cv::Mat> FrameSource::next_file() {
-  const auto index = static_cast<std::size_t>(read_);
-  if (index >= files_.size()) return std::nullopt;
-  const cv::Mat picture = read_picture(files_[index]);
-  if (picture.empty()) throw FrameSourceError(files_[index] + ": cannot be read as a picture");
+  if (read_ >= files_.size()) return std::nullopt;
+  const cv::Mat picture = read_picture(files_[read_]);
+  if (picture.empty()) throw FrameSourceError(files_[read_] + ": cannot be read as a picture");
   return picture;
 }
 

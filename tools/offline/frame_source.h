@@ -26,17 +26,21 @@ class FrameSource {
   std::optional<cv::Mat> next();
   // As the clip says; 30 where it does not.
   double frames_per_second() const { return frames_per_second_; }
+  // How many there are, for the user: a clip may announce a few more than it has; 0: not known.
+  std::size_t announced() const { return files_.empty() ? announced_ : files_.size(); }
+  // The pictures of a folder or pattern; none of a clip.
+  const std::vector<std::string>& files() const { return files_; }
 
  private:
   std::optional<cv::Mat> next_of_clip();
   std::optional<cv::Mat> next_file();
 
   std::string input_;
-  std::vector<std::string> files_;  // of a folder or pattern; empty for a clip
+  std::vector<std::string> files_;
   cv::VideoCapture clip_;
   double frames_per_second_ = 30.0;
-  long announced_ = 0;
-  long read_ = 0;
+  std::size_t announced_ = 0;
+  std::size_t read_ = 0;
 };
 
 }  // namespace ols

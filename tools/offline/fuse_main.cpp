@@ -7,13 +7,19 @@
 #include <optional>
 #include <utility>
 
+#include "base/atomic_file.h"
 #include "base/command_line.h"
 #include "base/csv_files.h"
+#include "base/output_check.h"
+#include "base/progress.h"
 #include "central/offline_fusion.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
+#include "tools/offline/recorded_bearings.h"
 
 namespace {
+
+constexpr int kExitNoPosition = 1;
 
 const std::map<std::string, ols::PaperPairs> kPaperPairs = {
     {"algorithm-1", ols::PaperPairs::kAlgorithm1},
@@ -32,41 +38,6 @@ struct Options {
   std::string paper_pairs = "algorithm-1";
   bool paper_halves = false;
 };
-
-ols::Sighting sighting_of(const ols::BearingRow& bearing, const ols::StationRow& station) {
-  ols::Sighting sighting;
-  sighting.station = bearing.station;
-  sighting.utime_us = bearing.utime_us;
-  sighting.belief = bearing.belief;
-  ols::SightLine& sight = sighting.sight;
-  sight.origin_ecef = ols::ecef_from_geodetic(
-      {ols::radians(station.latitude_deg), ols::radians(station.longitude_deg), station.height_m});
-  sight.direction = {ols::wrap_two_pi(ols::radians(bearing.azimuth_deg)),
-                     ols::radians(bearing.elevation_deg)};
-  const double sigma_rad = ols::radians(bearing.sigma_deg);
-  const double pointing_rad = ols::radians(station.pointing_sd_deg.value_or(0.0));
-  sight.covariance_white = Eigen::Matrix2d::Identity() * (sigma_rad * sigma_rad);
-  sight.covariance_systematic = Eigen::Matrix2d::Identity() * (pointing_rad * pointing_rad);
-  sight.origin_sd_enu_m.setConstant(station.position_sd_m.value_or(0.0));
-  return sighting;
-}
-
-// By target id.
-std::map<std::string, std::vector<ols::Sighting>> read_sightings(const Options& options) {
-  const auto stations = ols::read_stations(options.stations);
-  std::map<std::string, ols::StationRow> by_id;
-  for (const auto& station : stations) by_id[station.station] = station;
-  std::map<std::string, std::vector<ols::Sighting>> sightings;
-  for (const auto& bearing : ols::read_bearings(options.bearings, stations)) {
-    sightings[bearing.target].push_back(sighting_of(bearing, by_id.at(bearing.station)));
-  }
-  for (auto& [id, own] : sightings) {
-    ols::guess_clocks(own);
-    if (!options.clock_sd_s) continue;
-    for (ols::Sighting& sighting : own) sighting.clock_sd_s = *options.clock_sd_s;
-  }
-  return sightings;
-}
 
 ols::FixRow fix_of(const ols::FusedTarget& target, const std::string& id) {
   const ols::Estimate& estimate = target.estimate;
@@ -120,7 +91,14 @@ void tell_unlocated(const ols::Unlocated& unlocated, std::size_t fixes, const st
   std::cerr << '\n';
 }
 
-void run(const Options& options) {
+std::size_t count(const ols::RecordedBearings& recording) {
+  std::size_t bearings = 0;
+  for (const auto& [id, sightings] : recording) bearings += sightings.size();
+  return bearings;
+}
+
+ols::OfflineConfig config_of(const Options& options, std::size_t bearings) {
+  constexpr std::size_t kRuns = 2;  // of the filter: who looks beside the target, and where it is
   ols::OfflineConfig config;
   config.estimator = options.estimator;
   config.smooth = options.smooth;
@@ -128,11 +106,24 @@ void run(const Options& options) {
   config.fusion.estimators.paper = options.paper;
   config.fusion.estimators.paper.pairs = kPaperPairs.at(options.paper_pairs);
   config.fusion.estimators.paper.by_belief = !options.paper_halves;
+  config.tell = [bearings, progress = ols::Progress("ols-fuse", "bearings"),
+                 taken = std::size_t{0}]() mutable { progress(++taken / kRuns, bearings); };
+  return config;
+}
+
+// How many positions there are.
+std::size_t run(const Options& options) {
+  ols::check_outputs({{"--stations", options.stations}, {"--bearings", options.bearings}},
+                     {{"--output", options.output}});
+  auto recording = ols::read_recorded_bearings(options.stations, options.bearings);
+  const std::size_t bearings = count(recording);
+  const ols::OfflineConfig config = config_of(options, bearings);
   std::vector<ols::FixRow> fixes;
   ols::UnusedBearings unused;
-  std::size_t bearings = 0;
-  for (const auto& [id, sightings] : read_sightings(options)) {
-    bearings += sightings.size();
+  for (auto& [id, sightings] : recording) {
+    if (options.clock_sd_s) {
+      for (ols::Sighting& sighting : sightings) sighting.clock_sd_s = *options.clock_sd_s;
+    }
     const ols::UnusedBearings here = ols::unused_bearings(sightings, config);
     unused.low_belief += here.low_belief;
     unused.duplicate += here.duplicate;
@@ -147,6 +138,7 @@ void run(const Options& options) {
   std::ranges::stable_sort(fixes, {}, &ols::FixRow::utime_us);
   ols::write_fixes(options.output, fixes);
   tell_unused(unused, bearings);
+  return fixes.size();
 }
 
 void add_files(CLI::App& app, Options& options) {
@@ -193,13 +185,18 @@ void add_choices(CLI::App& app, Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  ols::remove_temporary_files_on_signals();
   CLI::App app{"Positions (WGS84, metres above the ellipsoid, 1-sigma) from recorded bearings."};
   Options options;
   add_files(app, options);
   add_choices(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-fuse")) return *status;
   try {
-    run(options);
+    // An empty file replaces that of a run before, but it is no success.
+    if (run(options) == 0) {
+      std::cerr << "ols-fuse: no position at all: " << options.output << " has no row\n";
+      return kExitNoPosition;
+    }
   } catch (const std::exception& error) {
     std::cerr << "ols-fuse: " << error.what() << '\n';
     return ols::kExitBadInput;

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "base/output_check.h"
+#include "base/progress.h"
 #include "geometry/angles.h"
 #include "geometry/placement.h"
 #include "tools/offline/geojson.h"
@@ -94,6 +96,8 @@ std::vector<PlannedTarget> read_area(const AdviceOptions& o) {
 }
 
 void write_advice(const AdviceOptions& o) {
+  check_outputs({{"--places", o.places}, {"--area", o.area}, {"--kept", o.kept}},
+                {{"--output", o.output}});
   const auto rows = read_places(o);
   PlacementProblem problem;
   problem.places = planned_stations(rows, o.measurement);
@@ -103,7 +107,8 @@ void write_advice(const AdviceOptions& o) {
   problem.goal = o.mean ? PlacementGoal::kMean : PlacementGoal::kWorst;
   problem.exposures = o.measurement.exposures;
   std::mt19937_64 generator(o.seed);
-  const Placement placement = place_stations(problem, generator);
+  const Placement placement =
+      place_stations(problem, generator, Progress("ols-precision", "searches"));
   AtomicFile file(o.output);
   file.stream() << "station,latitude_deg,longitude_deg,height_m\n" << std::setprecision(10);
   for (const std::size_t chosen : placement.chosen) {

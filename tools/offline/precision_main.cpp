@@ -1,11 +1,13 @@
 // ols-precision: how good positions can be, before anything is measured.
 #include <iostream>
 
+#include "base/atomic_file.h"
 #include "base/command_line.h"
 #include "tools/offline/precision_paper_files.h"
 #include "tools/offline/precision_site_files.h"
 
 int main(int argc, char** argv) {
+  ols::remove_temporary_files_on_signals();
   CLI::App app{
       "How good positions can be: the paper's precision theory, and the Cramer-Rao bound of any "
       "site. Lengths in metres, angles in degrees but where a column says rad."};

@@ -5,11 +5,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "base/output_check.h"
+#include "base/progress.h"
 #include "geometry/angles.h"
 #include "tools/offline/precision_options.h"
 #include "tools/offline/precision_site_files.h"
@@ -67,7 +70,7 @@ Grid grid_about(const std::vector<StationRow>& rows, const MapOptions& o) {
 
 std::vector<Cell> cells_of(const Grid& grid, double above_m,
                            const std::vector<PlannedStation>& stations,
-                           const MeasurementOptions& measurement) {
+                           const MeasurementOptions& measurement, Progress& progress) {
   const LocalFrame frame(grid.middle);
   std::vector<Cell> cells;
   const int columns = static_cast<int>(grid.half_east_m / grid.spacing_m);
@@ -85,6 +88,7 @@ std::vector<Cell> cells_of(const Grid& grid, double above_m,
         cell.covariance_enu = R.transpose() * precision->covariance_ecef * R;
       }
       cells.push_back(cell);
+      progress(cells.size(), static_cast<std::size_t>((2 * rows + 1) * (2 * columns + 1)));
     }
   }
   return cells;
@@ -178,7 +182,17 @@ json station_feature(const StationRow& row) {
       {"properties", {{"station", row.station}}}};
 }
 
+void require_determined(const std::vector<Cell>& cells, const MapOptions& o, double above_m) {
+  const auto known = [](const Cell& cell) { return cell.covariance_enu.has_value(); };
+  if (std::ranges::any_of(cells, known)) return;
+  std::ostringstream what;
+  what << o.stations << ": the stations determine no position " << above_m
+       << " m above them: lines of sight of two or more must cross";
+  throw std::invalid_argument(what.str());
+}
+
 void write_map(const MapOptions& o) {
+  check_outputs({{"--stations", o.stations}}, {{"--output", o.output}, {"--geojson", o.geojson}});
   const auto rows = read_stations(o.stations);
   const auto stations = planned_stations(rows, o.measurement);
   const Grid grid = grid_about(rows, o);
@@ -188,7 +202,11 @@ void write_map(const MapOptions& o) {
   file.stream() << "latitude_deg,longitude_deg,height_m,above_stations_m,east_sd_m,north_sd_m,"
                    "up_sd_m,east_north_m2,east_up_m2,north_up_m2,horizontal_m\n";
   for (const double above_m : o.heights_m) {
-    const auto cells = cells_of(grid, above_m, stations, o.measurement);
+    std::ostringstream steps;
+    steps << "cells " << above_m << " m above the stations";
+    Progress progress("ols-precision", steps.str());
+    const auto cells = cells_of(grid, above_m, stations, o.measurement, progress);
+    require_determined(cells, o, above_m);
     write_rows(file.stream(), above_m, cells);
     for (const Cell& cell : cells) {
       if (cell.covariance_enu) features.push_back(feature_of(cell, grid.spacing_m, above_m));
@@ -220,6 +238,7 @@ void require_place(const std::vector<double>& at) {
 }
 
 void write_budget(const BudgetOptions& o) {
+  check_outputs({{"--stations", o.stations}}, {{"--output", o.output}});
   const auto stations = planned_stations(read_stations(o.stations), o.measurement);
   require_place(o.at);
   const Geodetic place{radians(o.at[0]), radians(o.at[1]), o.at[2]};

@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "base/csv_files.h"
+#include "base/output_check.h"
 #include "geometry/precision_paper.h"
 
 namespace ols {
@@ -107,6 +108,7 @@ void write_figure4(const PaperOptions& o) {
 }
 
 void write_table(const PaperOptions& o) {
+  check_outputs({{"--input", o.input}}, {{"--output", o.output}});
   AtomicFile file(o.output);
   std::ostream& out = file.stream();
   out << "object,distance_m,alpha_rad,side,estimated_m,estimated_by_side_m,paper_estimated_m,"

@@ -1,8 +1,13 @@
 // ols-stationing: a station's heading, tilt and mounting from sighted landmarks.
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <sstream>
 
 #include "base/atomic_file.h"
 #include "base/command_line.h"
+#include "base/output_check.h"
+#include "base/toml_merge.h"
 #include "geometry/angles.h"
 #include "tools/offline/stationing_files.h"
 
@@ -11,6 +16,7 @@ namespace {
 struct Options {
   ols::StationingOptions stationing;
   std::string output;  // empty: the standard output
+  bool in_place = false;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -36,10 +42,40 @@ void add_options(CLI::App& app, Options& options) {
                  "[deg] targets are no higher: up to there the stated deviations hold")
       ->check(CLI::Range(0.0, 80.0))
       ->capture_default_str();
-  app.add_option("--output", options.output, "TOML for the configuration; else it is printed");
+  CLI::Option* output =
+      app.add_option("--output", options.output, "TOML for the configuration; else it is printed");
+  app.add_flag("--in-place", options.in_place,
+               "also change these values in the --station file; the old one is kept as FILE.old")
+      ->excludes(output);
+}
+
+// The first of station.toml.old, station.toml.old-2, ... that is free.
+std::string keep_copy(const std::filesystem::path& path) {
+  std::string copy = path.string() + ".old";
+  for (int i = 2; std::filesystem::exists(copy); ++i) {
+    copy = path.string() + ".old-" + std::to_string(i);
+  }
+  std::filesystem::copy_file(path, copy);
+  return copy;
+}
+
+void change_in_place(const std::string& path, const std::string& found) {
+  std::ostringstream old_text;
+  old_text << std::ifstream(path).rdbuf();
+  const std::string merged = ols::toml_merged(old_text.str(), found);
+  const std::string copy = keep_copy(path);
+  ols::AtomicFile file(path);
+  file.stream() << merged;
+  file.commit();
+  std::cerr << "ols-stationing: " << path << " is changed, the old one is " << copy << '\n';
 }
 
 void run(const Options& options) {
+  const ols::StationingOptions& files = options.stationing;
+  ols::check_outputs({{"--station", files.station},
+                      {"--landmarks", files.landmarks},
+                      {"--sightings", files.sightings}},
+                     {{"--output", options.output}});
   const ols::StationingCase before = ols::read_stationing(options.stationing);
   const ols::Stationing found =
       ols::find_station(before, ols::radians(options.stationing.highest_deg));
@@ -48,8 +84,11 @@ void run(const Options& options) {
   }
   const bool with_position = !options.stationing.at.empty();
   if (options.output.empty()) {
-    ols::write_stationing(std::cout, before, found, with_position);
+    std::ostringstream text;
+    ols::write_stationing(text, before, found, with_position);
+    std::cout << text.str();
     ols::flush_output();
+    if (options.in_place) change_in_place(files.station, text.str());
     return;
   }
   ols::AtomicFile file(options.output);
@@ -60,6 +99,7 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  ols::remove_temporary_files_on_signals();
   CLI::App app{"A station's heading, tilt and mounting from sightings of surveyed landmarks."};
   Options options;
   add_options(app, options);

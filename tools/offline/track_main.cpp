@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <map>
 #include <opencv2/core/utility.hpp>
@@ -12,6 +11,8 @@
 
 #include "base/atomic_file.h"
 #include "base/command_line.h"
+#include "base/output_check.h"
+#include "base/progress.h"
 #include "edge/tracker/tracker.h"
 #include "tools/offline/boxes_csv.h"
 #include "tools/offline/frame_source.h"
@@ -172,23 +173,22 @@ class Run {
   long tracked_ = 0;
 };
 
-void refuse_overwriting(const Arguments& arguments) {
-  std::error_code unimportant;  // what does not exist is not overwritten
-  for (const std::string& written : {arguments.output, arguments.timing}) {
-    if (std::filesystem::equivalent(arguments.input, written, unimportant)) {
-      throw std::runtime_error("--output: " + written + " is the input");
-    }
-  }
+void check_files(const Arguments& arguments, const ols::FrameSource& source) {
+  std::vector<ols::NamedFile> inputs{{"--input", arguments.input}, {"--config", arguments.config}};
+  for (const std::string& picture : source.files()) inputs.push_back({"--input", picture});
+  ols::check_outputs(inputs, {{"--output", arguments.output}, {"--timing", arguments.timing}});
 }
 
 void run(const Arguments& arguments) {
-  refuse_overwriting(arguments);
   ols::FrameSource source(arguments.input);
+  check_files(arguments, source);
   Run following(arguments);
+  ols::Progress progress("ols-track", "frames");
   long frame = 0;
   for (auto picture = source.next(); picture; picture = source.next(), ++frame) {
     const double time_s = static_cast<double>(frame) / source.frames_per_second();
     following.take(frame, {*picture, time_s, std::nullopt});
+    progress(static_cast<std::size_t>(frame) + 1, source.announced());
   }
   if (frame <= arguments.start_frame) {
     throw std::runtime_error(arguments.input + ": has " + std::to_string(frame) +
@@ -200,6 +200,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  ols::remove_temporary_files_on_signals();
   CLI::App app("Follows one target through a clip with the particle filter tracker.", "ols-track");
   Arguments arguments;
   declare(app, arguments);

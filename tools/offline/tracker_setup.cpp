@@ -1,6 +1,6 @@
 #include "tools/offline/tracker_setup.h"
 
-#include "base/toml_config.h"
+#include "base/config_section.h"
 
 namespace ols {
 
@@ -8,8 +8,7 @@ TrackerConfig load_tracker_config(const std::string& path, const std::string& mo
   TrackerConfig config;
   if (!path.empty()) {
     ConfigFile file(path);
-    config = read_tracker_config(file.root().table("tracker"));
-    file.finish();
+    config::read({"", "", {}, {tracker_section(config)}}, file.root());
   }
   if (mode == "paper") config.mode = TrackerMode::kPaper;
   if (mode == "full") config.mode = TrackerMode::kFull;

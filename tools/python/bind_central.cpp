@@ -137,11 +137,19 @@ void bind_fusion(py::module_& m) {
       arg("sightings"), arg("epoch_us"), arg("range_m") = std::nullopt,
       "One station's Sightings, in order of time -> its Ray at the epoch, or None.");
 
+  data_class<ContributingStation>(m, "ContributingStation", "What became of a station's bearings.")
+      .def_readwrite("station", &ContributingStation::station)
+      .def_readwrite("used", &ContributingStation::used)
+      .def_readwrite("weight", &ContributingStation::weight)
+      .def_readwrite("age_s", &ContributingStation::age_s);
+
   data_class<FusedTarget>(m, "FusedTarget", "A located target at an epoch.")
       .def_readwrite("utime_us", &FusedTarget::utime_us)
       .def_readwrite("target_id", &FusedTarget::target_id)
       .def_readwrite("estimator", &FusedTarget::estimator)
       .def_readwrite("estimate", &FusedTarget::estimate)
+      .def_readwrite("contributing", &FusedTarget::stations,
+                     "ContributingStations, in the order of estimate.rays.")
       .def_property_readonly(
           "stations",
           [](const FusedTarget& target) {

@@ -41,7 +41,10 @@ void bind_wgs84(py::module_& m) {
           "origin_ecef",
           [](const LocalFrame& frame) { return Eigen::Vector3d(frame.origin_ecef()); },
           "(3,) ECEF position of the origin [m].")
-      .def_property_readonly("origin", [](const LocalFrame& frame) { return frame.origin(); });
+      .def_property_readonly("origin", [](const LocalFrame& frame) { return frame.origin(); })
+      .def("__reduce__", [](const py::object& frame) {
+        return py::make_tuple(py::type::of(frame), py::make_tuple(frame.attr("origin")));
+      });
 }
 
 void bind_direction(py::module_& m) {

@@ -1,5 +1,7 @@
 #include <pybind11/stl.h>
 
+#include <map>
+
 #include "geometry/placement.h"
 #include "geometry/precision.h"
 #include "geometry/precision_paper.h"
@@ -75,7 +77,7 @@ void bind_bound(py::module_& m) {
                      "(3, 3) E[v v'] [m^2/s^2]");
   data_class<PositionPrecision>(m, "PositionPrecision", "The Cramer-Rao bound and its parts.")
       .def_readwrite("covariance_ecef", &PositionPrecision::covariance_ecef, "(3, 3) [m^2]")
-      .def_property_readonly(
+      .def_property(
           "parts_ecef",
           [](const PositionPrecision& precision) {
             py::dict parts;
@@ -83,6 +85,11 @@ void bind_bound(py::module_& m) {
               parts[py::cast(kErrorSources.at(i))] = precision.parts_ecef.at(i);
             }
             return parts;
+          },
+          [](PositionPrecision& precision, const std::map<ErrorSource, Eigen::Matrix3d>& parts) {
+            for (std::size_t i = 0; i < kErrorSources.size(); ++i) {
+              precision.parts_ecef.at(i) = parts.at(kErrorSources.at(i));
+            }
           },
           "{ErrorSource: (3, 3) [m^2]}; their sum is the bound.");
   m.def("bearing_jacobian", &bearing_jacobian, arg("station"), arg("p_ecef"),

@@ -27,8 +27,21 @@ inline std::string fields_repr(const py::object& self, const char* name) {
   return name + ("(" + text + ")");
 }
 
+// For pickle: the class, called with the fields that can be set, which must be all that it has.
+inline py::tuple reduce_fields(const py::object& self) {
+  py::dict fields;
+  const py::object property = py::module_::import("builtins").attr("property");
+  for (const auto& [field, member] :
+       py::type::of(self).attr("__dict__").attr("copy")().cast<py::dict>()) {
+    if (!py::isinstance(member, property) || member.attr("fset").is_none()) continue;
+    fields[field] = self.attr(field);
+  }
+  const py::object partial = py::module_::import("functools").attr("partial");
+  return py::make_tuple(partial(py::type::of(self), **fields), py::tuple());
+}
+
 // A plain struct as a Python class: constructed from keywords (the rest keeps its defaults; an
-// unknown one is a TypeError), copied by copy.copy() and copy.deepcopy().
+// unknown one is a TypeError), copied by copy.copy() and copy.deepcopy(), pickled.
 template <typename T>
 py::class_<T> data_class(py::module_& m, const char* name, const char* doc) {
   py::class_<T> bound(m, name, doc);
@@ -45,6 +58,7 @@ py::class_<T> data_class(py::module_& m, const char* name, const char* doc) {
     return value;
   }));
   bound.def("__repr__", [name](const py::object& self) { return fields_repr(self, name); });
+  bound.def("__reduce__", &reduce_fields);
   bound.def("__copy__", [](const T& self) { return T(self); });
   bound.def("__deepcopy__", [](const T& self, const py::dict&) { return T(self); });
   return bound;

@@ -1,6 +1,7 @@
 #include "tools/python/bindings.h"
 
 PYBIND11_MODULE(_core, m) {
+  m.attr("__version__") = OLS_VERSION;
   m.doc() = "The C++ mathematics of OLS; import it as `ols`.";
   ols::python::bind_geometry(m);
   ols::python::bind_precision(m);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -133,30 +134,45 @@ TEST_F(CsvFilesTest, NamesTheBadStation) {
 
 TEST_F(CsvFilesTest, NamesTheBadBearing) {
   const std::string head = kBearings;
-  EXPECT_EQ(error_of_bearings(head + "5,a,0,0,1\n"), "none");
-  EXPECT_EQ(error_of_bearings(head + "5,a,0,0,1\n1.5,a,0,0,1\n"),
+  EXPECT_EQ(error_of_bearings(head + "1600000000000000,a,0,0,1\n"), "none");
+  EXPECT_EQ(error_of_bearings(head + "1600000000000000,a,0,0,1\n1.5,a,0,0,1\n"),
             "b.csv:3: utime_us: '1.5' is not a number");
   EXPECT_EQ(error_of_bearings(head + "99999999999999999999,a,0,0,1\n"),
             "b.csv:2: utime_us: '99999999999999999999' is not a number");
   EXPECT_EQ(error_of_bearings(head + "-5,a,0,0,1\n"),
             "b.csv:2: utime_us: -5 is outside 0 .. 9000000000000000");
-  EXPECT_EQ(error_of_bearings(head + "5,b,0,0,1\n"),
+  EXPECT_EQ(error_of_bearings(head + "5,a,0,0,1\n"),
+            "b.csv:2: utime_us: 5 is before 1980: microseconds since 1970 (UTC) are needed");
+  EXPECT_TRUE(error_of_bearings(head + "1600000000,a,0,0,1\n").ends_with("seem to be seconds"));
+  EXPECT_TRUE(
+      error_of_bearings(head + "1600000000000,a,0,0,1\n").ends_with("seem to be milliseconds"));
+  EXPECT_EQ(error_of_bearings(head + "1600000000000000,b,0,0,1\n"),
             "b.csv:2: station: 'b' is not one of the stations");
-  EXPECT_EQ(error_of_bearings(head + "5,a,361,0,1\n"),
+  EXPECT_EQ(error_of_bearings(head + "1600000000000000,a,361,0,1\n"),
             "b.csv:2: azimuth_deg: 361 is outside -360 .. 360");
-  EXPECT_EQ(error_of_bearings(head + "5,a,0,90.1,1\n"),
+  EXPECT_EQ(error_of_bearings(head + "1600000000000000,a,0,90.1,1\n"),
             "b.csv:2: elevation_deg: 90.1 is outside -90 .. 90");
-  EXPECT_EQ(error_of_bearings(head + "5,a,0,0,0\n"),
+  EXPECT_EQ(error_of_bearings(head + "1600000000000000,a,0,0,0\n"),
             "b.csv:2: sigma_deg: 0 is outside 1e-07 .. 90");
   EXPECT_EQ(error_of_bearings(head), "b.csv:2: row: there is none");
-  EXPECT_EQ(error_of_bearings(head + "5,\"a,b\",0,0,1\n"),
+  EXPECT_EQ(error_of_bearings(head + "1600000000000000,\"a,b\",0,0,1\n"),
             "b.csv:2: station: has a comma, a quote or a control character");
   const std::string with_target = head.substr(0, head.size() - 1) + ",target\n";
   for (const char* id : {"\"a,b\"", "\"a\"\"b\"", "a\tb", "a\rb"}) {
-    EXPECT_EQ(error_of_bearings(with_target + "5,a,0,0,1," + id + "\n"),
+    EXPECT_EQ(error_of_bearings(with_target + "1600000000000000,a,0,0,1," + id + "\n"),
               "b.csv:2: target: has a comma, a quote or a control character")
         << id;
   }
+}
+
+TEST_F(CsvFilesTest, NamesAnotherSeparator) {
+  std::string header = kStations;
+  std::ranges::replace(header, ',', ';');
+  EXPECT_EQ(error_of_stations(header + "a;1;2;3\n"),
+            "s.csv:1: header: columns are separated by semicolons, commas are needed");
+  std::ranges::replace(header, ';', '\t');
+  EXPECT_EQ(error_of_stations(header + "a\t1\t2\t3\n"),
+            "s.csv:1: header: columns are separated by tabs, commas are needed");
 }
 
 TEST_F(CsvFilesTest, LeavesAResidualThatIsNoneEmpty) {

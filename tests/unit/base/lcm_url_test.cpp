@@ -38,15 +38,5 @@ TEST(LcmUrl, RefusesWhatIsNone) {
   }
 }
 
-TEST(LcmUrl, TheConfigurationNamesTheKey) {
-  ConfigFile file("lcm_url = 'bogus://x'\n", "s.toml");
-  try {
-    read_lcm_url(file.root(), "lcm_url", "memq://");
-    FAIL();
-  } catch (const ConfigError& error) {
-    EXPECT_EQ(std::string(error.what()).find("s.toml:1: lcm_url: "), 0u) << error.what();
-  }
-}
-
 }  // namespace
 }  // namespace ols

@@ -52,10 +52,11 @@ TEST_F(FusionSettingsTest, ModelsAreChosenByName) {
 
 TEST_F(FusionSettingsTest, ModelsThatCannotBeMixedAreRefusedByName) {
   const std::string place = path() + ":2: motion.models: ";
-  EXPECT_EQ(refusal("[motion]\nmodels = [\"hovering\"]\n"), place + "there is no model hovering");
+  EXPECT_EQ(refusal("[motion]\nmodels = [\"hovering\"]\n"),
+            place + "\"hovering\" is not one of constant-velocity, coordinated-turn, acceleration");
   EXPECT_EQ(refusal("[motion]\nmodels = [\"acceleration\", \"acceleration\"]\n"),
-            place + "acceleration is there twice");
-  EXPECT_EQ(refusal("[motion]\nmodels = []\n"), place + "one at least is wanted");
+            place + "\"acceleration\" appears twice");
+  EXPECT_EQ(refusal("[motion]\nmodels = []\n"), place + "needs at least one entry");
 }
 
 }  // namespace

@@ -133,20 +133,39 @@ TEST_F(StationConfigFile, RefusesKeysThatNobodyKnows) {
   EXPECT_NE(error(lens).find("lens.no_such_key"), std::string::npos) << error(lens);
 }
 
-// The search is never wider than a quarter of the picture, so its least width must be below.
-TEST_F(StationConfigFile, TheSearchFitsIntoThePicture) {
-  const auto with = [](const std::string& camera, const std::string& logic) {
-    return "id = \"s\"\nlens = {fx_px = 13333, fy_px = 13333}\n[camera]\ndevice = \"c\"\n" +
-           camera + "[ptu]\ndevice = \"p\"\n[pose]\nheading_deg = 10\n" + kPlace + "[logic]\n" +
-           logic;
+TEST_F(StationConfigFile, AMisspeltKeyIsNamedBeforeTheOneThatIsMissing) {
+  const std::string pose = "[pose]\nheading_deg = 10\n" + kPlace;
+  std::string lense = kStart + pose;
+  lense.replace(lense.find("lens"), 4, "lense");
+  EXPECT_EQ(error(lense), ":2: lense: unknown key; did you mean lens?");
+  EXPECT_EQ(error(kStart + "[pose]\n" + kPlace + "headign_deg = 10\n"),
+            ":11: pose.headign_deg: unknown key; did you mean heading_deg?");
+}
+
+TEST_F(StationConfigFile, TheURLOfTheBusIsChecked) {
+  const std::string good = kStart + "[pose]\nheading_deg = 10\n" + kPlace;
+  EXPECT_EQ(error("lcm_url = 'udpm://239.255.76.67:7667?ttl=x'\n" + good),
+            ":1: lcm_url: \"x\" is not a ttl (0 to 255)");
+}
+
+// The search is never wider than a quarter of the image.
+TEST_F(StationConfigFile, TheSearchFitsIntoTheImage) {
+  const auto search_sd_px = [this](const std::string& camera) {
+    std::string text = kStart + "[pose]\nheading_deg = 10\n" + kPlace;
+    text.insert(text.find("[ptu]"), camera);
+    return load(text).station.search_sd_px;
   };
-  EXPECT_EQ(load(with("", "search_sd_px = 320\n")).station.search_sd_px, 320.0);
-  EXPECT_EQ(error(with("", "search_sd_px = 321\n")),
-            ":13: logic.search_sd_px: is more than a quarter of the picture's width (320 px)");
-  EXPECT_EQ(error(with("width_px = 320\n", "search_sd_px = 80.5\n")),
-            ":14: logic.search_sd_px: is more than a quarter of the picture's width (80 px)");
-  EXPECT_EQ(load(with("width_px = 64\n", "")).station.search_sd_px, 16.0)
-      << "nobody asked for more";
+  EXPECT_EQ(search_sd_px(""), StationConfig{}.search_sd_px);
+  EXPECT_EQ(search_sd_px("width_px = 64\n"), 16.0);
+}
+
+TEST_F(StationConfigFile, ThePrincipalPointIsTheMiddleOfTheImage) {
+  std::string text = kStart + "[pose]\nheading_deg = 10\n" + kPlace;
+  text.insert(text.find("[ptu]"), "width_px = 641\nheight_px = 480\n");
+  const auto lens = load(text).station.geometry.camera;
+  EXPECT_EQ(lens.cx_px, 320.0);
+  EXPECT_EQ(lens.cy_px, 239.5);
+  EXPECT_EQ(lens.width_px, 641);
 }
 
 TEST_F(StationConfigFile, DescribesWhatIsConfigured) {

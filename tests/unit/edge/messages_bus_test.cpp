@@ -31,7 +31,8 @@ class StationBusTest : public testing::Test {
   StationBusTest() {
     settings.id = std::string("a");
     station = std::make_unique<Station>(settings.station, std::make_unique<CountingTracker>(boxes));
-    bus = std::make_unique<StationBus>(settings, 1, *station,
+    turn = std::make_unique<CommandTurn>(*station);
+    bus = std::make_unique<StationBus>(settings, 1, *station, *turn,
                                        [](const RecordCommand&) { return std::string(); });
     bus->set_time({kNow_s, kNow_us}, {});
     Frame frame;
@@ -72,6 +73,7 @@ class StationBusTest : public testing::Test {
   StationSettings settings;
   std::vector<double> boxes;
   std::unique_ptr<Station> station;
+  std::unique_ptr<CommandTurn> turn;
   std::unique_ptr<StationBus> bus;
   std::int64_t sequence = 0;
 };

@@ -85,7 +85,7 @@ class StationTest : public testing::Test {
         station_.on_frame(frame);
         next_frame_ = now_ + kFrame_s;
       }
-      for (const auto& bearing : station_.step(now_)) bearings_.push_back(bearing);
+      for (const auto& bearing : station_.step(now_).bearings) bearings_.push_back(bearing);
     }
   }
 

@@ -84,15 +84,20 @@ TEST_F(StationSafetyTest, NoSpoiltPointMoves) {
     EXPECT_EQ(station_.point({{value, 0.0}}, now_), Refusal::kNotFinite);
     EXPECT_EQ(station_.point({{0.0, value}}, now_), Refusal::kNotFinite);
   }
-  for (const double tilt_deg : {-46.1, 31.1, 90.0, -90.0, 1e6, -1e6}) {
+  for (const double tilt_deg : {-46.1, 31.1, 90.0, -90.0, 180.0}) {
     EXPECT_EQ(station_.point({{0.0, radians(tilt_deg)}}, now_), Refusal::kUnreachable) << tilt_deg;
   }
   for (const double pan_deg : {159.1, -159.1, 180.0}) {
     EXPECT_EQ(station_.point({{radians(pan_deg), 0.0}}, now_), Refusal::kUnreachable) << pan_deg;
   }
+  // By whole turns it could be reached, but it is not what somebody meant.
+  for (const PanTilt& slip :
+       {PanTilt{radians(500.0), 0.0}, {radians(-361.0), 0.0}, {0.0, radians(355.0)}, {0.0, -1e6}}) {
+    EXPECT_EQ(station_.point({slip}, now_), Refusal::kOutOfRange) << degrees(slip.pan_rad);
+  }
   EXPECT_EQ(station_.state(), StationState::kIdle);
   EXPECT_FALSE(station_.goal(now_));
-  EXPECT_EQ(counter("point_refused"), 15.0);
+  EXPECT_EQ(counter("point_refused"), 18.0);
 }
 
 TEST_F(StationSafetyTest, NoSpoiltDesignationTracks) {
@@ -271,7 +276,7 @@ TEST_F(StationSafetyTest, AfterAStandstillThereIsNoBacklog) {
   }
   EXPECT_EQ(script_.tracked, tracked + 1);
   EXPECT_EQ(counter("frames_too_old"), 10.0);
-  EXPECT_TRUE(station_.step(now_).empty());
+  EXPECT_TRUE(station_.step(now_).bearings.empty());
   EXPECT_EQ(counter("bearings_too_old") + counter("frames_without_angles"), 1.0);
   EXPECT_FALSE(station_.goal(now_)) << "nothing moves on what was known two seconds ago";
   next_sample_ = next_frame_ = now_;
@@ -325,18 +330,18 @@ TEST_F(StationSafetyTest, HomesWhereItMayAndOnlyThen) {
   station_.set_reference(PtuReference::kTrusted);
   press();
   EXPECT_EQ(station_.home(now_), Refusal::kEmergency);
-  EXPECT_FALSE(station_.take_home());
+  EXPECT_FALSE(station_.take_actions().home);
   let_go();
   ASSERT_EQ(station_.rearm(now_), Refusal::kNone);
   EXPECT_EQ(station_.home(now_), Refusal::kNone);
-  EXPECT_TRUE(station_.take_home());
-  EXPECT_FALSE(station_.take_home());
+  EXPECT_TRUE(station_.take_actions().home);
+  EXPECT_FALSE(station_.take_actions().home);
   StationConfig with_regions = config();
   with_regions.homing_allowed = false;
   Station kept(with_regions, std::make_unique<test::ScriptedTracker>(script_));
   kept.set_reference(PtuReference::kMissing);
   EXPECT_EQ(kept.home(now_), Refusal::kKeepOut);
-  EXPECT_FALSE(kept.take_home());
+  EXPECT_FALSE(kept.take_actions().home);
 }
 
 TEST_F(StationSafetyTest, NoPointOutlastsTheUnitOrComesBeforeIt) {
@@ -353,12 +358,13 @@ TEST_F(StationSafetyTest, AStopCallsOffAHoming) {
   station_.set_reference(PtuReference::kTrusted);
   ASSERT_EQ(station_.home(now_), Refusal::kNone);
   station_.stop(now_);
-  EXPECT_FALSE(station_.take_home());
-  EXPECT_TRUE(station_.take_stop());
-  EXPECT_FALSE(station_.take_stop());
+  const UnitActions actions = station_.take_actions();
+  EXPECT_FALSE(actions.home);
+  EXPECT_TRUE(actions.stop);
+  EXPECT_FALSE(station_.take_actions().stop);
   now_ += Station::kStopHold_s;
   EXPECT_EQ(station_.home(now_), Refusal::kNone);  // who says it afterwards means it
-  EXPECT_TRUE(station_.take_home());
+  EXPECT_TRUE(station_.take_actions().home);
 }
 
 TEST_F(StationSafetyTest, APersonVouchesOnlyForWhatIsDoubted) {
@@ -366,10 +372,10 @@ TEST_F(StationSafetyTest, APersonVouchesOnlyForWhatIsDoubted) {
   EXPECT_EQ(station_.reference_ok(now_), Refusal::kNoDoubt);
   station_.set_reference(PtuReference::kMissing);
   EXPECT_EQ(station_.reference_ok(now_), Refusal::kNoReference);
-  EXPECT_FALSE(station_.take_reference_ok());
+  EXPECT_FALSE(station_.take_actions().reference_ok);
   station_.set_reference(PtuReference::kDoubted);
   EXPECT_EQ(station_.reference_ok(now_), Refusal::kNone);
-  EXPECT_TRUE(station_.take_reference_ok());
+  EXPECT_TRUE(station_.take_actions().reference_ok);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST_F(StationTest, DesignationOfAFrameLongGoneIsRefused) {
 TEST_F(StationTest, DesignationThatTheTrackerRefusesChangesNothing) {
   run_until(100.5);
   script_.accept = false;
-  EXPECT_EQ(station_.designate({std::nullopt, {0, 0, 0, 0}}, now_), Refusal::kTracker);
+  EXPECT_EQ(station_.designate({std::nullopt, {0, 0, 0, 0}}, now_), Refusal::kBox);
   EXPECT_EQ(station_.state(), StationState::kIdle);
 }
 

@@ -8,3 +8,4 @@ read as a copy and replaced as a whole.
 """
 
 from ols._core import *  # noqa: F403
+from ols._core import __version__ as __version__

@@ -3,13 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/config_section.h"
+
 namespace ols {
 namespace {
 
 CameraConfig read(std::string_view text) {
   ConfigFile file(text, "station.toml");
-  const CameraConfig config = read_camera_config(file.root());
-  file.finish();
+  CameraConfig config;
+  config::read(camera_section(config), file.root());
   return config;
 }
 
@@ -41,8 +43,6 @@ exposure_us = 800.5
 stamp_at = "exposure-end"
 readout_s = 0.02
 readout_sd_s = 0.003
-no_frame_timeout_s = 1.5
-retry_s = 0.25
 packet_size = 8228
 trigger = "line3"
 trigger_activation = "falling-edge"
@@ -64,7 +64,6 @@ packet_spread = 0.5
 packet_socket = true
 socket_buffer = 1000000
 packet_resend = false
-buffers = 5
 )");
   EXPECT_EQ(config.width_px, 640);
   EXPECT_EQ(config.height_px, 480);
@@ -74,8 +73,6 @@ buffers = 5
   EXPECT_EQ(config.stamp_at, StampAt::kExposureEnd);
   EXPECT_DOUBLE_EQ(config.readout_s, 0.02);
   EXPECT_DOUBLE_EQ(config.readout_sd_s, 0.003);
-  EXPECT_DOUBLE_EQ(config.no_frame_timeout_s, 1.5);
-  EXPECT_DOUBLE_EQ(config.retry_s, 0.25);
   EXPECT_EQ(config.packet_size, 8228);
   EXPECT_EQ(config.trigger, TriggerMode::kLine3);
   EXPECT_EQ(config.trigger_activation, "falling-edge");
@@ -97,7 +94,6 @@ buffers = 5
   EXPECT_TRUE(config.packet_socket);
   EXPECT_EQ(config.socket_buffer, 1000000);
   EXPECT_FALSE(config.packet_resend);
-  EXPECT_EQ(config.buffers, 5);
 }
 
 TEST(CameraConfig, RefusesNamingTheKey) {
@@ -106,9 +102,9 @@ TEST(CameraConfig, RefusesNamingTheKey) {
   EXPECT_THAT(error_of("device = ''"), HasSubstr("device"));
   for (const char* bad :
        {"pixel_format = 'Mono16'", "frame_rate_hz = 0", "exposure_us = -1", "width_px = 0",
-        "stamp_at = 'middle'", "packet_size = 100", "packet_size = 70000", "buffers = 1",
-        "trigger = 'line5'", "ptp = 'master'", "packet_delay_us = -0.5", "exposure_max_us = 20",
-        "gain_max_dB = -1", "expsure_us = 5"}) {
+        "stamp_at = 'middle'", "packet_size = 100", "packet_size = 70000", "trigger = 'line5'",
+        "ptp = 'master'", "packet_delay_us = -0.5", "exposure_max_us = 20", "gain_max_dB = -1",
+        "expsure_us = 5"}) {
     const std::string text = std::string("device = 'x'\n") + bad;
     const std::string key(bad, std::string_view(bad).find(' '));
     EXPECT_THAT(error_of(text), HasSubstr("station.toml:2")) << bad;

@@ -1,15 +1,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/config_section.h"
 #include "edge/gpio/gpio.h"
 
 namespace ols {
 namespace {
 
 GpioConfig read(const std::string& text) {
-  ConfigFile file(text, "station.toml");
-  const GpioConfig config = read_gpio_config(file.root());
-  file.finish();
+  ConfigFile file(text.empty() ? "" : "[gpio]\n" + text, "station.toml");
+  GpioConfig config;
+  config::read(gpio_section(config), file.root().table("gpio"));
   return config;
 }
 
@@ -48,12 +49,14 @@ TEST(GpioConfig, ReadsEachKey) {
 }
 
 TEST(GpioConfig, RefusesALineWithoutAChipAndALineUsedTwice) {
-  EXPECT_THAT(error_of("stop_line = 17\n"), testing::HasSubstr("stop_line: is given, but no chip"));
+  EXPECT_THAT(error_of("chip = ''\nstop_line = 17\n"),
+              testing::HasSubstr("stop_line: is given, but no chip"));
   EXPECT_THAT(error_of("chip = 'x'\nled_line = 17\nstop_line = 17\n"),
               testing::HasSubstr("stop_line: is used twice"));
   EXPECT_THAT(error_of("chip = 'x'\nrearm_line = 17\nstop_line = 17\n"),
               testing::HasSubstr("rearm_line: is used twice"));
-  EXPECT_THAT(error_of("rearm = 'anybody'\n"), testing::HasSubstr("rearm: "));
+  EXPECT_THAT(error_of("chip = 'x'\nrearm = 'anybody'\n"),
+              testing::HasSubstr("station.toml:3: gpio.rearm: "));
   EXPECT_NE(error_of("chip = 'x'\nled_line = -2\n"), "accepted");
 }
 

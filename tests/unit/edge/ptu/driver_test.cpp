@@ -198,7 +198,7 @@ TEST(PtuDriver, BeginsAgainWhenTheUnitHasForgottenMoreThanItsEcho) {
   loop.run(0.8);
   EXPECT_GE(loop.driver.counters().restarts, 1u);
   loop.run(5.0);
-  EXPECT_EQ(loop.driver.doubt(), PtuDoubt::kPowerCycle);
+  EXPECT_EQ(loop.driver.doubt(), PtuDoubtCause::kPowerCycle);
   EXPECT_TRUE(loop.driver.take_samples().empty());
   loop.driver.reference_ok();
   ASSERT_EQ(loop.driver.state(), PtuState::kReady);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/config_section.h"
 #include "geometry/angles.h"
 
 namespace ols {
@@ -10,21 +11,22 @@ namespace {
 
 PtuConfig read(const std::string& text) {
   ConfigFile file("[ptu]\n" + text, "station.toml");
-  const PtuConfig config = read_ptu_config(file.root().table("ptu"));
-  file.finish();
+  PtuConfig config;
+  config::read(ptu_section(config), file.root().table("ptu"));
   return config;
 }
 
 TEST(PtuConfigFile, ReadsDegreesAndKeepsDefaults) {
   const PtuConfig config = read(
       "device = '/dev/ttyUSB0'\nbaud = 38400\nacceleration_deg_s2 = 60\ntilt_max_deg = 20\n"
-      "[ptu.servo]\nmax_speed_deg_s = 30\n[ptu.angles]\nmax_gap_s = 0.2\n");
+      "[ptu.servo]\nmax_speed_deg_s = 30\n");
   EXPECT_EQ(config.device, "/dev/ttyUSB0");
   EXPECT_EQ(config.baud, 38400);
   EXPECT_NEAR(config.acceleration_rad_s2, radians(60.0), 1e-12);
   EXPECT_NEAR(config.limits.tilt_max_rad, radians(20.0), 1e-12);
   EXPECT_NEAR(config.servo.max_speed_rad_s, radians(30.0), 1e-12);
-  EXPECT_EQ(config.history.max_gap_s, 0.2);
+  EXPECT_EQ(config.history.acceleration_max_rad_s2, config.acceleration_rad_s2);
+  EXPECT_NEAR(config.history.acceleration_sd_rad_s2, radians(2.4), 1e-12);
   EXPECT_NEAR(config.limits.pan_min_rad, PtuLimits{}.pan_min_rad, 1e-12);
   EXPECT_EQ(config.poll_interval_s, PtuConfig{}.poll_interval_s);
 }

@@ -15,7 +15,7 @@ using testing::IsEmpty;
 PtuStatus good() {
   PtuStatus status;
   status.state = PtuState::kReady;
-  status.port_open = true;
+  status.port.open = true;
   status.line_baud = 38400;
   status.last_good_s = 100.0;
   status.firmware = "Pan-Tilt Controller v2.12.1d1(C14/E), (C)2003 DP";
@@ -49,12 +49,12 @@ TEST(PtuReport, SaysWhatIsWrong) {
               Contains("ptu: emergency stop, still moving"));
   EXPECT_THAT(alarms([](PtuStatus& s) { s.emergency = s.standing = true; }),
               Contains("ptu: emergency stop"));
-  EXPECT_THAT(alarms([](PtuStatus& s) { s.doubt = PtuDoubt::kLimitHit; }),
+  EXPECT_THAT(alarms([](PtuStatus& s) { s.doubt = PtuDoubtCause::kLimitHit; }),
               Contains(HasSubstr("lost steps")));
   EXPECT_THAT(alarms([](PtuStatus& s) {
                 s.state = PtuState::kFault;
-                s.doubt = PtuDoubt::kPowerCycle;
-                s.last_error = words(s.doubt);
+                s.doubt = PtuDoubtCause::kPowerCycle;
+                s.last_error = words(*s.doubt);
               }),
               ElementsAre(HasSubstr("switched off and on")));
   EXPECT_THAT(alarms([](PtuStatus& s) {
@@ -75,7 +75,7 @@ TEST(PtuReport, SaysWhatIsWrong) {
               }),
               Contains("ptu: halted, no reply"));
   EXPECT_THAT(alarms([](PtuStatus& s) {
-                s.port_open = false;
+                s.port.open = false;
                 s.last_error = "/dev/x: cannot be opened";
               }),
               Contains(HasSubstr("/dev/x")));

@@ -91,9 +91,8 @@ TEST(PtuThread, BringsTheUnitToAGoalAndReportsItsAngles) {
   EXPECT_NEAR(degrees(samples.back().angles.pan_rad), 5.0, 0.02);
   EXPECT_NEAR(degrees(samples.back().angles.tilt_rad), -3.0, 0.02);
   const PtuStatus status = ptu.status();
-  EXPECT_TRUE(status.port_open);
-  EXPECT_EQ(status.port_failures, 0u);
-  EXPECT_NEAR(status.pan_resolution_rad, radians(11.5714 / 3600.0), 1e-12);
+  EXPECT_TRUE(status.port.open);
+  EXPECT_EQ(status.port.failures, 0u);
   EXPECT_FALSE(status.firmware.empty());
 }
 
@@ -126,14 +125,14 @@ TEST(PtuThread, OpensThePortAgainWhenItVanished) {
   ASSERT_TRUE(eventually([&] { return ready(ptu); }));
   line.reset();
   EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(link)));
-  ASSERT_TRUE(eventually([&] { return ptu.status().port_failures >= 2; }));
+  ASSERT_TRUE(eventually([&] { return ptu.status().port.failures >= 2; }));
   EXPECT_EQ(ptu.status().state, PtuState::kFault);
-  EXPECT_FALSE(ptu.status().port_open);
+  EXPECT_FALSE(ptu.status().port.open);
   EXPECT_NE(ptu.status().last_error.find(link), std::string::npos);
   // It is another one, as after a power cycle: nobody saw it home.
   line = std::make_unique<PtuLine>(unit(), 2, link);
   EXPECT_TRUE(eventually([&] { return ptu.reference() == PtuReference::kDoubted; }));
-  EXPECT_EQ(ptu.status().doubt, PtuDoubt::kPowerCycle);
+  EXPECT_EQ(ptu.status().doubt, PtuDoubtCause::kPowerCycle);
   ptu.take_samples();
   ptu.reference_ok();
   EXPECT_TRUE(eventually([&] { return ready(ptu); }));
@@ -219,7 +218,7 @@ TEST(PtuThread, OpensThePortAgainWhenTheUnitFallsSilent) {
   sim::PtuFaults faults;
   faults.line_cut = true;
   line.set_faults(faults);
-  ASSERT_TRUE(eventually([&] { return ptu.status().reopens > 0; }));
+  ASSERT_TRUE(eventually([&] { return ptu.status().port.reopens > 0; }));
   EXPECT_TRUE(eventually([&] {
     const DeviceReport report = ptu.report();
     return report.state == DeviceState::kFault && !report.alarms.empty() &&

@@ -17,7 +17,7 @@ class Reference : public testing::Test {
     loop_ = std::make_unique<ClosedLoop>(driver, unit);
     run(homes ? 60.0 : 8.0);
     ASSERT_EQ(loop_->driver.state(), PtuState::kReady) << loop_->driver.last_error();
-    ASSERT_EQ(loop_->driver.doubt(), PtuDoubt::kNone);
+    ASSERT_EQ(loop_->driver.doubt(), std::nullopt);
     send_to(20.0, 4.0);
     ASSERT_NEAR(degrees(loop_->truth().pan_rad), 20.0, 0.01);
   }
@@ -53,7 +53,7 @@ TEST_F(Reference, NoAngleAndNoMotionAfterAPowerCycleWithoutHoming) {
   EXPECT_EQ(loop_->driver.reference(), PtuReference::kMissing);  // its gears are not known either
   EXPECT_TRUE(loop_->driver.not_referenced());
   loop_->driver.reference_ok();
-  EXPECT_NE(loop_->driver.doubt(), PtuDoubt::kNone);
+  EXPECT_NE(loop_->driver.doubt(), std::nullopt);
   EXPECT_NE(loop_->driver.last_error().find("switched off and on"), std::string::npos);
   EXPECT_EQ(samples_, 0);
   EXPECT_NEAR(pan_deg(), 20.0, 0.01);
@@ -85,7 +85,7 @@ TEST_F(Reference, ComesBackByTheUnitsOwnHoming) {
       run(70.0);
       EXPECT_GE(loop_->driver.counters().power_cycles, 1u);
       EXPECT_EQ(loop_->driver.state(), PtuState::kReady) << loop_->driver.last_error();
-      EXPECT_EQ(loop_->driver.doubt(), PtuDoubt::kNone);
+      EXPECT_EQ(loop_->driver.doubt(), std::nullopt);
       send_to(-30.0, 4.0);
       EXPECT_NEAR(pan_deg(), -30.0, 0.01);
       EXPECT_EQ(wrong_, 0);
@@ -124,7 +124,7 @@ TEST_F(Reference, IsDoubtedAfterALimitHit) {
   samples_ = 0;
   send_to(-30.0, 3.0);
   EXPECT_EQ(loop_->driver.state(), PtuState::kFault);
-  EXPECT_EQ(loop_->driver.doubt(), PtuDoubt::kLimitHit);
+  EXPECT_EQ(loop_->driver.doubt(), PtuDoubtCause::kLimitHit);
   EXPECT_NE(loop_->driver.last_error().find("limit"), std::string::npos);
   EXPECT_EQ(samples_, 0);
   EXPECT_NEAR(pan_deg(), 20.0, 0.01);
@@ -175,7 +175,7 @@ TEST_F(Reference, NoHomingInAnEmergencyAndNoTrustInOneThatWasInterrupted) {
   EXPECT_EQ(loop_->driver.counters().homings, 1u);
   loop_->unit.receive(loop_->driver.emergency_halt(loop_->time_s), loop_->time_s);
   run(1.0);
-  EXPECT_EQ(loop_->driver.doubt(), PtuDoubt::kHomingInterrupted);
+  EXPECT_EQ(loop_->driver.doubt(), PtuDoubtCause::kHomingInterrupted);
 }
 
 // The simulated unit does not heed a halt while it homes; a real one may.
@@ -189,14 +189,14 @@ TEST_P(BrokenHoming, IsNoReferenceHoweverFarItCame) {
   run(GetParam());
   ASSERT_EQ(loop_->driver.counters().homings, 1u);
   ASSERT_TRUE(loop_->driver.homing());
-  EXPECT_EQ(loop_->driver.legacy(), PtuLegacy::kBrokenHoming);
+  EXPECT_EQ(to_word(loop_->driver.doubt_to_persist()), "homing");
   loop_->sent.clear();
   loop_->driver.stop_homing(loop_->time_s);
   run(0.01);
   EXPECT_EQ(loop_->sent.substr(0, 3), " H ");
   samples_ = 0;
   run(40.0);  // until the unit is done and answers again
-  EXPECT_EQ(loop_->driver.doubt(), PtuDoubt::kHomingInterrupted);
+  EXPECT_EQ(loop_->driver.doubt(), PtuDoubtCause::kHomingInterrupted);
   EXPECT_EQ(loop_->driver.reference(), PtuReference::kDoubted);
   EXPECT_EQ(samples_, 0);
   EXPECT_EQ(loop_->driver.counters().homings, 1u);  // not again by itself
@@ -213,7 +213,7 @@ TEST_F(Reference, IsLostWithThePortInTheMiddleOfAHoming) {
   ASSERT_TRUE(loop_->driver.homing());
   loop_->driver.restart(loop_->time_s);
   run(40.0);
-  EXPECT_EQ(loop_->driver.doubt(), PtuDoubt::kHomingInterrupted);
+  EXPECT_EQ(loop_->driver.doubt(), PtuDoubtCause::kHomingInterrupted);
 }
 
 TEST_F(Reference, AStrayReplyDoesNotEndAHoming) {
@@ -260,7 +260,7 @@ TEST_F(Reference, HomesByItselfOnlyWhenItMay) {
   loop_->driver.allow_rehoming(false);  // an operator has stopped the station
   loop_->driver.receive("!P", loop_->time_s);
   run(10.0);
-  EXPECT_EQ(loop_->driver.doubt(), PtuDoubt::kLimitHit);
+  EXPECT_EQ(loop_->driver.doubt(), PtuDoubtCause::kLimitHit);
   EXPECT_EQ(loop_->driver.counters().homings, 0u);
   loop_->driver.allow_rehoming(true);
   run(60.0);

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 namespace ols {
 namespace {
 
@@ -13,17 +11,17 @@ ReferenceWatch driven() {
   return watch;
 }
 
-TEST(ReferenceWatch, TrustsAUnitAtFirst) { EXPECT_EQ(driven().doubt(), PtuDoubt::kNone); }
+TEST(ReferenceWatch, TrustsAUnitAtFirst) { EXPECT_EQ(driven().cause(), std::nullopt); }
 
 TEST(ReferenceWatch, DoubtsAUnitThatRanIntoALimit) {
   ReferenceWatch watch = driven();
   watch.while_driven({1, 0}, false);
-  EXPECT_EQ(watch.doubt(), PtuDoubt::kLimitHit);
+  EXPECT_EQ(watch.cause(), PtuDoubtCause::kLimitHit);
   watch.while_driven({0, 3}, false);  // driven into the other axis' limits: not homed by that
   watch.ready();
-  EXPECT_EQ(watch.doubt(), PtuDoubt::kLimitHit);
+  EXPECT_EQ(watch.cause(), PtuDoubtCause::kLimitHit);
   watch.acknowledge();
-  EXPECT_EQ(watch.doubt(), PtuDoubt::kNone);
+  EXPECT_EQ(watch.cause(), std::nullopt);
 }
 
 TEST(ReferenceWatch, TrustsAfterAPowerCycleOnlyAUnitWhoseBothAxesWereSeenToHome) {
@@ -32,9 +30,9 @@ TEST(ReferenceWatch, TrustsAfterAPowerCycleOnlyAUnitWhoseBothAxesWereSeenToHome)
     watch.power_cycled();
     watch.while_not_driven(hits, 9600, 1.0);
     watch.rate_is(9600);
-    EXPECT_EQ(watch.doubt(), PtuDoubt::kPowerCycle);  // until it is done
+    EXPECT_EQ(watch.cause(), PtuDoubtCause::kPowerCycle);  // until it is done
     watch.ready();
-    EXPECT_EQ(watch.doubt() == PtuDoubt::kNone, hits.pan > 0 && hits.tilt > 0);
+    EXPECT_EQ(watch.cause() == std::nullopt, hits.pan > 0 && hits.tilt > 0);
   }
 }
 
@@ -44,7 +42,7 @@ TEST(ReferenceWatch, TakesNoiseAtAnotherRateForNothing) {
   watch.while_not_driven({1, 1}, 38400, 1.0);
   watch.rate_is(9600);
   watch.ready();
-  EXPECT_EQ(watch.doubt(), PtuDoubt::kPowerCycle);
+  EXPECT_EQ(watch.cause(), PtuDoubtCause::kPowerCycle);
 }
 
 // What was heard before the unit was ready says nothing of a power cycle after it.
@@ -55,7 +53,7 @@ TEST(ReferenceWatch, TakesAnOldHomingForNothing) {
   watch.ready();
   watch.power_cycled();
   watch.ready();
-  EXPECT_EQ(watch.doubt(), PtuDoubt::kPowerCycle);
+  EXPECT_EQ(watch.cause(), PtuDoubtCause::kPowerCycle);
 }
 
 TEST(ReferenceWatch, TrustsAUnitThatWasHomedByHandWhileItWasDriven) {
@@ -63,7 +61,7 @@ TEST(ReferenceWatch, TrustsAUnitThatWasHomedByHandWhileItWasDriven) {
   watch.while_driven({2, 2}, true);
   watch.power_cycled();
   watch.ready();
-  EXPECT_EQ(watch.doubt(), PtuDoubt::kNone);
+  EXPECT_EQ(watch.cause(), std::nullopt);
 }
 
 TEST(ReferenceWatch, DoubtsAUnitThatHitALimitOnTheWay) {
@@ -71,7 +69,7 @@ TEST(ReferenceWatch, DoubtsAUnitThatHitALimitOnTheWay) {
   watch.while_not_driven({1, 0}, 9600, 1.0);
   watch.rate_is(9600);
   watch.ready();
-  EXPECT_EQ(watch.doubt(), PtuDoubt::kLimitHit);
+  EXPECT_EQ(watch.cause(), PtuDoubtCause::kLimitHit);
 }
 
 TEST(ReferenceWatch, DoubtsAHomingThatWasInterrupted) {
@@ -81,7 +79,7 @@ TEST(ReferenceWatch, DoubtsAHomingThatWasInterrupted) {
   watch.while_not_driven({2, 0}, 9600, 2.0);
   watch.rate_is(9600);
   watch.ready();
-  EXPECT_EQ(watch.doubt(), PtuDoubt::kHomingInterrupted);
+  EXPECT_EQ(watch.cause(), PtuDoubtCause::kHomingInterrupted);
 }
 
 TEST(ReferenceWatch, BelievesAfterABrokenHomingOnlyAWholeOneOfItsOwn) {
@@ -92,21 +90,21 @@ TEST(ReferenceWatch, BelievesAfterABrokenHomingOnlyAWholeOneOfItsOwn) {
   watch.while_not_driven({2, 2}, 9600, 2.0);  // a unit that does not heed a halt goes on
   watch.rate_is(9600);
   watch.ready();
-  EXPECT_EQ(watch.doubt(), PtuDoubt::kHomingInterrupted);
+  EXPECT_EQ(watch.cause(), PtuDoubtCause::kHomingInterrupted);
   watch.while_not_driven({2, 2}, 9600, 2.5);
   watch.power_cycled();  // or what looks like one
   watch.rate_is(9600);
   watch.ready();
-  EXPECT_TRUE(watch.broken());
-  EXPECT_EQ(watch.doubt(), PtuDoubt::kHomingInterrupted);
+  EXPECT_EQ(watch.doubt(), (PtuReferenceDoubt{true, false}));
+  EXPECT_EQ(watch.cause(), PtuDoubtCause::kHomingInterrupted);
   watch.homing_ordered();
   EXPECT_FALSE(watch.saw_both_ends());
   watch.while_not_driven({2, 2}, 9600, 3.0);
   EXPECT_TRUE(watch.saw_both_ends());
-  watch.homing_over();
+  watch.homing_complete();
   watch.rate_is(9600);
   watch.ready();
-  EXPECT_EQ(watch.doubt(), PtuDoubt::kNone);
+  EXPECT_EQ(watch.cause(), std::nullopt);
 }
 
 TEST(ReferenceWatch, KnowsForAWhileAtWhichRateAUnitHomes) {
@@ -114,15 +112,8 @@ TEST(ReferenceWatch, KnowsForAWhileAtWhichRateAUnitHomes) {
   watch.while_not_driven({1, 0}, 9600, 1.0);
   EXPECT_EQ(watch.homes_at(10.0), 9600);
   EXPECT_FALSE(watch.homes_at(30.0));
-  watch.begins(38400, 40.0);
+  watch.restarts_at(38400, 40.0);
   EXPECT_EQ(watch.homes_at(41.0), 38400);
-}
-
-TEST(ReferenceWatch, HasWordsForEachDoubt) {
-  for (const PtuDoubt doubt :
-       {PtuDoubt::kPowerCycle, PtuDoubt::kLimitHit, PtuDoubt::kHomingInterrupted}) {
-    EXPECT_NE(std::string(words(doubt)).find("home it"), std::string::npos);
-  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "base/config_section.h"
 #include "edge/sensors/pose_keeper_config.h"
 #include "geometry/angles.h"
 
@@ -8,15 +9,15 @@ namespace {
 
 InclinometerConfig inclinometer(const std::string& text) {
   ConfigFile file(text, "t.toml");
-  const auto config = read_inclinometer_config(file.root().table("inclinometer"));
-  file.finish();
+  InclinometerConfig config;
+  config::read(inclinometer_section(config), file.root().table("inclinometer"));
   return config;
 }
 
 GnssConfig gnss(const std::string& text) {
   ConfigFile file(text, "t.toml");
-  const auto config = read_gnss_config(file.root().table("gnss"));
-  file.finish();
+  GnssConfig config;
+  config::read(gnss_section(config), file.root().table("gnss"));
   return config;
 }
 
@@ -69,7 +70,8 @@ accept_move_s = 900.0
   EXPECT_EQ(g.host, "127.0.0.1");
   EXPECT_EQ(g.port, "2950");
   EXPECT_EQ(g.error_sigmas, 2.0);
-  const auto keeper = pose_keeper_config(i, g);
+  PoseKeeper::Config keeper;
+  set_sensors(keeper, i, g);
   EXPECT_EQ(keeper.stuck_s, 30.0);
   EXPECT_EQ(keeper.inclinometer_stale_s, 2.5);
   EXPECT_NEAR(keeper.inclinometer_sd_rad, radians(0.02), 1e-15);
@@ -82,17 +84,19 @@ accept_move_s = 900.0
 
 TEST(SensorsConfig, ErrorsNameFileLineAndKey) {
   EXPECT_EQ(error_of([] {
-              inclinometer("[inclinometer]\nx_sign = 0\n");
+              inclinometer("[inclinometer]\nx_sign = 0\ndevice = \"a\"\n");
             }).rfind("t.toml:2: inclinometer.x_sign", 0),
             0U);
   for (const char* line : {"baud = 9601", "parity = \"odd\"", "stale_s = 0", "range_deg = 100",
                            "sd_deg = 0", "devise = \"/dev/ttyUSB0\"", "device = 3"}) {
-    const std::string text = std::string("[inclinometer]\n") + line + "\n";
+    const std::string text =
+        std::string("[inclinometer]\n") + line +
+        (std::string_view(line).starts_with("device") ? "\n" : "\ndevice = \"a\"\n");
     EXPECT_EQ(error_of([&] { inclinometer(text); }).rfind("t.toml:2: ", 0), 0U) << line;
   }
   for (const char* line : {"port = 0", "port = \"2947\"", "least_fix = \"4\"", "stale_s = nan",
                            "ground_to_antenna_enu_m = [1, 2]", "sd_floor_m = 0", "hosst = \"a\""}) {
-    const std::string text = std::string("[gnss]\n") + line + "\n";
+    const std::string text = std::string("[gnss]\n") + line + "\nhost = \"a\"\n";
     EXPECT_EQ(error_of([&] { gnss(text); }).rfind("t.toml:2: ", 0), 0U) << line;
   }
 }

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <stdexcept>
 
 #include "edge/tracker/tracker.h"
 
@@ -90,6 +91,22 @@ inline Eigen::Matrix3d shift_homography(double x, double y) {
   shift(0, 2) = x;
   shift(1, 2) = y;
   return shift;
+}
+
+// A tracker that follows the target of such a scene, and the frames that it is given.
+inline constexpr double kInterval = 1.0 / 15.0;
+inline const cv::Point2d kStart(300.0, 220.0);
+
+inline TrackerInput frame_at(int frame, const cv::Mat& gray) {
+  return {gray, 100.0 + kInterval * frame, std::nullopt};
+}
+
+inline Tracker started(SyntheticScene& scene, const TrackerConfig& config = {}) {
+  Tracker tracker(config, 5);
+  const auto error = tracker.initialise(frame_at(0, scene.picture({400, 300}, kStart)),
+                                        SyntheticScene::box_around(kStart));
+  if (error) throw std::runtime_error(to_string(*error));
+  return tracker;
 }
 
 }  // namespace ols::testing

@@ -22,7 +22,7 @@ TEST(StationFiles, AreReadByTheStationAsTheNominalGeometry) {
     EXPECT_EQ(read.state_folder, state);
     const StationMemory memory(state, truth.id, true);
     EXPECT_EQ(memory.begin(), StationState::kIdle);
-    EXPECT_EQ(memory.legacy(), PtuLegacy::kNone);
+    EXPECT_EQ(memory.doubt(), std::nullopt);
     EXPECT_LT((ecef_from_geodetic(g.position) - ecef_from_geodetic(truth.nominal.position)).norm(),
               1e-6);
     const PanTilt angles{0.3, 0.2};

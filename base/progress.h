@@ -1,0 +1,31 @@
+// How far long work has come: a line on standard error every few seconds, and none for short work.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <iosfwd>
+#include <string>
+
+namespace ols {
+
+class Progress {
+ public:
+  // "program: 120 of 900 frames after 10 s"; `steps` is the word for the steps.
+  Progress(std::string program, std::string steps);
+  // For tests: where the lines go, and the clock.
+  Progress(std::string program, std::string steps, std::ostream& out,
+           std::function<double()> now_s);
+
+  // Called often, with the steps that are done, and all of them; 0: nobody knows how many.
+  void operator()(std::size_t done, std::size_t all);
+
+ private:
+  std::string program_;
+  std::string steps_;
+  std::ostream& out_;
+  std::function<double()> now_s_;
+  double start_s_;
+  double next_s_;
+};
+
+}  // namespace ols

@@ -1,0 +1,149 @@
+// ols-config-reference: writes docs/configuration.md and the example configurations from the tables
+// that the programs read by, or checks that they are up to date.
+#include <cstdio>
+#include <exception>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/command_line.h"
+#include "base/config_section.h"
+#include "base/small_file.h"
+#include "central/fusion_settings.h"
+#include "edge/config.h"
+#include "sim/scenario.h"
+#include "tools/logger/logger_config.h"
+
+namespace {
+
+namespace config = ols::config;
+
+struct Generated {
+  std::string path, text;
+};
+
+template <class Settings>
+std::string chapter(const std::string& heading, config::Section (*section)(Settings&)) {
+  Settings defaults;
+  return "\n## " + heading + "\n" + config::markdown(section(defaults));
+}
+
+config::Section scenario_section(ols::sim::Scenario& scenario) {
+  return ols::sim::scenario_section(scenario, "");
+}
+
+std::string reference() {
+  return "# Configuration\n\n"
+         "<!-- Generated from the programs' tables: `ols-config-reference --write .` -->\n\n"
+         "Every configuration file is TOML. A key that is not required has the default shown, "
+         "rounded to six digits.\nAn unknown key, or a value out of range, ends the program with "
+         "`file:line: key: what is wrong` before it\ntouches a device; `--check-config` does only "
+         "that.\n" +
+         chapter("Station: `ols-station --config`", ols::station_section) +
+         chapter("Fusion: `ols-fusion --config`", ols::fusion_section) +
+         chapter("Logger: `ols-logger --config`", ols::logger_section) +
+         chapter("Scenario: `ols-sim --scenario`", scenario_section);
+}
+
+template <class Settings>
+std::string example(const std::string& head, config::Section (*section)(Settings&),
+                    const std::vector<std::pair<std::string, std::string>>& values) {
+  Settings settings;
+  const std::string text = head + config::example(section(settings), values);
+  ols::ConfigFile file(text, "example");
+  config::read(section(settings), file.root());
+  return text;
+}
+
+config::Section gpio_only(ols::GpioConfig& gpio) { return {"", "", {}, {ols::gpio_section(gpio)}}; }
+
+std::string commented(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line, result;
+  while (std::getline(lines, line))
+    if (!line.empty()) result.append("# ").append(line).append("\n");
+  return result;
+}
+
+constexpr const char* kSiteBus = "\"udpm://239.255.76.67:7667?ttl=1\"";
+
+std::string station_example() {
+  const std::string head =
+      "# One station: copy to /etc/ols/NAME.toml, fill in, `ols-station --config ... "
+      "--check-config`, then\n# `systemctl enable --now ols-station@NAME`. docs/configuration.md "
+      "lists every key.\n";
+  return example(head, ols::station_section,
+                 {{"id", "\"alfa\""},
+                  {"lcm_url", kSiteBus},
+                  {"pose.latitude_deg", "49.2266"},
+                  {"pose.longitude_deg", "16.5969"},
+                  {"pose.height_m", "310.0"},
+                  {"pose.heading_deg", "45.0"},
+                  {"calibration.sd.heading_deg", "0.5"},
+                  {"calibration.sd.tilt_deg", "0.1"},
+                  {"calibration.sd.mount_deg", "0.1"},
+                  {"calibration.sd.position_m", "1.0"},
+                  {"camera.device", "\"Allied Vision Technologies-02-2150A-06321\""},
+                  {"lens.fx_px", "13333.3"},
+                  {"lens.fy_px", "13333.3"},
+                  {"ptu.device", "\"/dev/ols/ptu\""}}) +
+         "\n# Where there are GPIO lines:\n" +
+         commented(example("", gpio_only,
+                           {{"gpio.chip", "\"/dev/gpiochip0\""},
+                            {"gpio.stop_line", "17"},
+                            {"gpio.rearm_line", "18"}}));
+}
+
+std::vector<Generated> generated() {
+  const std::string folder = "systemd/examples/";
+  return {{"docs/configuration.md", reference()},
+          {folder + "station.toml", station_example()},
+          {folder + "fusion.toml",
+           example("# The fusion: copy to /etc/ols/fusion.toml. All keys have defaults: "
+                   "docs/configuration.md.\n",
+                   ols::fusion_section, {{"lcm_url", kSiteBus}})},
+          {folder + "logger.toml",
+           example("# The logger of the bus: copy to /etc/ols/logger.toml. All keys have defaults: "
+                   "docs/configuration.md.\n",
+                   ols::logger_section,
+                   {{"lcm_url", kSiteBus},
+                    {"quota_gb", "20.0"},
+                    {"status_file", "\"/run/ols/logger.json\""}})}};
+}
+
+int run(const std::string& folder, bool write) {
+  int stale = 0;
+  for (const Generated& file : generated()) {
+    const std::string path = folder + "/" + file.path;
+    if (write) {
+      ols::AtomicFile out(path);
+      out.stream() << file.text;
+      out.commit();
+    } else if (ols::read_small_file(path, 1 << 20) != file.text) {
+      std::fprintf(stderr, "%s differs from the tables: ols-config-reference --write %s\n",
+                   path.c_str(), folder.c_str());
+      ++stale;
+    }
+  }
+  return stale > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Writes the configuration reference and the examples, or checks them"};
+  std::string write, check;
+  auto* group = app.add_option_group("what");
+  group->add_option("--write", write, "Write them into this source tree");
+  group->add_option("--check", check, "Fail if those of this source tree are out of date");
+  group->require_option(1);
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-config-reference"))
+    return *status;
+  try {
+    return write.empty() ? run(check, false) : run(write, true);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ols-config-reference: %s\n", error.what());
+    return 1;
+  }
+}

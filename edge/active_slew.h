@@ -1,0 +1,32 @@
+// The slew that the station was given last, for as long as its lease lasts. Pure.
+#pragma once
+
+#include <optional>
+
+#include "edge/pointing_model.h"
+#include "edge/slew_senders.h"
+#include "edge/station_types.h"
+
+namespace ols {
+
+class ActiveSlew {
+ public:
+  void give(const SlewCommand& command, double now_s);
+  void clear() { command_.reset(); }
+  void expire(double now_s);
+
+  // Nothing: no slew is active.
+  const std::optional<SlewCommand>& command() const { return command_; }
+  // Nothing also where the unit cannot point.
+  std::optional<ServoGoal> goal(const PointingModel& pointing, double now_s) const;
+  // More than one fusion slews this station.
+  bool has_several_senders(double now_s) const { return senders_.are_several(now_s); }
+
+ private:
+  bool is_over(double now_s) const { return now_s > command_->received_s + command_->lease_s; }
+
+  std::optional<SlewCommand> command_;
+  SlewSenders senders_;
+};
+
+}  // namespace ols

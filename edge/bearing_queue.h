@@ -1,0 +1,59 @@
+// Pixels that wait for the PTU's angles of their exposure, and the bearings that they become. Pure.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/pointing_model.h"
+#include "edge/station_config.h"
+#include "edge/station_types.h"
+#include "edge/tracker/tracker.h"
+
+namespace ols {
+
+struct PixelMeasurement {
+  double arrived_s = 0.0;
+  double mid_exposure_s = 0.0;
+  double stamp_sd_s = 0.0;
+  StampSource stamp_source = StampSource::kCamera;
+  TrackerOutput output;
+  std::int64_t track_id = 0;
+  double designation_sd_px = 0.0;
+};
+
+struct MadeBearing {
+  Bearing bearing;
+  PanTilt angles;       // of the unit at the exposure
+  bool to_send = true;  // false: without a position or too old, good to follow the target only
+};
+
+class BearingQueue {
+ public:
+  explicit BearingQueue(const StationConfig& config)
+      : angle_wait_s_(config.angle_wait_s), max_age_s_(config.max_age_s) {}
+
+  void add(const PixelMeasurement& pixel) { waiting_.push_back(pixel); }
+  void clear() { waiting_.clear(); }
+
+  // Those whose angles are known by now, or have been waited for long enough.
+  std::vector<MadeBearing> take(const PointingModel& pointing, double now_s);
+
+  double frame_latency_s() const { return frame_latency_s_; }  // mid-exposure to bearing, smoothed
+  const std::map<std::string, double>& counters() const { return counters_; }
+
+ private:
+  std::optional<MadeBearing> make(const PixelMeasurement& measured, const PointingModel& pointing);
+  bool worth_sending(const Bearing& bearing, const PointingModel& pointing, double now_s);
+
+  double angle_wait_s_;
+  double max_age_s_;
+  std::deque<PixelMeasurement> waiting_;
+  double frame_latency_s_ = 0.0;
+  std::map<std::string, double> counters_;
+};
+
+}  // namespace ols

@@ -1,0 +1,11 @@
+// Degrees in a configuration file, radians in the field.
+#pragma once
+
+#include "base/config_section.h"
+#include "geometry/angles.h"
+
+namespace ols {
+
+inline config::Unit in_degrees(const char* name = "deg") { return {name, radians, degrees}; }
+
+}  // namespace ols

@@ -1,0 +1,93 @@
+#include "edge/followed_target.h"
+
+namespace ols {
+
+void FollowedTarget::begin(Kind kind, double time_s) {
+  kind_ = kind;
+  track_id_ = ++last_track_id_;
+  tracked_s_ = time_s;
+  last_output_.reset();
+}
+
+std::optional<TrackerError> FollowedTarget::designate(const Frame& frame, const cv::Rect2d& box) {
+  const auto error = tracker_->initialise({frame.gray, frame.mid_exposure_s, std::nullopt}, box);
+  if (error) return error;
+  begin(Kind::kDesignated, frame.mid_exposure_s);
+  own_.reset();
+  return std::nullopt;
+}
+
+bool FollowedTarget::try_found(const Frame& frame, const cv::Rect2d& box) {
+  const bool has_own = exists();
+  if (has_own) tracker_->set_aside();
+  if (tracker_->initialise({frame.gray, frame.mid_exposure_s, std::nullopt}, box)) {
+    if (has_own) tracker_->take_back();
+    return false;
+  }
+  if (has_own) own_ = Own{kind_, track_id_, tracked_s_};
+  begin(Kind::kUnproven, frame.mid_exposure_s);
+  found_s_ = frame.mid_exposure_s;
+  counters_["acquisitions"] += 1;
+  return true;
+}
+
+void FollowedTarget::confirm() {
+  if (on_trial()) kind_ = Kind::kAcquired;
+  own_.reset();
+}
+
+FollowedTarget::Dropped FollowedTarget::drop_unproven(double time_s) {
+  constexpr double kTrial_s = 1.0;
+  if (!on_trial() || time_s - found_s_ < kTrial_s) return Dropped::kNothing;
+  counters_["acquisitions_dropped"] += 1;
+  if (!own_) {
+    kind_ = Kind::kNone;
+    return Dropped::kNothingLeft;
+  }
+  tracker_->take_back();
+  kind_ = own_->kind;
+  track_id_ = own_->track_id;
+  tracked_s_ = own_->tracked_s;
+  own_.reset();
+  last_output_.reset();
+  return Dropped::kBackToOwn;
+}
+
+std::optional<TrackerOutput> FollowedTarget::track(const Frame& frame,
+                                                   const PointingModel& pointing) {
+  TrackerInput input{frame.gray, frame.mid_exposure_s, std::nullopt};
+  if (tracked_s_) {
+    input.predicted_homography = pointing.homography(*tracked_s_, frame.mid_exposure_s);
+  }
+  const TrackerResult result = tracker_->track(input);
+  if (!result.output) {
+    counters_[std::string("frames_refused_") + to_string(*result.error)] += 1;
+    return std::nullopt;
+  }
+  tracked_s_ = frame.mid_exposure_s;
+  last_output_ = result.output;
+  counters_["frames_tracked"] += 1;
+  compare_motion(*result.output);
+  return result.output;
+}
+
+// The camera's motion by the PTU's angles and by the picture: wrong angles, times or mounting show
+// here before they show in a position.
+void FollowedTarget::compare_motion(const TrackerOutput& output) {
+  if (output.prediction_dropped) counters_["predictions_dropped"] += 1;
+  if (!output.prediction_error_px) return;
+  const bool disagree = *output.prediction_error_px > config_.prediction_error_px;
+  if (disagree) counters_["predictions_disagreeing"] += 1;
+  disagreeing_in_a_row_ = disagree ? disagreeing_in_a_row_ + 1 : 0;
+}
+
+void FollowedTarget::forget_angles() {
+  tracked_s_.reset();
+  if (own_) own_->tracked_s.reset();
+}
+
+double FollowedTarget::centring_sd_px() const {
+  return kind_ == Kind::kDesignated ? config_.designation_sd_px : config_.acquisition_sd_px;
+}
+
+}  // namespace ols

@@ -1,0 +1,59 @@
+// From directions to PTU angles and back: where the station stands and how it leans, the angles
+// that its unit has reported, and how far the unit can turn. Pure.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+
+#include "edge/ptu/angle_history.h"
+#include "edge/ptu/servo.h"
+#include "edge/station_config.h"
+#include "edge/station_types.h"
+
+namespace ols {
+
+class PointingModel {
+ public:
+  // The pose is the configured one until set_pose().
+  explicit PointingModel(const StationConfig& config);
+
+  void set_pose(const StationPose& pose);
+  void set_limits(const PtuLimits& limits) { limits_ = limits; }
+  // In time order.
+  void add(const AngleSample& sample) { history_.add(sample); }
+  // Angles reported before and after are not in the same frame.
+  void forget_angles() { history_.clear(); }
+
+  // With the pose of now.
+  const StationGeometry& geometry() const { return geometry_; }
+  const StationPose& pose() const { return pose_; }
+  // Grows when the pose has changed by more than its sigmas; 0: as configured.
+  std::int64_t pose_revision() const { return pose_revision_; }
+
+  std::optional<AngleAt> angles_at(double time_s) const { return history_.at(time_s); }
+  std::optional<AngleSample> newest_angles() const { return history_.newest(); }
+  // Takes pixels at one instant to pixels at another, for a scene at infinity.
+  std::optional<Eigen::Matrix3d> homography(double from_s, double to_s) const;
+  // The pixel of a direction at infinity.
+  std::optional<Eigen::Vector2d> pixel_of(const PanTilt& angles,
+                                          const AzimuthElevation& direction) const;
+  bool in_picture(const Eigen::Vector2d& pixel) const;
+
+  // The same direction by the counts that the unit gets to on the shortest way, from where it is
+  // or from elsewhere; nothing: it cannot point there.
+  std::optional<PanTilt> reachable(const PanTilt& angles) const;
+  std::optional<PanTilt> reachable_from(const PanTilt& here, PanTilt angles) const;
+  // The angles that put a direction on the optical axis; nothing: the unit cannot point there.
+  std::optional<PanTilt> aim(const AzimuthElevation& direction) const;
+
+ private:
+  StationGeometry geometry_;
+  StationPose pose_;
+  StationPose revision_pose_;  // of which pose_revision() speaks
+  std::int64_t pose_revision_ = 0;
+  PtuLimits limits_;
+  AngleHistory history_;
+};
+
+}  // namespace ols

@@ -1,0 +1,46 @@
+// Makes angle samples of the positions that a unit reports, as far as they are plausible, and says
+// where the unit is now. Pure.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "edge/ptu/angle_history.h"
+#include "edge/ptu/driver_types.h"
+#include "edge/ptu/poll_cycle.h"
+#include "edge/ptu/position_check.h"
+#include "edge/ptu/start_sequence.h"
+
+namespace ols {
+
+class AngleIntake {
+ public:
+  AngleIntake(const PtuConfig& config, const PtuFacts& facts);
+
+  // Commands were sent that change the unit's speed by so much [rad/s].
+  void commanded(const PanTilt& change_rad_s);
+  // The positions of a complete cycle; `change_rad_s` of its commands, which may still be going on.
+  PositionCheck::Verdict take(const PollCycle& done, const PanTilt& change_rad_s, double time_s);
+
+  // At this time, or else the newest ones; nothing before the first sample.
+  std::optional<PanTilt> angles_at(double time_s) const;
+  std::optional<double> newest_s() const;  // instant of the newest sample
+  PanTilt rate_rad_s() const { return check_.rate_rad_s(); }
+  bool standing() const { return check_.standing(); }
+
+  std::vector<AngleSample> take_samples() { return std::exchange(samples_, {}); }
+  std::optional<double> last_good_s() const { return last_good_s_; }  // when it was taken in
+
+ private:
+  PanTilt commanded_rad_s2(double time_s) const;
+
+  const double poll_interval_s_, acceleration_max_rad_s2_;
+  PositionCheck check_;
+  AngleHistory history_;
+  PanTilt change_rad_s_;  // commanded since the last sample
+  std::vector<AngleSample> samples_;
+  std::optional<double> last_good_s_;
+};
+
+}  // namespace ols

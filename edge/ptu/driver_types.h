@@ -1,0 +1,64 @@
+// What the PTU driver is configured with and what it reports.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "edge/ptu/angle_history.h"
+#include "edge/ptu/servo.h"
+
+namespace ols {
+
+// Whether the driver homes a unit whose reference is missing or in doubt. Homing sweeps the whole
+// travel, whatever stands there, so only the configuration or a person can allow it.
+enum class PtuRehome {
+  kNever,             // a fault until a person homes the unit or confirms its reference
+  kWhenUnreferenced,  // R, once after each loss
+};
+
+// What the unit's angles are worth.
+enum class PtuReference {
+  kUnknown,  // no unit that can be driven
+  kMissing,  // the unit must be homed, or it is homing
+  kDoubted,  // no samples, and goals are ignored, until it was homed or its reference confirmed
+  kTrusted,
+};
+
+// The unit accelerates less than configured, so the driver limits its speed until it stops in time.
+struct PtuLoweredSpeed {
+  double acceleration_rad_s2, speed_rad_s;
+};
+
+struct PtuConfig {
+  std::string device;                   // serial device, for example /dev/ttyUSB0
+  int baud = 38400;                     // to be used
+  int line_baud = 9600;                 // of a unit that was just switched on
+  double poll_interval_s = 0.025;       // one request for both positions and the servo's commands
+  double reply_timeout_s = 0.5;         // without a usable reply: the link is down, start again
+  double acceleration_rad_s2 = 1.0;     // set at start
+  double environment_interval_s = 5.0;  // supply voltage and temperatures; 0: never
+  double supply_min_V = 11.5;           // an alarm below
+  PtuRehome rehome = PtuRehome::kNever;
+  // The unit's own setting, as delivered: a unit that was switched on just before the driver first
+  // talks to it answers only after it has homed, so its reference is trusted.
+  bool homes_at_power_up = true;
+  bool home_despite_keep_out = false;                  // on command
+  char step_mode = 0, hold_power = 0, move_power = 0;  // PtuStartOptions
+  PtuLimits limits;                                    // narrowed by what the unit reports
+  AngleHistory::Config history;
+  ServoConfig servo;
+};
+
+enum class PtuState { kStarting, kReady, kFault };
+
+struct PtuCounters {  // only go up
+  std::uint64_t requests = 0, replies = 0, timeouts = 0, errors = 0, garbled = 0, restarts = 0;
+  std::uint64_t limit_hits = 0;
+  std::uint64_t refused_positions = 0;  // pairs that contradicted each other or the motion
+  std::uint64_t echoes = 0;             // echo or verbose replies that came on while ready
+  std::uint64_t power_cycles = 0;       // of the unit, noticed by the driver
+  std::uint64_t homings = 0;            // ordered by the driver
+  std::uint64_t emergencies = 0;
+};
+
+}  // namespace ols

@@ -1,0 +1,50 @@
+// The exchange with a ready unit: one poll cycle is under way at a time, and the next one goes out
+// at its time and onto a quiet line. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "edge/ptu/poll_cycle.h"
+
+namespace ols {
+
+class Polling {
+ public:
+  Polling(double interval_s, double byte_s, double time_s)
+      : interval_s_(interval_s), byte_s_(byte_s), next_s_(time_s), last_byte_s_(time_s) {}
+
+  bool under_way() const { return cycle_.has_value(); }
+  bool due(double time_s) const;
+  // Begins a cycle: the bytes to write.
+  const std::string& send(const PtuRequest& commands, const PtuRequest& questions, double time_s);
+
+  void bytes_came(double time_s) { last_byte_s_ = time_s; }
+  void line_was_garbled() { garbled_ = true; }
+  // No bytes since then.
+  bool silent_for(double duration_s, double time_s) const;
+
+  // A reply of the cycle that is under way: the cycle, once it is complete and can be used.
+  std::optional<PollCycle> take(const PtuReply& reply, double late_s);
+  // A reply while no cycle is under way: the next one waits for a quiet line.
+  void unexpected_reply();
+
+  enum class Failure { kGarbled, kRepliesMissing };
+  // Gives up a cycle that cannot be completed any more.
+  std::optional<Failure> watch(double time_s);
+  // Gives up whatever is under way, because other bytes were written.
+  void abandon(double time_s);
+
+ private:
+  void give_up(double time_s, double quiet_s);
+
+  const double interval_s_, byte_s_;
+  std::optional<PollCycle> cycle_;
+  bool garbled_ = false;    // in the cycle that is under way
+  double latency_s_ = 0.0;  // running average of PollCycle::latency_s()
+  double next_s_;
+  double quiet_s_ = 0.0;  // silence before the next cycle
+  double last_byte_s_;
+};
+
+}  // namespace ols

@@ -1,0 +1,71 @@
+// The phase of PtuDriver in which a unit is started: waits until the line is quiet, then sends the
+// start sequence, one command at a time. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "edge/ptu/driver_types.h"
+#include "edge/ptu/start_sequence.h"
+
+namespace ols {
+
+class PtuStarting {
+ public:
+  // What happens once the unit has answered everything.
+  enum class Purpose { kDrive, kHome, kDriveAfterHoming };
+
+  // `counters` outlives this.
+  PtuStarting(const PtuStartOptions& options, double reply_timeout_s, Purpose purpose,
+              double time_s, PtuCounters& counters);
+
+  enum class Event {
+    kNone,
+    kLineDropped,   // a quiet line was reached or is waited for: drop what was read of a reply
+    kLineNotQuiet,  // for so long that it is not a PTU's
+    kNoReply,
+    kComplete,  // the unit has answered everything
+  };
+  struct Step {
+    std::string bytes;  // to write now
+    Event event = Event::kNone;
+  };
+  Step step(double time_s, double byte_s, bool emergency);
+
+  // Waits until the line is quiet, then asks again what was not answered.
+  void flush(double time_s);
+  bool flushing() const { return flush_.has_value(); }
+  void bytes_came(double time_s);
+
+  bool waits_for_reply() const { return !flush_ && asked_s_; }
+  // The reply to the command that waits. False: the unit cannot be driven; see refusal().
+  bool take(const PtuReply& reply);
+  bool answered() const { return answered_; }  // anything, at this baud rate
+  std::string refusal(const PtuReply& reply) const { return sequence_.refusal(reply); }
+  bool not_referenced() const { return sequence_.not_referenced(); }
+  bool changed_baud() const { return sequence_.changed_baud(); }
+
+  Purpose purpose() const { return purpose_; }
+  void give_up_homing() { purpose_ = Purpose::kDrive; }
+  const PtuFacts& facts() const { return sequence_.facts(); }
+  std::string asked() const;  // the command that waits for its reply
+
+ private:
+  struct Flush {
+    double began_s, last_byte_s;
+    bool sent = false;
+  };
+  Step step_flush(double time_s, double byte_s, bool emergency);
+  Step step_question(double time_s);
+
+  PtuStartSequence sequence_;
+  const double reply_timeout_s_;
+  Purpose purpose_;
+  PtuCounters& counters_;
+  std::optional<Flush> flush_;
+  std::optional<double> asked_s_;  // when the command that waits for its reply was sent
+  bool answered_ = false;
+  int retries_ = 0;
+};
+
+}  // namespace ols

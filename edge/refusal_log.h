@@ -1,0 +1,34 @@
+// The messages that are refused before or by the station: counted, the last one in words, and an
+// alarm when commands keep being refused because they are not fresh. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "edge/refusal_watch.h"
+
+namespace ols {
+
+class RefusalLog {
+ public:
+  // What the station did not do, in words.
+  void note(const std::string& what);
+  // The message was refused before the station has seen it. `kind`: "SLEW".
+  void refuse(const std::string& kind, const std::string& why);
+  void refuse_at_gate(const std::string& kind, const std::string& why, double now_s);
+
+  const std::string& last() const { return last_; }
+  std::uint64_t number() const { return number_; }
+  std::vector<std::string> alarms(double now_s) const { return at_gate_.alarms(now_s); }
+  const std::map<std::string, double>& counters() const { return counters_; }
+
+ private:
+  RefusalWatch at_gate_;
+  std::map<std::string, double> counters_;
+  std::string last_;
+  std::uint64_t number_ = 0;
+};
+
+}  // namespace ols

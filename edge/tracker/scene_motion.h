@@ -1,0 +1,63 @@
+// The camera's motion against the scene from frame to frame, and the earlier images that it brings
+// to the present one.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "edge/tracker/ego_motion.h"
+#include "edge/tracker/foreground_mask.h"
+#include "edge/tracker/stage_times.h"
+#include "edge/tracker/target_tracker.h"
+
+namespace ols {
+
+class SceneMotion {
+ public:
+  SceneMotion(const TrackerConfig& config, HomographyFit fit, const TrackerInput& frame,
+              const cv::Rect2d& target_box);
+
+  // Takes the next frame; the target was in `target_box` of the previous one. Where the image does
+  // not tell the ego-motion, it is the predicted one.
+  EgoMotion advance(const TrackerInput& frame, const cv::Rect2d& target_box, StageTimer& timer);
+  // Keeps the newest frame, in which the target is in `target_box`, for later.
+  void remember(const cv::Mat& gray, const cv::Rect2d& target_box) {
+    references_.offer(gray, time_s_, target_box);
+  }
+
+  double time_s() const { return time_s_; }
+  double interval_s() const { return interval_s_; }
+  const cv::Size& frame_size() const { return frame_size_; }
+  const ReducedFrame& previous() const { return previous_; }
+  const ReducedFrame& present() const { return present_; }
+  // The previous frame's pixels to the newest one's; nothing when unknown.
+  const std::optional<Eigen::Matrix3d>& homography() const { return homography_; }
+  // By the image alone; nothing without texture.
+  const std::optional<Eigen::Matrix3d>& image_homography() const { return image_homography_; }
+  const ReferenceFrames& references() const { return references_; }
+
+  // Since when there is no alignment with what was seen before: what is seen is another scene.
+  double unaligned_since_s() const { return unaligned_since_s_; }
+  bool alignment_lost() const { return unaligned_since_s_ == time_s_; }  // in the newest frame
+  // The ego-motion was known up to the previous frame and is not: this may be a cut.
+  bool may_be_cut() const { return may_be_cut_; }
+  // Nothing shows what was there a moment ago.
+  bool unknown_a_moment_ago() const { return a_moment_ago() == nullptr; }
+  const ReferenceFrames::Reference* a_moment_ago() const;
+
+ private:
+  int width_px_;  // of the reduced frames, at most
+  EgoMotionEstimator estimator_;
+  ReducedFrame previous_;
+  ReducedFrame present_;
+  ReferenceFrames references_;
+  std::optional<Eigen::Matrix3d> homography_;
+  std::optional<Eigen::Matrix3d> image_homography_;
+  double unaligned_since_s_ = -std::numeric_limits<double>::infinity();
+  bool may_be_cut_ = false;
+  cv::Size frame_size_;
+  double time_s_;
+  double interval_s_ = 0.0;
+};
+
+}  // namespace ols

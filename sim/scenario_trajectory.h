@@ -1,0 +1,22 @@
+// How a scenario's target moves: [target.trajectory].
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/config_section.h"
+#include "geometry/wgs84.h"
+#include "sim/trajectory.h"
+
+namespace ols::sim {
+
+// Of the site whose origin is read by then; files are relative to `folder`.
+struct TrajectoryPlace {
+  const Geodetic& origin;
+  std::string folder;
+};
+
+config::Section trajectory_section(std::shared_ptr<const Trajectory>& trajectory,
+                                   const TrajectoryPlace& place);
+
+}  // namespace ols::sim

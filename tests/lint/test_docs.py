@@ -1,0 +1,246 @@
+"""The documents: every link leads somewhere; troubleshooting.md knows what the sources can say."""
+
+import functools
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+TROUBLESHOOTING = ROOT / "docs/troubleshooting.md"
+SOURCES = sorted(
+    p for folder in ("base", "central", "edge") for p in (ROOT / folder).rglob("*.cpp")
+)
+
+# ---- links ---------------------------------------------------------------------------------------
+
+LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+
+
+def documents(root: Path) -> list[Path]:
+    return sorted([*root.glob("*.md"), *(root / "docs").glob("*.md")])
+
+
+def anchors(document: Path) -> set[str]:
+    headings = re.findall(r"^#+ (.*)$", document.read_text(), flags=re.M)
+    return {re.sub(r"[^\w\- ]", "", h.lower()).replace(" ", "-") for h in headings}
+
+
+def broken_links(root: Path) -> list[str]:
+    broken = []
+    for document in documents(root):
+        for link in LINK.findall(
+            re.sub(r"^```.*?^```", "", document.read_text(), flags=re.M | re.S)
+        ):
+            if re.match(r"[a-z]+:", link):
+                continue
+            path, _, anchor = link.partition("#")
+            target = document.parent / path if path else document
+            inside = root.resolve() in [target.resolve(), *target.resolve().parents]
+            if not inside or not target.is_file():
+                broken.append(f"{document.relative_to(root)}: {link}")
+            elif anchor and anchor not in anchors(target):
+                broken.append(f"{document.relative_to(root)}: {link}: no such heading")
+    return broken
+
+
+def test_every_link_leads_somewhere():
+    assert broken_links(ROOT) == []
+
+
+@pytest.fixture(name="installed", scope="module")
+def fixture_installed(tmp_path_factory) -> Path:
+    """share/doc/ols as cmake/OlsInstall.cmake makes it, without a build: of the files alone."""
+    tree, usr = tmp_path_factory.mktemp("tree") / "ols", tmp_path_factory.mktemp("usr")
+    left_out = shutil.ignore_patterns("build", ".git", "out", "__pycache__", "tests")
+    shutil.copytree(ROOT, tree, ignore=left_out, symlinks=True)
+    rules = (tree / "cmake/OlsInstall.cmake").read_text()
+    (tree / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.22)\nproject(documents NONE)\n"
+        + re.sub(r"install\(TARGETS[^)]*\)", "", rules)
+    )
+    for step in (("-S", tree, "-B", tree / "b"), ("--install", tree / "b", "--prefix", usr)):
+        done = subprocess.run(["cmake", *step], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+    return usr / "share/doc/ols"
+
+
+def test_every_link_leads_somewhere_once_installed(installed):
+    assert len(documents(installed)) > 5
+    assert broken_links(installed) == []
+
+
+def test_a_unit_names_a_document_that_is_installed(installed):
+    for unit in (ROOT / "systemd/units").iterdir():
+        named = re.findall(r"file:/usr/share/doc/ols/(\S+)", unit.read_text())
+        assert all((installed / name).is_file() for name in named), f"{unit.name}: {named}"
+
+
+def test_sources_name_documents_that_exist():
+    for folder in (
+        "base",
+        "central",
+        "dev",
+        "edge",
+        "geometry",
+        "lcmtypes",
+        "sim",
+        "systemd",
+        "tools",
+    ):
+        for path in (ROOT / folder).rglob("*"):
+            if path.is_file() and b"\0" not in path.read_bytes()[:1000]:
+                for name in re.findall(r"docs/[\w-]+\.md", path.read_text(errors="ignore")):
+                    assert (ROOT / name).is_file(), f"{path.relative_to(ROOT)}: {name}"
+
+
+# ---- what the sources can say --------------------------------------------------------------------
+
+# Texts that begin with one of these are alarms, wherever they stand.
+SUBJECT = re.compile(
+    r"(bus|camera|clock|commands|computer|emergency stop|gnss|gpio|inclinometer|pose|ptu|recorder"
+    r"|stop|target): (?=\S)"
+)
+# Texts and files whose texts become alarms elsewhere, with what is put before them there.
+CARRIED_ON = {
+    r"its \w+ (is|are) ": "station …: not used, ",
+    r"follows for ": "station …: ",
+    r"[^:]*: home it, or reference-ok": "ptu: ",
+}
+PASSED_ON = {
+    "present_watch.cpp": "",
+    "other_fusions.cpp": "",
+    "clock_watch.cpp": "clock: ",
+    "ptu_report.cpp": "ptu: ",
+    "pose_memory.cpp": "pose: ",
+    "gpsd_link.cpp": "gnss: ",
+    "gnss.cpp": "gnss: ",
+    "inclinometer.cpp": "inclinometer: ",
+    "gpio_lines_libgpiod.cpp": "gpio: … ",
+    "gpio_lines_socket.cpp": "gpio: … ",
+    "event_store.cpp": "recorder: ",
+    "serial_port.cpp": "inclinometer: … ",
+}
+NO_ALARMS = {"config_words.cpp"}  # --check-config says it
+# A device's text that is no alarm, and what is written into files.
+NOT_ALARMS = re.compile(
+    r"clock: (no time service|synchronised by)|gnss: (is being connected|waiting for the receiver)"
+    r"|inclinometer: (is being opened|waiting for readings)|ptu: no unit"
+    r"|.*(no configured|not configured|when an event last made room)"
+)
+
+
+def pattern_of(text: str) -> str:
+    """A regular expression of what a format string can print."""
+    parts = re.split(r"%%|%[-+#.0-9]*[a-z]+", text.replace('\\"', '"'))
+    return ".*".join(re.escape(part) for part in parts)
+
+
+def texts(source: str) -> list[str]:
+    """Texts that are put together with +, as patterns; what is no literal can be anything."""
+    source = re.sub(r"^#include .*$", "", source, flags=re.M)
+    code = re.sub(r'("(?:[^"\\\n]|\\.)*")|//[^\n]*', lambda m: m[1] or "", source)
+    code = re.sub(r'"\s+"', "", code)
+    found, before = [], 0
+    for literal in re.finditer(r'"((?:[^"\\\n]|\\.)*)"', code):
+        between = code[before : literal.start()]
+        goes_on = between.rstrip().endswith("+") and not re.search(r"[;{}?]", between)
+        if found and goes_on:
+            found[-1] += ".*" + pattern_of(literal[1])
+        else:
+            found.append(pattern_of(literal[1]))
+        before = literal.end()
+    return found
+
+
+def is_a_sentence(pattern: str) -> bool:
+    words = re.findall(r"[a-z']{2,}", pattern.replace("\\", ""))
+    return len(words) > 1 and "\\ " in pattern and pattern[0] != ","
+
+
+@functools.cache
+def alarms_of_the_sources() -> set[str]:
+    """Patterns of all that can be an alarm."""
+    found = set()
+    for path in SOURCES:
+        if path.name in NO_ALARMS:
+            continue
+        source = path.read_text()
+        for text in texts(source):
+            plain = text.replace("\\", "")
+            if path.name.startswith("aravis_") and plain.startswith("camera "):
+                found.add(text.replace("camera", "camera:", 1))
+            elif SUBJECT.match(plain):
+                found.add(text)
+            elif before := [CARRIED_ON[t] for t in CARRIED_ON if re.match(t, plain)]:
+                found.add(re.escape(before[0]) + text)
+            elif path.name in PASSED_ON and is_a_sentence(text):
+                found.add(re.escape(PASSED_ON[path.name]) + text)
+        found |= {f"ptu: {re.escape(what)}" for what in re.findall(r'\balarm\("([^"]+)"', source)}
+    return {text for text in found if not NOT_ALARMS.match(text.replace("\\", ""))}
+
+
+def listed(headings: str) -> list[str]:
+    """What stands in backticks in the first column of the tables below these headings."""
+    found: list[str] = []
+    for section in re.split(r"^#+ ", TROUBLESHOOTING.read_text(), flags=re.M):
+        if re.match(headings, section):
+            for row in re.findall(r"^\| (`.*?) \|", section, flags=re.M):
+                found += re.findall(r"`([^`]+)`", row)
+    return found
+
+
+def test_the_files_that_pass_texts_on_are_there():
+    assert set(PASSED_ON) <= {path.name for path in SOURCES}
+
+
+def test_every_alarm_is_in_troubleshooting():
+    alarms = listed("Alarm")
+    missing = [
+        p for p in alarms_of_the_sources() if not any(re.fullmatch(p + ".*", a) for a in alarms)
+    ]
+    assert sorted(missing) == []
+
+
+def test_troubleshooting_knows_no_other_alarm():
+    patterns = alarms_of_the_sources()
+    unknown = [a for a in listed("Alarm") if not any(re.fullmatch(p + ".*", a) for p in patterns)]
+    assert unknown == []
+
+
+def reasons_of_the_sources() -> set[str]:
+    """What to_string() makes of reasons, and why a message is refused before it is a command."""
+    found: set[str] = set()
+    for path in SOURCES:
+        source = path.read_text()
+        for body in re.findall(
+            r"to_string\(\w*(?:Refusal|Error|Solution) \w+\) \{(.*?)^\}", source, flags=re.M | re.S
+        ):
+            found |= set(re.findall(r'return "([^"]+)";', body))
+        found |= set(re.findall(r'\brefuse\((?:kind|"\w+"), "(\w+)"\)', source))
+    return found - {"none", "ok", "unknown"}
+
+
+def counters_of_the_sources() -> set[str]:
+    found: set[str] = set()
+    for path in SOURCES:
+        source = path.read_text()
+        for inside in re.findall(r"\b(?:counters_?|all)\[(.*?)\]", source, flags=re.S):
+            if "+" not in inside:
+                found |= set(re.findall(r'"(\w+)"', inside))
+        for block in re.findall(
+            r"counters = \{(.*?)\};|const char\* name\s*:\s*\{(.*?)\}", source, flags=re.S
+        ):
+            found |= set(re.findall(r'"([a-z]\w+)"', "".join(block)))
+    return {name for name in found if not name.endswith("_")}
+
+
+@pytest.mark.parametrize(
+    ("headings", "of_the_sources"),
+    [("Refusal", reasons_of_the_sources), ("Counter", counters_of_the_sources)],
+)
+def test_reasons_and_counters_are_those_of_the_sources(headings, of_the_sources):
+    assert len(of_the_sources()) > 20
+    assert set(listed(headings)) == of_the_sources()

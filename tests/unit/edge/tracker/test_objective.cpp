@@ -1,0 +1,53 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "edge/tracker/objective.h"
+
+namespace ols {
+namespace {
+
+Template pattern() {
+  Template made;
+  for (std::size_t i = 0; i < kPatchArea; ++i) {
+    const bool inside =
+        i % kPatchSide > 7 && i % kPatchSide < 16 && i / kPatchSide > 7 && i / kPatchSide < 16;
+    made.gray[i] = inside ? 40.0F : 150.0F;
+  }
+  made.contrast = 110.0F;
+  return made;
+}
+
+TEST(Objective, IsOneForTheTemplateWhateverTheExposure) {
+  const Template target = pattern();
+  Objective objective(target);
+  MaskPatch all;
+  all.fill(255);
+  objective.set_mask(all);
+  Patch brighter = target.gray;
+  for (float& value : brighter) value = 0.8F * value + 30.0F;
+  for (const Patch& patch : {target.gray, brighter}) {
+    EXPECT_NEAR(objective(patch, all).similarity, 1.0, 1e-4);
+    EXPECT_NEAR(objective(patch, all).correlation, 1.0, 1e-4);
+  }
+  Patch blank;
+  blank.fill(150.0F);
+  EXPECT_LT(objective(blank, all).similarity, 0.8);
+  EXPECT_NEAR(objective(blank, all).correlation, 0.0, 1e-6);
+}
+
+// Eq. (5): only where both masks say foreground does a pixel count e-fold.
+TEST(Objective, WeighsByTheLesserOfBothMasks) {
+  const Template target = pattern();
+  Objective objective(target);
+  MaskPatch all;
+  all.fill(255);
+  objective.set_mask(all);
+  const MaskPatch none{};
+  EXPECT_NEAR(objective(target.gray, none).similarity, std::exp(-1.0), 1e-3);
+  objective.set_mask(none);
+  EXPECT_NEAR(objective(target.gray, all).similarity, 1.0, 1e-4);
+}
+
+}  // namespace
+}  // namespace ols
