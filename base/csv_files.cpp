@@ -146,6 +146,8 @@ void for_each_row(const std::string& path, const Header<kColumns>& header, Take 
   }
 }
 
+constexpr std::int64_t kGreatestUtime = 9'000'000'000'000'000;  // differences do not overflow
+
 constexpr Header<6> kStations{
     {"station", "latitude_deg", "longitude_deg", "height_m", "position_sd_m", "pointing_sd_deg"},
     4};
@@ -159,6 +161,7 @@ constexpr Header<8> kSurvey{{"landmark", "height_m", "sd_m", "latitude_deg", "lo
                              "zone", "easting_m", "northing_m"},
                             3};
 constexpr Header<5> kSighted{{"landmark", "pan_deg", "tilt_deg", "x_px", "y_px"}, 3};
+constexpr Header<4> kFlight{{"utime_us", "lat", "lon", "h"}, 4};
 
 StationRow station_row(const Row<6>& row) {
   StationRow station;
@@ -317,6 +320,21 @@ std::vector<SightedRow> read_sighted(const std::string& path,
   });
   if (sightings.empty()) throw CsvError(path + ":2: row: there is none");
   return sightings;
+}
+
+std::vector<FlightRow> read_flight(const std::string& path) {
+  std::vector<FlightRow> flight;
+  for_each_row(path, kFlight, [&](const Row<4>& row) {
+    const FlightRow next{row.number<std::int64_t>(0, 0, kGreatestUtime),
+                         row.number<double>(1, -90.0, 90.0), row.number<double>(2, -360.0, 360.0),
+                         row.number<double>(3, -10e3, 100e3)};
+    if (!flight.empty() && next.utime_us <= flight.back().utime_us) {
+      row.fail(0, "is not later than in the row before");
+    }
+    flight.push_back(next);
+  });
+  if (flight.size() < 2) throw CsvError(path + ": at least two rows are needed");
+  return flight;
 }
 
 void write_fixes(const std::string& path, const std::vector<FixRow>& fixes) {

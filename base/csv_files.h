@@ -1,5 +1,6 @@
 // The offline formats: stations.csv and bearings.csv in, fixes.csv out; a surveyor's landmarks and
-// their sightings in. Degrees, as in the files.
+// their sightings in; a flight for the simulator. Degrees, as
+// in the files.
 //
 // Columns are found by the header's names, in any order; unknown ones are ignored. Numbers must be
 // plain decimal, finite and in range, ids without commas, quotes and control characters: there is
@@ -78,6 +79,14 @@ struct SightedRow {
   unsigned line = 0;                     // of the file
 };
 
+// Where somebody flew, as in a trajectory's file.
+struct FlightRow {
+  std::int64_t utime_us = 0;
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+  double height_m = 0.0;  // above the WGS84 ellipsoid
+};
+
 struct FixRow {
   std::int64_t utime_us = 0;
   std::string target;
@@ -104,6 +113,8 @@ std::vector<LandmarkRow> read_landmarks(const std::string& path);
 std::vector<SurveyRow> read_survey(const std::string& path);
 // At least one row; every row's landmark is one of `survey`.
 std::vector<SightedRow> read_sighted(const std::string& path, const std::vector<SurveyRow>& survey);
+// At least two rows; utime_us grows.
+std::vector<FlightRow> read_flight(const std::string& path);
 // The whole file or, on an error (std::system_error), none of it.
 void write_fixes(const std::string& path, const std::vector<FixRow>& fixes);
 

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <random>
 #include <stdexcept>
 #include <string>
 
+#include "base/boot_id.h"
 #include "base/clocks.h"
 #include "base/command_line.h"
 #include "base/lcm_url.h"
@@ -30,11 +30,6 @@ struct Arguments {
   bool check_config = false;
 };
 
-std::int64_t draw_boot_id() {
-  std::random_device source;
-  return static_cast<std::int64_t>((static_cast<std::uint64_t>(source()) << 31U) ^ source());
-}
-
 // For the command line: what is wrong with the URL; empty if nothing.
 std::string url_problem(const std::string& url) {
   try {
@@ -53,7 +48,7 @@ int run(const Arguments& arguments) {
   ols::FusionProcessOptions options{
       .slew_url = arguments.replay ? kReplaySlewUrl : settings.lcm_url,
       .replay = arguments.replay,
-      .boot_id = draw_boot_id()};
+      .boot_id = ols::draw_boot_id()};
   if (!arguments.slew_url.empty()) options.slew_url = arguments.slew_url;
   ols::FusionProcess process(settings, options);
   spdlog::info("ready: bus {}, slews to {}", settings.lcm_url, options.slew_url);

@@ -8,19 +8,13 @@
 #include <string_view>
 #include <variant>
 
+#include "base/channel_names.h"
 #include "central/fusion.h"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/target_t.hpp"
 
 namespace ols {
-
-inline constexpr std::string_view kBearingChannel = "OLS_BEARING_";  // + station
-inline constexpr std::string_view kStatusChannel = "OLS_STATUS_";    // + station
-inline constexpr std::string_view kSlewChannel = "OLS_SLEW_";        // + station
-inline constexpr std::string_view kTargetChannel = "OLS_TARGET";
-inline constexpr std::string_view kPaperTargetChannel = "OLS_TARGET_PAPER";
-inline constexpr std::string_view kFusionStatusChannel = "OLS_FUSION_STATUS";
 
 // Why a datagram is not the message that its channel promises; to_string() names the counter.
 // kNoPosition: of a status whose station does not know it yet, which is no fault.

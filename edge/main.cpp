@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <exception>
 #include <opencv2/core/utility.hpp>
-#include <random>
 
+#include "base/boot_id.h"
 #include "base/command_line.h"
 #include "base/shutdown.h"
 #include "base/toml_config.h"
@@ -17,14 +17,9 @@
 
 namespace {
 
-std::int64_t draw_boot_id() {
-  std::random_device source;
-  return static_cast<std::int64_t>((static_cast<std::uint64_t>(source()) << 31U) ^ source());
-}
-
 int run(const ols::StationSettings& settings) {
   cv::setNumThreads(1);  // a frame is small; the other core belongs to the camera's stream
-  ols::StationProcess process(settings, draw_boot_id());
+  ols::StationProcess process(settings, ols::draw_boot_id());
   spdlog::info("station {} ready: camera {}, PTU {}, bus {}", settings.id, settings.camera.device,
                settings.ptu.device, settings.lcm_url);
   process.run(ols::shutdown_requested);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/channel_names.h"
 #include "base/clocks.h"
 
 namespace ols {
@@ -59,7 +60,7 @@ void StationBus::subscribe() {
   }
 }
 
-std::string StationBus::ptu_channel() const { return "OLS_PTU_" + settings_.id; }
+std::string StationBus::ptu_channel() const { return station_channel(kPtuChannel, settings_.id); }
 
 // In the bus's own thread: a stop goes ahead of whatever else waits, and no flood pushes it out. It
 // is good at any age, from any clock, sender and schema that can be read: only what moves must be
@@ -179,20 +180,20 @@ std::map<std::string, double> StationBus::counters() const {
 }
 
 void StationBus::send(const Bearing& bearing) {
-  publish("OLS_BEARING_" + settings_.id,
+  publish(station_channel(kBearingChannel, settings_.id),
           to_message(bearing, sender_, settings_, ++sequences_["bearing"]));
 }
 
 void StationBus::send(StationReport report) {
   report.counters.merge(counters());
-  publish("OLS_STATUS_" + settings_.id,
+  publish(station_channel(kStatusChannel, settings_.id),
           to_message(report, sender_, settings_, now_s_, ++sequences_["status"]));
 }
 
 void StationBus::send_preview(const Frame& frame, const std::optional<cv::Rect2d>& box) {
   const auto message = to_preview(frame, box, sender_, ++sequences_["preview"]);
   if (message) {
-    publish("OLS_PREVIEW_" + settings_.id, *message);
+    publish(station_channel(kPreviewChannel, settings_.id), *message);
   } else {
     counters_["previews_too_large"] += 1;
   }

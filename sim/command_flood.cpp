@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/channel_names.h"
 #include "ols_msg/designate_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/slew_t.hpp"
@@ -91,7 +92,7 @@ Packet CommandFlood::ptu(std::int64_t utime_us) {
     message.command = ols_msg::ptu_command_t::COMMAND_POINT;
     message.tilt_rad = kBeyondTilt_rad;
   }
-  return {"OLS_PTU_" + station_, encoded(message)};
+  return {station_channel(kPtuChannel, station_), encoded(message)};
 }
 
 Packet CommandFlood::slew(std::int64_t utime_us) {
@@ -102,7 +103,7 @@ Packet CommandFlood::slew(std::int64_t utime_us) {
   message.effect_utime = message.utime + 100'000;
   message.azimuth_rad = below(6);
   message.direction_sd_rad = 1e-3;
-  return {"OLS_SLEW_" + station_, encoded(message)};
+  return {station_channel(kSlewChannel, station_), encoded(message)};
 }
 
 Packet CommandFlood::designate(std::int64_t utime_us) {
@@ -112,7 +113,7 @@ Packet CommandFlood::designate(std::int64_t utime_us) {
   // Far outside of any picture: a designation that could be obeyed would end a stop.
   message.x_px = message.y_px = 1e6;
   message.width_px = message.height_px = 10.0;
-  return {"OLS_DESIGNATE_" + station_, encoded(message)};
+  return {station_channel(kDesignateChannel, station_), encoded(message)};
 }
 
 Packet CommandFlood::next(std::int64_t utime_us) {

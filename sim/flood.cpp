@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "base/channel_names.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/designate_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
@@ -29,21 +30,21 @@ std::vector<std::uint8_t> encoded() {
 }
 
 struct Channel {
-  const char* name;
+  std::string_view name;
   bool of_station;
   std::vector<std::uint8_t> (*message)();
 };
 
 constexpr std::array kChannels = {
-    Channel{"OLS_BEARING_", true, encoded<ols_msg::bearing_t>},
-    Channel{"OLS_STATUS_", true, encoded<ols_msg::station_status_t>},
-    Channel{"OLS_SLEW_", true, encoded<ols_msg::slew_t>},
-    Channel{"OLS_PTU_", true, encoded<ols_msg::ptu_command_t>},
-    Channel{"OLS_DESIGNATE_", true, encoded<ols_msg::designate_t>},
-    Channel{"OLS_RECORD_", true, encoded<ols_msg::record_t>},
-    Channel{"OLS_PREVIEW_", true, encoded<ols_msg::preview_t>},
-    Channel{"OLS_TARGET", false, encoded<ols_msg::target_t>},
-    Channel{"OLS_FUSION_STATUS", false, encoded<ols_msg::fusion_status_t>},
+    Channel{kBearingChannel, true, encoded<ols_msg::bearing_t>},
+    Channel{kStatusChannel, true, encoded<ols_msg::station_status_t>},
+    Channel{kSlewChannel, true, encoded<ols_msg::slew_t>},
+    Channel{kPtuChannel, true, encoded<ols_msg::ptu_command_t>},
+    Channel{kDesignateChannel, true, encoded<ols_msg::designate_t>},
+    Channel{kRecordChannel, true, encoded<ols_msg::record_t>},
+    Channel{kPreviewChannel, true, encoded<ols_msg::preview_t>},
+    Channel{kTargetChannel, false, encoded<ols_msg::target_t>},
+    Channel{kFusionStatusChannel, false, encoded<ols_msg::fusion_status_t>},
 };
 
 }  // namespace
@@ -75,7 +76,7 @@ std::string Flood::foreign_channel() {
 // One of the site's own channels, at times for a station of a huge number that is not there.
 Packet Flood::damaged() {
   const Channel& channel = kChannels[static_cast<std::size_t>(below(kChannels.size()))];
-  std::string name = channel.name;
+  std::string name(channel.name);
   if (channel.of_station) {
     const int which = below(static_cast<int>(stations_.size()) + 1);
     name += which < static_cast<int>(stations_.size())

@@ -57,7 +57,7 @@ void Lockstep::send(std::size_t station, const Bearing& bearing, double time_s) 
   Sighting sighting;
   sighting.station = truth.id;
   // The station's clock is off; its own times of frame and angles agree with each other.
-  const double exposed_s = bearing.mid_exposure_s - LockstepStation::monotonic_s(0.0);
+  const double exposed_s = bearing.mid_exposure_s - monotonic_s(0.0);
   sighting.utime_us = utime_us(exposed_s + truth.clock_offset_s);
   sighting.sight = bearing.sight;
   sighting.belief = bearing.belief;
@@ -101,7 +101,7 @@ void Lockstep::deliver(const AddressedSlew& addressed, double time_s) {
   newest_us = slew.utime_us;
   SlewCommand command;
   const double offset_s = world_.stations()[addressed.station].clock_offset_s;
-  command.effect_s = LockstepStation::monotonic_s(time_of(slew.effect_utime_us) - offset_s);
+  command.effect_s = monotonic_s(time_of(slew.effect_utime_us) - offset_s);
   command.lease_s = slew.lease_s;
   command.target_id = slew.target_id;
   command.direction = slew.direction;

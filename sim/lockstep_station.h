@@ -6,34 +6,19 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "edge/ptu/driver.h"
 #include "edge/station.h"
 #include "edge/tracker/tracker_config.h"
+#include "sim/lockstep_operator.h"
 #include "sim/ptu_unit.h"
 #include "sim/renderer.h"
 #include "sim/view_tracker.h"
 #include "sim/world.h"
 
 namespace ols::sim {
-
-// What the operator marks at one station in place of the first target.
-struct Misdesignation {
-  std::string station;
-  std::size_t target = 0;                            // of the scenario; its box,
-  Eigen::Vector2d off_px = Eigen::Vector2d::Zero();  // beside it by this,
-  double scale = 1.0;                                // and so many times as large
-};
-
-struct Fidelity {
-  bool pictures = true;  // false: the pixel is the truth with noise of this deviation
-  double pixel_sd_px = 0.3;
-  std::vector<std::string> not_designated = {};  // stations that the operator leaves alone
-  std::vector<Misdesignation> misdesignated = {};
-};
 
 // One frame after the designation, or of a station that is left alone: what the station made of it,
 // beside the truth.
@@ -64,51 +49,32 @@ class LockstepStation {
   std::vector<Bearing> advance(double time_s);
 
   Refusal slew(SlewCommand command, double time_s);
-  // The station's monotonic clock at an instant of true time.
-  static double monotonic_s(double time_s);
-
   const Station& station() const { return station_; }
   StationRecord record() const;
   const PtuCounters& ptu_counters() const { return driver_.counters(); }
-  bool designated() const { return designated_; }
-  bool left_alone() const { return left_alone_; }
+  bool designated() const { return operator_.designated(); }
+  bool left_alone() const { return operator_.leaves_alone(); }
 
  private:
-  struct Seen {  // by the operator
-    double stamp_s = 0.0;
-    ExposureTruth exposure;
-    ViewTruth view;
-  };
   void exchange_bytes(double time_s);
   void expose(double time_s);
   void take_note(double mid_s, const ViewTruth& view);
   void operate(double time_s);
-  void point_roughly(double time_s);
-  void designate_seen(double time_s);
-  std::optional<cv::Rect2d> marked(const Seen& seen) const;
-  bool stands_since(double from_s, double time_s) const;
 
   const World& world_;
   std::size_t index_;
-  Fidelity fidelity_;
   std::unique_ptr<Renderer> renderer_;
-  std::mt19937_64 generator_;
-  std::normal_distribution<double> normal_;
+  LockstepNoise noise_;
+  double phase_s_;  // of the exposures
   PtuUnit unit_;
   PtuDriver driver_;
   ViewMemory views_;
   StationConfig config_;
   Station station_;
+  LockstepOperator operator_;
   StationRecord record_;
-  double phase_s_;  // of the exposures
   std::int64_t next_frame_ = 0;
-
-  // The operator.
-  std::deque<Seen> seen_;
-  PanTilt aiming_error_;
-  double ready_s_ = -1.0, pointed_s_ = -1.0;
-  bool designated_ = false;
-  bool left_alone_ = false;
+  bool limits_known_ = false;  // to the station
 };
 
 }  // namespace ols::sim

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <iomanip>
+#include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
 
@@ -13,15 +14,6 @@ namespace ols::sim {
 namespace {
 
 constexpr double kTruthRate_hz = 30.0;
-
-// JSON has no NaN.
-struct Number {
-  double value;
-};
-std::ostream& operator<<(std::ostream& out, const Number& number) {
-  if (!std::isfinite(number.value)) return out << "null";
-  return out << number.value;
-}
 
 void write_position(std::ostream& out, const Geodetic& position) {
   out << std::setprecision(12) << degrees(position.latitude_rad) << ","
@@ -60,11 +52,13 @@ void write_fixes(const std::vector<Fix>& fixes, const std::string& path) {
   file.commit();
 }
 
-void write_estimator(std::ostream& out, const char* name, const EstimatorSummary& s) {
-  out << "  \"" << name << "\": {\"fixes\": " << s.fixes << ", \"rmse_m\": " << Number{s.rmse_m}
-      << ", \"predicted_rmse_m\": " << Number{s.predicted_rmse_m} << ", \"nees_axis\": ["
-      << Number{s.nees_axis.x()} << ", " << Number{s.nees_axis.y()} << ", "
-      << Number{s.nees_axis.z()} << "], \"nees\": " << Number{s.nees} << "},\n";
+// (What is not a number is null in JSON.)
+nlohmann::ordered_json estimator_json(const EstimatorSummary& s) {
+  return {{"fixes", s.fixes},
+          {"rmse_m", s.rmse_m},
+          {"predicted_rmse_m", s.predicted_rmse_m},
+          {"nees_axis", {s.nees_axis.x(), s.nees_axis.y(), s.nees_axis.z()}},
+          {"nees", s.nees}};
 }
 
 double share(const StationRecord& record, const std::function<bool(const FrameNote&)>& of) {
@@ -72,19 +66,18 @@ double share(const StationRecord& record, const std::function<bool(const FrameNo
   return static_cast<double>(count) / static_cast<double>(record.frames.size());
 }
 
-void write_station(std::ostream& out, const std::string& id, const StationRecord& record) {
-  out << "    {\"id\": \"" << id << "\", \"frames\": " << record.frames.size()
-      << ", \"frames_lost\": " << record.frames_lost << ", \"central_third\": "
-      << Number{share(record, [](const FrameNote& note) { return note.inside_third; })}
-      << ", \"states\": {";
-  const char* comma = "";
+nlohmann::ordered_json station_json(const std::string& id, const StationRecord& record) {
+  nlohmann::ordered_json states;
   for (const StationState state : {StationState::kTracking, StationState::kCoasting,
                                    StationState::kLost, StationState::kSlewed}) {
-    out << comma << "\"" << to_string(state) << "\": "
-        << Number{share(record, [&](const FrameNote& note) { return note.state == state; })};
-    comma = ", ";
+    states[to_string(state)] =
+        share(record, [&](const FrameNote& note) { return note.state == state; });
   }
-  out << "}}";
+  return {{"id", id},
+          {"frames", record.frames.size()},
+          {"frames_lost", record.frames_lost},
+          {"central_third", share(record, [](const FrameNote& n) { return n.inside_third; })},
+          {"states", states}};
 }
 
 void write_frames(const World& world, const LockstepResult& result, const std::string& path) {
@@ -145,27 +138,28 @@ void write_counters(const World& world, const LockstepResult& result, const std:
 
 void write_summary(const World& world, const LockstepResult& result, double duration_s,
                    const std::string& path) {
-  AtomicFile file(path);
-  std::ostream& out = file.stream();
   const PixelSummary pixels = summarise_pixels(result.stations);
   MeasurementNoise noise;
   noise.pixel_sd_px = pixels.white_sd_px;
   const BoundSummary bound = summarise_bound(world, result.joint, noise);
-  out << std::setprecision(9) << "{\n  \"scenario\": \"" << world.scenario().name
-      << "\",\n  \"seed\": " << world.seed() << ",\n  \"seconds\": " << duration_s
-      << ",\n  \"designated_s\": " << result.designated_s << ",\n";
-  write_estimator(out, "joint", summarise(result.joint));
-  write_estimator(out, "paper", summarise(result.paper));
-  out << "  \"crb_rmse_m\": " << Number{bound.crb_rmse_m}
-      << ",\n  \"crb_horizontal_rmse_m\": " << Number{bound.crb_horizontal_rmse_m}
-      << ",\n  \"crb_floor_rmse_m\": " << Number{bound.crb_floor_rmse_m}
-      << ",\n  \"pixel_white_sd_px\": " << Number{pixels.white_sd_px}
-      << ",\n  \"pixel_mean_px\": " << Number{pixels.mean_px} << ",\n  \"stations\": [\n";
+  nlohmann::ordered_json stations = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < result.stations.size(); ++i) {
-    if (i > 0) out << ",\n";
-    write_station(out, world.stations()[i].id, result.stations[i]);
+    stations.push_back(station_json(world.stations()[i].id, result.stations[i]));
   }
-  out << "\n  ]\n}\n";
+  const nlohmann::ordered_json summary{{"scenario", world.scenario().name},
+                                       {"seed", world.seed()},
+                                       {"seconds", duration_s},
+                                       {"designated_s", result.designated_s},
+                                       {"joint", estimator_json(summarise(result.joint))},
+                                       {"paper", estimator_json(summarise(result.paper))},
+                                       {"crb_rmse_m", bound.crb_rmse_m},
+                                       {"crb_horizontal_rmse_m", bound.crb_horizontal_rmse_m},
+                                       {"crb_floor_rmse_m", bound.crb_floor_rmse_m},
+                                       {"pixel_white_sd_px", pixels.white_sd_px},
+                                       {"pixel_mean_px", pixels.mean_px},
+                                       {"stations", stations}};
+  AtomicFile file(path);
+  file.stream() << summary.dump(2) << "\n";
   file.commit();
 }
 

@@ -1,7 +1,6 @@
-// A trajectory from a CSV file with the header `utime_us,lat,lon,h` (degrees, ellipsoidal metres).
+// A trajectory from a CSV file with the columns `utime_us,lat,lon,h` (degrees, ellipsoidal metres).
 #pragma once
 
-#include <istream>
 #include <memory>
 #include <string>
 
@@ -12,7 +11,5 @@ namespace ols::sim {
 
 // Scenario time 0 is the first row. Throws ConfigError naming file, line and what is wrong.
 std::unique_ptr<Trajectory> load_trajectory_file(const std::string& path, const LocalFrame& site);
-std::unique_ptr<Trajectory> read_trajectory_file(std::istream& in, const std::string& name,
-                                                 const LocalFrame& site);
 
 }  // namespace ols::sim

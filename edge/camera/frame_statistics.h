@@ -9,7 +9,6 @@ namespace ols {
 class FrameStatistics {
  public:
   void add(double arrival_s, bool complete);
-  void clear() { marks_.clear(); }
 
   double rate_hz() const;           // of complete frames; 0 before there are two
   double incomplete_share() const;  // 0 without frames

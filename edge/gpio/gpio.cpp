@@ -17,6 +17,7 @@
 #include "base/clocks.h"
 #include "base/wakeup.h"
 #include "edge/gpio/gpio_lines.h"
+#include "edge/gpio/gpio_report.h"
 #include "edge/gpio/rearm_input.h"
 #include "edge/gpio/stop_input.h"
 
@@ -40,16 +41,6 @@ LineUse line_use(const GpioConfig& config) {
   }
   return use;
 }
-
-struct Wanted {  // by the control loop
-  LedPattern pattern = LedPattern::kOff;
-  double pattern_began_s = 0.0;
-  bool trigger = false;
-};
-
-struct GpioCounters {
-  std::uint64_t failures = 0, presses = 0, rearms = 0, triggers = 0;
-};
 
 }  // namespace
 
@@ -95,8 +86,8 @@ struct Gpio::Impl {
       drive_trigger(lines, trigger_end_s);
       now_s = clock_monotonic_s();
       double until_s = std::min({refresh_s, next_led_slot_s(now_s), trigger_end_s});
-      // (Only this thread writes `told`.)
-      if (const auto due_s = stop.due_s(); due_s && told != false) {
+      // (Only this thread writes `facts.pressed`.)
+      if (const auto due_s = stop.due_s(); due_s && facts.pressed != false) {
         until_s = std::min(until_s, *due_s);
       }
       if (const auto due_s = rearm.due_s()) until_s = std::min(until_s, *due_s);
@@ -119,8 +110,8 @@ struct Gpio::Impl {
     }
     const std::lock_guard lock(mutex);
     if (!levels.empty() || (config.stop_line < 0 && config.rearm_line < 0)) {
-      last_good_s = clock_monotonic_s();
-      readable = true;
+      facts.last_good_s = clock_monotonic_s();
+      facts.readable = true;
     }
   }
 
@@ -133,9 +124,9 @@ struct Gpio::Impl {
   void tell(bool pressed) {
     {
       const std::lock_guard lock(mutex);
-      if (told == pressed) return;
-      told = pressed;
-      if (pressed) ++counters.presses;
+      if (facts.pressed == pressed) return;
+      facts.pressed = pressed;
+      if (pressed) ++facts.presses;
     }
     rearm.interrupted();
     if (on_stop) on_stop(pressed);
@@ -146,28 +137,28 @@ struct Gpio::Impl {
     if (config.rearm_line < 0 || !rearm.take(clock_monotonic_s())) return;
     {
       const std::lock_guard lock(mutex);
-      if (config.stop_line >= 0 && told != false) return;
-      ++counters.rearms;
+      if (config.stop_line >= 0 && facts.pressed != false) return;
+      ++facts.rearms;
     }
     if (on_rearm) on_rearm();
   }
 
   double next_led_slot_s(double now_s) {
     const std::lock_guard lock(mutex);
-    const double slots = std::floor((now_s - wanted.pattern_began_s) / kLedSlot_s + 1e-6) + 1.0;
-    return wanted.pattern_began_s + slots * kLedSlot_s;
+    const double slots = std::floor((now_s - pattern_began_s) / kLedSlot_s + 1e-6) + 1.0;
+    return pattern_began_s + slots * kLedSlot_s;
   }
 
   void drive_led(GpioLines& lines, std::optional<bool>& lit) {
     if (config.led_line < 0) return;
-    bool light = false;
+    bool wanted = false;
     {
       const std::lock_guard lock(mutex);
-      light = led_lit(wanted.pattern, clock_monotonic_s() - wanted.pattern_began_s);
+      wanted = led_lit(pattern, clock_monotonic_s() - pattern_began_s);
     }
-    if (lit == light) return;
-    lines.write(config.led_line, light);
-    lit = light;
+    if (lit == wanted) return;
+    lines.write(config.led_line, wanted);
+    lit = wanted;
   }
 
   void drive_trigger(GpioLines& lines, double& end_s) {
@@ -178,8 +169,8 @@ struct Gpio::Impl {
     }
     {
       const std::lock_guard lock(mutex);
-      if (end_s != kNever_s || !std::exchange(wanted.trigger, false)) return;
-      ++counters.triggers;
+      if (end_s != kNever_s || !std::exchange(trigger_wanted, false)) return;
+      ++facts.triggers;
     }
     lines.write(config.trigger_line, true);
     end_s = clock_monotonic_s() + config.trigger_pulse_s;
@@ -204,9 +195,9 @@ struct Gpio::Impl {
 
   void opened() {
     const std::lock_guard lock(mutex);
-    open = true;
-    readable = false;
-    wanted.trigger = false;  // of frames long past
+    facts.open = true;
+    facts.readable = false;
+    trigger_wanted = false;  // of frames long past
   }
 
   void note_failure(const std::string& what) {
@@ -214,9 +205,9 @@ struct Gpio::Impl {
     rearm.interrupted();
     {
       const std::lock_guard lock(mutex);
-      open = readable = false;
-      ++counters.failures;
-      error = what;
+      facts.open = facts.readable = false;
+      ++facts.failures;
+      facts.error = what;
     }
     if (config.stop_line >= 0) tell(true);
   }
@@ -229,13 +220,10 @@ struct Gpio::Impl {
   Wakeup wakeup;
 
   mutable std::mutex mutex;  // of everything below
-  bool open = false;
-  bool readable = false;     // a level has come since the lines were opened
-  std::optional<bool> told;  // pressed, as last called back
-  Wanted wanted;
-  std::optional<double> last_good_s;
-  std::string error;
-  GpioCounters counters;
+  GpioFacts facts;
+  LedPattern pattern = LedPattern::kOff;
+  double pattern_began_s = 0.0;
+  bool trigger_wanted = false;
   std::jthread thread;  // last: it uses the rest
 };
 
@@ -251,9 +239,9 @@ Gpio::~Gpio() = default;  // the jthread asks to stop and joins
 void Gpio::show(LedPattern pattern) {
   {
     const std::lock_guard lock(impl_->mutex);
-    if (impl_->wanted.pattern == pattern) return;
-    impl_->wanted.pattern = pattern;
-    impl_->wanted.pattern_began_s = clock_monotonic_s();
+    if (impl_->pattern == pattern) return;
+    impl_->pattern = pattern;
+    impl_->pattern_began_s = clock_monotonic_s();
   }
   impl_->wakeup.set();
 }
@@ -262,49 +250,19 @@ void Gpio::trigger() {
   if (impl_->config.trigger_line < 0) return;
   {
     const std::lock_guard lock(impl_->mutex);
-    impl_->wanted.trigger = impl_->open;
+    impl_->trigger_wanted = impl_->facts.open;
   }
   impl_->wakeup.set();
 }
 
 bool Gpio::stop_pressed() const {
-  if (impl_->config.stop_line < 0) return false;
   const std::lock_guard lock(impl_->mutex);
-  return impl_->told.value_or(true);
+  return ols::stop_pressed(impl_->config, impl_->facts);
 }
 
 DeviceReport Gpio::report() const {
-  const bool stop_pressed_now = stop_pressed();
-  const GpioConfig& config = impl_->config;
   const std::lock_guard lock(impl_->mutex);
-  DeviceReport report;
-  report.name = "gpio";
-  report.last_good_s = impl_->last_good_s;
-  report.last_error = impl_->error;
-  report.errors = impl_->counters.failures;
-  report.counters = {{"gpio_failures", impl_->counters.failures},
-                     {"gpio_stop_presses", impl_->counters.presses},
-                     {"gpio_rearms", impl_->counters.rearms},
-                     {"gpio_triggers", impl_->counters.triggers}};
-  if (impl_->open && impl_->readable) {
-    report.state = DeviceState::kOk;
-    report.text = config.chip;
-    if (config.stop_line >= 0)
-      report.text += stop_pressed_now ? ", stop pressed" : ", stop released";
-    if (config.stop_line >= 0 && stop_pressed_now) {
-      report.alarms.push_back("gpio: emergency stop pressed");
-    }
-  } else if (impl_->open || impl_->counters.failures == 0) {
-    report.state = DeviceState::kStarting;
-    report.text = config.chip + ": waiting for the first level";
-  } else {
-    report.state = DeviceState::kAbsent;
-    report.text = impl_->error;
-    report.alarms.push_back(config.stop_line >= 0
-                                ? "gpio: stop unreadable, taken as pressed: " + impl_->error
-                                : "gpio: " + impl_->error);
-  }
-  return report;
+  return make_gpio_report(impl_->config, impl_->facts);
 }
 
 }  // namespace ols

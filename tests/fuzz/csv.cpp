@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <new>
-#include <sstream>
 
 #include "base/csv_files.h"
 #include "base/toml_config.h"
@@ -49,9 +48,9 @@ void bearings(std::string_view content) {
 }
 
 void trajectory(std::string_view content) {
-  std::istringstream stream{std::string(content)};
+  const ols::fuzz::MemoryFile file(content);
   const ols::LocalFrame site(ols::Geodetic{0.85, 0.29, 300.0});
-  const auto path = ols::sim::read_trajectory_file(stream, "fuzz", site);
+  const auto path = ols::sim::load_trajectory_file(file.path(), site);
   ols::fuzz::require(path->at(1.0).p_enu.allFinite(), "a trajectory is finite");
 }
 

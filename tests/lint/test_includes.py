@@ -33,19 +33,21 @@ NOT_PURE = {
     "files": "base/atomic_file.* base/background_file.cpp base/csv_files.cpp base/output_check.cpp "
     "base/small_file.cpp base/toml_config.cpp base/toml_merge.cpp base/word_memory.cpp "
     "edge/recorder/event_folder.cpp edge/recorder/event_store.cpp sim/report.cpp "
-    "sim/station_files.cpp sim/trajectory_file.cpp",
+    "sim/station_files.cpp",
     "the message bus": "base/bus_* base/channel_pattern.cpp base/lcm_bus.* base/lcm_url.* "
     "base/multicast_socket.* edge/messages* central/messages* sim/*flood.cpp",
-    "the operating system": "base/clocks.h base/command_line.h base/plain_text.cpp "
-    "base/progress.cpp base/service_notifier.cpp base/shutdown.cpp base/wakeup.cpp "
+    "the operating system": "base/boot_id.cpp base/clocks.h base/command_line.h "
+    "base/plain_text.cpp base/progress.cpp base/service_notifier.cpp base/shutdown.cpp "
+    "base/wakeup.cpp "
     "edge/host_watch.cpp edge/rearm_signal.cpp edge/clock/clock_pair.cpp "
     "edge/clock/clock_source.cpp edge/clock/command_output.cpp",
     "devices and their threads": "edge/camera/aravis_*.cpp edge/camera/aravis_error.h "
-    "edge/camera/tai_reference.cpp "
+    "edge/camera/aravis_session.h edge/camera/camera_handover.* edge/camera/tai_reference.cpp "
     "edge/gpio/gpio.cpp edge/gpio/gpio_lines_* edge/ptu/ptu_thread.cpp edge/ptu/serial_port.cpp "
     "edge/recorder/recorder.cpp edge/sensors/gnss.cpp edge/sensors/gnss_from_gpsd.* "
     "edge/sensors/gpsd_link.* edge/sensors/inclinometer.cpp",
-    "simulated devices on real wires": "sim/camera_server.cpp sim/gige_device.* sim/gige_stream.* "
+    "simulated devices on real wires": "sim/camera_server.cpp sim/exposure_cue.* "
+    "sim/gige_control.* sim/gige_device.* sim/gige_stream.* "
     "sim/gnss_line.cpp sim/gpio_socket.cpp sim/inclinometer_line.cpp sim/live_site.* sim/nmea.cpp "
     "sim/ptu_line.cpp sim/ptu_tap.cpp sim/pty.cpp sim/stepped_clock.cpp",
     "programs": "edge/main.cpp edge/config.cpp edge/station_process.* edge/kept_pose.cpp "

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "base/channel_names.h"
 #include "base/lcm_bus.h"
 #include "base/plain_text.h"
 
@@ -12,7 +13,7 @@ std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message)
   if (!decode_exactly(message, status)) return std::nullopt;
   if (status.schema_version != ols_msg::station_status_t::SCHEMA_VERSION) return std::nullopt;
   // A channel's name is printable (base/bus_datagram.h), and so is the station's.
-  if (message.channel != "OLS_STATUS_" + status.station) return std::nullopt;
+  if (message.channel != station_channel(kStatusChannel, status.station)) return std::nullopt;
   status.last_error = plain_text(status.last_error);
   for (auto* texts : {&status.device_name, &status.device_text, &status.alarm, &status.reading_name,
                       &status.counter_name}) {

@@ -1,9 +1,10 @@
 #include "tools/ctl/operator.h"
 
 #include <algorithm>
-#include <random>
 #include <utility>
 
+#include "base/boot_id.h"
+#include "base/channel_names.h"
 #include "base/clocks.h"
 #include "tools/ctl/heard_status.h"
 
@@ -86,11 +87,10 @@ const char* device_state(const ols_msg::station_status_t& status, const std::str
 }
 
 Operator::Operator(const std::string& lcm_url, std::string station)
-    : station_(std::move(station)), bus_(lcm_url) {
-  std::random_device source;
-  boot_id_ = static_cast<std::int64_t>(source());
+    : station_(std::move(station)), bus_(lcm_url), boot_id_(draw_boot_id()) {
   const std::string which = station_ == "all" ? ".*" : station_;
-  bus_.subscribe("OLS_STATUS_" + which, [this](const BusMessage& message) { hear(message); });
+  bus_.subscribe(station_channel(kStatusChannel, which),
+                 [this](const BusMessage& message) { hear(message); });
 }
 
 void Operator::hear(const BusMessage& message) {
@@ -145,7 +145,7 @@ std::optional<std::string> Operator::designate(const std::string& station, doubl
   message.y_px = y;
   message.width_px = width;
   message.height_px = height;
-  bus_.publish("OLS_DESIGNATE_" + station, message);
+  bus_.publish(station_channel(kDesignateChannel, station), message);
   return outcome(station, "designate");
 }
 
@@ -156,7 +156,7 @@ void Operator::publish_ptu(const std::string& station, std::int8_t command, doub
   message.command = command;
   message.pan_rad = pan_rad;
   message.tilt_rad = tilt_rad;
-  bus_.publish("OLS_PTU_" + station, message);
+  bus_.publish(station_channel(kPtuChannel, station), message);
 }
 
 std::optional<std::string> Operator::send_ptu(const std::string& station, std::int8_t command,
@@ -239,7 +239,7 @@ std::optional<std::string> Operator::record(const std::string& station, double b
   message.before_s = before_s;
   message.after_s = after_s;
   message.label = label;
-  bus_.publish("OLS_RECORD_" + station, message);
+  bus_.publish(station_channel(kRecordChannel, station), message);
   return outcome(station, "record");
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <set>
 
+#include "base/channel_names.h"
 #include "base/clocks.h"
 #include "base/lcm_bus.h"
 #include "base/lcm_url.h"
@@ -90,7 +91,7 @@ BusHeard listen(const std::string& lcm_url, double seconds, const std::string& o
   try {
     look_at_network(heard);
     LcmBus bus(lcm_url);
-    bus.subscribe("OLS_STATUS_.*", [&](const BusMessage& message) {
+    bus.subscribe(station_channel(kStatusChannel, ".*"), [&](const BusMessage& message) {
       const auto status = heard_status(message);
       if (!status) return;
       const bool known = heard.stations.contains(status->station) || status->station == own;
@@ -99,7 +100,7 @@ BusHeard listen(const std::string& lcm_url, double seconds, const std::string& o
       if (of_station.size() < kMostBoots) of_station.insert(status->boot_id);
       heard.stations[status->station] = station_from(*status);
     });
-    bus.subscribe("OLS_FUSION_STATUS", [&](const BusMessage& message) {
+    bus.subscribe(std::string(kFusionStatusChannel), [&](const BusMessage& message) {
       ols_msg::fusion_status_t status;
       if (!decode_exactly(message, status)) return;
       if (fusions.size() < kMostBoots) fusions.insert(status.boot_id);

@@ -26,9 +26,6 @@ Verdict gravest(const Findings& findings) {
   return verdict;
 }
 
-// Devices may answer with any byte.
-std::string quoted(const std::string& text) { return nlohmann::json(plain_text(text)).dump(); }
-
 }  // namespace
 
 void append(Findings& all, const Findings& more) {
@@ -44,15 +41,14 @@ std::string line(const Finding& finding) {
 }
 
 std::string to_json(const Findings& findings) {
-  std::string out = "{\"verdict\": " + quoted(word(gravest(findings))) + ", \"findings\": [";
-  bool first = true;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Finding& finding : findings) {
-    out += first ? "\n" : ",\n";
-    first = false;
-    out += "  {\"verdict\": " + quoted(word(finding.verdict)) +
-           ", \"what\": " + quoted(finding.what) + ", \"advice\": " + quoted(finding.advice) + "}";
+    // Devices may answer with any byte.
+    list.push_back({{"verdict", word(finding.verdict)},
+                    {"what", plain_text(finding.what)},
+                    {"advice", plain_text(finding.advice)}});
   }
-  return out + "\n]}";
+  return nlohmann::ordered_json{{"verdict", word(gravest(findings))}, {"findings", list}}.dump(2);
 }
 
 int exit_status(const Findings& findings) { return static_cast<int>(gravest(findings)); }

@@ -23,9 +23,17 @@ TEST(Finding, TheGravestDecidesTheExitStatus) {
 
 TEST(Finding, JsonHoldsWhateverADeviceSaid) {
   EXPECT_EQ(to_json({fail("ptu: \"!\\\x01\xff", "a")}),
-            "{\"verdict\": \"FAIL\", \"findings\": [\n"
-            "  {\"verdict\": \"FAIL\", \"what\": \"ptu: \\\"!\\\\??\", \"advice\": \"a\"}\n]}");
-  EXPECT_EQ(to_json({}), "{\"verdict\": \"ok\", \"findings\": [\n]}");
+            "{\n"
+            "  \"verdict\": \"FAIL\",\n"
+            "  \"findings\": [\n"
+            "    {\n"
+            "      \"verdict\": \"FAIL\",\n"
+            "      \"what\": \"ptu: \\\"!\\\\??\",\n"
+            "      \"advice\": \"a\"\n"
+            "    }\n"
+            "  ]\n"
+            "}");
+  EXPECT_EQ(to_json({}), "{\n  \"verdict\": \"ok\",\n  \"findings\": []\n}");
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "edge/camera/frame_statistics.h"
-
 namespace ols {
 namespace {
 
@@ -96,28 +94,6 @@ TEST(CameraReport, WhatHoldsIsAnAlarm) {
   unfit.fault = "camera wants pixel format BayerRG8 instead of Mono8";
   EXPECT_THAT(make_camera_report(CameraConfig{}, unfit, 100.0).alarms,
               ElementsAre("camera: wants pixel format BayerRG8 instead of Mono8"));
-}
-
-TEST(FrameStatistics, RateAndLossesOfLate) {
-  FrameStatistics statistics;
-  EXPECT_DOUBLE_EQ(statistics.rate_hz(), 0.0);
-  for (int i = 0; i < 200; ++i) statistics.add(0.1 * i, true);
-  EXPECT_NEAR(statistics.rate_hz(), 10.0, 0.01);
-  EXPECT_DOUBLE_EQ(statistics.incomplete_share(), 0.0);
-  for (int i = 200; i < 400; ++i) statistics.add(0.1 * i, i % 2 == 0);
-  EXPECT_NEAR(statistics.rate_hz(), 5.0, 0.2);
-  EXPECT_NEAR(statistics.incomplete_share(), 0.5, 0.02);
-}
-
-TEST(PtpState, TheWordsOfDifferentFirmware) {
-  EXPECT_EQ(ptp_state("Slave"), PtpState::kSlave);
-  for (const char* word : {"Syncing", "Uncalibrated", "Listening", "Initializing"})
-    EXPECT_EQ(ptp_state(word), PtpState::kSyncing) << word;
-  EXPECT_EQ(ptp_state("Master"), PtpState::kMaster);
-  EXPECT_EQ(ptp_state("Disabled"), PtpState::kOff);
-  EXPECT_EQ(ptp_state("Off"), PtpState::kOff);
-  EXPECT_EQ(ptp_state("Faulty"), PtpState::kFault);
-  EXPECT_EQ(ptp_state("Dreaming"), PtpState::kUnknown);
 }
 
 }  // namespace

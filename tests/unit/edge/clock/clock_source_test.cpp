@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "base/clocks.h"
-#include "edge/clock/clock_pair.h"
 #include "tests/unit/eventually.h"
 
 namespace ols {
@@ -44,12 +43,6 @@ TEST(ClockSource, IsContentWithoutChrony) {
 TEST(ClockSource, DoesWithoutAChronyThatHangs) {
   ClockSource source(0.01, {"sleep", "1000"});
   EXPECT_NE(next(source).source.substr(0, 6), "chrony");
-}
-
-TEST(ClockPair, IsOfOneInstant) {
-  const double before = 1e-6 * static_cast<double>(clock_utime_us()) - clock_monotonic_s();
-  const ClockPair pair = read_clock_pair();
-  EXPECT_NEAR(1e-6 * static_cast<double>(pair.utime_us) - pair.monotonic_s, before, 1.0);
 }
 
 }  // namespace

@@ -11,66 +11,6 @@
 namespace ols::sim {
 namespace {
 
-TEST(PtuUnit, AnswersTersely) {
-  Master master(ready_unit());
-  for (const auto& [request, reply] : std::initializer_list<std::pair<const char*, const char*>>{
-           {"PP ", "* 0\r\n"},
-           {"pp\r", "* 0\r\n"},
-           {"  PP  \r\n", "* 0\r\n"},
-           {"PN PX ", "* -49467\r\n* 49467\r\n"},
-           {"TN TX ", "* -14622\r\n* 9644\r\n"},
-           {"PR ", "* 11.5714\r\n"},
-           {"PU PL PB PA ", "* 18700\r\n* 31\r\n* 57\r\n* 2000\r\n"},
-           {"PA18000 PA ", "*\r\n* 18000\r\n"},
-           {"PS500 PS ", "*\r\n* 500\r\n"},
-           {"C ", "* i\r\n"},
-           {"PH PM ", "* REG\r\n* REG\r\n"},
-           {"PHL PH PMH PM ", "*\r\n* LOW\r\n*\r\n* HIGH\r\n"},
-           {"L LD L LE ",
-            "* Limit bounds are ENABLED (soft limits enabled)\r\n*\r\n"
-            "* Limit bounds are DISABLED (hard limits only: use care)\r\n*\r\n"},
-           {"RE RD RP RT ", "*\r\n*\r\n*\r\n*\r\n"},
-           {"F E ", "* ASCII terse mode\r\n* Echoing OFF\r\n"},
-           {"O ", "* Input 30 VDC @ 86 degF\r\n"}}) {
-    EXPECT_EQ(master.ask(request), reply) << request;
-  }
-}
-
-TEST(PtuUnit, AnswersVerbosely) {
-  PtuUnitConfig config = ready_unit();
-  config.verbose = true;
-  Master master(config);
-  EXPECT_EQ(master.ask("PP "), "* Current Pan position is 0\r\n");
-  EXPECT_EQ(master.ask("TO "), "* Target Tilt position is 0\r\n");
-  EXPECT_EQ(master.ask("PR "), "* 11.5714 seconds arc per position\r\n");
-  EXPECT_EQ(master.ask("TX "), "* Maximum Tilt position is 9644\r\n");
-  EXPECT_EQ(master.ask("PS "), "* Target Pan speed is 1000 positions/sec\r\n");
-  EXPECT_EQ(master.ask("PD "), "* Current Pan speed is 0 positions/sec\r\n");
-  EXPECT_EQ(master.ask("PA "), "* Pan acceleration is 2000 positions/sec/sec\r\n");
-  EXPECT_EQ(master.ask("PB "), "* Current Pan base speed is 57 positions/sec\r\n");
-  EXPECT_EQ(master.ask("C "), "* PTU is in independent mode\r\n");
-  EXPECT_EQ(master.ask("PH "), "* Pan in REGULAR hold power mode\r\n");
-  EXPECT_EQ(master.ask("FT F "), "*\r\n* ASCII terse mode\r\n");
-}
-
-TEST(PtuUnit, RefusesAndSaysWhy) {
-  Master master(ready_unit());
-  EXPECT_EQ(master.ask("PP49468 "), "! Maximum allowable Pan position is 49467\r\n");
-  EXPECT_EQ(master.ask("TP-14623 "), "! Minimum allowable Tilt position is -14622\r\n");
-  EXPECT_EQ(master.ask("PS18701 "), "! Pan speed cannot exceed 18700 pos/sec\r\n");
-  EXPECT_EQ(master.ask("PS30 "), "! Motor speed cannot be less than 31 pos/sec\r\n");
-  for (const char* nonsense : {"XYZ ", "PQ ", "P ", "DX ", "PA0 ", "POSITION? ", "RX ", "LU "}) {
-    const char* reply =
-        nonsense[1] == 'O' ? "! Illegal argument\r\n" : "! Illegal Command Entered\r\n";
-    EXPECT_EQ(master.ask(nonsense), reply) << nonsense;
-  }
-  for (const char* nonsense : {"POS ", "PP1x ", "PP99999999999 ", "PP1.5 ", "@(1,0,F) ", "@(x ",
-                               "@(9600,0) ", "PHX ", "PNU "}) {
-    EXPECT_EQ(master.ask(nonsense), "! Illegal argument\r\n") << nonsense;
-  }
-  EXPECT_DOUBLE_EQ(master.pan_counts(), 0.0);
-}
-
 // As captured from a unit with its echo on.
 TEST(PtuUnit, EchoesAsRealUnitsDo) {
   PtuUnitConfig config = ready_unit();
@@ -81,73 +21,12 @@ TEST(PtuUnit, EchoesAsRealUnitsDo) {
   EXPECT_EQ(master.ask("ED FT I CI\r\n"), "ED *\r\n*\r\n*\r\n*\r\n");
 }
 
-TEST(PtuUnit, MovesAtItsSpeedAndCanBeSentElsewhereOnTheWay) {
-  Master master(ready_unit());
-  master.ask("PA20000 PS1000 ", 1.0);
-  EXPECT_EQ(master.ask("PP5000 ", 1.0), "*\r\n");
-  EXPECT_EQ(master.ask("PD ", 0.1), "* 1000\r\n");
-  master.ask("PS500 ", 0.5);
-  EXPECT_EQ(master.ask("PD PO ", 0.1), "* 500\r\n* 5000\r\n");
-  master.ask("PP-100 ", 10.0);
-  EXPECT_DOUBLE_EQ(std::round(master.pan_counts()), -100.0);
-  master.ask("PO-50 ", 2.0);
-  EXPECT_EQ(master.ask("PP "), "* -150\r\n");
-}
-
-TEST(PtuUnit, RefusesANewAccelerationInMotion) {
-  Master master(ready_unit());
-  EXPECT_EQ(master.ask("PP5000 PA9000 ", 0.2), "*\r\n! Illegal Command Entered\r\n");
-}
-
-TEST(PtuUnit, HaltsOneAxisOrBoth) {
-  Master master(ready_unit());
-  master.ask("PP20000 TP5000 ", 1.0);
-  master.ask("HP ", 1.0);
-  EXPECT_EQ(master.ask("PD TD ", 0.1), "* 0\r\n* 1000\r\n");
-  master.ask("H ", 1.0);
-  EXPECT_EQ(master.ask("TD ", 0.1), "* 0\r\n");
-}
-
-TEST(PtuUnit, SlavedMovesBeginTogetherAndAwaitBlocks) {
-  Master master(ready_unit());
-  EXPECT_EQ(master.ask("S PP1000 TP500 ", 1.0), "*\r\n*\r\n*\r\n");
-  EXPECT_DOUBLE_EQ(master.pan_counts(), 0.0);
-  EXPECT_EQ(master.ask("A PP ", 0.5), "");  // still on the way
-  EXPECT_EQ(master.wait(3.0), "*\r\n* 1000\r\n");
-}
-
-TEST(PtuUnit, VelocityModeRunsIntoTheLimit) {
-  Master master(ready_unit());
-  EXPECT_EQ(master.ask("PA20000 CV C ", 1.0), "*\r\n*\r\n* p\r\n");
-  master.ask("PS-18000 ", 0.5);
-  EXPECT_LT(master.pan_counts(), -1000.0);
-  EXPECT_EQ(master.wait(10.0), "!P");
-  EXPECT_EQ(master.ask("PP "), "* -49467\r\n");
-}
-
 TEST(PtuUnit, GluesALimitHitToTheNextReply) {
   PtuUnitConfig config = ready_unit();
   config.tilt_max_counts = 100;
   Master master(config);
   EXPECT_EQ(master.ask("LD TP2000 ", 3.0), "*\r\n*\r\n!T");
   EXPECT_EQ(master.ask("TP "), "* 400\r\n");  // its mechanical stop
-}
-
-TEST(PtuUnit, HomesAtPowerUpBeforeItAnswers) {
-  PtuUnitConfig config = ready_unit();
-  config.home_at_power_up = true;
-  Master master(config);
-  master.unit.receive("PP ", master.time_s);
-  std::string said = master.wait(60.0);
-  EXPECT_EQ(said, "!T!T!P!P*\r\n* 0\r\n");
-  EXPECT_EQ(master.ask("R ", 60.0), "!T!T!P!P*\r\n");
-}
-
-TEST(PtuUnit, KeepsAndRestoresSettings) {
-  Master master(ready_unit());
-  EXPECT_EQ(master.ask("PS700 DS PS900 DR PS "), "*\r\n*\r\n*\r\n*\r\n* 700\r\n");
-  EXPECT_EQ(master.ask("DF "), "*\r\n");
-  EXPECT_EQ(master.ask("PS\r"), "PS\r\n* Target Pan speed is 1000 positions/sec\r\n");
 }
 
 // 10 bits a byte: `PP ` takes 3 byte times in, the reply's n-th byte n more out.

@@ -1,11 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <sstream>
-
-#include "base/toml_config.h"
 #include "geometry/angles.h"
 #include "sim/trajectory.h"
-#include "sim/trajectory_file.h"
 
 namespace ols::sim {
 namespace {
@@ -78,38 +74,6 @@ TEST(Waypoints, AreFlownAtTheMeanSpeed) {
   const auto path = through_waypoints({{0, 0, 0}, {30, 40, 0}, {30, 100, 0}}, 10.0);
   EXPECT_LT((path->at(5.0).p_enu - Vector3d(30, 40, 0)).norm(), 1e-9);
   EXPECT_LT((path->at(11.0).p_enu - Vector3d(30, 100, 0)).norm(), 1e-9);
-}
-
-class TrajectoryFile : public ::testing::Test {
- protected:
-  std::string error_of(const std::string& text) const {
-    std::istringstream in(text);
-    try {
-      read_trajectory_file(in, "flight.csv", site_);
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "";
-  }
-  LocalFrame site_{{radians(49.0), radians(16.0), 300.0}};
-};
-
-TEST_F(TrajectoryFile, BeginsAtItsFirstRow) {
-  std::istringstream in("utime_us,lat,lon,h\n1000000,49,16,350\n3000000,49,16,370\n");
-  const auto path = read_trajectory_file(in, "flight.csv", site_);
-  EXPECT_LT((path->at(0.0).p_enu - Vector3d(0, 0, 50)).norm(), 1e-6);
-  EXPECT_LT((path->at(2.0).p_enu - Vector3d(0, 0, 70)).norm(), 1e-6);
-}
-
-TEST_F(TrajectoryFile, NamesTheBadRow) {
-  const std::string head = "utime_us,lat,lon,h\n1,49,16,350\n";
-  EXPECT_EQ(error_of("time,lat\n"), "flight.csv:1: the header must be utime_us,lat,lon,h");
-  EXPECT_EQ(error_of(head + "2,49,16\n"), "flight.csv:3: four numbers expected");
-  EXPECT_EQ(error_of(head + "2,49,16,nan\n"), "flight.csv:3: four numbers expected");
-  EXPECT_EQ(error_of(head + "2,49,16,350,9\n"), "flight.csv:3: four numbers expected");
-  EXPECT_EQ(error_of(head + "1,49,16,350\n"), "flight.csv:3: utime_us must grow");
-  EXPECT_EQ(error_of(head + "2,149,16,350\n"), "flight.csv:3: lat or lon out of range");
-  EXPECT_EQ(error_of(head), "flight.csv:2: at least two rows expected");
 }
 
 }  // namespace

@@ -1,0 +1,27 @@
+// The channels of the bus; docs/operations.md says what each carries.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace ols {
+
+// Each followed by a station's name.
+inline constexpr std::string_view kBearingChannel = "OLS_BEARING_";
+inline constexpr std::string_view kStatusChannel = "OLS_STATUS_";
+inline constexpr std::string_view kPreviewChannel = "OLS_PREVIEW_";
+inline constexpr std::string_view kSlewChannel = "OLS_SLEW_";
+inline constexpr std::string_view kPtuChannel = "OLS_PTU_";
+inline constexpr std::string_view kDesignateChannel = "OLS_DESIGNATE_";
+inline constexpr std::string_view kRecordChannel = "OLS_RECORD_";
+
+// One for the site.
+inline constexpr std::string_view kTargetChannel = "OLS_TARGET";
+inline constexpr std::string_view kPaperTargetChannel = "OLS_TARGET_PAPER";
+inline constexpr std::string_view kFusionStatusChannel = "OLS_FUSION_STATUS";
+
+inline std::string station_channel(std::string_view channel, std::string_view station) {
+  return std::string(channel).append(station);
+}
+
+}  // namespace ols

@@ -1,0 +1,28 @@
+// How the GPIO is, in the words of the status message. Pure.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "edge/device_report.h"
+#include "edge/gpio/gpio.h"
+
+namespace ols {
+
+// What the GPIO's thread knows.
+struct GpioFacts {
+  bool open = false;
+  bool readable = false;          // a level has come since the lines were opened
+  std::optional<bool> pressed{};  // the emergency stop, as last called back
+  std::optional<double> last_good_s{};
+  std::string error{};
+  std::uint64_t failures = 0, presses = 0, rearms = 0, triggers = 0;
+};
+
+// True also as long as the first level is not known; false without a stop_line.
+bool stop_pressed(const GpioConfig& config, const GpioFacts& facts);
+
+DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts);
+
+}  // namespace ols

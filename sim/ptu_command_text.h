@@ -1,0 +1,24 @@
+// The texts of the PTU's command language: numbers in commands, and what answers have in common.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ols::sim {
+
+// What a unit says to what it does not understand (transcripts of real units).
+constexpr const char* kIllegalCommand = "! Illegal Command Entered";
+constexpr const char* kIllegalArgument = "! Illegal argument";
+constexpr const char* kAxisError = "! Axis Error";
+
+// The answer to a query.
+std::string star(std::string_view text);
+
+// All of the text, or nothing.
+std::optional<int> whole_number(std::string_view text);
+// `1,-2,3`.
+std::optional<std::vector<int>> whole_numbers(std::string_view text);
+
+}  // namespace ols::sim

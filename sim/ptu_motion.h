@@ -1,0 +1,114 @@
+// How the simulated PTU moves: positions, speeds and the limits of both, homing, and what it says
+// when it runs into an end.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/ptu_axis.h"
+#include "sim/ptu_settings.h"
+
+namespace ols::sim {
+
+// `!P`, `!T`: not a reply, no line's end.
+struct PtuToken {
+  double time_s = 0.0;
+  std::string text;
+};
+
+class PtuMotion {
+ public:
+  // `settings` must outlive it; a homing run takes the step mode, and with it changes what a count
+  // is.
+  PtuMotion(const PtuUnitConfig& config, PtuSettings& settings, double power_up_s);
+
+  // The power comes: all modes as from the factory, nothing planned.
+  void power_up();
+  // The power goes: it stops where it is, and no longer knows where that is.
+  void power_off(double time_s);
+
+  // The answer; nothing: the command is not of the motion.
+  std::optional<std::string> execute(std::string_view command, bool verbose, double time_s);
+
+  // Answers to commands of one axis [counts].
+  std::string set_position(int axis, int target, double time_s);
+  std::string set_speed(int axis, int speed, double time_s);
+  std::string set_parameter(int axis, char what, int value, double time_s);
+
+  void start(int axis, double target_counts, double time_s);
+  void start_slaved(double time_s);
+
+  // Tilt first. Without homing the counters begin where the mechanism stands. Returns when it is
+  // over.
+  double home(bool pan, bool tilt, double time_s);
+  double home_together(double time_s);
+
+  // In the unit's counts, from where it believes the middle.
+  double position(int axis, double time_s) const;
+  double target(int axis) const;
+  double velocity(int axis, double time_s) const;
+  int least(int axis) const;  // that commands are held to
+  int greatest(int axis) const;
+  int factory_least(int axis) const { return axes_[at(axis)].least / axes_[at(axis)].divisor; }
+  int factory_greatest(int axis) const {
+    return axes_[at(axis)].greatest / axes_[at(axis)].divisor;
+  }
+
+  int steps_a_count(int axis) const { return axes_[at(axis)].divisor; }
+  bool homed(int axis) const { return axes_[at(axis)].homed; }
+  double rest_s(int axis) const { return axes_[at(axis)].motion.rest_s(); }
+  // Of the mechanism, whatever the unit thinks [steps].
+  double mechanism_steps(int axis, double time_s) const {
+    return axes_[at(axis)].motion.position(time_s);
+  }
+
+  // The mechanism gives way; the unit's counter does not notice.
+  void slip(int axis, int slipped_steps, double time_s);
+
+  // Limit hits up to an instant that were not handed out before, and when the next one is due.
+  std::vector<PtuToken> take_tokens(double time_s);
+  std::optional<double> next_token_s() const;
+
+  void forget(double before_s);
+
+ private:
+  enum class Limits { kFactory, kUser, kOff };
+  // Positions of the mechanism are in the steps of PtuUnitConfig's resolution, from the middle of
+  // its travel; the unit's counts are `divisor` of them, from where it believes the middle.
+  struct Axis {
+    PtuAxis motion;
+    int least, greatest;  // travel [steps]
+    int divisor;          // steps a count
+    double origin;        // of the counts [steps]
+    bool homed;
+    std::optional<double> slaved;  // target that waits for A or I [steps]
+    std::optional<double> hit_s;   // the motion runs into its limit then
+  };
+
+  bool e_series() const { return config_.model == PtuModel::kE46; }
+  double counts(const Axis& axis, double steps) const;
+  double steps(const Axis& axis, double counts) const;
+  PtuAxis::Profile profile(int axis) const;
+  void start_steps(int axis, double target_steps, double time_s);
+  void stop(int axis, double time_s);
+  void enter_velocity_mode(bool velocity, double time_s);
+  double home_axis(int axis, double time_s);
+  void take_step_mode(int axis);
+  std::string refuse_speed(int axis, int fastest) const;
+  std::optional<std::string> modes(std::string_view command, bool verbose, double time_s);
+  std::optional<std::string> limit_modes(std::string_view command);
+  std::optional<std::string> halts(std::string_view command, double time_s);
+
+  PtuUnitConfig config_;
+  PtuSettings& settings_;
+  std::array<Axis, 2> axes_;
+  bool velocity_mode_ = false;
+  bool immediate_ = true;
+  Limits limits_ = Limits::kFactory;
+  std::vector<PtuToken> tokens_;  // of a homing run, in order of time
+};
+
+}  // namespace ols::sim

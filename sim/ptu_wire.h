@@ -1,0 +1,58 @@
+// The simulated PTU's end of its serial line: which byte is on it when.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <random>
+#include <string>
+#include <string_view>
+
+namespace ols::sim {
+
+class PtuWire {
+ public:
+  struct Byte {
+    char byte;
+    double time_s;  // its last bit was on the line
+    int baud;
+  };
+  struct Command {
+    std::string text;  // without what ends it; cut when too long
+    char delimiter = '\0';
+  };
+
+  explicit PtuWire(std::uint64_t noise_seed) : noise_(noise_seed) {}
+
+  // Nothing is on the line from this instant on.
+  void clear(double time_s);
+  void set_baud(int baud) { baud_ = baud; }
+  // Another rate than the unit's makes noise of every byte; 0: it is always right.
+  void set_master_baud(int baud) { master_baud_ = baud; }
+
+  // Bytes from the master; the first begins at `time_s`.
+  void receive(std::string_view bytes, double time_s);
+  const std::deque<Byte>& input() const { return input_; }
+  // When the first command that waits was complete.
+  std::optional<double> command_s() const;
+  // There must be one.
+  Command take_command();
+
+  // Puts text on the line, not before `time_s`, in order.
+  void say(const std::string& text, double time_s);
+  // What is on the line by `time_s` and was not handed out before.
+  std::string transmit(double time_s);
+  std::optional<double> next_output_s() const;
+
+ private:
+  double byte_s() const { return baud_ > 0 ? 10.0 / baud_ : 0.0; }
+  char on_the_line(char byte, int byte_baud);
+
+  std::mt19937_64 noise_;
+  int baud_ = 0, master_baud_ = 0;
+  double line_free_s_ = 0.0;   // our transmitter
+  double input_free_s_ = 0.0;  // the master's
+  std::deque<Byte> input_, output_;
+};
+
+}  // namespace ols::sim
