@@ -2,8 +2,8 @@
 // length. Whatever they say, targets are finite or named as no solution.
 #include <cmath>
 
-#include "central/fusion.h"
-#include "central/messages.h"
+#include "central/app/messages.h"
+#include "central/fusion/fusion.h"
 #include "geometry/angles.h"
 #include "tests/fuzz/fuzz_input.h"
 

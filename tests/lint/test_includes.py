@@ -72,10 +72,10 @@ PURE = [
     "tools/sim/ptu_controller.*",
 ]
 NOT_PURE = [  # what stands beside them and is not
-    "central/main.cpp",
-    "central/messages*",
-    "central/fusion_process.*",
-    "central/fusion_settings.*",
+    "central/app/main.cpp",
+    "central/app/messages*",
+    "central/app/fusion_process.*",
+    "central/app/fusion_settings.*",
     "edge/tracker/tracker_config.cpp",
 ]
 FORBIDDEN_IN_PURE = re.compile(
@@ -133,14 +133,14 @@ def test_includes_only_what_it_may(path):
 @pytest.mark.parametrize(
     ("name", "text", "pure"),
     [
-        ("edge/station.h", '#include "central/fusion.h"', False),
-        ("central/fusion.h", '#include "edge/station.h"', False),
+        ("edge/station.h", '#include "central/fusion/fusion.h"', False),
+        ("central/fusion/fusion.h", '#include "edge/station.h"', False),
         ("geometry/sight.h", '#include "base/toml_config.h"', False),
         ("edge/camera/clock_map.h", "#include <fstream>", True),
         ("edge/station.cpp", '#include "ols_msg/bearing_t.hpp"', False),
         ("edge/station_process.cpp", "using M = ols_msg::bearing_t;", False),
         ("edge/main_loop.cpp", "#include <arv.h>", False),
-        ("central/fusion.cpp", "auto t = std::chrono::system_clock::now();", True),
+        ("central/fusion/fusion.cpp", "auto t = std::chrono::system_clock::now();", True),
     ],
 )
 def test_a_forbidden_include_is_found(name, text, pure):

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "central/fusion_settings.h"
+#include "central/app/fusion_settings.h"
 #include "edge/config.h"
 #include "tools/doctor/bus_ears.h"
 #include "tools/doctor/judge_devices.h"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "central/least_squares.h"
-#include "central/offline_fusion.h"
+#include "central/estimators/least_squares.h"
+#include "central/offline/offline_fusion.h"
 #include "geometry/angles.h"
 #include "tools/estimators/posterior_bound.h"
 #include "tools/estimators/several_targets.h"

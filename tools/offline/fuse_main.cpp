@@ -9,7 +9,7 @@
 
 #include "base/command_line.h"
 #include "base/csv_files.h"
-#include "central/offline_fusion.h"
+#include "central/offline/offline_fusion.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 

@@ -1,9 +1,9 @@
 #include <pybind11/stl.h>
 
-#include "central/alignment.h"
-#include "central/least_squares.h"
-#include "central/offline_fusion.h"
-#include "central/paper_triangulation.h"
+#include "central/estimators/alignment.h"
+#include "central/estimators/least_squares.h"
+#include "central/estimators/paper_triangulation.h"
+#include "central/offline/offline_fusion.h"
 #include "tools/python/bindings.h"
 #include "tools/python/eigen_caster.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "central/fusion.h"
+#include "central/fusion/fusion.h"
 #include "tools/sim/lockstep_station.h"
 #include "tools/sim/network.h"
 #include "tools/sim/world.h"

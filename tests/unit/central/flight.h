@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "central/fusion.h"
-#include "scene.h"
+#include "central/fusion/fusion.h"
+#include "tests/unit/central/scene.h"
 
 namespace ols::test {
 

@@ -1,0 +1,113 @@
+// Where a new track may begin: bearings that belong to no track yet, and the places where rays of
+// different stations meet. Pure.
+//
+// Rays of different objects meet too (ghosts). A start therefore has to explain its stations'
+// bearings over the last moments, not only the two that it was made of: the filter is run over
+// them. Three stations that agree are believed at once; two have to agree for longer, by when the
+// true objects have taken their own bearings. The two stations that make a start are heard first:
+// then a third one that is wrong, or follows something else, is outside of the gate and spoils
+// none.
+//
+// A search costs as much as there are stations with such bearings. Where they are many they take
+// turns, so that what a bearing costs does not grow with their number.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "central/tracking/bearing_pool.h"
+#include "central/tracking/track.h"
+
+namespace ols {
+
+struct BirthConfig {
+  double pool_s = 0.6;           // bearings without a track are kept for so long
+  double pair_s = 0.1;           // the two that make a start are not further apart in time
+  double rate_sd_rad_s = 0.5;    // angular rate that a target may have, 1-sigma
+  double miss_sigma = 4.0;       // greatest miss of two rays
+  double explained = 0.6;        // least share of the stations' frames that a start must explain
+  double two_stations_s = 0.35;  // of agreement, where only two stations agree
+  int least_bearings = 6;
+  int pool_of_a_station = 64;  // most bearings that are kept of one
+};
+
+class TrackBirth {
+ public:
+  TrackBirth(const BirthConfig& config, const FilterConfig& filter)
+      : config_(config), filter_(filter), pool_(config.pool_s, config.pool_of_a_station) {}
+
+  // Takes a bearing that belongs to no track. A new track, with the bearings that it explains taken
+  // out of the pool: of this one or, where many stations wait for their turn, of another.
+  // `trusting`: two rays are enough for now; the pool keeps them, for a better one.
+  std::optional<Track> add(const Sighting& sighting, StationErrors& errors, bool trusting);
+  // Keeps a bearing without looking for a track.
+  void store(const Sighting& sighting) { pool_.store(sighting); }
+  // Takes out what a track explains that has just become sure.
+  void give(const Track& track, const StationErrors& errors);
+  void forget(const std::string& station) { pool_.forget(station); }
+  const BearingPool& pool() const { return pool_; }
+  // Why the last bearing began no track: what its ray did with the last other one, kRaysMiss where
+  // rays meet but the bearings of their stations do not agree on it, kTooFewRays where they do and
+  // only more of them is needed, and where there was no other ray.
+  Solution last_failure() const { return failure_; }
+  // Why there is no track: by the stations whose bearings at this instant belong to none, and the
+  // last failure where they are several.
+  Solution why_none(std::int64_t now_us) const;
+
+ private:
+  struct Meeting {
+    Eigen::Vector3d p_ecef;
+    double range_m = 0.0;
+    std::string first, second;  // the stations whose rays meet
+    double miss = 0.0;          // distance of the rays over the greatest one
+    int support = 0;            // other stations that look there
+  };
+  // A start that was good enough, and what the run over its bearings has shown of the stations.
+  struct Begun {
+    Begun(TrackFilter start, StationErrors known)
+        : track(std::move(start)), errors(std::move(known)) {}
+
+    Track track;
+    StationErrors errors;
+    int bearings = 0;      // that it explains, of the stations that agree on it
+    double span_s = 0.0;   // of them
+    bool settled = false;  // its equations are linear about where it is
+    double misfit = 0.0;   // mean squared normalised residual of their frames; NaN without any
+  };
+  enum class Needed { kTwoRays, kHalf, kAll };  // for two stations' agreement: of its time
+  std::optional<Track> search(const Sighting& sighting, StationErrors& errors, bool trusting);
+  std::optional<Sighting> next_turn(const Sighting& sighting);
+  std::optional<Meeting> start_of(const Sighting& a, const Look& look, const Sighting& b,
+                                  const Look& other, const StationErrors& errors);
+  std::ptrdiff_t nearest(const BearingPool::Station& own, const Sighting& to, const Meeting* start,
+                         const StationErrors& errors) const;
+  std::vector<Meeting> starts_with(const Sighting& sighting, const StationErrors& errors);
+  std::vector<const BearingPool::Station*> looking_at(const Meeting& start,
+                                                      std::int64_t now_us) const;
+  std::int64_t now_at(std::int64_t utime_us) const;
+  std::optional<Begun> run(const Meeting& start, std::int64_t now_us,
+                           const StationErrors& errors) const;
+  std::optional<Begun> try_start(const Sighting& newest, const Meeting& start,
+                                 const StationErrors& errors, Needed needed);
+  bool is_outdone(const Begun& begun, const Sighting& newest, const StationErrors& errors);
+  double gate_rad(const Sighting& sighting, double dt_s, double range_m,
+                  const StationErrors& errors) const;
+  double moved_rad(double dt_s) const;
+  void take(const Track& track);
+
+  BirthConfig config_;
+  FilterConfig filter_;
+  BearingPool pool_;
+  Solution failure_ = Solution::kTooFewRays;
+  // Stations that wait for a search, and what has been saved up for the next one.
+  std::deque<std::string> waiting_;
+  std::size_t saved_ = 0;
+  std::minstd_rand any_;  // the same in every run
+};
+
+}  // namespace ols
