@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kRangeIsNewsS = 1.0;  // a position tells the range for so long
 constexpr double kAverageGapS = 1.0;   // the moving average starts anew after a gap
-constexpr double kContributesS = 0.5;  // a station whose last bearing is older does not
 
 class FilterEstimator : public Estimator {
  public:
@@ -121,7 +120,7 @@ double greatest_crossing(const std::vector<FilterStation>& stations,
 void tell_geometry(const TrackFilter& filter, std::int64_t utime_us, Estimate& estimate) {
   std::vector<FilterStation> stations = filter.stations();
   std::erase_if(stations, [&](const FilterStation& station) {
-    return seconds(utime_us - station.utime_us) > kContributesS;
+    return !station.last_used.within(Activity::kContributesS, utime_us);
   });
   estimate.crossing_angle_rad = greatest_crossing(stations, estimate.position_ecef);
   if (stations.empty()) return;
@@ -135,8 +134,8 @@ void tell_geometry(const TrackFilter& filter, std::int64_t utime_us, Estimate& e
 std::vector<ContributingStation> contributing(const TrackFilter& filter, std::int64_t epoch_us) {
   std::vector<ContributingStation> stations;
   for (const FilterStation& station : filter.stations()) {
-    const double age_s = seconds(epoch_us - station.offered_us);
-    if (age_s > kContributesS) continue;
+    if (!station.last_offered.within(Activity::kContributesS, epoch_us)) continue;
+    const double age_s = station.last_offered.age_s(epoch_us);
     stations.push_back({station.station, station.weight > 0.0, station.weight, age_s});
   }
   std::ranges::sort(stations, {}, &ContributingStation::station);

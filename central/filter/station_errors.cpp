@@ -21,35 +21,61 @@ Eigen::Array3d rotation_variance(const Eigen::Array2d& bias_rad2, double elevati
 
 }  // namespace
 
+StationErrors StationErrors::evidence_on(const StationErrors& known) {
+  StationErrors evidence(known.config_);
+  evidence.known_ = &known;
+  evidence.common_weight_ = known.common_weight_;
+  evidence.common_ratio_ = known.common_ratio_;
+  return evidence;
+}
+
+void StationErrors::learn(const StationErrors& evidence) {
+  for (const auto& [station, seen] : evidence.stations_) stations_.insert_or_assign(station, seen);
+  common_weight_ = evidence.common_weight_;
+  common_ratio_ = evidence.common_ratio_;
+}
+
+const StationErrors::Seen* StationErrors::find(const std::string& station) const {
+  const auto found = stations_.find(station);
+  if (found != stations_.end()) return &found->second;
+  return known_ == nullptr ? nullptr : known_->find(station);
+}
+
+StationErrors::Seen& StationErrors::at(const std::string& station) {
+  const auto [own, is_new] = stations_.try_emplace(station);
+  const Seen* const before = is_new && known_ != nullptr ? known_->find(station) : nullptr;
+  if (before != nullptr) own->second = *before;
+  return own->second;
+}
+
 void StationErrors::observe_noise(const std::string& station, double squared_ratio) {
   constexpr double kMost = 9.0;  // an outlier says nothing of the noise
-  double& share = stations_[station].white_share;
+  double& share = at(station).white_share;
   share += (std::min(squared_ratio, kMost) - share) / config_.colour_memory;
 }
 
 // The mean of samples of a noise with the correlation time T, one every dt, has the variance of so
 // many times fewer: 1 + 2 T / dt.
 double StationErrors::inflation(const std::string& station, double interval_s) const {
-  const auto found = stations_.find(station);
-  if (found == stations_.end() || !(interval_s > 0.0)) return 1.0;
-  const double coloured = std::clamp(1.0 - found->second.white_share, 0.0, 1.0);
+  const Seen* const seen = find(station);
+  if (seen == nullptr || !(interval_s > 0.0)) return 1.0;
+  const double coloured = std::clamp(1.0 - seen->white_share, 0.0, 1.0);
   return 1.0 + coloured * 2.0 * config_.colour_time_s / interval_s;
 }
 
 void StationErrors::observe_residual(const std::string& station, double ratio) {
   const double stated = ratio * noise_scale(station);
-  Seen& seen = stations_[station];
+  Seen& seen = at(station);
   const double decay = 1.0 - 1.0 / config_.noise_memory;
   seen.residuals = seen.residuals * decay + 1.0;
   seen.noise = seen.noise * decay + stated;
 }
 
 double StationErrors::noise_scale(const std::string& station) const {
-  const auto found = stations_.find(station);
-  if (found == stations_.end()) return 1.0;
-  const Seen& seen = found->second;
+  const Seen* const seen = find(station);
+  if (seen == nullptr) return 1.0;
   const double scale =
-      (config_.noise_weight + seen.noise) / (config_.noise_weight + seen.residuals);
+      (config_.noise_weight + seen->noise) / (config_.noise_weight + seen->residuals);
   return std::clamp(scale, config_.least_noise, config_.greatest_noise);
 }
 
@@ -74,12 +100,11 @@ Eigen::Array2d StationErrors::learnt(const std::string& station, const Eigen::Ar
   const Eigen::Array2d common = (config_.untold_weight * guess + common_ratio_).max(0.0) /
                                 (config_.untold_weight + common_weight_);
   const Eigen::Array2d prior = told ? stated_rad2 : Eigen::Array2d(common * noise_rad2);
-  const auto found = stations_.find(station);
-  if (found == stations_.end()) return prior;
-  const Seen& seen = found->second;
-  const Eigen::Array2d squared = weight * prior + seen.squared_rad2 + seen.squared_now_rad2;
+  const Seen* const seen = find(station);
+  if (seen == nullptr) return prior;
+  const Eigen::Array2d squared = weight * prior + seen->squared_rad2 + seen->squared_now_rad2;
   const double least = config_.least_over_noise * config_.least_over_noise;
-  return (squared / (weight + seen.weight + seen.weight_now)).max(least * noise_rad2);
+  return (squared / (weight + seen->weight + seen->weight_now)).max(least * noise_rad2);
 }
 
 BiasPrior StationErrors::prior(const std::string& station, const SightLine& sight, double range_m,
@@ -118,7 +143,7 @@ Eigen::Matrix2d StationErrors::untold(const std::string& station, const SightLin
 void StationErrors::observe(const std::string& station, const SightLine& sight,
                             const SeenBias& bias, double dt_s, double range_m) {
   const Eigen::Array2d stated = stated_covariance(sight, range_m).diagonal();
-  Seen& seen = stations_[station];
+  Seen& seen = at(station);
   count(seen, -1.0);
   const double decay = std::exp(-dt_s / config_.memory_s);
   // A bias within one correlation time is one draw, however often it is looked at.

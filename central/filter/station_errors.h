@@ -73,6 +73,10 @@ struct SeenBias {
 class StationErrors {
  public:
   explicit StationErrors(const StationErrorsConfig& config = {}) : config_(config) {}
+  // Evidence on top of what is known: it reads through to `known`, which has to outlive it, and
+  // keeps what bearings show to itself. known.learn() takes it over.
+  static StationErrors evidence_on(const StationErrors& known);
+  void learn(const StationErrors& evidence);
 
   // Stays of the sight line itself: calibration, and the station's place seen from the range.
   BiasPrior prior(const std::string& station, const SightLine& sight, double range_m,
@@ -105,11 +109,14 @@ class StationErrors {
     double residuals = 0.0, noise = 0.0;                 // bearings; sum of noise over stated
     double white_share = 1.0;                            // of its noise, new in each frame
   };
+  const Seen* find(const std::string& station) const;
+  Seen& at(const std::string& station);
   void count(const Seen& seen, double sign);
   Eigen::Array2d learnt(const std::string& station, const Eigen::Array2d& stated_rad2,
                         const Eigen::Array2d& noise_rad2) const;
 
   StationErrorsConfig config_;
+  const StationErrors* known_ = nullptr;  // of evidence: what it is on top of
   std::map<std::string, Seen, std::less<>> stations_;
   // Over the stations that state nothing: weights, and squared biases over the noise's variance.
   Eigen::Array2d common_weight_ = Eigen::Array2d::Zero();

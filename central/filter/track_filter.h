@@ -10,24 +10,28 @@
 // does not make them go away.
 //
 // A bearing newer than the state moves it on. A late one is compared with where the target was at
-// its own instant, by the state's own velocity and acceleration. Three models (motion_model.h) are
-// mixed (IMM: Blom and Bar-Shalom, 1988). A bearing far off is set aside, one a little off is
-// weighted down; only such ones of two stations in a row, or of one of the only two, say that the
-// target has done what no model allows, and it is given room.
+// its own instant, by the state's own velocity and acceleration. A bearing far off is set aside,
+// one a little off is weighted down; only consecutive rejections of two stations, or of one of the
+// only two, say that the target has done what no model allows, and its covariance is inflated.
+//
+// The filter goes one way: it reads the priors of the stations' errors, and returns what a bearing
+// shows of them. Whoever owns the priors learns it.
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "central/filter/filter_gaussian.h"
-#include "central/filter/motion_model.h"
+#include "central/filter/coloured_noise.h"
+#include "central/filter/consecutive_rejections.h"
+#include "central/filter/innovation.h"
+#include "central/filter/interacting_models.h"
+#include "central/filter/station_bias.h"
 #include "central/filter/station_errors.h"
+#include "central/measurement/activity.h"
 #include "central/measurement/ray.h"
 #include "central/measurement/sighting.h"
 
@@ -54,69 +58,31 @@ struct FilterConfig {
   double in_common = 1.0;
 };
 
-inline Eigen::Index states_of(const BiasPrior& prior) {
-  return prior.place_apart ? kStationStates : kPoseStates;
-}
-using StationMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kStationStates, kStationStates>;
-using StationVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kStationStates, 1>;
-
 // What became of a bearing. kNoPlace: all the states are those of stations that still deliver.
 // Their bearings without them would count as if each had a bias of its own, and none had any.
 enum class BearingUse { kUsed, kSetAside, kBehindCamera, kTooLate, kNoPlace };
-
-// Position, velocity, acceleration; three components each.
-struct KinematicState {
-  std::int64_t utime_us = 0;
-  Vector9 mean = Vector9::Zero();
-  Matrix9 covariance = Matrix9::Zero();
-};
 
 // A contributing station.
 struct FilterStation {
   std::string station;
   SightLine sight;                                           // its last bearing
   Eigen::Matrix3d R_ecef_enu = Eigen::Matrix3d::Identity();  // at that one's origin
-  std::int64_t utime_us = 0;                                 // of the last one that was used
-  std::int64_t offered_us = 0;                               // of the last one that was offered
-  int used = 0;                                              // bearings
-  int upset = 0;                                             // set aside since the last used one
-  std::int64_t calibration_id = 0, track_id = 0;             // with others its bias is another
-  double weight = 0.0;                                       // of the last one, 0: set aside
+  Activity last_used, last_offered;
+  int used = 0;                                   // bearings
+  int rejected = 0;                               // set aside since the last used one
+  std::int64_t calibration_id = 0, track_id = 0;  // with others its bias is another
+  double weight = 0.0;                            // of the last one, 0: set aside
   double clock_sd_s = 0.0;
   double mean_nis = 2.0;  // lately, of bearings that were used; 2 is ideal
-  // The two bearings before the next one, for the colour of their noise.
-  std::array<std::int64_t, 2> before_us{};
-  std::array<Eigen::Vector3d, 2> before{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  ColouredNoise noise{};
 };
 
-// The part of the position's covariance that the biases make, at the state's own instant; and of it
-// what makes those that nobody stated and only the residuals show.
-struct SystematicPart {
-  Eigen::Matrix3d all_m2 = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d shown_m2 = Eigen::Matrix3d::Zero();
-};
-
-// Of the covariance of a whole state: position, velocity, acceleration, then states_of() each
-// prior.
-SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
-                               const std::vector<BiasPrior>& priors);
-
-struct StationBias {
-  Eigen::Vector2d bias_rad = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d covariance_rad2 = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d prior_rad2 = Eigen::Matrix2d::Zero();
-  double clock_s = 0.0;
-  double clock_sd_s = 0.0;
-  double clock_prior_sd_s = 0.0;
-};
-
-// Where a target may be and how it may move, with vague knowledge.
-struct FilterStart {
-  Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();
-  Eigen::Vector3d v_ecef = Eigen::Vector3d::Zero();
-  double position_sd_m = 0.0;
-  double velocity_sd_m_s = 0.0;
+// What an update has made of a bearing, and what that shows of the stations' errors: evidence on
+// top of the priors that the update was given.
+struct FilterUpdate {
+  BearingUse use = BearingUse::kTooLate;
+  double nis = std::numeric_limits<double>::infinity();  // where the bearing was compared at all
+  StationErrors shown;
 };
 
 class TrackFilter {
@@ -124,20 +90,21 @@ class TrackFilter {
   // A start for the first bearings. std::invalid_argument for a configuration without models.
   TrackFilter(const FilterConfig& config, std::int64_t utime_us, const FilterStart& start);
 
-  // The bearing's squared normalised residual (2 degrees of freedom); infinite behind the camera.
-  double nis(const Sighting& sighting, const StationErrors& errors) const;
-  BearingUse update(const Sighting& sighting, StationErrors& errors);
-  // Moves the state on without a bearing.
-  void advance(std::int64_t utime_us, StationErrors& errors);
+  Innovation innovation(const Sighting& sighting, const StationErrors& priors) const;
+  // `known`: the bearing's innovation() with the same priors, where it is at hand.
+  [[nodiscard]] FilterUpdate update(const Sighting& sighting, const StationErrors& priors,
+                                    const Innovation* known = nullptr);
+  // Moves the state on without a bearing; gives what the biases by then show.
+  [[nodiscard]] StationErrors advance(std::int64_t utime_us, const StationErrors& priors);
   // The bearings' equations are linear about this motion, instead of about what is known so far:
   // for another round over the same bearings, while that is vague.
   void linearise_about(const KinematicState& motion) { about_ = motion; }
   void linearise_about_itself() { about_.reset(); }
 
-  std::int64_t utime_us() const { return utime_us_; }
+  std::int64_t utime_us() const { return models_.utime_us(); }
   // Mixed over the models, at an instant before or after the state's own.
-  KinematicState at(std::int64_t utime_us) const;
-  SystematicPart systematic() const;
+  KinematicState at(std::int64_t utime_us) const { return models_.at(utime_us); }
+  SystematicPart systematic() const { return systematic_part(mixed().covariance, priors_); }
   // at() the state's own instant; at hand.
   const KinematicState& summary() const { return summary_; }
   Eigen::Vector3d position() const { return summary_.mean.head<3>(); }
@@ -147,65 +114,44 @@ class TrackFilter {
   // How many others have had a bearing used since this one's last.
   std::ptrdiff_t agreed_since(const FilterStation& station) const;
   StationBias bias(std::size_t station) const;
-  const std::vector<double>& probabilities() const { return probabilities_; }  // of each model
+  const std::vector<double>& probabilities() const { return models_.probabilities(); }
   // The whole mixed state, for the smoother: kinematics, then the stations' states.
-  FilterGaussian mixed() const;
+  FilterGaussian mixed() const { return models_.mixed(); }
   const FilterConfig& config() const { return config_; }
 
  private:
-  struct Innovation;
-  struct StationPart;
-  using Innovations = std::array<Innovation, kMotions>;
-  Innovation innovation(std::size_t model, const Sighting& sighting, const RayFrame& frame,
-                        const StationPart* station) const;
   RayFrame frame_of(const Sighting& sighting, int station) const;
   Eigen::Index first_of(int station) const;
   StationPart part_of(int station, const RayFrame& frame) const;
   int index_of(const std::string& station) const;
   bool place_matters(const SightLine& sight) const;
   int take_place(const Sighting& sighting);
-  void enter(int station, const Sighting& sighting, const StationErrors& errors);
+  void enter(int station, const Sighting& sighting, const StationErrors& priors);
   void show_anew(int station, std::int64_t track_id);
   void tell_place_apart(int station);
-  int station_of(const Sighting& sighting, const StationErrors& errors);
-  bool is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
-                 const Eigen::Matrix2d& white) const;
-  static bool shows_bias(const FilterMatrix2& G, const FilterMatrix& P, const StationPart& part,
-                         const Eigen::Vector3d& along, double off_share);
+  int station_of(const Sighting& sighting, const StationErrors& priors);
+  Innovation compare(const Sighting& sighting, int station) const;
   // `along`: the bearing's direction where biases may be learnt of it.
-  void correct(const Innovations& seen, const StationPart& part, const Eigen::Matrix2d& noise,
-               const Eigen::Vector3d* along);
-  struct Judged {
-    double nis = std::numeric_limits<double>::infinity(), noise = 1.0;
-  };
-  std::optional<Judged> judge(const Innovations& seen, const Eigen::Matrix2d& white) const;
-  BearingUse take(const Sighting& sighting, StationErrors& errors);
+  void correct(const Innovation& seen, const Eigen::Matrix2d& noise, const Eigen::Vector3d* along);
+  void take(const Sighting& sighting, const Innovation* known, FilterUpdate& update);
   void note_use(FilterStation& entry, const Sighting& sighting, double nis) const;
-  void move_to(std::int64_t utime_us, StationErrors& errors);
-  void mix(double dt_s);
-  void move_biases(double dt_s, StationErrors& errors);
+  void predict(std::int64_t utime_us, StationErrors& shown);
+  void move_biases(double dt_s, StationErrors& shown);
   void fade_biases(double dt_s, double clock_time_s);
-  void give_room(double time_s, const Eigen::Matrix3d& along);
-  void give_room_unseen_by_other(const FilterStation& entry);
-  bool passes_gate(FilterStation& entry, double nis);
-  static double observe_noise(FilterStation& entry, const Sighting& sighting, const RayFrame& frame,
-                              StationErrors& errors);
-  void weigh_models(std::span<const double> log_likelihood);
-  const std::vector<Motion>& motions() const { return config_.motion.models; }
-  void refresh();
+  void reject(FilterStation& entry);
+  void inflate(double time_s, const Eigen::Matrix3d& along);
+  void inflate_unseen_by_other(const FilterStation& entry);
+  void refresh() { summary_ = models_.kinematics(); }
 
   FilterConfig config_;
-  std::int64_t utime_us_;
-  std::int64_t mixed_us_;               // when the models were mixed last
-  std::vector<FilterGaussian> models_;  // as motions()
-  std::vector<double> probabilities_;
+  InteractingModels models_;
+  std::int64_t mixed_us_;   // when the models were mixed last
+  std::int64_t state_ = 1;  // counts what changes the state: an innovation is of one of them
   std::vector<FilterStation> stations_;
   std::vector<BiasPrior> priors_;
   KinematicState summary_;  // mixed over the models
   std::optional<KinematicState> about_;
-  int upset_ = 0;              // set-aside bearings since the last used one
-  std::string upset_station_;  // of the first of them
-  bool two_upset_ = false;     // another station's is among them
+  ConsecutiveRejections rejections_;
 };
 
 }  // namespace ols

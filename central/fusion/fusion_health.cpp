@@ -51,7 +51,7 @@ Findings findings_of(const std::vector<Track>& tracks) {
     if (!is_sure(track)) continue;
     const auto& stations = track.filter.stations();
     for (std::size_t i = 0; i < stations.size(); ++i) {
-      if (stations[i].utime_us == 0) continue;
+      if (stations[i].last_used.last_us == 0) continue;
       all.by_station.try_emplace(stations[i].station, finding_of(track.filter.bias(i)));
       all.nis.try_emplace(stations[i].station, stations[i].mean_nis);
     }

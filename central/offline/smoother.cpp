@@ -208,10 +208,14 @@ Smoothed Smoother::at(std::int64_t epoch_us, const TrackKeeper& forward,
     fix.located.estimate.solution = forward.births().why_none(epoch_us);
     return fix;
   }
-  StationErrors errors = learnt_.errors();
+  StationErrors shown = StationErrors::evidence_on(learnt_.errors());
   std::optional<TrackFilter> from_past, from_future;
-  if (ahead != nullptr) from_past.emplace(ahead->filter).advance(epoch_us, errors);
-  if (behind != nullptr) from_future.emplace(behind->filter).advance(about_us_ - epoch_us, errors);
+  if (ahead != nullptr) {
+    shown.learn(from_past.emplace(ahead->filter).advance(epoch_us, shown));
+  }
+  if (behind != nullptr) {
+    shown.learn(from_future.emplace(behind->filter).advance(about_us_ - epoch_us, shown));
+  }
   const TrackFilter& any = from_past ? *from_past : *from_future;
   const std::vector<BiasPrior> biases = priors(any.position());
   const Whole joint = both(from_past, from_future, prior(biases));

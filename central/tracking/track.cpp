@@ -27,11 +27,8 @@ const char* to_string(TrackState state) {
 
 namespace {
 
-constexpr double kLately_s = 2.0;
-
 bool heard_lately(const TrackFilter& filter, const FilterStation& station, double within_s) {
-  const auto span_us = static_cast<std::int64_t>(within_s * 1e6);
-  return station.utime_us > 0 && filter.utime_us() - station.utime_us <= span_us;
+  return station.used > 0 && station.last_used.within(within_s, filter.utime_us());
 }
 
 double may_be_off(const TrackFilter& filter, const FilterStation& station) {
@@ -43,7 +40,6 @@ double may_be_off(const TrackFilter& filter, const FilterStation& station) {
 // hold, and not by a single bearing where others have more: from where two seemed to meet, far off
 // the truth, one bearing leads nowhere and seems to know.
 std::vector<const FilterStation*> that_count(const TrackFilter& filter) {
-  constexpr double kRememberedS = 30.0;
   constexpr int kTwice = 2;
   std::vector<const FilterStation*> found;
   int most = 0;
@@ -51,7 +47,7 @@ std::vector<const FilterStation*> that_count(const TrackFilter& filter) {
   for (const FilterStation& station : filter.stations()) {
     const bool is_told = may_be_off(filter, station) == 0.0;
     const bool enough = station.used >= std::min(most, kTwice);
-    const bool may_hold = enough && heard_lately(filter, station, kRememberedS);
+    const bool may_hold = enough && heard_lately(filter, station, Activity::kTeachesS);
     if (is_told || may_hold) found.push_back(&station);
   }
   return found;
@@ -97,11 +93,11 @@ bool is_sure(const Track& track) {
 }
 
 bool are_made_to_meet(const TrackFilter& filter) {
-  if (stations_lately(filter, kLately_s) != 2) return false;
+  if (stations_lately(filter, Activity::kSupportsS) != 2) return false;
   const auto& stations = filter.stations();
   double squared = 0.0;
   for (std::size_t i = 0; i < stations.size(); ++i) {
-    if (!heard_lately(filter, stations[i], kLately_s)) continue;
+    if (!heard_lately(filter, stations[i], Activity::kSupportsS)) continue;
     const SightLine& sight = stations[i].sight;
     const double range_m = (filter.position() - sight.origin_ecef).norm();
     const Eigen::Matrix2d stated = stated_covariance(sight, range_m) + sight.covariance_white;
@@ -112,11 +108,10 @@ bool are_made_to_meet(const TrackFilter& filter) {
 }
 
 int set_aside_in_a_row(const TrackFilter& filter, std::int64_t now_us) {
-  constexpr double kNowS = 0.5;
   int most = 0;
   for (const FilterStation& station : filter.stations()) {
-    const bool delivers = seconds(now_us - station.offered_us) <= kNowS;
-    if (delivers && filter.agreed_since(station) < 2) most = std::max(most, station.upset);
+    const bool delivers = station.last_offered.within(Activity::kContributesS, now_us);
+    if (delivers && filter.agreed_since(station) < 2) most = std::max(most, station.rejected);
   }
   return most;
 }
@@ -132,7 +127,8 @@ bool has_range(const TrackFilter& filter, const KinematicState& state, double sh
 Solution judge_position(const TrackFilter& filter, const KinematicState& state) {
   if (filter.stations().size() < 2) return Solution::kTooFewRays;
   if (!has_range(filter, state, filter.config().range_sd_limit)) {
-    return stations_lately(filter, 1.0) < 2 ? Solution::kTooFewRays : Solution::kParallelRays;
+    return stations_lately(filter, Activity::kFollowsS) < 2 ? Solution::kTooFewRays
+                                                            : Solution::kParallelRays;
   }
   if (!crosses_widely(filter, state.mean.head<3>())) return Solution::kParallelRays;
   if (nearest_m(filter, state) > filter.config().max_range_m) return Solution::kTooFar;

@@ -19,23 +19,22 @@ constexpr double kLeastKnown = 1.0;     // of the range, 1-sigma
 
 }  // namespace
 
-std::optional<Track> TrackBirth::search(const Sighting& sighting, StationErrors& errors,
-                                        bool trusting) {
+std::optional<TrackStart> TrackBirth::search(const Sighting& sighting, const StationErrors& errors,
+                                             bool trusting) {
   failure_ = Solution::kTooFewRays;
   const std::vector<Meeting> starts = starts_with(sighting, errors);
   for (std::size_t i = 0; i < std::min(starts.size(), kMostStarts); ++i) {
     auto begun = try_start(sighting, starts[i], errors, trusting ? Needed::kTwoRays : Needed::kAll);
     if (!begun) continue;
     if (!trusting && is_outdone(*begun, sighting, errors)) continue;
-    errors = std::move(begun->errors);
-    if (!trusting) take(begun->track);
-    return std::move(begun->track);
+    if (!trusting) take(begun->start.track);
+    return std::move(begun->start);
   }
   return std::nullopt;
 }
 
-std::optional<Track> TrackBirth::add(const Sighting& sighting, StationErrors& errors,
-                                     bool trusting) {
+std::optional<TrackStart> TrackBirth::add(const Sighting& sighting, const StationErrors& errors,
+                                          bool trusting) {
   store(sighting);
   const std::optional<Sighting> next = next_turn(sighting);
   return next ? search(*next, errors, trusting) : std::nullopt;
@@ -72,7 +71,7 @@ std::optional<Sighting> TrackBirth::next_turn(const Sighting& sighting) {
 // Does one of its two stations agree better with a third?
 bool TrackBirth::is_outdone(const Begun& begun, const Sighting& newest,
                             const StationErrors& errors) {
-  const auto& own = begun.track.hits;
+  const auto& own = begun.start.track.hits;
   if (own.size() > 2) return false;
   for (const auto& [name, pooled] : pool_.stations()) {
     const Sighting& third = pooled.bearings.back();
@@ -82,7 +81,7 @@ bool TrackBirth::is_outdone(const Begun& begun, const Sighting& newest,
     for (const Meeting& start : starts_with(third, errors)) {
       if (!own.contains(start.second)) continue;
       const auto rival = try_start(third, start, errors, Needed::kHalf);
-      if (rival && (rival->track.hits.size() > 2 || rival->misfit < begun.misfit)) {
+      if (rival && (rival->start.track.hits.size() > 2 || rival->misfit < begun.misfit)) {
         failure_ = Solution::kRaysMiss;
         return true;
       }
@@ -124,21 +123,25 @@ struct Explained {
 
 // Runs the filter over the frames: each gives its nearest bearing, if that is in the gate.
 std::map<std::string, Explained> explain(const std::vector<Frame>& frames, TrackFilter& filter,
-                                         StationErrors& errors) {
+                                         StationErrors& shown) {
   std::map<std::string, Explained> stations;
   for (const Frame& frame : frames) {
     const Sighting* best = nullptr;
-    double least = filter.config().gate_nis;
+    Innovation least;
+    least.nis = filter.config().gate_nis;
     for (const Sighting* sighting : frame.bearings) {
-      const double nis = filter.nis(*sighting, errors);
-      if (nis >= least) continue;
-      least = nis;
+      Innovation seen = filter.innovation(*sighting, shown);
+      if (seen.nis >= least.nis) continue;
+      least = std::move(seen);
       best = sighting;
     }
     Explained& station = stations[frame.bearings.front()->station];
     ++station.frames;
-    station.misfit += least;
-    if (best == nullptr || filter.update(*best, errors) != BearingUse::kUsed) continue;
+    station.misfit += least.nis;
+    if (best == nullptr) continue;
+    const FilterUpdate update = filter.update(*best, shown, &least);
+    shown.learn(update.shown);
+    if (update.use != BearingUse::kUsed) continue;
     station.bearings.push_back(*best);
   }
   return stations;
@@ -228,10 +231,11 @@ std::optional<TrackBirth::Begun> TrackBirth::run(const Meeting& start, std::int6
   // What is known after the first bearings is vague, and equations that are linear about that can
   // lead astray and be sure of it. So each round is linear about where the one before has ended.
   for (int round = 0; round < kMostRounds && !(begun && begun->settled); ++round) {
-    begun.emplace(TrackFilter(filter_, now_us, from), errors);
-    TrackFilter& filter = begun->track.filter;
+    begun.emplace(
+        TrackStart{Track(TrackFilter(filter_, now_us, from)), StationErrors::evidence_on(errors)});
+    TrackFilter& filter = begun->start.track.filter;
     if (about) filter.linearise_about(*about);
-    stations = explain(frames, filter, begun->errors);
+    stations = explain(frames, filter, begun->start.shown);
     filter.linearise_about_itself();
     const KinematicState found = filter.at(now_us);
     if (!found.mean.allFinite()) return std::nullopt;
@@ -240,8 +244,8 @@ std::optional<TrackBirth::Begun> TrackBirth::run(const Meeting& start, std::int6
     from.p_ecef = found.mean.head<3>();
     from.v_ecef = found.mean.segment<3>(3);
   }
-  begun->track.born_us = begun->track.located_us = now_us;
-  const Agreement sum = agree(stations, config_.explained, begun->track);
+  begun->start.track.born_us = begun->start.track.located_us = now_us;
+  const Agreement sum = agree(stations, config_.explained, begun->start.track);
   begun->bearings = sum.hits;
   begun->span_s = seconds(now_us - sum.oldest_us);
   begun->misfit = sum.misfit / sum.frames;
@@ -252,7 +256,7 @@ std::optional<TrackBirth::Begun> TrackBirth::try_start(const Sighting& newest, c
                                                        const StationErrors& errors, Needed needed) {
   auto begun = run(start, now_at(newest.utime_us), errors);
   if (!begun) return std::nullopt;
-  const std::size_t agreeing = begun->track.hits.size();
+  const std::size_t agreeing = begun->start.track.hits.size();
   failure_ = Solution::kRaysMiss;
   if (agreeing < 2) return std::nullopt;
   failure_ = Solution::kTooFewRays;
@@ -263,7 +267,7 @@ std::optional<TrackBirth::Begun> TrackBirth::try_start(const Sighting& newest, c
   if (!enough) return std::nullopt;
   // Rays that are parallel by chance meet somewhere far: what has no range explains everything, and
   // would take the bearings of all that are nearer.
-  const TrackFilter& filter = begun->track.filter;
+  const TrackFilter& filter = begun->start.track.filter;
   const bool is_somewhere = has_range(filter, filter.summary(), kLeastKnown);
   if (!is_somewhere) failure_ = Solution::kParallelRays;
   return is_somewhere && begun->settled ? std::move(begun) : std::nullopt;
@@ -293,7 +297,7 @@ void TrackBirth::give(const Track& track, const StationErrors& errors) {
   }
   for (const std::string& station : stations) {
     pool_.erase_if(station, [&](const Sighting& sighting) {
-      return track.filter.nis(sighting, errors) < filter_.robust_nis;
+      return track.filter.innovation(sighting, errors).nis < filter_.robust_nis;
     });
   }
 }

@@ -36,6 +36,12 @@ struct BirthConfig {
   int pool_of_a_station = 64;  // most bearings that are kept of one
 };
 
+// A new track, and what its bearings show of the stations on top of what was known.
+struct TrackStart {
+  Track track;
+  StationErrors shown;
+};
+
 class TrackBirth {
  public:
   TrackBirth(const BirthConfig& config, const FilterConfig& filter)
@@ -44,7 +50,8 @@ class TrackBirth {
   // Takes a bearing that belongs to no track. A new track, with the bearings that it explains taken
   // out of the pool: of this one or, where many stations wait for their turn, of another.
   // `trusting`: two rays are enough for now; the pool keeps them, for a better one.
-  std::optional<Track> add(const Sighting& sighting, StationErrors& errors, bool trusting);
+  std::optional<TrackStart> add(const Sighting& sighting, const StationErrors& errors,
+                                bool trusting);
   // Keeps a bearing without looking for a track.
   void store(const Sighting& sighting) { pool_.store(sighting); }
   // Takes out what a track explains that has just become sure.
@@ -69,18 +76,15 @@ class TrackBirth {
   };
   // A start that was good enough, and what the run over its bearings has shown of the stations.
   struct Begun {
-    Begun(TrackFilter start, StationErrors known)
-        : track(std::move(start)), errors(std::move(known)) {}
-
-    Track track;
-    StationErrors errors;
+    TrackStart start;
     int bearings = 0;      // that it explains, of the stations that agree on it
     double span_s = 0.0;   // of them
     bool settled = false;  // its equations are linear about where it is
     double misfit = 0.0;   // mean squared normalised residual of their frames; NaN without any
   };
   enum class Needed { kTwoRays, kHalf, kAll };  // for two stations' agreement: of its time
-  std::optional<Track> search(const Sighting& sighting, StationErrors& errors, bool trusting);
+  std::optional<TrackStart> search(const Sighting& sighting, const StationErrors& errors,
+                                   bool trusting);
   std::optional<Sighting> next_turn(const Sighting& sighting);
   std::optional<Meeting> start_of(const Sighting& a, const Look& look, const Sighting& b,
                                   const Look& other, const StationErrors& errors);

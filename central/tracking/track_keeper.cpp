@@ -55,10 +55,10 @@ std::vector<TrackKeeper::Candidate> TrackKeeper::candidates(const Sighting& sigh
     const Track& track = tracks_[i];
     if (is_sure(track) != confirmed || track.state == TrackState::kDropped) continue;
     if (track.has_taken(sighting)) continue;
-    const double nis = track.filter.nis(sighting, errors_);
-    if (nis < config_.filter.gate_nis) found.push_back({i, nis});
+    Innovation seen = track.filter.innovation(sighting, errors_);
+    if (seen.nis < config_.filter.gate_nis) found.push_back({i, std::move(seen)});
   }
-  std::ranges::sort(found, {}, &Candidate::nis);
+  std::ranges::sort(found, {}, [](const Candidate& c) { return c.seen.nis; });
   return found;
 }
 
@@ -78,15 +78,15 @@ Association TrackKeeper::add(const Sighting& sighting, bool may_begin) {
     if (near.empty()) continue;
     if (confirmed) note_rivals(sighting, near);
     Track* const own = follower(sighting);
-    const bool by_id = own != nullptr && std::ranges::any_of(near, [&](const Candidate& c) {
-                         return &tracks_[c.track] == own;
-                       });
-    if (by_id) return give_to(*own, sighting);
-    if (confirmed && near.size() > 1 && near[1].nis - near[0].nis < config_.ambiguous_nis) {
+    const auto by_id =
+        std::ranges::find_if(near, [&](const Candidate& c) { return &tracks_[c.track] == own; });
+    if (by_id != near.end()) return give_to(*own, sighting, &by_id->seen);
+    if (confirmed && near.size() > 1 &&
+        near[1].seen.nis - near[0].seen.nis < config_.ambiguous_nis) {
       ++counts_.ambiguous;
       return {Association::Kind::kAmbiguous, 0};
     }
-    return give_to(tracks_[near[0].track], sighting);
+    return give_to(tracks_[near[0].track], sighting, &near[0].seen);
   }
   // A station that follows an object follows it still, if a little wildly: told to the filter, so
   // that it learns when the target has gone beyond its models.
@@ -110,10 +110,11 @@ void TrackKeeper::note_rivals(const Sighting& sighting, const std::vector<Candid
 }
 
 Association TrackKeeper::begin(const Sighting& sighting) {
-  auto track = birth_.add(sighting, errors_, false);
-  if (!track) return {};
+  auto start = birth_.add(sighting, errors_, false);
+  if (!start) return {};
+  errors_.learn(start->shown);
   ++counts_.born;
-  tracks_.push_back(std::move(*track));
+  tracks_.push_back(std::move(start->track));
   glances_.push_back(glance_at(tracks_.back()));
   Track& begun = tracks_.back();
   consider(begun);
@@ -122,8 +123,10 @@ Association TrackKeeper::begin(const Sighting& sighting) {
                                    : Association{};
 }
 
-Association TrackKeeper::give_to(Track& track, const Sighting& sighting) {
-  const BearingUse use = track.filter.update(sighting, errors_);
+Association TrackKeeper::give_to(Track& track, const Sighting& sighting, const Innovation* seen) {
+  const FilterUpdate update = track.filter.update(sighting, errors_, seen);
+  errors_.learn(update.shown);
+  const BearingUse use = update.use;
   glances_[static_cast<std::size_t>(&track - tracks_.data())] = glance_at(track);
   // One more than the filter has states for is of the target all the same, and begins no other.
   if (use != BearingUse::kUsed && use != BearingUse::kNoPlace) {

@@ -54,7 +54,7 @@ struct KeeperConfig {
   int confirm_pair_hits = 5;  // of each of two, where only two see it
   double confirm_s = 0.7;
   double born_drop_s = 0.4;
-  double seen_s = 0.3;  // "lately": a station's last bearing is not older
+  double seen_s = Activity::kDeliversS;  // a station's last bearing is not older
   double coast_s = 0.5;
   double drop_s = 2.0;
   double remember_s = 5.0;     // the identity of a dropped one
@@ -116,7 +116,7 @@ class TrackKeeper {
  private:
   struct Candidate {
     std::size_t track = 0;
-    double nis = 0.0;
+    Innovation seen;
   };
   // What a quick look needs, side by side: a whole track fills the cache by itself.
   struct Glance {
@@ -136,7 +136,7 @@ class TrackKeeper {
   int stations(bool explained) const;
   bool doubted() const;
   void note_rivals(const Sighting& sighting, const std::vector<Candidate>& near);
-  Association give_to(Track& track, const Sighting& sighting);
+  Association give_to(Track& track, const Sighting& sighting, const Innovation* seen = nullptr);
   Track* follower(const Sighting& sighting);
   void consider(Track& track);
   bool worth_confirming(const Track& track) const;

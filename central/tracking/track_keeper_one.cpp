@@ -61,12 +61,14 @@ void TrackKeeper::prove(const Sighting& sighting) {
   const bool none = tracks_.empty();
   const auto doubt_us = static_cast<std::int64_t>(config_.doubt_s * 1e6);
   const bool trusting = none && (!taken_back_us_ || sighting.utime_us - *taken_back_us_ > doubt_us);
-  StationErrors errors = none || proved_ ? errors_ : errors_before_;
-  auto start = birth_.add(sighting, errors, trusting);
-  if (!start) return;
+  const bool on_trial = !none && !proved_;
+  auto found = birth_.add(sighting, on_trial ? errors_before_ : errors_, trusting);
+  if (!found) return;
+  Track* const start = &found->track;
   if (none || is_better(*start)) {
     if (trusting) errors_before_ = errors_;
-    errors_ = std::move(errors);
+    if (on_trial) errors_ = errors_before_;
+    errors_.learn(found->shown);
     explains_.clear();
     if (none) {
       ++counts_.born;

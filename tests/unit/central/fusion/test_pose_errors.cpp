@@ -183,9 +183,9 @@ TEST(PoseErrors, ANewDesignationMayBeOffAsStated) {
     if (sighting.station == "s0" && time_s > kTurnedS) {
       sighting.track_id = 2;
       sighting.sight.direction.azimuth_rad += kOffRad;
-      ASSERT_LT(filter.nis(sighting, errors), 25.0) << time_s;
+      ASSERT_LT(filter.innovation(sighting, errors).nis, 25.0) << time_s;
     }
-    filter.update(sighting, errors);
+    test::feed(filter, sighting, errors);
   }
 }
 
@@ -199,7 +199,7 @@ TEST(PoseErrors, ItIsNeverLessCertainThanStated) {
   StationErrors errors;
   std::vector<Sighting> seen = measure(world, {path}, kFlightS, random);
   rename_each(seen);
-  for (const Sighting& sighting : seen) filter.update(sighting, errors);
+  for (const Sighting& sighting : seen) test::feed(filter, sighting, errors);
   ASSERT_EQ(filter.stations().size(), 4U);
   for (std::size_t i = 0; i < 4; ++i) {
     const StationBias bias = filter.bias(i);

@@ -21,7 +21,7 @@ Track track_of_flight(std::int64_t id, double seconds) {
       {}, kStart,
       {.p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 50.0}));
   StationErrors errors;
-  for (const Sighting& s : test::flight(seconds, 1e-4)) track.filter.update(s, errors);
+  for (const Sighting& s : test::flight(seconds, 1e-4)) test::feed(track.filter, s, errors);
   track.id = id;
   track.state = TrackState::kConfirmed;
   track.located_us = track.filter.utime_us();
@@ -140,7 +140,7 @@ TEST(SlewPlanner, WhoDoesNotKnowWhereItStandsStillGetsADirection) {
 TEST(SlewPlanner, ASearchStaysADirectionWhenNowFallsBack) {
   std::vector<Track> tracks = {track_of_flight(1, 3.0)};
   StationErrors errors;
-  tracks[0].filter.advance(tracks[0].filter.utime_us() + 1'900'000, errors);
+  test::move_on(tracks[0].filter, tracks[0].filter.utime_us() + 1'900'000, errors);
   const std::int64_t now_us = tracks[0].filter.utime_us();
   SlewPlanner planner({.coast_s = 60.0});
   SlewStation narrow = station_at("b", {0, 0, 0});
@@ -218,7 +218,7 @@ TEST(SlewPlanner, ASearchGoesOnByStepsOfAUnitAndLeavesNoGap) {
 TEST(SlewPlanner, AnUnsureDirectionIsSearchedInASpiral) {
   std::vector<Track> tracks = {track_of_flight(1, 2.0)};
   StationErrors errors;
-  tracks[0].filter.advance(tracks[0].filter.utime_us() + 1'900'000, errors);
+  test::move_on(tracks[0].filter, tracks[0].filter.utime_us() + 1'900'000, errors);
   const std::int64_t now_us = tracks[0].filter.utime_us();
   SlewPlanner planner({.coast_s = 60.0});
   SlewStation narrow = station_at("b", {0, 0, 0});
