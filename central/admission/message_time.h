@@ -7,13 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "central/measurement/activity.h"
+
 namespace ols {
 
 class MessageTime {
  public:
   // A station counts while the others' stamps have gone on by less than this since its last
   // message.
-  explicit MessageTime(double silence_s = 0.3) : silence_s_(silence_s) {}
+  explicit MessageTime(double silence_s = Activity::kDeliversS) : silence_s_(silence_s) {}
 
   // Every message's stamp, in order of arrival. True when the station's clock has stepped back:
   // three stamps in a row more than a second older than its newest.

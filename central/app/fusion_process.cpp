@@ -3,126 +3,59 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
-#include <thread>
 #include <vector>
 
 #include "base/clocks.h"
 
 namespace ols {
-namespace {
-
-constexpr int kWaitMs = 50;
-constexpr std::size_t kLatencies = 200;  // for the median in the status
-constexpr std::size_t kChannels = 1000;  // with a sequence of their own
-
-}  // namespace
-
 FusionProcess::FusionProcess(const FusionSettings& settings, const FusionProcessOptions& options)
     : settings_(settings),
       options_(options),
       fusion_(settings.fusion),
-      connector_(settings.lcm_url),
+      bus_(settings.lcm_url, options.slew_url, options.boot_id,
+           [this](LcmBus& bus) { subscribe(bus); }),
       present_(settings.slew_clock_tolerance_s),
       others_(options.boot_id),
       status_s_(clock_monotonic_s()) {
-  for (const char* name :
-       {"targets_withheld", "slews_withheld", "messages_not_sent", "other_fusions"})
+  for (const char* name : {"targets_withheld", "slews_withheld", "other_fusions"}) {
     counters_[name] = 0.0;
+  }
   for (int i = 0; i <= static_cast<int>(MessageRefusal::kNoPosition); ++i) {
     counters_[to_string(static_cast<MessageRefusal>(i))] = 0.0;
   }
-  // Who says that it is ready shall hear what it is told.
-  connect(BusConnector::kLongest_s);
+  // A process that reports "ready" has to receive what is sent to it from then on.
+  bus_.connect(BusConnector::kLongest_s);
 }
 
-void FusionProcess::connect(double wait_s) {
-  bus_ = connector_.take(clock_monotonic_s(), wait_s);
-  std::string why = connector_.trouble();
-  try {
-    if (bus_ && options_.slew_url != settings_.lcm_url) {
-      slew_bus_ = std::make_unique<LcmBus>(options_.slew_url);
-    }
-  } catch (const BusError& error) {
-    bus_.reset();
-    why = error.what();
-  }
-  if (bus_) {
-    subscribe();
-    if (!trouble_.empty()) spdlog::info("connected to {}", settings_.lcm_url);
-    trouble_.clear();
-  } else if (!why.empty() && why != trouble_) {
-    spdlog::warn("no bus, tried again each second: {}", why);
-    trouble_ = why;
-  }
-}
-
-void FusionProcess::subscribe() {
-  bus_->subscribe(std::string(kBearingChannel) + ".*",
-                  [this](const BusMessage& message) { on_bearing(message); });
-  bus_->subscribe(std::string(kStatusChannel) + ".*",
-                  [this](const BusMessage& message) { on_status(message); });
+void FusionProcess::subscribe(LcmBus& bus) {
+  bus.subscribe(std::string(kBearingChannel) + ".*",
+                [this](const BusMessage& message) { on_bearing(message); });
+  bus.subscribe(std::string(kStatusChannel) + ".*",
+                [this](const BusMessage& message) { on_status(message); });
   // A recording has the status of the fusion that it was recorded with.
   if (options_.replay) return;
-  bus_->subscribe(std::string(kFusionStatusChannel),
-                  [this](const BusMessage& message) { on_fusion_status(message); });
+  bus.subscribe(std::string(kFusionStatusChannel),
+                [this](const BusMessage& message) { on_fusion_status(message); });
 }
 
 void FusionProcess::turn() {
-  if (!bus_) connect(0.0);
-  if (bus_) {
-    bus_->handle(kWaitMs);
-    look_at_bus();
-  } else {
-    std::this_thread::sleep_for(std::chrono::milliseconds(kWaitMs));
-  }
+  bus_.connect(0.0);
+  bus_.handle();
   publish_status_when_due();
-  // A new connection may do what this one no longer does.
-  if (bus_ && (send_failed_ || bus_->is_deaf())) {
-    trouble_ = send_failed_ ? "the network takes no messages"
-                            : "nothing comes in any more, not even the fusion's own word";
-    spdlog::warn("no bus, tried again each second: {}", trouble_);
-    bus_.reset();
-    slew_bus_.reset();
-    watch_.connection_ended();
-  }
-  send_failed_ = false;
-}
-
-void FusionProcess::look_at_bus() {
-  const double now_s = clock_monotonic_s();
-  watch_.look(bus_->traffic(), now_s);
-  const std::string alarm = watch_.alarm(now_s);
-  if (!alarm.empty() && bus_alarm_.empty()) spdlog::warn("{}", alarm);
-  bus_alarm_ = alarm;
-}
-
-template <class Message>
-void FusionProcess::send(std::string_view channel, const Message& message) {
-  if (bus_ && bus_->publish(std::string(channel), message)) return;
-  ++counters_["messages_not_sent"];
-  send_failed_ = true;
-}
-
-template <class Message>
-void FusionProcess::send_slew(const std::string& channel, const Message& message) {
-  if (!slew_bus_) return send(channel, message);
-  if (slew_bus_->publish(channel, message)) return;
-  ++counters_["messages_not_sent"];
-  send_failed_ = true;
+  bus_.end_if_broken();
 }
 
 std::string FusionProcess::in_one_line() const {
-  if (!bus_) return "no bus: " + trouble_;
+  if (!bus_.is_connected()) return "no bus: " + bus_.trouble();
   const FusionHealth health = watched_health();
   std::string line = std::to_string(health.stations.size()) + " stations";
   for (const StationHealth& station : health.stations) {
     if (!station.quarantine.empty()) line += "; " + station.station + " quarantined";
   }
   if (!health.alarms.empty()) line += "; " + health.alarms.front();
-  const std::string& error = last_error_.empty() ? health.last_error : last_error_;
+  const std::string& error = errors_.last.empty() ? health.last_error : errors_.last;
   if (!error.empty()) line += "; last error: " + error;
   return line;
 }
@@ -157,30 +90,14 @@ void FusionProcess::on_fusion_status(const BusMessage& message) {
   const double now_s = clock_monotonic_s();
   if (others_.hear(std::get<std::int64_t>(boot_id), now_s)) ++counters_["other_fusions"];
   if (!others_.take_news()) return;
-  last_error_ = others_.alarm(now_s);
-  spdlog::warn("{}", last_error_);
+  errors_.last = others_.alarm(now_s);
+  spdlog::warn("{}", errors_.last);
 }
 
 void FusionProcess::refuse(MessageRefusal refusal, const std::string& channel) {
   ++counters_[to_string(refusal)];
   if (refusal == MessageRefusal::kNoPosition) return;  // it will know one day
-  last_error_ = channel + ": " + to_string(refusal);
-}
-
-MessageStamp FusionProcess::next_stamp(std::string_view channel) {
-  const auto [sequence, is_new] = sequences_.try_emplace(std::string(channel), forgotten_sequence_);
-  const MessageStamp stamp{options_.boot_id, ++sequence->second};
-  if (sequences_.size() > kChannels) forget_sequences();
-  return stamp;
-}
-
-// Stations come and go, a flood brings any number of names. Each channel's sequence must only grow,
-// so that all begin again above the greatest.
-void FusionProcess::forget_sequences() {
-  for (const auto& [channel, sequence] : sequences_) {
-    forgotten_sequence_ = std::max(forgotten_sequence_, sequence);
-  }
-  sequences_.clear();
+  errors_.last = channel + ": " + to_string(refusal);
 }
 
 // What waited for a standing process is still worked off, so that the tracks go on.
@@ -190,8 +107,8 @@ bool FusionProcess::is_present(std::int64_t utime_us, const char* counter) {
   if (present_.passes(utime_us, clock_utime_us(), now_s)) return true;
   ++counters_[counter];
   if (present_.take_news()) {
-    last_error_ = present_.alarm(now_s);
-    spdlog::warn("{}", last_error_);
+    errors_.last = present_.alarm(now_s);
+    spdlog::warn("{}", errors_.last);
   }
   return false;
 }
@@ -199,18 +116,17 @@ bool FusionProcess::is_present(std::int64_t utime_us, const char* counter) {
 void FusionProcess::publish(const FusionOutput& output) {
   for (const FusedTarget& target : output.targets) {
     if (!is_present(target.utime_us, "targets_withheld")) continue;
-    send(kTargetChannel, to_message(target, next_stamp(kTargetChannel)));
-    latencies_s_.push_back(static_cast<double>(clock_utime_us() - target.utime_us) * 1e-6);
-    if (latencies_s_.size() > kLatencies) latencies_s_.pop_front();
+    bus_.send(kTargetChannel, to_message(target, bus_.next_stamp(kTargetChannel)));
+    latency_.add(static_cast<double>(clock_utime_us() - target.utime_us) * 1e-6);
   }
   for (const FusedTarget& target : output.targets_paper) {
     if (!is_present(target.utime_us, "targets_withheld")) continue;
-    send(kPaperTargetChannel, to_message(target, next_stamp(kPaperTargetChannel)));
+    bus_.send(kPaperTargetChannel, to_message(target, bus_.next_stamp(kPaperTargetChannel)));
   }
   for (const Slew& slew : output.slews) {
     if (!is_present(slew.utime_us, "slews_withheld")) continue;
     const std::string channel = std::string(kSlewChannel) + slew.station;
-    send_slew(channel, to_message(slew, next_stamp(channel)));
+    bus_.send_slew(channel, to_message(slew, bus_.next_stamp(channel)));
   }
 }
 
@@ -223,9 +139,9 @@ void FusionProcess::publish_status_when_due() {
   status_message_us_ = fusion_.now_us();
   status_s_ = now_s;
   FusionHealth health = watched_health();
-  health.last_error = newest_error(health.last_error);
-  send(kFusionStatusChannel,
-       to_message(health, median_latency_s(), next_stamp(kFusionStatusChannel)));
+  health.last_error = errors_.newest(health.last_error);
+  bus_.send(kFusionStatusChannel,
+            to_message(health, latency_.median_s(), bus_.next_stamp(kFusionStatusChannel)));
 }
 
 // The fusion's own, and what this process sees beside it.
@@ -233,26 +149,30 @@ FusionHealth FusionProcess::watched_health() const {
   const double now_s = clock_monotonic_s();
   FusionHealth health = fusion_.health();
   health.counters.insert(counters_.begin(), counters_.end());
-  watch_.count(health.counters);
-  for (const std::string& alarm :
-       {present_.alarm(now_s), others_.alarm(now_s), watch_.alarm(now_s)}) {
+  bus_.count(health.counters);
+  for (const std::string& alarm : {present_.alarm(now_s), others_.alarm(now_s), bus_.alarm()}) {
     if (!alarm.empty()) health.alarms.insert(health.alarms.begin(), alarm);
   }
   return health;
 }
 
-// Of the fusion's last error and this process's the one that is new since the last status.
-const std::string& FusionProcess::newest_error(const std::string& of_fusion) {
-  const bool untold = last_error_ != told_error_;
-  if (of_fusion != fusion_error_ && !untold) last_error_ = of_fusion;
-  fusion_error_ = of_fusion;
-  told_error_ = last_error_;
-  return last_error_;
+const std::string& FusionProcess::Errors::newest(const std::string& of_fusion_now) {
+  const bool untold = last != told;
+  if (of_fusion_now != of_fusion && !untold) last = of_fusion_now;
+  of_fusion = of_fusion_now;
+  told = last;
+  return last;
 }
 
-double FusionProcess::median_latency_s() const {
-  if (latencies_s_.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> sorted(latencies_s_.begin(), latencies_s_.end());
+void FusionProcess::Latency::add(double latency_s) {
+  constexpr std::size_t kLatencies = 200;
+  lately_s.push_back(latency_s);
+  if (lately_s.size() > kLatencies) lately_s.pop_front();
+}
+
+double FusionProcess::Latency::median_s() const {
+  if (lately_s.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> sorted(lately_s.begin(), lately_s.end());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::ranges::nth_element(sorted, middle);
   return *middle;

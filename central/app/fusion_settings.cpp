@@ -117,13 +117,13 @@ FusionSettings load_fusion_settings(const std::string& path) {
       root.number("slew_clock_tolerance_s", settings.slew_clock_tolerance_s, 0.1, 60.0);
   FusionConfig& fusion = settings.fusion;
   fusion.rate_hz = root.number("rate_hz", fusion.rate_hz, 0.1, 1000.0);
-  fusion.min_belief = root.number("min_belief", fusion.min_belief, 0.0, 1.0);
-  fusion.stale_s = root.number("stale_s", fusion.stale_s, 0.01, 60.0);
-  fusion.future_s = root.number("future_s", fusion.future_s, 0.01, 60.0);
-  fusion.flood_hz = root.number("flood_hz", fusion.flood_hz, 1.0, 1e6);
-  fusion.stations = root.texts("stations", fusion.stations);
-  fusion.max_stations =
-      static_cast<int>(root.integer("max_stations", fusion.max_stations, 2, 100000));
+  fusion.admission.min_belief = root.number("min_belief", fusion.admission.min_belief, 0.0, 1.0);
+  fusion.admission.stale_s = root.number("stale_s", fusion.admission.stale_s, 0.01, 60.0);
+  fusion.admission.future_s = root.number("future_s", fusion.admission.future_s, 0.01, 60.0);
+  fusion.admission.flood_hz = root.number("flood_hz", fusion.admission.flood_hz, 1.0, 1e6);
+  fusion.admission.stations = root.texts("stations", fusion.admission.stations);
+  fusion.admission.max_stations =
+      static_cast<int>(root.integer("max_stations", fusion.admission.max_stations, 2, 100000));
   fusion.estimator =
       root.choice("estimator", fusion.estimator, {"filter", "least-squares", "paper"});
   fusion.strays.alarm_s = root.number("stray_alarm_s", fusion.strays.alarm_s, 1.0, 3600.0);
@@ -134,7 +134,7 @@ FusionSettings load_fusion_settings(const std::string& path) {
   read_station_errors(root.table("station_errors"), fusion.keeper.errors);
   read_tracks(root.table("tracks"), fusion.keeper);
   read_slew(root.table("slew"), fusion.slew);
-  read_clocks(root.table("clocks"), fusion.clocks);
+  read_clocks(root.table("clocks"), fusion.admission.clocks);
   file.finish();
   return settings;
 }

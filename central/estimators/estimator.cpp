@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "central/measurement/time_span.h"
+#include "central/tracking/position_guard.h"
 #include "geometry/angles.h"
 
 namespace ols {

@@ -3,7 +3,7 @@
 //   filter         the track's own filter (track_filter.h): over time, with velocity
 //   least-squares  the joint maximum likelihood of all rays at the instant (least_squares.h)
 //   paper          the OLS paper's (paper_triangulation.h), its parts switched by PaperConfig
-// Which bearings belong to the target is decided before (track_keeper.h), for all of them alike.
+// Which bearings belong to the target is decided before (track_manager.h), for all of them alike.
 #pragma once
 
 #include <cstddef>

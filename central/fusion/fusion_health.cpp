@@ -1,15 +1,18 @@
-// What the fusion tells of itself.
-#include <cmath>
-#include <limits>
+#include "central/fusion/fusion_health.h"
 
-#include "central/fusion/fusion.h"
+#include <cmath>
+
 #include "central/measurement/time_span.h"
 
 namespace ols {
+namespace {
 
-std::map<std::string, double> Fusion::counters() const {
-  auto counters = counters_;
-  const TrackKeeper::Counts& counts = keeper_.counts();
+// Seen by the geometry: known twice as well as before the first bearing.
+constexpr double kSeen = 0.5;
+
+std::map<std::string, double> all_counters(const FusionLog& log, const TrackManager& tracks) {
+  auto counters = log.counters;
+  const TrackManager::Counts& counts = tracks.counts();
   counters["tracks_born"] = static_cast<double>(counts.born);
   counters["tracks_confirmed"] = static_cast<double>(counts.confirmed);
   counters["tracks_dropped"] = static_cast<double>(counts.dropped);
@@ -19,11 +22,6 @@ std::map<std::string, double> Fusion::counters() const {
   counters["bearings_unexplained"] = static_cast<double>(counts.unexplained);
   return counters;
 }
-
-namespace {
-
-// Seen by the geometry: known twice as well as before the first bearing.
-constexpr double kSeen = 0.5;
 
 StationFinding finding_of(const StationBias& bias) {
   StationFinding finding;
@@ -61,30 +59,32 @@ Findings findings_of(const std::vector<Track>& tracks) {
 
 }  // namespace
 
-FusionHealth Fusion::health() const {
-  FusionHealth health{.now_us = now_us(),
+FusionHealth health_of(const Admission& admission, const PointingMonitor& pointing,
+                       const UnassociatedMonitor& unassociated, const TrackManager& tracks,
+                       const FusionLog& log) {
+  FusionHealth health{.now_us = admission.time().now_us(),
                       .stations = {},
-                      .counters = counters(),
+                      .counters = all_counters(log, tracks),
                       .alarms = {},
-                      .last_error = last_error_};
+                      .last_error = log.last_error};
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Findings findings = findings_of(keeper_.tracks());
-  for (const auto& [name, station] : stations_) {
-    const std::int64_t newest = time_.newest_us(name);
+  const Findings findings = findings_of(tracks.tracks());
+  for (const auto& [name, station] : admission.stations().all()) {
+    const std::int64_t newest = admission.time().newest_us(name);
     StationHealth one;
     one.station = name;
     one.bearings = station.bearings;
-    one.rate_hz = station.rate_hz;
+    one.rate_hz = station.exposures.rate_hz();
     one.age_s = newest == 0 ? nan : seconds(health.now_us - newest);
     const auto nis = findings.nis.find(name);
     one.residual = nis == findings.nis.end() ? nan : std::sqrt(nis->second / 2.0);
-    one.clock_offset_s = clocks_.offset_s(name);
-    one.quarantine = clocks_.quarantine(name);
-    if (one.quarantine.empty()) one.quarantine = pointing_.quarantine(name);
+    one.clock_offset_s = admission.clocks().offset_s(name);
+    one.quarantine = admission.clocks().quarantine(name);
+    if (one.quarantine.empty()) one.quarantine = pointing.quarantine(name);
     const auto found = findings.by_station.find(name);
     if (found != findings.by_station.end()) one.finding = found->second;
     const std::string alarm = one.quarantine.empty()
-                                  ? strays_.alarm(name, health.now_us)
+                                  ? unassociated.alarm(name, health.now_us)
                                   : "station " + name + ": not used, " + one.quarantine;
     if (!alarm.empty()) health.alarms.push_back(alarm);
     health.stations.push_back(std::move(one));

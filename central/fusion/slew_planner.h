@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "central/admission/station_registry.h"
 #include "central/tracking/track.h"
 #include "geometry/direction.h"
 #include "geometry/slew_limits.h"
@@ -38,15 +39,6 @@ struct SlewConfig {
   double search_sigma = 2.5;    // the spiral's reach
   double search_near_m = 30.0;  // along a ray, from here
   double search_far_m = 20e3;   // to here
-};
-
-// What is known of a station that can be slewed.
-struct StationTraits {
-  Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
-  Eigen::Vector3d camera_sd_enu_m = Eigen::Vector3d::Zero();
-  double latency_s = 0.05;          // mid-exposure to bearing
-  double field_of_view_rad = 0.05;  // the narrower one
-  bool commandable = true;          // no operator has it, and it is not stopped
 };
 
 struct Slew {

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 
+#include "central/fusion/association.h"
 #include "central/offline/smoother.h"
+#include "central/tracking/recorded_track.h"
 #include "geometry/angles.h"
 
 namespace ols {
@@ -90,31 +91,19 @@ double mean_square_speed(const std::vector<const Sighting*>& bearings) {
 class Recording {
  public:
   explicit Recording(const OfflineConfig& config)
-      : keeper_(keeper_of(config)), pointing_(config.fusion.pointing) {}
+      : track_(config.fusion.keeper), pointing_(config.fusion.pointing) {}
 
   void add(const Sighting& sighting) {
-    keeper_.advance(sighting.utime_us);
-    const bool believed = pointing_.quarantine(sighting.station).empty();
-    const Association result = keeper_.add(sighting, believed);
-    const bool explained = result.kind == Association::Kind::kTrack;
-    std::optional<Eigen::Vector2d> off_rad;
-    if (const auto nearest = keeper_.nearest(sighting)) off_rad = nearest->off_rad;
-    pointing_.hear(sighting.station, sighting.utime_us, explained, off_rad);
-    const std::string why = pointing_.quarantine(sighting.station);
-    if (believed && !why.empty()) beside_.try_emplace(sighting.station, why);
+    track_.advance(sighting.utime_us);
+    if (!associate(sighting, track_, pointing_).newly_so) return;
+    beside_.try_emplace(sighting.station, pointing_.quarantine(sighting.station));
   }
-  void advance(std::int64_t utime_us) { keeper_.advance(utime_us); }
-  const TrackKeeper& keeper() const { return keeper_; }
+  void advance(std::int64_t utime_us) { track_.advance(utime_us); }
+  const RecordedTrack& track() const { return track_; }
   const std::map<std::string, std::string>& beside() const { return beside_; }
 
  private:
-  static TrackKeeper keeper_of(const OfflineConfig& config) {
-    KeeperConfig keeper = config.fusion.keeper;
-    keeper.one_target = true;
-    return TrackKeeper(keeper);
-  }
-
-  TrackKeeper keeper_;
+  RecordedTrack track_;
   PointingMonitor pointing_;
   std::map<std::string, std::string> beside_;
 };
@@ -154,13 +143,12 @@ Fixes causal(const std::vector<Sighting>& bearings, const std::vector<std::int64
       recording.add(*next);
     }
     recording.advance(epoch_us);
-    const TrackKeeper& keeper = recording.keeper();
-    const auto track = std::ranges::find_if(keeper.tracks(), [](const Track& t) { return t.id; });
-    if (track == keeper.tracks().end()) {
-      ++fixes.unlocated[keeper.births().why_none(epoch_us)];
+    const Track* const track = recording.track().located();
+    if (track == nullptr) {
+      ++fixes.unlocated[recording.track().why_none(epoch_us)];
       continue;
     }
-    const TrackView view{track->bearings, keeper.errors(), &track->filter};
+    const TrackView view{track->bearings, recording.track().errors(), &track->filter};
     fixes.add(epoch_us, estimator.name(), estimator.locate(view, epoch_us));
   }
   return fixes;
@@ -175,7 +163,7 @@ Fixes interpolating(const std::vector<Sighting>& bearings, const StationBearings
   Fixes fixes;
   for (const std::int64_t epoch_us : epochs) {
     fixes.add(epoch_us, estimator.name(),
-              estimator.locate({recording, run.keeper().errors()}, epoch_us));
+              estimator.locate({recording, run.track().errors()}, epoch_us));
   }
   return fixes;
 }
@@ -184,7 +172,7 @@ Fixes smoothed(const std::vector<Sighting>& bearings, const std::vector<std::int
                const OfflineConfig& config) {
   Recording run(config);
   for (const Sighting& sighting : bearings) run.add(sighting);
-  KnownStations known{run.keeper().errors(), {}};
+  KnownStations known{run.track().errors(), {}};
   for (const auto& [station, why] : run.beside()) known.beside.insert(station);
   Fixes fixes;
   for (Smoothed& fix : smooth(bearings, epochs, config.fusion.keeper, known, fixes.unlocated)) {
@@ -198,7 +186,7 @@ Fixes smoothed(const std::vector<Sighting>& bearings, const std::vector<std::int
 UnusedBearings unused_bearings(const std::vector<Sighting>& sightings,
                                const OfflineConfig& config) {
   UnusedBearings unused;
-  recording_of(sightings, config.fusion.min_belief, unused);
+  recording_of(sightings, config.fusion.admission.min_belief, unused);
   return unused;
 }
 
@@ -225,7 +213,8 @@ std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
   const bool is_filter = config.estimator == "filter";
   if (config.smooth && !is_filter) throw std::invalid_argument("only the filter can be smoothed");
   UnusedBearings unused;
-  const StationBearings recording = recording_of(sightings, config.fusion.min_belief, unused);
+  const StationBearings recording =
+      recording_of(sightings, config.fusion.admission.min_belief, unused);
   const std::vector<Sighting> bearings = in_order(recording);
   const std::vector<std::int64_t> epochs = epochs_of(bearings, config.rate_hz);
   Fixes fixes = config.smooth ? smoothed(bearings, epochs, config)
@@ -240,7 +229,7 @@ std::map<std::string, std::string> stations_beside(const std::vector<Sighting>& 
   UnusedBearings unused;
   Recording run(config);
   for (const Sighting& sighting :
-       in_order(recording_of(sightings, config.fusion.min_belief, unused))) {
+       in_order(recording_of(sightings, config.fusion.admission.min_belief, unused))) {
     run.add(sighting);
   }
   return run.beside();

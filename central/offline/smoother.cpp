@@ -77,17 +77,11 @@ std::vector<Sighting> mirrored(std::vector<Sighting> bearings, std::int64_t abou
   return bearings;
 }
 
-const Track* located(const TrackKeeper& keeper) {
-  const auto& tracks = keeper.tracks();
-  const auto found = std::ranges::find_if(tracks, [](const Track& t) { return t.id != 0; });
-  return found == tracks.end() ? nullptr : &*found;
-}
-
 // The forward and the backward track. One that still rests on two rays, of which either may be
 // wrong, is not joined: it is taken alone, and only where the other is no better.
-std::pair<const Track*, const Track*> worth_joining(const TrackKeeper& forward,
-                                                    const TrackKeeper& backward) {
-  const Track *ahead = located(forward), *behind = located(backward);
+std::pair<const Track*, const Track*> worth_joining(const RecordedTrack& forward,
+                                                    const RecordedTrack& backward) {
+  const Track *ahead = forward.located(), *behind = backward.located();
   if (ahead == nullptr || behind == nullptr) return {ahead, behind};
   if (!backward.proved()) return {ahead, nullptr};
   if (!forward.proved()) return {nullptr, behind};
@@ -108,7 +102,7 @@ SystematicPart told_biases(const std::optional<TrackFilter>& from_past,
 
 // Goes through bearings up to an instant.
 struct Runner {
-  TrackKeeper keeper;
+  RecordedTrack track;
   const std::vector<Sighting>* bearings;
   const std::set<std::string>* beside;
   std::size_t next = 0;
@@ -117,8 +111,8 @@ struct Runner {
     for (; next < bearings->size(); ++next) {
       const Sighting& sighting = (*bearings)[next];
       if (sighting.utime_us > utime_us || (sighting.utime_us == utime_us && !inclusive)) break;
-      keeper.advance(sighting.utime_us);
-      keeper.add(sighting, !beside->contains(sighting.station));
+      track.advance(sighting.utime_us);
+      track.add(sighting, !beside->contains(sighting.station));
     }
   }
 };
@@ -131,8 +125,8 @@ class Smoother {
         about_us_(bearings.front().utime_us + bearings.back().utime_us),
         backward_(mirrored(bearings, about_us_)),
         beside_(known.beside),
-        learnt_(one_target(config)) {
-    learnt_.errors() = known.errors;
+        learnt_(same_states(config)) {
+    learnt_.set_errors(known.errors);
     for (const std::string& station : beside_) learnt_.forget_station(station);
     for (const Sighting& sighting : bearings) {
       if (order_
@@ -147,8 +141,7 @@ class Smoother {
   std::vector<Smoothed> run(const std::vector<std::int64_t>& epochs, Unlocated& unlocated);
 
  private:
-  static KeeperConfig one_target(KeeperConfig config) {
-    config.one_target = true;
+  static KeeperConfig same_states(KeeperConfig config) {
     config.filter.place_share = 0.0;  // the same states at both ends
     return config;
   }
@@ -156,13 +149,14 @@ class Smoother {
   Eigen::VectorXd prior(const std::vector<BiasPrior>& biases) const;
   Whole both(const std::optional<TrackFilter>& from_past,
              const std::optional<TrackFilter>& from_future, const Eigen::VectorXd& variance) const;
-  Smoothed at(std::int64_t epoch_us, const TrackKeeper& forward, const TrackKeeper& backward) const;
+  Smoothed at(std::int64_t epoch_us, const RecordedTrack& forward,
+              const RecordedTrack& backward) const;
 
   const std::vector<Sighting>& forward_;
   std::int64_t about_us_;
   std::vector<Sighting> backward_;
   std::set<std::string> beside_;
-  TrackKeeper learnt_;  // empty, with what is known of the stations
+  RecordedTrack learnt_;  // empty, with what is known of the stations
   Order order_;
   std::vector<Sighting> sights_;  // one of each station, in that order
 };
@@ -200,12 +194,12 @@ Whole Smoother::both(const std::optional<TrackFilter>& from_past,
   return join(before, after, variance).value_or(before);
 }
 
-Smoothed Smoother::at(std::int64_t epoch_us, const TrackKeeper& forward,
-                      const TrackKeeper& backward) const {
+Smoothed Smoother::at(std::int64_t epoch_us, const RecordedTrack& forward,
+                      const RecordedTrack& backward) const {
   Smoothed fix{epoch_us, {}};
   const auto [ahead, behind] = worth_joining(forward, backward);
   if (ahead == nullptr && behind == nullptr) {
-    fix.located.estimate.solution = forward.births().why_none(epoch_us);
+    fix.located.estimate.solution = forward.why_none(epoch_us);
     return fix;
   }
   StationErrors shown = StationErrors::evidence_on(learnt_.errors());
@@ -241,14 +235,14 @@ std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs, Unl
   Runner backward{learnt_, &backward_, &beside_};
   for (std::size_t block = starts.size(); block-- > 0;) {
     const std::size_t first = block * kBlock, last = std::min(first + kBlock, epochs.size());
-    std::vector<TrackKeeper> past;
+    std::vector<RecordedTrack> past;
     for (std::size_t i = first; i < last; ++i) {
       starts[block].run(epochs[i], true);
-      past.push_back(starts[block].keeper);
+      past.push_back(starts[block].track);
     }
     for (std::size_t i = last; i-- > first;) {
       backward.run(about_us_ - epochs[i], false);
-      Smoothed fix = at(epochs[i], past[i - first], backward.keeper);
+      Smoothed fix = at(epochs[i], past[i - first], backward.track);
       const Solution solution = fix.located.estimate.solution;
       if (solution == Solution::kOk) {
         fixes.push_back(std::move(fix));

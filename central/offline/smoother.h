@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "central/estimators/estimator.h"
-#include "central/tracking/track_keeper.h"
+#include "central/tracking/recorded_track.h"
 
 namespace ols {
 

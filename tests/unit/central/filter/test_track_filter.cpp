@@ -214,10 +214,11 @@ TEST(TrackFilter, FollowsAManoeuvreBeyondItsModels) {
   for (int i = 0; i < 300; ++i) {
     const double t_s = i / 60.0;
     const auto k = static_cast<std::size_t>(i % 4);
-    feed(filter, sighting_of(ray_to(std::string(1, static_cast<char>('a' + i % 4)), square()[k],
-                                     corner(t_s), 1e-4),
-                              kStart + std::llround(t_s * 1e6)),
-                  errors);
+    feed(filter,
+         sighting_of(
+             ray_to(std::string(1, static_cast<char>('a' + i % 4)), square()[k], corner(t_s), 1e-4),
+             kStart + std::llround(t_s * 1e6)),
+         errors);
   }
   const double t_s = 299 / 60.0;
   EXPECT_LT((filter.position() - site().to_ecef(corner(t_s))).norm(), 0.5);

@@ -74,7 +74,7 @@ TEST(FusionAdmission, RefusesWhatIsNotABearing) {
 }
 
 TEST(FusionAdmission, AFloodOfOneStationIsRefusedByNameAndTheOthersGoOn) {
-  Fusion fusion{FusionConfig{.flood_hz = 200.0}};
+  Fusion fusion{FusionConfig{.admission = {.flood_hz = 200.0}}};
   std::vector<FusedTarget> targets;
   for (const Sighting& sighting : flight(4.0)) {
     for (const FusedTarget& target : fusion.add(sighting).targets) targets.push_back(target);
@@ -90,7 +90,7 @@ TEST(FusionAdmission, AFloodOfOneStationIsRefusedByNameAndTheOthersGoOn) {
 }
 
 TEST(FusionAdmission, AfterAFloodItsStationIsHeardAgain) {
-  Fusion fusion{FusionConfig{.flood_hz = 200.0}};
+  Fusion fusion{FusionConfig{.admission = {.flood_hz = 200.0}}};
   int taken = 0;
   for (const Sighting& sighting : flight(5.0)) {
     const bool refused = fusion.add(sighting).refusal != SightingRefusal::kNone;
@@ -167,7 +167,7 @@ TEST(FusionAdmission, NoStatementOfOneStationKeepsTheOthersFromAPosition) {
 }
 
 TEST(FusionAdmission, StrangeStationsNeitherFillThePlacesNorMakeItGrow) {
-  Fusion fusion{FusionConfig{.max_stations = 64}};
+  Fusion fusion{FusionConfig{.admission = {.max_stations = 64}}};
   Sighting stranger = flight(0.1).front();
   for (int i = 0; i < 80; ++i) {
     stranger.station = "stranger" + std::to_string(i);
@@ -184,7 +184,7 @@ TEST(FusionAdmission, StrangeStationsNeitherFillThePlacesNorMakeItGrow) {
 }
 
 TEST(FusionAdmission, ForgetsTheStationThatIsSilentLongest) {
-  Fusion fusion{FusionConfig{.max_stations = 5}};
+  Fusion fusion{FusionConfig{.admission = {.max_stations = 5}}};
   fusion.know_station("lookout", {.camera_ecef = site().to_ecef({0.0, 0.0, 30.0})});
   auto sightings = flight(1.0);
   std::erase_if(sightings, [](const Sighting& sighting) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "central/app/other_fusions.h"
-#include "central/app/present_watch.h"
+#include "central/app/timeliness_gate.h"
 #include "central/fusion/fusion.h"
 #include "tests/unit/central/flight.h"
 
@@ -105,8 +105,8 @@ TEST(FusionAlarms, TheAlarmGoesWithItsReason) {
   EXPECT_TRUE(fusion.health().alarms.empty());
 }
 
-TEST(PresentWatch, WithholdsWhatIsFarFromTheHostsClockAndSaysSoForAWhile) {
-  PresentWatch watch(2.0);
+TEST(TimelinessGate, WithholdsWhatIsFarFromTheHostsClockAndSaysSoForAWhile) {
+  TimelinessGate watch(2.0);
   EXPECT_TRUE(watch.passes(kStart, kStart + 1'900'000, 10.0));
   EXPECT_TRUE(watch.passes(kStart, kStart - 1'900'000, 10.0));
   EXPECT_EQ(watch.alarm(10.0), "");

@@ -119,7 +119,7 @@ TEST(FusionClocks, AnotherCalibrationStartsAnew) {
 }
 
 TEST(FusionClocks, StrangersCannotPushOutWhoWorksHere) {
-  Fusion fusion{FusionConfig{.max_stations = 4}};
+  Fusion fusion{FusionConfig{.admission = {.max_stations = 4}}};
   const auto sightings = flight(4.0);
   double refused = 0.0;
   for (std::size_t i = 0; i < sightings.size(); ++i) {

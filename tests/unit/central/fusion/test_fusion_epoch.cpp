@@ -149,8 +149,8 @@ TEST(FusionEpoch, AStationFollowsTwoTargetsByTheirNames) {
   Fusion fusion{FusionConfig{}};
   for (const Sighting& s : sightings) fusion.add(s);
   // Half a second of it, 15 frames a second, of either.
-  EXPECT_GE(fusion.keeper().counts().set_aside, 12);
-  EXPECT_EQ(std::ranges::count_if(fusion.keeper().tracks(), is_sure), 2);
+  EXPECT_GE(fusion.tracks().counts().set_aside, 12);
+  EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_sure), 2);
 }
 
 // Every bearing has a name of its own: that harms nobody, and takes no memory for good.
@@ -169,10 +169,10 @@ TEST(FusionEpoch, AStationThatNamesEverythingAnewIsForgottenAsItGoes) {
       if (target.bearing_only) ++lines[target.bearing_only->station];
     }
     EXPECT_LE(lines["a"], 4U);
-    EXPECT_LE(fusion.keeper().followed().size("a"), FollowedObjects::kOfAStation);
+    EXPECT_LE(fusion.tracks().followed().size("a"), LocalTracks::kOfAStation);
   }
-  EXPECT_EQ(fusion.keeper().followed().size("a"), FollowedObjects::kOfAStation);
-  EXPECT_EQ(std::ranges::count_if(fusion.keeper().tracks(), is_sure), 1);
+  EXPECT_EQ(fusion.tracks().followed().size("a"), LocalTracks::kOfAStation);
+  EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_sure), 1);
 }
 
 // Detections without a name of their own may be of anything.

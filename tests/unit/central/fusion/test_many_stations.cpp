@@ -87,12 +87,12 @@ TEST(ManyStations, WhatTheySeeAllAtOnceIsAllFound) {
   for (const Sighting& sighting : all) fusion.add(sighting);
   for (const Path& path : paths) {
     const Vector3d there = site().to_ecef(at(path, kDurationS).p_enu);
-    const auto near = std::ranges::count_if(fusion.keeper().tracks(), [&](const Track& track) {
+    const auto near = std::ranges::count_if(fusion.tracks().tracks(), [&](const Track& track) {
       return is_sure(track) && (track.filter.position() - there).norm() < 3.0;
     });
     EXPECT_EQ(near, 1);
   }
-  EXPECT_EQ(std::ranges::count_if(fusion.keeper().tracks(), is_sure), kGroups);
+  EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_sure), kGroups);
 }
 
 // Up and away from all others: it meets nobody's.
@@ -121,7 +121,7 @@ TEST(ManyStations, NobodysTurnFallsOnTheSameBearingForEver) {
         fusion.add(second ? other : own);
         fusion.add(second ? own : other);
       }
-      EXPECT_EQ(std::ranges::count_if(fusion.keeper().tracks(), is_sure), 1)
+      EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_sure), 1)
           << second << ' ' << first_station;
     }
   }

@@ -160,9 +160,9 @@ TEST(PoseErrors, ALongFlightKeepsItsTrack) {
   const Path path = cruising({{-100, 20, 120}, {0.7, 0.1, 0.0}}, 0.01, kFlightS, random);
   Fusion fusion(FusionConfig{});
   for (const Sighting& sighting : measure(world, {path}, kFlightS, random)) fusion.add(sighting);
-  EXPECT_EQ(fusion.keeper().counts().dropped, 0);
-  ASSERT_EQ(fusion.keeper().tracks().size(), 1U);
-  const FilterMatrix P = fusion.keeper().tracks().front().filter.mixed().covariance;
+  EXPECT_EQ(fusion.tracks().counts().dropped, 0);
+  ASSERT_EQ(fusion.tracks().tracks().size(), 1U);
+  const FilterMatrix P = fusion.tracks().tracks().front().filter.mixed().covariance;
   const Eigen::VectorXd sd = P.diagonal().cwiseMax(1e-30).cwiseSqrt();
   const Eigen::MatrixXd correlation = P.cwiseQuotient(sd * sd.transpose());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(correlation, Eigen::EigenvaluesOnly);

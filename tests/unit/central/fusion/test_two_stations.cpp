@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "central/offline/offline_fusion.h"
-#include "central/tracking/track_birth.h"
+#include "central/tracking/track_initiation.h"
 #include "tools/estimators/bearing_world.h"
 
 namespace ols::bench {
@@ -100,7 +100,7 @@ TEST(TwoStations, WhatTheirRaysHadToBeTurnedByIsForgottenWithABornTrack) {
     double greatest_rad = 0.0;
     for (const Sighting& sighting : seen) {
       fusion.add(sighting);
-      const auto prior = fusion.keeper().errors().prior("s0", seen.front().sight, 300.0);
+      const auto prior = fusion.tracks().errors().prior("s0", seen.front().sight, 300.0);
       greatest_rad = std::max(greatest_rad, std::sqrt(prior.covariance.trace()));
     }
     EXPECT_LT(greatest_rad, 3e-3) << seed;
@@ -180,7 +180,7 @@ TEST(TwoStations, OfWhichOneIsHeardOfLateAreNotLedAstrayAtTheStart) {
     std::ranges::stable_sort(seen, {}, [&](const Sighting& s) {
       return s.utime_us + (s.station == "s1" ? kLateUs : 0);
     });
-    TrackBirth birth({}, {});
+    TrackInitiation birth({}, {});
     StationErrors errors;
     std::optional<Track> track;
     for (auto s = seen.begin(); s != seen.end() && !track; ++s)
