@@ -129,7 +129,7 @@ TEST_P(NoiseScale, IsFoundFromTheResiduals) {
                      {.p_ecef = test::site().to_ecef(test::path(0.0)),
                       .position_sd_m = 10.0,
                       .velocity_sd_m_s = 50.0});
-  for (const Sighting& s : flight(60.0, kNoise, GetParam() * kNoise)) feed(filter, s, errors);
+  for (const Sighting& s : flight(60.0, kNoise, GetParam() * kNoise)) test::feed(filter, s, errors);
   const double variance = GetParam() * GetParam();
   EXPECT_NEAR(errors.noise_scale("b") / variance, 1.0, 0.3);
 }
