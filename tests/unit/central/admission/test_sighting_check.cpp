@@ -1,9 +1,8 @@
-#include "central/admission/sighting_check.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "central/admission/sighting_check.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols {

@@ -1,6 +1,6 @@
-#include "central/admission/station_registry.h"
-
 #include <gtest/gtest.h>
+
+#include "central/admission/station_registry.h"
 
 namespace ols {
 namespace {

@@ -1,9 +1,8 @@
-#include "central/filter/coloured_noise.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "central/filter/coloured_noise.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols {
@@ -21,8 +20,8 @@ double inflation_of(double same) {
   for (int i = 0; i < 3000; ++i) {
     const double fresh = std::sqrt(1.0 - same * same);
     off = same * off + fresh * kNoise * Eigen::Vector2d(normal(random), normal(random));
-    const Ray ray = test::turned(test::ray_to("a", {0, 0, 0}, {0, 300, 50}, kNoise), off.x(),
-                                 off.y());
+    const Ray ray =
+        test::turned(test::ray_to("a", {0, 0, 0}, {0, 300, 50}, kNoise), off.x(), off.y());
     const Sighting sighting = test::sighting_of(ray, 1'600'000'000'000'000 + i * 40'000);
     inflation = noise.observe(sighting, ray_frame(sighting.sight), errors);
   }

@@ -1,6 +1,6 @@
-#include "central/filter/consecutive_rejections.h"
-
 #include <gtest/gtest.h>
+
+#include "central/filter/consecutive_rejections.h"
 
 namespace ols {
 namespace {

@@ -1,7 +1,6 @@
-#include "central/filter/innovation.h"
-
 #include <gtest/gtest.h>
 
+#include "central/filter/innovation.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols {
@@ -42,7 +41,8 @@ TEST(Innovation, ItsJacobianIsTheNumericalOne) {
     const Vector3d step = kStepM * Vector3d::Unit(axis);
     const Eigen::Vector2d moved = seen(kTarget + step, measured, 0.0).residual - here.residual;
     const Vector3d step_ecef = test::site().R_ecef_enu() * step;
-    EXPECT_NEAR((moved + here.J * step_ecef).norm(), 0.0, 1e-4 * (here.J * step_ecef).norm() + 1e-9);
+    EXPECT_NEAR((moved + here.J * step_ecef).norm(), 0.0,
+                1e-4 * (here.J * step_ecef).norm() + 1e-9);
   }
 }
 

@@ -1,9 +1,9 @@
-#include "central/filter/interacting_models.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <numeric>
+
+#include "central/filter/interacting_models.h"
 
 namespace ols {
 namespace {
@@ -11,10 +11,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::int64_t kStart = 1'600'000'000'000'000;
-const FilterStart kCruise{.p_ecef = {1, 2, 3},
-                          .v_ecef = {10, 0, 0},
-                          .position_sd_m = 1.0,
-                          .velocity_sd_m_s = 0.1};
+const FilterStart kCruise{
+    .p_ecef = {1, 2, 3}, .v_ecef = {10, 0, 0}, .position_sd_m = 1.0, .velocity_sd_m_s = 0.1};
 
 TEST(InteractingModels, PredictAsTheyLookAhead) {
   InteractingModels models({}, kStart, kCruise);

@@ -1,9 +1,9 @@
-#include "central/filter/motion_model.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+
+#include "central/filter/motion_model.h"
 
 namespace ols {
 namespace {
@@ -33,8 +33,8 @@ TEST(MotionModel, WithoutAccelerationAllGoStraightOn) {
 
 TEST(MotionModel, ATurnIsACircle) {
   const double speed = 12.0, rate = 0.5, dt_s = 3.0, radius = speed / rate;
-  const Vector3d p = position_after(Motion::kCoordinatedTurn,
-                                    moving({speed, 0, 0}, {0, speed * rate, 0}), dt_s);
+  const Vector3d p =
+      position_after(Motion::kCoordinatedTurn, moving({speed, 0, 0}, {0, speed * rate, 0}), dt_s);
   const Vector3d circle(radius * std::sin(rate * dt_s), radius * (1.0 - std::cos(rate * dt_s)),
                         0.0);
   EXPECT_NEAR((p - circle).norm(), 0.0, 1e-9);

@@ -1,7 +1,6 @@
-#include "central/filter/station_bias.h"
-
 #include <gtest/gtest.h>
 
+#include "central/filter/station_bias.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols {
@@ -11,14 +10,12 @@ using namespace test;
 
 // A filter on a flight past four stations that state a bias.
 TrackFilter flown(double bias_rad) {
-  TrackFilter filter({}, kStart,
-                     {.p_ecef = site().to_ecef(path(0.0)),
-                      .position_sd_m = 100.0,
-                      .velocity_sd_m_s = 30.0});
+  TrackFilter filter(
+      {}, kStart,
+      {.p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 30.0});
   StationErrors errors;
   for (Sighting sighting : flight(3.0, 1e-4)) {
-    sighting.sight.covariance_systematic =
-        bias_rad * bias_rad * Eigen::Matrix2d::Identity();
+    sighting.sight.covariance_systematic = bias_rad * bias_rad * Eigen::Matrix2d::Identity();
     feed(filter, sighting, errors);
   }
   return filter;

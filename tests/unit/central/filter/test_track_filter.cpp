@@ -16,6 +16,7 @@ namespace ols {
 namespace {
 
 using Eigen::Vector3d;
+using test::feed;
 using test::flight;
 using test::kStart;
 using test::path;

@@ -108,7 +108,7 @@ TEST(FusionAdmission, AfterAFloodItsStationIsHeardAgain) {
 }
 
 TEST(FusionAdmission, WhoDoesNotBelongToTheSiteIsRefused) {
-  Fusion fusion{FusionConfig{.stations = {"a", "b", "d"}}};
+  Fusion fusion{FusionConfig{.admission = {.stations = {"a", "b", "d"}}}};
   const auto targets = targets_of(fusion, flight(2.0));
   fusion.know_station("stranger", {});
   EXPECT_EQ(fusion.health().counters.at("refused_unknown_station"), 30.0);

@@ -1,11 +1,8 @@
-// What the fusion says aloud: stations that follow what nobody else does, a host that is not in the
-// present, another fusion.
+// What the fusion says aloud: stations that follow what nobody else does.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "central/app/other_fusions.h"
-#include "central/app/timeliness_gate.h"
 #include "central/fusion/fusion.h"
 #include "tests/unit/central/flight.h"
 
@@ -103,35 +100,6 @@ TEST(FusionAlarms, TheAlarmGoesWithItsReason) {
     if (sighting.utime_us > kStart + 14'000'000) fusion.add(sighting);
   }
   EXPECT_TRUE(fusion.health().alarms.empty());
-}
-
-TEST(TimelinessGate, WithholdsWhatIsFarFromTheHostsClockAndSaysSoForAWhile) {
-  TimelinessGate watch(2.0);
-  EXPECT_TRUE(watch.passes(kStart, kStart + 1'900'000, 10.0));
-  EXPECT_TRUE(watch.passes(kStart, kStart - 1'900'000, 10.0));
-  EXPECT_EQ(watch.alarm(10.0), "");
-  EXPECT_FALSE(watch.take_news());
-  EXPECT_FALSE(watch.passes(kStart, kStart + 10'000'000, 10.0));
-  EXPECT_TRUE(watch.take_news());
-  EXPECT_FALSE(watch.passes(kStart, kStart + 9'900'000, 10.1));
-  EXPECT_FALSE(watch.take_news()) << "once";
-  EXPECT_NE(watch.alarm(11.0).find("-9.9 s from this host's clock"), std::string::npos);
-  EXPECT_TRUE(watch.passes(kStart, kStart, 11.0));
-  EXPECT_EQ(watch.alarm(20.0), "");
-  EXPECT_FALSE(watch.passes(kStart, kStart - 3'000'000, 21.0)) << "from the future as well";
-  EXPECT_TRUE(watch.take_news());
-}
-
-TEST(OtherFusions, HearsAnyOneButItself) {
-  OtherFusions others(7);
-  EXPECT_FALSE(others.hear(7, 1.0));
-  EXPECT_EQ(others.alarm(1.0), "");
-  EXPECT_TRUE(others.hear(8, 2.0));
-  EXPECT_TRUE(others.take_news());
-  EXPECT_TRUE(others.hear(8, 3.0));
-  EXPECT_FALSE(others.take_news()) << "once";
-  EXPECT_NE(others.alarm(4.0), "");
-  EXPECT_EQ(others.alarm(9.0), "") << "it has been ended";
 }
 
 }  // namespace

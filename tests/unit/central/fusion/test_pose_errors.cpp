@@ -9,6 +9,7 @@
 
 #include "central/offline/offline_fusion.h"
 #include "geometry/angles.h"
+#include "tests/unit/central/flight.h"
 #include "tools/estimators/bearing_world.h"
 
 namespace ols::bench {

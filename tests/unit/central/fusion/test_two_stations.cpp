@@ -182,11 +182,11 @@ TEST(TwoStations, OfWhichOneIsHeardOfLateAreNotLedAstrayAtTheStart) {
     });
     TrackInitiation birth({}, {});
     StationErrors errors;
-    std::optional<Track> track;
-    for (auto s = seen.begin(); s != seen.end() && !track; ++s)
-      track = birth.add(*s, errors, false);
-    ASSERT_TRUE(track) << seed;
-    const KinematicState& state = track->filter.summary();
+    std::optional<TrackStart> start;
+    for (auto s = seen.begin(); s != seen.end() && !start; ++s)
+      start = birth.add(*s, errors, false);
+    ASSERT_TRUE(start) << seed;
+    const KinematicState& state = start->track.filter.summary();
     const double time_s = 1e-6 * static_cast<double>(state.utime_us - kStartUs);
     const Vector3d e = state.mean.head<3>() - site().to_ecef(at(path, time_s).p_enu);
     EXPECT_LT(e.dot(state.covariance.topLeftCorner<3, 3>().ldlt().solve(e)), 25.0) << seed;

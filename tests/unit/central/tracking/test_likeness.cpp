@@ -1,7 +1,6 @@
-#include "central/tracking/likeness.h"
-
 #include <gtest/gtest.h>
 
+#include "central/tracking/likeness.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols {
@@ -10,11 +9,10 @@ namespace {
 using namespace test;
 
 TrackFilter filter_at(double east_m, double sd_m) {
-  return {{},
-          kStart,
-          {.p_ecef = site().to_ecef({east_m, 300, 50}),
-           .position_sd_m = sd_m,
-           .velocity_sd_m_s = 1.0}};
+  return {
+      {},
+      kStart,
+      {.p_ecef = site().to_ecef({east_m, 300, 50}), .position_sd_m = sd_m, .velocity_sd_m_s = 1.0}};
 }
 
 // Two positions with the same sigma a side differ by its root of two, and 11.345 of chi-square is

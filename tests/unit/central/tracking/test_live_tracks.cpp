@@ -1,10 +1,9 @@
-#include "central/tracking/live_tracks.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
+#include "central/tracking/live_tracks.h"
 #include "tests/unit/central/scene.h"
 #include "tools/estimators/bearing_world.h"
 

@@ -1,6 +1,6 @@
-#include "central/tracking/local_tracks.h"
-
 #include <gtest/gtest.h>
+
+#include "central/tracking/local_tracks.h"
 
 namespace ols {
 namespace {

@@ -1,7 +1,6 @@
-#include "central/tracking/ray_meetings.h"
-
 #include <gtest/gtest.h>
 
+#include "central/tracking/ray_meetings.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols {
@@ -38,8 +37,9 @@ TEST(RayMeetings, AreWhereRaysMeet) {
 
 TEST(RayMeetings, WhereMoreStationsLookIsFirst) {
   const Vector3d ghost = kWest + 0.5 * (kTarget - kWest);
-  const Met met = meet(seen("w", kWest, kTarget), {seen("a", kEast, ghost), seen("e", kEast, kTarget),
-                                                   seen("n", kNorth, kTarget)});
+  const Met met =
+      meet(seen("w", kWest, kTarget),
+           {seen("a", kEast, ghost), seen("e", kEast, kTarget), seen("n", kNorth, kTarget)});
   ASSERT_GE(met.meetings.size(), 3U);
   EXPECT_LT((met.meetings[0].p_ecef - site().to_ecef(kTarget)).norm(), 0.1);
   EXPECT_EQ(met.meetings[0].support, 1);
@@ -50,8 +50,7 @@ TEST(RayMeetings, SayWhyThereAreNone) {
   EXPECT_EQ(meet(west, {}).failure, Solution::kTooFewRays);
   EXPECT_EQ(meet(west, {seen("e", kEast, kEast + (kTarget - kWest))}).failure,
             Solution::kParallelRays);
-  EXPECT_EQ(meet(west, {seen("e", kEast, 2.0 * kEast - kTarget)}).failure,
-            Solution::kBehindCamera);
+  EXPECT_EQ(meet(west, {seen("e", kEast, 2.0 * kEast - kTarget)}).failure, Solution::kBehindCamera);
 }
 
 }  // namespace

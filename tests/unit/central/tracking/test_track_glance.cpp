@@ -1,7 +1,6 @@
-#include "central/tracking/track_glance.h"
-
 #include <gtest/gtest.h>
 
+#include "central/tracking/track_glance.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols {
@@ -16,8 +15,8 @@ bool may_see(const Vector3d& looks_at, double after_s = 0.0) {
                                  .v_ecef = site().R_ecef_enu() * Vector3d(50, 0, 0),
                                  .position_sd_m = 0.1,
                                  .velocity_sd_m_s = 0.1}));
-  const Sighting sighting = sighting_of(ray_to("a", {0, 0, 0}, looks_at),
-                                        kStart + std::llround(after_s * 1e6));
+  const Sighting sighting =
+      sighting_of(ray_to("a", {0, 0, 0}, looks_at), kStart + std::llround(after_s * 1e6));
   return glance_at(track).may_see(sighting, direction_ecef(sighting.sight));
 }
 

@@ -1,7 +1,6 @@
-#include "central/tracking/track_identities.h"
-
 #include <gtest/gtest.h>
 
+#include "central/tracking/track_identities.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols {
@@ -10,18 +9,16 @@ namespace {
 using namespace test;
 
 Track track_at(const Eigen::Vector3d& p_enu) {
-  Track track(TrackFilter({}, kStart,
-                          {.p_ecef = site().to_ecef(p_enu),
-                           .position_sd_m = 1.0,
-                           .velocity_sd_m_s = 1.0}));
+  Track track(TrackFilter(
+      {}, kStart, {.p_ecef = site().to_ecef(p_enu), .position_sd_m = 1.0, .velocity_sd_m_s = 1.0}));
   track.state = TrackState::kConfirmed;
   track.located_us = kStart;
   return track;
 }
 
 Sighting named(std::int64_t track_id, double t_s = 0.0) {
-  Sighting sighting = sighting_of(ray_to("a", {0, 0, 0}, path(t_s)),
-                                  kStart + std::llround(t_s * 1e6));
+  Sighting sighting =
+      sighting_of(ray_to("a", {0, 0, 0}, path(t_s)), kStart + std::llround(t_s * 1e6));
   sighting.track_id = track_id;
   return sighting;
 }

@@ -92,7 +92,9 @@ TEST(TrackInitiation, AStartThatIsRejectedTeachesNothing) {
   StationErrors errors;
   bool begun = false;
   for (const Sighting& sighting : watch("abcd", 1.0, 5e-4, off_by('c', 0.0))) {
-    begun = birth.add(sighting, errors, false).has_value();
+    const auto start = birth.add(sighting, errors, false);
+    begun = start.has_value();
+    if (begun) errors.learn(start->shown);
     if (begun) break;
     for (const char* station : {"a", "b", "c", "d"}) {
       EXPECT_EQ(errors.noise_scale(station), 1.0);

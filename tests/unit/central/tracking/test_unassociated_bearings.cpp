@@ -1,7 +1,6 @@
-#include "central/tracking/unassociated_bearings.h"
-
 #include <gtest/gtest.h>
 
+#include "central/tracking/unassociated_bearings.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols {
