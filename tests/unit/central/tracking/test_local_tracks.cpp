@@ -7,7 +7,7 @@ namespace {
 
 Sighting named(std::int64_t track_id, std::int64_t utime_us) {
   Sighting sighting;
-  sighting.station = "a";
+  sighting.station = std::string("a");
   sighting.track_id = track_id;
   sighting.utime_us = utime_us;
   return sighting;
