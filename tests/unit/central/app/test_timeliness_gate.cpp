@@ -5,6 +5,8 @@
 namespace ols {
 namespace {
 
+constexpr std::int64_t kStart = 1'700'000'000'000'000;
+
 TEST(TimelinessGate, WithholdsWhatIsFarFromTheHostsClockAndSaysSoForAWhile) {
   TimelinessGate watch(2.0);
   EXPECT_TRUE(watch.passes(kStart, kStart + 1'900'000, 10.0));

@@ -10,6 +10,8 @@ using namespace test;
 
 constexpr double kNoise = 3e-4;
 
+KnownStations nothing_known() { return {StationErrors(), {}}; }
+
 std::vector<std::int64_t> every_tenth_of(double seconds) {
   std::vector<std::int64_t> epochs;
   for (int i = 0; i < static_cast<int>(10.0 * seconds); ++i) {
@@ -22,7 +24,7 @@ TEST(Smoother, JoinsWhatWasBeforeWithWhatComesAfter) {
   const auto bearings = flight(4.0, kNoise, kNoise);
   const auto epochs = every_tenth_of(3.9);
   Unlocated unlocated;
-  const auto smoothed = smooth(bearings, epochs, {}, {}, unlocated);
+  const auto smoothed = smooth(bearings, epochs, {}, nothing_known(), unlocated);
   ASSERT_EQ(smoothed.size(), epochs.size());
   RecordedTrack causal{KeeperConfig{}};
   auto next = bearings.begin();
@@ -50,11 +52,11 @@ TEST(Smoother, CountsWhyThereIsNoPosition) {
   auto bearings = flight(1.0, kNoise, kNoise);
   std::erase_if(bearings, [](const Sighting& s) { return s.station != "a"; });
   Unlocated unlocated;
-  EXPECT_TRUE(smooth(bearings, every_tenth_of(0.9), {}, {}, unlocated).empty());
+  EXPECT_TRUE(smooth(bearings, every_tenth_of(0.9), {}, nothing_known(), unlocated).empty());
   std::size_t sum = 0;
   for (const auto& [why, count] : unlocated) sum += count;
   EXPECT_EQ(sum, 9U);
-  EXPECT_TRUE(smooth({}, {}, {}, {}, unlocated).empty());
+  EXPECT_TRUE(smooth({}, {}, {}, nothing_known(), unlocated).empty());
 }
 
 }  // namespace
