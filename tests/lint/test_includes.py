@@ -64,7 +64,7 @@ PURE = [
     "edge/sensors/standing_value.h",
     "edge/recorder/frame_memory.*",
     "edge/tracker/*",
-    "central/*",
+    "central/*/*",
     "tools/sim/world.*",
     "tools/sim/renderer.*",
     "tools/sim/ptu_unit.*",
