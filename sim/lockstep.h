@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "central/fusion.h"
+#include "central/fusion/fusion.h"
 #include "sim/lockstep_station.h"
 #include "sim/network.h"
 #include "sim/world.h"

@@ -10,7 +10,7 @@
 #include "base/command_line.h"
 #include "base/config_section.h"
 #include "base/small_file.h"
-#include "central/fusion_settings.h"
+#include "central/app/fusion_settings.h"
 #include "edge/config.h"
 #include "sim/scenario.h"
 #include "tools/logger/logger_config.h"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "central/least_squares.h"
-#include "central/offline_fusion.h"
+#include "central/estimators/least_squares.h"
+#include "central/offline/offline_fusion.h"
 #include "dev/estimators/posterior_bound.h"
 #include "dev/estimators/several_targets.h"
 #include "geometry/angles.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "central/fusion.h"
+#include "central/fusion/fusion.h"
 #include "geometry/wgs84.h"
 
 namespace ols::bench {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "central/tracking/recorded_track.h"
 #include "dev/estimators/bearing_world.h"
 
 namespace ols::bench {
@@ -41,7 +42,6 @@ double user_s() {
 // motion, and no other model, and the noise, white and Gaussian as stated.
 KeeperConfig pinned() {
   KeeperConfig config;
-  config.one_target = true;
   config.filter.motion.models = {Motion::kConstantVelocity};
   config.filter.motion.cruise_sd_m_s2 = kDisturbance;
   config.filter.motion.cruise_per_speed_s = 0.0;
@@ -58,10 +58,10 @@ std::vector<std::optional<Vector3d>> our_fixes(const std::vector<Sighting>& bear
   std::vector<std::optional<Vector3d>> fixes;
   fixes.reserve(bearings.size());
   const double before_s = user_s();
-  TrackKeeper keeper(pinned());
+  RecordedTrack track(pinned());
   for (const Sighting& sighting : bearings) {
-    keeper.add(sighting);
-    const auto& tracks = keeper.tracks();
+    track.add(sighting);
+    const auto& tracks = track.tracks();
     const bool found = !tracks.empty() && is_sure(tracks.front());
     fixes.push_back(found ? std::optional(tracks.front().filter.position()) : std::nullopt);
   }

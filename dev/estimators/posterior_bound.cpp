@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "central/ray.h"
+#include "central/measurement/ray.h"
 
 namespace ols::bench {
 

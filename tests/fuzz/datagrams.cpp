@@ -7,8 +7,8 @@
 
 #include "base/bus_inbox.h"
 #include "base/plain_text.h"
-#include "central/fusion.h"
-#include "central/messages.h"
+#include "central/app/messages.h"
+#include "central/fusion/fusion.h"
 #include "edge/messages_bus.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/no_tracker.h"

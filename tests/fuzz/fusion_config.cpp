@@ -1,6 +1,6 @@
 // The fusion's configuration file: settings, or one error that names the place.
 #include "base/toml_config.h"
-#include "central/fusion_settings.h"
+#include "central/app/fusion_settings.h"
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -2,8 +2,8 @@
 // length. Whatever they say, targets are finite or named as no solution.
 #include <cmath>
 
-#include "central/fusion.h"
-#include "central/messages.h"
+#include "central/app/messages.h"
+#include "central/fusion/fusion.h"
 #include "geometry/angles.h"
 #include "tests/fuzz/fuzz_input.h"
 
@@ -63,7 +63,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size > 8192) return 0;
   ols::fuzz::Input input(data, size);
   ols::FusionConfig config;
-  config.max_stations = 4;
+  config.admission.max_stations = 4;
   ols::Fusion fusion(config);
   while (!input.empty()) {
     const std::uint8_t kind = input.byte();

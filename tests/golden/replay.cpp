@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "central/messages.h"
+#include "central/app/messages.h"
 #include "geometry/angles.h"
 #include "ols_msg/bearing_t.hpp"
 

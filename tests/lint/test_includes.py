@@ -35,7 +35,7 @@ NOT_PURE = {
     "edge/recorder/event_folder.cpp edge/recorder/event_store.cpp sim/report.cpp "
     "sim/station_files.cpp",
     "the message bus": "base/bus_* base/channel_pattern.cpp base/lcm_bus.* base/lcm_url.* "
-    "base/multicast_socket.* edge/messages* central/messages* sim/*flood.cpp",
+    "base/multicast_socket.* edge/messages* central/app/messages* central/app/fusion_bus.* sim/*flood.cpp",
     "the operating system": "base/boot_id.cpp base/clocks.h base/command_line.h "
     "base/plain_text.cpp base/progress.cpp base/service_notifier.cpp base/shutdown.cpp "
     "base/wakeup.cpp "
@@ -51,8 +51,8 @@ NOT_PURE = {
     "sim/gnss_line.cpp sim/gpio_socket.cpp sim/inclinometer_line.cpp sim/live_site.* sim/nmea.cpp "
     "sim/ptu_line.cpp sim/ptu_tap.cpp sim/pty.cpp sim/stepped_clock.cpp",
     "programs": "edge/main.cpp edge/config.cpp edge/station_process.* edge/kept_pose.cpp "
-    "edge/station_journal.cpp central/main.cpp "
-    "central/fusion_process.* central/fusion_settings.cpp sim/*main.cpp",
+    "edge/station_journal.cpp central/app/main.cpp "
+    "central/app/fusion_process.* central/app/fusion_settings.cpp sim/*main.cpp",
 }
 FORBIDDEN_IN_PURE = re.compile(
     r"^(lcm/|ols_msg/|arv|glib|gio|gpiod|gps\.h|systemd/|spdlog/|CLI/|toml\+\+|"
@@ -117,15 +117,15 @@ def test_includes_only_what_it_may(path):
 @pytest.mark.parametrize(
     ("name", "text"),
     [
-        ("edge/station.h", '#include "central/fusion.h"'),
-        ("central/fusion.h", '#include "edge/station.h"'),
+        ("edge/station.h", '#include "central/fusion/fusion.h"'),
+        ("central/fusion/fusion.h", '#include "edge/station.h"'),
         ("geometry/sight.h", '#include "base/toml_config.h"'),
         ("sim/world.h", '#include "dev/bench/synthetic_scene.h"'),
         ("edge/camera/clock_map.h", "#include <fstream>"),
         ("edge/station.cpp", '#include "ols_msg/bearing_t.hpp"'),
         ("edge/station_process.cpp", "using M = ols_msg::bearing_t;"),
         ("edge/main_loop.cpp", "#include <arv.h>"),
-        ("central/fusion.cpp", "auto t = std::chrono::system_clock::now();"),
+        ("central/fusion/fusion.cpp", "auto t = std::chrono::system_clock::now();"),
         ("edge/station.cpp", '#include "base/clocks.h"'),
         ("edge/a_new_file.cpp", "#include <thread>"),
     ],

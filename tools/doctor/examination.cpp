@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "base/toml_config.h"
-#include "central/fusion_settings.h"
+#include "central/app/fusion_settings.h"
 #include "edge/config.h"
 #include "tools/doctor/bus_ears.h"
 #include "tools/doctor/judge_devices.h"

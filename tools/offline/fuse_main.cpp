@@ -12,7 +12,7 @@
 #include "base/csv_files.h"
 #include "base/output_check.h"
 #include "base/progress.h"
-#include "central/offline_fusion.h"
+#include "central/offline/offline_fusion.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "tools/offline/recorded_bearings.h"

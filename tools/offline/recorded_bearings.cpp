@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/csv_files.h"
-#include "central/offline_fusion.h"
+#include "central/offline/offline_fusion.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "central/sighting.h"
+#include "central/measurement/sighting.h"
 
 namespace ols {
 

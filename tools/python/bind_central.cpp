@@ -1,9 +1,9 @@
 #include <pybind11/stl.h>
 
-#include "central/alignment.h"
-#include "central/least_squares.h"
-#include "central/offline_fusion.h"
-#include "central/paper_triangulation.h"
+#include "central/estimators/alignment.h"
+#include "central/estimators/least_squares.h"
+#include "central/estimators/paper_triangulation.h"
+#include "central/offline/offline_fusion.h"
 #include "tools/python/bindings.h"
 #include "tools/python/eigen_caster.h"
 
@@ -117,7 +117,9 @@ void bind_configs(py::module_& m) {
       .def_readwrite("paper", &EstimatorConfig::paper);
 
   data_class<FusionConfig>(m, "FusionConfig", "The fusion; nested ones are replaced as a whole.")
-      .def_readwrite("min_belief", &FusionConfig::min_belief)
+      .def_property(
+          "min_belief", [](const FusionConfig& c) { return c.admission.min_belief; },
+          [](FusionConfig& c, double belief) { c.admission.min_belief = belief; })
       .def_readwrite("estimators", &FusionConfig::estimators);
 }
 

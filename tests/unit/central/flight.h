@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "central/fusion.h"
-#include "scene.h"
+#include "central/fusion/fusion.h"
+#include "tests/unit/central/scene.h"
 
 namespace ols::test {
 
@@ -31,6 +31,17 @@ inline std::vector<Sighting> flight(double seconds, double sigma_rad = 1e-5, dou
     sightings.push_back(sighting_of(ray, kStart + std::llround(t_s * 1e6)));
   }
   return sightings;
+}
+
+// Takes a bearing, and learns what it shows of the stations.
+inline BearingUse feed(TrackFilter& filter, const Sighting& sighting, StationErrors& errors) {
+  const FilterUpdate update = filter.update(sighting, errors);
+  errors.learn(update.shown);
+  return update.use;
+}
+
+inline void move_on(TrackFilter& filter, std::int64_t utime_us, StationErrors& errors) {
+  errors.learn(filter.advance(utime_us, errors));
 }
 
 inline std::vector<FusedTarget> targets_of(Fusion& fusion, const std::vector<Sighting>& sightings) {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "central/ray.h"
-#include "central/sighting.h"
+#include "central/measurement/ray.h"
+#include "central/measurement/sighting.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "flight.h"
+#include "tests/unit/central/flight.h"
 
 namespace ols::test {
 

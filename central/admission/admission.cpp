@@ -1,0 +1,119 @@
+#include "central/admission/admission.h"
+
+#include "central/measurement/time_span.h"
+
+namespace ols {
+
+Admission::Admission(const AdmissionConfig& config)
+    : config_(config),
+      registry_(config.stations, config.max_stations),
+      time_(config.silence_s),
+      clocks_(config.clocks) {}
+
+void Admission::evict(const std::string& station, FusionLog& log) {
+  log.count("stations_evicted");
+  log.error(station, "forgotten, too many stations");
+  time_.forget(station);
+  clocks_.forget(station);
+}
+
+std::optional<std::string> Admission::know_station(const std::string& station,
+                                                   const StationTraits& traits, FusionLog& log) {
+  if (!registry_.belongs(station)) return std::nullopt;
+  const StationRegistry::Place place = registry_.for_status(station, time_);
+  if (place.evicted) evict(*place.evicted, log);
+  if (place.station != nullptr) place.station->traits = traits;
+  return place.evicted;
+}
+
+void Admission::allow_slews(const std::string& station, bool allowed) {
+  const auto known = registry_.all().find(station);
+  if (known != registry_.all().end()) known->second.traits.commandable = allowed;
+}
+
+Admitted Admission::admit(const Sighting& sighting, FusionLog& log) {
+  const SightingRefusal broken = check(sighting);
+  if (broken != SightingRefusal::kNone) return {.refusal = broken};
+  if (!registry_.belongs(sighting.station)) return {.refusal = SightingRefusal::kUnknown};
+  const auto known = registry_.all().find(sighting.station);
+  const bool is_first = known == registry_.all().end() || !known->second.delivered;
+  const StationRegistry::Place place = registry_.for_bearing(sighting.station, time_);
+  if (place.station == nullptr) return {.refusal = SightingRefusal::kTooMany};
+  if (is_first) place.station->stands_where(sighting.sight);
+  if (place.evicted) evict(*place.evicted, log);
+  Admitted admitted{.station = place.station, .evicted = place.evicted};
+  admitted.refusal = judge(sighting, *place.station, log);
+  if (admitted.refusal == SightingRefusal::kNone) notice_changes(sighting, log, admitted);
+  return admitted;
+}
+
+// By the station's clock and by "now", then by what else the station has sent.
+SightingRefusal Admission::judge(const Sighting& sighting, KnownStation& station, FusionLog& log) {
+  if (time_.hear(sighting.station, sighting.utime_us)) {
+    station.exposures.clear();
+    log.count("clock_stepped_back");
+    if (clocks_.quarantine(sighting.station).empty()) {
+      log.error(sighting.station, "its clock has stepped back");
+    }
+  }
+  if (!clock_is_believed(sighting, log)) {
+    station.exposures.clear();
+    return SightingRefusal::kQuarantine;
+  }
+  if (is_future(sighting.utime_us)) return SightingRefusal::kFuture;
+  if (seconds(sighting.utime_us - time_.now_us()) < -config_.stale_s) {
+    return SightingRefusal::kStale;
+  }
+  if (sighting.belief < config_.min_belief) return SightingRefusal::kLowBelief;
+  return store(sighting, station);
+}
+
+bool Admission::is_future(std::int64_t utime_us) const {
+  return seconds(utime_us - time_.now_us()) > config_.future_s;
+}
+
+bool Admission::clock_is_believed(const Sighting& sighting, FusionLog& log) {
+  const bool before = clocks_.quarantine(sighting.station).empty();
+  clocks_.hear(sighting, time_);
+  const std::string& why = clocks_.quarantine(sighting.station);
+  time_.trust(sighting.station, why.empty());
+  if (before && !why.empty()) log.quarantine(sighting.station, why);
+  return why.empty();
+}
+
+SightingRefusal Admission::store(const Sighting& sighting, KnownStation& station) const {
+  if (station.exposures.has(sighting)) return SightingRefusal::kDuplicate;
+  station.exposures.go_on_to(sighting.utime_us);
+  if (station.exposures.is_flood(config_.flood_hz)) return SightingRefusal::kFlood;
+  station.exposures.add(sighting);
+  station.stands_where(sighting.sight);
+  return SightingRefusal::kNone;
+}
+
+// Of its calibration, and of the process that numbers its objects.
+void Admission::notice_changes(const Sighting& sighting, FusionLog& log, Admitted& admitted) {
+  KnownStation& station = *admitted.station;
+  if (station.bearings > 0 && station.calibration_id != sighting.calibration_id) {
+    admitted.recalibrated = true;
+    log.count("calibrations_changed");
+  }
+  station.calibration_id = sighting.calibration_id;
+  if (station.bearings > 0 && station.boot_id != sighting.boot_id) {
+    admitted.restarted = true;
+    station.target_id = 0;
+    log.count("stations_restarted");
+  }
+  station.boot_id = sighting.boot_id;
+  ++station.bearings;
+  log.count("bearings");
+}
+
+void Admission::begin_time_line() {
+  clocks_.clear();
+  for (auto& [name, station] : registry_.all()) {
+    time_.trust(name, true);
+    station.target_id = 0;
+  }
+}
+
+}  // namespace ols

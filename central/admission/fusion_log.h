@@ -1,0 +1,23 @@
+// What the fusion counts, and what went wrong last.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace ols {
+
+struct FusionLog {
+  std::map<std::string, double> counters;  // only go up
+  std::string last_error;
+
+  void count(const std::string& name, double more = 1.0) { counters[name] += more; }
+  void error(const std::string& station, const std::string& what) {
+    last_error = "station " + station + ": " + what;
+  }
+  void quarantine(const std::string& station, const std::string& why) {
+    count("stations_quarantined");
+    error(station, "quarantined, " + why);
+  }
+};
+
+}  // namespace ols

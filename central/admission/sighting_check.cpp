@@ -1,0 +1,98 @@
+#include "central/admission/sighting_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/angles.h"
+
+namespace ols {
+namespace {
+
+bool all_finite(const Sighting& s) {
+  return s.sight.origin_ecef.allFinite() && s.sight.origin_sd_enu_m.allFinite() &&
+         s.sight.covariance_white.allFinite() && s.sight.covariance_systematic.allFinite() &&
+         std::isfinite(s.sight.direction.azimuth_rad) &&
+         std::isfinite(s.sight.direction.elevation_rad) && std::isfinite(s.belief) &&
+         std::isfinite(s.clock_sd_s);
+}
+
+bool in_range(const Sighting& s) {
+  constexpr double kGreatestClockSdS = 1e4;
+  const AzimuthElevation& d = s.sight.direction;
+  return !s.station.empty() && s.utime_us > 0 && d.azimuth_rad >= 0.0 &&
+         d.azimuth_rad <= 2.0 * kPi && std::abs(d.elevation_rad) <= kPi / 2.0 && s.belief >= 0.0 &&
+         s.belief <= 1.0 && s.clock_sd_s >= 0.0 && s.clock_sd_s <= kGreatestClockSdS &&
+         is_a_stations_place(s.sight.origin_ecef, s.sight.origin_sd_enu_m);
+}
+
+// Determinant; an asymmetric matrix counts with the worse of its two off-diagonal elements.
+double determinant(const Eigen::Matrix2d& m) {
+  const double off = std::max(std::abs(m(0, 1)), std::abs(m(1, 0)));
+  return m(0, 0) * m(1, 1) - off * off;
+}
+
+bool variances_within(const Eigen::Matrix2d& m, double least_rad2) {
+  constexpr double kGreatestRad2 = 10.0;  // about (180 deg)^2: nothing is known
+  return m.diagonal().minCoeff() >= least_rad2 && m.diagonal().maxCoeff() <= kGreatestRad2;
+}
+
+// The bounds are far beyond any camera's; outside of them one bearing would upset the arithmetic
+// of the whole fit.
+bool covariances_hold(const SightLine& sight) {
+  constexpr double kLeastWhiteRad2 = 1e-18;
+  constexpr double kWorstCondition = 1e8;  // of the white one: greatest eigenvalue over least
+  const Eigen::Matrix2d& white = sight.covariance_white;
+  const Eigen::Matrix2d& stays = sight.covariance_systematic;
+  const double slack = 1e-9 * stays(0, 0) * stays(1, 1);  // rounding of a singular one
+  return variances_within(white, kLeastWhiteRad2) && variances_within(stays, 0.0) &&
+         determinant(white) >= white.trace() * white.trace() / kWorstCondition &&
+         determinant(stays) >= -slack;
+}
+
+}  // namespace
+
+const char* to_string(SightingRefusal refusal) {
+  switch (refusal) {
+    case SightingRefusal::kNone:
+      return "none";
+    case SightingRefusal::kNotFinite:
+      return "refused_not_finite";
+    case SightingRefusal::kOutOfRange:
+      return "refused_out_of_range";
+    case SightingRefusal::kCovariance:
+      return "refused_covariance";
+    case SightingRefusal::kUnknown:
+      return "refused_unknown_station";
+    case SightingRefusal::kStale:
+      return "refused_stale";
+    case SightingRefusal::kFuture:
+      return "refused_future";
+    case SightingRefusal::kDuplicate:
+      return "refused_duplicate";
+    case SightingRefusal::kQuarantine:
+      return "refused_quarantine";
+    case SightingRefusal::kTooMany:
+      return "refused_too_many_stations";
+    case SightingRefusal::kFlood:
+      return "refused_flood";
+    case SightingRefusal::kLowBelief:
+      return "unused_low_belief";
+  }
+  return "unknown";
+}
+
+bool is_a_stations_place(const Eigen::Vector3d& p_ecef, const Eigen::Vector3d& sd_enu_m) {
+  constexpr double kDeepestM = 6.3e6, kHighestM = 7.0e6;  // from the Earth's centre
+  constexpr double kGreatestSdM = 1e6;
+  return p_ecef.norm() > kDeepestM && p_ecef.norm() < kHighestM && sd_enu_m.minCoeff() >= 0.0 &&
+         sd_enu_m.maxCoeff() <= kGreatestSdM;
+}
+
+SightingRefusal check(const Sighting& sighting) {
+  if (!all_finite(sighting)) return SightingRefusal::kNotFinite;
+  if (!in_range(sighting)) return SightingRefusal::kOutOfRange;
+  if (!covariances_hold(sighting.sight)) return SightingRefusal::kCovariance;
+  return SightingRefusal::kNone;
+}
+
+}  // namespace ols

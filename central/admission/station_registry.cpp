@@ -1,0 +1,73 @@
+#include "central/admission/station_registry.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace ols {
+namespace {
+
+constexpr double kForgottenS = 10.0;  // silent for longer: gives its place to any other
+
+// Strangers must not push out who has worked here and still does.
+bool may_go(const std::string& name, const KnownStation& station, const MessageTime& time) {
+  constexpr std::int64_t kAtHome = 10;  // bearings
+  return station.bearings < kAtHome || time.silent_s(name) > kForgottenS;
+}
+
+}  // namespace
+
+bool StationRegistry::belongs(const std::string& station) const {
+  return names_.empty() || std::ranges::find(names_, station) != names_.end();
+}
+
+bool StationRegistry::full(const std::string& station) const {
+  return stations_.size() >= static_cast<std::size_t>(most_) && !stations_.contains(station);
+}
+
+// By messages, not by stamps: a station's clock may be wrong. Those without a bearing come first.
+StationRegistry::Entry StationRegistry::longest_silent(const MessageTime& time) {
+  return std::ranges::min_element(stations_, {}, [&](const auto& entry) {
+    const KnownStation& station = entry.second;
+    return std::tuple(station.delivered, !may_go(entry.first, station, time), station.heard);
+  });
+}
+
+StationRegistry::Place StationRegistry::take(const std::string& station,
+                                             std::optional<Entry> evicted) {
+  Place place;
+  if (evicted) {
+    place.evicted = (*evicted)->first;
+    stations_.erase(*evicted);
+  }
+  place.station = &stations_[station];
+  return place;
+}
+
+StationRegistry::Place StationRegistry::for_bearing(const std::string& station,
+                                                    const MessageTime& time) {
+  std::optional<Entry> evicted;
+  if (full(station)) {
+    evicted = longest_silent(time);
+    if (!may_go((*evicted)->first, (*evicted)->second, time)) return {};
+  }
+  Place place = take(station, evicted);
+  place.station->delivered = true;
+  place.station->heard = ++messages_;
+  return place;
+}
+
+StationRegistry::Place StationRegistry::for_status(const std::string& station,
+                                                   const MessageTime& time) {
+  std::optional<Entry> evicted;
+  if (full(station)) {
+    evicted = longest_silent(time);
+    const bool delivers =
+        (*evicted)->second.delivered && time.silent_s((*evicted)->first) < kForgottenS;
+    if (delivers) return {};
+  }
+  Place place = take(station, evicted);
+  if (!place.station->delivered) place.station->heard = ++messages_;
+  return place;
+}
+
+}  // namespace ols

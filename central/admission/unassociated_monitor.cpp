@@ -1,0 +1,37 @@
+#include "central/admission/unassociated_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "central/measurement/time_span.h"
+
+namespace ols {
+namespace {
+
+constexpr double kGap_s = 3.0;  // a silence that begins the count anew
+
+}  // namespace
+
+void UnassociatedMonitor::unassociated(const std::string& station, std::int64_t utime_us) {
+  const auto [position, is_new] = stations_.try_emplace(station, Span{utime_us, utime_us});
+  Span& span = position->second;
+  if (std::abs(seconds(utime_us - span.to_us)) > kGap_s) span = {utime_us, utime_us};
+  span.to_us = std::max(span.to_us, utime_us);
+}
+
+std::string UnassociatedMonitor::alarm(const std::string& station, std::int64_t now_us) const {
+  const auto found = stations_.find(station);
+  if (found == stations_.end()) return {};
+  const Span& span = found->second;
+  const double for_s = seconds(span.to_us - span.from_us);
+  if (for_s < config_.alarm_s || std::abs(seconds(now_us - span.to_us)) > kGap_s) return {};
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "follows for %.0f s what is none of the targets: another object, or designate it "
+                "anew",
+                for_s);
+  return "station " + station + ": " + text;
+}
+
+}  // namespace ols

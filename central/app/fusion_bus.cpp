@@ -1,0 +1,101 @@
+#include "central/app/fusion_bus.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "base/clocks.h"
+
+namespace ols {
+namespace {
+
+constexpr int kWaitMs = 50;
+constexpr std::size_t kChannels = 1000;  // with a sequence of their own
+
+}  // namespace
+
+FusionBus::FusionBus(const std::string& url, const std::string& slew_url, std::int64_t boot_id,
+                     Subscribe subscribe)
+    : url_(url),
+      slew_url_(slew_url),
+      boot_id_(boot_id),
+      subscribe_(std::move(subscribe)),
+      connector_(url) {}
+
+void FusionBus::connect(double wait_s) {
+  if (bus_) return;
+  bus_ = connector_.take(clock_monotonic_s(), wait_s);
+  std::string why = connector_.trouble();
+  try {
+    if (bus_ && slew_url_ != url_) slew_bus_ = std::make_unique<LcmBus>(slew_url_);
+  } catch (const BusError& error) {
+    bus_.reset();
+    why = error.what();
+  }
+  if (bus_) {
+    subscribe_(*bus_);
+    if (!trouble_.empty()) spdlog::info("connected to {}", url_);
+    trouble_.clear();
+  } else if (!why.empty() && why != trouble_) {
+    spdlog::warn("no bus, tried again each second: {}", why);
+    trouble_ = why;
+  }
+}
+
+void FusionBus::handle() {
+  if (!bus_) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(kWaitMs));
+    return;
+  }
+  bus_->handle(kWaitMs);
+  const double now_s = clock_monotonic_s();
+  watch_.look(bus_->traffic(), now_s);
+  const std::string alarm = watch_.alarm(now_s);
+  if (!alarm.empty() && alarm_.empty()) spdlog::warn("{}", alarm);
+  alarm_ = alarm;
+}
+
+void FusionBus::end_if_broken() {
+  if (bus_ && (send_failed_ || bus_->is_deaf())) {
+    trouble_ = send_failed_ ? "the network takes no messages"
+                            : "nothing comes in any more, not even the fusion's own word";
+    spdlog::warn("no bus, tried again each second: {}", trouble_);
+    bus_.reset();
+    slew_bus_.reset();
+    watch_.connection_ended();
+  }
+  send_failed_ = false;
+}
+
+void FusionBus::note_not_sent() {
+  ++not_sent_;
+  send_failed_ = true;
+}
+
+MessageStamp FusionBus::next_stamp(std::string_view channel) {
+  const auto [sequence, is_new] = sequences_.try_emplace(std::string(channel), forgotten_sequence_);
+  const MessageStamp stamp{boot_id_, ++sequence->second};
+  if (sequences_.size() > kChannels) forget_sequences();
+  return stamp;
+}
+
+// Stations come and go, a flood brings any number of names. Each channel's sequence must only grow,
+// so that all begin again above the greatest.
+void FusionBus::forget_sequences() {
+  for (const auto& [channel, sequence] : sequences_) {
+    forgotten_sequence_ = std::max(forgotten_sequence_, sequence);
+  }
+  sequences_.clear();
+}
+
+std::string FusionBus::alarm() const { return watch_.alarm(clock_monotonic_s()); }
+
+void FusionBus::count(std::map<std::string, double>& counters) const {
+  counters["messages_not_sent"] = static_cast<double>(not_sent_);
+  watch_.count(counters);
+}
+
+}  // namespace ols

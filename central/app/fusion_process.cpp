@@ -1,0 +1,181 @@
+#include "central/app/fusion_process.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/clocks.h"
+
+namespace ols {
+FusionProcess::FusionProcess(const FusionSettings& settings, const FusionProcessOptions& options)
+    : settings_(settings),
+      options_(options),
+      fusion_(settings.fusion),
+      bus_(settings.lcm_url, options.slew_url, options.boot_id,
+           [this](LcmBus& bus) { subscribe(bus); }),
+      present_(settings.slew_clock_tolerance_s),
+      others_(options.boot_id),
+      status_s_(clock_monotonic_s()) {
+  for (const char* name : {"targets_withheld", "slews_withheld", "other_fusions"}) {
+    counters_[name] = 0.0;
+  }
+  for (int i = 0; i <= static_cast<int>(MessageRefusal::kNoPosition); ++i) {
+    counters_[to_string(static_cast<MessageRefusal>(i))] = 0.0;
+  }
+  // A process that reports "ready" has to receive what is sent to it from then on.
+  bus_.connect(BusConnector::kLongest_s);
+}
+
+void FusionProcess::subscribe(LcmBus& bus) {
+  bus.subscribe(std::string(kBearingChannel) + ".*",
+                [this](const BusMessage& message) { on_bearing(message); });
+  bus.subscribe(std::string(kStatusChannel) + ".*",
+                [this](const BusMessage& message) { on_status(message); });
+  // A recording has the status of the fusion that it was recorded with.
+  if (options_.replay) return;
+  bus.subscribe(std::string(kFusionStatusChannel),
+                [this](const BusMessage& message) { on_fusion_status(message); });
+}
+
+void FusionProcess::turn() {
+  bus_.connect(0.0);
+  bus_.handle();
+  publish_status_when_due();
+  bus_.end_if_broken();
+}
+
+std::string FusionProcess::in_one_line() const {
+  if (!bus_.is_connected()) return "no bus: " + bus_.trouble();
+  const FusionHealth health = watched_health();
+  std::string line = std::to_string(health.stations.size()) + " stations";
+  for (const StationHealth& station : health.stations) {
+    if (!station.quarantine.empty()) line += "; " + station.station + " quarantined";
+  }
+  if (!health.alarms.empty()) line += "; " + health.alarms.front();
+  const std::string& error = errors_.last.empty() ? health.last_error : errors_.last;
+  if (!error.empty()) line += "; last error: " + error;
+  return line;
+}
+
+void FusionProcess::on_bearing(const BusMessage& message) {
+  const auto decoded = sighting_from(message.channel, message.payload.data(),
+                                     static_cast<int>(message.payload.size()));
+  if (const auto* refusal = std::get_if<MessageRefusal>(&decoded)) {
+    return refuse(*refusal, message.channel);
+  }
+  publish(fusion_.add(std::get<Sighting>(decoded)));
+}
+
+void FusionProcess::on_status(const BusMessage& message) {
+  const auto decoded = station_place_from(message.channel, message.payload.data(),
+                                          static_cast<int>(message.payload.size()));
+  if (const auto* refusal = std::get_if<MessageRefusal>(&decoded)) {
+    return refuse(*refusal, message.channel);
+  }
+  const auto& place = std::get<StationPlace>(decoded);
+  if (!place.no_place) return fusion_.know_station(place.station, place.traits);
+  fusion_.allow_slews(place.station, place.traits.commandable);
+  refuse(*place.no_place, message.channel);
+}
+
+void FusionProcess::on_fusion_status(const BusMessage& message) {
+  const auto boot_id =
+      fusion_boot_from(message.payload.data(), static_cast<int>(message.payload.size()));
+  if (const auto* refusal = std::get_if<MessageRefusal>(&boot_id)) {
+    return refuse(*refusal, std::string(kFusionStatusChannel));
+  }
+  const double now_s = clock_monotonic_s();
+  if (others_.hear(std::get<std::int64_t>(boot_id), now_s)) ++counters_["other_fusions"];
+  if (!others_.take_news()) return;
+  errors_.last = others_.alarm(now_s);
+  spdlog::warn("{}", errors_.last);
+}
+
+void FusionProcess::refuse(MessageRefusal refusal, const std::string& channel) {
+  ++counters_[to_string(refusal)];
+  if (refusal == MessageRefusal::kNoPosition) return;  // it will know one day
+  errors_.last = channel + ": " + to_string(refusal);
+}
+
+// What waited for a standing process is still worked off, so that the tracks go on.
+bool FusionProcess::is_present(std::int64_t utime_us, const char* counter) {
+  if (options_.replay) return true;
+  const double now_s = clock_monotonic_s();
+  if (present_.passes(utime_us, clock_utime_us(), now_s)) return true;
+  ++counters_[counter];
+  if (present_.take_news()) {
+    errors_.last = present_.alarm(now_s);
+    spdlog::warn("{}", errors_.last);
+  }
+  return false;
+}
+
+void FusionProcess::publish(const FusionOutput& output) {
+  for (const FusedTarget& target : output.targets) {
+    if (!is_present(target.utime_us, "targets_withheld")) continue;
+    bus_.send(kTargetChannel, to_message(target, bus_.next_stamp(kTargetChannel)));
+    latency_.add(static_cast<double>(clock_utime_us() - target.utime_us) * 1e-6);
+  }
+  for (const FusedTarget& target : output.targets_paper) {
+    if (!is_present(target.utime_us, "targets_withheld")) continue;
+    bus_.send(kPaperTargetChannel, to_message(target, bus_.next_stamp(kPaperTargetChannel)));
+  }
+  for (const Slew& slew : output.slews) {
+    if (!is_present(slew.utime_us, "slews_withheld")) continue;
+    const std::string channel = std::string(kSlewChannel) + slew.station;
+    bus_.send_slew(channel, to_message(slew, bus_.next_stamp(channel)));
+  }
+}
+
+// By the messages' time, so that a replay at any speed shows the same; by the clock in silence.
+void FusionProcess::publish_status_when_due() {
+  const double interval_s = settings_.status_interval_s;
+  const double now_s = clock_monotonic_s();
+  const double by_messages_s = static_cast<double>(fusion_.now_us() - status_message_us_) * 1e-6;
+  if (std::abs(by_messages_s) < interval_s && now_s - status_s_ < interval_s) return;
+  status_message_us_ = fusion_.now_us();
+  status_s_ = now_s;
+  FusionHealth health = watched_health();
+  health.last_error = errors_.newest(health.last_error);
+  bus_.send(kFusionStatusChannel,
+            to_message(health, latency_.median_s(), bus_.next_stamp(kFusionStatusChannel)));
+}
+
+// The fusion's own, and what this process sees beside it.
+FusionHealth FusionProcess::watched_health() const {
+  const double now_s = clock_monotonic_s();
+  FusionHealth health = fusion_.health();
+  health.counters.insert(counters_.begin(), counters_.end());
+  bus_.count(health.counters);
+  for (const std::string& alarm : {present_.alarm(now_s), others_.alarm(now_s), bus_.alarm()}) {
+    if (!alarm.empty()) health.alarms.insert(health.alarms.begin(), alarm);
+  }
+  return health;
+}
+
+const std::string& FusionProcess::Errors::newest(const std::string& of_fusion_now) {
+  const bool untold = last != told;
+  if (of_fusion_now != of_fusion && !untold) last = of_fusion_now;
+  of_fusion = of_fusion_now;
+  told = last;
+  return last;
+}
+
+void FusionProcess::Latency::add(double latency_s) {
+  constexpr std::size_t kLatencies = 200;
+  lately_s.push_back(latency_s);
+  if (lately_s.size() > kLatencies) lately_s.pop_front();
+}
+
+double FusionProcess::Latency::median_s() const {
+  if (lately_s.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> sorted(lately_s.begin(), lately_s.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, middle);
+  return *middle;
+}
+
+}  // namespace ols

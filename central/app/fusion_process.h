@@ -1,0 +1,72 @@
+// The fusion on the bus: bearings and station status in; targets, slews and the fusion's own status
+// out. Counts whatever it refuses. Without a network it waits for one.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+
+#include "central/app/fusion_bus.h"
+#include "central/app/fusion_settings.h"
+#include "central/app/messages.h"
+#include "central/app/other_fusions.h"
+#include "central/app/timeliness_gate.h"
+
+namespace ols {
+
+struct FusionProcessOptions {
+  std::string slew_url;  // where slews go
+  bool replay = false;   // the messages' time need not be the present
+  std::int64_t boot_id = 0;
+};
+
+class FusionProcess {
+ public:
+  FusionProcess(const FusionSettings& settings, const FusionProcessOptions& options);
+
+  // Handles what has arrived, waiting a little for the first message; publishes what follows.
+  void turn();
+  // How it is, in one line for a person.
+  std::string in_one_line() const;
+
+ private:
+  void subscribe(LcmBus& bus);
+  void on_bearing(const BusMessage& message);
+  void on_status(const BusMessage& message);
+  void on_fusion_status(const BusMessage& message);
+  void refuse(MessageRefusal refusal, const std::string& channel);
+  bool is_present(std::int64_t utime_us, const char* counter);
+  FusionHealth watched_health() const;
+  void publish(const FusionOutput& output);
+  void publish_status_when_due();
+
+  // The last error, of the fusion or of this process.
+  struct Errors {
+    std::string last{}, told{}, of_fusion{};
+
+    // Of the two the one that is new since the last status.
+    const std::string& newest(const std::string& of_fusion_now);
+  };
+  // From a target's instant to its publication.
+  struct Latency {
+    std::deque<double> lately_s{};
+
+    void add(double latency_s);
+    double median_s() const;
+  };
+
+  FusionSettings settings_;
+  FusionProcessOptions options_;
+  Fusion fusion_;
+  FusionBus bus_;
+  std::map<std::string, double> counters_;
+  TimelinessGate present_;
+  OtherFusions others_;
+  Errors errors_;
+  Latency latency_;
+  std::int64_t status_message_us_ = 0;  // "now" of the last status
+  double status_s_ = 0.0;               // this host's monotonic clock at the last status
+};
+
+}  // namespace ols

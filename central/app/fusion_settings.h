@@ -1,0 +1,24 @@
+// Everything that the fusion's configuration file holds: docs/configuration.md.
+#pragma once
+
+#include <string>
+
+#include "central/fusion/fusion.h"
+
+namespace ols::config {
+struct Section;
+}
+namespace ols {
+
+struct FusionSettings {
+  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  double status_interval_s = 1.0;
+  double slew_clock_tolerance_s = 2.0;  // what is further from this host's clock is withheld
+  FusionConfig fusion{};
+};
+
+config::Section fusion_section(FusionSettings& settings);  // the whole file
+// Throws ConfigError ("file:line: key: what").
+FusionSettings load_fusion_settings(const std::string& path);
+
+}  // namespace ols

@@ -1,0 +1,266 @@
+#include "central/app/messages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <span>
+
+#include "base/lcm_bus.h"
+#include "central/admission/sighting_check.h"
+#include "geometry/angles.h"
+#include "geometry/wgs84.h"
+#include "ols_msg/bearing_t.hpp"
+#include "ols_msg/station_status_t.hpp"
+
+namespace ols {
+namespace {
+
+constexpr std::size_t kAlarms = 16;  // told in a status
+
+// What every message of a station must fulfil.
+template <class Message>
+std::optional<MessageRefusal> decode_from_station(std::string_view prefix,
+                                                  const std::string& channel, const void* data,
+                                                  int bytes, Message& message) {
+  if (!decode_exactly(data, bytes, message)) return MessageRefusal::kMalformed;
+  if (message.schema_version != Message::SCHEMA_VERSION) return MessageRefusal::kSchema;
+  if (message.station.empty() || channel != std::string(prefix) + message.station) {
+    return MessageRefusal::kOtherStation;
+  }
+  return std::nullopt;
+}
+
+Eigen::Matrix2d symmetric(const double (&xx_xy_yy)[3]) {
+  Eigen::Matrix2d matrix;
+  matrix << xx_xy_yy[0], xx_xy_yy[1], xx_xy_yy[1], xx_xy_yy[2];
+  return matrix;
+}
+
+StationClock clock_from(std::int8_t state) {
+  if (state == ols_msg::bearing_t::CLOCK_SYNCHRONISED) return StationClock::kSynchronised;
+  if (state == ols_msg::bearing_t::CLOCK_UNSYNCHRONISED) return StationClock::kUnsynchronised;
+  return StationClock::kUnknown;
+}
+
+// The operator comes before the fusion.
+bool commandable(std::int8_t state) {
+  using ols_msg::station_status_t;
+  return state != station_status_t::STATE_MANUAL && state != station_status_t::STATE_STOPPED &&
+         state != station_status_t::STATE_EMERGENCY;
+}
+
+// ee, en, eu, nn, nu, uu at the target's own horizon.
+void enu_triangle(const Eigen::Matrix3d& covariance_ecef, const Eigen::Matrix3d& R_ecef_enu,
+                  double (&out)[6]) {
+  const Eigen::Matrix3d enu = R_ecef_enu.transpose() * covariance_ecef * R_ecef_enu;
+  int next = 0;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = row; column < 3; ++column) out[next++] = enu(row, column);
+  }
+}
+
+void fill_position(const Estimate& estimate, ols_msg::target_t& message) {
+  const bool located = estimate.solution == Solution::kOk;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Geodetic place{nan, nan, nan};
+  Eigen::Matrix3d R = nan_matrix();
+  if (located) {
+    place = geodetic_from_ecef(estimate.position_ecef);
+    R = R_ecef_enu(place);
+  }
+  message.latitude_deg = degrees(place.latitude_rad);
+  message.longitude_deg = degrees(place.longitude_rad);
+  message.height_m = place.height_m;
+  for (int i = 0; i < 3; ++i) {
+    message.position_ecef_m[i] = estimate.position_ecef(i);
+    message.velocity_ecef_m_s[i] = estimate.velocity_ecef(i);
+  }
+  enu_triangle(estimate.covariance_ecef, R, message.position_covariance_enu_m2);
+  enu_triangle(estimate.covariance_white_ecef, R, message.position_covariance_white_enu_m2);
+  enu_triangle(estimate.velocity_covariance_ecef, R, message.velocity_covariance_enu_m2_s2);
+}
+
+void fill_bearing(const std::optional<BearingOnly>& only, ols_msg::target_t& message) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  message.azimuth_rad = message.elevation_rad = message.direction_sd_rad = nan;
+  message.direction_rate_rad_s[0] = message.direction_rate_rad_s[1] = nan;
+  if (!only) return;
+  const SightLine& sight = only->sight;
+  message.azimuth_rad = sight.direction.azimuth_rad;
+  message.elevation_rad = sight.direction.elevation_rad;
+  message.direction_sd_rad =
+      std::sqrt((sight.covariance_white + sight.covariance_systematic).trace() / 2.0);
+  for (int axis = 0; axis < 2; ++axis) message.direction_rate_rad_s[axis] = only->rate_rad_s(axis);
+}
+
+// A datagram holds so many with the longest of their texts. The next message tells the next ones.
+std::span<const StationHealth> in_turn(const std::vector<StationHealth>& all,
+                                       std::int64_t sequence) {
+  constexpr std::size_t kMost = 250;
+  const std::size_t turns = std::max<std::size_t>(1, (all.size() + kMost - 1) / kMost);
+  const std::size_t first = kMost * (static_cast<std::size_t>(sequence) % turns);
+  return std::span(all).subspan(first, std::min(kMost, all.size() - first));
+}
+
+}  // namespace
+
+const char* to_string(MessageRefusal refusal) {
+  switch (refusal) {
+    case MessageRefusal::kMalformed:
+      return "messages_malformed";
+    case MessageRefusal::kSchema:
+      return "messages_schema";
+    case MessageRefusal::kOtherStation:
+      return "messages_other_station";
+    case MessageRefusal::kOutOfRange:
+      return "messages_out_of_range";
+    case MessageRefusal::kNoPosition:
+      return "messages_without_position";
+  }
+  return "unknown";
+}
+
+std::variant<Sighting, MessageRefusal> sighting_from(const std::string& channel, const void* data,
+                                                     int bytes) {
+  ols_msg::bearing_t message;
+  const auto refusal = decode_from_station(kBearingChannel, channel, data, bytes, message);
+  if (refusal) return *refusal;
+  Sighting sighting;
+  sighting.station = message.station;
+  sighting.utime_us = message.utime;
+  sighting.boot_id = message.boot_id;
+  sighting.track_id = message.track_id;
+  sighting.belief = message.belief;
+  sighting.clock_sd_s = message.clock_error_s;
+  sighting.clock = clock_from(message.clock_state);
+  sighting.calibration_id = message.calibration_id;
+  sighting.sight.origin_ecef = Eigen::Vector3d(message.camera_ecef_m);
+  sighting.sight.direction = {message.azimuth_rad, message.elevation_rad};
+  sighting.sight.covariance_white = symmetric(message.covariance_white_rad2);
+  sighting.sight.covariance_systematic = symmetric(message.covariance_systematic_rad2);
+  sighting.sight.origin_sd_enu_m = Eigen::Vector3d(message.camera_position_sd_m);
+  return sighting;
+}
+
+std::variant<StationPlace, MessageRefusal> station_place_from(const std::string& channel,
+                                                              const void* data, int bytes) {
+  ols_msg::station_status_t message;
+  const auto refusal = decode_from_station(kStatusChannel, channel, data, bytes, message);
+  if (refusal) return *refusal;
+  StationPlace place{message.station, {}};
+  place.traits.commandable = commandable(message.state);
+  if (message.position_source == ols_msg::station_status_t::POSE_NONE) {
+    place.no_place = MessageRefusal::kNoPosition;
+    return place;
+  }
+  place.traits.camera_ecef = Eigen::Vector3d(message.camera_ecef_m);
+  place.traits.camera_sd_enu_m = Eigen::Vector3d(message.position_sd_m);
+  const StationTraits& traits = place.traits;
+  if (!traits.camera_sd_enu_m.allFinite() ||
+      !is_a_stations_place(traits.camera_ecef, traits.camera_sd_enu_m)) {
+    place.no_place = MessageRefusal::kOutOfRange;
+  }
+  const double view_rad = std::min(message.field_of_view_rad[0], message.field_of_view_rad[1]);
+  if (view_rad > 1e-4 && view_rad < kPi) place.traits.field_of_view_rad = view_rad;
+  constexpr double kLatestS = 2.0;
+  if (message.frame_latency_s > 0.0 && message.frame_latency_s < kLatestS) {
+    place.traits.latency_s = message.frame_latency_s;
+  }
+  return place;
+}
+
+std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, int bytes) {
+  ols_msg::fusion_status_t message;
+  if (!decode_exactly(data, bytes, message)) return MessageRefusal::kMalformed;
+  if (message.schema_version != ols_msg::fusion_status_t::SCHEMA_VERSION) {
+    return MessageRefusal::kSchema;
+  }
+  return message.boot_id;
+}
+
+ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stamp) {
+  ols_msg::target_t message;
+  message.utime = target.utime_us;
+  message.schema_version = ols_msg::target_t::SCHEMA_VERSION;
+  message.boot_id = stamp.boot_id;
+  message.sequence = stamp.sequence;
+  message.target_id = target.target_id;
+  message.estimator = target.estimator;
+  message.solution = static_cast<std::int8_t>(target.estimate.solution);
+  message.track_state = static_cast<std::int8_t>(target.state);
+  fill_position(target.estimate, message);
+  fill_bearing(target.bearing_only, message);
+  message.crossing_angle_rad = target.estimate.crossing_angle_rad;
+  message.residual = target.estimate.residual;
+  message.stations = static_cast<std::int16_t>(target.stations.size());
+  for (const ContributingStation& station : target.stations) {
+    message.station.push_back(station.station);
+    message.used.push_back(static_cast<std::int8_t>(station.used));
+    message.weight.push_back(station.weight);
+    message.age_s.push_back(station.age_s);
+  }
+  return message;
+}
+
+ols_msg::slew_t to_message(const Slew& slew, const MessageStamp& stamp) {
+  ols_msg::slew_t message;
+  message.utime = slew.utime_us;
+  message.schema_version = ols_msg::slew_t::SCHEMA_VERSION;
+  message.boot_id = stamp.boot_id;
+  message.sequence = stamp.sequence;
+  message.station = slew.station;
+  message.lease_s = slew.lease_s;
+  message.target_id = slew.target_id;
+  message.effect_utime = slew.effect_utime_us;
+  message.azimuth_rad = slew.direction.azimuth_rad;
+  message.elevation_rad = slew.direction.elevation_rad;
+  message.azimuth_rate_rad_s = slew.azimuth_rate_rad_s;
+  message.elevation_rate_rad_s = slew.elevation_rate_rad_s;
+  message.direction_sd_rad = slew.direction_sd_rad;
+  return message;
+}
+
+ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s,
+                                    const MessageStamp& stamp) {
+  ols_msg::fusion_status_t message;
+  message.utime = health.now_us;
+  message.schema_version = ols_msg::fusion_status_t::SCHEMA_VERSION;
+  message.boot_id = stamp.boot_id;
+  message.sequence = stamp.sequence;
+  message.stations_known = static_cast<std::int32_t>(health.stations.size());
+  const auto told = in_turn(health.stations, stamp.sequence);
+  message.stations = static_cast<std::int16_t>(told.size());
+  for (const StationHealth& station : told) {
+    message.station.push_back(station.station);
+    message.bearings.push_back(station.bearings);
+    message.rate_hz.push_back(station.rate_hz);
+    message.age_s.push_back(station.age_s);
+    message.residual.push_back(station.residual);
+    message.clock_offset_s.push_back(station.clock_offset_s);
+    message.quarantine.push_back(station.quarantine);
+    const StationFinding& found = station.finding;
+    message.bias_rad.push_back({found.bias_rad.x(), found.bias_rad.y()});
+    message.bias_sd_rad.push_back({found.bias_sd_rad.x(), found.bias_sd_rad.y()});
+    message.clock_found_s.push_back(found.clock_s);
+    message.clock_found_sd_s.push_back(found.clock_sd_s);
+  }
+  message.latency_s = latency_s;
+  message.counters = static_cast<std::int16_t>(health.counters.size());
+  for (const auto& [name, value] : health.counters) {
+    message.counter_name.push_back(name);
+    message.counter_value.push_back(value);
+  }
+  const std::size_t alarms = std::min(health.alarms.size(), kAlarms);
+  message.alarm.assign(health.alarms.begin(),
+                       health.alarms.begin() + static_cast<std::ptrdiff_t>(alarms));
+  if (health.alarms.size() > alarms) {
+    message.alarm.push_back("and " + std::to_string(health.alarms.size() - alarms) +
+                            " more alarms");
+  }
+  message.alarms = static_cast<std::int16_t>(message.alarm.size());
+  message.last_error = health.last_error;
+  return message;
+}
+
+}  // namespace ols

@@ -1,0 +1,36 @@
+#include "central/app/timeliness_gate.h"
+
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace ols {
+namespace {
+
+constexpr double kTold_s = 3.0;  // a status or two tell it, also of a moment
+
+}  // namespace
+
+bool TimelinessGate::passes(std::int64_t utime_us, std::int64_t host_us, double now_s) {
+  // In floating point: the difference to an absurd stamp must not overflow.
+  const double off_s = (static_cast<double>(utime_us) - static_cast<double>(host_us)) * 1e-6;
+  if (std::abs(off_s) <= tolerance_s_) return true;
+  news_ = news_ || now_s - withheld_s_ > kTold_s;
+  withheld_s_ = now_s;
+  off_s_ = off_s;
+  return false;
+}
+
+std::string TimelinessGate::alarm(double now_s) const {
+  if (now_s - withheld_s_ > kTold_s) return {};
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "targets and slews withheld: the messages' time is %+.1f s from this host's clock; "
+                "it passes after a standstill, else set the clock, or use --replay for a replay",
+                off_s_);
+  return text;
+}
+
+bool TimelinessGate::take_news() { return std::exchange(news_, false); }
+
+}  // namespace ols

@@ -1,0 +1,174 @@
+#include "central/estimators/alignment.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "geometry/wgs84.h"
+
+namespace ols {
+namespace {
+
+// One bearing on the tangent plane of the reference direction.
+struct Sample {
+  double time_s;  // from the epoch
+  Eigen::Vector2d direction;
+  Eigen::Matrix2d white;
+  Eigen::Vector3d origin;  // [m] ECEF components from the reference's camera centre
+  double weight;
+};
+
+double seconds_between(std::int64_t later_us, std::int64_t earlier_us) {
+  return static_cast<double>(later_us - earlier_us) * 1e-6;
+}
+
+// The bearings in a window of the given span that ends as late as possible, but is at most centred.
+std::span<const Sighting> window_of(std::span<const Sighting> all, std::int64_t epoch_us,
+                                    double window_s) {
+  const auto span_us = static_cast<std::int64_t>(std::llround(window_s * 1e6));
+  const std::int64_t end_us = std::min(all.back().utime_us, epoch_us + span_us / 2);
+  const auto first = std::ranges::lower_bound(all, end_us - span_us, {}, &Sighting::utime_us);
+  const auto last = std::ranges::upper_bound(all, end_us, {}, &Sighting::utime_us);
+  return {first, last};
+}
+
+const Sighting& nearest(std::span<const Sighting> window, std::int64_t epoch_us) {
+  return *std::ranges::min_element(window, {}, [&](const Sighting& sighting) {
+    return std::llabs(sighting.utime_us - epoch_us);
+  });
+}
+
+std::vector<Sample> samples_of(std::span<const Sighting> window, std::int64_t epoch_us,
+                               const Sighting& reference, const RayFrame& frame,
+                               double noise_scale) {
+  std::vector<Sample> samples;
+  for (const Sighting& sighting : window) {
+    const RayFrame own = ray_frame(sighting.sight);
+    const double ahead = frame.direction.dot(own.direction);
+    if (ahead <= 0.1) continue;  // not on this tangent plane
+    const Eigen::Matrix2d turn = frame.tangent.transpose() * own.tangent;
+    const Eigen::Matrix2d white =
+        noise_scale * turn * sighting.sight.covariance_white * turn.transpose();
+    samples.push_back({seconds_between(sighting.utime_us, epoch_us),
+                       frame.tangent.transpose() * own.direction / ahead, white,
+                       sighting.sight.origin_ecef - reference.sight.origin_ecef,
+                       2.0 / white.trace()});
+  }
+  return samples;
+}
+
+Eigen::Vector3d basis(double time_s) { return {1.0, time_s, time_s * time_s}; }
+
+Eigen::Matrix3d normal_matrix(const std::vector<Sample>& samples) {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  for (const Sample& s : samples) A += s.weight * basis(s.time_s) * basis(s.time_s).transpose();
+  return A;
+}
+
+Eigen::Matrix<double, 3, 2> coefficients(const std::vector<Sample>& samples,
+                                         const Eigen::Matrix3d& A_inverse) {
+  Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
+  for (const Sample& s : samples) {
+    right += s.weight * basis(s.time_s) * s.direction.transpose();
+  }
+  return A_inverse * right;
+}
+
+// Variance of the prior of the quadratic coefficient: physics, and what the data show beyond noise.
+double quadratic_variance(const std::vector<Sample>& samples, const Eigen::Matrix3d& A,
+                          double range_m, const AlignmentConfig& config) {
+  const double physics = std::pow(config.acceleration_sd_m_s2 / (2.0 * range_m), 2.0);
+  if (samples.size() < 4) return physics;
+  // In units of the window the matrix is well conditioned.
+  const Eigen::DiagonalMatrix<double, 3> unit(1.0, 1.0 / config.window_s,
+                                              1.0 / (config.window_s * config.window_s));
+  const Eigen::FullPivLU<Eigen::Matrix3d> lu(unit * A * unit);
+  if (!lu.isInvertible()) return physics;
+  const Eigen::Matrix3d A_inverse = unit * lu.inverse() * unit;
+  const double shown = coefficients(samples, A_inverse).row(2).squaredNorm() / 2.0;
+  return physics + std::max(0.0, shown - A_inverse(2, 2));
+}
+
+// The fit at the epoch: direction and rate on the reference's tangent plane.
+struct Fit {
+  Eigen::Vector2d direction = Eigen::Vector2d::Zero();
+  Eigen::Vector2d rate = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d direction_covariance = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+};
+
+Fit fit(const std::vector<Sample>& samples, double range_m, const AlignmentConfig& config) {
+  Eigen::Matrix3d A = normal_matrix(samples);
+  const Eigen::Vector3d prior(0.0, std::pow(config.rate_sd_rad_s, -2.0),
+                              1.0 / quadratic_variance(samples, A, range_m, config));
+  A += prior.asDiagonal().toDenseMatrix();
+  const Eigen::Matrix3d A_inverse = A.inverse();
+  // Rows: value and rate at the epoch. Their errors from the priors, then from each bearing.
+  const Eigen::Matrix3d from_prior = A_inverse * prior.asDiagonal() * A_inverse;
+  Fit result;
+  result.direction_covariance.diagonal().setConstant(from_prior(0, 0));
+  result.rate_covariance.diagonal().setConstant(from_prior(1, 1));
+  for (const Sample& s : samples) {
+    const Eigen::Vector3d gain = s.weight * A_inverse * basis(s.time_s);
+    result.direction += gain(0) * s.direction;
+    result.rate += gain(1) * s.direction;
+    result.origin += gain(0) * s.origin;
+    result.direction_covariance += gain(0) * gain(0) * s.white;
+    result.rate_covariance += gain(1) * gain(1) * s.white;
+  }
+  return result;
+}
+
+// From the reference's tangent plane to the ray's own.
+Ray ray_of(const Sighting& reference, const RayFrame& frame, const Fit& fitted) {
+  Ray ray{.station = reference.station, .sight = reference.sight};
+  ray.sight.origin_ecef += fitted.origin;
+  const double stretch_squared = 1.0 + fitted.direction.squaredNorm();
+  const Eigen::Vector3d direction =
+      (frame.direction + frame.tangent * fitted.direction) / std::sqrt(stretch_squared);
+  ray.sight.direction =
+      azimuth_elevation_from_enu(R_ecef_enu(ray.sight.origin_ecef).transpose() * direction);
+  const RayFrame own = ray_frame(ray.sight);
+  const Eigen::Matrix2d turn = own.tangent.transpose() * frame.tangent / std::sqrt(stretch_squared);
+  ray.sight.covariance_white = turn * fitted.direction_covariance * turn.transpose();
+  ray.rate_rad_s = turn * fitted.rate;
+  ray.rate_covariance = turn * fitted.rate_covariance * turn.transpose();
+  return ray;
+}
+
+bool all_finite(const Ray& ray) {
+  return ray.sight.origin_ecef.allFinite() && std::isfinite(ray.sight.direction.azimuth_rad) &&
+         std::isfinite(ray.sight.direction.elevation_rad) &&
+         ray.sight.covariance_white.allFinite() && ray.sight.covariance_systematic.allFinite() &&
+         ray.rate_rad_s.allFinite() && ray.rate_covariance.allFinite();
+}
+
+}  // namespace
+
+std::optional<Ray> align(std::span<const Sighting> sightings, std::int64_t epoch_us,
+                         std::optional<double> range_m, const AlignmentConfig& config,
+                         double noise_scale) {
+  if (sightings.empty()) return std::nullopt;
+  const auto window = window_of(sightings, epoch_us, config.window_s);
+  if (window.empty()) return std::nullopt;
+  const Sighting& reference = nearest(window, epoch_us);
+  if (std::abs(seconds_between(reference.utime_us, epoch_us)) > config.max_age_s) {
+    return std::nullopt;
+  }
+  const RayFrame frame = ray_frame(reference.sight);
+  const auto samples = samples_of(window, epoch_us, reference, frame, noise_scale);
+  Ray ray =
+      ray_of(reference, frame, fit(samples, range_m.value_or(config.range_unknown_m), config));
+  ray.bearing_variance_rad2 = noise_scale * reference.sight.covariance_white.trace() / 2.0;
+  ray.clock_sd_s = reference.clock_sd_s;
+  ray.age_s = seconds_between(epoch_us, sightings.back().utime_us);
+  ray.belief = 0.0;
+  for (const Sighting& s : window) ray.belief += s.belief / static_cast<double>(window.size());
+  if (!all_finite(ray)) return std::nullopt;  // one such ray would spoil the fit of all
+  return ray;
+}
+
+}  // namespace ols

@@ -1,0 +1,75 @@
+// One target's position at an instant, by one of several estimators behind one small interface,
+// chosen by name:
+//   filter         the track's own filter (track_filter.h): over time, with velocity
+//   least-squares  the joint maximum likelihood of all rays at the instant (least_squares.h)
+//   paper          the OLS paper's (paper_triangulation.h), its parts switched by PaperConfig
+// Which bearings belong to the target is decided before (track_manager.h), for all of them alike.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "central/estimators/alignment.h"
+#include "central/estimators/least_squares.h"
+#include "central/estimators/paper_triangulation.h"
+#include "central/tracking/track.h"
+
+namespace ols {
+
+struct EstimatorConfig {
+  AlignmentConfig alignment{};
+  LeastSquaresConfig least_squares{};
+  PaperConfig paper{};
+};
+
+struct ContributingStation {
+  std::string station;
+  bool used = false;
+  double weight = 0.0;
+  double age_s = 0.0;
+};
+
+struct Located {
+  Estimate estimate;
+  std::vector<ContributingStation> stations;  // in the order of their ids
+};
+
+// Instants without a position, by why.
+using Unlocated = std::map<Solution, std::size_t>;
+
+// What there is of one target. The estimators other than the filter need none.
+struct TrackView {
+  const StationBearings& bearings;
+  const StationErrors& errors;
+  const TrackFilter* filter = nullptr;
+};
+
+// One object serves one target: it may remember earlier instants.
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+  virtual const char* name() const = 0;
+  // Instants in order of time.
+  virtual Located locate(const TrackView& target, std::int64_t epoch_us) = 0;
+};
+
+inline constexpr const char* kEstimators[] = {"filter", "least-squares", "paper"};
+
+// Nothing for another name.
+std::unique_ptr<Estimator> make_estimator(std::string_view name, const EstimatorConfig& config);
+
+// The stations whose bearings a filter has had lately, in the order of their ids.
+std::vector<ContributingStation> contributing(const TrackFilter& filter, std::int64_t epoch_us);
+
+// A filter's state as an estimate, by the geometry guard (judge_position), with what the biases
+// make of its covariance. The crossing angle and the residual are those of the stations that had a
+// bearing used lately by state.utime_us.
+Estimate estimate_of(const TrackFilter& filter, const KinematicState& state,
+                     const SystematicPart& systematic);
+
+}  // namespace ols

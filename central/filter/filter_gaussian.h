@@ -1,0 +1,74 @@
+// The Gaussian of a filter's state, and what a filter does to it with every bearing. Pure.
+//
+// First come the target's nine states (motion_model.h), then those of the stations. Of the
+// covariance the lower triangle alone is kept and changed: half the work, and nothing that could
+// drift apart from its mirror image. Each function goes once through its columns.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <utility>
+
+#include "central/filter/motion_model.h"
+
+namespace ols {
+
+inline constexpr int kFilterStations = 12;  // with states of their own; no more are used
+// Of a station: its rotation about east, north and up, its clock's offset, and where that matters
+// the error of its place (east, north, up).
+inline constexpr int kPoseStates = 4, kPlaceStates = 3;
+inline constexpr int kStationStates = kPoseStates + kPlaceStates;
+inline constexpr int kFilterStates = 9 + kStationStates * kFilterStations;
+
+using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
+using FilterMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kFilterStates, kFilterStates>;
+using FilterMatrix2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
+
+struct FilterGaussian {
+  FilterGaussian() {}  // without states; its room of 70 kB is not set to zero
+  FilterGaussian(FilterVector m, FilterMatrix P) : mean(std::move(m)), covariance(std::move(P)) {}
+
+  FilterVector mean;
+  FilterMatrix covariance;  // its lower triangle
+};
+
+// A square on the diagonal, with both its triangles.
+template <int K>
+Eigen::Matrix<double, K, K> whole_block(const FilterMatrix& P, Eigen::Index first) {
+  return P.block<K, K>(first, first).template selfadjointView<Eigen::Lower>();
+}
+
+// Adds P H^T, for the H (2 x states) that has these columns from the first on and is else zero.
+template <int K>
+void add_product(const FilterMatrix& P, Eigen::Index first, const Eigen::Matrix<double, 2, K>& H,
+                 FilterMatrix2& result) {
+  const Eigen::Matrix<double, K, 2> Ht = H.transpose();
+  const Eigen::Index below = P.rows() - first - K;
+  result.topRows(first) += P.block(first, 0, K, first).transpose().lazyProduct(Ht);
+  result.middleRows<K>(first) += whole_block<K>(P, first) * Ht;
+  result.bottomRows(below) += P.block(first + K, first, below, K).lazyProduct(Ht);
+}
+
+// P - G G^T in the first columns; the others stay as they are.
+void subtract_square(const FilterMatrix2& G, Eigen::Index columns, FilterMatrix& P);
+
+// The target goes on by a motion.
+void propagate(const Transition& motion, FilterGaussian& state);
+
+// Each state times its own factor.
+void scale(const FilterVector& factors, FilterGaussian& state);
+
+// Room for more states before the given one, or at the end; they are zero.
+void insert_states(Eigen::Index before, Eigen::Index more, FilterGaussian& state);
+
+// Of a mixture with these weights, mean and covariance of so many states; both triangles.
+FilterGaussian mixture(std::span<const FilterGaussian> parts, std::span<const double> weights,
+                       Eigen::Index states);
+
+// Each becomes a mixture of all, with weights of its own (Blom and Bar-Shalom's interaction).
+using MixtureWeights = std::array<double, kMotions>;
+void interact(const std::array<MixtureWeights, kMotions>& weights, std::span<FilterGaussian> parts);
+
+}  // namespace ols

@@ -1,0 +1,67 @@
+// The measurement model: what a motion model expects of a bearing, and the innovation. Pure.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "central/filter/interacting_models.h"
+#include "central/measurement/ray.h"
+#include "central/measurement/sighting.h"
+
+namespace ols {
+
+// How a station's own states move its bearing on the tangent plane.
+struct StationPart {
+  Eigen::Index first = 0;  // of the station's states
+  bool has_place = false;
+  Eigen::Matrix<double, 2, 3> by_rotation;
+  Eigen::Matrix3d R_ecef_enu;
+};
+
+// One model's expectation of one bearing against it: H = [J, ahead J, curved J] of the target, and
+// of the station its pose's and its place's.
+struct ModelInnovation {
+  double depth_m = 0.0;
+  Eigen::Vector2d residual = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the residual, without noise
+  Eigen::Matrix<double, 2, 3> J;
+  double ahead_s = 0.0, curved_s2 = 0.0;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // at which a clock's error counts
+  Eigen::Matrix<double, 2, kPoseStates> by_pose;
+  Eigen::Matrix<double, 2, kPlaceStates> by_place;
+
+  // P H^T, the covariance of the whole state with the residual.
+  FilterMatrix2 cross(const FilterMatrix& P, const StationPart& part) const;
+};
+
+// The innovation of each model.
+struct Innovation {
+  std::array<ModelInnovation, kMotions> models;
+  RayFrame frame;
+  std::optional<StationPart> part;  // nothing: the filter has no states of the station
+  // The least squared normalised residual (NIS, 2 degrees of freedom); infinite behind the camera.
+  double nis = std::numeric_limits<double>::infinity();
+  std::int64_t state = 0;  // the filter's state that it is of
+};
+
+// The motion, if any, that the equations are linear about, instead of about what is known so far.
+ModelInnovation innovation_of(const InteractingModels& models, std::size_t which,
+                              const Sighting& sighting, const RayFrame& frame,
+                              const StationPart* station,
+                              const std::optional<KinematicState>& about);
+
+struct JudgedInnovation {
+  double nis = std::numeric_limits<double>::infinity();
+  // What the bearing shows of its noise's variance, over the one that is supposed.
+  double noise = 1.0;
+};
+
+// With this noise, against so many models: nothing behind a camera.
+std::optional<JudgedInnovation> judge(const Innovation& seen, std::size_t models,
+                                      const Eigen::Matrix2d& white, double gate_nis);
+
+}  // namespace ols

@@ -1,0 +1,68 @@
+// A Gaussian mixture of motion models over one state (IMM: Blom and Bar-Shalom, 1988). Pure.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "central/filter/filter_gaussian.h"
+#include "central/filter/motion_model.h"
+
+namespace ols {
+
+// Position, velocity, acceleration; three components each.
+struct KinematicState {
+  std::int64_t utime_us = 0;
+  Vector9 mean = Vector9::Zero();
+  Matrix9 covariance = Matrix9::Zero();
+};
+
+// At another instant, with its acceleration.
+Eigen::Vector3d position_at(const KinematicState& state, std::int64_t utime_us);
+
+// Where a target may be and how it may move, with vague knowledge.
+struct FilterStart {
+  Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_ecef = Eigen::Vector3d::Zero();
+  double position_sd_m = 0.0;
+  double velocity_sd_m_s = 0.0;
+};
+
+class InteractingModels {
+ public:
+  // std::invalid_argument for a configuration without models.
+  InteractingModels(const MotionConfig& config, std::int64_t utime_us, const FilterStart& start);
+
+  std::int64_t utime_us() const { return utime_us_; }
+  const MotionConfig& config() const { return config_; }
+  Motion motion(std::size_t model) const { return config_.models[model]; }
+  std::size_t size() const { return models_.size(); }
+  const FilterGaussian& operator[](std::size_t model) const { return models_[model]; }
+  std::vector<FilterGaussian>& each() { return models_; }
+  const std::vector<double>& probabilities() const { return probabilities_; }
+
+  // Each model by itself; utime_us is not before the state's own instant.
+  void predict(std::int64_t utime_us);
+  // The models' interaction after this time.
+  void interact(double dt_s);
+  // After a measurement, of each model.
+  void weigh(std::span<const double> log_likelihood);
+  // Covariance inflation: for so long, any acceleration in these directions that a target of this
+  // velocity may have.
+  void inflate(double time_s, const Eigen::Matrix3d& along, const Eigen::Vector3d& v_ecef);
+
+  // Mixed over the models: the kinematics at the state's own instant or at any other one, and the
+  // whole state.
+  KinematicState kinematics() const;
+  KinematicState at(std::int64_t utime_us) const;
+  FilterGaussian mixed() const;
+
+ private:
+  MotionConfig config_;
+  std::int64_t utime_us_;
+  std::vector<FilterGaussian> models_;  // as config_.models
+  std::vector<double> probabilities_;
+};
+
+}  // namespace ols

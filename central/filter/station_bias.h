@@ -1,0 +1,43 @@
+// What a filter's states of the stations tell: each station's bias, and what the biases make of the
+// position's covariance. Pure.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "central/filter/filter_gaussian.h"
+#include "central/filter/interacting_models.h"
+#include "central/filter/station_errors.h"
+
+namespace ols {
+
+inline Eigen::Index states_of(const BiasPrior& prior) {
+  return prior.place_apart ? kStationStates : kPoseStates;
+}
+
+// The part of the position's covariance that the biases make, at the state's own instant; and of it
+// what makes those that nobody stated and only the residuals show.
+struct SystematicPart {
+  Eigen::Matrix3d all_m2 = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d shown_m2 = Eigen::Matrix3d::Zero();
+};
+
+// Of the covariance of a whole state: position, velocity, acceleration, then states_of() each
+// prior.
+SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
+                               const std::vector<BiasPrior>& priors);
+
+struct StationBias {
+  Eigen::Vector2d bias_rad = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance_rad2 = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d prior_rad2 = Eigen::Matrix2d::Zero();
+  double clock_s = 0.0;
+  double clock_sd_s = 0.0;
+  double clock_prior_sd_s = 0.0;
+};
+
+// Mixed over the models: the states of a station from `first` on, as they move its last bearing.
+StationBias station_bias(const InteractingModels& models, Eigen::Index first,
+                         const BiasPrior& prior, const SightLine& sight, double range_m);
+
+}  // namespace ols

@@ -1,0 +1,164 @@
+#include "central/filter/station_errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "central/measurement/ray.h"
+
+namespace ols {
+namespace {
+
+bool states_anything(const Eigen::Array2d& stated_rad2) { return stated_rad2.maxCoeff() > 0.0; }
+
+// A tilt shows on both axes, a heading, which stays with a level circle, as what cross-elevation
+// has more than that.
+Eigen::Array3d rotation_variance(const Eigen::Array2d& bias_rad2, double elevation_rad) {
+  constexpr double kLevel = 1e-3;  // towards the zenith a heading is hardly seen
+  const double up = std::pow(std::sin(elevation_rad), 2), level = std::max(kLevel, 1.0 - up);
+  const double tilt = bias_rad2.y();
+  return {tilt, tilt, std::max(0.0, (bias_rad2.x() - tilt * up) / level)};
+}
+
+}  // namespace
+
+StationErrors StationErrors::evidence_on(const StationErrors& known) {
+  StationErrors evidence(known.config_);
+  evidence.known_ = &known;
+  evidence.common_weight_ = known.common_weight_;
+  evidence.common_ratio_ = known.common_ratio_;
+  return evidence;
+}
+
+void StationErrors::learn(const StationErrors& evidence) {
+  for (const auto& [station, seen] : evidence.stations_) stations_.insert_or_assign(station, seen);
+  common_weight_ = evidence.common_weight_;
+  common_ratio_ = evidence.common_ratio_;
+}
+
+const StationErrors::Seen* StationErrors::find(const std::string& station) const {
+  const auto found = stations_.find(station);
+  if (found != stations_.end()) return &found->second;
+  return known_ == nullptr ? nullptr : known_->find(station);
+}
+
+StationErrors::Seen& StationErrors::at(const std::string& station) {
+  const auto [own, is_new] = stations_.try_emplace(station);
+  const Seen* const before = is_new && known_ != nullptr ? known_->find(station) : nullptr;
+  if (before != nullptr) own->second = *before;
+  return own->second;
+}
+
+void StationErrors::observe_noise(const std::string& station, double squared_ratio) {
+  constexpr double kMost = 9.0;  // an outlier says nothing of the noise
+  double& share = at(station).white_share;
+  share += (std::min(squared_ratio, kMost) - share) / config_.colour_memory;
+}
+
+// The mean of samples of a noise with the correlation time T, one every dt, has the variance of so
+// many times fewer: 1 + 2 T / dt.
+double StationErrors::inflation(const std::string& station, double interval_s) const {
+  const Seen* const seen = find(station);
+  if (seen == nullptr || !(interval_s > 0.0)) return 1.0;
+  const double coloured = std::clamp(1.0 - seen->white_share, 0.0, 1.0);
+  return 1.0 + coloured * 2.0 * config_.colour_time_s / interval_s;
+}
+
+void StationErrors::observe_residual(const std::string& station, double ratio) {
+  const double stated = ratio * noise_scale(station);
+  Seen& seen = at(station);
+  const double decay = 1.0 - 1.0 / config_.noise_memory;
+  seen.residuals = seen.residuals * decay + 1.0;
+  seen.noise = seen.noise * decay + stated;
+}
+
+double StationErrors::noise_scale(const std::string& station) const {
+  const Seen* const seen = find(station);
+  if (seen == nullptr) return 1.0;
+  const double scale =
+      (config_.noise_weight + seen->noise) / (config_.noise_weight + seen->residuals);
+  return std::clamp(scale, config_.least_noise, config_.greatest_noise);
+}
+
+void StationErrors::count(const Seen& seen, double sign) {
+  if (seen.noise_rad2.minCoeff() <= 0.0) return;
+  common_weight_ += sign * (seen.weight + seen.weight_now);
+  common_ratio_ += sign * (seen.squared_rad2 + seen.squared_now_rad2) / seen.noise_rad2;
+}
+
+void StationErrors::forget(const std::string& station) {
+  const auto found = stations_.find(station);
+  if (found == stations_.end()) return;
+  count(found->second, -1.0);
+  stations_.erase(found);
+}
+
+Eigen::Array2d StationErrors::learnt(const std::string& station, const Eigen::Array2d& stated_rad2,
+                                     const Eigen::Array2d& noise_rad2) const {
+  const bool told = states_anything(stated_rad2);
+  const double weight = told ? config_.stated_weight : config_.untold_weight;
+  const double guess = config_.untold_over_noise * config_.untold_over_noise;
+  const Eigen::Array2d common = (config_.untold_weight * guess + common_ratio_).max(0.0) /
+                                (config_.untold_weight + common_weight_);
+  const Eigen::Array2d prior = told ? stated_rad2 : Eigen::Array2d(common * noise_rad2);
+  const Seen* const seen = find(station);
+  if (seen == nullptr) return prior;
+  const Eigen::Array2d squared = weight * prior + seen->squared_rad2 + seen->squared_now_rad2;
+  const double least = config_.least_over_noise * config_.least_over_noise;
+  return (squared / (weight + seen->weight + seen->weight_now)).max(least * noise_rad2);
+}
+
+BiasPrior StationErrors::prior(const std::string& station, const SightLine& sight, double range_m,
+                               bool place_apart) const {
+  constexpr double kNone = 1e-24;
+  BiasPrior prior{.covariance = stated_covariance(sight, range_m), .place_apart = place_apart};
+  const Eigen::Array2d stated = prior.covariance.diagonal();
+  const Eigen::Array2d noise = sight.covariance_white.diagonal();
+  const bool told = states_anything(stated);
+  const Eigen::Array2d more = (learnt(station, stated, noise) - stated).max(0.0);
+  const Eigen::Array2d pose = place_apart ? sight.covariance_systematic.diagonal().array() : stated;
+  const double guess = config_.untold_over_noise * config_.untold_over_noise;
+  const double least = config_.least_over_noise * config_.least_over_noise;
+  const double elevation_rad = sight.direction.elevation_rad;
+  const Eigen::Array2d before = told ? pose : Eigen::Array2d(guess * noise);
+  prior.covariance.diagonal().array() += more;
+  prior.rotation = rotation_variance((pose + more).max(least * noise), elevation_rad);
+  const Eigen::Array3d unseen = rotation_variance(before.max(least * noise), elevation_rad);
+  prior.shown = (1.0 - unseen / prior.rotation.max(kNone)).max(0.0);
+  prior.time_s.setConstant(told ? config_.stated_time_s : config_.untold_time_s);
+  // What a heading has more than a tilt was wrong from the start on: all axes drift alike.
+  constexpr double kLongest = 100.0;
+  const double ratio = prior.rotation(2) / std::max(kNone, prior.rotation(0));
+  if (told) prior.time_s(2) *= std::clamp(ratio, 1.0, kLongest);
+  prior.place_time_s = config_.stated_time_s;
+  if (place_apart) prior.place_m2 = sight.origin_sd_enu_m.array().square();
+  return prior;
+}
+
+Eigen::Matrix2d StationErrors::untold(const std::string& station, const SightLine& sight) const {
+  const Eigen::Array2d stated = sight.covariance_systematic.diagonal();
+  const Eigen::Array2d all = learnt(station, stated, sight.covariance_white.diagonal());
+  return (all - stated).max(0.0).matrix().asDiagonal();
+}
+
+void StationErrors::observe(const std::string& station, const SightLine& sight,
+                            const SeenBias& bias, double dt_s, double range_m) {
+  const Eigen::Array2d stated = stated_covariance(sight, range_m).diagonal();
+  Seen& seen = at(station);
+  count(seen, -1.0);
+  const double decay = std::exp(-dt_s / config_.memory_s);
+  // A bias within one correlation time is one draw, however often it is looked at.
+  const double news = std::min(
+      1.0, dt_s / (states_anything(stated) ? config_.stated_time_s : config_.untold_time_s));
+  constexpr double kNone = 1e-24;
+  const Eigen::Array2d known = (1.0 - bias.variance / bias.prior.max(kNone)).max(0.0).min(1.0);
+  seen.weight_now = known.square();
+  seen.squared_now_rad2 = bias.value.square() - known * bias.variance;
+  seen.weight = seen.weight * decay + news * seen.weight_now;
+  seen.squared_rad2 = seen.squared_rad2 * decay + news * seen.squared_now_rad2;
+  // Stations that state their errors tell nothing of those that do not.
+  seen.noise_rad2 = states_anything(stated) ? Eigen::Array2d::Zero()
+                                            : Eigen::Array2d(sight.covariance_white.diagonal());
+  count(seen, 1.0);
+}
+
+}  // namespace ols

@@ -1,0 +1,374 @@
+#include "central/filter/track_filter.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "central/filter/bias_observability.h"
+#include "central/measurement/time_span.h"
+#include "geometry/wgs84.h"
+
+namespace ols {
+namespace {
+
+constexpr double kLatestS = 2.0;  // a bearing later than this is no longer compared
+
+}  // namespace
+
+TrackFilter::TrackFilter(const FilterConfig& config, std::int64_t utime_us,
+                         const FilterStart& start)
+    : config_(config), models_(config.motion, utime_us, start), mixed_us_(utime_us) {
+  refresh();
+}
+
+int TrackFilter::index_of(const std::string& station) const {
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    if (stations_[i].station == station) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+// A station seldom moves, and to find its axes costs as much as a good part of the filter.
+RayFrame TrackFilter::frame_of(const Sighting& sighting, int station) const {
+  if (station < 0) return ray_frame(sighting.sight);
+  const FilterStation& known = stations_[static_cast<std::size_t>(station)];
+  const bool same = known.sight.origin_ecef == sighting.sight.origin_ecef;
+  return same ? ray_frame(sighting.sight, known.R_ecef_enu) : ray_frame(sighting.sight);
+}
+
+Eigen::Index TrackFilter::first_of(int station) const {
+  Eigen::Index first = 9;
+  for (int i = 0; i < station; ++i) first += states_of(priors_[static_cast<std::size_t>(i)]);
+  return first;
+}
+
+StationPart TrackFilter::part_of(int station, const RayFrame& frame) const {
+  const auto index = static_cast<std::size_t>(station);
+  const Eigen::Matrix3d& R = stations_[index].R_ecef_enu;
+  return {first_of(station), priors_[index].place_apart,
+          shift_by_rotation(R.transpose() * frame.tangent), R};
+}
+
+bool TrackFilter::place_matters(const SightLine& sight) const {
+  const double range_m = (models_[0].mean.head<3>() - sight.origin_ecef).norm();
+  const double all = stated_covariance(sight, range_m).trace();
+  const double of_place = all - sight.covariance_systematic.trace();
+  return of_place > 0.0 && of_place >= config_.place_share * all;
+}
+
+// New states, or those of the station that is silent longest where all are given away; -1: none.
+int TrackFilter::take_place(const Sighting& sighting) {
+  if (stations_.size() < kFilterStations) {
+    stations_.emplace_back();
+    priors_.push_back({.place_apart = place_matters(sighting.sight)});
+    const Eigen::Index n = models_[0].mean.size(), more = states_of(priors_.back());
+    for (FilterGaussian& model : models_.each()) insert_states(n, more, model);
+    return static_cast<int>(stations_.size()) - 1;
+  }
+  const auto silent = std::ranges::min_element(
+      stations_, {}, [](const FilterStation& s) { return s.last_offered.last_us; });
+  if (silent->last_offered.age_s(sighting.utime_us) < Activity::kFollowsS) return -1;
+  const int station = static_cast<int>(silent - stations_.begin());
+  silent->sight = sighting.sight;
+  if (place_matters(sighting.sight)) tell_place_apart(station);
+  return station;
+}
+
+void TrackFilter::enter(int station, const Sighting& sighting, const StationErrors& priors) {
+  stations_[static_cast<std::size_t>(station)] = {
+      .station = sighting.station,
+      .sight = sighting.sight,
+      .R_ecef_enu = R_ecef_enu(sighting.sight.origin_ecef),
+      .last_used = {},
+      .last_offered = {},
+      .calibration_id = sighting.calibration_id,
+      .track_id = sighting.track_id};
+  BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
+  const double range_m = (models_[0].mean.head<3>() - sighting.sight.origin_ecef).norm();
+  prior = priors.prior(sighting.station, sighting.sight, range_m, prior.place_apart);
+  const Eigen::Index at = first_of(station), n = states_of(prior);
+  for (FilterGaussian& model : models_.each()) {
+    model.mean.segment(at, n).setZero();
+    model.covariance.middleRows(at, n).setZero();
+    model.covariance.middleCols(at, n).setZero();
+    model.covariance.diagonal().segment<3>(at) = prior.rotation;
+    if (!prior.place_apart) continue;
+    model.covariance.diagonal().segment<kPlaceStates>(at + kPoseStates) = prior.place_m2;
+  }
+}
+
+// Without the station's part where the filter has no states of it.
+Innovation TrackFilter::compare(const Sighting& sighting, int station) const {
+  Innovation seen;
+  seen.state = state_;
+  seen.frame = frame_of(sighting, station);
+  if (station >= 0) seen.part = part_of(station, seen.frame);
+  const StationPart* const part = seen.part ? &*seen.part : nullptr;
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    seen.models[m] = innovation_of(models_, m, sighting, seen.frame, part, about_);
+  }
+  return seen;
+}
+
+Innovation TrackFilter::innovation(const Sighting& sighting, const StationErrors& priors) const {
+  const int station = index_of(sighting.station);
+  Innovation seen = compare(sighting, station);
+  Eigen::Matrix2d more = sighting.sight.covariance_white * priors.noise_scale(sighting.station);
+  if (station < 0) {
+    const double range_m = (position() - sighting.sight.origin_ecef).norm();
+    more += priors.prior(sighting.station, sighting.sight, range_m).covariance;
+  } else {  // what it knows of its bias may be of another pose, or of another point
+    const FilterStation& known = stations_[static_cast<std::size_t>(station)];
+    const bool same =
+        known.calibration_id == sighting.calibration_id && known.track_id == sighting.track_id;
+    if (!same) more += priors_[static_cast<std::size_t>(station)].covariance;
+  }
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    const ModelInnovation& own = seen.models[m];
+    if (!(own.depth_m > 0.0)) continue;
+    Eigen::Matrix2d S = own.covariance + more;
+    if (!seen.part) {
+      const Eigen::Vector2d clock = own.J * own.velocity * sighting.clock_sd_s;
+      S += clock * clock.transpose();
+    }
+    seen.nis = std::min(seen.nis, own.residual.dot(S.llt().solve(own.residual)));
+  }
+  return seen;
+}
+
+FilterUpdate TrackFilter::update(const Sighting& sighting, const StationErrors& priors,
+                                 const Innovation* known) {
+  FilterUpdate update{.shown = StationErrors::evidence_on(priors)};
+  if (seconds(utime_us() - sighting.utime_us) > kLatestS) return update;
+  predict(sighting.utime_us, update.shown);
+  take(sighting, known, update);
+  refresh();
+  return update;
+}
+
+StationErrors TrackFilter::advance(std::int64_t utime_us, const StationErrors& priors) {
+  StationErrors shown = StationErrors::evidence_on(priors);
+  predict(utime_us, shown);
+  refresh();
+  return shown;
+}
+
+// The target was designated to the station anew, and it follows another point of it: its bias may
+// be as great as before any bearing, but what it shares with the other states stays. Of a station
+// which changes its mind with each frame the bias would else seem new each time, and average out.
+void TrackFilter::show_anew(int station, std::int64_t track_id) {
+  stations_[static_cast<std::size_t>(station)].track_id = track_id;
+  const BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
+  for (FilterGaussian& model : models_.each()) {
+    auto variance = model.covariance.diagonal().segment<3>(first_of(station)).array();
+    variance = variance.max(prior.rotation);
+  }
+}
+
+// The station's states, new where it is new or has another calibration; its clock as it states it
+// now. -1: it has none.
+int TrackFilter::station_of(const Sighting& sighting, const StationErrors& priors) {
+  int station = index_of(sighting.station);
+  const bool is_new = station < 0;
+  if (is_new) station = take_place(sighting);
+  if (station < 0) return station;
+  const FilterStation& known = stations_[static_cast<std::size_t>(station)];
+  if (is_new || known.calibration_id != sighting.calibration_id) {
+    enter(station, sighting, priors);
+    ++state_;
+  } else if (known.track_id != sighting.track_id) {
+    show_anew(station, sighting.track_id);
+    ++state_;
+  }
+  FilterStation& entry = stations_[static_cast<std::size_t>(station)];
+  entry.last_offered.note(sighting.utime_us);
+  entry.weight = 0.0;
+  // A worse clock counts at once, a better one as the old error fades.
+  if (sighting.clock_sd_s > entry.clock_sd_s) {
+    const Eigen::Index at = first_of(station) + 3;
+    const double more = std::pow(sighting.clock_sd_s, 2) - std::pow(entry.clock_sd_s, 2);
+    for (FilterGaussian& model : models_.each()) model.covariance(at, at) += more;
+    ++state_;
+  }
+  entry.clock_sd_s = sighting.clock_sd_s;
+  return station;
+}
+
+// At the state's own instant, or late.
+void TrackFilter::take(const Sighting& sighting, const Innovation* known, FilterUpdate& update) {
+  const int station = station_of(sighting, update.shown);
+  if (station < 0) {
+    update.nis = innovation(sighting, update.shown).nis;
+    update.use = update.nis < config_.gate_nis ? BearingUse::kNoPlace : BearingUse::kSetAside;
+    return;
+  }
+  const Eigen::Matrix2d white =
+      sighting.sight.covariance_white * update.shown.noise_scale(sighting.station);
+  const bool at_hand = known != nullptr && known->state == state_;
+  const Innovation own = at_hand ? Innovation() : compare(sighting, station);
+  const Innovation& seen = at_hand ? *known : own;
+  const auto judged = judge(seen, models_.size(), white, config_.gate_nis);
+  update.use = BearingUse::kBehindCamera;
+  if (!judged) return;
+  update.nis = judged->nis;
+  update.shown.observe_residual(sighting.station, judged->noise);
+  FilterStation& entry = stations_[static_cast<std::size_t>(station)];
+  ++state_;
+  update.use = BearingUse::kSetAside;
+  if (judged->nis > config_.gate_nis) return reject(entry);
+  rejections_.clear();
+  update.use = BearingUse::kUsed;
+  note_use(entry, sighting, judged->nis);
+  const bool may_learn =
+      is_linear(*seen.part, seen.frame, seen.models[0].depth_m,
+                summary_.covariance.topLeftCorner<3, 3>(), models_[0].covariance, white);
+  const double inflation = entry.noise.observe(sighting, seen.frame, update.shown);
+  correct(seen, white * (inflation / entry.weight), may_learn ? &seen.frame.direction : nullptr);
+}
+
+void TrackFilter::note_use(FilterStation& entry, const Sighting& sighting, double nis) const {
+  entry.rejected = 0;
+  entry.weight = nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
+  if (entry.sight.origin_ecef != sighting.sight.origin_ecef) {
+    entry.R_ecef_enu = R_ecef_enu(sighting.sight.origin_ecef);
+  }
+  entry.sight = sighting.sight;
+  entry.last_used.note(sighting.utime_us);
+  ++entry.used;
+  entry.mean_nis += 0.05 * (nis - entry.mean_nis);
+}
+
+// Where biases are not found the stations' states stay as they are and are only considered.
+void TrackFilter::correct(const Innovation& seen, const Eigen::Matrix2d& noise,
+                          const Eigen::Vector3d* along) {
+  bool finds_bias = along != nullptr;
+  std::array<double, kMotions> log_likelihood{};
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    FilterGaussian& model = models_.each()[m];
+    const ModelInnovation& own = seen.models[m];
+    const Eigen::LLT<Eigen::Matrix2d> S(own.covariance + noise);
+    const Eigen::Matrix2d L = S.matrixL();
+    const Eigen::Vector2d whitened = S.matrixL().solve(own.residual);
+    // The gain is G L^-1 with G = P H^T L^-T.
+    const Eigen::Matrix2d inverse_t = S.matrixU().solve(Eigen::Matrix2d::Identity());
+    const FilterMatrix2 G = own.cross(model.covariance, *seen.part).lazyProduct(inverse_t);
+    if (m == 0 && finds_bias) {
+      const double off_share = (1.0 - S.solve(noise).trace() / 2.0) / own.depth_m;
+      finds_bias = shows_bias(G, model.covariance, *seen.part, *along, off_share);
+    }
+    const Eigen::Index found = finds_bias ? G.rows() : 9;
+    model.mean.head(found) += G.topRows(found) * whitened;
+    subtract_square(G, found, model.covariance);
+    log_likelihood[m] = -whitened.squaredNorm() / 2.0 - std::log(L(0, 0) * L(1, 1));
+  }
+  models_.weigh(std::span(log_likelihood).first(models_.size()));
+}
+
+void TrackFilter::reject(FilterStation& entry) {
+  ++entry.rejected;
+  if (rejections_.add(entry.station)) {
+    inflate(config_.motion.acceleration_time_s, Eigen::Matrix3d::Identity());
+  } else if (entry.rejected % ConsecutiveRejections::kMany == 0) {
+    inflate_unseen_by_other(entry);
+  }
+}
+
+std::ptrdiff_t TrackFilter::agreed_since(const FilterStation& station) const {
+  return std::ranges::count_if(stations_, [&](const FilterStation& other) {
+    return other.last_used.last_us > station.last_used.last_us;
+  });
+}
+
+// One station alone is always agreed with: the target goes along its ray, and where it has turned
+// hard along that, only the other of two stations sees it.
+void TrackFilter::inflate_unseen_by_other(const FilterStation& entry) {
+  if (entry.used == 0 || agreed_since(entry) != 1) return;
+  const auto other = std::ranges::max_element(
+      stations_, {}, [](const FilterStation& s) { return s.last_used.last_us; });
+  const Eigen::Vector3d line = (position() - other->sight.origin_ecef).normalized();
+  const double since_s = entry.last_used.age_s(utime_us());
+  inflate(std::min(since_s, config_.motion.acceleration_time_s), line * line.transpose());
+}
+
+void TrackFilter::inflate(double time_s, const Eigen::Matrix3d& along) {
+  rejections_.clear();
+  models_.inflate(time_s, along, velocity());
+}
+
+void TrackFilter::predict(std::int64_t utime_us, StationErrors& shown) {
+  if (utime_us <= models_.utime_us()) return;
+  ++state_;
+  models_.predict(utime_us);
+  const double since_s = seconds(utime_us - mixed_us_);
+  if (since_s < config_.mixing_s) return;
+  mixed_us_ = utime_us;
+  refresh();
+  move_biases(since_s, shown);
+  models_.interact(since_s);
+}
+
+// What each station's bias shows by now is evidence; it moves on by its prior.
+void TrackFilter::move_biases(double dt_s, StationErrors& shown) {
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    FilterStation& station = stations_[i];
+    const int index = static_cast<int>(i);
+    if (!priors_[i].place_apart && place_matters(station.sight)) tell_place_apart(index);
+    const double range_m = (position() - station.sight.origin_ecef).norm();
+    if (station.last_used.age_s(utime_us()) < 2.0 * config_.mixing_s + dt_s) {
+      const StationBias now = bias(i);
+      shown.observe(station.station, station.sight,
+                    {now.bias_rad, now.covariance_rad2.diagonal(), now.prior_rad2.diagonal()}, dt_s,
+                    range_m);
+    }
+    priors_[i] = shown.prior(station.station, station.sight, range_m, priors_[i].place_apart);
+  }
+  fade_biases(dt_s, shown.clock_time_s());
+}
+
+// The station has states for its place from now on: a target that has come nearer.
+void TrackFilter::tell_place_apart(int station) {
+  BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
+  if (prior.place_apart) return;
+  const Eigen::Index first = first_of(station) + kPoseStates;
+  prior.place_apart = true;
+  prior.place_m2 =
+      stations_[static_cast<std::size_t>(station)].sight.origin_sd_enu_m.array().square();
+  for (FilterGaussian& model : models_.each()) {
+    insert_states(first, kPlaceStates, model);
+    model.covariance.diagonal().segment<kPlaceStates>(first) = prior.place_m2;
+  }
+}
+
+// Each of the stations' states fades, and has as much added as its prior wants.
+void TrackFilter::fade_biases(double dt_s, double clock_time_s) {
+  const Eigen::Index n = models_[0].mean.size();
+  FilterVector rate = FilterVector::Zero(n), variance = FilterVector::Zero(n);
+  Eigen::Index at = 9;
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    const BiasPrior& prior = priors_[i];
+    rate.segment<kPoseStates>(at) << prior.time_s.inverse(), 1.0 / clock_time_s;
+    variance.segment<kPoseStates>(at) << prior.rotation, std::pow(stations_[i].clock_sd_s, 2);
+    if (prior.place_apart) {
+      rate.segment<kPlaceStates>(at + kPoseStates).setConstant(1.0 / prior.place_time_s);
+      variance.segment<kPlaceStates>(at + kPoseStates) = prior.place_m2;
+    }
+    at += states_of(prior);
+  }
+  const FilterVector decay = (-dt_s * rate.array()).exp();
+  const FilterVector added = (1.0 - decay.array().square()) * variance.array();
+  for (FilterGaussian& model : models_.each()) {
+    scale(decay, model);
+    model.covariance.diagonal() += added;
+  }
+}
+
+StationBias TrackFilter::bias(std::size_t station) const {
+  const FilterStation& entry = stations_[station];
+  const double range_m = (position() - entry.sight.origin_ecef).norm();
+  StationBias bias = station_bias(models_, first_of(static_cast<int>(station)), priors_[station],
+                                  entry.sight, range_m);
+  bias.clock_prior_sd_s = entry.clock_sd_s;
+  return bias;
+}
+
+}  // namespace ols

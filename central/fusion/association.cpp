@@ -1,0 +1,20 @@
+#include "central/fusion/association.h"
+
+#include <optional>
+
+namespace ols {
+
+Associated associate(const Sighting& sighting, TrackManager& tracks, PointingMonitor& pointing) {
+  const bool believed = pointing.quarantine(sighting.station).empty();
+  Associated associated{.result = tracks.add(sighting, believed)};
+  if (associated.result.kind == Association::Kind::kAmbiguous) return associated;
+  associated.explained = associated.result.kind == Association::Kind::kTrack;
+  std::optional<Eigen::Vector2d> off_rad;
+  if (!associated.explained) off_rad = tracks.off_nearest(sighting);
+  pointing.hear(sighting.station, sighting.utime_us, associated.explained, off_rad);
+  associated.quarantined = !pointing.quarantine(sighting.station).empty();
+  associated.newly_so = believed && associated.quarantined;
+  return associated;
+}
+
+}  // namespace ols

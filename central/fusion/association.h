@@ -1,0 +1,21 @@
+// A bearing goes to the track that it belongs to, and what a wrong pose shows goes to its monitor:
+// the same live and in a recording. Pure.
+#pragma once
+
+#include <string>
+
+#include "central/admission/pointing_monitor.h"
+#include "central/tracking/track_manager.h"
+
+namespace ols {
+
+struct Associated {
+  Association result;
+  bool explained = false;    // by a track
+  bool quarantined = false;  // the station's pose is not believed
+  bool newly_so = false;     // since this bearing
+};
+
+Associated associate(const Sighting& sighting, TrackManager& tracks, PointingMonitor& pointing);
+
+}  // namespace ols

@@ -1,0 +1,63 @@
+#include "central/fusion/bearing_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "central/measurement/activity.h"
+#include "central/measurement/time_span.h"
+
+namespace ols {
+namespace {
+
+constexpr std::size_t kOfAStation = 4;
+
+}  // namespace
+
+const UnassociatedBearings::Station& BearingLines::bearings_of(const std::string& station) const {
+  return tracks_.unassociated().stations().at(station);
+}
+
+std::vector<std::string> BearingLines::stations(std::int64_t epoch_us) const {
+  std::vector<std::string> found;
+  for (const auto& [name, own] : tracks_.unassociated().stations()) {
+    const double age_s = std::abs(seconds(epoch_us - own.looks.back().utime_us));
+    const bool lately = age_s <= config_.max_age_s;
+    if (lately && pointing_.quarantine(name).empty()) found.push_back(name);
+  }
+  return found;
+}
+
+std::vector<const Sighting*> BearingLines::of(const std::string& station,
+                                              std::int64_t epoch_us) const {
+  const UnassociatedBearings::Station& own = bearings_of(station);
+  std::vector<const Sighting*> lines;
+  std::vector<std::int64_t> names;
+  for (std::size_t i = own.looks.size(); i-- > 0;) {
+    const Look& look = own.looks[i];
+    if (std::abs(seconds(epoch_us - look.utime_us)) > config_.max_age_s) break;
+    if (look.track_id == 0 || std::ranges::find(names, look.track_id) != names.end()) continue;
+    names.push_back(look.track_id);
+    if (!tracks_.takes(own.bearings[i], epoch_us, Activity::kFollowsS)) {
+      lines.push_back(&own.bearings[i]);
+    }
+  }
+  std::ranges::sort(lines, {}, [](const Sighting* line) { return line->track_id; });
+  if (lines.size() > kOfAStation) lines.resize(kOfAStation);
+  return lines;
+}
+
+const Sighting* BearingLines::newest_of(const std::string& station) const {
+  return &bearings_of(station).bearings.back();
+}
+
+std::optional<BearingOnly> BearingLines::at(const Sighting& newest, std::int64_t epoch_us) const {
+  std::vector<Sighting> own;
+  std::ranges::copy_if(bearings_of(newest.station).bearings, std::back_inserter(own),
+                       [&](const Sighting& s) { return s.track_id == newest.track_id; });
+  const auto ray = align(own, epoch_us, std::nullopt, config_);
+  if (!ray) return std::nullopt;
+  return BearingOnly{newest.station, newest.track_id, ray->sight, ray->rate_rad_s};
+}
+
+}  // namespace ols

@@ -1,0 +1,149 @@
+#include "central/fusion/fusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "central/fusion/association.h"
+#include "central/measurement/time_span.h"
+
+namespace ols {
+namespace {
+
+constexpr double kStepBackS = 1.0;  // "now" going back by more is another time line
+
+TargetScheduleConfig schedule_of(const FusionConfig& config) {
+  return {.estimator = config.estimator,
+          .rate_hz = config.rate_hz,
+          .paper_targets = config.paper_targets,
+          .give_up_s = config.keeper.drop_s,
+          .estimators = config.estimators};
+}
+
+}  // namespace
+
+Fusion::Fusion(const FusionConfig& config)
+    : config_(config),
+      admission_(config.admission),
+      pointing_(config.pointing),
+      unassociated_(config.strays),
+      tracks_(config.keeper),
+      targets_(schedule_of(config)),
+      slews_(config.slew, config.keeper.drop_s) {
+  if (!make_estimator(config.estimator, config.estimators)) {
+    throw std::invalid_argument("there is no estimator " + config.estimator);
+  }
+  for (const char* name : {"bearings", "targets", "targets_without_position", "slews",
+                           "clock_stepped_back", "time_stepped_back", "stations_evicted",
+                           "stations_quarantined", "calibrations_changed", "stations_restarted"}) {
+    log_.counters[name] = 0.0;
+  }
+  for (int i = 1; i <= static_cast<int>(SightingRefusal::kLowBelief); ++i) {
+    log_.counters[to_string(static_cast<SightingRefusal>(i))] = 0.0;
+  }
+}
+
+void Fusion::know_station(const std::string& station, const StationTraits& traits) {
+  const auto evicted = admission_.know_station(station, traits, log_);
+  if (evicted) forget(*evicted);
+}
+
+void Fusion::allow_slews(const std::string& station, bool allowed) {
+  admission_.allow_slews(station, allowed);
+}
+
+FusionOutput Fusion::add(const Sighting& sighting) {
+  FusionOutput output;
+  const Admitted admitted = admission_.admit(sighting, log_);
+  forget_what_changed(sighting, admitted);
+  output.refusal = admitted.refusal;
+  if (output.refusal == SightingRefusal::kNone) {
+    output.refusal = associate(sighting, *admitted.station);
+  }
+  note_refusal(output.refusal, sighting);
+  const std::int64_t now = now_us();
+  // After a silence "now" is old until most stations are heard again: nothing is told by it.
+  if (now == 0 || admission_.is_future(sighting.utime_us)) return output;
+  if (targets_.epoch_us() && seconds(*targets_.epoch_us() - now) > kStepBackS) begin_time_line();
+  targets_.tell(now, tracks_, admission_.clocks(), pointing_, output, log_);
+  const BearingLines lines(tracks_, pointing_, config_.estimators.alignment);
+  output.slews = slews_.plan(now, admission_.stations(), lines, tracks_.tracks());
+  log_.count("slews", static_cast<double>(output.slews.size()));
+  return output;
+}
+
+// A clock that is off the others' counts as that much worse.
+SightingRefusal Fusion::associate(const Sighting& sighting, KnownStation& station) {
+  Sighting judged = sighting;
+  const double added_sd_s = admission_.clocks().added_sd_s(sighting.station);
+  judged.clock_sd_s = std::hypot(sighting.clock_sd_s, added_sd_s);
+  const Associated associated = ols::associate(judged, tracks_, pointing_);
+  if (associated.explained && associated.result.track_id != 0) {
+    station.target_id = associated.result.track_id;
+    station.saw_target.last_us = sighting.utime_us;
+  }
+  note_unassociated(sighting, associated.result);
+  if (associated.newly_so) {
+    log_.quarantine(sighting.station, pointing_.quarantine(sighting.station));
+  }
+  const bool used = associated.explained || !associated.quarantined;
+  return used ? SightingRefusal::kNone : SightingRefusal::kQuarantine;
+}
+
+// A track that is only born explains nothing yet, nor does it deny.
+void Fusion::note_unassociated(const Sighting& sighting, const Association& result) {
+  const bool by_none =
+      result.kind == Association::Kind::kUnexplained || result.kind == Association::Kind::kSetAside;
+  if (!by_none) {
+    const bool by_born = result.kind == Association::Kind::kTrack && result.track_id == 0;
+    if (!by_born) unassociated_.agrees(sighting.station);
+  } else if (!std::ranges::any_of(tracks_.tracks(), is_sure)) {
+    unassociated_.agrees(sighting.station);
+  } else if (sighting.track_id != 0) {
+    unassociated_.unassociated(sighting.station, sighting.utime_us);
+  }
+}
+
+void Fusion::forget(const std::string& station) {
+  pointing_.forget(station);
+  unassociated_.forget(station);
+  tracks_.forget_station(station);
+  slews_.forget(station);
+}
+
+void Fusion::forget_what_changed(const Sighting& sighting, const Admitted& admitted) {
+  if (admitted.evicted) forget(*admitted.evicted);
+  if (admitted.recalibrated) {
+    tracks_.forget_errors(sighting.station);
+    pointing_.forget(sighting.station);
+  }
+  if (admitted.restarted) {
+    tracks_.forget_followed(sighting.station);
+    unassociated_.forget(sighting.station);
+  }
+}
+
+void Fusion::note_refusal(SightingRefusal refusal, const Sighting& sighting) {
+  if (refusal == SightingRefusal::kNone) return;
+  log_.count(to_string(refusal));
+  // Ordinary, or said when it began.
+  if (refusal == SightingRefusal::kLowBelief || refusal == SightingRefusal::kQuarantine) return;
+  log_.error(sighting.station, to_string(refusal));
+}
+
+void Fusion::begin_time_line() {
+  log_.count("time_stepped_back");
+  log_.last_error = "time has stepped back: another replay, or most stations' clocks";
+  targets_.clear();
+  slews_.clear();
+  tracks_.clear();
+  pointing_.clear();
+  unassociated_.clear();
+  admission_.begin_time_line();
+}
+
+FusionHealth Fusion::health() const {
+  return health_of(admission_, pointing_, unassociated_, tracks_, log_);
+}
+
+}  // namespace ols

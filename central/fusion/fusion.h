@@ -1,0 +1,72 @@
+// The fusion: bearings in, targets and slews out. Pure: its time is that of the messages, so the
+// same bearings in the same order give the same targets to the last digit. It never waits: a target
+// is made as soon as "now" has gone on by a period, from what each station has delivered. Where
+// there are many targets or stations, what a period brings is spread over some bearings.
+//
+// Admission says which bearings are taken, the tracks which target each belongs to, the schedules
+// what is told when.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "central/admission/admission.h"
+#include "central/admission/pointing_monitor.h"
+#include "central/admission/unassociated_monitor.h"
+#include "central/estimators/estimator.h"
+#include "central/fusion/fused_target.h"
+#include "central/fusion/fusion_health.h"
+#include "central/fusion/slew_schedule.h"
+#include "central/fusion/target_schedule.h"
+#include "central/tracking/live_tracks.h"
+
+namespace ols {
+
+struct FusionConfig {
+  std::string estimator = "filter";  // of the targets; a name of make_estimator()
+  double rate_hz = 15.0;             // targets a second, at most, of each object
+  int paper_targets = 8;             // the paper's estimate is made of the first so many: it costs
+                                     // the square of a target's stations
+  AdmissionConfig admission{};
+  EstimatorConfig estimators{};
+  KeeperConfig keeper{};
+  SlewConfig slew{};
+  PointingConfig pointing{};
+  UnassociatedConfig strays{};
+};
+
+class Fusion {
+ public:
+  // std::invalid_argument for an unknown estimator.
+  explicit Fusion(const FusionConfig& config);
+
+  // What a station's status tells: so that it can be slewed before its first bearing.
+  void know_station(const std::string& station, const StationTraits& traits);
+  // ... and whether it may be slewed: also of a station that has lost its place.
+  void allow_slews(const std::string& station, bool allowed);
+  // One bearing, in order of arrival.
+  FusionOutput add(const Sighting& sighting);
+
+  FusionHealth health() const;
+  std::int64_t now_us() const { return admission_.time().now_us(); }
+  const TrackManager& tracks() const { return tracks_; }
+
+ private:
+  SightingRefusal associate(const Sighting& sighting, KnownStation& station);
+  void note_unassociated(const Sighting& sighting, const Association& result);
+  void forget(const std::string& station);
+  void forget_what_changed(const Sighting& sighting, const Admitted& admitted);
+  void begin_time_line();
+  void note_refusal(SightingRefusal refusal, const Sighting& sighting);
+
+  FusionConfig config_;
+  Admission admission_;
+  PointingMonitor pointing_;
+  UnassociatedMonitor unassociated_;
+  LiveTracks tracks_;
+  TargetSchedule targets_;
+  SlewSchedule slews_;
+  FusionLog log_;
+};
+
+}  // namespace ols

@@ -1,0 +1,49 @@
+// What the fusion tells of itself.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "central/admission/admission.h"
+#include "central/admission/pointing_monitor.h"
+#include "central/admission/unassociated_monitor.h"
+#include "central/tracking/track_manager.h"
+
+namespace ols {
+
+// A station's bias and clock as the filter has them; NaN where the geometry does not show them.
+struct StationFinding {
+  Eigen::Vector2d bias_rad = nan_vector().head<2>();  // cross-elevation, elevation
+  Eigen::Vector2d bias_sd_rad = nan_vector().head<2>();
+  double clock_s = std::numeric_limits<double>::quiet_NaN();
+  double clock_sd_s = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct StationHealth {
+  std::string station;
+  std::int64_t bearings = 0;  // taken
+  double rate_hz = 0.0;
+  double age_s = 0.0;           // "now" minus its newest stamp
+  double residual = 0.0;        // lately, RMS normalised; NaN if none
+  double clock_offset_s = 0.0;  // of its stamps from the median; NaN if none
+  std::string quarantine{};     // why it is not used; empty: it is
+  StationFinding finding{};
+};
+
+struct FusionHealth {
+  std::int64_t now_us = 0;
+  std::vector<StationHealth> stations;     // in the order of their ids
+  std::map<std::string, double> counters;  // only go up
+  std::vector<std::string> alarms;         // what is wrong now, in words
+  std::string last_error;
+};
+
+FusionHealth health_of(const Admission& admission, const PointingMonitor& pointing,
+                       const UnassociatedMonitor& unassociated, const TrackManager& tracks,
+                       const FusionLog& log);
+
+}  // namespace ols

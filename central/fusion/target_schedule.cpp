@@ -1,0 +1,138 @@
+#include "central/fusion/target_schedule.h"
+
+#include <algorithm>
+#include <set>
+
+#include "central/fusion/output_period.h"
+#include "central/measurement/time_span.h"
+
+namespace ols {
+namespace {
+
+constexpr int kLines = 16;  // of what is no target, told an epoch
+// With one bearing: so many targets; the paper's estimate of one costs as much as several.
+constexpr int kTargetsABearing = 8, kPaperIsWorth = 4;
+
+FusedTarget target_of(std::int64_t epoch_us, const Track& track, const char* estimator,
+                      Located located) {
+  FusedTarget target;
+  target.utime_us = epoch_us;
+  target.target_id = track.id;
+  target.state = track.state;
+  target.estimator = estimator;
+  target.estimate = std::move(located.estimate);
+  target.stations = std::move(located.stations);
+  return target;
+}
+
+const Track* next_of(std::deque<std::int64_t>& waiting, const TrackManager& tracks) {
+  const std::int64_t id = waiting.front();
+  waiting.pop_front();
+  const auto track = std::ranges::find(tracks.tracks(), id, &Track::id);
+  return track == tracks.tracks().end() || !is_sure(*track) ? nullptr : &*track;
+}
+
+}  // namespace
+
+void TargetSchedule::clear() {
+  epoch_ = {};
+  objects_.clear();
+}
+
+void TargetSchedule::begin(std::int64_t now_us, TrackManager& tracks) {
+  epoch_ = {.utime_us = now_us, .lines_told = false};
+  tracks.advance(now_us);
+  for (const Track& track : tracks.tracks()) {
+    if (is_sure(track)) epoch_.targets.push_back(track.id);
+  }
+  std::ranges::sort(epoch_.targets);
+  std::erase_if(objects_, [this](const auto& object) {
+    return !std::ranges::binary_search(epoch_.targets, object.first);
+  });
+  const auto papers =
+      std::min(epoch_.targets.size(), static_cast<std::size_t>(config_.paper_targets));
+  epoch_.papers.assign(epoch_.targets.begin(),
+                       epoch_.targets.begin() + static_cast<std::ptrdiff_t>(papers));
+}
+
+void TargetSchedule::tell(std::int64_t now_us, TrackManager& tracks, const ClockMonitor& clocks,
+                          const PointingMonitor& pointing, FusionOutput& output, FusionLog& log) {
+  // After a silence, what was not told yet is told no more: by now it may be dropped.
+  const bool is_old = epoch_.utime_us && seconds(now_us - *epoch_.utime_us) > config_.give_up_s;
+  if (!epoch_.is_over() && is_old) epoch_ = {.utime_us = epoch_.utime_us};
+  if (epoch_.is_over() && is_due(epoch_.utime_us, now_us, config_.rate_hz)) begin(now_us, tracks);
+  if (epoch_.is_over()) return;
+  int work = 0;
+  for (; work < kTargetsABearing && !epoch_.targets.empty(); ++work) {
+    const Track* const track = next_of(epoch_.targets, tracks);
+    if (track != nullptr) output.targets.push_back(locate(*track, false, tracks, clocks));
+  }
+  if (epoch_.targets.empty() && !epoch_.lines_told) tell_lines(tracks, pointing, output);
+  for (; work < kTargetsABearing && epoch_.lines_told && !epoch_.papers.empty();
+       work += kPaperIsWorth) {
+    const Track* const track = next_of(epoch_.papers, tracks);
+    if (track != nullptr) output.targets_paper.push_back(locate(*track, true, tracks, clocks));
+  }
+  for (const FusedTarget& target : output.targets) {
+    const bool located = target.estimate.solution == Solution::kOk;
+    log.count(located ? "targets" : "targets_without_position");
+  }
+}
+
+FusedTarget TargetSchedule::locate(const Track& track, bool by_paper, const TrackManager& tracks,
+                                   const ClockMonitor& clocks) {
+  Object& object = objects_[track.id];
+  if (!object.main) {
+    object.main = make_estimator(config_.estimator, config_.estimators);
+    object.paper = make_estimator("paper", config_.estimators);
+  }
+  Estimator& estimator = by_paper ? *object.paper : *object.main;
+  const std::int64_t epoch_us = *epoch_.utime_us;
+  Located located = estimator.locate({track.bearings, tracks.errors(), &track.filter}, epoch_us);
+  if (!by_paper) {
+    std::erase_if(located.stations, [&](const ContributingStation& station) {
+      return !clocks.quarantine(station.station).empty();
+    });
+  }
+  return target_of(epoch_us, track, estimator.name(), std::move(located));
+}
+
+// No object: why there is none, or the one line that there is. And the line of each station that
+// follows what is no target.
+void TargetSchedule::tell_lines(TrackManager& tracks, const PointingMonitor& pointing,
+                                FusionOutput& output) {
+  epoch_.lines_told = true;
+  const BearingLines lines(tracks, pointing, config_.estimators.alignment);
+  const std::int64_t epoch_us = *epoch_.utime_us;
+  const bool located = std::ranges::any_of(tracks.tracks(), is_sure);
+  const std::vector<std::string> stations = lines.stations(epoch_us);
+  FusedTarget target;
+  target.utime_us = epoch_us;
+  target.estimator = config_.estimator;
+  if (!located && stations.size() != 1) {
+    target.estimate.solution =
+        stations.empty() ? Solution::kTooFewRays : tracks.why_no_track_began();
+    for (const std::string& station : stations)
+      target.stations.push_back({station, true, 1.0, 0.0});
+    output.targets.push_back(target);
+  }
+  target.estimate.solution = Solution::kBearingOnly;
+  const bool alone = !located && stations.size() == 1;
+  std::set<std::int64_t> told;
+  int count = 0;
+  for (const std::string& station : stations) {
+    auto newest = lines.of(station, epoch_us);
+    if (newest.empty() && alone) newest.push_back(lines.newest_of(station));
+    for (const Sighting* const sighting : newest) {
+      const auto line = lines.at(*sighting, epoch_us);
+      if (!line) continue;
+      if (++count > kLines) return;
+      target.target_id = tracks.identify(*sighting, told);
+      target.stations = {{station, true, 1.0, 0.0}};
+      target.bearing_only = line;
+      output.targets.push_back(target);
+    }
+  }
+}
+
+}  // namespace ols

@@ -1,0 +1,62 @@
+// What is told of an epoch: targets, then lines, then the paper's estimates; a share with each
+// bearing, so that no bearing waits for long behind many targets. Pure.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "central/admission/clock_monitor.h"
+#include "central/admission/fusion_log.h"
+#include "central/fusion/bearing_lines.h"
+#include "central/fusion/fused_target.h"
+#include "central/tracking/track_manager.h"
+
+namespace ols {
+
+struct TargetScheduleConfig {
+  std::string estimator = "filter";  // a name of make_estimator()
+  double rate_hz = 15.0;             // epochs a second, at most
+  int paper_targets = 8;             // the paper's estimate is made of so many
+  double give_up_s = 2.0;            // what was not told for so long is told no more
+  EstimatorConfig estimators{};
+};
+
+class TargetSchedule {
+ public:
+  explicit TargetSchedule(const TargetScheduleConfig& config) : config_(config) {}
+
+  // With one bearing, at the instant "now".
+  void tell(std::int64_t now_us, TrackManager& tracks, const ClockMonitor& clocks,
+            const PointingMonitor& pointing, FusionOutput& output, FusionLog& log);
+  // The last epoch; nothing: there was none.
+  std::optional<std::int64_t> epoch_us() const { return epoch_.utime_us; }
+  void clear();
+
+ private:
+  struct Epoch {
+    std::optional<std::int64_t> utime_us{};
+    std::deque<std::int64_t> targets{};  // that are not told yet; then come the lines,
+    bool lines_told = true;
+    std::deque<std::int64_t> papers{};  // then the paper's estimates
+
+    bool is_over() const { return lines_told && papers.empty(); }
+  };
+  struct Object {
+    std::unique_ptr<Estimator> main, paper;
+  };
+  void begin(std::int64_t now_us, TrackManager& tracks);
+  FusedTarget locate(const Track& track, bool by_paper, const TrackManager& tracks,
+                     const ClockMonitor& clocks);
+  void tell_lines(TrackManager& tracks, const PointingMonitor& pointing, FusionOutput& output);
+
+  TargetScheduleConfig config_;
+  Epoch epoch_;
+  std::map<std::int64_t, Object> objects_;  // by target id
+};
+
+}  // namespace ols

@@ -1,0 +1,26 @@
+// Who is active: how long after its last bearing a station counts, and for what.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "central/measurement/time_span.h"
+
+namespace ols {
+
+struct Activity {
+  // The windows, each a default where it can be configured.
+  static constexpr double kDeliversS = 0.3;     // counts for "now", and as one that sees a target
+  static constexpr double kContributesS = 0.5;  // makes the position that is told
+  static constexpr double kFollowsS = 1.0;      // has its target, and its states in a full filter
+  static constexpr double kSupportsS = 2.0;     // is one of those that a track rests on
+  static constexpr double kTeachesS = 30.0;     // what it has shown of the others' errors may hold
+
+  std::int64_t last_us = 0;  // the newest bearing; 0: none
+
+  void note(std::int64_t utime_us) { last_us = std::max(last_us, utime_us); }
+  double age_s(std::int64_t now_us) const { return seconds(now_us - last_us); }
+  bool within(double window_s, std::int64_t now_us) const { return age_s(now_us) <= window_s; }
+};
+
+}  // namespace ols

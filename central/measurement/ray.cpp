@@ -1,0 +1,70 @@
+#include "central/measurement/ray.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/angles.h"
+#include "geometry/wgs84.h"
+
+namespace ols {
+
+RayFrame ray_frame(const SightLine& sight) {
+  return ray_frame(sight, R_ecef_enu(sight.origin_ecef));
+}
+
+RayFrame ray_frame(const SightLine& sight, const Eigen::Matrix3d& R) {
+  const Eigen::Matrix<double, 3, 2> tangent = R * tangent_basis(sight.direction);
+  return {tangent.col(1).cross(tangent.col(0)), tangent};
+}
+
+Eigen::Matrix2d stated_covariance(const SightLine& sight, double range_m) {
+  const Eigen::Matrix<double, 3, 2> tangent_enu = tangent_basis(sight.direction);
+  const Eigen::Vector3d variance_enu = sight.origin_sd_enu_m.array().square();
+  return sight.covariance_systematic +
+         tangent_enu.transpose() * variance_enu.asDiagonal() * tangent_enu / (range_m * range_m);
+}
+
+Eigen::Matrix2d systematic_covariance(const Ray& ray, double range_m) {
+  const Eigen::Vector2d clock = ray.rate_rad_s * ray.clock_sd_s;
+  return stated_covariance(ray.sight, range_m) + clock * clock.transpose();
+}
+
+const char* to_string(Solution solution) {
+  switch (solution) {
+    case Solution::kOk:
+      return "ok";
+    case Solution::kTooFewRays:
+      return "too-few-rays";
+    case Solution::kParallelRays:
+      return "parallel-rays";
+    case Solution::kBehindCamera:
+      return "behind-camera";
+    case Solution::kTooFar:
+      return "too-far";
+    case Solution::kNotConverged:
+      return "not-converged";
+    case Solution::kBearingOnly:
+      return "bearing-only";
+    case Solution::kRaysMiss:
+      return "rays-miss";
+  }
+  return "unknown";
+}
+
+double crossing_angle(const std::vector<Ray>& rays, const std::vector<RayUse>& use) {
+  std::vector<Eigen::Vector3d> directions;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (use[i].used) directions.push_back(direction_ecef(rays[i].sight));
+  }
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    for (std::size_t j = i + 1; j < directions.size(); ++j) {
+      const double angle = angle_between(directions[i], directions[j]);
+      greatest = std::max(greatest, std::min(angle, kPi - angle));
+    }
+  }
+  return greatest;
+}
+
+}  // namespace ols

@@ -1,0 +1,240 @@
+#include "central/offline/offline_fusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include "central/fusion/association.h"
+#include "central/offline/smoother.h"
+#include "central/tracking/recorded_track.h"
+#include "geometry/angles.h"
+
+namespace ols {
+namespace {
+
+StationBearings recording_of(const std::vector<Sighting>& sightings, double min_belief,
+                             UnusedBearings& unused) {
+  StationBearings recording;
+  for (const Sighting& sighting : sightings) {
+    if (sighting.belief >= min_belief) {
+      recording[sighting.station].push_back(sighting);
+    } else {
+      ++unused.low_belief;
+    }
+  }
+  for (auto& [name, all] : recording) {
+    std::ranges::stable_sort(all, {}, &Sighting::utime_us);
+    const auto same_instant = [](const Sighting& a, const Sighting& b) {
+      return a.utime_us == b.utime_us;
+    };
+    const auto first_doubled = std::unique(all.begin(), all.end(), same_instant);
+    unused.duplicate += static_cast<std::size_t>(all.end() - first_doubled);
+    all.erase(first_doubled, all.end());
+  }
+  return recording;
+}
+
+std::vector<Sighting> in_order(const StationBearings& recording) {
+  std::vector<Sighting> all;
+  for (const auto& [name, own] : recording) all.insert(all.end(), own.begin(), own.end());
+  std::ranges::stable_sort(all, {}, &Sighting::utime_us);
+  return all;
+}
+
+void require_reasonable(double rate_hz, double span_s) {
+  constexpr double kMostEpochs = 10e6;
+  if (!std::isfinite(rate_hz)) throw std::invalid_argument("the rate is not a finite number");
+  if (rate_hz > 0.0 && span_s * rate_hz > kMostEpochs) {
+    std::ostringstream what;
+    what << "a rate of " << rate_hz << " Hz over " << span_s << " s makes more than " << kMostEpochs
+         << " epochs";
+    throw std::invalid_argument(what.str());
+  }
+}
+
+std::vector<std::int64_t> epochs_of(const std::vector<Sighting>& bearings, double rate_hz) {
+  std::vector<std::int64_t> epochs;
+  for (const Sighting& sighting : bearings) epochs.push_back(sighting.utime_us);
+  epochs.erase(std::unique(epochs.begin(), epochs.end()), epochs.end());
+  if (epochs.empty()) return epochs;
+  require_reasonable(rate_hz, static_cast<double>(epochs.back() - epochs.front()) * 1e-6);
+  if (rate_hz <= 0.0) return epochs;
+  std::vector<std::int64_t> grid;
+  for (std::int64_t i = 0;; ++i) {
+    const auto offset_us = std::llround(static_cast<double>(i) * 1e6 / rate_hz);
+    if (epochs.front() + offset_us > epochs.back()) return grid;
+    grid.push_back(epochs.front() + offset_us);
+  }
+}
+
+// Mean square angular speed over steps that are long against the noise [rad^2/s^2].
+double mean_square_speed(const std::vector<const Sighting*>& bearings) {
+  constexpr double kLeastStep = 10.0, kLongestS = 2.0;  // in sigmas
+  double sum = 0.0, span = 0.0;
+  const Sighting* from = bearings.front();
+  for (const Sighting* to : bearings) {
+    const double step_s = static_cast<double>(to->utime_us - from->utime_us) * 1e-6;
+    const double angle = angle_between(direction_ecef(from->sight), direction_ecef(to->sight));
+    const double noise = std::sqrt(to->sight.covariance_white.trace());
+    if (step_s <= 0.0 || (angle < kLeastStep * noise && step_s < kLongestS)) continue;
+    from = to;
+    if (step_s > 2.0 * kLongestS) continue;  // a gap
+    sum += angle * angle / step_s;
+    span += step_s;
+  }
+  return span > 0.0 ? sum / span : 0.0;
+}
+
+// The one object's track, and who looks beside it.
+class Recording {
+ public:
+  explicit Recording(const OfflineConfig& config)
+      : track_(config.fusion.keeper), pointing_(config.fusion.pointing), tell_(config.tell) {}
+
+  void add(const Sighting& sighting) {
+    if (tell_) tell_();
+    track_.advance(sighting.utime_us);
+    if (!associate(sighting, track_, pointing_).newly_so) return;
+    beside_.try_emplace(sighting.station, pointing_.quarantine(sighting.station));
+  }
+  void advance(std::int64_t utime_us) { track_.advance(utime_us); }
+  const RecordedTrack& track() const { return track_; }
+  const std::map<std::string, std::string>& beside() const { return beside_; }
+
+ private:
+  RecordedTrack track_;
+  PointingMonitor pointing_;
+  std::function<void()> tell_;
+  std::map<std::string, std::string> beside_;
+};
+
+FusedTarget target_of(std::int64_t epoch_us, const char* estimator, Located located) {
+  FusedTarget target;
+  target.utime_us = epoch_us;
+  target.target_id = 1;
+  target.estimator = estimator;
+  target.estimate = std::move(located.estimate);
+  target.stations = std::move(located.stations);
+  return target;
+}
+
+// Those with a position; of the others, why they have none.
+struct Fixes {
+  std::vector<FusedTarget> targets{};
+  Unlocated unlocated{};
+
+  void add(std::int64_t epoch_us, const char* estimator, Located located) {
+    const Solution solution = located.estimate.solution;
+    if (solution == Solution::kOk) {
+      targets.push_back(target_of(epoch_us, estimator, std::move(located)));
+    } else {
+      ++unlocated[solution];
+    }
+  }
+};
+
+Fixes causal(const std::vector<Sighting>& bearings, const std::vector<std::int64_t>& epochs,
+             Estimator& estimator, const OfflineConfig& config) {
+  Recording recording(config);
+  Fixes fixes;
+  auto next = bearings.begin();
+  for (const std::int64_t epoch_us : epochs) {
+    for (; next != bearings.end() && next->utime_us <= epoch_us; ++next) {
+      recording.add(*next);
+    }
+    recording.advance(epoch_us);
+    const Track* const track = recording.track().located();
+    if (track == nullptr) {
+      ++fixes.unlocated[recording.track().why_none(epoch_us)];
+      continue;
+    }
+    const TrackView view{track->bearings, recording.track().errors(), &track->filter};
+    fixes.add(epoch_us, estimator.name(), estimator.locate(view, epoch_us));
+  }
+  return fixes;
+}
+
+// The estimators without memory have the whole recording.
+Fixes interpolating(const std::vector<Sighting>& bearings, const StationBearings& recording,
+                    const std::vector<std::int64_t>& epochs, Estimator& estimator,
+                    const OfflineConfig& config) {
+  Recording run(config);
+  for (const Sighting& sighting : bearings) run.add(sighting);
+  Fixes fixes;
+  for (const std::int64_t epoch_us : epochs) {
+    fixes.add(epoch_us, estimator.name(),
+              estimator.locate({recording, run.track().errors()}, epoch_us));
+  }
+  return fixes;
+}
+
+Fixes smoothed(const std::vector<Sighting>& bearings, const std::vector<std::int64_t>& epochs,
+               const OfflineConfig& config) {
+  Recording run(config);
+  for (const Sighting& sighting : bearings) run.add(sighting);
+  KnownStations known{run.track().errors(), {}};
+  for (const auto& [station, why] : run.beside()) known.beside.insert(station);
+  Fixes fixes;
+  for (Smoothed& fix : smooth(bearings, epochs, config.fusion.keeper, known, fixes.unlocated)) {
+    fixes.add(fix.utime_us, "filter", std::move(fix.located));
+  }
+  return fixes;
+}
+
+}  // namespace
+
+UnusedBearings unused_bearings(const std::vector<Sighting>& sightings,
+                               const OfflineConfig& config) {
+  UnusedBearings unused;
+  recording_of(sightings, config.fusion.admission.min_belief, unused);
+  return unused;
+}
+
+void guess_clocks(std::vector<Sighting>& sightings) {
+  constexpr double kNoises = 4.0, kHalfAFrameS = 0.02;
+  std::map<std::string, std::vector<const Sighting*>> stations;
+  for (const Sighting& sighting : sightings) stations[sighting.station].push_back(&sighting);
+  std::map<std::string, double> speeds;
+  for (auto& [name, bearings] : stations) {
+    std::ranges::stable_sort(bearings, {}, [](const Sighting* s) { return s->utime_us; });
+    speeds[name] = std::sqrt(mean_square_speed(bearings));
+  }
+  for (Sighting& sighting : sightings) {
+    const double noise = std::sqrt(sighting.sight.covariance_white.trace() / 2.0);
+    const double speed = speeds.at(sighting.station);
+    sighting.clock_sd_s = std::min(kHalfAFrameS, kNoises * noise / std::max(1e-9, speed));
+  }
+}
+
+std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
+                                      const OfflineConfig& config, Unlocated* unlocated) {
+  const auto estimator = make_estimator(config.estimator, config.fusion.estimators);
+  if (!estimator) throw std::invalid_argument("there is no estimator " + config.estimator);
+  const bool is_filter = config.estimator == "filter";
+  if (config.smooth && !is_filter) throw std::invalid_argument("only the filter can be smoothed");
+  UnusedBearings unused;
+  const StationBearings recording =
+      recording_of(sightings, config.fusion.admission.min_belief, unused);
+  const std::vector<Sighting> bearings = in_order(recording);
+  const std::vector<std::int64_t> epochs = epochs_of(bearings, config.rate_hz);
+  Fixes fixes = config.smooth ? smoothed(bearings, epochs, config)
+                : is_filter   ? causal(bearings, epochs, *estimator, config)
+                              : interpolating(bearings, recording, epochs, *estimator, config);
+  if (unlocated != nullptr) *unlocated = std::move(fixes.unlocated);
+  return std::move(fixes.targets);
+}
+
+std::map<std::string, std::string> stations_beside(const std::vector<Sighting>& sightings,
+                                                   const OfflineConfig& config) {
+  UnusedBearings unused;
+  Recording run(config);
+  for (const Sighting& sighting :
+       in_order(recording_of(sightings, config.fusion.admission.min_belief, unused))) {
+    run.add(sighting);
+  }
+  return run.beside();
+}
+
+}  // namespace ols

@@ -1,0 +1,131 @@
+#include "central/tracking/live_tracks.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "central/measurement/time_span.h"
+#include "central/tracking/position_guard.h"
+
+namespace ols {
+
+LiveTracks::LiveTracks(const KeeperConfig& config)
+    : TrackManager(config, config.filter, true), duplicates_(config.rivals) {}
+
+std::vector<LiveTracks::Candidate> LiveTracks::candidates(const Sighting& sighting,
+                                                          bool confirmed) const {
+  std::vector<Candidate> found;
+  if (tracks_.empty()) return found;
+  const Eigen::Vector3d direction = direction_ecef(sighting.sight);
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (!glances_[i].may_see(sighting, direction)) continue;
+    const Track& track = tracks_[i];
+    if (is_sure(track) != confirmed || track.state == TrackState::kDropped) continue;
+    if (track.has_taken(sighting)) continue;
+    Innovation seen = track.filter.innovation(sighting, errors_);
+    if (seen.nis < config_.filter.gate_nis) found.push_back({i, std::move(seen)});
+  }
+  std::ranges::sort(found, {}, [](const Candidate& c) { return c.seen.nis; });
+  return found;
+}
+
+Association LiveTracks::add(const Sighting& sighting, bool may_begin) {
+  for (const bool confirmed : {true, false}) {
+    const auto near = candidates(sighting, confirmed);
+    if (near.empty()) continue;
+    if (confirmed) note_duplicates(sighting, near);
+    Track* const own = identities_.follower(sighting, tracks_);
+    const auto by_id =
+        std::ranges::find_if(near, [&](const Candidate& c) { return &tracks_[c.track] == own; });
+    if (by_id != near.end()) return give_to(*own, sighting, &by_id->seen);
+    if (confirmed && near.size() > 1 &&
+        near[1].seen.nis - near[0].seen.nis < config_.ambiguous_nis) {
+      ++counts_.ambiguous;
+      return {Association::Kind::kAmbiguous, 0};
+    }
+    return give_to(tracks_[near[0].track], sighting, &near[0].seen);
+  }
+  // A station that follows an object follows it still, if a little wildly: told to the filter, so
+  // that it learns when the target has gone beyond its models.
+  if (Track* const own = identities_.follower(sighting, tracks_); own != nullptr) {
+    const Association result = give_to(*own, sighting);
+    if (result.kind == Association::Kind::kTrack) return result;
+  }
+  ++counts_.unexplained;
+  const bool room = static_cast<int>(tracks_.size()) < config_.max_tracks;
+  return may_begin && room ? initiate(sighting) : Association{};
+}
+
+void LiveTracks::note_duplicates(const Sighting& sighting, const std::vector<Candidate>& near) {
+  if (near.size() < 2 && duplicates_.empty()) return;
+  std::vector<std::int64_t> ids;
+  for (const Candidate& candidate : near) {
+    const Track& track = tracks_[candidate.track];
+    if (track.state == TrackState::kConfirmed) ids.push_back(track.id);
+  }
+  duplicates_.note(sighting, ids);
+}
+
+Association LiveTracks::initiate(const Sighting& sighting) {
+  auto start = initiation_.add(sighting, errors_, false);
+  if (!start) return {};
+  errors_.learn(start->shown);
+  Track& begun = begin(std::move(start->track));
+  consider(begun);
+  // It may be that of a station which has waited for its turn.
+  return begun.has_taken(sighting) ? Association{Association::Kind::kTrack, begun.id}
+                                   : Association{};
+}
+
+bool LiveTracks::is_worth_confirming(const Track& track) const {
+  int stations = 0, of_a_pair = 0, hits = 0;
+  for (const auto& [name, count] : track.hits) {
+    stations += count >= config_.confirm_hits ? 1 : 0;
+    of_a_pair += count >= config_.confirm_pair_hits ? 1 : 0;
+    hits += count;
+  }
+  if (track.misses > hits) return false;
+  if (stations >= config_.confirm_stations) return true;
+  return of_a_pair >= 2 && seconds(track.filter.utime_us() - track.born_us) >= config_.confirm_s;
+}
+
+bool LiveTracks::is_lost_when_born(double unseen_s) const {
+  return unseen_s > config_.born_drop_s || unseen_s > config_.drop_s;
+}
+
+// One station alone is no position for long. Before that, where one has parted from the others: the
+// room that was given them has not helped, either.
+bool LiveTracks::is_lost(const Track& track, double unseen_s, std::int64_t now_us) const {
+  const bool parted = unseen_s > config_.coast_s &&
+                      consecutive_rejections(track.filter, now_us) >= 2 * kPartedBearings;
+  return parted || unseen_s > config_.drop_s;
+}
+
+void LiveTracks::merge_duplicates() {
+  for (const auto& [older, younger] : duplicates_.same()) merge(older, younger);
+}
+
+// Two tracks are one object. The one stays that has more of its bearings, with the older identity.
+void LiveTracks::merge(std::int64_t older, std::int64_t younger) {
+  duplicates_.forget(younger);
+  const auto own = std::ranges::find(tracks_, older, &Track::id);
+  const auto other = std::ranges::find(tracks_, younger, &Track::id);
+  if (own == tracks_.end() || other == tracks_.end() || !is_sure(*own) || !is_sure(*other)) return;
+  const auto bearings = [](const Track& track) {
+    std::size_t sum = 0;
+    for (const auto& [station, kept] : track.bearings) sum += kept.size();
+    return sum;
+  };
+  if (bearings(*other) > bearings(*own)) std::swap(*own, *other);
+  own->id = older;
+  other->id = 0;
+  other->state = TrackState::kDropped;
+  identities_.merge(older, younger);
+  ++counts_.merged;
+}
+
+void LiveTracks::clear() {
+  clear_tracks();
+  duplicates_ = DuplicateTracks(config_.rivals);
+}
+
+}  // namespace ols

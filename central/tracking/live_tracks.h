@@ -1,0 +1,54 @@
+// Live tracks: several targets, and which bearing belongs to which. Pure.
+//
+// The rules (docs/fusion.md tells them at length):
+//  - A bearing goes to the confirmed track that explains it best, or else to the best of those that
+//    are only born; within one exposure of one station a track takes one bearing.
+//  - A bearing that two confirmed tracks explain about as well (they cross in that station's view)
+//    goes to none: the other stations tell them apart.
+//  - What no track explains is kept for track initiation (track_initiation.h).
+//  - born -> confirmed: three stations have given two bearings each, or two stations five each
+//    for confirm_s, most of what they gave being explained, and the position is one.
+//  - born -> dropped: no two stations have seen it for born_drop_s; or it is a duplicate.
+//  - coasted -> dropped: no two stations for drop_s; or for coast_s, after too many consecutive
+//    rejections of one while no two others agree.
+//  - two confirmed ones -> one: they have been one object for a second (duplicate_tracks.h).
+//  - A track that is confirmed where one that was dropped must be by now has its identity; or else
+//    that of the line which one of its stations has followed.
+#pragma once
+
+#include <vector>
+
+#include "central/tracking/duplicate_tracks.h"
+#include "central/tracking/track_manager.h"
+
+namespace ols {
+
+class LiveTracks : public TrackManager {
+ public:
+  explicit LiveTracks(const KeeperConfig& config);
+
+  using TrackManager::add;
+  Association add(const Sighting& sighting, bool may_begin) override;
+  // Another time line: identities are not given away again.
+  void clear();
+
+ private:
+  struct Candidate {
+    std::size_t track = 0;
+    Innovation seen;
+  };
+  std::vector<Candidate> candidates(const Sighting& sighting, bool confirmed) const;
+  void note_duplicates(const Sighting& sighting, const std::vector<Candidate>& near);
+  Association initiate(const Sighting& sighting);
+  void merge(std::int64_t older, std::int64_t younger);
+
+  bool is_worth_confirming(const Track& track) const override;
+  void on_confirmed(const Track& track) override { initiation_.give(track, errors_); }
+  bool is_lost_when_born(double unseen_s) const override;
+  bool is_lost(const Track& track, double unseen_s, std::int64_t now_us) const override;
+  void merge_duplicates() override;
+
+  DuplicateTracks duplicates_;
+};
+
+}  // namespace ols

@@ -1,0 +1,120 @@
+#include "central/tracking/ray_meetings.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "central/measurement/time_span.h"
+#include "geometry/angles.h"
+#include "geometry/wgs84.h"
+
+namespace ols {
+
+double RayMeetings::moved_rad(double dt_s) const {
+  return config_.miss_sigma * config_.rate_sd_rad_s * std::min(1.0, dt_s);
+}
+
+// How far off a bearing of one target may be: noise, bias, and motion between the two instants.
+double RayMeetings::gate_rad(const Sighting& sighting, double dt_s, double range_m,
+                             const StationErrors& errors) const {
+  const BiasPrior bias = errors.prior(sighting.station, sighting.sight, std::max(1.0, range_m));
+  const double variance =
+      (sighting.sight.covariance_white + bias.covariance).trace() / 2.0 +
+      std::pow(config_.rate_sd_rad_s * std::min(1.0, dt_s + sighting.clock_sd_s), 2);
+  return config_.miss_sigma * std::sqrt(variance);
+}
+
+// Where two rays pass each other: kOk, if they do so in front of both cameras and near enough. What
+// the looks rule out is not asked for exactly: that costs ten times as much.
+Solution RayMeetings::meet(const LookedAt& a, const LookedAt& b, const StationErrors& errors,
+                           RayMeeting& meeting) const {
+  const Look &look = a.look, &other = b.look;
+  const Eigen::Vector3d &u = look.direction_ecef, &v = other.direction_ecef;
+  const Eigen::Vector3d base = other.origin_ecef - look.origin_ecef;
+  constexpr double kOnePlaceM = 0.01;
+  const double along = u.dot(v), across = u.cross(v).squaredNorm();
+  if (base.norm() < kOnePlaceM) return Solution::kParallelRays;
+  if (across < std::pow((look.spread_rad + other.spread_rad) / 2.0, 2)) {
+    const double noise_rad =
+        gate_rad(a.sighting, 0.0, 1e9, errors) + gate_rad(b.sighting, 0.0, 1e9, errors);
+    if (across < noise_rad * noise_rad / 4.0) return Solution::kParallelRays;
+  }
+  const double s = (base.dot(u) - along * base.dot(v)) / across;
+  const double t = (along * base.dot(u) - base.dot(v)) / across;
+  if (s <= 0.0 || t <= 0.0) return Solution::kBehindCamera;
+  if (std::min(s, t) > max_range_m_) return Solution::kTooFar;
+  const Eigen::Vector3d on_a = look.origin_ecef + s * u, on_b = other.origin_ecef + t * v;
+  const double dt_s = std::abs(seconds(a.sighting.utime_us - b.sighting.utime_us));
+  const double off_m = (on_a - on_b).norm();
+  if (off_m > s * (look.spread_rad + moved_rad(dt_s + look.clock_sd_s)) +
+                  t * (other.spread_rad + moved_rad(other.clock_sd_s))) {
+    return Solution::kRaysMiss;
+  }
+  const double miss_m =
+      s * gate_rad(a.sighting, dt_s, s, errors) + t * gate_rad(b.sighting, 0.0, t, errors);
+  if (off_m > miss_m) return Solution::kRaysMiss;
+  meeting = {(on_a + on_b) / 2.0, std::min(s, t), a.sighting.station, b.sighting.station,
+             off_m / miss_m};
+  return Solution::kOk;
+}
+
+// Of a station's bearings near in time to another one, the one that is nearest to the meeting; the
+// latest where there is no meeting yet. -1: none.
+std::ptrdiff_t RayMeetings::nearest(const UnassociatedBearings::Station& own, const Sighting& to,
+                                    const RayMeeting* meeting, const StationErrors& errors) const {
+  std::ptrdiff_t best = -1;
+  double least = 1.0;
+  for (auto i = std::ssize(own.looks) - 1; i >= 0; --i) {
+    const Look& look = own.looks[static_cast<std::size_t>(i)];
+    const double dt_s = std::abs(seconds(look.utime_us - to.utime_us));
+    if (dt_s > config_.pair_s && look.utime_us < to.utime_us) break;
+    if (dt_s > config_.pair_s) continue;
+    if (meeting == nullptr) return i;
+    if (!look.is_near(meeting->p_ecef, moved_rad(dt_s + look.clock_sd_s))) continue;
+    const Sighting& sighting = own.bearings[static_cast<std::size_t>(i)];
+    const double off = angle_between(look.direction_ecef, meeting->p_ecef - look.origin_ecef) /
+                       gate_rad(sighting, dt_s, meeting->range_m, errors);
+    if (off >= least) continue;
+    least = off;
+    best = i;
+  }
+  return best;
+}
+
+std::vector<RayMeeting> RayMeetings::of(const Sighting& sighting,
+                                        const UnassociatedBearings& bearings,
+                                        const StationErrors& errors, Solution& failure) const {
+  constexpr std::size_t kEnough = 16;
+  const Look look = look_of(sighting, R_ecef_enu(sighting.sight.origin_ecef));
+  std::vector<RayMeeting> meetings;
+  for (const auto& [station, own] : bearings.stations()) {
+    if (station == sighting.station) continue;
+    const std::ptrdiff_t latest = nearest(own, sighting, nullptr, errors);
+    for (auto i = latest; i >= 0; --i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (own.looks[at].utime_us < own.looks[static_cast<std::size_t>(latest)].utime_us) break;
+      RayMeeting meeting;
+      const Solution how =
+          meet({sighting, look}, {own.bearings[at], own.looks[at]}, errors, meeting);
+      if (how == Solution::kOk) {
+        meetings.push_back(std::move(meeting));
+      } else {
+        failure = how;
+      }
+    }
+  }
+  std::ranges::stable_sort(meetings, {}, &RayMeeting::miss);
+  if (meetings.size() > kEnough) meetings.erase(meetings.begin() + kEnough, meetings.end());
+  for (RayMeeting& meeting : meetings) {
+    for (const auto& [third, own] : bearings.stations()) {
+      if (third == meeting.first || third == meeting.second) continue;
+      meeting.support += nearest(own, sighting, &meeting, errors) >= 0 ? 1 : 0;
+    }
+  }
+  std::ranges::stable_sort(meetings, std::greater<>(), &RayMeeting::support);
+  return meetings;
+}
+
+}  // namespace ols

@@ -1,0 +1,59 @@
+// Where rays of different stations meet: what a new track may be tried from. Pure.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "central/filter/station_errors.h"
+#include "central/measurement/ray.h"
+#include "central/tracking/unassociated_bearings.h"
+
+namespace ols {
+
+struct MeetingConfig {
+  double pair_s = 0.1;         // the two rays are not further apart in time
+  double rate_sd_rad_s = 0.5;  // angular rate that a target may have, 1-sigma
+  double miss_sigma = 4.0;     // greatest miss of two rays
+};
+
+struct RayMeeting {
+  Eigen::Vector3d p_ecef;
+  double range_m = 0.0;
+  std::string first, second;  // the stations whose rays meet
+  double miss = 0.0;          // distance of the rays over the greatest one
+  int support = 0;            // other stations that look there
+};
+
+class RayMeetings {
+ public:
+  RayMeetings(const MeetingConfig& config, double max_range_m)
+      : config_(config), max_range_m_(max_range_m) {}
+
+  // Where a ray meets those of other stations; where more of the others pass by, first.
+  // failure: what it does with the last one that it does not meet.
+  std::vector<RayMeeting> of(const Sighting& sighting, const UnassociatedBearings& bearings,
+                             const StationErrors& errors, Solution& failure) const;
+  // How far a target may have gone on, generously.
+  double moved_rad(double dt_s) const;
+  const MeetingConfig& config() const { return config_; }
+
+ private:
+  // A ray, and what a quick look at it needs.
+  struct LookedAt {
+    const Sighting& sighting;
+    const Look& look;
+  };
+  Solution meet(const LookedAt& a, const LookedAt& b, const StationErrors& errors,
+                RayMeeting& meeting) const;
+  std::ptrdiff_t nearest(const UnassociatedBearings::Station& own, const Sighting& to,
+                         const RayMeeting* meeting, const StationErrors& errors) const;
+  double gate_rad(const Sighting& sighting, double dt_s, double range_m,
+                  const StationErrors& errors) const;
+
+  MeetingConfig config_;
+  double max_range_m_;
+};
+
+}  // namespace ols

@@ -1,0 +1,120 @@
+#include "central/tracking/recorded_track.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "central/measurement/time_span.h"
+#include "central/tracking/likeness.h"
+#include "central/tracking/position_guard.h"
+
+namespace ols {
+namespace {
+
+constexpr double kDoubtS = 1.0;  // two rays do not begin a track so soon after they were wrong
+
+// Two stations see the same object, however far they have to be turned.
+FilterConfig filter_of(const KeeperConfig& config) {
+  FilterConfig filter = config.filter;
+  filter.two_stations_nis = std::numeric_limits<double>::infinity();
+  return filter;
+}
+
+}  // namespace
+
+RecordedTrack::RecordedTrack(const KeeperConfig& config)
+    : TrackManager(config, filter_of(config), false) {}
+
+const Track* RecordedTrack::located() const {
+  const auto found = std::ranges::find_if(tracks_, [](const Track& t) { return t.id != 0; });
+  return found == tracks_.end() ? nullptr : &*found;
+}
+
+Association RecordedTrack::add(const Sighting& sighting, bool may_begin) {
+  Association given;
+  if (!tracks_.empty()) {
+    given = give_to(tracks_.front(), sighting);
+    const bool used = given.kind == Association::Kind::kTrack;
+    note(sighting, used);
+    if (!used && !proved_) take_back(sighting.utime_us);
+  }
+  if (!may_begin) return given;
+  if (!tracks_.empty() && proved_ && !doubted()) {
+    initiation_.store(sighting);
+    return given;
+  }
+  prove(sighting);
+  const bool begun = given.kind == Association::Kind::kUnexplained && !tracks_.empty();
+  return begun ? Association{Association::Kind::kTrack, tracks_.front().id} : given;
+}
+
+// By the number of bearings, not by time: stations may be as slow as they like.
+void RecordedTrack::note(const Sighting& sighting, bool used) {
+  constexpr double kMemory = 8.0;
+  Explains& own = explains_[sighting.station];
+  own.newest_us = sighting.utime_us;
+  own.share += ((used ? 1.0 : 0.0) - own.share) / kMemory;
+}
+
+// Stations that have delivered lately, most of whose bearings the track explains, or does not.
+int RecordedTrack::stations(bool explained) const {
+  std::int64_t now_us = 0;
+  for (const auto& [name, own] : explains_) now_us = std::max(now_us, own.newest_us);
+  const auto span_us = static_cast<std::int64_t>(config_.drop_s * 1e6);
+  return static_cast<int>(std::ranges::count_if(explains_, [&](const auto& entry) {
+    const Explains& own = entry.second;
+    return now_us - own.newest_us <= span_us && (own.share >= 0.5) == explained;
+  }));
+}
+
+bool RecordedTrack::doubted() const {
+  const int against = stations(false);
+  return against >= 2 && against >= stations(true);
+}
+
+// The rays on which the track began were not of one object, or one of them was wrong.
+void RecordedTrack::take_back(std::int64_t utime_us) {
+  errors_ = errors_before_;
+  taken_back_us_ = utime_us;
+  tracks_.front().state = TrackState::kDropped;
+  advance(utime_us);
+}
+
+// Looks for a start that the bearings of several stations agree on: for the track on trial, for one
+// that most do not agree with, or where there is none.
+void RecordedTrack::prove(const Sighting& sighting) {
+  const bool none = tracks_.empty(), on_trial = !none && !proved_;
+  const auto doubt_us = static_cast<std::int64_t>(kDoubtS * 1e6);
+  const bool trusting = none && (!taken_back_us_ || sighting.utime_us - *taken_back_us_ > doubt_us);
+  auto start = initiation_.add(sighting, on_trial ? errors_before_ : errors_, trusting);
+  if (!start) return;
+  if (none || is_better(start->track)) {
+    if (trusting) errors_before_ = errors_;
+    if (on_trial) errors_ = errors_before_;
+    errors_.learn(start->shown);
+    explains_.clear();
+    if (none) {
+      begin(std::move(start->track));
+    } else {
+      replace(tracks_.front(), std::move(start->track));
+    }
+    if (tracks_.front().state == TrackState::kBorn) consider(tracks_.front());
+  }
+  proved_ = !trusting;
+}
+
+// Than the track that there is.
+bool RecordedTrack::is_better(const Track& start) const {
+  if (are_alike(start.filter, tracks_.front().filter)) return false;
+  return !proved_ || static_cast<int>(start.hits.size()) > stations(true);
+}
+
+// One station alone is a position for as long as its own covariance says so.
+bool RecordedTrack::is_lost(const Track& track, double unseen_s, std::int64_t now_us) const {
+  if (unseen_s <= config_.drop_s) return false;
+  const bool silent = stations_lately(track.filter, config_.drop_s) == 0 ||
+                      seconds(now_us - track.filter.utime_us()) > config_.drop_s;
+  return silent || doubted() ||
+         judge_position(track.filter, track.filter.at(now_us)) != Solution::kOk;
+}
+
+}  // namespace ols

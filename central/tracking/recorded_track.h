@@ -1,0 +1,56 @@
+// The one track of a recording of one object: every bearing is offered to it. Pure.
+//
+//  - Two rays begin it, on trial, and it is confirmed when its position is one. It is proved by a
+//    start as it would need among several objects, from the same bearings. If a bearing does not
+//    fit before, it is taken back with all that it has taught, and for a second only such a start
+//    begins one.
+//  - When two stations or more, and half of all, are set aside most of the time, a start on which
+//    more stations agree takes its place, under the same identity.
+//  - coasted -> dropped: no two stations for drop_s, and half of the stations are set aside, or its
+//    position is none any more, or there is nothing at all.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "central/tracking/track_manager.h"
+
+namespace ols {
+
+class RecordedTrack : public TrackManager {
+ public:
+  explicit RecordedTrack(const KeeperConfig& config);
+
+  using TrackManager::add;
+  Association add(const Sighting& sighting, bool may_begin) override;
+  // Has a start of several stations agreed with the track?
+  bool proved() const { return proved_; }
+  // The confirmed track; null: none.
+  const Track* located() const;
+
+ private:
+  // Which share of a station's bearings the track explains, lately.
+  struct Explains {
+    std::int64_t newest_us = 0;
+    double share = 1.0;
+  };
+  void note(const Sighting& sighting, bool used);
+  void take_back(std::int64_t utime_us);
+  void prove(const Sighting& sighting);
+  bool is_better(const Track& start) const;
+  int stations(bool explained) const;
+  bool doubted() const;
+
+  bool is_worth_confirming(const Track&) const override { return true; }
+  bool is_lost_when_born(double unseen_s) const override { return unseen_s > config_.drop_s; }
+  bool is_lost(const Track& track, double unseen_s, std::int64_t now_us) const override;
+
+  std::map<std::string, Explains> explains_;
+  bool proved_ = false;
+  StationErrors errors_before_;                // the track on trial
+  std::optional<std::int64_t> taken_back_us_;  // when one was, last
+};
+
+}  // namespace ols

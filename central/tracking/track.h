@@ -1,0 +1,41 @@
+// One object that the tracker follows: its filter, its bearings, and where it is in its life.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "central/filter/track_filter.h"
+#include "central/measurement/ray.h"
+#include "central/measurement/sighting.h"
+
+namespace ols {
+
+// The rules by which a track goes from one to the next are in docs/fusion.md and in
+// central/tracking/track_manager.h.
+enum class TrackState { kBorn, kConfirmed, kCoasted, kDropped };
+const char* to_string(TrackState state);
+
+using StationBearings = std::map<std::string, std::vector<Sighting>>;  // each in order of time
+
+struct Track {
+  explicit Track(TrackFilter start) : filter(std::move(start)) {}
+
+  TrackFilter filter;
+  std::int64_t id = 0;  // 0 until it is confirmed
+  TrackState state = TrackState::kBorn;
+  std::int64_t born_us = 0;
+  std::map<std::string, int> hits;  // bearings used, by station
+  int misses = 0;                   // bearings set aside
+  std::int64_t located_us = 0;      // when two stations had seen it lately, last
+  StationBearings bearings;         // of the last second
+
+  // Has it a bearing of this station and exposure already?
+  bool has_taken(const Sighting& sighting) const;
+};
+
+// Confirmed or coasted.
+bool is_sure(const Track& track);
+
+}  // namespace ols

@@ -1,0 +1,317 @@
+#include "central/tracking/track_initiation.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "central/measurement/time_span.h"
+#include "central/tracking/position_guard.h"
+
+namespace ols {
+namespace {
+
+constexpr std::size_t kMostStarts = 3;  // that are tried for one bearing
+constexpr int kMostRounds = 6;          // over its bearings
+constexpr double kLeastKnown = 1.0;     // of the range, 1-sigma
+
+}  // namespace
+
+std::optional<TrackStart> TrackInitiation::search(const Sighting& sighting,
+                                                  const StationErrors& errors, bool trusting) {
+  failure_ = Solution::kTooFewRays;
+  const std::vector<RayMeeting> starts = meetings_.of(sighting, pool_, errors, failure_);
+  for (std::size_t i = 0; i < std::min(starts.size(), kMostStarts); ++i) {
+    auto begun = try_start(sighting, starts[i], errors, trusting ? Needed::kTwoRays : Needed::kAll);
+    if (!begun) continue;
+    if (!trusting && is_outdone(*begun, sighting, errors)) continue;
+    if (!trusting) take(begun->start.track);
+    return std::move(begun->start);
+  }
+  return std::nullopt;
+}
+
+std::optional<TrackStart> TrackInitiation::add(const Sighting& sighting,
+                                               const StationErrors& errors, bool trusting) {
+  store(sighting);
+  const std::optional<Sighting> next = next_turn(sighting);
+  return next ? search(*next, errors, trusting) : std::nullopt;
+}
+
+// Each bearing pays for a search among so many stations. Among more, whoever waits longest is the
+// next: of its newest frame any bearing. Were it each in turn, a station's turns could be in step
+// with all others' and fall on the same one for ever.
+std::optional<Sighting> TrackInitiation::next_turn(const Sighting& sighting) {
+  constexpr std::size_t kStationsABearing = 64;
+  const std::size_t cost = pool_.stations().size();
+  saved_ = std::min(saved_ + kStationsABearing, cost);
+  if (waiting_.empty() && saved_ == cost) {
+    saved_ = 0;
+    return sighting;
+  }
+  if (std::ranges::find(waiting_, sighting.station) == waiting_.end()) {
+    waiting_.push_back(sighting.station);
+  }
+  while (saved_ == cost && !waiting_.empty()) {
+    const auto own = pool_.stations().find(waiting_.front());
+    waiting_.pop_front();
+    if (own == pool_.stations().end()) continue;
+    saved_ = 0;
+    const auto& looks = own->second.looks;
+    const auto frame =
+        std::ranges::lower_bound(looks, looks.back().utime_us, {}, &Look::utime_us) - looks.begin();
+    const auto bearings = looks.size() - static_cast<std::size_t>(frame);
+    return own->second.bearings[static_cast<std::size_t>(frame) + any_() % bearings];
+  }
+  return std::nullopt;
+}
+
+// Does one of its two stations agree better with a third?
+bool TrackInitiation::is_outdone(const Begun& begun, const Sighting& newest,
+                                 const StationErrors& errors) {
+  const auto& own = begun.start.track.hits;
+  if (own.size() > 2) return false;
+  for (const auto& [name, pooled] : pool_.stations()) {
+    const Sighting& third = pooled.bearings.back();
+    if (own.contains(name) ||
+        std::abs(seconds(third.utime_us - newest.utime_us)) > config_.meeting.pair_s)
+      continue;
+    int tried = 0;
+    for (const RayMeeting& start : meetings_.of(third, pool_, errors, failure_)) {
+      if (!own.contains(start.second)) continue;
+      const auto rival = try_start(third, start, errors, Needed::kHalf);
+      if (rival && (rival->start.track.hits.size() > 2 || rival->misfit < begun.misfit)) {
+        failure_ = Solution::kRaysMiss;
+        return true;
+      }
+      if (++tried >= 3) break;
+    }
+  }
+  return false;
+}
+
+namespace {
+
+// One station's bearings with the same stamp.
+struct Frame {
+  std::int64_t utime_us = 0;
+  std::vector<const Sighting*> bearings;
+};
+
+std::vector<Frame> frames_backwards(
+    const std::vector<const UnassociatedBearings::Station*>& stations, std::int64_t oldest_us) {
+  std::vector<Frame> frames;
+  for (const UnassociatedBearings::Station* const station : stations) {
+    for (const Sighting& sighting : station->bearings) {
+      if (sighting.utime_us < oldest_us) continue;
+      const bool same = !frames.empty() && frames.back().utime_us == sighting.utime_us &&
+                        frames.back().bearings.front()->station == sighting.station;
+      if (!same) frames.push_back({sighting.utime_us, {}});
+      frames.back().bearings.push_back(&sighting);
+    }
+  }
+  std::ranges::stable_sort(frames, std::greater<>(), &Frame::utime_us);
+  return frames;
+}
+
+struct Explained {
+  int frames = 0;
+  double misfit = 0.0;             // sum of the squared normalised residuals, the gate at most
+  std::vector<Sighting> bearings;  // the latest first
+};
+
+// Runs the filter over the frames: each gives its nearest bearing, if that is in the gate.
+std::map<std::string, Explained> explain(const std::vector<Frame>& frames, TrackFilter& filter,
+                                         StationErrors& shown) {
+  std::map<std::string, Explained> stations;
+  for (const Frame& frame : frames) {
+    const Sighting* best = nullptr;
+    Innovation least;
+    least.nis = filter.config().gate_nis;
+    for (const Sighting* sighting : frame.bearings) {
+      Innovation seen = filter.innovation(*sighting, shown);
+      if (seen.nis >= least.nis) continue;
+      least = std::move(seen);
+      best = sighting;
+    }
+    Explained& station = stations[frame.bearings.front()->station];
+    ++station.frames;
+    station.misfit += least.nis;
+    if (best == nullptr) continue;
+    const FilterUpdate update = filter.update(*best, shown, &least);
+    shown.learn(update.shown);
+    if (update.use != BearingUse::kUsed) continue;
+    station.bearings.push_back(*best);
+  }
+  return stations;
+}
+
+// What the stations that agree on a start have in common.
+struct Agreement {
+  int hits = 0, frames = 0;
+  double misfit = 0.0;
+  std::int64_t oldest_us = 0;
+};
+
+// Gives the track the bearings of those stations that agree on it.
+Agreement agree(std::map<std::string, Explained>& stations, double least_share, Track& track) {
+  Agreement sum{.oldest_us = track.born_us};
+  for (auto& [name, station] : stations) {
+    const int here = static_cast<int>(station.bearings.size());
+    if (here == 0 || here < least_share * station.frames) continue;
+    sum.hits += here;
+    sum.frames += station.frames;
+    sum.misfit += station.misfit;
+    sum.oldest_us = std::min(sum.oldest_us, station.bearings.back().utime_us);
+    track.hits[name] = here;
+    std::ranges::reverse(station.bearings);
+    track.bearings[name] = std::move(station.bearings);
+  }
+  return sum;
+}
+
+// Position and velocity are where the equations are linear, as well as they are known.
+bool is_settled(const KinematicState& found, const Vector9& about) {
+  constexpr double kNear = 0.1;  // squared, in sigmas
+  const Eigen::Matrix<double, 6, 1> off = (found.mean - about).head<6>();
+  const Eigen::Matrix<double, 6, 6> P = found.covariance.topLeftCorner<6, 6>();
+  const double squared = off.dot(P.ldlt().solve(off));
+  return squared >= 0.0 && squared < kNear;
+}
+
+}  // namespace
+
+// Who has lately had a bearing towards the start: nobody else's bearings can be explained by it.
+std::vector<const UnassociatedBearings::Station*> TrackInitiation::looking_at(
+    const RayMeeting& start, std::int64_t now_us) const {
+  std::vector<const UnassociatedBearings::Station*> found;
+  for (const auto& [name, own] : pool_.stations()) {
+    const std::int64_t newest_us = own.looks.back().utime_us;
+    bool looks = name == start.first || name == start.second;
+    for (auto look = own.looks.rbegin(); !looks && look != own.looks.rend(); ++look) {
+      if (seconds(newest_us - look->utime_us) > config_.meeting.pair_s) break;
+      const double dt_s = std::abs(seconds(now_us - look->utime_us));
+      looks = look->is_near(start.p_ecef, meetings_.moved_rad(dt_s + look->clock_sd_s));
+    }
+    if (looks) found.push_back(&own);
+  }
+  return found;
+}
+
+// The newest instant of whoever is heard at the time of a bearing.
+std::int64_t TrackInitiation::now_at(std::int64_t utime_us) const {
+  std::int64_t now_us = utime_us;
+  for (const auto& [station, own] : pool_.stations()) {
+    const std::int64_t newest_us = own.looks.back().utime_us;
+    if (std::abs(seconds(newest_us - utime_us)) <= config_.meeting.pair_s) {
+      now_us = std::max(now_us, newest_us);
+    }
+  }
+  return now_us;
+}
+
+// Runs the filter backwards over what is kept, from `now_us` on: with the bearings that it takes of
+// the stations that agree on the start. Nothing where it diverges.
+std::optional<TrackInitiation::Begun> TrackInitiation::run(const RayMeeting& start,
+                                                           std::int64_t now_us,
+                                                           const StationErrors& errors) const {
+  auto frames = frames_backwards(looking_at(start, now_us),
+                                 now_us - static_cast<std::int64_t>(config_.pool_s * 1e6));
+  // A start is vague: whoever is heard first, it goes to. So first the two that made it.
+  std::stable_partition(frames.begin(), frames.end(), [&](const Frame& frame) {
+    const std::string& station = frame.bearings.front()->station;
+    return station == start.first || station == start.second;
+  });
+  FilterStart from{.p_ecef = start.p_ecef,
+                   .position_sd_m = start.range_m / 2.0,
+                   .velocity_sd_m_s = 2.0 * config_.meeting.rate_sd_rad_s * start.range_m};
+  std::optional<Begun> begun;
+  std::optional<KinematicState> about;
+  std::map<std::string, Explained> stations;
+  // What is known after the first bearings is vague, and equations that are linear about that can
+  // lead astray and be sure of it. So each round is linear about where the one before has ended.
+  for (int round = 0; round < kMostRounds && !(begun && begun->settled); ++round) {
+    begun.emplace(
+        TrackStart{Track(TrackFilter(filter_, now_us, from)), StationErrors::evidence_on(errors)});
+    TrackFilter& filter = begun->start.track.filter;
+    if (about) filter.linearise_about(*about);
+    stations = explain(frames, filter, begun->start.shown);
+    filter.linearise_about_itself();
+    const KinematicState found = filter.at(now_us);
+    if (!found.mean.allFinite()) return std::nullopt;
+    begun->settled = about && is_settled(found, about->mean);
+    about = found;
+    from.p_ecef = found.mean.head<3>();
+    from.v_ecef = found.mean.segment<3>(3);
+  }
+  begun->start.track.born_us = begun->start.track.located_us = now_us;
+  const Agreement sum = agree(stations, config_.explained, begun->start.track);
+  begun->bearings = sum.hits;
+  begun->span_s = seconds(now_us - sum.oldest_us);
+  begun->misfit = sum.misfit / sum.frames;
+  return begun;
+}
+
+std::optional<TrackInitiation::Begun> TrackInitiation::try_start(const Sighting& newest,
+                                                                 const RayMeeting& start,
+                                                                 const StationErrors& errors,
+                                                                 Needed needed) {
+  auto begun = run(start, now_at(newest.utime_us), errors);
+  if (!begun) return std::nullopt;
+  const std::size_t agreeing = begun->start.track.hits.size();
+  failure_ = Solution::kRaysMiss;
+  if (agreeing < 2) return std::nullopt;
+  failure_ = Solution::kTooFewRays;
+  const double long_s = config_.two_stations_s * (needed == Needed::kAll ? 1.0 : 0.5);
+  const bool long_enough = agreeing > 2 || begun->span_s >= long_s;
+  const bool enough = begun->bearings >= config_.least_bearings && long_enough;
+  if (needed == Needed::kTwoRays) return begun;
+  if (!enough) return std::nullopt;
+  // Rays that are parallel by chance meet somewhere far: what has no range explains everything, and
+  // would take the bearings of all that are nearer.
+  const TrackFilter& filter = begun->start.track.filter;
+  const bool is_somewhere = has_range(filter, filter.summary(), kLeastKnown);
+  if (!is_somewhere) failure_ = Solution::kParallelRays;
+  return is_somewhere && begun->settled ? std::move(begun) : std::nullopt;
+}
+
+void TrackInitiation::take(const Track& track) {
+  for (const auto& [station, bearings] : track.bearings) {
+    const auto& taken = bearings;  // clang 14 captures no structured binding
+    pool_.erase_if(station, [&](const Sighting& s) {
+      return std::ranges::any_of(taken, [&](const Sighting& t) {
+        return t.utime_us == s.utime_us &&
+               t.sight.direction.azimuth_rad == s.sight.direction.azimuth_rad &&
+               t.sight.direction.elevation_rad == s.sight.direction.elevation_rad;
+      });
+    });
+  }
+}
+
+void TrackInitiation::give(const Track& track, const StationErrors& errors) {
+  std::vector<std::string> stations;
+  for (const auto& [station, own] : pool_.stations()) {
+    const bool looks = std::ranges::any_of(own.looks, [&](const Look& look) {
+      const double dt_s = std::abs(seconds(look.utime_us - track.filter.utime_us()));
+      return look.is_near(track.filter.position(), meetings_.moved_rad(dt_s + look.clock_sd_s));
+    });
+    if (looks) stations.push_back(station);
+  }
+  for (const std::string& station : stations) {
+    pool_.erase_if(station, [&](const Sighting& sighting) {
+      return track.filter.innovation(sighting, errors).nis < filter_.robust_nis;
+    });
+  }
+}
+
+Solution TrackInitiation::why_none(std::int64_t now_us) const {
+  const auto heard = std::ranges::count_if(pool_.stations(), [&](const auto& station) {
+    return seconds(now_us - station.second.looks.back().utime_us) <= config_.pool_s;
+  });
+  if (heard == 0) return Solution::kTooFewRays;
+  return heard == 1 ? Solution::kBearingOnly : failure_;
+}
+
+}  // namespace ols

@@ -1,0 +1,175 @@
+#include "central/tracking/track_manager.h"
+
+#include <algorithm>
+
+#include "central/measurement/time_span.h"
+#include "central/tracking/likeness.h"
+#include "central/tracking/position_guard.h"
+
+namespace ols {
+
+TrackManager::TrackManager(const KeeperConfig& config, const FilterConfig& filter, bool same_place)
+    : config_(config),
+      initiation_(config.birth, filter),
+      errors_(config.errors),
+      identities_(same_place) {}
+
+Track& TrackManager::begin(Track track) {
+  ++counts_.born;
+  tracks_.push_back(std::move(track));
+  glances_.push_back(glance_at(tracks_.back()));
+  return tracks_.back();
+}
+
+void TrackManager::replace(Track& track, Track by) {
+  by.id = track.id;
+  by.state = track.state;
+  track = std::move(by);
+  glances_[static_cast<std::size_t>(&track - tracks_.data())] = glance_at(track);
+}
+
+Association TrackManager::give_to(Track& track, const Sighting& sighting, const Innovation* seen) {
+  const FilterUpdate update = track.filter.update(sighting, errors_, seen);
+  errors_.learn(update.shown);
+  glances_[static_cast<std::size_t>(&track - tracks_.data())] = glance_at(track);
+  // One more than the filter has states for is of the target all the same, and begins no other.
+  if (update.use != BearingUse::kUsed && update.use != BearingUse::kNoPlace) {
+    ++track.misses;
+    ++counts_.set_aside;
+    return {Association::Kind::kSetAside, track.id};
+  }
+  ++track.hits[sighting.station];
+  keep(track, sighting);
+  identities_.follow(sighting, track);
+  if (stations_lately(track.filter, Activity::kDeliversS) >= 2) {
+    track.located_us = track.filter.utime_us();
+    if (track.state == TrackState::kCoasted) track.state = TrackState::kConfirmed;
+  }
+  const std::int64_t id = track.id;
+  if (track.state == TrackState::kBorn) consider(track);
+  return {Association::Kind::kTrack, id};
+}
+
+void TrackManager::keep(Track& track, const Sighting& sighting) const {
+  auto& own = track.bearings[sighting.station];
+  const auto place = std::ranges::upper_bound(own, sighting.utime_us, {}, &Sighting::utime_us);
+  own.insert(place, sighting);
+  const auto span_us = static_cast<std::int64_t>(config_.memory_s * 1e6);
+  const std::int64_t oldest_us = own.back().utime_us - span_us;
+  const auto kept = std::ranges::lower_bound(own, oldest_us, {}, &Sighting::utime_us);
+  constexpr std::ptrdiff_t kTogether = 16;  // each one by itself would move all others every time
+  if (kept - own.begin() >= kTogether) own.erase(own.begin(), kept);
+}
+
+// The same object as a sure one.
+bool TrackManager::is_duplicate(const Track& track) const {
+  return std::ranges::any_of(tracks_, [&](const Track& other) {
+    return &other != &track && is_sure(other) && are_alike(track.filter, other.filter);
+  });
+}
+
+void TrackManager::consider(Track& track) {
+  const KinematicState now = track.filter.at(track.filter.utime_us());
+  if (judge_position(track.filter, now) != Solution::kOk || !is_worth_confirming(track)) return;
+  if (is_duplicate(track)) {
+    track.state = TrackState::kDropped;
+    return;
+  }
+  confirm(track);
+}
+
+void TrackManager::confirm(Track& track) {
+  track.state = TrackState::kConfirmed;
+  ++counts_.confirmed;
+  if (track.id == 0) identities_.confirm(track, tracks_);
+  for (const auto& [station, bearings] : track.bearings) {
+    if (!bearings.empty()) identities_.follow(bearings.back(), track);
+  }
+  on_confirmed(track);
+}
+
+// What a station's other tracks have taught of it stays true: they go on with it.
+void TrackManager::forget_what_it_taught(const Track& track) {
+  const auto has_another = [&](const std::string& station) {
+    return std::ranges::any_of(tracks_, [&](const Track& other) {
+      return &other != &track && is_sure(other) && other.bearings.contains(station) &&
+             !is_inconsistent_pair(other.filter);
+    });
+  };
+  for (const FilterStation& station : track.filter.stations()) {
+    if (!has_another(station.station)) errors_.forget(station.station);
+  }
+}
+
+void TrackManager::age(Track& track, std::int64_t now_us) {
+  if (is_inconsistent_pair(track.filter)) {  // what it has taught of them is not true, either
+    forget_what_it_taught(track);
+    track.state = TrackState::kDropped;
+    return;
+  }
+  const double unseen_s = seconds(now_us - track.located_us);
+  if (track.state == TrackState::kBorn) {
+    if (is_lost_when_born(unseen_s)) track.state = TrackState::kDropped;
+  } else if (unseen_s > config_.coast_s || unseen_s > config_.drop_s) {
+    if (unseen_s > config_.coast_s) track.state = TrackState::kCoasted;
+    if (is_lost(track, unseen_s, now_us)) track.state = TrackState::kDropped;
+  }
+}
+
+void TrackManager::advance(std::int64_t now_us) {
+  for (Track& track : tracks_) {
+    if (track.state != TrackState::kDropped) age(track, now_us);
+  }
+  merge_duplicates();
+  for (const Track& track : tracks_) {
+    if (track.state != TrackState::kDropped) continue;
+    ++counts_.dropped;
+    if (track.id != 0) identities_.drop(track);
+  }
+  std::erase_if(tracks_, [](const Track& t) { return t.state == TrackState::kDropped; });
+  glances_.clear();
+  for (const Track& track : tracks_) glances_.push_back(glance_at(track));
+  identities_.forget_dropped(now_us, config_.remember_s + config_.drop_s);
+}
+
+std::optional<Eigen::Vector2d> TrackManager::off_nearest(const Sighting& sighting) const {
+  const RayFrame frame = ray_frame(sighting.sight);
+  std::optional<Eigen::Vector2d> best;
+  for (const Track& track : tracks_) {
+    if (track.state != TrackState::kConfirmed) continue;
+    const KinematicState& state = track.filter.summary();
+    const double dt_s = seconds(sighting.utime_us - state.utime_us);
+    const Eigen::Vector3d line =
+        state.mean.head<3>() + dt_s * state.mean.segment<3>(3) - sighting.sight.origin_ecef;
+    const double depth = frame.direction.dot(line);
+    if (!(depth > 0.0)) continue;
+    const Eigen::Vector2d off = frame.tangent.transpose() * line / depth;
+    if (!best || off.norm() < best->norm()) best = off;
+  }
+  return best;
+}
+
+std::int64_t TrackManager::identify(const Sighting& newest, std::set<std::int64_t>& told) {
+  return identities_.identify(newest, config_.confirm_s, told, tracks_);
+}
+
+bool TrackManager::takes(const Sighting& newest, std::int64_t now_us, double within_s) const {
+  return identities_.takes(newest, now_us, within_s, tracks_);
+}
+
+void TrackManager::forget_station(const std::string& station) {
+  errors_.forget(station);
+  initiation_.forget(station);
+  identities_.forget(station);
+}
+
+void TrackManager::clear_tracks() {
+  initiation_.clear();
+  errors_.clear();
+  tracks_.clear();
+  glances_.clear();
+  identities_.clear();
+  counts_ = {};
+}
+
+}  // namespace ols

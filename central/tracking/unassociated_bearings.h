@@ -1,0 +1,61 @@
+// The bearings of the last moments that belong to no track, by station. Pure.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "central/measurement/sighting.h"
+
+namespace ols {
+
+// What a quick look at a bearing needs, side by side.
+struct Look {
+  std::int64_t utime_us = 0;
+  Eigen::Vector3d origin_ecef = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction_ecef = Eigen::Vector3d::UnitX();
+  double spread_rad = 0.0;  // generously, how far off its target it may point
+  double clock_sd_s = 0.0;
+  std::int64_t track_id = 0;
+
+  // Whether it points at a place, within what it may be off and something more.
+  bool is_near(const Eigen::Vector3d& p_ecef, double more_rad) const;
+};
+// With the axes at its origin: R_ecef_enu(sighting.sight.origin_ecef).
+Look look_of(const Sighting& sighting, const Eigen::Matrix3d& R_ecef_enu);
+
+class UnassociatedBearings {
+ public:
+  // Of one station, both in order of time and as long as each other.
+  struct Station {
+    std::deque<Sighting> bearings;
+    std::vector<Look> looks;
+
+    Look look(const Sighting& sighting);
+
+   private:
+    Eigen::Vector3d origin_ecef_ = Eigen::Vector3d::Zero();     // of the look that was made last,
+    Eigen::Matrix3d R_ecef_enu_ = Eigen::Matrix3d::Identity();  // and the axes there
+  };
+
+  // A bearing is kept until one of its station is newer by so long, or so many are.
+  UnassociatedBearings(double span_s, int most)
+      : span_s_(span_s), most_(static_cast<std::size_t>(most)) {}
+
+  void store(const Sighting& sighting);
+  void erase_if(const std::string& station, const std::function<bool(const Sighting&)>& condition);
+  void forget(const std::string& station) { stations_.erase(station); }
+  // None of them is empty.
+  const std::map<std::string, Station>& stations() const { return stations_; }
+
+ private:
+  double span_s_;
+  std::size_t most_;
+  std::map<std::string, Station> stations_;
+};
+
+}  // namespace ols

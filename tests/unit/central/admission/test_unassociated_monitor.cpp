@@ -1,0 +1,35 @@
+#include <gtest/gtest.h>
+
+#include "central/admission/unassociated_monitor.h"
+
+namespace ols {
+namespace {
+
+constexpr std::int64_t kStart = 1'600'000'000'000'000;
+
+void follow(UnassociatedMonitor& monitor, int from_s, int to_s) {
+  for (int s = from_s; s <= to_s; ++s) monitor.unassociated("a", kStart + s * 1'000'000LL);
+}
+
+TEST(UnassociatedMonitor, NamesWhoFollowsNoTargetForLong) {
+  UnassociatedMonitor monitor({.alarm_s = 10.0});
+  follow(monitor, 0, 9);
+  EXPECT_EQ(monitor.alarm("a", kStart + 9'000'000), "");
+  follow(monitor, 10, 10);
+  EXPECT_NE(monitor.alarm("a", kStart + 10'000'000).find("station a: follows for 10 s"),
+            std::string::npos);
+  EXPECT_EQ(monitor.alarm("a", kStart + 14'000'000), "") << "after a silence";
+}
+
+TEST(UnassociatedMonitor, OneBearingOfATargetOrASilenceBeginsTheCountAnew) {
+  UnassociatedMonitor monitor({.alarm_s = 10.0});
+  follow(monitor, 0, 9);
+  monitor.agrees("a");
+  follow(monitor, 10, 15);
+  EXPECT_EQ(monitor.alarm("a", kStart + 15'000'000), "");
+  follow(monitor, 20, 29);
+  EXPECT_EQ(monitor.alarm("a", kStart + 29'000'000), "");
+}
+
+}  // namespace
+}  // namespace ols

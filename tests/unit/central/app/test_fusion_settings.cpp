@@ -1,0 +1,62 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/toml_config.h"
+#include "central/app/fusion_settings.h"
+
+namespace ols {
+namespace {
+
+class FusionSettingsTest : public testing::Test {
+ protected:
+  FusionSettingsTest() { std::filesystem::create_directories(folder_); }
+  ~FusionSettingsTest() override { std::filesystem::remove_all(folder_); }
+
+  FusionSettings load(const std::string& text) const {
+    std::ofstream(path()) << text;
+    return load_fusion_settings(path());
+  }
+  std::string path() const { return (folder_ / "fusion.toml").string(); }
+  std::string refusal(const std::string& text) const {
+    try {
+      load(text);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "none";
+  }
+
+ private:
+  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) /
+                                  testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+const std::vector<Motion>& models(const FusionSettings& settings) {
+  return settings.fusion.keeper.filter.motion.models;
+}
+
+TEST_F(FusionSettingsTest, AllModelsAreMixedByDefault) {
+  EXPECT_THAT(models(load("")),
+              testing::ElementsAre(Motion::kConstantVelocity, Motion::kCoordinatedTurn,
+                                   Motion::kAcceleration));
+}
+
+TEST_F(FusionSettingsTest, ModelsAreChosenByName) {
+  EXPECT_THAT(models(load("[motion]\nmodels = [\"acceleration\", \"constant-velocity\"]\n")),
+              testing::ElementsAre(Motion::kAcceleration, Motion::kConstantVelocity));
+}
+
+TEST_F(FusionSettingsTest, ModelsThatCannotBeMixedAreRefusedByName) {
+  const std::string place = path() + ":2: motion.models: ";
+  EXPECT_EQ(refusal("[motion]\nmodels = [\"hovering\"]\n"),
+            place + "\"hovering\" is not one of constant-velocity, coordinated-turn, acceleration");
+  EXPECT_EQ(refusal("[motion]\nmodels = [\"acceleration\", \"acceleration\"]\n"),
+            place + "\"acceleration\" appears twice");
+  EXPECT_EQ(refusal("[motion]\nmodels = []\n"), place + "needs at least one entry");
+}
+
+}  // namespace
+}  // namespace ols

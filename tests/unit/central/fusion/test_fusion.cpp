@@ -1,0 +1,440 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "central/fusion/fusion.h"
+#include "tests/unit/central/flight.h"
+
+namespace ols {
+namespace {
+
+using Eigen::Vector3d;
+using test::error_m;
+using test::flight;
+using test::kStart;
+using test::path;
+using test::ray_to;
+using test::sighting_of;
+using test::site;
+using test::square;
+using test::targets_of;
+
+constexpr std::int64_t kHour = 3'600'000'000;
+
+TEST(Fusion, FollowsAMovingTargetWithStaggeredStations) {
+  Fusion fusion{FusionConfig{}};
+  const auto targets = targets_of(fusion, flight(4.0));
+  ASSERT_GT(targets.size(), 40U);
+  EXPECT_LE(targets.size(), 67U);
+  for (std::size_t i = 10; i < targets.size(); ++i) {
+    ASSERT_EQ(targets[i].estimate.solution, Solution::kOk);
+    EXPECT_EQ(targets[i].stations.size(), 4U);
+    EXPECT_LT(error_m(targets[i]), 0.02);
+    const Vector3d velocity = site().R_ecef_enu().transpose() * targets[i].estimate.velocity_ecef;
+    EXPECT_LT((velocity - Vector3d(20, -5, 2)).norm(), 0.3);
+  }
+}
+
+TEST(Fusion, ReplayGivesTheSameToTheLastDigit) {
+  const auto sightings = flight(3.0, 1e-4, 1e-4);
+  Fusion first{FusionConfig{}}, second{FusionConfig{}};
+  const auto a = targets_of(first, sightings), b = targets_of(second, sightings);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].utime_us, b[i].utime_us);
+    if (a[i].estimate.solution != Solution::kOk) continue;
+    EXPECT_EQ(a[i].estimate.position_ecef, b[i].estimate.position_ecef);
+    EXPECT_EQ(a[i].estimate.covariance_ecef, b[i].estimate.covariance_ecef);
+  }
+}
+
+TEST(Fusion, PaperEstimateStandsBesideTheJointOne) {
+  Fusion fusion{FusionConfig{}};
+  int both = 0;
+  for (const Sighting& sighting : flight(3.0)) {
+    const FusionOutput output = fusion.add(sighting);
+    if (output.targets.empty() || output.targets[0].estimate.solution != Solution::kOk) continue;
+    ++both;
+    ASSERT_EQ(output.targets_paper.size(), 1U);
+    const FusedTarget& paper = output.targets_paper[0];
+    ASSERT_EQ(paper.estimate.solution, Solution::kOk);
+    EXPECT_EQ(paper.target_id, output.targets[0].target_id);
+    // Trails by the moving average: at most ten targets' time, and says so.
+    const double off_m = error_m(paper);
+    EXPECT_LT(off_m, 21.0 * 10 / 12.0);
+    EXPECT_LT(off_m, 3.0 * std::sqrt(paper.estimate.covariance_ecef.trace()) + 0.1);
+  }
+  EXPECT_GT(both, 30);
+}
+
+// One wrong clock hurts only its owner, whichever station it is and whichever way it is wrong, also
+// when it is the first to be heard.
+TEST(Fusion, OneWrongClockHurtsOnlyItsOwner) {
+  for (const std::string wrong : {"a", "b", "d"}) {
+    for (const std::int64_t offset : {kHour, -kHour, std::int64_t{5'000'000}}) {
+      Fusion fusion{FusionConfig{}};
+      auto sightings = flight(4.0);
+      for (Sighting& sighting : sightings) {
+        if (sighting.station == wrong) sighting.utime_us += offset;
+      }
+      const auto targets = targets_of(fusion, sightings);
+      const auto good = std::ranges::count_if(targets, [&](const FusedTarget& target) {
+        return target.estimate.solution == Solution::kOk && target.stations.size() == 3;
+      });
+      EXPECT_GT(good, 40) << wrong << " " << offset;
+      const auto health = fusion.health();
+      const char* counter = offset > 0 ? "refused_future" : "refused_stale";
+      const double at_first = health.counters.at(counter);
+      EXPECT_GT(at_first, 10.0) << wrong << " " << offset;
+      EXPECT_GT(at_first + health.counters.at("refused_quarantine"), 55.0) << wrong;
+      for (const StationHealth& station : health.stations) {
+        EXPECT_EQ(station.quarantine.empty(), station.station != wrong) << station.quarantine;
+      }
+      EXPECT_NE(health.last_error.find("station " + wrong), std::string::npos);
+      for (const FusedTarget& target : targets) {
+        // Before the others are heard, the wrong clock alone is the time: no position then.
+        const bool warm = target.utime_us > kStart + 1'000'000;
+        if (warm && target.estimate.solution == Solution::kOk) {
+          EXPECT_LT(error_m(target), 0.05);
+        }
+      }
+    }
+  }
+}
+
+TEST(Fusion, TakesLateAndDoubledBearings) {
+  auto sightings = flight(3.0);
+  for (std::size_t i = 20; i + 3 < sightings.size(); i += 10) {
+    std::swap(sightings[i], sightings[i + 3]);
+  }
+  std::vector<Sighting> doubled;
+  for (const Sighting& sighting : sightings) {
+    doubled.push_back(sighting);
+    doubled.push_back(sighting);
+  }
+  Fusion fusion{FusionConfig{}};
+  const auto targets = targets_of(fusion, doubled);
+  EXPECT_EQ(fusion.health().counters.at("refused_duplicate"),
+            static_cast<double>(sightings.size()));
+  for (std::size_t i = 10; i < targets.size(); ++i) EXPECT_LT(error_m(targets[i]), 0.05);
+}
+
+TEST(Fusion, GoesOnWhenStationsDropOutAndReturn) {
+  auto sightings = flight(6.0);
+  std::erase_if(sightings, [](const Sighting& sighting) {
+    const double t_s = static_cast<double>(sighting.utime_us - kStart) * 1e-6;
+    return sighting.station > "b" && t_s > 2.0 && t_s < 4.0;  // two of four at once
+  });
+  Fusion fusion{FusionConfig{}};
+  const auto targets = targets_of(fusion, sightings);
+  std::int64_t longest_us = 0;
+  for (std::size_t i = 1; i < targets.size(); ++i) {
+    longest_us = std::max(longest_us, targets[i].utime_us - targets[i - 1].utime_us);
+    const double t_s = static_cast<double>(targets[i].utime_us - kStart) * 1e-6;
+    if (t_s > 2.5 && t_s < 4.0) {
+      EXPECT_EQ(targets[i].stations.size(), 2U);
+    }
+    if (t_s > 0.5) {
+      ASSERT_EQ(targets[i].estimate.solution, Solution::kOk) << t_s;
+      EXPECT_LT(error_m(targets[i]), 0.3) << t_s;
+    }
+  }
+  EXPECT_LT(longest_us, 500'000);
+  EXPECT_EQ(fusion.health().counters.at("refused_future"), 0.0);
+}
+
+TEST(Fusion, StartsAnewWhenTheReplayIsStartedAgain) {
+  const auto sightings = flight(5.0);
+  Fusion fusion{FusionConfig{}};
+  const auto first = targets_of(fusion, sightings);
+  const auto second = targets_of(fusion, sightings);
+  EXPECT_GT(second.size(), first.size() - 10);
+  EXPECT_LT(error_m(second.back()), 0.02);
+  EXPECT_EQ(fusion.health().counters.at("time_stepped_back"), 1.0);
+}
+
+// What the first replay taught about the stations is not known in the second one.
+TEST(Fusion, EveryFurtherReplayGivesTheSameTargets) {
+  for (const double noise : {2e-4, 3e-4, 1e-3}) {  // all worse than they state
+    const auto sightings = flight(5.0, 1e-4, noise);
+    Fusion fusion{FusionConfig{}};
+    const auto first = targets_of(fusion, sightings);
+    const auto second = targets_of(fusion, sightings);
+    const auto third = targets_of(fusion, sightings);
+    ASSERT_EQ(second.size(), third.size()) << noise;
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < second.size(); ++i) {
+      ASSERT_EQ(second[i].utime_us, third[i].utime_us) << noise;
+      ASSERT_EQ(second[i].estimate.solution, third[i].estimate.solution) << noise;
+      if (second[i].estimate.solution != Solution::kOk) continue;
+      EXPECT_EQ(second[i].estimate.position_ecef, third[i].estimate.position_ecef) << noise;
+      EXPECT_EQ(second[i].estimate.covariance_ecef, third[i].estimate.covariance_ecef) << noise;
+      ++compared;
+    }
+    EXPECT_GT(compared, 60U) << noise;
+    // The first one differs by the bearings that it takes to notice the step. At ten sigmas these
+    // decide where tracks begin, and the two are not comparable.
+    if (noise > 3e-4) continue;
+    const double was = first.back().estimate.covariance_ecef.trace();
+    EXPECT_NEAR(second.back().estimate.covariance_ecef.trace() / was, 1.0, 0.1) << noise;
+    EXPECT_LT(error_m(first.back()), 2.5 * std::sqrt(was)) << noise;
+    EXPECT_LT(error_m(second.back()), 2.5 * std::sqrt(was)) << noise;
+  }
+}
+
+class WorseThanStated : public testing::TestWithParam<double> {};
+
+// Noise of more than what is stated does not make two objects of one, nor its position worthless.
+TEST_P(WorseThanStated, IsStillOneTarget) {
+  Fusion fusion{FusionConfig{}};
+  int located = 0, judged = 0;
+  double normalised = 0.0;
+  for (const FusedTarget& target : targets_of(fusion, flight(20.0, 1e-4, GetParam() * 1e-4))) {
+    if (target.estimate.solution != Solution::kOk) continue;
+    ++located;
+    EXPECT_EQ(target.target_id, 1);
+    EXPECT_LT(error_m(target), 0.3);
+    if (target.utime_us < kStart + 5'000'000) continue;  // not learnt yet
+    ++judged;
+    normalised += std::pow(error_m(target), 2) / target.estimate.covariance_ecef.trace();
+  }
+  EXPECT_GT(located, 290);
+  EXPECT_LT(normalised / judged, 2.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Times, WorseThanStated, testing::Values(2.0, 3.0));
+
+// Bearings of the object that a station follows are told to its target even when they are wild.
+// After a restart the same track_id is whatever the station was shown then.
+TEST(Fusion, WhatARestartedStationFollowsIsNotWhatItFollowedBefore) {
+  const auto set_aside = [](std::int64_t boot_after) {
+    auto sightings = flight(2.0);
+    for (Sighting& sighting : sightings) {
+      sighting.track_id = 1;
+      sighting.boot_id = 5;
+      if (sighting.station != "a" || sighting.utime_us < kStart + 1'000'000) continue;
+      sighting.boot_id = boot_after;
+      sighting.sight.direction.azimuth_rad =
+          wrap_two_pi(sighting.sight.direction.azimuth_rad + 0.2);
+    }
+    Fusion fusion{FusionConfig{}};
+    for (const FusedTarget& target : targets_of(fusion, sightings)) {
+      if (target.bearing_only || target.utime_us < kStart + 500'000) continue;
+      EXPECT_LT(error_m(target), 0.05);
+    }
+    EXPECT_EQ(fusion.health().counters.at("stations_restarted"), boot_after == 5 ? 0.0 : 1.0);
+    return fusion.tracks().counts().set_aside;
+  };
+  EXPECT_GT(set_aside(5), 10);
+  EXPECT_EQ(set_aside(6), 0);
+}
+
+TEST(Fusion, ANewTrackIsAnotherObject) {
+  auto sightings = flight(2.0);
+  for (Sighting& sighting : sightings) {
+    const bool later = sighting.utime_us > kStart + 1'000'000;
+    if (sighting.station != "a" || !later) continue;
+    sighting.track_id = 2;
+    sighting.sight.direction.azimuth_rad = wrap_two_pi(sighting.sight.direction.azimuth_rad + 0.2);
+  }
+  Fusion fusion{FusionConfig{}};
+  int lines = 0;
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    if (target.utime_us < kStart + 500'000) continue;
+    if (target.bearing_only) {
+      EXPECT_EQ(target.bearing_only->station, "a");
+      EXPECT_EQ(target.bearing_only->track_id, 2);
+      EXPECT_GT(target.utime_us, kStart + 1'000'000);
+      ++lines;
+      continue;
+    }
+    ASSERT_EQ(target.estimate.solution, Solution::kOk);
+    EXPECT_LT(error_m(target), 0.05);
+    if (target.utime_us > kStart + 1'600'000) {
+      ASSERT_EQ(target.stations.size(), 3U);
+      EXPECT_EQ(target.stations[0].station, "b");
+      EXPECT_TRUE(target.stations[0].used);
+    }
+  }
+  EXPECT_GT(lines, 10);
+}
+
+// Bearings that belong to nothing, late and in between, do not touch the target.
+TEST(Fusion, ALateBearingOfAnotherObjectDoesNotDisturbTheTarget) {
+  std::vector<Sighting> with_late;
+  for (const Sighting& sighting : flight(2.0)) {
+    with_late.push_back(sighting);
+    if (sighting.utime_us < kStart + 1'000'000 || sighting.station != "a") continue;
+    with_late.push_back(sighting);
+    with_late.back().sight.direction.elevation_rad += 0.1;
+    with_late.back().utime_us -= 100'000;
+  }
+  Fusion disturbed{FusionConfig{}};
+  const auto targets = targets_of(disturbed, with_late);
+  EXPECT_EQ(targets.back().target_id, 1);
+  EXPECT_LT(error_m(targets.back()), 0.05);
+}
+
+TEST(Fusion, TwoStationsAtOnePlaceGiveNoPosition) {
+  auto sightings = flight(3.0);
+  std::erase_if(sightings, [](const Sighting& s) { return s.station > "b"; });
+  for (Sighting& sighting : sightings) {
+    const double t_s = static_cast<double>(sighting.utime_us - kStart) * 1e-6;
+    sighting.sight = ray_to("a", square()[0], path(t_s), 1e-5).sight;
+  }
+  Fusion fusion{FusionConfig{}};
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    EXPECT_NE(target.estimate.solution, Solution::kOk);
+  }
+}
+
+TEST(Fusion, OneStationAloneIsALineAndNoPosition) {
+  auto sightings = flight(3.0);
+  std::erase_if(sightings, [](const Sighting& s) { return s.station != "c"; });
+  Fusion fusion{FusionConfig{}};
+  const FusedTarget last = targets_of(fusion, sightings).back();
+  EXPECT_EQ(last.estimate.solution, Solution::kBearingOnly);
+  ASSERT_TRUE(last.bearing_only.has_value());
+  EXPECT_EQ(last.bearing_only->station, "c");
+  EXPECT_TRUE(std::isnan(last.estimate.position_ecef.x()));
+}
+
+// Its target is no one else's: the others' target goes on, and its line is told beside it.
+TEST(Fusion, WhoFollowsSomethingElseIsALineBesideTheTarget) {
+  auto sightings = flight(3.0);
+  for (Sighting& sighting : sightings) {
+    sighting.track_id = 1;
+    if (sighting.station != "d") continue;
+    double& azimuth = sighting.sight.direction.azimuth_rad;
+    azimuth = wrap_two_pi(azimuth + 0.7);
+  }
+  Fusion fusion{FusionConfig{}};
+  int located = 0, lines = 0;
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    if (target.utime_us < kStart + 1'500'000) continue;
+    located += target.estimate.solution == Solution::kOk ? 1 : 0;
+    if (target.estimate.solution != Solution::kBearingOnly) continue;
+    ++lines;
+    ASSERT_TRUE(target.bearing_only);
+    EXPECT_EQ(target.bearing_only->station, "d");
+    EXPECT_NE(target.target_id, 1);
+  }
+  EXPECT_GE(located, 20);
+  EXPECT_EQ(lines, located);
+}
+
+TEST(Fusion, TwoWhoFollowTwoObjectsAreTwoLinesAndNoPosition) {
+  auto sightings = flight(3.0);
+  std::erase_if(sightings, [](const Sighting& s) { return s.station == "b" || s.station == "d"; });
+  for (Sighting& sighting : sightings) {
+    sighting.track_id = 1;
+    if (sighting.station == "c") sighting.sight.direction.elevation_rad = 1.4;
+  }
+  Fusion fusion{FusionConfig{}};
+  std::map<std::string, int> lines;
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    EXPECT_NE(target.estimate.solution, Solution::kOk);
+    if (target.bearing_only) ++lines[target.bearing_only->station];
+  }
+  EXPECT_GT(lines["a"], 30);
+  EXPECT_GT(lines["c"], 30);
+}
+
+// The order of names decides nothing.
+TEST(Fusion, RenamingTheStationsChangesNothing) {
+  const auto sightings = flight(3.0, 1e-4, 1e-4);
+  auto renamed = sightings;
+  for (Sighting& s : renamed)
+    s.station = std::string(1, static_cast<char>('z' - s.station[0] + 'a'));
+  Fusion first{FusionConfig{}}, second{FusionConfig{}};
+  const auto a = targets_of(first, sightings), b = targets_of(second, renamed);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a[i].estimate.solution, b[i].estimate.solution);
+    if (a[i].estimate.solution != Solution::kOk) continue;
+    if (a[i].utime_us < kStart + 1'000'000) continue;  // begun with another pair
+    EXPECT_LT((a[i].estimate.position_ecef - b[i].estimate.position_ecef).norm(), 1e-2);
+  }
+}
+
+// A bearing or a status, whichever came last: a station may be set up anew elsewhere.
+TEST(Fusion, SlewsAStationFromWhereItsLastMessageTold) {
+  Fusion fusion{FusionConfig{}};
+  const Vector3d anew(0.0, -120.0, 2.0);
+  std::optional<Slew> before, after;
+  for (const Sighting& sighting : flight(4.0)) {
+    const bool gone = sighting.utime_us > kStart + 2'000'000;
+    if (gone && sighting.station == "a") continue;
+    if (gone) fusion.know_station("a", {.camera_ecef = site().to_ecef(anew)});
+    for (const Slew& slew : fusion.add(sighting).slews) {
+      if (slew.station == "a") (gone ? after : before) = slew;
+    }
+  }
+  ASSERT_TRUE(before && after);
+  const double t_s = static_cast<double>(after->effect_utime_us - kStart) * 1e-6;
+  const auto expected = sighting_of(ray_to("a", anew, path(t_s)), 0).sight.direction;
+  EXPECT_NEAR(wrap_pi(after->direction.azimuth_rad - expected.azimuth_rad), 0.0, 2e-3);
+  EXPECT_NEAR(after->direction.elevation_rad, expected.elevation_rad, 2e-3);
+}
+
+TEST(Fusion, SlewsEveryKnownStationAheadOfTheTarget) {
+  FusionConfig config;
+  Fusion fusion{config};
+  const Vector3d lookout(0.0, 0.0, 30.0);
+  fusion.know_station("lookout", {.camera_ecef = site().to_ecef(lookout)});
+  std::int64_t last_us = 0;
+  int slews = 0;
+  for (const Sighting& sighting : flight(4.0)) {
+    const FusionOutput output = fusion.add(sighting);
+    if (output.slews.empty()) continue;
+    EXPECT_GE(output.slews[0].utime_us - last_us, 90'000);
+    last_us = output.slews[0].utime_us;
+    if (last_us < kStart + 1'000'000) continue;
+    ++slews;
+    ASSERT_EQ(output.slews.size(), 5U);
+    const Slew& slew = output.slews.back();
+    ASSERT_EQ(slew.station, "lookout");
+    EXPECT_EQ(slew.effect_utime_us, slew.utime_us + 150'000);
+    const double t_s = static_cast<double>(slew.effect_utime_us - kStart) * 1e-6;
+    const Sighting there = sighting_of(ray_to("lookout", lookout, path(t_s)), 0);
+    const Sighting next = sighting_of(ray_to("lookout", lookout, path(t_s + 0.01)), 0);
+    const auto& now = there.sight.direction;
+    EXPECT_NEAR(wrap_pi(slew.direction.azimuth_rad - now.azimuth_rad), 0.0, 1e-3);
+    EXPECT_NEAR(slew.direction.elevation_rad, now.elevation_rad, 1e-3);
+    EXPECT_NEAR(slew.azimuth_rate_rad_s,
+                wrap_pi(next.sight.direction.azimuth_rad - now.azimuth_rad) / 0.01, 5e-3);
+    EXPECT_NEAR(slew.elevation_rate_rad_s,
+                (next.sight.direction.elevation_rad - now.elevation_rad) / 0.01, 5e-3);
+    EXPECT_GT(slew.direction_sd_rad, 0.0);
+    EXPECT_LT(slew.direction_sd_rad, 0.01);
+    EXPECT_EQ(slew.lease_s, config.slew.lease_s);
+  }
+  EXPECT_GT(slews, 20);
+}
+
+TEST(Fusion, StopsSlewingSomeTimeAfterTheLastPosition) {
+  FusionConfig config;
+  Fusion fusion{config};
+  auto sightings = flight(6.0);
+  std::erase_if(sightings, [](const Sighting& sighting) {
+    return sighting.station != "a" && sighting.utime_us > kStart + 2'000'000;
+  });
+  std::int64_t last_slew_us = 0;
+  bool without_position = false;
+  for (const Sighting& sighting : sightings) {
+    const FusionOutput output = fusion.add(sighting);
+    if (!output.slews.empty()) last_slew_us = output.slews[0].utime_us;
+    // One station alone: the position is let go, its line is kept.
+    if (!output.targets.empty() && output.targets[0].utime_us > kStart + 5'000'000) {
+      EXPECT_NE(output.targets[0].estimate.solution, Solution::kOk);
+      without_position = true;
+    }
+  }
+  EXPECT_TRUE(without_position);
+  EXPECT_GT(last_slew_us, kStart + 3'500'000);
+  EXPECT_LT(last_slew_us, kStart + 4'500'000);
+}
+
+}  // namespace
+}  // namespace ols

@@ -1,0 +1,106 @@
+// What the fusion says aloud: stations that follow what nobody else does.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "central/fusion/fusion.h"
+#include "tests/unit/central/flight.h"
+
+namespace ols {
+namespace {
+
+using test::flight;
+using test::kStart;
+
+// The stations of a flight past them, d turned away from what the others follow by a growing angle:
+// another object, or the background.
+std::vector<Sighting> with_a_stray(double seconds) {
+  auto sightings = flight(seconds);
+  for (Sighting& sighting : sightings) {
+    sighting.track_id = 1;
+    if (sighting.station != "d") continue;
+    const double t_s = static_cast<double>(sighting.utime_us - kStart) * 1e-6;
+    double& azimuth = sighting.sight.direction.azimuth_rad;
+    azimuth = wrap_two_pi(azimuth + 0.7 + 0.05 * t_s);
+  }
+  return sightings;
+}
+
+std::vector<std::string> alarms_after(const std::vector<Sighting>& sightings) {
+  Fusion fusion{FusionConfig{}};
+  for (const Sighting& sighting : sightings) fusion.add(sighting);
+  return fusion.health().alarms;
+}
+
+TEST(FusionAlarms, NamesWhoFollowsForLongWhatIsNoneOfTheTargets) {
+  const auto alarms = alarms_after(with_a_stray(14.0));
+  ASSERT_EQ(alarms.size(), 1U);
+  EXPECT_TRUE(alarms[0].starts_with("station d: follows for 1")) << alarms[0];
+}
+
+// Always off by the same: its pose may be wrong, which is another alarm, and one is enough.
+TEST(FusionAlarms, NamesWhoIsQuarantined) {
+  auto sightings = flight(14.0);
+  for (Sighting& sighting : sightings) {
+    sighting.track_id = 1;
+    double& azimuth = sighting.sight.direction.azimuth_rad;
+    if (sighting.station == "d") azimuth = wrap_two_pi(azimuth + 0.1);
+  }
+  const auto alarms = alarms_after(sightings);
+  ASSERT_EQ(alarms.size(), 1U);
+  EXPECT_TRUE(alarms[0].starts_with("station d: not used, its bearings are 5")) << alarms[0];
+}
+
+TEST(FusionAlarms, SaysNothingOfWhoDoesSoForAMoment) {
+  EXPECT_TRUE(alarms_after(with_a_stray(8.0)).empty());
+}
+
+TEST(FusionAlarms, SaysNothingOfStationsThatFollowATarget) {
+  auto sightings = flight(14.0);
+  for (Sighting& sighting : sightings) sighting.track_id = 1;
+  EXPECT_TRUE(alarms_after(sightings).empty());
+}
+
+// Detections without a name are many things at once, most of them no target.
+TEST(FusionAlarms, SaysNothingOfWhatAStationDoesNotName) {
+  auto sightings = with_a_stray(14.0);
+  for (Sighting& sighting : sightings) {
+    if (sighting.station == "d") sighting.track_id = 0;
+  }
+  EXPECT_TRUE(alarms_after(sightings).empty());
+}
+
+TEST(FusionAlarms, SaysNothingWhereThereIsNoTargetToCompareWith) {
+  auto sightings = with_a_stray(14.0);
+  std::erase_if(sightings, [](const Sighting& s) { return s.station == "b" || s.station == "c"; });
+  EXPECT_TRUE(alarms_after(sightings).empty());
+}
+
+// Who follows two objects by two names has one of the targets in view, and knows what it does.
+TEST(FusionAlarms, SaysNothingOfWhoFollowsTheTargetBesideAnotherObject) {
+  auto sightings = with_a_stray(14.0);
+  std::vector<Sighting> both;
+  const auto straight = flight(14.0);
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    both.push_back(sightings[i]);
+    if (sightings[i].station != "d") continue;
+    both.push_back(straight[i]);
+    both.back().track_id = 2;
+  }
+  EXPECT_TRUE(alarms_after(both).empty());
+}
+
+TEST(FusionAlarms, TheAlarmGoesWithItsReason) {
+  Fusion fusion{FusionConfig{}};
+  for (const Sighting& sighting : with_a_stray(14.0)) fusion.add(sighting);
+  ASSERT_FALSE(fusion.health().alarms.empty());
+  auto onwards = flight(16.0);
+  for (Sighting& sighting : onwards) {
+    sighting.track_id = sighting.station == "d" ? 2 : 1;  // designated anew
+    if (sighting.utime_us > kStart + 14'000'000) fusion.add(sighting);
+  }
+  EXPECT_TRUE(fusion.health().alarms.empty());
+}
+
+}  // namespace
+}  // namespace ols

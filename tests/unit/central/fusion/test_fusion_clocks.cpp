@@ -1,0 +1,139 @@
+// What becomes of stations whose clock, calibration or place among the others has changed.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "central/fusion/fusion.h"
+#include "tests/unit/central/flight.h"
+
+namespace ols {
+namespace {
+
+using test::error_m;
+using test::flight;
+using test::kStart;
+using test::targets_of;
+
+// The flight with one station's bearings changed from an instant on.
+std::vector<Sighting> changed(std::vector<Sighting> sightings, const std::string& station,
+                              double from_s, const std::function<void(Sighting&)>& change) {
+  for (Sighting& sighting : sightings) {
+    const double t_s = static_cast<double>(sighting.utime_us - kStart) * 1e-6;
+    if (sighting.station == station && t_s >= from_s) change(sighting);
+  }
+  return sightings;
+}
+
+std::string quarantined(const Fusion& fusion) {
+  std::string names;
+  for (const StationHealth& station : fusion.health().stations) {
+    if (!station.quarantine.empty()) names += station.station;
+  }
+  return names;
+}
+
+TEST(FusionClocks, AMarkedStepQuarantinesThatStationAloneAndTheOthersGoOn) {
+  for (const std::int64_t step_us : {2'000'000, -2'000'000}) {
+    const auto sightings = changed(flight(6.0), "b", 3.0, [&](Sighting& sighting) {
+      sighting.utime_us += step_us;
+      sighting.clock = StationClock::kUnsynchronised;
+      sighting.clock_sd_s = 2.0;
+    });
+    Fusion fusion{FusionConfig{}};
+    int after = 0;
+    for (const FusedTarget& target : targets_of(fusion, sightings)) {
+      const double t_s = static_cast<double>(target.utime_us - kStart) * 1e-6;
+      if (t_s < 1.0) continue;
+      ASSERT_EQ(target.estimate.solution, Solution::kOk) << t_s;
+      EXPECT_LT(error_m(target), 0.05) << t_s;
+      if (t_s < 3.1) continue;
+      ++after;
+      EXPECT_TRUE(std::ranges::none_of(
+          target.stations, [](const ContributingStation& s) { return s.station == "b"; }));
+    }
+    EXPECT_GT(after, 30) << "targets go on without a pause";
+    EXPECT_EQ(quarantined(fusion), "b");
+    EXPECT_EQ(fusion.health().counters.at("stations_quarantined"), 1.0);
+    EXPECT_GT(fusion.health().counters.at("refused_quarantine"), 35.0);
+    EXPECT_NE(fusion.health().last_error.find("station b: quarantined"), std::string::npos);
+  }
+}
+
+TEST(FusionClocks, OfTwoStationsTheMarkedOneIsSetAsideAndTheOtherKeepsTheTime) {
+  auto sightings = changed(flight(6.0), "a", 3.0, [&](Sighting& sighting) {
+    sighting.utime_us -= 2'000'000;
+    sighting.clock = StationClock::kUnsynchronised;
+    sighting.clock_sd_s = 2.0;
+  });
+  std::erase_if(sightings, [](const Sighting& s) { return s.station > "b"; });
+  Fusion fusion{FusionConfig{}};
+  targets_of(fusion, sightings);
+  EXPECT_EQ(quarantined(fusion), "a");
+  EXPECT_GT(fusion.now_us(), kStart + 5'800'000);
+  EXPECT_EQ(fusion.health().counters.at("refused_future"), 0.0) << "nothing of the good one";
+}
+
+TEST(FusionClocks, AQuarantinedStationIsStillSlewed) {
+  const auto sightings = changed(flight(4.0), "b", 2.0, [](Sighting& s) { s.clock_sd_s = 2.0; });
+  Fusion fusion{FusionConfig{}};
+  bool slewed = false;
+  for (const Sighting& sighting : sightings) {
+    const FusionOutput output = fusion.add(sighting);
+    if (sighting.utime_us < kStart + 3'000'000) continue;
+    for (const Slew& slew : output.slews) slewed = slewed || slew.station == "b";
+  }
+  EXPECT_TRUE(slewed) << "whether it may heed them, its own gate decides by its own clock";
+}
+
+TEST(FusionClocks, AStatedErrorInflatesAlongTheMotion) {
+  const auto trace_with = [](double error_s) {
+    auto sightings = flight(3.0);
+    for (Sighting& sighting : sightings) sighting.clock_sd_s = error_s;
+    Fusion fusion{FusionConfig{}};
+    return targets_of(fusion, sightings).back().estimate.covariance_ecef.trace();
+  };
+  // 20 m/s for 50 ms are a metre, and four stations do not average it away.
+  EXPECT_LT(trace_with(0.0), 0.01);
+  EXPECT_GT(trace_with(0.05), 0.1);
+}
+
+// The fusion was restarted while the stations went on.
+TEST(FusionClocks, AFusionThatBeginsInMidFlightLocatesAtOnce) {
+  Fusion fusion{FusionConfig{}};
+  for (const FusedTarget& target : targets_of(fusion, flight(1.0))) {
+    if (target.utime_us < kStart + 200'000) continue;
+    EXPECT_EQ(target.estimate.solution, Solution::kOk);
+    EXPECT_LT(error_m(target), 0.1);
+  }
+}
+
+TEST(FusionClocks, AnotherCalibrationStartsAnew) {
+  const auto sightings = changed(flight(4.0), "c", 2.0, [](Sighting& s) { s.calibration_id = 77; });
+  Fusion fusion{FusionConfig{}};
+  const auto targets = targets_of(fusion, sightings);
+  EXPECT_EQ(fusion.health().counters.at("calibrations_changed"), 1.0);
+  EXPECT_EQ(targets.back().stations.size(), 4U);
+  EXPECT_LT(error_m(targets.back()), 0.05);
+}
+
+TEST(FusionClocks, StrangersCannotPushOutWhoWorksHere) {
+  Fusion fusion{FusionConfig{.admission = {.max_stations = 4}}};
+  const auto sightings = flight(4.0);
+  double refused = 0.0;
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    fusion.add(sightings[i]);
+    if (sightings[i].utime_us < kStart + 1'000'000) continue;
+    Sighting stranger = sightings[i];
+    stranger.station = "stranger" + std::to_string(i);
+    EXPECT_EQ(fusion.add(stranger).refusal, SightingRefusal::kTooMany);
+    ++refused;
+  }
+  EXPECT_EQ(fusion.health().counters.at("refused_too_many_stations"), refused);
+  EXPECT_EQ(fusion.health().counters.at("stations_evicted"), 0.0);
+  EXPECT_EQ(fusion.health().stations.size(), 4U);
+}
+
+}  // namespace
+}  // namespace ols

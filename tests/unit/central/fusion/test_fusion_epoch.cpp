@@ -1,0 +1,332 @@
+// What comes out of the fusion in a period: identities of lines, and many targets' share of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "dev/estimators/bearing_world.h"
+#include "tests/unit/central/flight.h"
+
+namespace ols {
+namespace {
+
+using test::flight;
+using test::kStart;
+using test::targets_of;
+
+std::int64_t us(double seconds) { return kStart + std::llround(seconds * 1e6); }
+
+// A flight whose stations follow something, each by the same name all the time.
+std::vector<Sighting> followed(double seconds) {
+  auto sightings = flight(seconds, 1e-4, 1e-4);
+  for (Sighting& sighting : sightings) sighting.track_id = 7;
+  return sightings;
+}
+
+void turn(Sighting& sighting, double azimuth_rad) {
+  double& azimuth = sighting.sight.direction.azimuth_rad;
+  azimuth = wrap_two_pi(azimuth + azimuth_rad);
+}
+
+// One station, then all, then that one again: a line, a position, a line of one object.
+TEST(FusionEpoch, ALineIsTheObjectThatItsPositionIs) {
+  auto sightings = followed(9.0);
+  std::erase_if(sightings, [](const Sighting& s) {
+    return s.station != "b" && (s.utime_us < us(2.0) || s.utime_us > us(4.0));
+  });
+  Fusion fusion{FusionConfig{}};
+  std::set<std::int64_t> ids;
+  int before = 0, positions = 0, after = 0;
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    if (target.utime_us < us(1.0) || target.target_id == 0) continue;
+    ids.insert(target.target_id);
+    before += target.bearing_only && target.utime_us < us(2.0) ? 1 : 0;
+    positions += target.estimate.solution == Solution::kOk ? 1 : 0;
+    after += target.bearing_only && target.utime_us > us(7.0) ? 1 : 0;
+  }
+  EXPECT_EQ(ids.size(), 1U);
+  EXPECT_GT(before, 10);
+  EXPECT_GT(positions, 20);
+  EXPECT_GT(after, 20);
+}
+
+TEST(FusionEpoch, WhatAStationFollowsNextIsAnotherObject) {
+  auto sightings = followed(4.0);
+  std::erase_if(sightings, [](const Sighting& s) { return s.station != "b"; });
+  for (Sighting& sighting : sightings) {
+    if (sighting.utime_us > us(2.0)) sighting.track_id = 8;
+  }
+  Fusion fusion{FusionConfig{}};
+  std::set<std::int64_t> first, second;
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    if (!target.bearing_only || target.target_id == 0) continue;
+    // What it may follow still is told for as long as a silent station's line.
+    if (target.utime_us > us(2.0) && target.utime_us < us(2.4)) continue;
+    (target.utime_us < us(2.0) ? first : second).insert(target.target_id);
+  }
+  EXPECT_EQ(first.size(), 1U);
+  EXPECT_EQ(second.size(), 1U);
+  EXPECT_NE(first, second);
+}
+
+// A station's own two names are two objects, side by side and each for as long as it is followed.
+std::vector<Sighting> two_of_one_station(double seconds) {
+  auto sightings = followed(seconds);
+  std::erase_if(sightings, [](const Sighting& s) { return s.station != "b"; });
+  const std::size_t count = sightings.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    sightings.push_back(sightings[i]);
+    sightings.back().track_id = 9;
+    turn(sightings.back(), 0.3);
+  }
+  std::ranges::stable_sort(sightings, {}, &Sighting::utime_us);
+  return sightings;
+}
+
+TEST(FusionEpoch, WhatOneStationFollowsAtOnceAreTwoLines) {
+  Fusion fusion{FusionConfig{}};
+  std::map<std::int64_t, std::set<std::int64_t>> ids;      // by the station's name
+  std::map<std::int64_t, std::set<std::int64_t>> at_once;  // by the instant
+  int lines = 0;
+  for (const FusedTarget& target : targets_of(fusion, two_of_one_station(4.0))) {
+    if (target.utime_us < us(1.0)) continue;
+    ASSERT_TRUE(target.bearing_only);
+    ids[target.bearing_only->track_id].insert(target.target_id);
+    EXPECT_TRUE(at_once[target.utime_us].insert(target.target_id).second);
+    ++lines;
+  }
+  ASSERT_EQ(ids.size(), 2U);
+  EXPECT_EQ(ids[7].size(), 1U);
+  EXPECT_EQ(ids[9].size(), 1U);
+  EXPECT_NE(ids[7], ids[9]);
+  EXPECT_EQ(lines, 2 * static_cast<int>(at_once.size()));
+  EXPECT_GT(lines, 80);
+}
+
+// All see the one, and that station alone the other: before, while and after the one is a target.
+TEST(FusionEpoch, AStationsLineBesideItsTargetKeepsItsIdentity) {
+  auto sightings = two_of_one_station(8.0);
+  for (const Sighting& s : followed(8.0)) {
+    if (s.station != "b" && s.utime_us > us(2.0) && s.utime_us < us(4.0)) sightings.push_back(s);
+  }
+  std::ranges::stable_sort(sightings, {}, &Sighting::utime_us);
+  Fusion fusion{FusionConfig{}};
+  std::map<std::int64_t, std::set<std::int64_t>> ids;
+  std::map<std::int64_t, int> beside;
+  int positions = 0;
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    if (target.utime_us < us(1.0) || target.target_id == 0) continue;
+    const std::int64_t name = target.bearing_only ? target.bearing_only->track_id : 7;
+    ids[name].insert(target.target_id);
+    positions += target.bearing_only ? 0 : 1;
+    if (target.utime_us > us(2.5) && target.utime_us < us(4.0)) ++beside[name];
+  }
+  EXPECT_GT(positions, 20);
+  EXPECT_GT(beside[9], 15);
+  EXPECT_EQ(ids[7].size(), 1U);
+  EXPECT_EQ(ids[9].size(), 1U);
+  EXPECT_NE(ids[7], ids[9]);
+}
+
+// A wild bearing of each of two objects goes to the target that the station follows by its name.
+TEST(FusionEpoch, AStationFollowsTwoTargetsByTheirNames) {
+  auto sightings = followed(3.0);
+  const std::size_t count = sightings.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    Sighting& own = sightings[i];
+    const Eigen::Vector3d place = test::square()[static_cast<std::size_t>(own.station[0] - 'a')];
+    const double t_s = 1e-6 * static_cast<double>(own.utime_us - kStart);
+    const Eigen::Vector3d there = test::path(t_s) + Eigen::Vector3d(0, 0, 60);
+    Ray ray = test::ray_to(own.station, place, there, 1e-4);
+    sightings.push_back(test::sighting_of(ray, own.utime_us));
+    sightings.back().track_id = 9;
+  }
+  std::ranges::stable_sort(sightings, {}, &Sighting::utime_us);
+  for (Sighting& s : sightings) {
+    if (s.station == "a" && s.utime_us > us(2.5)) s.sight.direction.elevation_rad += 0.01;
+  }
+  Fusion fusion{FusionConfig{}};
+  for (const Sighting& s : sightings) fusion.add(s);
+  // Half a second of it, 15 frames a second, of either.
+  EXPECT_GE(fusion.tracks().counts().set_aside, 12);
+  EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_sure), 2);
+}
+
+// Every bearing has a name of its own: that harms nobody, and takes no memory for good.
+TEST(FusionEpoch, AStationThatNamesEverythingAnewIsForgottenAsItGoes) {
+  auto sightings = followed(4.0);
+  std::int64_t name = 100;
+  for (Sighting& sighting : sightings) {
+    if (sighting.station != "a") continue;
+    sighting.track_id = ++name;
+    turn(sighting, 0.5);
+  }
+  Fusion fusion{FusionConfig{}};
+  for (const Sighting& sighting : sightings) {
+    std::map<std::string, std::size_t> lines;
+    for (const FusedTarget& target : fusion.add(sighting).targets) {
+      if (target.bearing_only) ++lines[target.bearing_only->station];
+    }
+    EXPECT_LE(lines["a"], 4U);
+    EXPECT_LE(fusion.tracks().followed().size("a"), LocalTracks::kOfAStation);
+  }
+  EXPECT_EQ(fusion.tracks().followed().size("a"), LocalTracks::kOfAStation);
+  EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_sure), 1);
+}
+
+// Detections without a name of their own may be of anything.
+TEST(FusionEpoch, WhatAStationDoesNotNameHasNoIdentity) {
+  auto sightings = flight(3.0);
+  std::erase_if(sightings, [](const Sighting& s) { return s.station != "b"; });
+  Fusion fusion{FusionConfig{}};
+  for (const FusedTarget& target : targets_of(fusion, sightings)) EXPECT_EQ(target.target_id, 0);
+}
+
+// All have followed one object; then each follows something of its own by the same name.
+TEST(FusionEpoch, OneIdentityIsNotTwoLines) {
+  auto sightings = followed(9.0);
+  const std::map<std::string, double> turned = {{"a", 0.0}, {"b", 0.7}, {"c", 1.4}, {"d", 2.1}};
+  for (Sighting& sighting : sightings) {
+    if (sighting.utime_us > us(3.0)) {
+      turn(sighting, turned.at(sighting.station));
+      sighting.sight.direction.elevation_rad += 0.2 * turned.at(sighting.station);
+    }
+  }
+  Fusion fusion{FusionConfig{}};
+  std::map<std::int64_t, std::set<std::int64_t>> at_instant;
+  std::map<std::string, std::set<std::int64_t>> of_station;
+  int lines = 0;
+  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    if (target.target_id == 0) continue;
+    EXPECT_TRUE(at_instant[target.utime_us].insert(target.target_id).second);
+    if (!target.bearing_only || target.utime_us < us(7.0)) continue;
+    of_station[target.bearing_only->station].insert(target.target_id);
+    ++lines;
+  }
+  EXPECT_GT(lines, 60);
+  std::set<std::int64_t> all;
+  for (const auto& [station, ids] : of_station) {
+    EXPECT_EQ(ids.size(), 1U) << station;
+    all.insert(ids.begin(), ids.end());
+  }
+  EXPECT_EQ(all.size(), of_station.size());
+}
+
+constexpr int kTargets = 30, kEach = 3;
+
+// Groups of stations, each with a target of its own. In order of time.
+std::vector<Sighting> many_targets(double seconds) {
+  std::mt19937_64 random(5);
+  std::vector<Sighting> all;
+  for (int group = 0; group < kTargets; ++group) {
+    const Eigen::Vector3d centre(3000.0 * (group % 6), 3000.0 * (group / 6), 0.0);
+    bench::WorldConfig world{.stations_enu = bench::circle(kEach, 300.0), .aims_enu = {}};
+    for (Eigen::Vector3d& place : world.stations_enu) place += centre;
+    const auto path =
+        bench::cruising({centre + Eigen::Vector3d(0, 0, 100), {8, 3, 0}}, 0.5, seconds, random);
+    for (Sighting& s : bench::measure(world, {path}, seconds, random)) {
+      s.station.append("g").append(std::to_string(group));
+      all.push_back(std::move(s));
+    }
+  }
+  std::ranges::stable_sort(all, {}, &Sighting::utime_us);
+  return all;
+}
+
+// A silence in the midst of an epoch: what was not told before is not told after.
+TEST(FusionEpoch, NothingOldIsToldAfterASilence) {
+  constexpr std::int64_t kSilenceUs = 10'000'000;
+  Fusion fusion{FusionConfig{}};
+  std::set<std::pair<std::int64_t, std::int64_t>> told;
+  std::int64_t silent_us = 0;
+  std::size_t before = 0, after = 0, slews = 0;
+  for (Sighting sighting : many_targets(2.0)) {
+    sighting.utime_us += silent_us;
+    const FusionOutput output = fusion.add(sighting);
+    for (const FusedTarget& target : output.targets) {
+      EXPECT_LT(sighting.utime_us - target.utime_us, 2'000'000);
+      EXPECT_TRUE(told.insert({target.utime_us, target.target_id}).second);
+    }
+    for (const Slew& slew : output.slews) EXPECT_LT(sighting.utime_us - slew.utime_us, 2'000'000);
+    (silent_us == 0 ? before : after) += output.targets.size();
+    slews += silent_us == 0 ? 0 : output.slews.size();
+    const bool amidst = !output.targets.empty() && !output.slews.empty();
+    if (amidst && sighting.utime_us > bench::kStartUs + 1'000'000) silent_us = kSilenceUs;
+  }
+  EXPECT_EQ(silent_us, kSilenceUs);
+  EXPECT_GT(before, 100U);
+  EXPECT_GT(after, 200U) << "all are there again, though many rays are parallel by chance";
+  EXPECT_GT(slews, 50U);
+}
+
+// A round of slews for many stations goes on with the bearings of a few: each is for when it is
+// made.
+TEST(FusionEpoch, SlewsOfManyStationsAreEachForTheirOwnInstant) {
+  Fusion fusion{FusionConfig{}};
+  for (int i = 0; i < 200; ++i) {
+    fusion.know_station("watcher" + std::to_string(i),
+                        {.camera_ecef = test::site().to_ecef({5.0 * i, 50.0, 0.0})});
+  }
+  int slews = 0;
+  std::set<std::string> stations;
+  for (const Sighting& sighting : flight(4.0, 1e-4, 1e-4)) {
+    const FusionOutput output = fusion.add(sighting);
+    for (const Slew& slew : output.slews) {
+      EXPECT_EQ(slew.utime_us, fusion.now_us());
+      EXPECT_EQ(slew.effect_utime_us, fusion.now_us() + 150'000);
+      stations.insert(slew.station);
+      ++slews;
+    }
+  }
+  EXPECT_EQ(stations.size(), 204U);
+  EXPECT_GT(slews, 1000);
+}
+
+TEST(FusionEpoch, WhomAnOperatorTakesIsSlewedNoMore) {
+  Fusion fusion{FusionConfig{}};
+  std::map<bool, int> slews;  // of station b, by whether it is taken
+  for (const Sighting& sighting : flight(4.0, 1e-4, 1e-4)) {
+    const bool is_taken = sighting.utime_us > us(2.0);
+    fusion.allow_slews("b", !is_taken);
+    fusion.allow_slews("nobody", true);
+    for (const Slew& slew : fusion.add(sighting).slews) slews[is_taken] += slew.station == "b";
+  }
+  EXPECT_GT(slews[false], 5);
+  EXPECT_EQ(slews[true], 0);
+  EXPECT_EQ(fusion.health().stations.size(), 4U);
+}
+
+// Each target once an epoch, few with one bearing, and every station is slewed in each round.
+TEST(FusionEpoch, ManyTargetsAreToldInTurn) {
+  Fusion fusion{FusionConfig{}};
+  std::map<std::int64_t, std::vector<std::int64_t>> epochs;
+  std::map<std::int64_t, std::set<std::string>> rounds;
+  std::map<std::int64_t, int> papers;
+  for (const Sighting& sighting : many_targets(2.0)) {
+    const FusionOutput output = fusion.add(sighting);
+    EXPECT_LE(output.targets.size(), 10U);
+    EXPECT_LE(output.slews.size(), 20U);
+    if (sighting.utime_us < bench::kStartUs + 1'000'000) continue;
+    for (const FusedTarget& target : output.targets) {
+      epochs[target.utime_us].push_back(target.target_id);
+    }
+    papers[output.targets_paper.empty() ? 0 : output.targets_paper[0].utime_us] +=
+        static_cast<int>(output.targets_paper.size());
+    for (const Slew& slew : output.slews) rounds[slew.utime_us].insert(slew.station);
+  }
+  // The first and the last may be told in part.
+  ASSERT_GT(epochs.size(), 10U);
+  for (auto epoch = std::next(epochs.begin()); epoch != std::prev(epochs.end()); ++epoch) {
+    EXPECT_EQ(epoch->second.size(), static_cast<std::size_t>(kTargets));
+    EXPECT_TRUE(std::ranges::is_sorted(epoch->second));
+    EXPECT_EQ(papers[epoch->first], FusionConfig{}.paper_targets);
+  }
+  ASSERT_GT(rounds.size(), 5U);
+  for (auto round = std::next(rounds.begin()); round != std::prev(rounds.end()); ++round) {
+    EXPECT_EQ(round->second.size(), static_cast<std::size_t>(kTargets * kEach));
+  }
+}
+
+}  // namespace
+}  // namespace ols

@@ -1,0 +1,133 @@
+// More stations on one target than the filter has states for.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <set>
+
+#include "dev/estimators/bearing_world.h"
+#include "geometry/angles.h"
+
+namespace ols::bench {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Seen {
+  double nees = 0.0;  // over 3, of all targets
+  int count = 0;
+  std::set<std::int64_t> ids;
+  std::size_t most_at_once = 0;
+};
+
+// Each states its bias, and that is so great that only who believes it to be new in every frame
+// would be surer than twelve stations.
+void fly(int stations, double rate_hz, std::uint64_t seed, Seen& seen) {
+  constexpr double kDurationS = 8.0, kSettledS = 2.0;
+  std::mt19937_64 random(seed);
+  WorldConfig world{.stations_enu = circle(stations, 250.0), .aims_enu = {}, .rate_hz = rate_hz};
+  world.bias_sd_rad = 2e-3;
+  const Path path = cruising({{-60, 40, 80}, {9.0, -6.0, 1.0}}, 0.5, kDurationS, random);
+  Fusion fusion(FusionConfig{.paper_targets = 0});
+  for (const Sighting& sighting : measure(world, {path}, kDurationS, random)) {
+    const FusionOutput output = fusion.add(sighting);
+    seen.most_at_once = std::max(seen.most_at_once, output.targets.size());
+    for (const FusedTarget& target : output.targets) {
+      if (target.target_id != 0) seen.ids.insert(target.target_id);
+      const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
+      if (time_s < kSettledS || target.estimate.solution != Solution::kOk) continue;
+      const Vector3d e = target.estimate.position_ecef - site().to_ecef(at(path, time_s).p_enu);
+      seen.nees += e.dot(target.estimate.covariance_ecef.ldlt().solve(e)) / 3.0;
+      ++seen.count;
+    }
+  }
+}
+
+class ManyStationsRates : public testing::TestWithParam<double> {};
+
+TEST_P(ManyStationsRates, AreNoSurerThanTheirBiasesLetThem) {
+  constexpr int kRuns = 12;
+  double nees = 0.0;
+  for (int run = 1; run <= kRuns; ++run) {
+    Seen seen;
+    fly(16, GetParam(), static_cast<std::uint64_t>(run), seen);
+    ASSERT_GT(seen.count, 0) << "seed " << run;
+    EXPECT_EQ(seen.ids.size(), 1U) << "seed " << run;
+    EXPECT_EQ(seen.most_at_once, 1U) << "seed " << run;
+    nees += seen.nees / seen.count / kRuns;
+  }
+  // Of about three independent errors a run (the biases stay): 36 degrees of freedom.
+  EXPECT_GT(nees, 0.4);
+  EXPECT_LT(nees, 1.6);
+}
+
+// Where more stations than can search with each bearing see new targets in one instant, they take
+// turns; none is forgotten, also where each frame has false bearings too.
+TEST(ManyStations, WhatTheySeeAllAtOnceIsAllFound) {
+  constexpr int kGroups = 24, kEach = 4;
+  constexpr double kDurationS = 0.6;
+  std::mt19937_64 random(3);
+  std::vector<Sighting> all;
+  std::vector<Path> paths;
+  for (int group = 0; group < kGroups; ++group) {
+    const Vector3d centre(3000.0 * (group % 6), 3000.0 * (group / 6), 0.0);
+    WorldConfig world{.stations_enu = circle(kEach, 300.0), .aims_enu = {}, .false_per_frame = 0.5};
+    for (Vector3d& place : world.stations_enu) place += centre;
+    for (const Vector3d& place : world.stations_enu) {
+      world.aims_enu.push_back(centre + Vector3d(0, 0, 100) - 0.01 * (place - centre));
+    }
+    paths.push_back(cruising({centre + Vector3d(0, 0, 100), {8, 3, 0}}, 0.5, kDurationS, random));
+    for (Sighting& s : measure(world, {paths.back()}, kDurationS, random)) {
+      s.station.append("g").append(std::to_string(group));
+      all.push_back(std::move(s));
+    }
+  }
+  std::ranges::stable_sort(all, {}, &Sighting::utime_us);
+  Fusion fusion{FusionConfig{}};
+  for (const Sighting& sighting : all) fusion.add(sighting);
+  for (const Path& path : paths) {
+    const Vector3d there = site().to_ecef(at(path, kDurationS).p_enu);
+    const auto near = std::ranges::count_if(fusion.tracks().tracks(), [&](const Track& track) {
+      return is_sure(track) && (track.filter.position() - there).norm() < 3.0;
+    });
+    EXPECT_EQ(near, 1);
+  }
+  EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_sure), kGroups);
+}
+
+// Up and away from all others: it meets nobody's.
+Sighting of_nothing(Sighting sighting, double elevation_rad) {
+  const Vector3d place = site().to_enu(sighting.sight.origin_ecef);
+  sighting.sight.direction = {wrap_two_pi(std::atan2(place.x(), place.y())), elevation_rad};
+  return sighting;
+}
+
+// 128 stations in a fixed order, two bearings in each frame: then each has its turn once in a round
+// of frames. The object's come second in the frames of every other station.
+TEST(ManyStations, NobodysTurnFallsOnTheSameBearingForEver) {
+  constexpr std::size_t kStations = 128;
+  constexpr int kFrames = 60;
+  const Path path(4000, PathPoint{Vector3d(0, 0, 200), Vector3d::Zero()});
+  for (const bool second : {false, true}) {
+    for (const std::size_t first_station : {0, 1}) {
+      std::mt19937_64 random(4);
+      WorldConfig world{.stations_enu = circle(kStations, 2000.0), .aims_enu = {}};
+      auto seen = measure(world, {path}, kFrames / world.rate_hz, random);
+      Fusion fusion{FusionConfig{}};
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        const std::size_t station = i % kStations;
+        const Sighting other = of_nothing(seen[i], 1.2);
+        const Sighting own = station % 32 == first_station ? seen[i] : of_nothing(seen[i], 1.1);
+        fusion.add(second ? other : own);
+        fusion.add(second ? own : other);
+      }
+      EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_sure), 1)
+          << second << ' ' << first_station;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Hz, ManyStationsRates, testing::Values(15.0, 30.0));
+
+}  // namespace
+}  // namespace ols::bench

@@ -1,0 +1,300 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "central/offline/offline_fusion.h"
+#include "geometry/angles.h"
+#include "tests/unit/central/scene.h"
+
+namespace ols {
+namespace {
+
+using Eigen::Vector3d;
+using test::ray_to;
+using test::sighting_of;
+using test::site;
+using test::square;
+
+constexpr std::int64_t kStart = 1'600'000'000'000'000;
+
+Vector3d path(double t_s) {
+  return {100.0 * std::sin(0.2 * t_s), 80.0 * std::cos(0.2 * t_s), 100.0 + t_s};
+}
+
+// Four stations with rates and phases of their own; "c" sees the target only in the first half.
+// `stated` is the systematic error that they state, in units of their noise; they have none.
+std::vector<Sighting> recording(double seconds, double sigma_rad, unsigned seed,
+                                double stated = 0.0) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  std::vector<Sighting> sightings;
+  const double rates_hz[] = {25.0, 30.0, 50.0, 27.3};
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (double t_s = 0.007 * static_cast<double>(k); t_s < seconds; t_s += 1.0 / rates_hz[k]) {
+      if (k == 2 && t_s > seconds / 2.0) break;
+      Ray ray =
+          ray_to(std::string(1, static_cast<char>('a' + k)), square()[k], path(t_s), sigma_rad);
+      ray = test::turned(ray, sigma_rad * normal(random), sigma_rad * normal(random));
+      ray.sight.covariance_systematic =
+          Eigen::Matrix2d::Identity() * std::pow(stated * sigma_rad, 2);
+      sightings.push_back(sighting_of(ray, kStart + std::llround(t_s * 1e6)));
+    }
+  }
+  return sightings;
+}
+
+Vector3d error(const FusedTarget& target) {
+  const double t_s = static_cast<double>(target.utime_us - kStart) * 1e-6;
+  return target.estimate.position_ecef - site().to_ecef(path(t_s));
+}
+
+// Mean squared error over what the covariances say; 1 is honest, less is cautious.
+double normalised_square(const std::vector<FusedTarget>& targets) {
+  double sum = 0.0;
+  for (const FusedTarget& target : targets) {
+    sum += error(target).squaredNorm() / target.estimate.covariance_ecef.trace();
+  }
+  return sum / static_cast<double>(targets.size());
+}
+
+TEST(OfflineFusion, InterpolatesAndIsHonest) {
+  OfflineConfig config;
+  config.estimator = "least-squares";
+  config.rate_hz = 10.0;
+  const auto targets = fuse_offline(recording(40.0, 2e-4, 3, 0.01), config);
+  ASSERT_GT(targets.size(), 395U);
+  for (const FusedTarget& target : targets) EXPECT_LT(error(target).norm(), 0.4);
+  EXPECT_GT(normalised_square(targets), 0.6);
+  EXPECT_LT(normalised_square(targets), 1.4);
+  EXPECT_EQ(targets.front().utime_us, kStart);
+  EXPECT_EQ(targets[1].utime_us, kStart + 100'000);
+  EXPECT_EQ(targets[10].stations.size(), 4U);
+  EXPECT_EQ(targets.back().stations.size(), 3U);
+}
+
+// Who states no systematic error is taken to have one as great as the noise until the bearings have
+// shown that there is none: more is said to be unknown than is, never less, and not by much.
+TEST(OfflineFusion, IsCautiousWhereNothingIsStated) {
+  for (const char* name : {"least-squares", "filter"}) {
+    OfflineConfig config;
+    config.estimator = name;
+    config.rate_hz = 10.0;
+    const auto targets = fuse_offline(recording(40.0, 2e-4, 3), config);
+    ASSERT_GT(targets.size(), 390U) << name;
+    for (const FusedTarget& target : targets) EXPECT_LT(error(target).norm(), 0.4) << name;
+    EXPECT_GT(normalised_square(targets), 0.2) << name;
+    EXPECT_LT(normalised_square(targets), 1.0) << name;
+  }
+}
+
+// Errors that nobody stated and the residuals show may be common to all stations in part, which
+// they do not show: the covariance has room for that, and nothing else changes.
+TEST(OfflineFusion, LeavesRoomForWhatAllStationsHaveInCommon) {
+  auto sightings = recording(20.0, 1e-4, 6);
+  for (Sighting& s : sightings) {
+    s.sight.direction.elevation_rad += (s.station == "a" || s.station == "c") ? 1e-3 : -1e-3;
+  }
+  OfflineConfig none, some;
+  none.fusion.keeper.filter.in_common = 0.0;
+  const Estimate before = fuse_offline(sightings, none).back().estimate;
+  const Estimate after = fuse_offline(sightings, some).back().estimate;
+  EXPECT_EQ(before.position_ecef, after.position_ecef);
+  EXPECT_GT(after.covariance_ecef.trace(), 1.1 * before.covariance_ecef.trace());
+  EXPECT_LT(after.covariance_ecef.trace(), 2.01 * before.covariance_ecef.trace());
+}
+
+// Of a recording's one object every bearing is one: what most stations contradict is given up.
+TEST(OfflineFusion, BeginsAnewWhereMostStationsContradict) {
+  auto sightings = recording(12.0, 1e-4, 5, 1.0);
+  const std::int64_t jump_us = kStart + 5'000'000;
+  for (Sighting& s : sightings) {
+    if (s.utime_us < jump_us || s.station == "a") continue;
+    const double t_s = static_cast<double>(s.utime_us - kStart) * 1e-6;
+    s.sight = ray_to(s.station, square()[static_cast<std::size_t>(s.station[0] - 'a')],
+                     {0.0, 0.0, 30.0 + t_s}, 1e-4)
+                  .sight;
+  }
+  const auto targets = fuse_offline(sightings, {});
+  ASSERT_FALSE(targets.empty());
+  const Vector3d there = site().to_ecef({0.0, 0.0, 42.0});
+  EXPECT_LT((targets.back().estimate.position_ecef - there).norm(), 2.0);
+}
+
+TEST(OfflineFusion, DoesNotDependOnTheOrderOfRows) {
+  auto sightings = recording(3.0, 1e-4, 4);
+  const auto first = fuse_offline(sightings, {});
+  std::mt19937_64 random(1);
+  std::ranges::shuffle(sightings, random);
+  const auto second = fuse_offline(sightings, {});
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].utime_us, second[i].utime_us);
+    EXPECT_EQ(first[i].estimate.position_ecef, second[i].estimate.position_ecef);
+  }
+}
+
+TEST(OfflineFusion, EveryEstimatorFollows) {
+  const auto sightings = recording(5.0, 1e-5, 5);
+  for (const char* name : kEstimators) {
+    OfflineConfig config;
+    config.estimator = name;
+    config.fusion.estimators.paper.moving_average = 1;
+    config.rate_hz = 20.0;
+    const auto targets = fuse_offline(sightings, config);
+    ASSERT_GT(targets.size(), 95U) << name;
+    for (const FusedTarget& target : targets) {
+      EXPECT_EQ(target.estimator, name);
+      EXPECT_LT(error(target).norm(), 0.1) << name;
+    }
+  }
+  OfflineConfig guess;
+  guess.estimator = "guess";
+  EXPECT_THROW(fuse_offline(sightings, guess), std::invalid_argument);
+}
+
+TEST(OfflineFusion, MovingAverageTrails) {
+  OfflineConfig config;
+  config.rate_hz = 10.0;
+  config.estimator = "paper";
+  config.fusion.estimators.paper.moving_average = 10;
+  const auto targets = fuse_offline(recording(5.0, 1e-5, 6), config);
+  // 0.45 s behind at about 20 m/s.
+  EXPECT_NEAR(error(targets[30]).norm(), 0.45 * 18.0, 2.5);
+}
+
+TEST(OfflineFusion, SmoothingIsBetterThanTheFilterAndAsHonest) {
+  const auto sightings = recording(40.0, 2e-4, 8);
+  double rms[2] = {0.0, 0.0};
+  for (const bool smooth : {false, true}) {
+    OfflineConfig config;
+    config.rate_hz = 10.0;
+    config.smooth = smooth;
+    const auto targets = fuse_offline(sightings, config);
+    ASSERT_GT(targets.size(), 390U);
+    for (const FusedTarget& target : targets) {
+      rms[smooth ? 1 : 0] += error(target).squaredNorm() / static_cast<double>(targets.size());
+    }
+    EXPECT_LT(normalised_square(targets), 1.5);
+  }
+  EXPECT_LT(rms[1], 0.8 * rms[0]);
+}
+
+// The part of the covariance that averaging makes smaller is one: none of its variances is
+// negative.
+TEST(OfflineFusion, SmoothingTellsAWhitePartThatIsOne) {
+  OfflineConfig config;
+  config.rate_hz = 10.0;
+  config.smooth = true;
+  const auto targets = fuse_offline(recording(20.0, 2e-4, 8, 3.0), config);
+  ASSERT_GT(targets.size(), 190U);
+  for (const FusedTarget& target : targets) {
+    const Eigen::Matrix3d white = target.estimate.covariance_white_ecef;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(white, Eigen::EigenvaluesOnly);
+    EXPECT_GT(eigen.eigenvalues()(0), 0.0);
+    EXPECT_LT(white.trace(), target.estimate.covariance_ecef.trace());
+  }
+}
+
+// Two on a diagonal of the square are left: their rays are nearer to one line than the others were.
+TEST(OfflineFusion, TellsTheGeometryOfThoseThatStillSeeTheTarget) {
+  auto sightings = recording(12.0, 1e-4, 8, 1.0);
+  std::erase_if(sightings, [](const Sighting& s) {
+    return s.utime_us > kStart + 6'000'000 && s.station != "b" && s.station != "d";
+  });
+  OfflineConfig config;
+  config.rate_hz = 10.0;
+  const auto targets = fuse_offline(sightings, config);
+  ASSERT_FALSE(targets.empty());
+  const FusedTarget& last = targets.back();
+  ASSERT_GT(last.utime_us, kStart + 11'000'000);
+  const auto direction = [&](std::size_t station) -> Vector3d {
+    return (last.estimate.position_ecef - site().to_ecef(square()[station])).normalized();
+  };
+  const double angle = std::acos(direction(1).dot(direction(3)));
+  EXPECT_NEAR(last.estimate.crossing_angle_rad, std::min(angle, kPi - angle), 1e-3);
+}
+
+// The noise is four times what is stated, which the filter's run learns: the velocity knows, too.
+TEST(OfflineFusion, LeastSquaresVelocityCountsTheNoiseThatIsLearnt) {
+  auto sightings = recording(40.0, 8e-4, 9, 0.01);
+  for (Sighting& s : sightings) s.sight.covariance_white /= 16.0;
+  OfflineConfig config;
+  config.estimator = "least-squares";
+  config.rate_hz = 10.0;
+  double sum = 0.0;
+  const auto targets = fuse_offline(sightings, config);
+  ASSERT_GT(targets.size(), 300U);
+  for (const FusedTarget& target : targets) {
+    const double t_s = static_cast<double>(target.utime_us - kStart) * 1e-6;
+    const Vector3d v = (path(t_s + 0.01) - path(t_s - 0.01)) / 0.02;
+    const Vector3d off = target.estimate.velocity_ecef - site().R_ecef_enu() * v;
+    sum += off.squaredNorm() / target.estimate.velocity_covariance_ecef.trace();
+  }
+  EXPECT_LT(sum / static_cast<double>(targets.size()), 2.0);
+}
+
+// The filter at an instant knows nothing of what comes after it.
+TEST(OfflineFusion, TheFilterIsCausal) {
+  auto sightings = recording(6.0, 2e-4, 9);
+  const auto whole = fuse_offline(sightings, {});
+  std::erase_if(sightings, [](const Sighting& s) { return s.utime_us > kStart + 3'000'000; });
+  const auto part = fuse_offline(sightings, {});
+  ASSERT_GT(part.size(), 100U);
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    EXPECT_EQ(part[i].estimate.position_ecef, whole[i].estimate.position_ecef);
+  }
+}
+
+TEST(OfflineFusion, OnlyTheFilterCanBeSmoothed) {
+  OfflineConfig config;
+  config.estimator = "paper";
+  config.smooth = true;
+  EXPECT_THROW(fuse_offline(recording(1.0, 1e-4, 7), config), std::invalid_argument);
+}
+
+TEST(OfflineFusion, RefusesARateWithoutAnEnd) {
+  const auto sightings = recording(2.0, 1e-4, 7);
+  for (const double rate_hz :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e7}) {
+    OfflineConfig config;
+    config.rate_hz = rate_hz;
+    EXPECT_THROW(fuse_offline(sightings, config), std::invalid_argument) << rate_hz;
+  }
+}
+
+TEST(OfflineFusion, CountsWhatItDoesNotUse) {
+  auto sightings = recording(2.0, 1e-4, 7);
+  EXPECT_EQ(unused_bearings(sightings, {}).low_belief, 0U);
+  EXPECT_EQ(unused_bearings(sightings, {}).duplicate, 0U);
+  sightings.push_back(sightings[3]);
+  sightings.push_back(sightings[3]);
+  sightings[7].belief = 0.2;
+  EXPECT_EQ(unused_bearings(sightings, {}).low_belief, 1U);
+  EXPECT_EQ(unused_bearings(sightings, {}).duplicate, 2U);
+}
+
+TEST(OfflineFusion, AClockIsGuessedByWhatItDoesToTheBearings) {
+  auto sightings = recording(10.0, 1e-4, 7);
+  guess_clocks(sightings);
+  for (const Sighting& s : sightings) {
+    EXPECT_GT(s.clock_sd_s, 4e-4 / 0.3);
+    EXPECT_LT(s.clock_sd_s, 4e-4 / 0.02);
+  }
+  auto rough = recording(10.0, 2e-3, 7);
+  guess_clocks(rough);
+  for (const Sighting& s : rough) EXPECT_EQ(s.clock_sd_s, 0.02);
+}
+
+TEST(OfflineFusion, NothingGivesNothing) {
+  EXPECT_TRUE(fuse_offline({}, {}).empty());
+  auto alone = recording(2.0, 1e-4, 7);
+  std::erase_if(alone, [](const Sighting& sighting) { return sighting.station != "a"; });
+  EXPECT_TRUE(fuse_offline(alone, {}).empty());
+}
+
+}  // namespace
+}  // namespace ols

@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "central/offline/offline_fusion.h"
+#include "central/tracking/recorded_track.h"
+#include "tests/unit/central/wrong_heading.h"
+
+namespace ols {
+namespace {
+
+using test::HeadingError;
+using test::kStart;
+using test::off_by;
+using test::slow_error_m;
+using test::watch;
+
+constexpr double kNoise = 2e-4;
+
+OfflineConfig ten_hertz(bool smooth = false) {
+  OfflineConfig config;
+  config.rate_hz = 10.0;
+  config.smooth = smooth;
+  return config;
+}
+
+struct Fixes {
+  std::size_t count = 0;
+  double worst_m = 0.0;
+  double worst_sigmas = 0.0;
+  std::string beside;  // stations
+};
+
+Fixes fuse(const std::vector<Sighting>& sightings, const OfflineConfig& config = ten_hertz()) {
+  Fixes fixes;
+  for (const FusedTarget& target : fuse_offline(sightings, config)) {
+    const double sd_m = std::sqrt(target.estimate.covariance_ecef.trace());
+    const double error = slow_error_m(target);
+    ++fixes.count;
+    fixes.worst_m = std::max(fixes.worst_m, error);
+    fixes.worst_sigmas = std::max(fixes.worst_sigmas, error / sd_m);
+  }
+  for (const auto& [station, why] : stations_beside(sightings, config)) fixes.beside += station;
+  return fixes;
+}
+
+TEST(RecordedTrack, ARecordingWithOneWrongStationOfFour) {
+  for (const char wrong : std::string("abcd")) {
+    for (const double off_deg : {1.0, -1.0, 2.0, -2.0, 5.0, -5.0}) {
+      const Fixes fixes = fuse(watch("abcd", 6.0, kNoise, off_by(wrong, off_deg)));
+      EXPECT_GE(fixes.count, 57U) << wrong << ' ' << off_deg;
+      EXPECT_LT(fixes.worst_sigmas, 3.0) << wrong << ' ' << off_deg;
+      EXPECT_LT(fixes.worst_m, 0.5) << wrong << ' ' << off_deg;
+      EXPECT_EQ(fixes.beside, std::string(1, wrong)) << off_deg;
+    }
+  }
+}
+
+// Of three it is told by whose rays miss the others'.
+TEST(RecordedTrack, ARecordingWithOneWrongStationOfThree) {
+  for (const char wrong : std::string("abc")) {
+    for (const double off_deg : {1.0, -1.0, 2.0, -2.0, 5.0, -5.0}) {
+      const Fixes fixes = fuse(watch("abc", 6.0, kNoise, off_by(wrong, off_deg)));
+      EXPECT_GE(fixes.count, 50U) << wrong << ' ' << off_deg;
+      EXPECT_LT(fixes.worst_sigmas, 3.0) << wrong << ' ' << off_deg;
+      EXPECT_LT(fixes.worst_m, 0.5) << wrong << ' ' << off_deg;
+      EXPECT_EQ(fixes.beside, std::string(1, wrong)) << off_deg;
+    }
+  }
+}
+
+// So small an error is learnt as that station's noise and bias, and nobody is named. Three stations
+// tell the two apart badly: the error is limited, but greater than stated.
+TEST(RecordedTrack, ARecordingWithAStationThatIsHalfADegreeOff) {
+  for (const std::string stations : {"abcd", "abc"}) {
+    for (const char wrong : stations) {
+      for (const double off_deg : {0.5, -0.5}) {
+        const Fixes fixes = fuse(watch(stations, 6.0, kNoise, off_by(wrong, off_deg)));
+        EXPECT_GE(fixes.count, 50U) << stations << wrong << ' ' << off_deg;
+        EXPECT_LT(fixes.worst_sigmas, stations.size() > 3 ? 3.0 : 6.0) << stations << wrong;
+        EXPECT_LT(fixes.worst_m, stations.size() > 3 ? 0.5 : 2.5) << stations << wrong;
+      }
+    }
+  }
+}
+
+TEST(RecordedTrack, ARecordingWithAStationThatIsWrongAtFirst) {
+  for (const std::string stations : {"abcd", "abc"}) {
+    for (const char wrong : stations) {
+      const HeadingError at_first = [=](char name, double t_s) {
+        return name == wrong && t_s < 0.3 ? radians(1.0) : 0.0;
+      };
+      const Fixes fixes = fuse(watch(stations, 4.0, kNoise, at_first));
+      EXPECT_GE(fixes.count, 35U) << stations << ' ' << wrong;
+      EXPECT_LT(fixes.worst_sigmas, 3.0) << stations << ' ' << wrong;
+      EXPECT_LT(fixes.worst_m, 0.5) << stations << ' ' << wrong;
+      EXPECT_EQ(fixes.beside, "");
+    }
+  }
+}
+
+// At its end the backward filter has only begun, on two rays of which one may be the wrong one's.
+TEST(RecordedTrack, ASmoothedRecordingWithOneWrongStation) {
+  for (const std::string stations : {"abcd", "abc"}) {
+    for (const char wrong : stations) {
+      const auto sightings = watch(stations, 4.0, kNoise, off_by(wrong, 1.0));
+      const Fixes fixes = fuse(sightings, ten_hertz(true));
+      EXPECT_GE(fixes.count, 35U) << stations << ' ' << wrong;
+      EXPECT_LT(fixes.worst_sigmas, 3.0) << stations << ' ' << wrong;
+      EXPECT_LT(fixes.worst_m, 0.5) << stations << ' ' << wrong;
+    }
+  }
+}
+
+// Three of four stations turn together: most say that the target is elsewhere than its track.
+TEST(RecordedTrack, ATrackThatMostStationsContradictIsBegunAnew) {
+  const HeadingError wrong_then_right = [](char name, double t_s) {
+    return t_s < 2.0 && name != 'd' ? radians(20.0) : 0.0;
+  };
+  auto sightings = watch("abcd", 6.0, kNoise, wrong_then_right);
+  const auto targets = fuse_offline(sightings, ten_hertz());
+  ASSERT_FALSE(targets.empty());
+  for (const FusedTarget& target : targets) {
+    EXPECT_EQ(target.target_id, 1);
+    if (target.utime_us > kStart + 4'000'000) {
+      EXPECT_LT(slow_error_m(target), 0.5);
+    }
+  }
+  EXPECT_GT(targets.back().utime_us, kStart + 5'500'000);
+}
+
+// A position from two rays on, as long as nothing contradicts it.
+TEST(RecordedTrack, ARecordingIsLocatedFromItsFirstRays) {
+  OfflineConfig config;
+  const auto targets = fuse_offline(watch("abcd", 1.0, kNoise, off_by('x', 0.0)), config);
+  ASSERT_FALSE(targets.empty());
+  EXPECT_LT(targets.front().utime_us, kStart + 100'000);
+}
+
+}  // namespace
+}  // namespace ols

@@ -1,0 +1,36 @@
+#include <gtest/gtest.h>
+
+#include "central/tracking/track_glance.h"
+#include "tests/unit/central/flight.h"
+
+namespace ols {
+namespace {
+
+using namespace test;
+using Eigen::Vector3d;
+
+bool may_see(const Vector3d& looks_at, double after_s = 0.0) {
+  const Track track(TrackFilter({}, kStart,
+                                {.p_ecef = site().to_ecef({0, 300, 50}),
+                                 .v_ecef = site().R_ecef_enu() * Vector3d(50, 0, 0),
+                                 .position_sd_m = 0.1,
+                                 .velocity_sd_m_s = 0.1}));
+  const Sighting sighting =
+      sighting_of(ray_to("a", {0, 0, 0}, looks_at), kStart + std::llround(after_s * 1e6));
+  return glance_at(track).may_see(sighting, direction_ecef(sighting.sight));
+}
+
+TEST(TrackGlance, RulesOutWhatLooksElsewhere) {
+  EXPECT_TRUE(may_see({0, 300, 50}));
+  EXPECT_TRUE(may_see({3, 300, 50}));
+  EXPECT_FALSE(may_see({30, 300, 50}));
+  EXPECT_FALSE(may_see({0, -300, -50})) << "behind the camera";
+}
+
+TEST(TrackGlance, GoesOnWithTheTrack) {
+  EXPECT_TRUE(may_see({50, 300, 50}, 1.0));
+  EXPECT_FALSE(may_see({0, 300, 50}, 1.0));
+}
+
+}  // namespace
+}  // namespace ols
