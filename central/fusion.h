@@ -50,7 +50,7 @@ struct FusionConfig {
 struct BearingOnly {
   std::string station;
   std::int64_t track_id = 0;  // the station's own
-  SightLine sight;            // at the epoch
+  LineOfSight sight;          // at the epoch
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();
 };
 
@@ -135,7 +135,7 @@ class Fusion {
     std::int64_t follows = 0;  // the target that it saw last
     std::int64_t followed_us = 0;
 
-    void stands_where(const SightLine& sight) {
+    void stands_where(const LineOfSight& sight) {
       traits.camera_ecef = sight.origin_ecef;
       traits.camera_sd_enu_m = sight.origin_sd_enu_m;
     }

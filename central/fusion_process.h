@@ -10,7 +10,7 @@
 #include <string>
 
 #include "base/bus_connector.h"
-#include "base/bus_watch.h"
+#include "base/bus_monitor.h"
 #include "central/fusion_settings.h"
 #include "central/messages.h"
 #include "central/other_fusions.h"
@@ -60,7 +60,7 @@ class FusionProcess {
   BusConnector connector_;
   std::unique_ptr<LcmBus> bus_;       // nothing: no network
   std::unique_ptr<LcmBus> slew_bus_;  // nothing: slews go on the same bus
-  BusWatch watch_;
+  BusMonitor watch_;
   std::string bus_alarm_;
   std::string trouble_;  // of the network
   bool send_failed_ = false;

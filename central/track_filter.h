@@ -75,7 +75,7 @@ struct KinematicState {
 // A contributing station.
 struct FilterStation {
   std::string station;
-  SightLine sight;                                           // its last bearing
+  LineOfSight sight;                                         // its last bearing
   Eigen::Matrix3d R_ecef_enu = Eigen::Matrix3d::Identity();  // at that one's origin
   std::int64_t utime_us = 0;                                 // of the last one that was used
   std::int64_t offered_us = 0;                               // of the last one that was offered
@@ -162,7 +162,7 @@ class TrackFilter {
   Eigen::Index first_of(int station) const;
   StationPart part_of(int station, const RayFrame& frame) const;
   int index_of(const std::string& station) const;
-  bool place_matters(const SightLine& sight) const;
+  bool place_matters(const LineOfSight& sight) const;
   int take_place(const Sighting& sighting);
   void enter(int station, const Sighting& sighting, const StationErrors& errors);
   void show_anew(int station, std::int64_t track_id);

@@ -59,7 +59,7 @@ SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
 
 StationBias TrackFilter::bias(std::size_t station) const {
   const BiasPrior& prior = priors_[station];
-  const SightLine& sight = stations_[station].sight;
+  const LineOfSight& sight = stations_[station].sight;
   const Eigen::Index at = first_of(static_cast<int>(station)), n = states_of(prior);
   StationVector mean = StationVector::Zero(n);
   for (std::size_t m = 0; m < models_.size(); ++m) {

@@ -33,7 +33,7 @@ Eigen::Matrix<double, 2, 3> shift_by_rotation(const Eigen::Matrix<double, 3, 2>&
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
 // A measured line of sight: everything that fusion needs to know of one bearing's geometry.
-struct SightLine {
+struct LineOfSight {
   Eigen::Vector3d origin_ecef = Eigen::Vector3d::Zero();  // [m] camera centre
   AzimuthElevation direction;                             // in the horizon at origin_ecef
   // [rad^2] on the tangent plane, order (cross-elevation, elevation).
@@ -43,6 +43,6 @@ struct SightLine {
 };
 
 // Unit vector of a sight line in ECEF.
-Eigen::Vector3d direction_ecef(const SightLine& sight);
+Eigen::Vector3d direction_ecef(const LineOfSight& sight);
 
 }  // namespace ols

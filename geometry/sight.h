@@ -39,7 +39,7 @@ struct PixelSight {
 
 // The line of sight of a pixel, first-order covariances. Nothing when the pixel cannot be
 // unprojected.
-std::optional<SightLine> sight(const StationGeometry& station, const PixelSight& measurement);
+std::optional<LineOfSight> sight(const StationGeometry& station, const PixelSight& measurement);
 
 // A point seen by a station.
 struct View {

@@ -37,9 +37,9 @@ struct LandmarkSighting {
 };
 
 // A sighting that is none.
-class SightingRefused : public std::invalid_argument {
+class LandmarkRefused : public std::invalid_argument {
  public:
-  SightingRefused(std::size_t sighting, const std::string& field, const std::string& why)
+  LandmarkRefused(std::size_t sighting, const std::string& field, const std::string& why)
       : std::invalid_argument("stationing: sighting " + std::to_string(sighting + 1) + ": " +
                               field + ": " + why),
         sighting_(sighting),
@@ -138,7 +138,7 @@ struct Stationing {
 };
 
 // std::invalid_argument for no sighting, and where the landmarks leave the heading unknown (10
-// degrees); SightingRefused for one that is not finite, outside of the lens model or of a landmark
+// degrees); LandmarkRefused for one that is not finite, outside of the lens model or of a landmark
 // at the station; LandmarksContradict.
 Stationing station_by_landmarks(const StationGeometry& rough,
                                 std::span<const LandmarkSighting> sightings, double highest_rad,

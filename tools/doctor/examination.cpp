@@ -6,7 +6,7 @@
 #include "base/toml_config.h"
 #include "central/fusion_settings.h"
 #include "edge/config.h"
-#include "tools/doctor/bus_ears.h"
+#include "tools/doctor/bus_listener.h"
 #include "tools/doctor/judge_devices.h"
 #include "tools/doctor/judge_site.h"
 #include "tools/doctor/probe.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "base/bus_watch.h"
+#include "base/bus_monitor.h"
 #include "base/lcm_bus.h"
 #include "tools/logger/log_names.h"
 #include "tools/logger/log_writer.h"
@@ -54,7 +54,7 @@ class BusRecorder {
   const std::string single_file_;
   LogNames names_;
   std::optional<LogWriter> writer_;  // of the thread alone
-  BusWatch watch_;                   // likewise
+  BusMonitor watch_;                 // likewise
   double flush_due_s_ = 0.0, look_due_s_ = 0.0;
 
   mutable std::mutex mutex_;

@@ -19,7 +19,7 @@ Sighting sighting_of(const BearingRow& bearing, const StationRow& station, doubl
   sighting.station = bearing.station;
   sighting.utime_us = bearing.utime_us;
   sighting.belief = bearing.belief;
-  SightLine& sight = sighting.sight;
+  LineOfSight& sight = sighting.sight;
   sight.origin_ecef = ecef_from_geodetic(
       {radians(station.latitude_deg), radians(station.longitude_deg), station.height_m});
   sight.direction = {wrap_two_pi(bearing.azimuth_deg * unit_rad), bearing.elevation_deg * unit_rad};

@@ -96,7 +96,7 @@ std::string contradiction(const StationingCase& before, const LandmarksContradic
   return text.str();
 }
 
-std::string refusal(const StationingCase& before, const SightingRefused& problem) {
+std::string refusal(const StationingCase& before, const LandmarkRefused& problem) {
   const SightingName& name = before.names[problem.sighting()];
   const std::string field = problem.field() == "pixel" ? "x_px" : "landmark";
   return before.path + ":" + std::to_string(name.line) + ": " + field + ": '" + name.landmark +
@@ -129,7 +129,7 @@ Stationing find_station(const StationingCase& before, double highest_rad) {
     return station_by_landmarks(before.rough, before.sightings, highest_rad);
   } catch (const LandmarksContradict& problem) {
     throw CsvError(contradiction(before, problem));
-  } catch (const SightingRefused& problem) {
+  } catch (const LandmarkRefused& problem) {
     throw CsvError(refusal(before, problem));
   } catch (const std::invalid_argument& problem) {
     throw CsvError(before.path + ": " + problem.what());

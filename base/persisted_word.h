@@ -10,7 +10,7 @@
 namespace ols {
 
 // What the file said when the memory was made.
-enum class Recall {
+enum class RestoreResult {
   kKnown,       // one of the words
   kNoFile,      // nothing is to be remembered: no file was named
   kMissing,     // the file, or its folder, is not there
@@ -18,14 +18,14 @@ enum class Recall {
   kUnwritable,  // it says the first word, which may be old: the last could not be written
 };
 
-class WordMemory {
+class PersistedWord {
  public:
   // `words` are those that it may say, first the one that permits most: that one is believed only
   // once it was written again, because a disk that takes nothing has perhaps not taken a later,
   // graver one. `file` empty: nothing is remembered. Waits for the disk, at most kProof_s.
-  WordMemory(const std::string& file, std::vector<std::string> words);
+  PersistedWord(const std::string& file, std::vector<std::string> words);
 
-  Recall recall() const { return recall_; }
+  RestoreResult restore_result() const { return restore_result_; }
   // Why it is not known, in words: "FILE is missing"; empty when it is.
   const std::string& why_unknown() const { return why_; }
   // The word found or set last; empty when neither.
@@ -40,12 +40,12 @@ class WordMemory {
  private:
   static constexpr double kProof_s = 3.0;
   void read(const std::string& path);
-  void recall(const std::string& path, const std::string& word);
+  void restore(const std::string& path, const std::string& word);
   void explain_missing(const std::string& path);
 
   std::vector<std::string> words_;
   std::string word_;
-  Recall recall_ = Recall::kNoFile;
+  RestoreResult restore_result_ = RestoreResult::kNoFile;
   std::string why_;
   BackgroundFile file_;
 };

@@ -1,6 +1,6 @@
 # lcm-gen 1.3.1 writes Python 2: there map() was a list. As decoded, an array of booleans can be read
 # once, and is empty then.
-#   cmake -DFOLDER=... -P MendPythonBindings.cmake
+#   cmake -DFOLDER=... -P FixPythonBindings.cmake
 file(GLOB modules ${FOLDER}/*_t.py)
 foreach(module ${modules})
   file(READ ${module} code)

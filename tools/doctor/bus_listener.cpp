@@ -1,4 +1,4 @@
-#include "tools/doctor/bus_ears.h"
+#include "tools/doctor/bus_listener.h"
 
 #include <arpa/inet.h>
 

@@ -9,7 +9,7 @@
 
 namespace ols {
 
-class BusWatch {
+class BusMonitor {
  public:
   // The counts of the present connection, now and then. `now_s`: monotonic.
   void look(const BusTraffic& connection, double now_s);
