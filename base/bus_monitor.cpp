@@ -40,7 +40,7 @@ std::string BusMonitor::alarm(double now_s) const {
   return "bus: " + std::to_string(all.fragments - calm_.fragments) + " fragments and " +
          std::to_string(all.malformed - calm_.malformed) + " malformed datagrams refused, " +
          std::to_string(all.overflowed - calm_.overflowed) +
-         " messages pushed out by newer ones: a flood, or a program that is not of this site";
+         " messages displaced by newer ones: a flood, or a foreign program on the bus";
 }
 
 }  // namespace ols

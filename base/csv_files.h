@@ -2,8 +2,8 @@
 // their sightings in. Degrees, as in the files.
 //
 // Columns are found by the header's names, in any order; unknown ones are ignored. Numbers must be
-// plain decimal, finite and in range, ids without commas, quotes and control characters: there is
-// no such thing as an almost good row.
+// plain decimal, finite and in range, ids without commas, quotes and control characters. Any bad
+// row is an error.
 #pragma once
 
 #include <cstdint>
@@ -33,11 +33,11 @@ struct StationRow {
 struct BearingRow {
   std::int64_t utime_us = 0;
   std::string station;
-  double azimuth_deg = 0.0;  // clockwise from true north, -360..360 is taken
+  double azimuth_deg = 0.0;  // clockwise from true north, -360..360 is accepted
   double elevation_deg = 0.0;
   double sigma_deg = 0.0;    // 1-sigma of each axis, white
-  double belief = 1.0;       // 1 where the file does not tell
-  std::string target = "1";  // "1" where the file does not tell
+  double belief = 1.0;       // 1 if the file has no such column
+  std::string target = "1";  // "1" if the file has no such column
 };
 
 // A landmark before a base, as in the paper's Table 1.
@@ -45,7 +45,7 @@ struct LandmarkRow {
   std::string object;
   double distance_m = 0.0;
   double alpha_rad = 0.0;  // from the base's normal
-  int side = 0;            // -1, 0 or 1, geometry/precision_paper.h; 0 where the file does not tell
+  int side = 0;            // -1, 0 or 1, geometry/precision_paper.h; 0 by default
   std::optional<double> estimated_m;
   std::optional<double> measured_m;
 };
@@ -61,7 +61,7 @@ struct UtmCells {
   double northing_m = 0.0;
 };
 
-// A surveyor's point, as its row has it.
+// A surveyed point.
 struct SurveyRow {
   std::string landmark;
   std::variant<GeodeticCells, UtmCells> place;
@@ -70,7 +70,7 @@ struct SurveyRow {
   unsigned line = 0;      // of the file
 };
 
-// A landmark in a station's picture.
+// A landmark in a station's image.
 struct SightedRow {
   std::string landmark;
   double pan_deg = 0.0, tilt_deg = 0.0;  // as the PTU reports them
@@ -90,7 +90,7 @@ struct FixRow {
   int stations_used = 0;
   int stations_set_aside = 0;
   double crossing_angle_deg = 0.0;
-  double residual = 0.0;  // RMS of the normalised residuals; NaN, an empty cell: there is none
+  double residual = 0.0;  // RMS of the normalised residuals; NaN: empty cell
 };
 
 // At least one row; station ids are unique.
@@ -104,7 +104,7 @@ std::vector<LandmarkRow> read_landmarks(const std::string& path);
 std::vector<SurveyRow> read_survey(const std::string& path);
 // At least one row; every row's landmark is one of `survey`.
 std::vector<SightedRow> read_sighted(const std::string& path, const std::vector<SurveyRow>& survey);
-// The whole file or, on an error (std::system_error), none of it.
+// Writes the whole file; on an error (std::system_error) the old one is left unchanged.
 void write_fixes(const std::string& path, const std::vector<FixRow>& fixes);
 
 }  // namespace ols

@@ -36,7 +36,7 @@ void PersistedWord::read(const std::string& path) {
 void PersistedWord::restore(const std::string& path, const std::string& word) {
   word_ = word;
   restore_result_ = RestoreResult::kKnown;
-  file_.write(word + "\n");  // and is held there from now on
+  file_.write(word + "\n");  // and kept there from now on
   if (word != words_.front() || file_.is_written(kProof_s)) return;
   restore_result_ = RestoreResult::kUnwritable;
   const std::string trouble = file_.trouble();

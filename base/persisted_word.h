@@ -1,5 +1,5 @@
-// Remembers one word over a restart, or a loss of power: what a process must not forget by ending.
-// That there was no word is a word, too: a file that is not there means that nobody knows.
+// One word of state that survives a restart or a power loss. A missing file is information: the
+// previous state is unknown.
 #pragma once
 
 #include <string>
@@ -9,32 +9,32 @@
 
 namespace ols {
 
-// What the file said when the memory was made.
+// The result of reading the file at construction.
 enum class RestoreResult {
   kKnown,       // one of the words
-  kNoFile,      // nothing is to be remembered: no file was named
-  kMissing,     // the file, or its folder, is not there
-  kUnreadable,  // it cannot be read, or says something else
-  kUnwritable,  // it says the first word, which may be old: the last could not be written
+  kNoFile,      // no file is configured: nothing is persisted
+  kMissing,     // the file or its folder does not exist
+  kUnreadable,  // it cannot be read, or holds another word
+  kUnwritable,  // it holds the first word, perhaps outdated: the disk does not take a new one
 };
 
 class PersistedWord {
  public:
-  // `words` are those that it may say, first the one that permits most: that one is believed only
-  // once it was written again, because a disk that takes nothing has perhaps not taken a later,
-  // graver one. `file` empty: nothing is remembered. Waits for the disk, at most kProof_s.
+  // `words`: the permitted words, the most permissive first. That one is trusted only after it was
+  // written again: on a disk that cannot be written, a later, stricter word may be missing. `file`
+  // empty: nothing is persisted. Waits for the disk, at most kProof_s.
   PersistedWord(const std::string& file, std::vector<std::string> words);
 
   RestoreResult restore_result() const { return restore_result_; }
-  // Why it is not known, in words: "FILE is missing"; empty when it is.
+  // Why the word is unknown: "FILE is missing"; empty if it is known.
   const std::string& why_unknown() const { return why_; }
-  // The word found or set last; empty when neither.
+  // The word last set or restored; empty if there is none.
   const std::string& word() const { return word_; }
-  // One of `words`. Does not wait for the disk. What is set is kept in the file as long as this
-  // lives, whoever takes it away.
+  // `word`: one of `words`. Does not wait for the disk. If the file is removed or changed, it is
+  // written again.
   void set(const std::string& word);
 
-  // Why it cannot be written at the moment; empty when all is well.
+  // Why it cannot be written now; empty if it can.
   std::string trouble() const { return file_.trouble(); }
 
  private:

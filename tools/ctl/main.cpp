@@ -58,7 +58,7 @@ int stop(const std::string& url, const std::string& station) {
   if (stopped.empty()) return no_status(station, url);
   int result = 0;
   for (const auto& [id, said] : stopped) {
-    std::printf("%s: %s\n", id.c_str(), said ? "done" : "sent again and again, no answer");
+    std::printf("%s: %s\n", id.c_str(), said ? "done" : "sent repeatedly, no answer");
     if (!said) result = kExitRefused;
   }
   ols::flush_output();

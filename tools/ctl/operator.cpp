@@ -21,7 +21,7 @@ std::optional<std::string> new_refusal(const ols_msg::station_status_t& before,
   for (const auto& name : now.counter_name) {
     if (!name.starts_with(prefix) || counter(now, name) <= counter(before, name)) continue;
     const std::string why = name.substr(prefix.size());
-    if (why == "just_stopped") return "refused: it was stopped a moment ago; say it again";
+    if (why == "just_stopped") return "refused: it was stopped less than a second ago; try again";
     // The station's own words where it has more to say ("RECORD refused: disk full").
     return "refused: " + why +
            (now.last_error != before.last_error ? " (" + now.last_error + ")" : "");

@@ -124,7 +124,7 @@ void BusRecorder::look_at_bus(double now_s) {
     report_.dropped = traffic.overflowed;
   }
   if (bus_.is_deaf()) {
-    throw std::runtime_error("nothing comes in any more, not even this program's own word");
+    throw std::runtime_error("no messages arrive any more, not even this program's own");
   }
 }
 

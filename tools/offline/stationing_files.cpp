@@ -89,7 +89,7 @@ std::string contradiction(const StationingCase& before, const LandmarksContradic
   const char* separator = ": ";
   if (!problem.failing().empty()) text << separator << named(before, problem.failing());
   for (const StationingAlternative& one : problem.alternatives()) {
-    text << separator << "all others agree without " << named(before, one.set_aside)
+    text << separator << "all others agree without " << named(before, one.rejected)
          << " on a heading of " << degrees(one.heading_rad) << " deg";
     separator = "; or ";
   }

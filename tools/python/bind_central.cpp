@@ -94,7 +94,8 @@ void bind_configs(py::module_& m) {
       .def_readwrite("acceleration_sd_m_s2", &AlignmentConfig::acceleration_sd_m_s2)
       .def_readwrite("range_unknown_m", &AlignmentConfig::range_unknown_m);
 
-  data_class<LeastSquaresConfig>(m, "LeastSquaresConfig", "The joint least squares.")
+  data_class<LeastSquaresConfig>(m, "LeastSquaresConfig",
+                                 "The least-squares estimator of one epoch.")
       .def_readwrite("gate_sigma", &LeastSquaresConfig::gate_sigma)
       .def_readwrite("huber_sigma", &LeastSquaresConfig::huber_sigma)
       .def_readwrite("range_sd_limit", &LeastSquaresConfig::range_sd_limit)

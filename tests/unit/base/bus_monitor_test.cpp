@@ -12,19 +12,19 @@ TEST(BusMonitor, AlarmsWhileDatagramsAreRefusedAndForAWhileAfterwards) {
   watch.look({.received = 100, .fragments = 2}, 1.0);
   watch.look({.received = 100, .fragments = 2, .malformed = 1}, 2.0);
   EXPECT_EQ(watch.alarm(2.0),
-            "bus: 2 fragments and 1 malformed datagrams refused, 0 messages pushed out by newer "
-            "ones: a flood, or a program that is not of this site");
+            "bus: 2 fragments and 1 malformed datagrams refused, 0 messages displaced by newer "
+            "ones: a flood, or a foreign program on the bus");
   EXPECT_NE(watch.alarm(2.0 + BusMonitor::kAlarm_s), "");
   EXPECT_EQ(watch.alarm(2.1 + BusMonitor::kAlarm_s), "");
   watch.look({.received = 100, .fragments = 5, .malformed = 1}, 30.0);
   EXPECT_NE(watch.alarm(30.0).find("bus: 3 fragments and 0 malformed"), std::string::npos);
 }
 
-TEST(BusMonitor, AlarmsOfWhatWasPushedOutUnread) {
+TEST(BusMonitor, AlarmsOfUnreadMessagesDisplaced) {
   BusMonitor watch;
   watch.look({.received = 100}, 0.0);
   watch.look({.received = 5000, .overflowed = 7}, 1.0);
-  EXPECT_NE(watch.alarm(1.0).find("7 messages pushed out"), std::string::npos);
+  EXPECT_NE(watch.alarm(1.0).find("7 messages displaced"), std::string::npos);
 }
 
 TEST(BusMonitor, CountsOverAllConnections) {

@@ -83,7 +83,7 @@ def draw_plan(axes: Axes, recording: Recording, window: tuple[int, int]) -> None
 def draw_errors(axes: Axes, recording: Recording, window: tuple[int, int]) -> None:
     for channel, colour, label in (
         (PAPER, PAPER_COLOUR, "the paper's Algorithm 1, moving average"),
-        (JOINT, FIX, "joint least squares"),
+        (JOINT, FIX, "filter"),
     ):
         indices = solved(recording, channel, window)
         if not indices:
