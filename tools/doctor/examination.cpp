@@ -32,7 +32,7 @@ Findings examine_inclinometer(const InclinometerConfig& config, double patience_
   return findings;
 }
 
-// Devices that only the station may touch while it runs, and the clock, of which it tells itself.
+// Devices that only the station may use while it runs, and the clock, which it reports itself.
 Findings examine_devices(const StationSettings& settings, double patience_s) {
   Findings findings = judge(ask_camera(settings.camera));
   append(findings, judge(ask_ptu(settings.ptu)));

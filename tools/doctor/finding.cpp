@@ -26,7 +26,7 @@ Verdict gravest(const Findings& findings) {
   return verdict;
 }
 
-// Devices may answer with any byte.
+// Device texts may contain any byte.
 std::string quoted(const std::string& text) { return nlohmann::json(plain_text(text)).dump(); }
 
 }  // namespace

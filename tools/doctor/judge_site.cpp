@@ -57,7 +57,7 @@ std::optional<Finding> judge_frames(const StationHeard& station) {
               "60-ols.conf");
 }
 
-// A forged status may have thousands: the other findings must not scroll away.
+// Limited: a forged status may have thousands, which would hide the other findings.
 Findings judge_alarms(const std::string& whose, const std::vector<std::string>& alarms) {
   constexpr std::size_t kMost = 16;
   Findings findings;

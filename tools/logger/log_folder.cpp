@@ -46,7 +46,7 @@ void LogFolder::measure_room() {
 
 void LogFolder::make_room(double quota_bytes, double reserve_bytes, double headroom_bytes,
                           const std::string& keep) {
-  // Whoever writes it may spell its folder in another way.
+  // Compares files, not paths: the writer may spell the folder differently.
   const std::string kept = keep.empty() ? "" : fs::path(keep).lexically_normal().string();
   auto oldest = files_.begin();
   while (bytes() + headroom_bytes > quota_bytes || free_bytes_ < reserve_bytes + headroom_bytes) {

@@ -31,7 +31,7 @@ std::string in_words(const ols::LoggerStatus& status) {
          (status.bus_alarm.empty() ? "" : "; " + status.bus_alarm);
 }
 
-// A status that cannot be written must not end what it tells of.
+// A failure to write the status must not end the recording.
 void write_status(const std::string& path, const ols::LoggerStatus& status) {
   if (path.empty()) return;
   static bool told = false;
@@ -46,7 +46,7 @@ void write_status(const std::string& path, const ols::LoggerStatus& status) {
   }
 }
 
-// A flight: one file, until the program is asked to end.
+// Records into one file until the program is ended.
 int run_into(const std::string& file, const ols::LoggerConfig& config) {
   ols::BusRecorder recorder(config, file);
   ols::ServiceNotifier service_manager;
@@ -71,7 +71,7 @@ int run(const ols::LoggerConfig& config) {
     supervisor.turn(now_s);
     if (now_s >= status_due_s) {
       const ols::LoggerStatus status = supervisor.status();
-      // A disk that is not to be had is no reason not to start: it is waited for, and said.
+      // Ready even without a usable disk: it is retried, and the status reports it.
       ready ? service_manager.status(in_words(status)) : service_manager.ready(in_words(status));
       ready = true;
       write_status(config.status_file, status);
@@ -89,9 +89,8 @@ int run(const ols::LoggerConfig& config) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Records the bus: the oldest files go when the quota (GB) is used up or the disk has less "
-      "than "
-      "its reserve (GB) left"};
+      "Records the bus: the oldest files are removed when the quota is used up or the disk's free "
+      "space falls below the reserve"};
   std::string config_path, folder, lcm_url, output;
   bool check = false;
   app.add_option("--config", config_path, "Configuration file (TOML); all keys have defaults");

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDegree_rad = kPi / 180.0;
 
-// `unit_rad` is the unit of the row's angles, one degree unless somebody has exported radians.
+// `unit_rad` is the unit of the row's angles, one degree unless radians were exported.
 Sighting sighting_of(const BearingRow& bearing, const StationRow& station, double unit_rad) {
   Sighting sighting;
   sighting.station = bearing.station;
@@ -49,8 +49,8 @@ std::size_t instants_with_position(const RecordedBearings& recording) {
   return count;
 }
 
-// Radians make a bundle of a few degrees about north, which meets here and there by chance. Small
-// angles alone prove nothing: which reading makes the lines of sight meet decides.
+// Radians read as degrees form a bundle of a few degrees about north, which may meet by chance.
+// Small angles prove nothing: the unit in which more lines of sight meet decides.
 void require_degrees(const std::string& path, const std::vector<StationRow>& stations,
                      const std::vector<BearingRow>& bearings, const RecordedBearings& as_degrees) {
   const bool can_be_radians = std::ranges::all_of(bearings, [](const BearingRow& row) {

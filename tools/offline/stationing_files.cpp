@@ -32,13 +32,16 @@ const SurveyRow& named(const std::vector<SurveyRow>& survey, const std::string& 
   return *std::ranges::find(survey, name, &SurveyRow::landmark);
 }
 
-// What is found gets the next one.
+// The result gets the next id.
 void check_calibration_id(const std::string& path, std::int64_t id) {
   if (id < std::numeric_limits<std::int64_t>::max()) return;
-  throw ConfigFile(path).root().table("calibration").error("id", "there is no higher one");
+  throw ConfigFile(path)
+      .root()
+      .table("calibration")
+      .error("id", "is the highest possible: no id is left for the result");
 }
 
-// What is known before a landmark is sighted: where the station stands, and how level.
+// The prior: the station's position and tilt.
 StationGeometry rough_station(const StationingOptions& options, const StationSettings& settings,
                               const std::vector<SurveyRow>& survey) {
   StationGeometry rough = settings.station.geometry;

@@ -8,7 +8,7 @@
 namespace ols {
 namespace {
 
-// As it is printed: no -0.00.
+// Rounded for printing, without -0.00.
 double rounded(double value, int digits) {
   const double unit = std::pow(10.0, -digits);
   return std::abs(value) < 0.5 * unit ? 0.0 : value;
@@ -19,7 +19,7 @@ void write_global_test(std::ostream& out, const Stationing& found) {
   out << std::setprecision(2) << "# Global test (5 %): variance factor " << test.variance_factor
       << ", critical " << test.critical << ", redundancy " << test.redundancy << ": ";
   if (found.scaled_by > 1.0) {
-    out << "REJECTED, the sightings disagree by more than was stated;\n#   all deviations below "
+    out << "REJECTED, the sightings disagree by more than stated;\n#   all deviations below "
            "are "
            "scaled up by "
         << found.scaled_by << ".\n";
@@ -42,7 +42,7 @@ void write_detectable(std::ostream& out, const Eigen::Vector2d& least_m) {
   out << '\n';
 }
 
-// One row of a landmark's sightings: what it is off, in degrees and in deviations.
+// One sighting's residual, in degrees and in deviations.
 void write_residual(std::ostream& out, const Stationing& found, std::size_t i) {
   const Eigen::Vector2d& rad = found.residuals_rad[i];
   const Eigen::Vector2d& over = found.residuals[i];

@@ -45,7 +45,7 @@ class Outcome:
     checks: list[Check] = field(default_factory=list)
     recovery_s: float | None = None  # from the fault's end (or the restart) to normal work
     seconds: float = 0.0  # the case took
-    error: str = ""  # the case itself could not go on
+    error: str = ""  # the case itself could not continue
 
     @property
     def passed(self) -> bool:

@@ -27,6 +27,6 @@ def judge(evidence: Evidence, outcome: Outcome) -> None:
         judge_angles(evidence, outcome, station, window, JUDGED_S)
 
 
-@case("no-fault", "none", "everything works; published sigmas are honest", judge)
+@case("no-fault", "none", "everything works; published sigmas are consistent", judge)
 def no_fault(session: Session, evidence: Evidence) -> None:
     evidence["window"] = session.run(JUDGED_S)

@@ -28,7 +28,7 @@ UNKNOWN_S = 150.0
 
 
 def targets_of(session: Session) -> list[str]:
-    """A channel that each kind of process hears; of the stations each its own."""
+    """A channel that each kind of process reads; each station its own."""
     channels = ["OLS_STATUS_x", "OLS_BEARING_x", "OLS_FUSION_STATUS", "OLS_TARGET"]
     for station in session.stations:
         channels += [f"OLS_{kind}_{station}" for kind in ("PTU", "SLEW", "DESIGNATE", "STATUS")]
@@ -77,7 +77,7 @@ def attack(session: Session, sender: Sender) -> None:
 
 
 def ctl_meanwhile(session: Session, sender: Sender) -> int | None:
-    """The status that `ols-ctl` ends with while the pair comes again and again; None: it hangs."""
+    """The status that `ols-ctl` ends with while the pair is sent repeatedly; None: it hangs."""
     program = session.wiring.program("ols-ctl")
     with subprocess.Popen(
         [program, "all", "status"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
@@ -107,7 +107,7 @@ def judge_fragments(evidence: Evidence, outcome: Outcome) -> None:
         "the recorder is the same process",
         evidence["recorders"][0] == evidence["recorders"][1],
         f"{evidence['recorders'][0]}, then {evidence['recorders'][1]}",
-        broken_by=mutations.fact("it is started anew", "recorders", ([1], [2])),
+        broken_by=mutations.fact("it is restarted", "recorders", ([1], [2])),
     )
     outcome.at_least(
         "recorded meanwhile",
@@ -187,7 +187,7 @@ def judge_channels(evidence: Evidence, outcome: Outcome) -> None:
 
 @case(
     "many-channels",
-    "two million channel names that nobody knows",
+    "two million unknown channel names",
     f"fusion and stations grow by {GROWN_MB:g} MB at most",
     judge_channels,
 )

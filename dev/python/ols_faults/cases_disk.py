@@ -65,7 +65,7 @@ def is_complete(frames: Path) -> bool:
 
 
 def judge(evidence: Evidence, outcome: Outcome, words: tuple[str, ...]) -> None:
-    """Tracking goes on as before, and what cannot be written is reported."""
+    """Tracking continues as before, and failed writes are reported."""
     station, window = evidence["station"], evidence["window"]
     judge_alarm(evidence, outcome, "reported", station, window[0], REPORTED_S, *words)
     judge_goes_on(evidence, outcome, station, window, 0.85 * FRAME_HZ)
@@ -100,7 +100,7 @@ def do(session: Session, evidence: Evidence, label: str, begin: Any, end: Any) -
 
 
 def fetch(session: Session) -> None:
-    """Somebody takes the recordings along: the station may keep what it has."""
+    """The recordings are copied and removed: the station may record again."""
     for name in recorded(session.disk):
         shutil.rmtree(session.disk / name)
 

@@ -150,7 +150,7 @@ def turn_steadily(
 
 
 def judge_full_speed(evidence: Evidence, outcome: Outcome) -> None:
-    """Whether it goes on for as long, and as far, as its servo says, and no longer."""
+    """Whether it moves on as long and as far as its servo permits, and no further."""
     station = evidence["station"]
     window = evidence["at_us"], evidence["dead_until_us"]
     judge_speed(evidence, outcome, "PTU's speed at the kill", 0.95 * FULL_DEG_S)
@@ -202,7 +202,7 @@ def judge_fusion_killed(evidence: Evidence, outcome: Outcome) -> None:
         "targets while there was none",
         float(len(measure.target_arrivals_us(evidence.heard, *shortly))),
         0.0,
-        broken_by=mutations.late("the fusion goes on", JOINT, (0, window[0]), 1.0),
+        broken_by=mutations.late("the fusion continues", JOINT, (0, window[0]), 1.0),
     )
     late = started_us, started_us + round((BACK_FUSION_S + 1.0) * 1e6)
     outcome.recovered(
@@ -219,7 +219,7 @@ def judge_fusion_killed(evidence: Evidence, outcome: Outcome) -> None:
 @case(
     "fusion-killed",
     "fusion killed, restarted after 3 s",
-    "stations go on tracking; targets again within 2 s of start",
+    "stations continue to track; targets again within 2 s of start",
     judge_fusion_killed,
 )
 def fusion_killed(session: Session, evidence: Evidence) -> None:

@@ -134,11 +134,11 @@ def emergency_stop(session: Session, evidence: Evidence) -> None:
 
 
 def provoke(session: Session, station: str, side: float) -> tuple[int, int]:
-    """The operator points, the fusion slews, somebody releases and re-arms: nothing may move."""
+    """The operator points, the fusion slews, a release and a rearm arrive: nothing may move."""
     start_us = session.now_us()
     for _ in range(4):
         swing(session, station, side * WAY_DEG / 2)
         session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
-        session.command(station, REARM)  # from afar: nobody's hand at the station
+        session.command(station, REARM)  # remote: no person at the station
         session.run(0.4)
     return start_us, session.now_us()

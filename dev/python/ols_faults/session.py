@@ -282,14 +282,14 @@ class Session:
         return [name for name, p in self.site.processes.items() if p.poll() is not None]
 
     def bury(self) -> list[str]:
-        """Names them, and forgets them, so that restore() starts them anew."""
+        """Returns their names and forgets them, so that restore() starts them again."""
         names = self.ended()
         for name in names:
             del self.site.processes[name]
         return names
 
     def can_go_on(self) -> bool:
-        """Stations and fusion can be started anew, the world cannot."""
+        """Stations and fusion can be restarted, the simulation cannot."""
         return "ols-sim" in self.site.processes and not self.ended()
 
     def close(self) -> None:
@@ -349,7 +349,7 @@ class Session:
                 self.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
 
     def _take_in_hand(self) -> set[str]:
-        """Stations that the operator has to point and designate anew."""
+        """Stations that the operator has to point and designate again."""
         astray = {s for s in self.stations if not self.on_target(s)}
         for station in astray:
             self.operator.tracking.discard(station)

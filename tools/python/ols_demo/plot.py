@@ -1,4 +1,4 @@
-"""The picture of a run: truth, fixes and ellipses on the plan, and the error over time."""
+"""The plot of a run: truth, fixes and ellipses on the plan, and the error over time."""
 
 from pathlib import Path
 
@@ -116,7 +116,7 @@ def draw_axes(axes: list[Axes], recording: Recording, window: tuple[int, int]) -
 
 
 def save(path: Path, recording: Recording, window: tuple[int, int], title: str) -> None:
-    """Writes the picture; its format follows the suffix."""
+    """Writes the plot; its format follows the suffix."""
     figure = plt.figure(figsize=(14, 9), layout="constrained")
     grid = figure.add_gridspec(3, 4)
     draw_plan(figure.add_subplot(grid[:2, :2]), recording, window)
