@@ -54,7 +54,7 @@ const char* advice_for(const DeviceReport& report) {
          "angles with something known, then ols-ctl STATION reference-ok";
 }
 
-std::string axis_words(const char* name, const PtuAxisAnswers& axis) {
+std::string axis_text(const char* name, const PtuAxisAnswers& axis) {
   if (!axis.resolution_arcsec || !axis.least || !axis.greatest) {
     return std::string(name) + " unknown";
   }
@@ -79,7 +79,7 @@ Finding judge_axes(const PtuAnswers& ptu) {
                 "permanently: rehome = \"when-unreferenced\")");
   }
   const std::string words =
-      "ptu: " + axis_words("pan", ptu.pan) + ", " + axis_words("tilt", ptu.tilt);
+      "ptu: " + axis_text("pan", ptu.pan) + ", " + axis_text("tilt", ptu.tilt);
   for (const PtuAxisAnswers& axis : {ptu.pan, ptu.tilt}) {
     if (!axis.resolution_arcsec || !axis.least || !axis.greatest) {
       return fail(words, "replies are lost or garbled: check cable, ground and baud");

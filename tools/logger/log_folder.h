@@ -22,8 +22,8 @@ class LogFolder {
   void survey();
   // Removes the oldest until the logs leave `headroom_bytes` of the quota, and of the disk above
   // its reserve; never `keep`. Throws std::system_error when a file cannot be removed.
-  void make_room(double quota_bytes, double reserve_bytes, double headroom_bytes,
-                 const std::string& keep);
+  void remove_oldest(double quota_bytes, double reserve_bytes, double headroom_bytes,
+                     const std::string& keep);
 
   double bytes() const;
   double free_bytes() const { return free_bytes_; }

@@ -23,7 +23,7 @@ namespace {
 constexpr int kTurn_ms = 100;
 constexpr double kStatus_s = 1.0;
 
-std::string in_words(const ols::LoggerStatus& status) {
+std::string status_line(const ols::LoggerStatus& status) {
   char room[96];
   std::snprintf(room, sizeof room, "; %.1f GB in %zu files, %.1f GB free", status.bytes * 1e-9,
                 status.files, status.free_bytes * 1e-9);
@@ -34,15 +34,15 @@ std::string in_words(const ols::LoggerStatus& status) {
 // A failure to write the status must not end the recording.
 void write_status(const std::string& path, const ols::LoggerStatus& status) {
   if (path.empty()) return;
-  static bool told = false;
+  static bool is_reported = false;
   try {
     ols::AtomicFile file(path);
     file.stream() << ols::to_json(status, ols::clock_utime_us()) << '\n';
     file.commit();
-    told = false;
+    is_reported = false;
   } catch (const std::exception& failure) {
-    if (!told) spdlog::warn("status: {}", failure.what());
-    told = true;
+    if (!is_reported) spdlog::warn("status: {}", failure.what());
+    is_reported = true;
   }
 }
 
@@ -72,7 +72,8 @@ int run(const ols::LoggerConfig& config) {
     if (now_s >= status_due_s) {
       const ols::LoggerStatus status = supervisor.status();
       // Ready even without a usable disk: it is retried, and the status reports it.
-      ready ? service_manager.status(in_words(status)) : service_manager.ready(in_words(status));
+      ready ? service_manager.status(status_line(status))
+            : service_manager.ready(status_line(status));
       ready = true;
       write_status(config.status_file, status);
       status_due_s = now_s + kStatus_s;

@@ -53,8 +53,9 @@ void Supervisor::turn(double now_s) {
   try {
     folder_.survey();
     // Headroom for the data until the next call and for one more file.
-    folder_.make_room(config_.quota_bytes, config_.disk_reserve_bytes, 2.0 * config_.split_bytes,
-                      recorder_ ? recorder_->report().file : std::string());
+    folder_.remove_oldest(config_.quota_bytes, config_.disk_reserve_bytes,
+                          2.0 * config_.split_bytes,
+                          recorder_ ? recorder_->report().file : std::string());
   } catch (const std::exception& failure) {
     fail(failure.what(), now_s + kFirstPause_s);
     return;

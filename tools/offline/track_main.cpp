@@ -69,12 +69,12 @@ class State {
   ols::BoxRow row(long frame, double time_s, const ols::TrackerOutput& output) {
     if (output.belief >= kBelieved) believed_s_ = time_s;
     ols::BoxRow row{frame, output.box, output.belief, "tracking"};
-    if (output.belief < kBelieved) row.state = doubted(time_s);
+    if (output.belief < kBelieved) row.state = coasting_or_lost(time_s);
     return row;
   }
   // Of a frame that the tracker could not use.
   ols::BoxRow row(long frame, double time_s) const {
-    return {frame, std::nullopt, 0.0, doubted(time_s)};
+    return {frame, std::nullopt, 0.0, coasting_or_lost(time_s)};
   }
 
  private:
@@ -82,7 +82,7 @@ class State {
   static constexpr double kCoast_s = 1.0;
 
   bool lost(double time_s) const { return time_s - believed_s_ > kCoast_s; }
-  const char* doubted(double time_s) const { return lost(time_s) ? "lost" : "coasting"; }
+  const char* coasting_or_lost(double time_s) const { return lost(time_s) ? "lost" : "coasting"; }
 
   double believed_s_;
 };

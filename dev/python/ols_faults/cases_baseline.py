@@ -1,4 +1,4 @@
-"""The site without any fault: what the others are compared with."""
+"""The site without any fault, as reference."""
 
 from ols_faults import measure, mutations
 from ols_faults.case import Outcome, case

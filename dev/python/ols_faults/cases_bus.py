@@ -1,4 +1,4 @@
-"""Attacks on what reads the bus: datagrams that no message is made of, and channels without end."""
+"""Attacks on the readers of the bus: malformed datagrams, and endless new channels."""
 
 import re
 import subprocess
@@ -197,7 +197,7 @@ def many_channels(session: Session, evidence: Evidence) -> None:
 
 
 def flood_with_channels(session: Session, evidence: Evidence) -> None:
-    """As many as each must hear, and as many more as the kernel drops where one is overrun."""
+    """As many as each must receive, plus those that the kernel drops if one is overrun."""
     names = ours(session)
     pids = {name: session.pid(name) for name in names}
     before = {name: resident_bytes(pid) for name, pid in pids.items()}
@@ -223,6 +223,6 @@ def flood_with_channels(session: Session, evidence: Evidence) -> None:
 
 
 def so_far(log: Path) -> int:
-    """What the newest flood has sent, as it says once a second."""
+    """The number of messages that the newest flood reports once a second."""
     said = re.findall(r"so far (\d+)", log.read_text().rpartition("ready")[2])
     return int(said[-1]) if said else 0

@@ -1,4 +1,4 @@
-"""A disk that is full, and one that is read-only, under what a station records."""
+"""A full and a read-only disk under a station's recordings."""
 
 import errno
 import shutil
@@ -87,7 +87,7 @@ def do(session: Session, evidence: Evidence, label: str, begin: Any, end: Any) -
     station = evidence["station"] = session.disk_station
     session.wait(lambda: not alarm_of(session.status(station), "recorder:"), 10.0)
     session.fresh_status(station)
-    # What is complete already and is removed for the quota meanwhile is no event.
+    # Complete events that the quota removes meanwhile are ignored.
     before = recorded(session.disk)
     undo = begin(session.disk)
     try:

@@ -45,7 +45,7 @@ class FarFusion:
         self._session = session
         session.kill("ols-fusion")
         session.start_fusion(FAR_URL)
-        # Targets are recorded at the fusion: what the relay does to them is not judged.
+        # Targets are recorded at the fusion: the relay's effect on them is not judged.
         self.ear = Ear(FAR_URL, self._receive)
         session.add_handler(self._handle)
 
@@ -178,7 +178,7 @@ def lcm_bad_network(session: Session, evidence: Evidence) -> None:
 
 
 def relayed(log: Path) -> tuple[int, ...]:
-    """Messages received, lost, doubled, reordered by the newest relay."""
+    """Messages received, lost, duplicated, reordered by the newest relay."""
     found = re.findall(
         r"forward: received (\d+), lost (\d+), duplicated (\d+), reordered (\d+)",
         log.read_text(errors="replace"),
@@ -258,7 +258,7 @@ def lcm_flood(session: Session, evidence: Evidence) -> None:
 
 
 def flooded(log: Path) -> tuple[int, float]:
-    """How many messages the newest flood sent, and how many a second."""
+    """The number of messages of the newest flood, and its rate per second."""
     sent = re.findall(r"sent (\d+) in ([\d.]+) s", log.read_text(errors="replace"))
     if not sent:
         raise SiteError("the flood did not say what it sent")

@@ -24,7 +24,7 @@ def swing(session: Session, station: str, to_deg: float) -> None:
 
 
 def judge_stop(evidence: Evidence, outcome: Outcome, station: str, window: tuple[int, int]) -> None:
-    """From the edge on; a is what the PTU was configured to, not what it was seen to do."""
+    """From the edge on; a is what the PTU was configured to, not the observed one."""
     heard = evidence.heard
     speed, braking_s, slowing = measure.braking(heard, station, window[0])
     before = window[0] - 300_000, window[0]

@@ -1,4 +1,4 @@
-"""tools/fault-run --mutate: every check is seen to fail.
+"""tools/fault-run --mutate: shows that every check can fail.
 
 Each case is done once. Then its evidence is altered, once for each of its checks, in the way in
 which a broken product (or a fault that was not done) would have altered it, and judged again: that
@@ -19,7 +19,7 @@ from ols_faults.evidence import Evidence
 
 @dataclass(frozen=True)
 class Trial:
-    """What came of one mutation of one check."""
+    """The outcome of one mutation of one check."""
 
     case: str
     check: str
