@@ -20,7 +20,7 @@ std::system_error file_error(const std::string& path) {
   return {errno == 0 ? EIO : errno, std::generic_category(), path};
 }
 
-// What the kernel still holds of a file or a folder goes to the disk.
+// Flushes a file or a folder to the disk.
 void sync(const std::string& path) {
   errno = 0;
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -32,7 +32,7 @@ void sync(const std::string& path) {
   if (failed != 0 && failed != EINVAL && failed != EROFS) throw file_error(path);
 }
 
-// Where symbolic links lead in the end, also when nothing is there yet.
+// The final target of symbolic links, even if it does not exist yet.
 std::string link_target(const std::string& path) {
   constexpr int kMostLinks = 40;  // as the kernel
   std::error_code none;
@@ -53,12 +53,12 @@ std::string replaceable(const std::string& path) {
   return link_target(path);
 }
 
-// Who may read a file shall not change with its content.
+// Replacing a file's content must not change its owner and permissions.
 void keep_owner_and_mode(const std::string& old_path, const std::string& new_path) {
   constexpr mode_t kPermissions = 07777;
   struct stat old {};
   if (::stat(old_path.c_str(), &old) != 0) return;
-  // Who is not allowed to give the file away keeps it.
+  // Without the right to change the owner, the file keeps the writer's.
   static_cast<void>(!::chown(new_path.c_str(), old.st_uid, old.st_gid));
   static_cast<void>(::chmod(new_path.c_str(), old.st_mode & kPermissions));
 }
@@ -119,7 +119,7 @@ void AtomicFile::commit() {
 void remove_temporary_files_on_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action {};
-    // What the caller has ignored, as nohup does, stays ignored.
+    // A signal that the caller ignores (nohup) stays ignored.
     if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;
     action = {};
     action.sa_handler = remove_temporary_files;

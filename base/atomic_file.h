@@ -1,6 +1,6 @@
-// A file that appears whole or not at all, also when the power goes: written beside its place, then
-// renamed. It keeps the owner and the mode of the file that it replaces. A symbolic link stays one:
-// the file that it points to is replaced.
+// A file that appears whole or not at all, even after a power loss: written under a temporary name
+// in the same folder, then renamed. It keeps the owner and the mode of the file that it replaces. A
+// symbolic link stays one: the file that it points to is replaced.
 #pragma once
 
 #include <fstream>
@@ -10,7 +10,7 @@ namespace ols {
 
 class AtomicFile {
  public:
-  // Throws std::system_error naming the path when it cannot be opened, or is no plain file.
+  // Throws std::system_error naming the path when it cannot be opened, or is not a plain file.
   explicit AtomicFile(const std::string& path);
   ~AtomicFile();  // without commit() the destination is left as it was
   AtomicFile(const AtomicFile&) = delete;

@@ -16,8 +16,8 @@ namespace ols {
 namespace {
 
 constexpr std::chrono::seconds kAgain{3};
-constexpr std::chrono::seconds kLook{2};  // until what was written is looked at again
-constexpr std::chrono::seconds kLast{1};  // for what is not written at the end
+constexpr std::chrono::seconds kLook{2};  // between two checks of the file
+constexpr std::chrono::seconds kLast{1};  // for a pending write at the end
 
 // Throws std::system_error.
 void put(const std::string& path, const std::string& text) {
@@ -64,8 +64,7 @@ struct BackgroundFile::Shared {
     done.notify_all();
   }
 
-  // Until there is something to write, or to look at; after a failure a while longer. False: there
-  // is no more.
+  // Waits until there is something to write or to check; longer after a failure. False: the end.
   bool wait(std::unique_lock<std::mutex>& lock, const std::optional<std::string>& kept) {
     if (!trouble.empty()) {
       wake.wait_for(lock, kAgain, [this, before = written] { return end || written != before; });
@@ -91,7 +90,7 @@ struct BackgroundFile::Shared {
 BackgroundFile::BackgroundFile(const std::string& path) : shared_(std::make_shared<Shared>()) {
   shared_->ended = path.empty();
   if (path.empty()) return;
-  // Detached: who waits for a disk that hangs would never end.
+  // Detached: joining a thread that waits for a hanging disk would never return.
   std::thread([shared = shared_, path] { shared->run(path); }).detach();
 }
 

@@ -9,7 +9,7 @@ namespace ols {
 
 BusConnector::BusConnector(std::string url) : url_(std::move(url)) {}
 
-// A detached thread rather than std::async, whose future would keep a program that ends waiting.
+// A detached thread: the destructor of std::async's future would block the program's end.
 void BusConnector::begin() {
   std::packaged_task<std::unique_ptr<LcmBus>()> attempt([url = url_] {
     auto bus = std::make_unique<LcmBus>(url);

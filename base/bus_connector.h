@@ -1,5 +1,5 @@
-// Makes a connection to the bus beside the loop that wants one: where multicast is blocked, its
-// self test takes seconds, and a control loop must not stand still for that.
+// Connects to the bus in the background: where multicast is blocked, the self test takes seconds,
+// for which a control loop must not wait.
 #pragma once
 
 #include <future>
@@ -14,12 +14,12 @@ class BusConnector {
  public:
   explicit BusConnector(std::string url);
 
-  // A bus that hears itself, once there is one; until then nothing, and another attempt each
-  // second. `now_s`: monotonic. Waits so long at most; an attempt ends within kLongest_s.
+  // A bus that passed its self test; nothing until then, with an attempt every second. `now_s`:
+  // monotonic. Waits at most wait_s; an attempt ends within kLongest_s.
   std::unique_ptr<LcmBus> take(double now_s, double wait_s = 0.0);
   static constexpr double kLongest_s = 12.0;
 
-  // Why the last attempt failed; empty when none has, or when the last one succeeded.
+  // Why the last attempt failed; empty after a success or before the first.
   const std::string& trouble() const { return trouble_; }
 
  private:

@@ -7,9 +7,9 @@
 namespace ols {
 namespace {
 
-// What a message that waits takes of the memory.
+// Memory used by a queued message.
 std::size_t cost(const BusMessage& message) {
-  constexpr std::size_t kKeeping = 160;  // [byte] of its records beside names and payload
+  constexpr std::size_t kKeeping = 160;  // [byte] overhead besides names and payload
   return kKeeping + message.channel.size() + message.payload.size();
 }
 

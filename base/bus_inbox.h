@@ -1,6 +1,5 @@
-// What came from the bus and waits to be handled: parsed, filtered by channel, bounded. Nothing is
-// kept of a channel that nobody here reads. One thread puts datagrams in, another takes messages
-// out.
+// The bounded queues of received messages: parsed and filtered by channel; channels without a
+// subscription are dropped. One thread puts datagrams in, another takes messages out.
 #pragma once
 
 #include <array>
@@ -21,7 +20,7 @@
 
 namespace ols {
 
-// On which LCM's programs hear whether they hear themselves; no subscription gets it.
+// The channel of LCM's self test; no subscription receives it.
 inline constexpr const char* kSelfTestChannel = "LCM_SELF_TEST";
 
 struct BusMessage {
@@ -30,10 +29,10 @@ struct BusMessage {
   std::int64_t received_utime_us = 0;  // this host's clock
 };
 
-// What may wait of one subscription. The oldest give way: a newer message is worth more.
+// The limit of one subscription's queue. The oldest messages are displaced.
 struct QueueLimits {
   std::size_t messages = 1000;
-  std::size_t bytes = 4'000'000;  // of names and payloads, and what their keeping costs
+  std::size_t bytes = 4'000'000;  // of names, payloads and their overhead
 };
 
 // Counters that only go up.
@@ -41,26 +40,25 @@ struct BusTraffic {
   std::uint64_t received = 0;    // whole messages, of any channel
   std::uint64_t fragments = 0;   // refused, see DatagramFault
   std::uint64_t malformed = 0;   // refused: foreign, or with a damaged channel name
-  std::uint64_t overflowed = 0;  // gave way to newer ones before they were handled
+  std::uint64_t overflowed = 0;  // displaced by newer ones before they were handled
   std::uint64_t unsendable = 0;  // own messages that fit into no datagram
 };
 
 class BusInbox {
  public:
   using Handler = std::function<void(const BusMessage&)>;
-  // In the thread that puts datagrams in, before the queue: true when this is all that the message
-  // is for. It is then not queued, so that no flood can push it out.
+  // Called in the receiving thread before queueing: true if the message is completely handled. It
+  // is then not queued, so that no flood can displace it.
   using Express = std::function<bool(const BusMessage&)>;
 
-  // Throws std::invalid_argument when it is no regular expression.
+  // Throws std::invalid_argument if it is not a regular expression.
   void subscribe(const std::string& channel_regex, Handler handler, QueueLimits limits = {},
                  Express express = {});
 
   void put(std::span<const std::uint8_t> datagram, std::int64_t utime_us);
 
-  // Hands the oldest message that waits to its subscriber, in the caller's thread; waits for one so
-  // long at most. Whether there was one. Messages of all subscriptions come in the order in which
-  // they were put in.
+  // Passes the oldest queued message to its subscriber in the caller's thread; waits at most
+  // timeout_ms for one. Returns whether there was one. All subscriptions share one order.
   bool handle_one(int timeout_ms);
 
   BusTraffic traffic() const;

@@ -18,13 +18,13 @@ bool is_plain(std::string_view text) {
 
 std::shared_ptr<GRegex> compile(const std::string& regex) {
   GError* failure = nullptr;
-  // \z and not $: a name ends where it ends.
+  // \z: $ would also match before a final newline.
   const std::string whole = "(?:" + regex + ")\\z";
   GRegex* compiled = g_regex_new(whole.c_str(), G_REGEX_ANCHORED, GRegexMatchFlags{}, &failure);
   if (compiled != nullptr) return {compiled, g_regex_unref};
   const std::string why = failure->message;
   g_error_free(failure);
-  throw std::invalid_argument("\"" + regex + "\" is no regular expression: " + why);
+  throw std::invalid_argument("\"" + regex + "\" is not a regular expression: " + why);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Which channels a reader of the bus wants: a regular expression (GLib's, as LCM takes it) that the
-// whole name must match. A plain name, and a plain beginning followed by ".*", cost no expression.
+// whole name must match. Plain names and prefixes ("NAME.*") are matched without an expression.
 #pragma once
 
 #include <memory>

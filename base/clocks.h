@@ -19,7 +19,7 @@ inline std::int64_t clock_ns(clockid_t clock) {
 inline std::int64_t clock_monotonic_ns() { return detail::clock_ns(CLOCK_MONOTONIC); }
 inline double clock_monotonic_s() { return 1e-9 * static_cast<double>(clock_monotonic_ns()); }
 
-// UTC since 1970, as this computer has it.
+// UTC since 1970 by this host's clock.
 inline std::int64_t clock_utc_ns() { return detail::clock_ns(CLOCK_REALTIME); }
 inline std::int64_t clock_utime_us() { return clock_utc_ns() / 1000; }
 

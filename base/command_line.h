@@ -1,5 +1,5 @@
-// A program's beginning and end, the same way everywhere: its command line, with one line about bad
-// input and status 2, and what it prints, which must have arrived.
+// Common start and end of every program: command line parsing (bad input: one line and status 2)
+// and a check that its output was written.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -24,7 +24,7 @@ inline void flush_output() {
   throw std::system_error(errno == 0 ? EIO : errno, std::generic_category(), "standard output");
 }
 
-// A check of numbers: CLI::Range compares, and lets a NaN through.
+// Number check: CLI::Range accepts NaN.
 inline std::string refuse_not_finite(const std::string& text) {
   double value = 0.0;
   const bool finite = !CLI::detail::lexical_cast(text, value) || std::isfinite(value);
@@ -40,7 +40,7 @@ inline void check_numbers(CLI::App& app) {
   }
 }
 
-// The status to end with: 0 after --help, 2 after bad input. Nothing when the program shall go on.
+// The exit status: 0 after --help, 2 after bad input; nothing if the program is to continue.
 inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv,
                                              const char* program) {
   check_numbers(app);

@@ -87,7 +87,7 @@ template <std::size_t kColumns>
 using Reader = io::CSVReader<kColumns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
                              io::throw_on_overflow, io::empty_line_comment>;
 
-// What a spreadsheet may have written between the columns of this header in place of commas.
+// The column separator that a spreadsheet has used instead of a comma.
 std::string other_separator(const std::string& content) {
   const std::string header = content.substr(0, content.find('\n'));
   if (header.find(',') != std::string::npos) return "";
@@ -110,21 +110,21 @@ void read_header(Reader<kColumns>& reader, const std::string& path, const Header
       throw CsvError(path + ":1: header: columns are separated by " + separator +
                      ", commas are needed");
     }
-    throw CsvError(path + ":1: " + header.names[i] + ": there is no such column");
+    throw CsvError(path + ":1: " + header.names[i] + ": the column is missing");
   }
 }
 
 // The whole file, its last line ended: the library reads past the end of one that is not.
 std::string content_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  file.peek();  // a folder opens, but the iterator below would throw what it throws
+  file.peek();  // opening a folder succeeds; reading fails here
   if (!file.is_open() || file.bad()) throw CsvError(path + ": cannot be read");
   std::string content{std::istreambuf_iterator<char>(file), {}};
   if (!content.empty() && content.back() != '\n') content += '\n';
   return content;
 }
 
-// Hands each row of the file to `take`; the library's errors become ours.
+// Passes each row to `take`; translates the library's errors.
 template <std::size_t kColumns, class Take>
 void for_each_row(const std::string& path, const Header<kColumns>& header, Take take) {
   try {
@@ -197,7 +197,8 @@ SurveyRow survey_row(const Row<8>& row) {
   point.sd_m = row.number<double>(2, 0.0, 1e4);
   point.line = row.line();
   const bool utm = row.has(5) || row.has(6) || row.has(7);
-  if (utm && (row.has(3) || row.has(4))) row.fail(5, "there are latitude and longitude as well");
+  if (utm && (row.has(3) || row.has(4)))
+    row.fail(5, "must be empty: latitude and longitude are given");
   if (utm) {
     point.place = utm_of(row);
   } else {
@@ -256,10 +257,10 @@ std::vector<StationRow> read_stations(const std::string& path) {
   for_each_row(path, kStations, [&](const Row<6>& row) {
     stations.push_back(station_row(row));
     if (!ids.insert(stations.back().station).second) {
-      row.fail(0, "'" + stations.back().station + "' is there twice");
+      row.fail(0, "'" + stations.back().station + "' appears twice");
     }
   });
-  if (stations.empty()) throw CsvError(path + ":2: row: there is none");
+  if (stations.empty()) throw CsvError(path + ":2: row: the file has a header but no rows");
   return stations;
 }
 
@@ -274,7 +275,7 @@ std::vector<BearingRow> read_bearings(const std::string& path,
       row.fail(1, "'" + bearings.back().station + "' is not one of the stations");
     }
   });
-  if (bearings.empty()) throw CsvError(path + ":2: row: there is none");
+  if (bearings.empty()) throw CsvError(path + ":2: row: the file has a header but no rows");
   return bearings;
 }
 
@@ -291,7 +292,7 @@ std::vector<LandmarkRow> read_landmarks(const std::string& path) {
     landmark.measured_m = row.optional_number(5, 0.0, 1e7);
     landmarks.push_back(landmark);
   });
-  if (landmarks.empty()) throw CsvError(path + ":2: row: there is none");
+  if (landmarks.empty()) throw CsvError(path + ":2: row: the file has a header but no rows");
   return landmarks;
 }
 
@@ -301,10 +302,10 @@ std::vector<SurveyRow> read_survey(const std::string& path) {
   for_each_row(path, kSurvey, [&](const Row<8>& row) {
     points.push_back(survey_row(row));
     if (!names.insert(points.back().landmark).second) {
-      row.fail(0, "'" + points.back().landmark + "' is there twice");
+      row.fail(0, "'" + points.back().landmark + "' appears twice");
     }
   });
-  if (points.empty()) throw CsvError(path + ":2: row: there is none");
+  if (points.empty()) throw CsvError(path + ":2: row: the file has a header but no rows");
   return points;
 }
 
@@ -318,7 +319,7 @@ std::vector<SightedRow> read_sighted(const std::string& path,
       row.fail(0, "'" + name + "' is not one of the landmarks");
     }
   });
-  if (sightings.empty()) throw CsvError(path + ":2: row: there is none");
+  if (sightings.empty()) throw CsvError(path + ":2: row: the file has a header but no rows");
   return sightings;
 }
 

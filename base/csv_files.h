@@ -3,8 +3,8 @@
 // in the files.
 //
 // Columns are found by the header's names, in any order; unknown ones are ignored. Numbers must be
-// plain decimal, finite and in range, ids without commas, quotes and control characters: there is
-// no such thing as an almost good row.
+// plain decimal, finite and in range, ids without commas, quotes and control characters. Any bad
+// row is an error.
 #pragma once
 
 #include <cstdint>
@@ -34,11 +34,11 @@ struct StationRow {
 struct BearingRow {
   std::int64_t utime_us = 0;
   std::string station;
-  double azimuth_deg = 0.0;  // clockwise from true north, -360..360 is taken
+  double azimuth_deg = 0.0;  // clockwise from true north, -360..360 is accepted
   double elevation_deg = 0.0;
   double sigma_deg = 0.0;    // 1-sigma of each axis, white
-  double belief = 1.0;       // 1 where the file does not tell
-  std::string target = "1";  // "1" where the file does not tell
+  double belief = 1.0;       // 1 if the file has no such column
+  std::string target = "1";  // "1" if the file has no such column
 };
 
 // A landmark before a base, as in the paper's Table 1.
@@ -46,7 +46,7 @@ struct LandmarkRow {
   std::string object;
   double distance_m = 0.0;
   double alpha_rad = 0.0;  // from the base's normal
-  int side = 0;            // -1, 0 or 1, geometry/precision_paper.h; 0 where the file does not tell
+  int side = 0;            // -1, 0 or 1, geometry/precision_paper.h; 0 by default
   std::optional<double> estimated_m;
   std::optional<double> measured_m;
 };
@@ -62,7 +62,7 @@ struct UtmCells {
   double northing_m = 0.0;
 };
 
-// A surveyor's point, as its row has it.
+// A surveyed point.
 struct SurveyRow {
   std::string landmark;
   std::variant<GeodeticCells, UtmCells> place;
@@ -71,7 +71,7 @@ struct SurveyRow {
   unsigned line = 0;      // of the file
 };
 
-// A landmark in a station's picture.
+// A landmark in a station's image.
 struct SightedRow {
   std::string landmark;
   double pan_deg = 0.0, tilt_deg = 0.0;  // as the PTU reports them
@@ -99,7 +99,7 @@ struct FixRow {
   int stations_used = 0;
   int stations_set_aside = 0;
   double crossing_angle_deg = 0.0;
-  double residual = 0.0;  // RMS of the normalised residuals; NaN, an empty cell: there is none
+  double residual = 0.0;  // RMS of the normalised residuals; NaN: empty cell
 };
 
 // At least one row; station ids are unique.
@@ -115,7 +115,7 @@ std::vector<SurveyRow> read_survey(const std::string& path);
 std::vector<SightedRow> read_sighted(const std::string& path, const std::vector<SurveyRow>& survey);
 // At least two rows; utime_us grows.
 std::vector<FlightRow> read_flight(const std::string& path);
-// The whole file or, on an error (std::system_error), none of it.
+// Writes the whole file; on an error (std::system_error) the old one is left unchanged.
 void write_fixes(const std::string& path, const std::vector<FixRow>& fixes);
 
 }  // namespace ols

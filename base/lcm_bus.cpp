@@ -52,14 +52,14 @@ void LcmBus::listen() {
   }
 }
 
-// A firewall, or a service's address filter, lets things out and nothing in.
+// A firewall or a service's address filter may pass outgoing traffic only.
 void LcmBus::hear_oneself() {
   constexpr int kAgain_ms = 20;
   const double end_s = clock_monotonic_s() + kSelfTest_s;
   while (inbox_.traffic().received == 0) {
     if (clock_monotonic_s() > end_s) {
       throw BusError(
-          "nothing comes back on this host's bus; a firewall, or a service's address filter?");
+          "own messages do not come back; check firewall and the service's address filter");
     }
     send_self_test();
     if (inbox_.traffic().received == 0) ::poll(nullptr, 0, kAgain_ms);
@@ -98,7 +98,7 @@ bool LcmBus::send(const std::string& channel, std::span<const std::uint8_t> payl
   }
   const std::error_code failure = socket_->send(datagram);
   if (failure == std::errc::message_size) ++unsendable_;
-  // A datagram that the network reports as undeliverable comes as the next one's error.
+  // The error for an undeliverable datagram is reported by the next send.
   return !failure || failure == std::errc::message_size || failure == std::errc::connection_refused;
 }
 

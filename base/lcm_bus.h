@@ -1,6 +1,6 @@
-// A connection to the bus: LCM messages over UDP multicast, or within one process. What the bytes
-// of a datagram mean is this project's own code (bus_datagram.h tells why); of LCM there are the
-// types, the format on the wire and the logs.
+// A connection to the bus: LCM messages over UDP multicast, or within one process. Datagrams are
+// parsed by this project's own code (bus_datagram.h says why); LCM provides the types, the wire
+// format and the logs.
 #pragma once
 
 #include <cstdint>
@@ -28,21 +28,21 @@ class LcmBus {
   using Handler = BusInbox::Handler;
   using Express = BusInbox::Express;
 
-  // Throws BusError with what to do about it when the URL is malformed or has no multicast route.
+  // Throws BusError, with advice, if the URL is malformed or there is no multicast route.
   explicit LcmBus(const std::string& url);
   ~LcmBus();
 
-  // Begins to receive; the first subscription does it too. Throws BusError when nothing comes back
-  // within kSelfTest_s of what is sent.
+  // Starts to receive, as the first subscription does. Throws BusError if the self-test message
+  // does not come back within kSelfTest_s.
   void listen();
   static constexpr double kSelfTest_s = 3.0;
 
-  // The handler decodes, so that what it cannot decode is counted by it.
+  // The handler decodes, and counts undecodable messages.
   void subscribe(const std::string& channel_regex, Handler handler, QueueLimits limits = {},
                  Express express = {});
 
-  // False when the network takes it no longer. What fits into no datagram is not sent, and counted
-  // (BusTraffic::unsendable): that is no fault of the network.
+  // False if sending fails: the network is down. A message too large for a datagram is not sent but
+  // counted (BusTraffic::unsendable); that is not a network failure.
   template <class Message>
   bool publish(const std::string& channel, const Message& message) {
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
@@ -56,12 +56,12 @@ class LcmBus {
   // caller; waits at most timeout_ms for the first. Returns the number of messages handled.
   int handle(int timeout_ms);
 
-  // Receives no more; what waits can still be handled. A later subscription begins again.
+  // Stops receiving; queued messages can still be handled. A later subscription starts again.
   void stop_listening();
 
-  // True when for some seconds nothing has come in, not even what this connection then sends to
-  // itself while it is handled: an interface that goes away takes the membership of the group
-  // along, and nothing else tells. It does not end; a new connection may hear again.
+  // True if nothing has arrived for some seconds, not even this connection's own self test: an
+  // interface that disappears takes the group membership with it, without an error. This state is
+  // permanent; a new connection may receive again.
   bool is_deaf() const { return unanswered_ >= kUnanswered; }
 
   BusTraffic traffic() const;
@@ -89,7 +89,7 @@ class LcmBus {
 };
 
 // True when the whole of a datagram is one message of this type. Generated decoders throw on a
-// damaged length (std::length_error, std::bad_alloc); that is no message either.
+// damaged length (std::length_error, std::bad_alloc); that is not a message either.
 template <class Message>
 bool decode_exactly(const void* data, int bytes, Message& message) {
   try {

@@ -53,7 +53,7 @@ void set_option(BusAddress& address, std::string_view option) {
     address.receive_buffer_bytes = number(value, 1, kLargestBuffer, "a number of bytes");
   } else {
     throw std::invalid_argument("\"" + std::string(name) +
-                                "\" is no option of an LCM URL (ttl, recv_buf_size)");
+                                "\" is not an option of an LCM URL (ttl, recv_buf_size)");
   }
 }
 

@@ -1,5 +1,5 @@
 // The address of a bus, written as LCM writes it: udpm://ADDRESS:PORT?ttl=N, or memq:// for a bus
-// within one process. LCM's other kinds (tcpq, file, mpudpm) are not spoken here.
+// within one process. LCM's other kinds (tcpq, file, mpudpm) are not supported.
 #pragma once
 
 #include <netinet/in.h>

@@ -42,14 +42,14 @@ MulticastSocket::~MulticastSocket() {
   if (receiving_ >= 0) ::close(receiving_);
 }
 
-// Bound to the group's address, not to any: what is sent to this host alone does not come in.
+// Bound to the group's address, so that unicast datagrams are not received.
 void MulticastSocket::listen() {
   if (receiving_ >= 0) return;
   const int fresh =
       checked(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0), "socket");
   try {
     set_option(fresh, SOL_SOCKET, SO_REUSEADDR, 1, "SO_REUSEADDR");
-    // The kernel gives what it allows.
+    // The kernel limits it to net.core.rmem_max.
     const int bytes = address_.receive_buffer_bytes;
     set_option(fresh, SOL_SOCKET, SO_RCVBUF, bytes, "SO_RCVBUF");
     checked(::bind(fresh, as_address(*address_.group), sizeof(sockaddr_in)), "bind");

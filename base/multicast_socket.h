@@ -1,4 +1,4 @@
-// The two sockets of a multicast bus: one that sends to the group, one that hears it.
+// The two sockets of a multicast bus: one that sends to the group, one that receives from it.
 #pragma once
 
 #include <netinet/in.h>

@@ -1,4 +1,4 @@
-// What a program writes must not be what it reads: a slip of the hand would cost the original.
+// Checks that no output of a program overwrites one of its inputs.
 #pragma once
 
 #include <string>

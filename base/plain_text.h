@@ -1,4 +1,4 @@
-// Text of others made fit for a terminal, a journal or a page.
+// Makes received text safe for a terminal, a journal or a page.
 #pragma once
 
 #include <string>
@@ -6,9 +6,8 @@
 
 namespace ols {
 
-// What a person can read stays, in UTF-8; every control character, escape sequence's beginning,
-// direction mark and damaged byte becomes "?". So text from a wire moves no cursor, hides nothing
-// and is one line.
+// Keeps printable UTF-8; every control character, escape, direction mark and damaged byte becomes
+// "?". The result is one line, and cannot move a cursor or hide text.
 std::string plain_text(std::string_view text);
 
 }  // namespace ols

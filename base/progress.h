@@ -1,4 +1,4 @@
-// How far long work has come: a line on standard error every few seconds, and none for short work.
+// Progress of long work: a line on standard error every few seconds.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ class Progress {
   Progress(std::string program, std::string steps, std::ostream& out,
            std::function<double()> now_s);
 
-  // Called often, with the steps that are done, and all of them; 0: nobody knows how many.
+  // Called often with the number of steps done and their total; 0: the total is unknown.
   void operator()(std::size_t done, std::size_t all);
 
  private:

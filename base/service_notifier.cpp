@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kSendsPerInterval = 4.0;
 
-// One assignment a line; a text must not bring further ones.
+// One assignment per line: a text must not contain a newline.
 std::string status_line(std::string text) {
   for (char& c : text) {
     if (c == '\n') c = ' ';

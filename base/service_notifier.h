@@ -1,5 +1,5 @@
-// Tells the service manager (systemd) that this process is up, what it does, and that its control
-// loop turns. Where there is no service manager every call does nothing.
+// Notifies the service manager (systemd): ready, status line, watchdog of the control loop. Without
+// a service manager every call does nothing.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ class ServiceNotifier {
 
   // The process serves from now on. `status` is the line that `systemctl status` shows.
   void ready(const std::string& status);
-  // Another line, for example the alarms that hold.
+  // Replaces the status line, for example by the active alarms.
   void status(const std::string& text);
   // Call at each turn of the control loop, and from nowhere else: a loop that hangs must starve the
-  // watchdog. Sends four times in the watchdog's interval at most. `now_s`: CLOCK_MONOTONIC.
+  // watchdog. Sends at most four times per watchdog interval. `now_s`: CLOCK_MONOTONIC.
   void alive(double now_s);
   void stopping();
 

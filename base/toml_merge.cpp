@@ -73,7 +73,7 @@ std::string with_value(const std::string& text, const std::string& table_path,
   return lines.text();
 }
 
-// What `table` is to hold after the change, whatever its text.
+// The values that `table` must have after the change.
 void set_values(toml::table& table, const toml::table& changes) {
   for (const auto& [key, node] : changes) {
     if (const toml::table* inner = node.as_table()) {
@@ -106,8 +106,7 @@ std::string toml_merged(const std::string& text, const std::string& changes) {
   set_values(expected, wanted);
   const std::string merged = merge_table(text, "", wanted, Lines(changes));
   if (toml::parse(merged) != expected) {
-    throw std::runtime_error(
-        "its tables cannot be changed by themselves: write the values by hand");
+    throw std::runtime_error("its tables cannot be changed separately: write the values by hand");
   }
   return merged;
 }

@@ -17,7 +17,7 @@ Wakeup::~Wakeup() { ::close(fd_); }
 
 void Wakeup::set() {
   const std::uint64_t one = 1;
-  // It cannot fail but for a counter that is full, and then it is set.
+  // Fails only if the counter is full, and then it is already set.
   static_cast<void>(!::write(fd_, &one, sizeof one));
 }
 

@@ -1,6 +1,6 @@
-# lcm-gen 1.3.1 trusts the lengths in a datagram: a text of negative length is read far beyond the
-# packet, and an array is made as long as the packet says. A forged packet would end the process. In
-# the generated decoders every length is therefore checked against what is left of the packet.
+# lcm-gen 1.3.1 trusts the lengths in a datagram: a string of negative length is read far beyond the
+# packet, and an array is allocated with any stated size, so a forged packet would crash the process.
+# This adds checks of every length against the rest of the packet to the generated decoders.
 #   cmake -DFOLDER=... -P HardenLcmBindings.cmake
 file(GLOB headers ${FOLDER}/*.hpp)
 foreach(header ${headers})
@@ -15,7 +15,7 @@ foreach(header ${headers})
   endif()
   string(REGEX REPLACE "if\\((__[a-z_0-9]+) > maxlen - pos\\) return -1;"
                        "if(\\1 < 1 || \\1 > maxlen - pos) return -1;" code "${code}")
-  # An element takes a byte at least.
+  # An element has at least one byte.
   string(REGEX REPLACE "(this->[a-z_0-9]+[.]resize\\((this->[a-z_0-9]+)\\);)"
                        "if(\\2 < 0 || \\2 > maxlen - pos) return -1;\n        \\1" code "${code}")
   file(WRITE ${header} "${code}")

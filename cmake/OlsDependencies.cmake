@@ -24,13 +24,13 @@ add_library(GeographicLib::lib INTERFACE IMPORTED)
 target_link_libraries(GeographicLib::lib INTERFACE ${GeographicLib_LIBRARY})
 target_include_directories(GeographicLib::lib SYSTEM INTERFACE ${GeographicLib_INCLUDE_DIR})
 
-# One interface over OpenCV's variables: its headers as system headers.
+# An interface target for OpenCV, with its headers as system headers.
 add_library(ols_opencv INTERFACE)
 target_link_libraries(ols_opencv INTERFACE ${OpenCV_LIBS})
 target_include_directories(ols_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
 
 if(OLS_PYTHON)
-  # The interpreter of the distribution, for which the module is built.
+  # The distribution's interpreter: the module is built for it.
   find_package(Python3 COMPONENTS Interpreter Development.Module REQUIRED)
   set(PYTHON_EXECUTABLE ${Python3_EXECUTABLE})
   find_package(pybind11 CONFIG REQUIRED)

@@ -9,7 +9,7 @@ foreach(program IN ITEMS ols-station ols-fusion ols-ctl ols-doctor ols-logger ol
                          ols-precision ols-stationing)
   install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endforeach()
-# The simulated site is not for a tripod: cmake --install BUILD --component simulator.
+# The simulator is not installed by default: cmake --install BUILD --component simulator.
 install(TARGETS ols-sim ols-sim-ptu RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
         COMPONENT simulator EXCLUDE_FROM_ALL)
 install(DIRECTORY sim/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/ols

@@ -1,4 +1,4 @@
-# Every target of ours gets the same warnings, sanitizers and include root.
+# All our targets get the same warnings, sanitizers and include root.
 
 find_program(OLS_CCACHE ccache)
 if(OLS_CCACHE)
@@ -20,7 +20,7 @@ target_compile_options(
             # Bit-for-bit the same arithmetic on every machine of one architecture.
             -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-  # Debian's libfccp hands on an option that only GCC knows.
+  # Debian's libfccp exports an option that only GCC accepts.
   target_compile_options(ols_options INTERFACE -Wno-unknown-warning-option)
 endif()
 if(OLS_SANITIZE)
@@ -43,7 +43,7 @@ function(ols_program name)
   target_link_libraries(${name} PRIVATE ols_options ${ARG_LINK})
 endfunction()
 
-# ols_test(NAME SOURCES ... LINK ...): a GoogleTest program, one ctest entry a test case.
+# ols_test(NAME SOURCES ... LINK ...): a GoogleTest program, one ctest entry per test case.
 function(ols_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/bus_connector.h"
-#include "base/bus_watch.h"
+#include "base/bus_monitor.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/command_turn.h"
 #include "edge/config.h"
@@ -84,7 +84,7 @@ class StationBus {
   std::vector<std::pair<std::string, Receive>> subscriptions_;
   BusConnector connector_;
   std::unique_ptr<LcmBus> bus_;
-  BusWatch watch_;
+  BusMonitor watch_;
   std::string trouble_ = "not connected yet";
   std::map<std::string, CommandGate> gates_;
   RefusalLog refused_;

@@ -283,7 +283,7 @@ void Station::expire(double now_s) {
 }
 
 void Station::follow(const MadeBearing& made) {
-  const SightLine& sight = made.bearing.sight;
+  const LineOfSight& sight = made.bearing.sight;
   const auto centred = aim_along(pointing_.geometry(), sight.direction);
   if (!centred) return;
   const auto within = pointing_.reachable_from(made.angles, *centred);

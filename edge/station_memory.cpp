@@ -23,18 +23,18 @@ StationMemory::StationMemory(const std::string& folder, const std::string& id, b
     : id_(id),
       hold_(file_of(folder, id, "hold"), {kFree, kStopped, kUnknown, kEmergency}),
       doubt_(file_of(folder, id, "doubt"), doubt_words()) {
-  hold_unknown_ = hold_.recall() != Recall::kKnown || hold_.word() == kUnknown;
+  hold_unknown_ = hold_.restore_result() != RestoreResult::kKnown || hold_.word() == kUnknown;
   // A damaged file, or one that could not be written any more, may have told of an emergency.
-  const bool may_be_grave =
-      hold_.recall() == Recall::kUnreadable || hold_.recall() == Recall::kUnwritable;
+  const bool may_be_grave = hold_.restore_result() == RestoreResult::kUnreadable ||
+                            hold_.restore_result() == RestoreResult::kUnwritable;
   const bool perhaps_emergency = has_stop && may_be_grave;
   if (hold_.word() == kEmergency || perhaps_emergency) {
     begin_ = StationState::kEmergency;
-  } else if (hold_.recall() == Recall::kKnown && hold_.word() == kFree) {
+  } else if (hold_.restore_result() == RestoreResult::kKnown && hold_.word() == kFree) {
     begin_ = StationState::kIdle;
   }
-  doubt_unknown_ = doubt_.recall() != Recall::kKnown;
-  if (doubt_.recall() == Recall::kUnreadable) {
+  doubt_unknown_ = doubt_.restore_result() != RestoreResult::kKnown;
+  if (doubt_.restore_result() == RestoreResult::kUnreadable) {
     begin_doubt_ = PtuReferenceDoubt{true, true};
   } else if (doubt_unknown_) {
     begin_doubt_.emplace();

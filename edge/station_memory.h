@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/word_memory.h"
+#include "base/persisted_word.h"
 #include "edge/ptu/driver_types.h"
 #include "edge/ptu/reference_doubt.h"
 #include "edge/station_types.h"
@@ -35,7 +35,7 @@ class StationMemory {
 
  private:
   std::string id_;
-  WordMemory hold_, doubt_;
+  PersistedWord hold_, doubt_;
   StationState begin_ = StationState::kStopped;
   std::optional<PtuReferenceDoubt> begin_doubt_;
   bool hold_unknown_ = false, doubt_unknown_ = false;

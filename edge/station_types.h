@@ -32,7 +32,7 @@ bool differs(const StationPose& stated, const StationPose& now);
 // A bearing before it becomes a message.
 struct Bearing {
   double mid_exposure_s = 0.0;
-  SightLine sight;
+  LineOfSight sight;
   double belief = 0.0;
   std::int64_t track_id = 0;
   double stamp_sd_s = 0.0;

@@ -14,7 +14,7 @@ using boost::math::non_central_chi_squared;
 
 double chi_square_critical(double level, int degrees) {
   if (!(level > 0.0 && level < 1.0) || degrees < 1) {
-    throw std::invalid_argument("chi-square: no such level or degrees of freedom");
+    throw std::invalid_argument("chi-square: level or degrees of freedom out of range");
   }
   return quantile(complement(chi_squared(degrees), level));
 }

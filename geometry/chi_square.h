@@ -3,18 +3,18 @@
 
 namespace ols {
 
-// What a sum of squares of `degrees` standard normal variables exceeds with the probability `level`
-// (0 < level < 1). std::invalid_argument otherwise.
+// The critical value that a sum of squares of `degrees` standard normal variables exceeds with
+// probability `level` (0 < level < 1). std::invalid_argument for other levels or degrees.
 double chi_square_critical(double level, int degrees);
 
-// The probability that one such variable exceeds `sigma`: a level, told as a number of sigmas.
+// The level that belongs to `sigma`: the probability that a standard normal variable exceeds it.
 double normal_level(double sigma);
 
-// The probability that the sum exceeds `limit` when their means' squares sum up to `noncentrality`.
+// The probability that the sum exceeds `limit` for this noncentrality (sum of the squared means).
 double chi_square_power(double limit, int degrees, double noncentrality);
 
-// The noncentrality at which the sum exceeds `limit` with the probability `power` (Baarda's
-// lambda_0); 0 where it does so anyway.
+// The noncentrality at which the sum exceeds `limit` with probability `power` (Baarda's lambda_0);
+// 0 if the central distribution already does.
 double least_noncentrality(double limit, int degrees, double power);
 
 }  // namespace ols

@@ -19,7 +19,7 @@ const double kLikely = 2.0 * std::log(20.0);
 
 using Rest = Eigen::Matrix<double, kPoseUnknowns - 1, kPoseUnknowns - 1>;
 
-// b^T N^-1 b. Of the heading alone nothing may be known: then it is what the others give.
+// b^T N^-1 b. If the heading is undetermined, its term is left out.
 double quadratic(const PoseInformation& N, const PoseUnknowns& b, double least_heading) {
   const auto cross = N.col(0).tail<kPoseUnknowns - 1>();
   const auto rest = b.tail<kPoseUnknowns - 1>();
@@ -30,7 +30,7 @@ double quadratic(const PoseInformation& N, const PoseUnknowns& b, double least_h
   return of_rest + std::pow(b[0] - cross.dot(solver.solve(rest)), 2) / heading;
 }
 
-// Less than this is rounding: what of the heading's information is left.
+// Information about the heading below this value is rounding error.
 double least_heading(const PoseInformation& N) {
   constexpr double kRounding = 1e-8;
   return kRounding / N.ldlt().solve(PoseUnknowns::Unit(0))[0];
@@ -83,8 +83,8 @@ class Snooping {
     }
   }
 
-  // What is found from the heading of each that no set found before explains, as long as there are
-  // `least` of them; the cheapest first.
+  // The sets grown from each heading that no earlier set explains, while at least `least` landmarks
+  // are unexplained; the cheapest first.
   std::vector<LandmarkFit> candidates(const std::vector<bool>& among, double variance,
                                       std::size_t least) const {
     std::vector<LandmarkFit> found;
@@ -124,7 +124,7 @@ class Snooping {
     return kept;
   }
 
-  // One set aside and one kept, in each other's place, would do nearly as well.
+  // A rejected and a kept landmark that could be exchanged at nearly the same cost.
   std::optional<std::pair<std::size_t, std::size_t>> exchangeable(const LandmarkFit& fit) const {
     const double variance = std::max(1.0, fit.misfit / fit.redundancy);
     const double least = least_heading(fit.information);
@@ -140,7 +140,7 @@ class Snooping {
   }
 
  private:
-  // The heading whose median difference from the others' is least (P. Rousseeuw, 1984).
+  // The heading with the least median difference from the others (P. Rousseeuw, 1984).
   std::size_t seed_of(const std::vector<std::size_t>& rest) const {
     std::size_t best = rest.front();
     double least = kInfinity;
@@ -170,7 +170,7 @@ class Snooping {
     return fit;
   }
 
-  // Takes out the worst that fails, or takes in all that pass.
+  // Removes the worst landmark that fails, or adds all that pass.
   bool improve(std::vector<bool>& kept, const LandmarkFit& fit, const std::vector<bool>& among,
                double variance) const {
     std::size_t worst = count_, inside = 0;
@@ -222,7 +222,7 @@ std::vector<std::size_t> sightings_of(const LandmarkAdjustment& adjustment,
   throw LandmarksContradict(why, alternatives);
 }
 
-// Throws where it is not certain that just these are mistaken.
+// Throws if the choice of mistaken landmarks is ambiguous.
 void check(const LandmarkAdjustment& adjustment, const Snooping& snooping,
            const std::vector<LandmarkFit>& found, double variance) {
   const LandmarkFit& fit = found.front();
@@ -231,18 +231,17 @@ void check(const LandmarkAdjustment& adjustment, const Snooping& snooping,
   const auto failing = snooping.failing(fit, variance);
   if (!failing.empty()) {
     throw LandmarksContradict(
-        "sightings contradict each other, or what is stated of the station's tilt, mounting or "
-        "position",
+        "sightings contradict each other, or the stated tilt, mounting or position of the station",
         {}, sightings_of(adjustment, failing));
   }
   if (aside == 0) return;
   if (inside <= aside) contradict(adjustment, "the landmarks contradict each other", found);
   std::vector<bool> others = fit.kept;
   others.flip();
-  const std::size_t rivals = std::max<std::size_t>(2, (inside + 1) / 2);
-  for (const LandmarkFit& rival : snooping.candidates(others, variance, rivals)) {
-    if (Snooping::set(rival.kept, true).size() < rivals) continue;
-    contradict(adjustment, "two groups of landmarks contradict each other", {fit, rival});
+  const std::size_t group_size = std::max<std::size_t>(2, (inside + 1) / 2);
+  for (const LandmarkFit& alternative : snooping.candidates(others, variance, group_size)) {
+    if (Snooping::set(alternative.kept, true).size() < group_size) continue;
+    contradict(adjustment, "two groups of landmarks contradict each other", {fit, alternative});
   }
   if (const auto exchange = snooping.exchangeable(fit)) {
     std::vector<bool> kept = fit.kept;
@@ -253,7 +252,7 @@ void check(const LandmarkAdjustment& adjustment, const Snooping& snooping,
   }
 }
 
-// By how much all variances are supposed to be greater than stated, and what is found then.
+// All variances enlarged by a common factor, and the sets found under that assumption.
 struct Hypothesis {
   double variance = 1.0;
   std::vector<LandmarkFit> found;
@@ -272,7 +271,7 @@ Hypothesis hypothesis(const Snooping& snooping, const std::vector<bool>& among, 
 LandmarkFit without_mistaken(const LandmarkAdjustment& adjustment, double level) {
   const Snooping snooping(adjustment, level);
   const std::vector<bool> all(adjustment.landmarks().size(), true);
-  // Of so many that most agree with the first heading, all others need not be tried.
+  // With more landmarks than this, trying the first headings suffices: most landmarks agree.
   constexpr std::size_t kMany = 50;
   const std::size_t least = all.size() > kMany ? all.size() / 2 : 1;
   const Hypothesis stated = hypothesis(snooping, all, 1.0, least);

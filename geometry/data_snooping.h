@@ -1,31 +1,30 @@
-// Data snooping: which of the sighted landmarks are mistaken, if that can be told.
+// Data snooping: finds the mistaken landmarks among the sighted ones.
 //
-// A landmark is mistaken when the others leave no doubt (Baarda's w-test with both components of
-// all its sightings at once, the level shared by all landmarks). Its error takes no part in the
-// supposition, so that a set of mistaken landmarks costs the misfit of the others plus a critical
-// value for each one set aside. From the heading of each landmark, the set that it leads to is
-// grown until no landmark inside fails its test and none outside would pass; the cheapest is taken.
-// The same is tried supposing that all stated deviations are too small by 2, 4 or 8: what is evenly
-// bad is not thrown away until a few remain that agree by chance. That is believed at odds of 1000,
-// or of 20 where it cannot be told which landmarks are mistaken.
+// Each landmark is tested by Baarda's w-test, with both components of all its sightings at once;
+// the landmarks share the level of significance. The cost of a hypothesis is the misfit of the kept
+// landmarks plus one critical value for each rejected landmark. Starting from the heading of each
+// landmark, a set is grown until no landmark inside fails its test and none outside passes; the
+// cheapest set wins. The search is repeated with all stated deviations enlarged by 2, 4 and 8, so
+// that uniformly bad sightings are not rejected until a few remain that agree by chance. The
+// enlarged deviations are accepted at odds of 1000, or of 20 where the mistaken landmarks are
+// ambiguous.
 //
-// No landmark is guessed to be wrong: as much must be kept as is set aside and more, no other
-// landmarks must do as well in the place of those set aside (odds of 1000), and those must not
-// agree with one another as half of the kept do: then the tripod was moved, or the survey has two
-// origins.
+// Landmarks are rejected only if all of this holds: more landmarks are kept than rejected; no other
+// choice fits nearly as well (odds of 1000); and the rejected ones do not agree with one another in
+// a group half as large as the kept one: then the tripod was moved, or the survey has two origins.
 #pragma once
 
 #include "geometry/landmark_adjustment.h"
 
 namespace ols {
 
-// LandmarksContradict where it cannot be told.
+// Throws LandmarksContradict if the mistaken landmarks are ambiguous.
 LandmarkFit without_mistaken(const LandmarkAdjustment& adjustment, double level);
 
-// Its test's chi-square, inside or outside: against the kept others.
+// The chi-square of the landmark's test against the other kept landmarks.
 double leave_one_out(const LandmarkFit& fit, std::size_t landmark);
 double critical_value(const LandmarkAdjustment& adjustment, std::size_t landmark, double level);
-// The minimal detectable bias [m] across and up; the noncentrality is that of the test's power.
+// The minimal detectable bias [m] across and up, for the noncentrality of the test's power.
 Eigen::Vector2d detectable_m(const LandmarkAdjustment& adjustment, const LandmarkFit& fit,
                              std::size_t landmark, double noncentrality);
 

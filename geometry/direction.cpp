@@ -43,7 +43,7 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-Eigen::Vector3d direction_ecef(const SightLine& sight) {
+Eigen::Vector3d direction_ecef(const LineOfSight& sight) {
   return R_ecef_enu(sight.origin_ecef) * enu_from_azimuth_elevation(sight.direction);
 }
 

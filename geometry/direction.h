@@ -25,15 +25,15 @@ AzimuthElevation azimuth_elevation_from_enu(const Eigen::Vector3d& v_enu);
 // orthogonal to the direction and to each other.
 Eigen::Matrix<double, 3, 2> tangent_basis(const AzimuthElevation& direction);
 
-// How a direction moves on its tangent plane when it is rotated by a small rotation [rad], whose
-// components are those that the tangent's columns have: 2x3.
+// 2x3: the motion of a direction on its tangent plane per small rotation vector [rad], in the frame
+// of the tangent's columns.
 Eigen::Matrix<double, 2, 3> shift_by_rotation(const Eigen::Matrix<double, 3, 2>& tangent);
 
 // Angle between two vectors [rad], exact also when it is tiny.
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
-// A measured line of sight: everything that fusion needs to know of one bearing's geometry.
-struct SightLine {
+// A measured line of sight: the complete geometry of one bearing.
+struct LineOfSight {
   Eigen::Vector3d origin_ecef = Eigen::Vector3d::Zero();  // [m] camera centre
   AzimuthElevation direction;                             // in the horizon at origin_ecef
   // [rad^2] on the tangent plane, order (cross-elevation, elevation).
@@ -42,7 +42,7 @@ struct SightLine {
   Eigen::Vector3d origin_sd_enu_m = Eigen::Vector3d::Zero();        // [m] stays
 };
 
-// Unit vector of a sight line in ECEF.
-Eigen::Vector3d direction_ecef(const SightLine& sight);
+// Unit vector of a line of sight in ECEF.
+Eigen::Vector3d direction_ecef(const LineOfSight& sight);
 
 }  // namespace ols

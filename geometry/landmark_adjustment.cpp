@@ -37,13 +37,13 @@ Vector3d to_landmark_enu(const StationGeometry& station, const Eigen::Isometry3d
 
 void check(const LandmarkSighting& s, std::size_t i) {
   const Vector3d sds(s.landmark_sd_m, s.pixel_sd_px, s.angles_sd_rad);
-  if (!s.landmark_ecef.allFinite()) throw SightingRefused(i, "landmark", "not a finite number");
-  if (!s.pixel.allFinite()) throw SightingRefused(i, "pixel", "not a finite number");
+  if (!s.landmark_ecef.allFinite()) throw LandmarkRefused(i, "landmark", "not a finite number");
+  if (!s.pixel.allFinite()) throw LandmarkRefused(i, "pixel", "not a finite number");
   if (!std::isfinite(s.angles.pan_rad) || !std::isfinite(s.angles.tilt_rad)) {
-    throw SightingRefused(i, "angles", "not a finite number");
+    throw LandmarkRefused(i, "angles", "not a finite number");
   }
   if (!sds.allFinite() || sds.minCoeff() < 0.0 || sds.tail<2>().isZero(0.0)) {
-    throw SightingRefused(i, "deviation", "must be positive");
+    throw LandmarkRefused(i, "deviation", "must be positive");
   }
 }
 
@@ -89,15 +89,15 @@ LandmarkAdjustment::LandmarkAdjustment(const StationGeometry& rough,
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     check(sightings[i], i);
     const auto ray = unproject(rough.camera, sightings[i].pixel);
-    if (!ray) throw SightingRefused(i, "pixel", "is outside of the lens model");
+    if (!ray) throw LandmarkRefused(i, "pixel", "is outside of the lens model");
     rays_cam_.push_back(*ray);
     const Eigen::Isometry3d camera = enu_from_camera(rough.chain, sightings[i].angles);
     distances_m_.push_back(to_landmark_enu(rough, camera, sightings[i]).norm());
     if (!(distances_m_.back() >= kLeastDistance_m)) {
-      throw SightingRefused(i, "landmark", "is at the station");
+      throw LandmarkRefused(i, "landmark", "is at the station");
     }
     if (distances_m_.back() > kGreatestDistance_m) {
-      throw SightingRefused(i, "landmark",
+      throw LandmarkRefused(i, "landmark",
                             "is " + std::to_string(std::lround(1e-3 * distances_m_.back())) +
                                 " km from the station, more than can be sighted");
     }

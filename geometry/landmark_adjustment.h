@@ -1,8 +1,8 @@
 // The least-squares adjustment of geometry/stationing.h: of a station's pose, by any choice of the
 // sighted landmarks, linearised for all of them.
 //
-// A landmark is all sightings of one place: what its coordinates are off is common to them, so that
-// sighting it twice makes it no better known.
+// A landmark groups all sightings of one place: they share the error of its coordinates, which
+// repeated sightings do not average out.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,26 +20,26 @@ inline constexpr int kPoseUnknowns = 9;
 using PoseUnknowns = Eigen::Matrix<double, kPoseUnknowns, 1>;
 using PoseInformation = Eigen::Matrix<double, kPoseUnknowns, kPoseUnknowns>;
 
-// What a landmark's sightings say at a pose, with W the inverse of their covariance, J their
-// Jacobian and v their residuals.
+// The normal equations of a landmark's sightings at a pose, with W the inverse of their covariance,
+// J their Jacobian and v their residuals.
 struct LandmarkEquations {
   PoseInformation information = PoseInformation::Zero();  // J^T W J
   PoseUnknowns gradient = PoseUnknowns::Zero();           // J^T W v
   double squares = 0.0;                                   // v^T W v
-  // Of a shift of the landmark by one radian as seen from the station, across and up: s is 1 in
+  // For a shift of the landmark by one radian as seen from the station, across and up: s is 1 in
   // each sighting.
   double shift_information = 0.0;                       // s^T W s
   Eigen::Matrix<double, kPoseUnknowns, 2> shift_pose =  // J^T W s
       Eigen::Matrix<double, kPoseUnknowns, 2>::Zero();
 };
 
-// A pose by some of the landmarks, and what all of them say there.
+// A pose fitted to the kept landmarks, and the equations of all landmarks at that pose.
 struct LandmarkFit {
   std::vector<bool> kept;  // by landmark
   PoseUnknowns unknowns = PoseUnknowns::Zero();
   StationGeometry station;
   PoseInformation information = PoseInformation::Zero();
-  double misfit = 0.0;  // of the kept and of the stated deviations: chi-square with `redundancy`
+  double misfit = 0.0;  // of the kept landmarks and the priors: chi-square with `redundancy`
   int redundancy = 0;
   std::vector<LandmarkEquations> landmarks;
 };
@@ -53,9 +53,9 @@ class LandmarkAdjustment {
   // The heading at which the landmark's first sighting meets it.
   double heading_by(std::size_t landmark) const;
   LandmarkFit fit(const std::vector<bool>& kept, double heading_rad) const;
-  // One deviation of each unknown: 0 where it is known.
+  // The standard deviation of each unknown; 0 if it is known exactly.
   const PoseUnknowns& scale() const { return scale_; }
-  // Of a sighting at a pose [rad], (across, up) by which the measured line misses the landmark.
+  // By how much the sighting's line of sight misses the landmark [rad]: (across, up).
   Eigen::Vector2d residual(const StationGeometry& station, std::size_t sighting) const;
   double deviation_rad(std::size_t sighting) const;  // of a residual's components
   double distance_m(std::size_t sighting) const;
@@ -78,7 +78,7 @@ class LandmarkAdjustment {
   PoseUnknowns scale_;
 };
 
-// The station with its pose changed by what the unknowns are worth.
+// The station with its pose changed by the unknowns.
 StationGeometry changed(const StationGeometry& station, const PoseUnknowns& by);
 
 }  // namespace ols

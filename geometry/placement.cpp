@@ -26,7 +26,7 @@ std::optional<double> squared_error_m2(const Matrix3d& information) {
   return squared;
 }
 
-// The greatest error alone gives the search nothing to descend where several points share it: the
+// The largest error alone gives the search no descent direction where several points share it: the
 // power mean of this order stands for it.
 constexpr double kOrder = 10.0;
 
@@ -91,7 +91,7 @@ class Search {
   }
 
  private:
-  // What stations tell of a point; one that stands there tells nothing of it.
+  // The stations' information about a point; a station at the point itself contributes none.
   struct Seen {
     Matrix3d information = Matrix3d::Zero();
     bool is_a_station = false;

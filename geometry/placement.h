@@ -3,7 +3,7 @@
 //
 // A place is worth its information about each point of the area (geometry/precision.h); the cost of
 // a choice is the root of the mean, over the area, of the expected squared distance from the truth,
-// or the greatest over the area (as a power mean of high order, which a search can descend). It
+// or the largest over the area (as a power mean of high order, which a search can descend). It
 // starts from random choices and improves each by exchanging one place at a time for the best other
 // one until none helps (V. Fedorov's exchange algorithm).
 #pragma once
@@ -18,17 +18,17 @@
 
 namespace ols {
 
-// A point's error counts as so much where the stations do not determine it. Where one of them
-// stands it does not count then.
+// The error that counts for a point whose position the stations do not determine. The place of a
+// chosen station itself then does not count.
 inline constexpr double kUndetermined_m = 1e6;
 
-// To protect an area means to protect its worst point: where the stations may stand anywhere around
-// it, that gives the paper's regular polygon on its edge. The mean gives it too from four stations
-// on; three it rather puts on one side, which the far side of the area pays for.
+// The default criterion is the worst point: where stations may stand anywhere around the area, it
+// gives the paper's regular polygon on the edge. The mean gives the polygon from four stations on,
+// but puts three on one side, at the expense of the far side.
 enum class PlacementGoal { kMean, kWorst };
 
 struct PlacementProblem {
-  std::vector<PlannedStation> kept;    // stand already
+  std::vector<PlannedStation> kept;    // already in place
   std::vector<PlannedStation> places;  // can be used, each once
   std::vector<PlannedTarget> area;     // points that stand for it, each for as much of it
   std::size_t stations = 0;            // to choose
@@ -40,12 +40,12 @@ struct PlacementProblem {
 struct Placement {
   std::vector<std::size_t> chosen;  // of the places, in growing order
   double mean_m = 0.0;              // root of the mean squared 3-D error over the area
-  double worst_m = 0.0;             // the greatest root mean squared 3-D error in it
+  double worst_m = 0.0;             // the largest root mean squared 3-D error in it
 
   bool determines_all() const { return worst_m < 0.1 * kUndetermined_m; }
 };
 
-// Called again and again during a search: how many of the starts are done, and all of them.
+// Called repeatedly during a search with the number of starts done and their total.
 using TellStarts = std::function<void(std::size_t done, std::size_t all)>;
 
 // std::invalid_argument when there are fewer places than stations, no area or no station.

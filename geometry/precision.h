@@ -21,12 +21,12 @@ namespace ols {
 
 // 2x3 [rad/m]: derivative of the direction to a point, on the tangent plane (cross-elevation,
 // elevation) of the station's horizon, by the point's position in ECEF. With the opposite sign that
-// by the station's own position; what the horizon turns when the station is elsewhere, below
-// 2e-7 rad/m outside the polar regions, is left out.
+// by the station's own position. The turn of the horizon with the station's position (below 2e-7
+// rad/m outside the polar regions) is neglected.
 Eigen::Matrix<double, 2, 3> bearing_jacobian(const LocalFrame& station,
                                              const Eigen::Vector3d& p_ecef);
 
-// What one station's measurement of one target is worth.
+// One station's measurement of one target.
 struct BearingPrecision {
   LocalFrame station{Geodetic{}};  // origin: the camera centre
   Eigen::Matrix2d covariance_rad2 =
@@ -45,12 +45,12 @@ std::optional<Eigen::Matrix3d> bound_from_information(const Eigen::Matrix3d& inf
 std::optional<Eigen::Matrix3d> cramer_rao_bound(std::span<const BearingPrecision> bearings,
                                                 const Eigen::Vector3d& p_ecef);
 
-// A station as a plan knows it, its optical axis on the target.
+// A planned station with its optical axis on the target.
 struct PlannedStation {
   LocalFrame place{Geodetic{}};  // origin: the camera centre
   double white_rad = 0.0;        // 1-sigma of each axis of the tangent plane, new with every frame
   CalibrationSd calibration;     // stays; the roll about the optical axis moves nothing on it
-  double clock_sd_s = 0.0;       // stays; worth the target's motion in that time
+  double clock_sd_s = 0.0;       // stays; counts as the target's motion in that time
 };
 
 // Where an error comes from.
@@ -59,7 +59,7 @@ inline constexpr std::array kErrorSources{ErrorSource::kWhite,    ErrorSource::k
                                           ErrorSource::kTilt,     ErrorSource::kMounting,
                                           ErrorSource::kPosition, ErrorSource::kClock};
 
-// A target as a plan knows it.
+// A planned target.
 struct PlannedTarget {
   Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();  // [m]
   // [m^2/s^2] second moment E[v v'] of its velocity, ECEF: v v' of a known one, speed^2 / 3 times

@@ -73,7 +73,7 @@ double normal_component(const Baseline& baseline, const Vector3d& target) {
 }
 
 std::size_t best_baseline(std::span<const Baseline> baselines, const Vector3d& target) {
-  if (baselines.empty()) throw std::invalid_argument("best_baseline: there is none");
+  if (baselines.empty()) throw std::invalid_argument("best_baseline: no baseline is given");
   const auto best = std::ranges::max_element(
       baselines, {}, [&](const Baseline& baseline) { return normal_component(baseline, target); });
   return static_cast<std::size_t>(best - baselines.begin());

@@ -2,7 +2,7 @@
 // of a target that two cameras see. Plane geometry; lengths in metres, angles in radians.
 //
 // Every error here is a worst case, not a deviation: the pixels are off by up to p, and the result
-// is the greatest distance from the truth that this can cause. Infinity where nothing bounds it.
+// is the largest distance from the truth that this can cause; infinity if it is unbounded.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,7 +30,7 @@ double canonical_stereo_error_m(const PixelError& error, double base_m, double d
 double rotating_pair_error_m(const PixelError& error, double base_m, double distance_m);
 
 // Both cameras in error by up to angle_rad, in the plane of the cameras and the target: the
-// greatest distance from the target at which the two rays can meet. All such points fill the
+// largest distance from the target at which the two rays can meet. All such points fill the
 // intersection of two wedges, which is convex: its farthest point is one of its corners.
 double pair_error_m(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
                     const Eigen::Vector3d& target, double angle_rad);

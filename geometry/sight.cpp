@@ -88,7 +88,7 @@ std::optional<PanTilt> aim_from_centre(const ChainParameters& chain,
 
 }  // namespace
 
-std::optional<SightLine> sight(const StationGeometry& station, const PixelSight& measurement) {
+std::optional<LineOfSight> sight(const StationGeometry& station, const PixelSight& measurement) {
   const std::optional<Eigen::Vector3d> ray_cam = unproject(station.camera, measurement.pixel);
   if (!ray_cam) return std::nullopt;
   const LocalFrame ground(station.position);
@@ -96,7 +96,7 @@ std::optional<SightLine> sight(const StationGeometry& station, const PixelSight&
   const Eigen::Matrix3d R_horizon = R_ground_horizon(ground, camera.translation());
   const Eigen::Vector3d direction = camera.linear() * *ray_cam;
 
-  SightLine line;
+  LineOfSight line;
   line.origin_ecef = ground.to_ecef(camera.translation());
   line.direction = azimuth_elevation_from_enu(R_horizon.transpose() * direction);
   line.origin_sd_enu_m.setConstant(station.sd.position_m);

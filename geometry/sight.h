@@ -1,4 +1,4 @@
-// Sight: pixel + PTU angles -> line of sight with its covariance, and the way back.
+// Sight: pixel + PTU angles -> line of sight with its covariance, and the inverse.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace ols {
 
-// What is not known of a calibration; 1-sigma, all of it stays from frame to frame.
+// Calibration errors, 1-sigma; systematic: they stay from frame to frame.
 struct CalibrationSd {
   double heading_rad = 0.0;
   double tilt_rad = 0.0;        // of each of the two axes of ORIGIN
@@ -39,7 +39,7 @@ struct PixelSight {
 
 // The line of sight of a pixel, first-order covariances. Nothing when the pixel cannot be
 // unprojected.
-std::optional<SightLine> sight(const StationGeometry& station, const PixelSight& measurement);
+std::optional<LineOfSight> sight(const StationGeometry& station, const PixelSight& measurement);
 
 // A point seen by a station.
 struct View {
@@ -47,13 +47,13 @@ struct View {
   double distance_m = 0.0;  // from the camera centre
 };
 
-// The way back, at given PTU angles: the pixel of a point, or nothing when it is behind the camera.
+// The inverse at given PTU angles: the pixel of a point, or nothing when it is behind the camera.
 std::optional<View> view(const StationGeometry& station, const PanTilt& angles,
                          const Eigen::Vector3d& p_ecef);
 
-// The way back, free: PTU angles that put the point on the given pixel (default: where the optical
-// axis meets the image). Takes the lever arms of the chain into account. Nothing when out of reach
-// of any pan and tilt.
+// The inverse with free PTU angles: those that put the point on the given pixel (default: where the
+// optical axis meets the image). Takes the lever arms of the chain into account. Nothing when out
+// of reach of any pan and tilt.
 std::optional<PanTilt> aim_at(const StationGeometry& station, const Eigen::Vector3d& p_ecef,
                               const std::optional<Eigen::Vector2d>& pixel = std::nullopt);
 

@@ -121,7 +121,7 @@ void test_landmarks(Stationing& result, const LandmarkAdjustment& adjustment,
       noncentrality = least_noncentrality(critical, 2 * static_cast<int>(sightings.size()), kPower);
     }
     result.landmarks.push_back({.sightings = sightings,
-                                .set_aside = !fit.kept[l],
+                                .rejected = !fit.kept[l],
                                 .w = std::sqrt(std::max(0.0, leave_one_out(fit, l))),
                                 .critical = std::sqrt(critical),
                                 .detectable_m = detectable_m(adjustment, fit, l, noncentrality)});

@@ -1,10 +1,9 @@
 // Stationing (paper section 4.2): "the precise heading must be estimated visually by observing the
 // distinctive landmarks". From sightings of places whose positions are known, the heading of a
-// station, and what they add to what the inclinometer and the rectification know of its tilt and of
-// its camera's mounting.
+// station, and corrections of its tilt (inclinometer) and of its camera's mounting (rectification).
 //
-// Maximum a posteriori: nothing is known of the heading; tilts, mounting and position have the
-// station's stated deviations as priors. The position is not changed, it is only not known exactly.
+// Maximum a posteriori: no prior for the heading; tilts, mounting and position have the station's
+// stated deviations as priors. The position is a nuisance parameter: it is not changed.
 // A turn of the mounting about the vertical looks like a heading; only the sum shows at the
 // horizon, and only the sum is needed there.
 //
@@ -25,8 +24,8 @@
 
 namespace ols {
 
-// A landmark in a station's picture. A pixel and angles without any error are refused. Sightings of
-// exactly the same place are of one landmark, whose coordinates' error they share.
+// A landmark in a station's image. Its pixel and angles must have an error. Sightings of exactly
+// the same place belong to one landmark and share the error of its coordinates.
 struct LandmarkSighting {
   Eigen::Vector3d landmark_ecef = Eigen::Vector3d::Zero();  // [m] as the land register has it
   double landmark_sd_m = 0.0;                               // of each axis
@@ -36,10 +35,10 @@ struct LandmarkSighting {
   double angles_sd_rad = 0.0;
 };
 
-// A sighting that is none.
-class SightingRefused : public std::invalid_argument {
+// A sighting that cannot be used.
+class LandmarkRefused : public std::invalid_argument {
  public:
-  SightingRefused(std::size_t sighting, const std::string& field, const std::string& why)
+  LandmarkRefused(std::size_t sighting, const std::string& field, const std::string& why)
       : std::invalid_argument("stationing: sighting " + std::to_string(sighting + 1) + ": " +
                               field + ": " + why),
         sighting_(sighting),
@@ -54,13 +53,13 @@ class SightingRefused : public std::invalid_argument {
   std::string field_, why_;
 };
 
-// Without the sightings that it sets aside all others agree.
+// One explanation of a contradiction: without the rejected sightings all others agree.
 struct StationingAlternative {
-  std::vector<std::size_t> set_aside;
+  std::vector<std::size_t> rejected;
   double heading_rad = 0.0;
 };
 
-// Landmarks of which some must be mistaken, and it cannot be told which.
+// Some landmarks must be mistaken, but the sightings do not show which.
 class LandmarksContradict : public std::invalid_argument {
  public:
   LandmarksContradict(const std::string& why, std::vector<StationingAlternative> alternatives,
@@ -70,9 +69,9 @@ class LandmarksContradict : public std::invalid_argument {
         alternatives_(std::move(alternatives)),
         failing_(std::move(failing)) {}
   const std::string& why() const { return why_; }
-  // The likeliest first, five at most.
+  // At most five, the likeliest first.
   const std::vector<StationingAlternative>& alternatives() const { return alternatives_; }
-  // Without alternatives: sightings that contradict each other or what is stated of the station.
+  // Without alternatives: the sightings that contradict each other or the stated pose.
   const std::vector<std::size_t>& failing() const { return failing_; }
 
  private:
@@ -84,61 +83,60 @@ class LandmarksContradict : public std::invalid_argument {
 // heading, tilt x, tilt y, mount z, mount x, mount y of ChainParameters.
 using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 
-// Levels of significance: how often each test finds something where nothing is.
+// Levels of significance: how often each test rejects a correct hypothesis.
 struct StationingLevels {
   double mistaken = 1e-3;  // the w-tests of all landmarks together
   double misfit = 0.05;    // the global test
 };
 
-// The w-test of a landmark: of all its sightings at once, against the others.
+// The w-test of a landmark: all its sightings together, against the others.
 struct LandmarkTest {
   std::vector<std::size_t> sightings;
-  bool set_aside = false;
-  // By how much its sightings stand out, the root of a chi-square with 2 degrees of freedom a
-  // sighting; beyond the critical value it is mistaken.
+  bool rejected = false;
+  // The root of a chi-square with 2 degrees of freedom per sighting; beyond the critical value the
+  // landmark is mistaken.
   double w = 0.0;
   double critical = 0.0;
   // The minimal detectable bias (power 80 %): a shift of the landmark across and up, as seen from
-  // the station. Infinite where the others do not check it. One along the line of sight does not
-  // show.
+  // the station. Infinite if the others do not check it. A shift along the line of sight is
+  // not detectable.
   Eigen::Vector2d detectable_m = Eigen::Vector2d::Zero();
 };
 
-// The global test (overall model test), of what is not set aside.
+// The global test (overall model test) of the landmarks that are not rejected.
 struct GlobalTest {
-  double variance_factor = 0.0;  // a posteriori, of what was stated; expected: 1
+  double variance_factor = 0.0;  // a posteriori; expected: 1
   double critical = 0.0;
   int redundancy = 0;
 };
 
-// Of a line of sight along the horizon, 1-sigma.
+// 1-sigma of a line of sight along the horizon.
 struct HorizonSd {
   double azimuth_rad = 0.0;
   double elevation_sd_rad = 0.0;
 };
 
 struct Stationing {
-  // With the chain as found. Its sd gives to the heading and the tilts alone what is left of the
-  // mounting: the least deviations that cover every line of sight no farther than `highest_rad`
-  // from the horizon. What is left is strongly correlated, and deviations alone cannot say that.
+  // With the adjusted chain. The remaining errors are strongly correlated, which separate
+  // deviations cannot express: its sd has none for the mounting and the smallest for heading and
+  // tilts that cover every line of sight within `highest_rad` of the horizon.
   StationGeometry station;
-  // [rad^2] Times the variance factor where the global test rejects the stated deviations: never
-  // less than they allow.
+  // [rad^2] Multiplied by the variance factor if the global test rejects the stated deviations.
   PoseCovariance covariance = PoseCovariance::Zero();
-  // Of each sighting, (cross-elevation, elevation) over its deviation.
+  // Each sighting's (cross-elevation, elevation) divided by its deviation.
   std::vector<Eigen::Vector2d> residuals;
   std::vector<Eigen::Vector2d> residuals_rad;
   std::vector<LandmarkTest> landmarks;
   GlobalTest global;
-  // The w-test of what was stated of tilt x, tilt y, mount z, mount x, mount y, east, north and up:
-  // standard normal; 0 of what was stated without a deviation.
+  // The w-test of the priors of tilt x, tilt y, mount z, mount x, mount y, east, north and up:
+  // standard normal; 0 for a prior without a deviation.
   std::array<double, 8> stated_w{};
   double scaled_by = 1.0;  // the deviations, for the global test
   HorizonSd best, worst;   // where the landmarks determine the tilt best and least
 };
 
 // std::invalid_argument for no sighting, and where the landmarks leave the heading unknown (10
-// degrees); SightingRefused for one that is not finite, outside of the lens model or of a landmark
+// degrees); LandmarkRefused for one that is not finite, outside of the lens model or of a landmark
 // at the station; LandmarksContradict.
 Stationing station_by_landmarks(const StationGeometry& rough,
                                 std::span<const LandmarkSighting> sightings, double highest_rad,

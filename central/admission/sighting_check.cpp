@@ -38,7 +38,7 @@ bool variances_within(const Eigen::Matrix2d& m, double least_rad2) {
 
 // The bounds are far beyond any camera's; outside of them one bearing would upset the arithmetic
 // of the whole fit.
-bool covariances_hold(const SightLine& sight) {
+bool covariances_hold(const LineOfSight& sight) {
   constexpr double kLeastWhiteRad2 = 1e-18;
   constexpr double kWorstCondition = 1e8;  // of the white one: greatest eigenvalue over least
   const Eigen::Matrix2d& white = sight.covariance_white;

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "base/bus_connector.h"
-#include "base/bus_watch.h"
+#include "base/bus_monitor.h"
 #include "central/app/messages.h"
 
 namespace ols {
@@ -55,7 +55,7 @@ class FusionBus {
   BusConnector connector_;
   std::unique_ptr<LcmBus> bus_;       // nothing: no network
   std::unique_ptr<LcmBus> slew_bus_;  // nothing: slews go on the same bus
-  BusWatch watch_;
+  BusMonitor watch_;
   std::string alarm_;    // the last one
   std::string trouble_;  // of the network
   bool send_failed_ = false;

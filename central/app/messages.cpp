@@ -86,7 +86,7 @@ void fill_bearing(const std::optional<BearingOnly>& only, ols_msg::target_t& mes
   message.azimuth_rad = message.elevation_rad = message.direction_sd_rad = nan;
   message.direction_rate_rad_s[0] = message.direction_rate_rad_s[1] = nan;
   if (!only) return;
-  const SightLine& sight = only->sight;
+  const LineOfSight& sight = only->sight;
   message.azimuth_rad = sight.direction.azimuth_rad;
   message.elevation_rad = sight.direction.elevation_rad;
   message.direction_sd_rad =

@@ -129,7 +129,7 @@ Solution why_behind(const Problem& problem, const std::vector<double>& weights) 
   double variance = 0.0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (!use[i].used) continue;
-    const SightLine& sight = problem.rays[i].sight;
+    const LineOfSight& sight = problem.rays[i].sight;
     variance = std::max(variance, (sight.covariance_white + sight.covariance_systematic).trace());
   }
   const double doubtful_rad = 3.0 * std::sqrt(2.0 * variance);

@@ -35,7 +35,7 @@ SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
 }
 
 StationBias station_bias(const InteractingModels& models, Eigen::Index first,
-                         const BiasPrior& prior, const SightLine& sight, double range_m) {
+                         const BiasPrior& prior, const LineOfSight& sight, double range_m) {
   const Eigen::Index n = states_of(prior);
   StationVector mean = StationVector::Zero(n);
   for (std::size_t m = 0; m < models.size(); ++m) {

@@ -38,6 +38,6 @@ struct StationBias {
 
 // Mixed over the models: the states of a station from `first` on, as they move its last bearing.
 StationBias station_bias(const InteractingModels& models, Eigen::Index first,
-                         const BiasPrior& prior, const SightLine& sight, double range_m);
+                         const BiasPrior& prior, const LineOfSight& sight, double range_m);
 
 }  // namespace ols

@@ -107,7 +107,7 @@ Eigen::Array2d StationErrors::learnt(const std::string& station, const Eigen::Ar
   return (squared / (weight + seen->weight + seen->weight_now)).max(least * noise_rad2);
 }
 
-BiasPrior StationErrors::prior(const std::string& station, const SightLine& sight, double range_m,
+BiasPrior StationErrors::prior(const std::string& station, const LineOfSight& sight, double range_m,
                                bool place_apart) const {
   constexpr double kNone = 1e-24;
   BiasPrior prior{.covariance = stated_covariance(sight, range_m), .place_apart = place_apart};
@@ -134,13 +134,13 @@ BiasPrior StationErrors::prior(const std::string& station, const SightLine& sigh
   return prior;
 }
 
-Eigen::Matrix2d StationErrors::untold(const std::string& station, const SightLine& sight) const {
+Eigen::Matrix2d StationErrors::untold(const std::string& station, const LineOfSight& sight) const {
   const Eigen::Array2d stated = sight.covariance_systematic.diagonal();
   const Eigen::Array2d all = learnt(station, stated, sight.covariance_white.diagonal());
   return (all - stated).max(0.0).matrix().asDiagonal();
 }
 
-void StationErrors::observe(const std::string& station, const SightLine& sight,
+void StationErrors::observe(const std::string& station, const LineOfSight& sight,
                             const SeenBias& bias, double dt_s, double range_m) {
   const Eigen::Array2d stated = stated_covariance(sight, range_m).diagonal();
   Seen& seen = at(station);

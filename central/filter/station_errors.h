@@ -79,12 +79,12 @@ class StationErrors {
   void learn(const StationErrors& evidence);
 
   // Stays of the sight line itself: calibration, and the station's place seen from the range.
-  BiasPrior prior(const std::string& station, const SightLine& sight, double range_m,
+  BiasPrior prior(const std::string& station, const LineOfSight& sight, double range_m,
                   bool place_apart = false) const;
   // The same, added to what a ray states, for estimators without bias states [rad^2].
-  Eigen::Matrix2d untold(const std::string& station, const SightLine& sight) const;
+  Eigen::Matrix2d untold(const std::string& station, const LineOfSight& sight) const;
   // A bias as the filter has it and what its prior was, over dt_s since it was told last.
-  void observe(const std::string& station, const SightLine& sight, const SeenBias& bias,
+  void observe(const std::string& station, const LineOfSight& sight, const SeenBias& bias,
                double dt_s, double range_m);
   // What the residual of a bearing shows of the noise's variance, over the one it was taken with.
   void observe_residual(const std::string& station, double ratio);

@@ -49,7 +49,7 @@ StationPart TrackFilter::part_of(int station, const RayFrame& frame) const {
           shift_by_rotation(R.transpose() * frame.tangent), R};
 }
 
-bool TrackFilter::place_matters(const SightLine& sight) const {
+bool TrackFilter::place_matters(const LineOfSight& sight) const {
   const double range_m = (models_[0].mean.head<3>() - sight.origin_ecef).norm();
   const double all = stated_covariance(sight, range_m).trace();
   const double of_place = all - sight.covariance_systematic.trace();

@@ -65,7 +65,7 @@ enum class BearingUse { kUsed, kSetAside, kBehindCamera, kTooLate, kNoPlace };
 // A contributing station.
 struct FilterStation {
   std::string station;
-  SightLine sight;                                           // its last bearing
+  LineOfSight sight;                                         // its last bearing
   Eigen::Matrix3d R_ecef_enu = Eigen::Matrix3d::Identity();  // at that one's origin
   Activity last_used, last_offered;
   int used = 0;                                   // bearings
@@ -124,7 +124,7 @@ class TrackFilter {
   Eigen::Index first_of(int station) const;
   StationPart part_of(int station, const RayFrame& frame) const;
   int index_of(const std::string& station) const;
-  bool place_matters(const SightLine& sight) const;
+  bool place_matters(const LineOfSight& sight) const;
   int take_place(const Sighting& sighting);
   void enter(int station, const Sighting& sighting, const StationErrors& priors);
   void show_anew(int station, std::int64_t track_id);

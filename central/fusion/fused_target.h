@@ -18,7 +18,7 @@ namespace ols {
 struct BearingOnly {
   std::string station;
   std::int64_t track_id = 0;  // the station's own
-  SightLine sight;            // at the epoch
+  LineOfSight sight;          // at the epoch
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();
 };
 

@@ -9,16 +9,16 @@
 
 namespace ols {
 
-RayFrame ray_frame(const SightLine& sight) {
+RayFrame ray_frame(const LineOfSight& sight) {
   return ray_frame(sight, R_ecef_enu(sight.origin_ecef));
 }
 
-RayFrame ray_frame(const SightLine& sight, const Eigen::Matrix3d& R) {
+RayFrame ray_frame(const LineOfSight& sight, const Eigen::Matrix3d& R) {
   const Eigen::Matrix<double, 3, 2> tangent = R * tangent_basis(sight.direction);
   return {tangent.col(1).cross(tangent.col(0)), tangent};
 }
 
-Eigen::Matrix2d stated_covariance(const SightLine& sight, double range_m) {
+Eigen::Matrix2d stated_covariance(const LineOfSight& sight, double range_m) {
   const Eigen::Matrix<double, 3, 2> tangent_enu = tangent_basis(sight.direction);
   const Eigen::Vector3d variance_enu = sight.origin_sd_enu_m.array().square();
   return sight.covariance_systematic +

@@ -13,7 +13,7 @@ namespace ols {
 // One station's bearing, brought to the epoch (central/estimators/alignment.h).
 struct Ray {
   std::string station;
-  SightLine sight;
+  LineOfSight sight;
   // On the tangent plane (cross-elevation, elevation): how the direction moves.
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();
   Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();  // [rad^2/s^2] white
@@ -28,13 +28,13 @@ struct RayFrame {
   Eigen::Vector3d direction;
   Eigen::Matrix<double, 3, 2> tangent;
 };
-RayFrame ray_frame(const SightLine& sight);
+RayFrame ray_frame(const LineOfSight& sight);
 // The same where the axes at its origin are known: R_ecef_enu(sight.origin_ecef).
-RayFrame ray_frame(const SightLine& sight, const Eigen::Matrix3d& R_ecef_enu);
+RayFrame ray_frame(const LineOfSight& sight, const Eigen::Matrix3d& R_ecef_enu);
 
 // What a sight line states of its systematic error, on its tangent plane [rad^2]: the calibration,
 // and the station's position as seen from a target at this distance.
-Eigen::Matrix2d stated_covariance(const SightLine& sight, double range_m);
+Eigen::Matrix2d stated_covariance(const LineOfSight& sight, double range_m);
 
 // What stays from frame to frame of a ray's direction error: that, and the clock along the motion.
 Eigen::Matrix2d systematic_covariance(const Ray& ray, double range_m);

@@ -14,7 +14,7 @@ enum class StationClock { kUnknown, kSynchronised, kUnsynchronised };
 struct Sighting {
   std::string station;
   std::int64_t utime_us = 0;  // UTC since 1970 at mid-exposure, by the station's clock
-  SightLine sight;
+  LineOfSight sight;
   double belief = 1.0;
   double clock_sd_s = 0.0;  // 1-sigma of utime_us, stays
   StationClock clock = StationClock::kUnknown;

@@ -69,7 +69,7 @@ bool is_inconsistent_pair(const TrackFilter& filter) {
   double squared = 0.0;
   for (std::size_t i = 0; i < stations.size(); ++i) {
     if (!heard_lately(filter, stations[i], Activity::kSupportsS)) continue;
-    const SightLine& sight = stations[i].sight;
+    const LineOfSight& sight = stations[i].sight;
     const double range_m = (filter.position() - sight.origin_ecef).norm();
     const Eigen::Matrix2d stated = stated_covariance(sight, range_m) + sight.covariance_white;
     const Eigen::Vector2d bias_rad = filter.bias(i).bias_rad;

@@ -17,7 +17,7 @@ bool Look::is_near(const Eigen::Vector3d& p_ecef, double more_rad) const {
 // bias grows beyond 0.02 rad and as much as here (TrackGlance).
 Look look_of(const Sighting& sighting, const Eigen::Matrix3d& R_ecef_enu) {
   constexpr double kGenerous = 8.0, kLeastRad = 0.05;
-  const SightLine& sight = sighting.sight;
+  const LineOfSight& sight = sighting.sight;
   const double variance = sight.covariance_white.trace() + sight.covariance_systematic.trace();
   return {.utime_us = sighting.utime_us,
           .origin_ecef = sight.origin_ecef,

@@ -10,12 +10,12 @@
 namespace ols::bench {
 
 enum class CameraPath {
-  kTurning,   // steadily in azimuth; the target keeps its path in the picture
-  kSwinging,  // to and fro, so that a target that stands in the sky crosses the picture
+  kTurning,   // steadily in azimuth; the target keeps its path in the image
+  kSwinging,  // to and fro, so that a target that stands in the sky crosses the image
 };
 enum class TargetPath {
-  kCircle,    // in the picture
-  kVertical,  // up and down across the middle of the picture
+  kCircle,    // in the image
+  kVertical,  // up and down across the middle of the image
   kStill,     // in the world
 };
 
@@ -26,7 +26,7 @@ struct BenchCase {
   Backdrop backdrop = Backdrop::kBlankSky;
   CameraPath camera_path = CameraPath::kTurning;
   TargetPath target_path = TargetPath::kCircle;
-  double speed_px_s = 40.0;             // of the target in the picture
+  double speed_px_s = 40.0;             // of the target in the image
   double growth_per_s = 0.0;            // of its size, relative
   double pan_rate_deg_s = 0.0;          // of the camera
   double elevation_deg = 0.0;           // of the camera; 0 is woods, without a ridge line

@@ -1,4 +1,4 @@
-// ols-bench-tracker: the tracker on synthetic pictures with exact truth; a row for every frame.
+// ols-bench-tracker: the tracker on synthetic images with exact truth; one row per frame.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -43,7 +43,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--sweeps", arguments.sweeps, "only these, for example size,contrast")
       ->delimiter(',');
   app.add_option("--pictures", arguments.pictures,
-                 "folder for one picture of each point, as the tracker gets it (PNG)");
+                 "folder for one image of each point, as the tracker gets it (PNG)");
   app.add_option(
          "--output", arguments.output,
          "CSV, a row for every frame: place of the target and of the tracker [px, (0, 0) is "
@@ -51,7 +51,7 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->required();
 }
 
-// One run's pictures and truth.
+// One run's images and truth.
 class Take {
  public:
   Take(const BenchCase& which, ols::bench::Landscape& landscape, std::uint64_t seed)
@@ -78,7 +78,7 @@ class Take {
     if (result.visible) {
       const double growth = path_.growth(time_s);
       const Eigen::Vector2d smear_px = path_.smear_px(time_s);
-      // It changes slowly, and takes longer than the picture.
+      // Computed rarely: it changes slowly and costs more than the image.
       if (frame % 5 == 0) bound_px2_ = target_.bound(light, centre_px, smear_px, growth);
       result.bound_px2 = bound_px2_;
       target_.draw(light, centre_px, smear_px, growth);
@@ -225,7 +225,7 @@ void run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   ols::remove_temporary_files_on_signals();
-  CLI::App app("Runs the tracker on synthetic pictures with exact truth.", "ols-bench-tracker");
+  CLI::App app("Runs the tracker on synthetic images with exact truth.", "ols-bench-tracker");
   Arguments arguments;
   declare(app, arguments);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-bench-tracker")) {

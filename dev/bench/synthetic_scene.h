@@ -1,4 +1,4 @@
-// Pictures of a synthetic target before the simulator's landscape, with pixel noise.
+// Images of a synthetic target in front of the simulator's landscape, with pixel noise.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ CameraIntrinsics bench_camera(cv::Size picture = {640, 512});
 // Camera to east-north-up for a level camera that looks there.
 Eigen::Matrix3d camera_rotation(const AzimuthElevation& axis);
 
-// K R_2^T R_1 K^-1: takes pixels of a picture taken at `from` to pixels of one taken at `to`.
+// K R_2^T R_1 K^-1: maps pixels of an image taken at `from` to pixels of one taken at `to`.
 Eigen::Matrix3d rotation_between(const CameraIntrinsics& camera, const AzimuthElevation& from,
                                  const AzimuthElevation& to);
 
@@ -43,7 +43,7 @@ class Landscape {
 class PixelNoise {
  public:
   PixelNoise();
-  // The picture as the sensor gives it: noise added, rounded to 8 bits.
+  // The image as read from the sensor: noise added, rounded to 8 bits.
   cv::Mat develop(const cv::Mat1f& picture, Random& random) const;
 
  private:

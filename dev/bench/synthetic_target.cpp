@@ -40,7 +40,7 @@ int oversampling(double width_px) {
   return std::clamp(static_cast<int>(std::ceil(120.0 / width_px)), 2, 40);
 }
 
-// A part of the picture with the target in it. Where it is larger than the picture it is not cut.
+// The rectangle around the target; not clipped to the image.
 sim::DroneMatte blurred_matte(double px_per_m, double blur_px, const Eigen::Vector2d& centre_px,
                               const Eigen::Vector2d& smear_px) {
   const cv::Rect2d box = sim::drone_box(view_of(px_per_m, centre_px, smear_px));

@@ -20,7 +20,7 @@ class SyntheticTarget {
  public:
   explicit SyntheticTarget(const TargetLook& look);
 
-  // Draws it into a picture (float, gray levels). `centre_px`: (0, 0) is the centre of the top-left
+  // Draws it into an image (float, gray levels). `centre_px`: (0, 0) is the centre of the top-left
   // pixel. `smear_px`: how far it moves during the exposure. `growth`: its size over that of the
   // look.
   void draw(cv::Mat1f& picture, const Eigen::Vector2d& centre_px, const Eigen::Vector2d& smear_px,
@@ -29,8 +29,8 @@ class SyntheticTarget {
   // Box on pixel edges as a tracker is given it: the silhouette and half a pixel around it.
   cv::Rect2d box(const Eigen::Vector2d& centre_px) const;
 
-  // Cramer-Rao bound of the centre's covariance [px^2] in one such picture, when all else is known:
-  // the inverse of J'J / sigma^2, where J are the derivatives of the noise-free picture.
+  // Cramer-Rao bound of the centre's covariance [px^2] in one such image, if all else is known:
+  // the inverse of J'J / sigma^2, where J are the derivatives of the noise-free image.
   Eigen::Matrix2d bound(const cv::Mat1f& backdrop, const Eigen::Vector2d& centre_px,
                         const Eigen::Vector2d& smear_px, double growth) const;
 

@@ -39,7 +39,7 @@ class Evidence:
             self.text[name] = " ".join(text)
             if name == "gave-up":
                 self.gave_up.append(self.text[name])
-            elif name == "multi-user":  # tells when it was, not when it is told
+            elif name == "multi-user":  # the time of the event, not of the message
                 self.marks[name] = float(text[0])
             else:
                 self.marks[name] = float(time_s)
@@ -123,7 +123,7 @@ def doctor(measure: str, name: str, expected: set[str], evidence: Evidence) -> R
     return Row(measure, ", ".join(sorted(expected)), shown, well and failing == expected)
 
 
-def told(evidence: Evidence) -> list[Row]:
+def reported(evidence: Evidence) -> list[Row]:
     lone = evidence.read("status-text-lone.txt")
     no_network = evidence.read("no-network.txt")
     healed_s = evidence.mark("network-answers") - evidence.mark("network")
@@ -143,7 +143,7 @@ def told(evidence: Evidence) -> list[Row]:
         within("and answers once there is one", healed_s, 10.0),
         said("wrong configuration is named", evidence.read("wrong.txt"), r"wrong\.toml:\d+: .*"),
         Row("and not run in circles", "0 restarts", restarts_done, restarts_done == "0"),
-        within("corrected one is taken by itself", corrected_s, 30.0),
+        within("corrected one is adopted automatically", corrected_s, 30.0),
         within("who stops it ends its next try too", took(evidence, "retry-stopped"), 10.0),
         doctor("ols-doctor on a station: what fails", "doctor-alfa.txt", {"gnss"}, evidence),
         said("no unit has failed in the end", evidence.read("failed.txt"), r"0 loaded units"),
@@ -180,7 +180,7 @@ def main(out: Path, units: Path) -> int:
         )
         return 1
     evidence = Evidence(out)
-    parts: list[Callable[[Evidence], list[Row]]] = [starts, restarts, rest, told]
+    parts: list[Callable[[Evidence], list[Row]]] = [starts, restarts, rest, reported]
     rows = [row for part in parts for row in part(evidence)] + exposure(units)
     width = max(len(row.measure) for row in rows)
     for row in rows:

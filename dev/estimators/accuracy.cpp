@@ -94,8 +94,8 @@ struct FilterCase {
 
 constexpr double kFlightS = 12.0, kWarmS = 4.0, kDisturbance = 0.5;
 
-// The bound is that of the true motion: the filter is told the same.
-OfflineConfig told(const FilterCase& filter) {
+// The bound holds for the true motion: the filter gets the same model.
+OfflineConfig config_of(const FilterCase& filter) {
   OfflineConfig config;
   config.fusion.keeper.filter.motion.cruise_sd_m_s2 = kDisturbance;
   config.fusion.keeper.filter.motion.cruise_per_speed_s = 0.0;
@@ -118,7 +118,7 @@ Sums fly(const FilterCase& filter, int runs) {
     const auto bearings = measure(world, {path}, kFlightS, random);
     const auto bound = posterior_bound(world, path, bearings, kDisturbance, 100.0, 100.0);
     std::size_t instant = 0;
-    for (const FusedTarget& target : fuse_offline(bearings, told(filter))) {
+    for (const FusedTarget& target : fuse_offline(bearings, config_of(filter))) {
       const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
       if (time_s < kWarmS) continue;
       const auto index = static_cast<std::size_t>(
@@ -188,8 +188,8 @@ void filter_bounds(int runs, Limits& limits) {
         FilterCase{"headings off by 1 mrad, places by 1 m", 1e-5, 1e-3, kNever, 1.0},
         FilterCase{"headings and tilts off by 1 mrad", 1e-3, 0.0, kNever},
         FilterCase{"the same, wander within half an hour", 1e-3, 0.0, kHalfHour},
-        FilterCase{"the same, wander within five minutes, of which it is told", 1e-3, 0.0, kMinutes,
-                   0.0, kMinutes}}) {
+        FilterCase{"the same, wander within five minutes, declared to the filter", 1e-3, 0.0,
+                   kMinutes, 0.0, kMinutes}}) {
     const Sums sums = fly(filter, runs);
     std::printf("filter, %s: RMSE %.4f m, %d runs, NEES inside at %.0f %% of the instants\n",
                 filter.name, std::sqrt(sums.squared / sums.count), runs,
@@ -234,10 +234,10 @@ void several(int runs, Limits& limits) {
   }
   std::printf(
       "5 targets, 4 stations: right identity %.4f of target-seconds (worst run %.4f), "
-      "longest ghost %.2f s, %d switches in %d runs\n",
+      "longest ghost track %.2f s, %d switches in %d runs\n",
       right, worst, ghost_s, switches, runs);
   limits.at_least("target-seconds by the right identity", right, 0.95);
-  limits.at_most("longest ghost [s]", ghost_s, 1.0);
+  limits.at_most("longest ghost track [s]", ghost_s, 1.0);
 }
 
 }  // namespace ols::bench

@@ -9,8 +9,8 @@ namespace ols::bench {
 // One epoch, many geometries: the joint least squares against the Cramer-Rao bound at the truth.
 void least_squares_bound(int runs, Limits& limits);
 
-// The filter against the posterior bound, with biases that stay or wander; by itself, and told that
-// a bias may stay for hours.
+// The filter against the posterior bound, with biases that stay or wander; alone, and configured
+// for the case that a bias may stay for hours.
 void filter_bounds(int runs, Limits& limits);
 
 // A drone that manoeuvres at 200 to 800 m, four stations, against the paper's estimator: live, each

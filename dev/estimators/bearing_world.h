@@ -1,4 +1,4 @@
-// Simulated bearings without pictures: targets fly, stations measure their directions with noise,
+// Simulated bearings without images: targets fly, stations measure their directions with noise,
 // biases, misses and false ones. For Monte Carlo runs of the estimators. Deterministic by the seed.
 #pragma once
 

@@ -1,6 +1,6 @@
-// ols-bench-estimators: how near the estimators come to their bounds, how honest their covariances
-// are, how well targets are kept apart, and what a bearing costs. Prints one table a measure; exits
-// with 1 where a measure of accuracy misses its limit.
+// ols-bench-estimators: how near the estimators come to their bounds, how consistent their
+// covariances are, how well targets are kept apart, and what a bearing costs. Prints one table a
+// measure; exits with 1 where a measure of accuracy misses its limit.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>

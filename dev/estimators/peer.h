@@ -1,4 +1,4 @@
-// The same simulated bearings for another program's filter, beside what ours makes of them. Writes
+// Exports simulated bearings for another program's filter, with the results of ours. Writes
 // into a folder, all in the axes of the site's middle (metres, radians):
 //   stations.csv  station,east_m,north_m,up_m
 //   bearings.csv  run,time_s,station,azimuth_rad,elevation_rad   in order of time in each run

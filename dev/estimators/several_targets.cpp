@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSettledS = 2.0;  // not judged before: nobody can be confirmed at once
-constexpr double kNearM = 3.0;     // further from every target: a ghost
+constexpr double kSettledS = 2.0;  // not judged earlier: confirming a track takes time
+constexpr double kNearM = 3.0;     // further from every target: a ghost track
 
 // They fly to and fro through the middle, at heights of their own, and meet there.
 std::vector<Path> crossing(const SeveralTargets& scenario, std::mt19937_64& random) {

@@ -53,9 +53,9 @@ struct ClockQuality {
 class ClockWatch {
  public:
   struct Config {
-    double assumed_sd_s = 1e-3;   // of a clock of unknown quality
-    double distrust_s = 60.0;     // after a step without a service that confirms the new time
-    double drift_per_s = 2e-5;    // of a free-running clock: the error grows
+    double assumed_sd_s = 1e-3;  // of a clock of unknown quality
+    double distrust_s = 60.0;    // after a step without a service that confirms the new time
+    double drift_per_s = 2e-5;   // of a free-running clock: the error grows
   };
   explicit ClockWatch(const Config& config) : config_(config) {}
 

@@ -186,7 +186,8 @@ PtuStatus PtuThread::status() const {
   const PtuDriver& driver = impl_->driver;
   PtuStatus status;
   status.port = impl_->port_status;
-  status.state = impl_->port_status.open || impl_->port_status.failures == 0 ? driver.state() : PtuState::kFault;
+  status.state = impl_->port_status.open || impl_->port_status.failures == 0 ? driver.state()
+                                                                             : PtuState::kFault;
   status.emergency = impl_->emergency;
   status.standing = driver.standing();
   status.not_referenced = driver.not_referenced();

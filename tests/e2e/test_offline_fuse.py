@@ -154,7 +154,7 @@ def test_bearings_without_rows(folder):
     result = fuse_in(folder)
     assert result.returncode == 2
     assert len(lines_said(result.stderr)) == 1
-    assert "bearings.csv:2: row: there is none" in result.stderr
+    assert "bearings.csv:2: row: the file has a header but no rows" in result.stderr
 
 
 @pytest.mark.parametrize("rate", ["nan", "10000"])

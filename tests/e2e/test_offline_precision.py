@@ -193,7 +193,7 @@ def test_bad_geojson_is_named_and_nothing_is_written(stations, tmp_path, text, e
         ("pillar,ninety,0.3,0", ":2: distance_m"),
         ("pillar,90,1.6,0", ":2: alpha_rad"),
         ("pillar,90,0.3,2", ":2: side"),
-        ("", ":2: row: there is none"),
+        ("", ":2: row: the file has a header but no rows"),
         ("pillar,1,1.4,1", ": object pillar: distance_m"),
     ],
 )

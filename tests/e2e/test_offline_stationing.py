@@ -107,7 +107,7 @@ def test_finds_heading_and_tilt(survey):
     assert abs(pose["tilt_x_deg"] - 0.4) < 0.02 and abs(pose["tilt_y_deg"] + 0.3) < 0.02
     assert 0.001 < sd["heading_deg"] < 0.1 and 0.001 < sd["tilt_deg"] < 0.1
     assert found["calibration"]["id"] == 5
-    assert "SET ASIDE" not in result.stdout and "accepted" in result.stdout
+    assert "REJECTED as mistaken" not in result.stdout and "accepted" in result.stdout
     for name in PLACES:
         assert f"#   {name}: " in result.stdout
 
@@ -168,10 +168,10 @@ def test_sets_a_mistaken_landmark_aside_by_name(survey):
     mistake(survey, "mast")
     result = run(survey)
     assert result.returncode == 0, result.stderr
-    (said,) = [line for line in result.stdout.splitlines() if "SET ASIDE" in line]
+    (said,) = [line for line in result.stdout.splitlines() if "REJECTED as mistaken" in line]
     assert said.startswith("#   mast: w ") and "(line 4)" in said
     assert "deg across" in said and "detectable: " in said
-    assert "sightings.csv:4: landmark: 'mast' is set aside as mistaken" in result.stderr
+    assert "sightings.csv:4: landmark: 'mast' is rejected as mistaken" in result.stderr
     found = tomllib.loads(result.stdout)
     assert abs(found["pose"]["heading_deg"] - 211.0) < 0.05
 
@@ -205,7 +205,7 @@ def test_scales_the_deviations_with_the_misfit(survey):
     result = run(survey)
     assert result.returncode == 0, result.stderr
     assert "Global test (5 %)" in result.stdout and "scaled up by" in result.stdout
-    assert "SET ASIDE" not in result.stdout
+    assert "REJECTED as mistaken" not in result.stdout
     scaled = tomllib.loads(result.stdout)["calibration"]["sd"]
     assert scaled["heading_deg"] > 2.0 * sd["heading_deg"]
     assert scaled["tilt_deg"] > 2.0 * sd["tilt_deg"]
@@ -241,12 +241,12 @@ def test_an_output_that_cannot_be_written_is_an_error(survey):
         ("landmarks.csv", ",33N,", ",61N,", "landmarks.csv:2: zone: '61N'"),
         ("landmarks.csv", ",33N,", ",33N,9", "landmarks.csv:2: easting_m:"),
         ("landmarks.csv", "tower,,", "tower,49.2,", "landmarks.csv:2: zone: there are latitude"),
-        ("landmarks.csv", "spire,", "tower,", "landmarks.csv:3: landmark: 'tower' is there twice"),
-        ("landmarks.csv", "sd_m", "sigma", "landmarks.csv:1: sd_m: there is no such column"),
+        ("landmarks.csv", "spire,", "tower,", "landmarks.csv:3: landmark: 'tower' appears twice"),
+        ("landmarks.csv", "sd_m", "sigma", "landmarks.csv:1: sd_m: the column is missing"),
         ("sightings.csv", "mast,", "must,", "sightings.csv:4: landmark: 'must' is not one of"),
         ("sightings.csv", "mast,", "mark,", "sightings.csv:4: landmark: the station stands at it"),
         ("sightings.csv", ",700,400", ",700,", "sightings.csv:3: y_px: is empty"),
-        ("sightings.csv", "pan_deg", "pan", "sightings.csv:1: pan_deg: there is no such column"),
+        ("sightings.csv", "pan_deg", "pan", "sightings.csv:1: pan_deg: the column is missing"),
         ("landmarks.csv", ",33N,", ",32N,", "sightings.csv:2: landmark: 'tower' is 4"),
         ("landmarks.csv", ",33N,", ",33S,", "sightings.csv:2: landmark: 'tower' is "),
         ("station.toml", "id = 4", f"id = {2**63 - 1}", "station.toml:9: calibration.id: there is"),

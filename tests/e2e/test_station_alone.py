@@ -199,7 +199,7 @@ def test_the_operators_hand(station):
 def test_ctl_says_when_nobody_answers(station):
     nobody = ctl("nobody", "stop")
     assert nobody.returncode == 1
-    assert nobody.stdout == "nobody: sent again and again, no answer\n"
+    assert nobody.stdout == "nobody: sent repeatedly, no answer\n"
     nobody = ctl("nobody", "release")
     assert nobody.returncode == 1
     assert "no status of nobody" in nobody.stderr

@@ -1,4 +1,4 @@
-// A station's status as the operator's programs take it from the bus.
+// A station's status as received by the operator's programs.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace ols {
 
-// Names that invented statuses bring must not fill the memory of a program that listens.
+// Limits the memory that forged statuses with invented names can use.
 inline constexpr std::size_t kMostStationsHeard = 2000;
 
-// Nothing when it is no status, or not that of the station of its channel. Its texts are plain
-// (base/plain_text.h): they go to a terminal.
+// Nothing if it is not a status or not from the station of its channel. Its texts are made safe for
+// a terminal (base/plain_text.h).
 std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message);
 
 }  // namespace ols

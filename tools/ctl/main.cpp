@@ -1,4 +1,4 @@
-// ols-ctl: the operator's hand on the command line.
+// ols-ctl: the operator's commands on the command line.
 #include <poll.h>
 
 #include <cmath>
@@ -48,8 +48,7 @@ void warn_when_full(const ols::Operator& hand) {
       ols::kMostStationsHeard);
 }
 
-// It returns when the stop's hold is over (Station::kStopHold_s): who stops and then releases is
-// obeyed.
+// Returns after the stop's hold (Station::kStopHold_s), so that a following release is obeyed.
 int stop(const std::string& url, const std::string& station) {
   constexpr int kHold_ms = 1100;
   ols::Operator hand(url, station);
@@ -58,7 +57,7 @@ int stop(const std::string& url, const std::string& station) {
   if (stopped.empty()) return no_status(station, url);
   int result = 0;
   for (const auto& [id, said] : stopped) {
-    std::printf("%s: %s\n", id.c_str(), said ? "done" : "sent again and again, no answer");
+    std::printf("%s: %s\n", id.c_str(), said ? "done" : "sent repeatedly, no answer");
     if (!said) result = kExitRefused;
   }
   ols::flush_output();
@@ -73,7 +72,7 @@ int run(const std::string& url, const std::string& station, const std::optional<
   if (statuses.empty()) return no_status(station, url);
   warn_when_full(hand);
   if (send) {
-    std::vector<std::string> ids;  // of now: the hand goes on listening while it sends
+    std::vector<std::string> ids;  // a copy: the operator continues to listen while it sends
     for (const auto& [id, status] : statuses) ids.push_back(id);
     return send_to_each(hand, ids, *send);
   }
@@ -84,7 +83,7 @@ int run(const std::string& url, const std::string& station, const std::optional<
   return 0;
 }
 
-// What the command line says.
+// The parsed command line.
 struct Words {
   std::string station;
   std::string url = "udpm://239.255.76.67:7667?ttl=0";
@@ -123,22 +122,22 @@ void add_ptu_commands(CLI::App& app, Words& words) {
       };
     });
   };
-  app.add_subcommand("stop", "Halt the PTU, and stay stopped until told otherwise")
+  app.add_subcommand("stop", "Halt the PTU; it stays stopped until the next command")
       ->callback([&words] { words.stop = true; });
   simple("release", "Give the PTU back to automatic control", &ols::Operator::release);
-  simple("rearm",
-         "Leave the emergency, stopped, once the stop is released: only where the site lets it be "
-         "done "
-         "from afar",
-         &ols::Operator::rearm);
-  simple("home", "Have the PTU home, a sweep over its whole travel: clear the way first",
+  simple(
+      "rearm",
+      "End the emergency after the stop button is released; the PTU stays stopped. Only where the "
+      "site permits it remotely",
+      &ols::Operator::rearm);
+  simple("home", "Home the PTU: it sweeps its whole travel, clear the way first",
          &ols::Operator::home);
-  simple("reference-ok", "The PTU's angles were checked, or it was homed by hand: believe them",
+  simple("reference-ok", "Confirm the PTU's angles, after checking them or homing by hand",
          &ols::Operator::reference_ok);
 }
 
 void add_other_commands(CLI::App& app, Words& words) {
-  auto* designate = app.add_subcommand("designate", "Follow what is in this box of its view");
+  auto* designate = app.add_subcommand("designate", "Follow the object in this box of the image");
   designate
       ->add_option("box", words.box, "X,Y,W,H [px], top-left corner, newest full-resolution frame")
       ->delimiter(',')
@@ -149,17 +148,18 @@ void add_other_commands(CLI::App& app, Words& words) {
       return hand.designate(id, words.box[0], words.box[1], words.box[2], words.box[3]);
     };
   });
-  auto* record = app.add_subcommand("record", "Keep the raw frames around now on its disk");
-  record->add_option("before", words.before_s, "Before now [s], as far as remembered")->required();
+  auto* record =
+      app.add_subcommand("record", "Save the raw frames around now on the station's disk");
+  record->add_option("before", words.before_s, "Before now [s], as far as in memory")->required();
   record->add_option("after", words.after_s, "After now [s]")->required();
-  record->add_option("label", words.label, "Letters, digits, - and _: in the folder's name")
+  record->add_option("label", words.label, "Part of the folder's name: letters, digits, - and _")
       ->required();
   record->callback([&words] {
     words.send = [&words](ols::Operator& hand, const std::string& id) {
       return hand.record(id, words.before_s, words.after_s, words.label);
     };
   });
-  auto* status = app.add_subcommand("status", "Show how it is");
+  auto* status = app.add_subcommand("status", "Show the state");
   status->add_flag("--full", words.full, "Devices, alarms, readings and counters");
 }
 
@@ -167,7 +167,7 @@ void add_other_commands(CLI::App& app, Words& words) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Tells one station, or all, what to do: designate, manual, stop, release, rearm, home, "
+      "Commands one station or all: designate, manual, stop, release, rearm, home, "
       "reference-ok, record, "
       "status"};
   Words words;

@@ -15,15 +15,15 @@ constexpr double kLease_s = 2.0;
 constexpr double kTwoIntervals_s = 1.2;  // stations send their status twice a second
 constexpr int kPoll_ms = 50;
 
-// The reason whose counter has grown, of those that begin with `prefix`; nothing when none has.
+// The refusal whose counter (`prefix` + reason) has grown; nothing if none has.
 std::optional<std::string> new_refusal(const ols_msg::station_status_t& before,
                                        const ols_msg::station_status_t& now,
                                        const std::string& prefix) {
   for (const auto& name : now.counter_name) {
     if (!name.starts_with(prefix) || counter(now, name) <= counter(before, name)) continue;
     const std::string why = name.substr(prefix.size());
-    if (why == "just_stopped") return "refused: it was stopped a moment ago; say it again";
-    // The station's own words where it has more to say ("RECORD refused: disk full").
+    if (why == "just_stopped") return "refused: it was stopped less than a second ago; try again";
+    // With the station's explanation if there is one ("RECORD refused: disk full").
     return "refused: " + why +
            (now.last_error != before.last_error ? " (" + now.last_error + ")" : "");
   }
@@ -96,7 +96,7 @@ Operator::Operator(const std::string& lcm_url, std::string station)
 void Operator::hear(const BusMessage& message) {
   auto status = heard_status(message);
   if (!status) return;
-  // Whoever is heard, also when there are more than can be remembered.
+  // Any station counts as heard, even if the table is full.
   if (stopping_) publish_ptu(status->station, ols_msg::ptu_command_t::COMMAND_STOP, 0.0, 0.0);
   if (!statuses_.contains(status->station) && statuses_.size() >= kMostStationsHeard) return;
   statuses_[status->station] = std::move(*status);
@@ -132,7 +132,7 @@ std::optional<std::string> Operator::outcome(const std::string& station,
     }
     if (auto refusal = new_refusal(before, now, "refused_")) return refusal;
   }
-  // Others' messages are counted among these, too: only when nothing else was said.
+  // These also count messages of other senders: used only if nothing else is known.
   return new_refusal(before, statuses_[station], "messages_refused_").value_or("no answer");
 }
 
@@ -174,12 +174,13 @@ bool Operator::says_stopped(const std::string& station, double stops_before) con
 }
 
 std::map<std::string, bool> Operator::stop(double timeout_s) {
-  constexpr double kAgain_s = 0.02;   // a flooded network loses some, and a stop is in a hurry
-  constexpr double kMostRate = 2000;  // [1/s] of stops, however many stations there are
+  constexpr double kAgain_s =
+      0.02;  // repeated fast: a stop is urgent, and a flooded network loses some
+  constexpr double kMostRate = 2000;  // [1/s] of stops to all stations together
   constexpr int kTurn_ms = 10;
   struct Addressed {
     double sent_s = -1.0;
-    std::optional<double> stops;  // as it was first heard to count them: one more has arrived
+    std::optional<double> stops;  // its first stop count heard: a higher one confirms a stop
     bool stopped = false;
   };
   const bool all = station_ == "all";

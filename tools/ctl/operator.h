@@ -1,5 +1,5 @@
-// The operator's side of the bus: sends one command to one station and learns from the station's
-// status what became of it.
+// The operator's side of the bus: sends a command to a station and reads the outcome from its
+// status.
 #pragma once
 
 #include <cstdint>
@@ -24,25 +24,25 @@ class Operator {
   // `station` or "all". Throws BusError.
   Operator(const std::string& lcm_url, std::string station);
 
-  // The newest status of each addressed station, after listening. One named station: until it is
-  // heard, at most timeout_s; all: for two status intervals.
+  // Listens and returns the newest status of each addressed station. One named station: until its
+  // status arrives, at most timeout_s; all: for two status intervals.
   const Statuses& listen(double timeout_s);
-  // There are as many stations as are remembered: invented ones may hide others.
+  // The table of stations is full: forged statuses may hide real stations.
   bool is_full() const { return statuses_.size() >= kMostStationsHeard; }
 
-  // Sends stops to the addressed station, or to each as soon as it is heard, again and again until
-  // a status counts one and says so, or timeout_s is over: a stop needs no status and may get lost.
-  // Whether each did.
+  // Sends stops repeatedly to the addressed station, or to each as soon as it is heard, until its
+  // status confirms one or timeout_s is over: a stop needs no status, and may get lost. Returns
+  // whether each station confirmed.
   std::map<std::string, bool> stop(double timeout_s);
 
-  // Each sends to the station and waits for the status that counts it. Returns nothing when it was
-  // accepted, otherwise what the station said.
+  // Each sends the command and waits for the status that counts it. Returns nothing if it was
+  // accepted, otherwise the station's reason.
   std::optional<std::string> designate(const std::string& station, double x, double y, double width,
                                        double height);
   std::optional<std::string> point(const std::string& station, double pan_rad, double tilt_rad);
   std::optional<std::string> release(const std::string& station);
   std::optional<std::string> rearm(const std::string& station);
-  // Accepted, not done: the unit takes half a minute, and its status tells how it went.
+  // Reports acceptance only: homing takes half a minute; the status shows its result.
   std::optional<std::string> home(const std::string& station);
   std::optional<std::string> reference_ok(const std::string& station);
   // The raw frames around now.
@@ -68,7 +68,7 @@ class Operator {
   bool stopping_ = false;  // every station that is heard
 };
 
-// The value of a counter in a status; 0 when it is not there.
+// The value of a counter in a status; 0 if it is missing.
 double counter(const ols_msg::station_status_t& status, const std::string& name);
 
 const char* state_name(std::int8_t state);

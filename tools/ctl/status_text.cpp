@@ -17,7 +17,7 @@ std::string line(const char* format, Values... values) {
   return std::string(text) + "\n";
 }
 
-// "-" for what is not known.
+// "-" for an unknown value.
 std::string shown(double value, int decimals) {
   if (!std::isfinite(value)) return "-";
   char text[64];
@@ -51,7 +51,7 @@ std::string pose_text(const ols_msg::station_status_t& s) {
   text += line("tilt       %s %s +- %s deg (%s)", shown_deg(s.tilt_x_rad, 4).c_str(),
                shown_deg(s.tilt_y_rad, 4).c_str(), shown_deg(s.tilt_sd_rad, 4).c_str(),
                source_name(s.tilt_source));
-  text += line("looks to   azimuth %s, elevation %s deg; pan %s, tilt %s deg",
+  text += line("points to  azimuth %s, elevation %s deg; pan %s, tilt %s deg",
                shown_deg(s.azimuth_rad, 3).c_str(), shown_deg(s.elevation_rad, 3).c_str(),
                shown_deg(s.pan_rad, 2).c_str(), shown_deg(s.tilt_rad, 2).c_str());
   return text;

@@ -1,4 +1,4 @@
-// A station's status for a person's eyes.
+// Formats a station's status for a person.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace ols {
 
-// One line a station, with a heading.
+// A table with one line per station.
 std::string status_table(const Operator::Statuses& statuses);
-// Everything that one status tells. `now_utime_us` is this host's UTC.
+// Everything in one status. `now_utime_us` is this host's UTC.
 std::string full_status(const ols_msg::station_status_t& status, std::int64_t now_utime_us);
 
 }  // namespace ols

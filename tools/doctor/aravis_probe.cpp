@@ -32,7 +32,7 @@ std::string identity_of(ArvCamera* camera) {
   return words;
 }
 
-// The address of an opened camera: the way its pictures come.
+// The address of an opened camera, for the route of its stream.
 std::string address_of(ArvDevice* device) {
   GSocketAddress* socket = arv_gv_device_get_device_address(ARV_GV_DEVICE(device));
   if (socket == nullptr || !G_IS_INET_SOCKET_ADDRESS(socket)) return {};

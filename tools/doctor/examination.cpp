@@ -6,7 +6,7 @@
 #include "base/toml_config.h"
 #include "central/app/fusion_settings.h"
 #include "edge/config.h"
-#include "tools/doctor/bus_ears.h"
+#include "tools/doctor/bus_listener.h"
 #include "tools/doctor/judge_devices.h"
 #include "tools/doctor/judge_site.h"
 #include "tools/doctor/probe.h"
@@ -32,7 +32,7 @@ Findings examine_inclinometer(const InclinometerConfig& config, double patience_
   return findings;
 }
 
-// Devices that only the station may touch while it runs, and the clock, of which it tells itself.
+// Devices that only the station may use while it runs, and the clock, which it reports itself.
 Findings examine_devices(const StationSettings& settings, double patience_s) {
   Findings findings = judge(ask_camera(settings.camera));
   append(findings, judge(ask_ptu(settings.ptu)));

@@ -1,4 +1,4 @@
-// One examination: asks in a sensible order, and judges.
+// One examination: runs the probes in order and judges the results.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@ namespace ols::doctor {
 struct Request {
   std::vector<std::string> stations;  // configuration files
   std::string fusion;                 // configuration file; empty: this host has none
-  std::string logger;                 // the same
+  std::string logger;                 // likewise
   double listen_s = 2.2;              // two intervals of the slowest sender
-  double patience_s = 4.0;            // for a sensor to be well
+  double patience_s = 4.0;            // for a sensor to become ready
 };
 
-// What is configured on this host: `folder`/*.toml.
+// The configuration files of this host: `folder`/*.toml.
 Request find_configurations(const std::string& folder);
 
 Findings examine(const Request& request);

@@ -1,4 +1,4 @@
-// What the probes have found out, as plain values for the judgement. Pure.
+// The probes' results, as plain values for the judgement. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace ols::doctor {
 
-// A station by its status message.
+// A station's status message.
 struct StationHeard {
   std::string id;
   std::string state;  // "tracking"
@@ -25,14 +25,14 @@ struct StationHeard {
   std::map<std::string, double> counters;
   std::string last_error;
   double last_error_age_s = 0.0;
-  std::size_t boots = 1;  // different processes that answer to this id
+  std::size_t boots = 1;  // number of processes that use this id
 };
 
 struct BusHeard {
   std::string url;
-  std::string trouble;        // why there is no bus; empty: there is one
-  std::string interface;      // by which it leaves this host; empty: not known
-  int ttl = 0;                // 0: it does not leave this host
+  std::string trouble;        // why there is no bus; empty if there is
+  std::string interface;      // of the outgoing route; empty: unknown
+  int ttl = 0;                // 0: stays on this host
   std::int64_t rmem_max = 0;  // net.core.rmem_max [byte]; 0: not known
   std::map<std::string, StationHeard> stations;
   int fusions = 0;
@@ -52,7 +52,7 @@ struct PtuAxisAnswers {
 
 struct PtuAnswers {
   SerialFacts serial;
-  int baud = 0;  // at which it answered; 0: at none
+  int baud = 0;  // at which it answered; 0: no answer
   int wanted_baud = 0, wanted_line_baud = 0;
   std::string version;
   PtuAxisAnswers pan, tilt;
@@ -72,9 +72,9 @@ struct LinkFacts {
 
 struct CameraAnswers {
   std::string device;
-  std::string trouble;  // why it cannot be used; empty: it can
+  std::string trouble;  // why it cannot be used; empty if it can
   std::string identity;
-  bool controlled = false;  // by another
+  bool controlled = false;  // by another program
   bool has_clock = true;    // false: Aravis puts the host's time in place of the camera's
   std::optional<double> temperature_degC;
   std::vector<std::string> others;  // cameras that answered a broadcast
@@ -83,13 +83,13 @@ struct CameraAnswers {
 };
 
 struct FolderFacts {
-  std::string name;  // what it is for
+  std::string name;  // its purpose
   std::string folder;
   int error = 0;  // errno of looking at it or of asking for write access
   double free_bytes = 0.0, reserve_bytes = 0.0;
 };
 
-// Of `systemctl show`.
+// From `systemctl show`.
 struct UnitFacts {
   std::string id, load, active, sub, result, status;
   int restarts = 0;

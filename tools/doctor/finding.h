@@ -1,4 +1,4 @@
-// What ols-doctor says: one line a check, and what to do about it. Pure.
+// A finding of ols-doctor: one line per check, with advice. Pure.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ enum class Verdict { kOk, kWarn, kFail };  // in the order of gravity
 struct Finding {
   Verdict verdict = Verdict::kOk;
   std::string what;    // "ptu: PTU-D46 v2.12.1 on /dev/ols/ptu"
-  std::string advice;  // what to do; empty when all is well
+  std::string advice;  // what to do; empty if the check passed
 };
 
 inline Finding ok(std::string what) { return {Verdict::kOk, std::move(what), {}}; }
@@ -30,7 +30,7 @@ void append(Findings& all, const Findings& more);
 std::string line(const Finding& finding);
 // {"verdict": "warn", "findings": [{"verdict": "ok", "what": "...", "advice": ""}, ...]}
 std::string to_json(const Findings& findings);
-// The gravest verdict: 0 all is well, 1 something to look at, 2 something does not work.
+// The gravest verdict: 0 ok, 1 warning, 2 failure.
 int exit_status(const Findings& findings);
 
 }  // namespace ols::doctor

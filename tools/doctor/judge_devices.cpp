@@ -41,7 +41,7 @@ const char* advice_for(const std::string& device) {
       {"inclinometer", "check its cable; it streams at 9600 baud, some variants with even parity"},
       {"gnss", "check gpsd (systemctl status gpsd, cgps) and that the antenna sees the sky"},
       {"gpio", "check that the chip is there (gpiodetect) and that user ols is in group gpio"},
-      {"recorder", "check the recorder's folder and the room on its disk"}};
+      {"recorder", "check the recorder's folder and the free space on its disk"}};
   for (const Advice& advice : kAdvice) {
     if (device == advice.device) return advice.text;
   }
@@ -54,7 +54,7 @@ const char* advice_for(const DeviceReport& report) {
          "angles with something known, then ols-ctl STATION reference-ok";
 }
 
-std::string axis_words(const char* name, const PtuAxisAnswers& axis) {
+std::string axis_text(const char* name, const PtuAxisAnswers& axis) {
   if (!axis.resolution_arcsec || !axis.least || !axis.greatest) {
     return std::string(name) + " unknown";
   }
@@ -74,12 +74,12 @@ Finding judge_baud(const PtuAnswers& ptu) {
 
 Finding judge_axes(const PtuAnswers& ptu) {
   if (ptu.not_referenced) {
-    return fail("ptu: does not know where it is (\"Axis Error\")",
-                "clear its whole travel of people and cables, then ols-ctl STATION home (or for "
-                "good: rehome = \"when-unreferenced\")");
+    return fail("ptu: no reference (\"Axis Error\")",
+                "clear its whole travel of people and cables, then ols-ctl STATION home (or "
+                "permanently: rehome = \"when-unreferenced\")");
   }
   const std::string words =
-      "ptu: " + axis_words("pan", ptu.pan) + ", " + axis_words("tilt", ptu.tilt);
+      "ptu: " + axis_text("pan", ptu.pan) + ", " + axis_text("tilt", ptu.tilt);
   for (const PtuAxisAnswers& axis : {ptu.pan, ptu.tilt}) {
     if (!axis.resolution_arcsec || !axis.least || !axis.greatest) {
       return fail(words, "replies are lost or garbled: check cable, ground and baud");
@@ -92,7 +92,8 @@ Finding judge_axes(const PtuAnswers& ptu) {
 }
 
 Finding judge_supply(const PtuAnswers& ptu) {
-  if (!ptu.environment) return warn("ptu: does not tell its supply", "measure the voltage at it");
+  if (!ptu.environment)
+    return warn("ptu: does not report its supply voltage", "measure the voltage at it");
   const std::string words = "ptu: supply" + number(ptu.environment->supply_V, " %.1f V");
   if (ptu.environment->supply_V >= ptu.supply_min_V) return ok(words);
   return warn(words + ", below" + number(ptu.supply_min_V, " %.1f V"),
@@ -107,7 +108,7 @@ Finding judge(const DeviceReport& device) {
     case DeviceState::kOk:
       return ok(words);
     case DeviceState::kStarting:
-      return warn(words, "it begins; ask again in a minute");
+      return warn(words, "starting; ask again in a minute");
     case DeviceState::kAbsent:
     case DeviceState::kFault:
       break;
@@ -124,7 +125,7 @@ std::optional<Finding> judge_line(const std::string& name, const SerialFacts& se
     case 0:
       if (serial.users.empty()) return std::nullopt;
       return warn(words + " is also open in " + joined(serial.users),
-                  "end that program: two readers take each other's bytes");
+                  "stop that program: two readers take each other's bytes");
     case ENOENT:
     case ENODEV:
     case ENXIO:
@@ -132,13 +133,13 @@ std::optional<Finding> judge_line(const std::string& name, const SerialFacts& se
                   "plug the adapter in; ls -l /dev/ols /dev/serial/by-id shows what is there");
     case EACCES:
     case EPERM:
-      return fail(words + ": no right to open it",
+      return fail(words + ": no permission to open it",
                   "run as root or as user ols; the device must be of group dialout");
     case EAGAIN:
     case EBUSY:
       return fail(words + " is in use by " +
                       (serial.users.empty() ? "another program" : joined(serial.users)),
-                  "end that program, or stop the station to have its devices examined");
+                  "stop that program, or stop the station to have its devices examined");
     case ENOTTY:
       return fail(words + " is not a serial line", "correct the device in the configuration");
     default:
@@ -202,8 +203,8 @@ Findings judge(const LinkFacts& link, double rate_bytes_s) {
 Findings judge(const CameraAnswers& camera) {
   Findings findings;
   if (camera.controlled) {
-    findings.push_back(fail("camera: " + camera.device + " is under the control of another",
-                            "end the other program; a camera frees itself 3 s after it"));
+    findings.push_back(fail("camera: " + camera.device + " is controlled by another program",
+                            "stop the other program; the camera is free 3 s later"));
   } else if (!camera.trouble.empty()) {
     findings.push_back(
         fail("camera: " + camera.trouble, camera.others.empty()
@@ -214,7 +215,7 @@ Findings judge(const CameraAnswers& camera) {
     findings.push_back(ok("camera: " + camera.identity + " at " + camera.device));
     if (!camera.has_clock) {
       findings.push_back(warn("camera: its clock cannot be read",
-                              "frames are stamped on arrival, and bearings marked so; set "
+                              "frames are stamped on arrival, and bearings flagged so; set "
                               "readout_s and readout_sd_s"));
     }
     if (camera.temperature_degC && *camera.temperature_degC > kHot_degC) {

@@ -41,7 +41,7 @@ Finding judge_clock(const StationHeard& station) {
       break;
   }
   return warn("clock: not synchronised, error " + error,
-              "chronyc sources tells why; bearings are marked meanwhile");
+              "chronyc sources shows why; bearings are flagged meanwhile");
 }
 
 std::optional<Finding> judge_frames(const StationHeard& station) {
@@ -57,7 +57,7 @@ std::optional<Finding> judge_frames(const StationHeard& station) {
               "60-ols.conf");
 }
 
-// A forged status may have thousands: the other findings must not scroll away.
+// Limited: a forged status may have thousands, which would hide the other findings.
 Findings judge_alarms(const std::string& whose, const std::vector<std::string>& alarms) {
   constexpr std::size_t kMost = 16;
   Findings findings;
@@ -66,7 +66,8 @@ Findings judge_alarms(const std::string& whose, const std::vector<std::string>& 
   }
   if (alarms.size() > kMost) {
     const std::string more = std::to_string(alarms.size() - kMost);
-    findings.push_back(warn(whose + more + " more", "is it really one of the site that says so?"));
+    findings.push_back(
+        warn(whose + more + " more", "does this message come from a program of this site?"));
   }
   return findings;
 }
@@ -81,7 +82,7 @@ Findings judge(const BusHeard& bus) {
   Findings findings;
   const std::string where = bus.interface.empty() ? "" : " by " + bus.interface;
   if (bus.ttl > 0 && bus.interface == "lo") {
-    findings.push_back(warn("bus: " + bus.url + " by lo, which no other host hears",
+    findings.push_back(warn("bus: " + bus.url + " through lo, which does not reach other hosts",
                             "name the interface in /etc/ols/bus.env and systemctl restart ols-bus "
                             "and the station"));
   } else if (bus.ttl == 0 && !bus.interface.empty() && bus.interface != "lo") {
@@ -115,7 +116,7 @@ Findings judge_company(const BusHeard& bus, const std::string& own) {
     findings.push_back(warn("fusion: not heard", "systemctl status ols-fusion at the centre"));
   } else if (bus.fusions > 1) {
     findings.push_back(
-        fail("fusion: " + std::to_string(bus.fusions) + " of them send slews", "end all but one"));
+        fail("fusion: " + std::to_string(bus.fusions) + " of them send slews", "stop all but one"));
   } else {
     findings.push_back(ok("fusion: heard"));
   }
@@ -127,8 +128,8 @@ Findings judge(const StationHeard& station) {
   Findings findings;
   if (station.boots > 1) {
     findings.push_back(
-        fail("station: " + std::to_string(station.boots) + " answer to " + station.id,
-             "give each station an id of its own"));
+        fail("station: " + std::to_string(station.boots) + " processes use the id " + station.id,
+             "give each station its own id"));
   } else {
     findings.push_back(ok("station: " + station.id + " runs, " + station.state));
   }
@@ -143,7 +144,7 @@ Findings judge(const StationHeard& station) {
   if (!station.last_error.empty() && station.last_error_age_s < kRecent_s) {
     findings.push_back(
         warn("last error, " + number(station.last_error_age_s, "%.0f s ago: ") + station.last_error,
-             "journalctl -u 'ols-station@*' tells more"));
+             "journalctl -u 'ols-station@*' shows more"));
   }
   return findings;
 }
@@ -155,7 +156,7 @@ Finding judge(const ClockQuality& clock) {
   if (clock.state == ClockState::kUnknown) {
     return warn(words, "install chrony; examples: chrony-gnss.conf");
   }
-  return warn(words, "chronyc sources and chronyc tracking tell why");
+  return warn(words, "chronyc sources and chronyc tracking show why");
 }
 
 Finding judge(const FolderFacts& folder) {
@@ -167,7 +168,7 @@ Finding judge(const FolderFacts& folder) {
   }
   const std::string free = ", " + number(folder.free_bytes / kGiga, "%.1f GB free");
   if (folder.free_bytes < folder.reserve_bytes) {
-    return warn(words + free, "make room: recording pauses below" +
+    return warn(words + free, "free disk space: recording pauses below" +
                                   number(folder.reserve_bytes / kGiga, " %.1f GB"));
   }
   return ok(words + free);
@@ -177,7 +178,7 @@ Findings judge(const HostReport& host) {
   Findings findings;
   for (const std::string& alarm : host.alarms) {
     findings.push_back(
-        warn("host: " + alarm, "shade and air for a hot processor; room on the disk"));
+        warn("host: " + alarm, "give a hot processor shade and air; free disk space"));
   }
   const auto cpu = host.readings.find("cpu_degC");
   if (host.alarms.empty() && cpu != host.readings.end()) {
@@ -193,7 +194,7 @@ std::optional<Finding> judge(const UnitFacts& unit) {
   const std::string journal = "journalctl -u " + unit.id + " -n 20";
   if (unit.active == "failed") {
     return fail(words + " (" + unit.result + ")",
-                journal + " tells why; it is tried again each minute");
+                journal + " shows why; it is restarted every minute");
   }
   if (unit.active == "activating") return warn(words + " (" + unit.sub + ")", journal);
   if (unit.active != "active") return warn(words, "systemctl enable --now " + unit.id);

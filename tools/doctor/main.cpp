@@ -17,15 +17,15 @@ constexpr int kExitDefect = 3;
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Tells what of a station or of the centre works, what does not, and what to do. Disturbs "
-      "nothing that runs: a running station is asked, and its devices only when it does not run; "
-      "no PTU moves. Ends with 0 when all is well, 1 with warnings, 2 with failures"};
+      "Checks a station or the centre and says what to do about each fault. Disturbs nothing that "
+      "runs: it opens a station's devices only if the station does not run, and moves no PTU. "
+      "Exit status: 0 ok, 1 warnings, 2 failures"};
   std::vector<std::string> configs;
   bool json = false;
   app.add_option("--config", configs, "Station's configuration; default: all of /etc/ols");
   app.add_flag("--json", json, "For programs");
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-doctor")) return *status;
-  spdlog::set_level(spdlog::level::off);  // what the drivers say is judged, not shown
+  spdlog::set_level(spdlog::level::off);  // the drivers' messages are judged, not shown
   try {
     ols::doctor::Request request = ols::doctor::find_configurations("/etc/ols");
     if (!configs.empty()) {

@@ -53,7 +53,7 @@ FolderFacts look_at_folder(const std::string& name, const std::string& folder,
     return facts;
   }
   facts.free_bytes = static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
-  // Of a read-only file system root learns here, too.
+  // Also detects a read-only file system when run as root.
   if (::access(folder.c_str(), W_OK) != 0) facts.error = errno;
   return facts;
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr auto kPoll = std::chrono::milliseconds(50);
 
-// Asks until `well` or the time is over.
+// Polls until `well` or the time is over.
 template <typename Well>
 void wait_until(Well well, double seconds) {
   const double end_s = clock_monotonic_s() + seconds;

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr double kReply_s = 0.6;
 constexpr int kTries = 2;
 
-// Of other processes; only root and the owner see them.
+// Other processes that have it open; visible only to root and their owner.
 std::vector<std::string> users_of(const std::string& device) {
   std::vector<std::string> users;
   std::error_code ignored;
@@ -44,7 +44,7 @@ std::vector<std::string> users_of(const std::string& device) {
   return users;
 }
 
-// One question at a time: the answer belongs to it.
+// One request at a time: the reply belongs to it.
 class Questions {
  public:
   Questions(const std::string& device, int baud) : port_(device, baud) {

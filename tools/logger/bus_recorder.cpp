@@ -13,14 +13,14 @@ namespace {
 
 constexpr int kTurn_ms = 50;
 constexpr double kFlush_s = 0.1;
-constexpr double kLook_s = 1.0;  // at the file's place
+constexpr double kLook_s = 1.0;  // between two checks of the file's name
 
 QueueLimits limits_of(const LoggerConfig& config) {
   return {.messages = std::numeric_limits<std::size_t>::max(),
           .bytes = static_cast<std::size_t>(config.max_unwritten_mb * 1e6)};
 }
 
-// All channels but those of the expression: a name that it matches is one that ".*" does not get.
+// With invert: a negative lookahead, all channels that do not match the expression.
 std::string wanted(const LoggerConfig& config) {
   return config.invert ? "(?!(?:" + config.channels + ")\\z).*" : config.channels;
 }
@@ -32,7 +32,7 @@ BusRecorder::BusRecorder(const LoggerConfig& config, const std::string& file)
       single_file_(file),
       names_(config.folder, config.name),
       bus_(config.lcm_url) {
-  // First: a bus that carries nothing must not leave an empty file behind.
+  // Before the file: a failed connection must not leave an empty file.
   bus_.subscribe(
       wanted(config_), [this](const BusMessage& message) { write(message); }, limits_of(config_));
   begin_file();
@@ -75,7 +75,7 @@ void BusRecorder::record() {
   write_rest();
 }
 
-// What had come before the end was asked for; a disk that is too slow for it does not keep us.
+// Writes the messages received before the request to end; a slow disk does not delay the end.
 void BusRecorder::write_rest() {
   constexpr double kLongest_s = 5.0;
   bus_.stop_listening();
@@ -124,7 +124,7 @@ void BusRecorder::look_at_bus(double now_s) {
     report_.dropped = traffic.overflowed;
   }
   if (bus_.is_deaf()) {
-    throw std::runtime_error("nothing comes in any more, not even this program's own word");
+    throw std::runtime_error("no messages arrive any more, not even this program's own");
   }
 }
 

@@ -1,7 +1,7 @@
-// One recording: a connection to the bus, a thread that writes what comes into logs.
+// One recording: a bus connection and a thread that writes its messages into logs.
 //
-// lcm-logger is not used: its liblcm dies of a forged fragment (base/bus_datagram.h), and it goes
-// on writing into a file that was deleted under its hands.
+// lcm-logger is not used: a forged fragment crashes its liblcm (base/bus_datagram.h), and it
+// continues to write into a file that has been deleted.
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "base/bus_watch.h"
+#include "base/bus_monitor.h"
 #include "base/lcm_bus.h"
 #include "tools/logger/log_names.h"
 #include "tools/logger/log_writer.h"
@@ -20,23 +20,23 @@
 namespace ols {
 
 struct RecorderReport {
-  std::string file;                  // that is written now
-  std::optional<std::string> ended;  // why nothing is written any more
+  std::string file;                  // being written
+  std::optional<std::string> ended;  // why the recording ended
   std::uint64_t messages = 0;        // written
-  std::uint64_t dropped = 0;         // that the disk was too slow for
+  std::uint64_t dropped = 0;         // lost because the disk was too slow
   std::uint64_t files_lost = 0;      // deleted, renamed or replaced while they were written
-  std::string bus_alarm;             // what a person should know of the bus
+  std::string bus_alarm;             // alarm of the bus monitor
   BusTraffic traffic;
 };
 
 class BusRecorder {
  public:
-  // With `file` all goes into that one; otherwise into new ones in the configured folder. Throws
-  // BusError, or std::system_error when the first file cannot be made.
+  // With `file`, records into that file only; otherwise into new ones in the configured folder.
+  // Throws BusError, or std::system_error when the first file cannot be made.
   explicit BusRecorder(const LoggerConfig& config, const std::string& file = "");
-  // What waits is written, unless it is discarded.
+  // Writes the waiting messages, unless they are discarded.
   ~BusRecorder();
-  // The disk has no room for what waits.
+  // For a full disk: drops the waiting messages.
   void discard() { discard_ = true; }
 
   RecorderReport report() const;
@@ -53,8 +53,8 @@ class BusRecorder {
   const LoggerConfig config_;
   const std::string single_file_;
   LogNames names_;
-  std::optional<LogWriter> writer_;  // of the thread alone
-  BusWatch watch_;                   // likewise
+  std::optional<LogWriter> writer_;  // used by the thread only
+  BusMonitor watch_;                 // likewise
   double flush_due_s_ = 0.0, look_due_s_ = 0.0;
 
   mutable std::mutex mutex_;

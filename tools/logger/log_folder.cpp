@@ -44,9 +44,9 @@ void LogFolder::measure_room() {
   free_bytes_ = static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
 }
 
-void LogFolder::make_room(double quota_bytes, double reserve_bytes, double headroom_bytes,
-                          const std::string& keep) {
-  // Whoever writes it may spell its folder in another way.
+void LogFolder::remove_oldest(double quota_bytes, double reserve_bytes, double headroom_bytes,
+                              const std::string& keep) {
+  // Compares files, not paths: the writer may spell the folder differently.
   const std::string kept = keep.empty() ? "" : fs::path(keep).lexically_normal().string();
   auto oldest = files_.begin();
   while (bytes() + headroom_bytes > quota_bytes || free_bytes_ < reserve_bytes + headroom_bytes) {

@@ -1,4 +1,4 @@
-// The folder of the logs: what there is, and making room. Only files NAME-*.lcmlog.* are looked at.
+// The folder of the logs: lists them and removes the oldest. Only files NAME-*.lcmlog.* count.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ class LogFolder {
  public:
   LogFolder(const std::string& folder, const std::string& name);
 
-  // Takes stock. Makes the folder where it is missing; throws std::system_error when it is none or
-  // cannot be written.
+  // Lists the logs. Creates a missing folder; throws std::system_error if it is not a folder or not
+  // writable.
   void survey();
   // Removes the oldest until the logs leave `headroom_bytes` of the quota, and of the disk above
   // its reserve; never `keep`. Throws std::system_error when a file cannot be removed.
-  void make_room(double quota_bytes, double reserve_bytes, double headroom_bytes,
-                 const std::string& keep);
+  void remove_oldest(double quota_bytes, double reserve_bytes, double headroom_bytes,
+                     const std::string& keep);
 
   double bytes() const;
   double free_bytes() const { return free_bytes_; }

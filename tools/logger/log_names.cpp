@@ -23,7 +23,7 @@ std::string time_text(std::int64_t utime_us) {
 LogNames::LogNames(std::string folder, std::string name)
     : folder_(std::move(folder)), name_(std::move(name)) {}
 
-// A number is not given again when its file is gone, so that names sort by age.
+// Numbers of removed files are not reused, so that names sort by age.
 std::string LogNames::next(std::int64_t utime_us) {
   using std::filesystem::file_type;
   if (std::string now = time_text(utime_us); now != time_) {

@@ -11,7 +11,7 @@ class LogNames {
  public:
   LogNames(std::string folder, std::string name);
 
-  // One that is not there yet. Throws std::system_error when that cannot be seen.
+  // The next unused name. Throws std::system_error if the folder cannot be read.
   std::string next(std::int64_t utime_us);
 
  private:

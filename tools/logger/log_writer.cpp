@@ -10,7 +10,7 @@
 namespace ols {
 namespace {
 
-// Of an event, before its channel and its bytes: sync word, number, stamp, two lengths.
+// The header of an event: sync word, number, stamp, two lengths.
 constexpr std::uint64_t kEventHeader = 28;
 
 std::system_error file_error(const std::string& path) {

@@ -13,17 +13,17 @@ namespace ols {
 
 class LogWriter {
  public:
-  // Makes the file; throws std::system_error that names it, also when it is there already.
+  // Creates the file; throws std::system_error naming it, also if it exists.
   explicit LogWriter(const std::string& path);
 
-  // Both throw std::system_error that names the file, when the disk does not take it.
+  // Both throw std::system_error naming the file if writing fails.
   void write(const BusMessage& message);
   void flush();
 
   const std::string& path() const { return path_; }
   std::uint64_t bytes() const { return bytes_; }
-  // Whether what is written can still be found under its name: a file that was deleted, renamed or
-  // replaced takes everything, and nobody will read it.
+  // Whether the open file still has its name: writes to a deleted, renamed or replaced file succeed
+  // but are lost.
   bool is_in_place() const;
 
  private:

@@ -11,7 +11,7 @@
 namespace ols {
 namespace {
 
-// Room for the file that is written and for the next, beside what is kept.
+// Space for the current and the next file besides the kept ones.
 constexpr double kLeastSplits = 4.0;
 
 void check_name(const std::string& name) {

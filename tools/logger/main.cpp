@@ -23,7 +23,7 @@ namespace {
 constexpr int kTurn_ms = 100;
 constexpr double kStatus_s = 1.0;
 
-std::string in_words(const ols::LoggerStatus& status) {
+std::string status_line(const ols::LoggerStatus& status) {
   char room[96];
   std::snprintf(room, sizeof room, "; %.1f GB in %zu files, %.1f GB free", status.bytes * 1e-9,
                 status.files, status.free_bytes * 1e-9);
@@ -31,22 +31,22 @@ std::string in_words(const ols::LoggerStatus& status) {
          (status.bus_alarm.empty() ? "" : "; " + status.bus_alarm);
 }
 
-// A status that cannot be written must not end what it tells of.
+// A failure to write the status must not end the recording.
 void write_status(const std::string& path, const ols::LoggerStatus& status) {
   if (path.empty()) return;
-  static bool told = false;
+  static bool is_reported = false;
   try {
     ols::AtomicFile file(path);
     file.stream() << ols::to_json(status, ols::clock_utime_us()) << '\n';
     file.commit();
-    told = false;
+    is_reported = false;
   } catch (const std::exception& failure) {
-    if (!told) spdlog::warn("status: {}", failure.what());
-    told = true;
+    if (!is_reported) spdlog::warn("status: {}", failure.what());
+    is_reported = true;
   }
 }
 
-// A flight: one file, until the program is asked to end.
+// Records into one file until the program is ended.
 int run_into(const std::string& file, const ols::LoggerConfig& config) {
   ols::BusRecorder recorder(config, file);
   ols::ServiceNotifier service_manager;
@@ -71,8 +71,9 @@ int run(const ols::LoggerConfig& config) {
     supervisor.turn(now_s);
     if (now_s >= status_due_s) {
       const ols::LoggerStatus status = supervisor.status();
-      // A disk that is not to be had is no reason not to start: it is waited for, and said.
-      ready ? service_manager.status(in_words(status)) : service_manager.ready(in_words(status));
+      // Ready even without a usable disk: it is retried, and the status reports it.
+      ready ? service_manager.status(status_line(status))
+            : service_manager.ready(status_line(status));
       ready = true;
       write_status(config.status_file, status);
       status_due_s = now_s + kStatus_s;
@@ -89,9 +90,8 @@ int run(const ols::LoggerConfig& config) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Records the bus: the oldest files go when the quota (GB) is used up or the disk has less "
-      "than "
-      "its reserve (GB) left"};
+      "Records the bus: the oldest files are removed when the quota is used up or the disk's free "
+      "space falls below the reserve"};
   std::string config_path, folder, lcm_url, output;
   bool check = false;
   app.add_option("--config", config_path, "Configuration file (TOML); all keys have defaults");

@@ -13,9 +13,9 @@
 namespace ols {
 namespace {
 
-constexpr double kFirstPause_s = 0.5;  // before another start; doubles
+constexpr double kFirstPause_s = 0.5;  // before a restart; doubled each time
 constexpr double kLongestPause_s = 15.0;
-constexpr double kHealthy_s = 20.0;  // having run so long, it starts again without a long pause
+constexpr double kHealthy_s = 20.0;  // after running this long, the pause is short again
 
 std::string disk_full(double free_bytes) {
   char text[64];
@@ -52,9 +52,10 @@ void Supervisor::turn(double now_s) {
   if (recorder_) look_after_recorder(now_s);
   try {
     folder_.survey();
-    // Room for what is written until the next turn, and for one file more.
-    folder_.make_room(config_.quota_bytes, config_.disk_reserve_bytes, 2.0 * config_.split_bytes,
-                      recorder_ ? recorder_->report().file : std::string());
+    // Headroom for the data until the next call and for one more file.
+    folder_.remove_oldest(config_.quota_bytes, config_.disk_reserve_bytes,
+                          2.0 * config_.split_bytes,
+                          recorder_ ? recorder_->report().file : std::string());
   } catch (const std::exception& failure) {
     fail(failure.what(), now_s + kFirstPause_s);
     return;
@@ -103,7 +104,7 @@ void Supervisor::start(double now_s) {
 
 void Supervisor::fail(const std::string& why, double retry_s) {
   end_recorder();
-  // One trouble is told and counted once, not at every try.
+  // Each fault is logged and counted once, not at every attempt.
   if (why != trouble_) {
     ++failures_;
     spdlog::error("nothing is recorded: {}", why);

@@ -1,4 +1,4 @@
-// Keeps a recording going, within its quota, and off a disk that is full or cannot be written.
+// Keeps a recording running within its quota; pauses it while the disk is full or not writable.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ namespace ols {
 
 struct LoggerStatus {
   bool recording = false;
-  std::string text;  // the file that is written; or why none is
+  std::string text;  // the file being written, or why none is
   std::size_t files = 0;
   double bytes = 0.0, free_bytes = 0.0;
-  std::string bus_alarm;         // what a person should know of the bus
+  std::string bus_alarm;         // alarm of the bus monitor
   std::uint64_t starts = 0;      // of a recording
-  std::uint64_t failures = 0;    // its ends that nobody asked for; buses and disks not to be had
+  std::uint64_t failures = 0;    // unrequested ends; failed starts
   std::uint64_t removed = 0;     // files, for the quota
   std::uint64_t files_lost = 0;  // deleted, renamed or replaced while they were written
   std::uint64_t dropped = 0;     // messages that the disk was too slow for
@@ -47,12 +47,12 @@ class Supervisor {
   const LoggerConfig config_;
   LogFolder folder_;
   std::unique_ptr<BusRecorder> recorder_;
-  std::string trouble_;  // why nothing is recorded; empty while something is
+  std::string trouble_;  // why nothing is recorded; empty while recording
   double started_s_ = 0.0;
   double retry_s_ = 0.0;  // not started again before
   double pause_s_;
   std::uint64_t starts_ = 0, failures_ = 0;
-  LoggerStatus ended_;  // what the recordings before this one counted
+  LoggerStatus ended_;  // sums of the earlier recordings
 };
 
 }  // namespace ols

@@ -30,7 +30,7 @@ std::string_view leading_digits(std::string_view text) {
   return text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
 }
 
-// Numbers in names count as numbers: 2.png comes before 10.png. As text where all else is equal.
+// Natural order: 2.png before 10.png; equal numbers compare as text.
 bool before_in_order(std::string_view a, std::string_view b) {
   const std::string_view whole_a = a, whole_b = b;
   while (!a.empty() && !b.empty()) {
@@ -104,7 +104,8 @@ std::set<long> numbers_of_pattern(const Pattern& pattern) {
 }
 
 // The files of `frames/%06d.png`, from the first number that there is to the last one. A tracker
-// that skips a lost picture silently would give every later box the wrong frame: a gap is refused.
+// that silently skipped a missing image would give every later box the wrong frame: a gap is
+// refused.
 std::vector<std::string> pictures_of_pattern(const Pattern& pattern) {
   const std::set<long> numbers = numbers_of_pattern(pattern);
   std::vector<std::string> files;
@@ -112,15 +113,14 @@ std::vector<std::string> pictures_of_pattern(const Pattern& pattern) {
     const long expected = *numbers.begin() + static_cast<long>(files.size());
     if (number != expected) {
       throw FrameSourceError(name_of(pattern, expected) + ": number " + std::to_string(expected) +
-                             " is missing, there are later ones");
+                             " is missing, but there are later ones");
     }
     files.push_back(name_of(pattern, number));
   }
   return files;
 }
 
-// OpenCV tells std::cerr about a damaged picture, whatever its log level is; the user gets one
-// line.
+// OpenCV prints errors of damaged images to std::cerr at any log level; the user gets one line.
 class QuietErrors {
  public:
   QuietErrors() : buffer_(std::cerr.rdbuf(nullptr)) {}
@@ -132,7 +132,7 @@ class QuietErrors {
   std::streambuf* buffer_;
 };
 
-// Empty when it cannot be read; OpenCV throws where a header announces more than it takes.
+// Empty if it cannot be read; OpenCV throws if the header announces too large an image.
 cv::Mat read_picture(const std::string& file) {
   const QuietErrors quiet;
   try {
@@ -162,13 +162,13 @@ FrameSource::FrameSource(const std::string& input) : input_(input) {
   } else if (!fs::exists(input)) {
     throw FrameSourceError(input + ": no such file or folder");
   } else {
-    // One reader for all: others would be tried in turn, up to those that look for cameras.
+    // FFmpeg only: otherwise OpenCV tries all its readers, including those for cameras.
     if (!clip_.open(input, cv::CAP_FFMPEG))
       throw FrameSourceError(input + ": cannot be read as a clip");
     const double rate = clip_.get(cv::CAP_PROP_FPS);
     if (!std::isfinite(rate) || rate <= 0.1 || rate >= 10000.0) return;
     frames_per_second_ = rate;
-    // Where the container has none it is made of the rate: of one that is none, nonsense.
+    // A container without a count: OpenCV computes it from the rate, nonsense without a valid rate.
     const double count = clip_.get(cv::CAP_PROP_FRAME_COUNT);
     if (std::isfinite(count) && count > 0.0)
       announced_ = static_cast<std::size_t>(std::llround(count));
@@ -184,7 +184,7 @@ std::optional<cv::Mat> FrameSource::next() {
 std::optional<cv::Mat> FrameSource::next_of_clip() {
   cv::Mat picture;
   if (clip_.read(picture) && !picture.empty()) return to_gray(picture);
-  // Containers count a frame or two that no decoder gives: only more is a damaged clip.
+  // Containers may announce a frame or two more than they hold; a larger gap is a damaged clip.
   constexpr std::size_t kTolerated = 2;
   if (read_ == 0 || read_ + kTolerated < announced_) {
     throw FrameSourceError(input_ + ": ends or is damaged after " + std::to_string(read_) + " of " +

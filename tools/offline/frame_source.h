@@ -1,4 +1,4 @@
-// Pictures from a clip, a folder of images or a printf pattern of them, in order, as grey images.
+// Images from a clip, a folder of images or a printf pattern of them, in order, as grey images.
 #pragma once
 
 #include <memory>
@@ -21,14 +21,14 @@ class FrameSource {
  public:
   explicit FrameSource(const std::string& input);  // throws FrameSourceError
 
-  // The next picture; nothing at the end. Throws FrameSourceError when one cannot be read, or when
-  // a clip ends before the number of frames that it announces.
+  // The next image; nothing at the end. Throws FrameSourceError if one cannot be read or a clip
+  // ends before its announced number of frames.
   std::optional<cv::Mat> next();
-  // As the clip says; 30 where it does not.
+  // The clip's frame rate; 30 if it has none.
   double frames_per_second() const { return frames_per_second_; }
-  // How many there are, for the user: a clip may announce a few more than it has; 0: not known.
+  // The announced number of frames, for progress only: a clip may have a few less; 0: unknown.
   std::size_t announced() const { return files_.empty() ? announced_ : files_.size(); }
-  // The pictures of a folder or pattern; none of a clip.
+  // The image files of a folder or pattern; empty for a clip.
   const std::vector<std::string>& files() const { return files_; }
 
  private:

@@ -68,7 +68,7 @@ void tell_unused(const ols::UnusedBearings& unused, std::size_t bearings) {
   const char* separator = " ";
   for (const auto& [count, why] :
        {std::pair(unused.low_belief, "of low belief"),
-        std::pair(unused.duplicate, "a station and time given before")}) {
+        std::pair(unused.duplicate, "with an earlier bearing's station and time")}) {
     if (count == 0) continue;
     std::cerr << separator << count << ' ' << why;
     separator = ", ";
@@ -98,7 +98,7 @@ std::size_t count(const ols::RecordedBearings& recording) {
 }
 
 ols::OfflineConfig config_of(const Options& options, std::size_t bearings) {
-  constexpr std::size_t kRuns = 2;  // of the filter: who looks beside the target, and where it is
+  constexpr std::size_t kRuns = 2;  // of the filter: the stations' errors first, then the positions
   ols::OfflineConfig config;
   config.estimator = options.estimator;
   config.smooth = options.smooth;
@@ -173,8 +173,8 @@ void add_choices(CLI::App& app, Options& options) {
       ->check(CLI::Range(0.0, 10000.0))
       ->capture_default_str();
   app.add_option("--clock-sd", options.clock_sd_s,
-                 "[s] 1-sigma of each station's clock, which the files do not tell; guessed from "
-                 "noise and angular speed unless given")
+                 "[s] 1-sigma of each station's clock, which is not in the files; default: "
+                 "estimated from noise and angular speed")
       ->check(CLI::Range(0.0, 10.0));
   app.add_option("--moving-average", options.paper.moving_average,
                  "[fixes] with paper: mean of the last so many; 1: none")
@@ -192,7 +192,7 @@ int main(int argc, char** argv) {
   add_choices(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-fuse")) return *status;
   try {
-    // An empty file replaces that of a run before, but it is no success.
+    // An empty file replaces that of an earlier run, but the run has failed.
     if (run(options) == 0) {
       std::cerr << "ols-fuse: no position at all: " << options.output << " has no row\n";
       return kExitNoPosition;

@@ -35,7 +35,7 @@ bool is_geojson(const std::string& path) {
   return path.ends_with(".json") || path.ends_with(".geojson");
 }
 
-// Names that are missing or taken are numbered.
+// Missing or duplicate names get a number.
 std::string free_name(const std::string& wanted, std::set<std::string>& taken) {
   std::string name = wanted;
   for (int i = 1; name.empty() || taken.contains(name); ++i) {
@@ -138,7 +138,7 @@ void add_advice(CLI::App& app) {
   command->add_option("--stations", o->stations, "how many to place")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  command->add_option("--kept", o->kept, "stations that stand already: stations.csv");
+  command->add_option("--kept", o->kept, "existing stations: stations.csv");
   command->add_option("--heights", o->heights_m, "[m] of targets above the ground")
       ->delimiter(',')
       ->check(CLI::Range(-1e4, 1e6))
@@ -152,7 +152,7 @@ void add_advice(CLI::App& app) {
   command->add_option("--place-spacing", o->place_spacing_m, "[m] of places inside polygons")
       ->check(CLI::Range(0.1, 1e6));
   command->add_flag("--mean", o->mean,
-                    "make the mean error over the area least, not that of its worst point");
+                    "minimise the mean error over the area instead of the worst point's");
   command->add_option("--seed", o->seed, "of the search")->capture_default_str();
   command->add_option("--output", o->output, "CSV as stations.csv: the places to use")->required();
   add_measurement_options(*command, o->measurement);

@@ -125,7 +125,7 @@ std::vector<Corner> corners_of(const Cell& cell, double spacing_m) {
   return corners;
 }
 
-// What lies west (side -1) or east (+1) of a meridian (Sutherland and Hodgman's clipping).
+// The part west (side -1) or east (+1) of a meridian (Sutherland and Hodgman's clipping).
 std::vector<Corner> clipped(const std::vector<Corner>& corners, double meridian_deg, int side) {
   std::vector<Corner> kept;
   for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -1,5 +1,4 @@
-// What the subcommands of ols-precision share: how well a station measures, and which target it
-// looks at.
+// Options that the subcommands of ols-precision share: the stations' errors and the target.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,7 +10,7 @@
 
 namespace ols {
 
-// How well the stations measure; each has these unless stations.csv says otherwise.
+// Errors of the stations' measurements, where stations.csv has no own values.
 struct MeasurementOptions {
   double pixel_sd_px = 0.5;
   double pixel_um = 3.75;
@@ -27,8 +26,8 @@ struct MeasurementOptions {
 
 void add_measurement_options(CLI::App& app, MeasurementOptions& options);
 
-// position_sd_m and pointing_sd_deg of the row, where it has them, stand for the options' position
-// and for their heading, tilt and mounting together.
+// A row's position_sd_m replaces the option for position; its pointing_sd_deg those for heading,
+// tilt and mounting together.
 PlannedStation planned_station(const StationRow& row, const MeasurementOptions& options);
 std::vector<PlannedStation> planned_stations(const std::vector<StationRow>& rows,
                                              const MeasurementOptions& options);

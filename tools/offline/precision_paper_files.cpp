@@ -57,7 +57,7 @@ void add_steps(CLI::App& command, PaperOptions& o) {
       ->capture_default_str();
 }
 
-// An empty cell where nothing bounds the error.
+// An empty cell if the error is unbounded.
 std::ostream& cell(std::ostream& out, double value) {
   out << ',';
   return std::isfinite(value) ? out << value : out;

@@ -6,7 +6,7 @@
 
 namespace ols {
 
-// Each adds its subcommand to ols-precision; it runs when it is parsed.
+// Each adds its subcommand to ols-precision; it runs when parsed.
 void add_map(CLI::App& app);
 void add_budget(CLI::App& app);
 void add_advice(CLI::App& app);

@@ -13,13 +13,13 @@ namespace {
 
 constexpr double kDegree_rad = kPi / 180.0;
 
-// `unit_rad` is the unit of the row's angles, one degree unless somebody has exported radians.
+// `unit_rad` is the unit of the row's angles, one degree unless radians were exported.
 Sighting sighting_of(const BearingRow& bearing, const StationRow& station, double unit_rad) {
   Sighting sighting;
   sighting.station = bearing.station;
   sighting.utime_us = bearing.utime_us;
   sighting.belief = bearing.belief;
-  SightLine& sight = sighting.sight;
+  LineOfSight& sight = sighting.sight;
   sight.origin_ecef = ecef_from_geodetic(
       {radians(station.latitude_deg), radians(station.longitude_deg), station.height_m});
   sight.direction = {wrap_two_pi(bearing.azimuth_deg * unit_rad), bearing.elevation_deg * unit_rad};
@@ -49,8 +49,8 @@ std::size_t instants_with_position(const RecordedBearings& recording) {
   return count;
 }
 
-// Radians make a bundle of a few degrees about north, which meets here and there by chance. Small
-// angles alone prove nothing: which reading makes the lines of sight meet decides.
+// Radians read as degrees form a bundle of a few degrees about north, which may meet by chance.
+// Small angles prove nothing: the unit in which more lines of sight meet decides.
 void require_degrees(const std::string& path, const std::vector<StationRow>& stations,
                      const std::vector<BearingRow>& bearings, const RecordedBearings& as_degrees) {
   const bool can_be_radians = std::ranges::all_of(bearings, [](const BearingRow& row) {

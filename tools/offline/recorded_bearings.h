@@ -1,4 +1,4 @@
-// stations.csv and bearings.csv as the fusion takes them.
+// Reads stations.csv and bearings.csv as input of the fusion.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@ namespace ols {
 
 using RecordedBearings = std::map<std::string, std::vector<Sighting>>;  // by target id
 
-// CsvError; also where the angles can only be radians, whatever the columns' names say.
+// Throws CsvError, also if the angles can only be radians, despite the columns' names.
 RecordedBearings read_recorded_bearings(const std::string& stations_path,
                                         const std::string& bearings_path);
 

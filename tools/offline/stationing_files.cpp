@@ -32,13 +32,16 @@ const SurveyRow& named(const std::vector<SurveyRow>& survey, const std::string& 
   return *std::ranges::find(survey, name, &SurveyRow::landmark);
 }
 
-// What is found gets the next one.
+// The result gets the next id.
 void check_calibration_id(const std::string& path, std::int64_t id) {
   if (id < std::numeric_limits<std::int64_t>::max()) return;
-  throw ConfigFile(path).root().table("calibration").error("id", "there is no higher one");
+  throw ConfigFile(path)
+      .root()
+      .table("calibration")
+      .error("id", "is the highest possible: no id is left for the result");
 }
 
-// What is known before a landmark is sighted: where the station stands, and how level.
+// The prior: the station's position and tilt.
 StationGeometry rough_station(const StationingOptions& options, const StationSettings& settings,
                               const std::vector<SurveyRow>& survey) {
   StationGeometry rough = settings.station.geometry;
@@ -89,14 +92,14 @@ std::string contradiction(const StationingCase& before, const LandmarksContradic
   const char* separator = ": ";
   if (!problem.failing().empty()) text << separator << named(before, problem.failing());
   for (const StationingAlternative& one : problem.alternatives()) {
-    text << separator << "all others agree without " << named(before, one.set_aside)
+    text << separator << "all others agree without " << named(before, one.rejected)
          << " on a heading of " << degrees(one.heading_rad) << " deg";
     separator = "; or ";
   }
   return text.str();
 }
 
-std::string refusal(const StationingCase& before, const SightingRefused& problem) {
+std::string refusal(const StationingCase& before, const LandmarkRefused& problem) {
   const SightingName& name = before.names[problem.sighting()];
   const std::string field = problem.field() == "pixel" ? "x_px" : "landmark";
   return before.path + ":" + std::to_string(name.line) + ": " + field + ": '" + name.landmark +
@@ -129,7 +132,7 @@ Stationing find_station(const StationingCase& before, double highest_rad) {
     return station_by_landmarks(before.rough, before.sightings, highest_rad);
   } catch (const LandmarksContradict& problem) {
     throw CsvError(contradiction(before, problem));
-  } catch (const SightingRefused& problem) {
+  } catch (const LandmarkRefused& problem) {
     throw CsvError(refusal(before, problem));
   } catch (const std::invalid_argument& problem) {
     throw CsvError(before.path + ": " + problem.what());

@@ -34,12 +34,12 @@ struct StationingCase {
   std::vector<LandmarkSighting> sightings;
 };
 
-// ConfigError, CsvError (both name file, line and key or column); std::invalid_argument where the
-// station's place is not known.
+// Throws ConfigError or CsvError (naming file, line and key or column); std::invalid_argument if
+// the station's position is unknown.
 StationingCase read_stationing(const StationingOptions& options);
 
-// CsvError: the landmarks contradict each other, are none or leave the heading unknown; with the
-// names and lines of those that do.
+// Throws CsvError with the names and lines concerned: landmarks that contradict each other, no
+// landmarks, or landmarks that do not determine the heading.
 Stationing find_station(const StationingCase& before, double highest_rad);
 
 // The tables of the station's configuration that the stationing has found, with its tests, and
@@ -47,7 +47,7 @@ Stationing find_station(const StationingCase& before, double highest_rad);
 void write_stationing(std::ostream& out, const StationingCase& before, const Stationing& found,
                       bool with_position);
 
-// Of what was set aside and scaled, a line each, for those who do not look into the output.
+// Warnings for standard error: one line per rejected landmark, and one if deviations were scaled.
 std::vector<std::string> stationing_warnings(const StationingCase& before, const Stationing& found);
 
 }  // namespace ols

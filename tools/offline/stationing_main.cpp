@@ -28,7 +28,7 @@ void add_options(CLI::App& app, Options& options) {
       ->required();
   app.add_option("--sightings", o.sightings,
                  "CSV: landmark,pan_deg,tilt_deg[,x_px,y_px]; angles as the PTU reports them; "
-                 "without a pixel: where the optical axis meets the picture")
+                 "without a pixel: where the optical axis meets the image")
       ->required();
   app.add_option("--at", o.at,
                  "the landmark where the station's GROUND is; else [pose] says where");

@@ -8,7 +8,7 @@
 namespace ols {
 namespace {
 
-// As it is printed: no -0.00.
+// Rounded for printing, without -0.00.
 double rounded(double value, int digits) {
   const double unit = std::pow(10.0, -digits);
   return std::abs(value) < 0.5 * unit ? 0.0 : value;
@@ -19,7 +19,7 @@ void write_global_test(std::ostream& out, const Stationing& found) {
   out << std::setprecision(2) << "# Global test (5 %): variance factor " << test.variance_factor
       << ", critical " << test.critical << ", redundancy " << test.redundancy << ": ";
   if (found.scaled_by > 1.0) {
-    out << "REJECTED, the sightings disagree by more than was stated;\n#   all deviations below "
+    out << "REJECTED, the sightings disagree by more than stated;\n#   all deviations below "
            "are "
            "scaled up by "
         << found.scaled_by << ".\n";
@@ -42,7 +42,7 @@ void write_detectable(std::ostream& out, const Eigen::Vector2d& least_m) {
   out << '\n';
 }
 
-// One row of a landmark's sightings: what it is off, in degrees and in deviations.
+// One sighting's residual, in degrees and in deviations.
 void write_residual(std::ostream& out, const Stationing& found, std::size_t i) {
   const Eigen::Vector2d& rad = found.residuals_rad[i];
   const Eigen::Vector2d& over = found.residuals[i];
@@ -59,7 +59,7 @@ void write_landmarks(std::ostream& out, const StationingCase& before, const Stat
     const SightingName& first = before.names[test.sightings.front()];
     out << "#   " << first.landmark << ": w " << std::setprecision(1) << test.w << " of "
         << test.critical;
-    if (test.set_aside) out << ", SET ASIDE: mistaken or mistyped (line " << first.line << ")";
+    if (test.rejected) out << ", REJECTED as mistaken or mistyped (line " << first.line << ")";
     for (const std::size_t i : test.sightings) {
       out << "; ";
       if (test.sightings.size() > 1) out << "line " << before.names[i].line << " ";
@@ -97,7 +97,7 @@ void write_determined(std::ostream& out, const Stationing& found) {
            "be.\n";
   }
   std::size_t used = 0;
-  for (const LandmarkTest& test : found.landmarks) used += test.set_aside ? 0 : 1;
+  for (const LandmarkTest& test : found.landmarks) used += test.rejected ? 0 : 1;
   if (used == 1) out << "#   ONE LANDMARK ALONE: nothing checks the heading.\n";
 }
 
@@ -107,10 +107,10 @@ std::vector<std::string> stationing_warnings(const StationingCase& before,
                                              const Stationing& found) {
   std::vector<std::string> lines;
   for (const LandmarkTest& test : found.landmarks) {
-    if (!test.set_aside) continue;
+    if (!test.rejected) continue;
     const SightingName& name = before.names[test.sightings.front()];
     lines.push_back(before.path + ":" + std::to_string(name.line) + ": landmark: '" +
-                    name.landmark + "' is set aside as mistaken");
+                    name.landmark + "' is rejected as mistaken");
   }
   if (found.scaled_by > 1.0) {
     lines.push_back(before.path +

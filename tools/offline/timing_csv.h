@@ -8,7 +8,7 @@
 
 namespace ols {
 
-// Processor time of this thread [s]: what else runs on the machine does not count.
+// Processor time of this thread [s], independent of other programs.
 double thread_time_s();
 
 class TimingFile {

@@ -47,12 +47,12 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--config", arguments.config, "TOML file with a table [tracker]");
   app.add_option("--mode", arguments.mode,
-                 "paper: section 5 of the paper and nothing else; full: what measures best. Goes "
-                 "before the configuration's [tracker] mode")
+                 "paper: section 5 of the paper and nothing else; full: the product's tracker. "
+                 "Overrides the configuration's [tracker] mode")
       ->check(CLI::IsMember({"paper", "full"}));
   app.add_option("--timing", arguments.timing,
                  "also write the milliseconds of each stage of each frame to this CSV file");
-  app.add_option("--seed", arguments.seed, "of the random numbers: the same seed, the same boxes")
+  app.add_option("--seed", arguments.seed, "of the random numbers: equal seeds give equal boxes")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--output", arguments.output,
@@ -60,8 +60,8 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->required();
 }
 
-// Tracking while believed, coasting for a second after that, then lost: a box is the best guess
-// even then, and its belief says how little that is.
+// Tracking above the belief limit, coasting for a second below it, then lost. The box stays the
+// best estimate even then; its low belief says so.
 class State {
  public:
   explicit State(double start_s) : believed_s_(start_s) {}
@@ -69,12 +69,12 @@ class State {
   ols::BoxRow row(long frame, double time_s, const ols::TrackerOutput& output) {
     if (output.belief >= kBelieved) believed_s_ = time_s;
     ols::BoxRow row{frame, output.box, output.belief, "tracking"};
-    if (output.belief < kBelieved) row.state = doubted(time_s);
+    if (output.belief < kBelieved) row.state = coasting_or_lost(time_s);
     return row;
   }
   // Of a frame that the tracker could not use.
   ols::BoxRow row(long frame, double time_s) const {
-    return {frame, std::nullopt, 0.0, doubted(time_s)};
+    return {frame, std::nullopt, 0.0, coasting_or_lost(time_s)};
   }
 
  private:
@@ -82,12 +82,12 @@ class State {
   static constexpr double kCoast_s = 1.0;
 
   bool lost(double time_s) const { return time_s - believed_s_ > kCoast_s; }
-  const char* doubted(double time_s) const { return lost(time_s) ? "lost" : "coasting"; }
+  const char* coasting_or_lost(double time_s) const { return lost(time_s) ? "lost" : "coasting"; }
 
   double believed_s_;
 };
 
-// Frames that the tracker refused: they get no box, and the user is told.
+// Frames that the tracker refused: they get no box, and are reported.
 class Skipped {
  public:
   void add(long frame, ols::TrackerError error) {
@@ -112,7 +112,7 @@ class Skipped {
   std::map<ols::TrackerError, Kind> kinds_;
 };
 
-// From one picture to the rows of boxes.csv.
+// Tracks frame by frame and writes the rows of boxes.csv.
 class Run {
  public:
   explicit Run(const Arguments& arguments)
@@ -205,7 +205,7 @@ int main(int argc, char** argv) {
   Arguments arguments;
   declare(app, arguments);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-track")) return *status;
-  // The decoder's own chatter is not the one line that the user needs; a value already set stays.
+  // Silences the decoder, so that an error is one line; a value set by the user is kept.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::setNumThreads(1);

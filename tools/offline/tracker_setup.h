@@ -1,4 +1,4 @@
-// The tracker's parameters as a program is given them.
+// The tracker's parameters from the command line and a file.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace ols {
 
 // Of the table [tracker] of a TOML file; the defaults when `path` is empty. `mode`, "paper" or
-// "full", goes before the file's; empty leaves that. Throws ConfigError.
+// "full", overrides the file's; empty: the file's. Throws ConfigError.
 TrackerConfig load_tracker_config(const std::string& path, const std::string& mode);
 
 }  // namespace ols

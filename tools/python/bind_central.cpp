@@ -49,7 +49,7 @@ void bind_results(py::module_& m) {
 void bind_estimators(py::module_& m) {
   data_class<Ray>(m, "Ray", "One station's bearing at an epoch.")
       .def_readwrite("station", &Ray::station)
-      .def_readwrite("sight", &Ray::sight, "SightLine; a copy, replaced as a whole.")
+      .def_readwrite("sight", &Ray::sight, "LineOfSight; a copy, replaced as a whole.")
       .def_readwrite("rate_rad_s", &Ray::rate_rad_s, "(2,) (cross-elevation, elevation)")
       .def_readwrite("rate_covariance", &Ray::rate_covariance, "(2, 2) [rad^2/s^2]")
       .def_readwrite("clock_sd_s", &Ray::clock_sd_s)
@@ -94,7 +94,8 @@ void bind_configs(py::module_& m) {
       .def_readwrite("acceleration_sd_m_s2", &AlignmentConfig::acceleration_sd_m_s2)
       .def_readwrite("range_unknown_m", &AlignmentConfig::range_unknown_m);
 
-  data_class<LeastSquaresConfig>(m, "LeastSquaresConfig", "The joint least squares.")
+  data_class<LeastSquaresConfig>(m, "LeastSquaresConfig",
+                                 "The least-squares estimator of one epoch.")
       .def_readwrite("gate_sigma", &LeastSquaresConfig::gate_sigma)
       .def_readwrite("huber_sigma", &LeastSquaresConfig::huber_sigma)
       .def_readwrite("range_sd_limit", &LeastSquaresConfig::range_sd_limit)
@@ -127,7 +128,7 @@ void bind_fusion(py::module_& m) {
   data_class<Sighting>(m, "Sighting", "One bearing of one station.")
       .def_readwrite("station", &Sighting::station)
       .def_readwrite("utime_us", &Sighting::utime_us, "UTC since 1970 [us] at mid-exposure.")
-      .def_readwrite("sight", &Sighting::sight, "SightLine; a copy, replaced as a whole.")
+      .def_readwrite("sight", &Sighting::sight, "LineOfSight; a copy, replaced as a whole.")
       .def_readwrite("belief", &Sighting::belief)
       .def_readwrite("clock_sd_s", &Sighting::clock_sd_s)
       .def_readwrite("track_id", &Sighting::track_id);

@@ -63,18 +63,18 @@ void bind_direction(py::module_& m) {
   m.def("angle_between", &angle_between, arg("a"), arg("b"),
         "Angle between two (3,) vectors [rad], exact also when it is tiny.");
 
-  data_class<SightLine>(m, "SightLine", "A measured line of sight.")
-      .def_readwrite("origin_ecef", &SightLine::origin_ecef, "(3,) camera centre, ECEF [m].")
-      .def_readwrite("direction", &SightLine::direction,
+  data_class<LineOfSight>(m, "SightLine", "A measured line of sight.")
+      .def_readwrite("origin_ecef", &LineOfSight::origin_ecef, "(3,) camera centre, ECEF [m].")
+      .def_readwrite("direction", &LineOfSight::direction,
                      "AzimuthElevation in the horizon at origin_ecef.")
-      .def_readwrite("covariance_white", &SightLine::covariance_white,
+      .def_readwrite("covariance_white", &LineOfSight::covariance_white,
                      "(2, 2) [rad^2], (cross-elevation, elevation): new with every frame.")
-      .def_readwrite("covariance_systematic", &SightLine::covariance_systematic,
+      .def_readwrite("covariance_systematic", &LineOfSight::covariance_systematic,
                      "(2, 2) [rad^2], (cross-elevation, elevation): stays.")
-      .def_readwrite("origin_sd_enu_m", &SightLine::origin_sd_enu_m,
+      .def_readwrite("origin_sd_enu_m", &LineOfSight::origin_sd_enu_m,
                      "(3,) east, north, up [m]: 1-sigma of the origin, stays.");
   m.def("direction_ecef", &direction_ecef, arg("sight"),
-        "SightLine -> (3,) unit vector in ECEF components.");
+        "LineOfSight -> (3,) unit vector in ECEF components.");
 }
 
 void bind_pinhole(py::module_& m) {
@@ -214,10 +214,10 @@ void bind_sight_types(py::module_& m) {
 }
 
 void bind_sight_functions(py::module_& m) {
-  m.def(
-      "sight", &sight, arg("station"), arg("measurement"),
-      "StationGeometry, PixelSight -> SightLine with first-order covariances; None when the pixel "
-      "cannot be unprojected.");
+  m.def("sight", &sight, arg("station"), arg("measurement"),
+        "StationGeometry, PixelSight -> LineOfSight with first-order covariances; None when the "
+        "pixel "
+        "cannot be unprojected.");
   m.def("view", &view, arg("station"), arg("angles"), arg("p_ecef"),
         "View of a (3,) ECEF position [m] at given PTU angles; None when it is not in front.");
   m.def(

@@ -18,7 +18,7 @@ void bind_stationing(py::module_& m) {
       .def_readwrite("angles_sd_rad", &LandmarkSighting::angles_sd_rad, "Of each of them.");
   data_class<LandmarkTest>(m, "LandmarkTest", "The w-test of a landmark's sightings.")
       .def_readwrite("sightings", &LandmarkTest::sightings, "Their indices.")
-      .def_readwrite("set_aside", &LandmarkTest::set_aside)
+      .def_readwrite("set_aside", &LandmarkTest::rejected)
       .def_readwrite("w", &LandmarkTest::w)
       .def_readwrite("critical", &LandmarkTest::critical)
       .def_readwrite("detectable_m", &LandmarkTest::detectable_m, "(2,) across and up.");

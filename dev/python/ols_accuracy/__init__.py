@@ -1,1 +1,1 @@
-"""The paper's precision figures and experiments, and ours beside them: docs/accuracy.md."""
+"""The paper's precision figures and experiments, and ours in comparison: docs/accuracy.md."""

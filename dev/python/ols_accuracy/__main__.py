@@ -46,9 +46,9 @@ PAPER_WALK_MEAN_M, PAPER_WALK_GREATEST_M = 6.25, 13.35
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], prog="accuracy-report")
     parser.add_argument("--runs", type=Path, default=ROOT / "build/accuracy", help="kept runs")
-    parser.add_argument("--seeds", type=int, default=3, help="of the landmarks, with pictures")
-    parser.add_argument("--walk-seeds", type=int, default=1, help="of the walk, with pictures")
-    parser.add_argument("--budget-seeds", type=int, default=40, help="of the runs without pictures")
+    parser.add_argument("--seeds", type=int, default=3, help="of the landmarks, with images")
+    parser.add_argument("--walk-seeds", type=int, default=1, help="of the walk, with images")
+    parser.add_argument("--budget-seeds", type=int, default=40, help="of the runs without images")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument(
         "--kept-only", action="store_true", help="make no run; a dash where one is missing"
@@ -200,7 +200,7 @@ def budget(folder: Path, seeds: range, paper: dict[str, np.ndarray]) -> None:
 
 
 def all_runs(folder: Path, arguments: argparse.Namespace, objects: list[str]) -> list[Run]:
-    """With pictures, then without; seed by seed."""
+    """With images, then without; seed by seed."""
     runs = [picture_run(folder, k, WALK, s) for s in seeds_of(arguments.walk_seeds) for k in KINDS]
     runs += [
         picture_run(folder, kind, target, seed)

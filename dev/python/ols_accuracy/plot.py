@@ -1,4 +1,4 @@
-"""A picture of what ols-precision has written: tools/precision-plot."""
+"""Plots the output of ols-precision: tools/precision-plot."""
 
 import argparse
 import sys

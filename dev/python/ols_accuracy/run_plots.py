@@ -1,4 +1,4 @@
-"""Pictures of the paper's experiments as the simulation runs them."""
+"""Plots of the paper's experiments in simulation."""
 
 from pathlib import Path
 

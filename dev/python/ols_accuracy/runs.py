@@ -31,7 +31,7 @@ STAYING = tuple(
 )
 # How the stations found their headings.
 LANDMARKS, EACH_OTHER = "landmarks", "each-other"
-# What is in a run with pictures: random errors only, or all after a stationing of either kind.
+# The errors in a run with images: random errors only, or all after a stationing of either kind.
 RANDOM = "random"
 KINDS = (RANDOM, LANDMARKS, EACH_OTHER)
 
@@ -119,7 +119,7 @@ def _run(place: Path, target: str, seed: int, **options: object) -> Run:
 
 
 def picture_run(folder: Path, kind: str, target: str, seed: int) -> Run:
-    """Rendered pictures and the real tracker; `kind` is one of KINDS."""
+    """Rendered images and the real tracker; `kind` is one of KINDS."""
     place = folder / "pictures" / kind / target / f"seed{seed}"
     if kind == RANDOM:
         return _run(place, target, seed, stationing=LANDMARKS, without=STAYING)

@@ -1,4 +1,4 @@
-"""Pictures of what ols-precision writes."""
+"""Plots of the output of ols-precision."""
 
 import csv
 from pathlib import Path
@@ -130,7 +130,7 @@ def site_map(source: Path, output: Path, stations: Path | None = None) -> None:
     )
     middle = np.radians(np.mean(table["latitude_deg"]))
     zero = np.mean(table["longitude_deg"]), np.mean(table["latitude_deg"])
-    metres = 111_320 * np.cos(middle), 111_200  # for the axes of a picture
+    metres = 111_320 * np.cos(middle), 111_200  # for the axes of a plot
     for row, above in zip(axes, heights, strict=True):
         mask = table["above_stations_m"] == above
         x = (table["longitude_deg"][mask] - zero[0]) * metres[0]

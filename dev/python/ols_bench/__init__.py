@@ -1,1 +1,1 @@
-"""Benchmarks of the tracker: on clips with ground truth, and on synthetic pictures."""
+"""Benchmarks of the tracker: on clips with ground truth, and on synthetic images."""

@@ -1,4 +1,4 @@
-"""tools/bench-tracking: our tracker beside OpenCV's, on clips with ground truth."""
+"""tools/bench-tracking: our tracker and OpenCV's, on clips with ground truth."""
 
 import argparse
 import os
@@ -24,7 +24,7 @@ def arguments() -> argparse.Namespace:
         type=Path,
         nargs="+",
         metavar="CLIPS",
-        help="folder with NAME.mp4 or NAME.avi beside NAME.csv (frame,x,y,w,h: the truth)",
+        help="folder with NAME.mp4 or NAME.avi and NAME.csv (frame,x,y,w,h: the truth)",
     )
     parser.add_argument("--output", type=Path, default=ROOT / "out/tracking")
     parser.add_argument(

@@ -69,7 +69,7 @@ def losses(judged: Judged, on_target: np.ndarray) -> list[float]:
 def followed_on(judged: Judged) -> np.ndarray:
     """Frames without a labelled target in which what was on target in a labelled one is followed
     still: believed in, and without a leap, in every frame since. A tracker that slid from it onto
-    something else meanwhile is among them: look at the pictures."""
+    something else meanwhile is among them: look at the images."""
     goes_on = False
     frames = np.zeros(len(judged.visible), dtype=bool)
     for k, visible in enumerate(judged.visible):

@@ -1,6 +1,6 @@
 """Clips with ground truth, and boxes that a tracker gave for them.
 
-A folder of clips holds NAME.mp4 or NAME.avi beside NAME.csv (frame,x,y,w,h: frames from 0, pixels,
+A folder of clips holds NAME.mp4 or NAME.avi and NAME.csv (frame,x,y,w,h: frames from 0, pixels,
 top-left corner; no x,y,w,h where the target is absent). Boxes of a tracker are NAME.csv with the
 same columns and, where it has an opinion on itself, belief.
 """

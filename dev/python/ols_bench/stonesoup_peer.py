@@ -1,8 +1,8 @@
-"""Stone Soup's extended Kalman filter on the bearings that ols-bench-estimators has written, beside
-our filter: errors run by run, processor time a bearing.
+"""Stone Soup's extended Kalman filter on the bearings written by ols-bench-estimators, next to our
+filter: errors run by run, processor time a bearing.
 
 Both know the true motion (constant velocity with white noise of the acceleration), the true noise
-and the stations' places. Stone Soup begins a metre beside the truth; ours finds its own start.
+and the stations' places. Stone Soup starts a metre off the truth; ours initiates its own track.
 Exits with 1 where ours is less accurate, or not that many times faster.
 """
 
@@ -126,7 +126,7 @@ def summary(ours, theirs, our_us, their_us):
 
 
 def misses(figures):
-    """What the measures ask for and the figures do not show, in words."""
+    """The limits that are not met, as text."""
     said = []
     if not figures["ratio_95"][0] <= 1.0:
         said.append("less accurate than Stone Soup's filter")

@@ -1,4 +1,4 @@
-"""How the benchmarks' pictures look."""
+"""Style of the benchmarks' plots."""
 
 import matplotlib
 

@@ -1,4 +1,4 @@
-"""tools/bench-tracker-synthetic: the tracker on the simulator's pictures, with exact truth."""
+"""tools/bench-tracker-synthetic: the tracker on the simulator's images, with exact truth."""
 
 import argparse
 import subprocess

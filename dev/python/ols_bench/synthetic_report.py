@@ -1,4 +1,4 @@
-"""The synthetic benchmark's figures as Markdown, JSON and pictures."""
+"""The synthetic benchmark's figures as Markdown, JSON and plots."""
 
 import json
 from pathlib import Path
@@ -16,7 +16,7 @@ PROPERTIES = {
     "size": ("target's width [px]", True),
     "contrast": ("peak contrast [σ of pixel noise]", True),
     "blur": ("lens blur, sd [px]", False),
-    "speed": ("speed in the picture [px/s]", False),
+    "speed": ("speed in the image [px/s]", False),
     "growth": ("growth of the target [1/s]", False),
 }
 CAMERA = {
@@ -118,7 +118,7 @@ def point_table(points: list[dict]) -> str:
 
 def write(output: Path, points: list[dict], about: str) -> None:
     asked = table(["measure", "measured", "asked"], [list(row) for row in summary(points)])
-    parts = ["# The tracker on synthetic pictures", about, asked, point_table(points)]
+    parts = ["# The tracker on synthetic images", about, asked, point_table(points)]
     (output / "synthetic.md").write_text("\n\n".join(parts) + "\n")
     (output / "synthetic.json").write_text(json.dumps(finite(points), indent=1) + "\n")
 

@@ -1,1 +1,1 @@
-"""The fault run: every fault that a site must survive, done to a simulated one, and judged."""
+"""The fault run: applies every fault that a site must survive to a simulated one, and judges."""

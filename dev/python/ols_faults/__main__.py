@@ -1,4 +1,4 @@
-"""tools/fault-run: does every fault of the table to a simulated site, and judges what happens."""
+"""tools/fault-run: applies every fault of the table to a simulated site, and judges."""
 
 import argparse
 import signal
@@ -63,7 +63,7 @@ def arguments() -> argparse.Namespace:
 
 
 def run_case(session: Session, name: str) -> tuple[Outcome, Evidence | None]:
-    """What came of it, and the evidence of a case that was done to its end."""
+    """The outcome, and the evidence of a completed case."""
     case = CASES[name]
     outcome, evidence = Outcome(), Evidence(session.heard, session.stations)
     start, done = time.monotonic(), None
@@ -104,7 +104,7 @@ def run_cases(
     outcomes: dict[str, Outcome] = {}
     evidences: dict[str, Evidence] = {}
     remaining = list(names)
-    # A site that a fault has broken for good fails its case; the rest get a new one.
+    # A permanently broken site fails its case; the other cases get a new one.
     while remaining:
         if wiring.log.exists():
             wiring.log.rename(wiring.log.with_stem(f"run-{len(outcomes)}"))

@@ -1,7 +1,7 @@
-"""What a case of the fault run is, and what came of it.
+"""A case of the fault run, and its outcome.
 
 A case is two functions: one does something to the site and notes it, the other one judges the
-evidence and asks nobody. So the same evidence can be judged again after it was altered in the way
+evidence alone. So the same evidence can be judged again after it was altered in the way
 in which a broken product would have altered it: see mutate.py.
 """
 
@@ -29,7 +29,7 @@ class Mutation:
 
 @dataclass
 class Check:
-    """One thing that was measured, and the limit that it is held against."""
+    """A measure and its limit."""
 
     what: str  # its name: the same in every run
     measured: str
@@ -45,7 +45,7 @@ class Outcome:
     checks: list[Check] = field(default_factory=list)
     recovery_s: float | None = None  # from the fault's end (or the restart) to normal work
     seconds: float = 0.0  # the case took
-    error: str = ""  # the case itself could not go on
+    error: str = ""  # the case itself could not continue
 
     @property
     def passed(self) -> bool:

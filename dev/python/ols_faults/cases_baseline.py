@@ -1,4 +1,4 @@
-"""The site without any fault: what the others are compared with."""
+"""The site without any fault, as reference."""
 
 from ols_faults import measure, mutations
 from ols_faults.case import Outcome, case
@@ -27,6 +27,6 @@ def judge(evidence: Evidence, outcome: Outcome) -> None:
         judge_angles(evidence, outcome, station, window, JUDGED_S)
 
 
-@case("no-fault", "none", "everything works; published sigmas are honest", judge)
+@case("no-fault", "none", "everything works; published sigmas are consistent", judge)
 def no_fault(session: Session, evidence: Evidence) -> None:
     evidence["window"] = session.run(JUDGED_S)

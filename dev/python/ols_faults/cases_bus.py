@@ -1,4 +1,4 @@
-"""Attacks on what reads the bus: datagrams that no message is made of, and channels without end."""
+"""Attacks on the readers of the bus: malformed datagrams, and endless new channels."""
 
 import re
 import subprocess
@@ -28,7 +28,7 @@ UNKNOWN_S = 150.0
 
 
 def targets_of(session: Session) -> list[str]:
-    """A channel that each kind of process hears; of the stations each its own."""
+    """A channel that each kind of process reads; each station its own."""
     channels = ["OLS_STATUS_x", "OLS_BEARING_x", "OLS_FUSION_STATUS", "OLS_TARGET"]
     for station in session.stations:
         channels += [f"OLS_{kind}_{station}" for kind in ("PTU", "SLEW", "DESIGNATE", "STATUS")]
@@ -77,7 +77,7 @@ def attack(session: Session, sender: Sender) -> None:
 
 
 def ctl_meanwhile(session: Session, sender: Sender) -> int | None:
-    """The status that `ols-ctl` ends with while the pair comes again and again; None: it hangs."""
+    """The status that `ols-ctl` ends with while the pair is sent repeatedly; None: it hangs."""
     program = session.wiring.program("ols-ctl")
     with subprocess.Popen(
         [program, "all", "status"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
@@ -107,7 +107,7 @@ def judge_fragments(evidence: Evidence, outcome: Outcome) -> None:
         "the recorder is the same process",
         evidence["recorders"][0] == evidence["recorders"][1],
         f"{evidence['recorders'][0]}, then {evidence['recorders'][1]}",
-        broken_by=mutations.fact("it is started anew", "recorders", ([1], [2])),
+        broken_by=mutations.fact("it is restarted", "recorders", ([1], [2])),
     )
     outcome.at_least(
         "recorded meanwhile",
@@ -187,7 +187,7 @@ def judge_channels(evidence: Evidence, outcome: Outcome) -> None:
 
 @case(
     "many-channels",
-    "two million channel names that nobody knows",
+    "two million unknown channel names",
     f"fusion and stations grow by {GROWN_MB:g} MB at most",
     judge_channels,
 )
@@ -197,7 +197,7 @@ def many_channels(session: Session, evidence: Evidence) -> None:
 
 
 def flood_with_channels(session: Session, evidence: Evidence) -> None:
-    """As many as each must hear, and as many more as the kernel drops where one is overrun."""
+    """As many as each must receive, plus those that the kernel drops if one is overrun."""
     names = ours(session)
     pids = {name: session.pid(name) for name in names}
     before = {name: resident_bytes(pid) for name, pid in pids.items()}
@@ -223,6 +223,6 @@ def flood_with_channels(session: Session, evidence: Evidence) -> None:
 
 
 def so_far(log: Path) -> int:
-    """What the newest flood has sent, as it says once a second."""
+    """The number of messages that the newest flood reports once a second."""
     said = re.findall(r"so far (\d+)", log.read_text().rpartition("ready")[2])
     return int(said[-1]) if said else 0

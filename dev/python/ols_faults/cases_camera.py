@@ -12,7 +12,7 @@ from ols_faults.judges import (
 )
 from ols_faults.session import Session
 
-REPORTED_S = 2.5  # a camera that is gone is missed after some frames, and told of twice a second
+REPORTED_S = 2.5  # a lost camera is noticed after some frames; statuses come twice a second
 RECOVERED_S = 10.0
 SHORTLY_US = 700_000  # frames that are under way when the fault begins
 
@@ -20,7 +20,7 @@ SHORTLY_US = 700_000  # frames that are under way when the fault begins
 # of small ones, and 0.1 % does the same.
 LOSS = 0.04
 GONE = "camera:", "no frames for"
-WRONG_S = 8.0  # of which so long gone, so that it is opened anew:
+WRONG_S = 8.0  # of which it is lost this long, so that it is opened again:
 GONE_S = 3.0
 
 
@@ -93,10 +93,10 @@ def camera_packet_loss(session: Session, evidence: Evidence) -> None:
 
 
 def judge_wrong_format(evidence: Evidence, outcome: Outcome) -> None:
-    """Only what came once the camera was back: while it is gone there are other alarms."""
+    """Only alarms after the camera's return: there are others during its absence."""
     station, back_us = evidence["station"], evidence["back_us"]
     judge_outage(evidence, outcome, station, (back_us, evidence["wrong_until_us"]))
-    words = "camera:", "BayerRG8", "Mono8"  # what it sends, and what it was told to send
+    words = "camera:", "BayerRG8", "Mono8"  # what it sends, and what it was configured to send
     judge_alarm(evidence, outcome, "both formats named", station, back_us, REPORTED_S, *words)
     judge_recovery(evidence, outcome)
 

@@ -22,7 +22,7 @@ RETURN_S = 20.0  # it is distrusted for a while: see configuration.py
 
 
 class SteppedClock:
-    """A station whose wall clock can be stepped; CLOCK_MONOTONIC goes on as it does."""
+    """A station whose wall clock can be stepped; CLOCK_MONOTONIC is not affected."""
 
     def __init__(self, session: Session, station: str):
         self._session, self._station = session, station
@@ -126,8 +126,8 @@ def judge_quarantine(evidence: Evidence, outcome: Outcome) -> None:
     outcome.holds(
         "the fusion names it, and it alone",
         named == {station},
-        ", ".join(sorted(named)) or "nobody",
-        broken_by=mutations.altering("no quarantine is told", "OLS_FUSION_STATUS", silent),
+        ", ".join(sorted(named)) or "no station",
+        broken_by=mutations.altering("no quarantine is reported", "OLS_FUSION_STATUS", silent),
     )
 
 

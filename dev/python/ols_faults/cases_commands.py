@@ -1,7 +1,7 @@
 """Commands that must not move anything: stale, played again, out of limits, no numbers, addressed
 to another station.
 
-There are no signatures: a well-formed command counts whoever sent it, and the good ones here, which
+There are no signatures: a well-formed command counts from any sender, and the good ones here, which
 move the unit, are as forged as the bad ones.
 """
 
@@ -146,7 +146,7 @@ def judge_good(evidence: Evidence, outcome: Outcome, share: float) -> None:
     """What the bad ones would have done, had they been obeyed."""
     station, window = evidence["station"], evidence["good"]
     outcome.at_least(
-        "moved by a well-formed one, whoever sent it",
+        "moved by a well-formed one, from any sender",
         measure.moved_deg(evidence.heard, station, *window),
         share * WAY_DEG,
         "deg",

@@ -1,4 +1,4 @@
-"""A disk that is full, and one that is read-only, under what a station records."""
+"""A full and a read-only disk under a station's recordings."""
 
 import errno
 import shutil
@@ -65,7 +65,7 @@ def is_complete(frames: Path) -> bool:
 
 
 def judge(evidence: Evidence, outcome: Outcome, words: tuple[str, ...]) -> None:
-    """Tracking goes on as before, and what cannot be written is reported."""
+    """Tracking continues as before, and failed writes are reported."""
     station, window = evidence["station"], evidence["window"]
     judge_alarm(evidence, outcome, "reported", station, window[0], REPORTED_S, *words)
     judge_goes_on(evidence, outcome, station, window, 0.85 * FRAME_HZ)
@@ -87,7 +87,7 @@ def do(session: Session, evidence: Evidence, label: str, begin: Any, end: Any) -
     station = evidence["station"] = session.disk_station
     session.wait(lambda: not alarm_of(session.status(station), "recorder:"), 10.0)
     session.fresh_status(station)
-    # What is complete already and is removed for the quota meanwhile is no event.
+    # Complete events that the quota removes meanwhile are ignored.
     before = recorded(session.disk)
     undo = begin(session.disk)
     try:
@@ -100,7 +100,7 @@ def do(session: Session, evidence: Evidence, label: str, begin: Any, end: Any) -
 
 
 def fetch(session: Session) -> None:
-    """Somebody takes the recordings along: the station may keep what it has."""
+    """The recordings are copied and removed: the station may record again."""
     for name in recorded(session.disk):
         shutil.rmtree(session.disk / name)
 

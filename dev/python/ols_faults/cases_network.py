@@ -1,8 +1,7 @@
-"""A network that loses, doubles and reorders; a network that is flooded.
+"""A network that loses, duplicates and reorders; a network that is flooded.
 
-How good the targets are is compared with a second fusion that hears the same bearings at the same
-time on an undisturbed bus: the target's place in the site, and what the stations see of it there,
-matter more than any of this.
+The errors are compared with those of a second fusion that receives the same bearings on an
+undisturbed bus: they depend mostly on the target's place in the site.
 """
 
 import re
@@ -46,7 +45,7 @@ class FarFusion:
         self._session = session
         session.kill("ols-fusion")
         session.start_fusion(FAR_URL)
-        # Targets are heard where the fusion is: what the relay does to them is not judged.
+        # Targets are recorded at the fusion: the relay's effect on them is not judged.
         self.ear = Ear(FAR_URL, self._receive)
         session.add_handler(self._handle)
 
@@ -159,7 +158,7 @@ def judge_bad_network(evidence: Evidence, outcome: Outcome) -> None:
 @case(
     "lcm-bad-network",
     "LCM: 5 % loss, 5 % duplicates, 5 % reordering, by a relay",
-    "beside a second, undisturbed fusion: error <= 1.2 times, as many positions",
+    "against an undisturbed second fusion: error <= 1.2 times, as many positions",
     judge_bad_network,
 )
 def lcm_bad_network(session: Session, evidence: Evidence) -> None:
@@ -179,7 +178,7 @@ def lcm_bad_network(session: Session, evidence: Evidence) -> None:
 
 
 def relayed(log: Path) -> tuple[int, ...]:
-    """Messages received, lost, doubled, reordered by the newest relay."""
+    """Messages received, lost, duplicated, reordered by the newest relay."""
     found = re.findall(
         r"forward: received (\d+), lost (\d+), duplicated (\d+), reordered (\d+)",
         log.read_text(errors="replace"),
@@ -237,7 +236,7 @@ def judge_flood(evidence: Evidence, outcome: Outcome) -> None:
 @case(
     "lcm-flood",
     "10 000 foreign messages a second",
-    "beside a second, undisturbed fusion: error <= 1.2 times, as many positions; no queue grows",
+    "against an undisturbed second fusion: error <= 1.2 times, as many positions; no queue grows",
     judge_flood,
 )
 def lcm_flood(session: Session, evidence: Evidence) -> None:
@@ -259,7 +258,7 @@ def lcm_flood(session: Session, evidence: Evidence) -> None:
 
 
 def flooded(log: Path) -> tuple[int, float]:
-    """How many messages the newest flood sent, and how many a second."""
+    """The number of messages of the newest flood, and its rate per second."""
     sent = re.findall(r"sent (\d+) in ([\d.]+) s", log.read_text(errors="replace"))
     if not sent:
         raise SiteError("the flood did not say what it sent")

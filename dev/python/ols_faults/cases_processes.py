@@ -36,7 +36,7 @@ POLL_S = 0.025  # a command may just have been sent
 
 
 def kill(session: Session, evidence: Evidence, station: str) -> None:
-    """Now; and lets it be for as long as its PTU may take to come to rest."""
+    """Returns now, after the time that its PTU may need to come to rest."""
     evidence["station"] = station
     evidence["boot"] = session.status(station).boot_id
     evidence["at_us"] = session.kill(session.process(station))
@@ -45,7 +45,7 @@ def kill(session: Session, evidence: Evidence, station: str) -> None:
 
 
 def back(session: Session, evidence: Evidence, held: bool = False) -> None:
-    """`held`: the operator had it in hand."""
+    """`held`: it was in manual control."""
     station = evidence["station"]
     evidence["started_us"] = session.start_station(station)
     if held:
@@ -56,7 +56,7 @@ def back(session: Session, evidence: Evidence, held: bool = False) -> None:
 
 
 def judge_speed(evidence: Evidence, outcome: Outcome, what: str, least_deg_s: float) -> None:
-    """Before the kill: what stood already has not come to rest."""
+    """It moved before the kill: otherwise coming to rest proves nothing."""
     station, at_us = evidence["station"], evidence["at_us"]
     window = at_us - 150_000, at_us
     speed = measure.speeds(*measure.ptu_track(evidence.heard, station, *window))
@@ -140,7 +140,7 @@ def station_killed_fast(session: Session, evidence: Evidence) -> None:
 def turn_steadily(
     session: Session, station: str, pan_rad: float, tilt_rad: float, seconds: float
 ) -> None:
-    """Leads the PTU by hand at RATE_DEG_S for so long."""
+    """Moves the PTU manually at RATE_DEG_S for this time."""
     way = -1.0 if pan_rad > 0 else 1.0
     begin_us = session.now_us()
     while (elapsed := (session.now_us() - begin_us) * 1e-6) < seconds:
@@ -150,7 +150,7 @@ def turn_steadily(
 
 
 def judge_full_speed(evidence: Evidence, outcome: Outcome) -> None:
-    """Whether it goes on for as long, and as far, as its servo says, and no longer."""
+    """Whether it moves on as long and as far as its servo permits, and no further."""
     station = evidence["station"]
     window = evidence["at_us"], evidence["dead_until_us"]
     judge_speed(evidence, outcome, "PTU's speed at the kill", 0.95 * FULL_DEG_S)
@@ -202,7 +202,7 @@ def judge_fusion_killed(evidence: Evidence, outcome: Outcome) -> None:
         "targets while there was none",
         float(len(measure.target_arrivals_us(evidence.heard, *shortly))),
         0.0,
-        broken_by=mutations.late("the fusion goes on", JOINT, (0, window[0]), 1.0),
+        broken_by=mutations.late("the fusion continues", JOINT, (0, window[0]), 1.0),
     )
     late = started_us, started_us + round((BACK_FUSION_S + 1.0) * 1e6)
     outcome.recovered(
@@ -219,7 +219,7 @@ def judge_fusion_killed(evidence: Evidence, outcome: Outcome) -> None:
 @case(
     "fusion-killed",
     "fusion killed, restarted after 3 s",
-    "stations go on tracking; targets again within 2 s of start",
+    "stations continue to track; targets again within 2 s of start",
     judge_fusion_killed,
 )
 def fusion_killed(session: Session, evidence: Evidence) -> None:

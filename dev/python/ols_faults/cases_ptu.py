@@ -32,7 +32,7 @@ STILL_DEG = 0.02
 SLIP_DEG = 1.0
 SHORTLY_S = 1.0
 REST_S = 1.0
-AIM_PX = 40.0  # a fifteenth of the picture; 2 are seen
+AIM_PX = 40.0  # a fifteenth of the image; 2 are measured
 ANGLES = "no angle off by more than 3 sigmas"
 
 
@@ -115,7 +115,7 @@ case(
 
 
 def aim_px(recording: Any, station: str, window: tuple[int, int]) -> float:
-    """How far the target was from the picture's middle at most; infinite when it was outside."""
+    """How far the target was from the image centre at most; infinite if it was outside."""
     views = [v for v in recording.views.get(station, []) if window[0] <= v.utime <= window[1]]
     if not views:
         return float("nan")
@@ -139,7 +139,7 @@ def judge_ridden_through(
         return mutations.put(view, centre_px=[x + 1.5 * AIM_PX, y])
 
     outcome.at_most(
-        "target from the picture's middle",
+        "target from the image centre",
         aim_px(evidence.heard, station, window),
         AIM_PX,
         "px",
@@ -243,7 +243,7 @@ def judge_power_cycle(evidence: Evidence, outcome: Outcome) -> None:
 @case(
     "ptu-power-cycle",
     "PTU off and on, it homes itself",
-    f"reported, no bearing until it has homed, healed by itself, no runaway, {ANGLES}",
+    f"reported, no bearing until it has homed, recovers on its own, no runaway, {ANGLES}",
     judge_power_cycle,
 )
 def ptu_power_cycle(session: Session, evidence: Evidence) -> None:
@@ -291,7 +291,7 @@ def is_without(target: Any, station: str) -> bool:
 
 
 def judge_lost_steps(evidence: Evidence, outcome: Outcome) -> None:
-    """No unit tells of it, and so no station can: the others show it."""
+    """The unit does not report it, so its station cannot; the other stations reveal it."""
     station, at_us, window = (evidence[name] for name in ("station", "at_us", "window"))
     without = partial(is_without, station=station)
     outcome.at_most(
@@ -313,7 +313,7 @@ def judge_lost_steps(evidence: Evidence, outcome: Outcome) -> None:
         "share of positions that lack another's",
         float(np.mean([not others <= measure.used(t) for t in found])) if found else None,
         0.1,
-        broken_by=mutations.rays("the others' are set aside", min(others), False, window),
+        broken_by=mutations.rays("the others' are rejected", min(others), False, window),
     )
     judge_target(evidence, outcome, window, 8.0)
     judge_back(evidence, outcome, "ready after `home`")
@@ -323,7 +323,7 @@ def judge_lost_steps(evidence: Evidence, outcome: Outcome) -> None:
 @case(
     "ptu-lost-steps",
     f"PTU's pan slips by {SLIP_DEG:g} deg, unnoticed by the unit",
-    f"its rays are set aside, the target stays; {ANGLES} once homed",
+    f"its rays are rejected, the target stays; {ANGLES} once homed",
     judge_lost_steps,
 )
 def ptu_lost_steps(session: Session, evidence: Evidence) -> None:

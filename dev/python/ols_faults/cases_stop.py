@@ -24,7 +24,7 @@ def swing(session: Session, station: str, to_deg: float) -> None:
 
 
 def judge_stop(evidence: Evidence, outcome: Outcome, station: str, window: tuple[int, int]) -> None:
-    """From the edge on; a is what the PTU was configured to, not what it was seen to do."""
+    """From the edge on; a is what the PTU was configured to, not the observed one."""
     heard = evidence.heard
     speed, braking_s, slowing = measure.braking(heard, station, window[0])
     before = window[0] - 300_000, window[0]
@@ -134,11 +134,11 @@ def emergency_stop(session: Session, evidence: Evidence) -> None:
 
 
 def provoke(session: Session, station: str, side: float) -> tuple[int, int]:
-    """The operator points, the fusion slews, somebody releases and re-arms: nothing may move."""
+    """The operator points, the fusion slews, a release and a rearm arrive: nothing may move."""
     start_us = session.now_us()
     for _ in range(4):
         swing(session, station, side * WAY_DEG / 2)
         session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
-        session.command(station, REARM)  # from afar: nobody's hand at the station
+        session.command(station, REARM)  # remote: no person at the station
         session.run(0.4)
     return start_us, session.now_us()

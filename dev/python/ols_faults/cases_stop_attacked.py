@@ -1,4 +1,4 @@
-"""The operator's STOP while somebody does not want it to be heard."""
+"""The operator's STOP while an attacker suppresses it."""
 
 import subprocess
 import threading
@@ -76,7 +76,7 @@ def stop_once(
         session.wait(lambda: process.poll() is not None, CTL_S)
         if process.poll() is None:
             process.kill()
-    # At rest, as long as a stop holds against everybody.
+    # At rest, while a stop overrides all other commands.
     session.wait(lambda: session.now_us() - started_us > 1e6 * AFTER_S, AFTER_S)
     sent = session.bus.stops_us.get(station, [])[heard_before:]
     return {

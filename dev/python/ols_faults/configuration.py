@@ -1,4 +1,4 @@
-"""What the fault run changes in the configurations that the simulator writes for its stations."""
+"""Changes of the fault run to the stations' configurations, which the simulator writes."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What was heard and noted while a fault was done: all that a case is judged by.
+"""The evidence of a case: messages and notes recorded during the fault.
 
 Nothing here asks the site. A judge that gets the same evidence says the same, and evidence that is
 altered as a broken product would have altered it must be judged as broken: see mutate.py.
@@ -37,7 +37,7 @@ def rows(recording: Recording, channel: str) -> list[Any]:
     ):
         if channel.startswith(prefix):
             return of_stations.setdefault(station, [])
-    raise ValueError(f"nobody records {channel}")
+    raise ValueError(f"{channel} is not recorded")
 
 
 def heard(recording: Recording, channel: str) -> Iterator[tuple[Any, int]]:
@@ -46,7 +46,7 @@ def heard(recording: Recording, channel: str) -> Iterator[tuple[Any, int]]:
 
 
 def rewrite(recording: Recording, channel: str, change: Change) -> None:
-    """Puts what `change` makes of a copy of each message, and of its arrival, in its place."""
+    """Replaces each message and its arrival by the result of `change`."""
     changed = [
         row for message, at in heard(recording, channel) for row in change(copy.copy(message), at)
     ]

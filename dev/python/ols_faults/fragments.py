@@ -1,5 +1,5 @@
-"""Datagrams that no receiver may die of: fragments of LCM (LC03) with impossible sizes, and headers
-that are cut off. Pure.
+"""Datagrams that must not crash a receiver: fragments of LCM (LC03) with impossible sizes, and
+truncated headers. Pure.
 
 The first pair is the one that ends every process that hears with liblcm 1.3.1: it adds a fragment's
 offset and length in 32 bits, and copies. No message of this site is a fragment.
@@ -20,7 +20,7 @@ def fragment(
 
 
 def pair(channel: str, sequence: int) -> list[bytes]:
-    """The two datagrams that ended a site."""
+    """The two datagrams that crashed a site."""
     return [
         fragment(sequence, 100, 0, 0, 3, channel.encode() + b"\0AAAA"),
         fragment(sequence, 100, OUTSIDE, 1, 3, bytes(272)),
@@ -56,7 +56,7 @@ def relatives(channel: str, sequence: int) -> Iterator[list[bytes]]:
 
 
 def malformed(channel: str, sequence: int) -> Iterator[bytes]:
-    """Datagrams that are no message at all."""
+    """Datagrams that are not messages."""
     for magic in (WHOLE, FRAGMENT):
         header = struct.pack(">II", magic, sequence)
         yield from (header[:length] for length in range(8))

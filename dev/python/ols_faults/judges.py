@@ -1,4 +1,4 @@
-"""What several cases judge in the same way. Pure."""
+"""Checks shared by several cases. Pure."""
 
 import numpy as np
 from ols_demo import evaluate
@@ -12,7 +12,7 @@ Window = tuple[int, int]
 
 FRAME_HZ = 12.0  # of the scenario's cameras
 SIGMAS = 3.0
-HONEST = 3.0  # RMS error over what the covariances say: what stays is one draw for all of a window
+CONSISTENT = 3.0  # RMS error over the predicted one: the systematic error is one draw per window
 SIGMA_DEG = 0.06  # greater ones say nothing: errors of 0.03 deg are put into the scenario
 ERROR_M = 0.5  # of targets, RMS; 0.03 to 0.2 are seen
 PREDICTED_M = 0.3  # what the fusion may say of it; likewise
@@ -85,7 +85,7 @@ def judge_motion(evidence: Evidence, outcome: Outcome, station: str, window: Win
 
 
 def judge_target(evidence: Evidence, outcome: Outcome, window: Window, least_hz: float) -> None:
-    """Fewer stations are less exact: what they publish of their own error counts."""
+    """Relative to the published error: fewer stations are less exact."""
     found = evaluate.accuracy(evidence.heard, evaluate.JOINT, window)
     outcome.at_least(
         "targets",
@@ -97,7 +97,7 @@ def judge_target(evidence: Evidence, outcome: Outcome, window: Window, least_hz:
     outcome.at_most(
         "RMS error over predicted",
         found.get("rmse_over_predicted"),
-        HONEST,
+        CONSISTENT,
         broken_by=mutations.target_sigmas_scaled(0.02),
     )
     outcome.at_most(
@@ -147,7 +147,7 @@ def judge_outage(evidence: Evidence, outcome: Outcome, station: str, window: Win
 def judge_tracking_again(
     evidence: Evidence, outcome: Outcome, what: str, station: str, since_us: int, limit_s: float
 ) -> None:
-    """The recovery: its first bearing of a picture that was taken since."""
+    """The recovery: its first bearing of an image taken since."""
     outcome.recovered(
         what,
         measure.tracking_again_s(evidence.heard, station, since_us, mutations.EVER),

@@ -1,4 +1,4 @@
-"""Figures out of what was heard on the bus. Pure: a recording and a window of time in, numbers out.
+"""Measures from the recorded bus messages. Pure: a recording and a window of time in, numbers out.
 
 Times are microseconds of true UTC; the host's own clock is never stepped in a fault run.
 """
@@ -187,7 +187,7 @@ def first_s(
 def tracking_again_s(
     recording: Recording, station: str, start_us: int, end_us: int
 ) -> float | None:
-    """How long after the start its first bearing of a picture taken since came, or None."""
+    """How long after the start its first bearing of an image taken since came, or None."""
 
     def since(bearing: Any) -> bool:
         return bearing.utime >= start_us
@@ -252,7 +252,7 @@ def bearing_ages_s(recording: Recording, station: str, start_us: int, end_us: in
 
 
 def aim_offsets_px(recording: Recording, station: str, start_us: int, end_us: int) -> np.ndarray:
-    """How far the target was from the picture's middle, in each frame with a known place of it."""
+    """How far the target was from the image centre, in each frame with a known place of it."""
     statuses = recording.statuses.get(station)
     if not statuses:
         return np.zeros(0)

@@ -1,7 +1,7 @@
-"""tools/fault-run --mutate: every check is seen to fail.
+"""tools/fault-run --mutate: shows that every check can fail.
 
 Each case is done once. Then its evidence is altered, once for each of its checks, in the way in
-which a broken product (or a fault that was not done) would have altered it, and judged anew: that
+which a broken product (or a fault that was not done) would have altered it, and judged again: that
 check must fail. A check that names no such mutation, or that still passes, fails the command.
 """
 
@@ -19,7 +19,7 @@ from ols_faults.evidence import Evidence
 
 @dataclass(frozen=True)
 class Trial:
-    """What came of one mutation of one check."""
+    """The outcome of one mutation of one check."""
 
     case: str
     check: str

@@ -1,4 +1,4 @@
-"""Ways in which a product or a fault could be broken: what would then have been heard or noted."""
+"""Ways in which a product or a fault could be broken: the evidence that would have resulted."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def put(message: Any, **fields: Any) -> Any:
 
 
 def lost(what: str, channel: str, window: Window = ALWAYS, share: float = 1.0) -> Mutation:
-    """So many of the channel's messages do not arrive, evenly."""
+    """A share of the channel's messages, evenly spread, does not arrive."""
     account = [0.0]
 
     def change(message: Any) -> Any:
@@ -131,7 +131,7 @@ def sigmas_scaled(station: str, factor: float) -> Mutation:
 
 
 def goes_on_publishing(station: str, window: Window) -> Mutation:
-    """Its bearings go on as if nothing were the matter; also: the fault was not done."""
+    """Its bearings continue as without the fault; also: the fault was not done."""
 
     def alter(evidence: Evidence) -> None:
         channel = f"OLS_BEARING_{station}"
@@ -197,7 +197,7 @@ def moves_on(station: str, window: Window, deg_s: float) -> Mutation:
 
 
 def goes_further(station: str, window: Window, factor: float) -> Mutation:
-    """All its ways from the window's start on are so many times as long."""
+    """All motion from the window's start on is scaled by a factor."""
 
     def alter(evidence: Evidence) -> None:
         before = [p for p in evidence.heard.ptus[station] if p.utime <= window[0]]
@@ -231,7 +231,7 @@ def stands(station: str, window: Window, what: str = "the PTU does not move") ->
     return Mutation(what, alter)
 
 
-# What a station says of itself.
+# A station's status.
 
 
 def status_altered(
@@ -266,7 +266,7 @@ def says_late(station: str, since_us: int, seconds: float) -> Mutation:
 
 
 def alarm_instead(station: str, text: str, window: Window = ALWAYS) -> Mutation:
-    """Trouble in other words than those that help."""
+    """The alarm has other words than the expected ones."""
 
     def change(status: Any) -> Any:
         return put(
@@ -351,7 +351,7 @@ def rays(what: str, station: str, used: bool, window: Window = ALWAYS) -> Mutati
 
 
 def shafts_late(station: str, seconds: float) -> Mutation:
-    """Everything that the PTU does it does so much later."""
+    """The PTU's motion is delayed."""
 
     def change(ptu: Any) -> Any:
         return put(ptu, utime=ptu.utime + round(seconds * 1e6))

@@ -1,4 +1,4 @@
-"""What the kernel knows of a process."""
+"""The kernel's data on a process."""
 
 import os
 from pathlib import Path

@@ -1,7 +1,7 @@
 """Whether a PTU moves as one that follows its target: by the true shafts and the true target alone.
 
 Between standing still and going with the target everything is right, and so is what closes the
-distance to it, at the servo's gain. Anything beyond is motion that nobody asked for.
+distance to it, at the servo's gain. Anything beyond is unwanted motion.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The site that faults are done to: its processes, its bus, what was heard, and its recovery."""
+"""The simulated site under test: its processes, bus, recorded messages and recovery."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class Session:
     @contextmanager
     def twin(self) -> Iterator[None]:
         """A second fusion meanwhile: it hears what the stations sent on a bus of its own, where
-        nothing is disturbed; its targets are heard as OLS_TARGET_TWIN. Nobody heeds its slews."""
+        nothing is disturbed; its targets are recorded as OLS_TARGET_TWIN. Its slews are ignored."""
 
         def hear_target(channel: str, message: Any, at_us: int) -> None:
             if channel == evaluate.JOINT:
@@ -189,7 +189,7 @@ class Session:
         return bool(recent) and STATES.get(recent[-1].state) == "tracking"
 
     def wait_for_tracking(self, station: str, since_us: int, deadline_s: float) -> None:
-        """Until it has sent a bearing of a picture taken since then, or the deadline."""
+        """Until it has sent a bearing of an image taken since then, or the deadline."""
         self.wait(
             lambda: (
                 measure.tracking_again_s(self.heard, station, since_us, self.now_us()) is not None
@@ -206,7 +206,7 @@ class Session:
     def wait_until_turning(self, station: str, deg_s: float, deadline_s: float) -> None:
         self.wait(lambda: self.speed_deg_s(station) > deg_s, deadline_s)
 
-    # What is done to the site.
+    # Actions on the site.
 
     def publish(self, channel: str, message: Any) -> None:
         self.bus.lcm.publish(channel, message.encode())
@@ -276,20 +276,20 @@ class Session:
             self._rearmed[station] = now
             self.fault("rearm-button", station, REARM_HELD_S)
 
-    # Processes that ended by themselves.
+    # Processes that ended on their own.
 
     def ended(self) -> list[str]:
         return [name for name, p in self.site.processes.items() if p.poll() is not None]
 
     def bury(self) -> list[str]:
-        """Names them, and forgets them, so that restore() starts them anew."""
+        """Returns their names and forgets them, so that restore() starts them again."""
         names = self.ended()
         for name in names:
             del self.site.processes[name]
         return names
 
     def can_go_on(self) -> bool:
-        """Stations and fusion can be started anew, the world cannot."""
+        """Stations and fusion can be restarted, the simulation cannot."""
         return "ols-sim" in self.site.processes and not self.ended()
 
     def close(self) -> None:
@@ -349,7 +349,7 @@ class Session:
                 self.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
 
     def _take_in_hand(self) -> set[str]:
-        """Stations that the operator has to point and designate anew."""
+        """Stations that the operator has to point and designate again."""
         astray = {s for s in self.stations if not self.on_target(s)}
         for station in astray:
             self.operator.tracking.discard(station)

@@ -1,4 +1,4 @@
-"""tools/soak: runs the simulated site for long, and says whether memory, files and frames stay."""
+"""tools/soak: runs the simulated site for hours; memory, files and frames must stay constant."""
 
 import argparse
 import json
@@ -51,7 +51,7 @@ def arguments() -> argparse.Namespace:
 
 @dataclass
 class Samples:
-    """What each process held, every SAMPLE_S."""
+    """The resources of each process, every SAMPLE_S."""
 
     seconds: list[float] = field(default_factory=list)
     values: dict[str, dict[str, list[float]]] = field(default_factory=dict)  # process, quantity
@@ -96,7 +96,7 @@ class Frames:
 
 
 def fitted_growth(seconds: np.ndarray, values: np.ndarray) -> float:
-    """What the regression line grows from the first to the last instant."""
+    """The growth of the regression line from the first to the last instant."""
     if len(seconds) < 3:
         return float("nan")
     slope = np.polyfit(seconds, values, 1)[0]

@@ -1,4 +1,4 @@
-"""The bus as bare datagrams: hears whole messages, and sends anything.
+"""The bus as bare datagrams: receives whole messages, and sends anything.
 
 liblcm's own receiver dies of the fragments that are sent on purpose here, and this process must
 outlive what it does to others. Only whole messages (LC02) are heard: none of ours is a fragment.

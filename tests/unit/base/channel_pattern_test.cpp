@@ -36,7 +36,7 @@ TEST(ChannelPattern, SaysWhatIsWrong) {
     ChannelPattern pattern("OLS_(");
     FAIL();
   } catch (const std::invalid_argument& problem) {
-    EXPECT_NE(std::string(problem.what()).find("\"OLS_(\" is no regular expression"),
+    EXPECT_NE(std::string(problem.what()).find("\"OLS_(\" is not a regular expression"),
               std::string::npos);
   }
 }

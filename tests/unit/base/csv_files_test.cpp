@@ -104,8 +104,8 @@ TEST_F(CsvFilesTest, NamesTheBadStation) {
   const std::string head = kStations;
   EXPECT_EQ(error_of_stations(""), "s.csv:1: header: is missing");
   EXPECT_EQ(error_of_stations("station,latitude_deg,height_m\na,1,2\n"),
-            "s.csv:1: longitude_deg: there is no such column");
-  EXPECT_EQ(error_of_stations(head), "s.csv:2: row: there is none");
+            "s.csv:1: longitude_deg: the column is missing");
+  EXPECT_EQ(error_of_stations(head), "s.csv:2: row: the file has a header but no rows");
   EXPECT_EQ(error_of_stations(head + "a,1,2,3\nb,91,2,3\n"),
             "s.csv:3: latitude_deg: 91 is outside -90 .. 90");
   EXPECT_EQ(error_of_stations(head + "a,1,2,3\n\nb,1,2,3m\n"),
@@ -121,7 +121,7 @@ TEST_F(CsvFilesTest, NamesTheBadStation) {
               "s.csv:3: station: has a comma, a quote or a control character")
         << id;
   }
-  EXPECT_EQ(error_of_stations(head + "a,1,2,3\na,1,2,3\n"), "s.csv:3: station: 'a' is there twice");
+  EXPECT_EQ(error_of_stations(head + "a,1,2,3\na,1,2,3\n"), "s.csv:3: station: 'a' appears twice");
   for (const char* row : {"a,1,2\n", "a,1,2,3,4\n", "\"a,1,2,3\n"}) {
     EXPECT_EQ(error_of_stations(head + row),
               "s.csv:2: row: too few or too many columns, or a quote that stays open")
@@ -154,7 +154,7 @@ TEST_F(CsvFilesTest, NamesTheBadBearing) {
             "b.csv:2: elevation_deg: 90.1 is outside -90 .. 90");
   EXPECT_EQ(error_of_bearings(head + "1600000000000000,a,0,0,0\n"),
             "b.csv:2: sigma_deg: 0 is outside 1e-07 .. 90");
-  EXPECT_EQ(error_of_bearings(head), "b.csv:2: row: there is none");
+  EXPECT_EQ(error_of_bearings(head), "b.csv:2: row: the file has a header but no rows");
   EXPECT_EQ(error_of_bearings(head + "1600000000000000,\"a,b\",0,0,1\n"),
             "b.csv:2: station: has a comma, a quote or a control character");
   const std::string with_target = head.substr(0, head.size() - 1) + ",target\n";

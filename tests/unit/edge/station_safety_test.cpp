@@ -226,7 +226,7 @@ TEST_F(StationSafetyTest, ThePoseAndItsSigmasAreInTheBearings) {
   designated();
   run_until(now_ + 0.5);
   ASSERT_FALSE(bearings_.empty());
-  const SightLine& sight = bearings_.back().sight;
+  const LineOfSight& sight = bearings_.back().sight;
   EXPECT_EQ(sight.origin_sd_enu_m, Eigen::Vector3d(0.5, 0.5, 1.0));
   EXPECT_NEAR(std::sqrt(sight.covariance_systematic(1, 1)), radians(1.0), 1e-4);
   const Eigen::Vector3d moved = LocalFrame(config().geometry.position).to_enu(sight.origin_ecef);

@@ -71,10 +71,10 @@ void shift(LandmarkSighting& s, const Vector3d& by_enu) {
   s.landmark_ecef += LocalFrame(truth().position).R_ecef_enu() * by_enu;
 }
 
-std::vector<std::size_t> set_aside(const Stationing& found) {
+std::vector<std::size_t> rejected_landmarks(const Stationing& found) {
   std::vector<std::size_t> sightings;
   for (const LandmarkTest& test : found.landmarks) {
-    if (!test.set_aside) continue;
+    if (!test.rejected) continue;
     sightings.insert(sightings.end(), test.sightings.begin(), test.sightings.end());
   }
   return sightings;
@@ -123,7 +123,7 @@ TEST(DataSnooping, LandmarksWithoutAMistakeAreAllKept) {
   int disturbed = 0, rejected = 0;
   for (int i = 0; i < kRuns; ++i) {
     const Stationing found = station(landmarks(5, generator));
-    disturbed += set_aside(found).empty() ? 0 : 1;
+    disturbed += rejected_landmarks(found).empty() ? 0 : 1;
     rejected += found.scaled_by > 1.0 ? 1 : 0;
   }
   EXPECT_LE(disturbed, 1);
@@ -137,7 +137,7 @@ TEST(DataSnooping, AMistakenLandmarkIsNamedAndSetAside) {
       Sightings sightings = landmarks(5);
       shift(sightings[wrong], by);
       const Stationing found = station(sightings);
-      EXPECT_THAT(set_aside(found), testing::ElementsAre(wrong));
+      EXPECT_THAT(rejected_landmarks(found), testing::ElementsAre(wrong));
       EXPECT_GT(found.landmarks[wrong].w, found.landmarks[wrong].critical);
       EXPECT_LT(heading_off_rad(found), radians(0.02));
       EXPECT_GT(found.residuals[wrong].norm(), 10.0);
@@ -150,7 +150,7 @@ TEST(DataSnooping, TwoExchangedLandmarksAreBothSetAside) {
   Sightings sightings = landmarks(5);
   std::swap(sightings[1].landmark_ecef, sightings[4].landmark_ecef);
   const Stationing found = station(sightings);
-  EXPECT_THAT(set_aside(found), testing::ElementsAre(1, 4));
+  EXPECT_THAT(rejected_landmarks(found), testing::ElementsAre(1, 4));
   EXPECT_LT(heading_off_rad(found), radians(0.02));
 }
 
@@ -162,7 +162,7 @@ TEST(DataSnooping, ManyMistakenAmongManyAreSetAside) {
     wrong.push_back(i);
   }
   const Stationing found = station(sightings);
-  EXPECT_EQ(set_aside(found), wrong);
+  EXPECT_EQ(rejected_landmarks(found), wrong);
   EXPECT_LT(heading_off_rad(found), radians(0.01));
 }
 
@@ -190,9 +190,9 @@ TEST(DataSnooping, TwoThatContradictAreBothNamed) {
   const auto problem = contradiction(sightings);
   ASSERT_TRUE(problem);
   ASSERT_EQ(problem->alternatives().size(), 2u);
-  EXPECT_THAT((std::vector{problem->alternatives()[0].set_aside[0],
-                           problem->alternatives()[1].set_aside[0]}),
-              testing::UnorderedElementsAre(0, 1));
+  EXPECT_THAT(
+      (std::vector{problem->alternatives()[0].rejected[0], problem->alternatives()[1].rejected[0]}),
+      testing::UnorderedElementsAre(0, 1));
 }
 
 TEST(DataSnooping, AMajorityThatIsNoneIsNotBelieved) {
@@ -214,8 +214,8 @@ TEST(DataSnooping, TwoGroupsThatAgreeAmongThemselvesAreNamed) {
   const auto problem = contradiction(sightings);
   ASSERT_TRUE(problem);
   ASSERT_EQ(problem->alternatives().size(), 2u);
-  EXPECT_THAT(problem->alternatives()[0].set_aside, testing::ElementsAre(3, 4));
-  EXPECT_THAT(problem->alternatives()[1].set_aside, testing::ElementsAre(0, 1, 2));
+  EXPECT_THAT(problem->alternatives()[0].rejected, testing::ElementsAre(3, 4));
+  EXPECT_THAT(problem->alternatives()[1].rejected, testing::ElementsAre(0, 1, 2));
 }
 
 TEST(DataSnooping, ALandmarkBehindIsNotTakenForOneInFront) {
@@ -223,7 +223,7 @@ TEST(DataSnooping, ALandmarkBehindIsNotTakenForOneInFront) {
   sightings[2].angles.pan_rad += kPi;
   sightings[2].angles.tilt_rad *= -1.0;
   const Stationing found = station(sightings);
-  EXPECT_THAT(set_aside(found), testing::ElementsAre(2));
+  EXPECT_THAT(rejected_landmarks(found), testing::ElementsAre(2));
   EXPECT_LT(heading_off_rad(found), radians(0.02));
 }
 
@@ -237,7 +237,7 @@ Sightings tilted_by(double tilt_deg) {
 
 TEST(DataSnooping, AWrongLevelIsNotLaidOnTheLandmarks) {
   const Stationing found = station(tilted_by(3.0));
-  EXPECT_THAT(set_aside(found), testing::IsEmpty());
+  EXPECT_THAT(rejected_landmarks(found), testing::IsEmpty());
   EXPECT_NEAR(degrees(found.station.chain.tilt_x_rad), 3.0, 0.1);
   EXPECT_GT(found.stated_w[0], 8.0);
   EXPECT_LT(std::abs(found.stated_w[1]), 1.0);
@@ -267,7 +267,7 @@ TEST(GlobalTest, DeviationsGrowWithTheMisfitAndNeverShrink) {
   const double stated = station(landmarks(12)).station.sd.heading_rad;
   for (const double noisier : {0.1, 3.0, 5.0}) {
     const Stationing found = station(landmarks(12, noisier));
-    EXPECT_THAT(set_aside(found), testing::IsEmpty()) << noisier;
+    EXPECT_THAT(rejected_landmarks(found), testing::IsEmpty()) << noisier;
     EXPECT_EQ(found.global.redundancy, 23);
     if (noisier < 1.0) {
       EXPECT_EQ(found.scaled_by, 1.0);
@@ -284,7 +284,7 @@ TEST(GlobalTest, AMistakeAmongBadSightingsIsStillAMistake) {
   Sightings sightings = landmarks(10, 4.0);
   shift(sightings[6], {60, 60, 0});
   const Stationing found = station(sightings);
-  EXPECT_THAT(set_aside(found), testing::ElementsAre(6));
+  EXPECT_THAT(rejected_landmarks(found), testing::ElementsAre(6));
   EXPECT_GT(found.scaled_by, 2.0);
 }
 
@@ -311,7 +311,7 @@ TEST(Layout, SightedAgainAMistakenLandmarkDoesNotOutvoteTheOthers) {
   Sightings sightings = landmarks(4);
   shift(sightings[0], {30, 50, 0});
   for (int i = 0; i < 5; ++i) sightings.push_back(sightings[0]);
-  EXPECT_THAT(set_aside(station(sightings)), testing::ElementsAre(0, 4, 5, 6, 7, 8));
+  EXPECT_THAT(rejected_landmarks(station(sightings)), testing::ElementsAre(0, 4, 5, 6, 7, 8));
 }
 
 TEST(Layout, InOneDirectionTheTiltAcrossItStaysAsBelieved) {

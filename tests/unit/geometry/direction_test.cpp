@@ -70,7 +70,7 @@ TEST(Direction, AngleBetweenIsExactWhenTinyAndWhenStraight) {
 
 TEST(Direction, SightLineKnowsItsOwnHorizon) {
   // On the equator at 90 degrees east, north is Z and east is -X.
-  SightLine line;
+  LineOfSight line;
   line.origin_ecef = ecef_from_geodetic({0.0, kPi / 2.0, 100.0});
   line.direction = at_deg(0, 0);
   EXPECT_TRUE(near(direction_ecef(line), Eigen::Vector3d::UnitZ(), 1e-15));

@@ -177,7 +177,7 @@ TEST(SourceCovariance, CalibrationIsThatOfSight) {
     PixelSight measurement;
     measurement.pixel = {geometry.camera.cx_px, geometry.camera.cy_px};
     measurement.angles = aim_at(geometry, p).value();
-    const SightLine line = sight(geometry, measurement).value();
+    const LineOfSight line = sight(geometry, measurement).value();
     const PlannedStation plan{LocalFrame(geodetic_from_ecef(line.origin_ecef)), 0.0, geometry.sd,
                               0.0};
     EXPECT_TRUE(

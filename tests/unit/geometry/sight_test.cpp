@@ -128,9 +128,9 @@ TEST(Sight, CalibrationErrorsByHand) {
 }
 
 // Shift of the line of sight on the tangent plane when one input is moved by +-h, over 2 h.
-Vector2d derivative(const std::function<SightLine(double)>& line_at) {
+Vector2d derivative(const std::function<LineOfSight(double)>& line_at) {
   const double h = 1e-6;
-  const SightLine here = line_at(0.0);
+  const LineOfSight here = line_at(0.0);
   const Eigen::Matrix<double, 3, 2> tangent =
       R_ecef_enu(here.origin_ecef) * tangent_basis(here.direction);
   return tangent.transpose() * (direction_ecef(line_at(h)) - direction_ecef(line_at(-h))) /
@@ -229,7 +229,7 @@ TEST(AimAt, DefaultIsTheOpticalAxis) {
   const auto angles = aim_at(station, p_ecef);
   ASSERT_TRUE(angles);
   const Vector3d axis_ecef = p_ecef - camera_centre_ecef(station, *angles);
-  const SightLine axis{camera_centre_ecef(station, *angles), optical_axis(station, *angles)};
+  const LineOfSight axis{camera_centre_ecef(station, *angles), optical_axis(station, *angles)};
   EXPECT_LT(angle_between(direction_ecef(axis), axis_ecef), 1e-10);
 }
 

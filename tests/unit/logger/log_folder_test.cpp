@@ -39,9 +39,9 @@ TEST(LogFolder, TheOldestGoFirstAndNoMoreThanMust) {
   folder.put(kNew, 100, 3);
   LogFolder logs(folder.path(), "site");
   logs.survey();
-  logs.make_room(400.0, 0.0, 100.0, "");
+  logs.remove_oldest(400.0, 0.0, 100.0, "");
   EXPECT_EQ(logs.removed(), 0U);
-  logs.make_room(399.0, 0.0, 100.0, "");
+  logs.remove_oldest(399.0, 0.0, 100.0, "");
   EXPECT_THAT(folder.names(), ElementsAre(kMiddle, kNew));
   EXPECT_EQ(logs.removed(), 1U);
   EXPECT_EQ(logs.bytes(), 200.0);
@@ -53,7 +53,7 @@ TEST(LogFolder, TheFileThatIsWrittenStaysEvenWhenItLooksOldest) {
   folder.put(kMiddle, 100, 2);
   LogFolder logs(folder.path(), "site");
   logs.survey();
-  logs.make_room(0.0, 0.0, 0.0, folder / kOld);
+  logs.remove_oldest(0.0, 0.0, 0.0, folder / kOld);
   EXPECT_THAT(folder.names(), ElementsAre(kOld));
 }
 
@@ -62,7 +62,7 @@ TEST(LogFolder, TheFileThatIsWrittenStaysHoweverItsFolderIsSpelt) {
   folder.put(kOld, 100, 1);
   LogFolder logs(folder.path() + "/", "site");
   logs.survey();
-  logs.make_room(0.0, 0.0, 0.0, folder.path() + "//" + kOld);
+  logs.remove_oldest(0.0, 0.0, 0.0, folder.path() + "//" + kOld);
   EXPECT_THAT(folder.names(), ElementsAre(kOld));
 }
 
@@ -72,7 +72,7 @@ TEST(LogFolder, TheOldestGoForTheDisksReserveToo) {
   folder.put("flight.lcmlog", 100, 0);
   LogFolder logs(folder.path(), "site");
   logs.survey();
-  logs.make_room(1e18, 1e18, 0.0, "");
+  logs.remove_oldest(1e18, 1e18, 0.0, "");
   EXPECT_THAT(folder.names(), ElementsAre("flight.lcmlog"));
 }
 

@@ -46,7 +46,8 @@ TEST(LoggerConfig, RefusesWhatCannotWork) {
   EXPECT_THAT(error_of("split_mb = 100\nquota_gb = 0.3\n"),
               HasSubstr("quota_gb: must be at least four"));
   EXPECT_THAT(error_of("name = 'a/b'\n"), HasSubstr("name: must be"));
-  EXPECT_THAT(error_of("channels = '('\n"), HasSubstr("channels: \"(\" is no regular expression"));
+  EXPECT_THAT(error_of("channels = '('\n"),
+              HasSubstr("channels: \"(\" is not a regular expression"));
   EXPECT_THAT(error_of("lcm_url = 'udpm://nowhere'\n"), HasSubstr("lcm_url"));
   EXPECT_THAT(error_of("colour = 1\n"), HasSubstr("colour"));
 }

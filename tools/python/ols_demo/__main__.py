@@ -1,4 +1,4 @@
-"""tools/demo: runs a simulated site, watches it, and says how well it did."""
+"""tools/demo: runs a simulated site, records it and reports the accuracy."""
 
 import argparse
 import json

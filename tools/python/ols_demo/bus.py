@@ -1,4 +1,4 @@
-"""What goes over the site's LCM bus, as Python sees it."""
+"""The messages of the site's LCM bus in Python."""
 
 import re
 import struct
@@ -22,11 +22,11 @@ TYPES: list[tuple[str, Any]] = [
 
 
 def decode(channel: str, data: bytes) -> Any | None:
-    """The message, or None for a channel that nobody here reads."""
+    """The message, or None for an unknown channel."""
     for pattern, kind in TYPES:
         if re.fullmatch(pattern, channel):
             message = kind.decode(data)
-            # lcm-gen's Python gives an array of booleans as an iterator, good for one look.
+            # lcm-gen's Python returns an array of booleans as an iterator, which can be read once.
             if isinstance(message, ols_msg.target_t):
                 message.used = list(message.used)
             return message

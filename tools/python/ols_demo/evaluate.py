@@ -128,7 +128,7 @@ def station_report(recording: Recording, station: str, window: tuple[int, int]) 
 
 
 def report(recording: Recording, window: tuple[int, int]) -> dict[str, Any]:
-    """Everything that the demo's report holds of the run itself."""
+    """The run's part of the demo's report."""
     joint = accuracy(recording, JOINT, window)
     paper = accuracy(recording, PAPER, window)
     return {

@@ -1,4 +1,4 @@
-"""The demo in the terminal: what each station and the fusion are doing, at this moment."""
+"""The demo in the terminal: the current state of each station and the fusion."""
 
 import shutil
 import sys
@@ -54,7 +54,7 @@ def target_lines(observer: Observer) -> list[str]:
 
 
 class Screen:
-    """Draws over its own last picture."""
+    """Overwrites its previous output."""
 
     def __init__(self) -> None:
         self._drawn = 0

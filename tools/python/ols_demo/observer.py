@@ -1,4 +1,4 @@
-"""What the demo knows of the running site: the newest message of each kind."""
+"""The newest message of each kind from the running site."""
 
 from typing import Any
 

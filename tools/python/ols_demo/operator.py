@@ -65,7 +65,7 @@ class Operator:
             return False
         if time.time() - view.utime * 1e-6 > FRESH_S:
             return False
-        # Nobody draws a box into a picture that is rushing by.
+        # A person cannot draw a box while the image moves fast.
         if self._observer.turning_rad_s.get(station, np.inf) > AT_REST_RAD_S:
             return False
         x, y = view.centre_px[0] / status.image_width_px, view.centre_px[1] / status.image_height_px

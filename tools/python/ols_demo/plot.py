@@ -1,4 +1,4 @@
-"""The picture of a run: truth, fixes and ellipses on the plan, and the error over time."""
+"""The plot of a run: truth, fixes and ellipses on the plan, and the error over time."""
 
 from pathlib import Path
 
@@ -83,7 +83,7 @@ def draw_plan(axes: Axes, recording: Recording, window: tuple[int, int]) -> None
 def draw_errors(axes: Axes, recording: Recording, window: tuple[int, int]) -> None:
     for channel, colour, label in (
         (PAPER, PAPER_COLOUR, "the paper's Algorithm 1, moving average"),
-        (JOINT, FIX, "joint least squares"),
+        (JOINT, FIX, "filter"),
     ):
         indices = solved(recording, channel, window)
         if not indices:
@@ -116,7 +116,7 @@ def draw_axes(axes: list[Axes], recording: Recording, window: tuple[int, int]) -
 
 
 def save(path: Path, recording: Recording, window: tuple[int, int], title: str) -> None:
-    """Writes the picture; its format follows the suffix."""
+    """Writes the plot; its format follows the suffix."""
     figure = plt.figure(figsize=(14, 9), layout="constrained")
     grid = figure.add_gridspec(3, 4)
     draw_plan(figure.add_subplot(grid[:2, :2]), recording, window)

@@ -15,8 +15,8 @@ using test::flight;
 
 constexpr double kNoise = 1e-4;
 
-SightLine sight() {
-  SightLine line = flight(0.1, kNoise).front().sight;
+LineOfSight sight() {
+  LineOfSight line = flight(0.1, kNoise).front().sight;
   line.covariance_systematic.setZero();
   return line;
 }
@@ -26,7 +26,7 @@ double learnt_sd(double bias_sd, double error_sd) {
   StationErrors errors;
   std::mt19937_64 random(4);
   std::normal_distribution<double> normal;
-  const SightLine line = sight();
+  const LineOfSight line = sight();
   for (int i = 0; i < 2000; ++i) {
     SeenBias seen;
     seen.prior = errors.prior("a", line, 500.0).covariance.diagonal();
@@ -63,8 +63,8 @@ TEST(StationErrors, ForgetAStation) {
   EXPECT_EQ(errors.noise_scale("a"), 1.0);
 }
 
-SightLine stated(double elevation_rad, double cross_rad2, double up_rad2) {
-  SightLine line = sight();
+LineOfSight stated(double elevation_rad, double cross_rad2, double up_rad2) {
+  LineOfSight line = sight();
   line.direction.elevation_rad = elevation_rad;
   line.covariance_systematic = Eigen::Vector2d(cross_rad2, up_rad2).asDiagonal();
   return line;
@@ -90,7 +90,7 @@ TEST(StationErrors, TakeForAHeadingWhatOneAxisHasMore) {
 // Whatever the elevation: a rotation with the prior's variances makes the bias that is stated.
 TEST(StationErrors, ARotationMakesWhatIsStated) {
   for (const double elevation_rad : {-0.2, 0.0, 0.7, 1.4}) {
-    const SightLine line = stated(elevation_rad, 5e-6, 2e-6);
+    const LineOfSight line = stated(elevation_rad, 5e-6, 2e-6);
     const BiasPrior prior = StationErrors().prior("a", line, 500.0);
     const auto B = shift_by_rotation(tangent_basis(line.direction));
     const Eigen::Matrix2d made = B * prior.rotation.matrix().asDiagonal() * B.transpose();
@@ -110,7 +110,7 @@ TEST(StationErrors, ARotationMovesADirectionOnItsTangentPlane) {
 
 // A place of its own is no rotation.
 TEST(StationErrors, APlaceIsPartOfTheRotationOrApart) {
-  SightLine line = stated(0.0, 1e-6, 1e-6);
+  LineOfSight line = stated(0.0, 1e-6, 1e-6);
   line.origin_sd_enu_m.setConstant(1.0);
   const BiasPrior within = StationErrors().prior("a", line, 500.0);
   const BiasPrior apart = StationErrors().prior("a", line, 500.0, true);

@@ -17,7 +17,7 @@ TEST(Ray, ItsFrameIsRightHandedAndPointsWhereItLooks) {
 }
 
 TEST(Ray, APlacesErrorIsSeenFromTheRange) {
-  SightLine sight = test::ray_to("a", {0, 0, 0}, {0, 300, 0}).sight;
+  LineOfSight sight = test::ray_to("a", {0, 0, 0}, {0, 300, 0}).sight;
   sight.origin_sd_enu_m = Vector3d(0.3, 0.6, 0.9);
   const Eigen::Matrix2d seen = stated_covariance(sight, 300.0);
   EXPECT_NEAR(std::sqrt(seen(0, 0)), 1e-3, 1e-6);  // north: across is east,

@@ -1,8 +1,7 @@
-#include "edge/tracker/tracker_config.h"
-
 #include <gtest/gtest.h>
 
 #include "base/config_section.h"
+#include "edge/tracker/tracker_config.h"
 
 namespace ols {
 namespace {

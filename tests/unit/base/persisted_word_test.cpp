@@ -1,4 +1,4 @@
-#include "base/word_memory.h"
+#include "base/persisted_word.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,15 +14,15 @@ namespace {
 
 const std::vector<std::string> kWords{"good", "bad", "worse"};
 
-class WordMemoryTest : public testing::Test {
+class PersistedWordTest : public testing::Test {
  protected:
-  WordMemoryTest() {
+  PersistedWordTest() {
     folder = testing::TempDir() + "ols_word_" + std::to_string(::getpid());
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     file = folder + "/word";
   }
-  ~WordMemoryTest() override { std::filesystem::remove_all(folder); }
+  ~PersistedWordTest() override { std::filesystem::remove_all(folder); }
 
   std::string content() const {
     std::string text;
@@ -33,11 +33,11 @@ class WordMemoryTest : public testing::Test {
   std::string folder, file;
 };
 
-TEST_F(WordMemoryTest, OutlivesItsOwner) {
+TEST_F(PersistedWordTest, OutlivesItsOwner) {
   for (const char* word : {"good", "worse", "bad", "good"}) {
-    WordMemory(file, kWords).set(word);
-    const WordMemory next(file, kWords);
-    EXPECT_EQ(next.recall(), Recall::kKnown);
+    PersistedWord(file, kWords).set(word);
+    const PersistedWord next(file, kWords);
+    EXPECT_EQ(next.restore_result(), RestoreResult::kKnown);
     EXPECT_EQ(next.word(), word);
     EXPECT_EQ(next.why_unknown(), "");
     EXPECT_EQ(next.trouble(), "");
@@ -45,29 +45,29 @@ TEST_F(WordMemoryTest, OutlivesItsOwner) {
 }
 
 // "Nothing to remember" is in the file as well: none at all means that nobody knows.
-TEST_F(WordMemoryTest, AFileOrFolderThatIsNotThereIsUnknown) {
-  const WordMemory without_file(file, kWords);
-  EXPECT_EQ(without_file.recall(), Recall::kMissing);
+TEST_F(PersistedWordTest, AFileOrFolderThatIsNotThereIsUnknown) {
+  const PersistedWord without_file(file, kWords);
+  EXPECT_EQ(without_file.restore_result(), RestoreResult::kMissing);
   EXPECT_EQ(without_file.word(), "");
   EXPECT_EQ(without_file.why_unknown(), file + " is missing");
-  const WordMemory without_folder("/nonexistent/word", kWords);
-  EXPECT_EQ(without_folder.recall(), Recall::kMissing);
+  const PersistedWord without_folder("/nonexistent/word", kWords);
+  EXPECT_EQ(without_folder.restore_result(), RestoreResult::kMissing);
   EXPECT_EQ(without_folder.why_unknown(), "/nonexistent is missing");
 }
 
-TEST_F(WordMemoryTest, WhatCannotBeReadIsUnknown) {
+TEST_F(PersistedWordTest, WhatCannotBeReadIsUnknown) {
   std::ofstream(file) << "rubbish\n";
-  EXPECT_EQ(WordMemory(file, kWords).recall(), Recall::kUnreadable);
-  EXPECT_EQ(WordMemory(file, kWords).why_unknown(), file + ": is damaged");
+  EXPECT_EQ(PersistedWord(file, kWords).restore_result(), RestoreResult::kUnreadable);
+  EXPECT_EQ(PersistedWord(file, kWords).why_unknown(), file + ": is damaged");
   std::ofstream(file, std::ios::trunc);  // the power went while it was written
-  EXPECT_EQ(WordMemory(file, kWords).recall(), Recall::kUnreadable);
-  const WordMemory unknown(std::string(300, 'x'), kWords);  // longer than names may be
-  EXPECT_EQ(unknown.recall(), Recall::kUnreadable);
+  EXPECT_EQ(PersistedWord(file, kWords).restore_result(), RestoreResult::kUnreadable);
+  const PersistedWord unknown(std::string(300, 'x'), kWords);  // longer than names may be
+  EXPECT_EQ(unknown.restore_result(), RestoreResult::kUnreadable);
   EXPECT_NE(unknown.why_unknown().find("too long"), std::string::npos) << unknown.why_unknown();
 }
 
-TEST_F(WordMemoryTest, SaysWhyItCannotRemember) {
-  WordMemory memory("/nonexistent/word", kWords);
+TEST_F(PersistedWordTest, SaysWhyItCannotRemember) {
+  PersistedWord memory("/nonexistent/word", kWords);
   memory.set("bad");
   EXPECT_EQ(memory.word(), "bad");  // as long as it lives
   EXPECT_TRUE(eventually([&] { return !memory.trouble().empty(); }));
@@ -75,19 +75,19 @@ TEST_F(WordMemoryTest, SaysWhyItCannotRemember) {
   EXPECT_FALSE(std::filesystem::exists("/nonexistent")) << "and makes no folder";
 }
 
-TEST_F(WordMemoryTest, TriesAgainWhatItCouldNotWrite) {
+TEST_F(PersistedWordTest, TriesAgainWhatItCouldNotWrite) {
   std::filesystem::remove_all(folder);
-  WordMemory memory(file, kWords);
+  PersistedWord memory(file, kWords);
   memory.set("bad");
   ASSERT_TRUE(eventually([&] { return !memory.trouble().empty(); }));
   std::filesystem::create_directories(folder);
   EXPECT_TRUE(eventually([&] { return memory.trouble().empty(); }));
-  EXPECT_EQ(WordMemory(file, kWords).word(), "bad");
+  EXPECT_EQ(PersistedWord(file, kWords).word(), "bad");
 }
 
-TEST_F(WordMemoryTest, AFolderThatVanishesWhileItRunsIsATroubleUntilItIsBack) {
+TEST_F(PersistedWordTest, AFolderThatVanishesWhileItRunsIsATroubleUntilItIsBack) {
   for (const bool known : {false, true}) {  // a word that was set, one that was found
-    WordMemory memory(file, kWords);
+    PersistedWord memory(file, kWords);
     if (!known) memory.set("worse");
     ASSERT_TRUE(eventually([&] { return content() == "worse"; }));
     std::filesystem::rename(folder, folder + ".away");
@@ -98,8 +98,8 @@ TEST_F(WordMemoryTest, AFolderThatVanishesWhileItRunsIsATroubleUntilItIsBack) {
   }
 }
 
-TEST_F(WordMemoryTest, AFileThatIsTakenAwayOrChangedIsWrittenAgain) {
-  WordMemory memory(file, kWords);
+TEST_F(PersistedWordTest, AFileThatIsTakenAwayOrChangedIsWrittenAgain) {
+  PersistedWord memory(file, kWords);
   memory.set("worse");
   ASSERT_TRUE(eventually([&] { return content() == "worse"; }));
   std::filesystem::remove(file);
@@ -108,24 +108,24 @@ TEST_F(WordMemoryTest, AFileThatIsTakenAwayOrChangedIsWrittenAgain) {
   EXPECT_TRUE(eventually([&] { return content() == "worse"; }));
 }
 
-TEST_F(WordMemoryTest, TriesALastTimeAtTheEnd) {
+TEST_F(PersistedWordTest, TriesALastTimeAtTheEnd) {
   std::filesystem::remove_all(folder);
   {
-    WordMemory memory(file, kWords);
+    PersistedWord memory(file, kWords);
     memory.set("bad");
     ASSERT_TRUE(eventually([&] { return !memory.trouble().empty(); }));
     std::filesystem::create_directories(folder);
   }
-  EXPECT_EQ(WordMemory(file, kWords).word(), "bad");
+  EXPECT_EQ(PersistedWord(file, kWords).word(), "bad");
 }
 
-TEST_F(WordMemoryTest, WithoutAFileNothingIsRemembered) {
-  WordMemory memory("", kWords);
-  EXPECT_EQ(memory.recall(), Recall::kNoFile);
+TEST_F(PersistedWordTest, WithoutAFileNothingIsRemembered) {
+  PersistedWord memory("", kWords);
+  EXPECT_EQ(memory.restore_result(), RestoreResult::kNoFile);
   memory.set("worse");
   EXPECT_EQ(memory.word(), "worse");
   EXPECT_EQ(memory.trouble(), "");
-  EXPECT_EQ(WordMemory("", kWords).word(), "");
+  EXPECT_EQ(PersistedWord("", kWords).word(), "");
 }
 
 }  // namespace

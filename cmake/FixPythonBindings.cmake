@@ -1,6 +1,6 @@
-# lcm-gen 1.3.1 writes Python 2: there map() was a list. As decoded, an array of booleans can be read
-# once, and is empty then.
-#   cmake -DFOLDER=... -P MendPythonBindings.cmake
+# lcm-gen 1.3.1 writes Python 2: its map() returned a list. In Python 3 a decoded array of booleans
+# would be an iterator that can be read only once.
+#   cmake -DFOLDER=... -P FixPythonBindings.cmake
 file(GLOB modules ${FOLDER}/*_t.py)
 foreach(module ${modules})
   file(READ ${module} code)

@@ -1,4 +1,4 @@
-#include "base/bus_watch.h"
+#include "base/bus_monitor.h"
 
 namespace ols {
 namespace {
@@ -10,9 +10,9 @@ BusTraffic operator+(const BusTraffic& a, const BusTraffic& b) {
 
 }  // namespace
 
-BusTraffic BusWatch::total() const { return ended_ + current_; }
+BusTraffic BusMonitor::total() const { return ended_ + current_; }
 
-void BusWatch::look(const BusTraffic& connection, double now_s) {
+void BusMonitor::look(const BusTraffic& connection, double now_s) {
   if (is_calm(now_s)) calm_ = total();
   const bool more = connection.fragments > current_.fragments ||
                     connection.malformed > current_.malformed ||
@@ -21,12 +21,12 @@ void BusWatch::look(const BusTraffic& connection, double now_s) {
   current_ = connection;
 }
 
-void BusWatch::connection_ended() {
+void BusMonitor::connection_ended() {
   ended_ = total();
   current_ = {};
 }
 
-void BusWatch::count(std::map<std::string, double>& counters) const {
+void BusMonitor::count(std::map<std::string, double>& counters) const {
   const BusTraffic all = total();
   counters["bus_fragments_refused"] = static_cast<double>(all.fragments);
   counters["bus_datagrams_malformed"] = static_cast<double>(all.malformed);
@@ -34,13 +34,13 @@ void BusWatch::count(std::map<std::string, double>& counters) const {
   counters["bus_messages_unsendable"] = static_cast<double>(all.unsendable);
 }
 
-std::string BusWatch::alarm(double now_s) const {
+std::string BusMonitor::alarm(double now_s) const {
   if (is_calm(now_s)) return {};
   const BusTraffic all = total();
   return "bus: " + std::to_string(all.fragments - calm_.fragments) + " fragments and " +
          std::to_string(all.malformed - calm_.malformed) + " malformed datagrams refused, " +
          std::to_string(all.overflowed - calm_.overflowed) +
-         " messages pushed out by newer ones: a flood, or a program that is not of this site";
+         " messages displaced by newer ones: a flood, or a foreign program on the bus";
 }
 
 }  // namespace ols

@@ -1,4 +1,4 @@
-#include "tools/doctor/bus_ears.h"
+#include "tools/doctor/bus_listener.h"
 
 #include <arpa/inet.h>
 
@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kPoll_ms = 50;
 constexpr double kCommand_s = 2.0;
-constexpr std::size_t kMostBoots = 100;  // that are told apart; invented ones must not fill memory
+constexpr std::size_t kMostBoots = 100;  // limits the memory that forged messages can use
 
 DeviceState device_state_of(std::int8_t code) {
   using M = ols_msg::station_status_t;

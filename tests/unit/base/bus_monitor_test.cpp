@@ -1,34 +1,34 @@
-#include "base/bus_watch.h"
+#include "base/bus_monitor.h"
 
 #include <gtest/gtest.h>
 
 namespace ols {
 namespace {
 
-TEST(BusWatch, AlarmsWhileDatagramsAreRefusedAndForAWhileAfterwards) {
-  BusWatch watch;
+TEST(BusMonitor, AlarmsWhileDatagramsAreRefusedAndForAWhileAfterwards) {
+  BusMonitor watch;
   watch.look({.received = 100}, 0.0);
   EXPECT_EQ(watch.alarm(0.0), "");
   watch.look({.received = 100, .fragments = 2}, 1.0);
   watch.look({.received = 100, .fragments = 2, .malformed = 1}, 2.0);
   EXPECT_EQ(watch.alarm(2.0),
-            "bus: 2 fragments and 1 malformed datagrams refused, 0 messages pushed out by newer "
-            "ones: a flood, or a program that is not of this site");
-  EXPECT_NE(watch.alarm(2.0 + BusWatch::kAlarm_s), "");
-  EXPECT_EQ(watch.alarm(2.1 + BusWatch::kAlarm_s), "");
+            "bus: 2 fragments and 1 malformed datagrams refused, 0 messages displaced by newer "
+            "ones: a flood, or a foreign program on the bus");
+  EXPECT_NE(watch.alarm(2.0 + BusMonitor::kAlarm_s), "");
+  EXPECT_EQ(watch.alarm(2.1 + BusMonitor::kAlarm_s), "");
   watch.look({.received = 100, .fragments = 5, .malformed = 1}, 30.0);
   EXPECT_NE(watch.alarm(30.0).find("bus: 3 fragments and 0 malformed"), std::string::npos);
 }
 
-TEST(BusWatch, AlarmsOfWhatWasPushedOutUnread) {
-  BusWatch watch;
+TEST(BusMonitor, AlarmsOfUnreadMessagesDisplaced) {
+  BusMonitor watch;
   watch.look({.received = 100}, 0.0);
   watch.look({.received = 5000, .overflowed = 7}, 1.0);
-  EXPECT_NE(watch.alarm(1.0).find("7 messages pushed out"), std::string::npos);
+  EXPECT_NE(watch.alarm(1.0).find("7 messages displaced"), std::string::npos);
 }
 
-TEST(BusWatch, CountsOverAllConnections) {
-  BusWatch watch;
+TEST(BusMonitor, CountsOverAllConnections) {
+  BusMonitor watch;
   watch.look({.fragments = 2, .overflowed = 7, .unsendable = 1}, 1.0);
   watch.connection_ended();
   watch.look({.fragments = 3, .malformed = 4}, 2.0);

@@ -1,4 +1,4 @@
-// What a program on the bus says of the traffic that it had to refuse. Pure.
+// Counters and alarm for refused and displaced bus traffic. Pure.
 #pragma once
 
 #include <map>
@@ -9,17 +9,17 @@
 
 namespace ols {
 
-class BusWatch {
+class BusMonitor {
  public:
-  // The counts of the present connection, now and then. `now_s`: monotonic.
+  // Call regularly with the counts of the current connection. `now_s`: monotonic.
   void look(const BusTraffic& connection, double now_s);
-  // The counts of the next connection begin at zero again.
+  // The next connection counts from zero again.
   void connection_ended();
 
   // Counters that only go up over all connections: bus_fragments_refused, bus_datagrams_malformed,
   // bus_messages_overflowed, bus_messages_unsendable.
   void count(std::map<std::string, double>& counters) const;
-  // In words, while something was refused or pushed out within the last kAlarm_s; else empty.
+  // The alarm text while traffic was refused or displaced within the last kAlarm_s; else empty.
   std::string alarm(double now_s) const;
   static constexpr double kAlarm_s = 10.0;
 
@@ -27,10 +27,10 @@ class BusWatch {
   BusTraffic total() const;
   bool is_calm(double now_s) const { return !refused_s_ || now_s - *refused_s_ > kAlarm_s; }
 
-  BusTraffic ended_;                 // of all connections before this one
+  BusTraffic ended_;                 // of all earlier connections
   BusTraffic current_;               // of this one
   BusTraffic calm_;                  // total when the last alarm was over
-  std::optional<double> refused_s_;  // when something was last refused
+  std::optional<double> refused_s_;  // time of the last refusal
 };
 
 }  // namespace ols

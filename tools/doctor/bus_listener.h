@@ -7,8 +7,8 @@
 
 namespace ols::doctor {
 
-// Never throws: what keeps it from listening is in the answer. However many stations are invented,
-// `own` is among those heard when it is.
+// Never throws: the result holds the error. `own` is reported if it is heard, however many forged
+// stations there are.
 BusHeard listen(const std::string& lcm_url, double seconds, const std::string& own = "");
 
 }  // namespace ols::doctor
