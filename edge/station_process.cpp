@@ -70,7 +70,7 @@ StationProcess::StationProcess(const StationSettings& settings, std::int64_t boo
 
 // Of the sensors that it still has.
 void StationProcess::resume_pose(double now_s) {
-  RememberedPose known = pose_memory_.found();
+  PersistedPose known = pose_memory_.found();
   if (settings_.gnss.host.empty()) known.position.reset();
   if (settings_.inclinometer.device.empty()) known.tilt.reset();
   pose_.resume(known, now_s, clock_utime_us());
@@ -170,7 +170,7 @@ void StationProcess::keep_pose(double now_s) {
   station_.set_pose(pose_.pose(now_s));
   if (now_s < pose_kept_due_s_) return;
   pose_kept_due_s_ = now_s + kPoseKept_s;
-  pose_memory_.keep(pose_.to_remember(now_s, clock_utime_us()));
+  pose_memory_.keep(pose_.to_persist(now_s, clock_utime_us()));
 }
 
 void StationProcess::take_frame() {

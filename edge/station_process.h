@@ -55,7 +55,7 @@ class StationProcess {
   ServiceNotifier service_;
   ClockWatch clock_;
   ClockSource clock_source_;
-  PoseKeeper pose_;
+  PoseEstimator pose_;
   PoseMemory pose_memory_;
   Station station_;
   CommandTurn turn_commands_;

@@ -22,9 +22,9 @@ struct PtuStatus {
     std::uint64_t failures = 0;  // opens that failed and ports that vanished; only goes up
     std::uint64_t reopens = 0;   // because the unit did not answer; only goes up
   } port;
-  bool emergency = false;           // nothing moves until clear_emergency()
-  bool standing = false;            // seen not to move
-  bool not_referenced = false;      // must be homed
+  bool emergency = false;       // nothing moves until clear_emergency()
+  bool standing = false;        // seen not to move
+  bool not_referenced = false;  // must be homed
   bool homing = false;
   std::optional<PtuDoubtCause> doubt;
   std::optional<PtuLoweredSpeed> lowered_speed;

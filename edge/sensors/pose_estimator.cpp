@@ -1,7 +1,7 @@
-#include "edge/sensors/pose_keeper.h"
+#include "edge/sensors/pose_estimator.h"
 
-#include "edge/sensors/kept_position.h"
-#include "edge/sensors/kept_tilt.h"
+#include "edge/sensors/station_position.h"
+#include "edge/sensors/station_tilt.h"
 
 namespace ols {
 namespace {
@@ -15,17 +15,17 @@ double age_s(std::int64_t utime_us, std::int64_t now_utime_us) {
 
 }  // namespace
 
-struct PoseKeeper::Impl {
-  KeptPosition position;
-  KeptTilt tilt;
+struct PoseEstimator::Impl {
+  StationPosition position;
+  StationTilt tilt;
 };
 
-PoseKeeper::PoseKeeper(const Config& config)
-    : impl_(std::make_unique<Impl>(Impl{KeptPosition(config), KeptTilt(config)})) {}
+PoseEstimator::PoseEstimator(const Config& config)
+    : impl_(std::make_unique<Impl>(Impl{StationPosition(config), StationTilt(config)})) {}
 
-PoseKeeper::~PoseKeeper() = default;
+PoseEstimator::~PoseEstimator() = default;
 
-void PoseKeeper::resume(const RememberedPose& known, double now_s, std::int64_t now_utime_us) {
+void PoseEstimator::resume(const PersistedPose& known, double now_s, std::int64_t now_utime_us) {
   if (known.position) {
     impl_->position.resume(*known.position, now_s, age_s(known.position->utime_us, now_utime_us));
   }
@@ -34,9 +34,9 @@ void PoseKeeper::resume(const RememberedPose& known, double now_s, std::int64_t 
   }
 }
 
-RememberedPose PoseKeeper::to_remember(double now_s, std::int64_t now_utime_us) const {
+PersistedPose PoseEstimator::to_persist(double now_s, std::int64_t now_utime_us) const {
   const StationPose now = pose(now_s);
-  RememberedPose pose;
+  PersistedPose pose;
   if (impl_->position.is_from_sensor()) {
     pose.position = {now.position, now.position_sd_enu_m, now_utime_us};
   }
@@ -46,18 +46,18 @@ RememberedPose PoseKeeper::to_remember(double now_s, std::int64_t now_utime_us) 
   return pose;
 }
 
-void PoseKeeper::add(const GnssReading& reading) { impl_->position.add(reading); }
+void PoseEstimator::add(const GnssReading& reading) { impl_->position.add(reading); }
 
-void PoseKeeper::add(const TiltReading& reading) { impl_->tilt.add(reading); }
+void PoseEstimator::add(const TiltReading& reading) { impl_->tilt.add(reading); }
 
-StationPose PoseKeeper::pose(double now_s) const {
+StationPose PoseEstimator::pose(double now_s) const {
   StationPose pose;
   impl_->position.fill(pose, now_s);
   impl_->tilt.fill(pose, now_s);
   return pose;
 }
 
-std::vector<std::string> PoseKeeper::alarms(double now_s) const {
+std::vector<std::string> PoseEstimator::alarms(double now_s) const {
   std::vector<std::string> alarms;
   impl_->position.add_alarms(alarms, now_s);
   impl_->tilt.add_alarms(alarms, now_s);

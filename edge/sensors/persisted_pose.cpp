@@ -1,4 +1,4 @@
-#include "edge/sensors/remembered_pose.h"
+#include "edge/sensors/persisted_pose.h"
 
 #include <cinttypes>
 #include <cstdio>
@@ -42,10 +42,10 @@ bool read_numbers(const std::string& line, double* values, int count, std::int64
   return stream >> utime_us && utime_us >= 0 && !(stream >> more);
 }
 
-std::optional<RememberedPose::Position> read_position(const std::string& line) {
+std::optional<PersistedPose::Position> read_position(const std::string& line) {
   constexpr double kMostSd_m = 1e6;
   double v[6] = {};
-  RememberedPose::Position position;
+  PersistedPose::Position position;
   if (!read_numbers(line, v, 6, position.utime_us)) return std::nullopt;
   if (!within(v[0], -90.0, 90.0) || !within(v[1], -360.0, 360.0) || !within(v[2], -1e5, 1e5)) {
     return std::nullopt;
@@ -58,10 +58,10 @@ std::optional<RememberedPose::Position> read_position(const std::string& line) {
   return position;
 }
 
-std::optional<RememberedPose::Tilt> read_tilt(const std::string& line) {
+std::optional<PersistedPose::Tilt> read_tilt(const std::string& line) {
   constexpr double kMost_deg = 90.0;
   double v[3] = {};
-  RememberedPose::Tilt tilt;
+  PersistedPose::Tilt tilt;
   if (!read_numbers(line, v, 3, tilt.utime_us)) return std::nullopt;
   if (!within(v[0], -kMost_deg, kMost_deg) || !within(v[1], -kMost_deg, kMost_deg) ||
       !(v[2] > 0.0 && v[2] <= kMost_deg)) {
@@ -74,7 +74,7 @@ std::optional<RememberedPose::Tilt> read_tilt(const std::string& line) {
 
 }  // namespace
 
-std::string to_text(const RememberedPose& pose) {
+std::string to_text(const PersistedPose& pose) {
   std::string text(kHead);
   if (const auto& p = pose.position) {
     text +=
@@ -89,14 +89,14 @@ std::string to_text(const RememberedPose& pose) {
   return text + std::string(kSum) + sum_of(text) + "\n";
 }
 
-std::variant<RememberedPose, std::string> remembered_pose_from(std::string_view text) {
+std::variant<PersistedPose, std::string> persisted_pose_from(std::string_view text) {
   if (!text.starts_with(kHead)) return std::string("line 1: is no kept pose");
   const std::size_t end = text.rfind(kSum);
   if (end == std::string_view::npos || text[end - 1] != '\n' ||
       text.substr(end) != std::string(kSum) + sum_of(text.substr(0, end)) + "\n") {
     return std::string("is damaged: its sum is wrong");
   }
-  RememberedPose pose;
+  PersistedPose pose;
   std::istringstream lines(std::string(text.substr(kHead.size(), end - kHead.size())));
   std::string line;
   for (int number = 2; std::getline(lines, line); ++number) {

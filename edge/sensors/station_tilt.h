@@ -1,21 +1,21 @@
-// The part of the pose keeper that knows the tilt. Pure.
+// The part of the pose estimator that knows the tilt. Pure.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "edge/sensors/pose_keeper.h"
-#include "edge/sensors/remembered_pose.h"
-#include "edge/sensors/standing_value.h"
+#include "edge/sensors/constant_estimator.h"
+#include "edge/sensors/persisted_pose.h"
+#include "edge/sensors/pose_estimator.h"
 
 namespace ols {
 
-class KeptTilt {
+class StationTilt {
  public:
-  explicit KeptTilt(const PoseKeeper::Config& config);
+  explicit StationTilt(const PoseEstimator::Config& config);
   // `age_s`: since it was so.
-  void resume(const RememberedPose::Tilt& known, double now_s, double age_s);
+  void resume(const PersistedPose::Tilt& known, double now_s, double age_s);
   // Told, or confirmed, by a sensor since the start.
   bool is_from_sensor() const;
   void add(const TiltReading& reading);
@@ -24,11 +24,11 @@ class KeptTilt {
 
  private:
   bool is_stuck(double time_s) const;
-  bool is_disbelieved(double now_s) const;
+  bool is_inconsistent(double now_s) const;
   bool is_lost(double now_s) const;
 
-  PoseKeeper::Config config_;
-  StandingValue<2> tilt_;  // x, y [rad]
+  PoseEstimator::Config config_;
+  ConstantEstimator<2> tilt_;  // x, y [rad]
   std::optional<TiltReading> last_;
   double changed_s_ = 0.0;  // last time that a digit changed
   double known_s_ = 0.0;    // when what was resumed was so

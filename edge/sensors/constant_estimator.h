@@ -15,7 +15,7 @@
 namespace ols {
 
 template <int N>
-class StandingValue {
+class ConstantEstimator {
  public:
   using Vector = Eigen::Matrix<double, N, 1>;
 
@@ -32,7 +32,7 @@ class StandingValue {
   };
 
   // `survey`: what is known otherwise; it is kept whatever the readings say.
-  StandingValue(const Config& config, const std::optional<Estimate>& survey)
+  ConstantEstimator(const Config& config, const std::optional<Estimate>& survey)
       : config_(config), survey_(survey) {}
 
   // What was known before a restart: kept until readings confirm it, or agree for doubt_resumed_s

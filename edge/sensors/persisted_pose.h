@@ -19,7 +19,7 @@
 
 namespace ols {
 
-struct RememberedPose {
+struct PersistedPose {
   struct Position {
     Geodetic ground;
     Eigen::Vector3d sd_enu_m = Eigen::Vector3d::Zero();
@@ -34,9 +34,9 @@ struct RememberedPose {
   std::optional<Tilt> tilt;
 };
 
-std::string to_text(const RememberedPose& pose);
+std::string to_text(const PersistedPose& pose);
 
 // What the text holds, or what is wrong with it, naming the line.
-std::variant<RememberedPose, std::string> remembered_pose_from(std::string_view text);
+std::variant<PersistedPose, std::string> persisted_pose_from(std::string_view text);
 
 }  // namespace ols

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "edge/sensors/gnss_reading.h"
-#include "edge/sensors/remembered_pose.h"
+#include "edge/sensors/persisted_pose.h"
 #include "edge/sensors/tilt_reading.h"
 #include "geometry/wgs84.h"
 
@@ -33,7 +33,7 @@ struct StationPose {
   PoseSource tilt_source = PoseSource::kNone;  // kNone: taken as level, with a sigma to match
 };
 
-class PoseKeeper {
+class PoseEstimator {
  public:
   struct Config {
     std::optional<Geodetic> surveyed_position;  // of GROUND
@@ -60,14 +60,14 @@ class PoseKeeper {
     double growth_rad_sqrt_s = 2e-5;
     double resume_s = 7 * 86400.0;  // what is older at a restart is not taken up again
   };
-  explicit PoseKeeper(const Config& config);
-  ~PoseKeeper();
+  explicit PoseEstimator(const Config& config);
+  ~PoseEstimator();
 
   // Before the first reading: what the sensors had told before a restart, where there is no survey.
   // Its sigmas have grown by its age, and an alarm tells of it, until a sensor confirms it.
-  void resume(const RememberedPose& known, double now_s, std::int64_t now_utime_us);
+  void resume(const PersistedPose& known, double now_s, std::int64_t now_utime_us);
   // What to keep over a restart: what a sensor has told, or confirmed, since this one began.
-  RememberedPose to_remember(double now_s, std::int64_t now_utime_us) const;
+  PersistedPose to_persist(double now_s, std::int64_t now_utime_us) const;
 
   // In time order each; what is older than the one before, or not finite, is left out.
   void add(const GnssReading& reading);
