@@ -74,7 +74,7 @@ std::string PtuDriver::step(PtuStarting& phase, double time_s) {
       drop_line(time_s);
       break;
     case PtuStarting::Event::kLineNotQuiet:
-      fault(time_s, "the line does not become quiet");
+      fault(time_s, "the unit keeps sending");
       change_rate(time_s);
       break;
     case PtuStarting::Event::kNoReply:
@@ -131,7 +131,7 @@ std::string PtuDriver::step(Homing& phase, double time_s) {
     reference_.homing_ordered();
     return " R ";
   }
-  if (time_s - *phase.ordered_s > kLongestHoming_s) fault(time_s, "homing does not end");
+  if (time_s - *phase.ordered_s > kLongestHoming_s) fault(time_s, "homing did not finish in time");
   return {};
 }
 

@@ -50,7 +50,7 @@ void add_alarms(const PtuConfig& config, const PtuStatus& status, double now_s,
   if (status.emergency) alarm(status.standing ? "emergency stop" : "emergency stop, still moving");
   if (report.state == DeviceState::kAbsent) alarm("no serial port: " + status.last_error);
   if (report.state == DeviceState::kFault) alarm("halted, " + status.last_error);
-  if (status.not_referenced) alarm("does not know where it is: home it");
+  if (status.not_referenced) alarm("no reference: home it");
   if (status.homing) alarm("homing");
   if (status.doubt && status.last_error != words(*status.doubt)) alarm(words(*status.doubt));
   if (status.lowered_speed) alarm(lowered_words(*status.lowered_speed));

@@ -126,7 +126,7 @@ void SerialPort::write(std::string_view bytes) {
       pollfd woken{wakeup_ != nullptr ? wakeup_->descriptor() : -1, POLLIN, 0};
       if (wait_for(POLLOUT, kLongestWrite_s)) continue;
       if (::poll(&woken, 1, 0) > 0) return;
-      fail(ETIMEDOUT, "takes no bytes");
+      fail(ETIMEDOUT, "accepts no bytes");
     } else if (errno != EINTR) {
       fail(errno, "cannot be written");
     }

@@ -44,7 +44,7 @@ PtuStartSequence::PtuStartSequence(const PtuStartOptions& options)
   }
   // Speeds are bounds of position moves. As velocities they would run on when this master dies, so
   // an answer of `*` is not enough.
-  constexpr std::string_view kVelocities = "the unit may take speeds for velocities";
+  constexpr std::string_view kVelocities = "the unit may be in velocity mode";
   require("CI", accepted, kVelocities, false);
   require("C", says_independent, kVelocities, true);
   add("I");  // moves begin at once

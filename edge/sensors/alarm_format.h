@@ -1,4 +1,4 @@
-// Numbers in alarms, as a person would say them. Pure.
+// Formats numbers for alarms. Pure.
 #pragma once
 
 #include <string>

@@ -39,11 +39,11 @@ std::string format(GpsdLink::Silence silence) {
     case GpsdLink::Silence::kNoReceiver:
       return "gpsd has no receiver";
     case GpsdLink::Silence::kDeviceMissing:
-      return "the receiver's device is not there";
+      return "the receiver's device is missing";
     case GpsdLink::Silence::kReceiverSilent:
       break;
   }
-  return "the receiver says nothing";
+  return "the receiver sends nothing";
 }
 
 }  // namespace
@@ -148,7 +148,7 @@ struct Gnss::Impl {
   std::vector<GnssReading> readings;
   std::optional<GnssReading> last;
   std::optional<double> last_fix_s;
-  GpsdLink::Silence silence = GpsdLink::Silence::kReceiverSilent;  // why, when there is silence
+  GpsdLink::Silence silence = GpsdLink::Silence::kReceiverSilent;  // the cause of a silence
   std::uint64_t reports = 0, fixes = 0;
   DeviceThread thread;  // last: it uses the rest
 };

@@ -6,11 +6,11 @@
 namespace ols {
 namespace {
 
-// A clock that was set back since then, or is not set yet, does not tell it: some days.
+// The age is unknown if the clock was set back since then or is not set yet: some days are assumed.
 double age_s(std::int64_t utime_us, std::int64_t now_utime_us) {
-  constexpr double kUntold_s = 3 * 86400.0;
+  constexpr double kUnknownAge_s = 3 * 86400.0;
   const double age_s = (static_cast<double>(now_utime_us) - static_cast<double>(utime_us)) * 1e-6;
-  return age_s >= 0.0 ? age_s : kUntold_s;
+  return age_s >= 0.0 ? age_s : kUnknownAge_s;
 }
 
 }  // namespace

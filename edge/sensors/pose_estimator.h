@@ -1,11 +1,11 @@
-// Where a station stands and how it leans: from the survey in the configuration where there is one,
-// else from GNSS and inclinometer; and whether they agree. Pure.
+// The position and tilt of a station: from the survey in the configuration if it has one, else from
+// GNSS and inclinometer; and whether survey and sensors agree. Pure.
 //
-// A tripod stands still. Readings are averaged; a reading far from what is known is not believed:
-// the pose is kept, the uncertainty grows, and an alarm says why. It grows from the last reading
-// that supported the pose until the next one does; a pose that no sensor ever watched does not
-// grow. A tripod that was really moved has lost its heading too, so a new place is not taken over
-// by itself (unless accept_move_s says so): the alarm asks for the station to be set up anew.
+// A tripod is stationary, so readings are averaged. A reading that is inconsistent with the pose is
+// rejected: the pose is kept, its uncertainty grows, and an alarm states why. The uncertainty grows
+// from the last consistent reading until the next one; without a sensor it does not grow. A tripod
+// that was moved has lost its heading, too, so a new position is not adopted automatically (unless
+// accept_move_s allows it): the alarm asks to set up the station again.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,7 +30,7 @@ struct StationPose {
   PoseSource position_source = PoseSource::kNone;  // kNone: no position known yet, no bearings
   double tilt_x_rad = 0.0, tilt_y_rad = 0.0;
   double tilt_sd_rad = 0.0;
-  PoseSource tilt_source = PoseSource::kNone;  // kNone: taken as level, with a sigma to match
+  PoseSource tilt_source = PoseSource::kNone;  // kNone: assumed level, with level_sd_rad
 };
 
 class PoseEstimator {
@@ -42,34 +42,33 @@ class PoseEstimator {
     double surveyed_tilt_sd_rad = 0.0;
 
     Eigen::Vector3d ground_to_antenna_enu_m = Eigen::Vector3d::Zero();
-    GnssFix least_fix = GnssFix::k3D;   // a worse one is not used
-    double gnss_sd_floor_m = 0.01;      // no stated 1-sigma is believed to be smaller
-    double gnss_memory_s = 3600.0;      // of the average
-    double inclinometer_sd_rad = 2e-4;  // of its zero and mounting: stays
-    double inclinometer_memory_s =
-        60.0;                    // short: legs sink into soft ground, and that is to be seen
-    double level_sd_rad = 0.05;  // of a tilt that nothing measures
+    GnssFix least_fix = GnssFix::k3D;     // a worse one is not used
+    double gnss_sd_floor_m = 0.01;        // a smaller stated 1-sigma is raised to this
+    double gnss_memory_s = 3600.0;        // of the average
+    double inclinometer_sd_rad = 2e-4;    // of its zero and mounting: not reduced by averaging
+    double inclinometer_memory_s = 60.0;  // short, to follow legs that sink into soft ground
+    double level_sd_rad = 0.05;           // of an unmeasured tilt
     double gnss_stale_s = 10.0;
     double inclinometer_stale_s = 3.0;
-    double stuck_s = 60.0;       // not a digit changes for so long: stuck
-    double alarm_sigma = 5.0;    // a disagreement beyond is not believed,
-    double alarm_after_s = 2.0;  // and is an alarm when it lasts: gusts and lone outliers are not
-    double restation_s = 300.0;  // lasting so long, the tripod was moved
-    double accept_move_s = 0.0;  // a new position that holds for so long is taken; 0: never
-    double growth_m_sqrt_s = 0.01;  // of the position's 1-sigma while no reading supports it
+    double stuck_s = 60.0;       // without any change of a digit for this long: stuck
+    double alarm_sigma = 5.0;    // a reading further off is inconsistent,
+    double alarm_after_s = 2.0;  // which is an alarm only when it lasts: not a gust or an outlier
+    double restation_s = 300.0;  // inconsistent for this long: the tripod was moved
+    double accept_move_s = 0.0;  // a new position is adopted when it holds this long; 0: never
+    double growth_m_sqrt_s = 0.01;  // of the position's 1-sigma without consistent readings
     double growth_rad_sqrt_s = 2e-5;
-    double resume_s = 7 * 86400.0;  // what is older at a restart is not taken up again
+    double resume_s = 7 * 86400.0;  // an older persisted pose is not resumed
   };
   explicit PoseEstimator(const Config& config);
   ~PoseEstimator();
 
-  // Before the first reading: what the sensors had told before a restart, where there is no survey.
-  // Its sigmas have grown by its age, and an alarm tells of it, until a sensor confirms it.
+  // Resumes the pose from before a restart, where there is no survey; call before the first
+  // reading. Its sigmas grow with its age, and an alarm reports it until a sensor confirms it.
   void resume(const PersistedPose& known, double now_s, std::int64_t now_utime_us);
-  // What to keep over a restart: what a sensor has told, or confirmed, since this one began.
+  // The pose to persist over a restart: measured or confirmed by a sensor since the start.
   PersistedPose to_persist(double now_s, std::int64_t now_utime_us) const;
 
-  // In time order each; what is older than the one before, or not finite, is left out.
+  // In time order of each sensor; readings that are not in order or not finite are ignored.
   void add(const GnssReading& reading);
   void add(const TiltReading& reading);
 

@@ -1,4 +1,4 @@
-// What the configurations of the sensors say to the pose estimator. Pure.
+// The settings of the pose estimator that come from the sensors' configurations. Pure.
 #pragma once
 
 #include "edge/sensors/gnss.h"
@@ -7,7 +7,7 @@
 
 namespace ols {
 
-// Everything but what [pose] configures.
+// Sets everything but the settings of [pose].
 void set_sensors(PoseEstimator::Config& estimator, const InclinometerConfig& inclinometer,
                  const GnssConfig& gnss);
 

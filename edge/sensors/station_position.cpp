@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 bool is_usable(const GnssReading& r) {
-  // An antenna on the Earth and sds that say something; comparisons with NaN are false.
+  // An antenna on the Earth and plausible sds; comparisons with NaN are false.
   const bool on_earth = std::abs(r.antenna.latitude_rad) <= 1.5708 &&
                         std::abs(r.antenna.longitude_rad) <= 7.0 &&
                         std::abs(r.antenna.height_m) < 1e5;
@@ -100,18 +100,18 @@ std::string StationPosition::disagreement(double now_s) const {
                      (config_.surveyed_position ? "survey" : "kept position");
   const double lasts_s = now_s - *place_->disagrees_since_s();
   if (lasts_s >= config_.restation_s) {
-    text += " for " + format_time(lasts_s) + ": set the station up anew";
+    text += " for " + format_time(lasts_s) + ": set up the station again";
   }
   return text;
 }
 
 void StationPosition::add_alarms(std::vector<std::string>& alarms, double now_s) const {
   if (const auto moved_m = place_->moved()) {
-    alarms.push_back("gnss: position taken anew, " + format_length(*moved_m) +
-                     " from before: check the heading");
+    alarms.push_back("gnss: new position adopted, " + format_length(*moved_m) +
+                     " from the old one: check the heading");
   }
   if (place_->resumed()) {
-    alarms.push_back("pose: position kept from before the restart, " +
+    alarms.push_back("pose: position restored from before the restart, " +
                      format_time(now_s - known_s_) + " old");
   }
   if (!last_) return;

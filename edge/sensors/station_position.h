@@ -1,4 +1,4 @@
-// The part of the pose estimator that knows the position. Pure.
+// The position of a station, as a part of the pose estimator. Pure.
 #pragma once
 
 #include <optional>
@@ -14,9 +14,9 @@ namespace ols {
 class StationPosition {
  public:
   explicit StationPosition(const PoseEstimator::Config& config);
-  // `age_s`: since it was so.
+  // `age_s`: since it was measured.
   void resume(const PersistedPose::Position& known, double now_s, double age_s);
-  // Told, or confirmed, by a sensor since the start.
+  // Measured or confirmed by a sensor since the start.
   bool is_from_sensor() const;
   void add(const GnssReading& reading);
   void fill(StationPose& pose, double now_s) const;
@@ -31,7 +31,7 @@ class StationPosition {
   std::optional<LocalFrame> frame_;            // of the survey, else of the first antenna position
   std::optional<ConstantEstimator<3>> place_;  // of the antenna, east-north-up in frame_ [m]
   std::optional<GnssReading> last_;
-  double known_s_ = 0.0;  // when what was resumed was so
+  double known_s_ = 0.0;  // when the resumed position was measured
 };
 
 }  // namespace ols

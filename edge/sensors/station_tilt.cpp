@@ -92,11 +92,11 @@ void StationTilt::fill(StationPose& pose, double now_s) const {
 
 void StationTilt::add_alarms(std::vector<std::string>& alarms, double now_s) const {
   if (tilt_.resumed()) {
-    alarms.push_back("pose: tilt kept from before the restart, " + format_time(now_s - known_s_) +
-                     " old");
+    alarms.push_back("pose: tilt restored from before the restart, " +
+                     format_time(now_s - known_s_) + " old");
   } else if (const auto moved_rad = tilt_.moved()) {
-    alarms.push_back("inclinometer: tilt taken anew, " + format_angle(*moved_rad) +
-                     " from before: check the heading");
+    alarms.push_back("inclinometer: new tilt adopted, " + format_angle(*moved_rad) +
+                     " from the old one: check the heading");
   }
   if (!last_) return;
   const char* consequence = tilt_.estimate() ? ", tilt kept" : ", no tilt yet";
@@ -110,7 +110,7 @@ void StationTilt::add_alarms(std::vector<std::string>& alarms, double now_s) con
                        (config_.surveyed_tilt_rad ? "survey" : "kept tilt");
     const double lasts_s = now_s - *tilt_.disagrees_since_s();
     if (lasts_s >= config_.restation_s) {
-      text += " for " + format_time(lasts_s) + ": set the station up anew";
+      text += " for " + format_time(lasts_s) + ": set up the station again";
     }
     alarms.push_back(text);
   }

@@ -1,4 +1,4 @@
-// The part of the pose estimator that knows the tilt. Pure.
+// The tilt of a station, as a part of the pose estimator. Pure.
 #pragma once
 
 #include <optional>
@@ -14,9 +14,9 @@ namespace ols {
 class StationTilt {
  public:
   explicit StationTilt(const PoseEstimator::Config& config);
-  // `age_s`: since it was so.
+  // `age_s`: since it was measured.
   void resume(const PersistedPose::Tilt& known, double now_s, double age_s);
-  // Told, or confirmed, by a sensor since the start.
+  // Measured or confirmed by a sensor since the start.
   bool is_from_sensor() const;
   void add(const TiltReading& reading);
   void fill(StationPose& pose, double now_s) const;
@@ -31,7 +31,7 @@ class StationTilt {
   ConstantEstimator<2> tilt_;  // x, y [rad]
   std::optional<TiltReading> last_;
   double changed_s_ = 0.0;  // last time that a digit changed
-  double known_s_ = 0.0;    // when what was resumed was so
+  double known_s_ = 0.0;    // when the resumed tilt was measured
 };
 
 }  // namespace ols

@@ -74,9 +74,9 @@ Finding judge_baud(const PtuAnswers& ptu) {
 
 Finding judge_axes(const PtuAnswers& ptu) {
   if (ptu.not_referenced) {
-    return fail("ptu: does not know where it is (\"Axis Error\")",
-                "clear its whole travel of people and cables, then ols-ctl STATION home (or for "
-                "good: rehome = \"when-unreferenced\")");
+    return fail("ptu: no reference (\"Axis Error\")",
+                "clear its whole travel of people and cables, then ols-ctl STATION home (or "
+                "permanently: rehome = \"when-unreferenced\")");
   }
   const std::string words =
       "ptu: " + axis_words("pan", ptu.pan) + ", " + axis_words("tilt", ptu.tilt);

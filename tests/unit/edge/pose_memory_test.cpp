@@ -69,7 +69,7 @@ TEST_F(PoseMemoryTest, ADamagedFileIsRefusedUntilItIsWrittenAnew) {
   PoseMemory memory(file);
   EXPECT_FALSE(memory.found().position);
   EXPECT_EQ(memory.trouble(),
-            "the kept one is refused, " + file + ": is damaged: its sum is wrong");
+            "the kept one is refused, " + file + ": is damaged: wrong checksum");
   memory.keep(pose);
   EXPECT_TRUE(eventually([&] { return memory.trouble().empty(); }));
   EXPECT_TRUE(holds(pose));

@@ -202,7 +202,7 @@ TEST_P(PoseEstimatorFaults, PositionJump) {
   feed(estimator_, 120.0, 480.0, {103.0, 0.0, 0.0});
   EXPECT_THAT(estimator_.alarms(480.0),
               ElementsAre(std::string("gnss: 103 m from the ") + reference_ +
-                          " for 7 min: set the station up anew"));
+                          " for 7 min: set up the station again"));
   EXPECT_LT(distance_m(estimator_.pose(480.0).position, before.position), 1e-9);
 
   feed(estimator_, 480.0, 490.0);
@@ -264,7 +264,7 @@ TEST(PoseEstimator, ANewPlaceIsTakenOnlyWhereThatIsConfigured) {
   feed(estimator, 600.0, 700.0, {8.0, 0.0, 0.0});
   EXPECT_LT(distance_m(estimator.pose(700.0).position, moved(kGround, {8.0, 0.0, 0.0})), 1e-3);
   EXPECT_THAT(estimator.alarms(700.0),
-              ElementsAre("gnss: position taken anew, 8.00 m from before: check the heading"));
+              ElementsAre("gnss: new position adopted, 8.00 m from the old one: check the heading"));
 }
 
 TEST(PoseEstimator, ASlowSettlingOfTheTripodIsFollowed) {
@@ -353,8 +353,8 @@ TEST(PoseEstimatorResumed, ARestartWithoutAFixStillKnowsWhereItIs) {
               std::hypot(kSd_m, 0.01 * std::sqrt(1020.0)), 1e-3);
   EXPECT_GT(estimator.pose(1900.0).tilt_sd_rad, pose.tilt_sd_rad);
   EXPECT_THAT(estimator.alarms(1000.0),
-              ElementsAre("pose: position kept from before the restart, 2 min old",
-                          "pose: tilt kept from before the restart, 2 min old"));
+              ElementsAre("pose: position restored from before the restart, 2 min old",
+                          "pose: tilt restored from before the restart, 2 min old"));
 }
 
 TEST(PoseEstimatorResumed, ASensorConfirmsIt) {
