@@ -73,14 +73,20 @@ void add_readings(const PtuStatus& status, DeviceReport& report) {
 
 void add_counters(const PtuStatus& status, DeviceReport& report) {
   const PtuCounters& c = status.counters;
-  report.counters = {
-      {"ptu_requests", c.requests},     {"ptu_replies", c.replies},
-      {"ptu_timeouts", c.timeouts},     {"ptu_errors", c.errors},
-      {"ptu_garbled", c.garbled},       {"ptu_restarts", c.restarts},
-      {"ptu_limit_hits", c.limit_hits}, {"ptu_refused_positions", c.refused_positions},
-      {"ptu_echoes", c.echoes},         {"ptu_power_cycles", c.power_cycles},
-      {"ptu_homings", c.homings},       {"ptu_emergencies", c.emergencies},
-      {"ptu_reopens", status.port.reopens},  {"ptu_port_failures", status.port.failures}};
+  report.counters = {{"ptu_requests", c.requests},
+                     {"ptu_replies", c.replies},
+                     {"ptu_timeouts", c.timeouts},
+                     {"ptu_errors", c.errors},
+                     {"ptu_garbled", c.garbled},
+                     {"ptu_restarts", c.restarts},
+                     {"ptu_limit_hits", c.limit_hits},
+                     {"ptu_refused_positions", c.refused_positions},
+                     {"ptu_echoes", c.echoes},
+                     {"ptu_power_cycles", c.power_cycles},
+                     {"ptu_homings", c.homings},
+                     {"ptu_emergencies", c.emergencies},
+                     {"ptu_reopens", status.port.reopens},
+                     {"ptu_port_failures", status.port.failures}};
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace ols {
 
 namespace {
 
-constexpr double kTick_s = 0.003;      // the driver is stepped at least so often
+constexpr double kTick_s = 0.003;      // maximum time between two steps of the driver
 constexpr double kFirstPause_s = 0.2;  // before the port is opened again; doubles
 constexpr double kMaxPause_s = 2.0;
 constexpr double kHaltOut_s = 0.25;  // for the last halt, behind a whole request at 9600 baud
@@ -39,7 +39,7 @@ struct PtuThread::Impl {
     port.drain(kHaltOut_s);
   }
 
-  // Until the port fails, which throws, or is to be opened anew, or the thread is to stop.
+  // Returns when the port must be opened again or the thread must stop. Throws when the port fails.
   void serve(SerialPort& port, const std::stop_token& stop) {
     int rate = line_baud();
     while (!stop.stop_requested()) {
@@ -70,8 +70,7 @@ struct PtuThread::Impl {
     {
       const std::lock_guard lock(mutex);
       halt = driver.emergency_halt(clock_monotonic_s());
-      if (!emergency)
-        driver.clear_emergency();  // called off already; the halt goes out all the same
+      if (!emergency) driver.clear_emergency();  // already cleared; the halt is sent all the same
     }
     if (!port.write_first(halt)) port.write(halt);
   }
@@ -115,7 +114,7 @@ std::vector<AngleSample> PtuThread::take_samples() {
   return impl_->driver.take_samples();
 }
 
-// Without the lock: it must not wait for whatever the thread is doing.
+// Without the lock: it must not wait for the thread.
 void PtuThread::emergency_halt() {
   impl_->emergency = true;
   impl_->halt_wanted = true;
