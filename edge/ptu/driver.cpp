@@ -367,7 +367,7 @@ std::string PtuDriver::firmware() const {
 }
 
 std::string PtuDriver::last_error() const {
-  if (ready() && doubt()) return words(*doubt());
+  if (ready() && doubt()) return describe(*doubt());
   const std::string corrected = ready() ? ready()->last_error() : std::string();
   return corrected.empty() ? error_ : corrected;
 }

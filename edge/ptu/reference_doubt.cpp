@@ -4,7 +4,7 @@
 
 namespace ols {
 
-const char* words(PtuDoubtCause cause) {
+const char* describe(PtuDoubtCause cause) {
   switch (cause) {
     case PtuDoubtCause::kPowerCycle:
       return "lost power and was not seen to home since: home it, or reference-ok once "

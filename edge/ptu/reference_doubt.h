@@ -12,7 +12,7 @@ namespace ols {
 // Why the reference is in doubt.
 enum class PtuDoubtCause { kPowerCycle, kLimitHit, kHomingInterrupted, kBeforeStart };
 // What is wrong and what to do about it.
-const char* words(PtuDoubtCause cause);
+const char* describe(PtuDoubtCause cause);
 
 // A doubted reference is trusted again after a complete homing, or after an operator's reference-ok
 // where that is accepted. A trusted reference is the absence of this struct.

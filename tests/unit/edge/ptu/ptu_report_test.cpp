@@ -54,7 +54,7 @@ TEST(PtuReport, SaysWhatIsWrong) {
   EXPECT_THAT(alarms([](PtuStatus& s) {
                 s.state = PtuState::kFault;
                 s.doubt = PtuDoubtCause::kPowerCycle;
-                s.last_error = words(*s.doubt);
+                s.last_error = describe(*s.doubt);
               }),
               ElementsAre(HasSubstr("switched off and on")));
   EXPECT_THAT(alarms([](PtuStatus& s) {
