@@ -97,7 +97,7 @@ void PtuSteadyState::fail(Trouble::Kind kind, std::string reason) {
 }
 
 void PtuSteadyState::unit_restarted() {
-  fail(Trouble::Kind::kRestarted, "the unit was switched off and on, or homed");
+  fail(Trouble::Kind::kRestarted, "the unit lost power, or homed");
 }
 
 void PtuSteadyState::take(const PtuReply& reply, double time_s, double late_s) {
