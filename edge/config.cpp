@@ -7,7 +7,7 @@
 
 #include "base/lcm_url.h"
 #include "edge/config_units.h"
-#include "edge/sensors/pose_keeper_config.h"
+#include "edge/sensors/pose_estimator_config.h"
 
 namespace ols {
 namespace {
@@ -34,7 +34,7 @@ Section pose_section(StationSettings& settings) {
   constexpr const char* kFromGnss = "required without [gnss]";
   constexpr const char* kFromInclinometer = "by [inclinometer], or level";
   StationGeometry& g = settings.station.geometry;
-  PoseKeeper::Config& keeper = settings.pose;
+  PoseEstimator::Config& keeper = settings.pose;
   return {"pose",
           "The survey of GROUND; it overrides GNSS and inclinometer, which then only check it.",
           {config::number("latitude_deg", g.position.latitude_rad, {-90.0, 90.0}, in_degrees(),
@@ -199,7 +199,7 @@ Section logic_section(StationConfig& station) {
 void use_survey(ConfigTable& root, StationSettings& settings) {
   ConfigTable& pose = root.table("pose");
   const StationGeometry& geometry = settings.station.geometry;
-  PoseKeeper::Config& keeper = settings.pose;
+  PoseEstimator::Config& keeper = settings.pose;
   bool any_place = settings.gnss.host.empty();
   for (const char* key : {"latitude_deg", "longitude_deg", "height_m"})
     any_place = any_place || pose.has(key);

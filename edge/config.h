@@ -14,7 +14,7 @@
 #include "edge/recorder/recorder.h"
 #include "edge/sensors/gnss.h"
 #include "edge/sensors/inclinometer.h"
-#include "edge/sensors/pose_keeper.h"
+#include "edge/sensors/pose_estimator.h"
 #include "edge/station.h"
 #include "edge/tracker/tracker_config.h"
 
@@ -32,7 +32,7 @@ struct StationSettings {
   double status_interval_s = 0.5;
   double preview_interval_s = 1.0;  // 0: none
   StationConfig station;
-  PoseKeeper::Config pose;
+  PoseEstimator::Config pose;
   CameraConfig camera;
   PtuConfig ptu;
   InclinometerConfig inclinometer;

@@ -28,7 +28,7 @@ void DeviceSet::rearm() {
   if (stop_.pressed()) ptu_.emergency_halt();
 }
 
-void DeviceSet::feed(PoseKeeper& keeper) {
+void DeviceSet::feed(PoseEstimator& keeper) {
   if (inclinometer_) {
     for (const TiltReading& reading : inclinometer_->take_readings()) keeper.add(reading);
   }

@@ -12,7 +12,7 @@
 #include "edge/recorder/recorder.h"
 #include "edge/sensors/gnss.h"
 #include "edge/sensors/inclinometer.h"
-#include "edge/sensors/pose_keeper.h"
+#include "edge/sensors/pose_estimator.h"
 #include "edge/stop_latch.h"
 
 namespace ols {
@@ -32,7 +32,7 @@ class DeviceSet {
   const StopLatch& stop() const { return stop_; }
 
   // What the sensors have read since the last call.
-  void feed(PoseKeeper& keeper);
+  void feed(PoseEstimator& keeper);
   // Lets the PTU move after an emergency, unless the stop has been pressed meanwhile; or at first:
   // where there is a stop it stands until the stop's level is known.
   void rearm();

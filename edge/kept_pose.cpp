@@ -16,27 +16,27 @@ std::string pose_file(const StationSettings& settings) {
 }  // namespace
 
 KeptPose::KeptPose(const StationSettings& settings, double now_s)
-    : keeper_(settings.pose), memory_(pose_file(settings)) {
-  RememberedPose known = memory_.found();
+    : estimator_(settings.pose), memory_(pose_file(settings)) {
+  PersistedPose known = memory_.found();
   if (settings.gnss.host.empty()) known.position.reset();
   if (settings.inclinometer.device.empty()) known.tilt.reset();
-  keeper_.resume(known, now_s, clock_utime_us());
+  estimator_.resume(known, now_s, clock_utime_us());
 }
 
 std::optional<StationPose> KeptPose::look(DeviceSet& devices, double now_s) {
   if (now_s < due_s_) return std::nullopt;
   due_s_ = now_s + kInterval_s;
-  devices.feed(keeper_);
+  devices.feed(estimator_);
   if (now_s >= kept_due_s_) {
     kept_due_s_ = now_s + kKept_s;
-    memory_.keep(keeper_.to_remember(now_s, clock_utime_us()));
+    memory_.keep(estimator_.to_persist(now_s, clock_utime_us()));
   }
-  return keeper_.pose(now_s);
+  return estimator_.pose(now_s);
 }
 
 std::vector<std::string> KeptPose::alarms(double now_s) const {
-  auto alarms = keeper_.alarms(now_s);
-  if (keeper_.pose(now_s).position_source == PoseSource::kNone) {
+  auto alarms = estimator_.alarms(now_s);
+  if (estimator_.pose(now_s).position_source == PoseSource::kNone) {
     alarms.emplace_back("pose: no position yet, no bearings");
   }
   if (const std::string trouble = memory_.trouble(); !trouble.empty()) {

@@ -8,7 +8,7 @@
 #include "edge/config.h"
 #include "edge/device_set.h"
 #include "edge/pose_memory.h"
-#include "edge/sensors/pose_keeper.h"
+#include "edge/sensors/pose_estimator.h"
 
 namespace ols {
 
@@ -17,13 +17,13 @@ class KeptPose {
   // Resumes what was kept of the sensors that the station still has.
   KeptPose(const StationSettings& settings, double now_s);
 
-  StationPose pose(double now_s) const { return keeper_.pose(now_s); }
+  StationPose pose(double now_s) const { return estimator_.pose(now_s); }
   // In every turn; the pose when it is due. Does not wait for the disk.
   std::optional<StationPose> look(DeviceSet& devices, double now_s);
   std::vector<std::string> alarms(double now_s) const;
 
  private:
-  PoseKeeper keeper_;
+  PoseEstimator estimator_;
   PoseMemory memory_;
   double due_s_ = 0.0;
   double kept_due_s_ = 0.0;

@@ -12,14 +12,14 @@ namespace ols {
 namespace {
 
 // A file that is not there is an empty memory. Throws std::system_error.
-RememberedPose read(const std::string& file) {
+PersistedPose read(const std::string& file) {
   constexpr std::size_t kMost = 16384;  // [byte]
   try {
-    auto found = remembered_pose_from(read_small_file(file, kMost));
+    auto found = persisted_pose_from(read_small_file(file, kMost));
     if (const auto* wrong = std::get_if<std::string>(&found)) {
       throw std::runtime_error(file + ": " + *wrong);
     }
-    return std::get<RememberedPose>(found);
+    return std::get<PersistedPose>(found);
   } catch (const std::system_error& failure) {
     if (failure.code() == std::errc::no_such_file_or_directory) return {};
     throw;
@@ -37,7 +37,7 @@ PoseMemory::PoseMemory(const std::string& file) : file_(file) {
   }
 }
 
-void PoseMemory::keep(RememberedPose pose) {
+void PoseMemory::keep(PersistedPose pose) {
   if (!pose.position && !pose.tilt) return;
   if (!pose.position) pose.position = found_.position;
   if (!pose.tilt) pose.tilt = found_.tilt;

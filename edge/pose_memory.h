@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/background_file.h"
-#include "edge/sensors/remembered_pose.h"
+#include "edge/sensors/persisted_pose.h"
 
 namespace ols {
 
@@ -15,14 +15,14 @@ class PoseMemory {
   explicit PoseMemory(const std::string& file);
 
   // What was there at the start.
-  const RememberedPose& found() const { return found_; }
+  const PersistedPose& found() const { return found_; }
   // Written soon: does not wait for the disk. A part that is missing stays as it was found.
-  void keep(RememberedPose pose);
+  void keep(PersistedPose pose);
   // In words; empty when all is well.
   std::string trouble() const;
 
  private:
-  RememberedPose found_;
+  PersistedPose found_;
   std::string refused_;  // why, until another is kept
   BackgroundFile file_;
 };

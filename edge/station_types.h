@@ -9,7 +9,7 @@
 
 #include "edge/camera/frame.h"
 #include "edge/ptu/angle_history.h"
-#include "edge/sensors/pose_keeper.h"
+#include "edge/sensors/pose_estimator.h"
 #include "geometry/sight.h"
 
 namespace ols {

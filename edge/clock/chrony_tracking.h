@@ -1,4 +1,4 @@
-// The words of `chronyc -c tracking`. Pure.
+// Parses the output of `chronyc -c tracking`. Pure.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,12 @@ struct ChronyTracking {
   double root_delay_s = 0.0, root_dispersion_s = 0.0;
   int leap_s = 0;  // announced: +1 inserted, -1 deleted
 
-  // 1-sigma. chrony's manual has the bound |offset| + root dispersion + root delay / 2; taken as
-  // the half-width of a rectangle.
+  // 1-sigma. chrony's manual states the bound |offset| + root dispersion + root delay / 2, which is
+  // taken as the half-width of a uniform distribution.
   double error_s() const;
 };
 
-// Nothing when it is not such a line (chronyd is not there: "506 Cannot talk to daemon").
+// Nothing for any other line (without chronyd: "506 Cannot talk to daemon").
 std::optional<ChronyTracking> parse_chrony_tracking(std::string_view line);
 
 }  // namespace ols

@@ -10,7 +10,7 @@ struct ClockPair {
   std::int64_t utime_us = 0;
 };
 
-// Reads again when the process was interrupted between the two: that would look like a step.
+// Reads again if the process was interrupted between the two, which would look like a step.
 ClockPair read_clock_pair();
 
 }  // namespace ols

@@ -5,7 +5,7 @@ namespace {
 
 bool has_traces_of_service(const KernelClock& kernel) {
   return kernel.synchronised || kernel.loop || kernel.frequency != 0.0 ||
-         kernel.estimated_error_s || kernel.greatest_error_s;
+         kernel.estimated_error_s || kernel.max_error_s;
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ ClockReading make_clock_reading(const KernelClock& kernel,
   reading.service = service_seen || has_traces_of_service(kernel);
   reading.synchronised = kernel.synchronised;
   if (reading.service) reading.source = "kernel";
-  // systemd-timesyncd leaves the estimate at 0: that is none.
+  // systemd-timesyncd leaves the estimate at 0, which means unknown.
   if (kernel.synchronised && kernel.estimated_error_s.value_or(0.0) > 0.0) {
     reading.estimated_error_s = kernel.estimated_error_s;
   }

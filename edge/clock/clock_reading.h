@@ -1,9 +1,9 @@
-// From what kernel and chrony say to one reading. Pure.
+// Combines the states of kernel and chrony into one reading. Pure.
 //
-// chrony's word goes first: without `rtcsync` the kernel does not learn from it. Without chrony the
-// kernel's own flag counts, which systemd-timesyncd, ntpd and ptp4l/phc2sys keep. "A service was
-// there in this boot" is known by its traces in the kernel: a frequency correction, an error
-// estimate, a phase-locked loop that is on.
+// chrony has precedence: without `rtcsync` it does not set the kernel's flag. Without chrony the
+// kernel's flag counts, which systemd-timesyncd, ntpd and ptp4l/phc2sys maintain. A service that
+// ran since boot leaves traces in the kernel: a frequency correction, an error estimate, an active
+// phase-locked loop.
 #pragma once
 
 #include <optional>
@@ -15,10 +15,10 @@ namespace ols {
 
 // Of struct timex (adjtimex(2)).
 struct KernelClock {
-  bool synchronised = false;                                  // neither STA_UNSYNC nor TIME_ERROR
-  bool loop = false;                                          // STA_PLL or STA_FLL
-  double frequency = 0.0;                                     // correction, parts of one
-  std::optional<double> estimated_error_s, greatest_error_s;  // nothing: 16 s, "not known"
+  bool synchronised = false;                             // neither STA_UNSYNC nor TIME_ERROR
+  bool loop = false;                                     // STA_PLL or STA_FLL
+  double frequency = 0.0;                                // correction, parts of one
+  std::optional<double> estimated_error_s, max_error_s;  // nothing: 16 s, "not known"
   int leap_s = 0;
   int tai_minus_utc_s = 0;  // 0: not known
 };

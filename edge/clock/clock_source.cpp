@@ -35,7 +35,7 @@ KernelClock read_kernel() {
   clock.loop = (kernel.status & (STA_PLL | STA_FLL)) != 0;
   clock.frequency = static_cast<double>(kernel.freq) / 65536.0 * 1e-6;  // ppm, 16 fraction bits
   clock.estimated_error_s = error_s(kernel.esterror);
-  clock.greatest_error_s = error_s(kernel.maxerror);
+  clock.max_error_s = error_s(kernel.maxerror);
   if ((kernel.status & STA_INS) != 0) clock.leap_s = 1;
   if ((kernel.status & STA_DEL) != 0) clock.leap_s = -1;
   clock.tai_minus_utc_s = kernel.tai;
@@ -51,7 +51,7 @@ struct ClockSource::Impl {
   void run(const std::stop_token& ended) {
     bool service_seen = false;
     while (!ended.stop_requested()) {
-      // The instant before asking: what is heard is no older.
+      // The instant before the query: the answer is not older.
       const ClockPair now = read_clock_pair();
       const auto answer = command_output(chronyc, kChrony_s);
       ClockReading reading = make_clock_reading(

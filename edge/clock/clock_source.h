@@ -1,5 +1,5 @@
-// Asks kernel and chrony about the clock, in a thread of its own, because chronyd may be slow to
-// answer or gone. Neither chronyc nor chronyd need be there.
+// Queries kernel and chrony about the clock in its own thread, because chronyd may answer slowly or
+// not at all. Neither chronyc nor chronyd is required.
 #pragma once
 
 #include <memory>

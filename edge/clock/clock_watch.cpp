@@ -10,16 +10,16 @@ namespace {
 constexpr std::int64_t kDay_us = 86'400'000'000;
 constexpr double kLeapTolerance_s = 0.05;
 constexpr double kLeapAround_s = 5.0;  // of midnight
-constexpr double kLongestSlew_s = 0.5;
+constexpr double kMaxSlew_s = 0.5;
 constexpr double kStep_s = 0.05;         // a greater jump between two calls is a step
 constexpr double kSlewPerSecond = 1e-3;  // the service may steer this much: not a step
 constexpr double kNeverSetSd_s = 1.0;    // 1-sigma of a battery clock, never synchronised
 constexpr double kSilence_s = 30.0;      // without a reading the clock counts as free-running
-// A new measurement is dated at least so much apart from the one before.
+// Minimum difference in date between two measurements.
 constexpr double kNewMeasurement_s = 1e-3;
 
 // "12 us", "3.4 ms", "2.00 s"
-std::string in_words(double seconds) {
+std::string format(double seconds) {
   char text[32];
   if (seconds < 1e-3) {
     std::snprintf(text, sizeof text, "%.0f us", seconds * 1e6);
@@ -31,7 +31,7 @@ std::string in_words(double seconds) {
   return text;
 }
 
-std::string step_in_words(double step_s, double ago_s) {
+std::string format_step(double step_s, double ago_s) {
   char text[64];
   std::snprintf(text, sizeof text, "stepped by %+.3f s %.0f s ago", step_s, ago_s);
   return text;
@@ -44,7 +44,7 @@ void ClockWatch::tick(double monotonic_s, std::int64_t utime_us) {
   if (offset_us_) {
     const double jump_s = 1e-6 * static_cast<double>(offset_us - *offset_us_);
     const double slew_s = kSlewPerSecond * std::max(0.0, monotonic_s - tick_s_);
-    if (std::abs(jump_s) > kStep_s + std::min(slew_s, kLongestSlew_s) &&
+    if (std::abs(jump_s) > kStep_s + std::min(slew_s, kMaxSlew_s) &&
         !is_leap_second(jump_s, utime_us)) {
       ++steps_;
       last_step_s_ = jump_s;
@@ -77,8 +77,8 @@ void ClockWatch::add(const ClockReading& reading) {
   }
 }
 
-// The kernel itself withdraws its synchronisation when somebody sets the clock (ntp_clear), but
-// chronyd learns of it only by its next measurement.
+// The kernel clears its synchronised flag when someone sets the clock (ntp_clear), but chronyd
+// notices it only at its next measurement.
 bool ClockWatch::confirms(const ClockReading& reading) const {
   if (!reading.synchronised) return false;
   if (!reading.measured_utc_s || !step_->measured_utc_s) return true;
@@ -91,7 +91,7 @@ ClockQuality ClockWatch::unstepped(double monotonic_s) const {
   const bool service = reading_ && reading_->service;
   if (!service && !good_) {
     quality.error_s = config_.assumed_sd_s;
-    quality.text = "no time service, taken as good to " + in_words(quality.error_s);
+    quality.text = "no time service, taken as good to " + format(quality.error_s);
     return quality;
   }
   if (!good_) {
@@ -106,14 +106,14 @@ ClockQuality ClockWatch::unstepped(double monotonic_s) const {
   if (reading_->synchronised && !silent) {
     quality.state = ClockState::kSynchronised;
     quality.error_s = good_->error_s;
-    quality.text = "synchronised by " + reading_->source + ", " + in_words(quality.error_s);
+    quality.text = "synchronised by " + reading_->source + ", " + format(quality.error_s);
     return quality;
   }
   quality.state = ClockState::kUnsynchronised;
   quality.error_s = std::hypot(good_->error_s, config_.drift_per_s * age_s);
   char text[96];
   std::snprintf(text, sizeof text, "synchronisation lost %.0f s ago, error %s", age_s,
-                in_words(quality.error_s).c_str());
+                format(quality.error_s).c_str());
   quality.text = text;
   quality.alarm = "clock: " + quality.text;
   return quality;
@@ -132,9 +132,9 @@ ClockQuality ClockWatch::quality(double monotonic_s) const {
   const bool service = reading_ && reading_->service;
   if (!service && !good_ && ago_s > config_.distrust_s) return quality;
   quality.state = ClockState::kUnsynchronised;
-  // Steps that took each other back leave the clock as it was.
+  // Steps that cancel leave the clock as it was.
   quality.error_s = std::hypot(quality.error_s, step_->sum_s);
-  quality.text = step_in_words(last_step_s_, ago_s);
+  quality.text = format_step(last_step_s_, ago_s);
   quality.alarm = "clock: " + quality.text;
   return quality;
 }

@@ -17,9 +17,9 @@
 namespace ols {
 namespace {
 
-constexpr std::size_t kMost = 65536;
+constexpr std::size_t kMaxOutput = 65536;
 
-// Nothing when the program cannot be started.
+// Nothing if the program cannot be started.
 std::optional<pid_t> start(const std::vector<std::string>& command, int output) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -38,10 +38,10 @@ std::optional<pid_t> start(const std::vector<std::string>& command, int output) 
   return child;
 }
 
-// Until the program closes its output; false when the time is over or it says too much.
+// Reads until the program closes its output; false on timeout or too much output.
 bool read_all(int fd, double end_s, std::string& text) {
   std::array<char, 4096> buffer;
-  while (text.size() <= kMost) {
+  while (text.size() <= kMaxOutput) {
     pollfd entry{fd, POLLIN, 0};
     const double left_s = end_s - clock_monotonic_s();
     if (left_s <= 0.0) return false;
@@ -68,7 +68,7 @@ std::optional<std::string> command_output(const std::vector<std::string>& comman
   const bool complete = child && read_all(ends[0], end_s, text);
   ::close(ends[0]);
   if (!child) return std::nullopt;
-  // Output that is closed is no end of the program yet: its time is over as well.
+  // A program that has closed its output may still run, so the timeout applies here, too.
   int status = 0;
   pid_t ended = 0;
   while (complete && (ended = ::waitpid(*child, &status, WNOHANG)) == 0 &&

@@ -1,4 +1,4 @@
-// The output of a program that must answer in time.
+// Runs a program with a timeout and returns its output.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace ols {
 
-// Standard output, when the program (searched in PATH) ends with status 0 within the time. It is
-// killed when it does not, and is always waited for. Nothing else of this process is handed to it.
+// Standard output of the program (searched in PATH), if it ends with status 0 within the timeout;
+// else the program is killed. It is always waited for, and inherits no other file of this process.
 std::optional<std::string> command_output(const std::vector<std::string>& command,
                                           double deadline_s);
 

@@ -1,6 +1,5 @@
 // The station's GPIO: a status LED, the inputs of emergency stop and re-arming, an optional camera
-// trigger. A thread
-// of its own waits for the edges. libgpiod stays behind edge/gpio/gpio_lines.h.
+// trigger. A thread waits for the edges. gpio_lines.h hides libgpiod.
 //
 // The emergency stop in software only assists a hardware stop that takes the power off the motors;
 // docs/field-guide.md says so.
@@ -20,18 +19,18 @@ namespace ols {
 
 struct GpioConfig {
   std::string chip;    // "/dev/gpiochip0", or "socket:PATH" for lines served by another
-                       // process; empty: the station has none
+                       // process; empty: no GPIO
   int led_line = -1;   // -1: none
   int stop_line = -1;  // emergency stop; normally closed: a broken wire is a stop
   // Whether the contact opens to a high level (it closes to ground, the line is pulled up) or to a
   // low one (it closes to the supply, the line is pulled down).
   bool stop_active_low = false;
   double stop_release_s = 0.05;  // a release counts when stable for so long; a press at once
-  // The button beside the station that re-arms it after an emergency stop; normally open.
+  // The button at the station that re-arms it after an emergency stop; normally open.
   int rearm_line = -1;            // -1: none
   bool rearm_active_low = true;   // it closes to ground (pulled up); false: to the supply
-  double rearm_hold_s = 1.0;      // it must be seen open, and then be held for so long
-  bool rearm_over_bus = false;    // anybody on the bus may re-arm it, too
+  double rearm_hold_s = 1.0;      // it must be seen open, and then be held this long
+  bool rearm_over_bus = false;    // any program on the bus may re-arm it, too
   int trigger_line = -1;          // camera trigger, one pulse a frame
   double trigger_pulse_s = 1e-3;  // its length
 };
@@ -41,9 +40,8 @@ config::Section gpio_section(GpioConfig& config);  // [gpio]
 class Gpio {
  public:
   // `on_stop(pressed)` is called from Gpio's thread at every edge of the emergency stop and once
-  // for its first level; the lines gone or unreadable counts as pressed when stop_line is
-  // configured. `on_rearm()` likewise, each time that the button was held while the stop is not
-  // pressed.
+  // for its first level; with a stop_line, missing or unreadable lines count as pressed.
+  // `on_rearm()` is called each time that the button was held while the stop is not pressed.
   Gpio(const GpioConfig& config, std::function<void(bool pressed)> on_stop,
        std::function<void()> on_rearm = {});
   ~Gpio();

@@ -1,14 +1,14 @@
-// GPIO lines as this product needs them: a few inputs that are watched, a few outputs. Behind it
-// stand libgpiod (gpio_lines_libgpiod.cpp, the one file that knows its version) and a Unix socket
-// (gpio_lines_socket.cpp): lines that another process serves, for a remote I/O box, for a machine
-// without a gpiochip, and for tests.
+// GPIO lines: a few watched inputs and a few outputs. There are two implementations: libgpiod
+// (gpio_lines_libgpiod.cpp, the only file that depends on its version) and a Unix socket
+// (gpio_lines_socket.cpp) to another process that serves the lines, for a remote I/O box, for a
+// machine without a gpiochip, and for tests.
 //
-// The socket's protocol is text, a message a line. The server names the level of each input on
-// connect, at every change, and when asked:
+// The socket's protocol is text, one message per line. The server sends the level of each input on
+// connect, at every change, and on request:
 //   server: in 17 1     input line 17 is high
 //   client: read 17     answered by "in 17 LEVEL" at once
-//   client: out 22 0    output line 22 shall be low
-// A line that is none of these ends the connection.
+//   client: out 22 0    set output line 22 low
+// Any other line ends the connection.
 #pragma once
 
 #include <memory>
@@ -35,7 +35,7 @@ struct LineLevel {
   double time_s = 0.0;  // CLOCK_MONOTONIC of the edge, or of the reading
 };
 
-// One thread uses it. Everything throws std::system_error, naming chip and line, when the lines
+// For one thread. All functions throw std::system_error, naming chip and line, when the lines
 // have vanished or cannot be read.
 class GpioLines {
  public:
@@ -44,11 +44,11 @@ class GpioLines {
   GpioLines(const GpioLines&) = delete;
   GpioLines& operator=(const GpioLines&) = delete;
 
-  // To be polled for reading; empty when there is nothing to wait for.
+  // The descriptors to poll for reading.
   virtual std::vector<int> fds() const = 0;
-  // Levels of the inputs that have come in, of each the oldest first. Never waits.
+  // New levels of the inputs, oldest first for each. Never waits.
   virtual std::vector<LineLevel> receive() = 0;
-  // Asks for the level of each input anew, which receive() then brings: finds lost edges and dead
+  // Requests the level of each input, which receive() then returns: detects lost edges and dead
   // lines.
   virtual void refresh() = 0;
   virtual void write(int line, bool high) = 0;
@@ -57,7 +57,7 @@ class GpioLines {
 // `chip` as in GpioConfig. Throws std::system_error.
 std::unique_ptr<GpioLines> open_gpio_lines(const std::string& chip, const LineUse& use);
 
-// The two kinds.
+// The two implementations.
 std::unique_ptr<GpioLines> open_chip_lines(const std::string& chip, const LineUse& use);
 std::unique_ptr<GpioLines> open_socket_lines(const std::string& path, const LineUse& use);
 

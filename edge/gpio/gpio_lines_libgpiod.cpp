@@ -42,7 +42,7 @@ class ChipLines : public GpioLines {
     for (const Input& input : inputs_) {
       const int value = gpiod_line_get_value(input.line);
       if (value < 0) fail("cannot be read");
-      // Edges that came before this reading must not overtake it.
+      // Edges from before this reading must not be reported after it.
       receive(input, fresh_);
       fresh_.push_back({input.number, value != 0, clock_monotonic_s()});
     }

@@ -1,4 +1,4 @@
-// Lines served over a Unix socket; the protocol stands in gpio_lines.h.
+// Lines served over a Unix socket; gpio_lines.h has the protocol.
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -16,7 +16,7 @@
 namespace ols {
 namespace {
 
-constexpr double kAnswer_s = 0.5;  // a server that takes longer is as good as gone
+constexpr double kAnswer_s = 0.5;  // a slower server counts as failed
 constexpr std::size_t kMostAtOnce = 4096;
 constexpr std::string_view kSocket = "socket:";
 
@@ -88,7 +88,7 @@ class SocketLines : public GpioLines {
 
  private:
   void send(const std::string& text) {
-    // A server that lets a full buffer stand has stopped reading.
+    // A full buffer means that the server has stopped reading.
     const ssize_t n = ::send(fd_, text.data(), text.size(), MSG_NOSIGNAL);
     if (n != static_cast<ssize_t>(text.size())) fail(n < 0 ? errno : EAGAIN, "cannot be written");
   }
@@ -102,7 +102,7 @@ class SocketLines : public GpioLines {
   std::vector<int> inputs_;
   int fd_ = -1;
   LineProtocol protocol_;
-  std::map<int, double> asked_s_;  // of which line, and since when, an answer is due
+  std::map<int, double> asked_s_;  // by line: since when an answer is due
 };
 
 }  // namespace

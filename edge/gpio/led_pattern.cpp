@@ -29,7 +29,7 @@ std::string_view period(LedPattern pattern) {
 
 bool led_lit(LedPattern pattern, double time_s) {
   const std::string_view slots = period(pattern);
-  // A little inside the slot, so that its own beginning counts to it in spite of rounding.
+  // Shifted slightly into the slot, so that rounding does not assign its start to the slot before.
   const auto slot = static_cast<long>(std::floor(time_s / kLedSlot_s + 1e-6));
   const auto length = static_cast<long>(slots.size());
   return slots[static_cast<std::size_t>((slot % length + length) % length)] == '#';

@@ -1,4 +1,4 @@
-// What the status LED tells from across a field. Pure.
+// The blink patterns of the status LED. Pure.
 #pragma once
 
 namespace ols {

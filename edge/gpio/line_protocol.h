@@ -1,4 +1,4 @@
-// What a server of GPIO lines says over its socket, byte by byte (gpio_lines.h has the protocol).
+// Parses the messages of a server of GPIO lines, byte by byte (gpio_lines.h has the protocol).
 // Pure.
 #pragma once
 
@@ -19,18 +19,18 @@ class LineProtocol {
     bool operator==(const Level&) const = default;
   };
 
-  // Of which lines the levels are wanted; those of others are passed over.
+  // The lines of interest; levels of other lines are ignored.
   explicit LineProtocol(std::vector<int> inputs) : inputs_(std::move(inputs)) {}
 
-  // The levels that these bytes complete, oldest first; nothing when there is
-  // something among them that is no level. That ends the connection, and with it this object.
+  // The levels that these bytes complete, oldest first; nothing if a message is not a level, which
+  // ends the connection and the use of this object.
   std::optional<std::vector<Level>> receive(std::string_view bytes);
 
  private:
   static constexpr std::size_t kLongestLine = 64;
 
   std::vector<int> inputs_;
-  std::string pending_;  // a line that has begun
+  std::string pending_;  // an incomplete message
 };
 
 }  // namespace ols

@@ -10,13 +10,13 @@ class RearmInput {
  public:
   explicit RearmInput(double hold_s) : hold_s_(hold_s) {}
 
-  // The line as it is or has become, with the time of the edge. In time order.
+  // A level of the line with the time of the edge. In time order.
   void level(bool closed, double time_s);
-  // The line cannot be read, or the stop was pressed: what was held until now does not count.
+  // The line cannot be read, or the stop was pressed: the time held so far does not count.
   void interrupted();
-  // True once for each time that it is held for long enough.
+  // True once each time that it was held long enough.
   bool take(double now_s);
-  // When take() turns true by itself; nothing when it will not.
+  // When take() becomes true without another edge; nothing if it does not.
   std::optional<double> due_s() const;
 
  private:

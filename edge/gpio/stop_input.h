@@ -1,5 +1,5 @@
 // The emergency stop's input: a press counts at once, a release only when it has been stable, and a
-// line that cannot be read is pressed. Pure.
+// line that cannot be read counts as pressed. Pure.
 #pragma once
 
 #include <optional>
@@ -11,15 +11,15 @@ class StopInput {
   // A release counts when the line has been quiet for `release_s`.
   explicit StopInput(double release_s) : release_s_(release_s) {}
 
-  // The line as it is or has become, with the time of the edge. In time order.
+  // A level of the line with the time of the edge. In time order.
   void level(bool pressed, double time_s);
   // The line cannot be read: pressed, until a stable release is seen.
   void lost();
 
-  // Nothing as long as it is not known: before the first level, and while that is a release which
-  // has not been stable yet.
+  // Nothing while unknown: before the first level, and while the first level is a release that has
+  // not been stable yet.
   std::optional<bool> pressed(double now_s) const;
-  // When pressed() turns false by itself; nothing when it will not.
+  // When pressed() becomes false without another edge; nothing if it does not.
   std::optional<double> due_s() const;
 
  private:

@@ -64,10 +64,9 @@ std::optional<AngleAt> AngleHistory::at(double time_s) const {
   return result;
 }
 
-// Linear between (or beyond) two samples. The errors: those of the two samples, carried by their
-// weights; and what the motion may have done besides going straight, |a| w (1 - w) T^2 / 2 between
-// them. Beyond them the unit may have begun to accelerate as it can: half of that is taken for a
-// standard deviation.
+// Linear between (or beyond) two samples. The errors: those of the two samples, by their weights;
+// and that of an unknown acceleration, |a| w (1 - w) T^2 / 2 between the samples. Beyond them the
+// unit may have begun to accelerate: half of its maximum is taken as a standard deviation.
 std::optional<AngleHistory::AxisAt> AngleHistory::axis_at(double time_s, KnotOf knot) const {
   if (samples_.size() < 2 || !(time_s >= knot(samples_.front()).time_s)) return std::nullopt;
   const auto after = std::lower_bound(

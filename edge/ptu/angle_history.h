@@ -13,20 +13,21 @@ struct AngleSample {
   double time_s = 0.0;     // station's monotonic clock: estimate of when the unit read its counters
   double time_sd_s = 0.0;  // 1-sigma of that estimate (white)
   PanTilt angles;
-  // Where the tilt's instant is known otherwise than the pan's, and how much later it is.
+  // Set if the tilt's instant is known with another accuracy than the pan's; and how much later it
+  // is.
   std::optional<double> tilt_time_sd_s = {};
   double tilt_delay_s = 0.0;
-  PanTilt doubt = {};  // [rad] 1-sigma of what else may be wrong with each angle
-  // Of the variance of one encoder step, what is left when several readings were averaged.
+  PanTilt doubt = {};  // [rad] 1-sigma of further errors of each angle
+  // Share of the variance of one encoder step that remains after averaging several readings.
   PanTilt step_share = {1.0, 1.0};
-  // [rad/s^2] about as much as the unit was told to accelerate by since the sample before.
+  // [rad/s^2] approximate commanded acceleration since the previous sample.
   PanTilt acceleration = {};
 };
 
 struct AngleAt {
   PanTilt angles;
   PanTilt rate;                // [rad/s]
-  Eigen::Matrix2d covariance;  // [rad^2] (pan, tilt): encoder step, time jitter, bends of the way
+  Eigen::Matrix2d covariance;  // [rad^2] (pan, tilt): encoder step, time jitter, acceleration
   bool interpolated = false;   // false: the instant lies after the newest sample
 };
 
@@ -37,19 +38,18 @@ class AngleHistory {
     double max_gap_s = 0.25;            // no interpolation across more than this
     double max_extrapolation_s = 0.15;  // no answer further than this after the newest sample
     double step_rad = 5.61e-5;          // one encoder step: 11.5714 arc seconds
-    // What the motion between two samples may do besides going straight: this much in any case,
-    // more where the unit was told so or the samples around show a bend; and after the newest
-    // sample up to what the unit is capable of.
+    // Accelerations between two samples: the first one always; more where the unit was commanded
+    // to accelerate or the neighbouring samples show it; after the newest sample up to the second.
     double acceleration_sd_rad_s2 = 0.04;
     double acceleration_max_rad_s2 = 1.0;
   };
   explicit AngleHistory(const Config& config) : config_(config) {}
 
-  // Samples come in time order; one that does not is refused.
+  // In time order; a sample out of order is rejected.
   bool add(const AngleSample& sample);
   void clear() { samples_.clear(); }
 
-  // Angles at an instant [s], or nothing outside of what is known.
+  // Angles at an instant [s]; nothing if the samples do not cover it.
   std::optional<AngleAt> at(double time_s) const;
   std::optional<AngleSample> newest() const;
 
@@ -69,8 +69,8 @@ class AngleHistory {
   std::optional<AxisAt> axis_at(double time_s, KnotOf knot) const;
   // Variance of the measured angle at a knot passed at this rate.
   double knot_variance(const Knot& knot, double rate_rad_s) const;
-  // Square of the acceleration that is to be reckoned with between samples_[b-1] and samples_[b]:
-  // what the unit was told, or what the samples about them show beyond their noise.
+  // Square of the acceleration to expect between samples_[b-1] and samples_[b]: the commanded one,
+  // or the one that the neighbouring samples show beyond their noise.
   double bend2(std::size_t b, KnotOf knot) const;
   double bend2_at(std::size_t middle, KnotOf knot) const;
 

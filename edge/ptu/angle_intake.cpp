@@ -6,7 +6,7 @@ namespace ols {
 
 namespace {
 
-constexpr std::size_t kSamplesKept = 1000;  // when nobody takes them
+constexpr std::size_t kSamplesKept = 1000;  // for a caller that does not take them
 
 AngleHistory::Config history_config(const PtuConfig& config, const PtuFacts& facts) {
   AngleHistory::Config history = config.history;
@@ -39,8 +39,8 @@ PositionCheck::Verdict AngleIntake::take(const PollCycle& done, const PanTilt& c
   return verdict;
 }
 
-// About as much as the unit was commanded to accelerate since the last sample. When a cycle was
-// lost in between, the speed may have changed all at once in the middle.
+// The approximate commanded acceleration since the last sample. If a cycle was lost in between, the
+// speed may have changed at once in the middle.
 PanTilt AngleIntake::commanded_rad_s2(double time_s) const {
   constexpr double kShare = 0.8;  // it may begin or end anywhere between the samples
   const double gap_s = std::max(1e-3, time_s - last_good_s_.value_or(time_s));

@@ -1,5 +1,5 @@
-// Makes angle samples of the positions that a unit reports, as far as they are plausible, and says
-// where the unit is now. Pure.
+// Turns plausible positions reported by a unit into angle samples, and gives its current angles.
+// Pure.
 #pragma once
 
 #include <optional>
@@ -18,9 +18,10 @@ class AngleIntake {
  public:
   AngleIntake(const PtuConfig& config, const PtuFacts& facts);
 
-  // Commands were sent that change the unit's speed by so much [rad/s].
+  // Commands were sent that change the unit's speed by this [rad/s].
   void commanded(const PanTilt& change_rad_s);
-  // The positions of a complete cycle; `change_rad_s` of its commands, which may still be going on.
+  // The positions of a complete cycle; `change_rad_s`: of its commands, which may still take
+  // effect.
   PositionCheck::Verdict take(const PollCycle& done, const PanTilt& change_rad_s, double time_s);
 
   // At this time, or else the newest ones; nothing before the first sample.

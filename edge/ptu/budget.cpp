@@ -4,7 +4,7 @@ namespace ols {
 
 namespace {
 
-constexpr double kUnit_s = 0.002;  // of the unit's own
+constexpr double kUnit_s = 0.002;  // for the unit to process a request
 constexpr double kRequestMoving_bytes = 49.0, kAfterMoving_bytes = 20.0;
 // At rest the replies follow the first query without a pause.
 constexpr double kFirstQuery_bytes = 4.0, kRepliesResting_bytes = 40.0;

@@ -1,4 +1,4 @@
-// What a serial line carries: how long a poll takes at a rate. Pure.
+// How long a poll takes on a serial line at a baud rate. Pure.
 //
 // One cycle in motion, with both positions asked for twice (edge/ptu/poll_cycle.h):
 //
@@ -13,7 +13,7 @@
 //   115200    8 ms                                       6 ms
 //
 // One request is under way at a time, so that replies can be matched and a position's instant is
-// known; the period is poll_interval_s or what the line takes, whichever is longer. Only commands
+// known; the period is poll_interval_s or the time on the line, whichever is longer. Only commands
 // that changed are sent. 25 ms need 38400 baud. With one reading of each position 9600 baud would
 // carry 21 cycles a second instead of 13, but a wrong digit would go unnoticed.
 #pragma once

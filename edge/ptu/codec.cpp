@@ -10,8 +10,8 @@ namespace ols {
 
 namespace {
 
-constexpr std::size_t kLongestLine = 256;
-constexpr std::size_t kLongestEcho = 80;
+constexpr std::size_t kMaxLine = 256;
+constexpr std::size_t kMaxEcho = 80;
 
 bool printable(char c) { return c >= 0x20 && c < 0x7f; }
 
@@ -27,14 +27,14 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// A value that has lost its mark: an echo has letters.
+// A value that has lost its `*` or `!`: an echo would have letters.
 bool bare_value(std::string_view text) {
   return !text.empty() && text.find_first_not_of("+-.0123456789 ") == std::string_view::npos;
 }
 
 // Echoes repeat commands: letters, digits and a few signs.
 bool could_be_echo(std::string_view text) {
-  return text.size() <= kLongestEcho && std::all_of(text.begin(), text.end(), [](char c) {
+  return text.size() <= kMaxEcho && std::all_of(text.begin(), text.end(), [](char c) {
            return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
                   std::string_view(" +-.,()@_").find(c) != std::string_view::npos;
          });
@@ -99,7 +99,7 @@ PtuRequest& PtuRequest::finish() {
 }
 
 std::string halt_request() {
-  return " " + PtuRequest().plain("H").bytes();  // the blank ends half a command
+  return " " + PtuRequest().plain("H").bytes();  // the blank ends an incomplete command
 }
 
 std::optional<std::int32_t> PtuReply::count() const {
@@ -125,7 +125,7 @@ std::vector<PtuReply> PtuReplyParser::feed(std::string_view bytes, double time_s
       mark_s_ = when_s;
       marked_ = true;
     }
-    if (line_.size() < kLongestLine) {
+    if (line_.size() < kMaxLine) {
       line_.push_back(byte == '\t' ? ' ' : byte);
     } else {
       overlong_ = true;

@@ -13,19 +13,19 @@ namespace ols {
 
 enum class PtuAxis : char { kPan = 'P', kTilt = 'T' };
 
-// What can be asked of an axis; the first six of the list can be set as well.
+// Quantities of an axis that can be queried; the first six can be set as well.
 enum class PtuQuantity : char {
-  kPosition = 'P',          // [counts]
-  kSpeed = 'S',             // [counts/s] to travel at
-  kAcceleration = 'A',      // [counts/s^2]
-  kBaseSpeed = 'B',         // [counts/s] without a ramp
-  kUpperSpeed = 'U',        // [counts/s] bound of kSpeed
-  kLowerSpeed = 'L',        // [counts/s] bound of kSpeed
-  kTargetPosition = 'O',    // [counts]
-  kCurrentSpeed = 'D',      // [counts/s]
-  kResolution = 'R',        // [arc seconds per count]
-  kLeastPosition = 'N',     // [counts]
-  kGreatestPosition = 'X',  // [counts]
+  kPosition = 'P',        // [counts]
+  kSpeed = 'S',           // [counts/s] to travel at
+  kAcceleration = 'A',    // [counts/s^2]
+  kBaseSpeed = 'B',       // [counts/s] without a ramp
+  kUpperSpeed = 'U',      // [counts/s] bound of kSpeed
+  kLowerSpeed = 'L',      // [counts/s] bound of kSpeed
+  kTargetPosition = 'O',  // [counts]
+  kCurrentSpeed = 'D',    // [counts/s]
+  kResolution = 'R',      // [arc seconds per count]
+  kMinPosition = 'N',     // [counts]
+  kMaxPosition = 'X',     // [counts]
 };
 
 class PtuRequest {
@@ -36,7 +36,7 @@ class PtuRequest {
   PtuRequest& plain(std::string_view command);
 
   PtuRequest& append(const PtuRequest& request);
-  // A delimiter of its own: ends whatever half a command stands in the unit's buffer. Not answered.
+  // A delimiter alone: ends an incomplete command in the unit's buffer. It is not answered.
   PtuRequest& delimiter();
 
   const std::string& bytes() const { return bytes_; }
@@ -44,7 +44,7 @@ class PtuRequest {
   // Command `index` with its delimiter.
   std::string_view command(std::size_t index) const;
   bool empty() const { return ends_.empty(); }
-  // Bytes up to and with the delimiter of command `index`: what the unit needs to begin with it.
+  // Bytes up to and including the delimiter of command `index`, which the unit needs to execute it.
   std::size_t end_of(std::size_t index) const { return ends_.at(index); }
 
  private:
@@ -53,28 +53,29 @@ class PtuRequest {
   std::vector<std::size_t> ends_;
 };
 
-// Bytes that stop the unit at once, whatever the line was doing.
+// Bytes that stop the unit at once, even after an incomplete command.
 std::string halt_request();
 
 struct PtuReply {
   bool ok = true;                // `*`; else `!`
-  bool echoed = false;           // an echo stood before it: the unit's echo is on
+  bool echoed = false;           // an echo preceded it: the unit's echo is on
   int limit_hits = 0;            // !P and !T in its line; homing leaves several: !T!T!P!P*
-  std::string text;              // what follows the mark, trimmed
+  std::string text;              // after the `*` or `!`, trimmed
   std::optional<double> number;  // the first word of the text that is a number
-  double began_s = 0.0;          // instant by which the mark's byte was complete
-  double ended_s = 0.0;          // and by which the first byte of the line's end was
+  double began_s = 0.0;          // instant by which the `*` or `!` was complete
+  double ended_s = 0.0;          // and by which the first byte of the line end was
 
   // The number as a count: whole and within 32 bits.
   std::optional<std::int32_t> count() const;
 };
 
-// What a unit means by `! text`.
+// The meaning of `! text`.
 enum class PtuComplaint {
-  kPositionLimit,  // Maximum, Minimum allowable Pan position is N: its travel is not what was read
+  kPositionLimit,  // Maximum, Minimum allowable Pan position is N: its travel differs from the one
+                   // that was read
   kSpeedLimit,     // Pan speed cannot exceed N; Motor speed cannot be less than N
   kNotReferenced,  // Axis Error: the axis was not homed since power-up
-  kIllegal,        // Illegal Command Entered: changed on its way, or unknown to this firmware
+  kIllegal,        // Illegal Command Entered: corrupted on the line, or unknown to this firmware
   kOther,
 };
 PtuComplaint complaint(std::string_view text);
@@ -94,18 +95,18 @@ struct PtuLimitHits {
 };
 
 // Incremental: any split of the bytes gives the same replies. Blanks, echoes and asynchronous
-// tokens (!P !T limit hits; !D #P #T $P $T) are discarded wherever they are glued.
+// tokens (!P !T limit hits; !D #P #T $P $T) are discarded wherever they occur.
 class PtuReplyParser {
  public:
-  // `time_s`: an instant by which all of the bytes were there; `byte_s`: what one takes on the line
-  // (for PtuReply::began_s).
+  // `time_s`: an instant by which all of the bytes had arrived; `byte_s`: duration of one on the
+  // line (for PtuReply::began_s).
   std::vector<PtuReply> feed(std::string_view bytes, double time_s = 0.0, double byte_s = 0.0);
 
-  // Forgets an unfinished line.
+  // Discards an incomplete line.
   void reset();
 
   std::uint64_t garbled() const { return garbled_; }  // lines that are neither reply nor echo
-  std::uint64_t banners() const { return banners_; }  // lines of a unit that begins anew
+  std::uint64_t banners() const { return banners_; }  // lines of a unit that restarts
   const PtuLimitHits& limit_hits() const { return limit_hits_; }  // !P and !T
 
  private:

@@ -10,9 +10,9 @@ namespace ols {
 namespace {
 
 // The other baud rate is tried between the pauses, so that a lost unit is found within 4 s.
-constexpr double kLongestPause_s = 1.0;
+constexpr double kMaxPause_s = 1.0;
 constexpr double kHaltOut_s = 0.1;  // the halt goes out before the baud rate changes
-constexpr double kShortestHoming_s = 2.0, kLongestHoming_s = 90.0;
+constexpr double kMinHoming_s = 2.0, kMaxHoming_s = 90.0;
 
 }  // namespace
 
@@ -26,11 +26,11 @@ void PtuDriver::receive(std::string_view bytes, double time_s) {
   note_limit_hits(replies, time_s);
   for (const PtuReply& reply : replies) take(reply, time_s);
   const std::uint64_t more = parser_.garbled() - garbled;
-  // What is on the line at the start, a banner for example, is not an error.
+  // Bytes on the line at the start, a banner for example, are not an error.
   const auto* starting = std::get_if<PtuStarting>(&phase_);
   if (!starting || !starting->flushing()) counters_.garbled += more;
   if (ready() && more > 0) ready()->line_was_garbled();
-  if (ready() && parser_.banners() != banners) ready()->unit_began_anew();
+  if (ready() && parser_.banners() != banners) ready()->unit_restarted();
   counters_.limit_hits = parser_.limit_hits().pan + parser_.limit_hits().tilt;
   heed_trouble(time_s);
 }
@@ -74,7 +74,7 @@ std::string PtuDriver::step(PtuStarting& phase, double time_s) {
       drop_line(time_s);
       break;
     case PtuStarting::Event::kLineNotQuiet:
-      fault(time_s, "the line does not become quiet");
+      fault(time_s, "the unit keeps sending");
       change_rate(time_s);
       break;
     case PtuStarting::Event::kNoReply:
@@ -91,8 +91,7 @@ std::string PtuDriver::step(PtuStarting& phase, double time_s) {
 
 void PtuDriver::take(PtuStarting& phase, const PtuReply& reply, double time_s) {
   if (!phase.waits_for_reply()) return;
-  // A unit that was switched off and on has another baud rate than it was left with, or echoes
-  // again.
+  // A unit that lost power has another baud rate than it was left with, or echoes again.
   const bool forgot = baud_ != config_.baud || reply.echoed;
   const bool homed_itself = progress_ != Progress::kReady && config_.homes_at_power_up;
   if (!phase.answered() && forgot && !homed_itself) note_power_cycle();
@@ -131,7 +130,7 @@ std::string PtuDriver::step(Homing& phase, double time_s) {
     reference_.homing_ordered();
     return " R ";
   }
-  if (time_s - *phase.ordered_s > kLongestHoming_s) fault(time_s, "homing does not end");
+  if (time_s - *phase.ordered_s > kMaxHoming_s) fault(time_s, "homing did not finish in time");
   return {};
 }
 
@@ -141,7 +140,7 @@ void PtuDriver::take(Homing& phase, const PtuReply& reply, double time_s) {
   if (!phase.ordered_s) return;
   if (!reply.ok) return fault(time_s, "homing refused: " + reply.text);
   const bool both = reference_.saw_both_ends();
-  if (!both && time_s - *phase.ordered_s < kShortestHoming_s) return;
+  if (!both && time_s - *phase.ordered_s < kMinHoming_s) return;
   if (both) {
     reference_.homing_complete();
     phase.ordered_s.reset();
@@ -183,7 +182,7 @@ void PtuDriver::fault(double time_s, std::string reason) {
   const bool answered = !starting || starting->answered();
   phase_ = Paused{time_s, time_s + next_pause_s_, answered};
   progress_ = std::max(progress_, Progress::kFaulted);
-  next_pause_s_ = std::min(2.0 * next_pause_s_, kLongestPause_s);
+  next_pause_s_ = std::min(2.0 * next_pause_s_, kMaxPause_s);
 }
 
 void PtuDriver::heed_trouble(double time_s) {
@@ -192,7 +191,7 @@ void PtuDriver::heed_trouble(double time_s) {
   const PtuSteadyState::Trouble trouble = *ready()->trouble();
   fault(time_s, trouble.reason);
   link_lost_ = link_lost_ || trouble.kind == Kind::kNoReply;
-  if (trouble.kind == Kind::kBeganAnew) {
+  if (trouble.kind == Kind::kRestarted) {
     note_power_cycle();
     reference_.restarts_at(baud_, time_s);
   }
@@ -202,7 +201,7 @@ void PtuDriver::heed_trouble(double time_s) {
   }
 }
 
-// The rest of a line that was begun is dropped; limit hits in it count at the rate until now.
+// Drops an incomplete line; limit hits in it count at the baud rate until now.
 void PtuDriver::drop_line(double time_s) {
   parser_.reset();
   note_limit_hits({}, time_s);
@@ -224,7 +223,7 @@ int PtuDriver::line_baud() const {
 
 double PtuDriver::byte_s() const { return byte_time_s(baud_); }
 
-// Before the replies that came with the hits are taken.
+// Called before the replies that came with the hits are processed.
 void PtuDriver::note_limit_hits(const std::vector<PtuReply>& replies, double time_s) {
   const PtuLimitHits hits = parser_.limit_hits() - hits_noted_;
   hits_noted_ = parser_.limit_hits();
@@ -248,8 +247,8 @@ bool PtuDriver::may_rehome() const {
          reference_.may_home_automatically();
 }
 
-// `wanted` by a person; otherwise if it may home automatically. The start sequence has halted the
-// unit.
+// `wanted`: a person ordered it; otherwise it depends on whether the unit may home automatically.
+// The start sequence has halted the unit.
 bool PtuDriver::home_if(bool wanted) {
   if (emergency_ || !(wanted || may_rehome())) return false;
   reference_.homing_decided();
@@ -275,7 +274,7 @@ void PtuDriver::give_up_homing(double time_s) {
   if (std::holds_alternative<Homing>(phase_)) start(PtuStarting::Purpose::kDrive, time_s);
 }
 
-// Nobody knows where a unit is whose homing was ordered and is abandoned.
+// After a homing was sent and abandoned, the position of the unit is unknown.
 void PtuDriver::leave_homing() {
   const auto* homing = std::get_if<Homing>(&phase_);
   if (homing && homing->ordered_s) reference_.homing_interrupted();
@@ -310,7 +309,7 @@ void PtuDriver::restore_doubt(const std::optional<PtuReferenceDoubt>& doubt) {
   if (doubt) reference_.restore(*doubt);
 }
 
-// Homing that was wanted is given up: the port may have been gone for days.
+// Abandons a pending homing: the port may have been missing for days.
 void PtuDriver::restart(double time_s) {
   if (!std::holds_alternative<NotStarted>(phase_)) ++counters_.restarts;
   start(PtuStarting::Purpose::kDrive, time_s);
@@ -323,7 +322,7 @@ std::vector<AngleSample> PtuDriver::take_samples() {
   return samples;
 }
 
-// After a fault it stays a fault until the unit can be driven again.
+// A fault lasts until the unit can be driven again.
 PtuState PtuDriver::state() const {
   if (reference() == PtuReference::kTrusted) return PtuState::kReady;
   return homing() || progress_ == Progress::kNone ? PtuState::kStarting : PtuState::kFault;
@@ -368,9 +367,9 @@ std::string PtuDriver::firmware() const {
 }
 
 std::string PtuDriver::last_error() const {
-  if (ready() && doubt()) return words(*doubt());
-  const std::string mended = ready() ? ready()->last_error() : std::string();
-  return mended.empty() ? error_ : mended;
+  if (ready() && doubt()) return describe(*doubt());
+  const std::string corrected = ready() ? ready()->last_error() : std::string();
+  return corrected.empty() ? error_ : corrected;
 }
 
 std::optional<PtuEnvironment> PtuDriver::environment() const {

@@ -25,7 +25,7 @@ class PtuDriver {
   PtuDriver(const PtuDriver&) = delete;  // its phases refer to it
   PtuDriver& operator=(const PtuDriver&) = delete;
 
-  // Bytes that arrived, with an instant [s, monotonic] by which all of them were there: the moment
+  // Bytes that arrived, with an instant [s, monotonic] by which all of them had arrived: the moment
   // after the read.
   void receive(std::string_view bytes, double time_s);
 
@@ -36,27 +36,27 @@ class PtuDriver {
   // unit and when it sets another rate.
   int line_baud() const;
 
-  // Where the unit shall go from now on; nothing: halt. Takes effect with the next poll. Dropped in
+  // The goal of the unit from now on; nothing: halt. Takes effect with the next poll. Dropped in
   // an emergency and whenever the unit or its reference is lost.
   void set_goal(const std::optional<ServoGoal>& goal);
 
   // Nothing moves from now on: halts are sent until the unit was seen to stand, and no other motion
-  // command before clear_emergency(). Returns what to write at once, whatever is under way; bytes
-  // that are not on the line yet should be dropped before.
+  // command before clear_emergency(). Returns the bytes to write at once; drop bytes that are not
+  // on the line yet first.
   std::string emergency_halt(double time_s);
   void clear_emergency() { emergency_ = false; }
   bool in_emergency() const { return emergency_; }
 
   // Halts the unit, waits until it stands and homes it: R sweeps the whole travel. Ignored in an
-  // emergency, and given up when the unit does not answer.
+  // emergency, and abandoned when the unit does not answer.
   void home(double time_s);
-  // Gives up homing, and sends a halt to a unit that homes already. Some units ignore it.
+  // Abandons homing, and sends a halt to a unit that homes already. Some units ignore it.
   void stop_homing(double time_s);
   // Whether PtuRehome::kWhenUnreferenced applies now. home() is always possible.
   void allow_rehoming(bool allowed) { rehoming_allowed_ = allowed; }
   // An operator confirms the reference: the unit was homed by hand, or checked.
   void reference_ok();
-  // What an earlier process persisted.
+  // Restores the doubt that an earlier process persisted.
   void restore_doubt(const std::optional<PtuReferenceDoubt>& doubt);
 
   // Starts the unit again, for example because the port was reopened.
@@ -73,14 +73,14 @@ class PtuDriver {
   const PtuLimits& limits() const;    // those in force; meaningful once ready
   double pan_resolution_rad() const;  // per count; 0 until ready
   std::string firmware() const;       // answer to V; empty until ready
-  std::string last_error() const;     // empty when there was none
+  std::string last_error() const;     // empty: no error so far
   std::optional<PtuEnvironment> environment() const;
   std::optional<double> last_good_s() const;  // time of the newest angle sample
   bool not_referenced() const;                // the unit must be homed
   bool homing() const;                        // from home() until the unit is ready again
   PtuReference reference() const;
   std::optional<PtuDoubtCause> doubt() const { return reference_.cause(); }
-  // What the next process has to know, should this one end now.
+  // For the next process, if this one ends now.
   std::optional<PtuReferenceDoubt> doubt_to_persist() const;
   std::optional<PtuLoweredSpeed> lowered_speed() const;
   bool standing() const;  // seen not to move
@@ -99,7 +99,8 @@ class PtuDriver {
   // How far the unit ever came; never goes back.
   enum class Progress { kNone, kFaulted, kReady };
 
-  // How long bytes may have been there before they were read: the last two pauses between calls.
+  // How long bytes may have waited before they were read: the longer of the last two pauses between
+  // calls.
   struct ReadDelay {
     void note_call(double time_s) {
       const double pause_s = std::max(0.0, time_s - called_s);

@@ -1,4 +1,4 @@
-// What the PTU driver is configured with and what it reports.
+// The configuration of the PTU driver and what it reports.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ enum class PtuRehome {
   kWhenUnreferenced,  // R, once after each loss
 };
 
-// What the unit's angles are worth.
+// How far the unit's angles can be trusted.
 enum class PtuReference {
-  kUnknown,  // no unit that can be driven
+  kUnknown,  // no usable unit
   kMissing,  // the unit must be homed, or it is homing
   kDoubted,  // no samples, and goals are ignored, until it was homed or its reference confirmed
   kTrusted,
@@ -37,7 +37,7 @@ struct PtuConfig {
   double reply_timeout_s = 0.5;         // without a usable reply: the link is down, start again
   double acceleration_rad_s2 = 1.0;     // set at start
   double environment_interval_s = 5.0;  // supply voltage and temperatures; 0: never
-  double supply_min_V = 11.5;           // an alarm below
+  double supply_min_V = 11.5;           // a lower one is an alarm
   PtuRehome rehome = PtuRehome::kNever;
   // The unit's own setting, as delivered: a unit that was switched on just before the driver first
   // talks to it answers only after it has homed, so its reference is trusted.

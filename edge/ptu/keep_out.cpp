@@ -30,8 +30,7 @@ double length(const PanTilt& a, const PanTilt& b) {
   return std::abs(a.pan_rad - b.pan_rad) + std::abs(a.tilt_rad - b.tilt_rad);
 }
 
-// Straight out of every region that holds `from`: the nearest free place on the lines through it
-// along one axis.
+// Straight out of every region that contains `from`: the nearest free position along one axis.
 std::optional<PanTilt> way_out(const AngleBox& travel, const std::vector<KeepOut>& regions,
                                const PanTilt& from) {
   std::optional<PanTilt> nearest;
@@ -48,7 +47,7 @@ std::optional<PanTilt> way_out(const AngleBox& travel, const std::vector<KeepOut
   return nearest;
 }
 
-std::vector<double> grid_lines(double from, double to, double least, double greatest,
+std::vector<double> grid_lines(double from, double to, double min, double max,
                                const std::vector<KeepOut>& regions, bool pan) {
   std::vector<double> lines{from, to};
   for (const KeepOut& region : regions) {
@@ -56,7 +55,7 @@ std::vector<double> grid_lines(double from, double to, double least, double grea
     lines.push_back((pan ? r.pan_min_rad : r.tilt_min_rad) - kOutside_rad);
     lines.push_back((pan ? r.pan_max_rad : r.tilt_max_rad) + kOutside_rad);
   }
-  std::erase_if(lines, [&](double x) { return x < least || x > greatest; });
+  std::erase_if(lines, [&](double x) { return x < min || x > max; });
   std::sort(lines.begin(), lines.end());
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
   return lines;
@@ -185,7 +184,7 @@ std::optional<std::vector<PanTilt>> way_round(const AngleBox& travel,
     if (rest) rest->insert(rest->begin(), *out);
     return rest;
   }
-  // A unit a count outside of its travel may still go in.
+  // A unit one count outside of its travel may still return.
   const AngleBox room{
       std::min(travel.pan_min_rad, from.pan_rad), std::max(travel.pan_max_rad, from.pan_rad),
       std::min(travel.tilt_min_rad, from.tilt_rad), std::max(travel.tilt_max_rad, from.tilt_rad)};

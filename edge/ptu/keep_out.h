@@ -1,8 +1,8 @@
-// Regions of pan and tilt that a unit must not enter: a mast beside the tripod, people, the sun's
+// Regions of pan and tilt that a unit must not enter: a mast next to the tripod, people, the sun's
 // glare on a window. Pure.
 //
-// The axes move independently of each other, so a move from one place to another may pass anywhere
-// through the box that the two span. It is taken for free only when that whole box is.
+// The axes move independently of each other, so a move between two positions may pass anywhere
+// through the box that they span. The move is free only when the whole box is free.
 #pragma once
 
 #include <optional>
@@ -20,19 +20,20 @@ struct AngleBox {
 
 using KeepOut = AngleBox;
 
-// Room left beside each region, for what a unit runs on between two polls and for coarse counts.
+// Clearance around each region, for the travel between two polls and the size of a count.
 constexpr double kKeepOutClearance_rad = 3.5e-3;  // 0.2 deg
 
 AngleBox spanned(const PanTilt& a, const PanTilt& b);
 
-// Whether the box reaches into a region or its clearance; touching the clearance's border is not.
+// Whether the box overlaps a region or its clearance; touching the border of the clearance is
+// allowed.
 bool blocked(const std::vector<KeepOut>& regions, const AngleBox& box);
 bool blocked(const std::vector<KeepOut>& regions, const PanTilt& at);
 
-// From one place to another within `travel` and without crossing a region: the corners of the
-// shortest such way, the last one being `to`, the box between each and the next being free; nothing
-// when there is none. A direct move that is free has one corner. From inside a region the first
-// corner is straight out.
+// The corners of the shortest path from `from` to `to` within `travel` that crosses no region: the
+// last corner is `to`, and the box between neighbouring corners is free. Nothing if there is no
+// such path. A free direct move has one corner. From inside a region the first corner is straight
+// out.
 std::optional<std::vector<PanTilt>> way_round(const AngleBox& travel,
                                               const std::vector<KeepOut>& regions,
                                               const PanTilt& from, const PanTilt& to);

@@ -8,7 +8,7 @@ namespace ols {
 
 namespace {
 
-constexpr int kChecksAtMost = 5;  // before the unit is started again
+constexpr int kMaxChecks = 5;  // before the unit is started again
 
 }  // namespace
 
@@ -32,7 +32,7 @@ ModeCheck::Result ModeCheck::take(const PollCycle& done) {
     failed_ = 0;
     return Result::kRestored;
   }
-  return ++failed_ >= kChecksAtMost ? Result::kUnitRestarted : Result::kUnchanged;
+  return ++failed_ >= kMaxChecks ? Result::kUnitRestarted : Result::kUnchanged;
 }
 
 }  // namespace ols

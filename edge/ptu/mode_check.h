@@ -1,6 +1,6 @@
-// Echo or verbose replies that come on while a unit is ready are switched off again, without a new
-// start. But the unit may have been switched off and on, and then takes speeds for velocities or
-// has other ramps: it gets no motion command before it has answered that it has not. Pure.
+// If a ready unit begins to echo or to reply verbosely, switches that off without a restart. The
+// unit may have lost power and be in velocity mode or have other ramps, so it gets no motion
+// command until it has answered that this is not so. Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class ModeCheck {
   explicit ModeCheck(std::int32_t pan_acceleration) : pan_acceleration_(pan_acceleration) {}
 
   bool needed() const { return needed_; }
-  // What the next cycle contains as long as a check is needed.
+  // Part of the next cycle while a check is needed.
   static PtuRequest commands();
   static PtuRequest questions();
 

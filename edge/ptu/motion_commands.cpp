@@ -10,46 +10,45 @@ namespace ols {
 
 namespace {
 
-// There is no checksum: a command that was changed on its way holds no longer than this.
+// There is no checksum: a command corrupted on the line is replaced after this time.
 constexpr double kRefresh_s = 1.0;
 constexpr double kHaltMargin_s = 0.3;  // on top of the braking time, before a halt is repeated
 
 constexpr double kRounding_counts = 1e-6;  // a limit that is a whole count stays that count
 
-double least_within(const PtuAxisFacts& facts, double least_rad) {
-  return std::ceil(least_rad / facts.resolution_rad - kRounding_counts);
+double min_within(const PtuAxisFacts& facts, double min_rad) {
+  return std::ceil(min_rad / facts.resolution_rad - kRounding_counts);
 }
 
-double greatest_within(const PtuAxisFacts& facts, double greatest_rad) {
-  return std::floor(greatest_rad / facts.resolution_rad + kRounding_counts);
+double max_within(const PtuAxisFacts& facts, double max_rad) {
+  return std::floor(max_rad / facts.resolution_rad + kRounding_counts);
 }
 
 PtuLimits narrowed(const PtuLimits& configured, const PtuFacts& facts) {
   PtuLimits both = configured;
-  both.pan_min_rad = std::max(both.pan_min_rad, facts.pan.least * facts.pan.resolution_rad);
-  both.pan_max_rad = std::min(both.pan_max_rad, facts.pan.greatest * facts.pan.resolution_rad);
-  both.tilt_min_rad = std::max(both.tilt_min_rad, facts.tilt.least * facts.tilt.resolution_rad);
-  both.tilt_max_rad = std::min(both.tilt_max_rad, facts.tilt.greatest * facts.tilt.resolution_rad);
+  both.pan_min_rad = std::max(both.pan_min_rad, facts.pan.min * facts.pan.resolution_rad);
+  both.pan_max_rad = std::min(both.pan_max_rad, facts.pan.max * facts.pan.resolution_rad);
+  both.tilt_min_rad = std::max(both.tilt_min_rad, facts.tilt.min * facts.tilt.resolution_rad);
+  both.tilt_max_rad = std::min(both.tilt_max_rad, facts.tilt.max * facts.tilt.resolution_rad);
   return both;
 }
 
 struct Range {
-  double least_rad, greatest_rad;
+  double min_rad, max_rad;
 };
 
 std::string axis_conflict(const char* name, const PtuAxisFacts& facts, const Range& configured,
                           const Range& both) {
-  const bool room =
-      both.least_rad < both.greatest_rad &&
-      least_within(facts, both.least_rad) <= greatest_within(facts, both.greatest_rad);
+  const bool room = both.min_rad < both.max_rad &&
+                    min_within(facts, both.min_rad) <= max_within(facts, both.max_rad);
   if (room) return {};
   char text[200];
   std::snprintf(text, sizeof text,
                 "no %s lies within both the configured limits, %.2f to %.2f deg, and the unit's, "
                 "%.2f to %.2f deg",
-                name, degrees(configured.least_rad), degrees(configured.greatest_rad),
-                degrees(facts.least * facts.resolution_rad),
-                degrees(facts.greatest * facts.resolution_rad));
+                name, degrees(configured.min_rad), degrees(configured.max_rad),
+                degrees(facts.min * facts.resolution_rad),
+                degrees(facts.max * facts.resolution_rad));
   return text;
 }
 
@@ -77,7 +76,7 @@ MotionCommands::MotionCommands(const PtuConfig& config, const PtuFacts& facts)
                                      rad(facts.tilt, facts.tilt.upper_speed)});
   servo_.min_speed_rad_s = std::max({servo_.min_speed_rad_s, rad(facts.pan, facts.pan.lower_speed),
                                      rad(facts.tilt, facts.tilt.lower_speed)});
-  // What the unit really does decides where it can stop.
+  // The actual acceleration decides where the unit can stop.
   servo_.max_acceleration_rad_s2 =
       std::min(rad(facts.pan, facts.pan.acceleration), rad(facts.tilt, facts.tilt.acceleration));
   keep_running_on_short();
@@ -87,14 +86,14 @@ MotionCommands::MotionCommands(const PtuConfig& config, const PtuFacts& facts)
 // The configuration was checked with the acceleration that it asks for; a unit may keep its own.
 void MotionCommands::keep_running_on_short() {
   if (!runs_on_too_long(servo_)) return;
-  servo_.max_speed_rad_s = std::max(servo_.min_speed_rad_s, greatest_safe_speed_rad_s(servo_));
+  servo_.max_speed_rad_s = std::max(servo_.min_speed_rad_s, max_safe_speed_rad_s(servo_));
   lowered_ = PtuLoweredSpeed{servo_.max_acceleration_rad_s2, servo_.max_speed_rad_s};
 }
 
-MotionCommands::Axis MotionCommands::axis(PtuAxis name, const PtuAxisFacts& facts, double least_rad,
-                                          double greatest_rad) {
-  return {name, facts, static_cast<std::int32_t>(least_within(facts, least_rad)),
-          static_cast<std::int32_t>(greatest_within(facts, greatest_rad))};
+MotionCommands::Axis MotionCommands::axis(PtuAxis name, const PtuAxisFacts& facts, double min_rad,
+                                          double max_rad) {
+  return {name, facts, static_cast<std::int32_t>(min_within(facts, min_rad)),
+          static_cast<std::int32_t>(max_within(facts, max_rad))};
 }
 
 PtuRequest MotionCommands::next(const std::optional<ServoGoal>& goal, const Now& now,
@@ -119,22 +118,22 @@ PtuRequest MotionCommands::next(const std::optional<ServoGoal>& goal, const Now&
 PtuRequest MotionCommands::halt(const Now& now, double time_s) {
   const bool again = !now.standing && halted_s_ && time_s - *halted_s_ > braking_s_ + kHaltMargin_s;
   change_ = {std::abs(now.rate_rad_s.pan_rad), std::abs(now.rate_rad_s.tilt_rad)};
-  return halted_s_ && !again ? PtuRequest() : halt_anew(now, time_s);
+  return halted_s_ && !again ? PtuRequest() : halt_again(now, time_s);
 }
 
-// From the speed that it has to the commanded one, or to a stand when the commanded place is near.
+// From the current speed to the commanded one, or to rest if the commanded position is near.
 double MotionCommands::change(double speed_rad_s, double way_rad, double rate_rad_s) const {
   constexpr double kCycle_s = 0.05;
   const double stopping_rad = rate_rad_s * rate_rad_s / (2.0 * servo_.max_acceleration_rad_s2) +
                               std::abs(rate_rad_s) * kCycle_s;
   const double to_speed = std::abs(std::copysign(speed_rad_s, way_rad) - rate_rad_s);
   if (std::abs(way_rad) > stopping_rad) return to_speed;
-  // A way of no counts moves nothing.
+  // A move of zero counts has no effect.
   return std::abs(way_rad) > pan_.facts.resolution_rad ? std::max(to_speed, std::abs(rate_rad_s))
                                                        : std::abs(rate_rad_s);
 }
 
-PtuRequest MotionCommands::halt_anew(const Now& now, double time_s) {
+PtuRequest MotionCommands::halt_again(const Now& now, double time_s) {
   change_ = {std::abs(now.rate_rad_s.pan_rad), std::abs(now.rate_rad_s.tilt_rad)};
   halted_s_ = time_s;
   send_all_again();
@@ -160,7 +159,7 @@ void MotionCommands::add_speed(Axis& axis, double speed_rad_s, PtuRequest& reque
 void MotionCommands::add_position(Axis& axis, double position_rad, PtuRequest& request) {
   const auto position =
       std::clamp(static_cast<std::int32_t>(std::lround(position_rad / axis.facts.resolution_rad)),
-                 axis.least, axis.greatest);
+                 axis.min, axis.max);
   if (axis.position == position) return;
   axis.position = position;
   request.set(axis.name, PtuQuantity::kPosition, position);

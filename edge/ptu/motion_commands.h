@@ -1,5 +1,5 @@
-// Turns goals into the commands of a cycle: the servo's answer in counts, only what has changed,
-// and halts. Pure.
+// Turns goals into the commands of a cycle: the servo's output in counts, if it has changed, and
+// halts. Pure.
 #pragma once
 
 #include <optional>
@@ -11,16 +11,15 @@
 
 namespace ols {
 
-// Why no axis position satisfies both configuration and unit, in words; empty when there are such.
+// Why no axis position satisfies both configuration and unit; empty if there is one.
 std::string limits_conflict(const PtuLimits& configured, const PtuFacts& facts);
 
 class MotionCommands {
  public:
-  // The servo's bounds become the narrower ones of configuration and unit, between which there must
-  // be room: no limits_conflict().
+  // Uses the narrower bounds of configuration and unit. Call only without a limits_conflict().
   MotionCommands(const PtuConfig& config, const PtuFacts& facts);
 
-  // Where the unit is and how fast it moves, as far as it is known.
+  // Angles and rates of the unit as far as they are known.
   struct Now {
     PanTilt angles;
     PanTilt rate_rad_s;
@@ -29,14 +28,14 @@ class MotionCommands {
 
   // What to send at `time_s`.
   PtuRequest next(const std::optional<ServoGoal>& goal, const Now& now, double time_s);
-  // Halts, again and again until the unit stands.
+  // Halts, repeatedly until the unit is stationary.
   PtuRequest halt(const Now& now, double time_s);
-  PtuRequest halt_anew(const Now& now, double time_s);
+  PtuRequest halt_again(const Now& now, double time_s);
 
-  // What was sent may not have been understood.
+  // The unit may not have received the last commands.
   void send_all_again();
 
-  // By how much the last commands change what the unit does, as speeds of both axes.
+  // By how much the last commands change the speeds of the axes.
   const PanTilt& speed_change_rad_s() const { return change_; }
 
   const PtuLimits& limits() const { return limits_; }
@@ -46,10 +45,10 @@ class MotionCommands {
   struct Axis {
     PtuAxis name;
     PtuAxisFacts facts;
-    std::int32_t least, greatest;                           // within limits_ [counts]
+    std::int32_t min, max;                                  // within limits_ [counts]
     std::optional<std::int32_t> position = {}, speed = {};  // as last sent
   };
-  static Axis axis(PtuAxis name, const PtuAxisFacts& facts, double least_rad, double greatest_rad);
+  static Axis axis(PtuAxis name, const PtuAxisFacts& facts, double min_rad, double max_rad);
   static void add_speed(Axis& axis, double speed_rad_s, PtuRequest& request);
   static void add_position(Axis& axis, double position_rad, PtuRequest& request);
 

@@ -1,5 +1,5 @@
-// One poll of a ready unit: what was asked, which replies are still missing, and when the unit read
-// the positions in them. Pure.
+// One poll of a ready unit: its queries, the missing replies, and when the unit read its positions.
+// Pure.
 //
 // Replies carry no checksum, so each position is asked for twice in a cycle:
 //
@@ -34,7 +34,7 @@ class PollCycle {
   // When all replies are there, if the unit takes no longer than `slack_s` over them.
   double due_s(double slack_s) const;
 
-  // `late_s`: the reply's bytes may have been there for so long before they were read.
+  // `late_s`: the reply's bytes may have waited up to this long before they were read.
   void take(const PtuReply& reply, double late_s);
   bool complete() const { return taken_ == slots_.size(); }
 
@@ -46,7 +46,7 @@ class PollCycle {
   // Echo or verbose replies are on: the unit has forgotten its modes.
   bool modes_forgotten() const { return modes_forgotten_; }
 
-  // From the end of the first query to the start of its reply, for which nothing has to wait.
+  // From the end of the first query to the start of its reply, which no other reply delays.
   double latency_s() const { return latency_s_; }
 
   const PtuReadings& pan() const { return pan_.readings; }

@@ -7,7 +7,7 @@ namespace ols {
 
 namespace {
 
-constexpr double kReplySlack_s = 0.08;  // what a unit may take over one cycle
+constexpr double kReplySlack_s = 0.08;  // that a unit may need for one cycle
 constexpr double kQuiet_s = 0.06;       // silence after a cycle whose replies are missing
 constexpr double kShortQuiet_s = 0.02;  // after one whose replies came, but wrong
 constexpr double kLatencyShare = 0.05;  // of a new one in the running average

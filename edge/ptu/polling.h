@@ -30,9 +30,9 @@ class Polling {
   void unexpected_reply();
 
   enum class Failure { kGarbled, kRepliesMissing };
-  // Gives up a cycle that cannot be completed any more.
+  // Abandons a cycle that can no longer be completed.
   std::optional<Failure> watch(double time_s);
-  // Gives up whatever is under way, because other bytes were written.
+  // Abandons the cycle under way, because other bytes were written.
   void abandon(double time_s);
 
  private:

@@ -7,13 +7,13 @@ namespace ols {
 
 namespace {
 
-constexpr double kMargin = 1.2;        // on what a unit says of its speed and acceleration
+constexpr double kMargin = 1.2;        // on the speed and acceleration that a unit states
 constexpr double kSlack_counts = 2.0;  // roundings
 constexpr double kLate_s = 0.03;
-constexpr double kStale_s = 0.3;           // a rate over a longer time says nothing
-constexpr double kLeastTimeSd_s = 2e-4;    // scheduling of this host
+constexpr double kStale_s = 0.3;           // an older rate is not used
+constexpr double kMinTimeSd_s = 2e-4;      // scheduling of this host
 constexpr double kStanding_counts_s = 20;  // slower than this is standing
-constexpr double kUsual = 1.5;  // disagreement, in standard deviations, that needs no other reason
+constexpr double kUsual = 1.5;  // disagreement, in standard deviations, that noise explains
 
 double square(double x) { return x * x; }
 
@@ -27,8 +27,8 @@ PositionCheck::Merged PositionCheck::middle(const PtuReadings& r) {
   return mean;
 }
 
-// No faster than the unit goes and, when its speed is known, no further from where that leads than
-// it accelerates, and than it goes within the doubt about the instants.
+// Within the unit's maximum speed and, if its rate is known, within its acceleration from the
+// position that this rate predicts; both with a margin for the uncertain instants.
 bool PositionCheck::reachable(const Axis& axis, const Merged& now) {
   const double dt_s = now.time_s - axis.last->time_s;
   if (!(dt_s > 0.0)) return false;
@@ -43,11 +43,11 @@ bool PositionCheck::reachable(const Axis& axis, const Merged& now) {
   return surprise <= accelerated + 2.0 * std::abs(axis.rate_counts_s) * doubt_s + noise;
 }
 
-// The mean of both readings, weighted with how well their instants are known. Disagreement beyond
-// the usual goes into its doubt: if one reading is wrong by g, the mean is wrong by its weight
-// times g, and g shows in the disagreement but for what it adds to the rate itself.
+// The mean of both readings, weighted by the accuracy of their instants. Disagreement beyond kUsual
+// goes into doubt_counts: if one reading is wrong by g, the mean is wrong by its weight times g,
+// and the disagreement shows g minus its effect on the rate.
 std::optional<PositionCheck::Merged> PositionCheck::merged(const Axis& axis, const PtuReadings& r,
-                                                           double told_rad_s2) {
+                                                           double commanded_rad_s2) {
   const Merged mean = middle(r);
   const double dt_s = mean.time_s - axis.last->time_s;
   const double rate = (mean.counts - axis.last->counts) / dt_s;
@@ -67,19 +67,19 @@ std::optional<PositionCheck::Merged> PositionCheck::merged(const Axis& axis, con
   result.half_s = weight0 * r[0].half_s + weight1 * r[1].half_s;
   const double sd0_s = weight0 * r[0].time_sd_s;
   const double sd1_s = weight1 * r[1].time_sd_s;
-  result.time_sd_s = std::max(kLeastTimeSd_s, std::sqrt(square(sd0_s) + square(sd1_s) +
-                                                        2.0 * axis.correlation * sd0_s * sd1_s));
+  result.time_sd_s = std::max(kMinTimeSd_s, std::sqrt(square(sd0_s) + square(sd1_s) +
+                                                      2.0 * axis.correlation * sd0_s * sd1_s));
   result.counts = weight0 * r[0].counts + weight1 * r[1].counts;
-  // Roundings some counts apart have nothing to do with each other.
+  // The rounding errors of different counts are independent.
   if (std::abs(r[1].counts - r[0].counts) > 1) {
     result.step_share = square(weight0) + square(weight1);
   }
   const double heavier = std::max(weight0, weight1);
   const double shown = std::max(0.3, 1.0 - heavier * apart_s / dt_s);
   const double wrong = std::max(0.0, odd - kUsual * spread) * heavier / (kUsual * shown);
-  // The mean of two places on a bent way does not lie on it.
+  // Under acceleration the mean of two positions is not on the path.
   const double bent =
-      0.5 * weight0 * weight1 * apart_s * apart_s * told_rad_s2 / axis.facts.resolution_rad;
+      0.5 * weight0 * weight1 * apart_s * apart_s * commanded_rad_s2 / axis.facts.resolution_rad;
   result.doubt_counts = std::hypot(wrong, bent);
   return result;
 }
@@ -92,7 +92,7 @@ void PositionCheck::remember(Axis& axis, const Merged& now) {
 }
 
 PositionCheck::Verdict PositionCheck::take(const PtuReadings& pan, const PtuReadings& tilt,
-                                           const PanTilt& told_rad_s2) {
+                                           const PanTilt& commanded_rad_s2) {
   for (const PtuReading& reading : {pan[0], pan[1], tilt[0], tilt[1]}) {
     if (!(reading.half_s <= kLate_s)) return Verdict::kLate;
   }
@@ -108,8 +108,8 @@ PositionCheck::Verdict PositionCheck::take(const PtuReadings& pan, const PtuRead
     return Verdict::kRefused;
   }
   const bool stale = pan_mean.time_s - pan_.last->time_s > kStale_s;
-  const auto p = merged(pan_, pan, told_rad_s2.pan_rad);
-  const auto t = merged(tilt_, tilt, told_rad_s2.tilt_rad);
+  const auto p = merged(pan_, pan, commanded_rad_s2.pan_rad);
+  const auto t = merged(tilt_, tilt, commanded_rad_s2.tilt_rad);
   if (!p || !t) {
     pan_.rate_known = tilt_.rate_known = false;
     return Verdict::kRefused;
@@ -124,7 +124,7 @@ PositionCheck::Verdict PositionCheck::take(const PtuReadings& pan, const PtuRead
   sample_.tilt_time_sd_s = t->time_sd_s;
   sample_.tilt_delay_s = t->time_s - p->time_s;
   sample_.step_share = {p->step_share, t->step_share};
-  sample_.acceleration = told_rad_s2;
+  sample_.acceleration = commanded_rad_s2;
   sample_.doubt = {p->doubt_counts * pan_.facts.resolution_rad,
                    t->doubt_counts * tilt_.facts.resolution_rad};
   return Verdict::kBelieved;

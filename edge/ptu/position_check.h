@@ -1,10 +1,9 @@
-// Believes positions or not: replies carry no checksum, so a wrong digit gives a plausible number.
+// Checks reported positions: replies carry no checksum, so a wrong digit gives a plausible number.
 // Pure.
 //
-// Each position is read twice in a cycle. The two must differ by what the unit moved between them,
-// as far as their instants are known; a pair that cannot be is dropped. What passes is averaged,
-// and the more the two disagree the less the average is believed: whatever went unnoticed is then
-// within the standard deviation that goes with it.
+// Each position is read twice in a cycle. The two must differ by the motion between their instants;
+// an impossible pair is rejected. An accepted pair is averaged, with a standard deviation that
+// grows with the difference of the two, so that it covers an error that was not detected.
 #pragma once
 
 #include <optional>
@@ -17,21 +16,21 @@ namespace ols {
 
 class PositionCheck {
  public:
-  // The pan's first reading is the first of the cycle, with nothing in its way; the tilt's are
-  // early or late together, by what the unit does before them.
+  // The pan's first reading is the first of the cycle, so nothing delays it; the errors of the
+  // tilt's two instants are correlated by the unit's work before them.
   explicit PositionCheck(const PtuFacts& facts) : pan_{facts.pan, 0.0}, tilt_{facts.tilt, 0.5} {}
 
   enum class Verdict {
-    kFirst,     // nothing to hold it against yet; the next one will be held against it
+    kFirst,     // nothing to compare it with yet
     kBelieved,  // sample() is it
     kRefused,
-    kLate,  // the replies were read so late that they say nothing of when: this host was busy
+    kLate,  // the replies were read too late to date them: this host was busy
   };
-  // `told_rad_s2`: about as much as the unit was told to accelerate by.
-  Verdict take(const PtuReadings& pan, const PtuReadings& tilt, const PanTilt& told_rad_s2);
+  // `commanded_rad_s2`: the approximate commanded acceleration.
+  Verdict take(const PtuReadings& pan, const PtuReadings& tilt, const PanTilt& commanded_rad_s2);
   const AngleSample& sample() const { return sample_; }
 
-  // As seen over the last two believed pairs; 0 when not known.
+  // Over the last two accepted pairs; 0 when not known.
   PanTilt rate_rad_s() const;
   // Both axes were seen not to move.
   bool standing() const;
@@ -55,7 +54,7 @@ class PositionCheck {
   static Merged middle(const PtuReadings& readings);
   static bool reachable(const Axis& axis, const Merged& now);
   static std::optional<Merged> merged(const Axis& axis, const PtuReadings& readings,
-                                      double told_rad_s2);
+                                      double commanded_rad_s2);
   static void remember(Axis& axis, const Merged& now);
 
   Axis pan_, tilt_;

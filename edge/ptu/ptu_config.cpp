@@ -148,7 +148,7 @@ void check_budget(ConfigTable& table, const PtuConfig& config) {
   }
 }
 
-// The unit has no time-out of its own: how it is commanded sees to it that it stops.
+// The unit has no time-out of its own; position commands make it stop.
 void check_running_on(ConfigTable& table, const PtuConfig& config) {
   ServoConfig servo = config.servo;
   servo.max_acceleration_rad_s2 = config.acceleration_rad_s2;
@@ -161,7 +161,7 @@ void check_running_on(ConfigTable& table, const PtuConfig& config) {
   }
 }
 
-// A unit's motion departs from its commanded profile by about this share of its acceleration.
+// A unit's motion deviates from its commanded profile by about this share of its acceleration.
 constexpr double kAccelerationSdShare = 0.04;
 
 }  // namespace

@@ -14,7 +14,7 @@ std::string with_number(const char* format, double number) {
   return text;
 }
 
-std::string lowered_words(const PtuLoweredSpeed& lowered) {
+std::string describe(const PtuLoweredSpeed& lowered) {
   return with_number("accelerates by only %.1f deg/s^2", degrees(lowered.acceleration_rad_s2)) +
          with_number(", driven at %.1f deg/s at most, so that it stops in time by itself",
                      degrees(lowered.speed_rad_s));
@@ -50,10 +50,10 @@ void add_alarms(const PtuConfig& config, const PtuStatus& status, double now_s,
   if (status.emergency) alarm(status.standing ? "emergency stop" : "emergency stop, still moving");
   if (report.state == DeviceState::kAbsent) alarm("no serial port: " + status.last_error);
   if (report.state == DeviceState::kFault) alarm("halted, " + status.last_error);
-  if (status.not_referenced) alarm("does not know where it is: home it");
+  if (status.not_referenced) alarm("no reference: home it");
   if (status.homing) alarm("homing");
-  if (status.doubt && status.last_error != words(*status.doubt)) alarm(words(*status.doubt));
-  if (status.lowered_speed) alarm(lowered_words(*status.lowered_speed));
+  if (status.doubt && status.last_error != describe(*status.doubt)) alarm(describe(*status.doubt));
+  if (status.lowered_speed) alarm(describe(*status.lowered_speed));
   const bool silent = !status.last_good_s || now_s - *status.last_good_s > kOld_s;
   if (report.state == DeviceState::kOk && silent) alarm("no angles");
   if (status.environment && status.environment->supply_V < config.supply_min_V) {

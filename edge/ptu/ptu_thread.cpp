@@ -1,15 +1,11 @@
 #include "edge/ptu/ptu_thread.h"
 
-#include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <condition_variable>
-#include <exception>
 #include <mutex>
 #include <stop_token>
-#include <thread>
 
 #include "base/clocks.h"
+#include "edge/device_thread.h"
 #include "edge/ptu/ptu_report.h"
 #include "edge/ptu/serial_port.h"
 
@@ -17,39 +13,33 @@ namespace ols {
 
 namespace {
 
-constexpr double kTick_s = 0.003;      // the driver is stepped at least so often
+constexpr double kTick_s = 0.003;      // maximum time between two steps of the driver
 constexpr double kFirstPause_s = 0.2;  // before the port is opened again; doubles
-constexpr double kLongestPause_s = 2.0;
+constexpr double kMaxPause_s = 2.0;
 constexpr double kHaltOut_s = 0.25;  // for the last halt, behind a whole request at 9600 baud
 
 }  // namespace
 
 struct PtuThread::Impl {
-  explicit Impl(const PtuConfig& ptu_config) : config(ptu_config), driver(ptu_config) {
+  explicit Impl(const PtuConfig& ptu_config)
+      : config(ptu_config),
+        driver(ptu_config),
+        thread({"ptu", "is being opened", kFirstPause_s, kMaxPause_s}) {
     driver.allow_rehoming(false);
   }
 
   void run(const std::stop_token& stop) {
-    double pause_s = kFirstPause_s;
-    while (!stop.stop_requested()) {
-      try {
-        SerialPort port(config.device, line_baud(), Parity::kNone, &wakeup);
-        set_open();
-        pause_s = kFirstPause_s;
-        serve(port, stop);
-        // The process ends, or the port is opened anew: the unit stands meanwhile.
-        port.write_first(halt_request());
-        port.drain(kHaltOut_s);
-      } catch (const std::exception& failure) {
-        note_failure(failure.what());
-        std::unique_lock lock(mutex);
-        wake.wait_for(lock, stop, std::chrono::duration<double>(pause_s), [] { return false; });
-        pause_s = std::min(2.0 * pause_s, kLongestPause_s);
-      }
-    }
+    SerialPort port(config.device, line_baud(), Parity::kNone, &wakeup);
+    restart_after_failure();
+    thread.opened();
+    thread.works();
+    serve(port, stop);
+    // The process ends, or the port is to be opened again: the unit must stand meanwhile.
+    port.write_first(halt_request());
+    port.drain(kHaltOut_s);
   }
 
-  // Until the port fails, which throws, or is to be opened anew, or the thread is to stop.
+  // Returns when the port must be opened again or the thread must stop. Throws when the port fails.
   void serve(SerialPort& port, const std::stop_token& stop) {
     int rate = line_baud();
     while (!stop.stop_requested()) {
@@ -64,7 +54,7 @@ struct PtuThread::Impl {
         if (!halt_wanted) request = driver.step(clock_monotonic_s());
         wanted_rate = driver.line_baud();
         link_lost = driver.take_link_loss();
-        port_status.reopens += link_lost ? 1 : 0;
+        reopens += link_lost ? 1 : 0;
       }
       if (wanted_rate != rate) port.set_baud(rate = wanted_rate);
       if (!request.empty()) port.write(request);
@@ -80,8 +70,7 @@ struct PtuThread::Impl {
     {
       const std::lock_guard lock(mutex);
       halt = driver.emergency_halt(clock_monotonic_s());
-      if (!emergency)
-        driver.clear_emergency();  // called off already; the halt goes out all the same
+      if (!emergency) driver.clear_emergency();  // already cleared; the halt is sent all the same
     }
     if (!port.write_first(halt)) port.write(halt);
   }
@@ -91,37 +80,29 @@ struct PtuThread::Impl {
     return driver.line_baud();
   }
 
-  void set_open() {
+  // A port that was closed only because the unit was silent does not restart the driver, which
+  // keeps its own pauses.
+  void restart_after_failure() {
+    if (thread.link().is_open) return;
     const std::lock_guard lock(mutex);
-    // After a mere silence the driver goes on with its own pauses.
-    if (!port_status.open) driver.restart(clock_monotonic_s());
-    port_status.open = true;
-  }
-
-  void note_failure(const std::string& what) {
-    const std::lock_guard lock(mutex);
-    port_status.open = false;
-    ++port_status.failures;
-    port_error = what;
+    driver.restart(clock_monotonic_s());
   }
 
   const PtuConfig config;
   Wakeup wakeup;
   std::atomic<bool> emergency = false;
   std::atomic<bool> halt_wanted = false;  // not on the line yet
-  mutable std::mutex mutex;               // of everything below
-  std::condition_variable_any wake;
+  mutable std::mutex mutex;               // of everything below but the thread
   PtuDriver driver;
-  PtuStatus::Port port_status;
-  std::string port_error;
-  std::jthread thread;  // last: it uses the rest
+  std::uint64_t reopens = 0;
+  DeviceThread thread;  // last: it uses the rest
 };
 
 PtuThread::PtuThread(const PtuConfig& config) : impl_(std::make_unique<Impl>(config)) {
-  impl_->thread = std::jthread([this](const std::stop_token& stop) { impl_->run(stop); });
+  impl_->thread.start([impl = impl_.get()](const std::stop_token& stop) { impl->run(stop); });
 }
 
-PtuThread::~PtuThread() = default;  // the jthread asks to stop and joins
+PtuThread::~PtuThread() = default;
 
 void PtuThread::set_goal(const std::optional<ServoGoal>& goal) {
   const std::lock_guard lock(impl_->mutex);
@@ -133,7 +114,7 @@ std::vector<AngleSample> PtuThread::take_samples() {
   return impl_->driver.take_samples();
 }
 
-// Without the lock: it must not wait for whatever the thread is doing.
+// Without the lock: it must not wait for the thread.
 void PtuThread::emergency_halt() {
   impl_->emergency = true;
   impl_->halt_wanted = true;
@@ -173,7 +154,7 @@ void PtuThread::reference_ok() {
 
 PtuReference PtuThread::reference() const {
   const std::lock_guard lock(impl_->mutex);
-  return impl_->port_status.open ? impl_->driver.reference() : PtuReference::kUnknown;
+  return impl_->thread.link().is_open ? impl_->driver.reference() : PtuReference::kUnknown;
 }
 
 std::optional<PtuReferenceDoubt> PtuThread::doubt_to_persist() const {
@@ -185,9 +166,9 @@ PtuStatus PtuThread::status() const {
   const std::lock_guard lock(impl_->mutex);
   const PtuDriver& driver = impl_->driver;
   PtuStatus status;
-  status.port = impl_->port_status;
-  status.state = impl_->port_status.open || impl_->port_status.failures == 0 ? driver.state()
-                                                                             : PtuState::kFault;
+  const DeviceThread::Link link = impl_->thread.link();
+  status.port = {link.is_open, link.failures, impl_->reopens};
+  status.state = link.is_open || link.failures == 0 ? driver.state() : PtuState::kFault;
   status.emergency = impl_->emergency;
   status.standing = driver.standing();
   status.not_referenced = driver.not_referenced();
@@ -200,7 +181,7 @@ PtuStatus PtuThread::status() const {
   status.counters = driver.counters();
   status.limits = driver.limits();
   status.firmware = driver.firmware();
-  status.last_error = impl_->port_status.open ? driver.last_error() : impl_->port_error;
+  status.last_error = link.is_open ? driver.last_error() : link.failure;
   return status;
 }
 

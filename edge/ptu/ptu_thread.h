@@ -14,7 +14,7 @@
 
 namespace ols {
 
-// What there is to know of a PTU at one moment.
+// The state of a PTU at one moment.
 struct PtuStatus {
   PtuState state = PtuState::kStarting;
   struct Port {
@@ -34,7 +34,7 @@ struct PtuStatus {
   PtuCounters counters;
   PtuLimits limits;        // meaningful once ready
   std::string firmware;    // the unit's answer to V; empty until ready
-  std::string last_error;  // of the port or of the unit; empty when there was none
+  std::string last_error;  // of the port or of the unit; empty: no error so far
 };
 
 // Every method may be called from any thread; none waits for the device.
@@ -45,22 +45,22 @@ class PtuThread {
   PtuThread(const PtuThread&) = delete;
   PtuThread& operator=(const PtuThread&) = delete;
 
-  // Where the unit shall go from now on; nothing: halt.
+  // The goal of the unit from now on; nothing: halt.
   void set_goal(const std::optional<ServoGoal>& goal);
 
   // Angle samples since the last call, oldest first.
   std::vector<AngleSample> take_samples();
 
-  // Halts the unit at once, whatever is under way: what waits in the output queue is thrown away, H
-  // goes first. From now on nothing moves until clear_emergency(); halts are repeated until the
-  // unit was seen to stand. In software it only assists a stop in hardware.
+  // Halts the unit at once: discards the output queue and sends H first. Nothing moves until
+  // clear_emergency(); halts are repeated until the unit was seen to stand. Software only assists a
+  // stop in hardware.
   void emergency_halt();
   void clear_emergency();
 
-  // PtuDriver's.
+  // As in PtuDriver.
   void home();
   void stop_homing();
-  void allow_rehoming(bool allowed);  // it is not, at first
+  void allow_rehoming(bool allowed);  // not allowed at first
   void restore_doubt(const std::optional<PtuReferenceDoubt>& doubt);
   void reference_ok();
   PtuReference reference() const;

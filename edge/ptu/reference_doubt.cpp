@@ -4,16 +4,16 @@
 
 namespace ols {
 
-const char* words(PtuDoubtCause cause) {
+const char* describe(PtuDoubtCause cause) {
   switch (cause) {
     case PtuDoubtCause::kPowerCycle:
-      return "was switched off and on and not seen to home itself: home it, or reference-ok once "
+      return "lost power and was not seen to home since: home it, or reference-ok once "
              "it was checked";
     case PtuDoubtCause::kLimitHit:
       return "ran into a limit and may have lost steps: home it, or reference-ok once it was "
              "checked";
     case PtuDoubtCause::kHomingInterrupted:
-      return "its homing did not come to an end: home it, or reference-ok once it was checked";
+      return "homing was interrupted: home it, or reference-ok once it was checked";
     case PtuDoubtCause::kBeforeStart:
       return "its reference was in doubt already before this start: home it, or reference-ok once "
              "it was checked";

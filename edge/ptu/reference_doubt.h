@@ -1,5 +1,5 @@
-// What is doubtful about a unit's reference, that is, about whether its step counter still matches
-// the position of the head. It is persisted, so that a doubt outlives the process. Pure.
+// Doubt about a unit's reference: whether its step counter still matches the position of the head.
+// It is persisted over a restart of the process. Pure.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace ols {
 // Why the reference is in doubt.
 enum class PtuDoubtCause { kPowerCycle, kLimitHit, kHomingInterrupted, kBeforeStart };
 // What is wrong and what to do about it.
-const char* words(PtuDoubtCause cause);
+const char* describe(PtuDoubtCause cause);
 
 // A doubted reference is trusted again after a complete homing, or after an operator's reference-ok
 // where that is accepted. A trusted reference is the absence of this struct.
@@ -27,7 +27,7 @@ struct PtuReferenceDoubt {
 // The persisted form is one word. All of the words; the first one stands for a trusted reference.
 const std::vector<std::string>& doubt_words();
 std::string to_word(const std::optional<PtuReferenceDoubt>& doubt);
-// A word that is not one of doubt_words() is read as the gravest doubt.
+// A word that is not one of doubt_words() counts as the most serious doubt.
 std::optional<PtuReferenceDoubt> doubt_from_word(std::string_view word);
 
 }  // namespace ols

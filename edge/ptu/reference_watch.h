@@ -1,5 +1,5 @@
-// Watches whether a unit's step counter still matches its head. A unit that was switched off and on
-// begins to count from wherever it stands; one that ran into a limit may have lost steps. Either
+// Watches whether a unit's step counter still matches its head. A unit that lost power
+// counts from wherever it stands; one that ran into a limit may have lost steps. Either
 // way its angles, limits and keep-out regions are in an unknown frame until it was homed or an
 // operator confirms the reference. Pure.
 #pragma once
@@ -21,7 +21,7 @@ class ReferenceWatch {
   void while_driven(const PtuLimitHits& hits, bool homing);
   // Limit hits of a unit that is not driven, read at this baud rate, which may be the wrong one.
   void while_not_driven(const PtuLimitHits& hits, int baud, double time_s);
-  // The unit answers at this baud rate: whatever was read at any other one was noise.
+  // The unit answers at this baud rate: bytes read at other rates were noise.
   void rate_is(int baud);
   // A unit was heard to restart at this baud rate.
   void restarts_at(int baud, double time_s) { heard_[baud].time_s = time_s; }
@@ -41,7 +41,7 @@ class ReferenceWatch {
 
   // The doubt that an earlier process persisted.
   void restore(const PtuReferenceDoubt& doubt) { doubt_ = {PtuDoubtCause::kBeforeStart, doubt}; }
-  // The unit states its pan step. Another step than before means that it was switched off and on.
+  // The unit states its pan step. A changed step means that it lost power.
   void step_is(double pan_step_rad);
   // The unit is ready. The first time its reference is trusted: the installer checked it.
   void ready();

@@ -1,5 +1,5 @@
-// When the unit read the counter that it reports in a reply. Replies carry no time stamp; what is
-// known is when the query was on the line and when the reply began. Pure.
+// Estimates when the unit read the counter that it reports. Replies carry no time stamp; known are
+// only the instants when the query was on the line and when the reply began. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@ struct PtuReading {
   std::int32_t counts = 0;
   double time_s = 0.0;     // when the unit read its counter: estimate,
   double time_sd_s = 0.0;  // its standard deviation,
-  double half_s = 0.0;     // and its greatest error
+  double half_s = 0.0;     // and its maximum error
 };
 
 // Follows the replies of one cycle, in order. `asked_s`: when the command of a reply was on the
-// line. `late_s`: the reply's bytes may have been there for so long before they were read.
+// line. `late_s`: the reply's bytes may have waited up to this long before they were read.
 class ReplyTiming {
  public:
   // `usual_latency_s`: of the unit, from the end of a query to the start of its reply.
   ReplyTiming(double byte_s, double usual_latency_s)
       : byte_s_(byte_s), usual_latency_s_(usual_latency_s) {}
 
-  // A position. `first`: of the cycle, so that the unit had nothing else to do.
+  // A position. `first`: of the cycle, so that the unit was idle before.
   PtuReading read_at(const PtuReply& reply, double asked_s, double late_s, bool first) const;
   double latency_s(const PtuReply& reply, double asked_s) const;
 
@@ -33,7 +33,7 @@ class ReplyTiming {
 
  private:
   double started_s(const PtuReply& reply) const { return reply.began_s - byte_s_; }
-  double begun_s(double asked_s) const;  // about when the unit began with the command
+  double begun_s(double asked_s) const;  // estimate of when the unit began the command
   bool waited(const PtuReply& reply, double late_s) const;
 
   double byte_s_;

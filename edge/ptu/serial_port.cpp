@@ -18,7 +18,7 @@ namespace ols {
 
 namespace {
 
-constexpr double kLongestWrite_s = 0.2;
+constexpr double kMaxWrite_s = 0.2;
 
 struct Rate {
   int baud;
@@ -35,7 +35,8 @@ constexpr std::array<Rate, 9> kRates{{{600, B600},
                                       {57600, B57600},
                                       {115200, B115200}}};
 
-// USB adapters hold bytes back for up to 16 ms unless told otherwise. Not every device knows this.
+// USB adapters hold bytes back for up to 16 ms unless told otherwise. Not every device supports
+// this.
 void ask_for_low_latency(int fd) {
   serial_struct serial{};
   if (::ioctl(fd, TIOCGSERIAL, &serial) != 0) return;
@@ -95,12 +96,12 @@ void SerialPort::set_rate(int baud) {
 }
 
 void SerialPort::set_baud(int baud) {
-  constexpr double kLongestRequest_s = 0.3;
-  drain(kLongestRequest_s);
+  constexpr double kMaxRequest_s = 0.3;
+  drain(kMaxRequest_s);
   set_rate(baud);
 }
 
-// Whether the port is ready for `events` before the time is over or somebody wakes us up.
+// Whether the port becomes ready for `events` before the timeout or a wakeup.
 bool SerialPort::wait_for(short events, double timeout_s) const {
   std::array<pollfd, 2> entries{
       {{fd_, events, 0}, {wakeup_ != nullptr ? wakeup_->descriptor() : -1, POLLIN, 0}}};
@@ -124,9 +125,9 @@ void SerialPort::write(std::string_view bytes) {
       bytes.remove_prefix(static_cast<std::size_t>(n));
     } else if (errno == EAGAIN) {
       pollfd woken{wakeup_ != nullptr ? wakeup_->descriptor() : -1, POLLIN, 0};
-      if (wait_for(POLLOUT, kLongestWrite_s)) continue;
+      if (wait_for(POLLOUT, kMaxWrite_s)) continue;
       if (::poll(&woken, 1, 0) > 0) return;
-      fail(ETIMEDOUT, "takes no bytes");
+      fail(ETIMEDOUT, "accepts no bytes");
     } else if (errno != EINTR) {
       fail(errno, "cannot be written");
     }

@@ -1,5 +1,5 @@
-// A serial device, 8N1 or 8E1 and raw, without handshake. Plain termios: libserialport refuses what
-// is not in sysfs, pseudo terminals among it.
+// A serial device, 8N1 or 8E1 and raw, without handshake. Plain termios, because libserialport
+// refuses devices that are not in sysfs, such as pseudo terminals.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ enum class Parity { kNone, kEven };
 
 class SerialPort {
  public:
-  // Opens and locks the device; what stood in its buffers is dropped. `wakeup` may be null. Throws
-  // std::system_error with the device's name: not there, no right to it, not a terminal, in use,
+  // Opens and locks the device and clears its buffers. `wakeup` may be null. Throws
+  // std::system_error with the device's name: missing, no permission, not a terminal, in use,
   // unknown rate.
   SerialPort(const std::string& device, int baud, Parity parity = Parity::kNone,
              const Wakeup* wakeup = nullptr);
@@ -22,22 +22,22 @@ class SerialPort {
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
 
-  // What is there, after waiting for it at most `timeout_s` or until woken up. Throws when the
-  // device has vanished.
+  // Waits for bytes at most `timeout_s` or until woken up, and returns them. Throws when the device
+  // has vanished.
   std::string read(double timeout_s);
 
-  // All of it, unless woken up before: then the rest is dropped. Throws when the device has
-  // vanished or takes nothing for 0.2 s.
+  // Writes all bytes; drops the rest if woken up. Throws when the device has vanished or accepts
+  // nothing for 0.2 s.
   void write(std::string_view bytes);
 
-  // The same ahead of everything that was written and is not on the line yet, which is dropped.
-  // Does not wait: false when the device does not take it now.
+  // Drops the bytes that are not on the line yet and writes these. Does not wait: false if the
+  // device does not accept them now.
   bool write_first(std::string_view bytes);
 
-  // Another rate, once everything written is on the line. Throws.
+  // Changes the rate when all written bytes are on the line. Throws std::system_error.
   void set_baud(int baud);
 
-  // Waits until everything written is on the line; false when it is not after `timeout_s`.
+  // Waits until all written bytes are on the line; false on timeout.
   bool drain(double timeout_s);
 
  private:

@@ -19,33 +19,32 @@ struct AxisCommand {
   double speed_rad_s;
 };
 
-// The goal on one axis at an instant, kept within its limits: at a limit it does not move on.
-AxisGoal goal_at(double angle_rad, double rate_rad_s, double dt_s, double least, double greatest) {
+// The goal on one axis at an instant, kept within its limits; at a limit its rate is zero.
+AxisGoal goal_at(double angle_rad, double rate_rad_s, double dt_s, double min, double max) {
   const double angle = angle_rad + rate_rad_s * dt_s;
-  const bool outward =
-      (angle >= greatest && rate_rad_s > 0.0) || (angle <= least && rate_rad_s < 0.0);
-  return {std::clamp(angle, least, greatest), outward ? 0.0 : rate_rad_s};
+  const bool outward = (angle >= max && rate_rad_s > 0.0) || (angle <= min && rate_rad_s < 0.0);
+  return {std::clamp(angle, min, max), outward ? 0.0 : rate_rad_s};
 }
 
-// The speed that closes the error: proportional near the goal, further away what can still be
-// braked with some of the acceleration in hand.
+// The speed that closes the error: proportional near the goal; further away the speed from which
+// the unit can still brake with a margin in acceleration.
 double closing_speed(const ServoConfig& config, double error_rad) {
   const double brakable =
       std::sqrt(2.0 * 0.8 * config.max_acceleration_rad_s2 * std::abs(error_rad));
   return std::copysign(std::min(config.gain_hz * std::abs(error_rad), brakable), error_rad);
 }
 
-// How far a unit at this speed may be sent: it travels on for the look-ahead and then brakes,
-// v^2/2a.
+// How far ahead a unit at this speed is commanded: the travel during the look-ahead plus the
+// braking distance v^2/2a.
 double reach_ahead(const ServoConfig& config, double speed_rad_s, double look_ahead_s) {
   return std::abs(speed_rad_s) * look_ahead_s +
          speed_rad_s * speed_rad_s / (2.0 * config.max_acceleration_rad_s2);
 }
 
-// The commanded position is where the goal would come to rest if it went on for the look-ahead and
-// then braked. So the unit does not begin to brake as long as commands keep coming, and when they
-// stop it stands after the look-ahead plus v/a. A goal that rests, or creeps below the unit's least
-// speed, is commanded exactly, from far away a stretch at a time.
+// The commanded position is where the goal would come to rest if it continued for the look-ahead
+// and then braked. So the unit does not brake while commands arrive, and when they stop it stands
+// after the look-ahead plus v/a. A goal that rests, or is slower than the unit's minimum speed, is
+// commanded exactly, from far away in stages.
 AxisCommand axis_step(const ServoConfig& config, const AxisGoal& goal, double now_rad) {
   const double error_rad = goal.angle_rad - now_rad;
   const double speed = std::clamp(goal.rate_rad_s + closing_speed(config, error_rad),
@@ -63,7 +62,7 @@ AxisCommand axis_step(const ServoConfig& config, const AxisGoal& goal, double no
   return {now_rad + way_rad, std::max(std::abs(speed), config.min_speed_rad_s)};
 }
 
-// Limits that contradict each other leave nowhere to go.
+// False for limits that contradict each other.
 bool room_within(const PtuLimits& limits) {
   return limits.pan_min_rad <= limits.pan_max_rad && limits.tilt_min_rad <= limits.tilt_max_rad;
 }
@@ -83,7 +82,7 @@ bool usable(const ServoGoal& goal) {
          std::isfinite(goal.rate.tilt_rad);
 }
 
-// Where a unit that brakes now comes to rest, with some of its reaction time.
+// Where a unit that brakes now comes to rest, including its reaction time.
 PanTilt stopping_place(const ServoConfig& config, const PanTilt& now, const PanTilt& rate) {
   constexpr double kReaction_s = 0.03;
   const auto stop = [&config](double at, double speed) {
@@ -94,7 +93,8 @@ PanTilt stopping_place(const ServoConfig& config, const PanTilt& now, const PanT
   return {stop(now.pan_rad, rate.pan_rad), stop(now.tilt_rad, rate.tilt_rad)};
 }
 
-// The next corner of the way round the keep-outs, or nothing when the way is free or there is none.
+// The next corner of the path around the keep-out regions; nothing if the direct path is free or no
+// path exists.
 std::optional<PanTilt> corner(const PtuLimits& limits, const PanTilt& now, const PanTilt& to) {
   if (limits.keep_out.empty()) return std::nullopt;
   const auto way = way_round(travel(limits), limits.keep_out, now, to);
@@ -124,7 +124,7 @@ std::optional<ServoCommand> servo_step(const ServoConfig& config, const PtuLimit
   ServoCommand command;
   command.position = clamped(limits, {pan.position_rad, tilt.position_rad});
   command.speed = {pan.speed_rad_s, tilt.speed_rad_s};
-  // Out of a region that the unit stands in it may go, nowhere else.
+  // From inside a region the unit may only move out of it.
   if (!blocked(limits.keep_out, now)) {
     command.position =
         cut_short(limits.keep_out, now, stopping_place(config, now, now_rate), command.position);
@@ -145,7 +145,7 @@ bool runs_on_too_long(const ServoConfig& config) {
   return runs_on_s(config, speed) > kRunsOnAtMost_s;
 }
 
-double greatest_safe_speed_rad_s(const ServoConfig& config) {
+double max_safe_speed_rad_s(const ServoConfig& config) {
   if (!runs_on_too_long(config)) return config.max_speed_rad_s;
   const double braking_s = kRunsOnAtMost_s - runs_on_s(config, 0.0);
   return std::max(0.0, braking_s * config.max_acceleration_rad_s2);

@@ -14,7 +14,7 @@ namespace {
 constexpr double kSlowReply_s = 10.0;
 constexpr double kFinestResolution_arcsec = 0.1;
 constexpr double kCoarsestResolution_arcsec = 3600.0;
-constexpr int kAskedAtMost = 8;  // until two answers in a row agree
+constexpr int kMaxAsked = 8;  // until two answers in a row agree
 
 bool accepted(const PtuReply& reply) { return reply.ok; }
 
@@ -37,14 +37,14 @@ PtuStartSequence::PtuStartSequence(const PtuStartOptions& options)
     : acceleration_rad_s2_(options.acceleration_rad_s2) {
   add("ED");  // no echo
   add("FT");  // short replies
-  add("H");   // whatever a former master had begun
+  add("H");   // ends the motion of a previous host
   if (options.change_baud_to > 0) {
     add("@(" + std::to_string(options.change_baud_to) + ",0,F)");
     steps_.back().changes_baud = true;
   }
-  // Speeds are bounds of position moves. As velocities they would run on when this master dies, so
-  // an answer of `*` is not enough.
-  constexpr std::string_view kVelocities = "the unit may take speeds for velocities";
+  // Speeds are bounds of position moves. In velocity mode the unit would continue to move when this
+  // host fails, so an answer of `*` is not enough.
+  constexpr std::string_view kVelocities = "the unit may be in velocity mode";
   require("CI", accepted, kVelocities, false);
   require("C", says_independent, kVelocities, true);
   add("I");  // moves begin at once
@@ -79,7 +79,7 @@ bool PtuStartSequence::take(const PtuReply& reply) {
     const std::string answer = (reply.ok ? "*" : "!") + reply.text;
     const bool agreed = asked_ > 0 && answer == previous_;
     previous_ = answer;
-    if (!agreed) return ++asked_ < kAskedAtMost;  // once more
+    if (!agreed) return ++asked_ < kMaxAsked;  // once more
   }
   if (!step.take(reply)) return false;
   changed_baud_ = step.changes_baud && reply.ok;
@@ -96,7 +96,7 @@ std::string PtuStartSequence::refusal(const PtuReply& reply) const {
   return step.without.empty() ? reason : step.without + ": " + reason;
 }
 
-// A mode that some firmware does not know is no reason to give up.
+// Some firmware does not support this mode; that is not an error.
 void PtuStartSequence::add(std::string_view command, bool slow) {
   steps_.push_back({[text = std::string(command)] { return PtuRequest().plain(text); },
                     [](const PtuReply&) { return true; }, slow});
@@ -132,8 +132,8 @@ void PtuStartSequence::add_axis(PtuAxis axis, PtuAxisFacts PtuFacts::*facts) {
                              arcsec <= kCoarsestResolution_arcsec;
                     },
                     false, true});
-  add_count(axis, facts, PtuQuantity::kLeastPosition, &PtuAxisFacts::least);
-  add_count(axis, facts, PtuQuantity::kGreatestPosition, &PtuAxisFacts::greatest);
+  add_count(axis, facts, PtuQuantity::kMinPosition, &PtuAxisFacts::min);
+  add_count(axis, facts, PtuQuantity::kMaxPosition, &PtuAxisFacts::max);
   add_count(axis, facts, PtuQuantity::kLowerSpeed, &PtuAxisFacts::lower_speed);
   add_count(axis, facts, PtuQuantity::kUpperSpeed, &PtuAxisFacts::upper_speed);
   add_acceleration(axis, facts);
@@ -145,7 +145,7 @@ void PtuStartSequence::add_acceleration(PtuAxis axis, PtuAxisFacts PtuFacts::*fa
                       const PtuAxisFacts& known = facts_.*facts;
                       const auto wanted = static_cast<std::int32_t>(
                           std::lround(acceleration_rad_s2_ / known.resolution_rad));
-                      // Setting takes a real unit seconds: not when it is right already.
+                      // Setting takes a real unit seconds: skip it if the value is right already.
                       if (wanted == known.acceleration) {
                         return PtuRequest().query(axis, PtuQuantity::kAcceleration);
                       }
@@ -159,11 +159,11 @@ void PtuStartSequence::add_acceleration(PtuAxis axis, PtuAxisFacts PtuFacts::*fa
   };
 }
 
-// Before it was homed a unit does not know its travel.
+// A unit that was not homed does not know its travel.
 bool PtuStartSequence::sensible(const PtuAxisFacts& facts) {
-  if (facts.least >= facts.greatest) not_referenced_ = true;
-  return facts.least < facts.greatest && facts.lower_speed >= 0 &&
-         facts.upper_speed > facts.lower_speed && facts.acceleration > 0;
+  if (facts.min >= facts.max) not_referenced_ = true;
+  return facts.min < facts.max && facts.lower_speed >= 0 && facts.upper_speed > facts.lower_speed &&
+         facts.acceleration > 0;
 }
 
 }  // namespace ols

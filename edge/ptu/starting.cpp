@@ -8,9 +8,9 @@ namespace ols {
 
 namespace {
 
-constexpr double kQuiet_s = 0.06;        // silence that ends a flush
-constexpr double kLongestFlush_s = 2.0;  // without such a silence
-constexpr int kRetries = 2;              // of commands that were not answered
+constexpr double kQuiet_s = 0.06;    // silence that ends a flush
+constexpr double kMaxFlush_s = 2.0;  // without such a silence
+constexpr int kRetries = 2;          // of commands that were not answered
 
 }  // namespace
 
@@ -40,13 +40,13 @@ PtuStarting::Step PtuStarting::step_flush(double time_s, double byte_s, bool eme
   if (!flush_->sent) {
     flush_->sent = true;
     flush_->last_byte_s = time_s;
-    return {emergency ? halt_request() : " "};  // ends half a command in the unit's buffer
+    return {emergency ? halt_request() : " "};  // ends an incomplete command in the unit's buffer
   }
   if (time_s - flush_->last_byte_s >= kQuiet_s + byte_s) {
     flush_.reset();
     return {{}, Event::kLineDropped};
   }
-  if (time_s - flush_->began_s > kLongestFlush_s) return {{}, Event::kLineNotQuiet};
+  if (time_s - flush_->began_s > kMaxFlush_s) return {{}, Event::kLineNotQuiet};
   return {};
 }
 

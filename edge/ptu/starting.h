@@ -21,8 +21,8 @@ class PtuStarting {
 
   enum class Event {
     kNone,
-    kLineDropped,   // a quiet line was reached or is waited for: drop what was read of a reply
-    kLineNotQuiet,  // for so long that it is not a PTU's
+    kLineDropped,   // the line is quiet, or must become quiet: drop an incomplete reply
+    kLineNotQuiet,  // for longer than a PTU would send
     kNoReply,
     kComplete,  // the unit has answered everything
   };
@@ -32,13 +32,13 @@ class PtuStarting {
   };
   Step step(double time_s, double byte_s, bool emergency);
 
-  // Waits until the line is quiet, then asks again what was not answered.
+  // Waits until the line is quiet, then repeats the command that was not answered.
   void flush(double time_s);
   bool flushing() const { return flush_.has_value(); }
   void bytes_came(double time_s);
 
   bool waits_for_reply() const { return !flush_ && asked_s_; }
-  // The reply to the command that waits. False: the unit cannot be driven; see refusal().
+  // The reply to the pending command. False: the unit cannot be driven; see refusal().
   bool take(const PtuReply& reply);
   bool answered() const { return answered_; }  // anything, at this baud rate
   std::string refusal(const PtuReply& reply) const { return sequence_.refusal(reply); }
@@ -48,7 +48,7 @@ class PtuStarting {
   Purpose purpose() const { return purpose_; }
   void give_up_homing() { purpose_ = Purpose::kDrive; }
   const PtuFacts& facts() const { return sequence_.facts(); }
-  std::string asked() const;  // the command that waits for its reply
+  std::string asked() const;  // the pending command
 
  private:
   struct Flush {
@@ -63,7 +63,7 @@ class PtuStarting {
   Purpose purpose_;
   PtuCounters& counters_;
   std::optional<Flush> flush_;
-  std::optional<double> asked_s_;  // when the command that waits for its reply was sent
+  std::optional<double> asked_s_;  // when the pending command was sent
   bool answered_ = false;
   int retries_ = 0;
 };

@@ -7,7 +7,7 @@ namespace ols {
 namespace {
 
 constexpr int kBoundsRefused = 3;         // refusals for travel or speed within
-constexpr double kBoundsRefused_s = 5.0;  // this time: the unit's bounds are not those of the start
+constexpr double kBoundsRefused_s = 5.0;  // this time: the unit's bounds have changed
 
 }  // namespace
 
@@ -46,7 +46,7 @@ PtuRequest PtuSteadyState::commands_for(bool emergency, double time_s) {
   now.rate_rad_s = angles_.rate_rad_s();
   now.standing = angles_.standing();
   if (emergency) {
-    return now.standing ? commands_.halt(now, time_s) : commands_.halt_anew(now, time_s);
+    return now.standing ? commands_.halt(now, time_s) : commands_.halt_again(now, time_s);
   }
   if (modes_.needed()) return ModeCheck::commands();
   const auto newest_s = angles_.newest_s();
@@ -96,13 +96,13 @@ void PtuSteadyState::fail(Trouble::Kind kind, std::string reason) {
   if (!trouble_) trouble_ = Trouble{kind, std::move(reason)};
 }
 
-void PtuSteadyState::unit_began_anew() {
-  fail(Trouble::Kind::kBeganAnew, "the unit was switched off and on, or homed");
+void PtuSteadyState::unit_restarted() {
+  fail(Trouble::Kind::kRestarted, "the unit lost power, or homed");
 }
 
 void PtuSteadyState::take(const PtuReply& reply, double time_s, double late_s) {
   if (reply.limit_hits >= kHomingHits) {
-    unit_began_anew();
+    unit_restarted();
   } else if (!polling_.under_way()) {
     ++counters_.garbled;
     error_ = "an unexpected reply";
@@ -152,7 +152,7 @@ void PtuSteadyState::judge_modes(const PollCycle& done) {
       commands_.send_all_again();
       break;
     case ModeCheck::Result::kUnitRestarted:
-      fail(Trouble::Kind::kBeganAnew, "the unit has forgotten its modes");
+      fail(Trouble::Kind::kRestarted, "the unit has forgotten its modes");
       break;
   }
 }
@@ -165,7 +165,7 @@ void PtuSteadyState::judge_refusals(const std::vector<std::string>& refusals, do
     if (what == PtuComplaint::kNotReferenced) fail(Trouble::Kind::kNotReferenced, text);
     const bool bounds = what == PtuComplaint::kPositionLimit || what == PtuComplaint::kSpeedLimit;
     if (!bounds) continue;
-    // A single one may be a command that was changed on its way.
+    // A single one may be a command corrupted on the line.
     if (time_s - bounds_refused_.last_s > kBoundsRefused_s) bounds_refused_.times = 0;
     bounds_refused_.last_s = time_s;
     if (++bounds_refused_.times >= kBoundsRefused) {

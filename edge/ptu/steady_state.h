@@ -1,5 +1,5 @@
-// The phase of PtuDriver in which a unit is ready: polls its position, sends it to its goal,
-// notices faults and corrects those that need no new start. Pure.
+// The phase of PtuDriver in which a unit is ready: polls its position, moves it to its goal,
+// detects faults, and corrects those that need no restart. Pure.
 #pragma once
 
 #include <optional>
@@ -22,15 +22,15 @@ class PtuSteadyState {
   PtuSteadyState(const PtuConfig& config, const PtuFacts& facts, double byte_s, double time_s,
                  PtuCounters& counters);
 
-  // So many limit hits in one reply are those of homing, `!T!T!P!P*`, of which some may be lost.
+  // This many limit hits in one reply come from homing, `!T!T!P!P*`, of which some may be lost.
   static constexpr int kHomingHits = 3;
 
-  // Why the unit cannot be driven any longer without a new start.
+  // Why the unit cannot be driven any longer without a restart.
   struct Trouble {
     enum class Kind {
       kNoReply,
       kNotItself,      // it answers, but not as it should
-      kBeganAnew,      // it was switched off and on
+      kRestarted,      // it lost power, or homed
       kNotReferenced,  // it must be homed
     };
     Kind kind;
@@ -39,14 +39,14 @@ class PtuSteadyState {
 
   // Bytes to write now. Nothing moves in an emergency.
   std::string step(bool emergency, double time_s);
-  // Where the unit shall go from now on; nothing: halt.
+  // The goal of the unit from now on; nothing: halt.
   void set_goal(const std::optional<ServoGoal>& goal) { goal_ = goal; }
-  // `late_s`: the reply's bytes may have been there for so long before they were read.
+  // `late_s`: the reply's bytes may have waited up to this long before they were read.
   void take(const PtuReply& reply, double time_s, double late_s);
   void bytes_came(double time_s) { polling_.bytes_came(time_s); }
   void line_was_garbled() { polling_.line_was_garbled(); }
-  void unit_began_anew();
-  // The rest of what is under way was dropped: its replies are not waited for.
+  void unit_restarted();
+  // The cycle under way was dropped: its replies are not awaited.
   void abandon(double time_s);
 
   const std::optional<Trouble>& trouble() const { return trouble_; }

@@ -38,7 +38,7 @@ std::vector<double> numbers_in(std::string_view text) {
 
 double celsius(double fahrenheit) { return (fahrenheit - 32.0) / 1.8; }
 
-// What electronics can say; `inf` and `nan` are numbers to from_chars.
+// Plausible for electronics; from_chars accepts `inf` and `nan`.
 bool sensible(const std::vector<double>& numbers) {
   for (const double n : numbers) {
     if (!(n >= -100.0 && n <= 400.0)) return false;

@@ -1,4 +1,4 @@
-// What kind of unit answers, and what it says of its supply and temperatures. Pure.
+// The kind of unit, and its report of supply and temperatures. Pure.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@ namespace ols {
 
 enum class PtuModel {
   kUnknown,
-  kClassic,  // PTU-D46 and its kin, firmware 1 and 2
-  kESeries,  // PTU-E46 and its kin, firmware 3
+  kClassic,  // PTU-D46 and similar, firmware 1 and 2
+  kESeries,  // PTU-E46 and similar, firmware 3
 };
 
 // From the answer to V.
 PtuModel ptu_model(std::string_view version_text);
-// "PTU-D46 v2.12.1d1(C14/E)", "PTU-E46 v3.3.0", or what the unit said when it is neither.
+// "PTU-D46 v2.12.1d1(C14/E)", "PTU-E46 v3.3.0", or the answer itself if it is neither.
 std::string ptu_name(std::string_view version_text);
 
 struct PtuEnvironment {

@@ -14,7 +14,7 @@ constexpr double kPairWithin_s = 0.5;     // 22 bytes at 9600 baud take 23 ms
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// "+00.430" to the last digit, or nothing: a lost or doubled character must not pass as a value.
+// "+00.430" to the last digit, or nothing: a lost or repeated character must not pass as a value.
 std::optional<double> angle_rad(std::string_view text) {
   if (text.size() != 7 || (text[0] != '+' && text[0] != '-') || text[3] != '.') return {};
   int thousandths = 0;
@@ -69,7 +69,7 @@ void Dpg2Parser::take_line(double now_s, std::vector<AxisAngles>& out) {
 
 void Dpg2Parser::take_y(double y_rad, double now_s, std::vector<AxisAngles>& out) {
   if (!half_ || now_s - half_->time_s > kPairWithin_s) {
-    // Across a gap they are of different moments.
+    // X and Y this far apart were measured at different times.
     half_.reset();
     ++counters_.unpaired;
     return;

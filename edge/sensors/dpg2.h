@@ -1,7 +1,7 @@
 // The output of a TE (MEAS) DPG2 inclinometer: lines "X=+00.430" and "Y=-00.084", in degrees, with
-// neither checksum nor time. What can be checked is checked: the form to the last digit, that Y
-// follows its X at once, the range. Pure: bytes and their arrival in, angles out; how the bytes are
-// cut into pieces makes no difference to the values.
+// neither checksum nor time. The parser checks the form to the last digit, that Y follows its X at
+// once, and the range. Pure: bytes and their arrival in, angles out; the values do not depend on
+// how the bytes are split.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace ols {
 
-// What the sensor's two axes show.
+// The angles that the sensor reports for its two axes.
 struct AxisAngles {
   double time_s = 0.0;  // arrival of the line that completed the pair
   double x_rad = 0.0;
@@ -22,7 +22,7 @@ struct AxisAngles {
 // Only go up.
 struct Dpg2Counters {
   std::uint64_t readings = 0;
-  std::uint64_t garbled = 0;       // lines that are neither X nor Y nor awaited
+  std::uint64_t garbled = 0;       // lines that are neither X nor Y nor the version
   std::uint64_t unpaired = 0;      // an X without its Y or a Y without its X
   std::uint64_t out_of_range = 0;  // pairs
 };
@@ -31,10 +31,10 @@ class Dpg2Parser {
  public:
   explicit Dpg2Parser(double range_rad) : range_rad_(range_rad) {}
 
-  // Bytes that arrived at `now_s`; the pairs that they complete.
+  // Takes bytes that arrived at `now_s`; returns the pairs that they complete.
   std::vector<AxisAngles> receive(std::string_view bytes, double now_s);
 
-  // The next line of text that is no reading is the answer to V.
+  // The next line that is not a reading is the answer to V.
   void expect_version() { version_awaited_ = true; }
   const std::string& version() const { return version_; }
 

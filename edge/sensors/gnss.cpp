@@ -1,17 +1,14 @@
 #include "edge/sensors/gnss.h"
 
-#include <algorithm>
-#include <chrono>
-#include <condition_variable>
 #include <cstdio>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <stop_token>
-#include <thread>
 #include <utility>
 
 #include "base/clocks.h"
+#include "edge/device_thread.h"
 #include "edge/sensors/gnss_from_gpsd.h"
 #include "edge/sensors/gpsd_link.h"
 
@@ -19,13 +16,13 @@ namespace ols {
 
 namespace {
 
-constexpr double kRead_s = 0.1;        // so that an end is noticed
+constexpr double kRead_s = 0.1;        // between two looks at the stop request
 constexpr double kFirstPause_s = 0.5;  // before the next connection; doubles
-constexpr double kLongestPause_s = 10.0;
+constexpr double kMaxPause_s = 10.0;
 constexpr double kReconnectAfterStale = 4.0;  // times stale_s
-constexpr std::size_t kMostReadings = 1000;   // kept for a caller that does not come
+constexpr std::size_t kMaxReadings = 1000;    // queued for a caller that does not take them
 
-std::string in_words(const GnssReading& reading) {
+std::string format(const GnssReading& reading) {
   char text[96];
   if (reading.fix >= GnssFix::k3D) {
     std::snprintf(text, sizeof text, "%s, %d satellites, %.3f m", to_string(reading.fix),
@@ -37,180 +34,131 @@ std::string in_words(const GnssReading& reading) {
   return text;
 }
 
-std::string in_words(GpsdLink::Silence silence) {
+std::string format(GpsdLink::Silence silence) {
   switch (silence) {
     case GpsdLink::Silence::kNoReceiver:
       return "gpsd has no receiver";
     case GpsdLink::Silence::kDeviceMissing:
-      return "the receiver's device is not there";
+      return "the receiver's device is missing";
     case GpsdLink::Silence::kReceiverSilent:
       break;
   }
-  return "the receiver says nothing";
+  return "the receiver sends nothing";
 }
 
 }  // namespace
 
 struct Gnss::Impl {
-  explicit Impl(const GnssConfig& c) : config(c) {}
+  explicit Impl(const GnssConfig& c)
+      : config(c), thread({"gnss", "is being connected", kFirstPause_s, kMaxPause_s}) {}
 
   void run(const std::stop_token& stop) {
-    double pause_s = kFirstPause_s;
-    while (!stop.stop_requested()) {
-      try {
-        GpsdLink link(config.host, config.port);
-        note_connected();
-        serve(link, stop, pause_s);
-      } catch (const std::exception& failure) {
-        note_failure(failure.what());
-        std::unique_lock lock(mutex);
-        wake.wait_for(lock, stop, std::chrono::duration<double>(pause_s), [] { return false; });
-        pause_s = std::min(2.0 * pause_s, kLongestPause_s);
-      }
-    }
+    GpsdLink link(config.host, config.port);
+    set_silence(GpsdLink::Silence::kReceiverSilent);
+    thread.opened();
+    serve(link, stop);
   }
 
-  // Until gpsd has gone, or is to open its receiver anew, which throws, or the thread is to stop.
-  void serve(GpsdLink& link, const std::stop_token& stop, double& pause_s) {
+  // Returns when the thread must stop. Throws when gpsd has gone, or must open its receiver again.
+  void serve(GpsdLink& link, const std::stop_token& stop) {
     GpsdEpochs epochs(config.error_sigmas);
-    double heard_s = clock_monotonic_s();
+    double last_reading_s = clock_monotonic_s();
     bool was_missing = false;
     while (!stop.stop_requested()) {
-      const bool came = link.read(kRead_s);
+      const bool received = link.read(kRead_s);
       const double now_s = clock_monotonic_s();
-      if (came) epochs.take(link.data(), now_s);
-      const auto fresh = epochs.take_readings(now_s);
-      if (!fresh.empty()) {
-        heard_s = now_s;
-        pause_s = kFirstPause_s;
+      if (received) epochs.take(link.data(), now_s);
+      const auto readings_now = epochs.take_readings(now_s);
+      if (!readings_now.empty()) {
+        last_reading_s = now_s;
+        thread.works();
       }
       const GpsdLink::Silence cause = link.silence();
-      take(fresh, cause, now_s);
-      // gpsd opens a receiver that had gone when a client comes; but a client that comes while it
-      // is away makes gpsd forget it for good (3.22).
+      add(readings_now, cause, now_s);
+      // gpsd opens a receiver that returns when a client connects; but a client that connects while
+      // the receiver is missing makes gpsd 3.22 forget it permanently.
       const bool missing = cause == GpsdLink::Silence::kDeviceMissing;
       was_missing = was_missing || missing;
-      const double patience_s = was_missing ? 0.0 : kReconnectAfterStale * config.stale_s;
-      if (!missing && now_s - heard_s > std::max(patience_s, config.stale_s)) {
-        throw std::runtime_error(in_words(cause));
-      }
+      const double patience_s =
+          was_missing ? config.stale_s : kReconnectAfterStale * config.stale_s;
+      if (!missing && now_s - last_reading_s > patience_s) throw std::runtime_error(format(cause));
     }
   }
 
-  void take(const std::vector<GnssReading>& fresh, GpsdLink::Silence cause, double now_s) {
+  void set_silence(GpsdLink::Silence cause) {
     const std::lock_guard lock(mutex);
     silence = cause;
-    for (const GnssReading& reading : fresh) {
+  }
+
+  void add(const std::vector<GnssReading>& readings_now, GpsdLink::Silence cause, double now_s) {
+    const std::lock_guard lock(mutex);
+    silence = cause;
+    for (const GnssReading& reading : readings_now) {
       ++reports;
-      if (reading.fix >= config.least_fix) ++fixes;
       last = reading;
-      if (reading.fix >= config.least_fix) last_fix_s = reading.time_s;
-      if (readings.size() == kMostReadings) readings.erase(readings.begin());
+      if (is_fix(reading)) {
+        ++fixes;
+        last_fix_s = reading.time_s;
+      }
+      if (readings.size() == kMaxReadings) readings.erase(readings.begin());
       readings.push_back(reading);
     }
-    note_new_troubles(now_s);
+    thread.set_fault(fault(now_s));
   }
 
-  // A trouble is counted when it begins.
-  void note_new_troubles(double now_s) {
-    const std::string now = trouble_in_words(now_s);
-    if (!now.empty() && trouble.empty()) {
-      ++errors;
-      last_error = now;
-    }
-    trouble = now;
-  }
+  bool is_fix(const GnssReading& reading) const { return reading.fix >= config.least_fix; }
 
-  std::string trouble_in_words(double now_s) const {
-    const double silent_s = now_s - (last ? last->time_s : first_connected_s);
+  std::string fault(double now_s) const {
+    const double silent_s = now_s - (last ? last->time_s : thread.link().first_opened_s);
     if (silent_s > config.stale_s) {
-      return in_words(silence) + " for " + std::to_string(static_cast<int>(silent_s)) + " s";
+      return format(silence) + " for " + std::to_string(static_cast<int>(silent_s)) + " s";
     }
-    if (last && last_fix_s && last->fix < config.least_fix) return in_words(*last);
+    if (last && last_fix_s && !is_fix(*last)) return format(*last);
     return {};
-  }
-
-  void note_connected() {
-    const std::lock_guard lock(mutex);
-    if (ever_connected) {
-      ++reconnects;
-    } else {
-      first_connected_s = clock_monotonic_s();
-    }
-    connected = ever_connected = true;
-    silence = GpsdLink::Silence::kReceiverSilent;
-  }
-
-  void note_failure(const std::string& what) {
-    const std::lock_guard lock(mutex);
-    connected = false;
-    ++errors;
-    last_error = link_error = what;
   }
 
   DeviceReport report() const {
     const std::lock_guard lock(mutex);
-    DeviceReport r;
-    r.name = "gnss";
+    DeviceReport r = thread.report();
     describe(r);
-    r.last_error = last_error;
-    r.errors = errors;
     r.last_good_s = last_fix_s;
     if (last) {
       r.readings["gnss_satellites"] = last->satellites_used;
       if (last->fix >= GnssFix::k3D) r.readings["gnss_sd_m"] = last->sd_enu_m.maxCoeff();
     }
-    r.counters = {
-        {"gnss_reports", reports}, {"gnss_fixes", fixes}, {"gnss_reconnects", reconnects}};
+    const std::uint64_t openings = thread.link().openings;
+    r.counters = {{"gnss_reports", reports},
+                  {"gnss_fixes", fixes},
+                  {"gnss_reconnects", openings > 0 ? openings - 1 : 0}};
     return r;
   }
 
   void describe(DeviceReport& r) const {
-    if (config.host.empty()) {
-      r.text = "not configured";
-      return;
-    }
-    if (!connected) {
-      r.state = errors > 0 ? DeviceState::kAbsent : DeviceState::kStarting;
-      r.text = errors > 0 ? link_error : "is being connected";
-      if (errors > 0) r.alarms.push_back("gnss: " + link_error);
-      return;
-    }
-    if (!trouble.empty()) {
-      const bool is_there = silence == GpsdLink::Silence::kReceiverSilent;
-      r.state = is_there ? DeviceState::kFault : DeviceState::kAbsent;
-      r.text = trouble;
-      if (!last) r.alarms.push_back("gnss: " + trouble);
-    } else if (!last || last->fix < config.least_fix) {
-      r.state = DeviceState::kStarting;
-      r.text = last ? in_words(*last) : "waiting for the receiver";
-    } else {
-      r.state = DeviceState::kOk;
-      r.text = in_words(*last);
+    if (r.state == DeviceState::kFault) {
+      if (silence != GpsdLink::Silence::kReceiverSilent) r.state = DeviceState::kAbsent;
+      if (!last) r.alarms.push_back("gnss: " + r.text);
+    } else if (r.state == DeviceState::kOk) {
+      if (!last || !is_fix(*last)) r.state = DeviceState::kStarting;
+      r.text = last ? format(*last) : "waiting for the receiver";
     }
   }
 
   const GnssConfig config;
-  mutable std::mutex mutex;  // of everything below
-  std::condition_variable_any wake;
+  mutable std::mutex mutex;  // of everything below but the thread
   std::vector<GnssReading> readings;
   std::optional<GnssReading> last;
   std::optional<double> last_fix_s;
-  bool connected = false, ever_connected = false;
-  GpsdLink::Silence silence = GpsdLink::Silence::kReceiverSilent;  // why, when there is silence
-  double first_connected_s = 0.0;
-  std::uint64_t reports = 0, fixes = 0, reconnects = 0, errors = 0;
-  std::string link_error, last_error;
-  std::string trouble;  // what is wrong now, as the thread last saw it
-  std::jthread thread;  // last: it uses the rest
+  GpsdLink::Silence silence = GpsdLink::Silence::kReceiverSilent;  // the cause of a silence
+  std::uint64_t reports = 0, fixes = 0;
+  DeviceThread thread;  // last: it uses the rest
 };
 
 Gnss::Gnss(const GnssConfig& config) : impl_(std::make_unique<Impl>(config)) {
   if (config.host.empty()) return;
-  impl_->thread = std::jthread([this](const std::stop_token& stop) { impl_->run(stop); });
+  impl_->thread.start([impl = impl_.get()](const std::stop_token& stop) { impl->run(stop); });
 }
 
-Gnss::~Gnss() = default;  // the jthread asks to stop and joins
+Gnss::~Gnss() = default;
 
 std::vector<GnssReading> Gnss::take_readings() {
   const std::lock_guard lock(impl_->mutex);

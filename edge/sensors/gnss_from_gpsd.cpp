@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kAwaitGst_s = 0.3;
 
-// By gpsd's numbers: 3 is RTK fixed and 4 RTK float, the other way round than in NMEA's GGA.
+// By gpsd's numbers: 3 is RTK fixed and 4 RTK float, the reverse of NMEA's GGA.
 GnssFix fix_of_status(int status) {
   switch (status) {
     case STATUS_DGPS_FIX:
@@ -26,7 +26,7 @@ GnssFix fix_of_status(int status) {
     case STATUS_TIME:
     case STATUS_SIM:
       return GnssFix::kNone;
-    default:  // plain, or gpsd does not say
+    default:  // plain, or not stated by gpsd
       return GnssFix::k3D;
   }
 }
@@ -43,7 +43,7 @@ bool all_sd(const Eigen::Vector3d& sd_m) {
   return is_sd(sd_m.x()) && is_sd(sd_m.y()) && is_sd(sd_m.z());
 }
 
-// gpsd's own errors; zero where there are none.
+// gpsd's own errors; zero if missing.
 Eigen::Vector3d gpsd_sd_enu_m(const gps_fix_t& fix, double error_sigmas) {
   Eigen::Vector3d e(fix.epx, fix.epy, fix.epv);
   if (!is_sd(e.x()) || !is_sd(e.y())) e.x() = e.y() = fix.eph / std::numbers::sqrt2;
@@ -88,7 +88,7 @@ void GpsdEpochs::take(const gps_data_t& data, double now_s) {
 }
 
 void GpsdEpochs::take_fix(const gps_data_t& data, double now_s) {
-  // gpsd may report one epoch in several parts, the later ones with more in them.
+  // gpsd may report one epoch in several parts; later parts are more complete.
   if (held_ && !same_epoch(held_->fix.time, data.fix.time)) release();
   held_ = Held{data.fix, data.satellites_used, now_s};
   if (gst_ && same_epoch(gst_->epoch, data.fix.time)) release();

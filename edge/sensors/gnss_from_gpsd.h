@@ -1,10 +1,10 @@
-// What gpsd says, as readings of a GNSS receiver. Pure.
+// Converts the messages of gpsd to readings of a GNSS receiver. Pure.
 //
-// Errors: gpsd computes its own (eph, epx, epy, epv) from the geometry of the satellites and knows
-// nothing of RTK: 13 m for a fix that is good to 1 cm. Its manual says of their confidence that it
-// is "guessed to be 95 %, may also be 50 %, one sigma, or two sigma"; what a receiver states itself
-// is passed on as it is. The sentence GST has the receiver's own 1-sigma of latitude, longitude and
-// altitude; where there is one of the same epoch, it is used.
+// Errors: gpsd computes its own (eph, epx, epy, epv) from the geometry of the satellites and does
+// not consider RTK: 13 m for a fix that is accurate to 1 cm. Its manual gives their confidence as
+// "guessed to be 95 %, may also be 50 %, one sigma, or two sigma". The sentence GST has the
+// receiver's own 1-sigma of latitude, longitude and altitude; it is used if it is of the same
+// epoch.
 #pragma once
 
 #include <gps.h>
@@ -22,19 +22,19 @@ struct GstSigmas {
   Eigen::Vector3d sd_enu_m = Eigen::Vector3d::Zero();
 };
 
-// The fix in `data` with the errors of `gst` if it is of the same epoch, else with gpsd's, which
-// are taken as `error_sigmas` sigmas. What is missing, not finite or out of range lowers the fix;
-// dead reckoning, a position keyed in and a receiver in simulator mode are no fix.
+// The fix in `data` with the errors of `gst` if it is of the same epoch, else with gpsd's errors,
+// which are taken as `error_sigmas` sigmas. A value that is missing, not finite or out of range
+// lowers the fix. Dead reckoning, a manually entered position and simulator mode count as no fix.
 GnssReading gnss_from_gpsd(const gps_data_t& data, const std::optional<GstSigmas>& gst,
                            double time_s, double error_sigmas = 1.0);
 
-// Joins gpsd's messages TPV (fix) and GST (errors), which come in either order. A fix whose GST has
-// not come when the next fix does, or after a short time, goes without.
+// Joins the messages TPV (fix) and GST (errors), which arrive in either order. A fix is output
+// without GST when the next fix arrives first, or after a short time.
 class GpsdEpochs {
  public:
   explicit GpsdEpochs(double error_sigmas = 1.0) : error_sigmas_(error_sigmas) {}
 
-  // One message; data.set tells which (and nothing of the messages before it).
+  // One message; data.set says which, and must not include earlier messages.
   void take(const gps_data_t& data, double now_s);
   // Readings that are complete at this time.
   std::vector<GnssReading> take_readings(double now_s);

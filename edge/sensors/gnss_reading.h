@@ -1,4 +1,4 @@
-// What a GNSS receiver knows, as far as a station needs it. Pure.
+// A reading of a GNSS receiver, with the fields that a station needs. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace ols {
 
-// Ordered by worth. (gpsd: 3 is RTK fixed, 4 RTK float; NMEA's GGA: 4 is fixed, 5 float.)
+// Worst first. (gpsd: 3 is RTK fixed, 4 RTK float; NMEA's GGA: 4 is fixed, 5 float.)
 enum class GnssFix { kNone, k2D, k3D, kDifferential, kRtkFloat, kRtkFixed };
 const char* to_string(GnssFix fix);
 
@@ -16,7 +16,7 @@ struct GnssReading {
   GnssFix fix = GnssFix::kNone;
   // Of the antenna; only with k3D and better. Height above the ellipsoid.
   Geodetic antenna;
-  Eigen::Vector3d sd_enu_m = Eigen::Vector3d::Zero();  // 1-sigma as the receiver has it
+  Eigen::Vector3d sd_enu_m = Eigen::Vector3d::Zero();  // 1-sigma as the receiver states it
   int satellites_used = 0;
 };
 

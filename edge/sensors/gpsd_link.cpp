@@ -26,7 +26,7 @@ GpsdLink::GpsdLink(const std::string& host, const std::string& port)
   }
   if (gps_stream(data_.get(), WATCH_ENABLE | WATCH_JSON, nullptr) < 0) {
     gps_close(data_.get());
-    throw std::runtime_error("gpsd at " + where + " takes no request");
+    throw std::runtime_error("gpsd at " + where + " refuses the request");
   }
 }
 
@@ -38,9 +38,9 @@ bool GpsdLink::read(double timeout_s) {
   data_->set = 0;  // libgps adds to it
   errno = 0;
   if (gps_read(data_.get(), nullptr, 0) < 0) {
-    // A message that libgps does not understand is not the end of the connection.
+    // A message that libgps cannot parse does not end the connection.
     if ((data_->set & PACKET_SET) != 0) return false;
-    throw std::runtime_error("gpsd has gone");
+    throw std::runtime_error("gpsd has closed the connection");
   }
   if ((data_->set & PACKET_SET) == 0) return false;
   note_devices();

@@ -1,4 +1,4 @@
-// One connection to gpsd: libgps with its C structure kept in order.
+// One connection to gpsd through libgps, closed by the destructor.
 #pragma once
 
 #include <gps.h>
@@ -10,18 +10,18 @@ namespace ols {
 
 class GpsdLink {
  public:
-  // Connects and asks for reports. Throws std::runtime_error in words.
+  // Connects and asks for reports. Throws std::runtime_error.
   GpsdLink(const std::string& host, const std::string& port);
   ~GpsdLink();
   GpsdLink(const GpsdLink&) = delete;
   GpsdLink& operator=(const GpsdLink&) = delete;
 
-  // The next message, after waiting for it at most `timeout_s`; data().set tells which came. False:
-  // none came. Throws std::runtime_error when gpsd has gone.
+  // Waits at most `timeout_s` for the next message; data().set says which it is. False: timeout.
+  // Throws std::runtime_error when gpsd has closed the connection.
   bool read(double timeout_s);
   const gps_data_t& data() const { return *data_; }
 
-  // Why nothing comes, as far as gpsd has said and can be seen from here.
+  // Why there are no reports, from what gpsd stated and whether the device file exists.
   enum class Silence { kNoReceiver, kDeviceMissing, kReceiverSilent };
   Silence silence() const;
 

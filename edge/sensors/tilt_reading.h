@@ -1,4 +1,4 @@
-// What an inclinometer measures. Pure.
+// A measurement of the inclinometer. Pure.
 #pragma once
 
 namespace ols {

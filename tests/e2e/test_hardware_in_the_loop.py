@@ -16,7 +16,7 @@ STATION = "alfa"
 DEADLINE_S = 40.0
 HOMING_S = 100.0
 OK = ols_msg.station_status_t.DEVICE_OK
-GEARS = "does not know where it is"
+GEARS = "ptu: no reference"
 
 
 def scenario_with_a_real_unit(device):
@@ -174,7 +174,7 @@ def test_a_doubt_outlives_the_station_until_a_person_vouches(loop):
     assert ctl("home") == 0
     wait_for_alarm(loop, "homing")
     assert ctl("stop") == 0
-    wait_for_alarm(loop, "did not come to an end")
+    wait_for_alarm(loop, "homing was interrupted")
     restart(loop)
     # While it sweeps on it answers nobody; then it could be driven, but is not.
     wait_for_alarm(loop, "halted, its reference was in doubt already before this start")

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "edge/sensors/gnss_from_gpsd.h"
-#include "edge/sensors/pose_keeper.h"
+#include "edge/sensors/pose_estimator.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace {
@@ -55,14 +55,14 @@ void check(const ols::StationPose& pose) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   ols::fuzz::Input input(data, size);
   ols::GpsdEpochs epochs;
-  ols::PoseKeeper keeper({});
+  ols::PoseEstimator estimator({});
   double now_s = 1.0;
   for (long second = 1'700'000'000; !input.empty(); ++second) {
     now_s += 0.6;
     epochs.take(message(input, second), now_s);
-    for (const auto& reading : epochs.take_readings(now_s)) keeper.add(reading);
-    check(keeper.pose(now_s));
-    static_cast<void>(keeper.alarms(now_s));
+    for (const auto& reading : epochs.take_readings(now_s)) estimator.add(reading);
+    check(estimator.pose(now_s));
+    static_cast<void>(estimator.alarms(now_s));
   }
   return 0;
 }

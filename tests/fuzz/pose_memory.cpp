@@ -1,12 +1,12 @@
 // The file of the pose kept over a restart: refused, or a pose that is one and comes back as it is.
 #include <cmath>
 
-#include "edge/sensors/remembered_pose.h"
+#include "edge/sensors/persisted_pose.h"
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto read = ols::remembered_pose_from(ols::fuzz::text(data, size));
-  const auto* pose = std::get_if<ols::RememberedPose>(&read);
+  const auto read = ols::persisted_pose_from(ols::fuzz::text(data, size));
+  const auto* pose = std::get_if<ols::PersistedPose>(&read);
   if (pose == nullptr) {
     ols::fuzz::require(!std::get<std::string>(read).empty(), "a refusal says why");
     return 0;

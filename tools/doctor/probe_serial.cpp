@@ -80,8 +80,8 @@ std::optional<double> ask_number(Questions& unit, PtuAxis axis, PtuQuantity quan
 
 void ask_axis(Questions& unit, PtuAxis axis, PtuAxisAnswers& facts, PtuAnswers& answers) {
   facts.resolution_arcsec = ask_number(unit, axis, PtuQuantity::kResolution, answers);
-  facts.least = ask_number(unit, axis, PtuQuantity::kLeastPosition, answers);
-  facts.greatest = ask_number(unit, axis, PtuQuantity::kGreatestPosition, answers);
+  facts.least = ask_number(unit, axis, PtuQuantity::kMinPosition, answers);
+  facts.greatest = ask_number(unit, axis, PtuQuantity::kMaxPosition, answers);
 }
 
 // Whether a unit answers at this rate.

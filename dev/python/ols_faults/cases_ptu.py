@@ -204,7 +204,7 @@ def power_cycle(session: Session, evidence: Evidence, number: int, homes: bool) 
 
 def judge_reported(evidence: Evidence, outcome: Outcome) -> None:
     station, at_us = evidence["station"], evidence["at_us"]
-    words = "ptu:", "switched off and on"
+    words = "ptu:", "lost power"
     judge_alarm(evidence, outcome, "reported", station, at_us, REPORTED_S, *words)
 
 

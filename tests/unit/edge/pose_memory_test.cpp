@@ -24,7 +24,7 @@ class PoseMemoryTest : public testing::Test {
   }
   ~PoseMemoryTest() override { std::filesystem::remove_all(folder); }
 
-  bool holds(const RememberedPose& wanted) {
+  bool holds(const PersistedPose& wanted) {
     return eventually([&] {
       std::ifstream stream(file);
       const std::string text{std::istreambuf_iterator<char>(stream), {}};
@@ -33,7 +33,7 @@ class PoseMemoryTest : public testing::Test {
   }
 
   std::string folder, file;
-  RememberedPose pose;
+  PersistedPose pose;
 };
 
 TEST_F(PoseMemoryTest, WhatIsKeptIsFoundAgain) {
@@ -54,10 +54,10 @@ TEST_F(PoseMemoryTest, WhatIsKeptIsFoundAgain) {
 TEST_F(PoseMemoryTest, APartThatIsMissingStaysAsItWasFound) {
   std::ofstream(file) << to_text(pose);
   PoseMemory memory(file);
-  RememberedPose tilt_only;
+  PersistedPose tilt_only;
   tilt_only.tilt = {{0.1, 0.1}, 1e-3, 1'700'000'100'000'000};
   memory.keep(tilt_only);
-  RememberedPose both = pose;
+  PersistedPose both = pose;
   both.tilt = tilt_only.tilt;
   EXPECT_TRUE(holds(both));
   memory.keep({});
@@ -69,7 +69,7 @@ TEST_F(PoseMemoryTest, ADamagedFileIsRefusedUntilItIsWrittenAnew) {
   PoseMemory memory(file);
   EXPECT_FALSE(memory.found().position);
   EXPECT_EQ(memory.trouble(),
-            "the kept one is refused, " + file + ": is damaged: its sum is wrong");
+            "the kept one is refused, " + file + ": is damaged: wrong checksum");
   memory.keep(pose);
   EXPECT_TRUE(eventually([&] { return memory.trouble().empty(); }));
   EXPECT_TRUE(holds(pose));

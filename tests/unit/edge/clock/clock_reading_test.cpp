@@ -19,7 +19,7 @@ KernelClock kernel_at_work() {
   kernel.synchronised = kernel.loop = true;
   kernel.frequency = 1e-5;
   kernel.estimated_error_s = 2e-4;
-  kernel.greatest_error_s = 0.01;
+  kernel.max_error_s = 0.01;
   return kernel;
 }
 
@@ -50,7 +50,7 @@ TEST(ClockReading, EachTraceOfAServiceTellsThatItWasThere) {
   frequency.frequency = -3e-6;
   loop.loop = true;
   error.estimated_error_s = 0.1;
-  greatest.greatest_error_s = 1.0;
+  greatest.max_error_s = 1.0;
   for (const KernelClock& kernel : {frequency, loop, error, greatest}) {
     const ClockReading reading = make_clock_reading(kernel, std::nullopt, false);
     EXPECT_TRUE(reading.service);

@@ -258,7 +258,7 @@ void start_from_velocity_mode(const StartCase& c) {
 }
 
 TEST(PtuDriver, DrivesNoUnitThatMayTakeSpeedsForVelocities) {
-  constexpr const char* kReason = "may take speeds for velocities";
+  constexpr const char* kReason = "may be in velocity mode";
   for (const StartCase& c :
        {StartCase{"CI", "! Illegal Command Entered\r\n", kReason},
         StartCase{"CI", "*\r\n", kReason}, StartCase{"C", "* p\r\n", kReason},

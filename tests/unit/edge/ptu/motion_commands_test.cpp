@@ -36,7 +36,7 @@ TEST(MotionCommands, StaysWithinTheNarrowerOfConfigurationAndUnit) {
   config.limits.pan_max_rad = 0.5;
   EXPECT_EQ(furthest(config, 2.0), static_cast<int>(0.5 / d46_facts().pan.resolution_rad));
   config.limits.pan_max_rad = 10.0;
-  EXPECT_EQ(furthest(config, 9.0), d46_facts().pan.greatest);
+  EXPECT_EQ(furthest(config, 9.0), d46_facts().pan.max);
 }
 
 TEST(MotionCommands, SendsWhatHasChangedAndEverythingOnceASecond) {
@@ -66,7 +66,7 @@ TEST(MotionCommands, RepeatsTheHaltUntilTheUnitStands) {
   EXPECT_EQ(commands.halt({}, 1.1).bytes(), "");
   EXPECT_EQ(commands.halt(standing(), 9.0).bytes(), "");
   EXPECT_EQ(commands.halt({}, 9.0).bytes(), "H ");  // it ought to have stopped by now
-  EXPECT_EQ(commands.halt_anew({}, 9.01).bytes(), "H ");
+  EXPECT_EQ(commands.halt_again({}, 9.01).bytes(), "H ");
 }
 
 TEST(MotionCommands, LowersTheSpeedOfAUnitThatBrakesTooSlowly) {

@@ -54,9 +54,9 @@ TEST(PtuReport, SaysWhatIsWrong) {
   EXPECT_THAT(alarms([](PtuStatus& s) {
                 s.state = PtuState::kFault;
                 s.doubt = PtuDoubtCause::kPowerCycle;
-                s.last_error = words(*s.doubt);
+                s.last_error = describe(*s.doubt);
               }),
-              ElementsAre(HasSubstr("switched off and on")));
+              ElementsAre(HasSubstr("lost power")));
   EXPECT_THAT(alarms([](PtuStatus& s) {
                 s.lowered_speed = PtuLoweredSpeed{0.174533, 0.116355};
               }),

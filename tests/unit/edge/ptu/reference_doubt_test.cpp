@@ -33,7 +33,7 @@ TEST(PtuReferenceDoubt, EachCauseSaysWhatToDo) {
   for (const PtuDoubtCause cause :
        {PtuDoubtCause::kPowerCycle, PtuDoubtCause::kLimitHit, PtuDoubtCause::kHomingInterrupted,
         PtuDoubtCause::kBeforeStart}) {
-    EXPECT_NE(std::string(words(cause)).find("home it"), std::string::npos);
+    EXPECT_NE(std::string(describe(cause)).find("home it"), std::string::npos);
   }
 }
 

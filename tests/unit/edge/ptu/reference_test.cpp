@@ -54,7 +54,7 @@ TEST_F(Reference, NoAngleAndNoMotionAfterAPowerCycleWithoutHoming) {
   EXPECT_TRUE(loop_->driver.not_referenced());
   loop_->driver.reference_ok();
   EXPECT_NE(loop_->driver.doubt(), std::nullopt);
-  EXPECT_NE(loop_->driver.last_error().find("switched off and on"), std::string::npos);
+  EXPECT_NE(loop_->driver.last_error().find("lost power"), std::string::npos);
   EXPECT_EQ(samples_, 0);
   EXPECT_NEAR(pan_deg(), 20.0, 0.01);
 }

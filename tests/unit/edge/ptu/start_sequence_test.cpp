@@ -49,8 +49,8 @@ TEST(PtuStartSequence, EndsWithWhatTheUnitStates) {
   ASSERT_TRUE(d.sequence.done());
   const PtuFacts& facts = d.sequence.facts();
   EXPECT_NEAR(facts.pan.resolution_rad, radians(11.5714 / 3600.0), 1e-15);
-  EXPECT_EQ(facts.pan.least, -49467);
-  EXPECT_EQ(facts.tilt.greatest, 9644);
+  EXPECT_EQ(facts.pan.min, -49467);
+  EXPECT_EQ(facts.tilt.max, 9644);
   EXPECT_EQ(facts.tilt.upper_speed, 18700);
   EXPECT_EQ(facts.pan.acceleration, 17825);
   EXPECT_EQ(facts.firmware, "v2.14.0");
@@ -65,7 +65,7 @@ TEST(PtuStartSequence, AsksUntilTwoAnswersInARowAgree) {
   }
   EXPECT_TRUE(d.sequence.take(reply("49467")));
   EXPECT_NE(d.asked(), "PX ");
-  EXPECT_EQ(d.sequence.facts().pan.greatest, 49467);
+  EXPECT_EQ(d.sequence.facts().pan.max, 49467);
 }
 
 TEST(PtuStartSequence, GivesUpWhenAnswersNeverAgree) {

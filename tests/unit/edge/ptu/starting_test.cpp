@@ -92,7 +92,7 @@ TEST_F(Starting, SaysWhichReplyCannotBeUsed) {
   const PtuReply refused = ols::refusal("Illegal");
   EXPECT_FALSE(starting_.take(refused));
   EXPECT_EQ(starting_.refusal(refused),
-            "the unit may take speeds for velocities: unusable reply to CI: ! Illegal");
+            "the unit may be in velocity mode: unusable reply to CI: ! Illegal");
   EXPECT_EQ(counters_.errors, 1u);
 }
 

@@ -98,7 +98,7 @@ TEST_F(SteadyState, MovesNothingWhileTheUnitMayTakeSpeedsForVelocities) {
   goal = PanTilt{-0.2, 0.1};  // another one: there would be something new to send
   EXPECT_FALSE(moves(run(1.0)));
   ASSERT_TRUE(unit_.trouble());
-  EXPECT_EQ(unit_.trouble()->kind, Kind::kBeganAnew);
+  EXPECT_EQ(unit_.trouble()->kind, Kind::kRestarted);
 }
 
 TEST_F(SteadyState, GivesUpASilentUnit) {
@@ -152,7 +152,7 @@ TEST_F(SteadyState, NoticesAUnitThatHomes) {
   homed.limit_hits = PtuSteadyState::kHomingHits;
   unit_.take(homed, time_s_, 0.0);
   ASSERT_TRUE(unit_.trouble());
-  EXPECT_EQ(unit_.trouble()->kind, Kind::kBeganAnew);
+  EXPECT_EQ(unit_.trouble()->kind, Kind::kRestarted);
 }
 
 TEST_F(SteadyState, CountsAReplyThatItDidNotExpect) {

@@ -99,7 +99,7 @@ TEST_F(GnssOnGpsd, ALostFixAndASilentReceiverAreToldAndHeal) {
   faults = {};
   faults.silent = true;
   line_.set_faults(faults);
-  ASSERT_TRUE(reports(gnss, DeviceState::kFault, "the receiver says nothing"));
+  ASSERT_TRUE(reports(gnss, DeviceState::kFault, "the receiver sends nothing"));
   line_.set_faults({});
   ASSERT_TRUE(reports(gnss, DeviceState::kOk, "RTK fixed"));
 }
@@ -164,7 +164,7 @@ TEST_F(GnssOnGpsd, AReceiverThatIsPulledOutIsToldAndGpsdIsLeftAlone) {
   ASSERT_TRUE(reports(gnss, DeviceState::kOk, "RTK fixed"));
   line.reset();
   // Longer than it would wait for a receiver that is there and says nothing.
-  ASSERT_TRUE(reports(gnss, DeviceState::kAbsent, "the receiver's device is not there for 7 s"));
+  ASSERT_TRUE(reports(gnss, DeviceState::kAbsent, "the receiver's device is missing for 7 s"));
   EXPECT_EQ(gnss.report().counters.at("gnss_reconnects"), 0U);
 }
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "base/config_section.h"
-#include "edge/sensors/pose_keeper_config.h"
+#include "edge/sensors/pose_estimator_config.h"
 #include "geometry/angles.h"
 
 namespace ols {
@@ -70,16 +70,16 @@ accept_move_s = 900.0
   EXPECT_EQ(g.host, "127.0.0.1");
   EXPECT_EQ(g.port, "2950");
   EXPECT_EQ(g.error_sigmas, 2.0);
-  PoseKeeper::Config keeper;
-  set_sensors(keeper, i, g);
-  EXPECT_EQ(keeper.stuck_s, 30.0);
-  EXPECT_EQ(keeper.inclinometer_stale_s, 2.5);
-  EXPECT_NEAR(keeper.inclinometer_sd_rad, radians(0.02), 1e-15);
-  EXPECT_EQ(keeper.gnss_stale_s, 4.0);
-  EXPECT_EQ(keeper.least_fix, GnssFix::kRtkFloat);
-  EXPECT_EQ(keeper.ground_to_antenna_enu_m, Eigen::Vector3d(0.1, -0.2, 1.8));
-  EXPECT_EQ(keeper.gnss_sd_floor_m, 0.03);
-  EXPECT_EQ(keeper.accept_move_s, 900.0);
+  PoseEstimator::Config estimator;
+  set_sensors(estimator, i, g);
+  EXPECT_EQ(estimator.stuck_s, 30.0);
+  EXPECT_EQ(estimator.inclinometer_stale_s, 2.5);
+  EXPECT_NEAR(estimator.inclinometer_sd_rad, radians(0.02), 1e-15);
+  EXPECT_EQ(estimator.gnss_stale_s, 4.0);
+  EXPECT_EQ(estimator.least_fix, GnssFix::kRtkFloat);
+  EXPECT_EQ(estimator.ground_to_antenna_enu_m, Eigen::Vector3d(0.1, -0.2, 1.8));
+  EXPECT_EQ(estimator.gnss_sd_floor_m, 0.03);
+  EXPECT_EQ(estimator.accept_move_s, 900.0);
 }
 
 TEST(SensorsConfig, ErrorsNameFileLineAndKey) {

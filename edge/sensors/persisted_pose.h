@@ -1,9 +1,9 @@
-// The sensors' pose as it is kept over a restart, and its text in a file. Pure.
+// The pose from the sensors as it is persisted over a restart, and its text in a file. Pure.
 //
 //   ols-pose 1
 //   position LATITUDE_deg LONGITUDE_deg HEIGHT_m SD_EAST_m SD_NORTH_m SD_UP_m UTIME_us
 //   tilt X_deg Y_deg SD_deg UTIME_us
-//   sum HEX                               (FNV-1a, 64 bits, of all before this line)
+//   sum HEX                               (FNV-1a, 64 bits, of everything before this line)
 //
 // Position and tilt may each be missing.
 #pragma once
@@ -19,11 +19,11 @@
 
 namespace ols {
 
-struct RememberedPose {
+struct PersistedPose {
   struct Position {
     Geodetic ground;
     Eigen::Vector3d sd_enu_m = Eigen::Vector3d::Zero();
-    std::int64_t utime_us = 0;  // when it was so
+    std::int64_t utime_us = 0;  // when it was measured
   };
   struct Tilt {
     Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();  // x, y
@@ -34,9 +34,9 @@ struct RememberedPose {
   std::optional<Tilt> tilt;
 };
 
-std::string to_text(const RememberedPose& pose);
+std::string to_text(const PersistedPose& pose);
 
-// What the text holds, or what is wrong with it, naming the line.
-std::variant<RememberedPose, std::string> remembered_pose_from(std::string_view text);
+// The pose in the text, or an error that names the line.
+std::variant<PersistedPose, std::string> persisted_pose_from(std::string_view text);
 
 }  // namespace ols

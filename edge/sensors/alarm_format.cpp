@@ -1,4 +1,4 @@
-#include "edge/sensors/alarm_words.h"
+#include "edge/sensors/alarm_format.h"
 
 #include <cstdio>
 
@@ -16,18 +16,18 @@ std::string with_unit(const char* format, double number) {
 
 }  // namespace
 
-std::string length_in_words(double length_m) {
+std::string format_length(double length_m) {
   if (length_m < 10.0) return with_unit("%.2f m", length_m);
   if (length_m < 10e3) return with_unit("%.0f m", length_m);
   return with_unit("%.0f km", length_m / 1e3);
 }
 
-std::string time_in_words(double time_s) {
+std::string format_time(double time_s) {
   if (time_s < 120.0) return with_unit("%.0f s", time_s);
   if (time_s < 7200.0) return with_unit("%.0f min", time_s / 60.0);
   return with_unit("%.0f h", time_s / 3600.0);
 }
 
-std::string angle_in_words(double angle_rad) { return with_unit("%.2f deg", degrees(angle_rad)); }
+std::string format_angle(double angle_rad) { return with_unit("%.2f deg", degrees(angle_rad)); }
 
 }  // namespace ols

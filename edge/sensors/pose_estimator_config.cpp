@@ -1,8 +1,8 @@
-#include "edge/sensors/pose_keeper_config.h"
+#include "edge/sensors/pose_estimator_config.h"
 
 namespace ols {
 
-void set_sensors(PoseKeeper::Config& c, const InclinometerConfig& inclinometer,
+void set_sensors(PoseEstimator::Config& c, const InclinometerConfig& inclinometer,
                  const GnssConfig& gnss) {
   c.ground_to_antenna_enu_m = gnss.ground_to_antenna_enu_m;
   c.least_fix = gnss.least_fix;

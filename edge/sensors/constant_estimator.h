@@ -1,10 +1,10 @@
-// Something that stands still and is measured again and again: a tripod's place, its tilt. Pure.
+// Estimates a constant from repeated measurements: the position of a tripod, or its tilt. Pure.
 //
-// Readings are averaged with weights 1/sd^2. Their errors are taken as wholly correlated (multipath
-// and a sensor's zero stay for hours), so that the average's sd is the weighted mean of the
-// readings' sds and does not shrink with their number. A reading far from what is kept is not
-// believed; readings that disagree with it but agree with each other are averaged apart, and take
-// its place only where that is asked for.
+// Readings are averaged with weights 1/sd^2. Their errors are assumed fully correlated (multipath
+// and a sensor's zero last for hours), so the sd of the average is the weighted mean of the
+// readings' sds and does not shrink with their number. A reading that is inconsistent with the
+// average is rejected. Rejected readings that agree with each other are averaged separately, and
+// that average replaces the first one only where the configuration allows it.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,28 +15,28 @@
 namespace ols {
 
 template <int N>
-class StandingValue {
+class ConstantEstimator {
  public:
   using Vector = Eigen::Matrix<double, N, 1>;
 
   struct Config {
-    double gate_sigma = 5.0;        // on each axis
-    double memory_s = 3600.0;       // older readings weigh less by e in such a time
-    int settle_readings = 3;        // that agree, before there is a value
-    double accept_move_s = 0.0;     // a new value that holds for so long is taken; 0: never
-    double doubt_resumed_s = 60.0;  // the same, instead of a resumed value that none confirmed
+    double gate_sigma = 5.0;          // on each axis
+    double memory_s = 3600.0;         // the weight of a reading decays by e in this time
+    int settle_readings = 3;          // readings that agree, before there is an estimate
+    double accept_move_s = 0.0;       // a new value is adopted when it holds this long; 0: never
+    double replace_resumed_s = 60.0;  // the same for a resumed value that no reading confirmed
   };
   struct Estimate {
     Vector value = Vector::Zero();
     Vector sd = Vector::Zero();
   };
 
-  // `survey`: what is known otherwise; it is kept whatever the readings say.
-  StandingValue(const Config& config, const std::optional<Estimate>& survey)
+  // `survey`: a value from elsewhere, which the readings never change.
+  ConstantEstimator(const Config& config, const std::optional<Estimate>& survey)
       : config_(config), survey_(survey) {}
 
-  // What was known before a restart: kept until readings confirm it, or agree for doubt_resumed_s
-  // on something else. Before the first reading; without effect where there is a survey.
+  // Resumes the value from before a restart, until readings confirm it or agree on another value
+  // for replace_resumed_s. Call before the first reading; has no effect with a survey.
   void resume(double time_s, const Estimate& known) {
     if (survey_) return;
     average_ = {};
@@ -53,7 +53,7 @@ class StandingValue {
     const std::optional<Estimate> kept = estimate();
     if (!kept) {
       gather(time_s, value, sd);
-      if (apart_.count >= config_.settle_readings) adopt(time_s);
+      if (candidate_.count >= config_.settle_readings) adopt(time_s);
     } else if (agrees(*kept, value, sd)) {
       if (!survey_) average_.add(time_s, value, sd, config_.memory_s);
       support(time_s);
@@ -61,8 +61,8 @@ class StandingValue {
       distance_ = value - kept->value;
       if (!disagrees_since_s_) disagrees_since_s_ = time_s;
       gather(time_s, value, sd);
-      const double accept_s = resumed_ ? config_.doubt_resumed_s : config_.accept_move_s;
-      if (!survey_ && accept_s > 0.0 && time_s - apart_.since_s >= accept_s) {
+      const double accept_s = resumed_ ? config_.replace_resumed_s : config_.accept_move_s;
+      if (!survey_ && accept_s > 0.0 && time_s - candidate_.since_s >= accept_s) {
         moved_ = distance_.norm();
         adopt(time_s);
       }
@@ -75,12 +75,12 @@ class StandingValue {
     return average_.estimate();
   }
 
-  // The last reading that agreed, else the first at all; nothing when there was none.
+  // The time of the last consistent reading, else of the first one; nothing before any reading.
   std::optional<double> supported_until_s() const { return support_s_ ? support_s_ : first_s_; }
-  // Since when the readings, without exception, have not been believed.
+  // Since when every reading has been inconsistent.
   std::optional<double> disagrees_since_s() const { return disagrees_since_s_; }
-  const Vector& distance() const { return distance_; }  // of the last reading not believed
-  // How far the value was moved because a new one had held long enough.
+  const Vector& distance() const { return distance_; }  // of the last inconsistent reading
+  // By how much the value changed when a new one was adopted.
   std::optional<double> moved() const { return moved_; }
 
  private:
@@ -109,27 +109,27 @@ class StandingValue {
     return ((value - kept.value).cwiseAbs().array() <= gate.array()).all();
   }
 
-  // Into the average of those that are not believed (yet).
+  // Adds to the average of the readings that are not accepted (yet).
   void gather(double time_s, const Vector& value, const Vector& sd) {
-    if (apart_.count > 0 && !agrees(apart_.estimate(), value, sd)) apart_ = {};
-    apart_.add(time_s, value, sd, config_.memory_s);
+    if (candidate_.count > 0 && !agrees(candidate_.estimate(), value, sd)) candidate_ = {};
+    candidate_.add(time_s, value, sd, config_.memory_s);
   }
 
   void adopt(double time_s) {
-    average_ = apart_;
+    average_ = candidate_;
     support(time_s);
   }
 
   void support(double time_s) {
     support_s_ = time_s;
     disagrees_since_s_.reset();
-    apart_ = {};
+    candidate_ = {};
     resumed_ = false;
   }
 
   Config config_;
   std::optional<Estimate> survey_;
-  Average average_, apart_;
+  Average average_, candidate_;
   std::optional<double> first_s_, support_s_, disagrees_since_s_;
   std::optional<double> moved_;
   bool resumed_ = false;

@@ -1,8 +1,8 @@
-#include "edge/sensors/kept_tilt.h"
+#include "edge/sensors/station_tilt.h"
 
 #include <cmath>
 
-#include "edge/sensors/alarm_words.h"
+#include "edge/sensors/alarm_format.h"
 #include "geometry/angles.h"
 
 namespace ols {
@@ -11,18 +11,18 @@ namespace {
 
 using Eigen::Vector2d;
 
-StandingValue<2>::Config standing(const PoseKeeper::Config& config) {
-  StandingValue<2>::Config c;
+ConstantEstimator<2>::Config standing(const PoseEstimator::Config& config) {
+  ConstantEstimator<2>::Config c;
   c.gate_sigma = config.alarm_sigma;
   c.memory_s = config.inclinometer_memory_s;
   c.settle_readings = 5;
   return c;
 }
 
-std::optional<StandingValue<2>::Estimate> survey(const PoseKeeper::Config& config) {
+std::optional<ConstantEstimator<2>::Estimate> survey(const PoseEstimator::Config& config) {
   if (!config.surveyed_tilt_rad) return std::nullopt;
-  return StandingValue<2>::Estimate{*config.surveyed_tilt_rad,
-                                    Vector2d::Constant(config.surveyed_tilt_sd_rad)};
+  return ConstantEstimator<2>::Estimate{*config.surveyed_tilt_rad,
+                                        Vector2d::Constant(config.surveyed_tilt_sd_rad)};
 }
 
 bool is_usable(const TiltReading& r) {
@@ -31,10 +31,10 @@ bool is_usable(const TiltReading& r) {
 
 }  // namespace
 
-KeptTilt::KeptTilt(const PoseKeeper::Config& config)
+StationTilt::StationTilt(const PoseEstimator::Config& config)
     : config_(config), tilt_(standing(config), survey(config)) {}
 
-void KeptTilt::resume(const RememberedPose::Tilt& known, double now_s, double age_s) {
+void StationTilt::resume(const PersistedPose::Tilt& known, double now_s, double age_s) {
   if (config_.surveyed_tilt_rad || age_s > config_.resume_s) return;
   const double sd_rad =
       std::sqrt(known.sd_rad * known.sd_rad + std::pow(config_.growth_rad_sqrt_s, 2) * age_s);
@@ -42,11 +42,11 @@ void KeptTilt::resume(const RememberedPose::Tilt& known, double now_s, double ag
   known_s_ = now_s - age_s;
 }
 
-bool KeptTilt::is_from_sensor() const {
+bool StationTilt::is_from_sensor() const {
   return !config_.surveyed_tilt_rad && tilt_.estimate() && !tilt_.resumed();
 }
 
-void KeptTilt::add(const TiltReading& reading) {
+void StationTilt::add(const TiltReading& reading) {
   if (!is_usable(reading) || (last_ && reading.time_s < last_->time_s)) return;
   const bool changed =
       !last_ || reading.tilt_x_rad != last_->tilt_x_rad || reading.tilt_y_rad != last_->tilt_y_rad;
@@ -57,23 +57,23 @@ void KeptTilt::add(const TiltReading& reading) {
             Vector2d::Constant(config_.inclinometer_sd_rad));
 }
 
-bool KeptTilt::is_stuck(double time_s) const {
+bool StationTilt::is_stuck(double time_s) const {
   return last_ && time_s - changed_s_ >= config_.stuck_s;
 }
 
-bool KeptTilt::is_disbelieved(double now_s) const {
+bool StationTilt::is_inconsistent(double now_s) const {
   const auto since_s = tilt_.disagrees_since_s();
   return since_s && now_s - *since_s >= config_.alarm_after_s;
 }
 
-bool KeptTilt::is_lost(double now_s) const {
+bool StationTilt::is_lost(double now_s) const {
   if (tilt_.resumed()) return true;
   const auto until_s = tilt_.supported_until_s();
   const bool stale = until_s && now_s - *until_s > config_.inclinometer_stale_s;
-  return last_ && (stale || is_disbelieved(now_s) || is_stuck(last_->time_s));
+  return last_ && (stale || is_inconsistent(now_s) || is_stuck(last_->time_s));
 }
 
-void KeptTilt::fill(StationPose& pose, double now_s) const {
+void StationTilt::fill(StationPose& pose, double now_s) const {
   const auto kept = tilt_.estimate();
   if (!kept) {
     pose.tilt_sd_rad = config_.level_sd_rad;
@@ -90,27 +90,27 @@ void KeptTilt::fill(StationPose& pose, double now_s) const {
   pose.tilt_sd_rad = std::sqrt(kept->sd.cwiseAbs2().maxCoeff() + grown_rad2);
 }
 
-void KeptTilt::add_alarms(std::vector<std::string>& alarms, double now_s) const {
+void StationTilt::add_alarms(std::vector<std::string>& alarms, double now_s) const {
   if (tilt_.resumed()) {
-    alarms.push_back("pose: tilt kept from before the restart, " + time_in_words(now_s - known_s_) +
-                     " old");
+    alarms.push_back("pose: tilt restored from before the restart, " +
+                     format_time(now_s - known_s_) + " old");
   } else if (const auto moved_rad = tilt_.moved()) {
-    alarms.push_back("inclinometer: tilt taken anew, " + angle_in_words(*moved_rad) +
-                     " from before: check the heading");
+    alarms.push_back("inclinometer: new tilt adopted, " + format_angle(*moved_rad) +
+                     " from the old one: check the heading");
   }
   if (!last_) return;
   const char* consequence = tilt_.estimate() ? ", tilt kept" : ", no tilt yet";
   if (now_s - last_->time_s > config_.inclinometer_stale_s) {
-    alarms.push_back("inclinometer: silent for " + time_in_words(now_s - last_->time_s) +
+    alarms.push_back("inclinometer: silent for " + format_time(now_s - last_->time_s) +
                      consequence);
   } else if (is_stuck(last_->time_s)) {
-    alarms.push_back("inclinometer: stuck for " + time_in_words(now_s - changed_s_) + consequence);
-  } else if (is_disbelieved(now_s)) {
-    std::string text = "inclinometer: " + angle_in_words(tilt_.distance().norm()) + " from the " +
+    alarms.push_back("inclinometer: stuck for " + format_time(now_s - changed_s_) + consequence);
+  } else if (is_inconsistent(now_s)) {
+    std::string text = "inclinometer: " + format_angle(tilt_.distance().norm()) + " from the " +
                        (config_.surveyed_tilt_rad ? "survey" : "kept tilt");
     const double lasts_s = now_s - *tilt_.disagrees_since_s();
     if (lasts_s >= config_.restation_s) {
-      text += " for " + time_in_words(lasts_s) + ": set the station up anew";
+      text += " for " + format_time(lasts_s) + ": set up the station again";
     }
     alarms.push_back(text);
   }

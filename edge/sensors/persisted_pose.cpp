@@ -1,4 +1,4 @@
-#include "edge/sensors/remembered_pose.h"
+#include "edge/sensors/persisted_pose.h"
 
 #include <cinttypes>
 #include <cstdio>
@@ -14,7 +14,7 @@ constexpr std::string_view kHead = "ols-pose 1\n";
 constexpr std::string_view kSum = "sum ";
 
 // Fowler, Noll, Vo: FNV-1a.
-std::string sum_of(std::string_view text) {
+std::string checksum_of(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
   char digits[20];
@@ -29,9 +29,9 @@ std::string words(const char* format, Values... values) {
   return text;
 }
 
-bool within(double value, double least, double most) { return value >= least && value <= most; }
+bool within(double value, double min, double max) { return value >= min && value <= max; }
 
-// The numbers of a line and its time; false when there are others than wanted.
+// The numbers of a line and its time; false unless the line has exactly these.
 bool read_numbers(const std::string& line, double* values, int count, std::int64_t& utime_us) {
   std::istringstream stream(line);
   stream.imbue(std::locale::classic());
@@ -42,29 +42,29 @@ bool read_numbers(const std::string& line, double* values, int count, std::int64
   return stream >> utime_us && utime_us >= 0 && !(stream >> more);
 }
 
-std::optional<RememberedPose::Position> read_position(const std::string& line) {
-  constexpr double kMostSd_m = 1e6;
+std::optional<PersistedPose::Position> read_position(const std::string& line) {
+  constexpr double kMaxSd_m = 1e6;
   double v[6] = {};
-  RememberedPose::Position position;
+  PersistedPose::Position position;
   if (!read_numbers(line, v, 6, position.utime_us)) return std::nullopt;
   if (!within(v[0], -90.0, 90.0) || !within(v[1], -360.0, 360.0) || !within(v[2], -1e5, 1e5)) {
     return std::nullopt;
   }
   position.ground = {radians(v[0]), radians(v[1]), v[2]};
   for (int i = 0; i < 3; ++i) {
-    if (!(v[3 + i] > 0.0 && v[3 + i] < kMostSd_m)) return std::nullopt;
+    if (!(v[3 + i] > 0.0 && v[3 + i] < kMaxSd_m)) return std::nullopt;
     position.sd_enu_m[i] = v[3 + i];
   }
   return position;
 }
 
-std::optional<RememberedPose::Tilt> read_tilt(const std::string& line) {
-  constexpr double kMost_deg = 90.0;
+std::optional<PersistedPose::Tilt> read_tilt(const std::string& line) {
+  constexpr double kMax_deg = 90.0;
   double v[3] = {};
-  RememberedPose::Tilt tilt;
+  PersistedPose::Tilt tilt;
   if (!read_numbers(line, v, 3, tilt.utime_us)) return std::nullopt;
-  if (!within(v[0], -kMost_deg, kMost_deg) || !within(v[1], -kMost_deg, kMost_deg) ||
-      !(v[2] > 0.0 && v[2] <= kMost_deg)) {
+  if (!within(v[0], -kMax_deg, kMax_deg) || !within(v[1], -kMax_deg, kMax_deg) ||
+      !(v[2] > 0.0 && v[2] <= kMax_deg)) {
     return std::nullopt;
   }
   tilt.tilt_rad = {radians(v[0]), radians(v[1])};
@@ -74,7 +74,7 @@ std::optional<RememberedPose::Tilt> read_tilt(const std::string& line) {
 
 }  // namespace
 
-std::string to_text(const RememberedPose& pose) {
+std::string to_text(const PersistedPose& pose) {
   std::string text(kHead);
   if (const auto& p = pose.position) {
     text +=
@@ -86,17 +86,17 @@ std::string to_text(const RememberedPose& pose) {
     text += words("tilt %.9f %.9f %.6g %" PRId64 "\n", degrees(t->tilt_rad.x()),
                   degrees(t->tilt_rad.y()), degrees(t->sd_rad), t->utime_us);
   }
-  return text + std::string(kSum) + sum_of(text) + "\n";
+  return text + std::string(kSum) + checksum_of(text) + "\n";
 }
 
-std::variant<RememberedPose, std::string> remembered_pose_from(std::string_view text) {
-  if (!text.starts_with(kHead)) return std::string("line 1: is no kept pose");
+std::variant<PersistedPose, std::string> persisted_pose_from(std::string_view text) {
+  if (!text.starts_with(kHead)) return std::string("line 1: is not a saved pose");
   const std::size_t end = text.rfind(kSum);
   if (end == std::string_view::npos || text[end - 1] != '\n' ||
-      text.substr(end) != std::string(kSum) + sum_of(text.substr(0, end)) + "\n") {
-    return std::string("is damaged: its sum is wrong");
+      text.substr(end) != std::string(kSum) + checksum_of(text.substr(0, end)) + "\n") {
+    return std::string("is damaged: wrong checksum");
   }
-  RememberedPose pose;
+  PersistedPose pose;
   std::istringstream lines(std::string(text.substr(kHead.size(), end - kHead.size())));
   std::string line;
   for (int number = 2; std::getline(lines, line); ++number) {

@@ -1,4 +1,4 @@
-#include "edge/sensors/remembered_pose.h"
+#include "edge/sensors/persisted_pose.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 namespace ols {
 namespace {
 
-RememberedPose example() {
-  RememberedPose pose;
+PersistedPose example() {
+  PersistedPose pose;
   pose.position = {{radians(49.2266123456789), radians(-16.5969), 310.25},
                    {0.021, 0.022, 0.043},
                    1'700'000'000'123'456};
@@ -22,7 +22,7 @@ RememberedPose example() {
 }
 
 std::string error_of(const std::string& text) {
-  const auto read = remembered_pose_from(text);
+  const auto read = persisted_pose_from(text);
   return std::holds_alternative<std::string>(read) ? std::get<std::string>(read) : "none";
 }
 
@@ -36,11 +36,11 @@ std::string summed(const std::string& lines) {
   return text + sum;
 }
 
-TEST(RememberedPose, ComesBackAsItWas) {
-  const RememberedPose pose = example();
-  const auto read = remembered_pose_from(to_text(pose));
-  ASSERT_TRUE(std::holds_alternative<RememberedPose>(read)) << std::get<std::string>(read);
-  const auto& again = std::get<RememberedPose>(read);
+TEST(PersistedPose, ComesBackAsItWas) {
+  const PersistedPose pose = example();
+  const auto read = persisted_pose_from(to_text(pose));
+  ASSERT_TRUE(std::holds_alternative<PersistedPose>(read)) << std::get<std::string>(read);
+  const auto& again = std::get<PersistedPose>(read);
   ASSERT_TRUE(again.position && again.tilt);
   EXPECT_NEAR(again.position->ground.latitude_rad, pose.position->ground.latitude_rad, 1e-13);
   EXPECT_NEAR(again.position->ground.longitude_rad, pose.position->ground.longitude_rad, 1e-13);
@@ -52,16 +52,16 @@ TEST(RememberedPose, ComesBackAsItWas) {
   EXPECT_EQ(again.tilt->utime_us, 1'700'000'000'654'321);
 }
 
-TEST(RememberedPose, APartMayBeMissing) {
-  RememberedPose pose = example();
+TEST(PersistedPose, APartMayBeMissing) {
+  PersistedPose pose = example();
   pose.tilt.reset();
-  const auto read = remembered_pose_from(to_text(pose));
-  ASSERT_TRUE(std::holds_alternative<RememberedPose>(read));
-  EXPECT_TRUE(std::get<RememberedPose>(read).position);
-  EXPECT_FALSE(std::get<RememberedPose>(read).tilt);
+  const auto read = persisted_pose_from(to_text(pose));
+  ASSERT_TRUE(std::holds_alternative<PersistedPose>(read));
+  EXPECT_TRUE(std::get<PersistedPose>(read).position);
+  EXPECT_FALSE(std::get<PersistedPose>(read).tilt);
 }
 
-TEST(RememberedPose, EveryCutAndEveryWrongByteIsSeen) {
+TEST(PersistedPose, EveryCutAndEveryWrongByteIsSeen) {
   const std::string text = to_text(example());
   for (std::size_t i = 0; i < text.size(); ++i) {
     EXPECT_NE(error_of(text.substr(0, i)), "none") << i;
@@ -72,7 +72,7 @@ TEST(RememberedPose, EveryCutAndEveryWrongByteIsSeen) {
   EXPECT_NE(error_of(text + "x"), "none");
 }
 
-TEST(RememberedPose, NumbersThatAreNoPoseAreRefusedByTheirLine) {
+TEST(PersistedPose, NumbersThatAreNoPoseAreRefusedByTheirLine) {
   const std::string good = "tilt 0.1 0.1 0.01 17\n";
   EXPECT_EQ(error_of(summed(good)), "none");
   for (const char* bad :

@@ -1,8 +1,8 @@
-#include "edge/sensors/kept_position.h"
+#include "edge/sensors/station_position.h"
 
 #include <cmath>
 
-#include "edge/sensors/alarm_words.h"
+#include "edge/sensors/alarm_format.h"
 
 namespace ols {
 
@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 bool is_usable(const GnssReading& r) {
-  // An antenna on the Earth and sds that say something; comparisons with NaN are false.
+  // An antenna on the Earth and plausible sds; comparisons with NaN are false.
   const bool on_earth = std::abs(r.antenna.latitude_rad) <= 1.5708 &&
                         std::abs(r.antenna.longitude_rad) <= 7.0 &&
                         std::abs(r.antenna.height_m) < 1e5;
@@ -22,8 +22,8 @@ bool is_usable(const GnssReading& r) {
 
 }  // namespace
 
-KeptPosition::KeptPosition(const PoseKeeper::Config& config) : config_(config) {
-  StandingValue<3>::Config standing;
+StationPosition::StationPosition(const PoseEstimator::Config& config) : config_(config) {
+  ConstantEstimator<3>::Config standing;
   standing.gate_sigma = config.alarm_sigma;
   standing.memory_s = config.gnss_memory_s;
   standing.accept_move_s = config.accept_move_s;
@@ -33,11 +33,11 @@ KeptPosition::KeptPosition(const PoseKeeper::Config& config) : config_(config) {
   }
   frame_.emplace(*config.surveyed_position);
   place_.emplace(standing,
-                 StandingValue<3>::Estimate{config.ground_to_antenna_enu_m,
-                                            Vector3d::Constant(config.surveyed_position_sd_m)});
+                 ConstantEstimator<3>::Estimate{config.ground_to_antenna_enu_m,
+                                                Vector3d::Constant(config.surveyed_position_sd_m)});
 }
 
-void KeptPosition::resume(const RememberedPose::Position& known, double now_s, double age_s) {
+void StationPosition::resume(const PersistedPose::Position& known, double now_s, double age_s) {
   if (config_.surveyed_position || age_s > config_.resume_s) return;
   frame_.emplace(known.ground);
   const double grown_m2 = std::pow(config_.growth_m_sqrt_s, 2) * age_s;
@@ -46,11 +46,11 @@ void KeptPosition::resume(const RememberedPose::Position& known, double now_s, d
   known_s_ = now_s - age_s;
 }
 
-bool KeptPosition::is_from_sensor() const {
+bool StationPosition::is_from_sensor() const {
   return !config_.surveyed_position && place_->estimate() && !place_->resumed();
 }
 
-void KeptPosition::add(const GnssReading& reading) {
+void StationPosition::add(const GnssReading& reading) {
   if (!std::isfinite(reading.time_s) || (last_ && reading.time_s < last_->time_s)) return;
   const bool used = reading.fix >= config_.least_fix && is_usable(reading);
   last_ = reading;
@@ -63,20 +63,20 @@ void KeptPosition::add(const GnssReading& reading) {
               reading.sd_enu_m.cwiseMax(config_.gnss_sd_floor_m));
 }
 
-bool KeptPosition::is_disbelieved(double now_s) const {
+bool StationPosition::is_inconsistent(double now_s) const {
   const auto since_s = place_->disagrees_since_s();
   return since_s && now_s - *since_s >= config_.alarm_after_s;
 }
 
-bool KeptPosition::is_lost(double now_s) const {
+bool StationPosition::is_lost(double now_s) const {
   if (place_->resumed()) return true;
   if (!last_) return false;
   const auto until_s = place_->supported_until_s();
   const bool stale = until_s && now_s - *until_s > config_.gnss_stale_s;
-  return stale || is_disbelieved(now_s) || last_->fix < config_.least_fix;
+  return stale || is_inconsistent(now_s) || last_->fix < config_.least_fix;
 }
 
-void KeptPosition::fill(StationPose& pose, double now_s) const {
+void StationPosition::fill(StationPose& pose, double now_s) const {
   const auto kept = place_->estimate();
   if (!kept) return;
   if (config_.surveyed_position) {
@@ -95,36 +95,36 @@ void KeptPosition::fill(StationPose& pose, double now_s) const {
   pose.position_sd_enu_m = (kept->sd.cwiseAbs2().array() + grown_m2).sqrt();
 }
 
-std::string KeptPosition::disagreement(double now_s) const {
-  std::string text = "gnss: " + length_in_words(place_->distance().norm()) + " from the " +
+std::string StationPosition::disagreement(double now_s) const {
+  std::string text = "gnss: " + format_length(place_->distance().norm()) + " from the " +
                      (config_.surveyed_position ? "survey" : "kept position");
   const double lasts_s = now_s - *place_->disagrees_since_s();
   if (lasts_s >= config_.restation_s) {
-    text += " for " + time_in_words(lasts_s) + ": set the station up anew";
+    text += " for " + format_time(lasts_s) + ": set up the station again";
   }
   return text;
 }
 
-void KeptPosition::add_alarms(std::vector<std::string>& alarms, double now_s) const {
+void StationPosition::add_alarms(std::vector<std::string>& alarms, double now_s) const {
   if (const auto moved_m = place_->moved()) {
-    alarms.push_back("gnss: position taken anew, " + length_in_words(*moved_m) +
-                     " from before: check the heading");
+    alarms.push_back("gnss: new position adopted, " + format_length(*moved_m) +
+                     " from the old one: check the heading");
   }
   if (place_->resumed()) {
-    alarms.push_back("pose: position kept from before the restart, " +
-                     time_in_words(now_s - known_s_) + " old");
+    alarms.push_back("pose: position restored from before the restart, " +
+                     format_time(now_s - known_s_) + " old");
   }
   if (!last_) return;
   const bool kept = place_->estimate().has_value();
   const char* consequence = kept ? ", position kept" : ", no position yet";
   const auto until_s = place_->supported_until_s();
   if (now_s - last_->time_s > config_.gnss_stale_s) {
-    alarms.push_back("gnss: silent for " + time_in_words(now_s - last_->time_s) + consequence);
+    alarms.push_back("gnss: silent for " + format_time(now_s - last_->time_s) + consequence);
   } else if (last_->fix < config_.least_fix) {
     const std::string lasts =
-        until_s ? " for " + time_in_words(now_s - *until_s) : std::string(" yet");
+        until_s ? " for " + format_time(now_s - *until_s) : std::string(" yet");
     alarms.push_back("gnss: no fix" + lasts + consequence);
-  } else if (kept && is_disbelieved(now_s)) {
+  } else if (kept && is_inconsistent(now_s)) {
     alarms.push_back(disagreement(now_s));
   }
 }

@@ -1,0 +1,84 @@
+// The position and tilt of a station: from the survey in the configuration if it has one, else from
+// GNSS and inclinometer; and whether survey and sensors agree. Pure.
+//
+// A tripod is stationary, so readings are averaged. A reading that is inconsistent with the pose is
+// rejected: the pose is kept, its uncertainty grows, and an alarm states why. The uncertainty grows
+// from the last consistent reading until the next one; without a sensor it does not grow. A tripod
+// that was moved has lost its heading, too, so a new position is not adopted automatically (unless
+// accept_move_s allows it): the alarm asks to set up the station again.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/sensors/gnss_reading.h"
+#include "edge/sensors/persisted_pose.h"
+#include "edge/sensors/tilt_reading.h"
+#include "geometry/wgs84.h"
+
+namespace ols {
+
+enum class PoseSource { kNone, kSurveyed, kSensor };
+
+struct StationPose {
+  Geodetic position;  // of GROUND
+  Eigen::Vector3d position_sd_enu_m = Eigen::Vector3d::Zero();
+  PoseSource position_source = PoseSource::kNone;  // kNone: no position known yet, no bearings
+  double tilt_x_rad = 0.0, tilt_y_rad = 0.0;
+  double tilt_sd_rad = 0.0;
+  PoseSource tilt_source = PoseSource::kNone;  // kNone: assumed level, with level_sd_rad
+};
+
+class PoseEstimator {
+ public:
+  struct Config {
+    std::optional<Geodetic> surveyed_position;  // of GROUND
+    double surveyed_position_sd_m = 0.0;
+    std::optional<Eigen::Vector2d> surveyed_tilt_rad;  // x, y
+    double surveyed_tilt_sd_rad = 0.0;
+
+    Eigen::Vector3d ground_to_antenna_enu_m = Eigen::Vector3d::Zero();
+    GnssFix least_fix = GnssFix::k3D;     // a worse one is not used
+    double gnss_sd_floor_m = 0.01;        // a smaller stated 1-sigma is raised to this
+    double gnss_memory_s = 3600.0;        // of the average
+    double inclinometer_sd_rad = 2e-4;    // of its zero and mounting: not reduced by averaging
+    double inclinometer_memory_s = 60.0;  // short, to follow legs that sink into soft ground
+    double level_sd_rad = 0.05;           // of an unmeasured tilt
+    double gnss_stale_s = 10.0;
+    double inclinometer_stale_s = 3.0;
+    double stuck_s = 60.0;       // without any change of a digit for this long: stuck
+    double alarm_sigma = 5.0;    // a reading further off is inconsistent,
+    double alarm_after_s = 2.0;  // which is an alarm only when it lasts: not a gust or an outlier
+    double restation_s = 300.0;  // inconsistent for this long: the tripod was moved
+    double accept_move_s = 0.0;  // a new position is adopted when it holds this long; 0: never
+    double growth_m_sqrt_s = 0.01;  // of the position's 1-sigma without consistent readings
+    double growth_rad_sqrt_s = 2e-5;
+    double resume_s = 7 * 86400.0;  // an older persisted pose is not resumed
+  };
+  explicit PoseEstimator(const Config& config);
+  ~PoseEstimator();
+
+  // Resumes the pose from before a restart, where there is no survey; call before the first
+  // reading. Its sigmas grow with its age, and an alarm reports it until a sensor confirms it.
+  void resume(const PersistedPose& known, double now_s, std::int64_t now_utime_us);
+  // The pose to persist over a restart: measured or confirmed by a sensor since the start.
+  PersistedPose to_persist(double now_s, std::int64_t now_utime_us) const;
+
+  // In time order of each sensor; readings that are not in order or not finite are ignored.
+  void add(const GnssReading& reading);
+  void add(const TiltReading& reading);
+
+  StationPose pose(double now_s) const;
+  // Conditions that hold at this instant: "gnss: 103 m from the survey", "inclinometer: stuck".
+  std::vector<std::string> alarms(double now_s) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ols

@@ -1,0 +1,14 @@
+// The settings of the pose estimator that come from the sensors' configurations. Pure.
+#pragma once
+
+#include "edge/sensors/gnss.h"
+#include "edge/sensors/inclinometer.h"
+#include "edge/sensors/pose_estimator.h"
+
+namespace ols {
+
+// Sets everything but the settings of [pose].
+void set_sensors(PoseEstimator::Config& estimator, const InclinometerConfig& inclinometer,
+                 const GnssConfig& gnss);
+
+}  // namespace ols

@@ -1,0 +1,37 @@
+// The position of a station, as a part of the pose estimator. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/sensors/constant_estimator.h"
+#include "edge/sensors/persisted_pose.h"
+#include "edge/sensors/pose_estimator.h"
+
+namespace ols {
+
+class StationPosition {
+ public:
+  explicit StationPosition(const PoseEstimator::Config& config);
+  // `age_s`: since it was measured.
+  void resume(const PersistedPose::Position& known, double now_s, double age_s);
+  // Measured or confirmed by a sensor since the start.
+  bool is_from_sensor() const;
+  void add(const GnssReading& reading);
+  void fill(StationPose& pose, double now_s) const;
+  void add_alarms(std::vector<std::string>& alarms, double now_s) const;
+
+ private:
+  bool is_lost(double now_s) const;
+  bool is_inconsistent(double now_s) const;
+  std::string disagreement(double now_s) const;
+
+  PoseEstimator::Config config_;
+  std::optional<LocalFrame> frame_;            // of the survey, else of the first antenna position
+  std::optional<ConstantEstimator<3>> place_;  // of the antenna, east-north-up in frame_ [m]
+  std::optional<GnssReading> last_;
+  double known_s_ = 0.0;  // when the resumed position was measured
+};
+
+}  // namespace ols

@@ -1,0 +1,37 @@
+// The tilt of a station, as a part of the pose estimator. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/sensors/constant_estimator.h"
+#include "edge/sensors/persisted_pose.h"
+#include "edge/sensors/pose_estimator.h"
+
+namespace ols {
+
+class StationTilt {
+ public:
+  explicit StationTilt(const PoseEstimator::Config& config);
+  // `age_s`: since it was measured.
+  void resume(const PersistedPose::Tilt& known, double now_s, double age_s);
+  // Measured or confirmed by a sensor since the start.
+  bool is_from_sensor() const;
+  void add(const TiltReading& reading);
+  void fill(StationPose& pose, double now_s) const;
+  void add_alarms(std::vector<std::string>& alarms, double now_s) const;
+
+ private:
+  bool is_stuck(double time_s) const;
+  bool is_inconsistent(double now_s) const;
+  bool is_lost(double now_s) const;
+
+  PoseEstimator::Config config_;
+  ConstantEstimator<2> tilt_;  // x, y [rad]
+  std::optional<TiltReading> last_;
+  double changed_s_ = 0.0;  // last time that a digit changed
+  double known_s_ = 0.0;    // when the resumed tilt was measured
+};
+
+}  // namespace ols
