@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "edge/pointing_model.h"
-#include "edge/slew_senders.h"
+#include "edge/slew_conflict_monitor.h"
 #include "edge/station_types.h"
 
 namespace ols {
@@ -26,7 +26,7 @@ class ActiveSlew {
   bool is_over(double now_s) const { return now_s > command_->received_s + command_->lease_s; }
 
   std::optional<SlewCommand> command_;
-  SlewSenders senders_;
+  SlewConflictMonitor senders_;
 };
 
 }  // namespace ols

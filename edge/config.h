@@ -9,7 +9,7 @@
 #include "edge/clock/clock_watch.h"
 #include "edge/command_gate.h"
 #include "edge/gpio/gpio.h"
-#include "edge/host_watch.h"
+#include "edge/host_monitor.h"
 #include "edge/ptu/ptu_config.h"
 #include "edge/recorder/recorder.h"
 #include "edge/sensors/gnss.h"

@@ -7,7 +7,7 @@
 
 #include "edge/config.h"
 #include "edge/device_set.h"
-#include "edge/pose_memory.h"
+#include "edge/pose_store.h"
 #include "edge/sensors/pose_estimator.h"
 
 namespace ols {
@@ -24,7 +24,7 @@ class KeptPose {
 
  private:
   PoseEstimator estimator_;
-  PoseMemory memory_;
+  PoseStore memory_;
   double due_s_ = 0.0;
   double kept_due_s_ = 0.0;
 };

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "edge/refusal_watch.h"
+#include "edge/refusal_monitor.h"
 
 namespace ols {
 
@@ -25,7 +25,7 @@ class RefusalLog {
   const std::map<std::string, double>& counters() const { return counters_; }
 
  private:
-  RefusalWatch at_gate_;
+  RefusalMonitor at_gate_;
   std::map<std::string, double> counters_;
   std::string last_;
   std::uint64_t number_ = 0;

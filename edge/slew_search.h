@@ -54,7 +54,7 @@ class SlewSearch {
   void end_trial(double time_s);
 
   // An alarm about a slew to a place that is known well enough to be in the picture; else empty.
-  std::string slewed_in_vain(const Slew& slew) const;
+  std::string unacquired_alarm(const Slew& slew) const;
   const std::map<std::string, double>& counters() const { return counters_; }
 
  private:

@@ -347,7 +347,7 @@ StationSnapshot Station::snapshot() const {
 std::vector<std::string> Station::alarms() const {
   std::vector<std::string> alarms;
   if (mode_.is(StationState::kSlewed)) {
-    if (auto alarm = search_.slewed_in_vain(slew_.command()); !alarm.empty()) {
+    if (auto alarm = search_.unacquired_alarm(slew_.command()); !alarm.empty()) {
       alarms.push_back(std::move(alarm));
     }
   }

@@ -11,7 +11,7 @@ void StationJournal::note(const ClockPair& now, const Bus& bus, StationReport& r
   const StationState state = report.snapshot.state;
   const bool bad = state == StationState::kLost || state == StationState::kEmergency;
   troubles_.note_state("station", to_string(state), "", bad);
-  for (const JournalLine& line : journal_.pass(troubles_.take_news(), now.monotonic_s)) {
+  for (const JournalLine& line : journal_.pass(troubles_.take_event(), now.monotonic_s)) {
     spdlog::log(line.bad ? spdlog::level::warn : spdlog::level::info, "{}", line.text);
   }
   report.last_error = troubles_.text();

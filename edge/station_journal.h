@@ -7,7 +7,7 @@
 #include "edge/clock/clock_pair.h"
 #include "edge/journal.h"
 #include "edge/station_report.h"
-#include "edge/trouble_log.h"
+#include "edge/fault_log.h"
 
 namespace ols {
 
@@ -26,7 +26,7 @@ class StationJournal {
   void note_devices(const StationReport& report, std::int64_t utime_us);
   void note_bus(const Bus& bus, std::int64_t utime_us);
 
-  TroubleLog troubles_;
+  FaultLog troubles_;
   Journal journal_;
 };
 

@@ -8,12 +8,12 @@
 
 #include "base/service_notifier.h"
 #include "edge/device_set.h"
-#include "edge/host_watch.h"
+#include "edge/host_monitor.h"
 #include "edge/kept_pose.h"
 #include "edge/messages_bus.h"
 #include "edge/station_clock.h"
 #include "edge/station_journal.h"
-#include "edge/station_memory.h"
+#include "edge/persisted_station_state.h"
 
 namespace ols {
 
@@ -58,8 +58,8 @@ class StationProcess {
   Station station_;
   CommandTurn command_turn_;
   StationBus bus_;
-  HostWatch host_;
-  StationMemory memory_;
+  HostMonitor host_;
+  PersistedStationState memory_;
   StationJournal journal_;
   DeviceSet devices_;
   std::optional<Frame> newest_;

@@ -49,12 +49,12 @@ void Lockstep::advance(double time_s) {
     all_designated = all_designated && (stations_[i]->designated() || stations_[i]->left_alone());
   }
   if (all_designated && result_.designated_s < 0.0) result_.designated_s = time_s;
-  for (const Sighting& sighting : bearings_.receive(time_s)) fuse(sighting, time_s);
+  for (const BearingMeasurement& sighting : bearings_.receive(time_s)) fuse(sighting, time_s);
 }
 
 void Lockstep::send(std::size_t station, const Bearing& bearing, double time_s) {
   const StationTruth& truth = world_.stations()[station];
-  Sighting sighting;
+  BearingMeasurement sighting;
   sighting.station = truth.id;
   // The station's clock is off; its own times of frame and angles agree with each other.
   const double exposed_s = bearing.mid_exposure_s - monotonic_s(0.0);
@@ -66,7 +66,7 @@ void Lockstep::send(std::size_t station, const Bearing& bearing, double time_s) 
   bearings_.send(sighting, time_s);
 }
 
-void Lockstep::fuse(const Sighting& sighting, double time_s) {
+void Lockstep::fuse(const BearingMeasurement& sighting, double time_s) {
   const FusionOutput output = fusion_.add(sighting);
   if (result_.designated_s >= 0.0) {
     for (const FusedTarget& target : output.targets) record(target, result_.joint);

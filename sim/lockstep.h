@@ -52,14 +52,14 @@ class Lockstep {
   };
   void advance(double time_s);
   void send(std::size_t station, const Bearing& bearing, double time_s);
-  void fuse(const Sighting& sighting, double time_s);
+  void fuse(const BearingMeasurement& sighting, double time_s);
   void record(const FusedTarget& target, std::vector<Fix>& fixes) const;
   void deliver(const AddressedSlew& addressed, double time_s);
   std::size_t index_of(const std::string& station) const;
 
   const World& world_;
   std::vector<std::unique_ptr<LockstepStation>> stations_;
-  Network<Sighting> bearings_;
+  Network<BearingMeasurement> bearings_;
   Network<AddressedSlew> slews_;
   std::vector<std::int64_t> newest_slew_us_;
   Fusion fusion_;

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "base/atomic_file.h"
-#include "edge/station_memory.h"
+#include "edge/persisted_station_state.h"
 #include "sim/gpio_socket.h"
 
 namespace ols::sim {
@@ -88,7 +88,7 @@ void leave_in_order(const std::string& state_folder, const std::string& id) {
   if (state_folder.empty()) return;
   std::filesystem::create_directories(state_folder);
   if (std::filesystem::exists(state_folder + "/" + id + ".hold")) return;
-  StationMemory memory(state_folder, id, false);
+  PersistedStationState memory(state_folder, id, false);
   memory.remember(StationState::kIdle, std::nullopt, PtuReference::kTrusted);
 }
 

@@ -31,24 +31,24 @@ void Admission::allow_slews(const std::string& station, bool allowed) {
   if (known != registry_.all().end()) known->second.traits.commandable = allowed;
 }
 
-Admitted Admission::admit(const Sighting& sighting, FusionLog& log) {
-  const SightingRefusal broken = check(sighting);
-  if (broken != SightingRefusal::kNone) return {.refusal = broken};
-  if (!registry_.belongs(sighting.station)) return {.refusal = SightingRefusal::kUnknown};
+Admitted Admission::admit(const BearingMeasurement& sighting, FusionLog& log) {
+  const BearingRefusal broken = check(sighting);
+  if (broken != BearingRefusal::kNone) return {.refusal = broken};
+  if (!registry_.belongs(sighting.station)) return {.refusal = BearingRefusal::kUnknown};
   const auto known = registry_.all().find(sighting.station);
   const bool is_first = known == registry_.all().end() || !known->second.delivered;
   const StationRegistry::Place place = registry_.for_bearing(sighting.station, time_);
-  if (place.station == nullptr) return {.refusal = SightingRefusal::kTooMany};
-  if (is_first) place.station->stands_where(sighting.sight);
+  if (place.station == nullptr) return {.refusal = BearingRefusal::kTooMany};
+  if (is_first) place.station->set_position(sighting.sight);
   if (place.evicted) evict(*place.evicted, log);
   Admitted admitted{.station = place.station, .evicted = place.evicted};
   admitted.refusal = judge(sighting, *place.station, log);
-  if (admitted.refusal == SightingRefusal::kNone) notice_changes(sighting, log, admitted);
+  if (admitted.refusal == BearingRefusal::kNone) notice_changes(sighting, log, admitted);
   return admitted;
 }
 
 // By the station's clock and by "now", then by what else the station has sent.
-SightingRefusal Admission::judge(const Sighting& sighting, KnownStation& station, FusionLog& log) {
+BearingRefusal Admission::judge(const BearingMeasurement& sighting, KnownStation& station, FusionLog& log) {
   if (time_.hear(sighting.station, sighting.utime_us)) {
     station.exposures.clear();
     log.count("clock_stepped_back");
@@ -58,13 +58,13 @@ SightingRefusal Admission::judge(const Sighting& sighting, KnownStation& station
   }
   if (!clock_is_believed(sighting, log)) {
     station.exposures.clear();
-    return SightingRefusal::kQuarantine;
+    return BearingRefusal::kQuarantine;
   }
-  if (is_future(sighting.utime_us)) return SightingRefusal::kFuture;
+  if (is_future(sighting.utime_us)) return BearingRefusal::kFuture;
   if (seconds(sighting.utime_us - time_.now_us()) < -config_.stale_s) {
-    return SightingRefusal::kStale;
+    return BearingRefusal::kStale;
   }
-  if (sighting.belief < config_.min_belief) return SightingRefusal::kLowBelief;
+  if (sighting.belief < config_.min_belief) return BearingRefusal::kLowBelief;
   return store(sighting, station);
 }
 
@@ -72,7 +72,7 @@ bool Admission::is_future(std::int64_t utime_us) const {
   return seconds(utime_us - time_.now_us()) > config_.future_s;
 }
 
-bool Admission::clock_is_believed(const Sighting& sighting, FusionLog& log) {
+bool Admission::clock_is_believed(const BearingMeasurement& sighting, FusionLog& log) {
   const bool before = clocks_.quarantine(sighting.station).empty();
   clocks_.hear(sighting, time_);
   const std::string& why = clocks_.quarantine(sighting.station);
@@ -81,17 +81,17 @@ bool Admission::clock_is_believed(const Sighting& sighting, FusionLog& log) {
   return why.empty();
 }
 
-SightingRefusal Admission::store(const Sighting& sighting, KnownStation& station) const {
-  if (station.exposures.has(sighting)) return SightingRefusal::kDuplicate;
+BearingRefusal Admission::store(const BearingMeasurement& sighting, KnownStation& station) const {
+  if (station.exposures.has(sighting)) return BearingRefusal::kDuplicate;
   station.exposures.go_on_to(sighting.utime_us);
-  if (station.exposures.is_flood(config_.flood_hz)) return SightingRefusal::kFlood;
+  if (station.exposures.is_flood(config_.flood_hz)) return BearingRefusal::kFlood;
   station.exposures.add(sighting);
-  station.stands_where(sighting.sight);
-  return SightingRefusal::kNone;
+  station.set_position(sighting.sight);
+  return BearingRefusal::kNone;
 }
 
 // Of its calibration, and of the process that numbers its objects.
-void Admission::notice_changes(const Sighting& sighting, FusionLog& log, Admitted& admitted) {
+void Admission::notice_changes(const BearingMeasurement& sighting, FusionLog& log, Admitted& admitted) {
   KnownStation& station = *admitted.station;
   if (station.bearings > 0 && station.calibration_id != sighting.calibration_id) {
     admitted.recalibrated = true;

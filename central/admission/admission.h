@@ -9,7 +9,7 @@
 #include "central/admission/clock_monitor.h"
 #include "central/admission/fusion_log.h"
 #include "central/admission/message_time.h"
-#include "central/admission/sighting_check.h"
+#include "central/admission/bearing_check.h"
 #include "central/admission/station_registry.h"
 
 namespace ols {
@@ -28,7 +28,7 @@ struct AdmissionConfig {
 
 // What became of a bearing, and what else is to be forgotten by it.
 struct Admitted {
-  SightingRefusal refusal = SightingRefusal::kNone;
+  BearingRefusal refusal = BearingRefusal::kNone;
   KnownStation* station = nullptr;       // whose bearing was taken
   std::optional<std::string> evicted{};  // this station gave its place to the bearing's
   bool recalibrated = false;             // the station's systematic errors are other ones,
@@ -39,7 +39,7 @@ class Admission {
  public:
   explicit Admission(const AdmissionConfig& config);
 
-  Admitted admit(const Sighting& sighting, FusionLog& log);
+  Admitted admit(const BearingMeasurement& sighting, FusionLog& log);
   // What a station's status tells. Who gave way to it.
   std::optional<std::string> know_station(const std::string& station, const StationTraits& traits,
                                           FusionLog& log);
@@ -54,10 +54,10 @@ class Admission {
   const StationRegistry& stations() const { return registry_; }
 
  private:
-  SightingRefusal judge(const Sighting& sighting, KnownStation& station, FusionLog& log);
-  bool clock_is_believed(const Sighting& sighting, FusionLog& log);
-  SightingRefusal store(const Sighting& sighting, KnownStation& station) const;
-  static void notice_changes(const Sighting& sighting, FusionLog& log, Admitted& admitted);
+  BearingRefusal judge(const BearingMeasurement& sighting, KnownStation& station, FusionLog& log);
+  bool clock_is_believed(const BearingMeasurement& sighting, FusionLog& log);
+  BearingRefusal store(const BearingMeasurement& sighting, KnownStation& station) const;
+  static void notice_changes(const BearingMeasurement& sighting, FusionLog& log, Admitted& admitted);
   void evict(const std::string& station, FusionLog& log);
 
   AdmissionConfig config_;

@@ -57,7 +57,7 @@ std::string ClockMonitor::judge(const std::string& name, const Station& station,
   return "";
 }
 
-void ClockMonitor::hear(const Sighting& sighting, const MessageTime& time) {
+void ClockMonitor::hear(const BearingMeasurement& sighting, const MessageTime& time) {
   Station& station = stations_[sighting.station];
   station.error_s = sighting.clock_sd_s;
   station.synchronised = sighting.clock == StationClock::kSynchronised;

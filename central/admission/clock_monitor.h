@@ -21,7 +21,7 @@
 #include <string>
 
 #include "central/admission/message_time.h"
-#include "central/measurement/sighting.h"
+#include "central/measurement/bearing_measurement.h"
 
 namespace ols {
 
@@ -38,7 +38,7 @@ class ClockMonitor {
   explicit ClockMonitor(const ClockMonitorConfig& config = {}) : config_(config) {}
 
   // A bearing that `time` has heard already.
-  void hear(const Sighting& sighting, const MessageTime& time);
+  void hear(const BearingMeasurement& sighting, const MessageTime& time);
   // Why a station is quarantined, in words; empty when it is not.
   const std::string& quarantine(const std::string& station) const;
   // What to add to the 1-sigma of a station's stamps for being off the others' time.

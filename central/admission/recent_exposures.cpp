@@ -11,7 +11,7 @@ constexpr double kMemoryS = 1.0;
 
 }  // namespace
 
-bool RecentExposures::has(const Sighting& sighting) const {
+bool RecentExposures::has(const BearingMeasurement& sighting) const {
   const auto at = std::ranges::lower_bound(exposures_, sighting.utime_us, {}, &Exposure::utime_us);
   const auto end = std::ranges::upper_bound(exposures_, sighting.utime_us, {}, &Exposure::utime_us);
   const AzimuthElevation& d = sighting.sight.direction;
@@ -34,7 +34,7 @@ bool RecentExposures::is_flood(double flood_hz) const {
   return static_cast<double>(exposures_.size()) >= flood_hz * kMemoryS;
 }
 
-void RecentExposures::add(const Sighting& sighting) {
+void RecentExposures::add(const BearingMeasurement& sighting) {
   const auto later =
       std::ranges::upper_bound(exposures_, sighting.utime_us, {}, &Exposure::utime_us);
   exposures_.insert(later, {sighting.utime_us, sighting.sight.direction, sighting.track_id});

@@ -5,18 +5,18 @@
 #include <cstdint>
 #include <vector>
 
-#include "central/measurement/sighting.h"
+#include "central/measurement/bearing_measurement.h"
 
 namespace ols {
 
 class RecentExposures {
  public:
   // Is it the same exposure's bearing of the same object, or in the same direction, again?
-  bool has(const Sighting& sighting) const;
+  bool has(const BearingMeasurement& sighting) const;
   // Forgets what is a second older than the newest, this one included: a bearing that is refused
   // goes on in time, too, or a flood would lock its station out for good.
   void go_on_to(std::int64_t utime_us);
-  void add(const Sighting& sighting);
+  void add(const BearingMeasurement& sighting);
   void clear() { exposures_.clear(); }
   // So many bearings in the span that is kept.
   bool is_flood(double flood_hz) const;

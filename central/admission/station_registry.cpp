@@ -9,7 +9,7 @@ namespace {
 constexpr double kForgottenS = 10.0;  // silent for longer: gives its place to any other
 
 // Strangers must not push out who has worked here and still does.
-bool may_go(const std::string& name, const KnownStation& station, const MessageTime& time) {
+bool is_evictable(const std::string& name, const KnownStation& station, const MessageTime& time) {
   constexpr std::int64_t kAtHome = 10;  // bearings
   return station.bearings < kAtHome || time.silent_s(name) > kForgottenS;
 }
@@ -28,7 +28,7 @@ bool StationRegistry::full(const std::string& station) const {
 StationRegistry::Entry StationRegistry::longest_silent(const MessageTime& time) {
   return std::ranges::min_element(stations_, {}, [&](const auto& entry) {
     const KnownStation& station = entry.second;
-    return std::tuple(station.delivered, !may_go(entry.first, station, time), station.heard);
+    return std::tuple(station.delivered, !is_evictable(entry.first, station, time), station.heard);
   });
 }
 
@@ -48,7 +48,7 @@ StationRegistry::Place StationRegistry::for_bearing(const std::string& station,
   std::optional<Entry> evicted;
   if (full(station)) {
     evicted = longest_silent(time);
-    if (!may_go((*evicted)->first, (*evicted)->second, time)) return {};
+    if (!is_evictable((*evicted)->first, (*evicted)->second, time)) return {};
   }
   Place place = take(station, evicted);
   place.station->delivered = true;

@@ -35,7 +35,7 @@ struct KnownStation {
   std::int64_t target_id = 0;  // the target that it saw last
   Activity saw_target;
 
-  void stands_where(const LineOfSight& sight) {
+  void set_position(const LineOfSight& sight) {
     traits.camera_ecef = sight.origin_ecef;
     traits.camera_sd_enu_m = sight.origin_sd_enu_m;
   }

@@ -66,7 +66,7 @@ void FusionProcess::on_bearing(const BusMessage& message) {
   if (const auto* refusal = std::get_if<MessageRefusal>(&decoded)) {
     return refuse(*refusal, message.channel);
   }
-  publish(fusion_.add(std::get<Sighting>(decoded)));
+  publish(fusion_.add(std::get<BearingMeasurement>(decoded)));
 }
 
 void FusionProcess::on_status(const BusMessage& message) {
@@ -89,7 +89,7 @@ void FusionProcess::on_fusion_status(const BusMessage& message) {
   }
   const double now_s = clock_monotonic_s();
   if (others_.hear(std::get<std::int64_t>(boot_id), now_s)) ++counters_["other_fusions"];
-  if (!others_.take_news()) return;
+  if (!others_.take_event()) return;
   errors_.last = others_.alarm(now_s);
   spdlog::warn("{}", errors_.last);
 }
@@ -106,7 +106,7 @@ bool FusionProcess::is_present(std::int64_t utime_us, const char* counter) {
   const double now_s = clock_monotonic_s();
   if (present_.passes(utime_us, clock_utime_us(), now_s)) return true;
   ++counters_[counter];
-  if (present_.take_news()) {
+  if (present_.take_event()) {
     errors_.last = present_.alarm(now_s);
     spdlog::warn("{}", errors_.last);
   }
@@ -157,8 +157,8 @@ FusionHealth FusionProcess::watched_health() const {
 }
 
 const std::string& FusionProcess::Errors::newest(const std::string& of_fusion_now) {
-  const bool untold = last != told;
-  if (of_fusion_now != of_fusion && !untold) last = of_fusion_now;
+  const bool undeclared = last != told;
+  if (of_fusion_now != of_fusion && !undeclared) last = of_fusion_now;
   of_fusion = of_fusion_now;
   told = last;
   return last;

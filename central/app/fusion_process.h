@@ -10,7 +10,7 @@
 #include "central/app/fusion_bus.h"
 #include "central/app/fusion_settings.h"
 #include "central/app/messages.h"
-#include "central/app/other_fusions.h"
+#include "central/app/fusion_conflict_monitor.h"
 #include "central/app/timeliness_gate.h"
 
 namespace ols {
@@ -62,7 +62,7 @@ class FusionProcess {
   FusionBus bus_;
   std::map<std::string, double> counters_;
   TimelinessGate present_;
-  OtherFusions others_;
+  FusionConflictMonitor others_;
   Errors errors_;
   Latency latency_;
   std::int64_t status_message_us_ = 0;  // "now" of the last status

@@ -45,14 +45,14 @@ Section motion_section(MotionConfig& c) {
                           "1/s", "Further 1-sigma of the acceleration, per speed.")}};
 }
 
-Section station_errors_section(StationErrorsConfig& c) {
+Section station_errors_section(BiasModelConfig& c) {
   return {"station_errors",
           "The bias model of the stations.",
           {config::number("stated_time_s", c.stated_time_s, {0.1, 1e6}, "s",
                           "Correlation time of a pose's error within what the station states.")}};
 }
 
-Section tracks_section(KeeperConfig& c) {
+Section tracks_section(TrackManagerConfig& c) {
   return {"tracks",
           "Track management.",
           {config::integer("max_tracks", c.max_tracks, 1, 10000, "",
@@ -109,7 +109,7 @@ std::vector<config::Row> admission_rows(FusionConfig& c) {
                     "Stations of this site: bearings of others are refused; empty: all are taken."),
       config::integer("max_stations", c.admission.max_stations, 2, 100000, "",
                       "Maximum number of stations; one more replaces a silent one."),
-      config::number("stray_alarm_s", c.strays.alarm_s, {1.0, 3600.0}, "s",
+      config::number("stray_alarm_s", c.unassociated.alarm_s, {1.0, 3600.0}, "s",
                      "A station that follows an unknown object for this long raises an alarm."),
   };
 }

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "base/lcm_bus.h"
-#include "central/admission/sighting_check.h"
+#include "central/admission/bearing_check.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
@@ -121,12 +121,12 @@ const char* to_string(MessageRefusal refusal) {
   return "unknown";
 }
 
-std::variant<Sighting, MessageRefusal> sighting_from(const std::string& channel, const void* data,
+std::variant<BearingMeasurement, MessageRefusal> sighting_from(const std::string& channel, const void* data,
                                                      int bytes) {
   ols_msg::bearing_t message;
   const auto refusal = decode_from_station(kBearingChannel, channel, data, bytes, message);
   if (refusal) return *refusal;
-  Sighting sighting;
+  BearingMeasurement sighting;
   sighting.station = message.station;
   sighting.utime_us = message.utime;
   sighting.boot_id = message.boot_id;
@@ -239,7 +239,7 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
     message.residual.push_back(station.residual);
     message.clock_offset_s.push_back(station.clock_offset_s);
     message.quarantine.push_back(station.quarantine);
-    const StationFinding& found = station.finding;
+    const StationBiasReport& found = station.finding;
     message.bias_rad.push_back({found.bias_rad.x(), found.bias_rad.y()});
     message.bias_sd_rad.push_back({found.bias_sd_rad.x(), found.bias_sd_rad.y()});
     message.clock_found_s.push_back(found.clock_s);

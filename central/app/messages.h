@@ -23,7 +23,7 @@ const char* to_string(MessageRefusal refusal);
 
 // Never throws, whatever the bytes. The numbers' values are left to check() of
 // central/fusion/fusion.h.
-std::variant<Sighting, MessageRefusal> sighting_from(const std::string& channel, const void* data,
+std::variant<BearingMeasurement, MessageRefusal> sighting_from(const std::string& channel, const void* data,
                                                      int bytes);
 
 // What a station's status tells of it. Its place is nearly the camera centre, until a bearing

@@ -31,6 +31,6 @@ std::string TimelinessGate::alarm(double now_s) const {
   return text;
 }
 
-bool TimelinessGate::take_news() { return std::exchange(news_, false); }
+bool TimelinessGate::take_event() { return std::exchange(news_, false); }
 
 }  // namespace ols

@@ -19,7 +19,7 @@ class TimelinessGate {
   // In words, while something was withheld within the last seconds; empty otherwise.
   std::string alarm(double now_s) const;
   // Once at the beginning of such a time.
-  bool take_news();
+  bool take_event();
 
  private:
   static constexpr double kNever = -std::numeric_limits<double>::infinity();

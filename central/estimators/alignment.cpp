@@ -25,26 +25,26 @@ double seconds_between(std::int64_t later_us, std::int64_t earlier_us) {
 }
 
 // The bearings in a window of the given span that ends as late as possible, but is at most centred.
-std::span<const Sighting> window_of(std::span<const Sighting> all, std::int64_t epoch_us,
+std::span<const BearingMeasurement> window_of(std::span<const BearingMeasurement> all, std::int64_t epoch_us,
                                     double window_s) {
   const auto span_us = static_cast<std::int64_t>(std::llround(window_s * 1e6));
   const std::int64_t end_us = std::min(all.back().utime_us, epoch_us + span_us / 2);
-  const auto first = std::ranges::lower_bound(all, end_us - span_us, {}, &Sighting::utime_us);
-  const auto last = std::ranges::upper_bound(all, end_us, {}, &Sighting::utime_us);
+  const auto first = std::ranges::lower_bound(all, end_us - span_us, {}, &BearingMeasurement::utime_us);
+  const auto last = std::ranges::upper_bound(all, end_us, {}, &BearingMeasurement::utime_us);
   return {first, last};
 }
 
-const Sighting& nearest(std::span<const Sighting> window, std::int64_t epoch_us) {
-  return *std::ranges::min_element(window, {}, [&](const Sighting& sighting) {
+const BearingMeasurement& nearest(std::span<const BearingMeasurement> window, std::int64_t epoch_us) {
+  return *std::ranges::min_element(window, {}, [&](const BearingMeasurement& sighting) {
     return std::llabs(sighting.utime_us - epoch_us);
   });
 }
 
-std::vector<Sample> samples_of(std::span<const Sighting> window, std::int64_t epoch_us,
-                               const Sighting& reference, const RayFrame& frame,
+std::vector<Sample> samples_of(std::span<const BearingMeasurement> window, std::int64_t epoch_us,
+                               const BearingMeasurement& reference, const RayFrame& frame,
                                double noise_scale) {
   std::vector<Sample> samples;
-  for (const Sighting& sighting : window) {
+  for (const BearingMeasurement& sighting : window) {
     const RayFrame own = ray_frame(sighting.sight);
     const double ahead = frame.direction.dot(own.direction);
     if (ahead <= 0.1) continue;  // not on this tangent plane
@@ -123,7 +123,7 @@ Fit fit(const std::vector<Sample>& samples, double range_m, const AlignmentConfi
 }
 
 // From the reference's tangent plane to the ray's own.
-Ray ray_of(const Sighting& reference, const RayFrame& frame, const Fit& fitted) {
+Ray ray_of(const BearingMeasurement& reference, const RayFrame& frame, const Fit& fitted) {
   Ray ray{.station = reference.station, .sight = reference.sight};
   ray.sight.origin_ecef += fitted.origin;
   const double stretch_squared = 1.0 + fitted.direction.squaredNorm();
@@ -148,13 +148,13 @@ bool all_finite(const Ray& ray) {
 
 }  // namespace
 
-std::optional<Ray> align(std::span<const Sighting> sightings, std::int64_t epoch_us,
+std::optional<Ray> align(std::span<const BearingMeasurement> sightings, std::int64_t epoch_us,
                          std::optional<double> range_m, const AlignmentConfig& config,
                          double noise_scale) {
   if (sightings.empty()) return std::nullopt;
   const auto window = window_of(sightings, epoch_us, config.window_s);
   if (window.empty()) return std::nullopt;
-  const Sighting& reference = nearest(window, epoch_us);
+  const BearingMeasurement& reference = nearest(window, epoch_us);
   if (std::abs(seconds_between(reference.utime_us, epoch_us)) > config.max_age_s) {
     return std::nullopt;
   }
@@ -166,7 +166,7 @@ std::optional<Ray> align(std::span<const Sighting> sightings, std::int64_t epoch
   ray.clock_sd_s = reference.clock_sd_s;
   ray.age_s = seconds_between(epoch_us, sightings.back().utime_us);
   ray.belief = 0.0;
-  for (const Sighting& s : window) ray.belief += s.belief / static_cast<double>(window.size());
+  for (const BearingMeasurement& s : window) ray.belief += s.belief / static_cast<double>(window.size());
   if (!all_finite(ray)) return std::nullopt;  // one such ray would spoil the fit of all
   return ray;
 }

@@ -13,7 +13,7 @@
 #include <span>
 
 #include "central/measurement/ray.h"
-#include "central/measurement/sighting.h"
+#include "central/measurement/bearing_measurement.h"
 
 namespace ols {
 
@@ -28,7 +28,7 @@ struct AlignmentConfig {
 // One station's bearings, in order of time -> its ray at the epoch; nothing when there is none
 // near. range_m: distance to the target as far as known, for the prior of its angular acceleration.
 // noise_scale: the variance of the bearings' noise over the one that they state.
-std::optional<Ray> align(std::span<const Sighting> sightings, std::int64_t epoch_us,
+std::optional<Ray> align(std::span<const BearingMeasurement> sightings, std::int64_t epoch_us,
                          std::optional<double> range_m, const AlignmentConfig& config = {},
                          double noise_scale = 1.0);
 

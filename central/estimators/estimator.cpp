@@ -59,7 +59,7 @@ class RayEstimator : public Estimator {
       auto ray =
           align(bearings, epoch_us, range_m, config_.alignment, target.errors.noise_scale(station));
       if (!ray) continue;
-      ray->sight.covariance_systematic += target.errors.untold(station, bearings.back().sight);
+      ray->sight.covariance_systematic += target.errors.undeclared(station, bearings.back().sight);
       rays.push_back(std::move(*ray));
     }
     return rays;
@@ -151,7 +151,7 @@ Estimate estimate_of(const TrackFilter& filter, const KinematicState& state,
   estimate.position_ecef = state.mean.head<3>();
   estimate.covariance_ecef = state.covariance.topLeftCorner<3, 3>();
   estimate.covariance_white_ecef = estimate.covariance_ecef - systematic.all_m2;
-  estimate.covariance_ecef += filter.config().in_common * systematic.shown_m2;
+  estimate.covariance_ecef += filter.config().common_mode * systematic.empirical_m2;
   estimate.velocity_ecef = state.mean.segment<3>(3);
   estimate.velocity_covariance_ecef = state.covariance.block<3, 3>(3, 3);
   tell_geometry(filter, state.utime_us, estimate);

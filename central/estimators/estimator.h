@@ -45,7 +45,7 @@ using Unlocated = std::map<Solution, std::size_t>;
 // What there is of one target. The estimators other than the filter need none.
 struct TrackView {
   const StationBearings& bearings;
-  const StationErrors& errors;
+  const BiasModel& errors;
   const TrackFilter* filter = nullptr;
 };
 

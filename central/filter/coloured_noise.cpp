@@ -4,8 +4,8 @@
 
 namespace ols {
 
-double ColouredNoise::observe(const Sighting& sighting, const RayFrame& frame,
-                              StationErrors& shown) {
+double ColouredNoise::observe(const BearingMeasurement& sighting, const RayFrame& frame,
+                              BiasModel& shown) {
   constexpr double kNearS = 0.3;  // further apart the target's own motion shows
   const double first_s = seconds(utime_us_[1] - utime_us_[0]);
   const double second_s = seconds(sighting.utime_us - utime_us_[1]);

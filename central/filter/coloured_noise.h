@@ -6,9 +6,9 @@
 #include <array>
 #include <cstdint>
 
-#include "central/filter/station_errors.h"
+#include "central/filter/bias_model.h"
 #include "central/measurement/ray.h"
-#include "central/measurement/sighting.h"
+#include "central/measurement/bearing_measurement.h"
 
 namespace ols {
 
@@ -16,7 +16,7 @@ class ColouredNoise {
  public:
   // Tells the errors how much a bearing differs from the line between its neighbours, and gives the
   // factor by which its variance counts more than stated.
-  double observe(const Sighting& sighting, const RayFrame& frame, StationErrors& shown);
+  double observe(const BearingMeasurement& sighting, const RayFrame& frame, BiasModel& shown);
 
  private:
   // The two bearings before the next one.

@@ -65,7 +65,7 @@ FilterMatrix2 ModelInnovation::cross(const FilterMatrix& P, const StationPart& p
 }
 
 ModelInnovation innovation_of(const InteractingModels& models, std::size_t which,
-                              const Sighting& sighting, const RayFrame& frame,
+                              const BearingMeasurement& sighting, const RayFrame& frame,
                               const StationPart* station,
                               const std::optional<KinematicState>& about) {
   const Motion motion = models.motion(which);

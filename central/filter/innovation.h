@@ -10,7 +10,7 @@
 
 #include "central/filter/interacting_models.h"
 #include "central/measurement/ray.h"
-#include "central/measurement/sighting.h"
+#include "central/measurement/bearing_measurement.h"
 
 namespace ols {
 
@@ -50,7 +50,7 @@ struct Innovation {
 
 // The motion, if any, that the equations are linear about, instead of about what is known so far.
 ModelInnovation innovation_of(const InteractingModels& models, std::size_t which,
-                              const Sighting& sighting, const RayFrame& frame,
+                              const BearingMeasurement& sighting, const RayFrame& frame,
                               const StationPart* station,
                               const std::optional<KinematicState>& about);
 

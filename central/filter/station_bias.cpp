@@ -30,7 +30,7 @@ SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
     moves.middleCols(at + 3, states_of(prior) - 3).setZero();
     at += states_of(prior);
   }
-  part.shown_m2 = moves * own * moves.transpose();
+  part.empirical_m2 = moves * own * moves.transpose();
   return part;
 }
 
@@ -52,7 +52,7 @@ StationBias station_bias(const InteractingModels& models, Eigen::Index first,
   Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kStationStates> B(2, n);
   B.setZero();
   B.leftCols<3>() = shift_by_rotation(tangent);
-  if (prior.place_apart) B.rightCols<kPlaceStates>() = -tangent.transpose() / range_m;
+  if (prior.position_states) B.rightCols<kPlaceStates>() = -tangent.transpose() / range_m;
   StationBias result;
   result.bias_rad = B * mean;
   result.covariance_rad2 = B * P * B.transpose();

@@ -7,19 +7,19 @@
 
 #include "central/filter/filter_gaussian.h"
 #include "central/filter/interacting_models.h"
-#include "central/filter/station_errors.h"
+#include "central/filter/bias_model.h"
 
 namespace ols {
 
 inline Eigen::Index states_of(const BiasPrior& prior) {
-  return prior.place_apart ? kStationStates : kPoseStates;
+  return prior.position_states ? kStationStates : kPoseStates;
 }
 
 // The part of the position's covariance that the biases make, at the state's own instant; and of it
 // what makes those that nobody stated and only the residuals show.
 struct SystematicPart {
   Eigen::Matrix3d all_m2 = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d shown_m2 = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d empirical_m2 = Eigen::Matrix3d::Zero();
 };
 
 // Of the covariance of a whole state: position, velocity, acceleration, then states_of() each

@@ -29,7 +29,7 @@ int TrackFilter::index_of(const std::string& station) const {
 }
 
 // A station seldom moves, and to find its axes costs as much as a good part of the filter.
-RayFrame TrackFilter::frame_of(const Sighting& sighting, int station) const {
+RayFrame TrackFilter::frame_of(const BearingMeasurement& sighting, int station) const {
   if (station < 0) return ray_frame(sighting.sight);
   const FilterStation& known = stations_[static_cast<std::size_t>(station)];
   const bool same = known.sight.origin_ecef == sighting.sight.origin_ecef;
@@ -45,7 +45,7 @@ Eigen::Index TrackFilter::first_of(int station) const {
 StationPart TrackFilter::part_of(int station, const RayFrame& frame) const {
   const auto index = static_cast<std::size_t>(station);
   const Eigen::Matrix3d& R = stations_[index].R_ecef_enu;
-  return {first_of(station), priors_[index].place_apart,
+  return {first_of(station), priors_[index].position_states,
           shift_by_rotation(R.transpose() * frame.tangent), R};
 }
 
@@ -57,10 +57,10 @@ bool TrackFilter::place_matters(const LineOfSight& sight) const {
 }
 
 // New states, or those of the station that is silent longest where all are given away; -1: none.
-int TrackFilter::take_place(const Sighting& sighting) {
+int TrackFilter::claim_station_states(const BearingMeasurement& sighting) {
   if (stations_.size() < kFilterStations) {
     stations_.emplace_back();
-    priors_.push_back({.place_apart = place_matters(sighting.sight)});
+    priors_.push_back({.position_states = place_matters(sighting.sight)});
     const Eigen::Index n = models_[0].mean.size(), more = states_of(priors_.back());
     for (FilterGaussian& model : models_.each()) insert_states(n, more, model);
     return static_cast<int>(stations_.size()) - 1;
@@ -70,11 +70,11 @@ int TrackFilter::take_place(const Sighting& sighting) {
   if (silent->last_offered.age_s(sighting.utime_us) < Activity::kFollowsS) return -1;
   const int station = static_cast<int>(silent - stations_.begin());
   silent->sight = sighting.sight;
-  if (place_matters(sighting.sight)) tell_place_apart(station);
+  if (place_matters(sighting.sight)) add_position_states(station);
   return station;
 }
 
-void TrackFilter::enter(int station, const Sighting& sighting, const StationErrors& priors) {
+void TrackFilter::enter(int station, const BearingMeasurement& sighting, const BiasModel& priors) {
   stations_[static_cast<std::size_t>(station)] = {
       .station = sighting.station,
       .sight = sighting.sight,
@@ -85,20 +85,20 @@ void TrackFilter::enter(int station, const Sighting& sighting, const StationErro
       .track_id = sighting.track_id};
   BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
   const double range_m = (models_[0].mean.head<3>() - sighting.sight.origin_ecef).norm();
-  prior = priors.prior(sighting.station, sighting.sight, range_m, prior.place_apart);
+  prior = priors.prior(sighting.station, sighting.sight, range_m, prior.position_states);
   const Eigen::Index at = first_of(station), n = states_of(prior);
   for (FilterGaussian& model : models_.each()) {
     model.mean.segment(at, n).setZero();
     model.covariance.middleRows(at, n).setZero();
     model.covariance.middleCols(at, n).setZero();
     model.covariance.diagonal().segment<3>(at) = prior.rotation;
-    if (!prior.place_apart) continue;
+    if (!prior.position_states) continue;
     model.covariance.diagonal().segment<kPlaceStates>(at + kPoseStates) = prior.place_m2;
   }
 }
 
 // Without the station's part where the filter has no states of it.
-Innovation TrackFilter::compare(const Sighting& sighting, int station) const {
+Innovation TrackFilter::compare(const BearingMeasurement& sighting, int station) const {
   Innovation seen;
   seen.state = state_;
   seen.frame = frame_of(sighting, station);
@@ -110,7 +110,7 @@ Innovation TrackFilter::compare(const Sighting& sighting, int station) const {
   return seen;
 }
 
-Innovation TrackFilter::innovation(const Sighting& sighting, const StationErrors& priors) const {
+Innovation TrackFilter::innovation(const BearingMeasurement& sighting, const BiasModel& priors) const {
   const int station = index_of(sighting.station);
   Innovation seen = compare(sighting, station);
   Eigen::Matrix2d more = sighting.sight.covariance_white * priors.noise_scale(sighting.station);
@@ -136,9 +136,9 @@ Innovation TrackFilter::innovation(const Sighting& sighting, const StationErrors
   return seen;
 }
 
-FilterUpdate TrackFilter::update(const Sighting& sighting, const StationErrors& priors,
+FilterUpdate TrackFilter::update(const BearingMeasurement& sighting, const BiasModel& priors,
                                  const Innovation* known) {
-  FilterUpdate update{.shown = StationErrors::evidence_on(priors)};
+  FilterUpdate update{.shown = BiasModel::evidence_on(priors)};
   if (seconds(utime_us() - sighting.utime_us) > kLatestS) return update;
   predict(sighting.utime_us, update.shown);
   take(sighting, known, update);
@@ -146,8 +146,8 @@ FilterUpdate TrackFilter::update(const Sighting& sighting, const StationErrors& 
   return update;
 }
 
-StationErrors TrackFilter::advance(std::int64_t utime_us, const StationErrors& priors) {
-  StationErrors shown = StationErrors::evidence_on(priors);
+BiasModel TrackFilter::advance(std::int64_t utime_us, const BiasModel& priors) {
+  BiasModel shown = BiasModel::evidence_on(priors);
   predict(utime_us, shown);
   refresh();
   return shown;
@@ -156,7 +156,7 @@ StationErrors TrackFilter::advance(std::int64_t utime_us, const StationErrors& p
 // The target was designated to the station anew, and it follows another point of it: its bias may
 // be as great as before any bearing, but what it shares with the other states stays. Of a station
 // which changes its mind with each frame the bias would else seem new each time, and average out.
-void TrackFilter::show_anew(int station, std::int64_t track_id) {
+void TrackFilter::reset_bias(int station, std::int64_t track_id) {
   stations_[static_cast<std::size_t>(station)].track_id = track_id;
   const BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
   for (FilterGaussian& model : models_.each()) {
@@ -167,17 +167,17 @@ void TrackFilter::show_anew(int station, std::int64_t track_id) {
 
 // The station's states, new where it is new or has another calibration; its clock as it states it
 // now. -1: it has none.
-int TrackFilter::station_of(const Sighting& sighting, const StationErrors& priors) {
+int TrackFilter::station_of(const BearingMeasurement& sighting, const BiasModel& priors) {
   int station = index_of(sighting.station);
   const bool is_new = station < 0;
-  if (is_new) station = take_place(sighting);
+  if (is_new) station = claim_station_states(sighting);
   if (station < 0) return station;
   const FilterStation& known = stations_[static_cast<std::size_t>(station)];
   if (is_new || known.calibration_id != sighting.calibration_id) {
     enter(station, sighting, priors);
     ++state_;
   } else if (known.track_id != sighting.track_id) {
-    show_anew(station, sighting.track_id);
+    reset_bias(station, sighting.track_id);
     ++state_;
   }
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
@@ -195,11 +195,11 @@ int TrackFilter::station_of(const Sighting& sighting, const StationErrors& prior
 }
 
 // At the state's own instant, or late.
-void TrackFilter::take(const Sighting& sighting, const Innovation* known, FilterUpdate& update) {
+void TrackFilter::take(const BearingMeasurement& sighting, const Innovation* known, FilterUpdate& update) {
   const int station = station_of(sighting, update.shown);
   if (station < 0) {
     update.nis = innovation(sighting, update.shown).nis;
-    update.use = update.nis < config_.gate_nis ? BearingUse::kNoPlace : BearingUse::kSetAside;
+    update.use = update.nis < config_.gate_nis ? BearingUse::kNoFreeState : BearingUse::kRejected;
     return;
   }
   const Eigen::Matrix2d white =
@@ -214,7 +214,7 @@ void TrackFilter::take(const Sighting& sighting, const Innovation* known, Filter
   update.shown.observe_residual(sighting.station, judged->noise);
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   ++state_;
-  update.use = BearingUse::kSetAside;
+  update.use = BearingUse::kRejected;
   if (judged->nis > config_.gate_nis) return reject(entry);
   rejections_.clear();
   update.use = BearingUse::kUsed;
@@ -226,7 +226,7 @@ void TrackFilter::take(const Sighting& sighting, const Innovation* known, Filter
   correct(seen, white * (inflation / entry.weight), may_learn ? &seen.frame.direction : nullptr);
 }
 
-void TrackFilter::note_use(FilterStation& entry, const Sighting& sighting, double nis) const {
+void TrackFilter::note_use(FilterStation& entry, const BearingMeasurement& sighting, double nis) const {
   entry.rejected = 0;
   entry.weight = nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
   if (entry.sight.origin_ecef != sighting.sight.origin_ecef) {
@@ -295,7 +295,7 @@ void TrackFilter::inflate(double time_s, const Eigen::Matrix3d& along) {
   models_.inflate(time_s, along, velocity());
 }
 
-void TrackFilter::predict(std::int64_t utime_us, StationErrors& shown) {
+void TrackFilter::predict(std::int64_t utime_us, BiasModel& shown) {
   if (utime_us <= models_.utime_us()) return;
   ++state_;
   models_.predict(utime_us);
@@ -308,11 +308,11 @@ void TrackFilter::predict(std::int64_t utime_us, StationErrors& shown) {
 }
 
 // What each station's bias shows by now is evidence; it moves on by its prior.
-void TrackFilter::move_biases(double dt_s, StationErrors& shown) {
+void TrackFilter::move_biases(double dt_s, BiasModel& shown) {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     FilterStation& station = stations_[i];
     const int index = static_cast<int>(i);
-    if (!priors_[i].place_apart && place_matters(station.sight)) tell_place_apart(index);
+    if (!priors_[i].position_states && place_matters(station.sight)) add_position_states(index);
     const double range_m = (position() - station.sight.origin_ecef).norm();
     if (station.last_used.age_s(utime_us()) < 2.0 * config_.mixing_s + dt_s) {
       const StationBias now = bias(i);
@@ -320,17 +320,17 @@ void TrackFilter::move_biases(double dt_s, StationErrors& shown) {
                     {now.bias_rad, now.covariance_rad2.diagonal(), now.prior_rad2.diagonal()}, dt_s,
                     range_m);
     }
-    priors_[i] = shown.prior(station.station, station.sight, range_m, priors_[i].place_apart);
+    priors_[i] = shown.prior(station.station, station.sight, range_m, priors_[i].position_states);
   }
   fade_biases(dt_s, shown.clock_time_s());
 }
 
 // The station has states for its place from now on: a target that has come nearer.
-void TrackFilter::tell_place_apart(int station) {
+void TrackFilter::add_position_states(int station) {
   BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
-  if (prior.place_apart) return;
+  if (prior.position_states) return;
   const Eigen::Index first = first_of(station) + kPoseStates;
-  prior.place_apart = true;
+  prior.position_states = true;
   prior.place_m2 =
       stations_[static_cast<std::size_t>(station)].sight.origin_sd_enu_m.array().square();
   for (FilterGaussian& model : models_.each()) {
@@ -348,7 +348,7 @@ void TrackFilter::fade_biases(double dt_s, double clock_time_s) {
     const BiasPrior& prior = priors_[i];
     rate.segment<kPoseStates>(at) << prior.time_s.inverse(), 1.0 / clock_time_s;
     variance.segment<kPoseStates>(at) << prior.rotation, std::pow(stations_[i].clock_sd_s, 2);
-    if (prior.place_apart) {
+    if (prior.position_states) {
       rate.segment<kPlaceStates>(at + kPoseStates).setConstant(1.0 / prior.place_time_s);
       variance.segment<kPlaceStates>(at + kPoseStates) = prior.place_m2;
     }

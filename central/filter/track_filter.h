@@ -5,7 +5,7 @@
 // the rotation that its pose is off by (about its east, north, up), its clock's offset and, where
 // that matters, the error of its place. These are what stays while the tripod stands: the bias on
 // the tangent plane changes with the direction. They are Gauss-Markov processes with the prior of
-// StationErrors: where the geometry shows them they are estimated, where it does not they are only
+// BiasModel: where the geometry shows them they are estimated, where it does not they are only
 // considered (Schmidt), and either way the position's covariance contains them, so that averaging
 // does not make them go away.
 //
@@ -30,10 +30,10 @@
 #include "central/filter/innovation.h"
 #include "central/filter/interacting_models.h"
 #include "central/filter/station_bias.h"
-#include "central/filter/station_errors.h"
+#include "central/filter/bias_model.h"
 #include "central/measurement/activity.h"
 #include "central/measurement/ray.h"
-#include "central/measurement/sighting.h"
+#include "central/measurement/bearing_measurement.h"
 
 namespace ols {
 
@@ -46,7 +46,7 @@ struct FilterConfig {
   double max_range_m = 500e3;
   // What a station that states no error of its pose may be off by, with its clock, when it is asked
   // whether two rays cross widely enough to tell a range [rad].
-  double untold_rad = 1e-3;
+  double undeclared_sd_rad = 1e-3;
   // Two stations alone: squared turn over what they state of bias and noise, beyond which their
   // rays are not made to meet.
   double two_stations_nis = 25.0;
@@ -55,12 +55,12 @@ struct FilterConfig {
   double place_share = 0.005;
   // What all stations may have in common beyond what independent errors have, in variance: it moves
   // the target and no residual shows it. Over the part that biases make which the residuals show.
-  double in_common = 1.0;
+  double common_mode = 1.0;
 };
 
-// What became of a bearing. kNoPlace: all the states are those of stations that still deliver.
+// What became of a bearing. kNoFreeState: all the states are those of stations that still deliver.
 // Their bearings without them would count as if each had a bias of its own, and none had any.
-enum class BearingUse { kUsed, kSetAside, kBehindCamera, kTooLate, kNoPlace };
+enum class BearingUse { kUsed, kRejected, kBehindCamera, kTooLate, kNoFreeState };
 
 // A contributing station.
 struct FilterStation {
@@ -82,7 +82,7 @@ struct FilterStation {
 struct FilterUpdate {
   BearingUse use = BearingUse::kTooLate;
   double nis = std::numeric_limits<double>::infinity();  // where the bearing was compared at all
-  StationErrors shown;
+  BiasModel shown;
 };
 
 class TrackFilter {
@@ -90,12 +90,12 @@ class TrackFilter {
   // A start for the first bearings. std::invalid_argument for a configuration without models.
   TrackFilter(const FilterConfig& config, std::int64_t utime_us, const FilterStart& start);
 
-  Innovation innovation(const Sighting& sighting, const StationErrors& priors) const;
+  Innovation innovation(const BearingMeasurement& sighting, const BiasModel& priors) const;
   // `known`: the bearing's innovation() with the same priors, where it is at hand.
-  [[nodiscard]] FilterUpdate update(const Sighting& sighting, const StationErrors& priors,
+  [[nodiscard]] FilterUpdate update(const BearingMeasurement& sighting, const BiasModel& priors,
                                     const Innovation* known = nullptr);
   // Moves the state on without a bearing; gives what the biases by then show.
-  [[nodiscard]] StationErrors advance(std::int64_t utime_us, const StationErrors& priors);
+  [[nodiscard]] BiasModel advance(std::int64_t utime_us, const BiasModel& priors);
   // The bearings' equations are linear about this motion, instead of about what is known so far:
   // for another round over the same bearings, while that is vague.
   void linearise_about(const KinematicState& motion) { about_ = motion; }
@@ -120,23 +120,23 @@ class TrackFilter {
   const FilterConfig& config() const { return config_; }
 
  private:
-  RayFrame frame_of(const Sighting& sighting, int station) const;
+  RayFrame frame_of(const BearingMeasurement& sighting, int station) const;
   Eigen::Index first_of(int station) const;
   StationPart part_of(int station, const RayFrame& frame) const;
   int index_of(const std::string& station) const;
   bool place_matters(const LineOfSight& sight) const;
-  int take_place(const Sighting& sighting);
-  void enter(int station, const Sighting& sighting, const StationErrors& priors);
-  void show_anew(int station, std::int64_t track_id);
-  void tell_place_apart(int station);
-  int station_of(const Sighting& sighting, const StationErrors& priors);
-  Innovation compare(const Sighting& sighting, int station) const;
+  int claim_station_states(const BearingMeasurement& sighting);
+  void enter(int station, const BearingMeasurement& sighting, const BiasModel& priors);
+  void reset_bias(int station, std::int64_t track_id);
+  void add_position_states(int station);
+  int station_of(const BearingMeasurement& sighting, const BiasModel& priors);
+  Innovation compare(const BearingMeasurement& sighting, int station) const;
   // `along`: the bearing's direction where biases may be learnt of it.
   void correct(const Innovation& seen, const Eigen::Matrix2d& noise, const Eigen::Vector3d* along);
-  void take(const Sighting& sighting, const Innovation* known, FilterUpdate& update);
-  void note_use(FilterStation& entry, const Sighting& sighting, double nis) const;
-  void predict(std::int64_t utime_us, StationErrors& shown);
-  void move_biases(double dt_s, StationErrors& shown);
+  void take(const BearingMeasurement& sighting, const Innovation* known, FilterUpdate& update);
+  void note_use(FilterStation& entry, const BearingMeasurement& sighting, double nis) const;
+  void predict(std::int64_t utime_us, BiasModel& shown);
+  void move_biases(double dt_s, BiasModel& shown);
   void fade_biases(double dt_s, double clock_time_s);
   void reject(FilterStation& entry);
   void inflate(double time_s, const Eigen::Matrix3d& along);

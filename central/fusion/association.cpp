@@ -4,7 +4,7 @@
 
 namespace ols {
 
-Associated associate(const Sighting& sighting, TrackManager& tracks, PointingMonitor& pointing) {
+Associated associate(const BearingMeasurement& sighting, TrackManager& tracks, PointingMonitor& pointing) {
   const bool believed = pointing.quarantine(sighting.station).empty();
   Associated associated{.result = tracks.add(sighting, believed)};
   if (associated.result.kind == Association::Kind::kAmbiguous) return associated;

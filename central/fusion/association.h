@@ -16,6 +16,6 @@ struct Associated {
   bool newly_so = false;     // since this bearing
 };
 
-Associated associate(const Sighting& sighting, TrackManager& tracks, PointingMonitor& pointing);
+Associated associate(const BearingMeasurement& sighting, TrackManager& tracks, PointingMonitor& pointing);
 
 }  // namespace ols

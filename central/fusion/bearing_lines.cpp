@@ -28,13 +28,13 @@ std::vector<std::string> BearingLines::stations(std::int64_t epoch_us) const {
   return found;
 }
 
-std::vector<const Sighting*> BearingLines::of(const std::string& station,
+std::vector<const BearingMeasurement*> BearingLines::of(const std::string& station,
                                               std::int64_t epoch_us) const {
   const UnassociatedBearings::Station& own = bearings_of(station);
-  std::vector<const Sighting*> lines;
+  std::vector<const BearingMeasurement*> lines;
   std::vector<std::int64_t> names;
   for (std::size_t i = own.looks.size(); i-- > 0;) {
-    const Look& look = own.looks[i];
+    const BearingSummary& look = own.looks[i];
     if (std::abs(seconds(epoch_us - look.utime_us)) > config_.max_age_s) break;
     if (look.track_id == 0 || std::ranges::find(names, look.track_id) != names.end()) continue;
     names.push_back(look.track_id);
@@ -42,19 +42,19 @@ std::vector<const Sighting*> BearingLines::of(const std::string& station,
       lines.push_back(&own.bearings[i]);
     }
   }
-  std::ranges::sort(lines, {}, [](const Sighting* line) { return line->track_id; });
+  std::ranges::sort(lines, {}, [](const BearingMeasurement* line) { return line->track_id; });
   if (lines.size() > kOfAStation) lines.resize(kOfAStation);
   return lines;
 }
 
-const Sighting* BearingLines::newest_of(const std::string& station) const {
+const BearingMeasurement* BearingLines::newest_of(const std::string& station) const {
   return &bearings_of(station).bearings.back();
 }
 
-std::optional<BearingOnly> BearingLines::at(const Sighting& newest, std::int64_t epoch_us) const {
-  std::vector<Sighting> own;
+std::optional<BearingOnly> BearingLines::at(const BearingMeasurement& newest, std::int64_t epoch_us) const {
+  std::vector<BearingMeasurement> own;
   std::ranges::copy_if(bearings_of(newest.station).bearings, std::back_inserter(own),
-                       [&](const Sighting& s) { return s.track_id == newest.track_id; });
+                       [&](const BearingMeasurement& s) { return s.track_id == newest.track_id; });
   const auto ray = align(own, epoch_us, std::nullopt, config_);
   if (!ray) return std::nullopt;
   return BearingOnly{newest.station, newest.track_id, ray->sight, ray->rate_rad_s};

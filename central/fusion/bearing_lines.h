@@ -24,10 +24,10 @@ class BearingLines {
   std::vector<std::string> stations(std::int64_t epoch_us) const;
   // What a station follows by a name of its own and no track takes: the newest bearing of each, the
   // smallest names first, which most trackers gave first.
-  std::vector<const Sighting*> of(const std::string& station, std::int64_t epoch_us) const;
+  std::vector<const BearingMeasurement*> of(const std::string& station, std::int64_t epoch_us) const;
   // The newest bearing of a station.
-  const Sighting* newest_of(const std::string& station) const;
-  std::optional<BearingOnly> at(const Sighting& newest, std::int64_t epoch_us) const;
+  const BearingMeasurement* newest_of(const std::string& station) const;
+  std::optional<BearingOnly> at(const BearingMeasurement& newest, std::int64_t epoch_us) const;
 
  private:
   const UnassociatedBearings::Station& bearings_of(const std::string& station) const;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "central/admission/sighting_check.h"
+#include "central/admission/bearing_check.h"
 #include "central/estimators/estimator.h"
 #include "central/fusion/slew_planner.h"
 #include "central/tracking/track.h"
@@ -25,7 +25,7 @@ struct BearingOnly {
 struct FusedTarget {
   std::int64_t utime_us = 0;   // the epoch
   std::int64_t target_id = 0;  // 0: no object yet. A line's becomes that of its position
-  TrackState state = TrackState::kBorn;
+  TrackState state = TrackState::kTentative;
   std::string estimator;  // its name
   Estimate estimate;
   std::vector<ContributingStation> stations;  // in the order of their ids
@@ -33,7 +33,7 @@ struct FusedTarget {
 };
 
 struct FusionOutput {
-  SightingRefusal refusal = SightingRefusal::kNone;  // what became of the bearing
+  BearingRefusal refusal = BearingRefusal::kNone;  // what became of the bearing
   // Of one epoch: each confirmed object; where there is none, what there is in place of it; and the
   // lines of stations that follow what is no target (kBearingOnly). Of many, some; the next
   // bearings bring the others of the same epoch, in the order of their ids, the lines last.

@@ -26,7 +26,7 @@ Fusion::Fusion(const FusionConfig& config)
     : config_(config),
       admission_(config.admission),
       pointing_(config.pointing),
-      unassociated_(config.strays),
+      unassociated_(config.unassociated),
       tracks_(config.keeper),
       targets_(schedule_of(config)),
       slews_(config.slew, config.keeper.drop_s) {
@@ -38,8 +38,8 @@ Fusion::Fusion(const FusionConfig& config)
                            "stations_quarantined", "calibrations_changed", "stations_restarted"}) {
     log_.counters[name] = 0.0;
   }
-  for (int i = 1; i <= static_cast<int>(SightingRefusal::kLowBelief); ++i) {
-    log_.counters[to_string(static_cast<SightingRefusal>(i))] = 0.0;
+  for (int i = 1; i <= static_cast<int>(BearingRefusal::kLowBelief); ++i) {
+    log_.counters[to_string(static_cast<BearingRefusal>(i))] = 0.0;
   }
 }
 
@@ -52,12 +52,12 @@ void Fusion::allow_slews(const std::string& station, bool allowed) {
   admission_.allow_slews(station, allowed);
 }
 
-FusionOutput Fusion::add(const Sighting& sighting) {
+FusionOutput Fusion::add(const BearingMeasurement& sighting) {
   FusionOutput output;
   const Admitted admitted = admission_.admit(sighting, log_);
   forget_what_changed(sighting, admitted);
   output.refusal = admitted.refusal;
-  if (output.refusal == SightingRefusal::kNone) {
+  if (output.refusal == BearingRefusal::kNone) {
     output.refusal = associate(sighting, *admitted.station);
   }
   note_refusal(output.refusal, sighting);
@@ -73,8 +73,8 @@ FusionOutput Fusion::add(const Sighting& sighting) {
 }
 
 // A clock that is off the others' counts as that much worse.
-SightingRefusal Fusion::associate(const Sighting& sighting, KnownStation& station) {
-  Sighting judged = sighting;
+BearingRefusal Fusion::associate(const BearingMeasurement& sighting, KnownStation& station) {
+  BearingMeasurement judged = sighting;
   const double added_sd_s = admission_.clocks().added_sd_s(sighting.station);
   judged.clock_sd_s = std::hypot(sighting.clock_sd_s, added_sd_s);
   const Associated associated = ols::associate(judged, tracks_, pointing_);
@@ -87,17 +87,17 @@ SightingRefusal Fusion::associate(const Sighting& sighting, KnownStation& statio
     log_.quarantine(sighting.station, pointing_.quarantine(sighting.station));
   }
   const bool used = associated.explained || !associated.quarantined;
-  return used ? SightingRefusal::kNone : SightingRefusal::kQuarantine;
+  return used ? BearingRefusal::kNone : BearingRefusal::kQuarantine;
 }
 
 // A track that is only born explains nothing yet, nor does it deny.
-void Fusion::note_unassociated(const Sighting& sighting, const Association& result) {
+void Fusion::note_unassociated(const BearingMeasurement& sighting, const Association& result) {
   const bool by_none =
-      result.kind == Association::Kind::kUnexplained || result.kind == Association::Kind::kSetAside;
+      result.kind == Association::Kind::kUnexplained || result.kind == Association::Kind::kRejected;
   if (!by_none) {
     const bool by_born = result.kind == Association::Kind::kTrack && result.track_id == 0;
     if (!by_born) unassociated_.agrees(sighting.station);
-  } else if (!std::ranges::any_of(tracks_.tracks(), is_sure)) {
+  } else if (!std::ranges::any_of(tracks_.tracks(), is_established)) {
     unassociated_.agrees(sighting.station);
   } else if (sighting.track_id != 0) {
     unassociated_.unassociated(sighting.station, sighting.utime_us);
@@ -111,7 +111,7 @@ void Fusion::forget(const std::string& station) {
   slews_.forget(station);
 }
 
-void Fusion::forget_what_changed(const Sighting& sighting, const Admitted& admitted) {
+void Fusion::forget_what_changed(const BearingMeasurement& sighting, const Admitted& admitted) {
   if (admitted.evicted) forget(*admitted.evicted);
   if (admitted.recalibrated) {
     tracks_.forget_errors(sighting.station);
@@ -123,11 +123,11 @@ void Fusion::forget_what_changed(const Sighting& sighting, const Admitted& admit
   }
 }
 
-void Fusion::note_refusal(SightingRefusal refusal, const Sighting& sighting) {
-  if (refusal == SightingRefusal::kNone) return;
+void Fusion::note_refusal(BearingRefusal refusal, const BearingMeasurement& sighting) {
+  if (refusal == BearingRefusal::kNone) return;
   log_.count(to_string(refusal));
   // Ordinary, or said when it began.
-  if (refusal == SightingRefusal::kLowBelief || refusal == SightingRefusal::kQuarantine) return;
+  if (refusal == BearingRefusal::kLowBelief || refusal == BearingRefusal::kQuarantine) return;
   log_.error(sighting.station, to_string(refusal));
 }
 

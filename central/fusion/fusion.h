@@ -29,10 +29,10 @@ struct FusionConfig {
                                      // the square of a target's stations
   AdmissionConfig admission{};
   EstimatorConfig estimators{};
-  KeeperConfig keeper{};
+  TrackManagerConfig keeper{};
   SlewConfig slew{};
   PointingConfig pointing{};
-  UnassociatedConfig strays{};
+  UnassociatedConfig unassociated{};
 };
 
 class Fusion {
@@ -45,19 +45,19 @@ class Fusion {
   // ... and whether it may be slewed: also of a station that has lost its place.
   void allow_slews(const std::string& station, bool allowed);
   // One bearing, in order of arrival.
-  FusionOutput add(const Sighting& sighting);
+  FusionOutput add(const BearingMeasurement& sighting);
 
   FusionHealth health() const;
   std::int64_t now_us() const { return admission_.time().now_us(); }
   const TrackManager& tracks() const { return tracks_; }
 
  private:
-  SightingRefusal associate(const Sighting& sighting, KnownStation& station);
-  void note_unassociated(const Sighting& sighting, const Association& result);
+  BearingRefusal associate(const BearingMeasurement& sighting, KnownStation& station);
+  void note_unassociated(const BearingMeasurement& sighting, const Association& result);
   void forget(const std::string& station);
-  void forget_what_changed(const Sighting& sighting, const Admitted& admitted);
+  void forget_what_changed(const BearingMeasurement& sighting, const Admitted& admitted);
   void begin_time_line();
-  void note_refusal(SightingRefusal refusal, const Sighting& sighting);
+  void note_refusal(BearingRefusal refusal, const BearingMeasurement& sighting);
 
   FusionConfig config_;
   Admission admission_;

@@ -23,8 +23,8 @@ std::map<std::string, double> all_counters(const FusionLog& log, const TrackMana
   return counters;
 }
 
-StationFinding finding_of(const StationBias& bias) {
-  StationFinding finding;
+StationBiasReport finding_of(const StationBias& bias) {
+  StationBiasReport finding;
   for (int axis = 0; axis < 2; ++axis) {
     const double variance = bias.covariance_rad2(axis, axis);
     if (!(variance < kSeen * kSeen * bias.prior_rad2(axis, axis))) continue;
@@ -39,14 +39,14 @@ StationFinding finding_of(const StationBias& bias) {
 }
 
 struct Findings {
-  std::map<std::string, StationFinding> by_station;
+  std::map<std::string, StationBiasReport> by_station;
   std::map<std::string, double> nis;
 };
 
 Findings findings_of(const std::vector<Track>& tracks) {
   Findings all;
   for (const Track& track : tracks) {
-    if (!is_sure(track)) continue;
+    if (!is_established(track)) continue;
     const auto& stations = track.filter.stations();
     for (std::size_t i = 0; i < stations.size(); ++i) {
       if (stations[i].last_used.last_us == 0) continue;

@@ -16,7 +16,7 @@
 namespace ols {
 
 // A station's bias and clock as the filter has them; NaN where the geometry does not show them.
-struct StationFinding {
+struct StationBiasReport {
   Eigen::Vector2d bias_rad = nan_vector().head<2>();  // cross-elevation, elevation
   Eigen::Vector2d bias_sd_rad = nan_vector().head<2>();
   double clock_s = std::numeric_limits<double>::quiet_NaN();
@@ -31,7 +31,7 @@ struct StationHealth {
   double residual = 0.0;        // lately, RMS normalised; NaN if none
   double clock_offset_s = 0.0;  // of its stamps from the median; NaN if none
   std::string quarantine{};     // why it is not used; empty: it is
-  StationFinding finding{};
+  StationBiasReport finding{};
 };
 
 struct FusionHealth {

@@ -139,8 +139,8 @@ std::vector<Slew> SlewPlanner::plan(SlewRound& round, std::span<const SlewStatio
   const std::int64_t now_us = round.now_us;
   std::vector<const Track*> targets;
   for (const Track& track : tracks) {
-    if (is_sure(track) && seconds(now_us - track.filter.utime_us()) <= config_.coast_s &&
-        seconds(now_us - track.located_us) <= config_.coast_s) {
+    if (is_established(track) && seconds(now_us - track.filter.utime_us()) <= config_.coast_s &&
+        seconds(now_us - track.last_two_station_us) <= config_.coast_s) {
       targets.push_back(&track);
     }
   }
@@ -148,7 +148,7 @@ std::vector<Slew> SlewPlanner::plan(SlewRound& round, std::span<const SlewStatio
   for (const SlewStation& station : stations) {
     if (!station.traits.commandable) continue;
     const Track* target = target_for(station, targets, round.seen_by);
-    const bool searches = round.ray && !round.on_a_line.contains(station.station);
+    const bool searches = round.ray && !round.bearing_only_stations.contains(station.station);
     if (target == nullptr && !searches) continue;
     slews.push_back(target != nullptr ? towards(*target, station, now_us)
                                       : along(*round.ray, station, now_us));

@@ -78,7 +78,7 @@ struct CueRay {
 struct SlewRound {
   std::int64_t now_us = 0;
   std::map<std::int64_t, int> seen_by{};  // how many stations see each target
-  std::set<std::string> on_a_line{};      // stations that follow what is no target
+  std::set<std::string> bearing_only_stations{};      // stations that follow what is no target
   std::optional<CueRay> ray{};            // of one of them
 };
 

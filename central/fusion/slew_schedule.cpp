@@ -22,7 +22,7 @@ void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
   for (const std::string& station : lines.stations(now_us)) {
     const auto own = lines.of(station, now_us);
     if (own.empty()) continue;  // many detections, not an object that it follows
-    round_.on_a_line.insert(station);
+    round_.bearing_only_stations.insert(station);
     if (round_.ray) continue;
     const auto line = lines.at(*own.front(), now_us);
     if (!line) continue;

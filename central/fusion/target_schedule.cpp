@@ -29,7 +29,7 @@ const Track* next_of(std::deque<std::int64_t>& waiting, const TrackManager& trac
   const std::int64_t id = waiting.front();
   waiting.pop_front();
   const auto track = std::ranges::find(tracks.tracks(), id, &Track::id);
-  return track == tracks.tracks().end() || !is_sure(*track) ? nullptr : &*track;
+  return track == tracks.tracks().end() || !is_established(*track) ? nullptr : &*track;
 }
 
 }  // namespace
@@ -40,10 +40,10 @@ void TargetSchedule::clear() {
 }
 
 void TargetSchedule::begin(std::int64_t now_us, TrackManager& tracks) {
-  epoch_ = {.utime_us = now_us, .lines_told = false};
+  epoch_ = {.utime_us = now_us, .bearing_only_reported = false};
   tracks.advance(now_us);
   for (const Track& track : tracks.tracks()) {
-    if (is_sure(track)) epoch_.targets.push_back(track.id);
+    if (is_established(track)) epoch_.targets.push_back(track.id);
   }
   std::ranges::sort(epoch_.targets);
   std::erase_if(objects_, [this](const auto& object) {
@@ -67,8 +67,8 @@ void TargetSchedule::tell(std::int64_t now_us, TrackManager& tracks, const Clock
     const Track* const track = next_of(epoch_.targets, tracks);
     if (track != nullptr) output.targets.push_back(locate(*track, false, tracks, clocks));
   }
-  if (epoch_.targets.empty() && !epoch_.lines_told) tell_lines(tracks, pointing, output);
-  for (; work < kTargetsABearing && epoch_.lines_told && !epoch_.papers.empty();
+  if (epoch_.targets.empty() && !epoch_.bearing_only_reported) report_bearing_only(tracks, pointing, output);
+  for (; work < kTargetsABearing && epoch_.bearing_only_reported && !epoch_.papers.empty();
        work += kPaperIsWorth) {
     const Track* const track = next_of(epoch_.papers, tracks);
     if (track != nullptr) output.targets_paper.push_back(locate(*track, true, tracks, clocks));
@@ -99,12 +99,12 @@ FusedTarget TargetSchedule::locate(const Track& track, bool by_paper, const Trac
 
 // No object: why there is none, or the one line that there is. And the line of each station that
 // follows what is no target.
-void TargetSchedule::tell_lines(TrackManager& tracks, const PointingMonitor& pointing,
+void TargetSchedule::report_bearing_only(TrackManager& tracks, const PointingMonitor& pointing,
                                 FusionOutput& output) {
-  epoch_.lines_told = true;
+  epoch_.bearing_only_reported = true;
   const BearingLines lines(tracks, pointing, config_.estimators.alignment);
   const std::int64_t epoch_us = *epoch_.utime_us;
-  const bool located = std::ranges::any_of(tracks.tracks(), is_sure);
+  const bool located = std::ranges::any_of(tracks.tracks(), is_established);
   const std::vector<std::string> stations = lines.stations(epoch_us);
   FusedTarget target;
   target.utime_us = epoch_us;
@@ -123,7 +123,7 @@ void TargetSchedule::tell_lines(TrackManager& tracks, const PointingMonitor& poi
   for (const std::string& station : stations) {
     auto newest = lines.of(station, epoch_us);
     if (newest.empty() && alone) newest.push_back(lines.newest_of(station));
-    for (const Sighting* const sighting : newest) {
+    for (const BearingMeasurement* const sighting : newest) {
       const auto line = lines.at(*sighting, epoch_us);
       if (!line) continue;
       if (++count > kLines) return;

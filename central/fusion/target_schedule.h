@@ -41,10 +41,10 @@ class TargetSchedule {
   struct Epoch {
     std::optional<std::int64_t> utime_us{};
     std::deque<std::int64_t> targets{};  // that are not told yet; then come the lines,
-    bool lines_told = true;
+    bool bearing_only_reported = true;
     std::deque<std::int64_t> papers{};  // then the paper's estimates
 
-    bool is_over() const { return lines_told && papers.empty(); }
+    bool is_over() const { return bearing_only_reported && papers.empty(); }
   };
   struct Object {
     std::unique_ptr<Estimator> main, paper;
@@ -52,7 +52,7 @@ class TargetSchedule {
   void begin(std::int64_t now_us, TrackManager& tracks);
   FusedTarget locate(const Track& track, bool by_paper, const TrackManager& tracks,
                      const ClockMonitor& clocks);
-  void tell_lines(TrackManager& tracks, const PointingMonitor& pointing, FusionOutput& output);
+  void report_bearing_only(TrackManager& tracks, const PointingMonitor& pointing, FusionOutput& output);
 
   TargetScheduleConfig config_;
   Epoch epoch_;

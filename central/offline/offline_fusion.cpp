@@ -14,10 +14,10 @@
 namespace ols {
 namespace {
 
-StationBearings recording_of(const std::vector<Sighting>& sightings, double min_belief,
+StationBearings recording_of(const std::vector<BearingMeasurement>& sightings, double min_belief,
                              UnusedBearings& unused) {
   StationBearings recording;
-  for (const Sighting& sighting : sightings) {
+  for (const BearingMeasurement& sighting : sightings) {
     if (sighting.belief >= min_belief) {
       recording[sighting.station].push_back(sighting);
     } else {
@@ -25,8 +25,8 @@ StationBearings recording_of(const std::vector<Sighting>& sightings, double min_
     }
   }
   for (auto& [name, all] : recording) {
-    std::ranges::stable_sort(all, {}, &Sighting::utime_us);
-    const auto same_instant = [](const Sighting& a, const Sighting& b) {
+    std::ranges::stable_sort(all, {}, &BearingMeasurement::utime_us);
+    const auto same_instant = [](const BearingMeasurement& a, const BearingMeasurement& b) {
       return a.utime_us == b.utime_us;
     };
     const auto first_doubled = std::unique(all.begin(), all.end(), same_instant);
@@ -36,10 +36,10 @@ StationBearings recording_of(const std::vector<Sighting>& sightings, double min_
   return recording;
 }
 
-std::vector<Sighting> in_order(const StationBearings& recording) {
-  std::vector<Sighting> all;
+std::vector<BearingMeasurement> in_order(const StationBearings& recording) {
+  std::vector<BearingMeasurement> all;
   for (const auto& [name, own] : recording) all.insert(all.end(), own.begin(), own.end());
-  std::ranges::stable_sort(all, {}, &Sighting::utime_us);
+  std::ranges::stable_sort(all, {}, &BearingMeasurement::utime_us);
   return all;
 }
 
@@ -54,9 +54,9 @@ void require_reasonable(double rate_hz, double span_s) {
   }
 }
 
-std::vector<std::int64_t> epochs_of(const std::vector<Sighting>& bearings, double rate_hz) {
+std::vector<std::int64_t> epochs_of(const std::vector<BearingMeasurement>& bearings, double rate_hz) {
   std::vector<std::int64_t> epochs;
-  for (const Sighting& sighting : bearings) epochs.push_back(sighting.utime_us);
+  for (const BearingMeasurement& sighting : bearings) epochs.push_back(sighting.utime_us);
   epochs.erase(std::unique(epochs.begin(), epochs.end()), epochs.end());
   if (epochs.empty()) return epochs;
   require_reasonable(rate_hz, static_cast<double>(epochs.back() - epochs.front()) * 1e-6);
@@ -70,11 +70,11 @@ std::vector<std::int64_t> epochs_of(const std::vector<Sighting>& bearings, doubl
 }
 
 // Mean square angular speed over steps that are long against the noise [rad^2/s^2].
-double mean_square_speed(const std::vector<const Sighting*>& bearings) {
+double mean_square_speed(const std::vector<const BearingMeasurement*>& bearings) {
   constexpr double kLeastStep = 10.0, kLongestS = 2.0;  // in sigmas
   double sum = 0.0, span = 0.0;
-  const Sighting* from = bearings.front();
-  for (const Sighting* to : bearings) {
+  const BearingMeasurement* from = bearings.front();
+  for (const BearingMeasurement* to : bearings) {
     const double step_s = static_cast<double>(to->utime_us - from->utime_us) * 1e-6;
     const double angle = angle_between(direction_ecef(from->sight), direction_ecef(to->sight));
     const double noise = std::sqrt(to->sight.covariance_white.trace());
@@ -93,7 +93,7 @@ class Recording {
   explicit Recording(const OfflineConfig& config)
       : track_(config.fusion.keeper), pointing_(config.fusion.pointing), tell_(config.tell) {}
 
-  void add(const Sighting& sighting) {
+  void add(const BearingMeasurement& sighting) {
     if (tell_) tell_();
     track_.advance(sighting.utime_us);
     if (!associate(sighting, track_, pointing_).newly_so) return;
@@ -135,7 +135,7 @@ struct Fixes {
   }
 };
 
-Fixes causal(const std::vector<Sighting>& bearings, const std::vector<std::int64_t>& epochs,
+Fixes causal(const std::vector<BearingMeasurement>& bearings, const std::vector<std::int64_t>& epochs,
              Estimator& estimator, const OfflineConfig& config) {
   Recording recording(config);
   Fixes fixes;
@@ -157,11 +157,11 @@ Fixes causal(const std::vector<Sighting>& bearings, const std::vector<std::int64
 }
 
 // The estimators without memory have the whole recording.
-Fixes interpolating(const std::vector<Sighting>& bearings, const StationBearings& recording,
+Fixes interpolating(const std::vector<BearingMeasurement>& bearings, const StationBearings& recording,
                     const std::vector<std::int64_t>& epochs, Estimator& estimator,
                     const OfflineConfig& config) {
   Recording run(config);
-  for (const Sighting& sighting : bearings) run.add(sighting);
+  for (const BearingMeasurement& sighting : bearings) run.add(sighting);
   Fixes fixes;
   for (const std::int64_t epoch_us : epochs) {
     fixes.add(epoch_us, estimator.name(),
@@ -170,10 +170,10 @@ Fixes interpolating(const std::vector<Sighting>& bearings, const StationBearings
   return fixes;
 }
 
-Fixes smoothed(const std::vector<Sighting>& bearings, const std::vector<std::int64_t>& epochs,
+Fixes smoothed(const std::vector<BearingMeasurement>& bearings, const std::vector<std::int64_t>& epochs,
                const OfflineConfig& config) {
   Recording run(config);
-  for (const Sighting& sighting : bearings) run.add(sighting);
+  for (const BearingMeasurement& sighting : bearings) run.add(sighting);
   KnownStations known{run.track().errors(), {}};
   for (const auto& [station, why] : run.beside()) known.beside.insert(station);
   Fixes fixes;
@@ -185,30 +185,30 @@ Fixes smoothed(const std::vector<Sighting>& bearings, const std::vector<std::int
 
 }  // namespace
 
-UnusedBearings unused_bearings(const std::vector<Sighting>& sightings,
+UnusedBearings unused_bearings(const std::vector<BearingMeasurement>& sightings,
                                const OfflineConfig& config) {
   UnusedBearings unused;
   recording_of(sightings, config.fusion.admission.min_belief, unused);
   return unused;
 }
 
-void guess_clocks(std::vector<Sighting>& sightings) {
+void guess_clocks(std::vector<BearingMeasurement>& sightings) {
   constexpr double kNoises = 4.0, kHalfAFrameS = 0.02;
-  std::map<std::string, std::vector<const Sighting*>> stations;
-  for (const Sighting& sighting : sightings) stations[sighting.station].push_back(&sighting);
+  std::map<std::string, std::vector<const BearingMeasurement*>> stations;
+  for (const BearingMeasurement& sighting : sightings) stations[sighting.station].push_back(&sighting);
   std::map<std::string, double> speeds;
   for (auto& [name, bearings] : stations) {
-    std::ranges::stable_sort(bearings, {}, [](const Sighting* s) { return s->utime_us; });
+    std::ranges::stable_sort(bearings, {}, [](const BearingMeasurement* s) { return s->utime_us; });
     speeds[name] = std::sqrt(mean_square_speed(bearings));
   }
-  for (Sighting& sighting : sightings) {
+  for (BearingMeasurement& sighting : sightings) {
     const double noise = std::sqrt(sighting.sight.covariance_white.trace() / 2.0);
     const double speed = speeds.at(sighting.station);
     sighting.clock_sd_s = std::min(kHalfAFrameS, kNoises * noise / std::max(1e-9, speed));
   }
 }
 
-std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
+std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& sightings,
                                       const OfflineConfig& config, Unlocated* unlocated) {
   const auto estimator = make_estimator(config.estimator, config.fusion.estimators);
   if (!estimator) throw std::invalid_argument("there is no estimator " + config.estimator);
@@ -217,7 +217,7 @@ std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
   UnusedBearings unused;
   const StationBearings recording =
       recording_of(sightings, config.fusion.admission.min_belief, unused);
-  const std::vector<Sighting> bearings = in_order(recording);
+  const std::vector<BearingMeasurement> bearings = in_order(recording);
   const std::vector<std::int64_t> epochs = epochs_of(bearings, config.rate_hz);
   Fixes fixes = config.smooth ? smoothed(bearings, epochs, config)
                 : is_filter   ? causal(bearings, epochs, *estimator, config)
@@ -226,11 +226,11 @@ std::vector<FusedTarget> fuse_offline(const std::vector<Sighting>& sightings,
   return std::move(fixes.targets);
 }
 
-std::map<std::string, std::string> stations_beside(const std::vector<Sighting>& sightings,
+std::map<std::string, std::string> stations_beside(const std::vector<BearingMeasurement>& sightings,
                                                    const OfflineConfig& config) {
   UnusedBearings unused;
   Recording run(config);
-  for (const Sighting& sighting :
+  for (const BearingMeasurement& sighting :
        in_order(recording_of(sightings, config.fusion.admission.min_belief, unused))) {
     run.add(sighting);
   }

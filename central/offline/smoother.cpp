@@ -71,8 +71,8 @@ std::optional<Whole> join(const Whole& a, const Whole& b, const Eigen::VectorXd&
   return Whole{a.mean + joint.solve(Pb.solve(b.mean - a.mean)), joint.solve(one)};
 }
 
-std::vector<Sighting> mirrored(std::vector<Sighting> bearings, std::int64_t about_us) {
-  for (Sighting& sighting : bearings) sighting.utime_us = about_us - sighting.utime_us;
+std::vector<BearingMeasurement> mirrored(std::vector<BearingMeasurement> bearings, std::int64_t about_us) {
+  for (BearingMeasurement& sighting : bearings) sighting.utime_us = about_us - sighting.utime_us;
   std::ranges::reverse(bearings);
   return bearings;
 }
@@ -83,8 +83,8 @@ std::pair<const Track*, const Track*> worth_joining(const RecordedTrack& forward
                                                     const RecordedTrack& backward) {
   const Track *ahead = forward.located(), *behind = backward.located();
   if (ahead == nullptr || behind == nullptr) return {ahead, behind};
-  if (!backward.proved()) return {ahead, nullptr};
-  if (!forward.proved()) return {nullptr, behind};
+  if (!backward.is_initiated()) return {ahead, nullptr};
+  if (!forward.is_initiated()) return {nullptr, behind};
   return {ahead, behind};
 }
 
@@ -103,13 +103,13 @@ SystematicPart told_biases(const std::optional<TrackFilter>& from_past,
 // Goes through bearings up to an instant.
 struct Runner {
   RecordedTrack track;
-  const std::vector<Sighting>* bearings;
+  const std::vector<BearingMeasurement>* bearings;
   const std::set<std::string>* beside;
   std::size_t next = 0;
 
   void run(std::int64_t utime_us, bool inclusive) {
     for (; next < bearings->size(); ++next) {
-      const Sighting& sighting = (*bearings)[next];
+      const BearingMeasurement& sighting = (*bearings)[next];
       if (sighting.utime_us > utime_us || (sighting.utime_us == utime_us && !inclusive)) break;
       track.advance(sighting.utime_us);
       track.add(sighting, !beside->contains(sighting.station));
@@ -119,7 +119,7 @@ struct Runner {
 
 class Smoother {
  public:
-  Smoother(const std::vector<Sighting>& bearings, const KeeperConfig& config,
+  Smoother(const std::vector<BearingMeasurement>& bearings, const TrackManagerConfig& config,
            const KnownStations& known)
       : forward_(bearings),
         about_us_(bearings.front().utime_us + bearings.back().utime_us),
@@ -128,7 +128,7 @@ class Smoother {
         learnt_(same_states(config)) {
     learnt_.set_errors(known.errors);
     for (const std::string& station : beside_) learnt_.forget_station(station);
-    for (const Sighting& sighting : bearings) {
+    for (const BearingMeasurement& sighting : bearings) {
       if (order_
               .try_emplace(sighting.station,
                            9 + kStationStates * static_cast<Eigen::Index>(order_.size()))
@@ -141,7 +141,7 @@ class Smoother {
   std::vector<Smoothed> run(const std::vector<std::int64_t>& epochs, Unlocated& unlocated);
 
  private:
-  static KeeperConfig same_states(KeeperConfig config) {
+  static TrackManagerConfig same_states(TrackManagerConfig config) {
     config.filter.place_share = 0.0;  // the same states at both ends
     return config;
   }
@@ -152,18 +152,18 @@ class Smoother {
   Smoothed at(std::int64_t epoch_us, const RecordedTrack& forward,
               const RecordedTrack& backward) const;
 
-  const std::vector<Sighting>& forward_;
+  const std::vector<BearingMeasurement>& forward_;
   std::int64_t about_us_;
-  std::vector<Sighting> backward_;
+  std::vector<BearingMeasurement> backward_;
   std::set<std::string> beside_;
   RecordedTrack learnt_;  // empty, with what is known of the stations
   Order order_;
-  std::vector<Sighting> sights_;  // one of each station, in that order
+  std::vector<BearingMeasurement> sights_;  // one of each station, in that order
 };
 
 std::vector<BiasPrior> Smoother::priors(const Eigen::Vector3d& p_ecef) const {
   std::vector<BiasPrior> biases;
-  for (const Sighting& sighting : sights_) {
+  for (const BearingMeasurement& sighting : sights_) {
     const double range_m = (p_ecef - sighting.sight.origin_ecef).norm();
     biases.push_back(learnt_.errors().prior(sighting.station, sighting.sight, range_m, true));
   }
@@ -202,7 +202,7 @@ Smoothed Smoother::at(std::int64_t epoch_us, const RecordedTrack& forward,
     fix.located.estimate.solution = forward.why_none(epoch_us);
     return fix;
   }
-  StationErrors shown = StationErrors::evidence_on(learnt_.errors());
+  BiasModel shown = BiasModel::evidence_on(learnt_.errors());
   std::optional<TrackFilter> from_past, from_future;
   if (ahead != nullptr) {
     shown.learn(from_past.emplace(ahead->filter).advance(epoch_us, shown));
@@ -258,8 +258,8 @@ std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs, Unl
 
 }  // namespace
 
-std::vector<Smoothed> smooth(const std::vector<Sighting>& bearings,
-                             const std::vector<std::int64_t>& epochs, const KeeperConfig& config,
+std::vector<Smoothed> smooth(const std::vector<BearingMeasurement>& bearings,
+                             const std::vector<std::int64_t>& epochs, const TrackManagerConfig& config,
                              const KnownStations& known, Unlocated& unlocated) {
   if (bearings.empty()) return {};
   return Smoother(bearings, config, known).run(epochs, unlocated);

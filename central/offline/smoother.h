@@ -24,14 +24,14 @@ struct Smoothed {
 
 // What a run over the bearings has shown of the stations.
 struct KnownStations {
-  StationErrors errors;
+  BiasModel errors;
   std::set<std::string> beside;
 };
 
 // One object's bearings and the instants, both in order of time; positions only. Of the other
 // instants it is counted why.
-std::vector<Smoothed> smooth(const std::vector<Sighting>& bearings,
-                             const std::vector<std::int64_t>& epochs, const KeeperConfig& config,
+std::vector<Smoothed> smooth(const std::vector<BearingMeasurement>& bearings,
+                             const std::vector<std::int64_t>& epochs, const TrackManagerConfig& config,
                              const KnownStations& known, Unlocated& unlocated);
 
 }  // namespace ols

@@ -13,7 +13,7 @@ constexpr std::size_t kMostPairs = 64;
 
 }  // namespace
 
-void DuplicateTracks::note(const Sighting& sighting, std::span<const std::int64_t> tracks) {
+void DuplicateTracks::note(const BearingMeasurement& sighting, std::span<const std::int64_t> tracks) {
   if (tracks.empty()) return;
   const auto explains = [&](std::int64_t id) {
     return std::ranges::find(tracks, id) != tracks.end();
@@ -34,7 +34,7 @@ void DuplicateTracks::note(const Sighting& sighting, std::span<const std::int64_
   });
 }
 
-void DuplicateTracks::count(Pair& pair, const Sighting& sighting, bool shared, bool first) const {
+void DuplicateTracks::count(Pair& pair, const BearingMeasurement& sighting, bool shared, bool first) const {
   Tally& own = pair.stations[sighting.station];
   if (shared) pair.newest_us = std::max(pair.newest_us, sighting.utime_us);
   if (own.utime_us == sighting.utime_us) {

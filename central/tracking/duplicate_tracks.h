@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "central/measurement/sighting.h"
+#include "central/measurement/bearing_measurement.h"
 
 namespace ols {
 
@@ -36,7 +36,7 @@ class DuplicateTracks {
 
   // A bearing and the confirmed tracks that explain it and have no other one of its exposure, the
   // best first: it counts for the pairs that this one is of.
-  void note(const Sighting& sighting, std::span<const std::int64_t> tracks);
+  void note(const BearingMeasurement& sighting, std::span<const std::int64_t> tracks);
   // Pairs that are one object, the older identity first.
   std::vector<std::pair<std::int64_t, std::int64_t>> same() const;
   void forget(std::int64_t track);
@@ -55,7 +55,7 @@ class DuplicateTracks {
     std::int64_t since_us = 0, newest_us = 0;
     std::map<std::string, Tally> stations;
   };
-  void count(Pair& pair, const Sighting& sighting, bool shared, bool first) const;
+  void count(Pair& pair, const BearingMeasurement& sighting, bool shared, bool first) const;
   bool are_same(const Pair& pair) const;
 
   DuplicatesConfig config_;

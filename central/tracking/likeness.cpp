@@ -19,7 +19,7 @@ bool is_same_place(const KinematicState& a, const KinematicState& b) {
   return off.dot(P.ldlt().solve(off)) <= limit;
 }
 
-bool are_alike(const TrackFilter& track, const TrackFilter& other) {
+bool are_duplicates(const TrackFilter& track, const TrackFilter& other) {
   static const double limit = chi_square_critical(kSameMotionLevel, 6);
   const KinematicState own = track.at(track.utime_us());
   const KinematicState there = other.at(own.utime_us);

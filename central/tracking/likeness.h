@@ -10,6 +10,6 @@ namespace ols {
 bool is_same_place(const KinematicState& a, const KinematicState& b);
 
 // Likewise position and velocity, at the first one's instant.
-bool are_alike(const TrackFilter& track, const TrackFilter& other);
+bool are_duplicates(const TrackFilter& track, const TrackFilter& other);
 
 }  // namespace ols

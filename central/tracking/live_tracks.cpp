@@ -8,10 +8,10 @@
 
 namespace ols {
 
-LiveTracks::LiveTracks(const KeeperConfig& config)
+LiveTracks::LiveTracks(const TrackManagerConfig& config)
     : TrackManager(config, config.filter, true), duplicates_(config.rivals) {}
 
-std::vector<LiveTracks::Candidate> LiveTracks::candidates(const Sighting& sighting,
+std::vector<LiveTracks::Candidate> LiveTracks::candidates(const BearingMeasurement& sighting,
                                                           bool confirmed) const {
   std::vector<Candidate> found;
   if (tracks_.empty()) return found;
@@ -19,7 +19,7 @@ std::vector<LiveTracks::Candidate> LiveTracks::candidates(const Sighting& sighti
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (!glances_[i].may_see(sighting, direction)) continue;
     const Track& track = tracks_[i];
-    if (is_sure(track) != confirmed || track.state == TrackState::kDropped) continue;
+    if (is_established(track) != confirmed || track.state == TrackState::kDropped) continue;
     if (track.has_taken(sighting)) continue;
     Innovation seen = track.filter.innovation(sighting, errors_);
     if (seen.nis < config_.filter.gate_nis) found.push_back({i, std::move(seen)});
@@ -28,7 +28,7 @@ std::vector<LiveTracks::Candidate> LiveTracks::candidates(const Sighting& sighti
   return found;
 }
 
-Association LiveTracks::add(const Sighting& sighting, bool may_begin) {
+Association LiveTracks::add(const BearingMeasurement& sighting, bool may_begin) {
   for (const bool confirmed : {true, false}) {
     const auto near = candidates(sighting, confirmed);
     if (near.empty()) continue;
@@ -55,7 +55,7 @@ Association LiveTracks::add(const Sighting& sighting, bool may_begin) {
   return may_begin && room ? initiate(sighting) : Association{};
 }
 
-void LiveTracks::note_duplicates(const Sighting& sighting, const std::vector<Candidate>& near) {
+void LiveTracks::note_duplicates(const BearingMeasurement& sighting, const std::vector<Candidate>& near) {
   if (near.size() < 2 && duplicates_.empty()) return;
   std::vector<std::int64_t> ids;
   for (const Candidate& candidate : near) {
@@ -65,7 +65,7 @@ void LiveTracks::note_duplicates(const Sighting& sighting, const std::vector<Can
   duplicates_.note(sighting, ids);
 }
 
-Association LiveTracks::initiate(const Sighting& sighting) {
+Association LiveTracks::initiate(const BearingMeasurement& sighting) {
   auto start = initiation_.add(sighting, errors_, false);
   if (!start) return {};
   errors_.learn(start->shown);
@@ -85,18 +85,18 @@ bool LiveTracks::is_worth_confirming(const Track& track) const {
   }
   if (track.misses > hits) return false;
   if (stations >= config_.confirm_stations) return true;
-  return of_a_pair >= 2 && seconds(track.filter.utime_us() - track.born_us) >= config_.confirm_s;
+  return of_a_pair >= 2 && seconds(track.filter.utime_us() - track.initiated_us) >= config_.confirm_s;
 }
 
 bool LiveTracks::is_lost_when_born(double unseen_s) const {
-  return unseen_s > config_.born_drop_s || unseen_s > config_.drop_s;
+  return unseen_s > config_.tentative_delete_s || unseen_s > config_.drop_s;
 }
 
 // One station alone is no position for long. Before that, where one has parted from the others: the
 // room that was given them has not helped, either.
 bool LiveTracks::is_lost(const Track& track, double unseen_s, std::int64_t now_us) const {
   const bool parted = unseen_s > config_.coast_s &&
-                      consecutive_rejections(track.filter, now_us) >= 2 * kPartedBearings;
+                      consecutive_rejections(track.filter, now_us) >= 2 * kMaxConsecutiveRejections;
   return parted || unseen_s > config_.drop_s;
 }
 
@@ -109,7 +109,7 @@ void LiveTracks::merge(std::int64_t older, std::int64_t younger) {
   duplicates_.forget(younger);
   const auto own = std::ranges::find(tracks_, older, &Track::id);
   const auto other = std::ranges::find(tracks_, younger, &Track::id);
-  if (own == tracks_.end() || other == tracks_.end() || !is_sure(*own) || !is_sure(*other)) return;
+  if (own == tracks_.end() || other == tracks_.end() || !is_established(*own) || !is_established(*other)) return;
   const auto bearings = [](const Track& track) {
     std::size_t sum = 0;
     for (const auto& [station, kept] : track.bearings) sum += kept.size();

@@ -8,7 +8,7 @@
 //  - What no track explains is kept for track initiation (track_initiation.h).
 //  - born -> confirmed: three stations have given two bearings each, or two stations five each
 //    for confirm_s, most of what they gave being explained, and the position is one.
-//  - born -> dropped: no two stations have seen it for born_drop_s; or it is a duplicate.
+//  - born -> dropped: no two stations have seen it for tentative_delete_s; or it is a duplicate.
 //  - coasted -> dropped: no two stations for drop_s; or for coast_s, after too many consecutive
 //    rejections of one while no two others agree.
 //  - two confirmed ones -> one: they have been one object for a second (duplicate_tracks.h).
@@ -25,10 +25,10 @@ namespace ols {
 
 class LiveTracks : public TrackManager {
  public:
-  explicit LiveTracks(const KeeperConfig& config);
+  explicit LiveTracks(const TrackManagerConfig& config);
 
   using TrackManager::add;
-  Association add(const Sighting& sighting, bool may_begin) override;
+  Association add(const BearingMeasurement& sighting, bool may_begin) override;
   // Another time line: identities are not given away again.
   void clear();
 
@@ -37,9 +37,9 @@ class LiveTracks : public TrackManager {
     std::size_t track = 0;
     Innovation seen;
   };
-  std::vector<Candidate> candidates(const Sighting& sighting, bool confirmed) const;
-  void note_duplicates(const Sighting& sighting, const std::vector<Candidate>& near);
-  Association initiate(const Sighting& sighting);
+  std::vector<Candidate> candidates(const BearingMeasurement& sighting, bool confirmed) const;
+  void note_duplicates(const BearingMeasurement& sighting, const std::vector<Candidate>& near);
+  Association initiate(const BearingMeasurement& sighting);
   void merge(std::int64_t older, std::int64_t younger);
 
   bool is_worth_confirming(const Track& track) const override;

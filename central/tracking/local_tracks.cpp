@@ -4,14 +4,14 @@
 
 namespace ols {
 
-const LocalTracks::Object* LocalTracks::find(const Sighting& sighting) const {
+const LocalTracks::Object* LocalTracks::find(const BearingMeasurement& sighting) const {
   const auto station = stations_.find(sighting.station);
   if (station == stations_.end()) return nullptr;
   const auto own = station->second.find(sighting.track_id);
   return own == station->second.end() ? nullptr : &own->second;
 }
 
-LocalTracks::Object& LocalTracks::at(const Sighting& sighting) {
+LocalTracks::Object& LocalTracks::at(const BearingMeasurement& sighting) {
   auto& objects = stations_[sighting.station];
   if (objects.size() >= kOfAStation && !objects.contains(sighting.track_id)) {
     objects.erase(std::ranges::min_element(

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "central/measurement/sighting.h"
+#include "central/measurement/bearing_measurement.h"
 
 namespace ols {
 
@@ -22,9 +22,9 @@ class LocalTracks {
   static constexpr std::size_t kOfAStation = 16;
 
   // By a bearing's station and name; null: nothing is known of it.
-  const Object* find(const Sighting& sighting) const;
+  const Object* find(const BearingMeasurement& sighting) const;
   // New where nothing is known; it takes the place of the one that was not heard of for longest.
-  Object& at(const Sighting& sighting);
+  Object& at(const BearingMeasurement& sighting);
   // Two identities are one object.
   void rename(std::int64_t from, std::int64_t to);
   void forget(const std::string& station) { stations_.erase(station); }

@@ -16,7 +16,7 @@ bool heard_lately(const TrackFilter& filter, const FilterStation& station, doubl
 
 double may_be_off(const TrackFilter& filter, const FilterStation& station) {
   const bool states_pose = !station.sight.covariance_systematic.isZero(0.0);
-  return states_pose ? 0.0 : filter.config().untold_rad;
+  return states_pose ? 0.0 : filter.config().undeclared_sd_rad;
 }
 
 // One that states its errors counts. Any other does as long as what it has taught of the rest may
@@ -36,7 +36,7 @@ std::vector<const FilterStation*> that_count(const TrackFilter& filter) {
   return found;
 }
 
-// Two rays that cross at less than what they may be off by, untold, over the range's least accuracy
+// Two rays that cross at less than what they may be off by, undeclared, over the range's least accuracy
 // tell no range, however well they seem to: what they learn of each other is their errors.
 bool crosses_widely(const TrackFilter& filter, const Eigen::Vector3d& p_ecef) {
   const std::vector<const FilterStation*> stations = that_count(filter);
@@ -103,7 +103,7 @@ Solution judge_position(const TrackFilter& filter, const KinematicState& state) 
   }
   if (!crosses_widely(filter, state.mean.head<3>())) return Solution::kParallelRays;
   if (nearest_m(filter, state) > filter.config().max_range_m) return Solution::kTooFar;
-  const bool miss = consecutive_rejections(filter, filter.utime_us()) >= kPartedBearings;
+  const bool miss = consecutive_rejections(filter, filter.utime_us()) >= kMaxConsecutiveRejections;
   return miss || is_inconsistent_pair(filter) ? Solution::kRaysMiss : Solution::kOk;
 }
 

@@ -14,9 +14,9 @@ bool is_inconsistent_pair(const TrackFilter& filter);
 
 // Of a station that delivers, and that no two others have outvoted since its last used bearing: how
 // many in a row are set aside, at most. It follows something else, or the target has turned as
-// nobody thought; from kPartedBearings on there is no position, because nobody tells which.
+// nobody thought; from kMaxConsecutiveRejections on there is no position, because nobody tells which.
 int consecutive_rejections(const TrackFilter& filter, std::int64_t now_us);
-inline constexpr int kPartedBearings = 6;
+inline constexpr int kMaxConsecutiveRejections = 6;
 
 // Whether the greatest 1-sigma of the position is below this share of the nearest station's range.
 bool has_range(const TrackFilter& filter, const KinematicState& state, double share);

@@ -17,8 +17,8 @@ double RayMeetings::moved_rad(double dt_s) const {
 }
 
 // How far off a bearing of one target may be: noise, bias, and motion between the two instants.
-double RayMeetings::gate_rad(const Sighting& sighting, double dt_s, double range_m,
-                             const StationErrors& errors) const {
+double RayMeetings::gate_rad(const BearingMeasurement& sighting, double dt_s, double range_m,
+                             const BiasModel& errors) const {
   const BiasPrior bias = errors.prior(sighting.station, sighting.sight, std::max(1.0, range_m));
   const double variance =
       (sighting.sight.covariance_white + bias.covariance).trace() / 2.0 +
@@ -28,9 +28,9 @@ double RayMeetings::gate_rad(const Sighting& sighting, double dt_s, double range
 
 // Where two rays pass each other: kOk, if they do so in front of both cameras and near enough. What
 // the looks rule out is not asked for exactly: that costs ten times as much.
-Solution RayMeetings::meet(const LookedAt& a, const LookedAt& b, const StationErrors& errors,
+Solution RayMeetings::meet(const LookedAt& a, const LookedAt& b, const BiasModel& errors,
                            RayMeeting& meeting) const {
-  const Look &look = a.look, &other = b.look;
+  const BearingSummary &look = a.look, &other = b.look;
   const Eigen::Vector3d &u = look.direction_ecef, &v = other.direction_ecef;
   const Eigen::Vector3d base = other.origin_ecef - look.origin_ecef;
   constexpr double kOnePlaceM = 0.01;
@@ -62,18 +62,18 @@ Solution RayMeetings::meet(const LookedAt& a, const LookedAt& b, const StationEr
 
 // Of a station's bearings near in time to another one, the one that is nearest to the meeting; the
 // latest where there is no meeting yet. -1: none.
-std::ptrdiff_t RayMeetings::nearest(const UnassociatedBearings::Station& own, const Sighting& to,
-                                    const RayMeeting* meeting, const StationErrors& errors) const {
+std::ptrdiff_t RayMeetings::nearest(const UnassociatedBearings::Station& own, const BearingMeasurement& to,
+                                    const RayMeeting* meeting, const BiasModel& errors) const {
   std::ptrdiff_t best = -1;
   double least = 1.0;
   for (auto i = std::ssize(own.looks) - 1; i >= 0; --i) {
-    const Look& look = own.looks[static_cast<std::size_t>(i)];
+    const BearingSummary& look = own.looks[static_cast<std::size_t>(i)];
     const double dt_s = std::abs(seconds(look.utime_us - to.utime_us));
     if (dt_s > config_.pair_s && look.utime_us < to.utime_us) break;
     if (dt_s > config_.pair_s) continue;
     if (meeting == nullptr) return i;
     if (!look.is_near(meeting->p_ecef, moved_rad(dt_s + look.clock_sd_s))) continue;
-    const Sighting& sighting = own.bearings[static_cast<std::size_t>(i)];
+    const BearingMeasurement& sighting = own.bearings[static_cast<std::size_t>(i)];
     const double off = angle_between(look.direction_ecef, meeting->p_ecef - look.origin_ecef) /
                        gate_rad(sighting, dt_s, meeting->range_m, errors);
     if (off >= least) continue;
@@ -83,11 +83,11 @@ std::ptrdiff_t RayMeetings::nearest(const UnassociatedBearings::Station& own, co
   return best;
 }
 
-std::vector<RayMeeting> RayMeetings::of(const Sighting& sighting,
+std::vector<RayMeeting> RayMeetings::of(const BearingMeasurement& sighting,
                                         const UnassociatedBearings& bearings,
-                                        const StationErrors& errors, Solution& failure) const {
+                                        const BiasModel& errors, Solution& failure) const {
   constexpr std::size_t kEnough = 16;
-  const Look look = look_of(sighting, R_ecef_enu(sighting.sight.origin_ecef));
+  const BearingSummary look = summarise(sighting, R_ecef_enu(sighting.sight.origin_ecef));
   std::vector<RayMeeting> meetings;
   for (const auto& [station, own] : bearings.stations()) {
     if (station == sighting.station) continue;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "central/filter/station_errors.h"
+#include "central/filter/bias_model.h"
 #include "central/measurement/ray.h"
 #include "central/tracking/unassociated_bearings.h"
 
@@ -33,8 +33,8 @@ class RayMeetings {
 
   // Where a ray meets those of other stations; where more of the others pass by, first.
   // failure: what it does with the last one that it does not meet.
-  std::vector<RayMeeting> of(const Sighting& sighting, const UnassociatedBearings& bearings,
-                             const StationErrors& errors, Solution& failure) const;
+  std::vector<RayMeeting> of(const BearingMeasurement& sighting, const UnassociatedBearings& bearings,
+                             const BiasModel& errors, Solution& failure) const;
   // How far a target may have gone on, generously.
   double moved_rad(double dt_s) const;
   const MeetingConfig& config() const { return config_; }
@@ -42,15 +42,15 @@ class RayMeetings {
  private:
   // A ray, and what a quick look at it needs.
   struct LookedAt {
-    const Sighting& sighting;
-    const Look& look;
+    const BearingMeasurement& sighting;
+    const BearingSummary& look;
   };
-  Solution meet(const LookedAt& a, const LookedAt& b, const StationErrors& errors,
+  Solution meet(const LookedAt& a, const LookedAt& b, const BiasModel& errors,
                 RayMeeting& meeting) const;
-  std::ptrdiff_t nearest(const UnassociatedBearings::Station& own, const Sighting& to,
-                         const RayMeeting* meeting, const StationErrors& errors) const;
-  double gate_rad(const Sighting& sighting, double dt_s, double range_m,
-                  const StationErrors& errors) const;
+  std::ptrdiff_t nearest(const UnassociatedBearings::Station& own, const BearingMeasurement& to,
+                         const RayMeeting* meeting, const BiasModel& errors) const;
+  double gate_rad(const BearingMeasurement& sighting, double dt_s, double range_m,
+                  const BiasModel& errors) const;
 
   MeetingConfig config_;
   double max_range_m_;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kDoubtS = 1.0;  // two rays do not begin a track so soon after they were wrong
 
 // Two stations see the same object, however far they have to be turned.
-FilterConfig filter_of(const KeeperConfig& config) {
+FilterConfig filter_of(const TrackManagerConfig& config) {
   FilterConfig filter = config.filter;
   filter.two_stations_nis = std::numeric_limits<double>::infinity();
   return filter;
@@ -21,7 +21,7 @@ FilterConfig filter_of(const KeeperConfig& config) {
 
 }  // namespace
 
-RecordedTrack::RecordedTrack(const KeeperConfig& config)
+RecordedTrack::RecordedTrack(const TrackManagerConfig& config)
     : TrackManager(config, filter_of(config), false) {}
 
 const Track* RecordedTrack::located() const {
@@ -29,7 +29,7 @@ const Track* RecordedTrack::located() const {
   return found == tracks_.end() ? nullptr : &*found;
 }
 
-Association RecordedTrack::add(const Sighting& sighting, bool may_begin) {
+Association RecordedTrack::add(const BearingMeasurement& sighting, bool may_begin) {
   Association given;
   if (!tracks_.empty()) {
     given = give_to(tracks_.front(), sighting);
@@ -38,17 +38,17 @@ Association RecordedTrack::add(const Sighting& sighting, bool may_begin) {
     if (!used && !proved_) take_back(sighting.utime_us);
   }
   if (!may_begin) return given;
-  if (!tracks_.empty() && proved_ && !doubted()) {
+  if (!tracks_.empty() && proved_ && !in_trial_pause()) {
     initiation_.store(sighting);
     return given;
   }
-  prove(sighting);
+  confirm_by_initiation(sighting);
   const bool begun = given.kind == Association::Kind::kUnexplained && !tracks_.empty();
   return begun ? Association{Association::Kind::kTrack, tracks_.front().id} : given;
 }
 
 // By the number of bearings, not by time: stations may be as slow as they like.
-void RecordedTrack::note(const Sighting& sighting, bool used) {
+void RecordedTrack::note(const BearingMeasurement& sighting, bool used) {
   constexpr double kMemory = 8.0;
   Explains& own = explains_[sighting.station];
   own.newest_us = sighting.utime_us;
@@ -66,7 +66,7 @@ int RecordedTrack::stations(bool explained) const {
   }));
 }
 
-bool RecordedTrack::doubted() const {
+bool RecordedTrack::in_trial_pause() const {
   const int against = stations(false);
   return against >= 2 && against >= stations(true);
 }
@@ -81,14 +81,14 @@ void RecordedTrack::take_back(std::int64_t utime_us) {
 
 // Looks for a start that the bearings of several stations agree on: for the track on trial, for one
 // that most do not agree with, or where there is none.
-void RecordedTrack::prove(const Sighting& sighting) {
+void RecordedTrack::confirm_by_initiation(const BearingMeasurement& sighting) {
   const bool none = tracks_.empty(), on_trial = !none && !proved_;
   const auto doubt_us = static_cast<std::int64_t>(kDoubtS * 1e6);
-  const bool trusting = none && (!taken_back_us_ || sighting.utime_us - *taken_back_us_ > doubt_us);
-  auto start = initiation_.add(sighting, on_trial ? errors_before_ : errors_, trusting);
+  const bool accept_two_rays = none && (!taken_back_us_ || sighting.utime_us - *taken_back_us_ > doubt_us);
+  auto start = initiation_.add(sighting, on_trial ? errors_before_ : errors_, accept_two_rays);
   if (!start) return;
   if (none || is_better(start->track)) {
-    if (trusting) errors_before_ = errors_;
+    if (accept_two_rays) errors_before_ = errors_;
     if (on_trial) errors_ = errors_before_;
     errors_.learn(start->shown);
     explains_.clear();
@@ -97,14 +97,14 @@ void RecordedTrack::prove(const Sighting& sighting) {
     } else {
       replace(tracks_.front(), std::move(start->track));
     }
-    if (tracks_.front().state == TrackState::kBorn) consider(tracks_.front());
+    if (tracks_.front().state == TrackState::kTentative) consider(tracks_.front());
   }
-  proved_ = !trusting;
+  proved_ = !accept_two_rays;
 }
 
 // Than the track that there is.
 bool RecordedTrack::is_better(const Track& start) const {
-  if (are_alike(start.filter, tracks_.front().filter)) return false;
+  if (are_duplicates(start.filter, tracks_.front().filter)) return false;
   return !proved_ || static_cast<int>(start.hits.size()) > stations(true);
 }
 
@@ -113,7 +113,7 @@ bool RecordedTrack::is_lost(const Track& track, double unseen_s, std::int64_t no
   if (unseen_s <= config_.drop_s) return false;
   const bool silent = stations_lately(track.filter, config_.drop_s) == 0 ||
                       seconds(now_us - track.filter.utime_us()) > config_.drop_s;
-  return silent || doubted() ||
+  return silent || in_trial_pause() ||
          judge_position(track.filter, track.filter.at(now_us)) != Solution::kOk;
 }
 

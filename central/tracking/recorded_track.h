@@ -1,6 +1,6 @@
 // The one track of a recording of one object: every bearing is offered to it. Pure.
 //
-//  - Two rays begin it, on trial, and it is confirmed when its position is one. It is proved by a
+//  - Two rays begin it, on trial, and it is confirmed when its position is one. It is is_initiated by a
 //    start as it would need among several objects, from the same bearings. If a bearing does not
 //    fit before, it is taken back with all that it has taught, and for a second only such a start
 //    begins one.
@@ -21,12 +21,12 @@ namespace ols {
 
 class RecordedTrack : public TrackManager {
  public:
-  explicit RecordedTrack(const KeeperConfig& config);
+  explicit RecordedTrack(const TrackManagerConfig& config);
 
   using TrackManager::add;
-  Association add(const Sighting& sighting, bool may_begin) override;
+  Association add(const BearingMeasurement& sighting, bool may_begin) override;
   // Has a start of several stations agreed with the track?
-  bool proved() const { return proved_; }
+  bool is_initiated() const { return proved_; }
   // The confirmed track; null: none.
   const Track* located() const;
 
@@ -36,12 +36,12 @@ class RecordedTrack : public TrackManager {
     std::int64_t newest_us = 0;
     double share = 1.0;
   };
-  void note(const Sighting& sighting, bool used);
+  void note(const BearingMeasurement& sighting, bool used);
   void take_back(std::int64_t utime_us);
-  void prove(const Sighting& sighting);
+  void confirm_by_initiation(const BearingMeasurement& sighting);
   bool is_better(const Track& start) const;
   int stations(bool explained) const;
-  bool doubted() const;
+  bool in_trial_pause() const;
 
   bool is_worth_confirming(const Track&) const override { return true; }
   bool is_lost_when_born(double unseen_s) const override { return unseen_s > config_.drop_s; }
@@ -49,7 +49,7 @@ class RecordedTrack : public TrackManager {
 
   std::map<std::string, Explains> explains_;
   bool proved_ = false;
-  StationErrors errors_before_;                // the track on trial
+  BiasModel errors_before_;                // the track on trial
   std::optional<std::int64_t> taken_back_us_;  // when one was, last
 };
 

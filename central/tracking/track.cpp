@@ -6,7 +6,7 @@ namespace ols {
 
 const char* to_string(TrackState state) {
   switch (state) {
-    case TrackState::kBorn:
+    case TrackState::kTentative:
       return "born";
     case TrackState::kConfirmed:
       return "confirmed";
@@ -18,15 +18,15 @@ const char* to_string(TrackState state) {
   return "unknown";
 }
 
-bool Track::has_taken(const Sighting& sighting) const {
+bool Track::has_taken(const BearingMeasurement& sighting) const {
   const auto own = bearings.find(sighting.station);
   if (own == bearings.end()) return false;
   const auto& taken = own->second;
-  const auto at = std::ranges::lower_bound(taken, sighting.utime_us, {}, &Sighting::utime_us);
+  const auto at = std::ranges::lower_bound(taken, sighting.utime_us, {}, &BearingMeasurement::utime_us);
   return at != taken.end() && at->utime_us == sighting.utime_us;
 }
 
-bool is_sure(const Track& track) {
+bool is_established(const Track& track) {
   return track.state == TrackState::kConfirmed || track.state == TrackState::kCoasted;
 }
 

@@ -8,34 +8,34 @@
 
 #include "central/filter/track_filter.h"
 #include "central/measurement/ray.h"
-#include "central/measurement/sighting.h"
+#include "central/measurement/bearing_measurement.h"
 
 namespace ols {
 
 // The rules by which a track goes from one to the next are in docs/fusion.md and in
 // central/tracking/track_manager.h.
-enum class TrackState { kBorn, kConfirmed, kCoasted, kDropped };
+enum class TrackState { kTentative, kConfirmed, kCoasted, kDropped };
 const char* to_string(TrackState state);
 
-using StationBearings = std::map<std::string, std::vector<Sighting>>;  // each in order of time
+using StationBearings = std::map<std::string, std::vector<BearingMeasurement>>;  // each in order of time
 
 struct Track {
   explicit Track(TrackFilter start) : filter(std::move(start)) {}
 
   TrackFilter filter;
   std::int64_t id = 0;  // 0 until it is confirmed
-  TrackState state = TrackState::kBorn;
-  std::int64_t born_us = 0;
+  TrackState state = TrackState::kTentative;
+  std::int64_t initiated_us = 0;
   std::map<std::string, int> hits;  // bearings used, by station
   int misses = 0;                   // bearings set aside
-  std::int64_t located_us = 0;      // when two stations had seen it lately, last
+  std::int64_t last_two_station_us = 0;      // when two stations had seen it lately, last
   StationBearings bearings;         // of the last second
 
   // Has it a bearing of this station and exposure already?
-  bool has_taken(const Sighting& sighting) const;
+  bool has_taken(const BearingMeasurement& sighting) const;
 };
 
 // Confirmed or coasted.
-bool is_sure(const Track& track);
+bool is_established(const Track& track);
 
 }  // namespace ols

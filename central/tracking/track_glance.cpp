@@ -6,7 +6,7 @@
 
 namespace ols {
 
-TrackGlance glance_at(const Track& track) {
+TrackGlance summarise_track(const Track& track) {
   const KinematicState& state = track.filter.summary();
   return {state.utime_us, state.mean.head<3>(), state.mean.segment<3>(3),
           std::sqrt(state.covariance.topLeftCorner<3, 3>().trace()),
@@ -14,7 +14,7 @@ TrackGlance glance_at(const Track& track) {
 }
 
 // Within so many of everything that may be off.
-bool TrackGlance::may_see(const Sighting& sighting, const Eigen::Vector3d& d) const {
+bool TrackGlance::may_see(const BearingMeasurement& sighting, const Eigen::Vector3d& d) const {
   const double dt_s = seconds(sighting.utime_us - utime_us);
   const Eigen::Vector3d line = p_ecef + dt_s * v_ecef - sighting.sight.origin_ecef;
   const double depth = d.dot(line);

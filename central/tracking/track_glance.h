@@ -14,8 +14,8 @@ struct TrackGlance {
   double position_sd_m = 0.0, velocity_sd_m_s = 0.0;
 
   // Whether it may be in this direction (the bearing's, ECEF): generously.
-  bool may_see(const Sighting& sighting, const Eigen::Vector3d& direction_ecef) const;
+  bool may_see(const BearingMeasurement& sighting, const Eigen::Vector3d& direction_ecef) const;
 };
-TrackGlance glance_at(const Track& track);
+TrackGlance summarise_track(const Track& track);
 
 }  // namespace ols

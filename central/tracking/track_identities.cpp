@@ -9,7 +9,7 @@ namespace ols {
 namespace {
 
 bool is_alive(std::int64_t id, const std::vector<Track>& tracks) {
-  return std::ranges::any_of(tracks, [&](const Track& t) { return is_sure(t) && t.id == id; });
+  return std::ranges::any_of(tracks, [&](const Track& t) { return is_established(t) && t.id == id; });
 }
 
 }  // namespace
@@ -34,29 +34,29 @@ void TrackIdentities::confirm(Track& track, const std::vector<Track>& tracks) {
   std::erase_if(dropped_, [&](const Track& old) { return old.id == track.id; });
 }
 
-void TrackIdentities::follow(const Sighting& sighting, const Track& track) {
+void TrackIdentities::follow(const BearingMeasurement& sighting, const Track& track) {
   if (sighting.track_id == 0 || track.id == 0) return;
   LocalTracks::Object& own = local_.at(sighting);
   own.id = track.id;
   own.given_us = std::max(own.given_us, sighting.utime_us);
 }
 
-Track* TrackIdentities::follower(const Sighting& sighting, std::vector<Track>& tracks) const {
+Track* TrackIdentities::follower(const BearingMeasurement& sighting, std::vector<Track>& tracks) const {
   if (sighting.track_id == 0) return nullptr;
   const LocalTracks::Object* const own = local_.find(sighting);
   if (own == nullptr) return nullptr;
   const auto track =
-      std::ranges::find_if(tracks, [&](const Track& t) { return is_sure(t) && t.id == own->id; });
+      std::ranges::find_if(tracks, [&](const Track& t) { return is_established(t) && t.id == own->id; });
   return track == tracks.end() ? nullptr : &*track;
 }
 
-bool TrackIdentities::takes(const Sighting& newest, std::int64_t now_us, double within_s,
+bool TrackIdentities::takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s,
                             const std::vector<Track>& tracks) const {
   const LocalTracks::Object* const own = local_.find(newest);
   return own != nullptr && is_alive(own->id, tracks) && seconds(now_us - own->given_us) < within_s;
 }
 
-std::int64_t TrackIdentities::identify(const Sighting& newest, double new_after_s,
+std::int64_t TrackIdentities::identify(const BearingMeasurement& newest, double new_after_s,
                                        std::set<std::int64_t>& told,
                                        const std::vector<Track>& tracks) {
   if (newest.track_id == 0) return 0;
@@ -75,7 +75,7 @@ std::int64_t TrackIdentities::identify(const Sighting& newest, double new_after_
 
 void TrackIdentities::forget_dropped(std::int64_t now_us, double after_s) {
   std::erase_if(dropped_, [&](const Track& old) {
-    return same_place_ && seconds(now_us - old.located_us) > after_s;
+    return same_place_ && seconds(now_us - old.last_two_station_us) > after_s;
   });
   while (dropped_.size() > 64) dropped_.pop_front();
 }

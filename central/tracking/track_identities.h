@@ -21,15 +21,15 @@ class TrackIdentities {
   // line of its stations, or a new one.
   void confirm(Track& track, const std::vector<Track>& tracks);
   // The track takes what the station follows by this name.
-  void follow(const Sighting& sighting, const Track& track);
+  void follow(const BearingMeasurement& sighting, const Track& track);
   // The sure track that the station follows by this name; null: none.
-  Track* follower(const Sighting& sighting, std::vector<Track>& tracks) const;
+  Track* follower(const BearingMeasurement& sighting, std::vector<Track>& tracks) const;
   // Whether a track takes what the station follows by this name: the last bearing not longer ago.
-  bool takes(const Sighting& newest, std::int64_t now_us, double within_s,
+  bool takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s,
              const std::vector<Track>& tracks) const;
   // A line's: 0 for the first new_after_s, and for what the station does not name. `told`: those of
   // others at the same instant; one id is one object.
-  std::int64_t identify(const Sighting& newest, double new_after_s, std::set<std::int64_t>& told,
+  std::int64_t identify(const BearingMeasurement& newest, double new_after_s, std::set<std::int64_t>& told,
                         const std::vector<Track>& tracks);
   void merge(std::int64_t older, std::int64_t younger) { local_.rename(younger, older); }
   // A confirmed track ended: it may be found again.

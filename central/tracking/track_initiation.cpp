@@ -19,31 +19,31 @@ constexpr double kLeastKnown = 1.0;     // of the range, 1-sigma
 
 }  // namespace
 
-std::optional<TrackStart> TrackInitiation::search(const Sighting& sighting,
-                                                  const StationErrors& errors, bool trusting) {
+std::optional<TrackStart> TrackInitiation::search(const BearingMeasurement& sighting,
+                                                  const BiasModel& errors, bool accept_two_rays) {
   failure_ = Solution::kTooFewRays;
   const std::vector<RayMeeting> starts = meetings_.of(sighting, pool_, errors, failure_);
   for (std::size_t i = 0; i < std::min(starts.size(), kMostStarts); ++i) {
-    auto begun = try_start(sighting, starts[i], errors, trusting ? Needed::kTwoRays : Needed::kAll);
+    auto begun = try_start(sighting, starts[i], errors, accept_two_rays ? Needed::kTwoRays : Needed::kAll);
     if (!begun) continue;
-    if (!trusting && is_outdone(*begun, sighting, errors)) continue;
-    if (!trusting) take(begun->start.track);
+    if (!accept_two_rays && has_better_hypothesis(*begun, sighting, errors)) continue;
+    if (!accept_two_rays) take(begun->start.track);
     return std::move(begun->start);
   }
   return std::nullopt;
 }
 
-std::optional<TrackStart> TrackInitiation::add(const Sighting& sighting,
-                                               const StationErrors& errors, bool trusting) {
+std::optional<TrackStart> TrackInitiation::add(const BearingMeasurement& sighting,
+                                               const BiasModel& errors, bool accept_two_rays) {
   store(sighting);
-  const std::optional<Sighting> next = next_turn(sighting);
-  return next ? search(*next, errors, trusting) : std::nullopt;
+  const std::optional<BearingMeasurement> next = next_station_to_search(sighting);
+  return next ? search(*next, errors, accept_two_rays) : std::nullopt;
 }
 
 // Each bearing pays for a search among so many stations. Among more, whoever waits longest is the
 // next: of its newest frame any bearing. Were it each in turn, a station's turns could be in step
 // with all others' and fall on the same one for ever.
-std::optional<Sighting> TrackInitiation::next_turn(const Sighting& sighting) {
+std::optional<BearingMeasurement> TrackInitiation::next_station_to_search(const BearingMeasurement& sighting) {
   constexpr std::size_t kStationsABearing = 64;
   const std::size_t cost = pool_.stations().size();
   saved_ = std::min(saved_ + kStationsABearing, cost);
@@ -61,7 +61,7 @@ std::optional<Sighting> TrackInitiation::next_turn(const Sighting& sighting) {
     saved_ = 0;
     const auto& looks = own->second.looks;
     const auto frame =
-        std::ranges::lower_bound(looks, looks.back().utime_us, {}, &Look::utime_us) - looks.begin();
+        std::ranges::lower_bound(looks, looks.back().utime_us, {}, &BearingSummary::utime_us) - looks.begin();
     const auto bearings = looks.size() - static_cast<std::size_t>(frame);
     return own->second.bearings[static_cast<std::size_t>(frame) + any_() % bearings];
   }
@@ -69,12 +69,12 @@ std::optional<Sighting> TrackInitiation::next_turn(const Sighting& sighting) {
 }
 
 // Does one of its two stations agree better with a third?
-bool TrackInitiation::is_outdone(const Begun& begun, const Sighting& newest,
-                                 const StationErrors& errors) {
+bool TrackInitiation::has_better_hypothesis(const Hypothesis& begun, const BearingMeasurement& newest,
+                                 const BiasModel& errors) {
   const auto& own = begun.start.track.hits;
   if (own.size() > 2) return false;
   for (const auto& [name, pooled] : pool_.stations()) {
-    const Sighting& third = pooled.bearings.back();
+    const BearingMeasurement& third = pooled.bearings.back();
     if (own.contains(name) ||
         std::abs(seconds(third.utime_us - newest.utime_us)) > config_.meeting.pair_s)
       continue;
@@ -97,14 +97,14 @@ namespace {
 // One station's bearings with the same stamp.
 struct Frame {
   std::int64_t utime_us = 0;
-  std::vector<const Sighting*> bearings;
+  std::vector<const BearingMeasurement*> bearings;
 };
 
 std::vector<Frame> frames_backwards(
     const std::vector<const UnassociatedBearings::Station*>& stations, std::int64_t oldest_us) {
   std::vector<Frame> frames;
   for (const UnassociatedBearings::Station* const station : stations) {
-    for (const Sighting& sighting : station->bearings) {
+    for (const BearingMeasurement& sighting : station->bearings) {
       if (sighting.utime_us < oldest_us) continue;
       const bool same = !frames.empty() && frames.back().utime_us == sighting.utime_us &&
                         frames.back().bearings.front()->station == sighting.station;
@@ -119,18 +119,18 @@ std::vector<Frame> frames_backwards(
 struct Explained {
   int frames = 0;
   double misfit = 0.0;             // sum of the squared normalised residuals, the gate at most
-  std::vector<Sighting> bearings;  // the latest first
+  std::vector<BearingMeasurement> bearings;  // the latest first
 };
 
 // Runs the filter over the frames: each gives its nearest bearing, if that is in the gate.
 std::map<std::string, Explained> explain(const std::vector<Frame>& frames, TrackFilter& filter,
-                                         StationErrors& shown) {
+                                         BiasModel& shown) {
   std::map<std::string, Explained> stations;
   for (const Frame& frame : frames) {
-    const Sighting* best = nullptr;
+    const BearingMeasurement* best = nullptr;
     Innovation least;
     least.nis = filter.config().gate_nis;
-    for (const Sighting* sighting : frame.bearings) {
+    for (const BearingMeasurement* sighting : frame.bearings) {
       Innovation seen = filter.innovation(*sighting, shown);
       if (seen.nis >= least.nis) continue;
       least = std::move(seen);
@@ -157,7 +157,7 @@ struct Agreement {
 
 // Gives the track the bearings of those stations that agree on it.
 Agreement agree(std::map<std::string, Explained>& stations, double least_share, Track& track) {
-  Agreement sum{.oldest_us = track.born_us};
+  Agreement sum{.oldest_us = track.initiated_us};
   for (auto& [name, station] : stations) {
     const int here = static_cast<int>(station.bearings.size());
     if (here == 0 || here < least_share * station.frames) continue;
@@ -214,9 +214,9 @@ std::int64_t TrackInitiation::now_at(std::int64_t utime_us) const {
 
 // Runs the filter backwards over what is kept, from `now_us` on: with the bearings that it takes of
 // the stations that agree on the start. Nothing where it diverges.
-std::optional<TrackInitiation::Begun> TrackInitiation::run(const RayMeeting& start,
+std::optional<TrackInitiation::Hypothesis> TrackInitiation::run(const RayMeeting& start,
                                                            std::int64_t now_us,
-                                                           const StationErrors& errors) const {
+                                                           const BiasModel& errors) const {
   auto frames = frames_backwards(looking_at(start, now_us),
                                  now_us - static_cast<std::int64_t>(config_.pool_s * 1e6));
   // A start is vague: whoever is heard first, it goes to. So first the two that made it.
@@ -227,14 +227,14 @@ std::optional<TrackInitiation::Begun> TrackInitiation::run(const RayMeeting& sta
   FilterStart from{.p_ecef = start.p_ecef,
                    .position_sd_m = start.range_m / 2.0,
                    .velocity_sd_m_s = 2.0 * config_.meeting.rate_sd_rad_s * start.range_m};
-  std::optional<Begun> begun;
+  std::optional<Hypothesis> begun;
   std::optional<KinematicState> about;
   std::map<std::string, Explained> stations;
   // What is known after the first bearings is vague, and equations that are linear about that can
   // lead astray and be sure of it. So each round is linear about where the one before has ended.
   for (int round = 0; round < kMostRounds && !(begun && begun->settled); ++round) {
     begun.emplace(
-        TrackStart{Track(TrackFilter(filter_, now_us, from)), StationErrors::evidence_on(errors)});
+        TrackStart{Track(TrackFilter(filter_, now_us, from)), BiasModel::evidence_on(errors)});
     TrackFilter& filter = begun->start.track.filter;
     if (about) filter.linearise_about(*about);
     stations = explain(frames, filter, begun->start.shown);
@@ -246,7 +246,7 @@ std::optional<TrackInitiation::Begun> TrackInitiation::run(const RayMeeting& sta
     from.p_ecef = found.mean.head<3>();
     from.v_ecef = found.mean.segment<3>(3);
   }
-  begun->start.track.born_us = begun->start.track.located_us = now_us;
+  begun->start.track.initiated_us = begun->start.track.last_two_station_us = now_us;
   const Agreement sum = agree(stations, config_.explained, begun->start.track);
   begun->bearings = sum.hits;
   begun->span_s = seconds(now_us - sum.oldest_us);
@@ -254,9 +254,9 @@ std::optional<TrackInitiation::Begun> TrackInitiation::run(const RayMeeting& sta
   return begun;
 }
 
-std::optional<TrackInitiation::Begun> TrackInitiation::try_start(const Sighting& newest,
+std::optional<TrackInitiation::Hypothesis> TrackInitiation::try_start(const BearingMeasurement& newest,
                                                                  const RayMeeting& start,
-                                                                 const StationErrors& errors,
+                                                                 const BiasModel& errors,
                                                                  Needed needed) {
   auto begun = run(start, now_at(newest.utime_us), errors);
   if (!begun) return std::nullopt;
@@ -280,8 +280,8 @@ std::optional<TrackInitiation::Begun> TrackInitiation::try_start(const Sighting&
 void TrackInitiation::take(const Track& track) {
   for (const auto& [station, bearings] : track.bearings) {
     const auto& taken = bearings;  // clang 14 captures no structured binding
-    pool_.erase_if(station, [&](const Sighting& s) {
-      return std::ranges::any_of(taken, [&](const Sighting& t) {
+    pool_.erase_if(station, [&](const BearingMeasurement& s) {
+      return std::ranges::any_of(taken, [&](const BearingMeasurement& t) {
         return t.utime_us == s.utime_us &&
                t.sight.direction.azimuth_rad == s.sight.direction.azimuth_rad &&
                t.sight.direction.elevation_rad == s.sight.direction.elevation_rad;
@@ -290,17 +290,17 @@ void TrackInitiation::take(const Track& track) {
   }
 }
 
-void TrackInitiation::give(const Track& track, const StationErrors& errors) {
+void TrackInitiation::give(const Track& track, const BiasModel& errors) {
   std::vector<std::string> stations;
   for (const auto& [station, own] : pool_.stations()) {
-    const bool looks = std::ranges::any_of(own.looks, [&](const Look& look) {
+    const bool looks = std::ranges::any_of(own.looks, [&](const BearingSummary& look) {
       const double dt_s = std::abs(seconds(look.utime_us - track.filter.utime_us()));
       return look.is_near(track.filter.position(), meetings_.moved_rad(dt_s + look.clock_sd_s));
     });
     if (looks) stations.push_back(station);
   }
   for (const std::string& station : stations) {
-    pool_.erase_if(station, [&](const Sighting& sighting) {
+    pool_.erase_if(station, [&](const BearingMeasurement& sighting) {
       return track.filter.innovation(sighting, errors).nis < filter_.robust_nis;
     });
   }

@@ -37,7 +37,7 @@ struct InitiationConfig {
 // A new track, and what its bearings show of the stations on top of what was known.
 struct TrackStart {
   Track track;
-  StationErrors shown;
+  BiasModel shown;
 };
 
 class TrackInitiation {
@@ -50,27 +50,27 @@ class TrackInitiation {
 
   // Takes a bearing that belongs to no track. A new track, with the bearings that it explains taken
   // out of the pool: of this one or, where many stations wait for their turn, of another.
-  // `trusting`: two rays are enough for now; the pool keeps them, for a better one.
-  std::optional<TrackStart> add(const Sighting& sighting, const StationErrors& errors,
-                                bool trusting);
+  // `accept_two_rays`: two rays are enough for now; the pool keeps them, for a better one.
+  std::optional<TrackStart> add(const BearingMeasurement& sighting, const BiasModel& errors,
+                                bool accept_two_rays);
   // Keeps a bearing without looking for a track.
-  void store(const Sighting& sighting) { pool_.store(sighting); }
+  void store(const BearingMeasurement& sighting) { pool_.store(sighting); }
   // Takes out what a track explains that has just become sure.
-  void give(const Track& track, const StationErrors& errors);
+  void give(const Track& track, const BiasModel& errors);
   void forget(const std::string& station) { pool_.forget(station); }
   void clear() { *this = TrackInitiation(config_, filter_); }
   const UnassociatedBearings& pool() const { return pool_; }
   // Why the last bearing began no track: what its ray did with the last other one, kRaysMiss where
   // rays meet but the bearings of their stations do not agree on it, kTooFewRays where they do and
   // only more of them is needed, and where there was no other ray.
-  Solution last_failure() const { return failure_; }
+  Solution why_no_track() const { return failure_; }
   // Why there is no track: by the stations whose bearings at this instant belong to none, and the
   // last failure where they are several.
   Solution why_none(std::int64_t now_us) const;
 
  private:
   // A start that was good enough, and what the run over its bearings has shown of the stations.
-  struct Begun {
+  struct Hypothesis {
     TrackStart start;
     int bearings = 0;      // that it explains, of the stations that agree on it
     double span_s = 0.0;   // of them
@@ -78,17 +78,17 @@ class TrackInitiation {
     double misfit = 0.0;   // mean squared normalised residual of their frames; NaN without any
   };
   enum class Needed { kTwoRays, kHalf, kAll };  // for two stations' agreement: of its time
-  std::optional<TrackStart> search(const Sighting& sighting, const StationErrors& errors,
-                                   bool trusting);
-  std::optional<Sighting> next_turn(const Sighting& sighting);
+  std::optional<TrackStart> search(const BearingMeasurement& sighting, const BiasModel& errors,
+                                   bool accept_two_rays);
+  std::optional<BearingMeasurement> next_station_to_search(const BearingMeasurement& sighting);
   std::vector<const UnassociatedBearings::Station*> looking_at(const RayMeeting& start,
                                                                std::int64_t now_us) const;
   std::int64_t now_at(std::int64_t utime_us) const;
-  std::optional<Begun> run(const RayMeeting& start, std::int64_t now_us,
-                           const StationErrors& errors) const;
-  std::optional<Begun> try_start(const Sighting& newest, const RayMeeting& start,
-                                 const StationErrors& errors, Needed needed);
-  bool is_outdone(const Begun& begun, const Sighting& newest, const StationErrors& errors);
+  std::optional<Hypothesis> run(const RayMeeting& start, std::int64_t now_us,
+                           const BiasModel& errors) const;
+  std::optional<Hypothesis> try_start(const BearingMeasurement& newest, const RayMeeting& start,
+                                 const BiasModel& errors, Needed needed);
+  bool has_better_hypothesis(const Hypothesis& begun, const BearingMeasurement& newest, const BiasModel& errors);
   void take(const Track& track);
 
   InitiationConfig config_;

@@ -8,7 +8,7 @@
 
 namespace ols {
 
-TrackManager::TrackManager(const KeeperConfig& config, const FilterConfig& filter, bool same_place)
+TrackManager::TrackManager(const TrackManagerConfig& config, const FilterConfig& filter, bool same_place)
     : config_(config),
       initiation_(config.birth, filter),
       errors_(config.errors),
@@ -17,7 +17,7 @@ TrackManager::TrackManager(const KeeperConfig& config, const FilterConfig& filte
 Track& TrackManager::begin(Track track) {
   ++counts_.born;
   tracks_.push_back(std::move(track));
-  glances_.push_back(glance_at(tracks_.back()));
+  glances_.push_back(summarise_track(tracks_.back()));
   return tracks_.back();
 }
 
@@ -25,38 +25,38 @@ void TrackManager::replace(Track& track, Track by) {
   by.id = track.id;
   by.state = track.state;
   track = std::move(by);
-  glances_[static_cast<std::size_t>(&track - tracks_.data())] = glance_at(track);
+  glances_[static_cast<std::size_t>(&track - tracks_.data())] = summarise_track(track);
 }
 
-Association TrackManager::give_to(Track& track, const Sighting& sighting, const Innovation* seen) {
+Association TrackManager::give_to(Track& track, const BearingMeasurement& sighting, const Innovation* seen) {
   const FilterUpdate update = track.filter.update(sighting, errors_, seen);
   errors_.learn(update.shown);
-  glances_[static_cast<std::size_t>(&track - tracks_.data())] = glance_at(track);
+  glances_[static_cast<std::size_t>(&track - tracks_.data())] = summarise_track(track);
   // One more than the filter has states for is of the target all the same, and begins no other.
-  if (update.use != BearingUse::kUsed && update.use != BearingUse::kNoPlace) {
+  if (update.use != BearingUse::kUsed && update.use != BearingUse::kNoFreeState) {
     ++track.misses;
     ++counts_.set_aside;
-    return {Association::Kind::kSetAside, track.id};
+    return {Association::Kind::kRejected, track.id};
   }
   ++track.hits[sighting.station];
   keep(track, sighting);
   identities_.follow(sighting, track);
   if (stations_lately(track.filter, Activity::kDeliversS) >= 2) {
-    track.located_us = track.filter.utime_us();
+    track.last_two_station_us = track.filter.utime_us();
     if (track.state == TrackState::kCoasted) track.state = TrackState::kConfirmed;
   }
   const std::int64_t id = track.id;
-  if (track.state == TrackState::kBorn) consider(track);
+  if (track.state == TrackState::kTentative) consider(track);
   return {Association::Kind::kTrack, id};
 }
 
-void TrackManager::keep(Track& track, const Sighting& sighting) const {
+void TrackManager::keep(Track& track, const BearingMeasurement& sighting) const {
   auto& own = track.bearings[sighting.station];
-  const auto place = std::ranges::upper_bound(own, sighting.utime_us, {}, &Sighting::utime_us);
+  const auto place = std::ranges::upper_bound(own, sighting.utime_us, {}, &BearingMeasurement::utime_us);
   own.insert(place, sighting);
   const auto span_us = static_cast<std::int64_t>(config_.memory_s * 1e6);
   const std::int64_t oldest_us = own.back().utime_us - span_us;
-  const auto kept = std::ranges::lower_bound(own, oldest_us, {}, &Sighting::utime_us);
+  const auto kept = std::ranges::lower_bound(own, oldest_us, {}, &BearingMeasurement::utime_us);
   constexpr std::ptrdiff_t kTogether = 16;  // each one by itself would move all others every time
   if (kept - own.begin() >= kTogether) own.erase(own.begin(), kept);
 }
@@ -64,7 +64,7 @@ void TrackManager::keep(Track& track, const Sighting& sighting) const {
 // The same object as a sure one.
 bool TrackManager::is_duplicate(const Track& track) const {
   return std::ranges::any_of(tracks_, [&](const Track& other) {
-    return &other != &track && is_sure(other) && are_alike(track.filter, other.filter);
+    return &other != &track && is_established(other) && are_duplicates(track.filter, other.filter);
   });
 }
 
@@ -92,7 +92,7 @@ void TrackManager::confirm(Track& track) {
 void TrackManager::forget_what_it_taught(const Track& track) {
   const auto has_another = [&](const std::string& station) {
     return std::ranges::any_of(tracks_, [&](const Track& other) {
-      return &other != &track && is_sure(other) && other.bearings.contains(station) &&
+      return &other != &track && is_established(other) && other.bearings.contains(station) &&
              !is_inconsistent_pair(other.filter);
     });
   };
@@ -107,8 +107,8 @@ void TrackManager::age(Track& track, std::int64_t now_us) {
     track.state = TrackState::kDropped;
     return;
   }
-  const double unseen_s = seconds(now_us - track.located_us);
-  if (track.state == TrackState::kBorn) {
+  const double unseen_s = seconds(now_us - track.last_two_station_us);
+  if (track.state == TrackState::kTentative) {
     if (is_lost_when_born(unseen_s)) track.state = TrackState::kDropped;
   } else if (unseen_s > config_.coast_s || unseen_s > config_.drop_s) {
     if (unseen_s > config_.coast_s) track.state = TrackState::kCoasted;
@@ -128,11 +128,11 @@ void TrackManager::advance(std::int64_t now_us) {
   }
   std::erase_if(tracks_, [](const Track& t) { return t.state == TrackState::kDropped; });
   glances_.clear();
-  for (const Track& track : tracks_) glances_.push_back(glance_at(track));
+  for (const Track& track : tracks_) glances_.push_back(summarise_track(track));
   identities_.forget_dropped(now_us, config_.remember_s + config_.drop_s);
 }
 
-std::optional<Eigen::Vector2d> TrackManager::off_nearest(const Sighting& sighting) const {
+std::optional<Eigen::Vector2d> TrackManager::off_nearest(const BearingMeasurement& sighting) const {
   const RayFrame frame = ray_frame(sighting.sight);
   std::optional<Eigen::Vector2d> best;
   for (const Track& track : tracks_) {
@@ -149,11 +149,11 @@ std::optional<Eigen::Vector2d> TrackManager::off_nearest(const Sighting& sightin
   return best;
 }
 
-std::int64_t TrackManager::identify(const Sighting& newest, std::set<std::int64_t>& told) {
+std::int64_t TrackManager::identify(const BearingMeasurement& newest, std::set<std::int64_t>& told) {
   return identities_.identify(newest, config_.confirm_s, told, tracks_);
 }
 
-bool TrackManager::takes(const Sighting& newest, std::int64_t now_us, double within_s) const {
+bool TrackManager::takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s) const {
   return identities_.takes(newest, now_us, within_s, tracks_);
 }
 

@@ -24,13 +24,13 @@
 
 namespace ols {
 
-struct KeeperConfig {
+struct TrackManagerConfig {
   int max_tracks = 256;  // born ones included
   int confirm_stations = 3;
   int confirm_hits = 2;       // of each of them
   int confirm_pair_hits = 5;  // of each of two, where only two see it
   double confirm_s = 0.7;
-  double born_drop_s = 0.4;
+  double tentative_delete_s = 0.4;
   double coast_s = 0.5;
   double drop_s = Activity::kSupportsS;
   double remember_s = 5.0;     // the identity of a dropped one
@@ -38,13 +38,13 @@ struct KeeperConfig {
   double memory_s = 1.0;       // bearings kept for the estimators without memory
   InitiationConfig birth{};
   FilterConfig filter{};
-  StationErrorsConfig errors{};
+  BiasModelConfig errors{};
   DuplicatesConfig rivals{};
 };
 
 // What became of a bearing.
 struct Association {
-  enum class Kind { kTrack, kAmbiguous, kUnexplained, kSetAside };
+  enum class Kind { kTrack, kAmbiguous, kUnexplained, kRejected };
   Kind kind = Kind::kUnexplained;
   std::int64_t track_id = 0;  // 0: none, or one that is not confirmed yet
 };
@@ -54,8 +54,8 @@ class TrackManager {
   virtual ~TrackManager() = default;
 
   // may_begin: whether it may take part in the initiation of a track.
-  virtual Association add(const Sighting& sighting, bool may_begin) = 0;
-  Association add(const Sighting& sighting) { return add(sighting, true); }
+  virtual Association add(const BearingMeasurement& sighting, bool may_begin) = 0;
+  Association add(const BearingMeasurement& sighting) { return add(sighting, true); }
   // Lives and deaths, by the fusion's time.
   void advance(std::int64_t now_us);
   void forget_station(const std::string& station);
@@ -65,20 +65,20 @@ class TrackManager {
   void forget_followed(const std::string& station) { identities_.forget(station); }
 
   const std::vector<Track>& tracks() const { return tracks_; }
-  const StationErrors& errors() const { return errors_; }
+  const BiasModel& errors() const { return errors_; }
   // What was learnt in another run.
-  void set_errors(const StationErrors& errors) { errors_ = errors; }
+  void set_errors(const BiasModel& errors) { errors_ = errors; }
   const UnassociatedBearings& unassociated() const { return initiation_.pool(); }
   // Why the last bearing began no track, and why there is none at this instant.
-  Solution why_no_track_began() const { return initiation_.last_failure(); }
+  Solution why_no_track_began() const { return initiation_.why_no_track(); }
   Solution why_none(std::int64_t now_us) const { return initiation_.why_none(now_us); }
   // The identity of what a station follows by its own word (the bearing's track_id) and no track
   // explains: it is the target's that it was, and becomes that of the target which it turns out to
   // be. 0 for the first confirm_s, while ordinary targets are found, and for what it does not name.
   // `told`: those of others at the same instant; one id is one object.
-  std::int64_t identify(const Sighting& newest, std::set<std::int64_t>& told);
+  std::int64_t identify(const BearingMeasurement& newest, std::set<std::int64_t>& told);
   // Whether a track takes what the station follows by this name: the last bearing not longer ago.
-  bool takes(const Sighting& newest, std::int64_t now_us, double within_s) const;
+  bool takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s) const;
   const LocalTracks& followed() const { return identities_.local(); }
   struct Counts {
     std::int64_t born = 0, confirmed = 0, dropped = 0, merged = 0, ambiguous = 0, set_aside = 0,
@@ -87,10 +87,10 @@ class TrackManager {
   const Counts& counts() const { return counts_; }
   // Predicted minus measured (cross-elevation, elevation) of the confirmed track that a station's
   // bearing would have to be moved least for.
-  std::optional<Eigen::Vector2d> off_nearest(const Sighting& sighting) const;
+  std::optional<Eigen::Vector2d> off_nearest(const BearingMeasurement& sighting) const;
 
  protected:
-  TrackManager(const KeeperConfig& config, const FilterConfig& filter, bool same_place);
+  TrackManager(const TrackManagerConfig& config, const FilterConfig& filter, bool same_place);
   TrackManager(const TrackManager&) = default;
   TrackManager& operator=(const TrackManager&) = default;
 
@@ -104,7 +104,7 @@ class TrackManager {
   // Before what is dropped is taken out.
   virtual void merge_duplicates() {}
 
-  Association give_to(Track& track, const Sighting& sighting, const Innovation* seen = nullptr);
+  Association give_to(Track& track, const BearingMeasurement& sighting, const Innovation* seen = nullptr);
   Track& begin(Track track);
   void replace(Track& track, Track by);
   // Confirms a born track that is worth it.
@@ -112,9 +112,9 @@ class TrackManager {
   // All that belongs to another time line; identities go on.
   void clear_tracks();
 
-  KeeperConfig config_;
+  TrackManagerConfig config_;
   TrackInitiation initiation_;
-  StationErrors errors_;
+  BiasModel errors_;
   std::vector<Track> tracks_;
   std::vector<TrackGlance> glances_;  // of each track
   TrackIdentities identities_;
@@ -124,7 +124,7 @@ class TrackManager {
   void age(Track& track, std::int64_t now_us);
   bool is_duplicate(const Track& track) const;
   void confirm(Track& track);
-  void keep(Track& track, const Sighting& sighting) const;
+  void keep(Track& track, const BearingMeasurement& sighting) const;
   void forget_what_it_taught(const Track& track);
 };
 

@@ -7,7 +7,7 @@
 
 namespace ols {
 
-bool Look::is_near(const Eigen::Vector3d& p_ecef, double more_rad) const {
+bool BearingSummary::is_near(const Eigen::Vector3d& p_ecef, double more_rad) const {
   const double within = spread_rad + more_rad;
   const Eigen::Vector3d line = p_ecef - origin_ecef;
   return (line.normalized() - direction_ecef).squaredNorm() < within * within;
@@ -15,7 +15,7 @@ bool Look::is_near(const Eigen::Vector3d& p_ecef, double more_rad) const {
 
 // What has been learnt of the station's bias is within the least one: a track loses a station whose
 // bias grows beyond 0.02 rad and as much as here (TrackGlance).
-Look look_of(const Sighting& sighting, const Eigen::Matrix3d& R_ecef_enu) {
+BearingSummary summarise(const BearingMeasurement& sighting, const Eigen::Matrix3d& R_ecef_enu) {
   constexpr double kGenerous = 8.0, kLeastRad = 0.05;
   const LineOfSight& sight = sighting.sight;
   const double variance = sight.covariance_white.trace() + sight.covariance_systematic.trace();
@@ -28,22 +28,22 @@ Look look_of(const Sighting& sighting, const Eigen::Matrix3d& R_ecef_enu) {
 }
 
 // A station seldom moves, and to find its axes costs as much as the rest.
-Look UnassociatedBearings::Station::look(const Sighting& sighting) {
+BearingSummary UnassociatedBearings::Station::look(const BearingMeasurement& sighting) {
   if (origin_ecef_ != sighting.sight.origin_ecef) {
     origin_ecef_ = sighting.sight.origin_ecef;
     R_ecef_enu_ = ols::R_ecef_enu(origin_ecef_);
   }
-  return look_of(sighting, R_ecef_enu_);
+  return summarise(sighting, R_ecef_enu_);
 }
 
-void UnassociatedBearings::store(const Sighting& sighting) {
+void UnassociatedBearings::store(const BearingMeasurement& sighting) {
   Station& own = stations_[sighting.station];
-  const auto later = std::ranges::upper_bound(own.looks, sighting.utime_us, {}, &Look::utime_us);
+  const auto later = std::ranges::upper_bound(own.looks, sighting.utime_us, {}, &BearingSummary::utime_us);
   const auto place = later - own.looks.begin();
   own.bearings.insert(own.bearings.begin() + place, sighting);
   own.looks.insert(later, own.look(sighting));
   const std::int64_t oldest_us = own.looks.back().utime_us - std::llround(span_s_ * 1e6);
-  const auto first = std::ranges::lower_bound(own.looks, oldest_us, {}, &Look::utime_us);
+  const auto first = std::ranges::lower_bound(own.looks, oldest_us, {}, &BearingSummary::utime_us);
   auto gone = first - own.looks.begin();
   const auto size = static_cast<std::ptrdiff_t>(own.looks.size());
   gone = std::max(gone, size - static_cast<std::ptrdiff_t>(most_));
@@ -52,7 +52,7 @@ void UnassociatedBearings::store(const Sighting& sighting) {
 }
 
 void UnassociatedBearings::erase_if(const std::string& station,
-                                    const std::function<bool(const Sighting&)>& condition) {
+                                    const std::function<bool(const BearingMeasurement&)>& condition) {
   const auto found = stations_.find(station);
   if (found == stations_.end()) return;
   Station& own = found->second;
@@ -63,7 +63,7 @@ void UnassociatedBearings::erase_if(const std::string& station,
   }
   if (own.bearings.size() == own.looks.size()) return;
   own.looks.clear();
-  for (const Sighting& sighting : own.bearings) own.looks.push_back(own.look(sighting));
+  for (const BearingMeasurement& sighting : own.bearings) own.looks.push_back(own.look(sighting));
 }
 
 }  // namespace ols

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "central/measurement/sighting.h"
+#include "central/measurement/bearing_measurement.h"
 
 namespace ols {
 
 // What a quick look at a bearing needs, side by side.
-struct Look {
+struct BearingSummary {
   std::int64_t utime_us = 0;
   Eigen::Vector3d origin_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction_ecef = Eigen::Vector3d::UnitX();
@@ -26,16 +26,16 @@ struct Look {
   bool is_near(const Eigen::Vector3d& p_ecef, double more_rad) const;
 };
 // With the axes at its origin: R_ecef_enu(sighting.sight.origin_ecef).
-Look look_of(const Sighting& sighting, const Eigen::Matrix3d& R_ecef_enu);
+BearingSummary summarise(const BearingMeasurement& sighting, const Eigen::Matrix3d& R_ecef_enu);
 
 class UnassociatedBearings {
  public:
   // Of one station, both in order of time and as long as each other.
   struct Station {
-    std::deque<Sighting> bearings;
-    std::vector<Look> looks;
+    std::deque<BearingMeasurement> bearings;
+    std::vector<BearingSummary> looks;
 
-    Look look(const Sighting& sighting);
+    BearingSummary look(const BearingMeasurement& sighting);
 
    private:
     Eigen::Vector3d origin_ecef_ = Eigen::Vector3d::Zero();     // of the look that was made last,
@@ -46,8 +46,8 @@ class UnassociatedBearings {
   UnassociatedBearings(double span_s, int most)
       : span_s_(span_s), most_(static_cast<std::size_t>(most)) {}
 
-  void store(const Sighting& sighting);
-  void erase_if(const std::string& station, const std::function<bool(const Sighting&)>& condition);
+  void store(const BearingMeasurement& sighting);
+  void erase_if(const std::string& station, const std::function<bool(const BearingMeasurement&)>& condition);
   void forget(const std::string& station) { stations_.erase(station); }
   // None of them is empty.
   const std::map<std::string, Station>& stations() const { return stations_; }

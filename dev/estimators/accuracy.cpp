@@ -71,7 +71,7 @@ void one_epoch(const Geometry& geometry, int run, std::mt19937_64& random, Sums&
   const Vector3d p_ecef = site().to_ecef(there.p_enu);
   std::vector<Ray> rays;
   Matrix3d information = Matrix3d::Zero();
-  for (const Sighting& s : measure(world, {Path(3, there)}, 0.99 / world.rate_hz * 1.02, random)) {
+  for (const BearingMeasurement& s : measure(world, {Path(3, there)}, 0.99 / world.rate_hz * 1.02, random)) {
     rays.push_back({.station = s.station, .sight = s.sight});
     const RayFrame frame = ray_frame(s.sight);
     const double range_m = (p_ecef - s.sight.origin_ecef).norm();
@@ -89,7 +89,7 @@ struct FilterCase {
   const char* name;
   double tilt_sd_rad, heading_sd_rad, time_s;
   double place_sd_m = 0.0;
-  double told_s = StationErrorsConfig{}.stated_time_s;  // what the filter supposes of that
+  double told_s = BiasModelConfig{}.stated_time_s;  // what the filter supposes of that
 };
 
 constexpr double kFlightS = 12.0, kWarmS = 4.0, kDisturbance = 0.5;
@@ -122,7 +122,7 @@ Sums fly(const FilterCase& filter, int runs) {
       const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
       if (time_s < kWarmS) continue;
       const auto index = static_cast<std::size_t>(
-          std::ranges::lower_bound(bearings, target.utime_us, {}, &Sighting::utime_us) -
+          std::ranges::lower_bound(bearings, target.utime_us, {}, &BearingMeasurement::utime_us) -
           bearings.begin());
       const Vector3d e = target.estimate.position_ecef - site().to_ecef(at(path, time_s).p_enu);
       sums.add(instant++, e, bound[index], target.estimate.covariance_ecef);
@@ -144,13 +144,13 @@ struct Squares {
   double rms() const { return std::sqrt(sum / count); }
 };
 
-void follow(const Way& way, const std::vector<Sighting>& bearings, const Path& path,
+void follow(const Way& way, const std::vector<BearingMeasurement>& bearings, const Path& path,
             Squares& squares) {
   constexpr double kBegunS = 2.0;
   FusionConfig config{.estimator = way.estimator, .paper_targets = 0};
   config.estimators.paper.moving_average = way.average;
   Fusion fusion(config);
-  for (const Sighting& sighting : bearings) {
+  for (const BearingMeasurement& sighting : bearings) {
     const FusionOutput output = fusion.add(sighting);
     if (output.targets.empty()) continue;
     const FusedTarget& target = output.targets.front();

@@ -52,7 +52,7 @@ Path manoeuvring(const PathPoint& start, double acceleration_m_s2, double durati
                  std::mt19937_64& random);
 
 // In order of time; several of one station and frame share their stamp.
-std::vector<Sighting> measure(const WorldConfig& config, const std::vector<Path>& targets,
+std::vector<BearingMeasurement> measure(const WorldConfig& config, const std::vector<Path>& targets,
                               double duration_s, std::mt19937_64& random);
 
 // n stations on a circle about the origin.

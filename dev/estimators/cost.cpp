@@ -26,9 +26,9 @@ double used_s() {
 }
 
 // Groups of stations, each with a target of its own, in the order of time.
-std::vector<Sighting> groups_of_stations(int groups, int each, double place_sd_m) {
+std::vector<BearingMeasurement> groups_of_stations(int groups, int each, double place_sd_m) {
   std::mt19937_64 random(9);
-  std::vector<Sighting> all;
+  std::vector<BearingMeasurement> all;
   for (int group = 0; group < groups; ++group) {
     const int row = group / 12;
     const Vector3d centre(4000.0 * (group % 12), 4000.0 * row, 0.0);
@@ -40,12 +40,12 @@ std::vector<Sighting> groups_of_stations(int groups, int each, double place_sd_m
     world.place_sd_m = place_sd_m;
     for (Vector3d& place : world.stations_enu) place += centre;
     const Path path = cruising({centre + Vector3d(0, 0, 100), {8, 3, 0}}, 0.5, kDurationS, random);
-    for (Sighting& s : measure(world, {path}, kDurationS, random)) {
+    for (BearingMeasurement& s : measure(world, {path}, kDurationS, random)) {
       s.station.append("g").append(std::to_string(group));
       all.push_back(std::move(s));
     }
   }
-  std::ranges::stable_sort(all, {}, &Sighting::utime_us);
+  std::ranges::stable_sort(all, {}, &BearingMeasurement::utime_us);
   return all;
 }
 
@@ -72,7 +72,7 @@ void cost_of(int stations, double place_sd_m, Limits& limits) {
   Fusion fusion{FusionConfig{}};
   Spans born, later;
   double born_s = 0.0, later_s = 0.0;
-  for (const Sighting& sighting : groups_of_stations(groups, each, place_sd_m)) {
+  for (const BearingMeasurement& sighting : groups_of_stations(groups, each, place_sd_m)) {
     const bool first = sighting.utime_us - kStartUs <= std::llround(1e6 * kBornS);
     const double begun_s = used_s();
     const FusionOutput output = fusion.add(sighting);

@@ -40,8 +40,8 @@ double user_s() {
 
 // The filter of one object, as it runs on recordings, with what the other is given, too: the true
 // motion, and no other model, and the noise, white and Gaussian as stated.
-KeeperConfig pinned() {
-  KeeperConfig config;
+TrackManagerConfig pinned() {
+  TrackManagerConfig config;
   config.filter.motion.models = {Motion::kConstantVelocity};
   config.filter.motion.cruise_sd_m_s2 = kDisturbance;
   config.filter.motion.cruise_per_speed_s = 0.0;
@@ -53,16 +53,16 @@ KeeperConfig pinned() {
   return config;
 }
 
-std::vector<std::optional<Vector3d>> our_fixes(const std::vector<Sighting>& bearings,
+std::vector<std::optional<Vector3d>> our_fixes(const std::vector<BearingMeasurement>& bearings,
                                                std::vector<double>& cpu_us) {
   std::vector<std::optional<Vector3d>> fixes;
   fixes.reserve(bearings.size());
   const double before_s = user_s();
   RecordedTrack track(pinned());
-  for (const Sighting& sighting : bearings) {
+  for (const BearingMeasurement& sighting : bearings) {
     track.add(sighting);
     const auto& tracks = track.tracks();
-    const bool found = !tracks.empty() && is_sure(tracks.front());
+    const bool found = !tracks.empty() && is_established(tracks.front());
     fixes.push_back(found ? std::optional(tracks.front().filter.position()) : std::nullopt);
   }
   cpu_us.push_back(1e6 * (user_s() - before_s) / static_cast<double>(bearings.size()));

@@ -10,7 +10,7 @@
 namespace ols::bench {
 
 std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
-                                    const std::vector<Sighting>& bearings, double disturbance,
+                                    const std::vector<BearingMeasurement>& bearings, double disturbance,
                                     double position_sd_m, double velocity_sd_m_s) {
   const auto stations = static_cast<Eigen::Index>(config.stations_enu.size());
   // Of each station its rotation; then of each its place.
@@ -24,7 +24,7 @@ std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
   P.diagonal().tail(3 * stations).setConstant(config.place_sd_m * config.place_sd_m);
   std::vector<double> bound;
   std::int64_t last_us = bearings.front().utime_us;
-  for (const Sighting& sighting : bearings) {
+  for (const BearingMeasurement& sighting : bearings) {
     const double dt = 1e-6 * static_cast<double>(sighting.utime_us - last_us);
     last_us = sighting.utime_us;
     Eigen::MatrixXd F = Eigen::MatrixXd::Identity(n, n);

@@ -107,7 +107,7 @@ IdentityScore run_several(const SeveralTargets& scenario, std::uint64_t seed) {
   config.paper_targets = 0;
   Fusion fusion(config);
   Judge judge(truth);
-  for (const Sighting& sighting : sightings) {
+  for (const BearingMeasurement& sighting : sightings) {
     const FusionOutput output = fusion.add(sighting);
     if (!output.targets.empty()) judge.see(output.targets);
   }

@@ -65,7 +65,7 @@ void Objective::set_mask(const MaskPatch& mask) {
   }
 }
 
-Likeness Objective::operator()(const Patch& gray, const MaskPatch& candidate_mask) const {
+Similarity Objective::operator()(const Patch& gray, const MaskPatch& candidate_mask) const {
   const auto& exponential = exponentials<float>();
   Patch weight;
   for (std::size_t i = 0; i < kPatchArea; ++i) weight[i] = exponential[candidate_mask[i]];

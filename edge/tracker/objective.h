@@ -21,7 +21,7 @@ const std::array<Number, 256>& exponentials() {
   return table;
 }
 
-struct Likeness {
+struct Similarity {
   double similarity = 0.0;         // eq. (5), 0..1
   double correlation = 0.0;        // of the grey values with the first or the learnt image, -1..1
   double first_correlation = 0.0;  // with the first image
@@ -42,7 +42,7 @@ class Objective {
   // Takes the target's present look into the learnt image, by this share.
   void learn(const Patch& gray, double share);
 
-  Likeness operator()(const Patch& gray, const MaskPatch& candidate_mask) const;
+  Similarity operator()(const Patch& gray, const MaskPatch& candidate_mask) const;
 
  private:
   // A warm target before a sky that grows warmer turns from bright to dark: as like, but rarer.

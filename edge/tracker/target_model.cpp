@@ -75,7 +75,7 @@ Scene TargetModel::make_scene(const cv::Mat& gray, const std::vector<Particle>& 
   return scene;
 }
 
-Likeness TargetModel::likeness(const Scene& scene, const Eigen::Vector2d& pixel,
+Similarity TargetModel::likeness(const Scene& scene, const Eigen::Vector2d& pixel,
                                const Eigen::Vector2d& size_px) const {
   const bool seen = pixel.x() > -0.5 && pixel.y() > -0.5 && pixel.x() < scene.frame.width - 0.5 &&
                     pixel.y() < scene.frame.height - 0.5;
@@ -145,7 +145,7 @@ void TargetModel::learn_size(const Eigen::Vector2d& size_px, double share) {
   usual_size_px_ += share * (size_px - usual_size_px_);
 }
 
-double TargetModel::log_likelihood(const Likeness& likeness, double background, double standing_out,
+double TargetModel::log_likelihood(const Similarity& likeness, double background, double standing_out,
                                    const Eigen::Vector2d& size_px) const {
   const double room = std::max(0.02, 1.0 - background);
   const double alike =
@@ -160,7 +160,7 @@ double TargetModel::log_likelihood(const Likeness& likeness, double background, 
 
 FrameEvidence TargetModel::evidence(const Scene& scene, const Particle& candidate) const {
   const auto& [pixel, velocity_px_s, size_px] = candidate;
-  const Likeness found = likeness(scene, pixel, size_px);
+  const Similarity found = likeness(scene, pixel, size_px);
   FrameEvidence evidence{found.similarity, scene.background_similarity, found.correlation,
                          found.contrast};
   evidence.standing_out = standing_out(scene, pixel, size_px);

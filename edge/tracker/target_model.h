@@ -33,7 +33,7 @@ class TargetModel {
   Scene make_scene(const cv::Mat& gray, const std::vector<Particle>& particles,
                    const cv::Rect2d& expected, const ReferenceFrames& references) const;
 
-  Likeness likeness(const Scene& scene, const Eigen::Vector2d& pixel,
+  Similarity likeness(const Scene& scene, const Eigen::Vector2d& pixel,
                     const Eigen::Vector2d& size_px) const;
   // What boxes around `box` reach that are not the target: nearly the best of them.
   double background_similarity(const Scene& scene, const cv::Rect2d& box) const;
@@ -45,7 +45,7 @@ class TargetModel {
                     const Eigen::Vector2d& size_px) const;
   // Logarithm of a likelihood: similarity against the background's, correlation, how it stands out,
   // and the size's prior.
-  double log_likelihood(const Likeness& likeness, double background, double standing_out,
+  double log_likelihood(const Similarity& likeness, double background, double standing_out,
                         const Eigen::Vector2d& size_px) const;
 
   // What the scene says for a candidate.

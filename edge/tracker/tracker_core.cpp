@@ -222,7 +222,7 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, StageTimer& timer) 
 void TrackerCore::weigh_particles(const Scene& scene) {
   constexpr double kStill = 5.0;  // so much less likely, as a logarithm
   filter_.weigh([&](const Particle& particle) {
-    const Likeness likeness = target_.likeness(scene, particle.pixel, particle.size_px);
+    const Similarity likeness = target_.likeness(scene, particle.pixel, particle.size_px);
     const double out = target_.standing_out(scene, particle.pixel, particle.size_px);
     const double alike =
         target_.log_likelihood(likeness, scene.background_similarity, out, particle.size_px);

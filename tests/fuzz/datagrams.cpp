@@ -48,7 +48,7 @@ class Recorder {
 void to_fusion(ols::Fusion& fusion, const ols::BusMessage& message) {
   const int size = static_cast<int>(message.payload.size());
   const auto sighting = ols::sighting_from(message.channel, message.payload.data(), size);
-  if (const auto* seen = std::get_if<ols::Sighting>(&sighting)) {
+  if (const auto* seen = std::get_if<ols::BearingMeasurement>(&sighting)) {
     static_cast<void>(fusion.add(*seen));
   }
 }

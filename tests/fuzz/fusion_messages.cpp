@@ -46,7 +46,7 @@ void receive(ols::Fusion& fusion, bool is_status, const std::string& station,
     return;
   }
   const auto sighting = ols::sighting_from("OLS_BEARING_" + station, bytes.data(), size);
-  if (const auto* seen = std::get_if<ols::Sighting>(&sighting)) {
+  if (const auto* seen = std::get_if<ols::BearingMeasurement>(&sighting)) {
     const ols::FusionOutput output = fusion.add(*seen);
     for (const auto& target : output.targets) check_target(target);
     for (const auto& target : output.targets_paper) check_target(target);

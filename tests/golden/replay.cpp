@@ -47,10 +47,10 @@ ols_msg::bearing_t message_of(const json& row, const json& stations, std::int64_
   return message;
 }
 
-Sighting decoded(const ols_msg::bearing_t& message) {
+BearingMeasurement decoded(const ols_msg::bearing_t& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
   const int size = message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return std::get<Sighting>(
+  return std::get<BearingMeasurement>(
       sighting_from(std::string(kBearingChannel) + message.station, bytes.data(), size));
 }
 

@@ -111,10 +111,10 @@ CARRIED_ON = {
 }
 PASSED_ON = {
     "present_watch.cpp": "",
-    "other_fusions.cpp": "",
+    "fusion_conflict_monitor.cpp": "",
     "clock_watch.cpp": "clock: ",
     "ptu_report.cpp": "ptu: ",
-    "pose_memory.cpp": "pose: ",
+    "pose_store.cpp": "pose: ",
     "gpsd_link.cpp": "gnss: ",
     "gnss.cpp": "gnss: ",
     "inclinometer.cpp": "inclinometer: ",

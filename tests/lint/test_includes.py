@@ -39,7 +39,7 @@ NOT_PURE = {
     "the operating system": "base/boot_id.cpp base/clocks.h base/command_line.h "
     "base/plain_text.cpp base/progress.cpp base/service_notifier.cpp base/shutdown.cpp "
     "base/wakeup.cpp "
-    "edge/host_watch.cpp edge/rearm_signal.cpp edge/clock/clock_pair.cpp "
+    "edge/host_monitor.cpp edge/rearm_signal.cpp edge/clock/clock_pair.cpp "
     "edge/clock/clock_source.cpp edge/clock/command_output.cpp",
     "devices and their threads": "edge/device_thread.* "
     "edge/camera/aravis_*.cpp edge/camera/aravis_error.h "

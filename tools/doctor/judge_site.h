@@ -1,7 +1,7 @@
 // Is it well, and if not, what to do: bus, station, host, services. Pure.
 #pragma once
 
-#include "edge/host_watch.h"
+#include "edge/host_monitor.h"
 #include "tools/doctor/facts.h"
 #include "tools/doctor/finding.h"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "edge/config.h"
-#include "edge/host_watch.h"
+#include "edge/host_monitor.h"
 #include "tools/doctor/facts.h"
 
 namespace ols::doctor {

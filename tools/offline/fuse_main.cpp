@@ -122,7 +122,7 @@ std::size_t run(const Options& options) {
   ols::UnusedBearings unused;
   for (auto& [id, sightings] : recording) {
     if (options.clock_sd_s) {
-      for (ols::Sighting& sighting : sightings) sighting.clock_sd_s = *options.clock_sd_s;
+      for (ols::BearingMeasurement& sighting : sightings) sighting.clock_sd_s = *options.clock_sd_s;
     }
     const ols::UnusedBearings here = ols::unused_bearings(sightings, config);
     unused.low_belief += here.low_belief;

@@ -14,8 +14,8 @@ namespace {
 constexpr double kDegree_rad = kPi / 180.0;
 
 // `unit_rad` is the unit of the row's angles, one degree unless radians were exported.
-Sighting sighting_of(const BearingRow& bearing, const StationRow& station, double unit_rad) {
-  Sighting sighting;
+BearingMeasurement sighting_of(const BearingRow& bearing, const StationRow& station, double unit_rad) {
+  BearingMeasurement sighting;
   sighting.station = bearing.station;
   sighting.utime_us = bearing.utime_us;
   sighting.belief = bearing.belief;

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "central/measurement/sighting.h"
+#include "central/measurement/bearing_measurement.h"
 
 namespace ols {
 
-using RecordedBearings = std::map<std::string, std::vector<Sighting>>;  // by target id
+using RecordedBearings = std::map<std::string, std::vector<BearingMeasurement>>;  // by target id
 
 // Throws CsvError, also if the angles can only be radians, despite the columns' names.
 RecordedBearings read_recorded_bearings(const std::string& stations_path,

@@ -125,17 +125,17 @@ void bind_configs(py::module_& m) {
 }
 
 void bind_fusion(py::module_& m) {
-  data_class<Sighting>(m, "Sighting", "One bearing of one station.")
-      .def_readwrite("station", &Sighting::station)
-      .def_readwrite("utime_us", &Sighting::utime_us, "UTC since 1970 [us] at mid-exposure.")
-      .def_readwrite("sight", &Sighting::sight, "LineOfSight; a copy, replaced as a whole.")
-      .def_readwrite("belief", &Sighting::belief)
-      .def_readwrite("clock_sd_s", &Sighting::clock_sd_s)
-      .def_readwrite("track_id", &Sighting::track_id);
+  data_class<BearingMeasurement>(m, "BearingMeasurement", "One bearing of one station.")
+      .def_readwrite("station", &BearingMeasurement::station)
+      .def_readwrite("utime_us", &BearingMeasurement::utime_us, "UTC since 1970 [us] at mid-exposure.")
+      .def_readwrite("sight", &BearingMeasurement::sight, "LineOfSight; a copy, replaced as a whole.")
+      .def_readwrite("belief", &BearingMeasurement::belief)
+      .def_readwrite("clock_sd_s", &BearingMeasurement::clock_sd_s)
+      .def_readwrite("track_id", &BearingMeasurement::track_id);
 
   m.def(
       "align",
-      [](const std::vector<Sighting>& sightings, std::int64_t epoch_us,
+      [](const std::vector<BearingMeasurement>& sightings, std::int64_t epoch_us,
          std::optional<double> range_m) { return align(sightings, epoch_us, range_m); },
       arg("sightings"), arg("epoch_us"), arg("range_m") = std::nullopt,
       "One station's Sightings, in order of time -> its Ray at the epoch, or None.");
@@ -171,7 +171,7 @@ void bind_fusion(py::module_& m) {
 
   m.def(
       "fuse_offline",
-      [](const std::vector<Sighting>& sightings, const OfflineConfig& config) {
+      [](const std::vector<BearingMeasurement>& sightings, const OfflineConfig& config) {
         return fuse_offline(sightings, config);
       },
       arg("sightings"), arg("config") = OfflineConfig{},

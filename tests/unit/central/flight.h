@@ -18,10 +18,10 @@ inline Eigen::Vector3d path(double t_s) {
 }
 
 // Four stations at 15 frames a second, their frames evenly staggered: in order of time.
-inline std::vector<Sighting> flight(double seconds, double sigma_rad = 1e-5, double noise = 0.0) {
+inline std::vector<BearingMeasurement> flight(double seconds, double sigma_rad = 1e-5, double noise = 0.0) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
-  std::vector<Sighting> sightings;
+  std::vector<BearingMeasurement> sightings;
   for (int i = 0; i < static_cast<int>(60.0 * seconds); ++i) {
     const double t_s = i / 60.0;
     const auto station = static_cast<std::size_t>(i % 4);
@@ -34,19 +34,19 @@ inline std::vector<Sighting> flight(double seconds, double sigma_rad = 1e-5, dou
 }
 
 // Takes a bearing, and learns what it shows of the stations.
-inline BearingUse feed(TrackFilter& filter, const Sighting& sighting, StationErrors& errors) {
+inline BearingUse feed(TrackFilter& filter, const BearingMeasurement& sighting, BiasModel& errors) {
   const FilterUpdate update = filter.update(sighting, errors);
   errors.learn(update.shown);
   return update.use;
 }
 
-inline void move_on(TrackFilter& filter, std::int64_t utime_us, StationErrors& errors) {
+inline void move_on(TrackFilter& filter, std::int64_t utime_us, BiasModel& errors) {
   errors.learn(filter.advance(utime_us, errors));
 }
 
-inline std::vector<FusedTarget> targets_of(Fusion& fusion, const std::vector<Sighting>& sightings) {
+inline std::vector<FusedTarget> targets_of(Fusion& fusion, const std::vector<BearingMeasurement>& sightings) {
   std::vector<FusedTarget> targets;
-  for (const Sighting& sighting : sightings) {
+  for (const BearingMeasurement& sighting : sightings) {
     const FusionOutput output = fusion.add(sighting);
     targets.insert(targets.end(), output.targets.begin(), output.targets.end());
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "central/measurement/ray.h"
-#include "central/measurement/sighting.h"
+#include "central/measurement/bearing_measurement.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 
@@ -44,8 +44,8 @@ inline Ray turned(Ray ray, double cross_elevation_rad, double elevation_rad) {
   return ray;
 }
 
-inline Sighting sighting_of(const Ray& ray, std::int64_t utime_us) {
-  Sighting sighting;
+inline BearingMeasurement sighting_of(const Ray& ray, std::int64_t utime_us) {
+  BearingMeasurement sighting;
   sighting.station = ray.station;
   sighting.utime_us = utime_us;
   sighting.sight = ray.sight;

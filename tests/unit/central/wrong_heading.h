@@ -21,11 +21,11 @@ inline constexpr double kSlowly = 0.5;  // of the time of path()
 
 // The stations (letters of the square's corners), in this order of exposures, each 15 times a
 // second; the path of flight.h at half its speed. In order of time.
-inline std::vector<Sighting> watch(const std::string& stations, double seconds, double noise_rad,
+inline std::vector<BearingMeasurement> watch(const std::string& stations, double seconds, double noise_rad,
                                    const HeadingError& heading, double stated_rad = 0.0) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
-  std::vector<Sighting> sightings;
+  std::vector<BearingMeasurement> sightings;
   for (int i = 0; i < static_cast<int>(60.0 * seconds); ++i) {
     const double t_s = i / 60.0;
     const auto turn = static_cast<std::size_t>(i % 4);

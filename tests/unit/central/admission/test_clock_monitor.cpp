@@ -26,7 +26,7 @@ class ClockMonitorTest : public testing::Test {
       double phase_s = 0.0;
       for (const auto& [name, clock] : clocks_) {
         phase_s += kPeriod_s / 8.0;
-        Sighting sighting;
+        BearingMeasurement sighting;
         sighting.station = name;
         sighting.utime_us =
             1'000'000'000 + std::llround(1e6 * (now_s_ + phase_s + clock.offset_s - clock.late_s));

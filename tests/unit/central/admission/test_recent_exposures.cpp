@@ -7,8 +7,8 @@ namespace {
 
 constexpr std::int64_t kStart = 1'600'000'000'000'000;
 
-Sighting bearing(std::int64_t utime_us, double azimuth_rad, std::int64_t track_id = 0) {
-  Sighting sighting;
+BearingMeasurement bearing(std::int64_t utime_us, double azimuth_rad, std::int64_t track_id = 0) {
+  BearingMeasurement sighting;
   sighting.utime_us = utime_us;
   sighting.sight.direction.azimuth_rad = azimuth_rad;
   sighting.track_id = track_id;

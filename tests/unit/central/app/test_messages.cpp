@@ -85,8 +85,8 @@ std::optional<MessageRefusal> no_place(const Bytes& bytes) {
 
 TEST(Messages, BearingBecomesASighting) {
   const auto result = decode_bearing(encoded(bearing()));
-  ASSERT_TRUE(std::holds_alternative<Sighting>(result));
-  const auto& sighting = std::get<Sighting>(result);
+  ASSERT_TRUE(std::holds_alternative<BearingMeasurement>(result));
+  const auto& sighting = std::get<BearingMeasurement>(result);
   EXPECT_EQ(sighting.station, "north");
   EXPECT_EQ(sighting.utime_us, 1'700'000'000'123'456);
   EXPECT_EQ(sighting.boot_id, 77);
@@ -102,7 +102,7 @@ TEST(Messages, BearingBecomesASighting) {
   EXPECT_EQ(sighting.sight.covariance_white(1, 1), 2e-8);
   EXPECT_EQ(sighting.sight.covariance_systematic(1, 1), 3e-8);
   EXPECT_EQ(sighting.sight.origin_sd_enu_m, Eigen::Vector3d(0, 0.5, 0));
-  EXPECT_EQ(check(sighting), SightingRefusal::kNone);
+  EXPECT_EQ(check(sighting), BearingRefusal::kNone);
 }
 
 TEST(Messages, StatusTellsWhereAStationStands) {
@@ -215,7 +215,7 @@ TEST(Messages, AnyDamageIsSurvived) {
       bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
     }
     const auto result = decode_bearing(bytes);
-    if (const auto* sighting = std::get_if<Sighting>(&result)) {
+    if (const auto* sighting = std::get_if<BearingMeasurement>(&result)) {
       Fusion fusion{FusionConfig{}};
       fusion.add(*sighting);
       ++decoded;

@@ -26,9 +26,9 @@ Vector3d circle(double t_s) {
   return {60.0 * std::sin(0.25 * t_s), 250.0 + 60.0 * std::cos(0.25 * t_s), 60.0};
 }
 
-std::vector<Sighting> seen(const Path& path, const std::vector<double>& times_s,
+std::vector<BearingMeasurement> seen(const Path& path, const std::vector<double>& times_s,
                            double sigma_rad = 1e-4) {
-  std::vector<Sighting> sightings;
+  std::vector<BearingMeasurement> sightings;
   for (const double t_s : times_s) {
     sightings.push_back(sighting_of(ray_to("a", {0, 0, 0}, path(t_s), sigma_rad),
                                     kEpoch + std::llround(t_s * 1e6)));
@@ -106,7 +106,7 @@ TEST(Alignment, NoRayFarFromAllBearings) {
 
 TEST(Alignment, LeavesWhatStaysAsItIs) {
   auto sightings = seen(straight, frames(-0.3, 0.0, 30.0));
-  for (Sighting& sighting : sightings) {
+  for (BearingMeasurement& sighting : sightings) {
     sighting.sight.covariance_systematic << 3e-8, 1e-8, 1e-8, 2e-8;
     sighting.sight.origin_sd_enu_m = {1, 2, 3};
     sighting.clock_sd_s = 0.002;
@@ -123,7 +123,7 @@ TEST(Alignment, LeavesWhatStaysAsItIs) {
 // A lever arm: the camera centre moves while the PTU turns.
 TEST(Alignment, TheCameraCentreMovesAlong) {
   const auto centre = [](double t_s) { return Vector3d(0.1 * t_s, 0.05 * t_s, 0.0); };
-  std::vector<Sighting> sightings;
+  std::vector<BearingMeasurement> sightings;
   for (const double t_s : frames(-0.4, -0.05, 30.0)) {
     sightings.push_back(
         sighting_of(ray_to("a", centre(t_s), straight(t_s)), kEpoch + std::llround(t_s * 1e6)));
@@ -156,7 +156,7 @@ TEST(Alignment, CovarianceIsConsistent) {
         return Vector3d(Vector3d(50, 250, 60) + velocity * t_s + acceleration * (t_s * t_s / 2.0));
       };
       auto sightings = seen(path, frames(-0.4, last_s, 15.0));
-      for (Sighting& sighting : sightings) {
+      for (BearingMeasurement& sighting : sightings) {
         Ray ray;
         ray.sight = sighting.sight;
         sighting.sight = test::turned(ray, 1e-4 * normal(random), 1e-4 * normal(random)).sight;

@@ -13,7 +13,7 @@ double inflation_of(double same) {
   constexpr double kNoise = 1e-4;
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
-  StationErrors errors;
+  BiasModel errors;
   ColouredNoise noise;
   Eigen::Vector2d off = Eigen::Vector2d::Zero();
   double inflation = 1.0;
@@ -22,7 +22,7 @@ double inflation_of(double same) {
     off = same * off + fresh * kNoise * Eigen::Vector2d(normal(random), normal(random));
     const Ray ray =
         test::turned(test::ray_to("a", {0, 0, 0}, {0, 300, 50}, kNoise), off.x(), off.y());
-    const Sighting sighting = test::sighting_of(ray, 1'600'000'000'000'000 + i * 40'000);
+    const BearingMeasurement sighting = test::sighting_of(ray, 1'600'000'000'000'000 + i * 40'000);
     inflation = noise.observe(sighting, ray_frame(sighting.sight), errors);
   }
   return inflation;

@@ -13,8 +13,8 @@ TrackFilter flown(double bias_rad) {
   TrackFilter filter(
       {}, kStart,
       {.p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 30.0});
-  StationErrors errors;
-  for (Sighting sighting : flight(3.0, 1e-4)) {
+  BiasModel errors;
+  for (BearingMeasurement sighting : flight(3.0, 1e-4)) {
     sighting.sight.covariance_systematic = bias_rad * bias_rad * Eigen::Matrix2d::Identity();
     feed(filter, sighting, errors);
   }
@@ -37,7 +37,7 @@ TEST(StationBias, ItsPartOfTheCovarianceIsAPart) {
   const SystematicPart part = filter.systematic();
   EXPECT_GT(part.all_m2.trace(), 0.5 * all.trace());
   EXPECT_LE(part.all_m2.trace(), all.trace());
-  EXPECT_LE(part.shown_m2.trace(), part.all_m2.trace());
+  EXPECT_LE(part.empirical_m2.trace(), part.all_m2.trace());
   EXPECT_LT(flown(1e-5).systematic().all_m2.trace(), 0.1 * part.all_m2.trace());
 }
 

@@ -38,9 +38,9 @@ Vector3d error(const TrackFilter& filter, std::int64_t utime_us) {
 }
 
 TEST(TrackFilter, FindsPositionAndVelocityFromStaggeredBearings) {
-  StationErrors errors;
+  BiasModel errors;
   TrackFilter filter = filter_at(path(0.0) + Vector3d(20, -10, 5));
-  for (const Sighting& s : flight(3.0, 1e-4, 1e-4)) {
+  for (const BearingMeasurement& s : flight(3.0, 1e-4, 1e-4)) {
     EXPECT_EQ(feed(filter, s, errors), BearingUse::kUsed);
   }
   EXPECT_LT(error(filter, filter.utime_us()).norm(), 0.15);
@@ -51,14 +51,14 @@ TEST(TrackFilter, FindsPositionAndVelocityFromStaggeredBearings) {
 
 // Of a target that is known never to turn, one model is enough.
 TEST(TrackFilter, OneModelAloneFollowsWhatMovesLikeThat) {
-  StationErrors errors;
+  BiasModel errors;
   FilterConfig config;
   config.motion.models = {Motion::kConstantVelocity};
   TrackFilter filter(config, kStart,
                      {.p_ecef = site().to_ecef(path(0.0) + Vector3d(20, -10, 5)),
                       .position_sd_m = 100.0,
                       .velocity_sd_m_s = 50.0});
-  for (const Sighting& s : flight(3.0, 1e-4, 1e-4)) {
+  for (const BearingMeasurement& s : flight(3.0, 1e-4, 1e-4)) {
     EXPECT_EQ(feed(filter, s, errors), BearingUse::kUsed);
   }
   EXPECT_EQ(filter.probabilities(), std::vector<double>{1.0});
@@ -84,7 +84,7 @@ class OneModel : public testing::TestWithParam<Motion> {
         FilterStart{
             .p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 50.0});
     seen = flight(4.0, 1e-4, 1e-4);
-    for (Sighting& sighting : seen) {
+    for (BearingMeasurement& sighting : seen) {
       sighting.sight.covariance_systematic = 1e-7 * Eigen::Matrix2d::Identity();
       sighting.sight.origin_sd_enu_m.setConstant(0.2);
       sighting.clock_sd_s = 1e-2;
@@ -93,8 +93,8 @@ class OneModel : public testing::TestWithParam<Motion> {
   }
 
   // Of the last station, so much off the state's own instant, with an error.
-  Sighting next(double ahead_s) const {
-    Sighting result = seen.back();
+  BearingMeasurement next(double ahead_s) const {
+    BearingMeasurement result = seen.back();
     EXPECT_EQ(filter->stations().back().station, result.station);
     result.utime_us = filter->utime_us() + std::llround(1e6 * ahead_s);
     const double t_s = static_cast<double>(result.utime_us - kStart) * 1e-6;
@@ -103,7 +103,7 @@ class OneModel : public testing::TestWithParam<Motion> {
     return result;
   }
 
-  Expected expected(const Sighting& next, double ahead_s) const {
+  Expected expected(const BearingMeasurement& next, double ahead_s) const {
     const auto [mean, P] = filter->mixed();
     const bool curves = GetParam() != Motion::kConstantVelocity;
     const double curved_s2 = curves ? ahead_s * ahead_s / 2.0 : 0.0;
@@ -130,9 +130,9 @@ class OneModel : public testing::TestWithParam<Motion> {
   }
 
   FilterConfig config;
-  StationErrors errors;
+  BiasModel errors;
   std::optional<TrackFilter> filter;
-  std::vector<Sighting> seen;
+  std::vector<BearingMeasurement> seen;
 };
 
 TEST_P(OneModel, GatesByTheWholeStatesCovariance) {
@@ -148,7 +148,7 @@ TEST_P(OneModel, GatesByTheWholeStatesCovariance) {
 TEST_P(OneModel, LearnsByTheWholeStatesGain) {
   for (const double ahead_s : {0.0, -0.1}) {
     TrackFilter after = *filter;
-    StationErrors others = errors;
+    BiasModel others = errors;
     const auto [mean, P] = filter->mixed();
     const auto [r, H, S] = expected(next(ahead_s), ahead_s);
     ASSERT_LT(r.dot(S.inverse() * r), config.robust_nis);
@@ -176,37 +176,37 @@ TEST(TrackFilter, RefusesToMixNoModel) {
 // Late bearings, out of order, each count at their own instant.
 TEST(TrackFilter, LateBearingsCountAtTheirOwnInstant) {
   auto sightings = flight(3.0, 1e-4, 1e-4);
-  StationErrors errors;
+  BiasModel errors;
   TrackFilter in_order = filter_at(path(0.0)), late = filter_at(path(0.0));
-  for (const Sighting& s : sightings) feed(in_order, s, errors);
+  for (const BearingMeasurement& s : sightings) feed(in_order, s, errors);
   for (std::size_t i = 0; i + 8 < sightings.size(); i += 8) {
     std::swap(sightings[i], sightings[i + 7]);
   }
-  StationErrors others;
-  for (const Sighting& s : sightings) EXPECT_EQ(feed(late, s, others), BearingUse::kUsed);
+  BiasModel others;
+  for (const BearingMeasurement& s : sightings) EXPECT_EQ(feed(late, s, others), BearingUse::kUsed);
   const std::int64_t end_us = in_order.utime_us();
   EXPECT_LT((in_order.at(end_us).mean - late.at(end_us).mean).head<3>().norm(), 0.1);
-  Sighting ancient = sightings.front();
+  BearingMeasurement ancient = sightings.front();
   ancient.utime_us -= 5'000'000;
   EXPECT_EQ(feed(late, ancient, others), BearingUse::kTooLate);
 }
 
 TEST(TrackFilter, SetsAWildRayAsideAndNamesWhatIsBehind) {
-  StationErrors errors;
+  BiasModel errors;
   TrackFilter filter = filter_at(path(0.0));
   const auto sightings = flight(2.0, 1e-4);
-  for (const Sighting& s : sightings) feed(filter, s, errors);
-  Sighting wild = sightings.back();
+  for (const BearingMeasurement& s : sightings) feed(filter, s, errors);
+  BearingMeasurement wild = sightings.back();
   wild.sight.direction.elevation_rad += 0.05;
   const Vector3d before = filter.position();
-  EXPECT_EQ(feed(filter, wild, errors), BearingUse::kSetAside);
+  EXPECT_EQ(feed(filter, wild, errors), BearingUse::kRejected);
   EXPECT_EQ(filter.position(), before);
   wild.sight.direction.azimuth_rad = wrap_two_pi(wild.sight.direction.azimuth_rad + kPi);
   EXPECT_EQ(feed(filter, wild, errors), BearingUse::kBehindCamera);
 }
 
 TEST(TrackFilter, FollowsAManoeuvreBeyondItsModels) {
-  StationErrors errors;
+  BiasModel errors;
   TrackFilter filter = filter_at(path(0.0));
   const auto corner = [](double t_s) {
     const double after_s = std::max(0.0, t_s - 2.0);
@@ -227,7 +227,7 @@ TEST(TrackFilter, FollowsAManoeuvreBeyondItsModels) {
 
 // One station in five is off by more than the noise, and says nothing of it.
 TEST(TrackFilter, ABiasIsFoundWhereTheGeometryShowsIt) {
-  StationErrors errors;
+  BiasModel errors;
   TrackFilter filter = filter_at(path(0.0));
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
@@ -251,7 +251,7 @@ TEST(TrackFilter, ABiasIsFoundWhereTheGeometryShowsIt) {
 
 // Systematic errors do not average away: the covariance stays that of the stations' statements.
 TEST(TrackFilter, AveragingDoesNotMakeABadHeadingGoAway) {
-  StationErrors errors;
+  BiasModel errors;
   TrackFilter filter = filter_at({0.0, 300.0, 50.0});
   const double heading = 3e-3;
   for (int i = 0; i < 4000; ++i) {
@@ -267,14 +267,14 @@ TEST(TrackFilter, AveragingDoesNotMakeABadHeadingGoAway) {
 }
 
 TEST(TrackFilter, TellsWhatErrorsThatNobodyStatedMakeOfItsCovariance) {
-  StationErrors errors;
+  BiasModel errors;
   TrackFilter filter = filter_at(path(0.0));
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   std::array<Eigen::Vector2d, 4> biases;
   for (auto& bias : biases) bias = 1e-3 * Eigen::Vector2d(normal(random), normal(random));
-  for (const Sighting& s : flight(0.5, 1e-4)) feed(filter, s, errors);
-  EXPECT_LT(filter.systematic().shown_m2.trace(), 0.1 * filter.systematic().all_m2.trace());
+  for (const BearingMeasurement& s : flight(0.5, 1e-4)) feed(filter, s, errors);
+  EXPECT_LT(filter.systematic().empirical_m2.trace(), 0.1 * filter.systematic().all_m2.trace());
   for (int i = 0; i < 1200; ++i) {
     const auto k = static_cast<std::size_t>(i % 4);
     Ray ray =
@@ -283,7 +283,7 @@ TEST(TrackFilter, TellsWhatErrorsThatNobodyStatedMakeOfItsCovariance) {
     feed(filter, sighting_of(ray, kStart + std::llround(i / 60.0 * 1e6)), errors);
   }
   const SystematicPart part = filter.systematic();
-  EXPECT_GT(part.shown_m2.trace(), 0.5 * part.all_m2.trace());
+  EXPECT_GT(part.empirical_m2.trace(), 0.5 * part.all_m2.trace());
 }
 
 // Twelve have states; one more is of the target without moving it, until one of them is silent.
@@ -294,20 +294,20 @@ TEST(TrackFilter, AThirteenthStationWaitsForAPlace) {
     return sighting_of(ray_to(std::string(1, static_cast<char>('a' + station)), place, path(t_s)),
                        kStart + std::llround(t_s * 1e6));
   };
-  StationErrors errors;
+  BiasModel errors;
   TrackFilter filter = filter_at(path(0.0));
   double t_s = 0.0;
   for (; t_s < 2.0; t_s += 0.1) {
     for (int i = 0; i < 12; ++i)
       EXPECT_EQ(feed(filter, bearing(i, t_s), errors), BearingUse::kUsed);
     const Eigen::MatrixXd before = filter.at(filter.utime_us()).covariance;
-    EXPECT_EQ(feed(filter, bearing(12, t_s), errors), BearingUse::kNoPlace);
+    EXPECT_EQ(feed(filter, bearing(12, t_s), errors), BearingUse::kNoFreeState);
     EXPECT_EQ(filter.at(filter.utime_us()).covariance, before);
-    Sighting beside = bearing(12, t_s);
+    BearingMeasurement beside = bearing(12, t_s);
     beside.sight.direction.elevation_rad += 0.05;
-    EXPECT_EQ(feed(filter, beside, errors), BearingUse::kSetAside);
+    EXPECT_EQ(feed(filter, beside, errors), BearingUse::kRejected);
   }
-  BearingUse last = BearingUse::kNoPlace;
+  BearingUse last = BearingUse::kNoFreeState;
   for (const double end_s = t_s + 1.2; t_s < end_s; t_s += 0.1) {
     for (int i = 1; i < 12; ++i) feed(filter, bearing(i, t_s), errors);
     last = feed(filter, bearing(12, t_s), errors);
@@ -318,9 +318,9 @@ TEST(TrackFilter, AThirteenthStationWaitsForAPlace) {
 
 TEST(TrackFilter, AClockThatWasBadForAMomentIsForgiven) {
   const auto sd_m = [](double clock_sd_s) {
-    StationErrors errors;
+    BiasModel errors;
     TrackFilter filter = filter_at(path(0.0));
-    for (Sighting s : flight(20.0, 1e-4, 1e-4)) {
+    for (BearingMeasurement s : flight(20.0, 1e-4, 1e-4)) {
       s.clock_sd_s = s.utime_us < kStart + 1'000'000 ? clock_sd_s : 1e-4;
       feed(filter, s, errors);
     }
@@ -348,7 +348,7 @@ TEST_P(ShortBase, IsAsUnsureAsItsHeadingsAre) {
     std::vector<double> heading_off;
     for (std::size_t i = 0; i < GetParam().size(); ++i)
       heading_off.push_back(kHeadingSd * normal(random));
-    StationErrors errors;
+    BiasModel errors;
     TrackFilter filter = filter_at(walker(0.0));
     for (int frame = 0; frame < 15 * 90; ++frame) {
       const double t_s = frame / 15.0;
@@ -381,9 +381,9 @@ INSTANTIATE_TEST_SUITE_P(Bases, ShortBase,
                                          std::vector<double>{-300.0, 300.0}));
 
 TEST(TrackFilter, KeepsItsCovarianceDefinite) {
-  StationErrors errors;
+  BiasModel errors;
   TrackFilter filter = filter_at(path(0.0));
-  for (const Sighting& s : flight(20.0, 1e-5)) feed(filter, s, errors);
+  for (const BearingMeasurement& s : flight(20.0, 1e-5)) feed(filter, s, errors);
   const FilterMatrix P = filter.mixed().covariance;
   const FilterMatrix known = P.topLeftCorner(9, 9);
   EXPECT_TRUE(known.llt().info() == Eigen::Success);

@@ -52,7 +52,7 @@ TEST(Fusion, ReplayGivesTheSameToTheLastDigit) {
 TEST(Fusion, PaperEstimateStandsBesideTheJointOne) {
   Fusion fusion{FusionConfig{}};
   int both = 0;
-  for (const Sighting& sighting : flight(3.0)) {
+  for (const BearingMeasurement& sighting : flight(3.0)) {
     const FusionOutput output = fusion.add(sighting);
     if (output.targets.empty() || output.targets[0].estimate.solution != Solution::kOk) continue;
     ++both;
@@ -75,7 +75,7 @@ TEST(Fusion, OneWrongClockHurtsOnlyItsOwner) {
     for (const std::int64_t offset : {kHour, -kHour, std::int64_t{5'000'000}}) {
       Fusion fusion{FusionConfig{}};
       auto sightings = flight(4.0);
-      for (Sighting& sighting : sightings) {
+      for (BearingMeasurement& sighting : sightings) {
         if (sighting.station == wrong) sighting.utime_us += offset;
       }
       const auto targets = targets_of(fusion, sightings);
@@ -108,8 +108,8 @@ TEST(Fusion, TakesLateAndDoubledBearings) {
   for (std::size_t i = 20; i + 3 < sightings.size(); i += 10) {
     std::swap(sightings[i], sightings[i + 3]);
   }
-  std::vector<Sighting> doubled;
-  for (const Sighting& sighting : sightings) {
+  std::vector<BearingMeasurement> doubled;
+  for (const BearingMeasurement& sighting : sightings) {
     doubled.push_back(sighting);
     doubled.push_back(sighting);
   }
@@ -122,7 +122,7 @@ TEST(Fusion, TakesLateAndDoubledBearings) {
 
 TEST(Fusion, GoesOnWhenStationsDropOutAndReturn) {
   auto sightings = flight(6.0);
-  std::erase_if(sightings, [](const Sighting& sighting) {
+  std::erase_if(sightings, [](const BearingMeasurement& sighting) {
     const double t_s = static_cast<double>(sighting.utime_us - kStart) * 1e-6;
     return sighting.station > "b" && t_s > 2.0 && t_s < 4.0;  // two of four at once
   });
@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(Times, WorseThanStated, testing::Values(2.0, 3.0));
 TEST(Fusion, WhatARestartedStationFollowsIsNotWhatItFollowedBefore) {
   const auto set_aside = [](std::int64_t boot_after) {
     auto sightings = flight(2.0);
-    for (Sighting& sighting : sightings) {
+    for (BearingMeasurement& sighting : sightings) {
       sighting.track_id = 1;
       sighting.boot_id = 5;
       if (sighting.station != "a" || sighting.utime_us < kStart + 1'000'000) continue;
@@ -232,7 +232,7 @@ TEST(Fusion, WhatARestartedStationFollowsIsNotWhatItFollowedBefore) {
 
 TEST(Fusion, ANewTrackIsAnotherObject) {
   auto sightings = flight(2.0);
-  for (Sighting& sighting : sightings) {
+  for (BearingMeasurement& sighting : sightings) {
     const bool later = sighting.utime_us > kStart + 1'000'000;
     if (sighting.station != "a" || !later) continue;
     sighting.track_id = 2;
@@ -262,8 +262,8 @@ TEST(Fusion, ANewTrackIsAnotherObject) {
 
 // Bearings that belong to nothing, late and in between, do not touch the target.
 TEST(Fusion, ALateBearingOfAnotherObjectDoesNotDisturbTheTarget) {
-  std::vector<Sighting> with_late;
-  for (const Sighting& sighting : flight(2.0)) {
+  std::vector<BearingMeasurement> with_late;
+  for (const BearingMeasurement& sighting : flight(2.0)) {
     with_late.push_back(sighting);
     if (sighting.utime_us < kStart + 1'000'000 || sighting.station != "a") continue;
     with_late.push_back(sighting);
@@ -278,8 +278,8 @@ TEST(Fusion, ALateBearingOfAnotherObjectDoesNotDisturbTheTarget) {
 
 TEST(Fusion, TwoStationsAtOnePlaceGiveNoPosition) {
   auto sightings = flight(3.0);
-  std::erase_if(sightings, [](const Sighting& s) { return s.station > "b"; });
-  for (Sighting& sighting : sightings) {
+  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station > "b"; });
+  for (BearingMeasurement& sighting : sightings) {
     const double t_s = static_cast<double>(sighting.utime_us - kStart) * 1e-6;
     sighting.sight = ray_to("a", square()[0], path(t_s), 1e-5).sight;
   }
@@ -291,7 +291,7 @@ TEST(Fusion, TwoStationsAtOnePlaceGiveNoPosition) {
 
 TEST(Fusion, OneStationAloneIsALineAndNoPosition) {
   auto sightings = flight(3.0);
-  std::erase_if(sightings, [](const Sighting& s) { return s.station != "c"; });
+  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station != "c"; });
   Fusion fusion{FusionConfig{}};
   const FusedTarget last = targets_of(fusion, sightings).back();
   EXPECT_EQ(last.estimate.solution, Solution::kBearingOnly);
@@ -303,7 +303,7 @@ TEST(Fusion, OneStationAloneIsALineAndNoPosition) {
 // Its target is no one else's: the others' target goes on, and its line is told beside it.
 TEST(Fusion, WhoFollowsSomethingElseIsALineBesideTheTarget) {
   auto sightings = flight(3.0);
-  for (Sighting& sighting : sightings) {
+  for (BearingMeasurement& sighting : sightings) {
     sighting.track_id = 1;
     if (sighting.station != "d") continue;
     double& azimuth = sighting.sight.direction.azimuth_rad;
@@ -326,8 +326,8 @@ TEST(Fusion, WhoFollowsSomethingElseIsALineBesideTheTarget) {
 
 TEST(Fusion, TwoWhoFollowTwoObjectsAreTwoLinesAndNoPosition) {
   auto sightings = flight(3.0);
-  std::erase_if(sightings, [](const Sighting& s) { return s.station == "b" || s.station == "d"; });
-  for (Sighting& sighting : sightings) {
+  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station == "b" || s.station == "d"; });
+  for (BearingMeasurement& sighting : sightings) {
     sighting.track_id = 1;
     if (sighting.station == "c") sighting.sight.direction.elevation_rad = 1.4;
   }
@@ -345,7 +345,7 @@ TEST(Fusion, TwoWhoFollowTwoObjectsAreTwoLinesAndNoPosition) {
 TEST(Fusion, RenamingTheStationsChangesNothing) {
   const auto sightings = flight(3.0, 1e-4, 1e-4);
   auto renamed = sightings;
-  for (Sighting& s : renamed)
+  for (BearingMeasurement& s : renamed)
     s.station = std::string(1, static_cast<char>('z' - s.station[0] + 'a'));
   Fusion first{FusionConfig{}}, second{FusionConfig{}};
   const auto a = targets_of(first, sightings), b = targets_of(second, renamed);
@@ -363,7 +363,7 @@ TEST(Fusion, SlewsAStationFromWhereItsLastMessageTold) {
   Fusion fusion{FusionConfig{}};
   const Vector3d anew(0.0, -120.0, 2.0);
   std::optional<Slew> before, after;
-  for (const Sighting& sighting : flight(4.0)) {
+  for (const BearingMeasurement& sighting : flight(4.0)) {
     const bool gone = sighting.utime_us > kStart + 2'000'000;
     if (gone && sighting.station == "a") continue;
     if (gone) fusion.know_station("a", {.camera_ecef = site().to_ecef(anew)});
@@ -385,7 +385,7 @@ TEST(Fusion, SlewsEveryKnownStationAheadOfTheTarget) {
   fusion.know_station("lookout", {.camera_ecef = site().to_ecef(lookout)});
   std::int64_t last_us = 0;
   int slews = 0;
-  for (const Sighting& sighting : flight(4.0)) {
+  for (const BearingMeasurement& sighting : flight(4.0)) {
     const FusionOutput output = fusion.add(sighting);
     if (output.slews.empty()) continue;
     EXPECT_GE(output.slews[0].utime_us - last_us, 90'000);
@@ -397,8 +397,8 @@ TEST(Fusion, SlewsEveryKnownStationAheadOfTheTarget) {
     ASSERT_EQ(slew.station, "lookout");
     EXPECT_EQ(slew.effect_utime_us, slew.utime_us + 150'000);
     const double t_s = static_cast<double>(slew.effect_utime_us - kStart) * 1e-6;
-    const Sighting there = sighting_of(ray_to("lookout", lookout, path(t_s)), 0);
-    const Sighting next = sighting_of(ray_to("lookout", lookout, path(t_s + 0.01)), 0);
+    const BearingMeasurement there = sighting_of(ray_to("lookout", lookout, path(t_s)), 0);
+    const BearingMeasurement next = sighting_of(ray_to("lookout", lookout, path(t_s + 0.01)), 0);
     const auto& now = there.sight.direction;
     EXPECT_NEAR(wrap_pi(slew.direction.azimuth_rad - now.azimuth_rad), 0.0, 1e-3);
     EXPECT_NEAR(slew.direction.elevation_rad, now.elevation_rad, 1e-3);
@@ -417,12 +417,12 @@ TEST(Fusion, StopsSlewingSomeTimeAfterTheLastPosition) {
   FusionConfig config;
   Fusion fusion{config};
   auto sightings = flight(6.0);
-  std::erase_if(sightings, [](const Sighting& sighting) {
+  std::erase_if(sightings, [](const BearingMeasurement& sighting) {
     return sighting.station != "a" && sighting.utime_us > kStart + 2'000'000;
   });
   std::int64_t last_slew_us = 0;
   bool without_position = false;
-  for (const Sighting& sighting : sightings) {
+  for (const BearingMeasurement& sighting : sightings) {
     const FusionOutput output = fusion.add(sighting);
     if (!output.slews.empty()) last_slew_us = output.slews[0].utime_us;
     // One station alone: the position is let go, its line is kept.

@@ -26,44 +26,44 @@ std::vector<std::string> names(const Fusion& fusion) {
 
 TEST(FusionAdmission, RefusesWhatIsNotABearing) {
   Fusion fusion{FusionConfig{}};
-  const Sighting good = flight(0.1).front();
-  const auto refusal = [&](const std::function<void(Sighting&)>& spoil) {
-    Sighting bad = good;
+  const BearingMeasurement good = flight(0.1).front();
+  const auto refusal = [&](const std::function<void(BearingMeasurement&)>& spoil) {
+    BearingMeasurement bad = good;
     spoil(bad);
     return fusion.add(bad).refusal;
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  using enum SightingRefusal;
-  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.direction.azimuth_rad = nan; }), kNotFinite);
-  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.origin_ecef.x() = nan; }), kNotFinite);
-  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.direction.azimuth_rad = 7.0; }), kOutOfRange);
-  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.direction.elevation_rad = -1.6; }), kOutOfRange);
-  EXPECT_EQ(refusal([&](Sighting& s) { s.belief = 1.5; }), kOutOfRange);
-  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.origin_ecef.setZero(); }), kOutOfRange);
-  EXPECT_EQ(refusal([&](Sighting& s) { s.utime_us = 0; }), kOutOfRange);
-  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_white.setZero(); }), kCovariance);
-  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_white(0, 1) = 1.0; }), kCovariance);
-  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_systematic(1, 1) = -1e-9; }),
+  using enum BearingRefusal;
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.direction.azimuth_rad = nan; }), kNotFinite);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.origin_ecef.x() = nan; }), kNotFinite);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.direction.azimuth_rad = 7.0; }), kOutOfRange);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.direction.elevation_rad = -1.6; }), kOutOfRange);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.belief = 1.5; }), kOutOfRange);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.origin_ecef.setZero(); }), kOutOfRange);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.utime_us = 0; }), kOutOfRange);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_white.setZero(); }), kCovariance);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_white(0, 1) = 1.0; }), kCovariance);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_systematic(1, 1) = -1e-9; }),
             kCovariance);
   for (const double rad2 : {1e308, 1e-160, 11.0, 0.9e-18}) {
-    EXPECT_EQ(refusal([&](Sighting& s) {
+    EXPECT_EQ(refusal([&](BearingMeasurement& s) {
                 s.sight.covariance_white = Eigen::Matrix2d::Identity() * rad2;
               }),
               kCovariance);
   }
-  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_white.diagonal() << 1e-17, 1.0; }),
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_white.diagonal() << 1e-17, 1.0; }),
             kCovariance);
-  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_white << 1.0, 1.0, 1.0, 1.0 + 1e-9; }),
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_white << 1.0, 1.0, 1.0, 1.0 + 1e-9; }),
             kCovariance);
   for (const double rad2 : {1e308, 11.0}) {
-    EXPECT_EQ(refusal([&](Sighting& s) { s.sight.covariance_systematic(0, 0) = rad2; }),
+    EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_systematic(0, 0) = rad2; }),
               kCovariance);
   }
-  EXPECT_EQ(refusal([&](Sighting& s) { s.sight.origin_sd_enu_m.x() = 1.1e6; }), kOutOfRange);
-  EXPECT_EQ(refusal([&](Sighting& s) { s.clock_sd_s = 1.1e4; }), kOutOfRange);
-  EXPECT_EQ(refusal([&](Sighting& s) { s.belief = 0.1; }), kLowBelief);
-  EXPECT_EQ(refusal([&](Sighting&) {}), kNone);
-  EXPECT_EQ(refusal([&](Sighting&) {}), kDuplicate);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.origin_sd_enu_m.x() = 1.1e6; }), kOutOfRange);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.clock_sd_s = 1.1e4; }), kOutOfRange);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.belief = 0.1; }), kLowBelief);
+  EXPECT_EQ(refusal([&](BearingMeasurement&) {}), kNone);
+  EXPECT_EQ(refusal([&](BearingMeasurement&) {}), kDuplicate);
   const auto counters = fusion.health().counters;
   EXPECT_EQ(counters.at("refused_not_finite"), 2.0);
   EXPECT_EQ(counters.at("refused_out_of_range"), 7.0);
@@ -76,10 +76,10 @@ TEST(FusionAdmission, RefusesWhatIsNotABearing) {
 TEST(FusionAdmission, AFloodOfOneStationIsRefusedByNameAndTheOthersGoOn) {
   Fusion fusion{FusionConfig{.admission = {.flood_hz = 200.0}}};
   std::vector<FusedTarget> targets;
-  for (const Sighting& sighting : flight(4.0)) {
+  for (const BearingMeasurement& sighting : flight(4.0)) {
     for (const FusedTarget& target : fusion.add(sighting).targets) targets.push_back(target);
     for (int i = 0; sighting.station == "a" && i < 50; ++i) {
-      Sighting more = sighting;
+      BearingMeasurement more = sighting;
       more.sight.direction.azimuth_rad = wrap_two_pi(0.01 * i + 0.1);
       fusion.add(more);
     }
@@ -92,12 +92,12 @@ TEST(FusionAdmission, AFloodOfOneStationIsRefusedByNameAndTheOthersGoOn) {
 TEST(FusionAdmission, AfterAFloodItsStationIsHeardAgain) {
   Fusion fusion{FusionConfig{.admission = {.flood_hz = 200.0}}};
   int taken = 0;
-  for (const Sighting& sighting : flight(5.0)) {
-    const bool refused = fusion.add(sighting).refusal != SightingRefusal::kNone;
+  for (const BearingMeasurement& sighting : flight(5.0)) {
+    const bool refused = fusion.add(sighting).refusal != BearingRefusal::kNone;
     if (sighting.station != "a") continue;
     if (!refused && sighting.utime_us > kStart + 3'500'000) ++taken;
     for (int i = 0; sighting.utime_us < kStart + 2'000'000 && i < 50; ++i) {
-      Sighting more = sighting;
+      BearingMeasurement more = sighting;
       more.utime_us += i;
       more.sight.direction.azimuth_rad = wrap_two_pi(0.01 * i + 0.1);
       fusion.add(more);
@@ -119,7 +119,7 @@ TEST(FusionAdmission, WhoDoesNotBelongToTheSiteIsRefused) {
 // A heading that is 5 degrees off: named, and the others' target stays.
 TEST(FusionAdmission, AWrongHeadingIsQuarantinedByNameAndTheOthersGoOn) {
   auto sightings = flight(10.0);
-  for (Sighting& sighting : sightings) {
+  for (BearingMeasurement& sighting : sightings) {
     double& azimuth = sighting.sight.direction.azimuth_rad;
     if (sighting.station == "b") azimuth = wrap_two_pi(azimuth + radians(5.0));
   }
@@ -145,14 +145,14 @@ TEST(FusionAdmission, NoStatementOfOneStationKeepsTheOthersFromAPosition) {
     for (const double stays : {0.0, 10.0}) {
       for (const double large : {0.0, 1.0}) {
         auto sightings = flight(3.0);
-        for (Sighting& sighting : sightings) {
+        for (BearingMeasurement& sighting : sightings) {
           if (sighting.station != "b") continue;
           sighting.sight.direction = {3.0, -0.5};
           sighting.sight.covariance_white = Eigen::Matrix2d::Identity() * white;
           sighting.sight.covariance_systematic = Eigen::Matrix2d::Identity() * stays;
           sighting.sight.origin_sd_enu_m.setConstant(large * 1e6);
           sighting.clock_sd_s = large * 1e4;
-          ASSERT_EQ(check(sighting), SightingRefusal::kNone);
+          ASSERT_EQ(check(sighting), BearingRefusal::kNone);
         }
         Fusion fusion{FusionConfig{}};
         for (const FusedTarget& target : targets_of(fusion, sightings)) {
@@ -168,7 +168,7 @@ TEST(FusionAdmission, NoStatementOfOneStationKeepsTheOthersFromAPosition) {
 
 TEST(FusionAdmission, StrangeStationsNeitherFillThePlacesNorMakeItGrow) {
   Fusion fusion{FusionConfig{.admission = {.max_stations = 64}}};
-  Sighting stranger = flight(0.1).front();
+  BearingMeasurement stranger = flight(0.1).front();
   for (int i = 0; i < 80; ++i) {
     stranger.station = "stranger" + std::to_string(i);
     fusion.add(stranger);
@@ -187,23 +187,23 @@ TEST(FusionAdmission, ForgetsTheStationThatIsSilentLongest) {
   Fusion fusion{FusionConfig{.admission = {.max_stations = 5}}};
   fusion.know_station("lookout", {.camera_ecef = site().to_ecef({0.0, 0.0, 30.0})});
   auto sightings = flight(1.0);
-  std::erase_if(sightings, [](const Sighting& sighting) {
+  std::erase_if(sightings, [](const BearingMeasurement& sighting) {
     return sighting.station == "a" && sighting.utime_us > kStart + 500'000;
   });
   targets_of(fusion, sightings);
-  Sighting next = sightings.back();
+  BearingMeasurement next = sightings.back();
   next.station = "x";
-  EXPECT_EQ(fusion.add(next).refusal, SightingRefusal::kNone);
+  EXPECT_EQ(fusion.add(next).refusal, BearingRefusal::kNone);
   EXPECT_EQ(names(fusion), (std::vector<std::string>{"a", "b", "c", "d", "x"}));
   next.station = "y";
-  EXPECT_EQ(fusion.add(next).refusal, SightingRefusal::kNone);
+  EXPECT_EQ(fusion.add(next).refusal, BearingRefusal::kNone);
   EXPECT_EQ(names(fusion), (std::vector<std::string>{"b", "c", "d", "x", "y"}));
   // A status alone takes no place of a station that was heard a moment ago...
   fusion.know_station("lookout", {.camera_ecef = site().to_ecef({0.0, 0.0, 30.0})});
   EXPECT_EQ(names(fusion), (std::vector<std::string>{"b", "c", "d", "x", "y"}));
   // ... but that of one long silent.
   auto later = flight(13.0);
-  std::erase_if(later, [&](const Sighting& sighting) {
+  std::erase_if(later, [&](const BearingMeasurement& sighting) {
     return sighting.station == "a" || sighting.utime_us <= next.utime_us;
   });
   targets_of(fusion, later);

@@ -14,9 +14,9 @@ using test::kStart;
 
 // The stations of a flight past them, d turned away from what the others follow by a growing angle:
 // another object, or the background.
-std::vector<Sighting> with_a_stray(double seconds) {
+std::vector<BearingMeasurement> with_a_stray(double seconds) {
   auto sightings = flight(seconds);
-  for (Sighting& sighting : sightings) {
+  for (BearingMeasurement& sighting : sightings) {
     sighting.track_id = 1;
     if (sighting.station != "d") continue;
     const double t_s = static_cast<double>(sighting.utime_us - kStart) * 1e-6;
@@ -26,9 +26,9 @@ std::vector<Sighting> with_a_stray(double seconds) {
   return sightings;
 }
 
-std::vector<std::string> alarms_after(const std::vector<Sighting>& sightings) {
+std::vector<std::string> alarms_after(const std::vector<BearingMeasurement>& sightings) {
   Fusion fusion{FusionConfig{}};
-  for (const Sighting& sighting : sightings) fusion.add(sighting);
+  for (const BearingMeasurement& sighting : sightings) fusion.add(sighting);
   return fusion.health().alarms;
 }
 
@@ -41,7 +41,7 @@ TEST(FusionAlarms, NamesWhoFollowsForLongWhatIsNoneOfTheTargets) {
 // Always off by the same: its pose may be wrong, which is another alarm, and one is enough.
 TEST(FusionAlarms, NamesWhoIsQuarantined) {
   auto sightings = flight(14.0);
-  for (Sighting& sighting : sightings) {
+  for (BearingMeasurement& sighting : sightings) {
     sighting.track_id = 1;
     double& azimuth = sighting.sight.direction.azimuth_rad;
     if (sighting.station == "d") azimuth = wrap_two_pi(azimuth + 0.1);
@@ -57,14 +57,14 @@ TEST(FusionAlarms, SaysNothingOfWhoDoesSoForAMoment) {
 
 TEST(FusionAlarms, SaysNothingOfStationsThatFollowATarget) {
   auto sightings = flight(14.0);
-  for (Sighting& sighting : sightings) sighting.track_id = 1;
+  for (BearingMeasurement& sighting : sightings) sighting.track_id = 1;
   EXPECT_TRUE(alarms_after(sightings).empty());
 }
 
 // Detections without a name are many things at once, most of them no target.
 TEST(FusionAlarms, SaysNothingOfWhatAStationDoesNotName) {
   auto sightings = with_a_stray(14.0);
-  for (Sighting& sighting : sightings) {
+  for (BearingMeasurement& sighting : sightings) {
     if (sighting.station == "d") sighting.track_id = 0;
   }
   EXPECT_TRUE(alarms_after(sightings).empty());
@@ -72,14 +72,14 @@ TEST(FusionAlarms, SaysNothingOfWhatAStationDoesNotName) {
 
 TEST(FusionAlarms, SaysNothingWhereThereIsNoTargetToCompareWith) {
   auto sightings = with_a_stray(14.0);
-  std::erase_if(sightings, [](const Sighting& s) { return s.station == "b" || s.station == "c"; });
+  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station == "b" || s.station == "c"; });
   EXPECT_TRUE(alarms_after(sightings).empty());
 }
 
 // Who follows two objects by two names has one of the targets in view, and knows what it does.
 TEST(FusionAlarms, SaysNothingOfWhoFollowsTheTargetBesideAnotherObject) {
   auto sightings = with_a_stray(14.0);
-  std::vector<Sighting> both;
+  std::vector<BearingMeasurement> both;
   const auto straight = flight(14.0);
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     both.push_back(sightings[i]);
@@ -92,10 +92,10 @@ TEST(FusionAlarms, SaysNothingOfWhoFollowsTheTargetBesideAnotherObject) {
 
 TEST(FusionAlarms, TheAlarmGoesWithItsReason) {
   Fusion fusion{FusionConfig{}};
-  for (const Sighting& sighting : with_a_stray(14.0)) fusion.add(sighting);
+  for (const BearingMeasurement& sighting : with_a_stray(14.0)) fusion.add(sighting);
   ASSERT_FALSE(fusion.health().alarms.empty());
   auto onwards = flight(16.0);
-  for (Sighting& sighting : onwards) {
+  for (BearingMeasurement& sighting : onwards) {
     sighting.track_id = sighting.station == "d" ? 2 : 1;  // designated anew
     if (sighting.utime_us > kStart + 14'000'000) fusion.add(sighting);
   }

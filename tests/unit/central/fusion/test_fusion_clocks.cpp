@@ -17,9 +17,9 @@ using test::kStart;
 using test::targets_of;
 
 // The flight with one station's bearings changed from an instant on.
-std::vector<Sighting> changed(std::vector<Sighting> sightings, const std::string& station,
-                              double from_s, const std::function<void(Sighting&)>& change) {
-  for (Sighting& sighting : sightings) {
+std::vector<BearingMeasurement> changed(std::vector<BearingMeasurement> sightings, const std::string& station,
+                              double from_s, const std::function<void(BearingMeasurement&)>& change) {
+  for (BearingMeasurement& sighting : sightings) {
     const double t_s = static_cast<double>(sighting.utime_us - kStart) * 1e-6;
     if (sighting.station == station && t_s >= from_s) change(sighting);
   }
@@ -36,7 +36,7 @@ std::string quarantined(const Fusion& fusion) {
 
 TEST(FusionClocks, AMarkedStepQuarantinesThatStationAloneAndTheOthersGoOn) {
   for (const std::int64_t step_us : {2'000'000, -2'000'000}) {
-    const auto sightings = changed(flight(6.0), "b", 3.0, [&](Sighting& sighting) {
+    const auto sightings = changed(flight(6.0), "b", 3.0, [&](BearingMeasurement& sighting) {
       sighting.utime_us += step_us;
       sighting.clock = StationClock::kUnsynchronised;
       sighting.clock_sd_s = 2.0;
@@ -62,12 +62,12 @@ TEST(FusionClocks, AMarkedStepQuarantinesThatStationAloneAndTheOthersGoOn) {
 }
 
 TEST(FusionClocks, OfTwoStationsTheMarkedOneIsSetAsideAndTheOtherKeepsTheTime) {
-  auto sightings = changed(flight(6.0), "a", 3.0, [&](Sighting& sighting) {
+  auto sightings = changed(flight(6.0), "a", 3.0, [&](BearingMeasurement& sighting) {
     sighting.utime_us -= 2'000'000;
     sighting.clock = StationClock::kUnsynchronised;
     sighting.clock_sd_s = 2.0;
   });
-  std::erase_if(sightings, [](const Sighting& s) { return s.station > "b"; });
+  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station > "b"; });
   Fusion fusion{FusionConfig{}};
   targets_of(fusion, sightings);
   EXPECT_EQ(quarantined(fusion), "a");
@@ -76,10 +76,10 @@ TEST(FusionClocks, OfTwoStationsTheMarkedOneIsSetAsideAndTheOtherKeepsTheTime) {
 }
 
 TEST(FusionClocks, AQuarantinedStationIsStillSlewed) {
-  const auto sightings = changed(flight(4.0), "b", 2.0, [](Sighting& s) { s.clock_sd_s = 2.0; });
+  const auto sightings = changed(flight(4.0), "b", 2.0, [](BearingMeasurement& s) { s.clock_sd_s = 2.0; });
   Fusion fusion{FusionConfig{}};
   bool slewed = false;
-  for (const Sighting& sighting : sightings) {
+  for (const BearingMeasurement& sighting : sightings) {
     const FusionOutput output = fusion.add(sighting);
     if (sighting.utime_us < kStart + 3'000'000) continue;
     for (const Slew& slew : output.slews) slewed = slewed || slew.station == "b";
@@ -90,7 +90,7 @@ TEST(FusionClocks, AQuarantinedStationIsStillSlewed) {
 TEST(FusionClocks, AStatedErrorInflatesAlongTheMotion) {
   const auto trace_with = [](double error_s) {
     auto sightings = flight(3.0);
-    for (Sighting& sighting : sightings) sighting.clock_sd_s = error_s;
+    for (BearingMeasurement& sighting : sightings) sighting.clock_sd_s = error_s;
     Fusion fusion{FusionConfig{}};
     return targets_of(fusion, sightings).back().estimate.covariance_ecef.trace();
   };
@@ -110,7 +110,7 @@ TEST(FusionClocks, AFusionThatBeginsInMidFlightLocatesAtOnce) {
 }
 
 TEST(FusionClocks, AnotherCalibrationStartsAnew) {
-  const auto sightings = changed(flight(4.0), "c", 2.0, [](Sighting& s) { s.calibration_id = 77; });
+  const auto sightings = changed(flight(4.0), "c", 2.0, [](BearingMeasurement& s) { s.calibration_id = 77; });
   Fusion fusion{FusionConfig{}};
   const auto targets = targets_of(fusion, sightings);
   EXPECT_EQ(fusion.health().counters.at("calibrations_changed"), 1.0);
@@ -125,9 +125,9 @@ TEST(FusionClocks, StrangersCannotPushOutWhoWorksHere) {
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     fusion.add(sightings[i]);
     if (sightings[i].utime_us < kStart + 1'000'000) continue;
-    Sighting stranger = sightings[i];
+    BearingMeasurement stranger = sightings[i];
     stranger.station = "stranger" + std::to_string(i);
-    EXPECT_EQ(fusion.add(stranger).refusal, SightingRefusal::kTooMany);
+    EXPECT_EQ(fusion.add(stranger).refusal, BearingRefusal::kTooMany);
     ++refused;
   }
   EXPECT_EQ(fusion.health().counters.at("refused_too_many_stations"), refused);

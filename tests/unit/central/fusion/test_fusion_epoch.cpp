@@ -18,13 +18,13 @@ using test::targets_of;
 std::int64_t us(double seconds) { return kStart + std::llround(seconds * 1e6); }
 
 // A flight whose stations follow something, each by the same name all the time.
-std::vector<Sighting> followed(double seconds) {
+std::vector<BearingMeasurement> followed(double seconds) {
   auto sightings = flight(seconds, 1e-4, 1e-4);
-  for (Sighting& sighting : sightings) sighting.track_id = 7;
+  for (BearingMeasurement& sighting : sightings) sighting.track_id = 7;
   return sightings;
 }
 
-void turn(Sighting& sighting, double azimuth_rad) {
+void turn(BearingMeasurement& sighting, double azimuth_rad) {
   double& azimuth = sighting.sight.direction.azimuth_rad;
   azimuth = wrap_two_pi(azimuth + azimuth_rad);
 }
@@ -32,7 +32,7 @@ void turn(Sighting& sighting, double azimuth_rad) {
 // One station, then all, then that one again: a line, a position, a line of one object.
 TEST(FusionEpoch, ALineIsTheObjectThatItsPositionIs) {
   auto sightings = followed(9.0);
-  std::erase_if(sightings, [](const Sighting& s) {
+  std::erase_if(sightings, [](const BearingMeasurement& s) {
     return s.station != "b" && (s.utime_us < us(2.0) || s.utime_us > us(4.0));
   });
   Fusion fusion{FusionConfig{}};
@@ -53,8 +53,8 @@ TEST(FusionEpoch, ALineIsTheObjectThatItsPositionIs) {
 
 TEST(FusionEpoch, WhatAStationFollowsNextIsAnotherObject) {
   auto sightings = followed(4.0);
-  std::erase_if(sightings, [](const Sighting& s) { return s.station != "b"; });
-  for (Sighting& sighting : sightings) {
+  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station != "b"; });
+  for (BearingMeasurement& sighting : sightings) {
     if (sighting.utime_us > us(2.0)) sighting.track_id = 8;
   }
   Fusion fusion{FusionConfig{}};
@@ -71,16 +71,16 @@ TEST(FusionEpoch, WhatAStationFollowsNextIsAnotherObject) {
 }
 
 // A station's own two names are two objects, side by side and each for as long as it is followed.
-std::vector<Sighting> two_of_one_station(double seconds) {
+std::vector<BearingMeasurement> two_of_one_station(double seconds) {
   auto sightings = followed(seconds);
-  std::erase_if(sightings, [](const Sighting& s) { return s.station != "b"; });
+  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station != "b"; });
   const std::size_t count = sightings.size();
   for (std::size_t i = 0; i < count; ++i) {
     sightings.push_back(sightings[i]);
     sightings.back().track_id = 9;
     turn(sightings.back(), 0.3);
   }
-  std::ranges::stable_sort(sightings, {}, &Sighting::utime_us);
+  std::ranges::stable_sort(sightings, {}, &BearingMeasurement::utime_us);
   return sightings;
 }
 
@@ -107,10 +107,10 @@ TEST(FusionEpoch, WhatOneStationFollowsAtOnceAreTwoLines) {
 // All see the one, and that station alone the other: before, while and after the one is a target.
 TEST(FusionEpoch, AStationsLineBesideItsTargetKeepsItsIdentity) {
   auto sightings = two_of_one_station(8.0);
-  for (const Sighting& s : followed(8.0)) {
+  for (const BearingMeasurement& s : followed(8.0)) {
     if (s.station != "b" && s.utime_us > us(2.0) && s.utime_us < us(4.0)) sightings.push_back(s);
   }
-  std::ranges::stable_sort(sightings, {}, &Sighting::utime_us);
+  std::ranges::stable_sort(sightings, {}, &BearingMeasurement::utime_us);
   Fusion fusion{FusionConfig{}};
   std::map<std::int64_t, std::set<std::int64_t>> ids;
   std::map<std::int64_t, int> beside;
@@ -134,7 +134,7 @@ TEST(FusionEpoch, AStationFollowsTwoTargetsByTheirNames) {
   auto sightings = followed(3.0);
   const std::size_t count = sightings.size();
   for (std::size_t i = 0; i < count; ++i) {
-    Sighting& own = sightings[i];
+    BearingMeasurement& own = sightings[i];
     const Eigen::Vector3d place = test::square()[static_cast<std::size_t>(own.station[0] - 'a')];
     const double t_s = 1e-6 * static_cast<double>(own.utime_us - kStart);
     const Eigen::Vector3d there = test::path(t_s) + Eigen::Vector3d(0, 0, 60);
@@ -142,28 +142,28 @@ TEST(FusionEpoch, AStationFollowsTwoTargetsByTheirNames) {
     sightings.push_back(test::sighting_of(ray, own.utime_us));
     sightings.back().track_id = 9;
   }
-  std::ranges::stable_sort(sightings, {}, &Sighting::utime_us);
-  for (Sighting& s : sightings) {
+  std::ranges::stable_sort(sightings, {}, &BearingMeasurement::utime_us);
+  for (BearingMeasurement& s : sightings) {
     if (s.station == "a" && s.utime_us > us(2.5)) s.sight.direction.elevation_rad += 0.01;
   }
   Fusion fusion{FusionConfig{}};
-  for (const Sighting& s : sightings) fusion.add(s);
+  for (const BearingMeasurement& s : sightings) fusion.add(s);
   // Half a second of it, 15 frames a second, of either.
   EXPECT_GE(fusion.tracks().counts().set_aside, 12);
-  EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_sure), 2);
+  EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_established), 2);
 }
 
 // Every bearing has a name of its own: that harms nobody, and takes no memory for good.
 TEST(FusionEpoch, AStationThatNamesEverythingAnewIsForgottenAsItGoes) {
   auto sightings = followed(4.0);
   std::int64_t name = 100;
-  for (Sighting& sighting : sightings) {
+  for (BearingMeasurement& sighting : sightings) {
     if (sighting.station != "a") continue;
     sighting.track_id = ++name;
     turn(sighting, 0.5);
   }
   Fusion fusion{FusionConfig{}};
-  for (const Sighting& sighting : sightings) {
+  for (const BearingMeasurement& sighting : sightings) {
     std::map<std::string, std::size_t> lines;
     for (const FusedTarget& target : fusion.add(sighting).targets) {
       if (target.bearing_only) ++lines[target.bearing_only->station];
@@ -172,13 +172,13 @@ TEST(FusionEpoch, AStationThatNamesEverythingAnewIsForgottenAsItGoes) {
     EXPECT_LE(fusion.tracks().followed().size("a"), LocalTracks::kOfAStation);
   }
   EXPECT_EQ(fusion.tracks().followed().size("a"), LocalTracks::kOfAStation);
-  EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_sure), 1);
+  EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_established), 1);
 }
 
 // Detections without a name of their own may be of anything.
 TEST(FusionEpoch, WhatAStationDoesNotNameHasNoIdentity) {
   auto sightings = flight(3.0);
-  std::erase_if(sightings, [](const Sighting& s) { return s.station != "b"; });
+  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station != "b"; });
   Fusion fusion{FusionConfig{}};
   for (const FusedTarget& target : targets_of(fusion, sightings)) EXPECT_EQ(target.target_id, 0);
 }
@@ -187,7 +187,7 @@ TEST(FusionEpoch, WhatAStationDoesNotNameHasNoIdentity) {
 TEST(FusionEpoch, OneIdentityIsNotTwoLines) {
   auto sightings = followed(9.0);
   const std::map<std::string, double> turned = {{"a", 0.0}, {"b", 0.7}, {"c", 1.4}, {"d", 2.1}};
-  for (Sighting& sighting : sightings) {
+  for (BearingMeasurement& sighting : sightings) {
     if (sighting.utime_us > us(3.0)) {
       turn(sighting, turned.at(sighting.station));
       sighting.sight.direction.elevation_rad += 0.2 * turned.at(sighting.station);
@@ -216,21 +216,21 @@ TEST(FusionEpoch, OneIdentityIsNotTwoLines) {
 constexpr int kTargets = 30, kEach = 3;
 
 // Groups of stations, each with a target of its own. In order of time.
-std::vector<Sighting> many_targets(double seconds) {
+std::vector<BearingMeasurement> many_targets(double seconds) {
   std::mt19937_64 random(5);
-  std::vector<Sighting> all;
+  std::vector<BearingMeasurement> all;
   for (int group = 0; group < kTargets; ++group) {
     const Eigen::Vector3d centre(3000.0 * (group % 6), 3000.0 * (group / 6), 0.0);
     bench::WorldConfig world{.stations_enu = bench::circle(kEach, 300.0), .aims_enu = {}};
     for (Eigen::Vector3d& place : world.stations_enu) place += centre;
     const auto path =
         bench::cruising({centre + Eigen::Vector3d(0, 0, 100), {8, 3, 0}}, 0.5, seconds, random);
-    for (Sighting& s : bench::measure(world, {path}, seconds, random)) {
+    for (BearingMeasurement& s : bench::measure(world, {path}, seconds, random)) {
       s.station.append("g").append(std::to_string(group));
       all.push_back(std::move(s));
     }
   }
-  std::ranges::stable_sort(all, {}, &Sighting::utime_us);
+  std::ranges::stable_sort(all, {}, &BearingMeasurement::utime_us);
   return all;
 }
 
@@ -241,7 +241,7 @@ TEST(FusionEpoch, NothingOldIsToldAfterASilence) {
   std::set<std::pair<std::int64_t, std::int64_t>> told;
   std::int64_t silent_us = 0;
   std::size_t before = 0, after = 0, slews = 0;
-  for (Sighting sighting : many_targets(2.0)) {
+  for (BearingMeasurement sighting : many_targets(2.0)) {
     sighting.utime_us += silent_us;
     const FusionOutput output = fusion.add(sighting);
     for (const FusedTarget& target : output.targets) {
@@ -270,7 +270,7 @@ TEST(FusionEpoch, SlewsOfManyStationsAreEachForTheirOwnInstant) {
   }
   int slews = 0;
   std::set<std::string> stations;
-  for (const Sighting& sighting : flight(4.0, 1e-4, 1e-4)) {
+  for (const BearingMeasurement& sighting : flight(4.0, 1e-4, 1e-4)) {
     const FusionOutput output = fusion.add(sighting);
     for (const Slew& slew : output.slews) {
       EXPECT_EQ(slew.utime_us, fusion.now_us());
@@ -286,7 +286,7 @@ TEST(FusionEpoch, SlewsOfManyStationsAreEachForTheirOwnInstant) {
 TEST(FusionEpoch, WhomAnOperatorTakesIsSlewedNoMore) {
   Fusion fusion{FusionConfig{}};
   std::map<bool, int> slews;  // of station b, by whether it is taken
-  for (const Sighting& sighting : flight(4.0, 1e-4, 1e-4)) {
+  for (const BearingMeasurement& sighting : flight(4.0, 1e-4, 1e-4)) {
     const bool is_taken = sighting.utime_us > us(2.0);
     fusion.allow_slews("b", !is_taken);
     fusion.allow_slews("nobody", true);
@@ -303,7 +303,7 @@ TEST(FusionEpoch, ManyTargetsAreToldInTurn) {
   std::map<std::int64_t, std::vector<std::int64_t>> epochs;
   std::map<std::int64_t, std::set<std::string>> rounds;
   std::map<std::int64_t, int> papers;
-  for (const Sighting& sighting : many_targets(2.0)) {
+  for (const BearingMeasurement& sighting : many_targets(2.0)) {
     const FusionOutput output = fusion.add(sighting);
     EXPECT_LE(output.targets.size(), 10U);
     EXPECT_LE(output.slews.size(), 20U);

@@ -18,7 +18,7 @@ using test::kStart;
 
 class EachEstimator : public testing::TestWithParam<const char*> {};
 
-std::vector<FusedTarget> fused(const std::vector<Sighting>& sightings, const char* estimator,
+std::vector<FusedTarget> fused(const std::vector<BearingMeasurement>& sightings, const char* estimator,
                                double scale = 1.0) {
   OfflineConfig config;
   config.estimator = estimator;
@@ -55,7 +55,7 @@ void expect_same(const std::vector<FusedTarget>& a, const std::vector<FusedTarge
 TEST_P(EachEstimator, DoesNotCareHowStationsAreNamed) {
   const auto before = flight(4.0, 1e-4, 1e-4);
   auto after = before;
-  for (Sighting& sighting : after) {
+  for (BearingMeasurement& sighting : after) {
     sighting.station = std::string(1, "dbca"[sighting.station[0] - 'a']);
   }
   expect_same(fused(before, GetParam()), fused(after, GetParam()), Eigen::Isometry3d::Identity());
@@ -68,7 +68,7 @@ TEST_P(EachEstimator, DoesNotCareWhereOnTheGlobeTheSiteLies) {
     const Eigen::Matrix3d turn =
         Eigen::AngleAxisd(radians(turn_deg), Vector3d::UnitZ()).toRotationMatrix();
     auto after = before;
-    for (Sighting& sighting : after) {
+    for (BearingMeasurement& sighting : after) {
       sighting.sight.origin_ecef = (turn * sighting.sight.origin_ecef).eval();
     }
     expect_same(fused(before, GetParam()), fused(after, GetParam()), Eigen::Isometry3d(turn));
@@ -89,7 +89,7 @@ TEST_P(EachEstimator, DoesNotCareWhichWayUpTheSiteLies) {
     moved.linear() = there.R_ecef_enu() * here.R_ecef_enu().transpose();
     moved.translation() = there.origin_ecef() - moved.linear() * here.origin_ecef();
     auto after = before;
-    for (Sighting& sighting : after) {
+    for (BearingMeasurement& sighting : after) {
       const Vector3d ray = moved.linear() * direction_ecef(sighting.sight);
       sighting.sight.origin_ecef = (moved * sighting.sight.origin_ecef).eval();
       sighting.sight.direction =
@@ -108,10 +108,10 @@ INSTANTIATE_TEST_SUITE_P(Fusion, EachEstimator, testing::Values("filter", "least
 
 // The same flight some times as large: what is measured in angles stays, errors grow with it. The
 // horizons of the stations turn by the Earth's curvature, so that this holds to some thousandths.
-std::vector<Sighting> scaled_flight(double scale) {
+std::vector<BearingMeasurement> scaled_flight(double scale) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
-  std::vector<Sighting> sightings;
+  std::vector<BearingMeasurement> sightings;
   for (int i = 0; i < 240; ++i) {
     const auto k = static_cast<std::size_t>(i % 4);
     Ray ray = test::ray_to(std::string(1, static_cast<char>('a' + i % 4)),

@@ -29,7 +29,7 @@ void fly(int stations, double rate_hz, std::uint64_t seed, Seen& seen) {
   world.bias_sd_rad = 2e-3;
   const Path path = cruising({{-60, 40, 80}, {9.0, -6.0, 1.0}}, 0.5, kDurationS, random);
   Fusion fusion(FusionConfig{.paper_targets = 0});
-  for (const Sighting& sighting : measure(world, {path}, kDurationS, random)) {
+  for (const BearingMeasurement& sighting : measure(world, {path}, kDurationS, random)) {
     const FusionOutput output = fusion.add(sighting);
     seen.most_at_once = std::max(seen.most_at_once, output.targets.size());
     for (const FusedTarget& target : output.targets) {
@@ -67,7 +67,7 @@ TEST(ManyStations, WhatTheySeeAllAtOnceIsAllFound) {
   constexpr int kGroups = 24, kEach = 4;
   constexpr double kDurationS = 0.6;
   std::mt19937_64 random(3);
-  std::vector<Sighting> all;
+  std::vector<BearingMeasurement> all;
   std::vector<Path> paths;
   for (int group = 0; group < kGroups; ++group) {
     const Vector3d centre(3000.0 * (group % 6), 3000.0 * (group / 6), 0.0);
@@ -77,26 +77,26 @@ TEST(ManyStations, WhatTheySeeAllAtOnceIsAllFound) {
       world.aims_enu.push_back(centre + Vector3d(0, 0, 100) - 0.01 * (place - centre));
     }
     paths.push_back(cruising({centre + Vector3d(0, 0, 100), {8, 3, 0}}, 0.5, kDurationS, random));
-    for (Sighting& s : measure(world, {paths.back()}, kDurationS, random)) {
+    for (BearingMeasurement& s : measure(world, {paths.back()}, kDurationS, random)) {
       s.station.append("g").append(std::to_string(group));
       all.push_back(std::move(s));
     }
   }
-  std::ranges::stable_sort(all, {}, &Sighting::utime_us);
+  std::ranges::stable_sort(all, {}, &BearingMeasurement::utime_us);
   Fusion fusion{FusionConfig{}};
-  for (const Sighting& sighting : all) fusion.add(sighting);
+  for (const BearingMeasurement& sighting : all) fusion.add(sighting);
   for (const Path& path : paths) {
     const Vector3d there = site().to_ecef(at(path, kDurationS).p_enu);
     const auto near = std::ranges::count_if(fusion.tracks().tracks(), [&](const Track& track) {
-      return is_sure(track) && (track.filter.position() - there).norm() < 3.0;
+      return is_established(track) && (track.filter.position() - there).norm() < 3.0;
     });
     EXPECT_EQ(near, 1);
   }
-  EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_sure), kGroups);
+  EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_established), kGroups);
 }
 
 // Up and away from all others: it meets nobody's.
-Sighting of_nothing(Sighting sighting, double elevation_rad) {
+BearingMeasurement of_nothing(BearingMeasurement sighting, double elevation_rad) {
   const Vector3d place = site().to_enu(sighting.sight.origin_ecef);
   sighting.sight.direction = {wrap_two_pi(std::atan2(place.x(), place.y())), elevation_rad};
   return sighting;
@@ -116,12 +116,12 @@ TEST(ManyStations, NobodysTurnFallsOnTheSameBearingForEver) {
       Fusion fusion{FusionConfig{}};
       for (std::size_t i = 0; i < seen.size(); ++i) {
         const std::size_t station = i % kStations;
-        const Sighting other = of_nothing(seen[i], 1.2);
-        const Sighting own = station % 32 == first_station ? seen[i] : of_nothing(seen[i], 1.1);
+        const BearingMeasurement other = of_nothing(seen[i], 1.2);
+        const BearingMeasurement own = station % 32 == first_station ? seen[i] : of_nothing(seen[i], 1.1);
         fusion.add(second ? other : own);
         fusion.add(second ? own : other);
       }
-      EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_sure), 1)
+      EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_established), 1)
           << second << ' ' << first_station;
     }
   }

@@ -32,9 +32,9 @@ Path circling() {
 }
 
 // Each of a station's bearings by another name: it would say that its bias is new every time.
-void rename_each(std::vector<Sighting>& sightings) {
+void rename_each(std::vector<BearingMeasurement>& sightings) {
   std::int64_t name = 0;
-  for (Sighting& sighting : sightings) sighting.track_id = ++name;
+  for (BearingMeasurement& sighting : sightings) sighting.track_id = ++name;
 }
 
 struct Result {
@@ -49,7 +49,7 @@ Result fly(const WorldConfig& world, const OfflineConfig& config, bool renamed =
   int fixes = 0;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
     std::mt19937_64 random(seed);
-    std::vector<Sighting> sightings = measure(world, {path}, kDurationS, random);
+    std::vector<BearingMeasurement> sightings = measure(world, {path}, kDurationS, random);
     if (renamed) rename_each(sightings);
     for (const FusedTarget& target : fuse_offline(sightings, config)) {
       const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
@@ -160,7 +160,7 @@ TEST(PoseErrors, ALongFlightKeepsItsTrack) {
   std::mt19937_64 random(3);
   const Path path = cruising({{-100, 20, 120}, {0.7, 0.1, 0.0}}, 0.01, kFlightS, random);
   Fusion fusion(FusionConfig{});
-  for (const Sighting& sighting : measure(world, {path}, kFlightS, random)) fusion.add(sighting);
+  for (const BearingMeasurement& sighting : measure(world, {path}, kFlightS, random)) fusion.add(sighting);
   EXPECT_EQ(fusion.tracks().counts().dropped, 0);
   ASSERT_EQ(fusion.tracks().tracks().size(), 1U);
   const FilterMatrix P = fusion.tracks().tracks().front().filter.mixed().covariance;
@@ -177,8 +177,8 @@ TEST(PoseErrors, ANewDesignationMayBeOffAsStated) {
   std::mt19937_64 random(4);
   const Path path = cruising({{-100, 20, 120}, {5, 1, 0}}, 0.1, kFlightS, random);
   TrackFilter filter = filter_on(path);
-  StationErrors errors;
-  for (Sighting& sighting : measure(world, {path}, kFlightS, random)) {
+  BiasModel errors;
+  for (BearingMeasurement& sighting : measure(world, {path}, kFlightS, random)) {
     sighting.track_id = 1;
     const double time_s = 1e-6 * static_cast<double>(sighting.utime_us - kStartUs);
     if (sighting.station == "s0" && time_s > kTurnedS) {
@@ -197,10 +197,10 @@ TEST(PoseErrors, ItIsNeverLessCertainThanStated) {
   std::mt19937_64 random(4);
   const Path path = cruising({{-100, 20, 120}, {5, 1, 0}}, 0.1, kFlightS, random);
   TrackFilter filter = filter_on(path);
-  StationErrors errors;
-  std::vector<Sighting> seen = measure(world, {path}, kFlightS, random);
+  BiasModel errors;
+  std::vector<BearingMeasurement> seen = measure(world, {path}, kFlightS, random);
   rename_each(seen);
-  for (const Sighting& sighting : seen) test::feed(filter, sighting, errors);
+  for (const BearingMeasurement& sighting : seen) test::feed(filter, sighting, errors);
   ASSERT_EQ(filter.stations().size(), 4U);
   for (std::size_t i = 0; i < 4; ++i) {
     const StationBias bias = filter.bias(i);

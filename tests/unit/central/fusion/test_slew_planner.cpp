@@ -20,11 +20,11 @@ Track track_of_flight(std::int64_t id, double seconds) {
   Track track(TrackFilter(
       {}, kStart,
       {.p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 50.0}));
-  StationErrors errors;
-  for (const Sighting& s : test::flight(seconds, 1e-4)) test::feed(track.filter, s, errors);
+  BiasModel errors;
+  for (const BearingMeasurement& s : test::flight(seconds, 1e-4)) test::feed(track.filter, s, errors);
   track.id = id;
   track.state = TrackState::kConfirmed;
-  track.located_us = track.filter.utime_us();
+  track.last_two_station_us = track.filter.utime_us();
   return track;
 }
 
@@ -139,7 +139,7 @@ TEST(SlewPlanner, WhoDoesNotKnowWhereItStandsStillGetsADirection) {
 // "Now" is a median of stamps and may fall back by less than a second unnoticed.
 TEST(SlewPlanner, ASearchStaysADirectionWhenNowFallsBack) {
   std::vector<Track> tracks = {track_of_flight(1, 3.0)};
-  StationErrors errors;
+  BiasModel errors;
   test::move_on(tracks[0].filter, tracks[0].filter.utime_us() + 1'900'000, errors);
   const std::int64_t now_us = tracks[0].filter.utime_us();
   SlewPlanner planner({.coast_s = 60.0});
@@ -161,7 +161,7 @@ TEST(SlewPlanner, SearchesAlongARayWithinItsPlane) {
   const std::vector<SlewStation> stations = {station_at("a", from), station_at("b", camera)};
   double nearest = 10.0, farthest = 0.0;
   for (int i = 0; i < 2000; ++i) {
-    SlewRound round{.now_us = kStart + i * 100'000, .on_a_line = {"a"}, .ray = ray};
+    SlewRound round{.now_us = kStart + i * 100'000, .bearing_only_stations = {"a"}, .ray = ray};
     const auto slews = planner.plan(round, stations, {});
     ASSERT_EQ(slews.size(), 1U);  // not the one that sees it
     EXPECT_EQ(slews[0].station, "b");
@@ -217,7 +217,7 @@ TEST(SlewPlanner, ASearchGoesOnByStepsOfAUnitAndLeavesNoGap) {
 
 TEST(SlewPlanner, AnUnsureDirectionIsSearchedInASpiral) {
   std::vector<Track> tracks = {track_of_flight(1, 2.0)};
-  StationErrors errors;
+  BiasModel errors;
   test::move_on(tracks[0].filter, tracks[0].filter.utime_us() + 1'900'000, errors);
   const std::int64_t now_us = tracks[0].filter.utime_us();
   SlewPlanner planner({.coast_s = 60.0});

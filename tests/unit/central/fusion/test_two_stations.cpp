@@ -26,27 +26,27 @@ Path climbing(const Vector3d& from, double speed_m_s, double duration_s = kDurat
 }
 
 // Each follows an object of its own; for a moment, three seconds after the start, their rays meet.
-std::vector<Sighting> of_two_objects() {
+std::vector<BearingMeasurement> of_two_objects() {
   const WorldConfig world{.stations_enu = stations(), .aims_enu = {}};
   std::mt19937_64 random(2);
-  std::vector<Sighting> seen;
+  std::vector<BearingMeasurement> seen;
   const Path paths[] = {climbing({0, 0, 80}, 0.0), climbing({20, 10, 81}, 1.0)};
   for (const Path& path : paths) {
-    for (Sighting& s : measure(world, {path}, kDurationS, random)) {
+    for (BearingMeasurement& s : measure(world, {path}, kDurationS, random)) {
       s.track_id = 1;
       if ((s.station == "s0") == (&path == &paths[0])) seen.push_back(std::move(s));
     }
   }
-  std::ranges::stable_sort(seen, {}, &Sighting::utime_us);
+  std::ranges::stable_sort(seen, {}, &BearingMeasurement::utime_us);
   return seen;
 }
 
 // A third station's, of a place: what it takes for the target once.
-Sighting chance_bearing(const FusedTarget& target) {
+BearingMeasurement chance_bearing(const FusedTarget& target) {
   const WorldConfig world{.stations_enu = {{0, 300, 0}}, .aims_enu = {}};
   const Path there(100, PathPoint{site().to_enu(target.estimate.position_ecef), Vector3d::Zero()});
   std::mt19937_64 random(7);
-  Sighting sighting = measure(world, {there}, 0.5, random).front();
+  BearingMeasurement sighting = measure(world, {there}, 0.5, random).front();
   sighting.station = "s9";
   sighting.utime_us = target.utime_us;
   return sighting;
@@ -59,7 +59,7 @@ TEST(TwoStations, WhoFollowTwoObjectsAreAPositionOnlyWhileTheirRaysMeet) {
     Fusion fusion(FusionConfig{});
     double first_s = 0.0, last_s = 0.0;
     bool had_third = false;
-    for (const Sighting& sighting : of_two_objects()) {
+    for (const BearingMeasurement& sighting : of_two_objects()) {
       for (const FusedTarget& target : fusion.add(sighting).targets) {
         if (target.estimate.solution != Solution::kOk) continue;
         last_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
@@ -86,19 +86,19 @@ TEST(TwoStations, WhatTheirRaysHadToBeTurnedByIsForgottenWithABornTrack) {
     all.bias_stated = false;
     WorldConfig two = all;
     two.stations_enu.resize(2);
-    std::vector<Sighting> seen =
+    std::vector<BearingMeasurement> seen =
         measure(all, {cruising({{-100, 20, 120}, {4, 1, 0}}, 0.1, kLongS, random)}, kLongS, random);
     const Path paths[] = {climbing({0, 0, 40}, 0.0, kLongS), climbing({20, 10, 30}, 1.0, kLongS)};
     for (const Path& path : paths) {
-      for (Sighting& s : measure(two, {path}, kLongS, random)) {
+      for (BearingMeasurement& s : measure(two, {path}, kLongS, random)) {
         s.track_id = 2;
         if ((s.station == "s0") == (&path == &paths[0])) seen.push_back(std::move(s));
       }
     }
-    std::ranges::stable_sort(seen, {}, &Sighting::utime_us);
+    std::ranges::stable_sort(seen, {}, &BearingMeasurement::utime_us);
     Fusion fusion(FusionConfig{});
     double greatest_rad = 0.0;
-    for (const Sighting& sighting : seen) {
+    for (const BearingMeasurement& sighting : seen) {
       fusion.add(sighting);
       const auto prior = fusion.tracks().errors().prior("s0", seen.front().sight, 300.0);
       greatest_rad = std::max(greatest_rad, std::sqrt(prior.covariance.trace()));
@@ -116,7 +116,7 @@ TEST(TwoStations, WhoseHeadingsAreAsStatedKeepTheirTarget) {
     Fusion fusion(FusionConfig{});
     double nees = 0.0;
     int located = 0;
-    for (const Sighting& sighting : measure(world, {path}, kDurationS, random)) {
+    for (const BearingMeasurement& sighting : measure(world, {path}, kDurationS, random)) {
       for (const FusedTarget& target : fusion.add(sighting).targets) {
         const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
         if (time_s < 1.5) continue;
@@ -138,12 +138,12 @@ struct Told {
   double first_s = 0.0, last_s = 0.0, last_wrong_s = 0.0;
 };
 
-Told told_of(const std::vector<Sighting>& seen, const Path& path) {
+Told told_of(const std::vector<BearingMeasurement>& seen, const Path& path) {
   constexpr double kSigmas = 5.0;
   Fusion fusion(FusionConfig{});
   Told told;
   std::set<std::int64_t> targets;
-  for (const Sighting& sighting : seen) {
+  for (const BearingMeasurement& sighting : seen) {
     for (const FusedTarget& target : fusion.add(sighting).targets) {
       told.rays_miss += target.estimate.solution == Solution::kRaysMiss ? 1 : 0;
       if (target.estimate.solution != Solution::kOk) continue;
@@ -174,14 +174,14 @@ TEST(TwoStations, OfWhichOneIsHeardOfLateAreNotLedAstrayAtTheStart) {
     std::mt19937_64 random(seed);
     const Path path = manoeuvring({{-5, 50, -0.5}, {0.3, 0.1, 0}}, 6.0, 2.0, random);
     auto seen = measure(world, {path}, 2.0, random);
-    std::erase_if(seen, [&](const Sighting& s) {
+    std::erase_if(seen, [&](const BearingMeasurement& s) {
       return s.station == "s1" && s.utime_us < kStartUs + kBeginsUs;
     });
-    std::ranges::stable_sort(seen, {}, [&](const Sighting& s) {
+    std::ranges::stable_sort(seen, {}, [&](const BearingMeasurement& s) {
       return s.utime_us + (s.station == "s1" ? kLateUs : 0);
     });
     TrackInitiation birth({}, {});
-    StationErrors errors;
+    BiasModel errors;
     std::optional<TrackStart> start;
     for (auto s = seen.begin(); s != seen.end() && !start; ++s)
       start = birth.add(*s, errors, false);
@@ -201,7 +201,7 @@ TEST(TwoStations, OfWhichOneIsSlowAreConfirmedByTheSlowOne) {
   const Path path = cruising({{-30, 20, 80}, {12, 5, 0}}, 0.1, kDurationS, random);
   auto seen = measure(world, {path}, kDurationS, random);
   std::int64_t next_us = 0;
-  std::erase_if(seen, [&](const Sighting& sighting) {
+  std::erase_if(seen, [&](const BearingMeasurement& sighting) {
     if (sighting.station != "s1") return false;
     if (sighting.utime_us < next_us) return true;
     next_us = sighting.utime_us + kEachUs;
@@ -232,7 +232,7 @@ TEST(TwoStations, FollowAHardTurnThatOnlyOneOfThemSees) {
     if (time_s >= kTurnS) now.v_enu += std::min(1.0, most) * change;
   }
   auto seen = measure(world, {path}, kDurationS, random);
-  for (Sighting& sighting : seen) sighting.track_id = 1;
+  for (BearingMeasurement& sighting : seen) sighting.track_id = 1;
   const Told told = told_of(seen, path);
   EXPECT_GT(told.fixes, 85);
   EXPECT_GT(told.rays_miss, 0);
@@ -250,13 +250,13 @@ TEST(TwoStations, OfWhichOneIsWrongAreToldApartByASlowThird) {
   auto seen = measure(world, {path}, kDurationS, random);
   const auto wrong_us = kStartUs + static_cast<std::int64_t>(1e6 * kWrongS);
   std::int64_t next_us = 0;
-  std::erase_if(seen, [&](const Sighting& sighting) {
+  std::erase_if(seen, [&](const BearingMeasurement& sighting) {
     if (sighting.station != "s2" || sighting.utime_us < wrong_us) return false;
     if (sighting.utime_us < next_us) return true;
     next_us = sighting.utime_us + kEachUs;
     return false;
   });
-  for (Sighting& sighting : seen) {
+  for (BearingMeasurement& sighting : seen) {
     sighting.track_id = 1;
     if (sighting.station != "s0" || sighting.utime_us < wrong_us) continue;
     sighting.sight.direction.elevation_rad += 0.05;
@@ -277,7 +277,7 @@ TEST(TwoStations, SideBySideTheyTellNoRangeOfWhatIsFar) {
     std::mt19937_64 random(1);
     const Path path = cruising({{0, 150e3, 80e3}, {300, -900, 0}}, 0.1, kFlightS, random);
     auto seen = measure(world, {path}, kFlightS, random);
-    for (Sighting& sighting : seen) {
+    for (BearingMeasurement& sighting : seen) {
       const double off_rad = sighting.station == "s0" ? -0.5 * kOffRad : 0.5 * kOffRad;
       sighting.sight.direction.elevation_rad += off_rad;
     }
@@ -305,10 +305,10 @@ TEST(TwoStations, SideBySideTheyForgetTheRangeThatAThirdHasTold) {
   const Path path = cruising({{0, 150e3, 80e3}, {300, -900, 0}}, 0.1, kFlightS, random);
   auto seen = measure(world, {path}, kFlightS, random);
   const auto leaves_us = kStartUs + static_cast<std::int64_t>(1e6 * kLeavesS);
-  std::erase_if(seen, [&](const Sighting& sighting) {
+  std::erase_if(seen, [&](const BearingMeasurement& sighting) {
     return sighting.station == "s2" && sighting.utime_us > leaves_us;
   });
-  for (Sighting& sighting : seen) {
+  for (BearingMeasurement& sighting : seen) {
     if (sighting.station == "s1") sighting.sight.direction.elevation_rad += kOffRad;
   }
   double last_s = 0.0;

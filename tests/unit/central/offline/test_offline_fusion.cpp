@@ -27,11 +27,11 @@ Vector3d path(double t_s) {
 
 // Four stations with rates and phases of their own; "c" sees the target only in the first half.
 // `stated` is the systematic error that they state, in units of their noise; they have none.
-std::vector<Sighting> recording(double seconds, double sigma_rad, unsigned seed,
+std::vector<BearingMeasurement> recording(double seconds, double sigma_rad, unsigned seed,
                                 double stated = 0.0) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  std::vector<Sighting> sightings;
+  std::vector<BearingMeasurement> sightings;
   const double rates_hz[] = {25.0, 30.0, 50.0, 27.3};
   for (std::size_t k = 0; k < 4; ++k) {
     for (double t_s = 0.007 * static_cast<double>(k); t_s < seconds; t_s += 1.0 / rates_hz[k]) {
@@ -95,7 +95,7 @@ TEST(OfflineFusion, IsCautiousWhereNothingIsStated) {
 // they do not show: the covariance has room for that, and nothing else changes.
 TEST(OfflineFusion, LeavesRoomForWhatAllStationsHaveInCommon) {
   auto sightings = recording(20.0, 1e-4, 6);
-  for (Sighting& s : sightings) {
+  for (BearingMeasurement& s : sightings) {
     s.sight.direction.elevation_rad += (s.station == "a" || s.station == "c") ? 1e-3 : -1e-3;
   }
   OfflineConfig none, some;
@@ -111,7 +111,7 @@ TEST(OfflineFusion, LeavesRoomForWhatAllStationsHaveInCommon) {
 TEST(OfflineFusion, BeginsAnewWhereMostStationsContradict) {
   auto sightings = recording(12.0, 1e-4, 5, 1.0);
   const std::int64_t jump_us = kStart + 5'000'000;
-  for (Sighting& s : sightings) {
+  for (BearingMeasurement& s : sightings) {
     if (s.utime_us < jump_us || s.station == "a") continue;
     const double t_s = static_cast<double>(s.utime_us - kStart) * 1e-6;
     s.sight = ray_to(s.station, square()[static_cast<std::size_t>(s.station[0] - 'a')],
@@ -202,7 +202,7 @@ TEST(OfflineFusion, SmoothingTellsAWhitePartThatIsOne) {
 // Two on a diagonal of the square are left: their rays are nearer to one line than the others were.
 TEST(OfflineFusion, TellsTheGeometryOfThoseThatStillSeeTheTarget) {
   auto sightings = recording(12.0, 1e-4, 8, 1.0);
-  std::erase_if(sightings, [](const Sighting& s) {
+  std::erase_if(sightings, [](const BearingMeasurement& s) {
     return s.utime_us > kStart + 6'000'000 && s.station != "b" && s.station != "d";
   });
   OfflineConfig config;
@@ -221,7 +221,7 @@ TEST(OfflineFusion, TellsTheGeometryOfThoseThatStillSeeTheTarget) {
 // The noise is four times what is stated, which the filter's run learns: the velocity knows, too.
 TEST(OfflineFusion, LeastSquaresVelocityCountsTheNoiseThatIsLearnt) {
   auto sightings = recording(40.0, 8e-4, 9, 0.01);
-  for (Sighting& s : sightings) s.sight.covariance_white /= 16.0;
+  for (BearingMeasurement& s : sightings) s.sight.covariance_white /= 16.0;
   OfflineConfig config;
   config.estimator = "least-squares";
   config.rate_hz = 10.0;
@@ -241,7 +241,7 @@ TEST(OfflineFusion, LeastSquaresVelocityCountsTheNoiseThatIsLearnt) {
 TEST(OfflineFusion, TheFilterIsCausal) {
   auto sightings = recording(6.0, 2e-4, 9);
   const auto whole = fuse_offline(sightings, {});
-  std::erase_if(sightings, [](const Sighting& s) { return s.utime_us > kStart + 3'000'000; });
+  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.utime_us > kStart + 3'000'000; });
   const auto part = fuse_offline(sightings, {});
   ASSERT_GT(part.size(), 100U);
   for (std::size_t i = 0; i < part.size(); ++i) {
@@ -280,19 +280,19 @@ TEST(OfflineFusion, CountsWhatItDoesNotUse) {
 TEST(OfflineFusion, AClockIsGuessedByWhatItDoesToTheBearings) {
   auto sightings = recording(10.0, 1e-4, 7);
   guess_clocks(sightings);
-  for (const Sighting& s : sightings) {
+  for (const BearingMeasurement& s : sightings) {
     EXPECT_GT(s.clock_sd_s, 4e-4 / 0.3);
     EXPECT_LT(s.clock_sd_s, 4e-4 / 0.02);
   }
   auto rough = recording(10.0, 2e-3, 7);
   guess_clocks(rough);
-  for (const Sighting& s : rough) EXPECT_EQ(s.clock_sd_s, 0.02);
+  for (const BearingMeasurement& s : rough) EXPECT_EQ(s.clock_sd_s, 0.02);
 }
 
 TEST(OfflineFusion, NothingGivesNothing) {
   EXPECT_TRUE(fuse_offline({}, {}).empty());
   auto alone = recording(2.0, 1e-4, 7);
-  std::erase_if(alone, [](const Sighting& sighting) { return sighting.station != "a"; });
+  std::erase_if(alone, [](const BearingMeasurement& sighting) { return sighting.station != "a"; });
   EXPECT_TRUE(fuse_offline(alone, {}).empty());
 }
 

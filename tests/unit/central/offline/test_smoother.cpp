@@ -10,7 +10,7 @@ using namespace test;
 
 constexpr double kNoise = 3e-4;
 
-KnownStations nothing_known() { return {StationErrors(), {}}; }
+KnownStations nothing_known() { return {BiasModel(), {}}; }
 
 std::vector<std::int64_t> every_tenth_of(double seconds) {
   std::vector<std::int64_t> epochs;
@@ -26,7 +26,7 @@ TEST(Smoother, JoinsWhatWasBeforeWithWhatComesAfter) {
   Unlocated unlocated;
   const auto smoothed = smooth(bearings, epochs, {}, nothing_known(), unlocated);
   ASSERT_EQ(smoothed.size(), epochs.size());
-  RecordedTrack causal{KeeperConfig{}};
+  RecordedTrack causal{TrackManagerConfig{}};
   auto next = bearings.begin();
   double smoothed_m = 0.0, causal_m = 0.0;
   int surer = 0, fixes = 0;
@@ -50,7 +50,7 @@ TEST(Smoother, JoinsWhatWasBeforeWithWhatComesAfter) {
 
 TEST(Smoother, CountsWhyThereIsNoPosition) {
   auto bearings = flight(1.0, kNoise, kNoise);
-  std::erase_if(bearings, [](const Sighting& s) { return s.station != "a"; });
+  std::erase_if(bearings, [](const BearingMeasurement& s) { return s.station != "a"; });
   Unlocated unlocated;
   EXPECT_TRUE(smooth(bearings, every_tenth_of(0.9), {}, nothing_known(), unlocated).empty());
   std::size_t sum = 0;

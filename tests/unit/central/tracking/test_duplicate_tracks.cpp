@@ -36,21 +36,21 @@ std::vector<Path> paths_of(const Flight& flight, std::mt19937_64& random) {
   return paths;
 }
 
-std::vector<Sighting> bearings_of(const Flight& flight, const std::vector<Path>& paths,
+std::vector<BearingMeasurement> bearings_of(const Flight& flight, const std::vector<Path>& paths,
                                   std::mt19937_64& random) {
   WorldConfig world{.stations_enu = circle(flight.stations, 300.0), .aims_enu = {}};
   world.noise_rad = kStatedRad * flight.noise;
   world.missed = flight.missed;
-  std::vector<Sighting> all;
+  std::vector<BearingMeasurement> all;
   if (!flight.named) all = measure(world, paths, kDurationS, random);
   for (std::size_t i = 0; flight.named && i < paths.size(); ++i) {
-    for (Sighting& s : measure(world, {paths[i]}, kDurationS, random)) {
+    for (BearingMeasurement& s : measure(world, {paths[i]}, kDurationS, random)) {
       s.track_id = 1;
       if ((s.station.back() - '0') % paths.size() == i) all.push_back(std::move(s));
     }
   }
-  for (Sighting& s : all) s.sight.covariance_white /= flight.noise * flight.noise;
-  std::ranges::stable_sort(all, {}, &Sighting::utime_us);
+  for (BearingMeasurement& s : all) s.sight.covariance_white /= flight.noise * flight.noise;
+  std::ranges::stable_sort(all, {}, &BearingMeasurement::utime_us);
   return all;
 }
 
@@ -64,7 +64,7 @@ struct Seen {
 std::set<std::int64_t> sure_ids(const Fusion& fusion) {
   std::set<std::int64_t> ids;
   for (const Track& track : fusion.tracks().tracks()) {
-    if (is_sure(track)) ids.insert(track.id);
+    if (is_established(track)) ids.insert(track.id);
   }
   return ids;
 }
@@ -74,7 +74,7 @@ Seen fly(const Flight& flight, std::uint64_t seed) {
   const std::vector<Path> paths = paths_of(flight, random);
   Fusion fusion(FusionConfig{.paper_targets = 0});
   Seen seen;
-  for (const Sighting& s : bearings_of(flight, paths, random)) {
+  for (const BearingMeasurement& s : bearings_of(flight, paths, random)) {
     const auto before = sure_ids(fusion);
     fusion.add(s);
     if (fusion.tracks().counts().merged == seen.merged) continue;
@@ -86,7 +86,7 @@ Seen fly(const Flight& flight, std::uint64_t seed) {
     const Vector3d there = site().to_ecef(at(path, kDurationS).p_enu);
     double least_m = 1e9;
     for (const Track& track : fusion.tracks().tracks()) {
-      if (is_sure(track)) least_m = std::min(least_m, (track.filter.position() - there).norm());
+      if (is_established(track)) least_m = std::min(least_m, (track.filter.position() - there).norm());
     }
     seen.off_m = std::max(seen.off_m, least_m);
   }
@@ -160,7 +160,7 @@ TEST(DuplicateTracks, AlsoWhenTheyAreNearToEachOther) {
 // Ten thousand pairs that have nothing to do with each other take no memory for good.
 TEST(DuplicateTracks, PairsWithoutEvidenceAreForgotten) {
   DuplicateTracks rivals;
-  Sighting sighting;
+  BearingMeasurement sighting;
   sighting.station = "a";
   for (std::int64_t i = 0; i < 10000; ++i) {
     sighting.utime_us = kStartUs + 10'000 * i;

@@ -12,19 +12,19 @@ namespace {
 
 // Of the stations' four that see one object, the first two also follow one each by name, whose rays
 // meet for a moment. All are twice as noisy as they state.
-std::vector<Sighting> with_a_ghost(double seconds) {
+std::vector<BearingMeasurement> with_a_ghost(double seconds) {
   constexpr double kTwice = 2.0;
   bench::WorldConfig world{.stations_enu = test::square(), .aims_enu = {}};
   world.noise_rad = kTwice * 3e-4;
   std::mt19937_64 random(11);
-  std::vector<Sighting> all;
+  std::vector<BearingMeasurement> all;
   const auto path = [&](const Eigen::Vector3d& from, double climb_m_s) {
     return bench::cruising({from, {0.0, 0.0, climb_m_s}}, 1e-6, seconds, random);
   };
   const bench::Path paths[] = {path({60, 60, 150}, 0.0), path({0, 0, 80}, 0.0),
                                path({20, 10, 79}, 1.0)};
   for (int i = 0; i < 3; ++i) {
-    for (Sighting& s : bench::measure(world, {paths[i]}, seconds, random)) {
+    for (BearingMeasurement& s : bench::measure(world, {paths[i]}, seconds, random)) {
       if (i == 1 && s.station != "s0") continue;
       if (i == 2 && s.station != "s1") continue;
       s.track_id = i == 0 ? 0 : 1;
@@ -32,14 +32,14 @@ std::vector<Sighting> with_a_ghost(double seconds) {
       all.push_back(std::move(s));
     }
   }
-  std::ranges::stable_sort(all, {}, &Sighting::utime_us);
+  std::ranges::stable_sort(all, {}, &BearingMeasurement::utime_us);
   return all;
 }
 
 TEST(LiveTracks, ADroppedTrackTakesNothingThatAnotherOneHasTaught) {
-  LiveTracks live{KeeperConfig{}};
+  LiveTracks live{TrackManagerConfig{}};
   std::int64_t dropped = 0;
-  for (const Sighting& sighting : with_a_ghost(8.0)) {
+  for (const BearingMeasurement& sighting : with_a_ghost(8.0)) {
     live.add(sighting);
     live.advance(sighting.utime_us);
     if (sighting.utime_us < bench::kStartUs + 2'000'000) continue;
@@ -50,7 +50,7 @@ TEST(LiveTracks, ADroppedTrackTakesNothingThatAnotherOneHasTaught) {
     dropped = live.counts().dropped;
   }
   EXPECT_GE(dropped, 1);
-  EXPECT_EQ(std::ranges::count_if(live.tracks(), is_sure), 1);
+  EXPECT_EQ(std::ranges::count_if(live.tracks(), is_established), 1);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 namespace ols {
 namespace {
 
-Sighting named(std::int64_t track_id, std::int64_t utime_us) {
-  Sighting sighting;
+BearingMeasurement named(std::int64_t track_id, std::int64_t utime_us) {
+  BearingMeasurement sighting;
   sighting.station = std::string("a");
   sighting.track_id = track_id;
   sighting.utime_us = utime_us;

@@ -9,7 +9,7 @@ namespace {
 using namespace test;
 using Eigen::Vector3d;
 
-Sighting seen(const std::string& station, const Vector3d& from, const Vector3d& to) {
+BearingMeasurement seen(const std::string& station, const Vector3d& from, const Vector3d& to) {
   return sighting_of(ray_to(station, from, to), kStart);
 }
 
@@ -18,11 +18,11 @@ struct Met {
   Solution failure = Solution::kTooFewRays;
 };
 
-Met meet(const Sighting& first, const std::vector<Sighting>& others) {
+Met meet(const BearingMeasurement& first, const std::vector<BearingMeasurement>& others) {
   UnassociatedBearings pool(1.0, 10);
-  for (const Sighting& other : others) pool.store(other);
+  for (const BearingMeasurement& other : others) pool.store(other);
   Met met;
-  met.meetings = RayMeetings({}, 500e3).of(first, pool, StationErrors(), met.failure);
+  met.meetings = RayMeetings({}, 500e3).of(first, pool, BiasModel(), met.failure);
   return met;
 }
 
@@ -46,7 +46,7 @@ TEST(RayMeetings, WhereMoreStationsLookIsFirst) {
 }
 
 TEST(RayMeetings, SayWhyThereAreNone) {
-  const Sighting west = seen("w", kWest, kTarget);
+  const BearingMeasurement west = seen("w", kWest, kTarget);
   EXPECT_EQ(meet(west, {}).failure, Solution::kTooFewRays);
   EXPECT_EQ(meet(west, {seen("e", kEast, kEast + (kTarget - kWest))}).failure,
             Solution::kParallelRays);

@@ -31,7 +31,7 @@ struct Fixes {
   std::string beside;  // stations
 };
 
-Fixes fuse(const std::vector<Sighting>& sightings, const OfflineConfig& config = ten_hertz()) {
+Fixes fuse(const std::vector<BearingMeasurement>& sightings, const OfflineConfig& config = ten_hertz()) {
   Fixes fixes;
   for (const FusedTarget& target : fuse_offline(sightings, config)) {
     const double sd_m = std::sqrt(target.estimate.covariance_ecef.trace());

@@ -12,12 +12,12 @@ Track track_at(const Eigen::Vector3d& p_enu) {
   Track track(TrackFilter(
       {}, kStart, {.p_ecef = site().to_ecef(p_enu), .position_sd_m = 1.0, .velocity_sd_m_s = 1.0}));
   track.state = TrackState::kConfirmed;
-  track.located_us = kStart;
+  track.last_two_station_us = kStart;
   return track;
 }
 
-Sighting named(std::int64_t track_id, double t_s = 0.0) {
-  Sighting sighting =
+BearingMeasurement named(std::int64_t track_id, double t_s = 0.0) {
+  BearingMeasurement sighting =
       sighting_of(ray_to("a", {0, 0, 0}, path(t_s)), kStart + std::llround(t_s * 1e6));
   sighting.track_id = track_id;
   return sighting;

@@ -21,7 +21,7 @@ struct Live {
   Solution last = Solution::kOk;
 };
 
-Live live(const std::vector<Sighting>& sightings) {
+Live live(const std::vector<BearingMeasurement>& sightings) {
   Fusion fusion(FusionConfig{});
   Live result;
   for (const FusedTarget& target : test::targets_of(fusion, sightings)) {
@@ -89,9 +89,9 @@ TEST(TrackInitiation, SaysThatRaysMiss) {
 // nothing.
 TEST(TrackInitiation, AStartThatIsRejectedTeachesNothing) {
   TrackInitiation birth({}, {});
-  StationErrors errors;
+  BiasModel errors;
   bool begun = false;
-  for (const Sighting& sighting : watch("abcd", 1.0, 5e-4, off_by('c', 0.0))) {
+  for (const BearingMeasurement& sighting : watch("abcd", 1.0, 5e-4, off_by('c', 0.0))) {
     const auto start = birth.add(sighting, errors, false);
     begun = start.has_value();
     if (begun) errors.learn(start->shown);
@@ -116,7 +116,7 @@ TEST(TrackInitiation, StationsWithGreatLearntBiasesFindTheNextTarget) {
   const auto path = bench::cruising({{30, 20, 80}, {0, 0, 0}}, 1e-3, kEndS, random);
   Fusion fusion(FusionConfig{.paper_targets = 0});
   double first_s = 1e9;
-  for (Sighting sighting : bench::measure(world, {path}, kEndS, random)) {
+  for (BearingMeasurement sighting : bench::measure(world, {path}, kEndS, random)) {
     const double t_s = 1e-6 * static_cast<double>(sighting.utime_us - bench::kStartUs);
     const double sign = sighting.station == "s0" || sighting.station == "s2" ? 1.0 : -1.0;
     double& azimuth = sighting.sight.direction.azimuth_rad;

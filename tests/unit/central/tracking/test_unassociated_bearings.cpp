@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-Sighting at(double t_s) {
+BearingMeasurement at(double t_s) {
   return sighting_of(ray_to("a", {0, 0, 0}, path(t_s)), kStart + std::llround(t_s * 1e6));
 }
 
@@ -31,14 +31,14 @@ TEST(UnassociatedBearings, AreNoMoreThanTheMost) {
 TEST(UnassociatedBearings, AStationWithoutAnyIsNotThere) {
   UnassociatedBearings pool(10.0, 4);
   pool.store(at(0.0));
-  pool.erase_if("a", [](const Sighting&) { return true; });
+  pool.erase_if("a", [](const BearingMeasurement&) { return true; });
   EXPECT_TRUE(pool.stations().empty());
 }
 
 TEST(UnassociatedBearings, ALookIsNearWhereItPoints) {
   UnassociatedBearings pool(10.0, 4);
   pool.store(at(0.0));
-  const Look& look = pool.stations().at("a").looks.front();
+  const BearingSummary& look = pool.stations().at("a").looks.front();
   EXPECT_TRUE(look.is_near(site().to_ecef(path(0.0)), 0.0));
   EXPECT_FALSE(look.is_near(site().to_ecef(path(0.0) + Eigen::Vector3d(200, 0, 0)), 0.0));
 }

@@ -62,7 +62,7 @@ TEST(Allocation, TheFiltersInnerLoopHasNone) {
     filter.advance(motion);
     filter.disturb(motion, random);
     filter.weigh([&](const Particle& p) {
-      const Likeness likeness = target.likeness(scene, p.pixel, p.size_px);
+      const Similarity likeness = target.likeness(scene, p.pixel, p.size_px);
       const double out = target.standing_out(scene, p.pixel, p.size_px);
       return target.log_likelihood(likeness, 0.3, out, p.size_px);
     });

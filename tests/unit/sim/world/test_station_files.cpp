@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "edge/config.h"
-#include "edge/station_memory.h"
+#include "edge/persisted_station_state.h"
 #include "sim/station_files.h"
 
 namespace ols::sim {
@@ -20,7 +20,7 @@ TEST(StationFiles, AreReadByTheStationAsTheNominalGeometry) {
     const StationGeometry& g = read.station.geometry;
     EXPECT_EQ(read.id, truth.id);
     EXPECT_EQ(read.state_folder, state);
-    const StationMemory memory(state, truth.id, true);
+    const PersistedStationState memory(state, truth.id, true);
     EXPECT_EQ(memory.begin(), StationState::kIdle);
     EXPECT_EQ(memory.doubt(), std::nullopt);
     EXPECT_LT((ecef_from_geodetic(g.position) - ecef_from_geodetic(truth.nominal.position)).norm(),

@@ -7,9 +7,9 @@
 
 namespace ols {
 
-class OtherFusions {
+class FusionConflictMonitor {
  public:
-  explicit OtherFusions(std::int64_t own_boot_id) : own_boot_id_(own_boot_id) {}
+  explicit FusionConflictMonitor(std::int64_t own_boot_id) : own_boot_id_(own_boot_id) {}
 
   // A fusion's status was heard, one's own as well; now_s: the host's monotonic clock. True for
   // another one's.
@@ -17,7 +17,7 @@ class OtherFusions {
   // In words, while another one was heard within the last seconds; empty otherwise.
   std::string alarm(double now_s) const;
   // Once at the beginning of such a time.
-  bool take_news();
+  bool take_event();
 
  private:
   static constexpr double kNever = -std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-#include "edge/refusal_watch.h"
+#include "edge/refusal_monitor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(RefusalWatch, TellsOfRefusalsThatGoOnAndFallsSilentByItself) {
-  RefusalWatch watch;
+TEST(RefusalMonitor, TellsOfRefusalsThatGoOnAndFallsSilentByItself) {
+  RefusalMonitor watch;
   watch.note("slews", "replayed", 100.2);
   watch.note("slews", "replayed", 104.7);
   EXPECT_THAT(watch.alarms(105.0), IsEmpty()) << "one or two are none";
@@ -22,8 +22,8 @@ TEST(RefusalWatch, TellsOfRefusalsThatGoOnAndFallsSilentByItself) {
   EXPECT_THAT(watch.alarms(116.0), IsEmpty());
 }
 
-TEST(RefusalWatch, KindsAndReasonsAreCountedApart) {
-  RefusalWatch watch;
+TEST(RefusalMonitor, KindsAndReasonsAreCountedApart) {
+  RefusalMonitor watch;
   for (int i = 0; i < 3; ++i) {
     watch.note("slews", "stale", 50.0);
     watch.note("PTU commands", "replayed", 50.0 + i);

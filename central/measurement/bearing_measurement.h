@@ -11,7 +11,7 @@ namespace ols {
 // How a station's UTC is kept, by its own words.
 enum class StationClock { kUnknown, kSynchronised, kUnsynchronised };
 
-struct Sighting {
+struct BearingMeasurement {
   std::string station;
   std::int64_t utime_us = 0;  // UTC since 1970 at mid-exposure, by the station's clock
   LineOfSight sight;

@@ -12,7 +12,7 @@
 
 namespace ols {
 
-class RefusalWatch {
+class RefusalMonitor {
  public:
   // One command of this kind ("slews") was refused. Kinds and reasons are a few of our own words.
   void note(const std::string& kind, const std::string& why, double now_s);

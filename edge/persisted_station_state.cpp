@@ -1,4 +1,4 @@
-#include "edge/station_memory.h"
+#include "edge/persisted_station_state.h"
 
 namespace ols {
 namespace {
@@ -19,7 +19,7 @@ bool is_held(StationState state) {
          state == StationState::kManual;
 }
 
-StationMemory::StationMemory(const std::string& folder, const std::string& id, bool has_stop)
+PersistedStationState::PersistedStationState(const std::string& folder, const std::string& id, bool has_stop)
     : id_(id),
       hold_(file_of(folder, id, "hold"), {kFree, kStopped, kUnknown, kEmergency}),
       doubt_(file_of(folder, id, "doubt"), doubt_words()) {
@@ -43,7 +43,7 @@ StationMemory::StationMemory(const std::string& folder, const std::string& id, b
   }
 }
 
-void StationMemory::remember(StationState state, const std::optional<PtuReferenceDoubt>& doubt,
+void PersistedStationState::remember(StationState state, const std::optional<PtuReferenceDoubt>& doubt,
                              PtuReference reference) {
   hold_unknown_ = hold_unknown_ && state == begin_;
   if (state == StationState::kEmergency) {
@@ -63,7 +63,7 @@ void StationMemory::remember(StationState state, const std::optional<PtuReferenc
   }
 }
 
-std::vector<std::string> StationMemory::alarms() const {
+std::vector<std::string> PersistedStationState::alarms() const {
   std::vector<std::string> alarms;
   if (hold_unknown_) {
     const std::string why =

@@ -12,7 +12,7 @@
 
 namespace ols {
 
-class TroubleLog {
+class FaultLog {
  public:
   // What a source has to say now, and a number that tells a new trouble in the same words. The same
   // words again and again (a device that is not there, tried each second) are one trouble, so that
@@ -31,7 +31,7 @@ class TroubleLog {
                   bool bad);
 
   // What came up or ended since the last call, in the order of its coming.
-  std::vector<News> take_news() { return std::exchange(news_, {}); }
+  std::vector<News> take_event() { return std::exchange(news_, {}); }
 
   const std::string& text() const { return text_; }  // empty: there was none
   std::int64_t utime_us() const { return utime_us_; }

@@ -9,10 +9,10 @@
 
 namespace ols {
 
-class PoseMemory {
+class PoseStore {
  public:
   // Reads `file`; empty: nothing is kept. What cannot be read, or is damaged, is a trouble.
-  explicit PoseMemory(const std::string& file);
+  explicit PoseStore(const std::string& file);
 
   // What was there at the start.
   const PersistedPose& found() const { return found_; }

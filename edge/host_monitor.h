@@ -34,16 +34,16 @@ struct HostReading {
 HostReading read_host(const HostConfig& config);
 HostReport report_on(const HostReading& reading, const HostConfig& config);
 
-class HostWatch {
+class HostMonitor {
  public:
   using Reader = std::function<HostReading()>;
   // Starts to read, again and again; whatever `reader` refers to must live as long as the program.
-  explicit HostWatch(const HostConfig& config)
-      : HostWatch(config, [c = config] { return read_host(c); }) {}
-  HostWatch(const HostConfig& config, Reader reader);
-  ~HostWatch();  // does not wait for a reading
-  HostWatch(const HostWatch&) = delete;
-  HostWatch& operator=(const HostWatch&) = delete;
+  explicit HostMonitor(const HostConfig& config)
+      : HostMonitor(config, [c = config] { return read_host(c); }) {}
+  HostMonitor(const HostConfig& config, Reader reader);
+  ~HostMonitor();  // does not wait for a reading
+  HostMonitor(const HostMonitor&) = delete;
+  HostMonitor& operator=(const HostMonitor&) = delete;
 
   void note_turn(double seconds);
   // The newest reading; never waits. `now_s`: CLOCK_MONOTONIC.

@@ -1,4 +1,4 @@
-#include "edge/slew_senders.h"
+#include "edge/slew_conflict_monitor.h"
 
 #include <utility>
 
@@ -9,7 +9,7 @@ constexpr double kLately_s = 5.0;
 
 }  // namespace
 
-void SlewSenders::note(std::int64_t boot_id, double now_s) {
+void SlewConflictMonitor::note(std::int64_t boot_id, double now_s) {
   if (newest_.boot_id != boot_id) {
     const bool is_back = former_.boot_id == boot_id && now_s - former_.heard_s < kLately_s;
     if (is_back) several_s_ = now_s;
@@ -18,6 +18,6 @@ void SlewSenders::note(std::int64_t boot_id, double now_s) {
   newest_.heard_s = now_s;
 }
 
-bool SlewSenders::are_several(double now_s) const { return now_s - several_s_ < kLately_s; }
+bool SlewConflictMonitor::are_several(double now_s) const { return now_s - several_s_ < kLately_s; }
 
 }  // namespace ols

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "central/filter/station_errors.h"
+#include "central/filter/bias_model.h"
 #include "central/filter/track_filter.h"
 #include "tests/unit/central/flight.h"
 
@@ -23,37 +23,37 @@ LineOfSight sight() {
 
 // Biases of this size, each drawn anew, seen with an error of this size as the filter would.
 double learnt_sd(double bias_sd, double error_sd) {
-  StationErrors errors;
+  BiasModel errors;
   std::mt19937_64 random(4);
   std::normal_distribution<double> normal;
   const LineOfSight line = sight();
   for (int i = 0; i < 2000; ++i) {
-    SeenBias seen;
+    BiasEstimate seen;
     seen.prior = errors.prior("a", line, 500.0).covariance.diagonal();
     const Eigen::Array2d gain = seen.prior / (seen.prior + error_sd * error_sd);
     const double x = normal(random), y = normal(random), z = normal(random), w = normal(random);
     seen.value = gain * (bias_sd * Eigen::Array2d(x, y) + error_sd * Eigen::Array2d(z, w));
     seen.variance = seen.prior * (1.0 - gain);
-    errors.observe("a", line, seen, StationErrorsConfig{}.untold_time_s, 500.0);
+    errors.observe("a", line, seen, BiasModelConfig{}.untold_time_s, 500.0);
   }
   return std::sqrt(errors.prior("a", line, 500.0).covariance.trace() / 2.0);
 }
 
-TEST(StationErrors, LearnTheBiasesSizeFromWhatTheGeometryShows) {
+TEST(BiasModel, LearnTheBiasesSizeFromWhatTheGeometryShows) {
   EXPECT_NEAR(learnt_sd(5e-4, 1e-5), 5e-4, 1e-4);
   EXPECT_NEAR(learnt_sd(5e-4, 5e-4), 5e-4, 1.5e-4);
   EXPECT_LT(learnt_sd(1e-6, 1e-5), 0.25 * kNoise);
 }
 
-TEST(StationErrors, KeepTheGuessWhereTheGeometryShowsNothing) {
-  const double guess = StationErrorsConfig{}.untold_over_noise * kNoise;
+TEST(BiasModel, KeepTheGuessWhereTheGeometryShowsNothing) {
+  const double guess = BiasModelConfig{}.untold_over_noise * kNoise;
   EXPECT_NEAR(learnt_sd(0.0, 1.0), guess, 0.01 * guess);
 }
 
-TEST(StationErrors, ForgetAStation) {
-  StationErrors errors;
+TEST(BiasModel, ForgetAStation) {
+  BiasModel errors;
   const double before = errors.prior("a", sight(), 500.0).covariance.trace();
-  const SeenBias far{.value = {1e-2, 1e-2}, .variance = {1e-12, 1e-12}, .prior = {1e-8, 1e-8}};
+  const BiasEstimate far{.value = {1e-2, 1e-2}, .variance = {1e-12, 1e-12}, .prior = {1e-8, 1e-8}};
   errors.observe("a", sight(), far, 1.0, 500.0);
   errors.observe_residual("a", 50.0);
   EXPECT_GT(errors.prior("a", sight(), 500.0).covariance.trace(), 100.0 * before);
@@ -70,9 +70,9 @@ LineOfSight stated(double elevation_rad, double cross_rad2, double up_rad2) {
   return line;
 }
 
-TEST(StationErrors, WhatIsStatedLastsAndWhatNobodyToldDoesNot) {
-  const StationErrorsConfig config;
-  const StationErrors errors(config);
+TEST(BiasModel, WhatIsStatedLastsAndWhatNobodyToldDoesNot) {
+  const BiasModelConfig config;
+  const BiasModel errors(config);
   EXPECT_TRUE((errors.prior("a", sight(), 500.0).time_s == config.untold_time_s).all());
   const BiasPrior told = errors.prior("a", stated(0.3, 1e-6, 1e-6), 500.0);
   EXPECT_TRUE(told.time_s.isApproxToConstant(config.stated_time_s, 1e-6));
@@ -80,18 +80,18 @@ TEST(StationErrors, WhatIsStatedLastsAndWhatNobodyToldDoesNot) {
 
 // Four times the variance on the level axis: three of it are a heading's, which stays so much
 // longer that as much is new of each in the same time.
-TEST(StationErrors, TakeForAHeadingWhatOneAxisHasMore) {
-  const BiasPrior prior = StationErrors().prior("a", stated(0.0, 4e-6, 1e-6), 500.0);
+TEST(BiasModel, TakeForAHeadingWhatOneAxisHasMore) {
+  const BiasPrior prior = BiasModel().prior("a", stated(0.0, 4e-6, 1e-6), 500.0);
   EXPECT_TRUE(prior.rotation.isApprox(Eigen::Array3d(1e-6, 1e-6, 4e-6), 1e-9));
   EXPECT_NEAR(prior.time_s(2) / prior.time_s(0), 4.0, 1e-6);
   EXPECT_NEAR(prior.time_s(1) / prior.time_s(0), 1.0, 1e-6);
 }
 
 // Whatever the elevation: a rotation with the prior's variances makes the bias that is stated.
-TEST(StationErrors, ARotationMakesWhatIsStated) {
+TEST(BiasModel, ARotationMakesWhatIsStated) {
   for (const double elevation_rad : {-0.2, 0.0, 0.7, 1.4}) {
     const LineOfSight line = stated(elevation_rad, 5e-6, 2e-6);
-    const BiasPrior prior = StationErrors().prior("a", line, 500.0);
+    const BiasPrior prior = BiasModel().prior("a", line, 500.0);
     const auto B = shift_by_rotation(tangent_basis(line.direction));
     const Eigen::Matrix2d made = B * prior.rotation.matrix().asDiagonal() * B.transpose();
     EXPECT_NEAR(made(0, 0), 5e-6, 1e-9) << elevation_rad;
@@ -100,7 +100,7 @@ TEST(StationErrors, ARotationMakesWhatIsStated) {
   }
 }
 
-TEST(StationErrors, ARotationMovesADirectionOnItsTangentPlane) {
+TEST(BiasModel, ARotationMovesADirectionOnItsTangentPlane) {
   const AzimuthElevation d{2.0, 0.6};
   const Eigen::Vector3d rotation(3e-5, -7e-5, 5e-5);
   const Eigen::Vector3d from = enu_from_azimuth_elevation(d);
@@ -109,11 +109,11 @@ TEST(StationErrors, ARotationMovesADirectionOnItsTangentPlane) {
 }
 
 // A place of its own is no rotation.
-TEST(StationErrors, APlaceIsPartOfTheRotationOrApart) {
+TEST(BiasModel, APlaceIsPartOfTheRotationOrApart) {
   LineOfSight line = stated(0.0, 1e-6, 1e-6);
   line.origin_sd_enu_m.setConstant(1.0);
-  const BiasPrior within = StationErrors().prior("a", line, 500.0);
-  const BiasPrior apart = StationErrors().prior("a", line, 500.0, true);
+  const BiasPrior within = BiasModel().prior("a", line, 500.0);
+  const BiasPrior apart = BiasModel().prior("a", line, 500.0, true);
   EXPECT_NEAR(within.rotation(0), 1e-6 + 1.0 / (500.0 * 500.0), 1e-12);
   EXPECT_NEAR(apart.rotation(0), 1e-6, 1e-12);
   EXPECT_TRUE(apart.place_m2.isApproxToConstant(1.0, 1e-12));
@@ -124,12 +124,12 @@ class NoiseScale : public testing::TestWithParam<double> {};
 
 // A station's noise is found, be it less or more than what it states.
 TEST_P(NoiseScale, IsFoundFromTheResiduals) {
-  StationErrors errors;
+  BiasModel errors;
   TrackFilter filter({}, test::kStart,
                      {.p_ecef = test::site().to_ecef(test::path(0.0)),
                       .position_sd_m = 10.0,
                       .velocity_sd_m_s = 50.0});
-  for (const Sighting& s : flight(60.0, kNoise, GetParam() * kNoise)) test::feed(filter, s, errors);
+  for (const BearingMeasurement& s : flight(60.0, kNoise, GetParam() * kNoise)) test::feed(filter, s, errors);
   const double variance = GetParam() * GetParam();
   EXPECT_NEAR(errors.noise_scale("b") / variance, 1.0, 0.3);
 }

@@ -1,5 +1,5 @@
 // Every state file in every condition: a station that does not know how it was left starts stopped.
-#include "edge/station_memory.h"
+#include "edge/persisted_station_state.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ class StationMemoryTest : public testing::Test {
     std::getline(std::ifstream(folder + "/a." + subject), text);
     return text;
   }
-  StationMemory memory(bool has_stop = true) const { return {folder, "a", has_stop}; }
+  PersistedStationState memory(bool has_stop = true) const { return {folder, "a", has_stop}; }
 
   std::string root, folder;
 };
@@ -57,7 +57,7 @@ TEST_F(StationMemoryTest, WhatIsKnownIsTakenUpWithoutAnAlarm) {
                         {"emergency\n", StationState::kEmergency}}) {
     put("hold", c.hold);
     put("doubt", "none\n");
-    const StationMemory m = memory();
+    const PersistedStationState m = memory();
     EXPECT_EQ(m.begin(), c.state) << c.hold;
     EXPECT_EQ(m.doubt(), std::nullopt);
     EXPECT_THAT(m.alarms(), IsEmpty());
@@ -113,7 +113,7 @@ TEST_F(StationMemoryTest, AHoldThatIsNotKnownStartsStoppedWithAnAlarm) {
       put("hold", "free\n");
       put("doubt", "none\n");
       condition.make(folder, folder + "/a.hold");
-      const StationMemory m = memory(has_stop);
+      const PersistedStationState m = memory(has_stop);
       EXPECT_EQ(m.begin(), condition.unreadable && has_stop ? StationState::kEmergency
                                                             : StationState::kStopped);
       EXPECT_THAT(m.alarms(),
@@ -133,7 +133,7 @@ TEST_F(StationMemoryTest, ADoubtThatIsNotKnownIsADoubtWithAnAlarm) {
     put("hold", "free\n");
     put("doubt", "none\n");
     condition.make(folder, folder + "/a.doubt");
-    StationMemory m = memory();
+    PersistedStationState m = memory();
     EXPECT_EQ(m.doubt(), (PtuReferenceDoubt{condition.unreadable, condition.unreadable}));
     EXPECT_THAT(m.alarms(),
                 Contains(HasSubstr("ptu: whether its reference was in doubt is not known")));
@@ -146,12 +146,12 @@ TEST_F(StationMemoryTest, ADoubtThatIsNotKnownIsADoubtWithAnAlarm) {
 
 TEST_F(StationMemoryTest, TheUnknownStaysUnknownOverRestartsUntilAPersonActs) {
   {
-    StationMemory m = memory();
+    PersistedStationState m = memory();
     EXPECT_EQ(m.begin(), StationState::kStopped);
     m.remember(StationState::kStopped, std::nullopt, PtuReference::kTrusted);
   }
   ASSERT_EQ(content("hold"), "unknown");
-  StationMemory m = memory();
+  PersistedStationState m = memory();
   EXPECT_EQ(m.begin(), StationState::kStopped);
   m.remember(StationState::kStopped, std::nullopt, PtuReference::kTrusted);
   EXPECT_THAT(m.alarms(), Contains(HasSubstr("is not known (not since an earlier start)")));
@@ -165,7 +165,7 @@ TEST_F(StationMemoryTest, TheUnknownStaysUnknownOverRestartsUntilAPersonActs) {
 // Pressed, released, not re-armed, killed; the file damaged, or the folder taken away.
 TEST_F(StationMemoryTest, APressedStopIsNotForgotten) {
   {
-    StationMemory m = memory();
+    PersistedStationState m = memory();
     m.remember(StationState::kIdle, std::nullopt, PtuReference::kTrusted);
     m.remember(StationState::kEmergency, std::nullopt, PtuReference::kTrusted);
   }
@@ -173,7 +173,7 @@ TEST_F(StationMemoryTest, APressedStopIsNotForgotten) {
   EXPECT_EQ(memory().begin(), StationState::kEmergency);
   put("hold", "emer");
   for (int start = 0; start < 2; ++start) {
-    StationMemory damaged = memory();
+    PersistedStationState damaged = memory();
     EXPECT_EQ(damaged.begin(), StationState::kEmergency);
     damaged.remember(StationState::kEmergency, std::nullopt, PtuReference::kTrusted);
     EXPECT_THAT(damaged.alarms(), Contains(HasSubstr("check it, then re-arm it"))) << start;
@@ -183,7 +183,7 @@ TEST_F(StationMemoryTest, APressedStopIsNotForgotten) {
 }
 
 TEST_F(StationMemoryTest, WithoutAFolderNothingIsKnownAndNothingAlarmsOnceAPersonActed) {
-  StationMemory m("", "a", true);
+  PersistedStationState m("", "a", true);
   EXPECT_EQ(m.begin(), StationState::kStopped);
   EXPECT_EQ(m.doubt(), PtuReferenceDoubt{});
   EXPECT_THAT(m.alarms(), Contains("stop: how the station was left is not known (no state_folder "
@@ -195,7 +195,7 @@ TEST_F(StationMemoryTest, WithoutAFolderNothingIsKnownAndNothingAlarmsOnceAPerso
 TEST_F(StationMemoryTest, AFolderThatVanishesIsAnAlarmForAsLong) {
   put("hold", "free\n");
   put("doubt", "none\n");
-  StationMemory m = memory();
+  PersistedStationState m = memory();
   const auto told = [&] {
     for (const std::string& alarm : m.alarms()) {
       if (alarm.starts_with("stop: not remembered: ")) return true;
@@ -225,7 +225,7 @@ TEST_F(StationMemoryTest, AFolderThatCannotBeWrittenIsNotBelievedToPermit) {
   std::jthread([&] {
     bound = heed_permissions();
     if (!bound) return;
-    const StationMemory m = memory();
+    const PersistedStationState m = memory();
     EXPECT_EQ(m.begin(), StationState::kEmergency);
     EXPECT_EQ(memory(false).begin(), StationState::kStopped);
     EXPECT_EQ(m.doubt(), PtuReferenceDoubt{});

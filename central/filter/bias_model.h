@@ -30,7 +30,7 @@
 
 namespace ols {
 
-struct StationErrorsConfig {
+struct BiasModelConfig {
   double stated_time_s = 1800.0;   // correlation time of a pose's error within what is stated
   double untold_time_s = 5.0;      // and of one that the station does not tell
   double memory_s = 600.0;         // what was seen longer ago counts less than 1/e
@@ -55,7 +55,7 @@ struct BiasPrior {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] stationary, tangent plane
   Eigen::Array3d rotation = Eigen::Array3d::Zero();      // [rad^2] stationary variances
   Eigen::Array3d time_s = Eigen::Array3d::Ones();        // its correlation times
-  bool place_apart = false;                              // otherwise the rotation contains it
+  bool position_states = false;                              // otherwise the rotation contains it
   Eigen::Array3d place_m2 = Eigen::Array3d::Zero();      // stationary variances: east, north, up
   double place_time_s = 1.0;                             // its correlation time
   // Of the rotation's variances, the share that the residuals have shown beyond what was stated or
@@ -64,27 +64,27 @@ struct BiasPrior {
 };
 
 // A station's bias [rad], cross-elevation and elevation, each with its variance after and before.
-struct SeenBias {
+struct BiasEstimate {
   Eigen::Array2d value = Eigen::Array2d::Zero();
   Eigen::Array2d variance = Eigen::Array2d::Zero();
   Eigen::Array2d prior = Eigen::Array2d::Zero();
 };
 
-class StationErrors {
+class BiasModel {
  public:
-  explicit StationErrors(const StationErrorsConfig& config = {}) : config_(config) {}
+  explicit BiasModel(const BiasModelConfig& config = {}) : config_(config) {}
   // Evidence on top of what is known: it reads through to `known`, which has to outlive it, and
   // keeps what bearings show to itself. known.learn() takes it over.
-  static StationErrors evidence_on(const StationErrors& known);
-  void learn(const StationErrors& evidence);
+  static BiasModel evidence_on(const BiasModel& known);
+  void learn(const BiasModel& evidence);
 
   // Stays of the sight line itself: calibration, and the station's place seen from the range.
   BiasPrior prior(const std::string& station, const LineOfSight& sight, double range_m,
-                  bool place_apart = false) const;
+                  bool position_states = false) const;
   // The same, added to what a ray states, for estimators without bias states [rad^2].
-  Eigen::Matrix2d untold(const std::string& station, const LineOfSight& sight) const;
+  Eigen::Matrix2d undeclared(const std::string& station, const LineOfSight& sight) const;
   // A bias as the filter has it and what its prior was, over dt_s since it was told last.
-  void observe(const std::string& station, const LineOfSight& sight, const SeenBias& bias,
+  void observe(const std::string& station, const LineOfSight& sight, const BiasEstimate& bias,
                double dt_s, double range_m);
   // What the residual of a bearing shows of the noise's variance, over the one it was taken with.
   void observe_residual(const std::string& station, double ratio);
@@ -98,7 +98,7 @@ class StationErrors {
   double inflation(const std::string& station, double interval_s) const;
   double clock_time_s() const { return config_.clock_time_s; }
   void forget(const std::string& station);
-  void clear() { *this = StationErrors(config_); }
+  void clear() { *this = BiasModel(config_); }
 
  private:
   struct Seen {
@@ -115,8 +115,8 @@ class StationErrors {
   Eigen::Array2d learnt(const std::string& station, const Eigen::Array2d& stated_rad2,
                         const Eigen::Array2d& noise_rad2) const;
 
-  StationErrorsConfig config_;
-  const StationErrors* known_ = nullptr;  // of evidence: what it is on top of
+  BiasModelConfig config_;
+  const BiasModel* known_ = nullptr;  // of evidence: what it is on top of
   std::map<std::string, Seen, std::less<>> stations_;
   // Over the stations that state nothing: weights, and squared biases over the noise's variance.
   Eigen::Array2d common_weight_ = Eigen::Array2d::Zero();

@@ -1,4 +1,4 @@
-#include "edge/pose_memory.h"
+#include "edge/pose_store.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -38,13 +38,13 @@ class PoseMemoryTest : public testing::Test {
 
 TEST_F(PoseMemoryTest, WhatIsKeptIsFoundAgain) {
   {
-    PoseMemory memory(file);
+    PoseStore memory(file);
     EXPECT_FALSE(memory.found().position);
     EXPECT_EQ(memory.trouble(), "") << "a file that is not there yet is none";
     memory.keep(pose);
     ASSERT_TRUE(holds(pose));
   }
-  const PoseMemory again(file);
+  const PoseStore again(file);
   ASSERT_TRUE(again.found().position && again.found().tilt);
   EXPECT_NEAR(again.found().position->ground.latitude_rad, 0.85, 1e-13);
   EXPECT_EQ(again.found().position->utime_us, pose.position->utime_us);
@@ -53,7 +53,7 @@ TEST_F(PoseMemoryTest, WhatIsKeptIsFoundAgain) {
 
 TEST_F(PoseMemoryTest, APartThatIsMissingStaysAsItWasFound) {
   std::ofstream(file) << to_text(pose);
-  PoseMemory memory(file);
+  PoseStore memory(file);
   PersistedPose tilt_only;
   tilt_only.tilt = {{0.1, 0.1}, 1e-3, 1'700'000'100'000'000};
   memory.keep(tilt_only);
@@ -66,7 +66,7 @@ TEST_F(PoseMemoryTest, APartThatIsMissingStaysAsItWasFound) {
 
 TEST_F(PoseMemoryTest, ADamagedFileIsRefusedUntilItIsWrittenAnew) {
   std::ofstream(file) << "ols-pose 1\nposition 4";
-  PoseMemory memory(file);
+  PoseStore memory(file);
   EXPECT_FALSE(memory.found().position);
   EXPECT_EQ(memory.trouble(),
             "the kept one is refused, " + file + ": is damaged: wrong checksum");
@@ -76,14 +76,14 @@ TEST_F(PoseMemoryTest, ADamagedFileIsRefusedUntilItIsWrittenAnew) {
 }
 
 TEST_F(PoseMemoryTest, AFolderThatIsNotThereIsATrouble) {
-  PoseMemory memory(folder + "/none/a.pose");
+  PoseStore memory(folder + "/none/a.pose");
   memory.keep(pose);
   EXPECT_TRUE(eventually([&] { return memory.trouble().starts_with("not kept, "); }));
   EXPECT_NE(memory.trouble().find("/none/a.pose"), std::string::npos) << memory.trouble();
 }
 
 TEST_F(PoseMemoryTest, WithoutAFileNothingIsKept) {
-  PoseMemory memory("");
+  PoseStore memory("");
   memory.keep(pose);
   EXPECT_EQ(memory.trouble(), "");
 }

@@ -1,4 +1,4 @@
-#include "edge/refusal_watch.h"
+#include "edge/refusal_monitor.h"
 
 #include <cmath>
 
@@ -9,14 +9,14 @@ constexpr std::uint64_t kAlarm = 3;  // a doubled datagram or two are none
 
 }  // namespace
 
-void RefusalWatch::note(const std::string& kind, const std::string& why, double now_s) {
+void RefusalMonitor::note(const std::string& kind, const std::string& why, double now_s) {
   const auto second_s = static_cast<std::int64_t>(std::floor(now_s));
   Second& second = refused_[{kind, why}][static_cast<std::size_t>(second_s) % kSpan_s];
   if (second.at_s != second_s) second = {second_s, 0};
   ++second.count;
 }
 
-std::vector<std::string> RefusalWatch::alarms(double now_s) const {
+std::vector<std::string> RefusalMonitor::alarms(double now_s) const {
   const auto second_s = static_cast<std::int64_t>(std::floor(now_s));
   std::vector<std::string> alarms;
   for (const auto& [what, seconds] : refused_) {

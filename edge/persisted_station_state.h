@@ -14,11 +14,11 @@
 
 namespace ols {
 
-class StationMemory {
+class PersistedStationState {
  public:
   // Files ID.hold and ID.doubt in `folder`; empty: nothing is remembered, so nothing is known.
   // `has_stop`: the station has an emergency stop. A file that is damaged may have told of one.
-  StationMemory(const std::string& folder, const std::string& id, bool has_stop);
+  PersistedStationState(const std::string& folder, const std::string& id, bool has_stop);
 
   // As it shall begin: kIdle, kStopped or kEmergency.
   StationState begin() const { return begin_; }

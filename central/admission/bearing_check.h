@@ -1,12 +1,12 @@
 // Which bearings are fit for use, as far as each can be judged by itself. Pure.
 #pragma once
 
-#include "central/measurement/sighting.h"
+#include "central/measurement/bearing_measurement.h"
 
 namespace ols {
 
 // Why a bearing was not used; to_string() is the name of its counter.
-enum class SightingRefusal {
+enum class BearingRefusal {
   kNone,
   kNotFinite,
   kOutOfRange,
@@ -20,12 +20,12 @@ enum class SightingRefusal {
   kFlood,       // more bearings of one station than there can be
   kLowBelief,
 };
-const char* to_string(SightingRefusal refusal);
+const char* to_string(BearingRefusal refusal);
 
 // Whether a station can stand there: near the Earth's surface, with a deviation that is one.
 bool is_a_stations_place(const Eigen::Vector3d& p_ecef, const Eigen::Vector3d& sd_enu_m);
 
 // What can be judged of a bearing by itself.
-SightingRefusal check(const Sighting& sighting);
+BearingRefusal check(const BearingMeasurement& sighting);
 
 }  // namespace ols

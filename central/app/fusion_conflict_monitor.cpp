@@ -1,4 +1,4 @@
-#include "central/app/other_fusions.h"
+#include "central/app/fusion_conflict_monitor.h"
 
 #include <utility>
 
@@ -9,18 +9,18 @@ constexpr double kSilent_s = 5.0;  // some statuses may get lost
 
 }  // namespace
 
-bool OtherFusions::hear(std::int64_t boot_id, double now_s) {
+bool FusionConflictMonitor::hear(std::int64_t boot_id, double now_s) {
   if (boot_id == own_boot_id_) return false;
   news_ = news_ || now_s - heard_s_ > kSilent_s;
   heard_s_ = now_s;
   return true;
 }
 
-std::string OtherFusions::alarm(double now_s) const {
+std::string FusionConflictMonitor::alarm(double now_s) const {
   if (now_s - heard_s_ > kSilent_s) return {};
   return "another fusion is on the bus: end one of them";
 }
 
-bool OtherFusions::take_news() { return std::exchange(news_, false); }
+bool FusionConflictMonitor::take_event() { return std::exchange(news_, false); }
 
 }  // namespace ols

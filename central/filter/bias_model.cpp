@@ -1,4 +1,4 @@
-#include "central/filter/station_errors.h"
+#include "central/filter/bias_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,34 +21,34 @@ Eigen::Array3d rotation_variance(const Eigen::Array2d& bias_rad2, double elevati
 
 }  // namespace
 
-StationErrors StationErrors::evidence_on(const StationErrors& known) {
-  StationErrors evidence(known.config_);
+BiasModel BiasModel::evidence_on(const BiasModel& known) {
+  BiasModel evidence(known.config_);
   evidence.known_ = &known;
   evidence.common_weight_ = known.common_weight_;
   evidence.common_ratio_ = known.common_ratio_;
   return evidence;
 }
 
-void StationErrors::learn(const StationErrors& evidence) {
+void BiasModel::learn(const BiasModel& evidence) {
   for (const auto& [station, seen] : evidence.stations_) stations_.insert_or_assign(station, seen);
   common_weight_ = evidence.common_weight_;
   common_ratio_ = evidence.common_ratio_;
 }
 
-const StationErrors::Seen* StationErrors::find(const std::string& station) const {
+const BiasModel::Seen* BiasModel::find(const std::string& station) const {
   const auto found = stations_.find(station);
   if (found != stations_.end()) return &found->second;
   return known_ == nullptr ? nullptr : known_->find(station);
 }
 
-StationErrors::Seen& StationErrors::at(const std::string& station) {
+BiasModel::Seen& BiasModel::at(const std::string& station) {
   const auto [own, is_new] = stations_.try_emplace(station);
   const Seen* const before = is_new && known_ != nullptr ? known_->find(station) : nullptr;
   if (before != nullptr) own->second = *before;
   return own->second;
 }
 
-void StationErrors::observe_noise(const std::string& station, double squared_ratio) {
+void BiasModel::observe_noise(const std::string& station, double squared_ratio) {
   constexpr double kMost = 9.0;  // an outlier says nothing of the noise
   double& share = at(station).white_share;
   share += (std::min(squared_ratio, kMost) - share) / config_.colour_memory;
@@ -56,14 +56,14 @@ void StationErrors::observe_noise(const std::string& station, double squared_rat
 
 // The mean of samples of a noise with the correlation time T, one every dt, has the variance of so
 // many times fewer: 1 + 2 T / dt.
-double StationErrors::inflation(const std::string& station, double interval_s) const {
+double BiasModel::inflation(const std::string& station, double interval_s) const {
   const Seen* const seen = find(station);
   if (seen == nullptr || !(interval_s > 0.0)) return 1.0;
   const double coloured = std::clamp(1.0 - seen->white_share, 0.0, 1.0);
   return 1.0 + coloured * 2.0 * config_.colour_time_s / interval_s;
 }
 
-void StationErrors::observe_residual(const std::string& station, double ratio) {
+void BiasModel::observe_residual(const std::string& station, double ratio) {
   const double stated = ratio * noise_scale(station);
   Seen& seen = at(station);
   const double decay = 1.0 - 1.0 / config_.noise_memory;
@@ -71,7 +71,7 @@ void StationErrors::observe_residual(const std::string& station, double ratio) {
   seen.noise = seen.noise * decay + stated;
 }
 
-double StationErrors::noise_scale(const std::string& station) const {
+double BiasModel::noise_scale(const std::string& station) const {
   const Seen* const seen = find(station);
   if (seen == nullptr) return 1.0;
   const double scale =
@@ -79,20 +79,20 @@ double StationErrors::noise_scale(const std::string& station) const {
   return std::clamp(scale, config_.least_noise, config_.greatest_noise);
 }
 
-void StationErrors::count(const Seen& seen, double sign) {
+void BiasModel::count(const Seen& seen, double sign) {
   if (seen.noise_rad2.minCoeff() <= 0.0) return;
   common_weight_ += sign * (seen.weight + seen.weight_now);
   common_ratio_ += sign * (seen.squared_rad2 + seen.squared_now_rad2) / seen.noise_rad2;
 }
 
-void StationErrors::forget(const std::string& station) {
+void BiasModel::forget(const std::string& station) {
   const auto found = stations_.find(station);
   if (found == stations_.end()) return;
   count(found->second, -1.0);
   stations_.erase(found);
 }
 
-Eigen::Array2d StationErrors::learnt(const std::string& station, const Eigen::Array2d& stated_rad2,
+Eigen::Array2d BiasModel::learnt(const std::string& station, const Eigen::Array2d& stated_rad2,
                                      const Eigen::Array2d& noise_rad2) const {
   const bool told = states_anything(stated_rad2);
   const double weight = told ? config_.stated_weight : config_.untold_weight;
@@ -107,15 +107,15 @@ Eigen::Array2d StationErrors::learnt(const std::string& station, const Eigen::Ar
   return (squared / (weight + seen->weight + seen->weight_now)).max(least * noise_rad2);
 }
 
-BiasPrior StationErrors::prior(const std::string& station, const LineOfSight& sight, double range_m,
-                               bool place_apart) const {
+BiasPrior BiasModel::prior(const std::string& station, const LineOfSight& sight, double range_m,
+                               bool position_states) const {
   constexpr double kNone = 1e-24;
-  BiasPrior prior{.covariance = stated_covariance(sight, range_m), .place_apart = place_apart};
+  BiasPrior prior{.covariance = stated_covariance(sight, range_m), .position_states = position_states};
   const Eigen::Array2d stated = prior.covariance.diagonal();
   const Eigen::Array2d noise = sight.covariance_white.diagonal();
   const bool told = states_anything(stated);
   const Eigen::Array2d more = (learnt(station, stated, noise) - stated).max(0.0);
-  const Eigen::Array2d pose = place_apart ? sight.covariance_systematic.diagonal().array() : stated;
+  const Eigen::Array2d pose = position_states ? sight.covariance_systematic.diagonal().array() : stated;
   const double guess = config_.untold_over_noise * config_.untold_over_noise;
   const double least = config_.least_over_noise * config_.least_over_noise;
   const double elevation_rad = sight.direction.elevation_rad;
@@ -130,18 +130,18 @@ BiasPrior StationErrors::prior(const std::string& station, const LineOfSight& si
   const double ratio = prior.rotation(2) / std::max(kNone, prior.rotation(0));
   if (told) prior.time_s(2) *= std::clamp(ratio, 1.0, kLongest);
   prior.place_time_s = config_.stated_time_s;
-  if (place_apart) prior.place_m2 = sight.origin_sd_enu_m.array().square();
+  if (position_states) prior.place_m2 = sight.origin_sd_enu_m.array().square();
   return prior;
 }
 
-Eigen::Matrix2d StationErrors::untold(const std::string& station, const LineOfSight& sight) const {
+Eigen::Matrix2d BiasModel::undeclared(const std::string& station, const LineOfSight& sight) const {
   const Eigen::Array2d stated = sight.covariance_systematic.diagonal();
   const Eigen::Array2d all = learnt(station, stated, sight.covariance_white.diagonal());
   return (all - stated).max(0.0).matrix().asDiagonal();
 }
 
-void StationErrors::observe(const std::string& station, const LineOfSight& sight,
-                            const SeenBias& bias, double dt_s, double range_m) {
+void BiasModel::observe(const std::string& station, const LineOfSight& sight,
+                            const BiasEstimate& bias, double dt_s, double range_m) {
   const Eigen::Array2d stated = stated_covariance(sight, range_m).diagonal();
   Seen& seen = at(station);
   count(seen, -1.0);

@@ -9,7 +9,7 @@
 
 namespace ols {
 
-class SlewSenders {
+class SlewConflictMonitor {
  public:
   // The boot of the fusion whose slew was accepted; the station's monotonic clock.
   void note(std::int64_t boot_id, double now_s);

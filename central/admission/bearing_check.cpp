@@ -1,4 +1,4 @@
-#include "central/admission/sighting_check.h"
+#include "central/admission/bearing_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace ols {
 namespace {
 
-bool all_finite(const Sighting& s) {
+bool all_finite(const BearingMeasurement& s) {
   return s.sight.origin_ecef.allFinite() && s.sight.origin_sd_enu_m.allFinite() &&
          s.sight.covariance_white.allFinite() && s.sight.covariance_systematic.allFinite() &&
          std::isfinite(s.sight.direction.azimuth_rad) &&
@@ -16,7 +16,7 @@ bool all_finite(const Sighting& s) {
          std::isfinite(s.clock_sd_s);
 }
 
-bool in_range(const Sighting& s) {
+bool in_range(const BearingMeasurement& s) {
   constexpr double kGreatestClockSdS = 1e4;
   const AzimuthElevation& d = s.sight.direction;
   return !s.station.empty() && s.utime_us > 0 && d.azimuth_rad >= 0.0 &&
@@ -51,31 +51,31 @@ bool covariances_hold(const LineOfSight& sight) {
 
 }  // namespace
 
-const char* to_string(SightingRefusal refusal) {
+const char* to_string(BearingRefusal refusal) {
   switch (refusal) {
-    case SightingRefusal::kNone:
+    case BearingRefusal::kNone:
       return "none";
-    case SightingRefusal::kNotFinite:
+    case BearingRefusal::kNotFinite:
       return "refused_not_finite";
-    case SightingRefusal::kOutOfRange:
+    case BearingRefusal::kOutOfRange:
       return "refused_out_of_range";
-    case SightingRefusal::kCovariance:
+    case BearingRefusal::kCovariance:
       return "refused_covariance";
-    case SightingRefusal::kUnknown:
+    case BearingRefusal::kUnknown:
       return "refused_unknown_station";
-    case SightingRefusal::kStale:
+    case BearingRefusal::kStale:
       return "refused_stale";
-    case SightingRefusal::kFuture:
+    case BearingRefusal::kFuture:
       return "refused_future";
-    case SightingRefusal::kDuplicate:
+    case BearingRefusal::kDuplicate:
       return "refused_duplicate";
-    case SightingRefusal::kQuarantine:
+    case BearingRefusal::kQuarantine:
       return "refused_quarantine";
-    case SightingRefusal::kTooMany:
+    case BearingRefusal::kTooMany:
       return "refused_too_many_stations";
-    case SightingRefusal::kFlood:
+    case BearingRefusal::kFlood:
       return "refused_flood";
-    case SightingRefusal::kLowBelief:
+    case BearingRefusal::kLowBelief:
       return "unused_low_belief";
   }
   return "unknown";
@@ -88,11 +88,11 @@ bool is_a_stations_place(const Eigen::Vector3d& p_ecef, const Eigen::Vector3d& s
          sd_enu_m.maxCoeff() <= kGreatestSdM;
 }
 
-SightingRefusal check(const Sighting& sighting) {
-  if (!all_finite(sighting)) return SightingRefusal::kNotFinite;
-  if (!in_range(sighting)) return SightingRefusal::kOutOfRange;
-  if (!covariances_hold(sighting.sight)) return SightingRefusal::kCovariance;
-  return SightingRefusal::kNone;
+BearingRefusal check(const BearingMeasurement& sighting) {
+  if (!all_finite(sighting)) return BearingRefusal::kNotFinite;
+  if (!in_range(sighting)) return BearingRefusal::kOutOfRange;
+  if (!covariances_hold(sighting.sight)) return BearingRefusal::kCovariance;
+  return BearingRefusal::kNone;
 }
 
 }  // namespace ols

@@ -1,4 +1,4 @@
-#include "edge/trouble_log.h"
+#include "edge/fault_log.h"
 
 #include <cctype>
 
@@ -12,13 +12,13 @@ std::string without_digits(std::string text) {
 
 }  // namespace
 
-void TroubleLog::set(const std::string& source, const std::string& what, std::int64_t utime_us) {
+void FaultLog::set(const std::string& source, const std::string& what, std::int64_t utime_us) {
   news_.push_back({source, source + ": " + what, true});
   text_ = what;
   utime_us_ = utime_us;
 }
 
-void TroubleLog::note(const std::string& source, const std::string& what, std::uint64_t number,
+void FaultLog::note(const std::string& source, const std::string& what, std::uint64_t number,
                       std::int64_t utime_us) {
   constexpr std::int64_t kQuiet_us = 60'000'000;
   if (what.empty()) return;
@@ -28,7 +28,7 @@ void TroubleLog::note(const std::string& source, const std::string& what, std::u
   last = {what, number, utime_us};
 }
 
-void TroubleLog::note_event(const std::string& source, const std::string& what,
+void FaultLog::note_event(const std::string& source, const std::string& what,
                             std::uint64_t number, std::int64_t utime_us) {
   if (what.empty()) return;
   Noted& last = noted_[source];
@@ -37,7 +37,7 @@ void TroubleLog::note_event(const std::string& source, const std::string& what,
   last = {what, number, utime_us};
 }
 
-void TroubleLog::note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us) {
+void FaultLog::note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us) {
   std::map<std::string, std::string> now;
   for (const std::string& alarm : alarms) {
     const std::string key = without_digits(alarm);
@@ -54,7 +54,7 @@ void TroubleLog::note_alarms(const std::vector<std::string>& alarms, std::int64_
   alarms_ = std::move(now);
 }
 
-void TroubleLog::note_state(const std::string& source, const std::string& state,
+void FaultLog::note_state(const std::string& source, const std::string& state,
                             const std::string& details, bool bad) {
   std::string& last = states_[source];
   if (last == state) return;

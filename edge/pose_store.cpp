@@ -1,4 +1,4 @@
-#include "edge/pose_memory.h"
+#include "edge/pose_store.h"
 
 #include <exception>
 #include <stdexcept>
@@ -28,7 +28,7 @@ PersistedPose read(const std::string& file) {
 
 }  // namespace
 
-PoseMemory::PoseMemory(const std::string& file) : file_(file) {
+PoseStore::PoseStore(const std::string& file) : file_(file) {
   if (file.empty()) return;
   try {
     found_ = read(file);
@@ -37,7 +37,7 @@ PoseMemory::PoseMemory(const std::string& file) : file_(file) {
   }
 }
 
-void PoseMemory::keep(PersistedPose pose) {
+void PoseStore::keep(PersistedPose pose) {
   if (!pose.position && !pose.tilt) return;
   if (!pose.position) pose.position = found_.position;
   if (!pose.tilt) pose.tilt = found_.tilt;
@@ -45,7 +45,7 @@ void PoseMemory::keep(PersistedPose pose) {
   file_.write(to_text(pose));
 }
 
-std::string PoseMemory::trouble() const {
+std::string PoseStore::trouble() const {
   if (!refused_.empty()) return refused_;
   const std::string failed = file_.trouble();
   return failed.empty() ? "" : "not kept, " + failed;

@@ -1,4 +1,4 @@
-#include "edge/trouble_log.h"
+#include "edge/fault_log.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000;
 
-TEST(TroubleLog, KeepsTheNewestWithItsTime) {
-  TroubleLog log;
+TEST(FaultLog, KeepsTheNewestWithItsTime) {
+  FaultLog log;
   EXPECT_EQ(log.text(), "");
   EXPECT_EQ(log.utime_us(), 0);
   log.note("camera", "gone", 1, 10 * kSecond);
@@ -23,8 +23,8 @@ TEST(TroubleLog, KeepsTheNewestWithItsTime) {
   EXPECT_EQ(log.text(), "silent") << "it stays when it is over";
 }
 
-TEST(TroubleLog, ARetryInTheSameWordsHidesNothing) {
-  TroubleLog log;
+TEST(FaultLog, ARetryInTheSameWordsHidesNothing) {
+  FaultLog log;
   log.note("ptu", "cannot be opened", 1, kSecond);
   log.note_event("command", "slew refused: stale", 1, 2 * kSecond);
   for (int i = 2; i < 50; ++i) log.note("ptu", "cannot be opened", i, (1 + i) * kSecond);
@@ -33,8 +33,8 @@ TEST(TroubleLog, ARetryInTheSameWordsHidesNothing) {
   EXPECT_EQ(log.text(), "cannot be opened") << "after a while it is another one";
 }
 
-TEST(TroubleLog, EachRefusedCommandCounts) {
-  TroubleLog log;
+TEST(FaultLog, EachRefusedCommandCounts) {
+  FaultLog log;
   log.note_event("command", "point refused: unreachable", 1, kSecond);
   log.note("ptu", "reset", 1, 2 * kSecond);
   log.note_event("command", "point refused: unreachable", 2, 3 * kSecond);
@@ -42,8 +42,8 @@ TEST(TroubleLog, EachRefusedCommandCounts) {
   EXPECT_EQ(log.utime_us(), 3 * kSecond);
 }
 
-TEST(TroubleLog, AnAlarmIsATroubleWhenItBegins) {
-  TroubleLog log;
+TEST(FaultLog, AnAlarmIsATroubleWhenItBegins) {
+  FaultLog log;
   log.note_alarms({"gnss: silent for 5 s"}, kSecond);
   log.note("ptu", "reset", 1, 2 * kSecond);
   log.note_alarms({"gnss: silent for 6 s"}, 3 * kSecond);
@@ -54,16 +54,16 @@ TEST(TroubleLog, AnAlarmIsATroubleWhenItBegins) {
   EXPECT_EQ(log.text(), "gnss: silent for 5 s");
 }
 
-std::vector<std::string> news(TroubleLog& log) {
+std::vector<std::string> news(FaultLog& log) {
   std::vector<std::string> found;
-  for (const News& item : log.take_news())
+  for (const News& item : log.take_event())
     found.push_back(std::string(item.bad ? "! " : "") + item.text);
   return found;
 }
 using Texts = std::vector<std::string>;
 
-TEST(TroubleLog, TroublesAreNewsOnce) {
-  TroubleLog log;
+TEST(FaultLog, TroublesAreNewsOnce) {
+  FaultLog log;
   log.note("ptu", "reply garbled", 1, kSecond);
   log.note_event("command", "SLEW refused: stale", 1, kSecond);
   EXPECT_EQ(news(log), (Texts{"! ptu: reply garbled", "! command: SLEW refused: stale"}));
@@ -72,8 +72,8 @@ TEST(TroubleLog, TroublesAreNewsOnce) {
   EXPECT_EQ(news(log), Texts{});
 }
 
-TEST(TroubleLog, AlarmsAreNewsWhenTheyComeAndWhenTheyGo) {
-  TroubleLog log;
+TEST(FaultLog, AlarmsAreNewsWhenTheyComeAndWhenTheyGo) {
+  FaultLog log;
   log.note_alarms({"gnss: silent for 5 s"}, kSecond);
   EXPECT_EQ(news(log), (Texts{"! alarm: gnss: silent for 5 s"}));
   log.note_alarms({"gnss: silent for 61 s"}, 2 * kSecond);
@@ -82,8 +82,8 @@ TEST(TroubleLog, AlarmsAreNewsWhenTheyComeAndWhenTheyGo) {
   EXPECT_EQ(news(log), (Texts{"over: gnss: silent for 61 s"}));
 }
 
-TEST(TroubleLog, AnotherStateIsNews) {
-  TroubleLog log;
+TEST(FaultLog, AnotherStateIsNews) {
+  FaultLog log;
   log.note_state("camera", "absent", "no such camera", true);
   log.note_state("camera", "absent", "not found", true);
   log.note_state("camera", "ok", "", false);

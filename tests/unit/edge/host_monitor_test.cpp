@@ -1,4 +1,4 @@
-#include "edge/host_watch.h"
+#include "edge/host_monitor.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -15,7 +15,7 @@
 namespace ols {
 namespace {
 
-TEST(HostWatch, ReadsTheHottestZone) {
+TEST(HostMonitor, ReadsTheHottestZone) {
   const std::filesystem::path folder =
       testing::TempDir() + "host_watch_" + std::to_string(::getpid());
   for (const auto& [zone, text] : {std::pair("thermal_zone0", "41000\n"),
@@ -31,7 +31,7 @@ TEST(HostWatch, ReadsTheHottestZone) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(HostWatch, AComputerWithoutThermometerAndDiskSaysNothing) {
+TEST(HostMonitor, AComputerWithoutThermometerAndDiskSaysNothing) {
   HostConfig config;
   config.thermal_folder = config.disk_folder = "/nonexistent";
   EXPECT_EQ(read_host(config).cpu_degC, std::nullopt);
@@ -39,8 +39,8 @@ TEST(HostWatch, AComputerWithoutThermometerAndDiskSaysNothing) {
   EXPECT_GT(read_host(HostConfig{}).disk_free_bytes.value_or(0.0), 0.0);
 }
 
-TEST(HostWatch, HeatAndAnAlmostFullDiskAreAlarms) {
-  HostWatch watch({}, [] { return HostReading{90.5, 1e6}; });
+TEST(HostMonitor, HeatAndAnAlmostFullDiskAreAlarms) {
+  HostMonitor watch({}, [] { return HostReading{90.5, 1e6}; });
   HostReport report;
   ASSERT_TRUE(eventually([&] {
     report = watch.look(clock_monotonic_s());
@@ -53,12 +53,12 @@ TEST(HostWatch, HeatAndAnAlmostFullDiskAreAlarms) {
   EXPECT_EQ(report.alarms[1], "computer: 1 MB left on the disk");
 }
 
-TEST(HostWatch, ADiskThatHangsHoldsNobodyAndIsAnAlarm) {
+TEST(HostMonitor, ADiskThatHangsHoldsNobodyAndIsAnAlarm) {
   const auto released = std::make_shared<std::promise<void>>();
   const auto let_go = released->get_future().share();
   const auto done = std::make_shared<std::promise<void>>();
   {
-    HostWatch watch({}, [let_go, done]() -> HostReading {
+    HostMonitor watch({}, [let_go, done]() -> HostReading {
       let_go.wait();
       done->set_value();
       return {};
@@ -75,8 +75,8 @@ TEST(HostWatch, ADiskThatHangsHoldsNobodyAndIsAnAlarm) {
   done->get_future().wait();
 }
 
-TEST(HostWatch, CountsSlowTurnsAndShowsTheSlowest) {
-  HostWatch watch({}, [] { return HostReading{}; });
+TEST(HostMonitor, CountsSlowTurnsAndShowsTheSlowest) {
+  HostMonitor watch({}, [] { return HostReading{}; });
   watch.note_turn(0.01);
   watch.note_turn(0.7);
   watch.note_turn(0.02);

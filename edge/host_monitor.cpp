@@ -1,4 +1,4 @@
-#include "edge/host_watch.h"
+#include "edge/host_monitor.h"
 
 #include <sys/statvfs.h>
 
@@ -71,7 +71,7 @@ HostReport report_on(const HostReading& reading, const HostConfig& config) {
   return report;
 }
 
-struct HostWatch::Shared {
+struct HostMonitor::Shared {
   void run(const Reader& reader, double interval_s) {
     for (;;) {
       const HostReading found = reader();
@@ -92,7 +92,7 @@ struct HostWatch::Shared {
 };
 
 // Detached: who waits for a disk that hangs would never end.
-HostWatch::HostWatch(const HostConfig& config, Reader reader)
+HostMonitor::HostMonitor(const HostConfig& config, Reader reader)
     : config_(config), shared_(std::make_shared<Shared>()) {
   shared_->read_s = clock_monotonic_s();
   std::thread([shared = shared_, reader = std::move(reader), interval_s = config.interval_s] {
@@ -100,18 +100,18 @@ HostWatch::HostWatch(const HostConfig& config, Reader reader)
   }).detach();
 }
 
-HostWatch::~HostWatch() {
+HostMonitor::~HostMonitor() {
   const std::lock_guard lock(shared_->mutex);
   shared_->end = true;
   shared_->ended.notify_all();
 }
 
-void HostWatch::note_turn(double seconds) {
+void HostMonitor::note_turn(double seconds) {
   slowest_s_ = std::max(slowest_s_, seconds);
   if (seconds > kSlowTurn_s) ++slow_turns_;
 }
 
-HostReport HostWatch::look(double now_s) {
+HostReport HostMonitor::look(double now_s) {
   HostReading reading;
   double age_s = 0.0;
   {
