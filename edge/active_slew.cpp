@@ -2,7 +2,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::station {
 
 void ActiveSlew::give(const SlewCommand& command, double now_s) {
   command_ = command;
@@ -13,7 +13,7 @@ void ActiveSlew::expire(double now_s) {
   if (command_ && is_over(now_s)) command_.reset();
 }
 
-std::optional<ServoGoal> ActiveSlew::goal(const PointingModel& pointing, double now_s) const {
+std::optional<ptu::ServoGoal> ActiveSlew::goal(const PointingModel& pointing, double now_s) const {
   if (!command_ || is_over(now_s)) return std::nullopt;
   constexpr double kStep_s = 0.05;
   const double effect_s = command_->effect_s;
@@ -22,7 +22,7 @@ std::optional<ServoGoal> ActiveSlew::goal(const PointingModel& pointing, double 
   if (!here || !later) return std::nullopt;
   const PanTilt rate{wrap_pi(later->pan_rad - here->pan_rad) / kStep_s,
                      (later->tilt_rad - here->tilt_rad) / kStep_s};
-  return ServoGoal{effect_s, *here, rate, command_->received_s + command_->lease_s};
+  return ptu::ServoGoal{effect_s, *here, rate, command_->received_s + command_->lease_s};
 }
 
-}  // namespace ols
+}  // namespace ols::station

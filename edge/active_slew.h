@@ -7,7 +7,7 @@
 #include "edge/slew_conflict_monitor.h"
 #include "edge/station_types.h"
 
-namespace ols {
+namespace ols::station {
 
 class ActiveSlew {
  public:
@@ -18,7 +18,7 @@ class ActiveSlew {
   // Nothing: no slew is active.
   const std::optional<SlewCommand>& command() const { return command_; }
   // Nothing also where the unit cannot point.
-  std::optional<ServoGoal> goal(const PointingModel& pointing, double now_s) const;
+  std::optional<ptu::ServoGoal> goal(const PointingModel& pointing, double now_s) const;
   // More than one fusion slews this station.
   bool has_several_senders(double now_s) const { return senders_.are_several(now_s); }
 
@@ -29,4 +29,4 @@ class ActiveSlew {
   SlewConflictMonitor senders_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

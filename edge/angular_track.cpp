@@ -4,7 +4,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::station {
 
 void AngularTrack::update(double time_s, const PanTilt& angles, double sd_rad) {
   const double sd = std::max(sd_rad, config_.measurement_sd_floor_rad);
@@ -45,4 +45,4 @@ std::optional<PanTilt> AngularTrack::at(double time_s) const {
                  state_->angles.tilt_rad + dt * state_->rate.tilt_rad};
 }
 
-}  // namespace ols
+}  // namespace ols::station

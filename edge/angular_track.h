@@ -7,7 +7,7 @@
 
 #include "geometry/kinematic_chain.h"
 
-namespace ols {
+namespace ols::station {
 
 class AngularTrack {
  public:
@@ -48,4 +48,4 @@ class AngularTrack {
   Axis pan_, tilt_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

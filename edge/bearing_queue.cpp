@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace ols {
+namespace ols::station {
 
 std::vector<MadeBearing> BearingQueue::take(const PointingModel& pointing, double now_s) {
   std::vector<MadeBearing> bearings;
@@ -52,7 +52,7 @@ std::optional<MadeBearing> BearingQueue::make(const PixelMeasurement& measured,
 
 bool BearingQueue::worth_sending(const Bearing& bearing, const PointingModel& pointing,
                                  double now_s) {
-  if (pointing.pose().position_source == PoseSource::kNone) {
+  if (pointing.pose().position_source == sensors::PoseSource::kNone) {
     counters_["bearings_without_pose"] += 1;
     return false;
   }
@@ -66,4 +66,4 @@ bool BearingQueue::worth_sending(const Bearing& bearing, const PointingModel& po
   return true;
 }
 
-}  // namespace ols
+}  // namespace ols::station

@@ -13,14 +13,14 @@
 #include "edge/station_types.h"
 #include "edge/tracker/tracker.h"
 
-namespace ols {
+namespace ols::station {
 
 struct PixelMeasurement {
   double arrived_s = 0.0;
   double mid_exposure_s = 0.0;
   double stamp_sd_s = 0.0;
-  StampSource stamp_source = StampSource::kCamera;
-  TrackerOutput output;
+  camera::StampSource stamp_source = camera::StampSource::kCamera;
+  tracker::TrackerOutput output;
   std::int64_t track_id = 0;
   double designation_sd_px = 0.0;
 };
@@ -56,4 +56,4 @@ class BearingQueue {
   std::map<std::string, double> counters_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ols {
+namespace ols::station {
 
 const char* to_string(GateRefusal refusal) {
   switch (refusal) {
@@ -65,4 +65,4 @@ void CommandGate::remember(const CommandStamp& stamp, std::int64_t now_utime_us)
   }
 }
 
-}  // namespace ols
+}  // namespace ols::station

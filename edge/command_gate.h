@@ -17,7 +17,7 @@
 #include <string>
 #include <tuple>
 
-namespace ols {
+namespace ols::station {
 
 struct CommandStamp {
   std::int64_t utime_us = 0;
@@ -68,4 +68,4 @@ class CommandGate {
   std::optional<std::int64_t> forgotten_utime_us_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -5,7 +5,7 @@
 #include "geometry/angles.h"
 #include "geometry/slew_limits.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 bool finite(const PanTilt& angles) {
@@ -79,7 +79,7 @@ Refusal judge(const PointCommand& command, const Situation& situation) {
   if (!finite(command.angles)) return Refusal::kNotFinite;
   if (!in_range(command.angles)) return Refusal::kOutOfRange;
   // It would go there whenever it comes, when nobody expects it any more.
-  if (mode.reference() == PtuReference::kUnknown) return Refusal::kNoUnit;
+  if (mode.reference() == ptu::PtuReference::kUnknown) return Refusal::kNoUnit;
   if (mode.has_doubtful_angles()) return Refusal::kNoReference;
   if (!situation.pointing.reachable(command.angles)) return Refusal::kUnreachable;
   return Refusal::kNone;
@@ -89,15 +89,15 @@ Refusal judge_home(const Situation& situation) {
   const Refusal refusal = situation.mode.refuses_operator(situation.now_s);
   if (refusal != Refusal::kNone) return refusal;
   if (!situation.config.homing_allowed) return Refusal::kKeepOut;
-  if (situation.mode.reference() == PtuReference::kUnknown) return Refusal::kNoUnit;
+  if (situation.mode.reference() == ptu::PtuReference::kUnknown) return Refusal::kNoUnit;
   return Refusal::kNone;
 }
 
 Refusal judge_reference_ok(const Situation& situation) {
   const StationMode& mode = situation.mode;
   if (mode.is(StationState::kEmergency)) return Refusal::kEmergency;
-  if (mode.reference() == PtuReference::kMissing) return Refusal::kNoReference;
-  if (mode.reference() != PtuReference::kDoubted) return Refusal::kNoDoubt;
+  if (mode.reference() == ptu::PtuReference::kMissing) return Refusal::kNoReference;
+  if (mode.reference() != ptu::PtuReference::kDoubted) return Refusal::kNoDoubt;
   return Refusal::kNone;
 }
 
@@ -111,4 +111,4 @@ Refusal judge_rearm_over_bus(const Situation& situation) {
   return situation.config.rearm_over_bus ? Refusal::kNone : Refusal::kRearmNeedsAHand;
 }
 
-}  // namespace ols
+}  // namespace ols::station

@@ -6,7 +6,7 @@
 #include "edge/station_mode.h"
 #include "edge/station_types.h"
 
-namespace ols {
+namespace ols::station {
 
 struct Situation {
   const StationConfig& config;
@@ -24,4 +24,4 @@ Refusal judge_reference_ok(const Situation& situation);
 Refusal judge_rearm(const Situation& situation);  // by a hand at the station
 Refusal judge_rearm_over_bus(const Situation& situation);
 
-}  // namespace ols
+}  // namespace ols::station

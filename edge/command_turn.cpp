@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace ols {
+namespace ols::station {
 
 void CommandTurn::designate(const DesignateCommand& command) {
   if (designation_) ++superseded_;
@@ -37,4 +37,4 @@ Refusal CommandTurn::end(double now_s) {
   return refusal;
 }
 
-}  // namespace ols
+}  // namespace ols::station

@@ -9,7 +9,7 @@
 
 #include "edge/station.h"
 
-namespace ols {
+namespace ols::station {
 
 class CommandTurn {
  public:
@@ -40,4 +40,4 @@ class CommandTurn {
   std::uint64_t superseded_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -9,7 +9,7 @@
 #include "edge/config_units.h"
 #include "edge/sensors/pose_estimator_config.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 using config::Row;
@@ -34,7 +34,7 @@ Section pose_section(StationSettings& settings) {
   constexpr const char* kFromGnss = "required without [gnss]";
   constexpr const char* kFromInclinometer = "by [inclinometer], or level";
   StationGeometry& g = settings.station.geometry;
-  PoseEstimator::Config& keeper = settings.pose;
+  sensors::PoseEstimator::Config& keeper = settings.pose;
   return {"pose",
           "The survey of GROUND; it overrides GNSS and inclinometer, which then only check it.",
           {config::number("latitude_deg", g.position.latitude_rad, {-90.0, 90.0}, in_degrees(),
@@ -140,7 +140,7 @@ Section calibration_section(StationSettings& settings) {
                             "Of the position, each of east, north, up.")}}}};
 }
 
-Section clock_section(ClockWatch::Config& clock) {
+Section clock_section(clock::ClockWatch::Config& clock) {
   return {"clock",
           "The clock of the station's computer.",
           {config::number("sd_s", clock.assumed_sd_s, {0.0, 1e4}, "s",
@@ -199,7 +199,7 @@ Section logic_section(StationConfig& station) {
 void use_survey(ConfigTable& root, StationSettings& settings) {
   ConfigTable& pose = root.table("pose");
   const StationGeometry& geometry = settings.station.geometry;
-  PoseEstimator::Config& keeper = settings.pose;
+  sensors::PoseEstimator::Config& keeper = settings.pose;
   bool any_place = settings.gnss.host.empty();
   for (const char* key : {"latitude_deg", "longitude_deg", "height_m"})
     any_place = any_place || pose.has(key);
@@ -221,7 +221,7 @@ void use_survey(ConfigTable& root, StationSettings& settings) {
 // One part's setting that is another part's input.
 void pass_on(StationSettings& settings) {
   StationConfig& station = settings.station;
-  set_sensors(settings.pose, settings.inclinometer, settings.gnss);
+  sensors::set_sensors(settings.pose, settings.inclinometer, settings.gnss);
   settings.camera.keep_raw = !settings.recorder.folder.empty();
   station.search_sd_px = std::min(station.search_sd_px, station.search_sd_most_px());
   station.angles = settings.ptu.history;
@@ -252,9 +252,10 @@ Section station_section(StationSettings& s) {
        config::integer("tracker_seed", s.tracker_seed, 0, INT64_MAX, "",
                        "Seed of the tracker's random numbers.")},
       {pose_section(s), chain_section(s.station.geometry.chain), calibration_section(s),
-       camera_section(s.camera), lens_section(s), ptu_section(s.ptu), tracker_section(s.tracker),
-       logic_section(s.station), inclinometer_section(s.inclinometer), gnss_section(s.gnss),
-       gpio_section(s.gpio), recorder_section(s.recorder), clock_section(s.clock),
+       camera::camera_section(s.camera), lens_section(s), ptu::ptu_section(s.ptu),
+       tracker::tracker_section(s.tracker), logic_section(s.station),
+       sensors::inclinometer_section(s.inclinometer), sensors::gnss_section(s.gnss),
+       gpio::gpio_section(s.gpio), recorder::recorder_section(s.recorder), clock_section(s.clock),
        watchdog_section(s)},
       [&s](ConfigTable& root) {
         use_survey(root, s);
@@ -269,4 +270,4 @@ StationSettings load_station_settings(const std::string& path) {
   return settings;
 }
 
-}  // namespace ols
+}  // namespace ols::station

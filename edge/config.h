@@ -21,7 +21,7 @@
 namespace ols::config {
 struct Section;
 }
-namespace ols {
+namespace ols::station {
 
 struct StationSettings {
   std::string id;  // letters, digits, - and _; at most 32, because it is part of the channel names
@@ -32,16 +32,16 @@ struct StationSettings {
   double status_interval_s = 0.5;
   double preview_interval_s = 1.0;  // 0: none
   StationConfig station;
-  PoseEstimator::Config pose;
-  CameraConfig camera;
-  PtuConfig ptu;
-  InclinometerConfig inclinometer;
-  GnssConfig gnss;
-  GpioConfig gpio;
-  RecorderConfig recorder;
-  ClockWatch::Config clock;
+  sensors::PoseEstimator::Config pose;
+  camera::CameraConfig camera;
+  ptu::PtuConfig ptu;
+  sensors::InclinometerConfig inclinometer;
+  sensors::GnssConfig gnss;
+  gpio::GpioConfig gpio;
+  recorder::RecorderConfig recorder;
+  clock::ClockWatch::Config clock;
   HostConfig host;
-  TrackerConfig tracker;
+  tracker::TrackerConfig tracker;
   CommandGate::Config gate;
 };
 
@@ -52,4 +52,4 @@ StationSettings load_station_settings(const std::string& path);
 // What is configured, one line a subject, for --check-config.
 std::vector<std::string> describe(const StationSettings& settings);
 
-}  // namespace ols
+}  // namespace ols::station

@@ -4,8 +4,8 @@
 #include "base/config_section.h"
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::station {
 
 inline config::Unit in_degrees(const char* name = "deg") { return {name, radians, degrees}; }
 
-}  // namespace ols
+}  // namespace ols::station

@@ -3,7 +3,7 @@
 #include "edge/config.h"
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 template <class... Values>
@@ -58,4 +58,4 @@ std::vector<std::string> describe(const StationSettings& s) {
   return lines;
 }
 
-}  // namespace ols
+}  // namespace ols::station

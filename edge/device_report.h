@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace ols {
+namespace ols::station {
 
 enum class DeviceState {
   kAbsent,    // configured, but not there
@@ -31,4 +31,4 @@ struct DeviceReport {
   std::map<std::string, std::uint64_t> counters;  // only go up; begin with the device's name
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -1,6 +1,6 @@
 #include "edge/device_set.h"
 
-namespace ols {
+namespace ols::station {
 
 DeviceSet::DeviceSet(const StationSettings& settings)
     : stop_(!settings.gpio.chip.empty() && settings.gpio.stop_line >= 0),
@@ -28,12 +28,12 @@ void DeviceSet::rearm() {
   if (stop_.pressed()) ptu_.emergency_halt();
 }
 
-void DeviceSet::feed(PoseEstimator& keeper) {
+void DeviceSet::feed(sensors::PoseEstimator& keeper) {
   if (inclinometer_) {
-    for (const TiltReading& reading : inclinometer_->take_readings()) keeper.add(reading);
+    for (const sensors::TiltReading& reading : inclinometer_->take_readings()) keeper.add(reading);
   }
   if (gnss_) {
-    for (const GnssReading& reading : gnss_->take_readings()) keeper.add(reading);
+    for (const sensors::GnssReading& reading : gnss_->take_readings()) keeper.add(reading);
   }
 }
 
@@ -46,4 +46,4 @@ std::vector<DeviceReport> DeviceSet::reports() const {
   return reports;
 }
 
-}  // namespace ols
+}  // namespace ols::station

@@ -15,7 +15,7 @@
 #include "edge/sensors/pose_estimator.h"
 #include "edge/stop_latch.h"
 
-namespace ols {
+namespace ols::station {
 
 class DeviceSet {
  public:
@@ -23,16 +23,16 @@ class DeviceSet {
   DeviceSet(const DeviceSet&) = delete;
   DeviceSet& operator=(const DeviceSet&) = delete;
 
-  AravisCamera& camera() { return camera_; }
-  PtuThread& ptu() { return ptu_; }
+  camera::AravisCamera& camera() { return camera_; }
+  ptu::PtuThread& ptu() { return ptu_; }
   // Nothing where none is configured.
-  std::optional<Gpio>& gpio() { return gpio_; }
-  std::optional<Recorder>& recorder() { return recorder_; }
+  std::optional<gpio::Gpio>& gpio() { return gpio_; }
+  std::optional<recorder::Recorder>& recorder() { return recorder_; }
   StopLatch& stop() { return stop_; }
   const StopLatch& stop() const { return stop_; }
 
   // What the sensors have read since the last call.
-  void feed(PoseEstimator& keeper);
+  void feed(sensors::PoseEstimator& keeper);
   // Lets the PTU move after an emergency, unless the stop has been pressed meanwhile; or at first:
   // where there is a stop it stands until the stop's level is known.
   void rearm();
@@ -44,14 +44,14 @@ class DeviceSet {
   void on_stop(bool pressed);
 
   StopLatch stop_;
-  std::optional<Recorder> recorder_;
-  std::optional<Inclinometer> inclinometer_;
-  std::optional<Gnss> gnss_;
-  AravisCamera camera_;
+  std::optional<recorder::Recorder> recorder_;
+  std::optional<sensors::Inclinometer> inclinometer_;
+  std::optional<sensors::Gnss> gnss_;
+  camera::AravisCamera camera_;
   // Before the camera ends, whatever it is waiting for: the PTU's end halts the unit. The GPIO's
   // thread speaks to the PTU and ends before it.
-  PtuThread ptu_;
-  std::optional<Gpio> gpio_;
+  ptu::PtuThread ptu_;
+  std::optional<gpio::Gpio> gpio_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

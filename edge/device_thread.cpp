@@ -7,7 +7,7 @@
 
 #include "base/clocks.h"
 
-namespace ols {
+namespace ols::station {
 
 DeviceThread::DeviceThread(const Config& config)
     : config_(config), pause_s_(config.first_pause_s) {}
@@ -85,4 +85,4 @@ DeviceReport DeviceThread::report() const {
   return r;
 }
 
-}  // namespace ols
+}  // namespace ols::station

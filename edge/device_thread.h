@@ -12,7 +12,7 @@
 
 #include "edge/device_report.h"
 
-namespace ols {
+namespace ols::station {
 
 class DeviceThread {
  public:
@@ -69,4 +69,4 @@ class DeviceThread {
   std::jthread thread_;  // last: it uses the rest
 };
 
-}  // namespace ols
+}  // namespace ols::station

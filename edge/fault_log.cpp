@@ -2,7 +2,7 @@
 
 #include <cctype>
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 std::string without_digits(std::string text) {
@@ -19,7 +19,7 @@ void FaultLog::set(const std::string& source, const std::string& what, std::int6
 }
 
 void FaultLog::note(const std::string& source, const std::string& what, std::uint64_t number,
-                      std::int64_t utime_us) {
+                    std::int64_t utime_us) {
   constexpr std::int64_t kQuiet_us = 60'000'000;
   if (what.empty()) return;
   Noted& last = noted_[source];
@@ -28,8 +28,8 @@ void FaultLog::note(const std::string& source, const std::string& what, std::uin
   last = {what, number, utime_us};
 }
 
-void FaultLog::note_event(const std::string& source, const std::string& what,
-                            std::uint64_t number, std::int64_t utime_us) {
+void FaultLog::note_event(const std::string& source, const std::string& what, std::uint64_t number,
+                          std::int64_t utime_us) {
   if (what.empty()) return;
   Noted& last = noted_[source];
   if (last.what == what && last.number == number) return;
@@ -55,7 +55,7 @@ void FaultLog::note_alarms(const std::vector<std::string>& alarms, std::int64_t 
 }
 
 void FaultLog::note_state(const std::string& source, const std::string& state,
-                            const std::string& details, bool bad) {
+                          const std::string& details, bool bad) {
   std::string& last = states_[source];
   if (last == state) return;
   last = state;
@@ -63,4 +63,4 @@ void FaultLog::note_state(const std::string& source, const std::string& state,
   news_.push_back({text, details.empty() ? text : text + ": " + details, bad});
 }
 
-}  // namespace ols
+}  // namespace ols::station

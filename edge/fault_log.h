@@ -10,7 +10,7 @@
 
 #include "edge/journal.h"
 
-namespace ols {
+namespace ols::station {
 
 class FaultLog {
  public:
@@ -52,4 +52,4 @@ class FaultLog {
   std::int64_t utime_us_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -1,6 +1,6 @@
 #include "edge/followed_target.h"
 
-namespace ols {
+namespace ols::station {
 
 void FollowedTarget::begin(Kind kind, double time_s) {
   kind_ = kind;
@@ -9,7 +9,8 @@ void FollowedTarget::begin(Kind kind, double time_s) {
   last_output_.reset();
 }
 
-std::optional<TrackerError> FollowedTarget::designate(const Frame& frame, const cv::Rect2d& box) {
+std::optional<tracker::TrackerError> FollowedTarget::designate(const camera::Frame& frame,
+                                                               const cv::Rect2d& box) {
   const auto error = tracker_->initialise({frame.gray, frame.mid_exposure_s, std::nullopt}, box);
   if (error) return error;
   begin(Kind::kDesignated, frame.mid_exposure_s);
@@ -17,7 +18,7 @@ std::optional<TrackerError> FollowedTarget::designate(const Frame& frame, const 
   return std::nullopt;
 }
 
-bool FollowedTarget::try_found(const Frame& frame, const cv::Rect2d& box) {
+bool FollowedTarget::try_found(const camera::Frame& frame, const cv::Rect2d& box) {
   const bool has_own = exists();
   if (has_own) tracker_->set_aside();
   if (tracker_->initialise({frame.gray, frame.mid_exposure_s, std::nullopt}, box)) {
@@ -53,13 +54,13 @@ FollowedTarget::Dropped FollowedTarget::drop_unproven(double time_s) {
   return Dropped::kBackToOwn;
 }
 
-std::optional<TrackerOutput> FollowedTarget::track(const Frame& frame,
-                                                   const PointingModel& pointing) {
-  TrackerInput input{frame.gray, frame.mid_exposure_s, std::nullopt};
+std::optional<tracker::TrackerOutput> FollowedTarget::track(const camera::Frame& frame,
+                                                            const PointingModel& pointing) {
+  tracker::TrackerInput input{frame.gray, frame.mid_exposure_s, std::nullopt};
   if (tracked_s_) {
     input.predicted_homography = pointing.homography(*tracked_s_, frame.mid_exposure_s);
   }
-  const TrackerResult result = tracker_->track(input);
+  const tracker::TrackerResult result = tracker_->track(input);
   if (!result.output) {
     counters_[std::string("frames_refused_") + to_string(*result.error)] += 1;
     return std::nullopt;
@@ -73,7 +74,7 @@ std::optional<TrackerOutput> FollowedTarget::track(const Frame& frame,
 
 // The camera's motion by the PTU's angles and by the picture: wrong angles, times or mounting show
 // here before they show in a position.
-void FollowedTarget::compare_motion(const TrackerOutput& output) {
+void FollowedTarget::compare_motion(const tracker::TrackerOutput& output) {
   if (output.prediction_dropped) counters_["predictions_dropped"] += 1;
   if (!output.prediction_error_px) return;
   const bool disagree = *output.prediction_error_px > config_.prediction_error_px;
@@ -90,4 +91,4 @@ double FollowedTarget::centring_sd_px() const {
   return kind_ == Kind::kDesignated ? config_.designation_sd_px : config_.acquisition_sd_px;
 }
 
-}  // namespace ols
+}  // namespace ols::station

@@ -14,17 +14,17 @@
 #include "edge/station_config.h"
 #include "edge/tracker/target_tracker.h"
 
-namespace ols {
+namespace ols::station {
 
 class FollowedTarget {
  public:
-  FollowedTarget(const StationConfig& config, std::unique_ptr<TargetTracker> tracker)
+  FollowedTarget(const StationConfig& config, std::unique_ptr<tracker::TargetTracker> tracker)
       : config_(config), tracker_(std::move(tracker)) {}
 
   // Begins with the box; an error: the tracker refuses it, and nothing has changed.
-  std::optional<TrackerError> designate(const Frame& frame, const cv::Rect2d& box);
+  std::optional<tracker::TrackerError> designate(const camera::Frame& frame, const cv::Rect2d& box);
   // The same on trial, the own target put aside.
-  bool try_found(const Frame& frame, const cv::Rect2d& box);
+  bool try_found(const camera::Frame& frame, const cv::Rect2d& box);
   // The one on trial was believed in: it is the own target from here on.
   void confirm();
   enum class Dropped { kNothing, kBackToOwn, kNothingLeft };
@@ -32,7 +32,8 @@ class FollowedTarget {
   Dropped drop_unproven(double time_s);
 
   // Nothing: the tracker refuses the frame. Its predicted motion comes from the PTU's angles.
-  std::optional<TrackerOutput> track(const Frame& frame, const PointingModel& pointing);
+  std::optional<tracker::TrackerOutput> track(const camera::Frame& frame,
+                                              const PointingModel& pointing);
   void search_near(const Eigen::Vector2d& pixel, double sd_px) {
     tracker_->search_near(pixel, sd_px);
   }
@@ -43,7 +44,7 @@ class FollowedTarget {
   bool on_trial() const { return kind_ == Kind::kUnproven; }
   std::int64_t track_id() const { return track_id_; }
   double centring_sd_px() const;  // of its box on the target
-  const std::optional<TrackerOutput>& last_output() const { return last_output_; }
+  const std::optional<tracker::TrackerOutput>& last_output() const { return last_output_; }
   // Frame after frame the picture moves otherwise than the PTU's angles say.
   bool motion_disagrees() const { return disagreeing_in_a_row_ >= config_.disagreeing_frames; }
   const std::map<std::string, double>& counters() const { return counters_; }
@@ -56,18 +57,18 @@ class FollowedTarget {
     std::optional<double> tracked_s;
   };
   void begin(Kind kind, double time_s);
-  void compare_motion(const TrackerOutput& output);
+  void compare_motion(const tracker::TrackerOutput& output);
 
   const StationConfig config_;
-  std::unique_ptr<TargetTracker> tracker_;
+  std::unique_ptr<tracker::TargetTracker> tracker_;
   Kind kind_ = Kind::kNone;
   std::int64_t track_id_ = 0, last_track_id_ = 0;
   std::optional<double> tracked_s_;  // mid-exposure of the last frame given to the tracker
   double found_s_ = 0.0;             // mid-exposure of the frame with the box on trial
   std::optional<Own> own_;
-  std::optional<TrackerOutput> last_output_;
+  std::optional<tracker::TrackerOutput> last_output_;
   int disagreeing_in_a_row_ = 0;
   std::map<std::string, double> counters_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

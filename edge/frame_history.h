@@ -7,22 +7,22 @@
 
 #include "edge/camera/frame.h"
 
-namespace ols {
+namespace ols::station {
 
 class FrameHistory {
  public:
   explicit FrameHistory(double span_s) : span_s_(span_s) {}
 
   // False: not later than the newest one, and left out.
-  bool add(const Frame& frame);
+  bool add(const camera::Frame& frame);
   // Nothing designated: the newest. Null when there is none at that instant.
-  const Frame* find(const std::optional<double>& mid_exposure_s) const;
+  const camera::Frame* find(const std::optional<double>& mid_exposure_s) const;
   // Oldest first.
-  const std::deque<Frame>& frames() const { return frames_; }
+  const std::deque<camera::Frame>& frames() const { return frames_; }
 
  private:
   double span_s_;
-  std::deque<Frame> frames_;
+  std::deque<camera::Frame> frames_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

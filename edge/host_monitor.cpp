@@ -16,7 +16,7 @@
 
 #include "base/clocks.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 constexpr double kSlowTurn_s = 0.5;  // of the control loop, which takes some ms: counted
@@ -130,4 +130,4 @@ HostReport HostMonitor::look(double now_s) {
   return report;
 }
 
-}  // namespace ols
+}  // namespace ols::station

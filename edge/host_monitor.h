@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace ols {
+namespace ols::station {
 
 struct HostConfig {
   std::string thermal_folder = "/sys/class/thermal";
@@ -59,4 +59,4 @@ class HostMonitor {
   std::uint64_t slow_turns_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -1,6 +1,6 @@
 #include "edge/journal.h"
 
-namespace ols {
+namespace ols::station {
 
 std::vector<JournalLine> Journal::pass(const std::vector<News>& news, double now_s) {
   std::vector<JournalLine> lines;
@@ -36,4 +36,4 @@ std::vector<JournalLine> Journal::pass(const std::vector<News>& news, double now
   return lines;
 }
 
-}  // namespace ols
+}  // namespace ols::station

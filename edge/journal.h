@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace ols {
+namespace ols::station {
 
 struct News {
   std::string key;  // what it is about: things of the same key are counted together
@@ -41,4 +41,4 @@ class Journal {
   std::map<std::string, Told> told_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -2,7 +2,7 @@
 
 #include "base/clocks.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 constexpr double kInterval_s = 0.1;
@@ -17,13 +17,13 @@ std::string pose_file(const StationSettings& settings) {
 
 KeptPose::KeptPose(const StationSettings& settings, double now_s)
     : estimator_(settings.pose), memory_(pose_file(settings)) {
-  PersistedPose known = memory_.found();
+  sensors::PersistedPose known = memory_.found();
   if (settings.gnss.host.empty()) known.position.reset();
   if (settings.inclinometer.device.empty()) known.tilt.reset();
   estimator_.resume(known, now_s, clock_utime_us());
 }
 
-std::optional<StationPose> KeptPose::look(DeviceSet& devices, double now_s) {
+std::optional<sensors::StationPose> KeptPose::look(DeviceSet& devices, double now_s) {
   if (now_s < due_s_) return std::nullopt;
   due_s_ = now_s + kInterval_s;
   devices.feed(estimator_);
@@ -36,7 +36,7 @@ std::optional<StationPose> KeptPose::look(DeviceSet& devices, double now_s) {
 
 std::vector<std::string> KeptPose::alarms(double now_s) const {
   auto alarms = estimator_.alarms(now_s);
-  if (estimator_.pose(now_s).position_source == PoseSource::kNone) {
+  if (estimator_.pose(now_s).position_source == sensors::PoseSource::kNone) {
     alarms.emplace_back("pose: no position yet, no bearings");
   }
   if (const std::string trouble = memory_.trouble(); !trouble.empty()) {
@@ -45,4 +45,4 @@ std::vector<std::string> KeptPose::alarms(double now_s) const {
   return alarms;
 }
 
-}  // namespace ols
+}  // namespace ols::station

@@ -10,23 +10,23 @@
 #include "edge/pose_store.h"
 #include "edge/sensors/pose_estimator.h"
 
-namespace ols {
+namespace ols::station {
 
 class KeptPose {
  public:
   // Resumes what was kept of the sensors that the station still has.
   KeptPose(const StationSettings& settings, double now_s);
 
-  StationPose pose(double now_s) const { return estimator_.pose(now_s); }
+  sensors::StationPose pose(double now_s) const { return estimator_.pose(now_s); }
   // In every turn; the pose when it is due. Does not wait for the disk.
-  std::optional<StationPose> look(DeviceSet& devices, double now_s);
+  std::optional<sensors::StationPose> look(DeviceSet& devices, double now_s);
   std::vector<std::string> alarms(double now_s) const;
 
  private:
-  PoseEstimator estimator_;
+  sensors::PoseEstimator estimator_;
   PoseStore memory_;
   double due_s_ = 0.0;
   double kept_due_s_ = 0.0;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -17,9 +17,9 @@
 
 namespace {
 
-int run(const ols::StationSettings& settings) {
+int run(const ols::station::StationSettings& settings) {
   cv::setNumThreads(1);  // a frame is small; the other core belongs to the camera's stream
-  ols::StationProcess process(settings, ols::draw_boot_id());
+  ols::station::StationProcess process(settings, ols::draw_boot_id());
   spdlog::info("station {} ready: camera {}, PTU {}, bus {}", settings.id, settings.camera.device,
                settings.ptu.device, settings.lcm_url);
   process.run(ols::shutdown_requested);
@@ -38,9 +38,9 @@ int main(int argc, char** argv) {
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-station")) return *status;
   spdlog::set_default_logger(spdlog::stderr_color_mt("ols-station"));
   ols::install_shutdown_handler();
-  ols::install_rearm_handler();
+  ols::station::install_rearm_handler();
   try {
-    ols::StationSettings settings = ols::load_station_settings(config);
+    ols::station::StationSettings settings = ols::station::load_station_settings(config);
     // systemd's StateDirectory=.
     const char* folder = std::getenv("STATE_DIRECTORY");
     if (settings.state_folder.empty() && folder != nullptr) settings.state_folder = folder;

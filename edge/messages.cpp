@@ -9,7 +9,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -21,27 +21,27 @@ void symmetric(const Eigen::Matrix2d& matrix, double (&out)[3]) {
   out[2] = matrix(1, 1);
 }
 
-std::int8_t clock_code(ClockState state) {
+std::int8_t clock_code(clock::ClockState state) {
   using M = ols_msg::bearing_t;
   switch (state) {
-    case ClockState::kUnknown:
+    case clock::ClockState::kUnknown:
       return M::CLOCK_UNKNOWN;
-    case ClockState::kSynchronised:
+    case clock::ClockState::kSynchronised:
       return M::CLOCK_SYNCHRONISED;
-    case ClockState::kUnsynchronised:
+    case clock::ClockState::kUnsynchronised:
       return M::CLOCK_UNSYNCHRONISED;
   }
   return M::CLOCK_UNKNOWN;
 }
 
-std::int8_t pose_code(PoseSource source) {
+std::int8_t pose_code(sensors::PoseSource source) {
   using M = ols_msg::station_status_t;
   switch (source) {
-    case PoseSource::kNone:
+    case sensors::PoseSource::kNone:
       return M::POSE_NONE;
-    case PoseSource::kSurveyed:
+    case sensors::PoseSource::kSurveyed:
       return M::POSE_SURVEYED;
-    case PoseSource::kSensor:
+    case sensors::PoseSource::kSensor:
       return M::POSE_SENSOR;
   }
   return M::POSE_NONE;
@@ -63,8 +63,8 @@ std::int64_t calibration_id(std::int64_t configured, std::int64_t boot_id, std::
 
 void fill_pose(const StationSnapshot& snapshot, const StationGeometry& geometry,
                ols_msg::station_status_t& message) {
-  const StationPose& pose = snapshot.pose;
-  const bool known = pose.position_source != PoseSource::kNone;
+  const sensors::StationPose& pose = snapshot.pose;
+  const bool known = pose.position_source != sensors::PoseSource::kNone;
   message.latitude_deg = known ? degrees(pose.position.latitude_rad) : kNaN;
   message.longitude_deg = known ? degrees(pose.position.longitude_rad) : kNaN;
   message.height_m = known ? pose.position.height_m : kNaN;
@@ -88,7 +88,7 @@ void fill_pose(const StationSnapshot& snapshot, const StationGeometry& geometry,
 
 void fill_pointing(const StationReport& report, ols_msg::station_status_t& message) {
   const StationSnapshot& snapshot = report.snapshot;
-  const PtuLimits& limits = report.limits;
+  const ptu::PtuLimits& limits = report.limits;
   const bool limits_known = report.limits_known;
   message.pan_rad = snapshot.angles ? snapshot.angles->angles.pan_rad : kNaN;
   message.tilt_rad = snapshot.angles ? snapshot.angles->angles.tilt_rad : kNaN;
@@ -206,7 +206,7 @@ ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
   message.calibration_id =
       calibration_id(settings.calibration_id, sender.boot_id, bearing.pose_revision);
   message.clock_state = clock_code(sender.clock.state);
-  message.stamp_source = bearing.stamp_source == StampSource::kCamera
+  message.stamp_source = bearing.stamp_source == camera::StampSource::kCamera
                              ? ols_msg::bearing_t::STAMP_CAMERA
                              : ols_msg::bearing_t::STAMP_ARRIVAL;
   message.clock_error_s = sender.clock.error_s;
@@ -238,7 +238,7 @@ ols_msg::station_status_t to_message(const StationReport& report, const Sender& 
   return message;
 }
 
-std::optional<ols_msg::preview_t> to_preview(const Frame& frame,
+std::optional<ols_msg::preview_t> to_preview(const camera::Frame& frame,
                                              const std::optional<cv::Rect2d>& box,
                                              const Sender& sender, std::int64_t sequence) {
   ols_msg::preview_t message;
@@ -291,10 +291,10 @@ PointCommand from_message(const ols_msg::ptu_command_t& message) {
   return {{message.pan_rad, message.tilt_rad}};
 }
 
-std::optional<RecordCommand> from_message(const ols_msg::record_t& message, const Sender& sender,
-                                          double now_s) {
+std::optional<recorder::RecordCommand> from_message(const ols_msg::record_t& message,
+                                                    const Sender& sender, double now_s) {
   constexpr double kMost_s = 3600.0;
-  RecordCommand command;
+  recorder::RecordCommand command;
   command.event_s = message.event_utime == 0 ? now_s : sender.monotonic_s(message.event_utime);
   command.before_s = message.before_s;
   command.after_s = message.after_s;
@@ -305,4 +305,4 @@ std::optional<RecordCommand> from_message(const ols_msg::record_t& message, cons
   return command;
 }
 
-}  // namespace ols
+}  // namespace ols::station

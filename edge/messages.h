@@ -17,14 +17,14 @@
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 
-namespace ols {
+namespace ols::station {
 
 // Who sends, how its monotonic clock is turned into UTC at the moment, and how good that is.
 struct Sender {
   std::string station;
   std::int64_t boot_id = 0;
   std::int64_t utc_minus_monotonic_us = 0;
-  ClockQuality clock;
+  clock::ClockQuality clock;
 
   std::int64_t utime_us(double monotonic_s) const;
   double monotonic_s(std::int64_t utime_us) const;
@@ -38,7 +38,7 @@ ols_msg::station_status_t to_message(const StationReport& report, const Sender& 
                                      std::int64_t sequence);
 
 // A JPEG that fits into one datagram; nothing when even the smallest picture does not.
-std::optional<ols_msg::preview_t> to_preview(const Frame& frame,
+std::optional<ols_msg::preview_t> to_preview(const camera::Frame& frame,
                                              const std::optional<cv::Rect2d>& box,
                                              const Sender& sender, std::int64_t sequence);
 
@@ -46,12 +46,12 @@ DesignateCommand from_message(const ols_msg::designate_t& message, const Sender&
 SlewCommand from_message(const ols_msg::slew_t& message, const Sender& sender, double now_s);
 PointCommand from_message(const ols_msg::ptu_command_t& message);
 // Nothing when its numbers are none: not finite, negative, or far from any memory.
-std::optional<RecordCommand> from_message(const ols_msg::record_t& message, const Sender& sender,
-                                          double now_s);
+std::optional<recorder::RecordCommand> from_message(const ols_msg::record_t& message,
+                                                    const Sender& sender, double now_s);
 
 template <class Message>
 CommandStamp stamp_of(const Message& message) {
   return {message.utime, message.boot_id, message.sequence, message.lease_s};
 }
 
-}  // namespace ols
+}  // namespace ols::station

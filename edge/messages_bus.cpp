@@ -5,7 +5,7 @@
 #include "base/channel_names.h"
 #include "base/clocks.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 constexpr QueueLimits kQueue{.messages = 400, .bytes = 1'000'000};  // commands of one kind
@@ -146,7 +146,7 @@ void StationBus::note(const std::string& kind, Refusal refusal) {
   if (refusal != Refusal::kNone) refused_.note(kind + " refused: " + to_string(refusal));
 }
 
-void StationBus::set_time(const ClockPair& now, const ClockQuality& quality) {
+void StationBus::set_time(const clock::ClockPair& now, const clock::ClockQuality& quality) {
   now_s_ = now.monotonic_s;
   sender_.utc_minus_monotonic_us = now.utime_us - std::llround(now.monotonic_s * 1e6);
   sender_.clock = quality;
@@ -190,7 +190,7 @@ void StationBus::send(StationReport report) {
           to_message(report, sender_, settings_, now_s_, ++sequences_["status"]));
 }
 
-void StationBus::send_preview(const Frame& frame, const std::optional<cv::Rect2d>& box) {
+void StationBus::send_preview(const camera::Frame& frame, const std::optional<cv::Rect2d>& box) {
   const auto message = to_preview(frame, box, sender_, ++sequences_["preview"]);
   if (message) {
     publish(station_channel(kPreviewChannel, settings_.id), *message);
@@ -199,4 +199,4 @@ void StationBus::send_preview(const Frame& frame, const std::optional<cv::Rect2d
   }
 }
 
-}  // namespace ols
+}  // namespace ols::station

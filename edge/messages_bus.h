@@ -20,19 +20,19 @@
 #include "edge/messages.h"
 #include "edge/refusal_log.h"
 
-namespace ols {
+namespace ols::station {
 
 class StationBus {
  public:
   // Empty: accepted; else why not.
-  using Record = std::function<std::string(const RecordCommand&)>;
+  using Record = std::function<std::string(const recorder::RecordCommand&)>;
 
   // The references must outlive the bus.
   StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
              CommandTurn& turn, Record recorder);
 
   // The clocks of this moment, for everything until the next call.
-  void set_time(const ClockPair& now, const ClockQuality& quality);
+  void set_time(const clock::ClockPair& now, const clock::ClockQuality& quality);
 
   // Seeks a connection; waits so long for it at most.
   void connect(double wait_s);
@@ -59,7 +59,7 @@ class StationBus {
 
   void send(const Bearing& bearing);
   void send(StationReport report);
-  void send_preview(const Frame& frame, const std::optional<cv::Rect2d>& box);
+  void send_preview(const camera::Frame& frame, const std::optional<cv::Rect2d>& box);
 
  private:
   template <class Message>
@@ -92,4 +92,4 @@ class StationBus {
   std::map<std::string, std::int64_t> sequences_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -1,6 +1,6 @@
 #include "edge/persisted_station_state.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 constexpr const char* kFree = "free";
@@ -19,10 +19,11 @@ bool is_held(StationState state) {
          state == StationState::kManual;
 }
 
-PersistedStationState::PersistedStationState(const std::string& folder, const std::string& id, bool has_stop)
+PersistedStationState::PersistedStationState(const std::string& folder, const std::string& id,
+                                             bool has_stop)
     : id_(id),
       hold_(file_of(folder, id, "hold"), {kFree, kStopped, kUnknown, kEmergency}),
-      doubt_(file_of(folder, id, "doubt"), doubt_words()) {
+      doubt_(file_of(folder, id, "doubt"), ptu::doubt_words()) {
   hold_unknown_ = hold_.restore_result() != RestoreResult::kKnown || hold_.word() == kUnknown;
   // A damaged file, or one that could not be written any more, may have told of an emergency.
   const bool may_be_grave = hold_.restore_result() == RestoreResult::kUnreadable ||
@@ -35,16 +36,17 @@ PersistedStationState::PersistedStationState(const std::string& folder, const st
   }
   doubt_unknown_ = doubt_.restore_result() != RestoreResult::kKnown;
   if (doubt_.restore_result() == RestoreResult::kUnreadable) {
-    begin_doubt_ = PtuReferenceDoubt{true, true};
+    begin_doubt_ = ptu::PtuReferenceDoubt{true, true};
   } else if (doubt_unknown_) {
     begin_doubt_.emplace();
   } else {
-    begin_doubt_ = doubt_from_word(doubt_.word());
+    begin_doubt_ = ptu::doubt_from_word(doubt_.word());
   }
 }
 
-void PersistedStationState::remember(StationState state, const std::optional<PtuReferenceDoubt>& doubt,
-                             PtuReference reference) {
+void PersistedStationState::remember(StationState state,
+                                     const std::optional<ptu::PtuReferenceDoubt>& doubt,
+                                     ptu::PtuReference reference) {
   hold_unknown_ = hold_unknown_ && state == begin_;
   if (state == StationState::kEmergency) {
     // What a damaged file said stays with it until somebody has re-armed the station.
@@ -57,7 +59,7 @@ void PersistedStationState::remember(StationState state, const std::optional<Ptu
   // While there is no unit, what was known of it stays.
   if (doubt) {
     doubt_.set(to_word(doubt));
-  } else if (reference == PtuReference::kTrusted) {
+  } else if (reference == ptu::PtuReference::kTrusted) {
     doubt_.set(to_word(std::nullopt));
     doubt_unknown_ = false;
   }
@@ -84,4 +86,4 @@ std::vector<std::string> PersistedStationState::alarms() const {
   return alarms;
 }
 
-}  // namespace ols
+}  // namespace ols::station

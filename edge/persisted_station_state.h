@@ -12,7 +12,7 @@
 #include "edge/ptu/reference_doubt.h"
 #include "edge/station_types.h"
 
-namespace ols {
+namespace ols::station {
 
 class PersistedStationState {
  public:
@@ -23,12 +23,12 @@ class PersistedStationState {
   // As it shall begin: kIdle, kStopped or kEmergency.
   StationState begin() const { return begin_; }
   // The doubt about the unit's reference that the process before this one left.
-  const std::optional<PtuReferenceDoubt>& doubt() const { return begin_doubt_; }
+  const std::optional<ptu::PtuReferenceDoubt>& doubt() const { return begin_doubt_; }
 
   // What there is to remember by now; in every turn. `begin()` is unknown no longer once the
   // station has left that state: a person has acted. Does not wait for the disk.
-  void remember(StationState state, const std::optional<PtuReferenceDoubt>& doubt,
-                PtuReference reference);
+  void remember(StationState state, const std::optional<ptu::PtuReferenceDoubt>& doubt,
+                ptu::PtuReference reference);
 
   // What is not known and what to do; what is not remembered.
   std::vector<std::string> alarms() const;
@@ -37,11 +37,11 @@ class PersistedStationState {
   std::string id_;
   PersistedWord hold_, doubt_;
   StationState begin_ = StationState::kStopped;
-  std::optional<PtuReferenceDoubt> begin_doubt_;
+  std::optional<ptu::PtuReferenceDoubt> begin_doubt_;
   bool hold_unknown_ = false, doubt_unknown_ = false;
 };
 
 // Whether an operator, or the emergency stop, has the station in hand: it begins again stopped.
 bool is_held(StationState state);
 
-}  // namespace ols
+}  // namespace ols::station

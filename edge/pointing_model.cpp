@@ -1,13 +1,13 @@
 #include "edge/pointing_model.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
-StationPose configured_pose(const StationGeometry& geometry) {
-  StationPose pose;
+sensors::StationPose configured_pose(const StationGeometry& geometry) {
+  sensors::StationPose pose;
   pose.position = geometry.position;
   pose.position_sd_enu_m.setConstant(geometry.sd.position_m);
-  pose.position_source = pose.tilt_source = PoseSource::kSurveyed;
+  pose.position_source = pose.tilt_source = sensors::PoseSource::kSurveyed;
   pose.tilt_x_rad = geometry.chain.tilt_x_rad;
   pose.tilt_y_rad = geometry.chain.tilt_y_rad;
   pose.tilt_sd_rad = geometry.sd.tilt_rad;
@@ -23,7 +23,7 @@ PointingModel::PointingModel(const StationConfig& config)
       limits_(config.limits),
       history_(config.angles) {}
 
-void PointingModel::set_pose(const StationPose& pose) {
+void PointingModel::set_pose(const sensors::StationPose& pose) {
   if (differs(revision_pose_, pose)) {
     revision_pose_ = pose;
     ++pose_revision_;
@@ -65,7 +65,7 @@ std::optional<PanTilt> PointingModel::reachable(const PanTilt& angles) const {
 }
 
 std::optional<PanTilt> PointingModel::reachable_from(const PanTilt& here, PanTilt angles) const {
-  if (reach(limits_, here, angles) == Reach::kUnreachable) return std::nullopt;
+  if (reach(limits_, here, angles) == ptu::Reach::kUnreachable) return std::nullopt;
   return angles;
 }
 
@@ -74,4 +74,4 @@ std::optional<PanTilt> PointingModel::aim(const AzimuthElevation& direction) con
   return angles ? reachable(*angles) : std::nullopt;
 }
 
-}  // namespace ols
+}  // namespace ols::station

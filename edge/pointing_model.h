@@ -11,28 +11,28 @@
 #include "edge/station_config.h"
 #include "edge/station_types.h"
 
-namespace ols {
+namespace ols::station {
 
 class PointingModel {
  public:
   // The pose is the configured one until set_pose().
   explicit PointingModel(const StationConfig& config);
 
-  void set_pose(const StationPose& pose);
-  void set_limits(const PtuLimits& limits) { limits_ = limits; }
+  void set_pose(const sensors::StationPose& pose);
+  void set_limits(const ptu::PtuLimits& limits) { limits_ = limits; }
   // In time order.
-  void add(const AngleSample& sample) { history_.add(sample); }
+  void add(const ptu::AngleSample& sample) { history_.add(sample); }
   // Angles reported before and after are not in the same frame.
   void forget_angles() { history_.clear(); }
 
   // With the pose of now.
   const StationGeometry& geometry() const { return geometry_; }
-  const StationPose& pose() const { return pose_; }
+  const sensors::StationPose& pose() const { return pose_; }
   // Grows when the pose has changed by more than its sigmas; 0: as configured.
   std::int64_t pose_revision() const { return pose_revision_; }
 
-  std::optional<AngleAt> angles_at(double time_s) const { return history_.at(time_s); }
-  std::optional<AngleSample> newest_angles() const { return history_.newest(); }
+  std::optional<ptu::AngleAt> angles_at(double time_s) const { return history_.at(time_s); }
+  std::optional<ptu::AngleSample> newest_angles() const { return history_.newest(); }
   // Takes pixels at one instant to pixels at another, for a scene at infinity.
   std::optional<Eigen::Matrix3d> homography(double from_s, double to_s) const;
   // The pixel of a direction at infinity.
@@ -49,11 +49,11 @@ class PointingModel {
 
  private:
   StationGeometry geometry_;
-  StationPose pose_;
-  StationPose revision_pose_;  // of which pose_revision() speaks
+  sensors::StationPose pose_;
+  sensors::StationPose revision_pose_;  // of which pose_revision() speaks
   std::int64_t pose_revision_ = 0;
-  PtuLimits limits_;
-  AngleHistory history_;
+  ptu::PtuLimits limits_;
+  ptu::AngleHistory history_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

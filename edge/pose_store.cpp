@@ -8,18 +8,18 @@
 
 #include "base/small_file.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 // A file that is not there is an empty memory. Throws std::system_error.
-PersistedPose read(const std::string& file) {
+sensors::PersistedPose read(const std::string& file) {
   constexpr std::size_t kMost = 16384;  // [byte]
   try {
-    auto found = persisted_pose_from(read_small_file(file, kMost));
+    auto found = sensors::persisted_pose_from(read_small_file(file, kMost));
     if (const auto* wrong = std::get_if<std::string>(&found)) {
       throw std::runtime_error(file + ": " + *wrong);
     }
-    return std::get<PersistedPose>(found);
+    return std::get<sensors::PersistedPose>(found);
   } catch (const std::system_error& failure) {
     if (failure.code() == std::errc::no_such_file_or_directory) return {};
     throw;
@@ -37,7 +37,7 @@ PoseStore::PoseStore(const std::string& file) : file_(file) {
   }
 }
 
-void PoseStore::keep(PersistedPose pose) {
+void PoseStore::keep(sensors::PersistedPose pose) {
   if (!pose.position && !pose.tilt) return;
   if (!pose.position) pose.position = found_.position;
   if (!pose.tilt) pose.tilt = found_.tilt;
@@ -51,4 +51,4 @@ std::string PoseStore::trouble() const {
   return failed.empty() ? "" : "not kept, " + failed;
 }
 
-}  // namespace ols
+}  // namespace ols::station

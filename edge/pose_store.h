@@ -7,7 +7,7 @@
 #include "base/background_file.h"
 #include "edge/sensors/persisted_pose.h"
 
-namespace ols {
+namespace ols::station {
 
 class PoseStore {
  public:
@@ -15,16 +15,16 @@ class PoseStore {
   explicit PoseStore(const std::string& file);
 
   // What was there at the start.
-  const PersistedPose& found() const { return found_; }
+  const sensors::PersistedPose& found() const { return found_; }
   // Written soon: does not wait for the disk. A part that is missing stays as it was found.
-  void keep(PersistedPose pose);
+  void keep(sensors::PersistedPose pose);
   // In words; empty when all is well.
   std::string trouble() const;
 
  private:
-  PersistedPose found_;
+  sensors::PersistedPose found_;
   std::string refused_;  // why, until another is kept
   BackgroundFile file_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <csignal>
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 std::atomic<bool> wanted{false};
@@ -20,4 +20,4 @@ void install_rearm_handler() {
 
 bool take_rearm_signal() { return wanted.exchange(false); }
 
-}  // namespace ols
+}  // namespace ols::station

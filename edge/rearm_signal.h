@@ -2,10 +2,10 @@
 // its computer. Nobody on the bus can send a signal.
 #pragma once
 
-namespace ols {
+namespace ols::station {
 
 void install_rearm_handler();
 // Whether the signal came since the last call.
 bool take_rearm_signal();
 
-}  // namespace ols
+}  // namespace ols::station

@@ -1,6 +1,6 @@
 #include "edge/refusal_log.h"
 
-namespace ols {
+namespace ols::station {
 
 void RefusalLog::note(const std::string& what) {
   last_ = what;
@@ -18,4 +18,4 @@ void RefusalLog::refuse_at_gate(const std::string& kind, const std::string& why,
   refuse(kind, why);
 }
 
-}  // namespace ols
+}  // namespace ols::station

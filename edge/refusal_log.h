@@ -9,7 +9,7 @@
 
 #include "edge/refusal_monitor.h"
 
-namespace ols {
+namespace ols::station {
 
 class RefusalLog {
  public:
@@ -31,4 +31,4 @@ class RefusalLog {
   std::uint64_t number_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::station

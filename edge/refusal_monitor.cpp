@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 constexpr std::uint64_t kAlarm = 3;  // a doubled datagram or two are none
@@ -31,4 +31,4 @@ std::vector<std::string> RefusalMonitor::alarms(double now_s) const {
   return alarms;
 }
 
-}  // namespace ols
+}  // namespace ols::station

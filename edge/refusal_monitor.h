@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace ols {
+namespace ols::station {
 
 class RefusalMonitor {
  public:
@@ -29,4 +29,4 @@ class RefusalMonitor {
   std::map<std::pair<std::string, std::string>, std::array<Second, kSpan_s>> refused_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

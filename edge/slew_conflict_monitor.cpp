@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 constexpr double kLately_s = 5.0;
@@ -20,4 +20,4 @@ void SlewConflictMonitor::note(std::int64_t boot_id, double now_s) {
 
 bool SlewConflictMonitor::are_several(double now_s) const { return now_s - several_s_ < kLately_s; }
 
-}  // namespace ols
+}  // namespace ols::station

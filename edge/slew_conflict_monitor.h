@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace ols {
+namespace ols::station {
 
 class SlewConflictMonitor {
  public:
@@ -26,4 +26,4 @@ class SlewConflictMonitor {
   double several_s_ = kNever;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace ols {
+namespace ols::station {
 
 void SlewSearch::restart(bool found) {
   acquisition_.clear();
@@ -11,7 +11,7 @@ void SlewSearch::restart(bool found) {
   searched_s_ = kNever;  // at the first frame of a search the tracker is told where to look
 }
 
-std::optional<SlewSearch::Expected> SlewSearch::expected(const Frame& frame,
+std::optional<SlewSearch::Expected> SlewSearch::expected(const camera::Frame& frame,
                                                          const PointingModel& pointing,
                                                          const Slew& slew) {
   const auto angles = pointing.angles_at(frame.mid_exposure_s);
@@ -21,7 +21,7 @@ std::optional<SlewSearch::Expected> SlewSearch::expected(const Frame& frame,
   return Expected{*pixel, angles->angles};
 }
 
-std::optional<SlewSearch::Expected> SlewSearch::expected_in_picture(const Frame& frame,
+std::optional<SlewSearch::Expected> SlewSearch::expected_in_picture(const camera::Frame& frame,
                                                                     const PointingModel& pointing,
                                                                     const Slew& slew) {
   const auto where = expected(frame, pointing, slew);
@@ -37,14 +37,14 @@ double SlewSearch::search_sd_px(const PointingModel& pointing, const SlewCommand
                     config_.search_sd_most_px());
 }
 
-bool SlewSearch::is_where_slewed(const Frame& frame, const TrackerOutput& output,
+bool SlewSearch::is_where_slewed(const camera::Frame& frame, const tracker::TrackerOutput& output,
                                  const PointingModel& pointing, const Slew& slew) const {
   constexpr double kSigmas = 4.0;
   const auto where = expected(frame, pointing, slew);
   return where && (output.pixel - where->pixel).norm() <= kSigmas * search_sd_px(pointing, *slew);
 }
 
-std::optional<SlewSearch::Place> SlewSearch::send_tracker(const Frame& frame,
+std::optional<SlewSearch::Place> SlewSearch::send_tracker(const camera::Frame& frame,
                                                           const PointingModel& pointing,
                                                           const Slew& slew) {
   if (frame.mid_exposure_s - searched_s_ <= config_.search_interval_s) return std::nullopt;
@@ -55,7 +55,8 @@ std::optional<SlewSearch::Place> SlewSearch::send_tracker(const Frame& frame,
 }
 
 // Gaps are bridged: a lost frame, a late slew, a step of a search that leads out of the picture.
-void SlewSearch::note_in_view(const Frame& frame, const PointingModel& pointing, const Slew& slew) {
+void SlewSearch::note_in_view(const camera::Frame& frame, const PointingModel& pointing,
+                              const Slew& slew) {
   constexpr double kGap_s = 3.0;
   if (!expected_in_picture(frame, pointing, slew)) return;
   const double time_s = frame.mid_exposure_s;
@@ -69,15 +70,15 @@ bool SlewSearch::looks_for_anything(const FollowedTarget& target) const {
   return !target.on_trial() && in_view_.to_s - in_view_.own_from_s > config_.own_target_s;
 }
 
-std::optional<cv::Rect2d> SlewSearch::acquire(const std::deque<Frame>& frames,
+std::optional<cv::Rect2d> SlewSearch::acquire(const std::deque<camera::Frame>& frames,
                                               const PointingModel& pointing, const Slew& slew) {
-  const Frame& frame = frames.back();
+  const camera::Frame& frame = frames.back();
   const auto now = expected_in_picture(frame, pointing, slew);
   if (!now) {
     acquisition_.clear();
     return std::nullopt;
   }
-  AcquisitionView view{frame.gray, now->pixel, search_sd_px(pointing, *slew), {}};
+  tracker::AcquisitionView view{frame.gray, now->pixel, search_sd_px(pointing, *slew), {}};
   for (auto earlier = frames.rbegin() + 1; earlier != frames.rend(); ++earlier) {
     const auto then = expected(*earlier, pointing, slew);
     if (!then) continue;
@@ -110,4 +111,4 @@ std::string SlewSearch::unacquired_alarm(const Slew& slew) const {
   return text;
 }
 
-}  // namespace ols
+}  // namespace ols::station

@@ -15,7 +15,7 @@
 #include "edge/station_types.h"
 #include "edge/tracker/acquisition.h"
 
-namespace ols {
+namespace ols::station {
 
 class SlewSearch {
  public:
@@ -27,7 +27,7 @@ class SlewSearch {
   // The station enters another state; `found`: it tracks.
   void restart(bool found);
   // Each frame in which the station is slewed.
-  void note_in_view(const Frame& frame, const PointingModel& pointing, const Slew& slew);
+  void note_in_view(const camera::Frame& frame, const PointingModel& pointing, const Slew& slew);
 
   struct Place {
     Eigen::Vector2d pixel;
@@ -35,10 +35,10 @@ class SlewSearch {
   };
   // Where the tracker shall be sent to look for its target now. Nothing: it was sent a moment ago,
   // or the PTU is still on its way.
-  std::optional<Place> send_tracker(const Frame& frame, const PointingModel& pointing,
+  std::optional<Place> send_tracker(const camera::Frame& frame, const PointingModel& pointing,
                                     const Slew& slew);
   // What looks like the target elsewhere is not the one that the others see there.
-  bool is_where_slewed(const Frame& frame, const TrackerOutput& output,
+  bool is_where_slewed(const camera::Frame& frame, const tracker::TrackerOutput& output,
                        const PointingModel& pointing, const Slew& slew) const;
 
   // A slewed station that has not found its own target for own_target_s where the slews lead looks
@@ -46,8 +46,8 @@ class SlewSearch {
   // been the target.
   bool looks_for_anything(const FollowedTarget& target) const;
   // The box of what behaves as the slew says in these frames, the newest last.
-  std::optional<cv::Rect2d> acquire(const std::deque<Frame>& frames, const PointingModel& pointing,
-                                    const Slew& slew);
+  std::optional<cv::Rect2d> acquire(const std::deque<camera::Frame>& frames,
+                                    const PointingModel& pointing, const Slew& slew);
   // What was acquired is on trial since this instant; it was not believed in, and the own target
   // has its turn again.
   void begin_trial(double time_s) { searched_s_ = time_s; }
@@ -68,18 +68,18 @@ class SlewSearch {
     Eigen::Vector2d pixel;
     PanTilt angles;
   };
-  static std::optional<Expected> expected(const Frame& frame, const PointingModel& pointing,
+  static std::optional<Expected> expected(const camera::Frame& frame, const PointingModel& pointing,
                                           const Slew& slew);
-  static std::optional<Expected> expected_in_picture(const Frame& frame,
+  static std::optional<Expected> expected_in_picture(const camera::Frame& frame,
                                                      const PointingModel& pointing,
                                                      const Slew& slew);
   double search_sd_px(const PointingModel& pointing, const SlewCommand& slew) const;
 
   const StationConfig config_;
-  Acquisition acquisition_;
+  tracker::Acquisition acquisition_;
   InView in_view_;
   double searched_s_ = 0.0;  // when the tracker was last told where to search
   std::map<std::string, double> counters_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ols {
+namespace ols::station {
 
-Station::Station(const StationConfig& config, std::unique_ptr<TargetTracker> tracker)
+Station::Station(const StationConfig& config, std::unique_ptr<tracker::TargetTracker> tracker)
     : config_(config),
       pointing_(config),
       frames_(config.frame_memory_s),
@@ -16,9 +16,9 @@ Station::Station(const StationConfig& config, std::unique_ptr<TargetTracker> tra
 
 // --- What happens
 
-void Station::on_angles(const AngleSample& sample) { pointing_.add(sample); }
+void Station::on_angles(const ptu::AngleSample& sample) { pointing_.add(sample); }
 
-void Station::on_frame(const Frame& frame, double now_s) {
+void Station::on_frame(const camera::Frame& frame, double now_s) {
   if (now_s - frame.mid_exposure_s > config_.max_age_s) {
     counters_["frames_too_old"] += 1;
     return;
@@ -34,7 +34,7 @@ void Station::on_frame(const Frame& frame, double now_s) {
   if (mode_.is(StationState::kSlewed)) look_along_slew(frame);
 }
 
-void Station::track(const Frame& frame) {
+void Station::track(const camera::Frame& frame) {
   const bool slewed = mode_.is(StationState::kSlewed);
   if (slewed && believed_in_a_row_ == 0) {
     const auto place = search_.send_tracker(frame, pointing_, slew_.command());
@@ -91,7 +91,7 @@ void Station::drop_unproven(double time_s) {
   }
 }
 
-void Station::look_along_slew(const Frame& frame) {
+void Station::look_along_slew(const camera::Frame& frame) {
   search_.note_in_view(frame, pointing_, slew_.command());
   if (!search_.looks_for_anything(target_)) return;
   const auto box = search_.acquire(frames_.frames(), pointing_, slew_.command());
@@ -100,10 +100,10 @@ void Station::look_along_slew(const Frame& frame) {
   believed_in_a_row_ = 0;
 }
 
-void Station::set_reference(PtuReference reference) {
+void Station::set_reference(ptu::PtuReference reference) {
   const bool had_angles = !mode_.has_doubtful_angles();
   mode_.set_reference(reference);
-  if (reference == PtuReference::kUnknown) point_.reset();
+  if (reference == ptu::PtuReference::kUnknown) point_.reset();
   if (had_angles && mode_.has_doubtful_angles()) forget_angles();
 }
 
@@ -141,10 +141,10 @@ Refusal Station::designate(const DesignateCommand& command, double now_s) {
   pass_time(now_s);
   const Refusal refusal = judge(command, situation(now_s));
   if (refusal != Refusal::kNone) return count(refusal, "designate");
-  const Frame* start = frames_.find(command.frame_time_s);
+  const camera::Frame* start = frames_.find(command.frame_time_s);
   if (start == nullptr) return count(Refusal::kNoFrame, "designate");
   if (const auto error = target_.designate(*start, command.box)) {
-    const bool no_box = *error == TrackerError::kBox;
+    const bool no_box = *error == tracker::TrackerError::kBox;
     return count(no_box ? Refusal::kBox : Refusal::kTracker, "designate");
   }
   believed_s_ = start->mid_exposure_s;
@@ -152,7 +152,7 @@ Refusal Station::designate(const DesignateCommand& command, double now_s) {
   bearings_.clear();
   enter(StationState::kTracking);
   // The operator saw an old frame: catch up with the frames since then.
-  for (const Frame& frame : frames_.frames()) {
+  for (const camera::Frame& frame : frames_.frames()) {
     if (frame.mid_exposure_s > start->mid_exposure_s && follows_target()) track(frame);
   }
   return count(Refusal::kNone, "designate");
@@ -174,7 +174,7 @@ Refusal Station::point(const PointCommand& command, double now_s) {
   const Refusal refusal = judge(command, situation(now_s));
   if (refusal != Refusal::kNone) return count(refusal, "point");
   const PanTilt angles = pointing_.reachable(command.angles).value();
-  point_ = ServoGoal{now_s, angles, {}, now_s + config_.point_time_s};
+  point_ = ptu::ServoGoal{now_s, angles, {}, now_s + config_.point_time_s};
   enter(StationState::kManual);
   return count(Refusal::kNone, "point");
 }
@@ -292,11 +292,11 @@ void Station::follow(const MadeBearing& made) {
                  std::sqrt(sight.covariance_white.trace() / 2.0));
 }
 
-std::optional<ServoGoal> Station::goal(double now_s) const {
+std::optional<ptu::ServoGoal> Station::goal(double now_s) const {
   switch (mode_.state()) {
     case StationState::kManual:
       if (point_) {
-        ServoGoal here = *point_;  // does not move: as good now as when it was given
+        ptu::ServoGoal here = *point_;  // does not move: as good now as when it was given
         here.time_s = now_s;
         return here;
       }
@@ -304,7 +304,7 @@ std::optional<ServoGoal> Station::goal(double now_s) const {
     case StationState::kTracking:
     case StationState::kCoasting:
       if (const auto angles = motion_.at(now_s)) {
-        return ServoGoal{now_s, *angles, motion_.state()->rate, believed_s_ + config_.coast_s};
+        return ptu::ServoGoal{now_s, *angles, motion_.state()->rate, believed_s_ + config_.coast_s};
       }
       return std::nullopt;
     case StationState::kSlewed:
@@ -370,4 +370,4 @@ std::map<std::string, double> Station::counters() const {
   return all;
 }
 
-}  // namespace ols
+}  // namespace ols::station

@@ -24,7 +24,7 @@
 #include "edge/tracker/acquisition.h"
 #include "edge/tracker/target_tracker.h"
 
-namespace ols {
+namespace ols::station {
 
 // What the unit is told beside its goal.
 struct UnitActions {
@@ -34,27 +34,27 @@ struct UnitActions {
 };
 
 struct StationOutput {
-  std::vector<Bearing> bearings;  // those whose PTU angles are known by now
-  std::optional<ServoGoal> goal;  // of the PTU; nothing: halt
+  std::vector<Bearing> bearings;       // those whose PTU angles are known by now
+  std::optional<ptu::ServoGoal> goal;  // of the PTU; nothing: halt
 };
 
 class Station {
  public:
-  Station(const StationConfig& config, std::unique_ptr<TargetTracker> tracker);
+  Station(const StationConfig& config, std::unique_ptr<tracker::TargetTracker> tracker);
 
   // What happens to the station. Samples and frames come in time order, each kind for itself.
-  void on_angles(const AngleSample& sample);
-  void on_frame(const Frame& frame) { on_frame(frame, now_s_); }
+  void on_angles(const ptu::AngleSample& sample);
+  void on_frame(const camera::Frame& frame) { on_frame(frame, now_s_); }
   // A frame that is older than max_age_s at now_s is dropped: the tracker gets no backlog.
-  void on_frame(const Frame& frame, double now_s);
+  void on_frame(const camera::Frame& frame, double now_s);
   // How far the unit can turn, once it is known.
-  void set_limits(const PtuLimits& limits) { pointing_.set_limits(limits); }
+  void set_limits(const ptu::PtuLimits& limits) { pointing_.set_limits(limits); }
   // What the PTU's angles are worth. In doubt nothing is pointed or slewed, and what is known of
   // angles is forgotten; a target is kept, and slews lead back to it later.
-  void set_reference(PtuReference reference);
+  void set_reference(ptu::PtuReference reference);
   // Before the first call the pose is that of the configured geometry. Without a position there
   // are no bearings.
-  void set_pose(const StationPose& pose) { pointing_.set_pose(pose); }
+  void set_pose(const sensors::StationPose& pose) { pointing_.set_pose(pose); }
   // The emergency stop's level, also when it has not changed. Pressed once, nothing moves until it
   // is released, rearm() was accepted, and a command came after that.
   void emergency_stop(bool pressed, double now_s);
@@ -87,7 +87,7 @@ class Station {
   StationOutput step(double now_s);
 
   // Where the PTU shall be; nothing: halt.
-  std::optional<ServoGoal> goal(double now_s) const;
+  std::optional<ptu::ServoGoal> goal(double now_s) const;
 
   StationState state() const { return mode_.state(); }
   std::optional<cv::Rect2d> target_box() const;  // in the newest frame
@@ -103,10 +103,10 @@ class Station {
   void give_up_unit();
   void forget_angles();
   bool follows_target() const { return target_.exists() && mode_.may_track(); }
-  void track(const Frame& frame);
+  void track(const camera::Frame& frame);
   void judge_belief(bool believed, double time_s);
   void drop_unproven(double time_s);
-  void look_along_slew(const Frame& frame);
+  void look_along_slew(const camera::Frame& frame);
   void follow(const MadeBearing& made);
   std::vector<std::string> alarms() const;
   std::map<std::string, double> counters() const;
@@ -120,7 +120,7 @@ class Station {
   ActiveSlew slew_;
   BearingQueue bearings_;
   AngularTrack motion_;
-  std::optional<ServoGoal> point_;
+  std::optional<ptu::ServoGoal> point_;
   UnitActions actions_;
   double believed_s_ = 0.0;  // mid-exposure of the last believed frame
   int believed_in_a_row_ = 0;
@@ -128,4 +128,4 @@ class Station {
   std::map<std::string, double> counters_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

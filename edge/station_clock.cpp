@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-namespace ols {
+namespace ols::station {
 
-ClockPair StationClock::look() {
-  const ClockPair now = read_clock_pair();
+clock::ClockPair StationClock::look() {
+  const clock::ClockPair now = clock::read_clock_pair();
   watch_.tick(now.monotonic_s, now.utime_us);
   if (const auto reading = source_.take()) watch_.add(*reading);
   utc_minus_monotonic_us_ = now.utime_us - std::llround(now.monotonic_s * 1e6);
@@ -16,4 +16,4 @@ std::int64_t StationClock::utime_us(double monotonic_s) const {
   return std::llround(monotonic_s * 1e6) + utc_minus_monotonic_us_;
 }
 
-}  // namespace ols
+}  // namespace ols::station

@@ -7,12 +7,12 @@
 #include "edge/tracker/acquisition.h"
 #include "geometry/sight.h"
 
-namespace ols {
+namespace ols::station {
 
 struct StationConfig {
   StationGeometry geometry;
-  AngleHistory::Config angles;
-  PtuLimits limits;
+  ptu::AngleHistory::Config angles;
+  ptu::PtuLimits limits;
   AngularTrack::Config motion;
   double designation_sd_px = 1.0;    // how well a designated box is centred on the target
   double tracking_belief = 0.5;      // at least this to be tracking
@@ -29,7 +29,7 @@ struct StationConfig {
   // The picture's own motion between two frames may differ so far from that of the PTU's angles.
   double prediction_error_px = 20.0;
   int disagreeing_frames = 5;  // in a row that raise the alarm
-  AcquisitionConfig acquisition;
+  tracker::AcquisitionConfig acquisition;
   bool homing_allowed = true;     // on command
   bool rearm_over_bus = false;    // by whoever sends it; else by a hand at the station only
   double slew_lease_max_s = 2.0;  // a longer lease is refused
@@ -39,4 +39,4 @@ struct StationConfig {
   double search_sd_most_px() const { return geometry.camera.width_px / 4.0; }
 };
 
-}  // namespace ols
+}  // namespace ols::station

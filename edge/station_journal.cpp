@@ -2,9 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
-namespace ols {
+namespace ols::station {
 
-void StationJournal::note(const ClockPair& now, const Bus& bus, StationReport& report) {
+void StationJournal::note(const clock::ClockPair& now, const Bus& bus, StationReport& report) {
   note_devices(report, now.utime_us);
   troubles_.note_alarms(all_alarms(report), now.utime_us);
   note_bus(bus, now.utime_us);
@@ -36,4 +36,4 @@ void StationJournal::note_bus(const Bus& bus, std::int64_t utime_us) {
   }
 }
 
-}  // namespace ols
+}  // namespace ols::station

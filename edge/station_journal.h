@@ -5,11 +5,11 @@
 #include <string>
 
 #include "edge/clock/clock_pair.h"
+#include "edge/fault_log.h"
 #include "edge/journal.h"
 #include "edge/station_report.h"
-#include "edge/fault_log.h"
 
-namespace ols {
+namespace ols::station {
 
 class StationJournal {
  public:
@@ -20,7 +20,7 @@ class StationJournal {
     std::uint64_t refusals = 0;
   };
   // Fills in the report's last error.
-  void note(const ClockPair& now, const Bus& bus, StationReport& report);
+  void note(const clock::ClockPair& now, const Bus& bus, StationReport& report);
 
  private:
   void note_devices(const StationReport& report, std::int64_t utime_us);
@@ -30,4 +30,4 @@ class StationJournal {
   Journal journal_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -1,6 +1,6 @@
 #include "edge/station_mode.h"
 
-namespace ols {
+namespace ols::station {
 
 StationMode::StationMode() {
   for (int i = 0; i <= static_cast<int>(StationState::kEmergency); ++i) {
@@ -32,7 +32,7 @@ Refusal StationMode::refuses_operator(double now_s) const {
 }
 
 bool StationMode::has_doubtful_angles() const {
-  return reference_ == PtuReference::kMissing || reference_ == PtuReference::kDoubted;
+  return reference_ == ptu::PtuReference::kMissing || reference_ == ptu::PtuReference::kDoubted;
 }
 
-}  // namespace ols
+}  // namespace ols::station

@@ -9,7 +9,7 @@
 #include "edge/ptu/driver.h"
 #include "edge/station_types.h"
 
-namespace ols {
+namespace ols::station {
 
 class StationMode {
  public:
@@ -34,8 +34,8 @@ class StationMode {
   Refusal refuses_operator(double now_s) const;
 
   // What the PTU's angles are worth.
-  void set_reference(PtuReference reference) { reference_ = reference; }
-  PtuReference reference() const { return reference_; }
+  void set_reference(ptu::PtuReference reference) { reference_ = reference; }
+  ptu::PtuReference reference() const { return reference_; }
   bool has_doubtful_angles() const;
 
   const std::map<std::string, double>& counters() const { return counters_; }
@@ -44,8 +44,8 @@ class StationMode {
   StationState state_ = StationState::kIdle;
   bool pressed_ = false;
   std::optional<double> stopped_s_;  // by the last stop
-  PtuReference reference_ = PtuReference::kUnknown;
+  ptu::PtuReference reference_ = ptu::PtuReference::kUnknown;
   std::map<std::string, double> counters_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -11,29 +11,29 @@
 #include "edge/rearm_signal.h"
 #include "edge/tracker/tracker.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 constexpr double kFrameWait_s = 0.004;
 
 // A receiver that has never had a fix starts for ever; without camera or PTU there is no station.
-LedPattern led_pattern(const StationReport& report) {
-  if (report.snapshot.state == StationState::kEmergency) return LedPattern::kEmergency;
-  if (!all_alarms(report).empty()) return LedPattern::kTrouble;
+gpio::LedPattern led_pattern(const StationReport& report) {
+  if (report.snapshot.state == StationState::kEmergency) return gpio::LedPattern::kEmergency;
+  if (!all_alarms(report).empty()) return gpio::LedPattern::kTrouble;
   const auto any = [&report](const auto& is) { return std::ranges::any_of(report.devices, is); };
   if (any([](const DeviceReport& device) {
         return device.state != DeviceState::kOk && device.state != DeviceState::kStarting;
       })) {
-    return LedPattern::kTrouble;
+    return gpio::LedPattern::kTrouble;
   }
   if (any([](const DeviceReport& device) {
         return device.state == DeviceState::kStarting &&
                (device.name == "camera" || device.name == "ptu");
       })) {
-    return LedPattern::kStarting;
+    return gpio::LedPattern::kStarting;
   }
-  return report.snapshot.state == StationState::kTracking ? LedPattern::kTracking
-                                                          : LedPattern::kReady;
+  return report.snapshot.state == StationState::kTracking ? gpio::LedPattern::kTracking
+                                                          : gpio::LedPattern::kReady;
 }
 
 }  // namespace
@@ -43,10 +43,10 @@ StationProcess::StationProcess(const StationSettings& settings, std::int64_t boo
       clock_(settings_.clock),
       pose_(settings_, clock_monotonic_s()),
       station_(settings_.station,
-               std::make_unique<Tracker>(settings_.tracker, settings_.tracker_seed)),
+               std::make_unique<tracker::Tracker>(settings_.tracker, settings_.tracker_seed)),
       command_turn_(station_),
       bus_(settings_, boot_id, station_, command_turn_,
-           [this](const RecordCommand& command) { return record(command); }),
+           [this](const recorder::RecordCommand& command) { return record(command); }),
       host_(settings_.host),
       memory_(settings_.state_folder, settings_.id,
               !settings_.gpio.chip.empty() && settings_.gpio.stop_line >= 0),
@@ -69,7 +69,7 @@ void StationProcess::run(const std::function<bool()>& ends) {
 }
 
 void StationProcess::turn() {
-  const ClockPair start = look_at_clocks();
+  const clock::ClockPair start = look_at_clocks();
   heed_emergency_stop(start.monotonic_s);
   heed_rearming(start.monotonic_s);
   receive_commands();
@@ -78,7 +78,7 @@ void StationProcess::turn() {
   take_frame();
   take_angles();
   // Again, because the tracker takes its time: what is published is stamped by the clocks of now.
-  const ClockPair now = look_at_clocks();
+  const clock::ClockPair now = look_at_clocks();
   const StationOutput output = station_.step(now.monotonic_s);
   for (const Bearing& bearing : output.bearings) bus_.send(bearing);
   devices_.ptu().set_goal(output.goal);
@@ -88,8 +88,8 @@ void StationProcess::turn() {
   service_.alive(now.monotonic_s);
 }
 
-ClockPair StationProcess::look_at_clocks() {
-  const ClockPair now = clock_.look();
+clock::ClockPair StationProcess::look_at_clocks() {
+  const clock::ClockPair now = clock_.look();
   bus_.set_time(now, clock_.quality(now.monotonic_s));
   return now;
 }
@@ -155,12 +155,12 @@ void StationProcess::take_frame() {
 
 void StationProcess::take_angles() {
   station_.set_reference(devices_.ptu().reference());
-  for (const AngleSample& sample : devices_.ptu().take_samples()) station_.on_angles(sample);
+  for (const ptu::AngleSample& sample : devices_.ptu().take_samples()) station_.on_angles(sample);
 }
 
 void StationProcess::trigger_camera(double now_s) {
   const bool by_line = settings_.gpio.trigger_line >= 0;
-  const bool by_software = settings_.camera.trigger == TriggerMode::kSoftware;
+  const bool by_software = settings_.camera.trigger == camera::TriggerMode::kSoftware;
   if (now_s < due_.trigger_s || (!by_line && !by_software)) return;
   const double period_s = 1.0 / settings_.camera.frame_rate_hz;
   // In step with the rate, but without a burst after a pause.
@@ -169,7 +169,7 @@ void StationProcess::trigger_camera(double now_s) {
   if (by_line) devices_.gpio()->trigger();
 }
 
-void StationProcess::send_reports(const ClockPair& now) {
+void StationProcess::send_reports(const clock::ClockPair& now) {
   if (now.monotonic_s >= due_.status_s) {
     due_.status_s = now.monotonic_s + settings_.status_interval_s;
     StationReport status = report(now);
@@ -182,12 +182,12 @@ void StationProcess::send_reports(const ClockPair& now) {
   }
 }
 
-StationReport StationProcess::report(const ClockPair& now) {
+StationReport StationProcess::report(const clock::ClockPair& now) {
   StationReport report;
-  const PtuStatus ptu = devices_.ptu().status();
-  if (ptu.state == PtuState::kReady) station_.set_limits(ptu.limits);
+  const ptu::PtuStatus ptu = devices_.ptu().status();
+  if (ptu.state == ptu::PtuState::kReady) station_.set_limits(ptu.limits);
   report.limits = ptu.limits;
-  report.limits_known = ptu.port.open && ptu.state == PtuState::kReady;
+  report.limits_known = ptu.port.open && ptu.state == ptu::PtuState::kReady;
   report.snapshot = station_.snapshot();
   report.devices = devices_.reports();
   report.alarms = report.snapshot.alarms;
@@ -209,7 +209,7 @@ StationReport StationProcess::report(const ClockPair& now) {
 std::string StationProcess::emergency_alarm() const {
   if (devices_.stop().pressed()) return "emergency stop: pressed";
   const std::string what = "emergency stop: not rearmed yet: ";
-  const GpioConfig& gpio = settings_.gpio;
+  const gpio::GpioConfig& gpio = settings_.gpio;
   if (gpio.rearm_over_bus) return what + "ols-ctl " + settings_.id + " rearm";
   if (!gpio.chip.empty() && gpio.rearm_line >= 0) return what + "hold its re-arm button";
   return what + "on its computer, systemctl kill --kill-who=main -s USR1 ols-station@" +
@@ -218,7 +218,7 @@ std::string StationProcess::emergency_alarm() const {
 
 void StationProcess::add_pose_and_clock(double now_s, StationReport& report) const {
   for (const std::string& alarm : pose_.alarms(now_s)) report.alarms.push_back(alarm);
-  const ClockQuality clock = clock_.quality(now_s);
+  const clock::ClockQuality clock = clock_.quality(now_s);
   if (!clock.alarm.empty()) report.alarms.push_back(clock.alarm);
   report.counters["clock_steps"] = static_cast<double>(clock.steps);
   if (clock.offset_s) report.readings["clock_offset_s"] = *clock.offset_s;
@@ -236,9 +236,9 @@ void StationProcess::show(const StationReport& report) {
   service_.status((bus_.trouble().empty() ? "" : "no bus; ") + in_one_line(report));
 }
 
-std::string StationProcess::record(const RecordCommand& command) {
+std::string StationProcess::record(const recorder::RecordCommand& command) {
   auto& recorder = devices_.recorder();
   return recorder ? recorder->record(command) : "this station records nothing";
 }
 
-}  // namespace ols
+}  // namespace ols::station

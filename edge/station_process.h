@@ -11,11 +11,11 @@
 #include "edge/host_monitor.h"
 #include "edge/kept_pose.h"
 #include "edge/messages_bus.h"
+#include "edge/persisted_station_state.h"
 #include "edge/station_clock.h"
 #include "edge/station_journal.h"
-#include "edge/persisted_station_state.h"
 
-namespace ols {
+namespace ols::station {
 
 class StationProcess {
  public:
@@ -30,7 +30,7 @@ class StationProcess {
   // and now and then a status and a preview. Returns within a few milliseconds, or as long as the
   // tracker takes for a frame.
   void turn();
-  ClockPair look_at_clocks();
+  clock::ClockPair look_at_clocks();
   void resume_hold(double now_s);
   void heed_emergency_stop(double now_s);
   void heed_rearming(double now_s);
@@ -38,13 +38,13 @@ class StationProcess {
   void take_frame();
   void take_angles();
   void trigger_camera(double now_s);
-  void send_reports(const ClockPair& now);
-  StationReport report(const ClockPair& now);
+  void send_reports(const clock::ClockPair& now);
+  StationReport report(const clock::ClockPair& now);
   std::string emergency_alarm() const;
   void add_pose_and_clock(double now_s, StationReport& report) const;
   void add_host(double now_s, StationReport& report);
   void show(const StationReport& report);
-  std::string record(const RecordCommand& command);
+  std::string record(const recorder::RecordCommand& command);
 
   // The monotonic instants at which something is done next.
   struct Due {
@@ -62,9 +62,9 @@ class StationProcess {
   PersistedStationState memory_;
   StationJournal journal_;
   DeviceSet devices_;
-  std::optional<Frame> newest_;
+  std::optional<camera::Frame> newest_;
   bool halted_ = false;  // the PTU refuses to move until it is rearmed
   Due due_;
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ols {
+namespace ols::station {
 const char* to_string(DeviceState state) {
   switch (state) {
     case DeviceState::kAbsent:
@@ -41,4 +41,4 @@ std::string in_one_line(const StationReport& report) {
   return line;
 }
 
-}  // namespace ols
+}  // namespace ols::station

@@ -10,13 +10,13 @@
 #include "edge/ptu/servo.h"
 #include "edge/station_types.h"
 
-namespace ols {
+namespace ols::station {
 
 const char* to_string(DeviceState state);
 
 struct StationReport {
   StationSnapshot snapshot;
-  PtuLimits limits;
+  ptu::PtuLimits limits;
   bool limits_known = false;
   std::vector<DeviceReport> devices;
   // Beside those of the devices.
@@ -34,4 +34,4 @@ std::vector<std::string> all_alarms(const StationReport& report);
 // One line for a person: the state, the devices that are not well, the first alarm.
 std::string in_one_line(const StationReport& report);
 
-}  // namespace ols
+}  // namespace ols::station

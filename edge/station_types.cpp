@@ -5,7 +5,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::station {
 
 const char* to_string(StationState state) {
   switch (state) {
@@ -71,7 +71,7 @@ AzimuthElevation direction_at(const SlewCommand& slew, double time_s) {
           slew.direction.elevation_rad + dt * slew.elevation_rate_rad_s};
 }
 
-bool differs(const StationPose& stated, const StationPose& now) {
+bool differs(const sensors::StationPose& stated, const sensors::StationPose& now) {
   constexpr double kLeast_m = 1e-3, kLeast_rad = 1e-6;  // what no receiver and no level resolves
   if (stated.position_source != now.position_source || stated.tilt_source != now.tilt_source) {
     return true;
@@ -85,4 +85,4 @@ bool differs(const StationPose& stated, const StationPose& now) {
          std::abs(now.tilt_y_rad - stated.tilt_y_rad) > most_rad;
 }
 
-}  // namespace ols
+}  // namespace ols::station

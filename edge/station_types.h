@@ -12,7 +12,7 @@
 #include "edge/sensors/pose_estimator.h"
 #include "geometry/sight.h"
 
-namespace ols {
+namespace ols::station {
 
 enum class StationState {
   kIdle,
@@ -27,7 +27,7 @@ enum class StationState {
 const char* to_string(StationState state);
 
 // Whether one pose lies outside of what the other one stated of itself.
-bool differs(const StationPose& stated, const StationPose& now);
+bool differs(const sensors::StationPose& stated, const sensors::StationPose& now);
 
 // A bearing before it becomes a message.
 struct Bearing {
@@ -36,7 +36,7 @@ struct Bearing {
   double belief = 0.0;
   std::int64_t track_id = 0;
   double stamp_sd_s = 0.0;
-  StampSource stamp_source = StampSource::kCamera;
+  camera::StampSource stamp_source = camera::StampSource::kCamera;
   // Grows when the pose has changed by more than its sigmas; 0: as configured.
   std::int64_t pose_revision = 0;
 };
@@ -88,16 +88,16 @@ struct StationSnapshot {
   StationState state = StationState::kIdle;
   std::int64_t track_id = 0;
   double belief = 0.0;
-  std::optional<AngleSample> angles;
+  std::optional<ptu::AngleSample> angles;
   std::optional<AzimuthElevation> optical_axis;
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();  // at zero pan and tilt without angles
   std::optional<Eigen::Vector2d> target_offset_px;        // from the principal point, newest frame
   std::optional<cv::Rect2d> box;                          // newest frame
   double frame_latency_s = 0.0;                           // mid-exposure to bearing, smoothed
   bool motion_disagrees = false;  // the picture moves otherwise than the PTU's angles say
-  StationPose pose;
+  sensors::StationPose pose;
   std::vector<std::string> alarms;         // what a person should do something about
   std::map<std::string, double> counters;  // only go up; state times are "seconds_<state>"
 };
 
-}  // namespace ols
+}  // namespace ols::station

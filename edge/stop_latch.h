@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace ols {
+namespace ols::station {
 
 class StopLatch {
  public:
@@ -40,4 +40,4 @@ class StopLatch {
   std::uint64_t seen_ = 0;  // of the control loop
 };
 
-}  // namespace ols
+}  // namespace ols::station

@@ -24,7 +24,7 @@ Lockstep::Lockstep(const World& world, const Fidelity& fidelity)
       bearings_(world.scenario().errors.messages, derived_seed(world.seed(), kBearingTag)),
       slews_(world.scenario().errors.messages, derived_seed(world.seed(), kSlewTag)),
       newest_slew_us_(world.stations().size(), 0),
-      fusion_(FusionConfig{}) {
+      fusion_(fusion::FusionConfig{}) {
   auto renderers = fidelity.pictures
                        ? make_renderers(world)
                        : std::vector<std::unique_ptr<Renderer>>(world.stations().size());
@@ -45,16 +45,17 @@ void Lockstep::advance(double time_s) {
   for (const AddressedSlew& slew : slews_.receive(time_s)) deliver(slew, time_s);
   bool all_designated = true;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
-    for (const Bearing& bearing : stations_[i]->advance(time_s)) send(i, bearing, time_s);
+    for (const station::Bearing& bearing : stations_[i]->advance(time_s)) send(i, bearing, time_s);
     all_designated = all_designated && (stations_[i]->designated() || stations_[i]->left_alone());
   }
   if (all_designated && result_.designated_s < 0.0) result_.designated_s = time_s;
-  for (const BearingMeasurement& sighting : bearings_.receive(time_s)) fuse(sighting, time_s);
+  for (const fusion::BearingMeasurement& sighting : bearings_.receive(time_s))
+    fuse(sighting, time_s);
 }
 
-void Lockstep::send(std::size_t station, const Bearing& bearing, double time_s) {
+void Lockstep::send(std::size_t station, const station::Bearing& bearing, double time_s) {
   const StationTruth& truth = world_.stations()[station];
-  BearingMeasurement sighting;
+  fusion::BearingMeasurement sighting;
   sighting.station = truth.id;
   // The station's clock is off; its own times of frame and angles agree with each other.
   const double exposed_s = bearing.mid_exposure_s - monotonic_s(0.0);
@@ -66,20 +67,20 @@ void Lockstep::send(std::size_t station, const Bearing& bearing, double time_s) 
   bearings_.send(sighting, time_s);
 }
 
-void Lockstep::fuse(const BearingMeasurement& sighting, double time_s) {
-  const FusionOutput output = fusion_.add(sighting);
+void Lockstep::fuse(const fusion::BearingMeasurement& sighting, double time_s) {
+  const fusion::FusionOutput output = fusion_.add(sighting);
   if (result_.designated_s >= 0.0) {
-    for (const FusedTarget& target : output.targets) record(target, result_.joint);
-    for (const FusedTarget& target : output.targets_paper) record(target, result_.paper);
+    for (const fusion::FusedTarget& target : output.targets) record(target, result_.joint);
+    for (const fusion::FusedTarget& target : output.targets_paper) record(target, result_.paper);
   }
-  for (const Slew& slew : output.slews) {
+  for (const fusion::Slew& slew : output.slews) {
     result_.slews.push_back(slew);
     slews_.send({index_of(slew.station), slew}, time_s);
   }
 }
 
-void Lockstep::record(const FusedTarget& target, std::vector<Fix>& fixes) const {
-  if (target.estimate.solution != Solution::kOk) return;
+void Lockstep::record(const fusion::FusedTarget& target, std::vector<Fix>& fixes) const {
+  if (target.estimate.solution != fusion::Solution::kOk) return;
   Fix fix;
   fix.utime_us = target.utime_us;
   fix.time_s = time_of(target.utime_us);
@@ -88,18 +89,18 @@ void Lockstep::record(const FusedTarget& target, std::vector<Fix>& fixes) const 
   fix.error_enu_m =
       R_enu_ecef * (target.estimate.position_ecef - world_.target(0, fix.time_s).p_ecef);
   fix.covariance_enu_m2 = R_enu_ecef * target.estimate.covariance_ecef * R_enu_ecef.transpose();
-  for (const ContributingStation& station : target.stations) {
+  for (const fusion::ContributingStation& station : target.stations) {
     if (station.used) fix.used.push_back(index_of(station.station));
   }
   fixes.push_back(fix);
 }
 
 void Lockstep::deliver(const AddressedSlew& addressed, double time_s) {
-  const Slew& slew = addressed.slew;
+  const fusion::Slew& slew = addressed.slew;
   std::int64_t& newest_us = newest_slew_us_[addressed.station];
   if (slew.utime_us <= newest_us) return;  // doubled or overtaken
   newest_us = slew.utime_us;
-  SlewCommand command;
+  station::SlewCommand command;
   const double offset_s = world_.stations()[addressed.station].clock_offset_s;
   command.effect_s = monotonic_s(time_of(slew.effect_utime_us) - offset_s);
   command.lease_s = slew.lease_s;
@@ -120,7 +121,7 @@ std::size_t Lockstep::index_of(const std::string& station) const {
 
 LockstepResult Lockstep::result() const {
   LockstepResult result = result_;
-  const FusionHealth health = fusion_.health();
+  const fusion::FusionHealth health = fusion_.health();
   result.alarms = health.alarms;
   result.counters = health.counters;
   for (const auto& station : stations_) result.stations.push_back(station->record());

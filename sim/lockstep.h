@@ -27,7 +27,7 @@ struct Fix {
 
 struct LockstepResult {
   std::vector<Fix> joint, paper;
-  std::vector<Slew> slews;  // as the fusion made them
+  std::vector<fusion::Slew> slews;  // as the fusion made them
   std::vector<StationRecord> stations;
   std::map<std::string, double> counters;  // of the fusion at the end
   std::vector<std::string> alarms;         // of the fusion at the end
@@ -48,21 +48,21 @@ class Lockstep {
  private:
   struct AddressedSlew {
     std::size_t station = 0;
-    Slew slew;
+    fusion::Slew slew;
   };
   void advance(double time_s);
-  void send(std::size_t station, const Bearing& bearing, double time_s);
-  void fuse(const BearingMeasurement& sighting, double time_s);
-  void record(const FusedTarget& target, std::vector<Fix>& fixes) const;
+  void send(std::size_t station, const station::Bearing& bearing, double time_s);
+  void fuse(const fusion::BearingMeasurement& sighting, double time_s);
+  void record(const fusion::FusedTarget& target, std::vector<Fix>& fixes) const;
   void deliver(const AddressedSlew& addressed, double time_s);
   std::size_t index_of(const std::string& station) const;
 
   const World& world_;
   std::vector<std::unique_ptr<LockstepStation>> stations_;
-  Network<BearingMeasurement> bearings_;
+  Network<fusion::BearingMeasurement> bearings_;
   Network<AddressedSlew> slews_;
   std::vector<std::int64_t> newest_slew_us_;
-  Fusion fusion_;
+  fusion::Fusion fusion_;
   LockstepResult result_;
   std::int64_t tick_ = 0;
 };

@@ -19,7 +19,8 @@ constexpr double kDesignationSd_px = 1.0;  // of each axis, as StationConfig exp
 double monotonic_s(double time_s) { return kBoot_s + time_s; }
 
 LockstepOperator::LockstepOperator(const World& world, std::size_t index, const Fidelity& fidelity,
-                                   LockstepNoise& noise, const PtuUnit& unit, Station& station)
+                                   LockstepNoise& noise, const PtuUnit& unit,
+                                   station::Station& station)
     : world_(world), index_(index), noise_(noise), unit_(unit), station_(station) {
   const std::string& id = world.stations()[index].id;
   leaves_alone_ = std::ranges::count(fidelity.not_designated, id) > 0;
@@ -76,7 +77,8 @@ void LockstepOperator::designate_seen(double time_s) {
   if (!box) return;
   box->x += kDesignationSd_px * noise_.gaussian();
   box->y += kDesignationSd_px * noise_.gaussian();
-  designated_ = station_.designate({frame->stamp_s, *box}, monotonic_s(time_s)) == Refusal::kNone;
+  designated_ =
+      station_.designate({frame->stamp_s, *box}, monotonic_s(time_s)) == station::Refusal::kNone;
 }
 
 // The target's box, or what this operator takes for it; nothing: it is not in the picture.

@@ -37,7 +37,7 @@ class LockstepOperator {
 
   // All but `fidelity` must outlive it.
   LockstepOperator(const World& world, std::size_t index, const Fidelity& fidelity,
-                   LockstepNoise& noise, const PtuUnit& unit, Station& station);
+                   LockstepNoise& noise, const PtuUnit& unit, station::Station& station);
 
   void see(const Seen& seen);
   // What it does at this instant, the PTU being ready.
@@ -56,7 +56,7 @@ class LockstepOperator {
   std::size_t index_;
   LockstepNoise& noise_;
   const PtuUnit& unit_;  // as its picture shows
-  Station& station_;
+  station::Station& station_;
   std::optional<Misdesignation> wrong_;
   bool leaves_alone_;
   std::deque<Seen> seen_;  // of the last second

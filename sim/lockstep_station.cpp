@@ -12,24 +12,24 @@ constexpr double kStampSd_s = 20e-6;    // of the camera's time stamps
 constexpr double kTransport_s = 0.004;  // of a frame over the wire
 constexpr std::uint64_t kStationTag = 5000, kUnitTag = 6000, kTrackerTag = 7000;
 
-PtuConfig driver_config(const World& world) {
-  PtuConfig config;
+ptu::PtuConfig driver_config(const World& world) {
+  ptu::PtuConfig config;
   config.baud = world.scenario().ptu.baud;
   config.poll_interval_s = world.scenario().ptu.poll_interval_s;
   return config;
 }
 
-StationConfig station_config(const World& world, std::size_t index) {
-  StationConfig config;
+station::StationConfig station_config(const World& world, std::size_t index) {
+  station::StationConfig config;
   config.geometry = world.stations()[index].nominal;
   config.angles.step_rad = radians(world.ptu_unit_config().resolution_arcsec / 3600.0);
   return config;
 }
 
-std::unique_ptr<TargetTracker> make_tracker(const Fidelity& fidelity, const ViewMemory& views,
-                                            std::uint64_t seed) {
+std::unique_ptr<tracker::TargetTracker> make_tracker(const Fidelity& fidelity,
+                                                     const ViewMemory& views, std::uint64_t seed) {
   if (!fidelity.pictures) return std::make_unique<ViewTracker>(views, fidelity.pixel_sd_px, seed);
-  return std::make_unique<Tracker>(TrackerConfig{}, seed);
+  return std::make_unique<tracker::Tracker>(tracker::TrackerConfig{}, seed);
 }
 
 bool inside_third(const CameraIntrinsics& camera, const ViewTruth& view) {
@@ -54,13 +54,13 @@ LockstepStation::LockstepStation(const World& world, std::size_t index, const Fi
                make_tracker(fidelity, views_, derived_seed(world.seed(), kTrackerTag + index))),
       operator_(world, index, fidelity, noise_, unit_, station_) {}
 
-std::vector<Bearing> LockstepStation::advance(double time_s) {
+std::vector<station::Bearing> LockstepStation::advance(double time_s) {
   exchange_bytes(time_s);
-  for (const AngleSample& sample : driver_.take_samples()) station_.on_angles(sample);
+  for (const ptu::AngleSample& sample : driver_.take_samples()) station_.on_angles(sample);
   expose(time_s);
   operate(time_s);
   const double now_s = monotonic_s(time_s);
-  StationOutput output = station_.step(now_s);
+  station::StationOutput output = station_.step(now_s);
   driver_.set_goal(output.goal);
   return std::move(output.bearings);
 }
@@ -92,7 +92,7 @@ void LockstepStation::expose(double time_s) {
     record_.frames_lost += 1;
     return;
   }
-  Frame frame;
+  camera::Frame frame;
   frame.mid_exposure_s = stamp_s;
   frame.stamp_sd_s = kStampSd_s;
   frame.number = exposure.frame;
@@ -106,10 +106,10 @@ void LockstepStation::expose(double time_s) {
 
 void LockstepStation::take_note(double mid_s, const ViewTruth& view) {
   const CameraIntrinsics& camera = config_.geometry.camera;
-  const StationSnapshot snapshot = station_.snapshot();
+  const station::StationSnapshot snapshot = station_.snapshot();
   FrameNote note{mid_s,        snapshot.state, snapshot.belief, view, inside_third(camera, view),
                  std::nullopt, snapshot.box,   snapshot.alarms};
-  if (snapshot.state == StationState::kTracking && snapshot.target_offset_px) {
+  if (snapshot.state == station::StationState::kTracking && snapshot.target_offset_px) {
     note.error_px =
         *snapshot.target_offset_px + Eigen::Vector2d(camera.cx_px, camera.cy_px) - view.centre_px;
   }
@@ -118,7 +118,7 @@ void LockstepStation::take_note(double mid_s, const ViewTruth& view) {
 
 void LockstepStation::operate(double time_s) {
   station_.set_reference(driver_.reference());
-  if (designated() || driver_.state() != PtuState::kReady) return;
+  if (designated() || driver_.state() != ptu::PtuState::kReady) return;
   if (!limits_known_) station_.set_limits(driver_.limits());
   limits_known_ = true;
   operator_.act(time_s);
@@ -127,7 +127,7 @@ void LockstepStation::operate(double time_s) {
 StationRecord LockstepStation::record() const {
   StationRecord record = record_;
   record.counters = station_.snapshot().counters;
-  const PtuCounters& ptu = driver_.counters();
+  const ptu::PtuCounters& ptu = driver_.counters();
   record.counters.merge(std::map<std::string, double>{
       {"ptu_requests", static_cast<double>(ptu.requests)},
       {"ptu_replies", static_cast<double>(ptu.replies)},
@@ -137,7 +137,7 @@ StationRecord LockstepStation::record() const {
   return record;
 }
 
-Refusal LockstepStation::slew(SlewCommand command, double time_s) {
+station::Refusal LockstepStation::slew(station::SlewCommand command, double time_s) {
   command.received_s = monotonic_s(time_s);
   return station_.slew(command, command.received_s);
 }

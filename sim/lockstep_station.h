@@ -24,7 +24,7 @@ namespace ols::sim {
 // beside the truth.
 struct FrameNote {
   double mid_s = 0.0;  // true time since the scenario's start
-  StationState state = StationState::kIdle;
+  station::StationState state = station::StationState::kIdle;
   double belief = 0.0;
   ViewTruth view;
   bool inside_third = false;                // the target is inside the central third, both ways
@@ -46,12 +46,12 @@ class LockstepStation {
                   std::unique_ptr<Renderer> renderer);
 
   // Goes on to this instant of true time (by a millisecond or so); returns the bearings made.
-  std::vector<Bearing> advance(double time_s);
+  std::vector<station::Bearing> advance(double time_s);
 
-  Refusal slew(SlewCommand command, double time_s);
-  const Station& station() const { return station_; }
+  station::Refusal slew(station::SlewCommand command, double time_s);
+  const station::Station& station() const { return station_; }
   StationRecord record() const;
-  const PtuCounters& ptu_counters() const { return driver_.counters(); }
+  const ptu::PtuCounters& ptu_counters() const { return driver_.counters(); }
   bool designated() const { return operator_.designated(); }
   bool left_alone() const { return operator_.leaves_alone(); }
 
@@ -67,10 +67,10 @@ class LockstepStation {
   LockstepNoise noise_;
   double phase_s_;  // of the exposures
   PtuUnit unit_;
-  PtuDriver driver_;
+  ptu::PtuDriver driver_;
   ViewMemory views_;
-  StationConfig config_;
-  Station station_;
+  station::StationConfig config_;
+  station::Station station_;
   LockstepOperator operator_;
   StationRecord record_;
   std::int64_t next_frame_ = 0;

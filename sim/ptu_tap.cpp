@@ -33,7 +33,7 @@ struct PtuTap::Impl {
       listener =
           std::jthread([this, &impl](const std::stop_token& stop) { impl.listen(*this, stop); });
     }
-    SerialPort port;
+    ptu::SerialPort port;
     std::atomic<bool> failed = false;
     std::jthread listener;  // last: it uses the rest
   };

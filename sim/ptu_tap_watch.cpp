@@ -18,8 +18,8 @@ constexpr double kTimely_s = 1e-3;        // reading a byte may be late by this
 constexpr double kGain = 0.1;             // of the average of latencies
 constexpr std::size_t kAround_bytes = 3;  // of a reply after its mark: blank, CR, LF
 
-AngleHistory::Config history_config() {
-  AngleHistory::Config config;
+ptu::AngleHistory::Config history_config() {
+  ptu::AngleHistory::Config config;
   config.span_s = 3.0;
   return config;
 }
@@ -45,7 +45,7 @@ bool sets(std::string_view command) {
 
 PtuTapWatch::PtuTapWatch(double step_rad)
     : step_rad_{step_rad, step_rad},
-      history_{AngleHistory(history_config()), AngleHistory(history_config())} {}
+      history_{ptu::AngleHistory(history_config()), ptu::AngleHistory(history_config())} {}
 
 void PtuTapWatch::master_said(std::string_view bytes, double time_s, double byte_s) {
   const bool given_up = !asked_.empty() && time_s - asked_.front().sent_s > kPatience_s;
@@ -62,7 +62,7 @@ void PtuTapWatch::master_said(std::string_view bytes, double time_s, double byte
 }
 
 void PtuTapWatch::unit_said(std::string_view bytes, double time_s, double byte_s) {
-  for (const PtuReply& reply : parser_.feed(bytes, time_s, byte_s)) take(reply, byte_s);
+  for (const ptu::PtuReply& reply : parser_.feed(bytes, time_s, byte_s)) take(reply, byte_s);
 }
 
 void PtuTapWatch::interrupted() {
@@ -78,7 +78,7 @@ void PtuTapWatch::drop_questions() {
 
 // Replies come in the order of the commands. One that was lost shows in that a later one is not of
 // its kind; nothing of that burst of commands is believed then.
-void PtuTapWatch::take(const PtuReply& reply, double byte_s) {
+void PtuTapWatch::take(const ptu::PtuReply& reply, double byte_s) {
   if (asked_.empty()) return;
   const Asked asked = asked_.front();
   asked_.pop_front();
@@ -106,7 +106,7 @@ void PtuTapWatch::take(const PtuReply& reply, double byte_s) {
 // The unit read its counter when it had the whole question and had begun with the answer before
 // it, and not after it began to answer. An answer that had to wait for the end of the one before
 // tells nothing of that: then it took about as long as usual.
-void PtuTapWatch::read(int axis, const Asked& asked, const PtuReply& reply, double byte_s) {
+void PtuTapWatch::read(int axis, const Asked& asked, const ptu::PtuReply& reply, double byte_s) {
   const auto counts = reply.count();
   if (!counts) return;
   const double earliest_s = std::max(asked.sent_s, last_reply_s_);
@@ -115,7 +115,7 @@ void PtuTapWatch::read(int axis, const Asked& asked, const PtuReply& reply, doub
   if (!waited) usual_s_ += kGain * (latest_s - earliest_s - usual_s_);
   const double latency_s =
       waited ? std::min(usual_s_, latest_s - earliest_s) : latest_s - earliest_s;
-  AngleSample sample;
+  ptu::AngleSample sample;
   sample.time_s = earliest_s + 0.5 * latency_s;
   sample.time_sd_s = latency_s / std::sqrt(12.0);
   const double angle_rad = *counts * step_rad_[static_cast<std::size_t>(axis)];
@@ -129,7 +129,7 @@ double PtuTapWatch::known_until_s() const {
 }
 
 PanTilt PtuTapWatch::at(double time_s) const {
-  const auto angle = [time_s](const AngleHistory& history, double PanTilt::*axis) {
+  const auto angle = [time_s](const ptu::AngleHistory& history, double PanTilt::*axis) {
     if (const auto known = history.at(time_s)) return known->angles.*axis;
     const auto newest = history.newest();
     return newest ? newest->angles.*axis : 0.0;

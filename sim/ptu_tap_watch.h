@@ -48,15 +48,15 @@ class PtuTapWatch {
   };
   struct Reading {
     int axis;
-    AngleSample sample;
+    ptu::AngleSample sample;
   };
-  void take(const PtuReply& reply, double byte_s);
+  void take(const ptu::PtuReply& reply, double byte_s);
   void drop_questions();
-  void read(int axis, const Asked& asked, const PtuReply& reply, double byte_s);
+  void read(int axis, const Asked& asked, const ptu::PtuReply& reply, double byte_s);
 
   std::array<double, 2> step_rad_;
-  std::array<AngleHistory, 2> history_;  // each axis is read at instants of its own
-  PtuReplyParser parser_;
+  std::array<ptu::AngleHistory, 2> history_;  // each axis is read at instants of its own
+  ptu::PtuReplyParser parser_;
   std::string begun_;           // command without its end yet
   double line_free_s_ = 0.0;    // the master's bytes
   double last_reply_s_ = 0.0;   // begin of the last reply,

@@ -68,8 +68,9 @@ double share(const StationRecord& record, const std::function<bool(const FrameNo
 
 nlohmann::ordered_json station_json(const std::string& id, const StationRecord& record) {
   nlohmann::ordered_json states;
-  for (const StationState state : {StationState::kTracking, StationState::kCoasting,
-                                   StationState::kLost, StationState::kSlewed}) {
+  for (const station::StationState state :
+       {station::StationState::kTracking, station::StationState::kCoasting,
+        station::StationState::kLost, station::StationState::kSlewed}) {
     states[to_string(state)] =
         share(record, [&](const FrameNote& note) { return note.state == state; });
   }
@@ -105,13 +106,13 @@ void write_frames(const World& world, const LockstepResult& result, const std::s
   file.commit();
 }
 
-void write_slews(const std::vector<Slew>& slews, const std::string& path) {
+void write_slews(const std::vector<fusion::Slew>& slews, const std::string& path) {
   AtomicFile file(path);
   std::ostream& out = file.stream();
   out << "utime_us,station,target,effect_utime_us,azimuth_deg,elevation_deg,azimuth_rate_deg_s,"
          "elevation_rate_deg_s,direction_sd_deg\n"
       << std::setprecision(9);
-  for (const Slew& slew : slews) {
+  for (const fusion::Slew& slew : slews) {
     out << slew.utime_us << "," << slew.station << "," << slew.target_id << ","
         << slew.effect_utime_us;
     for (const double angle_rad :

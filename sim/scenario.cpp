@@ -24,7 +24,7 @@ struct Optics {
 };
 
 Row angle(const char* key, double& field_rad, config::Range range_deg, const char* sentence) {
-  return config::number(key, field_rad, range_deg, in_degrees(), sentence);
+  return config::number(key, field_rad, range_deg, station::in_degrees(), sentence);
 }
 
 Section site_section(Geodetic& origin) {
@@ -223,9 +223,10 @@ Section station_section(std::vector<StationScenario>& stations) {
     };
     auto keys = std::make_shared<Keys>();
     auto rows = station_rows(keys->station);
-    rows.push_back(config::numbers("tilt_xy_deg", keys->tilt_xy_rad, {-10, 10}, in_degrees(),
-                                   "Inclination about X and Y."));
-    rows.push_back(config::numbers("mount_zxy_deg", keys->mount_zxy_rad, {-45, 45}, in_degrees(),
+    rows.push_back(config::numbers("tilt_xy_deg", keys->tilt_xy_rad, {-10, 10},
+                                   station::in_degrees(), "Inclination about X and Y."));
+    rows.push_back(config::numbers("mount_zxy_deg", keys->mount_zxy_rad, {-45, 45},
+                                   station::in_degrees(),
                                    "Rotation of the camera on the PTU about Z, X, Y."));
     return Section{"", "", rows, {}, [keys, &stations](ConfigTable& table) {
                      StationScenario& s = keys->station;
@@ -305,17 +306,17 @@ Section scenario_section(Scenario& s, const std::string& folder) {
           "",
           {config::text("name", s.name, "Its name.").required()},
           {site_section(s.origin),
-           camera_section(s),
-           ptu_section(s.ptu),
-           inclinometer_section(s.inclinometer),
-           gnss_section(s.gnss),
+           camera::camera_section(s),
+           ptu::ptu_section(s.ptu),
+           sensors::inclinometer_section(s.inclinometer),
+           sensors::gnss_section(s.gnss),
            {"gpio",
             "The emergency stop input of every station.",
             {config::flag("on", s.gpio.on, "Whether there is one.")}},
            landscape_section(s.landscape),
            errors_section(s.errors),
            stationing_section(s.stationing),
-           station_section(s.stations),
+           station::station_section(s.stations),
            target_section(s, folder),
            fault_section(s)},
           [&s](ConfigTable& root) {

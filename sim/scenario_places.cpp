@@ -71,7 +71,7 @@ config::Section stationing_section(StationingScenario& s) {
                           "1-sigma of the operator's mark, each coordinate."),
            config::number("each_other_sd_m", s.each_other_sd_m, {0.0, 100.0}, "m",
                           "1-sigma of the point of a station that the others mark, each axis."),
-           config::number("highest_deg", s.highest_rad, {0.0, 80.0}, in_degrees(),
+           config::number("highest_deg", s.highest_rad, {0.0, 80.0}, station::in_degrees(),
                           "Greatest elevation or depression of a sighting.")},
           {landmark_section(s.landmarks)},
           [&s](ConfigTable& table) {

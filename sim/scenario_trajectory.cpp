@@ -125,8 +125,8 @@ std::vector<config::Row> rows(TrajectoryKeys& keys) {
                       "lissajous: of each axis."),
       config::numbers("period_s", {keys.period_s.data(), 3}, {0.1, 1e6}, "s",
                       "lissajous: of each axis."),
-      config::numbers("phase_deg", {keys.phase_rad.data(), 3}, {-360.0, 360.0}, in_degrees(),
-                      "lissajous: of each axis."),
+      config::numbers("phase_deg", {keys.phase_rad.data(), 3}, {-360.0, 360.0},
+                      station::in_degrees(), "lissajous: of each axis."),
       config::number("radius_m", keys.radius_m, {0.1, kFar_m}, "m", "circle: its radius.")
           .default_is("required"),
       config::number("speed_m_s", keys.speed_m_s, {0.01, 1000.0}, "m/s",

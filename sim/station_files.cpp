@@ -88,8 +88,8 @@ void leave_in_order(const std::string& state_folder, const std::string& id) {
   if (state_folder.empty()) return;
   std::filesystem::create_directories(state_folder);
   if (std::filesystem::exists(state_folder + "/" + id + ".hold")) return;
-  PersistedStationState memory(state_folder, id, false);
-  memory.remember(StationState::kIdle, std::nullopt, PtuReference::kTrusted);
+  station::PersistedStationState memory(state_folder, id, false);
+  memory.remember(station::StationState::kIdle, std::nullopt, ptu::PtuReference::kTrusted);
 }
 
 }  // namespace

@@ -19,21 +19,21 @@ const ViewTruth* ViewMemory::at(double time_s) const {
 ViewTracker::ViewTracker(const ViewMemory& views, double pixel_sd_px, std::uint64_t seed)
     : views_(views), pixel_sd_px_(pixel_sd_px), generator_(seed) {}
 
-std::optional<TrackerError> ViewTracker::initialise(const TrackerInput& frame,
-                                                    const cv::Rect2d& box) {
+std::optional<tracker::TrackerError> ViewTracker::initialise(const tracker::TrackerInput& frame,
+                                                             const cv::Rect2d& box) {
   const ViewTruth* view = views_.at(frame.time_s);
-  if (view == nullptr || !view->visible) return TrackerError::kBox;
+  if (view == nullptr || !view->visible) return tracker::TrackerError::kBox;
   // A box begins at a pixel's edge, half a pixel before its centre.
   offset_px_ = Eigen::Vector2d(box.x + 0.5 * box.width - 0.5, box.y + 0.5 * box.height - 0.5) -
                view->centre_px;
   return std::nullopt;
 }
 
-TrackerResult ViewTracker::track(const TrackerInput& frame) {
+tracker::TrackerResult ViewTracker::track(const tracker::TrackerInput& frame) {
   const ViewTruth* view = views_.at(frame.time_s);
-  if (!offset_px_ || view == nullptr) return {std::nullopt, TrackerError::kNotInitialised};
+  if (!offset_px_ || view == nullptr) return {std::nullopt, tracker::TrackerError::kNotInitialised};
   const double noise_x = normal_(generator_), noise_y = normal_(generator_);
-  TrackerOutput output;
+  tracker::TrackerOutput output;
   output.pixel = view->centre_px + *offset_px_ + pixel_sd_px_ * Eigen::Vector2d(noise_x, noise_y);
   output.box = view->box;
   output.covariance_px2 = pixel_sd_px_ * pixel_sd_px_ * Eigen::Matrix2d::Identity();

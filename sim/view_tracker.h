@@ -22,14 +22,15 @@ class ViewMemory {
   std::deque<std::pair<double, ViewTruth>> views_;
 };
 
-class ViewTracker final : public TargetTracker {
+class ViewTracker final : public tracker::TargetTracker {
  public:
   // `views` must outlive the tracker. pixel_sd_px: of each coordinate, new with every frame.
   ViewTracker(const ViewMemory& views, double pixel_sd_px, std::uint64_t seed);
 
   // What the box is off from the target's centre stays in all that follows, as a template would.
-  std::optional<TrackerError> initialise(const TrackerInput& frame, const cv::Rect2d& box) override;
-  TrackerResult track(const TrackerInput& frame) override;
+  std::optional<tracker::TrackerError> initialise(const tracker::TrackerInput& frame,
+                                                  const cv::Rect2d& box) override;
+  tracker::TrackerResult track(const tracker::TrackerInput& frame) override;
   void search_near(const Eigen::Vector2d&, double) override {}
   void set_aside() override { aside_px_ = offset_px_; }
   void take_back() override { offset_px_ = aside_px_; }

@@ -2,7 +2,7 @@
 
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 
 Admission::Admission(const AdmissionConfig& config)
     : config_(config),
@@ -48,7 +48,8 @@ Admitted Admission::admit(const BearingMeasurement& sighting, FusionLog& log) {
 }
 
 // By the station's clock and by "now", then by what else the station has sent.
-BearingRefusal Admission::judge(const BearingMeasurement& sighting, KnownStation& station, FusionLog& log) {
+BearingRefusal Admission::judge(const BearingMeasurement& sighting, KnownStation& station,
+                                FusionLog& log) {
   if (time_.hear(sighting.station, sighting.utime_us)) {
     station.exposures.clear();
     log.count("clock_stepped_back");
@@ -91,7 +92,8 @@ BearingRefusal Admission::store(const BearingMeasurement& sighting, KnownStation
 }
 
 // Of its calibration, and of the process that numbers its objects.
-void Admission::notice_changes(const BearingMeasurement& sighting, FusionLog& log, Admitted& admitted) {
+void Admission::notice_changes(const BearingMeasurement& sighting, FusionLog& log,
+                               Admitted& admitted) {
   KnownStation& station = *admitted.station;
   if (station.bearings > 0 && station.calibration_id != sighting.calibration_id) {
     admitted.recalibrated = true;
@@ -116,4 +118,4 @@ void Admission::begin_time_line() {
   }
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "central/admission/bearing_check.h"
 #include "central/admission/clock_monitor.h"
 #include "central/admission/fusion_log.h"
 #include "central/admission/message_time.h"
-#include "central/admission/bearing_check.h"
 #include "central/admission/station_registry.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct AdmissionConfig {
   double min_belief = 0.5;              // bearings believed less are not used
@@ -57,7 +57,8 @@ class Admission {
   BearingRefusal judge(const BearingMeasurement& sighting, KnownStation& station, FusionLog& log);
   bool clock_is_believed(const BearingMeasurement& sighting, FusionLog& log);
   BearingRefusal store(const BearingMeasurement& sighting, KnownStation& station) const;
-  static void notice_changes(const BearingMeasurement& sighting, FusionLog& log, Admitted& admitted);
+  static void notice_changes(const BearingMeasurement& sighting, FusionLog& log,
+                             Admitted& admitted);
   void evict(const std::string& station, FusionLog& log);
 
   AdmissionConfig config_;
@@ -66,4 +67,4 @@ class Admission {
   ClockMonitor clocks_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -5,7 +5,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 bool all_finite(const BearingMeasurement& s) {
@@ -95,4 +95,4 @@ BearingRefusal check(const BearingMeasurement& sighting) {
   return BearingRefusal::kNone;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

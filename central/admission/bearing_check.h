@@ -3,7 +3,7 @@
 
 #include "central/measurement/bearing_measurement.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // Why a bearing was not used; to_string() is the name of its counter.
 enum class BearingRefusal {
@@ -28,4 +28,4 @@ bool is_a_stations_place(const Eigen::Vector3d& p_ecef, const Eigen::Vector3d& s
 // What can be judged of a bearing by itself.
 BearingRefusal check(const BearingMeasurement& sighting);
 
-}  // namespace ols
+}  // namespace ols::fusion

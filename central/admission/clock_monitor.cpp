@@ -8,7 +8,7 @@
 
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr double kTighter = 0.7;  // of the limits, to be believed again
@@ -93,4 +93,4 @@ double ClockMonitor::offset_s(const std::string& station) const {
   return common_offset_s(found->second);
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -23,7 +23,7 @@
 #include "central/admission/message_time.h"
 #include "central/measurement/bearing_measurement.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct ClockMonitorConfig {
   double error_limit_s = 0.1;    // stated 1-sigma
@@ -66,4 +66,4 @@ class ClockMonitor {
   std::map<std::string, Station> stations_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

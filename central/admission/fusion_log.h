@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-namespace ols {
+namespace ols::fusion {
 
 struct FusionLog {
   std::map<std::string, double> counters;  // only go up
@@ -20,4 +20,4 @@ struct FusionLog {
   }
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

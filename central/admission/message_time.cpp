@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr std::int64_t kStepBackUs = 1'000'000;
@@ -85,4 +85,4 @@ double MessageTime::silent_s(const std::string& station) const {
   return found == stations_.end() ? 0.0 : elapsed_s_ - found->second.heard_s;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -9,7 +9,7 @@
 
 #include "central/measurement/activity.h"
 
-namespace ols {
+namespace ols::fusion {
 
 class MessageTime {
  public:
@@ -59,4 +59,4 @@ class MessageTime {
   std::map<std::string, Station> stations_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

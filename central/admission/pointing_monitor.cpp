@@ -6,7 +6,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::fusion {
 
 void PointingMonitor::hear(const std::string& name, std::int64_t utime_us, bool explained,
                            const std::optional<Eigen::Vector2d>& off_rad) {
@@ -59,4 +59,4 @@ const std::string& PointingMonitor::quarantine(const std::string& station) const
   return found == stations_.end() ? kNone : found->second.quarantine;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

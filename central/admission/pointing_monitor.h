@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-namespace ols {
+namespace ols::fusion {
 
 struct PointingConfig {
   double memory_s = 3.0;          // judged over so long
@@ -55,4 +55,4 @@ class PointingMonitor {
   std::map<std::string, Station> stations_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

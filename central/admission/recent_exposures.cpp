@@ -4,7 +4,7 @@
 
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr double kMemoryS = 1.0;
@@ -42,4 +42,4 @@ void RecentExposures::add(const BearingMeasurement& sighting) {
   rate_hz_ = span_s > 0.0 ? static_cast<double>(exposures_.size() - 1) / span_s : 0.0;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

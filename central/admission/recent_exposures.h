@@ -7,7 +7,7 @@
 
 #include "central/measurement/bearing_measurement.h"
 
-namespace ols {
+namespace ols::fusion {
 
 class RecentExposures {
  public:
@@ -32,4 +32,4 @@ class RecentExposures {
   double rate_hz_ = 0.0;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

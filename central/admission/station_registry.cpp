@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr double kForgottenS = 10.0;  // silent for longer: gives its place to any other
@@ -70,4 +70,4 @@ StationRegistry::Place StationRegistry::for_status(const std::string& station,
   return place;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -13,7 +13,7 @@
 #include "central/admission/recent_exposures.h"
 #include "central/measurement/activity.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // What is known of a station that can be slewed.
 struct StationTraits {
@@ -75,4 +75,4 @@ class StationRegistry {
   std::int64_t messages_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

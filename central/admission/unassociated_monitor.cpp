@@ -6,7 +6,7 @@
 
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr double kGap_s = 3.0;  // a silence that begins the count anew
@@ -34,4 +34,4 @@ std::string UnassociatedMonitor::alarm(const std::string& station, std::int64_t 
   return "station " + station + ": " + text;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-namespace ols {
+namespace ols::fusion {
 
 struct UnassociatedConfig {
   double alarm_s = 10.0;  // for so long without a bearing that a target explains
@@ -34,4 +34,4 @@ class UnassociatedMonitor {
   std::map<std::string, Span> stations_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -9,7 +9,7 @@
 
 #include "base/clocks.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr int kWaitMs = 50;
@@ -98,4 +98,4 @@ void FusionBus::count(std::map<std::string, double>& counters) const {
   watch_.count(counters);
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

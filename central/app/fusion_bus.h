@@ -13,7 +13,7 @@
 #include "base/bus_monitor.h"
 #include "central/app/messages.h"
 
-namespace ols {
+namespace ols::fusion {
 
 class FusionBus {
  public:
@@ -64,4 +64,4 @@ class FusionBus {
   std::int64_t forgotten_sequence_ = 0;  // the greatest of a channel that was forgotten
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr double kSilent_s = 5.0;  // some statuses may get lost
@@ -23,4 +23,4 @@ std::string FusionConflictMonitor::alarm(double now_s) const {
 
 bool FusionConflictMonitor::take_event() { return std::exchange(news_, false); }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-namespace ols {
+namespace ols::fusion {
 
 class FusionConflictMonitor {
  public:
@@ -26,4 +26,4 @@ class FusionConflictMonitor {
   bool news_ = false;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -9,7 +9,7 @@
 
 #include "base/clocks.h"
 
-namespace ols {
+namespace ols::fusion {
 FusionProcess::FusionProcess(const FusionSettings& settings, const FusionProcessOptions& options)
     : settings_(settings),
       options_(options),
@@ -178,4 +178,4 @@ double FusionProcess::Latency::median_s() const {
   return *middle;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -8,12 +8,12 @@
 #include <string>
 
 #include "central/app/fusion_bus.h"
+#include "central/app/fusion_conflict_monitor.h"
 #include "central/app/fusion_settings.h"
 #include "central/app/messages.h"
-#include "central/app/fusion_conflict_monitor.h"
 #include "central/app/timeliness_gate.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct FusionProcessOptions {
   std::string slew_url;  // where slews go
@@ -69,4 +69,4 @@ class FusionProcess {
   double status_s_ = 0.0;               // this host's monotonic clock at the last status
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -3,7 +3,7 @@
 #include "base/config_section.h"
 #include "base/lcm_url.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using config::Section;
@@ -143,4 +143,4 @@ FusionSettings load_fusion_settings(const std::string& path) {
   return settings;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

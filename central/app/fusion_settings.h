@@ -8,7 +8,7 @@
 namespace ols::config {
 struct Section;
 }
-namespace ols {
+namespace ols::fusion {
 
 struct FusionSettings {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
@@ -21,4 +21,4 @@ config::Section fusion_section(FusionSettings& settings);  // the whole file
 // Throws ConfigError ("file:line: key: what").
 FusionSettings load_fusion_settings(const std::string& path);
 
-}  // namespace ols
+}  // namespace ols::fusion

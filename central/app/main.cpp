@@ -41,16 +41,16 @@ std::string url_problem(const std::string& url) {
 }
 
 int run(const Arguments& arguments) {
-  ols::FusionSettings settings;
-  if (!arguments.config.empty()) settings = ols::load_fusion_settings(arguments.config);
+  ols::fusion::FusionSettings settings;
+  if (!arguments.config.empty()) settings = ols::fusion::load_fusion_settings(arguments.config);
   if (!arguments.lcm_url.empty()) settings.lcm_url = arguments.lcm_url;
   if (arguments.check_config) return 0;
-  ols::FusionProcessOptions options{
+  ols::fusion::FusionProcessOptions options{
       .slew_url = arguments.replay ? kReplaySlewUrl : settings.lcm_url,
       .replay = arguments.replay,
       .boot_id = ols::draw_boot_id()};
   if (!arguments.slew_url.empty()) options.slew_url = arguments.slew_url;
-  ols::FusionProcess process(settings, options);
+  ols::fusion::FusionProcess process(settings, options);
   spdlog::info("ready: bus {}, slews to {}", settings.lcm_url, options.slew_url);
   ols::ServiceNotifier service_manager;
   service_manager.ready("bus " + settings.lcm_url);

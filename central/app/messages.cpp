@@ -13,7 +13,7 @@
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr std::size_t kAlarms = 16;  // told in a status
@@ -121,8 +121,8 @@ const char* to_string(MessageRefusal refusal) {
   return "unknown";
 }
 
-std::variant<BearingMeasurement, MessageRefusal> sighting_from(const std::string& channel, const void* data,
-                                                     int bytes) {
+std::variant<BearingMeasurement, MessageRefusal> sighting_from(const std::string& channel,
+                                                               const void* data, int bytes) {
   ols_msg::bearing_t message;
   const auto refusal = decode_from_station(kBearingChannel, channel, data, bytes, message);
   if (refusal) return *refusal;
@@ -263,4 +263,4 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
   return message;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -14,7 +14,7 @@
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/target_t.hpp"
 
-namespace ols {
+namespace ols::fusion {
 
 // Why a datagram is not the message that its channel promises; to_string() names the counter.
 // kNoPosition: of a status whose station does not know it yet, which is no fault.
@@ -23,8 +23,8 @@ const char* to_string(MessageRefusal refusal);
 
 // Never throws, whatever the bytes. The numbers' values are left to check() of
 // central/fusion/fusion.h.
-std::variant<BearingMeasurement, MessageRefusal> sighting_from(const std::string& channel, const void* data,
-                                                     int bytes);
+std::variant<BearingMeasurement, MessageRefusal> sighting_from(const std::string& channel,
+                                                               const void* data, int bytes);
 
 // What a station's status tells of it. Its place is nearly the camera centre, until a bearing
 // tells.
@@ -50,4 +50,4 @@ ols_msg::slew_t to_message(const Slew& slew, const MessageStamp& stamp);
 ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s,
                                     const MessageStamp& stamp);
 
-}  // namespace ols
+}  // namespace ols::fusion

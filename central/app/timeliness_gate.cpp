@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr double kTold_s = 3.0;  // a status or two tell it, also of a moment
@@ -33,4 +33,4 @@ std::string TimelinessGate::alarm(double now_s) const {
 
 bool TimelinessGate::take_event() { return std::exchange(news_, false); }
 
-}  // namespace ols
+}  // namespace ols::fusion

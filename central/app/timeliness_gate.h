@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-namespace ols {
+namespace ols::fusion {
 
 class TimelinessGate {
  public:
@@ -29,4 +29,4 @@ class TimelinessGate {
   bool news_ = false;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -8,7 +8,7 @@
 
 #include "geometry/wgs84.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 // One bearing on the tangent plane of the reference direction.
@@ -25,16 +25,18 @@ double seconds_between(std::int64_t later_us, std::int64_t earlier_us) {
 }
 
 // The bearings in a window of the given span that ends as late as possible, but is at most centred.
-std::span<const BearingMeasurement> window_of(std::span<const BearingMeasurement> all, std::int64_t epoch_us,
-                                    double window_s) {
+std::span<const BearingMeasurement> window_of(std::span<const BearingMeasurement> all,
+                                              std::int64_t epoch_us, double window_s) {
   const auto span_us = static_cast<std::int64_t>(std::llround(window_s * 1e6));
   const std::int64_t end_us = std::min(all.back().utime_us, epoch_us + span_us / 2);
-  const auto first = std::ranges::lower_bound(all, end_us - span_us, {}, &BearingMeasurement::utime_us);
+  const auto first =
+      std::ranges::lower_bound(all, end_us - span_us, {}, &BearingMeasurement::utime_us);
   const auto last = std::ranges::upper_bound(all, end_us, {}, &BearingMeasurement::utime_us);
   return {first, last};
 }
 
-const BearingMeasurement& nearest(std::span<const BearingMeasurement> window, std::int64_t epoch_us) {
+const BearingMeasurement& nearest(std::span<const BearingMeasurement> window,
+                                  std::int64_t epoch_us) {
   return *std::ranges::min_element(window, {}, [&](const BearingMeasurement& sighting) {
     return std::llabs(sighting.utime_us - epoch_us);
   });
@@ -166,9 +168,10 @@ std::optional<Ray> align(std::span<const BearingMeasurement> sightings, std::int
   ray.clock_sd_s = reference.clock_sd_s;
   ray.age_s = seconds_between(epoch_us, sightings.back().utime_us);
   ray.belief = 0.0;
-  for (const BearingMeasurement& s : window) ray.belief += s.belief / static_cast<double>(window.size());
+  for (const BearingMeasurement& s : window)
+    ray.belief += s.belief / static_cast<double>(window.size());
   if (!all_finite(ray)) return std::nullopt;  // one such ray would spoil the fit of all
   return ray;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

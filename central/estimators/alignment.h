@@ -12,10 +12,10 @@
 #include <optional>
 #include <span>
 
-#include "central/measurement/ray.h"
 #include "central/measurement/bearing_measurement.h"
+#include "central/measurement/ray.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct AlignmentConfig {
   double window_s = 0.3;              // span of the bearings that are fitted
@@ -32,4 +32,4 @@ std::optional<Ray> align(std::span<const BearingMeasurement> sightings, std::int
                          std::optional<double> range_m, const AlignmentConfig& config = {},
                          double noise_scale = 1.0);
 
-}  // namespace ols
+}  // namespace ols::fusion

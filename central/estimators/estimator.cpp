@@ -8,7 +8,7 @@
 #include "central/tracking/position_guard.h"
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr double kRangeIsNewsS = 1.0;  // a position tells the range for so long
@@ -165,4 +165,4 @@ std::unique_ptr<Estimator> make_estimator(std::string_view name, const Estimator
   return nullptr;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

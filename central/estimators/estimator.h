@@ -19,7 +19,7 @@
 #include "central/estimators/paper_triangulation.h"
 #include "central/tracking/track.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct EstimatorConfig {
   AlignmentConfig alignment{};
@@ -72,4 +72,4 @@ std::vector<ContributingStation> contributing(const TrackFilter& filter, std::in
 Estimate estimate_of(const TrackFilter& filter, const KinematicState& state,
                      const SystematicPart& systematic);
 
-}  // namespace ols
+}  // namespace ols::fusion

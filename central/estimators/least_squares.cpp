@@ -11,7 +11,7 @@
 #include "geometry/angles.h"
 #include "geometry/chi_square.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
@@ -316,4 +316,4 @@ void estimate_velocity(const std::vector<Ray>& rays, Estimate& estimate) {
   estimate.velocity_covariance_ecef = (covariance + covariance.transpose()) / 2.0;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

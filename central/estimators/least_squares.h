@@ -10,7 +10,7 @@
 
 #include "central/measurement/ray.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct LeastSquaresConfig {
   double gate_sigma = 3.1;      // a set of rays is believed while its chi^2 is within this
@@ -30,4 +30,4 @@ Estimate least_squares(const std::vector<Ray>& rays, const LeastSquaresConfig& c
 // where the rates do not determine it.
 void estimate_velocity(const std::vector<Ray>& rays, Estimate& estimate);
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -7,7 +7,7 @@
 
 #include "geometry/precision_paper.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr double kSamePlaceM = 1e-3;
@@ -192,4 +192,4 @@ Estimate MovingAverage::add(const Estimate& estimate, std::int64_t utime_us) {
   return average;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -9,7 +9,7 @@
 
 #include "central/measurement/ray.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // What becomes of the pairs of stations.
 enum class PaperPairs {
@@ -79,4 +79,4 @@ class MovingAverage {
   std::deque<Timed> estimates_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -5,7 +5,7 @@
 
 #include "central/measurement/ray.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 bool states_anything(const Eigen::Array2d& stated_rad2) { return stated_rad2.maxCoeff() > 0.0; }
@@ -93,7 +93,7 @@ void BiasModel::forget(const std::string& station) {
 }
 
 Eigen::Array2d BiasModel::learnt(const std::string& station, const Eigen::Array2d& stated_rad2,
-                                     const Eigen::Array2d& noise_rad2) const {
+                                 const Eigen::Array2d& noise_rad2) const {
   const bool told = states_anything(stated_rad2);
   const double weight = told ? config_.stated_weight : config_.untold_weight;
   const double guess = config_.untold_over_noise * config_.untold_over_noise;
@@ -108,14 +108,16 @@ Eigen::Array2d BiasModel::learnt(const std::string& station, const Eigen::Array2
 }
 
 BiasPrior BiasModel::prior(const std::string& station, const LineOfSight& sight, double range_m,
-                               bool position_states) const {
+                           bool position_states) const {
   constexpr double kNone = 1e-24;
-  BiasPrior prior{.covariance = stated_covariance(sight, range_m), .position_states = position_states};
+  BiasPrior prior{.covariance = stated_covariance(sight, range_m),
+                  .position_states = position_states};
   const Eigen::Array2d stated = prior.covariance.diagonal();
   const Eigen::Array2d noise = sight.covariance_white.diagonal();
   const bool told = states_anything(stated);
   const Eigen::Array2d more = (learnt(station, stated, noise) - stated).max(0.0);
-  const Eigen::Array2d pose = position_states ? sight.covariance_systematic.diagonal().array() : stated;
+  const Eigen::Array2d pose =
+      position_states ? sight.covariance_systematic.diagonal().array() : stated;
   const double guess = config_.untold_over_noise * config_.untold_over_noise;
   const double least = config_.least_over_noise * config_.least_over_noise;
   const double elevation_rad = sight.direction.elevation_rad;
@@ -141,7 +143,7 @@ Eigen::Matrix2d BiasModel::undeclared(const std::string& station, const LineOfSi
 }
 
 void BiasModel::observe(const std::string& station, const LineOfSight& sight,
-                            const BiasEstimate& bias, double dt_s, double range_m) {
+                        const BiasEstimate& bias, double dt_s, double range_m) {
   const Eigen::Array2d stated = stated_covariance(sight, range_m).diagonal();
   Seen& seen = at(station);
   count(seen, -1.0);
@@ -161,4 +163,4 @@ void BiasModel::observe(const std::string& station, const LineOfSight& sight,
   count(seen, 1.0);
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -28,7 +28,7 @@
 
 #include "geometry/direction.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct BiasModelConfig {
   double stated_time_s = 1800.0;   // correlation time of a pose's error within what is stated
@@ -55,7 +55,7 @@ struct BiasPrior {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] stationary, tangent plane
   Eigen::Array3d rotation = Eigen::Array3d::Zero();      // [rad^2] stationary variances
   Eigen::Array3d time_s = Eigen::Array3d::Ones();        // its correlation times
-  bool position_states = false;                              // otherwise the rotation contains it
+  bool position_states = false;                          // otherwise the rotation contains it
   Eigen::Array3d place_m2 = Eigen::Array3d::Zero();      // stationary variances: east, north, up
   double place_time_s = 1.0;                             // its correlation time
   // Of the rotation's variances, the share that the residuals have shown beyond what was stated or
@@ -123,4 +123,4 @@ class BiasModel {
   Eigen::Array2d common_ratio_ = Eigen::Array2d::Zero();
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace ols {
+namespace ols::fusion {
 
 bool is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
                const Eigen::Matrix3d& P_position, const FilterMatrix& P,
@@ -48,4 +48,4 @@ bool shows_bias(const FilterMatrix2& G, const FilterMatrix& P, const StationPart
   return drift * std::sqrt(drift) * off_share <= kSmall * told.squaredNorm();
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -8,7 +8,7 @@
 
 #include "central/filter/innovation.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // Bias times relative error of the range, which linearisation leaves out, is small against the
 // noise. P_position: of the target [m^2]; P: of the whole state.
@@ -22,4 +22,4 @@ bool is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
 bool shows_bias(const FilterMatrix2& G, const FilterMatrix& P, const StationPart& part,
                 const Eigen::Vector3d& along, double off_share);
 
-}  // namespace ols
+}  // namespace ols::fusion

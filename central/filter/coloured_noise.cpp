@@ -2,7 +2,7 @@
 
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 
 double ColouredNoise::observe(const BearingMeasurement& sighting, const RayFrame& frame,
                               BiasModel& shown) {
@@ -23,4 +23,4 @@ double ColouredNoise::observe(const BearingMeasurement& sighting, const RayFrame
   return first_s + second_s < kNearS ? shown.inflation(sighting.station, second_s) : 1.0;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

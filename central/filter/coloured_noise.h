@@ -7,10 +7,10 @@
 #include <cstdint>
 
 #include "central/filter/bias_model.h"
-#include "central/measurement/ray.h"
 #include "central/measurement/bearing_measurement.h"
+#include "central/measurement/ray.h"
 
-namespace ols {
+namespace ols::fusion {
 
 class ColouredNoise {
  public:
@@ -24,4 +24,4 @@ class ColouredNoise {
   std::array<Eigen::Vector3d, 2> direction_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

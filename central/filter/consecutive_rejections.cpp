@@ -1,6 +1,6 @@
 #include "central/filter/consecutive_rejections.h"
 
-namespace ols {
+namespace ols::fusion {
 
 void ConsecutiveRejections::clear() {
   in_a_row_ = 0;
@@ -13,4 +13,4 @@ bool ConsecutiveRejections::add(const std::string& station) {
   return ++in_a_row_ >= kMany && of_two_stations_;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace ols {
+namespace ols::fusion {
 
 class ConsecutiveRejections {
  public:
@@ -22,4 +22,4 @@ class ConsecutiveRejections {
   bool of_two_stations_ = false;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

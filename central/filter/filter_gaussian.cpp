@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 // One column or the mean: position, velocity and acceleration of an axis are three rows apart.
@@ -129,4 +129,4 @@ void interact(const std::array<MixtureWeights, kMotions>& weights,
   for (std::size_t to = 0; to < parts.size(); ++to) parts[to].mean = mixtures[to].mean;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

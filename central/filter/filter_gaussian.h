@@ -12,7 +12,7 @@
 
 #include "central/filter/motion_model.h"
 
-namespace ols {
+namespace ols::fusion {
 
 inline constexpr int kFilterStations = 12;  // with states of their own; no more are used
 // Of a station: its rotation about east, north and up, its clock's offset, and where that matters
@@ -71,4 +71,4 @@ FilterGaussian mixture(std::span<const FilterGaussian> parts, std::span<const do
 using MixtureWeights = std::array<double, kMotions>;
 void interact(const std::array<MixtureWeights, kMotions>& weights, std::span<FilterGaussian> parts);
 
-}  // namespace ols
+}  // namespace ols::fusion

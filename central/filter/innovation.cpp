@@ -6,7 +6,7 @@
 
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 // The part of the target's own states.
@@ -117,4 +117,4 @@ std::optional<JudgedInnovation> judge(const Innovation& seen, std::size_t models
   return judged;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "central/filter/interacting_models.h"
-#include "central/measurement/ray.h"
 #include "central/measurement/bearing_measurement.h"
+#include "central/measurement/ray.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // How a station's own states move its bearing on the tangent plane.
 struct StationPart {
@@ -64,4 +64,4 @@ struct JudgedInnovation {
 std::optional<JudgedInnovation> judge(const Innovation& seen, std::size_t models,
                                       const Eigen::Matrix2d& white, double gate_nis);
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -8,7 +8,7 @@
 
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr double kLeastProbability = 1e-4;
@@ -68,7 +68,7 @@ void InteractingModels::interact(double dt_s) {
     probabilities_[to] = std::accumulate(weights[to].begin(), weights[to].end(), 0.0);
     for (double& weight : weights[to]) weight /= probabilities_[to];
   }
-  ols::interact(weights, models_);
+  ols::fusion::interact(weights, models_);
 }
 
 void InteractingModels::weigh(std::span<const double> log_likelihood) {
@@ -117,4 +117,4 @@ FilterGaussian InteractingModels::mixed() const {
   return mixture(models_, probabilities_, models_[0].mean.size());
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

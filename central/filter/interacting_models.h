@@ -9,7 +9,7 @@
 #include "central/filter/filter_gaussian.h"
 #include "central/filter/motion_model.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // Position, velocity, acceleration; three components each.
 struct KinematicState {
@@ -65,4 +65,4 @@ class InteractingModels {
   std::vector<double> probabilities_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

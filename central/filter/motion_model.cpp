@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 Transition constant_velocity(double dt, double disturbance) {
@@ -102,4 +102,4 @@ Transition transition(Motion motion, const Vector9& state, double dt_s,
   return {};
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -18,7 +18,7 @@
 #include <array>
 #include <vector>
 
-namespace ols {
+namespace ols::fusion {
 
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
@@ -56,4 +56,4 @@ double manoeuvre_sd(const Eigen::Vector3d& velocity, const MotionConfig& config)
 // Over dt_s >= 0 from this state, (position, velocity, acceleration) of three components each.
 Transition transition(Motion motion, const Vector9& state, double dt_s, const MotionConfig& config);
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using StationMatrix =
@@ -62,4 +62,4 @@ StationBias station_bias(const InteractingModels& models, Eigen::Index first,
   return result;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -5,11 +5,11 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "central/filter/bias_model.h"
 #include "central/filter/filter_gaussian.h"
 #include "central/filter/interacting_models.h"
-#include "central/filter/bias_model.h"
 
-namespace ols {
+namespace ols::fusion {
 
 inline Eigen::Index states_of(const BiasPrior& prior) {
   return prior.position_states ? kStationStates : kPoseStates;
@@ -40,4 +40,4 @@ struct StationBias {
 StationBias station_bias(const InteractingModels& models, Eigen::Index first,
                          const BiasPrior& prior, const LineOfSight& sight, double range_m);
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -8,7 +8,7 @@
 #include "central/measurement/time_span.h"
 #include "geometry/wgs84.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr double kLatestS = 2.0;  // a bearing later than this is no longer compared
@@ -110,7 +110,8 @@ Innovation TrackFilter::compare(const BearingMeasurement& sighting, int station)
   return seen;
 }
 
-Innovation TrackFilter::innovation(const BearingMeasurement& sighting, const BiasModel& priors) const {
+Innovation TrackFilter::innovation(const BearingMeasurement& sighting,
+                                   const BiasModel& priors) const {
   const int station = index_of(sighting.station);
   Innovation seen = compare(sighting, station);
   Eigen::Matrix2d more = sighting.sight.covariance_white * priors.noise_scale(sighting.station);
@@ -195,7 +196,8 @@ int TrackFilter::station_of(const BearingMeasurement& sighting, const BiasModel&
 }
 
 // At the state's own instant, or late.
-void TrackFilter::take(const BearingMeasurement& sighting, const Innovation* known, FilterUpdate& update) {
+void TrackFilter::take(const BearingMeasurement& sighting, const Innovation* known,
+                       FilterUpdate& update) {
   const int station = station_of(sighting, update.shown);
   if (station < 0) {
     update.nis = innovation(sighting, update.shown).nis;
@@ -226,7 +228,8 @@ void TrackFilter::take(const BearingMeasurement& sighting, const Innovation* kno
   correct(seen, white * (inflation / entry.weight), may_learn ? &seen.frame.direction : nullptr);
 }
 
-void TrackFilter::note_use(FilterStation& entry, const BearingMeasurement& sighting, double nis) const {
+void TrackFilter::note_use(FilterStation& entry, const BearingMeasurement& sighting,
+                           double nis) const {
   entry.rejected = 0;
   entry.weight = nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
   if (entry.sight.origin_ecef != sighting.sight.origin_ecef) {
@@ -371,4 +374,4 @@ StationBias TrackFilter::bias(std::size_t station) const {
   return bias;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

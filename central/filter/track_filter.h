@@ -25,17 +25,17 @@
 #include <string>
 #include <vector>
 
+#include "central/filter/bias_model.h"
 #include "central/filter/coloured_noise.h"
 #include "central/filter/consecutive_rejections.h"
 #include "central/filter/innovation.h"
 #include "central/filter/interacting_models.h"
 #include "central/filter/station_bias.h"
-#include "central/filter/bias_model.h"
 #include "central/measurement/activity.h"
-#include "central/measurement/ray.h"
 #include "central/measurement/bearing_measurement.h"
+#include "central/measurement/ray.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct FilterConfig {
   MotionConfig motion{};
@@ -154,4 +154,4 @@ class TrackFilter {
   ConsecutiveRejections rejections_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -2,9 +2,10 @@
 
 #include <optional>
 
-namespace ols {
+namespace ols::fusion {
 
-Associated associate(const BearingMeasurement& sighting, TrackManager& tracks, PointingMonitor& pointing) {
+Associated associate(const BearingMeasurement& sighting, TrackManager& tracks,
+                     PointingMonitor& pointing) {
   const bool believed = pointing.quarantine(sighting.station).empty();
   Associated associated{.result = tracks.add(sighting, believed)};
   if (associated.result.kind == Association::Kind::kAmbiguous) return associated;
@@ -17,4 +18,4 @@ Associated associate(const BearingMeasurement& sighting, TrackManager& tracks, P
   return associated;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -7,7 +7,7 @@
 #include "central/admission/pointing_monitor.h"
 #include "central/tracking/track_manager.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct Associated {
   Association result;
@@ -16,6 +16,7 @@ struct Associated {
   bool newly_so = false;     // since this bearing
 };
 
-Associated associate(const BearingMeasurement& sighting, TrackManager& tracks, PointingMonitor& pointing);
+Associated associate(const BearingMeasurement& sighting, TrackManager& tracks,
+                     PointingMonitor& pointing);
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -7,7 +7,7 @@
 #include "central/measurement/activity.h"
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr std::size_t kOfAStation = 4;
@@ -29,7 +29,7 @@ std::vector<std::string> BearingLines::stations(std::int64_t epoch_us) const {
 }
 
 std::vector<const BearingMeasurement*> BearingLines::of(const std::string& station,
-                                              std::int64_t epoch_us) const {
+                                                        std::int64_t epoch_us) const {
   const UnassociatedBearings::Station& own = bearings_of(station);
   std::vector<const BearingMeasurement*> lines;
   std::vector<std::int64_t> names;
@@ -51,7 +51,8 @@ const BearingMeasurement* BearingLines::newest_of(const std::string& station) co
   return &bearings_of(station).bearings.back();
 }
 
-std::optional<BearingOnly> BearingLines::at(const BearingMeasurement& newest, std::int64_t epoch_us) const {
+std::optional<BearingOnly> BearingLines::at(const BearingMeasurement& newest,
+                                            std::int64_t epoch_us) const {
   std::vector<BearingMeasurement> own;
   std::ranges::copy_if(bearings_of(newest.station).bearings, std::back_inserter(own),
                        [&](const BearingMeasurement& s) { return s.track_id == newest.track_id; });
@@ -60,4 +61,4 @@ std::optional<BearingOnly> BearingLines::at(const BearingMeasurement& newest, st
   return BearingOnly{newest.station, newest.track_id, ray->sight, ray->rate_rad_s};
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -11,7 +11,7 @@
 #include "central/fusion/fused_target.h"
 #include "central/tracking/track_manager.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // A look at what there is now: short-lived.
 class BearingLines {
@@ -24,7 +24,8 @@ class BearingLines {
   std::vector<std::string> stations(std::int64_t epoch_us) const;
   // What a station follows by a name of its own and no track takes: the newest bearing of each, the
   // smallest names first, which most trackers gave first.
-  std::vector<const BearingMeasurement*> of(const std::string& station, std::int64_t epoch_us) const;
+  std::vector<const BearingMeasurement*> of(const std::string& station,
+                                            std::int64_t epoch_us) const;
   // The newest bearing of a station.
   const BearingMeasurement* newest_of(const std::string& station) const;
   std::optional<BearingOnly> at(const BearingMeasurement& newest, std::int64_t epoch_us) const;
@@ -37,4 +38,4 @@ class BearingLines {
   const AlignmentConfig& config_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

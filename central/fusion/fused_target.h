@@ -12,7 +12,7 @@
 #include "central/fusion/slew_planner.h"
 #include "central/tracking/track.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // A station that has a target in view which no other one sees: where it is known to lie.
 struct BearingOnly {
@@ -42,4 +42,4 @@ struct FusionOutput {
   std::vector<Slew> slews;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -7,7 +7,7 @@
 #include "central/fusion/association.h"
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr double kStepBackS = 1.0;  // "now" going back by more is another time line
@@ -77,7 +77,7 @@ BearingRefusal Fusion::associate(const BearingMeasurement& sighting, KnownStatio
   BearingMeasurement judged = sighting;
   const double added_sd_s = admission_.clocks().added_sd_s(sighting.station);
   judged.clock_sd_s = std::hypot(sighting.clock_sd_s, added_sd_s);
-  const Associated associated = ols::associate(judged, tracks_, pointing_);
+  const Associated associated = ols::fusion::associate(judged, tracks_, pointing_);
   if (associated.explained && associated.result.track_id != 0) {
     station.target_id = associated.result.track_id;
     station.saw_target.last_us = sighting.utime_us;
@@ -146,4 +146,4 @@ FusionHealth Fusion::health() const {
   return health_of(admission_, pointing_, unassociated_, tracks_, log_);
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -20,7 +20,7 @@
 #include "central/fusion/target_schedule.h"
 #include "central/tracking/live_tracks.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct FusionConfig {
   std::string estimator = "filter";  // of the targets; a name of make_estimator()
@@ -69,4 +69,4 @@ class Fusion {
   FusionLog log_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -4,7 +4,7 @@
 
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 // Seen by the geometry: known twice as well as before the first bearing.
@@ -92,4 +92,4 @@ FusionHealth health_of(const Admission& admission, const PointingMonitor& pointi
   return health;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -13,7 +13,7 @@
 #include "central/admission/unassociated_monitor.h"
 #include "central/tracking/track_manager.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // A station's bias and clock as the filter has them; NaN where the geometry does not show them.
 struct StationBiasReport {
@@ -46,4 +46,4 @@ FusionHealth health_of(const Admission& admission, const PointingMonitor& pointi
                        const UnassociatedMonitor& unassociated, const TrackManager& tracks,
                        const FusionLog& log);
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace ols {
+namespace ols::fusion {
 
 // A tenth of tolerance: frames of the same rate must not be missed every other time.
 inline bool is_due(const std::optional<std::int64_t>& last_us, std::int64_t now_us,
@@ -12,4 +12,4 @@ inline bool is_due(const std::optional<std::int64_t>& last_us, std::int64_t now_
   return !last_us || static_cast<double>(now_us - *last_us) >= 0.9e6 / rate_hz;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

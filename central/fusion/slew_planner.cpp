@@ -8,7 +8,7 @@
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 // A tenth is left for the difference of two clocks.
@@ -158,4 +158,4 @@ std::vector<Slew> SlewPlanner::plan(SlewRound& round, std::span<const SlewStatio
   return slews;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

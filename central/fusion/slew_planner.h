@@ -25,7 +25,7 @@
 #include "geometry/direction.h"
 #include "geometry/slew_limits.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct SlewConfig {
   double rate_hz = 10.0;
@@ -77,9 +77,9 @@ struct CueRay {
 // What is the same for all stations at one instant.
 struct SlewRound {
   std::int64_t now_us = 0;
-  std::map<std::int64_t, int> seen_by{};  // how many stations see each target
-  std::set<std::string> bearing_only_stations{};      // stations that follow what is no target
-  std::optional<CueRay> ray{};            // of one of them
+  std::map<std::int64_t, int> seen_by{};          // how many stations see each target
+  std::set<std::string> bearing_only_stations{};  // stations that follow what is no target
+  std::optional<CueRay> ray{};                    // of one of them
 };
 
 class SlewPlanner {
@@ -111,4 +111,4 @@ class SlewPlanner {
   std::map<std::string, Search> searches_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -3,7 +3,7 @@
 #include "central/fusion/output_period.h"
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr int kStationsABearing = 16;
@@ -46,4 +46,4 @@ std::vector<Slew> SlewSchedule::plan(std::int64_t now_us, const StationRegistry&
   return planner_.plan(round_, some, tracks);
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

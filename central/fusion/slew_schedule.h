@@ -11,7 +11,7 @@
 #include "central/fusion/bearing_lines.h"
 #include "central/fusion/slew_planner.h"
 
-namespace ols {
+namespace ols::fusion {
 
 class SlewSchedule {
  public:
@@ -36,4 +36,4 @@ class SlewSchedule {
   std::optional<std::string> next_;       // the station that is next in it; nothing: it is over
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -6,7 +6,7 @@
 #include "central/fusion/output_period.h"
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr int kLines = 16;  // of what is no target, told an epoch
@@ -67,7 +67,8 @@ void TargetSchedule::tell(std::int64_t now_us, TrackManager& tracks, const Clock
     const Track* const track = next_of(epoch_.targets, tracks);
     if (track != nullptr) output.targets.push_back(locate(*track, false, tracks, clocks));
   }
-  if (epoch_.targets.empty() && !epoch_.bearing_only_reported) report_bearing_only(tracks, pointing, output);
+  if (epoch_.targets.empty() && !epoch_.bearing_only_reported)
+    report_bearing_only(tracks, pointing, output);
   for (; work < kTargetsABearing && epoch_.bearing_only_reported && !epoch_.papers.empty();
        work += kPaperIsWorth) {
     const Track* const track = next_of(epoch_.papers, tracks);
@@ -100,7 +101,7 @@ FusedTarget TargetSchedule::locate(const Track& track, bool by_paper, const Trac
 // No object: why there is none, or the one line that there is. And the line of each station that
 // follows what is no target.
 void TargetSchedule::report_bearing_only(TrackManager& tracks, const PointingMonitor& pointing,
-                                FusionOutput& output) {
+                                         FusionOutput& output) {
   epoch_.bearing_only_reported = true;
   const BearingLines lines(tracks, pointing, config_.estimators.alignment);
   const std::int64_t epoch_us = *epoch_.utime_us;
@@ -135,4 +136,4 @@ void TargetSchedule::report_bearing_only(TrackManager& tracks, const PointingMon
   }
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -16,7 +16,7 @@
 #include "central/fusion/fused_target.h"
 #include "central/tracking/track_manager.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct TargetScheduleConfig {
   std::string estimator = "filter";  // a name of make_estimator()
@@ -52,11 +52,12 @@ class TargetSchedule {
   void begin(std::int64_t now_us, TrackManager& tracks);
   FusedTarget locate(const Track& track, bool by_paper, const TrackManager& tracks,
                      const ClockMonitor& clocks);
-  void report_bearing_only(TrackManager& tracks, const PointingMonitor& pointing, FusionOutput& output);
+  void report_bearing_only(TrackManager& tracks, const PointingMonitor& pointing,
+                           FusionOutput& output);
 
   TargetScheduleConfig config_;
   Epoch epoch_;
   std::map<std::int64_t, Object> objects_;  // by target id
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

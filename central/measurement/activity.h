@@ -6,7 +6,7 @@
 
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct Activity {
   // The windows, each a default where it can be configured.
@@ -23,4 +23,4 @@ struct Activity {
   bool within(double window_s, std::int64_t now_us) const { return age_s(now_us) <= window_s; }
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

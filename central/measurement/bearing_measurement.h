@@ -6,7 +6,7 @@
 
 #include "geometry/direction.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // How a station's UTC is kept, by its own words.
 enum class StationClock { kUnknown, kSynchronised, kUnsynchronised };
@@ -23,4 +23,4 @@ struct BearingMeasurement {
   std::int64_t calibration_id = 0;  // another one: other systematic errors
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

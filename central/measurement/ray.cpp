@@ -7,7 +7,7 @@
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 
-namespace ols {
+namespace ols::fusion {
 
 RayFrame ray_frame(const LineOfSight& sight) {
   return ray_frame(sight, R_ecef_enu(sight.origin_ecef));
@@ -67,4 +67,4 @@ double crossing_angle(const std::vector<Ray>& rays, const std::vector<RayUse>& u
   return greatest;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -8,7 +8,7 @@
 
 #include "geometry/direction.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // One station's bearing, brought to the epoch (central/estimators/alignment.h).
 struct Ray {
@@ -91,4 +91,4 @@ struct Estimate {
 // Greatest angle between two of the rays that are used, folded to 0..pi/2; 0 for fewer than two.
 double crossing_angle(const std::vector<Ray>& rays, const std::vector<RayUse>& use);
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-namespace ols {
+namespace ols::fusion {
 
 constexpr double seconds(std::int64_t span_us) { return static_cast<double>(span_us) * 1e-6; }
 
-}  // namespace ols
+}  // namespace ols::fusion

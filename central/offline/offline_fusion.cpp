@@ -11,7 +11,7 @@
 #include "central/tracking/recorded_track.h"
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 StationBearings recording_of(const std::vector<BearingMeasurement>& sightings, double min_belief,
@@ -54,7 +54,8 @@ void require_reasonable(double rate_hz, double span_s) {
   }
 }
 
-std::vector<std::int64_t> epochs_of(const std::vector<BearingMeasurement>& bearings, double rate_hz) {
+std::vector<std::int64_t> epochs_of(const std::vector<BearingMeasurement>& bearings,
+                                    double rate_hz) {
   std::vector<std::int64_t> epochs;
   for (const BearingMeasurement& sighting : bearings) epochs.push_back(sighting.utime_us);
   epochs.erase(std::unique(epochs.begin(), epochs.end()), epochs.end());
@@ -135,8 +136,9 @@ struct Fixes {
   }
 };
 
-Fixes causal(const std::vector<BearingMeasurement>& bearings, const std::vector<std::int64_t>& epochs,
-             Estimator& estimator, const OfflineConfig& config) {
+Fixes causal(const std::vector<BearingMeasurement>& bearings,
+             const std::vector<std::int64_t>& epochs, Estimator& estimator,
+             const OfflineConfig& config) {
   Recording recording(config);
   Fixes fixes;
   auto next = bearings.begin();
@@ -157,9 +159,9 @@ Fixes causal(const std::vector<BearingMeasurement>& bearings, const std::vector<
 }
 
 // The estimators without memory have the whole recording.
-Fixes interpolating(const std::vector<BearingMeasurement>& bearings, const StationBearings& recording,
-                    const std::vector<std::int64_t>& epochs, Estimator& estimator,
-                    const OfflineConfig& config) {
+Fixes interpolating(const std::vector<BearingMeasurement>& bearings,
+                    const StationBearings& recording, const std::vector<std::int64_t>& epochs,
+                    Estimator& estimator, const OfflineConfig& config) {
   Recording run(config);
   for (const BearingMeasurement& sighting : bearings) run.add(sighting);
   Fixes fixes;
@@ -170,8 +172,8 @@ Fixes interpolating(const std::vector<BearingMeasurement>& bearings, const Stati
   return fixes;
 }
 
-Fixes smoothed(const std::vector<BearingMeasurement>& bearings, const std::vector<std::int64_t>& epochs,
-               const OfflineConfig& config) {
+Fixes smoothed(const std::vector<BearingMeasurement>& bearings,
+               const std::vector<std::int64_t>& epochs, const OfflineConfig& config) {
   Recording run(config);
   for (const BearingMeasurement& sighting : bearings) run.add(sighting);
   KnownStations known{run.track().errors(), {}};
@@ -195,7 +197,8 @@ UnusedBearings unused_bearings(const std::vector<BearingMeasurement>& sightings,
 void guess_clocks(std::vector<BearingMeasurement>& sightings) {
   constexpr double kNoises = 4.0, kHalfAFrameS = 0.02;
   std::map<std::string, std::vector<const BearingMeasurement*>> stations;
-  for (const BearingMeasurement& sighting : sightings) stations[sighting.station].push_back(&sighting);
+  for (const BearingMeasurement& sighting : sightings)
+    stations[sighting.station].push_back(&sighting);
   std::map<std::string, double> speeds;
   for (auto& [name, bearings] : stations) {
     std::ranges::stable_sort(bearings, {}, [](const BearingMeasurement* s) { return s->utime_us; });
@@ -237,4 +240,4 @@ std::map<std::string, std::string> stations_beside(const std::vector<BearingMeas
   return run.beside();
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -15,7 +15,7 @@
 
 #include "central/fusion/fusion.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct OfflineConfig {
   std::string estimator = "filter";  // a name of make_estimator()
@@ -30,7 +30,8 @@ struct UnusedBearings {
   std::size_t low_belief = 0;
   std::size_t duplicate = 0;  // the same station and stamp: the first is taken
 };
-UnusedBearings unused_bearings(const std::vector<BearingMeasurement>& sightings, const OfflineConfig& config);
+UnusedBearings unused_bearings(const std::vector<BearingMeasurement>& sightings,
+                               const OfflineConfig& config);
 
 // For a recording that does not tell how good its clocks are: states for each station the offset
 // [s] that would move a bearing by four times its noise at the object's usual angular speed, and
@@ -49,4 +50,4 @@ std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& sig
 std::map<std::string, std::string> stations_beside(const std::vector<BearingMeasurement>& sightings,
                                                    const OfflineConfig& config);
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 // The whole state of a filter at an instant, its stations in a fixed order.
@@ -71,7 +71,8 @@ std::optional<Whole> join(const Whole& a, const Whole& b, const Eigen::VectorXd&
   return Whole{a.mean + joint.solve(Pb.solve(b.mean - a.mean)), joint.solve(one)};
 }
 
-std::vector<BearingMeasurement> mirrored(std::vector<BearingMeasurement> bearings, std::int64_t about_us) {
+std::vector<BearingMeasurement> mirrored(std::vector<BearingMeasurement> bearings,
+                                         std::int64_t about_us) {
   for (BearingMeasurement& sighting : bearings) sighting.utime_us = about_us - sighting.utime_us;
   std::ranges::reverse(bearings);
   return bearings;
@@ -259,10 +260,11 @@ std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs, Unl
 }  // namespace
 
 std::vector<Smoothed> smooth(const std::vector<BearingMeasurement>& bearings,
-                             const std::vector<std::int64_t>& epochs, const TrackManagerConfig& config,
-                             const KnownStations& known, Unlocated& unlocated) {
+                             const std::vector<std::int64_t>& epochs,
+                             const TrackManagerConfig& config, const KnownStations& known,
+                             Unlocated& unlocated) {
   if (bearings.empty()) return {};
   return Smoother(bearings, config, known).run(epochs, unlocated);
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -15,7 +15,7 @@
 #include "central/estimators/estimator.h"
 #include "central/tracking/recorded_track.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct Smoothed {
   std::int64_t utime_us = 0;
@@ -31,7 +31,8 @@ struct KnownStations {
 // One object's bearings and the instants, both in order of time; positions only. Of the other
 // instants it is counted why.
 std::vector<Smoothed> smooth(const std::vector<BearingMeasurement>& bearings,
-                             const std::vector<std::int64_t>& epochs, const TrackManagerConfig& config,
-                             const KnownStations& known, Unlocated& unlocated);
+                             const std::vector<std::int64_t>& epochs,
+                             const TrackManagerConfig& config, const KnownStations& known,
+                             Unlocated& unlocated);
 
-}  // namespace ols
+}  // namespace ols::fusion

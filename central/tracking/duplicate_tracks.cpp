@@ -5,7 +5,7 @@
 
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr std::size_t kMostTracks = 4;  // that explain one bearing
@@ -13,7 +13,8 @@ constexpr std::size_t kMostPairs = 64;
 
 }  // namespace
 
-void DuplicateTracks::note(const BearingMeasurement& sighting, std::span<const std::int64_t> tracks) {
+void DuplicateTracks::note(const BearingMeasurement& sighting,
+                           std::span<const std::int64_t> tracks) {
   if (tracks.empty()) return;
   const auto explains = [&](std::int64_t id) {
     return std::ranges::find(tracks, id) != tracks.end();
@@ -34,7 +35,8 @@ void DuplicateTracks::note(const BearingMeasurement& sighting, std::span<const s
   });
 }
 
-void DuplicateTracks::count(Pair& pair, const BearingMeasurement& sighting, bool shared, bool first) const {
+void DuplicateTracks::count(Pair& pair, const BearingMeasurement& sighting, bool shared,
+                            bool first) const {
   Tally& own = pair.stations[sighting.station];
   if (shared) pair.newest_us = std::max(pair.newest_us, sighting.utime_us);
   if (own.utime_us == sighting.utime_us) {
@@ -89,4 +91,4 @@ void DuplicateTracks::forget(std::int64_t track) {
   });
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -19,7 +19,7 @@
 
 #include "central/measurement/bearing_measurement.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct DuplicatesConfig {
   double long_s = 1.0;         // so long at least
@@ -62,4 +62,4 @@ class DuplicateTracks {
   std::map<std::pair<std::int64_t, std::int64_t>, Pair> pairs_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -4,7 +4,7 @@
 
 #include "geometry/chi_square.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 // With which probability two estimates of one object are told apart.
@@ -28,4 +28,4 @@ bool are_duplicates(const TrackFilter& track, const TrackFilter& other) {
   return off.dot(P.ldlt().solve(off)) < limit;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

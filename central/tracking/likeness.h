@@ -4,7 +4,7 @@
 #include "central/filter/interacting_models.h"
 #include "central/filter/track_filter.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // Their positions at one instant are nearer to each other than both know.
 bool is_same_place(const KinematicState& a, const KinematicState& b);
@@ -12,4 +12,4 @@ bool is_same_place(const KinematicState& a, const KinematicState& b);
 // Likewise position and velocity, at the first one's instant.
 bool are_duplicates(const TrackFilter& track, const TrackFilter& other);
 
-}  // namespace ols
+}  // namespace ols::fusion

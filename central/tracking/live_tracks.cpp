@@ -6,7 +6,7 @@
 #include "central/measurement/time_span.h"
 #include "central/tracking/position_guard.h"
 
-namespace ols {
+namespace ols::fusion {
 
 LiveTracks::LiveTracks(const TrackManagerConfig& config)
     : TrackManager(config, config.filter, true), duplicates_(config.rivals) {}
@@ -55,7 +55,8 @@ Association LiveTracks::add(const BearingMeasurement& sighting, bool may_begin) 
   return may_begin && room ? initiate(sighting) : Association{};
 }
 
-void LiveTracks::note_duplicates(const BearingMeasurement& sighting, const std::vector<Candidate>& near) {
+void LiveTracks::note_duplicates(const BearingMeasurement& sighting,
+                                 const std::vector<Candidate>& near) {
   if (near.size() < 2 && duplicates_.empty()) return;
   std::vector<std::int64_t> ids;
   for (const Candidate& candidate : near) {
@@ -85,7 +86,8 @@ bool LiveTracks::is_worth_confirming(const Track& track) const {
   }
   if (track.misses > hits) return false;
   if (stations >= config_.confirm_stations) return true;
-  return of_a_pair >= 2 && seconds(track.filter.utime_us() - track.initiated_us) >= config_.confirm_s;
+  return of_a_pair >= 2 &&
+         seconds(track.filter.utime_us() - track.initiated_us) >= config_.confirm_s;
 }
 
 bool LiveTracks::is_lost_when_born(double unseen_s) const {
@@ -109,7 +111,9 @@ void LiveTracks::merge(std::int64_t older, std::int64_t younger) {
   duplicates_.forget(younger);
   const auto own = std::ranges::find(tracks_, older, &Track::id);
   const auto other = std::ranges::find(tracks_, younger, &Track::id);
-  if (own == tracks_.end() || other == tracks_.end() || !is_established(*own) || !is_established(*other)) return;
+  if (own == tracks_.end() || other == tracks_.end() || !is_established(*own) ||
+      !is_established(*other))
+    return;
   const auto bearings = [](const Track& track) {
     std::size_t sum = 0;
     for (const auto& [station, kept] : track.bearings) sum += kept.size();
@@ -128,4 +132,4 @@ void LiveTracks::clear() {
   duplicates_ = DuplicateTracks(config_.rivals);
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

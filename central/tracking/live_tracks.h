@@ -21,7 +21,7 @@
 #include "central/tracking/duplicate_tracks.h"
 #include "central/tracking/track_manager.h"
 
-namespace ols {
+namespace ols::fusion {
 
 class LiveTracks : public TrackManager {
  public:
@@ -51,4 +51,4 @@ class LiveTracks : public TrackManager {
   DuplicateTracks duplicates_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ols {
+namespace ols::fusion {
 
 const LocalTracks::Object* LocalTracks::find(const BearingMeasurement& sighting) const {
   const auto station = stations_.find(sighting.station);
@@ -36,4 +36,4 @@ std::size_t LocalTracks::size(const std::string& station) const {
   return found == stations_.end() ? 0 : found->second.size();
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

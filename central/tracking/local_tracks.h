@@ -9,7 +9,7 @@
 
 #include "central/measurement/bearing_measurement.h"
 
-namespace ols {
+namespace ols::fusion {
 
 class LocalTracks {
  public:
@@ -34,4 +34,4 @@ class LocalTracks {
   std::map<std::string, std::map<std::int64_t, Object>> stations_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 bool heard_lately(const TrackFilter& filter, const FilterStation& station, double within_s) {
@@ -36,8 +36,8 @@ std::vector<const FilterStation*> that_count(const TrackFilter& filter) {
   return found;
 }
 
-// Two rays that cross at less than what they may be off by, undeclared, over the range's least accuracy
-// tell no range, however well they seem to: what they learn of each other is their errors.
+// Two rays that cross at less than what they may be off by, undeclared, over the range's least
+// accuracy tell no range, however well they seem to: what they learn of each other is their errors.
 bool crosses_widely(const TrackFilter& filter, const Eigen::Vector3d& p_ecef) {
   const std::vector<const FilterStation*> stations = that_count(filter);
   for (std::size_t i = 0; i < stations.size(); ++i) {
@@ -113,4 +113,4 @@ int stations_lately(const TrackFilter& filter, double within_s) {
   }));
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

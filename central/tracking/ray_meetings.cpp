@@ -10,7 +10,7 @@
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 
-namespace ols {
+namespace ols::fusion {
 
 double RayMeetings::moved_rad(double dt_s) const {
   return config_.miss_sigma * config_.rate_sd_rad_s * std::min(1.0, dt_s);
@@ -62,8 +62,9 @@ Solution RayMeetings::meet(const LookedAt& a, const LookedAt& b, const BiasModel
 
 // Of a station's bearings near in time to another one, the one that is nearest to the meeting; the
 // latest where there is no meeting yet. -1: none.
-std::ptrdiff_t RayMeetings::nearest(const UnassociatedBearings::Station& own, const BearingMeasurement& to,
-                                    const RayMeeting* meeting, const BiasModel& errors) const {
+std::ptrdiff_t RayMeetings::nearest(const UnassociatedBearings::Station& own,
+                                    const BearingMeasurement& to, const RayMeeting* meeting,
+                                    const BiasModel& errors) const {
   std::ptrdiff_t best = -1;
   double least = 1.0;
   for (auto i = std::ssize(own.looks) - 1; i >= 0; --i) {
@@ -117,4 +118,4 @@ std::vector<RayMeeting> RayMeetings::of(const BearingMeasurement& sighting,
   return meetings;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -10,7 +10,7 @@
 #include "central/measurement/ray.h"
 #include "central/tracking/unassociated_bearings.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct MeetingConfig {
   double pair_s = 0.1;         // the two rays are not further apart in time
@@ -33,8 +33,9 @@ class RayMeetings {
 
   // Where a ray meets those of other stations; where more of the others pass by, first.
   // failure: what it does with the last one that it does not meet.
-  std::vector<RayMeeting> of(const BearingMeasurement& sighting, const UnassociatedBearings& bearings,
-                             const BiasModel& errors, Solution& failure) const;
+  std::vector<RayMeeting> of(const BearingMeasurement& sighting,
+                             const UnassociatedBearings& bearings, const BiasModel& errors,
+                             Solution& failure) const;
   // How far a target may have gone on, generously.
   double moved_rad(double dt_s) const;
   const MeetingConfig& config() const { return config_; }
@@ -56,4 +57,4 @@ class RayMeetings {
   double max_range_m_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

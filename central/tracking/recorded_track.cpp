@@ -7,7 +7,7 @@
 #include "central/tracking/likeness.h"
 #include "central/tracking/position_guard.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr double kDoubtS = 1.0;  // two rays do not begin a track so soon after they were wrong
@@ -84,7 +84,8 @@ void RecordedTrack::take_back(std::int64_t utime_us) {
 void RecordedTrack::confirm_by_initiation(const BearingMeasurement& sighting) {
   const bool none = tracks_.empty(), on_trial = !none && !proved_;
   const auto doubt_us = static_cast<std::int64_t>(kDoubtS * 1e6);
-  const bool accept_two_rays = none && (!taken_back_us_ || sighting.utime_us - *taken_back_us_ > doubt_us);
+  const bool accept_two_rays =
+      none && (!taken_back_us_ || sighting.utime_us - *taken_back_us_ > doubt_us);
   auto start = initiation_.add(sighting, on_trial ? errors_before_ : errors_, accept_two_rays);
   if (!start) return;
   if (none || is_better(start->track)) {
@@ -117,4 +118,4 @@ bool RecordedTrack::is_lost(const Track& track, double unseen_s, std::int64_t no
          judge_position(track.filter, track.filter.at(now_us)) != Solution::kOk;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -1,6 +1,7 @@
 // The one track of a recording of one object: every bearing is offered to it. Pure.
 //
-//  - Two rays begin it, on trial, and it is confirmed when its position is one. It is is_initiated by a
+//  - Two rays begin it, on trial, and it is confirmed when its position is one. It is is_initiated
+//  by a
 //    start as it would need among several objects, from the same bearings. If a bearing does not
 //    fit before, it is taken back with all that it has taught, and for a second only such a start
 //    begins one.
@@ -17,7 +18,7 @@
 
 #include "central/tracking/track_manager.h"
 
-namespace ols {
+namespace ols::fusion {
 
 class RecordedTrack : public TrackManager {
  public:
@@ -49,8 +50,8 @@ class RecordedTrack : public TrackManager {
 
   std::map<std::string, Explains> explains_;
   bool proved_ = false;
-  BiasModel errors_before_;                // the track on trial
+  BiasModel errors_before_;                    // the track on trial
   std::optional<std::int64_t> taken_back_us_;  // when one was, last
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

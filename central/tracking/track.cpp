@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ols {
+namespace ols::fusion {
 
 const char* to_string(TrackState state) {
   switch (state) {
@@ -22,7 +22,8 @@ bool Track::has_taken(const BearingMeasurement& sighting) const {
   const auto own = bearings.find(sighting.station);
   if (own == bearings.end()) return false;
   const auto& taken = own->second;
-  const auto at = std::ranges::lower_bound(taken, sighting.utime_us, {}, &BearingMeasurement::utime_us);
+  const auto at =
+      std::ranges::lower_bound(taken, sighting.utime_us, {}, &BearingMeasurement::utime_us);
   return at != taken.end() && at->utime_us == sighting.utime_us;
 }
 
@@ -30,4 +31,4 @@ bool is_established(const Track& track) {
   return track.state == TrackState::kConfirmed || track.state == TrackState::kCoasted;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -7,17 +7,18 @@
 #include <vector>
 
 #include "central/filter/track_filter.h"
-#include "central/measurement/ray.h"
 #include "central/measurement/bearing_measurement.h"
+#include "central/measurement/ray.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // The rules by which a track goes from one to the next are in docs/fusion.md and in
 // central/tracking/track_manager.h.
 enum class TrackState { kTentative, kConfirmed, kCoasted, kDropped };
 const char* to_string(TrackState state);
 
-using StationBearings = std::map<std::string, std::vector<BearingMeasurement>>;  // each in order of time
+using StationBearings =
+    std::map<std::string, std::vector<BearingMeasurement>>;  // each in order of time
 
 struct Track {
   explicit Track(TrackFilter start) : filter(std::move(start)) {}
@@ -26,10 +27,10 @@ struct Track {
   std::int64_t id = 0;  // 0 until it is confirmed
   TrackState state = TrackState::kTentative;
   std::int64_t initiated_us = 0;
-  std::map<std::string, int> hits;  // bearings used, by station
-  int misses = 0;                   // bearings set aside
-  std::int64_t last_two_station_us = 0;      // when two stations had seen it lately, last
-  StationBearings bearings;         // of the last second
+  std::map<std::string, int> hits;       // bearings used, by station
+  int misses = 0;                        // bearings set aside
+  std::int64_t last_two_station_us = 0;  // when two stations had seen it lately, last
+  StationBearings bearings;              // of the last second
 
   // Has it a bearing of this station and exposure already?
   bool has_taken(const BearingMeasurement& sighting) const;
@@ -38,4 +39,4 @@ struct Track {
 // Confirmed or coasted.
 bool is_established(const Track& track);
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -4,7 +4,7 @@
 
 #include "central/measurement/time_span.h"
 
-namespace ols {
+namespace ols::fusion {
 
 TrackGlance summarise_track(const Track& track) {
   const KinematicState& state = track.filter.summary();
@@ -26,4 +26,4 @@ bool TrackGlance::may_see(const BearingMeasurement& sighting, const Eigen::Vecto
   return (line - depth * d).norm() < kGenerous * (spread_m + depth * angle) + depth * kLeastRad;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -6,7 +6,7 @@
 
 #include "central/tracking/track.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct TrackGlance {
   std::int64_t utime_us = 0;
@@ -18,4 +18,4 @@ struct TrackGlance {
 };
 TrackGlance summarise_track(const Track& track);
 
-}  // namespace ols
+}  // namespace ols::fusion

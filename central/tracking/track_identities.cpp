@@ -5,11 +5,12 @@
 #include "central/measurement/time_span.h"
 #include "central/tracking/likeness.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 bool is_alive(std::int64_t id, const std::vector<Track>& tracks) {
-  return std::ranges::any_of(tracks, [&](const Track& t) { return is_established(t) && t.id == id; });
+  return std::ranges::any_of(tracks,
+                             [&](const Track& t) { return is_established(t) && t.id == id; });
 }
 
 }  // namespace
@@ -41,12 +42,13 @@ void TrackIdentities::follow(const BearingMeasurement& sighting, const Track& tr
   own.given_us = std::max(own.given_us, sighting.utime_us);
 }
 
-Track* TrackIdentities::follower(const BearingMeasurement& sighting, std::vector<Track>& tracks) const {
+Track* TrackIdentities::follower(const BearingMeasurement& sighting,
+                                 std::vector<Track>& tracks) const {
   if (sighting.track_id == 0) return nullptr;
   const LocalTracks::Object* const own = local_.find(sighting);
   if (own == nullptr) return nullptr;
-  const auto track =
-      std::ranges::find_if(tracks, [&](const Track& t) { return is_established(t) && t.id == own->id; });
+  const auto track = std::ranges::find_if(
+      tracks, [&](const Track& t) { return is_established(t) && t.id == own->id; });
   return track == tracks.end() ? nullptr : &*track;
 }
 
@@ -85,4 +87,4 @@ void TrackIdentities::clear() {
   local_ = {};
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

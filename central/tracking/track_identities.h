@@ -10,7 +10,7 @@
 #include "central/tracking/local_tracks.h"
 #include "central/tracking/track.h"
 
-namespace ols {
+namespace ols::fusion {
 
 class TrackIdentities {
  public:
@@ -29,8 +29,8 @@ class TrackIdentities {
              const std::vector<Track>& tracks) const;
   // A line's: 0 for the first new_after_s, and for what the station does not name. `told`: those of
   // others at the same instant; one id is one object.
-  std::int64_t identify(const BearingMeasurement& newest, double new_after_s, std::set<std::int64_t>& told,
-                        const std::vector<Track>& tracks);
+  std::int64_t identify(const BearingMeasurement& newest, double new_after_s,
+                        std::set<std::int64_t>& told, const std::vector<Track>& tracks);
   void merge(std::int64_t older, std::int64_t younger) { local_.rename(younger, older); }
   // A confirmed track ended: it may be found again.
   void drop(const Track& track) { dropped_.push_back(track); }
@@ -48,4 +48,4 @@ class TrackIdentities {
   LocalTracks local_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -10,7 +10,7 @@
 #include "central/measurement/time_span.h"
 #include "central/tracking/position_guard.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr std::size_t kMostStarts = 3;  // that are tried for one bearing
@@ -24,7 +24,8 @@ std::optional<TrackStart> TrackInitiation::search(const BearingMeasurement& sigh
   failure_ = Solution::kTooFewRays;
   const std::vector<RayMeeting> starts = meetings_.of(sighting, pool_, errors, failure_);
   for (std::size_t i = 0; i < std::min(starts.size(), kMostStarts); ++i) {
-    auto begun = try_start(sighting, starts[i], errors, accept_two_rays ? Needed::kTwoRays : Needed::kAll);
+    auto begun =
+        try_start(sighting, starts[i], errors, accept_two_rays ? Needed::kTwoRays : Needed::kAll);
     if (!begun) continue;
     if (!accept_two_rays && has_better_hypothesis(*begun, sighting, errors)) continue;
     if (!accept_two_rays) take(begun->start.track);
@@ -43,7 +44,8 @@ std::optional<TrackStart> TrackInitiation::add(const BearingMeasurement& sightin
 // Each bearing pays for a search among so many stations. Among more, whoever waits longest is the
 // next: of its newest frame any bearing. Were it each in turn, a station's turns could be in step
 // with all others' and fall on the same one for ever.
-std::optional<BearingMeasurement> TrackInitiation::next_station_to_search(const BearingMeasurement& sighting) {
+std::optional<BearingMeasurement> TrackInitiation::next_station_to_search(
+    const BearingMeasurement& sighting) {
   constexpr std::size_t kStationsABearing = 64;
   const std::size_t cost = pool_.stations().size();
   saved_ = std::min(saved_ + kStationsABearing, cost);
@@ -61,7 +63,8 @@ std::optional<BearingMeasurement> TrackInitiation::next_station_to_search(const 
     saved_ = 0;
     const auto& looks = own->second.looks;
     const auto frame =
-        std::ranges::lower_bound(looks, looks.back().utime_us, {}, &BearingSummary::utime_us) - looks.begin();
+        std::ranges::lower_bound(looks, looks.back().utime_us, {}, &BearingSummary::utime_us) -
+        looks.begin();
     const auto bearings = looks.size() - static_cast<std::size_t>(frame);
     return own->second.bearings[static_cast<std::size_t>(frame) + any_() % bearings];
   }
@@ -69,8 +72,9 @@ std::optional<BearingMeasurement> TrackInitiation::next_station_to_search(const 
 }
 
 // Does one of its two stations agree better with a third?
-bool TrackInitiation::has_better_hypothesis(const Hypothesis& begun, const BearingMeasurement& newest,
-                                 const BiasModel& errors) {
+bool TrackInitiation::has_better_hypothesis(const Hypothesis& begun,
+                                            const BearingMeasurement& newest,
+                                            const BiasModel& errors) {
   const auto& own = begun.start.track.hits;
   if (own.size() > 2) return false;
   for (const auto& [name, pooled] : pool_.stations()) {
@@ -118,7 +122,7 @@ std::vector<Frame> frames_backwards(
 
 struct Explained {
   int frames = 0;
-  double misfit = 0.0;             // sum of the squared normalised residuals, the gate at most
+  double misfit = 0.0;  // sum of the squared normalised residuals, the gate at most
   std::vector<BearingMeasurement> bearings;  // the latest first
 };
 
@@ -215,8 +219,8 @@ std::int64_t TrackInitiation::now_at(std::int64_t utime_us) const {
 // Runs the filter backwards over what is kept, from `now_us` on: with the bearings that it takes of
 // the stations that agree on the start. Nothing where it diverges.
 std::optional<TrackInitiation::Hypothesis> TrackInitiation::run(const RayMeeting& start,
-                                                           std::int64_t now_us,
-                                                           const BiasModel& errors) const {
+                                                                std::int64_t now_us,
+                                                                const BiasModel& errors) const {
   auto frames = frames_backwards(looking_at(start, now_us),
                                  now_us - static_cast<std::int64_t>(config_.pool_s * 1e6));
   // A start is vague: whoever is heard first, it goes to. So first the two that made it.
@@ -254,10 +258,9 @@ std::optional<TrackInitiation::Hypothesis> TrackInitiation::run(const RayMeeting
   return begun;
 }
 
-std::optional<TrackInitiation::Hypothesis> TrackInitiation::try_start(const BearingMeasurement& newest,
-                                                                 const RayMeeting& start,
-                                                                 const BiasModel& errors,
-                                                                 Needed needed) {
+std::optional<TrackInitiation::Hypothesis> TrackInitiation::try_start(
+    const BearingMeasurement& newest, const RayMeeting& start, const BiasModel& errors,
+    Needed needed) {
   auto begun = run(start, now_at(newest.utime_us), errors);
   if (!begun) return std::nullopt;
   const std::size_t agreeing = begun->start.track.hits.size();
@@ -314,4 +317,4 @@ Solution TrackInitiation::why_none(std::int64_t now_us) const {
   return heard == 1 ? Solution::kBearingOnly : failure_;
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -23,7 +23,7 @@
 #include "central/tracking/ray_meetings.h"
 #include "central/tracking/track.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct InitiationConfig {
   double pool_s = 0.6;  // bearings without a track are kept for so long
@@ -85,10 +85,11 @@ class TrackInitiation {
                                                                std::int64_t now_us) const;
   std::int64_t now_at(std::int64_t utime_us) const;
   std::optional<Hypothesis> run(const RayMeeting& start, std::int64_t now_us,
-                           const BiasModel& errors) const;
+                                const BiasModel& errors) const;
   std::optional<Hypothesis> try_start(const BearingMeasurement& newest, const RayMeeting& start,
-                                 const BiasModel& errors, Needed needed);
-  bool has_better_hypothesis(const Hypothesis& begun, const BearingMeasurement& newest, const BiasModel& errors);
+                                      const BiasModel& errors, Needed needed);
+  bool has_better_hypothesis(const Hypothesis& begun, const BearingMeasurement& newest,
+                             const BiasModel& errors);
   void take(const Track& track);
 
   InitiationConfig config_;
@@ -102,4 +103,4 @@ class TrackInitiation {
   std::minstd_rand any_;  // the same in every run
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

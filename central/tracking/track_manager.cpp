@@ -6,9 +6,10 @@
 #include "central/tracking/likeness.h"
 #include "central/tracking/position_guard.h"
 
-namespace ols {
+namespace ols::fusion {
 
-TrackManager::TrackManager(const TrackManagerConfig& config, const FilterConfig& filter, bool same_place)
+TrackManager::TrackManager(const TrackManagerConfig& config, const FilterConfig& filter,
+                           bool same_place)
     : config_(config),
       initiation_(config.birth, filter),
       errors_(config.errors),
@@ -28,7 +29,8 @@ void TrackManager::replace(Track& track, Track by) {
   glances_[static_cast<std::size_t>(&track - tracks_.data())] = summarise_track(track);
 }
 
-Association TrackManager::give_to(Track& track, const BearingMeasurement& sighting, const Innovation* seen) {
+Association TrackManager::give_to(Track& track, const BearingMeasurement& sighting,
+                                  const Innovation* seen) {
   const FilterUpdate update = track.filter.update(sighting, errors_, seen);
   errors_.learn(update.shown);
   glances_[static_cast<std::size_t>(&track - tracks_.data())] = summarise_track(track);
@@ -52,7 +54,8 @@ Association TrackManager::give_to(Track& track, const BearingMeasurement& sighti
 
 void TrackManager::keep(Track& track, const BearingMeasurement& sighting) const {
   auto& own = track.bearings[sighting.station];
-  const auto place = std::ranges::upper_bound(own, sighting.utime_us, {}, &BearingMeasurement::utime_us);
+  const auto place =
+      std::ranges::upper_bound(own, sighting.utime_us, {}, &BearingMeasurement::utime_us);
   own.insert(place, sighting);
   const auto span_us = static_cast<std::int64_t>(config_.memory_s * 1e6);
   const std::int64_t oldest_us = own.back().utime_us - span_us;
@@ -149,11 +152,13 @@ std::optional<Eigen::Vector2d> TrackManager::off_nearest(const BearingMeasuremen
   return best;
 }
 
-std::int64_t TrackManager::identify(const BearingMeasurement& newest, std::set<std::int64_t>& told) {
+std::int64_t TrackManager::identify(const BearingMeasurement& newest,
+                                    std::set<std::int64_t>& told) {
   return identities_.identify(newest, config_.confirm_s, told, tracks_);
 }
 
-bool TrackManager::takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s) const {
+bool TrackManager::takes(const BearingMeasurement& newest, std::int64_t now_us,
+                         double within_s) const {
   return identities_.takes(newest, now_us, within_s, tracks_);
 }
 
@@ -172,4 +177,4 @@ void TrackManager::clear_tracks() {
   counts_ = {};
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

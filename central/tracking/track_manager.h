@@ -22,7 +22,7 @@
 #include "central/tracking/track_identities.h"
 #include "central/tracking/track_initiation.h"
 
-namespace ols {
+namespace ols::fusion {
 
 struct TrackManagerConfig {
   int max_tracks = 256;  // born ones included
@@ -104,7 +104,8 @@ class TrackManager {
   // Before what is dropped is taken out.
   virtual void merge_duplicates() {}
 
-  Association give_to(Track& track, const BearingMeasurement& sighting, const Innovation* seen = nullptr);
+  Association give_to(Track& track, const BearingMeasurement& sighting,
+                      const Innovation* seen = nullptr);
   Track& begin(Track track);
   void replace(Track& track, Track by);
   // Confirms a born track that is worth it.
@@ -128,4 +129,4 @@ class TrackManager {
   void forget_what_it_taught(const Track& track);
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -5,7 +5,7 @@
 
 #include "geometry/wgs84.h"
 
-namespace ols {
+namespace ols::fusion {
 
 bool BearingSummary::is_near(const Eigen::Vector3d& p_ecef, double more_rad) const {
   const double within = spread_rad + more_rad;
@@ -38,7 +38,8 @@ BearingSummary UnassociatedBearings::Station::look(const BearingMeasurement& sig
 
 void UnassociatedBearings::store(const BearingMeasurement& sighting) {
   Station& own = stations_[sighting.station];
-  const auto later = std::ranges::upper_bound(own.looks, sighting.utime_us, {}, &BearingSummary::utime_us);
+  const auto later =
+      std::ranges::upper_bound(own.looks, sighting.utime_us, {}, &BearingSummary::utime_us);
   const auto place = later - own.looks.begin();
   own.bearings.insert(own.bearings.begin() + place, sighting);
   own.looks.insert(later, own.look(sighting));
@@ -51,8 +52,8 @@ void UnassociatedBearings::store(const BearingMeasurement& sighting) {
   own.looks.erase(own.looks.begin(), own.looks.begin() + gone);
 }
 
-void UnassociatedBearings::erase_if(const std::string& station,
-                                    const std::function<bool(const BearingMeasurement&)>& condition) {
+void UnassociatedBearings::erase_if(
+    const std::string& station, const std::function<bool(const BearingMeasurement&)>& condition) {
   const auto found = stations_.find(station);
   if (found == stations_.end()) return;
   Station& own = found->second;
@@ -66,4 +67,4 @@ void UnassociatedBearings::erase_if(const std::string& station,
   for (const BearingMeasurement& sighting : own.bearings) own.looks.push_back(own.look(sighting));
 }
 
-}  // namespace ols
+}  // namespace ols::fusion

@@ -11,7 +11,7 @@
 
 #include "central/measurement/bearing_measurement.h"
 
-namespace ols {
+namespace ols::fusion {
 
 // What a quick look at a bearing needs, side by side.
 struct BearingSummary {
@@ -47,7 +47,8 @@ class UnassociatedBearings {
       : span_s_(span_s), most_(static_cast<std::size_t>(most)) {}
 
   void store(const BearingMeasurement& sighting);
-  void erase_if(const std::string& station, const std::function<bool(const BearingMeasurement&)>& condition);
+  void erase_if(const std::string& station,
+                const std::function<bool(const BearingMeasurement&)>& condition);
   void forget(const std::string& station) { stations_.erase(station); }
   // None of them is empty.
   const std::map<std::string, Station>& stations() const { return stations_; }
@@ -58,4 +59,4 @@ class UnassociatedBearings {
   std::map<std::string, Station> stations_;
 };
 
-}  // namespace ols
+}  // namespace ols::fusion

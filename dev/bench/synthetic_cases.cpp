@@ -100,7 +100,7 @@ std::vector<BenchCase> bench_cases() {
   return cases;
 }
 
-BenchPath::BenchPath(const BenchCase& which, const Landscape& landscape, Random& random)
+BenchPath::BenchPath(const BenchCase& which, const Landscape& landscape, tracker::Random& random)
     : case_(which), camera_model_(landscape.camera()) {
   axis_.azimuth_rad = 2.0 * kPi * random.uniform();
   axis_.elevation_rad =

@@ -47,7 +47,7 @@ std::vector<BenchCase> bench_cases();
 // One run of a case: what is drawn by chance is drawn.
 class BenchPath {
  public:
-  BenchPath(const BenchCase& which, const Landscape& landscape, Random& random);
+  BenchPath(const BenchCase& which, const Landscape& landscape, tracker::Random& random);
 
   AzimuthElevation camera(double time_s) const;
   Eigen::Vector2d target_px(double time_s) const;

@@ -62,7 +62,7 @@ class Take {
         target_(which.look) {}
 
   struct Picture {
-    ols::TrackerInput input;
+    ols::tracker::TrackerInput input;
     Eigen::Matrix2d bound_px2 = Eigen::Matrix2d::Zero();
     bool visible = true;
   };
@@ -120,7 +120,7 @@ class Take {
 
   BenchCase case_;
   ols::bench::Landscape& landscape_;
-  ols::Random random_;
+  ols::tracker::Random random_;
   BenchPath path_;
   ols::bench::SyntheticTarget target_;
   Eigen::Matrix2d bound_px2_ = Eigen::Matrix2d::Zero();
@@ -130,7 +130,7 @@ class Take {
 
 void write_row(std::ostream& out, const BenchCase& which, std::uint64_t seed, int frame,
                const Take::Picture& picture, const Eigen::Vector2d& truth_px,
-               const ols::TrackerOutput& output) {
+               const ols::tracker::TrackerOutput& output) {
   std::array<char, 320> text{};
   const auto& c = output.covariance_px2;
   const auto& b = picture.bound_px2;
@@ -143,19 +143,19 @@ void write_row(std::ostream& out, const BenchCase& which, std::uint64_t seed, in
   out << text.data();
 }
 
-[[noreturn]] void refused(const BenchCase& which, ols::TrackerError error) {
-  throw std::runtime_error(which.sweep + ": " + ols::to_string(error));
+[[noreturn]] void refused(const BenchCase& which, ols::tracker::TrackerError error) {
+  throw std::runtime_error(which.sweep + ": " + to_string(error));
 }
 
-void run_case(const BenchCase& which, std::uint64_t seed, const ols::TrackerConfig& config,
+void run_case(const BenchCase& which, std::uint64_t seed, const ols::tracker::TrackerConfig& config,
               ols::bench::Landscape& landscape, const ols::bench::PixelNoise& noise,
               std::ostream& out) {
   Take take(which, landscape, seed);
-  ols::Tracker tracker(config, seed);
+  ols::tracker::Tracker tracker(config, seed);
   Take::Picture picture = take.picture(0, noise);
   const cv::Rect2d box = take.designation();
   if (const auto error = tracker.initialise(picture.input, box)) refused(which, *error);
-  ols::TrackerOutput output;
+  ols::tracker::TrackerOutput output;
   output.box = box;
   // What the position is relative to.
   output.pixel = Take::centre(box);
@@ -165,7 +165,7 @@ void run_case(const BenchCase& which, std::uint64_t seed, const ols::TrackerConf
   const int frames = static_cast<int>(which.seconds / ols::bench::kFrameInterval_s);
   for (int frame = 1; frame < frames; ++frame) {
     picture = take.picture(frame, noise);
-    const ols::TrackerResult result = tracker.track(picture.input);
+    const ols::tracker::TrackerResult result = tracker.track(picture.input);
     if (result.error) refused(which, *result.error);
     write_row(out, which, seed, frame, picture, take.truth_px(frame), *result.output);
   }
@@ -197,7 +197,8 @@ std::set<std::string> known_sweeps(const std::vector<std::string>& names,
 }
 
 void run(const Arguments& arguments) {
-  const ols::TrackerConfig config = ols::load_tracker_config(arguments.config, arguments.mode);
+  const ols::tracker::TrackerConfig config =
+      ols::offline::load_tracker_config(arguments.config, arguments.mode);
   ols::bench::Landscape landscape(ols::bench::bench_camera());
   const ols::bench::PixelNoise noise;
   const std::vector<BenchCase> cases = ols::bench::bench_cases();

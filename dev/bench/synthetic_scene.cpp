@@ -49,7 +49,7 @@ PixelNoise::PixelNoise() : strip_(1, kStrip) {
   generator.fill(strip_, cv::RNG::NORMAL, 0.0, kNoiseSd);
 }
 
-cv::Mat PixelNoise::develop(const cv::Mat1f& picture, Random& random) const {
+cv::Mat PixelNoise::develop(const cv::Mat1f& picture, tracker::Random& random) const {
   cv::Mat1f noisy(picture.size());
   for (int row = 0; row < picture.rows; ++row) {
     const int from = static_cast<int>(random.uniform() * (kStrip - picture.cols));

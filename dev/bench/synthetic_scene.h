@@ -44,7 +44,7 @@ class PixelNoise {
  public:
   PixelNoise();
   // The image as read from the sensor: noise added, rounded to 8 bits.
-  cv::Mat develop(const cv::Mat1f& picture, Random& random) const;
+  cv::Mat develop(const cv::Mat1f& picture, tracker::Random& random) const;
 
  private:
   cv::Mat1f strip_;

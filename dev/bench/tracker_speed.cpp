@@ -22,7 +22,7 @@ struct Clip {
 Clip make_clip(const cv::Size& size) {
   ols::bench::Landscape landscape(ols::bench::bench_camera(size));
   const ols::bench::PixelNoise noise;
-  ols::Random random(1);
+  ols::tracker::Random random(1);
   ols::bench::BenchCase which;
   which.look.contrast_sigma = 0.0;
   which.pan_rate_deg_s = 2.0;
@@ -51,24 +51,25 @@ int picture_of(int frame) {
   return place < kPictures ? place : 2 * kPictures - 2 - place;
 }
 
-void track(benchmark::State& state, ols::TrackerMode mode) {
+void track(benchmark::State& state, ols::tracker::TrackerMode mode) {
   const Clip clip = make_clip({static_cast<int>(state.range(0)), static_cast<int>(state.range(1))});
-  ols::TrackerConfig config;
+  ols::tracker::TrackerConfig config;
   config.mode = mode;
-  ols::Tracker tracker(config, 1);
+  ols::tracker::Tracker tracker(config, 1);
   int frame = 0;
   const auto input = [&] {
     const auto index = static_cast<std::size_t>(picture_of(frame));
-    return ols::TrackerInput{clip.pictures[index], frame * ols::bench::kFrameInterval_s, {}};
+    return ols::tracker::TrackerInput{
+        clip.pictures[index], frame * ols::bench::kFrameInterval_s, {}};
   };
   if (tracker.initialise(input(), clip.box)) state.SkipWithError("the box is refused");
   std::vector<double> taken_ms;
   for ([[maybe_unused]] auto _ : state) {
     ++frame;
-    const ols::TrackerInput given = input();
-    const double began_s = ols::thread_time_s();
-    const ols::TrackerResult result = tracker.track(given);
-    const double taken_s = ols::thread_time_s() - began_s;
+    const ols::tracker::TrackerInput given = input();
+    const double began_s = ols::offline::thread_time_s();
+    const ols::tracker::TrackerResult result = tracker.track(given);
+    const double taken_s = ols::offline::thread_time_s() - began_s;
     if (!result.output) state.SkipWithError("a frame is refused");
     taken_ms.push_back(1e3 * taken_s);
     state.SetIterationTime(taken_s);
@@ -77,8 +78,8 @@ void track(benchmark::State& state, ols::TrackerMode mode) {
   state.counters["p99_ms"] = quantile(taken_ms, 0.99);
 }
 
-void in_full_mode(benchmark::State& state) { track(state, ols::TrackerMode::kFull); }
-void in_paper_mode(benchmark::State& state) { track(state, ols::TrackerMode::kPaper); }
+void in_full_mode(benchmark::State& state) { track(state, ols::tracker::TrackerMode::kFull); }
+void in_paper_mode(benchmark::State& state) { track(state, ols::tracker::TrackerMode::kPaper); }
 
 void sizes(benchmark::internal::Benchmark* one) {
   one->Args({640, 512})->Args({1280, 960})->Iterations(600)->UseManualTime();

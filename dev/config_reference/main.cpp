@@ -40,9 +40,9 @@ std::string reference() {
          "rounded to six digits.\nAn unknown key, or a value out of range, ends the program with "
          "`file:line: key: what is wrong` before it\ntouches a device; `--check-config` does only "
          "that.\n" +
-         chapter("Station: `ols-station --config`", ols::station_section) +
-         chapter("Fusion: `ols-fusion --config`", ols::fusion_section) +
-         chapter("Logger: `ols-logger --config`", ols::logger_section) +
+         chapter("Station: `ols-station --config`", ols::station::station_section) +
+         chapter("Fusion: `ols-fusion --config`", ols::fusion::fusion_section) +
+         chapter("Logger: `ols-logger --config`", ols::logger::logger_section) +
          chapter("Scenario: `ols-sim --scenario`", scenario_section);
 }
 
@@ -56,7 +56,9 @@ std::string example(const std::string& head, config::Section (*section)(Settings
   return text;
 }
 
-config::Section gpio_only(ols::GpioConfig& gpio) { return {"", "", {}, {ols::gpio_section(gpio)}}; }
+config::Section gpio_only(ols::gpio::GpioConfig& gpio) {
+  return {"", "", {}, {ols::gpio::gpio_section(gpio)}};
+}
 
 std::string commented(const std::string& text) {
   std::istringstream lines(text);
@@ -73,7 +75,7 @@ std::string station_example() {
       "# One station: copy to /etc/ols/NAME.toml, fill in, `ols-station --config ... "
       "--check-config`, then\n# `systemctl enable --now ols-station@NAME`. docs/configuration.md "
       "lists every key.\n";
-  return example(head, ols::station_section,
+  return example(head, ols::station::station_section,
                  {{"id", "\"alfa\""},
                   {"lcm_url", kSiteBus},
                   {"pose.latitude_deg", "49.2266"},
@@ -102,11 +104,11 @@ std::vector<Generated> generated() {
           {folder + "fusion.toml",
            example("# The fusion: copy to /etc/ols/fusion.toml. All keys have defaults: "
                    "docs/configuration.md.\n",
-                   ols::fusion_section, {{"lcm_url", kSiteBus}})},
+                   ols::fusion::fusion_section, {{"lcm_url", kSiteBus}})},
           {folder + "logger.toml",
            example("# The logger of the bus: copy to /etc/ols/logger.toml. All keys have defaults: "
                    "docs/configuration.md.\n",
-                   ols::logger_section,
+                   ols::logger::logger_section,
                    {{"lcm_url", kSiteBus},
                     {"quota_gb", "20.0"},
                     {"status_file", "\"/run/ols/logger.json\""}})}};

@@ -69,17 +69,18 @@ void one_epoch(const Geometry& geometry, int run, std::mt19937_64& random, Sums&
   const PathPoint there{{far_m * std::cos(angle), far_m * std::sin(angle), geometry.size_m * 0.6},
                         Vector3d::Zero()};
   const Vector3d p_ecef = site().to_ecef(there.p_enu);
-  std::vector<Ray> rays;
+  std::vector<fusion::Ray> rays;
   Matrix3d information = Matrix3d::Zero();
-  for (const BearingMeasurement& s : measure(world, {Path(3, there)}, 0.99 / world.rate_hz * 1.02, random)) {
+  for (const fusion::BearingMeasurement& s :
+       measure(world, {Path(3, there)}, 0.99 / world.rate_hz * 1.02, random)) {
     rays.push_back({.station = s.station, .sight = s.sight});
-    const RayFrame frame = ray_frame(s.sight);
+    const fusion::RayFrame frame = fusion::ray_frame(s.sight);
     const double range_m = (p_ecef - s.sight.origin_ecef).norm();
     const Eigen::Matrix2d R = s.sight.covariance_white + s.sight.covariance_systematic;
     information += frame.tangent * R.inverse() * frame.tangent.transpose() / (range_m * range_m);
   }
-  const Estimate estimate = least_squares(rays);
-  if (estimate.solution != Solution::kOk) return;
+  const fusion::Estimate estimate = fusion::least_squares(rays);
+  if (estimate.solution != fusion::Solution::kOk) return;
   const double size_m2 = information.inverse().trace();
   sums.add(0, (estimate.position_ecef - p_ecef) / std::sqrt(size_m2), 1.0,
            estimate.covariance_ecef / size_m2);
@@ -89,14 +90,14 @@ struct FilterCase {
   const char* name;
   double tilt_sd_rad, heading_sd_rad, time_s;
   double place_sd_m = 0.0;
-  double told_s = BiasModelConfig{}.stated_time_s;  // what the filter supposes of that
+  double told_s = fusion::BiasModelConfig{}.stated_time_s;  // what the filter supposes of that
 };
 
 constexpr double kFlightS = 12.0, kWarmS = 4.0, kDisturbance = 0.5;
 
 // The bound holds for the true motion: the filter gets the same model.
-OfflineConfig config_of(const FilterCase& filter) {
-  OfflineConfig config;
+fusion::OfflineConfig config_of(const FilterCase& filter) {
+  fusion::OfflineConfig config;
   config.fusion.keeper.filter.motion.cruise_sd_m_s2 = kDisturbance;
   config.fusion.keeper.filter.motion.cruise_per_speed_s = 0.0;
   config.fusion.keeper.errors.stated_time_s = filter.told_s;
@@ -118,12 +119,13 @@ Sums fly(const FilterCase& filter, int runs) {
     const auto bearings = measure(world, {path}, kFlightS, random);
     const auto bound = posterior_bound(world, path, bearings, kDisturbance, 100.0, 100.0);
     std::size_t instant = 0;
-    for (const FusedTarget& target : fuse_offline(bearings, config_of(filter))) {
+    for (const fusion::FusedTarget& target : fusion::fuse_offline(bearings, config_of(filter))) {
       const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
       if (time_s < kWarmS) continue;
-      const auto index = static_cast<std::size_t>(
-          std::ranges::lower_bound(bearings, target.utime_us, {}, &BearingMeasurement::utime_us) -
-          bearings.begin());
+      const auto index =
+          static_cast<std::size_t>(std::ranges::lower_bound(bearings, target.utime_us, {},
+                                                            &fusion::BearingMeasurement::utime_us) -
+                                   bearings.begin());
       const Vector3d e = target.estimate.position_ecef - site().to_ecef(at(path, time_s).p_enu);
       sums.add(instant++, e, bound[index], target.estimate.covariance_ecef);
     }
@@ -144,18 +146,18 @@ struct Squares {
   double rms() const { return std::sqrt(sum / count); }
 };
 
-void follow(const Way& way, const std::vector<BearingMeasurement>& bearings, const Path& path,
-            Squares& squares) {
+void follow(const Way& way, const std::vector<fusion::BearingMeasurement>& bearings,
+            const Path& path, Squares& squares) {
   constexpr double kBegunS = 2.0;
-  FusionConfig config{.estimator = way.estimator, .paper_targets = 0};
+  fusion::FusionConfig config{.estimator = way.estimator, .paper_targets = 0};
   config.estimators.paper.moving_average = way.average;
-  Fusion fusion(config);
-  for (const BearingMeasurement& sighting : bearings) {
-    const FusionOutput output = fusion.add(sighting);
+  fusion::Fusion fusion(config);
+  for (const fusion::BearingMeasurement& sighting : bearings) {
+    const fusion::FusionOutput output = fusion.add(sighting);
     if (output.targets.empty()) continue;
-    const FusedTarget& target = output.targets.front();
+    const fusion::FusedTarget& target = output.targets.front();
     const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
-    if (target.estimate.solution != Solution::kOk || time_s < kBegunS) continue;
+    if (target.estimate.solution != fusion::Solution::kOk || time_s < kBegunS) continue;
     squares.sum +=
         (target.estimate.position_ecef - site().to_ecef(at(path, time_s).p_enu)).squaredNorm();
     ++squares.count;

@@ -29,9 +29,10 @@ AzimuthElevation direction(const Vector3d& from_ecef, const Vector3d& to_ecef) {
   return azimuth_elevation_from_enu(R_ecef_enu(from_ecef).transpose() * (to_ecef - from_ecef));
 }
 
-BearingMeasurement sighting(const WorldConfig& config, const Station& station, std::int64_t utime_us,
-                  AzimuthElevation d, const Vector2d& off_rad) {
-  BearingMeasurement s;
+fusion::BearingMeasurement sighting(const WorldConfig& config, const Station& station,
+                                    std::int64_t utime_us, AzimuthElevation d,
+                                    const Vector2d& off_rad) {
+  fusion::BearingMeasurement s;
   s.station = station.id;
   s.utime_us = utime_us;
   s.sight.origin_ecef = station.says_ecef;
@@ -141,12 +142,13 @@ Path manoeuvring(const PathPoint& start, double acceleration_m_s2, double durati
   return path;
 }
 
-std::vector<BearingMeasurement> measure(const WorldConfig& config, const std::vector<Path>& targets,
-                              double duration_s, std::mt19937_64& random) {
+std::vector<fusion::BearingMeasurement> measure(const WorldConfig& config,
+                                                const std::vector<Path>& targets, double duration_s,
+                                                std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::poisson_distribution<int> false_ones(std::max(1e-12, config.false_per_frame));
   std::vector<Station> stations = stations_of(config, random);
-  std::vector<BearingMeasurement> sightings;
+  std::vector<fusion::BearingMeasurement> sightings;
   const auto frames = static_cast<int>(duration_s * config.rate_hz);
   for (int frame = 0; frame < frames; ++frame) {
     for (std::size_t k = 0; k < stations.size(); ++k) {

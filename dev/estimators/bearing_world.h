@@ -52,8 +52,9 @@ Path manoeuvring(const PathPoint& start, double acceleration_m_s2, double durati
                  std::mt19937_64& random);
 
 // In order of time; several of one station and frame share their stamp.
-std::vector<BearingMeasurement> measure(const WorldConfig& config, const std::vector<Path>& targets,
-                              double duration_s, std::mt19937_64& random);
+std::vector<fusion::BearingMeasurement> measure(const WorldConfig& config,
+                                                const std::vector<Path>& targets, double duration_s,
+                                                std::mt19937_64& random);
 
 // n stations on a circle about the origin.
 std::vector<Eigen::Vector3d> circle(int n, double radius_m);

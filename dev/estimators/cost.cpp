@@ -26,9 +26,10 @@ double used_s() {
 }
 
 // Groups of stations, each with a target of its own, in the order of time.
-std::vector<BearingMeasurement> groups_of_stations(int groups, int each, double place_sd_m) {
+std::vector<fusion::BearingMeasurement> groups_of_stations(int groups, int each,
+                                                           double place_sd_m) {
   std::mt19937_64 random(9);
-  std::vector<BearingMeasurement> all;
+  std::vector<fusion::BearingMeasurement> all;
   for (int group = 0; group < groups; ++group) {
     const int row = group / 12;
     const Vector3d centre(4000.0 * (group % 12), 4000.0 * row, 0.0);
@@ -40,12 +41,12 @@ std::vector<BearingMeasurement> groups_of_stations(int groups, int each, double 
     world.place_sd_m = place_sd_m;
     for (Vector3d& place : world.stations_enu) place += centre;
     const Path path = cruising({centre + Vector3d(0, 0, 100), {8, 3, 0}}, 0.5, kDurationS, random);
-    for (BearingMeasurement& s : measure(world, {path}, kDurationS, random)) {
+    for (fusion::BearingMeasurement& s : measure(world, {path}, kDurationS, random)) {
       s.station.append("g").append(std::to_string(group));
       all.push_back(std::move(s));
     }
   }
-  std::ranges::stable_sort(all, {}, &BearingMeasurement::utime_us);
+  std::ranges::stable_sort(all, {}, &fusion::BearingMeasurement::utime_us);
   return all;
 }
 
@@ -53,7 +54,7 @@ std::vector<BearingMeasurement> groups_of_stations(int groups, int each, double 
 struct Spans {
   std::vector<double> all, with_targets, with_slews;
 
-  void add(double span_us, const FusionOutput& output) {
+  void add(double span_us, const fusion::FusionOutput& output) {
     all.push_back(span_us);
     if (!output.targets.empty()) with_targets.push_back(span_us);
     if (!output.slews.empty()) with_slews.push_back(span_us);
@@ -69,13 +70,13 @@ double percentile(std::vector<double>& values, double share) {
 // Where the places are off by so much that they matter, each station has states for its own.
 void cost_of(int stations, double place_sd_m, Limits& limits) {
   const int each = std::min(8, stations), groups = stations / each;
-  Fusion fusion{FusionConfig{}};
+  fusion::Fusion fusion{fusion::FusionConfig{}};
   Spans born, later;
   double born_s = 0.0, later_s = 0.0;
-  for (const BearingMeasurement& sighting : groups_of_stations(groups, each, place_sd_m)) {
+  for (const fusion::BearingMeasurement& sighting : groups_of_stations(groups, each, place_sd_m)) {
     const bool first = sighting.utime_us - kStartUs <= std::llround(1e6 * kBornS);
     const double begun_s = used_s();
-    const FusionOutput output = fusion.add(sighting);
+    const fusion::FusionOutput output = fusion.add(sighting);
     const double span_s = used_s() - begun_s;
     (first ? born_s : later_s) += span_s;
     (first ? born : later).add(1e6 * span_s, output);

@@ -40,9 +40,9 @@ double user_s() {
 
 // The filter of one object, as it runs on recordings, with what the other is given, too: the true
 // motion, and no other model, and the noise, white and Gaussian as stated.
-TrackManagerConfig pinned() {
-  TrackManagerConfig config;
-  config.filter.motion.models = {Motion::kConstantVelocity};
+fusion::TrackManagerConfig pinned() {
+  fusion::TrackManagerConfig config;
+  config.filter.motion.models = {fusion::Motion::kConstantVelocity};
   config.filter.motion.cruise_sd_m_s2 = kDisturbance;
   config.filter.motion.cruise_per_speed_s = 0.0;
   config.filter.robust_nis = config.filter.gate_nis;
@@ -53,16 +53,16 @@ TrackManagerConfig pinned() {
   return config;
 }
 
-std::vector<std::optional<Vector3d>> our_fixes(const std::vector<BearingMeasurement>& bearings,
-                                               std::vector<double>& cpu_us) {
+std::vector<std::optional<Vector3d>> our_fixes(
+    const std::vector<fusion::BearingMeasurement>& bearings, std::vector<double>& cpu_us) {
   std::vector<std::optional<Vector3d>> fixes;
   fixes.reserve(bearings.size());
   const double before_s = user_s();
-  RecordedTrack track(pinned());
-  for (const BearingMeasurement& sighting : bearings) {
+  fusion::RecordedTrack track(pinned());
+  for (const fusion::BearingMeasurement& sighting : bearings) {
     track.add(sighting);
     const auto& tracks = track.tracks();
-    const bool found = !tracks.empty() && is_established(tracks.front());
+    const bool found = !tracks.empty() && fusion::is_established(tracks.front());
     fixes.push_back(found ? std::optional(tracks.front().filter.position()) : std::nullopt);
   }
   cpu_us.push_back(1e6 * (user_s() - before_s) / static_cast<double>(bearings.size()));

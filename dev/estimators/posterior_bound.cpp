@@ -10,8 +10,9 @@
 namespace ols::bench {
 
 std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
-                                    const std::vector<BearingMeasurement>& bearings, double disturbance,
-                                    double position_sd_m, double velocity_sd_m_s) {
+                                    const std::vector<fusion::BearingMeasurement>& bearings,
+                                    double disturbance, double position_sd_m,
+                                    double velocity_sd_m_s) {
   const auto stations = static_cast<Eigen::Index>(config.stations_enu.size());
   // Of each station its rotation; then of each its place.
   const Eigen::Index rotations = 6, places = 6 + 3 * stations, n = 6 + 6 * stations;
@@ -24,7 +25,7 @@ std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
   P.diagonal().tail(3 * stations).setConstant(config.place_sd_m * config.place_sd_m);
   std::vector<double> bound;
   std::int64_t last_us = bearings.front().utime_us;
-  for (const BearingMeasurement& sighting : bearings) {
+  for (const fusion::BearingMeasurement& sighting : bearings) {
     const double dt = 1e-6 * static_cast<double>(sighting.utime_us - last_us);
     last_us = sighting.utime_us;
     Eigen::MatrixXd F = Eigen::MatrixXd::Identity(n, n);
@@ -41,7 +42,7 @@ std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
     const double time_s = 1e-6 * static_cast<double>(sighting.utime_us - kStartUs);
     const Eigen::Vector3d line =
         site().to_ecef(at(path, time_s).p_enu) - sighting.sight.origin_ecef;
-    const RayFrame frame = ray_frame(sighting.sight);
+    const fusion::RayFrame frame = fusion::ray_frame(sighting.sight);
     const auto station = std::atoi(sighting.station.c_str() + 1);
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, n);
     H.leftCols<3>() = frame.tangent.transpose() / line.norm();

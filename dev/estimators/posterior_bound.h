@@ -12,7 +12,8 @@ namespace ols::bench {
 // Mean squared position error [m^2] that no estimator can beat, after each of the frames' bearings,
 // on the bearings' own times.
 std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
-                                    const std::vector<BearingMeasurement>& bearings, double disturbance,
-                                    double position_sd_m, double velocity_sd_m_s);
+                                    const std::vector<fusion::BearingMeasurement>& bearings,
+                                    double disturbance, double position_sd_m,
+                                    double velocity_sd_m_s);
 
 }  // namespace ols::bench

@@ -43,12 +43,12 @@ class Judge {
  public:
   explicit Judge(const std::vector<Path>& truth) : truth_(truth), own_(truth.size(), 0) {}
 
-  void see(const std::vector<FusedTarget>& targets) {
+  void see(const std::vector<fusion::FusedTarget>& targets) {
     const double time_s = 1e-6 * static_cast<double>(targets.front().utime_us - kStartUs);
     std::vector<std::int64_t> nearest(truth_.size(), 0);
     std::vector<double> least(truth_.size(), kNearM);
-    for (const FusedTarget& target : targets) {
-      if (target.estimate.solution != Solution::kOk) continue;
+    for (const fusion::FusedTarget& target : targets) {
+      if (target.estimate.solution != fusion::Solution::kOk) continue;
       bool ghost = true;
       for (std::size_t i = 0; i < truth_.size(); ++i) {
         const Vector3d there = site().to_ecef(at(truth_[i], time_s).p_enu);
@@ -103,12 +103,12 @@ IdentityScore run_several(const SeveralTargets& scenario, std::uint64_t seed) {
   world.missed = scenario.missed;
   world.false_per_frame = scenario.false_per_frame;
   const auto sightings = measure(world, truth, scenario.duration_s, random);
-  FusionConfig config;
+  fusion::FusionConfig config;
   config.paper_targets = 0;
-  Fusion fusion(config);
+  fusion::Fusion fusion(config);
   Judge judge(truth);
-  for (const BearingMeasurement& sighting : sightings) {
-    const FusionOutput output = fusion.add(sighting);
+  for (const fusion::BearingMeasurement& sighting : sightings) {
+    const fusion::FusionOutput output = fusion.add(sighting);
     if (!output.targets.empty()) judge.see(output.targets);
   }
   return judge.score();

@@ -9,7 +9,7 @@
 #include "edge/camera/aravis_session.h"
 #include "edge/camera/camera_handover.h"
 
-namespace ols {
+namespace ols::camera {
 
 struct AravisCamera::Impl {
   explicit Impl(const CameraConfig& config) : config_(config) {
@@ -66,7 +66,7 @@ void AravisCamera::set_region(const std::optional<cv::Rect2d>& target_box) {
 
 void AravisCamera::trigger() { impl_->handover_.ask_trigger(); }
 
-DeviceReport AravisCamera::report() const {
+station::DeviceReport AravisCamera::report() const {
   return make_camera_report(impl_->config_, impl_->handover_.facts(), clock_monotonic_s());
 }
 
@@ -76,4 +76,4 @@ CameraCounters AravisCamera::counters() const { return impl_->handover_.facts().
 
 std::string AravisCamera::last_error() const { return impl_->handover_.facts().last_error; }
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -12,7 +12,7 @@
 #include "edge/camera/camera_report.h"
 #include "edge/camera/frame.h"
 
-namespace ols {
+namespace ols::camera {
 
 class AravisCamera {
  public:
@@ -30,7 +30,7 @@ class AravisCamera {
   // One exposure, with the software trigger; otherwise nothing happens.
   void trigger();
 
-  DeviceReport report() const;
+  station::DeviceReport report() const;
   CameraState state() const;
   CameraCounters counters() const;
   std::string last_error() const;  // the last trouble in words; empty when there was none
@@ -40,4 +40,4 @@ class AravisCamera {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace ols
+}  // namespace ols::camera

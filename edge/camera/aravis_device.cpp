@@ -10,7 +10,7 @@
 #include "edge/camera/aravis_features.h"
 #include "edge/camera/aravis_setup.h"
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 // GigE Vision bootstrap registers.
@@ -172,7 +172,7 @@ bool AravisDevice::answers() {
 void AravisDevice::trigger() { AravisFeatures(camera_.get()).execute("TriggerSoftware"); }
 
 void AravisDevice::set_exposure(const ExposureSetting& setting) {
-  exposure_ = ols::set_exposure(camera_.get(), setting);
+  exposure_ = ols::camera::set_exposure(camera_.get(), setting);
 }
 
 std::optional<double> AravisDevice::temperature_degC() const {
@@ -199,4 +199,4 @@ std::optional<LatchSample> AravisDevice::latch() {
       .device_ns = ticks_to_ns(*ticks, tick_hz_), .before_s = before_s, .after_s = after_s};
 }
 
-}  // namespace ols
+}  // namespace ols::camera

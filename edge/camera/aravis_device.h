@@ -18,7 +18,7 @@ using ArvCamera = struct _ArvCamera;
 using ArvDevice = struct _ArvDevice;
 using ArvStream = struct _ArvStream;
 
-namespace ols {
+namespace ols::camera {
 
 struct Unref {
   void operator()(void* object) const;  // g_object_unref
@@ -100,4 +100,4 @@ class AravisDevice {
   std::uint64_t last_latch_ticks_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -7,7 +7,7 @@
 
 #include "edge/camera/camera_errors.h"
 
-namespace ols {
+namespace ols::camera {
 
 class AravisError {
  public:
@@ -33,4 +33,4 @@ class AravisError {
   GError* error_ = nullptr;
 };
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -5,7 +5,7 @@
 
 #include "edge/camera/aravis_error.h"
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 std::string text_of(double value) {
@@ -110,4 +110,4 @@ bool AravisFeatures::execute(const Feature& command) const {
   return name != nullptr && execute(name);
 }
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -11,7 +11,7 @@
 
 using ArvCamera = struct _ArvCamera;
 
-namespace ols {
+namespace ols::camera {
 
 struct Feature {
   const char* what;                  // in words
@@ -65,4 +65,4 @@ class AravisFeatures {
   ArvCamera* camera_;
 };
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -8,7 +8,7 @@
 #include "base/clocks.h"
 #include "edge/camera/tai_reference.h"
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -153,4 +153,4 @@ void AravisSession::change_exposure() {
   });
 }
 
-}  // namespace ols
+}  // namespace ols::camera

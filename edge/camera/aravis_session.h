@@ -12,7 +12,7 @@
 #include "edge/camera/frame_numbers.h"
 #include "edge/camera/frame_statistics.h"
 
-namespace ols {
+namespace ols::camera {
 
 class AravisSession {
  public:
@@ -45,4 +45,4 @@ class AravisSession {
   int looks_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -16,7 +16,7 @@
 #include "edge/camera/packet_plan.h"
 #include "edge/camera/picture.h"
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 constexpr int kMaxPacket = 65000;            // [byte] IPv4 carries 65535
@@ -236,4 +236,4 @@ void set_transport(ArvCamera* camera, const CameraConfig& config) {
   set_pace(camera, config, static_cast<int>(size));
 }
 
-}  // namespace ols
+}  // namespace ols::camera

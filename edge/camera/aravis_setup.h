@@ -7,7 +7,7 @@
 
 using ArvCamera = struct _ArvCamera;
 
-namespace ols {
+namespace ols::camera {
 
 // Pixel format and size. Read back: some cameras take a value without a word and keep their own.
 void set_picture(ArvCamera* camera, const CameraConfig& config);
@@ -29,4 +29,4 @@ void set_ptp(ArvCamera* camera, const CameraConfig& config);
 // stream.
 void set_transport(ArvCamera* camera, const CameraConfig& config);
 
-}  // namespace ols
+}  // namespace ols::camera

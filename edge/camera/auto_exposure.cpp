@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 constexpr int kStride = 4;            // of the whole picture every 16th pixel is enough
@@ -123,4 +123,4 @@ std::optional<ExposureSetting> AutoExposure::step(const PictureLevels& levels) {
   return next;
 }
 
-}  // namespace ols
+}  // namespace ols::camera

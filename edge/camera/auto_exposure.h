@@ -12,7 +12,7 @@
 
 #include "edge/camera/exposure.h"
 
-namespace ols {
+namespace ols::camera {
 
 // Gray levels of a picture, or of a target and its surround.
 struct PictureLevels {
@@ -59,4 +59,4 @@ class AutoExposure {
   double missing_ = 1.0;
 };
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -2,7 +2,7 @@
 
 #include "base/config_section.h"
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 using config::Row;
@@ -133,4 +133,4 @@ config::Section camera_section(CameraConfig& c) {
       "camera", "The GigE Vision camera.", rows, {}, [&c](ConfigTable& table) { check(table, c); }};
 }
 
-}  // namespace ols
+}  // namespace ols::camera

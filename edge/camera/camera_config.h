@@ -9,7 +9,7 @@
 namespace ols::config {
 struct Section;
 }
-namespace ols {
+namespace ols::camera {
 
 // The instant of the exposure that the camera's time stamp marks; differs by model.
 enum class StampAt { kExposureStart, kExposureEnd };
@@ -78,4 +78,4 @@ bool is_timed(TriggerMode trigger);
 
 config::Section camera_section(CameraConfig& config);  // [camera]
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-namespace ols {
+namespace ols::camera {
 
 struct CameraAbsent : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -13,4 +13,4 @@ struct CameraUnfit : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace ols
+}  // namespace ols::camera

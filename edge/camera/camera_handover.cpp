@@ -5,7 +5,7 @@
 
 #include "base/clocks.h"
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 using Seconds = std::chrono::duration<double>;
@@ -118,4 +118,4 @@ void CameraHandover::note_statistics(std::uint64_t lost, const FrameStatistics& 
   facts_.incomplete_share = statistics.incomplete_share();
 }
 
-}  // namespace ols
+}  // namespace ols::camera

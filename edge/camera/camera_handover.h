@@ -11,7 +11,7 @@
 #include "edge/camera/frame.h"
 #include "edge/camera/frame_statistics.h"
 
-namespace ols {
+namespace ols::camera {
 
 class CameraHandover {
  public:
@@ -56,4 +56,4 @@ class CameraHandover {
   CameraFacts facts_;
 };
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string_view>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 constexpr double kSilence_s = 0.5;        // and three frame periods: an alarm
@@ -20,18 +20,18 @@ std::string words(const char* format, Values... values) {
   return text.data();
 }
 
-DeviceState device_state(CameraState state) {
+station::DeviceState device_state(CameraState state) {
   switch (state) {
     case CameraState::kAbsent:
-      return DeviceState::kAbsent;
+      return station::DeviceState::kAbsent;
     case CameraState::kStarting:
-      return DeviceState::kStarting;
+      return station::DeviceState::kStarting;
     case CameraState::kStreaming:
-      return DeviceState::kOk;
+      return station::DeviceState::kOk;
     case CameraState::kFault:
-      return DeviceState::kFault;
+      return station::DeviceState::kFault;
   }
-  return DeviceState::kFault;
+  return station::DeviceState::kFault;
 }
 
 const char* to_string(PtpState state) {
@@ -99,11 +99,11 @@ void add_alarms(const CameraConfig& config, const CameraFacts& facts, double now
 
 }  // namespace
 
-DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,
-                                double now_s) {
-  DeviceReport report;
+station::DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,
+                                         double now_s) {
+  station::DeviceReport report;
   report.name = "camera";
-  report.state = device_state(facts.state);
+  report.state = ctl::device_state(facts.state);
   report.text = facts.identity.empty() ? "" : facts.identity + ", ";
   report.text += config.pixel_format + " " + std::to_string(config.width_px) + "x" +
                  std::to_string(config.height_px) + words(", %.1f Hz", facts.frame_rate_hz);
@@ -114,9 +114,9 @@ DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& f
   report.errors = facts.errors;
   add_alarms(config, facts, now_s, report.alarms);
   // Frames have just stopped: the camera's thread will say so when its patience ends.
-  if (report.state == DeviceState::kOk && is_timed(config.trigger) &&
+  if (report.state == station::DeviceState::kOk && is_timed(config.trigger) &&
       silence_s(config, facts, now_s)) {
-    report.state = DeviceState::kFault;
+    report.state = station::DeviceState::kFault;
     report.text = report.alarms.front();
   }
   report.readings = {{"camera_exposure_us", facts.exposure.exposure_us},
@@ -132,4 +132,4 @@ DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& f
   return report;
 }
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -10,7 +10,7 @@
 #include "edge/camera/ptp.h"
 #include "edge/device_report.h"
 
-namespace ols {
+namespace ols::camera {
 
 enum class CameraState {
   kAbsent,     // not there yet, or lost; retried
@@ -50,6 +50,7 @@ struct CameraFacts {
   std::optional<double> ptp_disagreement_s;
 };
 
-DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts, double now_s);
+station::DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,
+                                         double now_s);
 
-}  // namespace ols
+}  // namespace ols::camera

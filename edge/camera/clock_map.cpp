@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 constexpr double kHuber = 3.0;   // standard deviations up to which a latch has its full weight
@@ -143,4 +143,4 @@ std::optional<MappedTime> ClockMap::from_arrivals(std::int64_t device_ns, double
                     .sd_s = config_.rate_sd * config_.arrival_window_s};
 }
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -10,7 +10,7 @@
 #include <deque>
 #include <optional>
 
-namespace ols {
+namespace ols::camera {
 
 struct LatchSample {
   std::int64_t device_ns = 0;  // the camera's clock
@@ -73,4 +73,4 @@ class ClockMap {
   int arrivals_off_ = 0;  // in a row that do not fit the envelope at all
 };
 
-}  // namespace ols
+}  // namespace ols::camera

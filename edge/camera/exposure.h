@@ -1,7 +1,7 @@
 // What an exposure is made with.
 #pragma once
 
-namespace ols {
+namespace ols::camera {
 
 struct ExposureSetting {
   double exposure_us = 0.0;
@@ -14,4 +14,4 @@ struct ExposureLimits {
   double gain_min_dB = 0.0, gain_max_dB = 0.0;
 };
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 constexpr std::size_t kKept = 8;  // changes; a frame is a few periods old at most
@@ -31,4 +31,4 @@ ExposureUsed ExposureLog::at(double start_s) const {
   return used;
 }
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -8,7 +8,7 @@
 
 #include <deque>
 
-namespace ols {
+namespace ols::camera {
 
 struct ExposureUsed {
   double exposure_s = 0.0;
@@ -38,4 +38,4 @@ class ExposureLog {
   std::deque<Change> changes_;
 };
 
-}  // namespace ols
+}  // namespace ols::camera

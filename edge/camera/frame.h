@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-namespace ols {
+namespace ols::camera {
 
 enum class StampSource { kCamera, kArrival };
 
@@ -20,4 +20,4 @@ struct Frame {
   std::string pixel_format = "Mono8";  // GenICam's name of what the camera sent
 };
 
-}  // namespace ols
+}  // namespace ols::camera

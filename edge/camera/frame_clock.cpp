@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 // Frames cannot arrive before their stamps, nor this long after them: then the latched clock is not
@@ -66,4 +66,4 @@ FrameTime FrameClock::stamp(std::optional<std::int64_t> device_ns, double arriva
   return from_mark(bounded, at_start, exposures, StampSource::kCamera);
 }
 
-}  // namespace ols
+}  // namespace ols::camera

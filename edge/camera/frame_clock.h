@@ -9,7 +9,7 @@
 #include "edge/camera/exposure_log.h"
 #include "edge/camera/frame.h"
 
-namespace ols {
+namespace ols::camera {
 
 struct FrameTime {
   double mid_exposure_s = 0.0;
@@ -59,4 +59,4 @@ class FrameClock {
   std::optional<double> tai_disagreement_s_;
 };
 
-}  // namespace ols
+}  // namespace ols::camera

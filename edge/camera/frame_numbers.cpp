@@ -1,6 +1,6 @@
 #include "edge/camera/frame_numbers.h"
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 constexpr std::uint64_t kIds = 65535;  // 1..65535
@@ -23,4 +23,4 @@ FrameNumbers::Step FrameNumbers::next(std::uint64_t id) {
   return {.number = number_, .lost = steps - 1};
 }
 
-}  // namespace ols
+}  // namespace ols::camera

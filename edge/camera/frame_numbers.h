@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace ols {
+namespace ols::camera {
 
 class FrameNumbers {
  public:
@@ -25,4 +25,4 @@ class FrameNumbers {
   std::uint64_t number_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::camera

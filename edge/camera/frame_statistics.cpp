@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 constexpr double kLately_s = 5.0;
@@ -35,4 +35,4 @@ double FrameStatistics::incomplete_share() const {
   return 1.0 - static_cast<double>(complete()) / static_cast<double>(marks_.size());
 }
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <deque>
 
-namespace ols {
+namespace ols::camera {
 
 class FrameStatistics {
  public:
@@ -23,4 +23,4 @@ class FrameStatistics {
   std::deque<Mark> marks_;
 };
 
-}  // namespace ols
+}  // namespace ols::camera

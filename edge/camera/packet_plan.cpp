@@ -1,6 +1,6 @@
 #include "edge/camera/packet_plan.h"
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 constexpr std::size_t kHeaders = 20 + 8 + 8;  // [byte] IP, UDP and GVSP of each packet
@@ -18,4 +18,4 @@ PacketPlan plan_packets(const StreamNeed& need) {
   return {.delay_s = delay_s, .bytes_per_second = need.packet_bytes / delay_s};
 }
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace ols {
+namespace ols::camera {
 
 struct PacketPlan {
   double delay_s = 0.0;           // between the starts of two packets; 0: none
@@ -23,4 +23,4 @@ struct StreamNeed {
 // packets are spread, at the price that the frame is complete that much later.
 PacketPlan plan_packets(const StreamNeed& need);
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 
-namespace ols {
+namespace ols::camera {
 
 namespace {
 
@@ -91,4 +91,4 @@ cv::Mat raw_beside_gray(const RawPicture& raw) {
   return row_of(raw.format)->to_gray < 0 ? cv::Mat() : view_of(raw).clone();
 }
 
-}  // namespace ols
+}  // namespace ols::camera

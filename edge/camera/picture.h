@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace ols {
+namespace ols::camera {
 
 // GenICam's (PFNC) codes of the pixel formats that a station takes.
 enum class PixelFormat : std::uint32_t {
@@ -52,4 +52,4 @@ cv::Mat to_gray(const RawPicture& raw);
 // picture is just that.
 cv::Mat raw_beside_gray(const RawPicture& raw);
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 using enum PtpState;
@@ -34,4 +34,4 @@ PtpState ptp_state(std::string_view status) {
   return kUnknown;
 }
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace ols {
+namespace ols::camera {
 
 enum class PtpState {
   kOff,
@@ -17,4 +17,4 @@ enum class PtpState {
 // The words vary with the firmware: those of AVT's feature reference and of GenICam's SFNC 2.x.
 PtpState ptp_state(std::string_view status);
 
-}  // namespace ols
+}  // namespace ols::camera

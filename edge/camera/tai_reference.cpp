@@ -6,7 +6,7 @@
 
 #include "base/clocks.h"
 
-namespace ols {
+namespace ols::camera {
 
 std::optional<TaiReference> read_tai_reference(int tai_minus_utc_s, double ptp_sd_s) {
   timex kernel{};  // no modes: only read
@@ -24,4 +24,4 @@ std::optional<TaiReference> read_tai_reference(int tai_minus_utc_s, double ptp_s
       .sd_s = std::hypot(utc_sd_s, read_s, ptp_sd_s)};
 }
 
-}  // namespace ols
+}  // namespace ols::camera

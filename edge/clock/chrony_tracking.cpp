@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace ols {
+namespace ols::clock {
 namespace {
 
 // Reference id, name, stratum, reference time, correction, last offset, RMS offset, frequency,
@@ -73,4 +73,4 @@ std::optional<ChronyTracking> parse_chrony_tracking(std::string_view line) {
   return tracking;
 }
 
-}  // namespace ols
+}  // namespace ols::clock

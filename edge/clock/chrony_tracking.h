@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace ols {
+namespace ols::clock {
 
 struct ChronyTracking {
   std::string reference;  // name or address: "PPS", "192.168.1.1"; empty: none yet
@@ -23,4 +23,4 @@ struct ChronyTracking {
 // Nothing for any other line (without chronyd: "506 Cannot talk to daemon").
 std::optional<ChronyTracking> parse_chrony_tracking(std::string_view line);
 
-}  // namespace ols
+}  // namespace ols::clock

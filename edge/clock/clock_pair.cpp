@@ -2,7 +2,7 @@
 
 #include "base/clocks.h"
 
-namespace ols {
+namespace ols::clock {
 
 ClockPair read_clock_pair() {
   constexpr double kApart_s = 1e-3;
@@ -20,4 +20,4 @@ ClockPair read_clock_pair() {
   return best;
 }
 
-}  // namespace ols
+}  // namespace ols::clock

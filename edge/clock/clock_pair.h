@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace ols {
+namespace ols::clock {
 
 struct ClockPair {
   double monotonic_s = 0.0;
@@ -13,4 +13,4 @@ struct ClockPair {
 // Reads again if the process was interrupted between the two, which would look like a step.
 ClockPair read_clock_pair();
 
-}  // namespace ols
+}  // namespace ols::clock

@@ -1,6 +1,6 @@
 #include "edge/clock/clock_reading.h"
 
-namespace ols {
+namespace ols::clock {
 namespace {
 
 bool has_traces_of_service(const KernelClock& kernel) {
@@ -37,4 +37,4 @@ ClockReading make_clock_reading(const KernelClock& kernel,
   return reading;
 }
 
-}  // namespace ols
+}  // namespace ols::clock

@@ -11,7 +11,7 @@
 #include "edge/clock/chrony_tracking.h"
 #include "edge/clock/clock_watch.h"
 
-namespace ols {
+namespace ols::clock {
 
 // Of struct timex (adjtimex(2)).
 struct KernelClock {
@@ -27,4 +27,4 @@ struct KernelClock {
 ClockReading make_clock_reading(const KernelClock& kernel,
                                 const std::optional<ChronyTracking>& chrony, bool service_seen);
 
-}  // namespace ols
+}  // namespace ols::clock

@@ -14,7 +14,7 @@
 #include "edge/clock/clock_reading.h"
 #include "edge/clock/command_output.h"
 
-namespace ols {
+namespace ols::clock {
 namespace {
 
 constexpr double kChrony_s = 2.0;              // chronyc tries three addresses
@@ -85,4 +85,4 @@ std::optional<ClockReading> ClockSource::take() {
   return std::exchange(impl_->newest, std::nullopt);
 }
 
-}  // namespace ols
+}  // namespace ols::clock

@@ -9,7 +9,7 @@
 
 #include "edge/clock/clock_watch.h"
 
-namespace ols {
+namespace ols::clock {
 
 class ClockSource {
  public:
@@ -26,4 +26,4 @@ class ClockSource {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace ols
+}  // namespace ols::clock

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace ols {
+namespace ols::clock {
 namespace {
 
 constexpr std::int64_t kDay_us = 86'400'000'000;
@@ -139,4 +139,4 @@ ClockQuality ClockWatch::quality(double monotonic_s) const {
   return quality;
 }
 
-}  // namespace ols
+}  // namespace ols::clock

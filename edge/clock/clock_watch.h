@@ -20,7 +20,7 @@
 #include <optional>
 #include <string>
 
-namespace ols {
+namespace ols::clock {
 
 enum class ClockState { kUnknown, kSynchronised, kUnsynchronised };
 
@@ -93,4 +93,4 @@ class ClockWatch {
   std::uint64_t steps_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::clock

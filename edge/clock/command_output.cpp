@@ -14,7 +14,7 @@
 
 #include "base/clocks.h"
 
-namespace ols {
+namespace ols::clock {
 namespace {
 
 constexpr std::size_t kMaxOutput = 65536;
@@ -87,4 +87,4 @@ std::optional<std::string> command_output(const std::vector<std::string>& comman
   return text;
 }
 
-}  // namespace ols
+}  // namespace ols::clock

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-namespace ols {
+namespace ols::clock {
 
 // Standard output of the program (searched in PATH), if it ends with status 0 within the timeout;
 // else the program is killed. It is always waited for, and inherits no other file of this process.
 std::optional<std::string> command_output(const std::vector<std::string>& command,
                                           double deadline_s);
 
-}  // namespace ols
+}  // namespace ols::clock

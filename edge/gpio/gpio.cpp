@@ -21,7 +21,7 @@
 #include "edge/gpio/rearm_input.h"
 #include "edge/gpio/stop_input.h"
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 constexpr double kRefresh_s = 0.1;  // the stop's level is read at least so often, edges or not
@@ -257,12 +257,12 @@ void Gpio::trigger() {
 
 bool Gpio::stop_pressed() const {
   const std::lock_guard lock(impl_->mutex);
-  return ols::stop_pressed(impl_->config, impl_->facts);
+  return ols::gpio::stop_pressed(impl_->config, impl_->facts);
 }
 
-DeviceReport Gpio::report() const {
+station::DeviceReport Gpio::report() const {
   const std::lock_guard lock(impl_->mutex);
   return make_gpio_report(impl_->config, impl_->facts);
 }
 
-}  // namespace ols
+}  // namespace ols::gpio

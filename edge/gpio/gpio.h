@@ -15,7 +15,7 @@
 namespace ols::config {
 struct Section;
 }
-namespace ols {
+namespace ols::gpio {
 
 struct GpioConfig {
   std::string chip;    // "/dev/gpiochip0", or "socket:PATH" for lines served by another
@@ -53,11 +53,11 @@ class Gpio {
   void trigger();  // a pulse on trigger_line
   // True also as long as the first level is not known; false without a stop_line.
   bool stop_pressed() const;
-  DeviceReport report() const;
+  station::DeviceReport report() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace ols
+}  // namespace ols::gpio

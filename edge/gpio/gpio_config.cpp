@@ -4,7 +4,7 @@
 #include "base/config_section.h"
 #include "edge/gpio/gpio.h"
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 void check_lines(ConfigTable& table, const GpioConfig& c) {
@@ -57,4 +57,4 @@ config::Section gpio_section(GpioConfig& c) {
       [&c](ConfigTable& table) { check_lines(table, c); }};
 }
 
-}  // namespace ols
+}  // namespace ols::gpio

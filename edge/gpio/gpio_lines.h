@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace ols {
+namespace ols::gpio {
 
 enum class LineBias { kPullUp, kPullDown };
 
@@ -61,4 +61,4 @@ std::unique_ptr<GpioLines> open_gpio_lines(const std::string& chip, const LineUs
 std::unique_ptr<GpioLines> open_chip_lines(const std::string& chip, const LineUse& use);
 std::unique_ptr<GpioLines> open_socket_lines(const std::string& path, const LineUse& use);
 
-}  // namespace ols
+}  // namespace ols::gpio

@@ -11,7 +11,7 @@
 #include "base/clocks.h"
 #include "edge/gpio/gpio_lines.h"
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 constexpr const char* kConsumer = "ols-station";
@@ -124,4 +124,4 @@ std::unique_ptr<GpioLines> open_chip_lines(const std::string& chip, const LineUs
   return std::make_unique<ChipLines>(chip, use);
 }
 
-}  // namespace ols
+}  // namespace ols::gpio

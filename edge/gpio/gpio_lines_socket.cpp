@@ -13,7 +13,7 @@
 #include "edge/gpio/gpio_lines.h"
 #include "edge/gpio/line_protocol.h"
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 constexpr double kAnswer_s = 0.5;  // a slower server counts as failed
@@ -116,4 +116,4 @@ std::unique_ptr<GpioLines> open_gpio_lines(const std::string& chip, const LineUs
   return open_chip_lines(chip, use);
 }
 
-}  // namespace ols
+}  // namespace ols::gpio

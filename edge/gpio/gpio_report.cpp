@@ -1,14 +1,14 @@
 #include "edge/gpio/gpio_report.h"
 
-namespace ols {
+namespace ols::gpio {
 
 bool stop_pressed(const GpioConfig& config, const GpioFacts& facts) {
   return config.stop_line >= 0 && facts.pressed.value_or(true);
 }
 
-DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts) {
+station::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts) {
   const bool pressed = stop_pressed(config, facts);
-  DeviceReport report;
+  station::DeviceReport report;
   report.name = "gpio";
   report.last_good_s = facts.last_good_s;
   report.last_error = facts.error;
@@ -18,17 +18,17 @@ DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts) 
                      {"gpio_rearms", facts.rearms},
                      {"gpio_triggers", facts.triggers}};
   if (facts.open && facts.readable) {
-    report.state = DeviceState::kOk;
+    report.state = station::DeviceState::kOk;
     report.text = config.chip;
     if (config.stop_line >= 0) report.text += pressed ? ", stop pressed" : ", stop released";
     if (config.stop_line >= 0 && pressed) {
       report.alarms.push_back("gpio: emergency stop pressed");
     }
   } else if (facts.open || facts.failures == 0) {
-    report.state = DeviceState::kStarting;
+    report.state = station::DeviceState::kStarting;
     report.text = config.chip + ": waiting for the first level";
   } else {
-    report.state = DeviceState::kAbsent;
+    report.state = station::DeviceState::kAbsent;
     report.text = facts.error;
     report.alarms.push_back(config.stop_line >= 0
                                 ? "gpio: stop unreadable, taken as pressed: " + facts.error
@@ -37,4 +37,4 @@ DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts) 
   return report;
 }
 
-}  // namespace ols
+}  // namespace ols::gpio

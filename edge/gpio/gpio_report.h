@@ -8,7 +8,7 @@
 #include "edge/device_report.h"
 #include "edge/gpio/gpio.h"
 
-namespace ols {
+namespace ols::gpio {
 
 // What the GPIO's thread knows.
 struct GpioFacts {
@@ -23,6 +23,6 @@ struct GpioFacts {
 // True also as long as the first level is not known; false without a stop_line.
 bool stop_pressed(const GpioConfig& config, const GpioFacts& facts);
 
-DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts);
+station::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts);
 
-}  // namespace ols
+}  // namespace ols::gpio

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 // One period, a character a slot: '#' lit.
@@ -35,4 +35,4 @@ bool led_lit(LedPattern pattern, double time_s) {
   return slots[static_cast<std::size_t>((slot % length + length) % length)] == '#';
 }
 
-}  // namespace ols
+}  // namespace ols::gpio

@@ -1,7 +1,7 @@
 // The blink patterns of the status LED. Pure.
 #pragma once
 
-namespace ols {
+namespace ols::gpio {
 
 enum class LedPattern {
   kOff,
@@ -18,4 +18,4 @@ inline constexpr double kLedSlot_s = 0.1;
 // Whether the LED is lit `time_s` after the pattern began.
 bool led_lit(LedPattern pattern, double time_s);
 
-}  // namespace ols
+}  // namespace ols::gpio

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <system_error>
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 // "in 17 1"
@@ -35,4 +35,4 @@ std::optional<std::vector<LineProtocol::Level>> LineProtocol::receive(std::strin
   return levels;
 }
 
-}  // namespace ols
+}  // namespace ols::gpio

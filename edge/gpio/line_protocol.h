@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace ols {
+namespace ols::gpio {
 
 class LineProtocol {
  public:
@@ -33,4 +33,4 @@ class LineProtocol {
   std::string pending_;  // an incomplete message
 };
 
-}  // namespace ols
+}  // namespace ols::gpio

@@ -1,6 +1,6 @@
 #include "edge/gpio/rearm_input.h"
 
-namespace ols {
+namespace ols::gpio {
 
 void RearmInput::level(bool closed, double time_s) {
   if (!closed) {
@@ -27,4 +27,4 @@ std::optional<double> RearmInput::due_s() const {
   return *closed_s_ + hold_s_;
 }
 
-}  // namespace ols
+}  // namespace ols::gpio

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-namespace ols {
+namespace ols::gpio {
 
 class RearmInput {
  public:
@@ -25,4 +25,4 @@ class RearmInput {
   std::optional<double> closed_s_;  // since when it is held
 };
 
-}  // namespace ols
+}  // namespace ols::gpio

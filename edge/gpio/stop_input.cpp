@@ -1,6 +1,6 @@
 #include "edge/gpio/stop_input.h"
 
-namespace ols {
+namespace ols::gpio {
 
 void StopInput::level(bool pressed, double time_s) {
   if (pressed) {
@@ -27,4 +27,4 @@ std::optional<double> StopInput::due_s() const {
   return *released_s_ + release_s_;
 }
 
-}  // namespace ols
+}  // namespace ols::gpio

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-namespace ols {
+namespace ols::gpio {
 
 class StopInput {
  public:
@@ -28,4 +28,4 @@ class StopInput {
   std::optional<double> released_s_;  // since when the line has been quietly released
 };
 
-}  // namespace ols
+}  // namespace ols::gpio

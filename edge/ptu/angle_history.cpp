@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -123,4 +123,4 @@ double AngleHistory::bend2_at(std::size_t middle, KnotOf knot) const {
   return std::max(0.0, shown) / square(0.5 * (first_s + second_s));
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -7,7 +7,7 @@
 
 #include "geometry/kinematic_chain.h"
 
-namespace ols {
+namespace ols::ptu {
 
 struct AngleSample {
   double time_s = 0.0;     // station's monotonic clock: estimate of when the unit read its counters
@@ -78,4 +78,4 @@ class AngleHistory {
   std::deque<AngleSample> samples_;
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -62,4 +62,4 @@ std::optional<double> AngleIntake::newest_s() const {
   return newest ? std::optional(newest->time_s) : std::nullopt;
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -12,7 +12,7 @@
 #include "edge/ptu/position_check.h"
 #include "edge/ptu/start_sequence.h"
 
-namespace ols {
+namespace ols::ptu {
 
 class AngleIntake {
  public:
@@ -44,4 +44,4 @@ class AngleIntake {
   std::optional<double> last_good_s_;
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -1,6 +1,6 @@
 #include "edge/ptu/budget.h"
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -21,4 +21,4 @@ double resting_cycle_s(int baud) {
   return (kFirstQuery_bytes + kRepliesResting_bytes) * byte_time_s(baud) + kUnit_s;
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -18,10 +18,10 @@
 // carry 21 cycles a second instead of 13, but a wrong digit would go unnoticed.
 #pragma once
 
-namespace ols {
+namespace ols::ptu {
 
 double byte_time_s(int baud);      // start bit, eight, stop bit
 double longest_cycle_s(int baud);  // in motion
 double resting_cycle_s(int baud);  // nothing to command
 
-}  // namespace ols
+}  // namespace ols::ptu

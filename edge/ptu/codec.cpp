@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -209,4 +209,4 @@ PtuComplaint complaint(std::string_view text) {
   return PtuComplaint::kOther;
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

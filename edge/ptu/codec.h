@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ols {
+namespace ols::ptu {
 
 enum class PtuAxis : char { kPan = 'P', kTilt = 'T' };
 
@@ -123,4 +123,4 @@ class PtuReplyParser {
   PtuLimitHits limit_hits_;
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -5,7 +5,7 @@
 #include "edge/ptu/budget.h"
 #include "edge/ptu/motion_commands.h"
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -386,4 +386,4 @@ std::optional<PtuLoweredSpeed> PtuDriver::lowered_speed() const {
 
 bool PtuDriver::standing() const { return ready() && ready()->standing(); }
 
-}  // namespace ols
+}  // namespace ols::ptu

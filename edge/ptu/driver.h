@@ -17,7 +17,7 @@
 #include "edge/ptu/steady_state.h"
 #include "edge/ptu/unit_model.h"
 
-namespace ols {
+namespace ols::ptu {
 
 class PtuDriver {
  public:
@@ -156,4 +156,4 @@ class PtuDriver {
   static constexpr double kFirstPause_s = 0.25;  // after a fault; doubles
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -7,7 +7,7 @@
 #include "edge/ptu/angle_history.h"
 #include "edge/ptu/servo.h"
 
-namespace ols {
+namespace ols::ptu {
 
 // Whether the driver homes a unit whose reference is missing or in doubt. Homing sweeps the whole
 // travel, whatever stands there, so only the configuration or a person can allow it.
@@ -61,4 +61,4 @@ struct PtuCounters {  // only go up
   std::uint64_t emergencies = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

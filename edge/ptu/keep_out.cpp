@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -233,4 +233,4 @@ PanTilt cut_short(const std::vector<KeepOut>& regions, const PanTilt& now, const
   return {pan_cut.pan_rad, tilt_cut.tilt_rad};
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -10,7 +10,7 @@
 
 #include "geometry/kinematic_chain.h"
 
-namespace ols {
+namespace ols::ptu {
 
 // A closed box in pan and tilt [rad], in the unit's own angles.
 struct AngleBox {
@@ -43,4 +43,4 @@ std::optional<std::vector<PanTilt>> way_round(const AngleBox& travel,
 PanTilt cut_short(const std::vector<KeepOut>& regions, const PanTilt& now, const PanTilt& stops_at,
                   const PanTilt& wanted);
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -4,7 +4,7 @@
 
 #include "edge/ptu/start_sequence.h"
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -35,4 +35,4 @@ ModeCheck::Result ModeCheck::take(const PollCycle& done) {
   return ++failed_ >= kMaxChecks ? Result::kUnitRestarted : Result::kUnchanged;
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -7,7 +7,7 @@
 
 #include "edge/ptu/poll_cycle.h"
 
-namespace ols {
+namespace ols::ptu {
 
 class ModeCheck {
  public:
@@ -36,4 +36,4 @@ class ModeCheck {
   int failed_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -6,7 +6,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -165,4 +165,4 @@ void MotionCommands::add_position(Axis& axis, double position_rad, PtuRequest& r
   request.set(axis.name, PtuQuantity::kPosition, position);
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

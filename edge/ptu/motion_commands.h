@@ -9,7 +9,7 @@
 #include "edge/ptu/driver_types.h"
 #include "edge/ptu/start_sequence.h"
 
-namespace ols {
+namespace ols::ptu {
 
 // Why no axis position satisfies both configuration and unit; empty if there is one.
 std::string limits_conflict(const PtuLimits& configured, const PtuFacts& facts);
@@ -66,4 +66,4 @@ class MotionCommands {
   PanTilt change_;
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

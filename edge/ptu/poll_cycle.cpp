@@ -2,7 +2,7 @@
 
 #include <cctype>
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -95,4 +95,4 @@ void PollCycle::take_position(const PtuReply& reply, Axis& axis, double asked_s,
   axis.readings[axis.taken++] = timing_.read_at(reply, asked_s, late_s, first);
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

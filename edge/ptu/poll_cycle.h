@@ -17,7 +17,7 @@
 #include "edge/ptu/codec.h"
 #include "edge/ptu/reply_timing.h"
 
-namespace ols {
+namespace ols::ptu {
 
 using PtuReadings = std::array<PtuReading, 2>;  // of one axis, in order of time
 
@@ -76,4 +76,4 @@ class PollCycle {
   bool spoilt_ = false, command_lost_ = false, modes_forgotten_ = false;
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -62,4 +62,4 @@ void Polling::give_up(double time_s, double quiet_s) {
   next_s_ = std::min(next_s_, time_s);
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

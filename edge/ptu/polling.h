@@ -7,7 +7,7 @@
 
 #include "edge/ptu/poll_cycle.h"
 
-namespace ols {
+namespace ols::ptu {
 
 class Polling {
  public:
@@ -47,4 +47,4 @@ class Polling {
   double last_byte_s_;
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -140,4 +140,4 @@ bool PositionCheck::standing() const {
          std::abs(tilt_.rate_counts_s) < kStanding_counts_s;
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

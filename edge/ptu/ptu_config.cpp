@@ -7,7 +7,7 @@
 #include "edge/config_units.h"
 #include "edge/ptu/budget.h"
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -24,15 +24,17 @@ void check_order(ConfigTable& table, double pan_min_rad, double pan_max_rad, dou
 
 std::vector<config::Row> keep_out_rows(KeepOut& region) {
   return {
-      config::number("pan_min_deg", region.pan_min_rad, kPan_deg, in_degrees(),
+      config::number("pan_min_deg", region.pan_min_rad, kPan_deg, station::in_degrees(),
                      "Border at the lesser pan angle.")
           .required(),
-      config::number("pan_max_deg", region.pan_max_rad, kPan_deg, in_degrees(),
+      config::number("pan_max_deg", region.pan_max_rad, kPan_deg, station::in_degrees(),
                      "Border at the greater pan angle.")
           .required(),
-      config::number("tilt_min_deg", region.tilt_min_rad, kTilt_deg, in_degrees(), "Lower border.")
+      config::number("tilt_min_deg", region.tilt_min_rad, kTilt_deg, station::in_degrees(),
+                     "Lower border.")
           .required(),
-      config::number("tilt_max_deg", region.tilt_max_rad, kTilt_deg, in_degrees(), "Upper border.")
+      config::number("tilt_max_deg", region.tilt_max_rad, kTilt_deg, station::in_degrees(),
+                     "Upper border.")
           .required(),
   };
 }
@@ -61,7 +63,7 @@ config::Section servo_section(ServoConfig& servo) {
                           "The commanded position is this far ahead, and the unit runs on this "
                           "long if the station dies."),
            config::number("max_speed_deg_s", servo.max_speed_rad_s, {0.1, 360.0},
-                          in_degrees("deg/s"), "Maximum speed of each axis.")}};
+                          station::in_degrees("deg/s"), "Maximum speed of each axis.")}};
 }
 
 std::vector<config::Row> line_rows(PtuConfig& c) {
@@ -78,7 +80,7 @@ std::vector<config::Row> line_rows(PtuConfig& c) {
                      "Without a credible reply for this long, the unit is halted and the port "
                      "opened again."),
       config::number("acceleration_deg_s2", c.acceleration_rad_s2, {1.0, 1000.0},
-                     in_degrees("deg/s^2"), "Acceleration of each axis, set at start."),
+                     station::in_degrees("deg/s^2"), "Acceleration of each axis, set at start."),
       config::number("environment_interval_s", c.environment_interval_s, {0.0, 3600.0}, "s",
                      "Interval of reading supply voltage and temperatures; 0: never."),
       config::number("supply_min_V", c.supply_min_V, {0.0, 60.0}, "V",
@@ -89,13 +91,13 @@ std::vector<config::Row> line_rows(PtuConfig& c) {
 std::vector<config::Row> motion_rows(PtuConfig& c) {
   PtuLimits& l = c.limits;
   return {
-      config::number("pan_min_deg", l.pan_min_rad, kPan_deg, in_degrees(),
+      config::number("pan_min_deg", l.pan_min_rad, kPan_deg, station::in_degrees(),
                      "Narrows the unit's own travel."),
-      config::number("pan_max_deg", l.pan_max_rad, kPan_deg, in_degrees(),
+      config::number("pan_max_deg", l.pan_max_rad, kPan_deg, station::in_degrees(),
                      "Narrows the unit's own travel."),
-      config::number("tilt_min_deg", l.tilt_min_rad, kTilt_deg, in_degrees(),
+      config::number("tilt_min_deg", l.tilt_min_rad, kTilt_deg, station::in_degrees(),
                      "Narrows the unit's own travel."),
-      config::number("tilt_max_deg", l.tilt_max_rad, kTilt_deg, in_degrees(),
+      config::number("tilt_max_deg", l.tilt_max_rad, kTilt_deg, station::in_degrees(),
                      "Narrows the unit's own travel."),
       config::flag("homes_at_power_up", c.homes_at_power_up,
                    "The unit's own setting: true as it leaves the factory (RE), false after RD."),
@@ -182,4 +184,4 @@ config::Section ptu_section(PtuConfig& c) {
           }};
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

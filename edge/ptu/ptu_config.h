@@ -6,8 +6,8 @@
 namespace ols::config {
 struct Section;
 }
-namespace ols {
+namespace ols::ptu {
 
 config::Section ptu_section(PtuConfig& config);  // [ptu]
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -3,8 +3,8 @@
 
 #include "edge/ptu/ptu_thread.h"
 
-namespace ols {
+namespace ols::ptu {
 
-DeviceReport ptu_report(const PtuConfig& config, const PtuStatus& status, double now_s);
+station::DeviceReport ptu_report(const PtuConfig& config, const PtuStatus& status, double now_s);
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -9,7 +9,7 @@
 #include "edge/ptu/ptu_report.h"
 #include "edge/ptu/serial_port.h"
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -95,7 +95,7 @@ struct PtuThread::Impl {
   mutable std::mutex mutex;               // of everything below but the thread
   PtuDriver driver;
   std::uint64_t reopens = 0;
-  DeviceThread thread;  // last: it uses the rest
+  station::DeviceThread thread;  // last: it uses the rest
 };
 
 PtuThread::PtuThread(const PtuConfig& config) : impl_(std::make_unique<Impl>(config)) {
@@ -166,7 +166,7 @@ PtuStatus PtuThread::status() const {
   const std::lock_guard lock(impl_->mutex);
   const PtuDriver& driver = impl_->driver;
   PtuStatus status;
-  const DeviceThread::Link link = impl_->thread.link();
+  const station::DeviceThread::Link link = impl_->thread.link();
   status.port = {link.is_open, link.failures, impl_->reopens};
   status.state = link.is_open || link.failures == 0 ? driver.state() : PtuState::kFault;
   status.emergency = impl_->emergency;
@@ -185,8 +185,8 @@ PtuStatus PtuThread::status() const {
   return status;
 }
 
-DeviceReport PtuThread::report() const {
+station::DeviceReport PtuThread::report() const {
   return ptu_report(impl_->config, status(), clock_monotonic_s());
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

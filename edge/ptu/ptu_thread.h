@@ -12,7 +12,7 @@
 #include "edge/device_report.h"
 #include "edge/ptu/driver.h"
 
-namespace ols {
+namespace ols::ptu {
 
 // The state of a PTU at one moment.
 struct PtuStatus {
@@ -67,11 +67,11 @@ class PtuThread {
   std::optional<PtuReferenceDoubt> doubt_to_persist() const;
 
   PtuStatus status() const;
-  DeviceReport report() const;
+  station::DeviceReport report() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

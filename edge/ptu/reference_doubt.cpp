@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace ols {
+namespace ols::ptu {
 
 const char* describe(PtuDoubtCause cause) {
   switch (cause) {
@@ -42,4 +42,4 @@ std::optional<PtuReferenceDoubt> doubt_from_word(std::string_view word) {
   return PtuReferenceDoubt{true, true};
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

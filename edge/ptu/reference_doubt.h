@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ols {
+namespace ols::ptu {
 
 // Why the reference is in doubt.
 enum class PtuDoubtCause { kPowerCycle, kLimitHit, kHomingInterrupted, kBeforeStart };
@@ -30,4 +30,4 @@ std::string to_word(const std::optional<PtuReferenceDoubt>& doubt);
 // A word that is not one of doubt_words() counts as the most serious doubt.
 std::optional<PtuReferenceDoubt> doubt_from_word(std::string_view word);
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -106,4 +106,4 @@ ReferenceWatch::Doubt& ReferenceWatch::doubt_for(PtuDoubtCause cause) {
   return *doubt_;
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

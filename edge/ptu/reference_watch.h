@@ -10,7 +10,7 @@
 #include "edge/ptu/codec.h"
 #include "edge/ptu/reference_doubt.h"
 
-namespace ols {
+namespace ols::ptu {
 
 // A homing runs into both ends of both axes and reports them: `!T!T!P!P`. Some of the four may be
 // lost on the line, or sent at another baud rate than the port's. One of each axis is enough,
@@ -78,4 +78,4 @@ class ReferenceWatch {
   double trusted_step_rad_ = 0.0;  // 0: not known yet
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ols {
+namespace ols::ptu {
 
 // The unit read its counter after the query's last byte was on the line, after it had finished the
 // command before, and before the reply began; any instant between is equally likely. But the start
@@ -47,4 +47,4 @@ bool ReplyTiming::waited(const PtuReply& reply, double late_s) const {
   return line_busy_s_ && started_s(reply) < *line_busy_s_ + 1.5 * byte_s_ + late_s;
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

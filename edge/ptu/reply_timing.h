@@ -7,7 +7,7 @@
 
 #include "edge/ptu/codec.h"
 
-namespace ols {
+namespace ols::ptu {
 
 struct PtuReading {
   std::int32_t counts = 0;
@@ -43,4 +43,4 @@ class ReplyTiming {
   double unit_free_s_ = 0.0;           // from about then
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

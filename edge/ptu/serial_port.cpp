@@ -14,7 +14,7 @@
 #include <cmath>
 #include <system_error>
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -149,4 +149,4 @@ bool SerialPort::drain(double timeout_s) {
   }
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -5,7 +5,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -190,4 +190,4 @@ Reach reach(const PtuLimits& limits, const PanTilt& now, PanTilt& angles) {
   return straight ? Reach::kDirect : Reach::kLongWayRound;
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

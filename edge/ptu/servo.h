@@ -13,7 +13,7 @@
 #include "edge/ptu/keep_out.h"
 #include "geometry/kinematic_chain.h"
 
-namespace ols {
+namespace ols::ptu {
 
 struct ServoConfig {
   double gain_hz = 3.0;          // proportional gain on the position error
@@ -69,4 +69,4 @@ enum class Reach { kDirect, kLongWayRound, kUnreachable };
 // other direction, or around a keep-out region.
 Reach reach(const PtuLimits& limits, const PanTilt& now, PanTilt& angles);
 
-}  // namespace ols
+}  // namespace ols::ptu

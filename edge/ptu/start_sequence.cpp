@@ -7,7 +7,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -166,4 +166,4 @@ bool PtuStartSequence::sensible(const PtuAxisFacts& facts) {
          facts.acceleration > 0;
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

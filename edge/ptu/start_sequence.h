@@ -12,7 +12,7 @@
 #include "edge/ptu/codec.h"
 #include "edge/ptu/unit_model.h"
 
-namespace ols {
+namespace ols::ptu {
 
 // What a unit states about one of its axes.
 struct PtuAxisFacts {
@@ -90,4 +90,4 @@ class PtuStartSequence {
 // The answer to C says that speeds are bounds of position moves.
 bool says_independent(const PtuReply& reply);
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -4,7 +4,7 @@
 
 #include "edge/ptu/motion_commands.h"
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -77,4 +77,4 @@ std::string PtuStarting::asked() const {
   return command;
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -8,7 +8,7 @@
 #include "edge/ptu/driver_types.h"
 #include "edge/ptu/start_sequence.h"
 
-namespace ols {
+namespace ols::ptu {
 
 class PtuStarting {
  public:
@@ -68,4 +68,4 @@ class PtuStarting {
   int retries_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -174,4 +174,4 @@ void PtuSteadyState::judge_refusals(const std::vector<std::string>& refusals, do
   }
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -14,7 +14,7 @@
 #include "edge/ptu/start_sequence.h"
 #include "edge/ptu/unit_model.h"
 
-namespace ols {
+namespace ols::ptu {
 
 class PtuSteadyState {
  public:
@@ -95,4 +95,4 @@ class PtuSteadyState {
   std::string error_;
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

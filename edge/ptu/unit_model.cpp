@@ -4,7 +4,7 @@
 #include <charconv>
 #include <vector>
 
-namespace ols {
+namespace ols::ptu {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::optional<PtuEnvironment> ptu_environment(std::string_view text) {
   return environment;
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace ols {
+namespace ols::ptu {
 
 enum class PtuModel {
   kUnknown,
@@ -27,4 +27,4 @@ struct PtuEnvironment {
 // degF) of an E46.
 std::optional<PtuEnvironment> ptu_environment(std::string_view text);
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace ols {
+namespace ols::recorder {
 namespace {
 
 constexpr const char* kTable = "frames.csv";
@@ -141,4 +141,4 @@ void EventFolder::discard() {
   if (::rmdir(partial.c_str()) != 0 && errno != ENOENT) fail(errno, partial);
 }
 
-}  // namespace ols
+}  // namespace ols::recorder

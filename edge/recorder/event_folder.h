@@ -9,7 +9,7 @@
 
 #include "edge/recorder/frame_memory.h"
 
-namespace ols {
+namespace ols::recorder {
 
 inline constexpr const char* kPartial = ".partial";
 
@@ -33,4 +33,4 @@ class EventFolder {
   std::string path_;  // without kPartial
 };
 
-}  // namespace ols
+}  // namespace ols::recorder

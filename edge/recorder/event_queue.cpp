@@ -4,7 +4,7 @@
 
 #include "edge/recorder/record_command.h"
 
-namespace ols {
+namespace ols::recorder {
 namespace {
 
 constexpr std::size_t kMostEvents = 4;  // at the same time
@@ -123,4 +123,4 @@ std::string EventQueue::unfinished() const {
   return {};
 }
 
-}  // namespace ols
+}  // namespace ols::recorder

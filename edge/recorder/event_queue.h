@@ -13,7 +13,7 @@
 #include "edge/recorder/frame_memory.h"
 #include "edge/recorder/recorder.h"
 
-namespace ols {
+namespace ols::recorder {
 
 struct RecordedEvent {
   std::string label;
@@ -70,4 +70,4 @@ class EventQueue {
   std::size_t waiting_bytes_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::recorder

@@ -17,7 +17,7 @@
 
 #include "edge/recorder/event_folder.h"
 
-namespace ols {
+namespace ols::recorder {
 namespace {
 
 namespace fs = std::filesystem;
@@ -184,4 +184,4 @@ double EventStore::bytes() const {
   return sum;
 }
 
-}  // namespace ols
+}  // namespace ols::recorder

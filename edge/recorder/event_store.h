@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-namespace ols {
+namespace ols::recorder {
 
 // "20260301T120000.250Z": sorts by time.
 std::string utc_name(std::int64_t utime_us);
@@ -71,4 +71,4 @@ class EventStore {
   std::uint64_t removed_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::recorder

@@ -1,6 +1,6 @@
 #include "edge/recorder/frame_memory.h"
 
-namespace ols {
+namespace ols::recorder {
 
 std::size_t bytes_of(const RecordedFrame& frame) {
   return frame.picture.total() * frame.picture.elemSize();
@@ -25,4 +25,4 @@ std::vector<RecordedFrame> FrameMemory::between(double from_s, double to_s) cons
   return found;
 }
 
-}  // namespace ols
+}  // namespace ols::recorder

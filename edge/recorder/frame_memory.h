@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace ols {
+namespace ols::recorder {
 
 struct RecordedFrame {
   cv::Mat picture;                     // as the camera sent it
@@ -38,4 +38,4 @@ class FrameMemory {
   std::size_t bytes_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::recorder

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdio>
 
-namespace ols {
+namespace ols::recorder {
 namespace {
 
 constexpr std::size_t kLongestLabel = 40;
@@ -41,4 +41,4 @@ bool RecordRate::admit(double now_s) {
   return true;
 }
 
-}  // namespace ols
+}  // namespace ols::recorder

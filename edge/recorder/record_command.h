@@ -5,7 +5,7 @@
 
 #include "edge/recorder/recorder.h"
 
-namespace ols {
+namespace ols::recorder {
 
 inline constexpr double kLateFrame_s = 1.0;  // a frame comes at most so much after its exposure
 
@@ -23,4 +23,4 @@ class RecordRate {
   double at_s_ = 0.0;
 };
 
-}  // namespace ols
+}  // namespace ols::recorder

@@ -25,7 +25,7 @@
 #include "edge/recorder/event_store.h"
 #include "edge/recorder/record_command.h"
 
-namespace ols {
+namespace ols::recorder {
 namespace {
 
 constexpr double kSurvey_s = 2.0;  // the disk is looked at so often
@@ -265,7 +265,7 @@ Recorder::Recorder(const RecorderConfig& config) : impl_(std::make_unique<Impl>(
 
 Recorder::~Recorder() = default;  // the jthread asks to stop and joins
 
-void Recorder::add(const Frame& frame, std::int64_t utime_us) {
+void Recorder::add(const camera::Frame& frame, std::int64_t utime_us) {
   if (impl_->config.folder.empty()) return;
   impl_->add({frame.raw.empty() ? frame.gray : frame.raw, frame.pixel_format, utime_us,
               frame.mid_exposure_s, frame.stamp_sd_s, frame.number});
@@ -273,9 +273,9 @@ void Recorder::add(const Frame& frame, std::int64_t utime_us) {
 
 std::string Recorder::record(const RecordCommand& command) { return impl_->record(command); }
 
-DeviceReport Recorder::report() const {
+station::DeviceReport Recorder::report() const {
   const std::lock_guard lock(impl_->mutex);
-  DeviceReport report;
+  station::DeviceReport report;
   report.name = "recorder";
   const DiskState& disk = impl_->disk;
   report.last_good_s = disk.good_s;
@@ -299,14 +299,14 @@ DeviceReport Recorder::report() const {
         "and remove them");
   }
   if (const std::string wrong = impl_->wrong(); !wrong.empty()) {
-    report.state = DeviceState::kFault;
+    report.state = station::DeviceState::kFault;
     report.text = wrong;
     report.alarms.push_back("recorder: " + wrong);
   } else if (!disk.good_s) {
-    report.state = DeviceState::kStarting;
+    report.state = station::DeviceState::kStarting;
     report.text = impl_->config.folder;
   } else {
-    report.state = DeviceState::kOk;
+    report.state = station::DeviceState::kOk;
     report.text = std::to_string(disk.stored_events) + " events in " + impl_->config.folder;
     if (!impl_->queue.empty()) report.text += ", recording";
     if (!impl_->beside.empty()) report.text += "; " + impl_->beside;
@@ -314,4 +314,4 @@ DeviceReport Recorder::report() const {
   return report;
 }
 
-}  // namespace ols
+}  // namespace ols::recorder

@@ -15,7 +15,7 @@
 namespace ols::config {
 struct Section;
 }
-namespace ols {
+namespace ols::recorder {
 
 struct RecorderConfig {
   std::string folder;     // empty: the station records nothing
@@ -45,14 +45,14 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
 
   // Remembers the frame (shares its pixels) and never waits. `utime_us`: its mid-exposure.
-  void add(const Frame& frame, std::int64_t utime_us);
+  void add(const camera::Frame& frame, std::int64_t utime_us);
   // Empty: accepted; else why not.
   std::string record(const RecordCommand& command);
-  DeviceReport report() const;
+  station::DeviceReport report() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace ols
+}  // namespace ols::recorder

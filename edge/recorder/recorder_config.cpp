@@ -1,7 +1,7 @@
 #include "base/config_section.h"
 #include "edge/recorder/recorder.h"
 
-namespace ols {
+namespace ols::recorder {
 
 config::Section recorder_section(RecorderConfig& c) {
   return {"recorder",
@@ -23,4 +23,4 @@ config::Section recorder_section(RecorderConfig& c) {
                           "Maximum duration of a recording.")}};
 }
 
-}  // namespace ols
+}  // namespace ols::recorder

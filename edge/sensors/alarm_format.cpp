@@ -4,7 +4,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::sensors {
 
 namespace {
 
@@ -30,4 +30,4 @@ std::string format_time(double time_s) {
 
 std::string format_angle(double angle_rad) { return with_unit("%.2f deg", degrees(angle_rad)); }
 
-}  // namespace ols
+}  // namespace ols::sensors

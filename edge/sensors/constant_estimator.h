@@ -12,7 +12,7 @@
 #include <cmath>
 #include <optional>
 
-namespace ols {
+namespace ols::sensors {
 
 template <int N>
 class ConstantEstimator {
@@ -136,4 +136,4 @@ class ConstantEstimator {
   Vector distance_ = Vector::Zero();
 };
 
-}  // namespace ols
+}  // namespace ols::sensors

@@ -5,7 +5,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::sensors {
 
 namespace {
 
@@ -100,4 +100,4 @@ void Dpg2Parser::drop_half() {
   half_.reset();
 }
 
-}  // namespace ols
+}  // namespace ols::sensors

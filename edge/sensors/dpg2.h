@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ols {
+namespace ols::sensors {
 
 // The angles that the sensor reports for its two axes.
 struct AxisAngles {
@@ -60,4 +60,4 @@ class Dpg2Parser {
   Dpg2Counters counters_;
 };
 
-}  // namespace ols
+}  // namespace ols::sensors

@@ -13,7 +13,7 @@
 namespace ols::config {
 struct Section;
 }
-namespace ols {
+namespace ols::sensors {
 
 struct GnssConfig {
   std::string host;  // of gpsd; empty: the station has no receiver
@@ -36,11 +36,11 @@ class Gnss {
   Gnss& operator=(const Gnss&) = delete;
 
   std::vector<GnssReading> take_readings();  // since the last call, oldest first
-  DeviceReport report() const;
+  station::DeviceReport report() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace ols
+}  // namespace ols::sensors

@@ -7,7 +7,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::sensors {
 
 namespace {
 
@@ -112,4 +112,4 @@ std::vector<GnssReading> GpsdEpochs::take_readings(double now_s) {
   return std::exchange(complete_, {});
 }
 
-}  // namespace ols
+}  // namespace ols::sensors

@@ -14,7 +14,7 @@
 
 #include "edge/sensors/gnss_reading.h"
 
-namespace ols {
+namespace ols::sensors {
 
 // 1-sigma, as the sentence GST has it.
 struct GstSigmas {
@@ -56,4 +56,4 @@ class GpsdEpochs {
   std::vector<GnssReading> complete_;
 };
 
-}  // namespace ols
+}  // namespace ols::sensors

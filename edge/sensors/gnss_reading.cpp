@@ -1,6 +1,6 @@
 #include "edge/sensors/gnss_reading.h"
 
-namespace ols {
+namespace ols::sensors {
 
 const char* to_string(GnssFix fix) {
   switch (fix) {
@@ -20,4 +20,4 @@ const char* to_string(GnssFix fix) {
   return "no fix";
 }
 
-}  // namespace ols
+}  // namespace ols::sensors

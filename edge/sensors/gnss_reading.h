@@ -5,7 +5,7 @@
 
 #include "geometry/wgs84.h"
 
-namespace ols {
+namespace ols::sensors {
 
 // Worst first. (gpsd: 3 is RTK fixed, 4 RTK float; NMEA's GGA: 4 is fixed, 5 float.)
 enum class GnssFix { kNone, k2D, k3D, kDifferential, kRtkFloat, kRtkFixed };
@@ -20,4 +20,4 @@ struct GnssReading {
   int satellites_used = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::sensors

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <stdexcept>
 
-namespace ols {
+namespace ols::sensors {
 
 namespace {
 
@@ -67,4 +67,4 @@ GpsdLink::Silence GpsdLink::silence() const {
   return missing ? Silence::kDeviceMissing : Silence::kReceiverSilent;
 }
 
-}  // namespace ols
+}  // namespace ols::sensors

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-namespace ols {
+namespace ols::sensors {
 
 class GpsdLink {
  public:
@@ -34,4 +34,4 @@ class GpsdLink {
   std::string device_;  // the receiver's, on gpsd's host
 };
 
-}  // namespace ols
+}  // namespace ols::sensors

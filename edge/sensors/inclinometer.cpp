@@ -12,7 +12,7 @@
 #include "edge/ptu/serial_port.h"
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::sensors {
 
 namespace {
 
@@ -38,7 +38,8 @@ struct Inclinometer::Impl {
         thread({"inclinometer", "is being opened", kFirstPause_s, kMaxPause_s}) {}
 
   void run(const std::stop_token& stop) {
-    SerialPort port(config.device, config.baud, config.even_parity ? Parity::kEven : Parity::kNone);
+    ptu::SerialPort port(config.device, config.baud,
+                         config.even_parity ? ptu::Parity::kEven : ptu::Parity::kNone);
     thread.opened();
     request_version(port);
     serve(port, stop);
@@ -46,7 +47,7 @@ struct Inclinometer::Impl {
 
   // Returns when the thread must stop. Throws when the port fails, or when the sensor stays silent
   // though it was started kStartsBeforeReopening times.
-  void serve(SerialPort& port, const std::stop_token& stop) {
+  void serve(ptu::SerialPort& port, const std::stop_token& stop) {
     start_streaming(port);
     double last_reading_s = clock_monotonic_s();
     int starts = 1;
@@ -64,7 +65,7 @@ struct Inclinometer::Impl {
     }
   }
 
-  void request_version(SerialPort& port) {
+  void request_version(ptu::SerialPort& port) {
     {
       const std::lock_guard lock(mutex);
       parser.expect_version();
@@ -72,7 +73,7 @@ struct Inclinometer::Impl {
     port.write("V");
   }
 
-  void start_streaming(SerialPort& port) {
+  void start_streaming(ptu::SerialPort& port) {
     port.write("S");
     const std::lock_guard lock(mutex);
     ++starts_sent;
@@ -98,13 +99,13 @@ struct Inclinometer::Impl {
     if (silent_s > config.stale_s) {
       return "no reading for " + std::to_string(static_cast<int>(silent_s)) + " s";
     }
-    if (last && now_s - changed_s > config.stuck_s) return "stuck at " + in_degrees(*last);
+    if (last && now_s - changed_s > config.stuck_s) return "stuck at " + station::in_degrees(*last);
     return {};
   }
 
-  DeviceReport report() const {
+  station::DeviceReport report() const {
     const std::lock_guard lock(mutex);
-    DeviceReport r = thread.report();
+    station::DeviceReport r = thread.report();
     describe(r);
     if (last) {
       r.last_good_s = last->time_s;
@@ -122,14 +123,15 @@ struct Inclinometer::Impl {
     return r;
   }
 
-  void describe(DeviceReport& r) const {
-    if (r.state == DeviceState::kFault) {
+  void describe(station::DeviceReport& r) const {
+    if (r.state == station::DeviceState::kFault) {
       if (!last) r.alarms.push_back("inclinometer: " + r.text);
-    } else if (r.state == DeviceState::kOk && !last) {
-      r.state = DeviceState::kStarting;
+    } else if (r.state == station::DeviceState::kOk && !last) {
+      r.state = station::DeviceState::kStarting;
       r.text = "waiting for readings";
-    } else if (r.state == DeviceState::kOk) {
-      r.text = (parser.version().empty() ? "" : parser.version() + ", ") + in_degrees(*last);
+    } else if (r.state == station::DeviceState::kOk) {
+      r.text =
+          (parser.version().empty() ? "" : parser.version() + ", ") + station::in_degrees(*last);
     }
   }
 
@@ -140,7 +142,7 @@ struct Inclinometer::Impl {
   std::optional<AxisAngles> last;  // the last good pair
   double changed_s = 0.0;          // last time a digit changed
   std::uint64_t starts_sent = 0;
-  DeviceThread thread;  // last: it uses the rest
+  station::DeviceThread thread;  // last: it uses the rest
 };
 
 Inclinometer::Inclinometer(const InclinometerConfig& config)
@@ -156,6 +158,6 @@ std::vector<TiltReading> Inclinometer::take_readings() {
   return std::exchange(impl_->readings, {});
 }
 
-DeviceReport Inclinometer::report() const { return impl_->report(); }
+station::DeviceReport Inclinometer::report() const { return impl_->report(); }
 
-}  // namespace ols
+}  // namespace ols::sensors

@@ -13,7 +13,7 @@
 namespace ols::config {
 struct Section;
 }
-namespace ols {
+namespace ols::sensors {
 
 struct InclinometerConfig {
   std::string device;  // serial device; empty: no inclinometer
@@ -46,11 +46,11 @@ class Inclinometer {
 
   // Readings since the last call, oldest first.
   std::vector<TiltReading> take_readings();
-  DeviceReport report() const;
+  station::DeviceReport report() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace ols
+}  // namespace ols::sensors

@@ -4,7 +4,7 @@
 
 #include "edge/sensors/inclinometer.h"
 
-namespace ols {
+namespace ols::sensors {
 
 TiltReading origin_tilt(const InclinometerConfig& config, const AxisAngles& shown) {
   double x_rad = shown.x_rad;
@@ -18,4 +18,4 @@ TiltReading origin_tilt(const InclinometerConfig& config, const AxisAngles& show
   return {shown.time_s, x_rad, std::asin(sine)};
 }
 
-}  // namespace ols
+}  // namespace ols::sensors

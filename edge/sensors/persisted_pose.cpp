@@ -7,7 +7,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::sensors {
 namespace {
 
 constexpr std::string_view kHead = "ols-pose 1\n";
@@ -111,4 +111,4 @@ std::variant<PersistedPose, std::string> persisted_pose_from(std::string_view te
   return pose;
 }
 
-}  // namespace ols
+}  // namespace ols::sensors

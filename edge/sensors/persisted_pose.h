@@ -17,7 +17,7 @@
 
 #include "geometry/wgs84.h"
 
-namespace ols {
+namespace ols::sensors {
 
 struct PersistedPose {
   struct Position {
@@ -39,4 +39,4 @@ std::string to_text(const PersistedPose& pose);
 // The pose in the text, or an error that names the line.
 std::variant<PersistedPose, std::string> persisted_pose_from(std::string_view text);
 
-}  // namespace ols
+}  // namespace ols::sensors

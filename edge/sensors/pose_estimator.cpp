@@ -3,7 +3,7 @@
 #include "edge/sensors/station_position.h"
 #include "edge/sensors/station_tilt.h"
 
-namespace ols {
+namespace ols::sensors {
 namespace {
 
 // The age is unknown if the clock was set back since then or is not set yet: some days are assumed.
@@ -64,4 +64,4 @@ std::vector<std::string> PoseEstimator::alarms(double now_s) const {
   return alarms;
 }
 
-}  // namespace ols
+}  // namespace ols::sensors

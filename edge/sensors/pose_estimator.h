@@ -20,7 +20,7 @@
 #include "edge/sensors/tilt_reading.h"
 #include "geometry/wgs84.h"
 
-namespace ols {
+namespace ols::sensors {
 
 enum class PoseSource { kNone, kSurveyed, kSensor };
 
@@ -81,4 +81,4 @@ class PoseEstimator {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace ols
+}  // namespace ols::sensors

@@ -1,6 +1,6 @@
 #include "edge/sensors/pose_estimator_config.h"
 
-namespace ols {
+namespace ols::sensors {
 
 void set_sensors(PoseEstimator::Config& c, const InclinometerConfig& inclinometer,
                  const GnssConfig& gnss) {
@@ -14,4 +14,4 @@ void set_sensors(PoseEstimator::Config& c, const InclinometerConfig& inclinomete
   c.stuck_s = inclinometer.stuck_s;
 }
 
-}  // namespace ols
+}  // namespace ols::sensors

@@ -5,10 +5,10 @@
 #include "edge/sensors/inclinometer.h"
 #include "edge/sensors/pose_estimator.h"
 
-namespace ols {
+namespace ols::sensors {
 
 // Sets everything but the settings of [pose].
 void set_sensors(PoseEstimator::Config& estimator, const InclinometerConfig& inclinometer,
                  const GnssConfig& gnss);
 
-}  // namespace ols
+}  // namespace ols::sensors

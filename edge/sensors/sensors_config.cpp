@@ -2,7 +2,7 @@
 #include "edge/sensors/gnss.h"
 #include "edge/sensors/inclinometer.h"
 
-namespace ols {
+namespace ols::sensors {
 
 config::Section inclinometer_section(InclinometerConfig& c) {
   return {
@@ -22,13 +22,13 @@ config::Section inclinometer_section(InclinometerConfig& c) {
                       "Sign of the X axis, after swapping and zero."),
        config::one_of("y_sign", c.y_sign, {1, -1}, "",
                       "Sign of the Y axis, after swapping and zero."),
-       config::number("x_zero_deg", c.x_zero_rad, {-30.0, 30.0}, in_degrees(),
+       config::number("x_zero_deg", c.x_zero_rad, {-30.0, 30.0}, station::in_degrees(),
                       "Reading of the X axis, after swapping, when ORIGIN is level."),
-       config::number("y_zero_deg", c.y_zero_rad, {-30.0, 30.0}, in_degrees(),
+       config::number("y_zero_deg", c.y_zero_rad, {-30.0, 30.0}, station::in_degrees(),
                       "Reading of the Y axis, after swapping, when ORIGIN is level."),
-       config::number("range_deg", c.range_rad, {0.1, 80.0}, in_degrees(),
+       config::number("range_deg", c.range_rad, {0.1, 80.0}, station::in_degrees(),
                       "Readings beyond are refused."),
-       config::number("sd_deg", c.sd_rad, {1e-4, 10.0}, in_degrees(),
+       config::number("sd_deg", c.sd_rad, {1e-4, 10.0}, station::in_degrees(),
                       "1-sigma of zero and mounting; averaging does not reduce it.")}};
 }
 
@@ -59,4 +59,4 @@ config::Section gnss_section(GnssConfig& c) {
                       "A new position is adopted when it holds for this long; 0: never.")}};
 }
 
-}  // namespace ols
+}  // namespace ols::sensors

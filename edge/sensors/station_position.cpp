@@ -4,7 +4,7 @@
 
 #include "edge/sensors/alarm_format.h"
 
-namespace ols {
+namespace ols::sensors {
 
 namespace {
 
@@ -129,4 +129,4 @@ void StationPosition::add_alarms(std::vector<std::string>& alarms, double now_s)
   }
 }
 
-}  // namespace ols
+}  // namespace ols::sensors

@@ -5,7 +5,7 @@
 #include "edge/sensors/alarm_format.h"
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::sensors {
 
 namespace {
 
@@ -116,4 +116,4 @@ void StationTilt::add_alarms(std::vector<std::string>& alarms, double now_s) con
   }
 }
 
-}  // namespace ols
+}  // namespace ols::sensors

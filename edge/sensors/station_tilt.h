@@ -9,7 +9,7 @@
 #include "edge/sensors/persisted_pose.h"
 #include "edge/sensors/pose_estimator.h"
 
-namespace ols {
+namespace ols::sensors {
 
 class StationTilt {
  public:
@@ -34,4 +34,4 @@ class StationTilt {
   double known_s_ = 0.0;    // when the resumed tilt was measured
 };
 
-}  // namespace ols
+}  // namespace ols::sensors

@@ -1,7 +1,7 @@
 // A measurement of the inclinometer. Pure.
 #pragma once
 
-namespace ols {
+namespace ols::sensors {
 
 // The inclination of the tripod's head at ORIGIN, sensor mounting applied, in the sense of
 // ChainParameters.
@@ -11,4 +11,4 @@ struct TiltReading {
   double tilt_y_rad = 0.0;  // about Y, nose down > 0
 };
 
-}  // namespace ols
+}  // namespace ols::sensors

@@ -7,7 +7,7 @@
 
 #include "edge/tracker/alignment.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 // A part of the picture and what is looked for in it.
@@ -189,4 +189,4 @@ std::optional<cv::Rect2d> Acquisition::sole() const {
   return cv::Rect2d(box.tl() - cv::Point2d(pad), box.size() + pad + pad);
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace ols {
+namespace ols::tracker {
 
 struct AcquisitionConfig {
   int frames = 3;                // in a row that must show the same object
@@ -67,4 +67,4 @@ class Acquisition {
   std::vector<Track> tracks_;
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -5,7 +5,7 @@
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 
-namespace ols {
+namespace ols::tracker {
 
 cv::Rect reduced_area(const ReducedFrame& frame, const cv::Rect2d& area) {
   // Edge by edge: corner and size rounded apart would reach over the image's edge.
@@ -33,4 +33,4 @@ cv::Mat brought_to_present(const cv::Mat& earlier, const Eigen::Matrix3d& to_pre
   return brought;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -6,7 +6,7 @@
 
 #include "edge/tracker/ego_motion.h"
 
-namespace ols {
+namespace ols::tracker {
 
 // The reduced pixels that an area of the full frame touches, inside the image.
 cv::Rect reduced_area(const ReducedFrame& frame, const cv::Rect2d& area);
@@ -17,4 +17,4 @@ cv::Rect reduced_area(const ReducedFrame& frame, const cv::Rect2d& area);
 cv::Mat brought_to_present(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
                            const cv::Mat& now, const cv::Point& origin);
 
-}  // namespace ols
+}  // namespace ols::tracker

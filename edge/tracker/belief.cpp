@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 constexpr double kFallTime = 0.12;  // [s]
@@ -52,4 +52,4 @@ void Belief::update(const FrameEvidence& evidence, double interval_s) {
   }
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -1,7 +1,7 @@
 // How far the tracker believes that what it follows is the target, 0..1.
 #pragma once
 
-namespace ols {
+namespace ols::tracker {
 
 constexpr double kBelieved = 0.5;  // more is on the target, for what follows from it
 
@@ -52,4 +52,4 @@ class Belief {
   Typical typical_;
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 constexpr double kCertain = 5.0;     // standard deviations of the surroundings
@@ -109,4 +109,4 @@ cv::Rect2d find_core(const cv::Mat& gray, const cv::Rect2d& box) {
   return core.area() < kMostFill * box.area() ? core : box;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

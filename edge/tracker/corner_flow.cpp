@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using Four = cv::v_float32x4;
@@ -169,4 +169,4 @@ FollowedCorner follow_corner(const ImagePyramid& previous, const ImagePyramid& c
   return followed;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

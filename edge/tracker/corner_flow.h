@@ -4,7 +4,7 @@
 #include <array>
 #include <opencv2/core.hpp>
 
-namespace ols {
+namespace ols::tracker {
 
 // An image and its halves, quarters and eighths, as cv::pyrDown() makes them: a pixel of one is at
 // half its coordinates in the next. Around each the outermost pixels are continued.
@@ -33,4 +33,4 @@ struct FollowedCorner {
 FollowedCorner follow_corner(const ImagePyramid& previous, const ImagePyramid& current,
                              const cv::Point2f& corner, const cv::Point2f& guess);
 
-}  // namespace ols
+}  // namespace ols::tracker

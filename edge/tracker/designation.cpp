@@ -2,7 +2,7 @@
 
 #include "edge/tracker/core_box.h"
 
-namespace ols {
+namespace ols::tracker {
 
 Designation::Designation(const cv::Rect2d& box, const cv::Rect2d& core)
     : place_((centre_of(box) - centre_of(core)).cwiseQuotient(size_of(core))),
@@ -25,4 +25,4 @@ std::optional<cv::Rect2d> Designation::find_late(const cv::Mat& gray, const Moti
   return core;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

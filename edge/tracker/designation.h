@@ -5,7 +5,7 @@
 
 #include "edge/tracker/motion_model.h"
 
-namespace ols {
+namespace ols::tracker {
 
 class Designation {
  public:
@@ -33,4 +33,4 @@ class Designation {
   double empty_s_ = 0.0;
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

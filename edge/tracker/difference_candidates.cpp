@@ -7,7 +7,7 @@
 #include "edge/tracker/alignment.h"
 #include "edge/tracker/particle.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 // So many pixels together that a target spans about `kSpan` of them: it takes no more to find it.
@@ -68,4 +68,4 @@ std::vector<Eigen::Vector2d> difference_candidates(const ReducedFrame& previous,
   return pixels;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

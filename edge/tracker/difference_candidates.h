@@ -9,7 +9,7 @@
 
 #include "edge/tracker/ego_motion.h"
 
-namespace ols {
+namespace ols::tracker {
 
 // Up to `most` maxima of the frame difference inside `area` of the frame, smoothed over the
 // target's size, strongest first, at least one target apart. `homography` takes the previous
@@ -20,4 +20,4 @@ std::vector<Eigen::Vector2d> difference_candidates(const ReducedFrame& previous,
                                                    const cv::Rect2d& area,
                                                    const Eigen::Vector2d& size_px, int most);
 
-}  // namespace ols
+}  // namespace ols::tracker

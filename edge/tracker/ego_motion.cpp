@@ -12,7 +12,7 @@
 #include "edge/tracker/median.h"
 #include "edge/tracker/patch.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 constexpr double kAlike = 0.7;   // correlation of a corner's surroundings
@@ -298,4 +298,4 @@ EgoMotionEstimator::Estimate EgoMotionEstimator::step(
   return estimate;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -9,7 +9,7 @@
 #include "edge/tracker/corner_flow.h"
 #include "edge/tracker/tracker_config.h"
 
-namespace ols {
+namespace ols::tracker {
 
 // A frame made smaller once, for everything that looks at the whole picture.
 struct ReducedFrame {
@@ -84,4 +84,4 @@ Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,
                                const std::vector<cv::Point2f>& current,
                                const Eigen::Matrix3d& guess, const cv::Size& image);
 
-}  // namespace ols
+}  // namespace ols::tracker

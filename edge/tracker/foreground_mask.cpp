@@ -7,7 +7,7 @@
 
 #include "edge/tracker/ego_motion.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 constexpr std::size_t kMost = 8;
@@ -122,4 +122,4 @@ FrameView foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference
   return mask;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -8,7 +8,7 @@
 
 #include "edge/tracker/patch.h"
 
-namespace ols {
+namespace ols::tracker {
 
 // Earlier frames, each with the homography that brings it to the present one.
 class ReferenceFrames {
@@ -47,4 +47,4 @@ FrameView foreground_mask(const cv::Mat& frame, double level, const cv::Rect& ar
 FrameView foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference& reference,
                           const cv::Rect& area, const Template& target);
 
-}  // namespace ols
+}  // namespace ols::tracker

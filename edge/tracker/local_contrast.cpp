@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace ols {
+namespace ols::tracker {
 
 LocalContrast::LocalContrast(const FrameView& view, const cv::Rect& area) : view_(view) {
   const int left = static_cast<int>(std::floor(view.x_of(area.x)));
@@ -42,4 +42,4 @@ double LocalContrast::operator()(const Eigen::Vector2d& pixel,
   return sum(middle) / middle.area() - (sum(around) - sum(box)) / frame;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

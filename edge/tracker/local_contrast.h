@@ -7,7 +7,7 @@
 
 #include "edge/tracker/patch.h"
 
-namespace ols {
+namespace ols::tracker {
 
 class LocalContrast {
  public:
@@ -27,4 +27,4 @@ class LocalContrast {
   FrameView view_;
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace ols {
+namespace ols::tracker {
 
 // Of an even number the upper one of the two; `values` must not be empty.
 template <typename Number>
@@ -14,4 +14,4 @@ Number median(std::vector<Number> values) {
   return *middle;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

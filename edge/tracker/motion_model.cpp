@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 constexpr double kLeastSide = 3.0;  // [px] smaller boxes hold no pattern
@@ -77,4 +77,4 @@ Particle MotionModel::disturbed(const Particle& particle, Random& random) const 
   return next;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -8,7 +8,7 @@
 #include "edge/tracker/random.h"
 #include "edge/tracker/tracker_config.h"
 
-namespace ols {
+namespace ols::tracker {
 
 // What is known of the camera's motion between two frames.
 struct CameraMotion {
@@ -57,4 +57,4 @@ class MotionModel {
   bool rate_known_ = false;
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -9,7 +9,7 @@
 #include "edge/tracker/alignment.h"
 #include "edge/tracker/patch.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 // Where the picture is brighter than all, or darker than all of the earlier image within a pixel,
@@ -158,4 +158,4 @@ std::vector<MoverCandidate> detect_movers(const cv::Mat& earlier, const Eigen::M
   return strongest(std::move(found), static_cast<std::size_t>(search.most));
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -8,7 +8,7 @@
 
 #include "edge/tracker/ego_motion.h"
 
-namespace ols {
+namespace ols::tracker {
 
 struct MoverCandidate {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // its centroid, full-frame pixels
@@ -34,4 +34,4 @@ struct MoverSearch {
 std::vector<MoverCandidate> detect_movers(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
                                           const ReducedFrame& current, const MoverSearch& search);
 
-}  // namespace ols
+}  // namespace ols::tracker

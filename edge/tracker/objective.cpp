@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/core/hal/intrin.hpp>
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 // Four at a time, each in its own sum: their order is fixed.
@@ -93,4 +93,4 @@ Similarity Objective::operator()(const Patch& gray, const MaskPatch& candidate_m
           static_cast<double>(kNorm * product), static_cast<double>(level.deviation / deviation_)};
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -6,7 +6,7 @@
 
 #include "edge/tracker/patch.h"
 
-namespace ols {
+namespace ols::tracker {
 
 // exp(M) of a mask's 0, 1/255 ... 1: eq. (5)'s weights.
 template <typename Number>
@@ -62,4 +62,4 @@ class Objective {
   double greatest_ = kPatchArea;
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

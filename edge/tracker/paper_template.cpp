@@ -5,7 +5,7 @@
 
 #include "edge/tracker/objective.h"
 
-namespace ols {
+namespace ols::tracker {
 
 double paper_objective(const Patch& template_gray, const MaskPatch& template_mask,
                        const Patch& candidate_gray, const MaskPatch& candidate_mask) {
@@ -58,4 +58,4 @@ double PaperTemplate::greatest_objective() const {
   return greatest;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -6,7 +6,7 @@
 #include "edge/tracker/foreground_mask.h"
 #include "edge/tracker/scene_motion.h"
 
-namespace ols {
+namespace ols::tracker {
 
 // Eq. (5): the sum over the patch of exp(min(Mt, Mc)) * (1 - |It - Ic|)^2, intensities and masks
 // being 0..1. Between 0 and kPatchArea * e.
@@ -40,4 +40,4 @@ class PaperTemplate {
   std::optional<MaskPatch> mask_;  // Mt
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

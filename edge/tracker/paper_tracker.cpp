@@ -7,7 +7,7 @@
 #include "edge/tracker/difference_candidates.h"
 #include "edge/tracker/motion_model.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 cv::Rect area_of(const std::vector<Particle>& particles) {
@@ -178,4 +178,4 @@ Eigen::Vector2d PaperTracker::noise(double sd) {
   return {sd * x, sd * y};
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

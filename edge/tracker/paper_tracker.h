@@ -8,7 +8,7 @@
 #include "edge/tracker/particle_filter.h"
 #include "edge/tracker/scene_motion.h"
 
-namespace ols {
+namespace ols::tracker {
 
 class PaperTracker {
  public:
@@ -42,4 +42,4 @@ class PaperTracker {
   bool placed_ = false;  // the particles stand in the coming frame already
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-namespace ols {
+namespace ols::tracker {
 
 struct Particle {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();          // centre; (0, 0) is a pixel's centre
@@ -36,4 +36,4 @@ inline Eigen::Vector2d transform(const Eigen::Matrix3d& homography, const Eigen:
   return (homography * pixel.homogeneous()).hnormalized();
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

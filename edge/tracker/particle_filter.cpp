@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 // Density of "anywhere" relative to the peak of the prediction: a target that did not follow the
@@ -105,4 +105,4 @@ void ParticleFilter::resample(Random& random) {
   weights_.assign(count, step);
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -6,7 +6,7 @@
 
 #include "edge/tracker/motion_model.h"
 
-namespace ols {
+namespace ols::tracker {
 
 class ParticleFilter {
  public:
@@ -60,4 +60,4 @@ class ParticleFilter {
   Eigen::Matrix2d predicted_covariance_px2_ = Eigen::Matrix2d::Identity();
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

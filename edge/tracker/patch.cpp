@@ -8,7 +8,7 @@
 
 #include "edge/tracker/median.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 // [px] of the image across a patch, unless it is of a box many times wider than high.
@@ -255,4 +255,4 @@ Template make_template(const FrameView& view, const Eigen::Vector2d& pixel,
   return made;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

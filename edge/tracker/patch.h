@@ -7,7 +7,7 @@
 
 #include "edge/tracker/particle.h"
 
-namespace ols {
+namespace ols::tracker {
 
 inline constexpr int kPatchSide = 24;
 inline constexpr int kPatchArea = kPatchSide * kPatchSide;
@@ -64,4 +64,4 @@ float level_around(const FrameView& view, const Eigen::Vector2d& pixel,
 Template make_template(const FrameView& view, const Eigen::Vector2d& pixel,
                        const Eigen::Vector2d& size_px);
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 constexpr double kSameShape = 0.9;       // correlation; less is no measurement of its size
@@ -38,4 +38,4 @@ void PointMeasurement::learn_shared_noise(double shared_noise, double interval_s
   shared_noise_ += share * (shared_noise - shared_noise_);
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -5,7 +5,7 @@
 
 #include "edge/tracker/target_model.h"
 
-namespace ols {
+namespace ols::tracker {
 
 inline constexpr double kSamePattern = 0.5;  // correlation; less is no measurement of its place
 
@@ -37,4 +37,4 @@ class PointMeasurement {
   double shared_noise_ = 1.0;  // RefinedPosition's, of late
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

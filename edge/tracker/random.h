@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace ols {
+namespace ols::tracker {
 
 class Random {
  public:
@@ -26,4 +26,4 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

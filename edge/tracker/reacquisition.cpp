@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 constexpr double kNearFirst_s = 1.0;  // a lost target is looked for nearby, then anywhere
@@ -138,4 +138,4 @@ double Reacquisition::identity_of(const Particle& found, const Scene& scene,
   return 1.0 / (1.0 + others);
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -10,7 +10,7 @@
 #include "edge/tracker/scene_motion.h"
 #include "edge/tracker/target_model.h"
 
-namespace ols {
+namespace ols::tracker {
 
 class Reacquisition {
  public:
@@ -82,4 +82,4 @@ class Reacquisition {
   double unaligned_since_s_ = -std::numeric_limits<double>::infinity();
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

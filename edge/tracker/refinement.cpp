@@ -7,7 +7,7 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 constexpr double kContext = 1.3;       // of the box, looked at
@@ -329,4 +329,4 @@ std::optional<RefinedPosition> PositionRefiner::position_of(const State& state,
   return refined;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -7,7 +7,7 @@
 
 #include "edge/tracker/patch.h"
 
-namespace ols {
+namespace ols::tracker {
 
 struct RefinedPosition {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // of the box in which the first image fits
@@ -85,4 +85,4 @@ class PositionRefiner {
   Eigen::Vector2d anchor_ = Eigen::Vector2d::Zero();
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -4,7 +4,7 @@
 
 #include "edge/tracker/motion_model.h"
 
-namespace ols {
+namespace ols::tracker {
 
 SceneMotion::SceneMotion(const TrackerConfig& config, HomographyFit fit, const TrackerInput& frame,
                          const cv::Rect2d& target_box)
@@ -45,4 +45,4 @@ const ReferenceFrames::Reference* SceneMotion::a_moment_ago() const {
   return references_.older_than(time_s_ - kEarlier);
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -10,7 +10,7 @@
 #include "edge/tracker/stage_times.h"
 #include "edge/tracker/target_tracker.h"
 
-namespace ols {
+namespace ols::tracker {
 
 class SceneMotion {
  public:
@@ -60,4 +60,4 @@ class SceneMotion {
   double interval_s_ = 0.0;
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

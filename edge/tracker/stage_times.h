@@ -6,7 +6,7 @@
 #include <functional>
 #include <utility>
 
-namespace ols {
+namespace ols::tracker {
 
 enum class Stage {
   kReduction,   // the frame made smaller, its pyramid
@@ -52,4 +52,4 @@ class StageTimer {
   double lap_s_ = 0.0;
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 cv::Rect widened(const cv::Rect2d& box, double sides) {
@@ -76,7 +76,7 @@ Scene TargetModel::make_scene(const cv::Mat& gray, const std::vector<Particle>& 
 }
 
 Similarity TargetModel::likeness(const Scene& scene, const Eigen::Vector2d& pixel,
-                               const Eigen::Vector2d& size_px) const {
+                                 const Eigen::Vector2d& size_px) const {
   const bool seen = pixel.x() > -0.5 && pixel.y() > -0.5 && pixel.x() < scene.frame.width - 0.5 &&
                     pixel.y() < scene.frame.height - 0.5;
   if (!seen) return {};
@@ -145,8 +145,8 @@ void TargetModel::learn_size(const Eigen::Vector2d& size_px, double share) {
   usual_size_px_ += share * (size_px - usual_size_px_);
 }
 
-double TargetModel::log_likelihood(const Similarity& likeness, double background, double standing_out,
-                                   const Eigen::Vector2d& size_px) const {
+double TargetModel::log_likelihood(const Similarity& likeness, double background,
+                                   double standing_out, const Eigen::Vector2d& size_px) const {
   const double room = std::max(0.02, 1.0 - background);
   const double alike =
       config_.sharpness * (likeness.similarity - 1.0) / room +
@@ -180,4 +180,4 @@ void TargetModel::learn_mask(const Scene& scene, const Eigen::Vector2d& pixel,
   if (fine_refiner_) fine_refiner_->set_mask(mask);
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -11,7 +11,7 @@
 #include "edge/tracker/refinement.h"
 #include "edge/tracker/tracker_config.h"
 
-namespace ols {
+namespace ols::tracker {
 
 // One frame as the objective sees it.
 struct Scene {
@@ -34,7 +34,7 @@ class TargetModel {
                    const cv::Rect2d& expected, const ReferenceFrames& references) const;
 
   Similarity likeness(const Scene& scene, const Eigen::Vector2d& pixel,
-                    const Eigen::Vector2d& size_px) const;
+                      const Eigen::Vector2d& size_px) const;
   // What boxes around `box` reach that are not the target: nearly the best of them.
   double background_similarity(const Scene& scene, const cv::Rect2d& box) const;
   // How far a place stands out of its surroundings, the target's usual way being 1.
@@ -91,4 +91,4 @@ class TargetModel {
   double contrast_weight_ = 0.0;  // 0..1, how much more than noise that is
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

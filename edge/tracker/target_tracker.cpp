@@ -1,6 +1,6 @@
 #include "edge/tracker/target_tracker.h"
 
-namespace ols {
+namespace ols::tracker {
 
 const char* to_string(TrackerError error) {
   switch (error) {
@@ -22,4 +22,4 @@ const char* to_string(TrackerError error) {
   return "unknown";
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-namespace ols {
+namespace ols::tracker {
 
 struct TrackerInput {
   cv::Mat gray;       // 8-bit, one channel, full resolution; not modified, not kept by reference
@@ -68,4 +68,4 @@ class TargetTracker {
   virtual void take_back() = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -9,7 +9,7 @@
 #include "edge/tracker/paper_tracker.h"
 #include "edge/tracker/tracker_core.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 constexpr double kLeastBoxSide = 3.0;  // [px] smaller ones hold no pattern
@@ -127,4 +127,4 @@ void Tracker::take_back() {
   if (aside_) followed_ = std::move(aside_);
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -13,7 +13,7 @@
 #include "edge/tracker/target_tracker.h"
 #include "edge/tracker/tracker_config.h"
 
-namespace ols {
+namespace ols::tracker {
 
 class Tracker final : public TargetTracker {
  public:
@@ -46,4 +46,4 @@ class Tracker final : public TargetTracker {
   StageTimer timer_;
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -2,7 +2,7 @@
 
 #include "base/config_section.h"
 
-namespace ols {
+namespace ols::tracker {
 
 config::Section tracker_section(TrackerConfig& c) {
   return {
@@ -22,4 +22,4 @@ config::Section tracker_section(TrackerConfig& c) {
                       "Maximum 1-sigma of the region searched after a loss.")}};
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -4,7 +4,7 @@
 namespace ols::config {
 struct Section;
 }
-namespace ols {
+namespace ols::tracker {
 
 enum class TrackerMode {
   kPaper,  // the paper's section 5, word for word
@@ -72,4 +72,4 @@ struct TrackerConfig {
 
 config::Section tracker_section(TrackerConfig& config);  // [tracker]
 
-}  // namespace ols
+}  // namespace ols::tracker

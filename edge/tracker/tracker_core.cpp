@@ -6,7 +6,7 @@
 #include "edge/tracker/core_box.h"
 #include "edge/tracker/difference_candidates.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 constexpr double kNotPlaced = 0.1;  // of its size: 1 sigma where nothing tells its place better
@@ -335,4 +335,4 @@ bool TrackerCore::followed() const {
   return !reacquisition_.searching() && velocity_ == Velocity::kEstimated;
 }
 
-}  // namespace ols
+}  // namespace ols::tracker

@@ -13,7 +13,7 @@
 #include "edge/tracker/scene_motion.h"
 #include "edge/tracker/target_model.h"
 
-namespace ols {
+namespace ols::tracker {
 
 class TrackerCore {
  public:
@@ -72,4 +72,4 @@ class TrackerCore {
   bool placed_ = false;  // particles and last_ stand in the coming frame already
 };
 
-}  // namespace ols
+}  // namespace ols::tracker

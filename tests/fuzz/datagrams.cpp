@@ -21,8 +21,8 @@ constexpr double kNow_s = 1000.0;
 constexpr std::int64_t kNow_us = 1'700'000'000'000'000;
 constexpr ols::QueueLimits kLimits{.messages = 16, .bytes = 20'000};
 
-ols::StationSettings settings() {
-  ols::StationSettings made;
+ols::station::StationSettings settings() {
+  ols::station::StationSettings made;
   made.id = "a";
   return made;
 }
@@ -42,19 +42,19 @@ class Recorder {
     writer_.emplace(path_);
   }
   std::string path_ = "/dev/shm/ols-fuzz-" + std::to_string(getpid()) + ".lcmlog";
-  std::optional<ols::LogWriter> writer_;
+  std::optional<ols::logger::LogWriter> writer_;
 };
 
-void to_fusion(ols::Fusion& fusion, const ols::BusMessage& message) {
+void to_fusion(ols::fusion::Fusion& fusion, const ols::BusMessage& message) {
   const int size = static_cast<int>(message.payload.size());
-  const auto sighting = ols::sighting_from(message.channel, message.payload.data(), size);
-  if (const auto* seen = std::get_if<ols::BearingMeasurement>(&sighting)) {
+  const auto sighting = ols::fusion::sighting_from(message.channel, message.payload.data(), size);
+  if (const auto* seen = std::get_if<ols::fusion::BearingMeasurement>(&sighting)) {
     static_cast<void>(fusion.add(*seen));
   }
 }
 
 void to_person(const ols::BusMessage& message) {
-  const auto status = ols::heard_status(message);
+  const auto status = ols::ctl::heard_status(message);
   if (!status) return;
   for (const auto* texts : {&status->device_name, &status->device_text, &status->alarm,
                             &status->reading_name, &status->counter_name}) {
@@ -78,13 +78,13 @@ std::string datagram_of(ols::fuzz::Input& input) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const ols::StationSettings kSettings = settings();
+  static const ols::station::StationSettings kSettings = settings();
   static Recorder recorder;
-  ols::Station station(kSettings.station, std::make_unique<ols::fuzz::NoTracker>());
-  ols::StationBus station_bus(kSettings, 1, station,
-                              [](const ols::RecordCommand&) { return std::string(); });
+  ols::station::Station station(kSettings.station, std::make_unique<ols::fuzz::NoTracker>());
+  ols::station::StationBus station_bus(
+      kSettings, 1, station, [](const ols::recorder::RecordCommand&) { return std::string(); });
   station_bus.set_time({kNow_s, kNow_us}, {});
-  ols::Fusion fusion({});
+  ols::fusion::Fusion fusion({});
   ols::BusInbox inbox;
   const auto to_station = [&](const ols::BusMessage& message) {
     station_bus.take(message.channel, message.payload.data(),

@@ -11,13 +11,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ols::fuzz::Input input(data, size);
   const bool version = input.byte() % 2 == 1;
   const std::string_view bytes = input.rest();
-  ols::Dpg2Parser whole(kRange_rad), split(kRange_rad);
+  ols::sensors::Dpg2Parser whole(kRange_rad), split(kRange_rad);
   if (version) {
     whole.expect_version();
     split.expect_version();
   }
   const auto at_once = whole.receive(bytes, 1.0);
-  std::vector<ols::AxisAngles> by_byte;
+  std::vector<ols::sensors::AxisAngles> by_byte;
   for (const char byte : bytes) {
     for (const auto& angles : split.receive({&byte, 1}, 1.0)) by_byte.push_back(angles);
   }

@@ -62,13 +62,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const std::string given = kind % 4 < 2 ? folder.string() : (folder / pattern).string();
   try {
-    ols::FrameSource source(kind % 4 == 2 ? (folder / "f%d.pgm").string() : given);
+    ols::offline::FrameSource source(kind % 4 == 2 ? (folder / "f%d.pgm").string() : given);
     long frames = 0;
     for (auto picture = source.next(); picture; picture = source.next(), ++frames) {
       require(!picture->empty() && picture->type() == CV_8UC1, "a grey picture of 8 bits");
       require(frames < 10000, "pictures come to an end");
     }
-  } catch (const ols::FrameSourceError& error) {
+  } catch (const ols::offline::FrameSourceError& error) {
     require(std::string_view(error.what()).size() > 1, "a reason is named");
   }
   return 0;

@@ -9,16 +9,16 @@
 
 namespace {
 
-void check_target(const ols::FusedTarget& target) {
-  if (target.estimate.solution != ols::Solution::kOk) return;
+void check_target(const ols::fusion::FusedTarget& target) {
+  if (target.estimate.solution != ols::fusion::Solution::kOk) return;
   ols::fuzz::require(
       target.estimate.position_ecef.allFinite() && target.estimate.covariance_ecef.allFinite(),
       "a solution is finite");
 }
 
 // What a station would refuse is not asked for.
-void check_slew(const ols::Slew& slew) {
-  const double rate_limit = ols::SlewConfig{}.rate_limit_rad_s;
+void check_slew(const ols::fusion::Slew& slew) {
+  const double rate_limit = ols::fusion::SlewConfig{}.rate_limit_rad_s;
   const auto within = [](double value, double limit) { return std::abs(value) <= limit; };
   ols::fuzz::require(within(slew.direction.azimuth_rad, 2.0 * ols::kPi) &&
                          within(slew.direction.elevation_rad, ols::kPi / 2.0) &&
@@ -31,12 +31,12 @@ void check_slew(const ols::Slew& slew) {
       "a slew takes effect within a second");
 }
 
-void receive(ols::Fusion& fusion, bool is_status, const std::string& station,
+void receive(ols::fusion::Fusion& fusion, bool is_status, const std::string& station,
              std::string_view bytes) {
   const int size = static_cast<int>(bytes.size());
   if (is_status) {
-    const auto place = ols::station_place_from("OLS_STATUS_" + station, bytes.data(), size);
-    if (const auto* known = std::get_if<ols::StationPlace>(&place)) {
+    const auto place = ols::fusion::station_place_from("OLS_STATUS_" + station, bytes.data(), size);
+    if (const auto* known = std::get_if<ols::fusion::StationPlace>(&place)) {
       if (known->no_place) {
         fusion.allow_slews(known->station, known->traits.commandable);
       } else {
@@ -45,9 +45,9 @@ void receive(ols::Fusion& fusion, bool is_status, const std::string& station,
     }
     return;
   }
-  const auto sighting = ols::sighting_from("OLS_BEARING_" + station, bytes.data(), size);
-  if (const auto* seen = std::get_if<ols::BearingMeasurement>(&sighting)) {
-    const ols::FusionOutput output = fusion.add(*seen);
+  const auto sighting = ols::fusion::sighting_from("OLS_BEARING_" + station, bytes.data(), size);
+  if (const auto* seen = std::get_if<ols::fusion::BearingMeasurement>(&sighting)) {
+    const ols::fusion::FusionOutput output = fusion.add(*seen);
     for (const auto& target : output.targets) check_target(target);
     for (const auto& target : output.targets_paper) check_target(target);
     for (const auto& slew : output.slews) {
@@ -62,9 +62,9 @@ void receive(ols::Fusion& fusion, bool is_status, const std::string& station,
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size > 8192) return 0;
   ols::fuzz::Input input(data, size);
-  ols::FusionConfig config;
+  ols::fusion::FusionConfig config;
   config.admission.max_stations = 4;
-  ols::Fusion fusion(config);
+  ols::fusion::Fusion fusion(config);
   while (!input.empty()) {
     const std::uint8_t kind = input.byte();
     const std::size_t length = input.byte();

@@ -6,9 +6,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::vector<int> inputs{17, 18};
   const std::string_view bytes = ols::fuzz::text(data, size);
-  ols::LineProtocol whole(inputs), split(inputs);
+  ols::gpio::LineProtocol whole(inputs), split(inputs);
   const auto at_once = whole.receive(bytes);
-  std::vector<ols::LineProtocol::Level> by_byte;
+  std::vector<ols::gpio::LineProtocol::Level> by_byte;
   bool refused = false;
   for (std::size_t i = 0; i < bytes.size() && !refused; ++i) {
     const auto levels = split.receive(bytes.substr(i, 1));

@@ -39,8 +39,8 @@ gps_data_t message(ols::fuzz::Input& input, long second) {
   return data;
 }
 
-void check(const ols::StationPose& pose) {
-  if (pose.position_source == ols::PoseSource::kNone) return;
+void check(const ols::sensors::StationPose& pose) {
+  if (pose.position_source == ols::sensors::PoseSource::kNone) return;
   ols::fuzz::require(std::isfinite(pose.position.latitude_rad) &&
                          std::isfinite(pose.position.longitude_rad) &&
                          std::isfinite(pose.position.height_m),
@@ -54,8 +54,8 @@ void check(const ols::StationPose& pose) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   ols::fuzz::Input input(data, size);
-  ols::GpsdEpochs epochs;
-  ols::PoseEstimator estimator({});
+  ols::sensors::GpsdEpochs epochs;
+  ols::sensors::PoseEstimator estimator({});
   double now_s = 1.0;
   for (long second = 1'700'000'000; !input.empty(); ++second) {
     now_s += 0.6;

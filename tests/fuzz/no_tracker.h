@@ -7,12 +7,13 @@
 
 namespace ols::fuzz {
 
-class NoTracker final : public TargetTracker {
+class NoTracker final : public tracker::TargetTracker {
  public:
-  std::optional<TrackerError> initialise(const TrackerInput&, const cv::Rect2d&) override {
+  std::optional<tracker::TrackerError> initialise(const tracker::TrackerInput&,
+                                                  const cv::Rect2d&) override {
     return std::nullopt;
   }
-  TrackerResult track(const TrackerInput&) override { return {}; }
+  tracker::TrackerResult track(const tracker::TrackerInput&) override { return {}; }
   void search_near(const Eigen::Vector2d&, double) override {}
   void set_aside() override {}
   void take_back() override {}

@@ -5,8 +5,8 @@
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto read = ols::persisted_pose_from(ols::fuzz::text(data, size));
-  const auto* pose = std::get_if<ols::PersistedPose>(&read);
+  const auto read = ols::sensors::persisted_pose_from(ols::fuzz::text(data, size));
+  const auto* pose = std::get_if<ols::sensors::PersistedPose>(&read);
   if (pose == nullptr) {
     ols::fuzz::require(!std::get<std::string>(read).empty(), "a refusal says why");
     return 0;

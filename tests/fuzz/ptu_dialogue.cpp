@@ -10,7 +10,7 @@
 
 namespace {
 
-void check(ols::PtuDriver& driver) {
+void check(ols::ptu::PtuDriver& driver) {
   for (const auto& sample : driver.take_samples()) {
     ols::fuzz::require(std::isfinite(sample.angles.pan_rad) &&
                            std::isfinite(sample.angles.tilt_rad) && sample.time_sd_s >= 0.0,
@@ -19,7 +19,7 @@ void check(ols::PtuDriver& driver) {
 }
 
 // What a person or the station may do at any moment; most bytes do nothing.
-void interfere(ols::PtuDriver& driver, std::uint8_t what, double now_s) {
+void interfere(ols::ptu::PtuDriver& driver, std::uint8_t what, double now_s) {
   switch (what) {
     case 1:
       return driver.home(now_s);
@@ -35,7 +35,7 @@ void interfere(ols::PtuDriver& driver, std::uint8_t what, double now_s) {
     case 11:
     case 12: {
       return driver.restore_doubt(
-          ols::doubt_from_word(ols::doubt_words().at(what == 5 ? 1 : what - 8)));
+          ols::ptu::doubt_from_word(ols::ptu::doubt_words().at(what == 5 ? 1 : what - 8)));
     }
     case 6:
       return driver.reference_ok();
@@ -49,8 +49,8 @@ void interfere(ols::PtuDriver& driver, std::uint8_t what, double now_s) {
   }
 }
 
-ols::PtuConfig config() {
-  ols::PtuConfig made;
+ols::ptu::PtuConfig config() {
+  ols::ptu::PtuConfig made;
   made.baud = 38400;
   made.poll_interval_s = 0.025;
   return made;
@@ -59,14 +59,14 @@ ols::PtuConfig config() {
 // A line on which each request is answered by the next piece of the input; pieces end at a zero,
 // and begin with what else happens.
 void drive(std::string_view rest) {
-  ols::PtuConfig wanted = config();
-  wanted.rehome = ols::PtuRehome::kWhenUnreferenced;
-  ols::PtuDriver driver(wanted);
+  ols::ptu::PtuConfig wanted = config();
+  wanted.rehome = ols::ptu::PtuRehome::kWhenUnreferenced;
+  ols::ptu::PtuDriver driver(wanted);
   driver.restart(0.0);
   double now_s = 0.0;
   for (int step = 0; step < 400 && !rest.empty(); ++step) {
     now_s += 0.01;
-    driver.set_goal(ols::ServoGoal{now_s, {0.3, 0.1}, {0.2, 0.0}, now_s + 0.5});
+    driver.set_goal(ols::ptu::ServoGoal{now_s, {0.3, 0.1}, {0.2, 0.0}, now_s + 0.5});
     const std::string request = driver.step(now_s);
     ols::fuzz::require(request.size() < 512, "requests are short");
     ols::fuzz::require(!driver.in_emergency() || request.find(" R ") == std::string::npos,
@@ -130,19 +130,19 @@ void dialogue(ols::fuzz::Input input) {
   const std::uint8_t what = input.byte();
   bool done = false;
   DamagedLine line(input);
-  ols::PtuConfig driver_config = config();
+  ols::ptu::PtuConfig driver_config = config();
   driver_config.limits = {-0.5, 0.5, -0.3, 0.3};
-  ols::PtuDriver driver(driver_config);
+  ols::ptu::PtuDriver driver(driver_config);
   driver.restart(0.0);
   for (double now_s = 0.0; now_s < 1.5; now_s += 0.01) {
-    driver.set_goal(ols::ServoGoal{now_s, {2.0 * now_s, 0.1}, {2.0, 0.0}, now_s + 0.5});
+    driver.set_goal(ols::ptu::ServoGoal{now_s, {2.0 * now_s, 0.1}, {2.0, 0.0}, now_s + 0.5});
     if (const std::string request = driver.step(now_s); !request.empty()) {
       unit.receive(request, now_s);
     }
     if (!done && now_s >= when_s) {
       done = true;
       interfere(driver, what, now_s);
-      if (driver.in_emergency()) unit.receive(ols::halt_request(), now_s);
+      if (driver.in_emergency()) unit.receive(ols::ptu::halt_request(), now_s);
     }
     driver.receive(line.through(unit.transmit(now_s + 0.005)), now_s + 0.005);
     check(driver);

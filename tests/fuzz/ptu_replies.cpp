@@ -4,7 +4,7 @@
 
 namespace {
 
-std::string said(const std::vector<ols::PtuReply>& replies) {
+std::string said(const std::vector<ols::ptu::PtuReply>& replies) {
   std::string all;
   for (const auto& reply : replies) {
     all += reply.ok ? '*' : '!';
@@ -14,8 +14,8 @@ std::string said(const std::vector<ols::PtuReply>& replies) {
 }
 
 void parse(std::string_view bytes) {
-  ols::PtuReplyParser whole, split;
-  std::vector<ols::PtuReply> by_byte;
+  ols::ptu::PtuReplyParser whole, split;
+  std::vector<ols::ptu::PtuReply> by_byte;
   for (const char byte : bytes) {
     const auto replies = split.feed({&byte, 1});
     by_byte.insert(by_byte.end(), replies.begin(), replies.end());

@@ -11,13 +11,14 @@ namespace {
 constexpr double kNow_s = 1000.0;
 constexpr std::int64_t kNow_us = 1'700'000'000'000'000;
 
-ols::StationSettings settings() {
-  ols::StationSettings made;
+ols::station::StationSettings settings() {
+  ols::station::StationSettings made;
   made.id = "a";
   return made;
 }
 
-void check_goal(const ols::Station& station, const ols::PtuLimits& limits, double now_s) {
+void check_goal(const ols::station::Station& station, const ols::ptu::PtuLimits& limits,
+                double now_s) {
   const auto goal = station.goal(now_s);
   if (!goal) return;
   ols::fuzz::require(std::isfinite(goal->angles.pan_rad) && std::isfinite(goal->angles.tilt_rad),
@@ -33,12 +34,12 @@ void check_goal(const ols::Station& station, const ols::PtuLimits& limits, doubl
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size > 4096) return 0;
-  static const ols::StationSettings kSettings = settings();
-  ols::Station station(kSettings.station, std::make_unique<ols::fuzz::NoTracker>());
-  station.set_reference(ols::PtuReference::kTrusted);
+  static const ols::station::StationSettings kSettings = settings();
+  ols::station::Station station(kSettings.station, std::make_unique<ols::fuzz::NoTracker>());
+  station.set_reference(ols::ptu::PtuReference::kTrusted);
   station.on_angles({kNow_s - 0.02, 1e-4, {0.0, 0.0}, {}});
-  ols::StationBus bus(kSettings, 1, station,
-                      [](const ols::RecordCommand&) { return std::string(); });
+  ols::station::StationBus bus(kSettings, 1, station,
+                               [](const ols::recorder::RecordCommand&) { return std::string(); });
   ols::fuzz::Input input(data, size);
   double now_s = kNow_s;
   while (!input.empty()) {

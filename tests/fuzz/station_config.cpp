@@ -6,7 +6,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const ols::fuzz::MemoryFile file(ols::fuzz::text(data, size));
   try {
-    const ols::StationSettings settings = ols::load_station_settings(file.path());
+    const ols::station::StationSettings settings = ols::station::load_station_settings(file.path());
     ols::fuzz::require(!settings.id.empty() && settings.id.size() <= 32, "a station has an id");
     ols::fuzz::require(settings.ptu.limits.pan_min_rad <= settings.ptu.limits.pan_max_rad,
                        "limits are in order");

@@ -85,7 +85,7 @@ std::optional<Eigen::Matrix3d> homography(Input& input) {
   return matrix;
 }
 
-void check(const ols::TrackerOutput& output) {
+void check(const ols::tracker::TrackerOutput& output) {
   require(output.pixel.allFinite(), "the pixel is finite");
   require(output.covariance_px2.allFinite(), "the covariance is finite");
   const auto& c = output.covariance_px2;
@@ -98,14 +98,15 @@ void check(const ols::TrackerOutput& output) {
           "the box has a size");
 }
 
-bool equal(const ols::TrackerOutput& a, const ols::TrackerOutput& b) {
+bool equal(const ols::tracker::TrackerOutput& a, const ols::tracker::TrackerOutput& b) {
   return a.pixel == b.pixel && a.box == b.box && a.belief == b.belief &&
          a.covariance_px2 == b.covariance_px2;
 }
 
-ols::TrackerConfig config(std::uint8_t kind) {
-  ols::TrackerConfig config;
-  config.mode = kind % 2 == 0 ? ols::TrackerMode::kFull : ols::TrackerMode::kPaper;
+ols::tracker::TrackerConfig config(std::uint8_t kind) {
+  ols::tracker::TrackerConfig config;
+  config.mode =
+      kind % 2 == 0 ? ols::tracker::TrackerMode::kFull : ols::tracker::TrackerMode::kPaper;
   config.particles = 40;                                   // as good here, and fast
   if (kind / 2 % 2 == 1) config.ego_motion_width_px = 80;  // smaller than most pictures here
   return config;
@@ -123,7 +124,7 @@ class Twins {
     const std::uint8_t action = input.byte();
     if (action >= 250) return hint(input);
     const double time_s = next_time(input, time_s_);
-    const ols::TrackerInput given{frame(input, usual_), time_s, homography(input)};
+    const ols::tracker::TrackerInput given{frame(input, usual_), time_s, homography(input)};
     const cv::Mat before = given.gray.clone();
     const bool taken = action < 40 ? begin(given, input) : track(given);
     require(before.empty() || cv::norm(before, given.gray, cv::NORM_INF) == 0.0 ||
@@ -133,7 +134,7 @@ class Twins {
   }
 
  private:
-  bool begin(const ols::TrackerInput& given, Input& input) {
+  bool begin(const ols::tracker::TrackerInput& given, Input& input) {
     const double cols = given.gray.cols, rows = given.gray.rows;
     const double wide = large_ ? cols / 16.0 : 1.0, high = large_ ? rows / 16.0 : 1.0;
     const double x = 0.5 * cols + number(input, cols), y = 0.5 * rows + number(input, rows);
@@ -144,12 +145,12 @@ class Twins {
     return true;
   }
 
-  bool track(const ols::TrackerInput& given) {
-    const ols::TrackerResult result = tracker_.track(given);
+  bool track(const ols::tracker::TrackerInput& given) {
+    const ols::tracker::TrackerResult result = tracker_.track(given);
     require(result.output.has_value() != result.error.has_value(), "an output or an error");
     if (result.error) return false;
     check(*result.output);
-    const ols::TrackerResult other = spared_.track(given);
+    const ols::tracker::TrackerResult other = spared_.track(given);
     require(other.output && equal(*result.output, *other.output),
             "a refused frame leaves the tracker as it was");
     return true;
@@ -164,7 +165,7 @@ class Twins {
 
   cv::Size usual_;
   bool large_;  // boxes up to the whole picture
-  ols::Tracker tracker_, spared_;
+  ols::tracker::Tracker tracker_, spared_;
   double time_s_ = 0.0;
 };
 

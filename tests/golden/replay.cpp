@@ -47,11 +47,11 @@ ols_msg::bearing_t message_of(const json& row, const json& stations, std::int64_
   return message;
 }
 
-BearingMeasurement decoded(const ols_msg::bearing_t& message) {
+fusion::BearingMeasurement decoded(const ols_msg::bearing_t& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
   const int size = message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return std::get<BearingMeasurement>(
-      sighting_from(std::string(kBearingChannel) + message.station, bytes.data(), size));
+  return std::get<fusion::BearingMeasurement>(
+      fusion::sighting_from(std::string(kBearingChannel) + message.station, bytes.data(), size));
 }
 
 class Output {
@@ -68,15 +68,15 @@ class Output {
     for (std::ofstream* file : {&targets_, &slews_, &counters_}) file->exceptions(std::ios::badbit);
   }
 
-  void add(const FusionOutput& output) {
-    for (const FusedTarget& target : output.targets) add(to_message(target, {}));
-    for (const FusedTarget& target : output.targets_paper) add(to_message(target, {}));
-    for (const Slew& slew : output.slews) add(to_message(slew, {}));
+  void add(const fusion::FusionOutput& output) {
+    for (const fusion::FusedTarget& target : output.targets) add(to_message(target, {}));
+    for (const fusion::FusedTarget& target : output.targets_paper) add(to_message(target, {}));
+    for (const fusion::Slew& slew : output.slews) add(to_message(slew, {}));
   }
 
-  void end(const FusionHealth& health) {
+  void end(const fusion::FusionHealth& health) {
     for (const auto& [name, value] : health.counters) tell("fusion", name, value);
-    for (const StationHealth& station : health.stations) {
+    for (const fusion::StationHealth& station : health.stations) {
       tell(station.station, "bearings", static_cast<double>(station.bearings));
       tell(station.station, "quarantined", station.quarantine.empty() ? 0.0 : 1.0);
     }
@@ -117,7 +117,7 @@ void run(const std::string& log_path, const std::filesystem::path& folder) {
   const json log = json::parse(file);
   std::filesystem::create_directories(folder);
   Output output(folder);
-  Fusion fusion(FusionConfig{});
+  fusion::Fusion fusion(fusion::FusionConfig{});
   std::int64_t sequence = 0;
   for (const json& row : log.at("bearings")) {
     output.add(fusion.add(decoded(message_of(row, log.at("stations"), ++sequence))));

@@ -6,7 +6,7 @@
 #include "base/lcm_bus.h"
 #include "base/plain_text.h"
 
-namespace ols {
+namespace ols::ctl {
 
 std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message) {
   ols_msg::station_status_t status;
@@ -22,4 +22,4 @@ std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message)
   return status;
 }
 
-}  // namespace ols
+}  // namespace ols::ctl

@@ -7,7 +7,7 @@
 #include "base/bus_inbox.h"
 #include "ols_msg/station_status_t.hpp"
 
-namespace ols {
+namespace ols::ctl {
 
 // Limits the memory that forged statuses with invented names can use.
 inline constexpr std::size_t kMostStationsHeard = 2000;
@@ -16,4 +16,4 @@ inline constexpr std::size_t kMostStationsHeard = 2000;
 // a terminal (base/plain_text.h).
 std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message);
 
-}  // namespace ols
+}  // namespace ols::ctl

@@ -21,9 +21,9 @@ namespace {
 constexpr int kExitRefused = 1;
 constexpr double kPatience_s = 3.0;
 
-using Send = std::function<std::optional<std::string>(ols::Operator&, const std::string&)>;
+using Send = std::function<std::optional<std::string>(ols::ctl::Operator&, const std::string&)>;
 
-int send_to_each(ols::Operator& hand, const std::vector<std::string>& ids, const Send& send) {
+int send_to_each(ols::ctl::Operator& hand, const std::vector<std::string>& ids, const Send& send) {
   int result = 0;
   for (const auto& id : ids) {
     const auto refusal = send(hand, id);
@@ -39,19 +39,19 @@ int no_status(const std::string& station, const std::string& url) {
   return kExitRefused;
 }
 
-void warn_when_full(const ols::Operator& hand) {
+void warn_when_full(const ols::ctl::Operator& hand) {
   if (!hand.is_full()) return;
   std::fprintf(
       stderr,
       "ols-ctl: more than %zu stations are heard, not all are shown: name the one that you "
       "mean\n",
-      ols::kMostStationsHeard);
+      ols::ctl::kMostStationsHeard);
 }
 
 // Returns after the stop's hold (Station::kStopHold_s), so that a following release is obeyed.
 int stop(const std::string& url, const std::string& station) {
   constexpr int kHold_ms = 1100;
-  ols::Operator hand(url, station);
+  ols::ctl::Operator hand(url, station);
   const auto stopped = hand.stop(kPatience_s);
   warn_when_full(hand);
   if (stopped.empty()) return no_status(station, url);
@@ -67,7 +67,7 @@ int stop(const std::string& url, const std::string& station) {
 
 int run(const std::string& url, const std::string& station, const std::optional<Send>& send,
         bool full) {
-  ols::Operator hand(url, station);
+  ols::ctl::Operator hand(url, station);
   const auto& statuses = hand.listen(kPatience_s);
   if (statuses.empty()) return no_status(station, url);
   warn_when_full(hand);
@@ -76,9 +76,9 @@ int run(const std::string& url, const std::string& station, const std::optional<
     for (const auto& [id, status] : statuses) ids.push_back(id);
     return send_to_each(hand, ids, *send);
   }
-  if (!full) std::fputs(ols::status_table(statuses).c_str(), stdout);
+  if (!full) std::fputs(ols::ctl::status_table(statuses).c_str(), stdout);
   for (const auto& [id, status] : statuses) {
-    if (full) std::fputs(ols::full_status(status, ols::clock_utime_us()).c_str(), stdout);
+    if (full) std::fputs(ols::ctl::full_status(status, ols::clock_utime_us()).c_str(), stdout);
   }
   return 0;
 }
@@ -111,29 +111,29 @@ void add_ptu_commands(CLI::App& app, Words& words) {
   manual->callback([&words] {
     require_angle("PAN", words.angles_deg[0], ols::degrees(ols::kPointPanLimit_rad));
     require_angle("TILT", words.angles_deg[1], ols::degrees(ols::kPointTiltLimit_rad));
-    words.send = [&words](ols::Operator& hand, const std::string& id) {
+    words.send = [&words](ols::ctl::Operator& hand, const std::string& id) {
       return hand.point(id, ols::radians(words.angles_deg[0]), ols::radians(words.angles_deg[1]));
     };
   });
   const auto simple = [&](const char* name, const char* help, auto method) {
     app.add_subcommand(name, help)->callback([&words, method] {
-      words.send = [method](ols::Operator& hand, const std::string& id) {
+      words.send = [method](ols::ctl::Operator& hand, const std::string& id) {
         return (hand.*method)(id);
       };
     });
   };
   app.add_subcommand("stop", "Halt the PTU; it stays stopped until the next command")
       ->callback([&words] { words.stop = true; });
-  simple("release", "Give the PTU back to automatic control", &ols::Operator::release);
+  simple("release", "Give the PTU back to automatic control", &ols::ctl::Operator::release);
   simple(
       "rearm",
       "End the emergency after the stop button is released; the PTU stays stopped. Only where the "
       "site permits it remotely",
-      &ols::Operator::rearm);
+      &ols::ctl::Operator::rearm);
   simple("home", "Home the PTU: it sweeps its whole travel, clear the way first",
-         &ols::Operator::home);
+         &ols::ctl::Operator::home);
   simple("reference-ok", "Confirm the PTU's angles, after checking them or homing by hand",
-         &ols::Operator::reference_ok);
+         &ols::ctl::Operator::reference_ok);
 }
 
 void add_other_commands(CLI::App& app, Words& words) {
@@ -144,7 +144,7 @@ void add_other_commands(CLI::App& app, Words& words) {
       ->expected(4)
       ->required();
   designate->callback([&words] {
-    words.send = [&words](ols::Operator& hand, const std::string& id) {
+    words.send = [&words](ols::ctl::Operator& hand, const std::string& id) {
       return hand.designate(id, words.box[0], words.box[1], words.box[2], words.box[3]);
     };
   });
@@ -155,7 +155,7 @@ void add_other_commands(CLI::App& app, Words& words) {
   record->add_option("label", words.label, "Part of the folder's name: letters, digits, - and _")
       ->required();
   record->callback([&words] {
-    words.send = [&words](ols::Operator& hand, const std::string& id) {
+    words.send = [&words](ols::ctl::Operator& hand, const std::string& id) {
       return hand.record(id, words.before_s, words.after_s, words.label);
     };
   });

@@ -8,7 +8,7 @@
 #include "base/clocks.h"
 #include "tools/ctl/heard_status.h"
 
-namespace ols {
+namespace ols::ctl {
 namespace {
 
 constexpr double kLease_s = 2.0;
@@ -244,4 +244,4 @@ std::optional<std::string> Operator::record(const std::string& station, double b
   return outcome(station, "record");
 }
 
-}  // namespace ols
+}  // namespace ols::ctl

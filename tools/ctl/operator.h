@@ -15,7 +15,7 @@
 #include "ols_msg/station_status_t.hpp"
 #include "tools/ctl/heard_status.h"
 
-namespace ols {
+namespace ols::ctl {
 
 class Operator {
  public:
@@ -76,4 +76,4 @@ const char* device_name(std::int8_t device);
 // The state of a device by its name; "-" when the station has no such device.
 const char* device_state(const ols_msg::station_status_t& status, const std::string& name);
 
-}  // namespace ols
+}  // namespace ols::ctl

@@ -7,7 +7,7 @@
 #include "geometry/angles.h"
 #include "ols_msg/bearing_t.hpp"
 
-namespace ols {
+namespace ols::ctl {
 namespace {
 
 template <class... Values>
@@ -121,4 +121,4 @@ std::string full_status(const ols_msg::station_status_t& s, std::int64_t now_uti
   return text;
 }
 
-}  // namespace ols
+}  // namespace ols::ctl

@@ -19,9 +19,9 @@ std::vector<std::string> cameras_that_answer() {
   return names;
 }
 
-std::string identity_of(ArvCamera* camera) {
+std::string identity_of(camera::ArvCamera* camera) {
   std::string words;
-  AravisError error;
+  camera::AravisError error;
   for (const auto get : {arv_camera_get_vendor_name, arv_camera_get_model_name,
                          arv_camera_get_device_serial_number}) {
     const char* word = get(camera, error.out());
@@ -33,7 +33,7 @@ std::string identity_of(ArvCamera* camera) {
 }
 
 // The address of an opened camera, for the route of its stream.
-std::string address_of(ArvDevice* device) {
+std::string address_of(camera::ArvDevice* device) {
   GSocketAddress* socket = arv_gv_device_get_device_address(ARV_GV_DEVICE(device));
   if (socket == nullptr || !G_IS_INET_SOCKET_ADDRESS(socket)) return {};
   gchar* text =
@@ -43,30 +43,30 @@ std::string address_of(ArvDevice* device) {
   return address;
 }
 
-void examine(ArvCamera* camera, CameraAnswers& answers) {
-  ArvDevice* device = arv_camera_get_device(camera);
+void examine(camera::ArvCamera* camera, CameraAnswers& answers) {
+  camera::ArvDevice* device = arv_camera_get_device(camera);
   answers.identity = identity_of(camera);
   if (!ARV_IS_GV_DEVICE(device)) {
     answers.trouble = answers.device + " is not a GigE Vision camera";
     return;
   }
   answers.controlled = arv_gv_device_is_controller(ARV_GV_DEVICE(device)) == 0;
-  AravisError error;
+  camera::AravisError error;
   const auto tick_hz =
       arv_gv_device_get_timestamp_tick_frequency(ARV_GV_DEVICE(device), error.out());
   answers.has_clock = !error && tick_hz != 0;
-  answers.temperature_degC = AravisFeatures(camera).number(kTemperature);
+  answers.temperature_degC = camera::AravisFeatures(camera).number(camera::kTemperature);
   answers.link = look_at_link(address_of(device));
 }
 
 }  // namespace
 
-CameraAnswers ask_camera(const CameraConfig& config) {
+CameraAnswers ask_camera(const camera::CameraConfig& config) {
   CameraAnswers answers;
   answers.device = config.device;
   answers.rate_bytes_s = config.width_px * config.height_px * config.frame_rate_hz;
-  AravisError error;
-  const Owned<ArvCamera> camera(arv_camera_new(config.device.c_str(), error.out()));
+  camera::AravisError error;
+  const camera::Owned<camera::ArvCamera> camera(arv_camera_new(config.device.c_str(), error.out()));
   if (camera == nullptr) {
     answers.trouble = config.device + " does not answer: " + error.text();
     answers.others = cameras_that_answer();

@@ -25,33 +25,33 @@ constexpr int kPoll_ms = 50;
 constexpr double kCommand_s = 2.0;
 constexpr std::size_t kMostBoots = 100;  // limits the memory that forged messages can use
 
-DeviceState device_state_of(std::int8_t code) {
+station::DeviceState device_state_of(std::int8_t code) {
   using M = ols_msg::station_status_t;
   switch (code) {
     case M::DEVICE_STARTING:
-      return DeviceState::kStarting;
+      return station::DeviceState::kStarting;
     case M::DEVICE_OK:
-      return DeviceState::kOk;
+      return station::DeviceState::kOk;
     case M::DEVICE_FAULT:
-      return DeviceState::kFault;
+      return station::DeviceState::kFault;
     default:
-      return DeviceState::kAbsent;
+      return station::DeviceState::kAbsent;
   }
 }
 
-ClockState clock_state_of(std::int8_t code) {
+clock::ClockState clock_state_of(std::int8_t code) {
   using M = ols_msg::bearing_t;
-  if (code == M::CLOCK_SYNCHRONISED) return ClockState::kSynchronised;
-  if (code == M::CLOCK_UNSYNCHRONISED) return ClockState::kUnsynchronised;
-  return ClockState::kUnknown;
+  if (code == M::CLOCK_SYNCHRONISED) return clock::ClockState::kSynchronised;
+  if (code == M::CLOCK_UNSYNCHRONISED) return clock::ClockState::kUnsynchronised;
+  return clock::ClockState::kUnknown;
 }
 
 StationHeard station_from(const ols_msg::station_status_t& status) {
   StationHeard station;
   station.id = status.station;
-  station.state = state_name(status.state);
+  station.state = ctl::state_name(status.state);
   for (std::size_t i = 0; i < status.device_name.size(); ++i) {
-    DeviceReport device;
+    station::DeviceReport device;
     device.name = status.device_name[i];
     device.state = device_state_of(status.device_state[i]);
     device.text = status.device_text[i];
@@ -76,7 +76,8 @@ void look_at_network(BusHeard& bus) {
   if (!bus_address.group) return;
   std::array<char, INET_ADDRSTRLEN> address{};
   inet_ntop(AF_INET, &bus_address.group->sin_addr, address.data(), address.size());
-  if (const auto route = command_output({"ip", "-o", "route", "get", address.data()}, kCommand_s)) {
+  if (const auto route =
+          clock::command_output({"ip", "-o", "route", "get", address.data()}, kCommand_s)) {
     bus.interface = parse_route(*route);
   }
 }
@@ -92,10 +93,10 @@ BusHeard listen(const std::string& lcm_url, double seconds, const std::string& o
     look_at_network(heard);
     LcmBus bus(lcm_url);
     bus.subscribe(station_channel(kStatusChannel, ".*"), [&](const BusMessage& message) {
-      const auto status = heard_status(message);
+      const auto status = ctl::heard_status(message);
       if (!status) return;
       const bool known = heard.stations.contains(status->station) || status->station == own;
-      if (!known && heard.stations.size() >= kMostStationsHeard) return;
+      if (!known && heard.stations.size() >= ctl::kMostStationsHeard) return;
       std::set<std::int64_t>& of_station = boots[status->station];
       if (of_station.size() < kMostBoots) of_station.insert(status->boot_id);
       heard.stations[status->station] = station_from(*status);

@@ -22,7 +22,7 @@ Finding refused(const ConfigError& error) {
               "correct that line; docs/configuration.md lists every key");
 }
 
-Findings examine_inclinometer(const InclinometerConfig& config, double patience_s) {
+Findings examine_inclinometer(const sensors::InclinometerConfig& config, double patience_s) {
   Findings findings;
   const auto line = judge_line("inclinometer", look_at_line(config.device, config.baud));
   if (line) findings.push_back(*line);
@@ -33,7 +33,7 @@ Findings examine_inclinometer(const InclinometerConfig& config, double patience_
 }
 
 // Devices that only the station may use while it runs, and the clock, which it reports itself.
-Findings examine_devices(const StationSettings& settings, double patience_s) {
+Findings examine_devices(const station::StationSettings& settings, double patience_s) {
   Findings findings = judge(ask_camera(settings.camera));
   append(findings, judge(ask_ptu(settings.ptu)));
   if (!settings.inclinometer.device.empty()) {
@@ -45,13 +45,13 @@ Findings examine_devices(const StationSettings& settings, double patience_s) {
   return findings;
 }
 
-Findings examine_host(const StationSettings& settings) {
+Findings examine_host(const station::StationSettings& settings) {
   Findings findings;
   if (!settings.recorder.folder.empty()) {
     findings.push_back(judge(look_at_folder("recordings", settings.recorder.folder,
                                             settings.recorder.disk_reserve_bytes)));
   }
-  append(findings, judge(report_on(read_host(settings.host), settings.host)));
+  append(findings, judge(station::report_on(station::read_host(settings.host), settings.host)));
   return findings;
 }
 
@@ -74,8 +74,8 @@ bool runs_as_service(const std::string& path) {
   return false;
 }
 
-Findings examine_own(const StationSettings& settings, const std::string& path, const BusHeard& bus,
-                     double patience_s) {
+Findings examine_own(const station::StationSettings& settings, const std::string& path,
+                     const BusHeard& bus, double patience_s) {
   const auto own = bus.stations.find(settings.id);
   if (own != bus.stations.end()) return judge(own->second);
   if (runs_as_service(path)) {
@@ -89,9 +89,9 @@ Findings examine_own(const StationSettings& settings, const std::string& path, c
 }
 
 Findings examine_station(const std::string& path, const Request& request) {
-  StationSettings settings;
+  station::StationSettings settings;
   try {
-    settings = load_station_settings(path);
+    settings = station::load_station_settings(path);
   } catch (const ConfigError& error) {
     return {refused(error)};
   }
@@ -106,7 +106,7 @@ Findings examine_station(const std::string& path, const Request& request) {
 
 Findings examine_fusion(const std::string& path, const Request& request) {
   try {
-    const FusionSettings settings = load_fusion_settings(path);
+    const fusion::FusionSettings settings = fusion::load_fusion_settings(path);
     Findings findings{ok("configuration: " + path)};
     const BusHeard bus = listen(settings.lcm_url, request.listen_s);
     append(findings, judge(bus));
@@ -119,7 +119,7 @@ Findings examine_fusion(const std::string& path, const Request& request) {
 
 Findings examine_logger(const std::string& path) {
   try {
-    const LoggerConfig config = load_logger_config(path);
+    const logger::LoggerConfig config = logger::load_logger_config(path);
     return {ok("configuration: " + path),
             judge(look_at_folder("logs", config.folder, config.disk_reserve_bytes))};
   } catch (const ConfigError& error) {

@@ -17,8 +17,8 @@ namespace ols::doctor {
 struct StationHeard {
   std::string id;
   std::string state;  // "tracking"
-  std::vector<DeviceReport> devices;
-  ClockState clock = ClockState::kUnknown;
+  std::vector<station::DeviceReport> devices;
+  clock::ClockState clock = clock::ClockState::kUnknown;
   double clock_error_s = 0.0;
   bool position_known = true;
   std::vector<std::string> alarms;
@@ -57,7 +57,7 @@ struct PtuAnswers {
   std::string version;
   PtuAxisAnswers pan, tilt;
   bool not_referenced = false;
-  std::optional<PtuEnvironment> environment;
+  std::optional<ptu::PtuEnvironment> environment;
   double supply_min_V = 0.0;
 };
 

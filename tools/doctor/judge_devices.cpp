@@ -48,7 +48,7 @@ const char* advice_for(const std::string& device) {
   return "see the station's journal";
 }
 
-const char* advice_for(const DeviceReport& report) {
+const char* advice_for(const station::DeviceReport& report) {
   if (report.text.find("reference-ok") == std::string::npos) return advice_for(report.name);
   return "clear its whole travel of people and cables, then ols-ctl STATION home; or compare its "
          "angles with something known, then ols-ctl STATION reference-ok";
@@ -102,15 +102,15 @@ Finding judge_supply(const PtuAnswers& ptu) {
 
 }  // namespace
 
-Finding judge(const DeviceReport& device) {
+Finding judge(const station::DeviceReport& device) {
   const std::string words = device.name + (device.text.empty() ? "" : ": " + device.text);
   switch (device.state) {
-    case DeviceState::kOk:
+    case station::DeviceState::kOk:
       return ok(words);
-    case DeviceState::kStarting:
+    case station::DeviceState::kStarting:
       return warn(words, "starting; ask again in a minute");
-    case DeviceState::kAbsent:
-    case DeviceState::kFault:
+    case station::DeviceState::kAbsent:
+    case station::DeviceState::kFault:
       break;
   }
   const std::string trouble = device.last_error.empty() || device.last_error == device.text
@@ -159,7 +159,7 @@ Findings judge(const PtuAnswers& ptu) {
                             "still homing after power-up (20 s)"));
     return findings;
   }
-  findings.push_back(ok("ptu: " + ptu_name(ptu.version) + " on " + ptu.serial.device));
+  findings.push_back(ok("ptu: " + ptu::ptu_name(ptu.version) + " on " + ptu.serial.device));
   findings.push_back(judge_baud(ptu));
   findings.push_back(judge_axes(ptu));
   findings.push_back(judge_supply(ptu));

@@ -32,12 +32,12 @@ double counter(const StationHeard& station, const char* name) {
 Finding judge_clock(const StationHeard& station) {
   const std::string error = number(station.clock_error_s / kMilli, "%.1f ms");
   switch (station.clock) {
-    case ClockState::kSynchronised:
+    case clock::ClockState::kSynchronised:
       return ok("clock: synchronised, error " + error);
-    case ClockState::kUnknown:
+    case clock::ClockState::kUnknown:
       return warn("clock: no time service, its error is taken as " + error,
                   "install chrony (examples: chrony-gnss.conf), or compare with other stations");
-    case ClockState::kUnsynchronised:
+    case clock::ClockState::kUnsynchronised:
       break;
   }
   return warn("clock: not synchronised, error " + error,
@@ -133,7 +133,7 @@ Findings judge(const StationHeard& station) {
   } else {
     findings.push_back(ok("station: " + station.id + " runs, " + station.state));
   }
-  for (const DeviceReport& device : station.devices) findings.push_back(judge(device));
+  for (const station::DeviceReport& device : station.devices) findings.push_back(judge(device));
   findings.push_back(judge_clock(station));
   if (!station.position_known) {
     findings.push_back(fail("pose: no position, and so no bearings",
@@ -149,11 +149,11 @@ Findings judge(const StationHeard& station) {
   return findings;
 }
 
-Finding judge(const ClockQuality& clock) {
+Finding judge(const clock::ClockQuality& clock) {
   const std::string words =
       "clock: " + clock.text + (clock.alarm.empty() ? "" : " (" + clock.alarm + ")");
-  if (clock.state == ClockState::kSynchronised && clock.alarm.empty()) return ok(words);
-  if (clock.state == ClockState::kUnknown) {
+  if (clock.state == clock::ClockState::kSynchronised && clock.alarm.empty()) return ok(words);
+  if (clock.state == clock::ClockState::kUnknown) {
     return warn(words, "install chrony; examples: chrony-gnss.conf");
   }
   return warn(words, "chronyc sources and chronyc tracking show why");
@@ -174,7 +174,7 @@ Finding judge(const FolderFacts& folder) {
   return ok(words + free);
 }
 
-Findings judge(const HostReport& host) {
+Findings judge(const station::HostReport& host) {
   Findings findings;
   for (const std::string& alarm : host.alarms) {
     findings.push_back(

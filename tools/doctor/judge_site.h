@@ -12,9 +12,9 @@ Findings judge(const BusHeard& bus);
 Findings judge_company(const BusHeard& bus, const std::string& own);
 Findings judge(const StationHeard& station);
 
-Finding judge(const ClockQuality& clock);
+Finding judge(const clock::ClockQuality& clock);
 Finding judge(const FolderFacts& folder);
-Findings judge(const HostReport& host);
+Findings judge(const station::HostReport& host);
 // Nothing when there is no such unit on this host.
 std::optional<Finding> judge(const UnitFacts& unit);
 

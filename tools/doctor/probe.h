@@ -13,18 +13,18 @@ SerialFacts look_at_line(const std::string& device, int baud);
 
 // Asks version, resolution, limits and supply, at the configured rates first and then at the
 // others. A unit in its scan mode (which no program of ours uses) ends that at any byte.
-PtuAnswers ask_ptu(const PtuConfig& config);
+PtuAnswers ask_ptu(const ptu::PtuConfig& config);
 
 // Opens the camera's control channel for a moment; no frame is taken.
-CameraAnswers ask_camera(const CameraConfig& config);
+CameraAnswers ask_camera(const camera::CameraConfig& config);
 
 // The sensors by their own drivers, for as long as each takes to be well, at most `seconds`.
-DeviceReport ask_gnss(const GnssConfig& config, double seconds);
-DeviceReport ask_inclinometer(const InclinometerConfig& config, double seconds);
+station::DeviceReport ask_gnss(const sensors::GnssConfig& config, double seconds);
+station::DeviceReport ask_inclinometer(const sensors::InclinometerConfig& config, double seconds);
 // Reads the emergency stop; outputs stay untouched.
-DeviceReport ask_gpio(const GpioConfig& config);
+station::DeviceReport ask_gpio(const gpio::GpioConfig& config);
 
-ClockQuality ask_clock(const ClockWatch::Config& config, double seconds);
+clock::ClockQuality ask_clock(const clock::ClockWatch::Config& config, double seconds);
 
 LinkFacts look_at_link(const std::string& address);
 FolderFacts look_at_folder(const std::string& name, const std::string& folder,

@@ -25,7 +25,7 @@ std::optional<Value> read_file(const std::string& path) {
 
 LinkFacts look_at_link(const std::string& address) {
   LinkFacts link;
-  const auto route = command_output({"ip", "-o", "route", "get", address}, kCommand_s);
+  const auto route = clock::command_output({"ip", "-o", "route", "get", address}, kCommand_s);
   if (route) link.name = parse_route(*route);
   if (link.name.empty()) return link;
   const std::string folder = "/sys/class/net/" + link.name;
@@ -63,7 +63,7 @@ std::vector<UnitFacts> look_at_units(const std::vector<std::string>& units) {
       "systemctl", "show", "--no-pager",
       "--property=Id,LoadState,ActiveState,SubState,Result,NRestarts,StatusText"};
   command.insert(command.end(), units.begin(), units.end());
-  const auto text = command_output(command, kCommand_s);
+  const auto text = clock::command_output(command, kCommand_s);
   return text ? parse_units(*text) : std::vector<UnitFacts>{};
 }
 

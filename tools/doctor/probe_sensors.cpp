@@ -21,56 +21,56 @@ void wait_until(Well well, double seconds) {
 }
 
 template <typename Sensor, typename Config>
-DeviceReport ask_sensor(const Config& config, double seconds) {
+station::DeviceReport ask_sensor(const Config& config, double seconds) {
   Sensor sensor(config);
-  wait_until([&] { return sensor.report().state == DeviceState::kOk; }, seconds);
+  wait_until([&] { return sensor.report().state == station::DeviceState::kOk; }, seconds);
   return sensor.report();
 }
 
 }  // namespace
 
-DeviceReport ask_gnss(const GnssConfig& config, double seconds) {
-  return ask_sensor<Gnss>(config, seconds);
+station::DeviceReport ask_gnss(const sensors::GnssConfig& config, double seconds) {
+  return ask_sensor<sensors::Gnss>(config, seconds);
 }
 
-DeviceReport ask_inclinometer(const InclinometerConfig& config, double seconds) {
-  return ask_sensor<Inclinometer>(config, seconds);
+station::DeviceReport ask_inclinometer(const sensors::InclinometerConfig& config, double seconds) {
+  return ask_sensor<sensors::Inclinometer>(config, seconds);
 }
 
-DeviceReport ask_gpio(const GpioConfig& config) {
+station::DeviceReport ask_gpio(const gpio::GpioConfig& config) {
   constexpr double kLevel_s = 0.5;
-  DeviceReport report;
+  station::DeviceReport report;
   report.name = "gpio";
   try {
-    LineUse use;
-    if (config.stop_line >= 0) use.inputs.push_back({config.stop_line, LineBias::kPullUp});
-    const auto lines = open_gpio_lines(config.chip, use);
-    report.state = DeviceState::kOk;
+    gpio::LineUse use;
+    if (config.stop_line >= 0) use.inputs.push_back({config.stop_line, gpio::LineBias::kPullUp});
+    const auto lines = gpio::open_gpio_lines(config.chip, use);
+    report.state = station::DeviceState::kOk;
     report.text = config.chip;
     if (config.stop_line < 0) return report;
-    std::vector<LineLevel> levels;
+    std::vector<gpio::LineLevel> levels;
     lines->refresh();
     wait_until([&] { return !(levels = lines->receive()).empty(); }, kLevel_s);
     if (levels.empty()) {
-      report.state = DeviceState::kFault;
+      report.state = station::DeviceState::kFault;
       report.text += ": the emergency stop's line does not answer";
     } else {
       report.text +=
           levels.back().high ? ", emergency stop's line is high" : ", emergency stop's line is low";
     }
   } catch (const std::system_error& trouble) {
-    report.state = DeviceState::kAbsent;
+    report.state = station::DeviceState::kAbsent;
     report.text = trouble.what();
   }
   return report;
 }
 
-ClockQuality ask_clock(const ClockWatch::Config& config, double seconds) {
-  ClockWatch watch(config);
-  ClockSource source;
-  const ClockPair now = read_clock_pair();
+clock::ClockQuality ask_clock(const clock::ClockWatch::Config& config, double seconds) {
+  clock::ClockWatch watch(config);
+  clock::ClockSource source;
+  const clock::ClockPair now = clock::read_clock_pair();
   watch.tick(now.monotonic_s, now.utime_us);
-  std::optional<ClockReading> reading;
+  std::optional<clock::ClockReading> reading;
   wait_until([&] { return (reading = source.take()).has_value(); }, seconds);
   if (reading) watch.add(*reading);
   return watch.quality(clock_monotonic_s());

@@ -48,14 +48,14 @@ std::vector<std::string> users_of(const std::string& device) {
 class Questions {
  public:
   Questions(const std::string& device, int baud) : port_(device, baud) {
-    port_.write(PtuRequest().delimiter().bytes());
+    port_.write(ptu::PtuRequest().delimiter().bytes());
   }
 
-  std::optional<PtuReply> ask(const PtuRequest& request) {
+  std::optional<ptu::PtuReply> ask(const ptu::PtuRequest& request) {
     for (int attempt = 0; attempt < kTries; ++attempt) {
       while (!port_.read(0.0).empty()) {
       }
-      PtuReplyParser parser;
+      ptu::PtuReplyParser parser;
       port_.write(request.bytes());
       const double end_s = clock_monotonic_s() + kReply_s;
       while (clock_monotonic_s() < end_s) {
@@ -67,34 +67,34 @@ class Questions {
   }
 
  private:
-  SerialPort port_;
+  ptu::SerialPort port_;
 };
 
-std::optional<double> ask_number(Questions& unit, PtuAxis axis, PtuQuantity quantity,
+std::optional<double> ask_number(Questions& unit, ptu::PtuAxis axis, ptu::PtuQuantity quantity,
                                  PtuAnswers& answers) {
-  const auto reply = unit.ask(PtuRequest().query(axis, quantity));
+  const auto reply = unit.ask(ptu::PtuRequest().query(axis, quantity));
   if (!reply) return std::nullopt;
-  if (complaint(reply->text) == PtuComplaint::kNotReferenced) answers.not_referenced = true;
+  if (complaint(reply->text) == ptu::PtuComplaint::kNotReferenced) answers.not_referenced = true;
   return reply->ok ? reply->number : std::nullopt;
 }
 
-void ask_axis(Questions& unit, PtuAxis axis, PtuAxisAnswers& facts, PtuAnswers& answers) {
-  facts.resolution_arcsec = ask_number(unit, axis, PtuQuantity::kResolution, answers);
-  facts.least = ask_number(unit, axis, PtuQuantity::kMinPosition, answers);
-  facts.greatest = ask_number(unit, axis, PtuQuantity::kMaxPosition, answers);
+void ask_axis(Questions& unit, ptu::PtuAxis axis, PtuAxisAnswers& facts, PtuAnswers& answers) {
+  facts.resolution_arcsec = ask_number(unit, axis, ptu::PtuQuantity::kResolution, answers);
+  facts.least = ask_number(unit, axis, ptu::PtuQuantity::kMinPosition, answers);
+  facts.greatest = ask_number(unit, axis, ptu::PtuQuantity::kMaxPosition, answers);
 }
 
 // Whether a unit answers at this rate.
 bool ask_at(int baud, PtuAnswers& answers) {
   Questions unit(answers.serial.device, baud);
-  const auto version = unit.ask(PtuRequest().plain("V"));
+  const auto version = unit.ask(ptu::PtuRequest().plain("V"));
   if (!version || !version->ok || version->text.empty()) return false;
   answers.baud = baud;
   answers.version = version->text;
-  ask_axis(unit, PtuAxis::kPan, answers.pan, answers);
-  ask_axis(unit, PtuAxis::kTilt, answers.tilt, answers);
-  if (const auto supply = unit.ask(PtuRequest().plain("O"))) {
-    answers.environment = ptu_environment(supply->text);
+  ask_axis(unit, ptu::PtuAxis::kPan, answers.pan, answers);
+  ask_axis(unit, ptu::PtuAxis::kTilt, answers.tilt, answers);
+  if (const auto supply = unit.ask(ptu::PtuRequest().plain("O"))) {
+    answers.environment = ptu::ptu_environment(supply->text);
   }
   return true;
 }
@@ -106,14 +106,14 @@ SerialFacts look_at_line(const std::string& device, int baud) {
   facts.device = device;
   facts.users = users_of(device);
   try {
-    const SerialPort port(device, baud);
+    const ptu::SerialPort port(device, baud);
   } catch (const std::system_error& trouble) {
     facts.error = trouble.code().value();
   }
   return facts;
 }
 
-PtuAnswers ask_ptu(const PtuConfig& config) {
+PtuAnswers ask_ptu(const ptu::PtuConfig& config) {
   PtuAnswers answers;
   answers.serial = look_at_line(config.device, config.baud);
   answers.wanted_baud = config.baud;

@@ -8,7 +8,7 @@
 
 #include "base/clocks.h"
 
-namespace ols {
+namespace ols::logger {
 namespace {
 
 constexpr int kTurn_ms = 50;
@@ -128,4 +128,4 @@ void BusRecorder::look_at_bus(double now_s) {
   }
 }
 
-}  // namespace ols
+}  // namespace ols::logger

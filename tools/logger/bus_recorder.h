@@ -17,7 +17,7 @@
 #include "tools/logger/log_writer.h"
 #include "tools/logger/logger_config.h"
 
-namespace ols {
+namespace ols::logger {
 
 struct RecorderReport {
   std::string file;                  // being written
@@ -64,4 +64,4 @@ class BusRecorder {
   std::thread thread_;
 };
 
-}  // namespace ols
+}  // namespace ols::logger

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <tuple>
 
-namespace ols {
+namespace ols::logger {
 
 namespace fs = std::filesystem;
 
@@ -67,4 +67,4 @@ double LogFolder::bytes() const {
   return sum;
 }
 
-}  // namespace ols
+}  // namespace ols::logger

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace ols {
+namespace ols::logger {
 
 struct LogFile {
   std::string path;
@@ -39,4 +39,4 @@ class LogFolder {
   std::uint64_t removed_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::logger

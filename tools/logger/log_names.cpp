@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-namespace ols {
+namespace ols::logger {
 namespace {
 
 std::string time_text(std::int64_t utime_us) {
@@ -41,4 +41,4 @@ std::string LogNames::next(std::int64_t utime_us) {
   }
 }
 
-}  // namespace ols
+}  // namespace ols::logger

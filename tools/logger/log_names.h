@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace ols {
+namespace ols::logger {
 
 class LogNames {
  public:
@@ -20,4 +20,4 @@ class LogNames {
   int number_ = 0;    // of the next name of that time
 };
 
-}  // namespace ols
+}  // namespace ols::logger

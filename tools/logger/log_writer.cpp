@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
-namespace ols {
+namespace ols::logger {
 namespace {
 
 // The header of an event: sync word, number, stamp, two lengths.
@@ -57,4 +57,4 @@ bool LogWriter::is_in_place() const {
          written.st_ino == named.st_ino && written.st_dev == named.st_dev;
 }
 
-}  // namespace ols
+}  // namespace ols::logger

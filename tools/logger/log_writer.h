@@ -9,7 +9,7 @@
 
 #include "base/bus_inbox.h"
 
-namespace ols {
+namespace ols::logger {
 
 class LogWriter {
  public:
@@ -35,4 +35,4 @@ class LogWriter {
   std::uint64_t bytes_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::logger

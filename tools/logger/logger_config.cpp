@@ -8,7 +8,7 @@
 #include "base/config_section.h"
 #include "base/lcm_url.h"
 
-namespace ols {
+namespace ols::logger {
 namespace {
 
 // Space for the current and the next file besides the kept ones.
@@ -73,4 +73,4 @@ LoggerConfig parse_logger_config(const std::string& text, const std::string& nam
   return read(file);
 }
 
-}  // namespace ols
+}  // namespace ols::logger

@@ -6,7 +6,7 @@
 namespace ols::config {
 struct Section;
 }
-namespace ols {
+namespace ols::logger {
 
 struct LoggerConfig {
   std::string folder = "/var/log/ols";
@@ -27,4 +27,4 @@ LoggerConfig load_logger_config(const std::string& path);
 // The same from text, `name` standing for the path in errors.
 LoggerConfig parse_logger_config(const std::string& text, const std::string& name);
 
-}  // namespace ols
+}  // namespace ols::logger

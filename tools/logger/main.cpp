@@ -23,7 +23,7 @@ namespace {
 constexpr int kTurn_ms = 100;
 constexpr double kStatus_s = 1.0;
 
-std::string status_line(const ols::LoggerStatus& status) {
+std::string status_line(const ols::logger::LoggerStatus& status) {
   char room[96];
   std::snprintf(room, sizeof room, "; %.1f GB in %zu files, %.1f GB free", status.bytes * 1e-9,
                 status.files, status.free_bytes * 1e-9);
@@ -32,12 +32,12 @@ std::string status_line(const ols::LoggerStatus& status) {
 }
 
 // A failure to write the status must not end the recording.
-void write_status(const std::string& path, const ols::LoggerStatus& status) {
+void write_status(const std::string& path, const ols::logger::LoggerStatus& status) {
   if (path.empty()) return;
   static bool is_reported = false;
   try {
     ols::AtomicFile file(path);
-    file.stream() << ols::to_json(status, ols::clock_utime_us()) << '\n';
+    file.stream() << ols::logger::to_json(status, ols::clock_utime_us()) << '\n';
     file.commit();
     is_reported = false;
   } catch (const std::exception& failure) {
@@ -47,22 +47,22 @@ void write_status(const std::string& path, const ols::LoggerStatus& status) {
 }
 
 // Records into one file until the program is ended.
-int run_into(const std::string& file, const ols::LoggerConfig& config) {
-  ols::BusRecorder recorder(config, file);
+int run_into(const std::string& file, const ols::logger::LoggerConfig& config) {
+  ols::logger::BusRecorder recorder(config, file);
   ols::ServiceNotifier service_manager;
   service_manager.ready("recording " + file);
   spdlog::info("ready: records {} to {}", config.lcm_url, file);
   while (!ols::shutdown_requested() && !recorder.report().ended) ::poll(nullptr, 0, kTurn_ms);
   service_manager.stopping();
-  const ols::RecorderReport report = recorder.report();
+  const ols::logger::RecorderReport report = recorder.report();
   spdlog::info("{} messages recorded, {} dropped", report.messages, report.dropped);
   if (!report.ended) return 0;
   spdlog::error("{}", *report.ended);
   return 1;
 }
 
-int run(const ols::LoggerConfig& config) {
-  ols::Supervisor supervisor(config);
+int run(const ols::logger::LoggerConfig& config) {
+  ols::logger::Supervisor supervisor(config);
   ols::ServiceNotifier service_manager;
   double status_due_s = 0.0;
   bool ready = false;
@@ -70,7 +70,7 @@ int run(const ols::LoggerConfig& config) {
     const double now_s = ols::clock_monotonic_s();
     supervisor.turn(now_s);
     if (now_s >= status_due_s) {
-      const ols::LoggerStatus status = supervisor.status();
+      const ols::logger::LoggerStatus status = supervisor.status();
       // Ready even without a usable disk: it is retried, and the status reports it.
       ready ? service_manager.status(status_line(status))
             : service_manager.ready(status_line(status));
@@ -104,8 +104,8 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("ols-logger"));
   ols::install_shutdown_handler();
   try {
-    ols::LoggerConfig config;
-    if (!config_path.empty()) config = ols::load_logger_config(config_path);
+    ols::logger::LoggerConfig config;
+    if (!config_path.empty()) config = ols::logger::load_logger_config(config_path);
     if (!folder.empty()) config.folder = folder;
     if (!lcm_url.empty()) config.lcm_url = lcm_url;
     ols::parse_lcm_url(config.lcm_url);  // throws when it is malformed

@@ -10,7 +10,7 @@
 
 #include "base/plain_text.h"
 
-namespace ols {
+namespace ols::logger {
 namespace {
 
 constexpr double kFirstPause_s = 0.5;  // before a restart; doubled each time
@@ -135,4 +135,4 @@ LoggerStatus Supervisor::status() const {
   return status;
 }
 
-}  // namespace ols
+}  // namespace ols::logger

@@ -9,7 +9,7 @@
 #include "tools/logger/log_folder.h"
 #include "tools/logger/logger_config.h"
 
-namespace ols {
+namespace ols::logger {
 
 struct LoggerStatus {
   bool recording = false;
@@ -55,4 +55,4 @@ class Supervisor {
   LoggerStatus ended_;  // sums of the earlier recordings
 };
 
-}  // namespace ols
+}  // namespace ols::logger

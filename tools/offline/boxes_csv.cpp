@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdio>
 
-namespace ols {
+namespace ols::offline {
 
 void write_boxes_header(std::ostream& out) { out << "frame,x,y,w,h,belief,state\n"; }
 
@@ -18,4 +18,4 @@ void write_box(std::ostream& out, const BoxRow& row) {
   out << text.data() << row.state << '\n';
 }
 
-}  // namespace ols
+}  // namespace ols::offline

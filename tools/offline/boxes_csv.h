@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string_view>
 
-namespace ols {
+namespace ols::offline {
 
 struct BoxRow {
   long frame = 0;                 // from 0
@@ -18,4 +18,4 @@ struct BoxRow {
 void write_boxes_header(std::ostream& out);
 void write_box(std::ostream& out, const BoxRow& row);
 
-}  // namespace ols
+}  // namespace ols::offline

@@ -11,7 +11,7 @@
 #include <set>
 #include <string_view>
 
-namespace ols {
+namespace ols::offline {
 namespace {
 
 namespace fs = std::filesystem;
@@ -200,4 +200,4 @@ std::optional<cv::Mat> FrameSource::next_file() {
   return picture;
 }
 
-}  // namespace ols
+}  // namespace ols::offline

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace ols {
+namespace ols::offline {
 
 // One line that names the file.
 class FrameSourceError : public std::runtime_error {
@@ -43,4 +43,4 @@ class FrameSource {
   std::size_t read_ = 0;
 };
 
-}  // namespace ols
+}  // namespace ols::offline

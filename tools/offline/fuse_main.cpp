@@ -21,10 +21,10 @@ namespace {
 
 constexpr int kExitNoPosition = 1;
 
-const std::map<std::string, ols::PaperPairs> kPaperPairs = {
-    {"algorithm-1", ols::PaperPairs::kAlgorithm1},
-    {"centroid", ols::PaperPairs::kCentroid},
-    {"best-baseline", ols::PaperPairs::kBestBaseline}};
+const std::map<std::string, ols::fusion::PaperPairs> kPaperPairs = {
+    {"algorithm-1", ols::fusion::PaperPairs::kAlgorithm1},
+    {"centroid", ols::fusion::PaperPairs::kCentroid},
+    {"best-baseline", ols::fusion::PaperPairs::kBestBaseline}};
 
 struct Options {
   std::string stations;
@@ -34,17 +34,17 @@ struct Options {
   bool smooth = false;
   double rate_hz = 0.0;
   std::optional<double> clock_sd_s;  // nothing: guessed
-  ols::PaperConfig paper{};
+  ols::fusion::PaperConfig paper{};
   std::string paper_pairs = "algorithm-1";
   bool paper_halves = false;
 };
 
-ols::FixRow fix_of(const ols::FusedTarget& target, const std::string& id) {
-  const ols::Estimate& estimate = target.estimate;
+ols::FixRow fix_of(const ols::fusion::FusedTarget& target, const std::string& id) {
+  const ols::fusion::Estimate& estimate = target.estimate;
   const ols::Geodetic place = ols::geodetic_from_ecef(estimate.position_ecef);
   const Eigen::Matrix3d R = ols::R_ecef_enu(place);
   const Eigen::Vector3d sd = (R.transpose() * estimate.covariance_ecef * R).diagonal().cwiseSqrt();
-  const auto used = std::ranges::count_if(target.stations, &ols::ContributingStation::used);
+  const auto used = std::ranges::count_if(target.stations, &ols::fusion::ContributingStation::used);
   ols::FixRow fix;
   fix.utime_us = target.utime_us;
   fix.target = id;
@@ -61,7 +61,7 @@ ols::FixRow fix_of(const ols::FusedTarget& target, const std::string& id) {
   return fix;
 }
 
-void tell_unused(const ols::UnusedBearings& unused, std::size_t bearings) {
+void tell_unused(const ols::fusion::UnusedBearings& unused, std::size_t bearings) {
   const std::size_t all = unused.low_belief + unused.duplicate;
   if (all == 0) return;
   std::cerr << "ols-fuse: " << all << " of " << bearings << " bearings not used:";
@@ -77,29 +77,30 @@ void tell_unused(const ols::UnusedBearings& unused, std::size_t bearings) {
 }
 
 // The states in which there is no position, and at how many of the instants.
-void tell_unlocated(const ols::Unlocated& unlocated, std::size_t fixes, const std::string& id) {
+void tell_unlocated(const ols::fusion::Unlocated& unlocated, std::size_t fixes,
+                    const std::string& id) {
   if (unlocated.empty()) return;
   std::size_t instants = fixes;
   for (const auto& [solution, count] : unlocated) instants += count;
   std::cerr << "ols-fuse: target " << id << ": no position at";
   const char* separator = " ";
   for (const auto& [solution, count] : unlocated) {
-    std::cerr << separator << count << " of " << instants << " instants ("
-              << ols::to_string(solution) << ')';
+    std::cerr << separator << count << " of " << instants << " instants (" << to_string(solution)
+              << ')';
     separator = ", ";
   }
   std::cerr << '\n';
 }
 
-std::size_t count(const ols::RecordedBearings& recording) {
+std::size_t count(const ols::offline::RecordedBearings& recording) {
   std::size_t bearings = 0;
   for (const auto& [id, sightings] : recording) bearings += sightings.size();
   return bearings;
 }
 
-ols::OfflineConfig config_of(const Options& options, std::size_t bearings) {
+ols::fusion::OfflineConfig config_of(const Options& options, std::size_t bearings) {
   constexpr std::size_t kRuns = 2;  // of the filter: the stations' errors first, then the positions
-  ols::OfflineConfig config;
+  ols::fusion::OfflineConfig config;
   config.estimator = options.estimator;
   config.smooth = options.smooth;
   config.rate_hz = options.rate_hz;
@@ -115,23 +116,24 @@ ols::OfflineConfig config_of(const Options& options, std::size_t bearings) {
 std::size_t run(const Options& options) {
   ols::check_outputs({{"--stations", options.stations}, {"--bearings", options.bearings}},
                      {{"--output", options.output}});
-  auto recording = ols::read_recorded_bearings(options.stations, options.bearings);
+  auto recording = ols::offline::read_recorded_bearings(options.stations, options.bearings);
   const std::size_t bearings = count(recording);
-  const ols::OfflineConfig config = config_of(options, bearings);
+  const ols::fusion::OfflineConfig config = config_of(options, bearings);
   std::vector<ols::FixRow> fixes;
-  ols::UnusedBearings unused;
+  ols::fusion::UnusedBearings unused;
   for (auto& [id, sightings] : recording) {
     if (options.clock_sd_s) {
-      for (ols::BearingMeasurement& sighting : sightings) sighting.clock_sd_s = *options.clock_sd_s;
+      for (ols::fusion::BearingMeasurement& sighting : sightings)
+        sighting.clock_sd_s = *options.clock_sd_s;
     }
-    const ols::UnusedBearings here = ols::unused_bearings(sightings, config);
+    const ols::fusion::UnusedBearings here = ols::fusion::unused_bearings(sightings, config);
     unused.low_belief += here.low_belief;
     unused.duplicate += here.duplicate;
-    for (const auto& [station, why] : ols::stations_beside(sightings, config)) {
+    for (const auto& [station, why] : ols::fusion::stations_beside(sightings, config)) {
       std::cerr << "ols-fuse: station " << station << ", target " << id << ": " << why << '\n';
     }
-    ols::Unlocated unlocated;
-    const auto targets = ols::fuse_offline(sightings, config, &unlocated);
+    ols::fusion::Unlocated unlocated;
+    const auto targets = ols::fusion::fuse_offline(sightings, config, &unlocated);
     for (const auto& target : targets) fixes.push_back(fix_of(target, id));
     tell_unlocated(unlocated, targets.size(), id);
   }

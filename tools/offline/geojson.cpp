@@ -7,7 +7,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::offline {
 namespace {
 
 using nlohmann::json;
@@ -205,4 +205,4 @@ std::vector<Geodetic> fill(const std::vector<GeoPolygon>& polygons, double spaci
   return points;
 }
 
-}  // namespace ols
+}  // namespace ols::offline

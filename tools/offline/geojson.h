@@ -9,7 +9,7 @@
 
 #include "geometry/wgs84.h"
 
-namespace ols {
+namespace ols::offline {
 
 // One line: "FILE: features[3]: what is wrong".
 class GeoJsonError : public std::runtime_error {
@@ -50,4 +50,4 @@ bool contains(const GeoPolygon& polygon, double longitude_deg, double latitude_d
 std::vector<Geodetic> fill(const std::vector<GeoPolygon>& polygons, double spacing_m,
                            double height_m);
 
-}  // namespace ols
+}  // namespace ols::offline

@@ -16,7 +16,7 @@
 #include "tools/offline/precision_options.h"
 #include "tools/offline/precision_site_files.h"
 
-namespace ols {
+namespace ols::offline {
 namespace {
 
 struct AdviceOptions {
@@ -159,4 +159,4 @@ void add_advice(CLI::App& app) {
   command->callback([o] { write_advice(*o); });
 }
 
-}  // namespace ols
+}  // namespace ols::offline

@@ -12,12 +12,12 @@ int main(int argc, char** argv) {
       "How good positions can be: the paper's precision theory, and the Cramer-Rao bound of any "
       "site. Lengths in metres, angles in degrees but where a column says rad."};
   app.require_subcommand(1);
-  ols::add_figure3(app);
-  ols::add_figure4(app);
-  ols::add_table(app);
-  ols::add_map(app);
-  ols::add_budget(app);
-  ols::add_advice(app);
+  ols::offline::add_figure3(app);
+  ols::offline::add_figure4(app);
+  ols::offline::add_table(app);
+  ols::offline::add_map(app);
+  ols::offline::add_budget(app);
+  ols::offline::add_advice(app);
   try {
     if (const auto status = ols::parse_command_line(app, argc, argv, "ols-precision")) {
       return *status;

@@ -17,7 +17,7 @@
 #include "tools/offline/precision_options.h"
 #include "tools/offline/precision_site_files.h"
 
-namespace ols {
+namespace ols::offline {
 namespace {
 
 using Eigen::Matrix3d;
@@ -300,4 +300,4 @@ void add_budget(CLI::App& app) {
   command->callback([o] { write_budget(*o); });
 }
 
-}  // namespace ols
+}  // namespace ols::offline

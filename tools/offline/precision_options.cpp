@@ -2,7 +2,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::offline {
 
 void add_measurement_options(CLI::App& app, MeasurementOptions& o) {
   const auto add = [&app](const char* name, double& value, const char* text, double least,
@@ -58,4 +58,4 @@ PlannedTarget planned_target(const Geodetic& place, const MeasurementOptions& o)
   return {ecef_from_geodetic(place), o.speed_m_s * o.speed_m_s / 3.0 * Eigen::Matrix3d::Identity()};
 }
 
-}  // namespace ols
+}  // namespace ols::offline

@@ -8,7 +8,7 @@
 #include "base/csv_files.h"
 #include "geometry/precision.h"
 
-namespace ols {
+namespace ols::offline {
 
 // Errors of the stations' measurements, where stations.csv has no own values.
 struct MeasurementOptions {
@@ -36,4 +36,4 @@ PlannedStation planned_station(const Geodetic& place, const MeasurementOptions& 
 // A target that flies at the options' speed in any direction.
 PlannedTarget planned_target(const Geodetic& place, const MeasurementOptions& options);
 
-}  // namespace ols
+}  // namespace ols::offline

@@ -12,7 +12,7 @@
 #include "base/output_check.h"
 #include "geometry/precision_paper.h"
 
-namespace ols {
+namespace ols::offline {
 namespace {
 
 using Eigen::Vector3d;
@@ -173,4 +173,4 @@ void add_table(CLI::App& app) {
   command->callback([o] { write_table(*o); });
 }
 
-}  // namespace ols
+}  // namespace ols::offline

@@ -3,11 +3,11 @@
 
 #include <CLI/CLI.hpp>
 
-namespace ols {
+namespace ols::offline {
 
 // Each adds its subcommand to ols-precision; it runs when parsed.
 void add_figure3(CLI::App& app);
 void add_figure4(CLI::App& app);
 void add_table(CLI::App& app);
 
-}  // namespace ols
+}  // namespace ols::offline

@@ -4,11 +4,11 @@
 
 #include <CLI/CLI.hpp>
 
-namespace ols {
+namespace ols::offline {
 
 // Each adds its subcommand to ols-precision; it runs when parsed.
 void add_map(CLI::App& app);
 void add_budget(CLI::App& app);
 void add_advice(CLI::App& app);
 
-}  // namespace ols
+}  // namespace ols::offline

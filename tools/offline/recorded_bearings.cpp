@@ -8,14 +8,15 @@
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 
-namespace ols {
+namespace ols::offline {
 namespace {
 
 constexpr double kDegree_rad = kPi / 180.0;
 
 // `unit_rad` is the unit of the row's angles, one degree unless radians were exported.
-BearingMeasurement sighting_of(const BearingRow& bearing, const StationRow& station, double unit_rad) {
-  BearingMeasurement sighting;
+fusion::BearingMeasurement sighting_of(const BearingRow& bearing, const StationRow& station,
+                                       double unit_rad) {
+  fusion::BearingMeasurement sighting;
   sighting.station = bearing.station;
   sighting.utime_us = bearing.utime_us;
   sighting.belief = bearing.belief;
@@ -39,13 +40,13 @@ RecordedBearings recorded(const std::vector<StationRow>& stations,
   for (const BearingRow& bearing : bearings) {
     recording[bearing.target].push_back(sighting_of(bearing, by_id.at(bearing.station), unit_rad));
   }
-  for (auto& [id, own] : recording) guess_clocks(own);
+  for (auto& [id, own] : recording) fusion::guess_clocks(own);
   return recording;
 }
 
 std::size_t instants_with_position(const RecordedBearings& recording) {
   std::size_t count = 0;
-  for (const auto& [id, sightings] : recording) count += fuse_offline(sightings, {}).size();
+  for (const auto& [id, sightings] : recording) count += fusion::fuse_offline(sightings, {}).size();
   return count;
 }
 
@@ -79,4 +80,4 @@ RecordedBearings read_recorded_bearings(const std::string& stations_path,
   return recording;
 }
 
-}  // namespace ols
+}  // namespace ols::offline

@@ -12,7 +12,7 @@
 #include "geometry/angles.h"
 #include "geometry/utm.h"
 
-namespace ols {
+namespace ols::offline {
 namespace {
 
 Geodetic place_of(const SurveyRow& point, const std::string& path) {
@@ -42,7 +42,8 @@ void check_calibration_id(const std::string& path, std::int64_t id) {
 }
 
 // The prior: the station's position and tilt.
-StationGeometry rough_station(const StationingOptions& options, const StationSettings& settings,
+StationGeometry rough_station(const StationingOptions& options,
+                              const station::StationSettings& settings,
                               const std::vector<SurveyRow>& survey) {
   StationGeometry rough = settings.station.geometry;
   if (!settings.pose.surveyed_tilt_rad) rough.sd.tilt_rad = settings.pose.level_sd_rad;
@@ -110,7 +111,7 @@ std::string refusal(const StationingCase& before, const LandmarkRefused& problem
 
 StationingCase read_stationing(const StationingOptions& options) {
   StationingCase result;
-  result.settings = load_station_settings(options.station);
+  result.settings = station::load_station_settings(options.station);
   check_calibration_id(options.station, result.settings.calibration_id);
   result.path = options.sightings;
   const auto survey = read_survey(options.landmarks);
@@ -139,4 +140,4 @@ Stationing find_station(const StationingCase& before, double highest_rad) {
   }
 }
 
-}  // namespace ols
+}  // namespace ols::offline

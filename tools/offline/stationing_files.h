@@ -8,7 +8,7 @@
 #include "edge/config.h"
 #include "geometry/stationing.h"
 
-namespace ols {
+namespace ols::offline {
 
 struct StationingOptions {
   std::string station;    // its configuration, as ols-station reads it
@@ -27,7 +27,7 @@ struct SightingName {
 };
 
 struct StationingCase {
-  StationSettings settings;
+  station::StationSettings settings;
   StationGeometry rough;
   std::string path;  // of the sightings
   std::vector<SightingName> names;
@@ -50,4 +50,4 @@ void write_stationing(std::ostream& out, const StationingCase& before, const Sta
 // Warnings for standard error: one line per rejected landmark, and one if deviations were scaled.
 std::vector<std::string> stationing_warnings(const StationingCase& before, const Stationing& found);
 
-}  // namespace ols
+}  // namespace ols::offline

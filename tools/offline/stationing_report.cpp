@@ -5,7 +5,7 @@
 #include "geometry/angles.h"
 #include "tools/offline/stationing_files.h"
 
-namespace ols {
+namespace ols::offline {
 namespace {
 
 // Rounded for printing, without -0.00.
@@ -153,4 +153,4 @@ void write_stationing(std::ostream& out, const StationingCase& before, const Sta
   line("position_m", station.sd.position_m, 3);
 }
 
-}  // namespace ols
+}  // namespace ols::offline

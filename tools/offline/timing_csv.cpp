@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-namespace ols {
+namespace ols::offline {
 
 double thread_time_s() {
   timespec now{};
@@ -10,17 +10,17 @@ double thread_time_s() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-TimingFile::TimingFile(const std::string& path, Tracker& tracker) : file_(path) {
+TimingFile::TimingFile(const std::string& path, tracker::Tracker& tracker) : file_(path) {
   tracker.set_stage_clock(thread_time_s);
   file_.stream() << "frame,total_ms";
-  for (const char* name : kStageNames) file_.stream() << ',' << name << "_ms";
+  for (const char* name : tracker::kStageNames) file_.stream() << ',' << name << "_ms";
   file_.stream() << '\n';
 }
 
-void TimingFile::write(long frame, double total_s, const StageTimes& stages) {
+void TimingFile::write(long frame, double total_s, const tracker::StageTimes& stages) {
   file_.stream() << frame << ',' << 1e3 * total_s;
   for (const double seconds : stages.seconds) file_.stream() << ',' << 1e3 * seconds;
   file_.stream() << '\n';
 }
 
-}  // namespace ols
+}  // namespace ols::offline

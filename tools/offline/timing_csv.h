@@ -6,7 +6,7 @@
 #include "base/atomic_file.h"
 #include "edge/tracker/tracker.h"
 
-namespace ols {
+namespace ols::offline {
 
 // Processor time of this thread [s], independent of other programs.
 double thread_time_s();
@@ -14,13 +14,13 @@ double thread_time_s();
 class TimingFile {
  public:
   // Gives the tracker a clock. Throws when the file cannot be written.
-  TimingFile(const std::string& path, Tracker& tracker);
+  TimingFile(const std::string& path, tracker::Tracker& tracker);
 
-  void write(long frame, double total_s, const StageTimes& stages);
+  void write(long frame, double total_s, const tracker::StageTimes& stages);
   void commit() { file_.commit(); }
 
  private:
   AtomicFile file_;
 };
 
-}  // namespace ols
+}  // namespace ols::offline

@@ -66,14 +66,14 @@ class State {
  public:
   explicit State(double start_s) : believed_s_(start_s) {}
 
-  ols::BoxRow row(long frame, double time_s, const ols::TrackerOutput& output) {
+  ols::offline::BoxRow row(long frame, double time_s, const ols::tracker::TrackerOutput& output) {
     if (output.belief >= kBelieved) believed_s_ = time_s;
-    ols::BoxRow row{frame, output.box, output.belief, "tracking"};
+    ols::offline::BoxRow row{frame, output.box, output.belief, "tracking"};
     if (output.belief < kBelieved) row.state = coasting_or_lost(time_s);
     return row;
   }
   // Of a frame that the tracker could not use.
-  ols::BoxRow row(long frame, double time_s) const {
+  ols::offline::BoxRow row(long frame, double time_s) const {
     return {frame, std::nullopt, 0.0, coasting_or_lost(time_s)};
   }
 
@@ -90,17 +90,17 @@ class State {
 // Frames that the tracker refused: they get no box, and are reported.
 class Skipped {
  public:
-  void add(long frame, ols::TrackerError error) {
+  void add(long frame, ols::tracker::TrackerError error) {
     Kind& kind = kinds_[error];
     if (kind.frames++ == 0) kind.first = frame;
   }
-  std::optional<ols::TrackerError> any() const {
+  std::optional<ols::tracker::TrackerError> any() const {
     return kinds_.empty() ? std::nullopt : std::optional(kinds_.begin()->first);
   }
   void tell(std::ostream& out) const {
     for (const auto& [error, kind] : kinds_) {
       out << "ols-track: skipped " << kind.frames << (kind.frames == 1 ? " frame" : " frames")
-          << ", the first is " << kind.first << ": " << ols::to_string(error) << '\n';
+          << ", the first is " << kind.first << ": " << to_string(error) << '\n';
     }
   }
 
@@ -109,7 +109,7 @@ class Skipped {
     long frames = 0;
     long first = 0;
   };
-  std::map<ols::TrackerError, Kind> kinds_;
+  std::map<ols::tracker::TrackerError, Kind> kinds_;
 };
 
 // Tracks frame by frame and writes the rows of boxes.csv.
@@ -117,25 +117,26 @@ class Run {
  public:
   explicit Run(const Arguments& arguments)
       : arguments_(arguments),
-        tracker_(ols::load_tracker_config(arguments.config, arguments.mode), arguments.seed),
+        tracker_(ols::offline::load_tracker_config(arguments.config, arguments.mode),
+                 arguments.seed),
         file_(arguments.output) {
     if (!arguments.timing.empty()) timing_.emplace(arguments.timing, tracker_);
-    ols::write_boxes_header(file_.stream());
+    ols::offline::write_boxes_header(file_.stream());
   }
 
-  void take(long frame, const ols::TrackerInput& input) {
+  void take(long frame, const ols::tracker::TrackerInput& input) {
     if (frame < arguments_.start_frame) return;
     if (frame == arguments_.start_frame) return begin(frame, input);
-    const double began_s = ols::thread_time_s();
-    const ols::TrackerResult result = tracker_.track(input);
-    const double taken_s = ols::thread_time_s() - began_s;
+    const double began_s = ols::offline::thread_time_s();
+    const ols::tracker::TrackerResult result = tracker_.track(input);
+    const double taken_s = ols::offline::thread_time_s() - began_s;
     if (result.error) {
       skipped_.add(frame, *result.error);
-      ols::write_box(file_.stream(), state_->row(frame, input.time_s));
+      ols::offline::write_box(file_.stream(), state_->row(frame, input.time_s));
       return;
     }
     ++tracked_;
-    ols::write_box(file_.stream(), state_->row(frame, input.time_s, *result.output));
+    ols::offline::write_box(file_.stream(), state_->row(frame, input.time_s, *result.output));
     if (timing_) timing_->write(frame, taken_s, tracker_.stage_times());
   }
 
@@ -143,7 +144,7 @@ class Run {
   void commit() {
     if (tracked_ == 0 && skipped_.any()) {
       throw std::runtime_error(arguments_.input + ": no frame after the first can be used: " +
-                               ols::to_string(*skipped_.any()));
+                               to_string(*skipped_.any()));
     }
     skipped_.tell(std::cerr);
     file_.commit();
@@ -151,36 +152,36 @@ class Run {
   }
 
  private:
-  void begin(long frame, const ols::TrackerInput& input) {
+  void begin(long frame, const ols::tracker::TrackerInput& input) {
     const auto& init = arguments_.init;
     const cv::Rect2d box(init[0], init[1], init[2], init[3]);
     if (const auto error = tracker_.initialise(input, box)) {
       std::ostringstream reason;
       reason << "frame " << frame << ", " << input.gray.cols << " by " << input.gray.rows
-             << " pixels: " << ols::to_string(*error);
+             << " pixels: " << to_string(*error);
       throw std::runtime_error(reason.str());
     }
     state_.emplace(input.time_s);
-    ols::write_box(file_.stream(), {frame, box, 1.0, "tracking"});
+    ols::offline::write_box(file_.stream(), {frame, box, 1.0, "tracking"});
   }
 
   const Arguments& arguments_;
-  ols::Tracker tracker_;
+  ols::tracker::Tracker tracker_;
   ols::AtomicFile file_;
-  std::optional<ols::TimingFile> timing_;
+  std::optional<ols::offline::TimingFile> timing_;
   std::optional<State> state_;
   Skipped skipped_;
   long tracked_ = 0;
 };
 
-void check_files(const Arguments& arguments, const ols::FrameSource& source) {
+void check_files(const Arguments& arguments, const ols::offline::FrameSource& source) {
   std::vector<ols::NamedFile> inputs{{"--input", arguments.input}, {"--config", arguments.config}};
   for (const std::string& picture : source.files()) inputs.push_back({"--input", picture});
   ols::check_outputs(inputs, {{"--output", arguments.output}, {"--timing", arguments.timing}});
 }
 
 void run(const Arguments& arguments) {
-  ols::FrameSource source(arguments.input);
+  ols::offline::FrameSource source(arguments.input);
   check_files(arguments, source);
   Run following(arguments);
   ols::Progress progress("ols-track", "frames");

@@ -2,17 +2,17 @@
 
 #include "base/config_section.h"
 
-namespace ols {
+namespace ols::offline {
 
-TrackerConfig load_tracker_config(const std::string& path, const std::string& mode) {
-  TrackerConfig config;
+tracker::TrackerConfig load_tracker_config(const std::string& path, const std::string& mode) {
+  tracker::TrackerConfig config;
   if (!path.empty()) {
     ConfigFile file(path);
-    config::read({"", "", {}, {tracker_section(config)}}, file.root());
+    config::read({"", "", {}, {tracker::tracker_section(config)}}, file.root());
   }
-  if (mode == "paper") config.mode = TrackerMode::kPaper;
-  if (mode == "full") config.mode = TrackerMode::kFull;
+  if (mode == "paper") config.mode = tracker::TrackerMode::kPaper;
+  if (mode == "full") config.mode = tracker::TrackerMode::kFull;
   return config;
 }
 
-}  // namespace ols
+}  // namespace ols::offline

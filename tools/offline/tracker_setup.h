@@ -5,10 +5,10 @@
 
 #include "edge/tracker/tracker_config.h"
 
-namespace ols {
+namespace ols::offline {
 
 // Of the table [tracker] of a TOML file; the defaults when `path` is empty. `mode`, "paper" or
 // "full", overrides the file's; empty: the file's. Throws ConfigError.
-TrackerConfig load_tracker_config(const std::string& path, const std::string& mode);
+tracker::TrackerConfig load_tracker_config(const std::string& path, const std::string& mode);
 
-}  // namespace ols
+}  // namespace ols::offline

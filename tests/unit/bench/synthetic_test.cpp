@@ -59,7 +59,7 @@ TEST(SyntheticTarget, BoundIsReachedByTheBestEstimator) {
   const TargetLook look{12.0, 20.0, 1.0};
   const SyntheticTarget target(look);
   const PixelNoise noise;
-  Random random(3);
+  tracker::Random random(3);
   constexpr double kStep = 0.05;
   constexpr int kTries = 400;
   const cv::Mat1f expected = drawn(look, kCentre);
@@ -103,7 +103,7 @@ TEST(SyntheticScene, HomographyMovesTheBackdropAsTheCameraTurns) {
 
 TEST(SyntheticScene, NoiseIsAsStated) {
   const PixelNoise noise;
-  Random random(1);
+  tracker::Random random(1);
   cv::Scalar mean, sd;
   cv::meanStdDev(noise.develop(sky(), random), mean, sd);
   EXPECT_NEAR(mean[0], kSkyLevel, 0.1);
@@ -113,7 +113,7 @@ TEST(SyntheticScene, NoiseIsAsStated) {
 TEST(SyntheticCases, TargetStaysInThePictureAndMovesAsStated) {
   Landscape landscape(bench_camera());
   for (const BenchCase& which : bench_cases()) {
-    Random random(11);
+    tracker::Random random(11);
     const BenchPath path(which, landscape, random);
     double length_px = 0.0;
     for (double t = 0.0; t < which.seconds; t += kFrameInterval_s) {
@@ -137,7 +137,7 @@ TEST(SyntheticCases, SwingingCameraMovesAStandingTarget) {
   which.camera_path = CameraPath::kSwinging;
   which.target_path = TargetPath::kStill;
   which.pan_rate_deg_s = 20.0;
-  Random random(2);
+  tracker::Random random(2);
   const BenchPath path(which, landscape, random);
   const double later = 0.02;
   const Eigen::Matrix3d H =

@@ -18,7 +18,8 @@ inline Eigen::Vector3d path(double t_s) {
 }
 
 // Four stations at 15 frames a second, their frames evenly staggered: in order of time.
-inline std::vector<BearingMeasurement> flight(double seconds, double sigma_rad = 1e-5, double noise = 0.0) {
+inline std::vector<BearingMeasurement> flight(double seconds, double sigma_rad = 1e-5,
+                                              double noise = 0.0) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
   std::vector<BearingMeasurement> sightings;
@@ -44,7 +45,8 @@ inline void move_on(TrackFilter& filter, std::int64_t utime_us, BiasModel& error
   errors.learn(filter.advance(utime_us, errors));
 }
 
-inline std::vector<FusedTarget> targets_of(Fusion& fusion, const std::vector<BearingMeasurement>& sightings) {
+inline std::vector<FusedTarget> targets_of(Fusion& fusion,
+                                           const std::vector<BearingMeasurement>& sightings) {
   std::vector<FusedTarget> targets;
   for (const BearingMeasurement& sighting : sightings) {
     const FusionOutput output = fusion.add(sighting);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "central/measurement/ray.h"
 #include "central/measurement/bearing_measurement.h"
+#include "central/measurement/ray.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 

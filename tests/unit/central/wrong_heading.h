@@ -21,8 +21,9 @@ inline constexpr double kSlowly = 0.5;  // of the time of path()
 
 // The stations (letters of the square's corners), in this order of exposures, each 15 times a
 // second; the path of flight.h at half its speed. In order of time.
-inline std::vector<BearingMeasurement> watch(const std::string& stations, double seconds, double noise_rad,
-                                   const HeadingError& heading, double stated_rad = 0.0) {
+inline std::vector<BearingMeasurement> watch(const std::string& stations, double seconds,
+                                             double noise_rad, const HeadingError& heading,
+                                             double stated_rad = 0.0) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   std::vector<BearingMeasurement> sightings;

@@ -7,7 +7,7 @@
 
 #include "base/lcm_bus.h"
 
-namespace ols {
+namespace ols::ctl {
 namespace {
 
 ols_msg::station_status_t of_alfa() {
@@ -51,4 +51,4 @@ TEST(HeardStatus, MovesNoCursor) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ctl

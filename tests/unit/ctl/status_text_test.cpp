@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace ols {
+namespace ols::ctl {
 namespace {
 
 using testing::HasSubstr;
@@ -48,4 +48,4 @@ TEST(StatusText, OfManyAlarmsSixteenAreShown) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ctl

@@ -25,7 +25,7 @@ PtuAnswers good_ptu() {
   ptu.pan = {46.2857, -12369.0, 12369.0};
   ptu.tilt = {46.2857, -3650.0, 2411.0};
   ptu.environment =
-      PtuEnvironment{.supply_V = 24.0, .head_degC = {}, .pan_degC = {}, .tilt_degC = {}};
+      ptu::PtuEnvironment{.supply_V = 24.0, .head_degC = {}, .pan_degC = {}, .tilt_degC = {}};
   ptu.supply_min_V = 11.5;
   return ptu;
 }
@@ -87,24 +87,24 @@ TEST(DoctorOnDevices, ALineThatCannotBeUsedNamesTheReason) {
 }
 
 TEST(DoctorOnDevices, AReportedDeviceKeepsItsWordsAndGetsAdvice) {
-  DeviceReport gnss{.name = "gnss",
-                    .state = DeviceState::kOk,
-                    .text = "3D, 9 satellites",
-                    .last_good_s = {},
-                    .last_error = {},
-                    .alarms = {},
-                    .readings = {},
-                    .counters = {}};
+  station::DeviceReport gnss{.name = "gnss",
+                             .state = station::DeviceState::kOk,
+                             .text = "3D, 9 satellites",
+                             .last_good_s = {},
+                             .last_error = {},
+                             .alarms = {},
+                             .readings = {},
+                             .counters = {}};
   EXPECT_EQ(line(judge(gnss)), "ok    gnss: 3D, 9 satellites");
-  gnss.state = DeviceState::kFault;
+  gnss.state = station::DeviceState::kFault;
   gnss.text = "no fix";
   gnss.last_error = "no report for 6 s";
   EXPECT_THAT(line(judge(gnss)), HasSubstr("FAIL  gnss: no fix (no report for 6 s)  — check gpsd"));
-  gnss.state = DeviceState::kStarting;
+  gnss.state = station::DeviceState::kStarting;
   EXPECT_EQ(judge(gnss).verdict, Verdict::kWarn);
-  DeviceReport ptu = gnss;
+  station::DeviceReport ptu = gnss;
   ptu.name = "ptu";
-  ptu.state = DeviceState::kFault;
+  ptu.state = station::DeviceState::kFault;
   ptu.text =
       "ran into a limit and may have lost steps: home it, or reference-ok once it was checked";
   EXPECT_THAT(line(judge(ptu)), HasSubstr("ols-ctl STATION home"));

@@ -71,8 +71,8 @@ StationHeard good_station() {
   station.state = "tracking";
   station.devices.resize(1);
   station.devices[0].name = "camera";
-  station.devices[0].state = DeviceState::kOk;
-  station.clock = ClockState::kSynchronised;
+  station.devices[0].state = station::DeviceState::kOk;
+  station.clock = clock::ClockState::kSynchronised;
   station.clock_error_s = 2e-4;
   station.counters = {{"frames_captured", 1000.0}, {"frames_lost", 5.0}};
   return station;
@@ -91,10 +91,10 @@ TEST(DoctorOnSite, WhatAStationComplainsOfIsPassedOn) {
   station.counters["frames_incomplete"] = 20.0;
   EXPECT_EQ(exit_status(judge(station)), 1);
   station = good_station();
-  station.clock = ClockState::kUnsynchronised;
+  station.clock = clock::ClockState::kUnsynchronised;
   EXPECT_EQ(exit_status(judge(station)), 1);
   station = good_station();
-  station.devices[0].state = DeviceState::kAbsent;
+  station.devices[0].state = station::DeviceState::kAbsent;
   EXPECT_EQ(exit_status(judge(station)), 2);
   station = good_station();
   station.position_known = false;
@@ -114,13 +114,13 @@ TEST(DoctorOnSite, AnOldErrorIsForgotten) {
 }
 
 TEST(DoctorOnSite, AClockIsNeverAReasonToStop) {
-  ClockQuality clock;
+  clock::ClockQuality clock;
   clock.text = "chrony: PPS";
-  clock.state = ClockState::kSynchronised;
+  clock.state = clock::ClockState::kSynchronised;
   EXPECT_EQ(judge(clock).verdict, Verdict::kOk);
   clock.alarm = "clock: stepped by +2.000 s 12 s ago";
   EXPECT_EQ(judge(clock).verdict, Verdict::kWarn);
-  clock.state = ClockState::kUnsynchronised;
+  clock.state = clock::ClockState::kUnsynchronised;
   EXPECT_EQ(judge(clock).verdict, Verdict::kWarn);
 }
 
@@ -134,7 +134,7 @@ TEST(DoctorOnSite, AFolderMustBeWritableAndHaveRoom) {
 }
 
 TEST(DoctorOnSite, AHotProcessorIsTold) {
-  HostReport host;
+  station::HostReport host;
   EXPECT_TRUE(judge(host).empty());
   host.readings["cpu_degC"] = 61.0;
   EXPECT_EQ(exit_status(judge(host)), 0);

@@ -6,7 +6,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 TEST(AngularTrack, KnowsNothingBeforeTheFirstUpdate) {
@@ -57,4 +57,4 @@ TEST(AngularTrack, AWrappedMeasurementIsTheSameDirection) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 constexpr std::int64_t kNow_us = 1'700'000'000'000'000;
@@ -226,4 +226,4 @@ TEST(CommandGate, NothingPassesTwiceHoweverTheClocksJumpWithinALease) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

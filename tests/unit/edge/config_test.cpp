@@ -11,7 +11,7 @@
 #include "base/toml_config.h"
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 const std::string kStart =
@@ -178,4 +178,4 @@ TEST_F(StationConfigFile, DescribesWhatIsConfigured) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

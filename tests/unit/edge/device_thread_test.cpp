@@ -8,7 +8,7 @@
 
 #include "tests/unit/eventually.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 DeviceThread::Config quick() { return {"gnss", "is being connected", 0.001, 0.004}; }
@@ -91,4 +91,4 @@ TEST(DeviceThread, TheEndStopsTheSessionAndDoesNotWaitForThePause) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000;
@@ -93,4 +93,4 @@ TEST(FaultLog, AnotherStateIsNews) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

@@ -12,7 +12,7 @@
 #include "base/clocks.h"
 #include "tests/unit/eventually.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 TEST(HostMonitor, ReadsTheHottestZone) {
@@ -86,4 +86,4 @@ TEST(HostMonitor, CountsSlowTurnsAndShowsTheSlowest) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

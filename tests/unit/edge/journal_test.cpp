@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 std::vector<std::string> texts(const std::vector<JournalLine>& lines) {
@@ -50,4 +50,4 @@ TEST(Journal, TheLastWordOfWhatComesAndGoesIsTold) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

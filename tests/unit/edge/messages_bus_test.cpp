@@ -7,19 +7,20 @@
 #include <string>
 #include <vector>
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 constexpr double kNow_s = 1000.0;
 constexpr std::int64_t kNow_us = 1'700'000'000'000'000;
 
-struct CountingTracker final : TargetTracker {
+struct CountingTracker final : tracker::TargetTracker {
   explicit CountingTracker(std::vector<double>& designated) : boxes(designated) {}
-  std::optional<TrackerError> initialise(const TrackerInput&, const cv::Rect2d& box) override {
+  std::optional<tracker::TrackerError> initialise(const tracker::TrackerInput&,
+                                                  const cv::Rect2d& box) override {
     boxes.push_back(box.x);
     return std::nullopt;
   }
-  TrackerResult track(const TrackerInput&) override { return {}; }
+  tracker::TrackerResult track(const tracker::TrackerInput&) override { return {}; }
   void search_near(const Eigen::Vector2d&, double) override {}
   void set_aside() override {}
   void take_back() override {}
@@ -32,10 +33,10 @@ class StationBusTest : public testing::Test {
     settings.id = std::string("a");
     station = std::make_unique<Station>(settings.station, std::make_unique<CountingTracker>(boxes));
     turn = std::make_unique<CommandTurn>(*station);
-    bus = std::make_unique<StationBus>(settings, 1, *station, *turn,
-                                       [](const RecordCommand&) { return std::string(); });
+    bus = std::make_unique<StationBus>(
+        settings, 1, *station, *turn, [](const recorder::RecordCommand&) { return std::string(); });
     bus->set_time({kNow_s, kNow_us}, {});
-    Frame frame;
+    camera::Frame frame;
     frame.gray = cv::Mat::zeros(48, 64, CV_8UC1);
     frame.mid_exposure_s = kNow_s - 0.1;
     station->on_frame(frame, kNow_s);
@@ -196,4 +197,4 @@ TEST_F(StationBusTest, ARefusedDesignationIsTold) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

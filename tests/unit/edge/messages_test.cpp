@@ -8,7 +8,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 using Status = ols_msg::station_status_t;
@@ -18,7 +18,7 @@ Sender sender() {
   sender.station = "alfa";
   sender.boot_id = 5;
   sender.utc_minus_monotonic_us = 1'700'000'000'000'000;
-  sender.clock.state = ClockState::kUnsynchronised;
+  sender.clock.state = clock::ClockState::kUnsynchronised;
   sender.clock.error_s = 2.0;
   return sender;
 }
@@ -27,7 +27,7 @@ StationReport report() {
   StationReport report;
   report.snapshot.pose.position = {radians(49.2), radians(16.6), 250.0};
   report.snapshot.pose.position_sd_enu_m = {1.0, 2.0, 3.0};
-  report.snapshot.pose.position_source = PoseSource::kSensor;
+  report.snapshot.pose.position_source = sensors::PoseSource::kSensor;
   report.snapshot.camera_ecef = {1e6, 2e6, 3e6};
   report.snapshot.counters["bearings"] = 7.0;
   DeviceReport gnss;
@@ -86,7 +86,7 @@ TEST(StationMessages, OneStatusTellsAll) {
 
 TEST(StationMessages, APositionThatIsNotKnownIsNotTold) {
   StationReport unknown = report();
-  unknown.snapshot.pose.position_source = PoseSource::kNone;
+  unknown.snapshot.pose.position_source = sensors::PoseSource::kNone;
   const Status status = to_message(unknown, sender(), StationSettings{}, 50.0, 3);
   EXPECT_EQ(status.position_source, +Status::POSE_NONE);
   EXPECT_TRUE(std::isnan(status.latitude_deg));
@@ -153,4 +153,4 @@ TEST(StationReport, OneLineSaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

@@ -15,7 +15,7 @@
 
 #include "tests/unit/eventually.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 using testing::Contains;
@@ -66,7 +66,7 @@ TEST_F(StationMemoryTest, WhatIsKnownIsTakenUpWithoutAnAlarm) {
   const std::vector<std::string> doubts{"none", "reference", "homing", "gears", "homing-gears"};
   for (std::size_t i = 0; i < doubts.size(); ++i) {
     put("doubt", doubts[i] + "\n");
-    EXPECT_EQ(memory().doubt(), doubt_from_word(doubts[i])) << doubts[i];
+    EXPECT_EQ(memory().doubt(), ptu::doubt_from_word(doubts[i])) << doubts[i];
   }
 }
 
@@ -134,12 +134,12 @@ TEST_F(StationMemoryTest, ADoubtThatIsNotKnownIsADoubtWithAnAlarm) {
     put("doubt", "none\n");
     condition.make(folder, folder + "/a.doubt");
     PersistedStationState m = memory();
-    EXPECT_EQ(m.doubt(), (PtuReferenceDoubt{condition.unreadable, condition.unreadable}));
+    EXPECT_EQ(m.doubt(), (ptu::PtuReferenceDoubt{condition.unreadable, condition.unreadable}));
     EXPECT_THAT(m.alarms(),
                 Contains(HasSubstr("ptu: whether its reference was in doubt is not known")));
-    m.remember(StationState::kIdle, std::nullopt, PtuReference::kUnknown);
+    m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kUnknown);
     EXPECT_THAT(m.alarms(), Contains(HasSubstr("in doubt is not known"))) << "no unit yet";
-    m.remember(StationState::kIdle, std::nullopt, PtuReference::kTrusted);
+    m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kTrusted);
     EXPECT_THAT(m.alarms(), Not(Contains(HasSubstr("in doubt is not known"))));
   }
 }
@@ -148,16 +148,16 @@ TEST_F(StationMemoryTest, TheUnknownStaysUnknownOverRestartsUntilAPersonActs) {
   {
     PersistedStationState m = memory();
     EXPECT_EQ(m.begin(), StationState::kStopped);
-    m.remember(StationState::kStopped, std::nullopt, PtuReference::kTrusted);
+    m.remember(StationState::kStopped, std::nullopt, ptu::PtuReference::kTrusted);
   }
   ASSERT_EQ(content("hold"), "unknown");
   PersistedStationState m = memory();
   EXPECT_EQ(m.begin(), StationState::kStopped);
-  m.remember(StationState::kStopped, std::nullopt, PtuReference::kTrusted);
+  m.remember(StationState::kStopped, std::nullopt, ptu::PtuReference::kTrusted);
   EXPECT_THAT(m.alarms(), Contains(HasSubstr("is not known (not since an earlier start)")));
-  m.remember(StationState::kManual, std::nullopt, PtuReference::kTrusted);
+  m.remember(StationState::kManual, std::nullopt, ptu::PtuReference::kTrusted);
   EXPECT_THAT(m.alarms(), IsEmpty());
-  m.remember(StationState::kStopped, std::nullopt, PtuReference::kTrusted);
+  m.remember(StationState::kStopped, std::nullopt, ptu::PtuReference::kTrusted);
   EXPECT_THAT(m.alarms(), IsEmpty()) << "stopped by a person";
   EXPECT_TRUE(eventually([&] { return content("hold") == "stopped"; }));
 }
@@ -166,8 +166,8 @@ TEST_F(StationMemoryTest, TheUnknownStaysUnknownOverRestartsUntilAPersonActs) {
 TEST_F(StationMemoryTest, APressedStopIsNotForgotten) {
   {
     PersistedStationState m = memory();
-    m.remember(StationState::kIdle, std::nullopt, PtuReference::kTrusted);
-    m.remember(StationState::kEmergency, std::nullopt, PtuReference::kTrusted);
+    m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kTrusted);
+    m.remember(StationState::kEmergency, std::nullopt, ptu::PtuReference::kTrusted);
   }
   EXPECT_EQ(content("hold"), "emergency");
   EXPECT_EQ(memory().begin(), StationState::kEmergency);
@@ -175,7 +175,7 @@ TEST_F(StationMemoryTest, APressedStopIsNotForgotten) {
   for (int start = 0; start < 2; ++start) {
     PersistedStationState damaged = memory();
     EXPECT_EQ(damaged.begin(), StationState::kEmergency);
-    damaged.remember(StationState::kEmergency, std::nullopt, PtuReference::kTrusted);
+    damaged.remember(StationState::kEmergency, std::nullopt, ptu::PtuReference::kTrusted);
     EXPECT_THAT(damaged.alarms(), Contains(HasSubstr("check it, then re-arm it"))) << start;
   }
   fs::remove_all(folder);
@@ -185,10 +185,10 @@ TEST_F(StationMemoryTest, APressedStopIsNotForgotten) {
 TEST_F(StationMemoryTest, WithoutAFolderNothingIsKnownAndNothingAlarmsOnceAPersonActed) {
   PersistedStationState m("", "a", true);
   EXPECT_EQ(m.begin(), StationState::kStopped);
-  EXPECT_EQ(m.doubt(), PtuReferenceDoubt{});
+  EXPECT_EQ(m.doubt(), ptu::PtuReferenceDoubt{});
   EXPECT_THAT(m.alarms(), Contains("stop: how the station was left is not known (no state_folder "
                                    "is configured): check it, then ols-ctl a release"));
-  m.remember(StationState::kIdle, std::nullopt, PtuReference::kTrusted);
+  m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kTrusted);
   EXPECT_THAT(m.alarms(), IsEmpty());
 }
 
@@ -228,7 +228,7 @@ TEST_F(StationMemoryTest, AFolderThatCannotBeWrittenIsNotBelievedToPermit) {
     const PersistedStationState m = memory();
     EXPECT_EQ(m.begin(), StationState::kEmergency);
     EXPECT_EQ(memory(false).begin(), StationState::kStopped);
-    EXPECT_EQ(m.doubt(), PtuReferenceDoubt{});
+    EXPECT_EQ(m.doubt(), ptu::PtuReferenceDoubt{});
     told = eventually([&] {
       const auto alarms = m.alarms();
       return alarms.size() == 4 &&
@@ -244,4 +244,4 @@ TEST_F(StationMemoryTest, AFolderThatCannotBeWrittenIsNotBelievedToPermit) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

@@ -9,7 +9,7 @@
 
 #include "tests/unit/eventually.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 class PoseMemoryTest : public testing::Test {
@@ -24,7 +24,7 @@ class PoseMemoryTest : public testing::Test {
   }
   ~PoseMemoryTest() override { std::filesystem::remove_all(folder); }
 
-  bool holds(const PersistedPose& wanted) {
+  bool holds(const sensors::PersistedPose& wanted) {
     return eventually([&] {
       std::ifstream stream(file);
       const std::string text{std::istreambuf_iterator<char>(stream), {}};
@@ -33,7 +33,7 @@ class PoseMemoryTest : public testing::Test {
   }
 
   std::string folder, file;
-  PersistedPose pose;
+  sensors::PersistedPose pose;
 };
 
 TEST_F(PoseMemoryTest, WhatIsKeptIsFoundAgain) {
@@ -54,10 +54,10 @@ TEST_F(PoseMemoryTest, WhatIsKeptIsFoundAgain) {
 TEST_F(PoseMemoryTest, APartThatIsMissingStaysAsItWasFound) {
   std::ofstream(file) << to_text(pose);
   PoseStore memory(file);
-  PersistedPose tilt_only;
+  sensors::PersistedPose tilt_only;
   tilt_only.tilt = {{0.1, 0.1}, 1e-3, 1'700'000'100'000'000};
   memory.keep(tilt_only);
-  PersistedPose both = pose;
+  sensors::PersistedPose both = pose;
   both.tilt = tilt_only.tilt;
   EXPECT_TRUE(holds(both));
   memory.keep({});
@@ -68,8 +68,7 @@ TEST_F(PoseMemoryTest, ADamagedFileIsRefusedUntilItIsWrittenAnew) {
   std::ofstream(file) << "ols-pose 1\nposition 4";
   PoseStore memory(file);
   EXPECT_FALSE(memory.found().position);
-  EXPECT_EQ(memory.trouble(),
-            "the kept one is refused, " + file + ": is damaged: wrong checksum");
+  EXPECT_EQ(memory.trouble(), "the kept one is refused, " + file + ": is damaged: wrong checksum");
   memory.keep(pose);
   EXPECT_TRUE(eventually([&] { return memory.trouble().empty(); }));
   EXPECT_TRUE(holds(pose));
@@ -89,4 +88,4 @@ TEST_F(PoseMemoryTest, WithoutAFileNothingIsKept) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 using testing::ElementsAre;
@@ -35,4 +35,4 @@ TEST(RefusalMonitor, KindsAndReasonsAreCountedApart) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

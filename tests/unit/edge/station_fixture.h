@@ -14,7 +14,7 @@
 namespace ols::test {
 
 // A tracker that says what the test wants it to say.
-struct ScriptedTracker : TargetTracker {
+struct ScriptedTracker : tracker::TargetTracker {
   struct Script {
     double belief = 0.9;
     Eigen::Vector2d pixel{639.5, 479.5};
@@ -22,20 +22,21 @@ struct ScriptedTracker : TargetTracker {
     std::optional<double> prediction_error_px;
     int initialised = 0, searches = 0, tracked = 0, set_aside = 0, taken_back = 0;
     Eigen::Vector2d searched_pixel = Eigen::Vector2d::Zero();
-    std::optional<TrackerInput> last;
+    std::optional<tracker::TrackerInput> last;
     cv::Rect2d first_box;
   };
   explicit ScriptedTracker(Script& script) : s(script) {}
-  std::optional<TrackerError> initialise(const TrackerInput&, const cv::Rect2d& box) override {
-    if (!s.accept) return TrackerError::kBox;
+  std::optional<tracker::TrackerError> initialise(const tracker::TrackerInput&,
+                                                  const cv::Rect2d& box) override {
+    if (!s.accept) return tracker::TrackerError::kBox;
     s.first_box = box;
     ++s.initialised;
     return std::nullopt;
   }
-  TrackerResult track(const TrackerInput& input) override {
+  tracker::TrackerResult track(const tracker::TrackerInput& input) override {
     ++s.tracked;
     s.last = input;
-    TrackerOutput output;
+    tracker::TrackerOutput output;
     output.pixel = s.pixel;
     output.box = {s.pixel.x() - 10, s.pixel.y() - 10, 20, 20};
     output.covariance_px2 = Eigen::Matrix2d::Identity() * 0.25;
@@ -58,7 +59,7 @@ constexpr double kFrame_s = 1.0 / 15.0;
 class StationTest : public testing::Test {
  protected:
   StationTest() : station_(config(), std::make_unique<ScriptedTracker>(script_)) {
-    station_.set_reference(PtuReference::kTrusted);
+    station_.set_reference(ptu::PtuReference::kTrusted);
   }
 
   static StationConfig config() {
@@ -79,7 +80,7 @@ class StationTest : public testing::Test {
         next_sample_ += 0.02;
       }
       if (frames && now_ >= next_frame_) {
-        Frame frame;
+        camera::Frame frame;
         frame.gray = gray;
         frame.mid_exposure_s = now_ - 0.02;
         station_.on_frame(frame);
@@ -89,8 +90,8 @@ class StationTest : public testing::Test {
     }
   }
 
-  AngleSample sample() const {
-    AngleSample sample;
+  ptu::AngleSample sample() const {
+    ptu::AngleSample sample;
     sample.time_s = now_;
     sample.time_sd_s = 1e-4;
     sample.angles = angles_;

@@ -9,7 +9,7 @@
 
 #include "station_fixture.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 using test::StationTest;
@@ -23,13 +23,13 @@ class StationSafetyTest : public StationTest {
   }
   void press() { station_.emergency_stop(true, now_); }
   void let_go() { station_.emergency_stop(false, now_); }
-  StationPose pose(double east_m = 0.0, double sd_m = 0.5) const {
+  sensors::StationPose pose(double east_m = 0.0, double sd_m = 0.5) const {
     const StationGeometry geometry = config().geometry;
     const LocalFrame site(geometry.position);
-    StationPose pose;
+    sensors::StationPose pose;
     pose.position = geodetic_from_ecef(site.to_ecef({east_m, 0.0, 0.0}));
     pose.position_sd_enu_m = {sd_m, sd_m, 2.0 * sd_m};
-    pose.position_source = pose.tilt_source = PoseSource::kSensor;
+    pose.position_source = pose.tilt_source = sensors::PoseSource::kSensor;
     pose.tilt_sd_rad = 1e-3;
     return pose;
   }
@@ -206,8 +206,8 @@ TEST_F(StationSafetyTest, PressedAgainBeforeRearmingItStays) {
 }
 
 TEST_F(StationSafetyTest, WithoutAPositionItFollowsButSendsNoBearing) {
-  StationPose unknown = pose();
-  unknown.position_source = PoseSource::kNone;
+  sensors::StationPose unknown = pose();
+  unknown.position_source = sensors::PoseSource::kNone;
   station_.set_pose(unknown);
   designated();
   run_until(now_ + 0.5);
@@ -220,7 +220,7 @@ TEST_F(StationSafetyTest, WithoutAPositionItFollowsButSendsNoBearing) {
 }
 
 TEST_F(StationSafetyTest, ThePoseAndItsSigmasAreInTheBearings) {
-  StationPose leaning = pose(10.0, 0.5);
+  sensors::StationPose leaning = pose(10.0, 0.5);
   leaning.tilt_sd_rad = radians(1.0);
   station_.set_pose(leaning);
   designated();
@@ -234,8 +234,8 @@ TEST_F(StationSafetyTest, ThePoseAndItsSigmasAreInTheBearings) {
 }
 
 TEST_F(StationSafetyTest, AConfiguredPoseIsNoRevision) {
-  StationPose surveyed = pose(0.0, 0.0);
-  surveyed.position_source = surveyed.tilt_source = PoseSource::kSurveyed;
+  sensors::StationPose surveyed = pose(0.0, 0.0);
+  surveyed.position_source = surveyed.tilt_source = sensors::PoseSource::kSurveyed;
   station_.set_pose(surveyed);
   designated();
   run_until(now_ + 0.3);
@@ -251,7 +251,7 @@ TEST_F(StationSafetyTest, OnlyAPoseOutsideOfItsSigmasIsAnotherCalibration) {
   station_.set_pose(pose(0.6, 0.1));
   run_until(now_ + 0.3);
   EXPECT_EQ(bearings_.back().pose_revision, 2);
-  StationPose leaning = pose(0.6, 0.1);
+  sensors::StationPose leaning = pose(0.6, 0.1);
   leaning.tilt_x_rad = 1.1e-3;
   station_.set_pose(leaning);
   run_until(now_ + 0.3);
@@ -264,13 +264,13 @@ TEST_F(StationSafetyTest, AfterAStandstillThereIsNoBacklog) {
   run_until(now_ + 0.5);
   next_sample_ = now_ + 10.0;  // the angles after the last frame never come
   const int tracked = script_.tracked;
-  Frame waiting;
+  camera::Frame waiting;
   waiting.mid_exposure_s = now_ + 0.01;
   station_.on_frame(waiting, now_ + 0.02);
   EXPECT_EQ(script_.tracked, tracked + 1);
   now_ += 2.0;
   for (int i = 1; i <= 10; ++i) {
-    Frame late;
+    camera::Frame late;
     late.mid_exposure_s = now_ - 2.0 + 0.09 * i;
     station_.on_frame(late, now_);
   }
@@ -286,8 +286,8 @@ TEST_F(StationSafetyTest, AfterAStandstillThereIsNoBacklog) {
 
 // The unit was switched off and on: what its angles mean is not known.
 TEST_F(StationSafetyTest, NothingIsPointedOrSlewedWithoutAReference) {
-  for (const PtuReference lost : {PtuReference::kDoubted, PtuReference::kMissing}) {
-    station_.set_reference(PtuReference::kTrusted);
+  for (const ptu::PtuReference lost : {ptu::PtuReference::kDoubted, ptu::PtuReference::kMissing}) {
+    station_.set_reference(ptu::PtuReference::kTrusted);
     run_until(now_ + 0.5);
     ASSERT_EQ(station_.slew(slew(30.0), now_), Refusal::kNone);
     ASSERT_TRUE(station_.goal(now_));
@@ -302,17 +302,17 @@ TEST_F(StationSafetyTest, NothingIsPointedOrSlewedWithoutAReference) {
 }
 
 TEST_F(StationSafetyTest, ATargetOutlastsALostReferenceAndIsSlewedToAgain) {
-  station_.set_reference(PtuReference::kTrusted);
+  station_.set_reference(ptu::PtuReference::kTrusted);
   designated();
   run_until(now_ + 1.0);
   ASSERT_EQ(station_.state(), StationState::kTracking);
-  station_.set_reference(PtuReference::kDoubted);
+  station_.set_reference(ptu::PtuReference::kDoubted);
   EXPECT_EQ(station_.state(), StationState::kLost);
   script_.belief = 0.0;
   bearings_.clear();
   now_ += 30.0;  // homing
   next_sample_ = next_frame_ = now_;
-  station_.set_reference(PtuReference::kTrusted);
+  station_.set_reference(ptu::PtuReference::kTrusted);
   run_until(now_ + 0.5);
   ASSERT_EQ(station_.slew(slew(30.0), now_), Refusal::kNone);
   EXPECT_EQ(station_.state(), StationState::kSlewed);
@@ -325,9 +325,9 @@ TEST_F(StationSafetyTest, ATargetOutlastsALostReferenceAndIsSlewedToAgain) {
 }
 
 TEST_F(StationSafetyTest, HomesWhereItMayAndOnlyThen) {
-  station_.set_reference(PtuReference::kUnknown);
+  station_.set_reference(ptu::PtuReference::kUnknown);
   EXPECT_EQ(station_.home(now_), Refusal::kNoUnit);
-  station_.set_reference(PtuReference::kTrusted);
+  station_.set_reference(ptu::PtuReference::kTrusted);
   press();
   EXPECT_EQ(station_.home(now_), Refusal::kEmergency);
   EXPECT_FALSE(station_.take_actions().home);
@@ -339,7 +339,7 @@ TEST_F(StationSafetyTest, HomesWhereItMayAndOnlyThen) {
   StationConfig with_regions = config();
   with_regions.homing_allowed = false;
   Station kept(with_regions, std::make_unique<test::ScriptedTracker>(script_));
-  kept.set_reference(PtuReference::kMissing);
+  kept.set_reference(ptu::PtuReference::kMissing);
   EXPECT_EQ(kept.home(now_), Refusal::kKeepOut);
   EXPECT_FALSE(kept.take_actions().home);
 }
@@ -347,15 +347,15 @@ TEST_F(StationSafetyTest, HomesWhereItMayAndOnlyThen) {
 TEST_F(StationSafetyTest, NoPointOutlastsTheUnitOrComesBeforeIt) {
   ASSERT_EQ(station_.point({{0.3, 0.1}}, now_), Refusal::kNone);
   ASSERT_TRUE(station_.goal(now_));
-  station_.set_reference(PtuReference::kUnknown);
+  station_.set_reference(ptu::PtuReference::kUnknown);
   EXPECT_FALSE(station_.goal(now_));
   EXPECT_EQ(station_.point({{0.3, 0.1}}, now_), Refusal::kNoUnit);
-  station_.set_reference(PtuReference::kTrusted);
+  station_.set_reference(ptu::PtuReference::kTrusted);
   EXPECT_FALSE(station_.goal(now_));
 }
 
 TEST_F(StationSafetyTest, AStopCallsOffAHoming) {
-  station_.set_reference(PtuReference::kTrusted);
+  station_.set_reference(ptu::PtuReference::kTrusted);
   ASSERT_EQ(station_.home(now_), Refusal::kNone);
   station_.stop(now_);
   const UnitActions actions = station_.take_actions();
@@ -368,15 +368,15 @@ TEST_F(StationSafetyTest, AStopCallsOffAHoming) {
 }
 
 TEST_F(StationSafetyTest, APersonVouchesOnlyForWhatIsDoubted) {
-  station_.set_reference(PtuReference::kTrusted);
+  station_.set_reference(ptu::PtuReference::kTrusted);
   EXPECT_EQ(station_.reference_ok(now_), Refusal::kNoDoubt);
-  station_.set_reference(PtuReference::kMissing);
+  station_.set_reference(ptu::PtuReference::kMissing);
   EXPECT_EQ(station_.reference_ok(now_), Refusal::kNoReference);
   EXPECT_FALSE(station_.take_actions().reference_ok);
-  station_.set_reference(PtuReference::kDoubted);
+  station_.set_reference(ptu::PtuReference::kDoubted);
   EXPECT_EQ(station_.reference_ok(now_), Refusal::kNone);
   EXPECT_TRUE(station_.take_actions().reference_ok);
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

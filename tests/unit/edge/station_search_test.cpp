@@ -11,7 +11,7 @@
 #include "geometry/angles.h"
 #include "station_fixture.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 using test::StationTest;
@@ -183,4 +183,4 @@ TEST_F(AcquisitionBySlewTest, SaysThatTwoFusionsSlewIt) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

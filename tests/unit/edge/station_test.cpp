@@ -8,7 +8,7 @@
 #include "geometry/angles.h"
 #include "station_fixture.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 using test::StationTest;
@@ -181,8 +181,8 @@ TEST_F(StationTest, ASlewedStationAllowsForWhatItDoesNotKnowOfItsOwnHeading) {
   StationConfig rough = config();
   rough.geometry.sd.heading_rad = radians(0.5);
   Station station(rough, std::make_unique<test::ScriptedTracker>(script_));
-  station.set_reference(PtuReference::kTrusted);
-  Frame frame;
+  station.set_reference(ptu::PtuReference::kTrusted);
+  camera::Frame frame;
   const auto show = [&](double until_s) {
     for (; now_ < until_s; now_ += test::kFrame_s) {
       station.on_angles(sample());
@@ -287,7 +287,7 @@ TEST_F(StationTest, FramesThatGoBackInTimeAreCountedAndLeftOut) {
   designated();
   run_until(now_ + 0.2);
   const int before = script_.tracked;
-  Frame old;
+  camera::Frame old;
   old.mid_exposure_s = now_ - 0.5;
   station_.on_frame(old);
   EXPECT_EQ(script_.tracked, before);
@@ -367,4 +367,4 @@ TEST_F(StationTest, CountsPredictionsThatTheTrackerDropped) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 TEST(StopLatch, APressBetweenTwoTurnsIsNotMissed) {
@@ -46,4 +46,4 @@ TEST(StopLatch, HoldsItsLevel) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

@@ -3,7 +3,7 @@
 #include "edge/active_slew.h"
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 class ActiveSlewTest : public testing::Test {
@@ -46,4 +46,4 @@ TEST_F(ActiveSlewTest, MovesNothingBeyondTheTravel) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

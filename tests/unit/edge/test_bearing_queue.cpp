@@ -3,7 +3,7 @@
 #include "edge/bearing_queue.h"
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 class BearingQueueTest : public testing::Test {
@@ -13,8 +13,8 @@ class BearingQueueTest : public testing::Test {
     config.geometry.position = {radians(49.2), radians(16.6), 250.0};
     return config;
   }
-  static AngleSample sample(double time_s) {
-    AngleSample sample;
+  static ptu::AngleSample sample(double time_s) {
+    ptu::AngleSample sample;
     sample.time_s = time_s;
     return sample;
   }
@@ -61,8 +61,8 @@ TEST_F(BearingQueueTest, OneWithoutAPositionOrTooOldIsGoodToFollowOnly) {
   ASSERT_EQ(late.size(), 1U);
   EXPECT_FALSE(late.front().to_send);
   EXPECT_EQ(queue.counters().at("bearings_too_old"), 1.0);
-  StationPose unknown = pointing.pose();
-  unknown.position_source = PoseSource::kNone;
+  sensors::StationPose unknown = pointing.pose();
+  unknown.position_source = sensors::PoseSource::kNone;
   pointing.set_pose(unknown);
   queue.add(pixel(10.03));
   const auto made = queue.take(pointing, 10.05);
@@ -73,4 +73,4 @@ TEST_F(BearingQueueTest, OneWithoutAPositionOrTooOldIsGoodToFollowOnly) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

@@ -1,7 +1,7 @@
 #include "edge/command_turn.h"
 #include "station_fixture.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 class CommandTurnTest : public test::StationTest {
@@ -57,4 +57,4 @@ TEST_F(CommandTurnTest, TellsWhyADesignationWasRefused) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

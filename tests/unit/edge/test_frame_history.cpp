@@ -2,11 +2,11 @@
 
 #include "edge/frame_history.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
-Frame frame_at(double time_s) {
-  Frame frame;
+camera::Frame frame_at(double time_s) {
+  camera::Frame frame;
   frame.mid_exposure_s = time_s;
   return frame;
 }
@@ -31,4 +31,4 @@ TEST(FrameHistory, FindsOnlyTheFrameThatIsMeant) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

@@ -3,7 +3,7 @@
 #include "edge/pointing_model.h"
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 StationConfig config() {
@@ -15,8 +15,8 @@ StationConfig config() {
   return config;
 }
 
-AngleSample sample(double time_s, const PanTilt& angles) {
-  AngleSample sample;
+ptu::AngleSample sample(double time_s, const PanTilt& angles) {
+  ptu::AngleSample sample;
   sample.time_s = time_s;
   sample.angles = angles;
   return sample;
@@ -24,14 +24,14 @@ AngleSample sample(double time_s, const PanTilt& angles) {
 
 TEST(PointingModel, BeginsWithTheConfiguredPose) {
   const PointingModel pointing(config());
-  EXPECT_EQ(pointing.pose().position_source, PoseSource::kSurveyed);
+  EXPECT_EQ(pointing.pose().position_source, sensors::PoseSource::kSurveyed);
   EXPECT_EQ(pointing.pose().position_sd_enu_m, Eigen::Vector3d::Constant(0.3));
   EXPECT_EQ(pointing.pose_revision(), 0);
 }
 
 TEST(PointingModel, AnotherPoseIsAnotherGeometry) {
   PointingModel pointing(config());
-  StationPose leaning = pointing.pose();
+  sensors::StationPose leaning = pointing.pose();
   leaning.tilt_x_rad = radians(2.0);
   leaning.tilt_sd_rad = radians(0.1);
   pointing.set_pose(leaning);
@@ -90,4 +90,4 @@ TEST(PointingModel, KnowsNoMotionAcrossForgottenAngles) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

@@ -2,7 +2,7 @@
 
 #include "edge/refusal_log.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 TEST(RefusalLog, CountsWhatIsRefusedAndTellsTheLastInWords) {
@@ -26,4 +26,4 @@ TEST(RefusalLog, CommandsThatAreNotFreshAgainAndAgainAreAnAlarm) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

@@ -2,7 +2,7 @@
 
 #include "edge/station_mode.h"
 
-namespace ols {
+namespace ols::station {
 namespace {
 
 TEST(StationMode, CountsEntriesAndSecondsOfEachState) {
@@ -43,13 +43,14 @@ TEST(StationMode, AStopHoldsForAMomentAndAnEmergencyForGood) {
 TEST(StationMode, AUnitThatIsNotThereHasNoDoubtfulAngles) {
   StationMode mode;
   EXPECT_FALSE(mode.has_doubtful_angles());
-  for (const PtuReference doubtful : {PtuReference::kMissing, PtuReference::kDoubted}) {
+  for (const ptu::PtuReference doubtful :
+       {ptu::PtuReference::kMissing, ptu::PtuReference::kDoubted}) {
     mode.set_reference(doubtful);
     EXPECT_TRUE(mode.has_doubtful_angles());
   }
-  mode.set_reference(PtuReference::kTrusted);
+  mode.set_reference(ptu::PtuReference::kTrusted);
   EXPECT_FALSE(mode.has_doubtful_angles());
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::station

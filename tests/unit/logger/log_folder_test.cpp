@@ -7,7 +7,7 @@
 
 #include "tests/unit/logger/temporary_folder.h"
 
-namespace ols {
+namespace ols::logger {
 namespace {
 
 using testing::ElementsAre;
@@ -85,4 +85,4 @@ TEST(LogFolder, MakesItsFolderAndNamesOneThatIsNone) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::logger

@@ -4,7 +4,7 @@
 
 #include "tests/unit/logger/temporary_folder.h"
 
-namespace ols {
+namespace ols::logger {
 namespace {
 
 constexpr std::int64_t kUtime_us = 1'767'225'600'000'000;  // 2026-01-01
@@ -25,4 +25,4 @@ TEST(LogNames, NoneIsTakenThatIsThere) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::logger

@@ -9,7 +9,7 @@
 
 #include "tests/unit/logger/temporary_folder.h"
 
-namespace ols {
+namespace ols::logger {
 namespace {
 
 TEST(LogWriter, WritesWhatLcmReads) {
@@ -57,4 +57,4 @@ TEST(LogWriter, NoticesThatItsFileWasTakenAway) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::logger

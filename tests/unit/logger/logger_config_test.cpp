@@ -5,7 +5,7 @@
 
 #include "base/toml_config.h"
 
-namespace ols {
+namespace ols::logger {
 namespace {
 
 std::string error_of(const std::string& text) {
@@ -53,4 +53,4 @@ TEST(LoggerConfig, RefusesWhatCannotWork) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::logger

@@ -6,7 +6,7 @@
 
 #include "tests/unit/logger/temporary_folder.h"
 
-namespace ols {
+namespace ols::logger {
 namespace {
 
 using testing::HasSubstr;
@@ -50,4 +50,4 @@ TEST(LoggerStatus, IsJson) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::logger

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-namespace ols {
+namespace ols::logger {
 
 class TemporaryFolder {
  public:
@@ -46,4 +46,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace ols
+}  // namespace ols::logger

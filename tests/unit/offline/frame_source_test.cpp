@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
-namespace ols {
+namespace ols::offline {
 namespace {
 
 namespace fs = std::filesystem;
@@ -48,4 +48,4 @@ TEST(FrameSource, SaysAfterHowManyFramesADamagedClipEnds) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::offline

@@ -10,7 +10,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::offline {
 namespace {
 
 class GeoJson : public testing::Test {
@@ -81,4 +81,4 @@ TEST_F(GeoJson, RefusesARingRoundAPole) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::offline

@@ -5,7 +5,7 @@
 #include "central/admission/bearing_check.h"
 #include "tests/unit/central/scene.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 BearingMeasurement good() {
@@ -42,4 +42,4 @@ TEST(SightingCheck, EachRefusalHasACounterOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

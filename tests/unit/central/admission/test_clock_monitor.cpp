@@ -6,7 +6,7 @@
 
 #include "central/admission/clock_monitor.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr double kPeriod_s = 1.0 / 15.0;
@@ -147,4 +147,4 @@ TEST_F(ClockMonitorTest, AFewStrayStampsAreNoClock) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

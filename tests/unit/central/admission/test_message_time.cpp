@@ -2,7 +2,7 @@
 
 #include "central/admission/message_time.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr std::int64_t kStart = 1'600'000'000'000'000;
@@ -60,4 +60,4 @@ TEST(MessageTime, OneLeapMakesNobodySilent) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

@@ -4,7 +4,7 @@
 
 #include "central/admission/pointing_monitor.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr std::int64_t kStart = 1'700'000'000'000'000;
@@ -45,4 +45,4 @@ TEST(PointingMonitor, LapsesWithoutATargetToJudgeBy) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

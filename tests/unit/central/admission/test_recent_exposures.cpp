@@ -2,7 +2,7 @@
 
 #include "central/admission/recent_exposures.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr std::int64_t kStart = 1'600'000'000'000'000;
@@ -36,4 +36,4 @@ TEST(RecentExposures, CountWhatCameInASecond) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

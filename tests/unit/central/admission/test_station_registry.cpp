@@ -2,7 +2,7 @@
 
 #include "central/admission/station_registry.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr std::int64_t kStart = 1'600'000'000'000'000;
@@ -44,4 +44,4 @@ TEST(StationRegistry, FollowsItsTargetForASecond) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

@@ -2,7 +2,7 @@
 
 #include "central/admission/unassociated_monitor.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr std::int64_t kStart = 1'600'000'000'000'000;
@@ -32,4 +32,4 @@ TEST(UnassociatedMonitor, OneBearingOfATargetOrASilenceBeginsTheCountAnew) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

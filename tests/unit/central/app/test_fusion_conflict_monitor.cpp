@@ -2,7 +2,7 @@
 
 #include "central/app/fusion_conflict_monitor.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 TEST(FusionConflictMonitor, HearsAnyOneButItself) {
@@ -18,4 +18,4 @@ TEST(FusionConflictMonitor, HearsAnyOneButItself) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

@@ -7,7 +7,7 @@
 #include "base/toml_config.h"
 #include "central/app/fusion_settings.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 class FusionSettingsTest : public testing::Test {
@@ -59,4 +59,4 @@ TEST_F(FusionSettingsTest, ModelsThatCannotBeMixedAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

@@ -14,7 +14,7 @@
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -336,4 +336,4 @@ TEST(Messages, AThousandStationsAreToldInTurnsThatADatagramHolds) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

@@ -2,7 +2,7 @@
 
 #include "central/app/timeliness_gate.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 constexpr std::int64_t kStart = 1'700'000'000'000'000;
@@ -25,4 +25,4 @@ TEST(TimelinessGate, WithholdsWhatIsFarFromTheHostsClockAndSaysSoForAWhile) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

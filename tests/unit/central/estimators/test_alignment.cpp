@@ -8,7 +8,7 @@
 #include "central/estimators/alignment.h"
 #include "tests/unit/central/scene.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
@@ -27,7 +27,7 @@ Vector3d circle(double t_s) {
 }
 
 std::vector<BearingMeasurement> seen(const Path& path, const std::vector<double>& times_s,
-                           double sigma_rad = 1e-4) {
+                                     double sigma_rad = 1e-4) {
   std::vector<BearingMeasurement> sightings;
   for (const double t_s : times_s) {
     sightings.push_back(sighting_of(ray_to("a", {0, 0, 0}, path(t_s), sigma_rad),
@@ -174,4 +174,4 @@ TEST(Alignment, CovarianceIsConsistent) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

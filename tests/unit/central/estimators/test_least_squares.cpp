@@ -10,7 +10,7 @@
 #include "central/estimators/least_squares.h"
 #include "tests/unit/central/scene.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
@@ -193,4 +193,4 @@ TEST(LeastSquares, IsConsistentAndEfficient) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

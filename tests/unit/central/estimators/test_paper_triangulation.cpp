@@ -6,7 +6,7 @@
 #include "central/estimators/paper_triangulation.h"
 #include "tests/unit/central/scene.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
@@ -173,4 +173,4 @@ TEST(MovingAverage, CountsWhatWindowsShareOnce) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

@@ -8,7 +8,7 @@
 #include "central/filter/track_filter.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using test::flight;
@@ -129,7 +129,8 @@ TEST_P(NoiseScale, IsFoundFromTheResiduals) {
                      {.p_ecef = test::site().to_ecef(test::path(0.0)),
                       .position_sd_m = 10.0,
                       .velocity_sd_m_s = 50.0});
-  for (const BearingMeasurement& s : flight(60.0, kNoise, GetParam() * kNoise)) test::feed(filter, s, errors);
+  for (const BearingMeasurement& s : flight(60.0, kNoise, GetParam() * kNoise))
+    test::feed(filter, s, errors);
   const double variance = GetParam() * GetParam();
   EXPECT_NEAR(errors.noise_scale("b") / variance, 1.0, 0.3);
 }
@@ -137,4 +138,4 @@ TEST_P(NoiseScale, IsFoundFromTheResiduals) {
 INSTANTIATE_TEST_SUITE_P(OverStated, NoiseScale, testing::Values(0.5, 1.0, 2.0, 3.0, 8.0));
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

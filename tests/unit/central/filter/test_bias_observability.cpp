@@ -3,7 +3,7 @@
 #include "central/filter/bias_observability.h"
 #include "tests/unit/central/scene.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 // A station's rotation of 1 mrad a side, seen with a noise of 0.1 mrad.
@@ -38,4 +38,4 @@ TEST(BiasObservability, NeedsMoreThanLinearisationMakesUp) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

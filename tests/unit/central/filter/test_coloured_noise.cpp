@@ -5,7 +5,7 @@
 #include "central/filter/coloured_noise.h"
 #include "tests/unit/central/scene.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 // Bearings of a thing at rest, their errors correlated by `same` from one frame to the next.
@@ -35,4 +35,4 @@ TEST(ColouredNoise, WhatIsTheSameInTheNextFrameCountsLess) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

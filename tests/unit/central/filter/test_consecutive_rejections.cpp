@@ -2,7 +2,7 @@
 
 #include "central/filter/consecutive_rejections.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 TEST(ConsecutiveRejections, OfTwoStationsSayThatTheTargetHasManoeuvred) {
@@ -27,4 +27,4 @@ TEST(ConsecutiveRejections, OneUsedBearingEndsTheRow) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

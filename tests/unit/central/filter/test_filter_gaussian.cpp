@@ -6,7 +6,7 @@
 
 #include "central/filter/filter_gaussian.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Eigen::MatrixXd;
@@ -147,4 +147,4 @@ TEST_F(FilterGaussianTest, MixesMeansAndCovariances) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

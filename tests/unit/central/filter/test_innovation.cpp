@@ -3,7 +3,7 @@
 #include "central/filter/innovation.h"
 #include "tests/unit/central/scene.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
@@ -22,7 +22,7 @@ InteractingModels models_at(const Vector3d& p_enu) {
 
 ModelInnovation seen(const Vector3d& predicted_enu, const Vector3d& measured_enu, double at_s) {
   const BearingMeasurement sighting = test::sighting_of(test::ray_to("a", {0, 0, 0}, measured_enu),
-                                              kStart + std::llround(at_s * 1e6));
+                                                        kStart + std::llround(at_s * 1e6));
   return innovation_of(models_at(predicted_enu), 0, sighting, ray_frame(sighting.sight), nullptr,
                        std::nullopt);
 }
@@ -66,4 +66,4 @@ TEST(Innovation, AnOutlierTeachesTheNoiseAsOneAtTheGate) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

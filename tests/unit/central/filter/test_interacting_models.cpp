@@ -5,7 +5,7 @@
 
 #include "central/filter/interacting_models.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
@@ -49,4 +49,4 @@ TEST(InteractingModels, InflationIsAlongItsDirectionAlone) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

@@ -3,7 +3,7 @@
 #include "central/filter/station_bias.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using namespace test;
@@ -46,4 +46,4 @@ TEST(StationBias, WithoutStationsThereIsNone) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

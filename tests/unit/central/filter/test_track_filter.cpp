@@ -12,7 +12,7 @@
 #include "geometry/wgs84.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
@@ -393,4 +393,4 @@ TEST(TrackFilter, KeepsItsCovarianceDefinite) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

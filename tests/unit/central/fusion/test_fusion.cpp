@@ -6,7 +6,7 @@
 #include "central/fusion/fusion.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
@@ -326,7 +326,8 @@ TEST(Fusion, WhoFollowsSomethingElseIsALineBesideTheTarget) {
 
 TEST(Fusion, TwoWhoFollowTwoObjectsAreTwoLinesAndNoPosition) {
   auto sightings = flight(3.0);
-  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station == "b" || s.station == "d"; });
+  std::erase_if(sightings,
+                [](const BearingMeasurement& s) { return s.station == "b" || s.station == "d"; });
   for (BearingMeasurement& sighting : sightings) {
     sighting.track_id = 1;
     if (sighting.station == "c") sighting.sight.direction.elevation_rad = 1.4;
@@ -437,4 +438,4 @@ TEST(Fusion, StopsSlewingSomeTimeAfterTheLastPosition) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

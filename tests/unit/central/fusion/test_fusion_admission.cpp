@@ -9,7 +9,7 @@
 #include "central/fusion/fusion.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using test::error_m;
@@ -34,15 +34,20 @@ TEST(FusionAdmission, RefusesWhatIsNotABearing) {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   using enum BearingRefusal;
-  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.direction.azimuth_rad = nan; }), kNotFinite);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.direction.azimuth_rad = nan; }),
+            kNotFinite);
   EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.origin_ecef.x() = nan; }), kNotFinite);
-  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.direction.azimuth_rad = 7.0; }), kOutOfRange);
-  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.direction.elevation_rad = -1.6; }), kOutOfRange);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.direction.azimuth_rad = 7.0; }),
+            kOutOfRange);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.direction.elevation_rad = -1.6; }),
+            kOutOfRange);
   EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.belief = 1.5; }), kOutOfRange);
   EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.origin_ecef.setZero(); }), kOutOfRange);
   EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.utime_us = 0; }), kOutOfRange);
-  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_white.setZero(); }), kCovariance);
-  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_white(0, 1) = 1.0; }), kCovariance);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_white.setZero(); }),
+            kCovariance);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_white(0, 1) = 1.0; }),
+            kCovariance);
   EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_systematic(1, 1) = -1e-9; }),
             kCovariance);
   for (const double rad2 : {1e308, 1e-160, 11.0, 0.9e-18}) {
@@ -51,15 +56,19 @@ TEST(FusionAdmission, RefusesWhatIsNotABearing) {
               }),
               kCovariance);
   }
-  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_white.diagonal() << 1e-17, 1.0; }),
-            kCovariance);
-  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_white << 1.0, 1.0, 1.0, 1.0 + 1e-9; }),
+  EXPECT_EQ(
+      refusal([&](BearingMeasurement& s) { s.sight.covariance_white.diagonal() << 1e-17, 1.0; }),
+      kCovariance);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) {
+              s.sight.covariance_white << 1.0, 1.0, 1.0, 1.0 + 1e-9;
+            }),
             kCovariance);
   for (const double rad2 : {1e308, 11.0}) {
     EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.covariance_systematic(0, 0) = rad2; }),
               kCovariance);
   }
-  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.origin_sd_enu_m.x() = 1.1e6; }), kOutOfRange);
+  EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.sight.origin_sd_enu_m.x() = 1.1e6; }),
+            kOutOfRange);
   EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.clock_sd_s = 1.1e4; }), kOutOfRange);
   EXPECT_EQ(refusal([&](BearingMeasurement& s) { s.belief = 0.1; }), kLowBelief);
   EXPECT_EQ(refusal([&](BearingMeasurement&) {}), kNone);
@@ -212,4 +221,4 @@ TEST(FusionAdmission, ForgetsTheStationThatIsSilentLongest) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

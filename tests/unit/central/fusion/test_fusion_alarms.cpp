@@ -6,7 +6,7 @@
 #include "central/fusion/fusion.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using test::flight;
@@ -72,7 +72,8 @@ TEST(FusionAlarms, SaysNothingOfWhatAStationDoesNotName) {
 
 TEST(FusionAlarms, SaysNothingWhereThereIsNoTargetToCompareWith) {
   auto sightings = with_a_stray(14.0);
-  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station == "b" || s.station == "c"; });
+  std::erase_if(sightings,
+                [](const BearingMeasurement& s) { return s.station == "b" || s.station == "c"; });
   EXPECT_TRUE(alarms_after(sightings).empty());
 }
 
@@ -103,4 +104,4 @@ TEST(FusionAlarms, TheAlarmGoesWithItsReason) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

@@ -8,7 +8,7 @@
 #include "central/fusion/fusion.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using test::error_m;
@@ -17,8 +17,9 @@ using test::kStart;
 using test::targets_of;
 
 // The flight with one station's bearings changed from an instant on.
-std::vector<BearingMeasurement> changed(std::vector<BearingMeasurement> sightings, const std::string& station,
-                              double from_s, const std::function<void(BearingMeasurement&)>& change) {
+std::vector<BearingMeasurement> changed(std::vector<BearingMeasurement> sightings,
+                                        const std::string& station, double from_s,
+                                        const std::function<void(BearingMeasurement&)>& change) {
   for (BearingMeasurement& sighting : sightings) {
     const double t_s = static_cast<double>(sighting.utime_us - kStart) * 1e-6;
     if (sighting.station == station && t_s >= from_s) change(sighting);
@@ -76,7 +77,8 @@ TEST(FusionClocks, OfTwoStationsTheMarkedOneIsSetAsideAndTheOtherKeepsTheTime) {
 }
 
 TEST(FusionClocks, AQuarantinedStationIsStillSlewed) {
-  const auto sightings = changed(flight(4.0), "b", 2.0, [](BearingMeasurement& s) { s.clock_sd_s = 2.0; });
+  const auto sightings =
+      changed(flight(4.0), "b", 2.0, [](BearingMeasurement& s) { s.clock_sd_s = 2.0; });
   Fusion fusion{FusionConfig{}};
   bool slewed = false;
   for (const BearingMeasurement& sighting : sightings) {
@@ -110,7 +112,8 @@ TEST(FusionClocks, AFusionThatBeginsInMidFlightLocatesAtOnce) {
 }
 
 TEST(FusionClocks, AnotherCalibrationStartsAnew) {
-  const auto sightings = changed(flight(4.0), "c", 2.0, [](BearingMeasurement& s) { s.calibration_id = 77; });
+  const auto sightings =
+      changed(flight(4.0), "c", 2.0, [](BearingMeasurement& s) { s.calibration_id = 77; });
   Fusion fusion{FusionConfig{}};
   const auto targets = targets_of(fusion, sightings);
   EXPECT_EQ(fusion.health().counters.at("calibrations_changed"), 1.0);
@@ -136,4 +139,4 @@ TEST(FusionClocks, StrangersCannotPushOutWhoWorksHere) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

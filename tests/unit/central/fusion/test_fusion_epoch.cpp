@@ -8,7 +8,7 @@
 #include "dev/estimators/bearing_world.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using test::flight;
@@ -329,4 +329,4 @@ TEST(FusionEpoch, ManyTargetsAreToldInTurn) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

@@ -9,7 +9,7 @@
 #include "central/offline/offline_fusion.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
@@ -18,8 +18,8 @@ using test::kStart;
 
 class EachEstimator : public testing::TestWithParam<const char*> {};
 
-std::vector<FusedTarget> fused(const std::vector<BearingMeasurement>& sightings, const char* estimator,
-                               double scale = 1.0) {
+std::vector<FusedTarget> fused(const std::vector<BearingMeasurement>& sightings,
+                               const char* estimator, double scale = 1.0) {
   OfflineConfig config;
   config.estimator = estimator;
   config.rate_hz = 5.0;
@@ -142,4 +142,4 @@ TEST(FusionProperties, AFlightTenTimesAsLargeHasTenTimesTheErrors) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

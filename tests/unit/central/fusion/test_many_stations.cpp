@@ -117,7 +117,8 @@ TEST(ManyStations, NobodysTurnFallsOnTheSameBearingForEver) {
       for (std::size_t i = 0; i < seen.size(); ++i) {
         const std::size_t station = i % kStations;
         const BearingMeasurement other = of_nothing(seen[i], 1.2);
-        const BearingMeasurement own = station % 32 == first_station ? seen[i] : of_nothing(seen[i], 1.1);
+        const BearingMeasurement own =
+            station % 32 == first_station ? seen[i] : of_nothing(seen[i], 1.1);
         fusion.add(second ? other : own);
         fusion.add(second ? own : other);
       }

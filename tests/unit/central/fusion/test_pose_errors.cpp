@@ -160,7 +160,8 @@ TEST(PoseErrors, ALongFlightKeepsItsTrack) {
   std::mt19937_64 random(3);
   const Path path = cruising({{-100, 20, 120}, {0.7, 0.1, 0.0}}, 0.01, kFlightS, random);
   Fusion fusion(FusionConfig{});
-  for (const BearingMeasurement& sighting : measure(world, {path}, kFlightS, random)) fusion.add(sighting);
+  for (const BearingMeasurement& sighting : measure(world, {path}, kFlightS, random))
+    fusion.add(sighting);
   EXPECT_EQ(fusion.tracks().counts().dropped, 0);
   ASSERT_EQ(fusion.tracks().tracks().size(), 1U);
   const FilterMatrix P = fusion.tracks().tracks().front().filter.mixed().covariance;

@@ -7,7 +7,7 @@
 #include "central/fusion/slew_planner.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
@@ -21,7 +21,8 @@ Track track_of_flight(std::int64_t id, double seconds) {
       {}, kStart,
       {.p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 50.0}));
   BiasModel errors;
-  for (const BearingMeasurement& s : test::flight(seconds, 1e-4)) test::feed(track.filter, s, errors);
+  for (const BearingMeasurement& s : test::flight(seconds, 1e-4))
+    test::feed(track.filter, s, errors);
   track.id = id;
   track.state = TrackState::kConfirmed;
   track.last_two_station_us = track.filter.utime_us();
@@ -244,4 +245,4 @@ TEST(SlewPlanner, AnUnsureDirectionIsSearchedInASpiral) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

@@ -3,7 +3,7 @@
 #include "central/measurement/ray.h"
 #include "tests/unit/central/scene.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
@@ -35,4 +35,4 @@ TEST(Ray, TheCrossingAngleIsFoldedAndOfTheUsedRaysAlone) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

@@ -10,7 +10,7 @@
 #include "geometry/angles.h"
 #include "tests/unit/central/scene.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
@@ -28,7 +28,7 @@ Vector3d path(double t_s) {
 // Four stations with rates and phases of their own; "c" sees the target only in the first half.
 // `stated` is the systematic error that they state, in units of their noise; they have none.
 std::vector<BearingMeasurement> recording(double seconds, double sigma_rad, unsigned seed,
-                                double stated = 0.0) {
+                                          double stated = 0.0) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   std::vector<BearingMeasurement> sightings;
@@ -241,7 +241,8 @@ TEST(OfflineFusion, LeastSquaresVelocityCountsTheNoiseThatIsLearnt) {
 TEST(OfflineFusion, TheFilterIsCausal) {
   auto sightings = recording(6.0, 2e-4, 9);
   const auto whole = fuse_offline(sightings, {});
-  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.utime_us > kStart + 3'000'000; });
+  std::erase_if(sightings,
+                [](const BearingMeasurement& s) { return s.utime_us > kStart + 3'000'000; });
   const auto part = fuse_offline(sightings, {});
   ASSERT_GT(part.size(), 100U);
   for (std::size_t i = 0; i < part.size(); ++i) {
@@ -297,4 +298,4 @@ TEST(OfflineFusion, NothingGivesNothing) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

@@ -3,7 +3,7 @@
 #include "central/offline/smoother.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using namespace test;
@@ -60,4 +60,4 @@ TEST(Smoother, CountsWhyThereIsNoPosition) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

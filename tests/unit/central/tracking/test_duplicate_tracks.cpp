@@ -37,7 +37,7 @@ std::vector<Path> paths_of(const Flight& flight, std::mt19937_64& random) {
 }
 
 std::vector<BearingMeasurement> bearings_of(const Flight& flight, const std::vector<Path>& paths,
-                                  std::mt19937_64& random) {
+                                            std::mt19937_64& random) {
   WorldConfig world{.stations_enu = circle(flight.stations, 300.0), .aims_enu = {}};
   world.noise_rad = kStatedRad * flight.noise;
   world.missed = flight.missed;
@@ -86,7 +86,8 @@ Seen fly(const Flight& flight, std::uint64_t seed) {
     const Vector3d there = site().to_ecef(at(path, kDurationS).p_enu);
     double least_m = 1e9;
     for (const Track& track : fusion.tracks().tracks()) {
-      if (is_established(track)) least_m = std::min(least_m, (track.filter.position() - there).norm());
+      if (is_established(track))
+        least_m = std::min(least_m, (track.filter.position() - there).norm());
     }
     seen.off_m = std::max(seen.off_m, least_m);
   }

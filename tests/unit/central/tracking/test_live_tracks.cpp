@@ -7,7 +7,7 @@
 #include "dev/estimators/bearing_world.h"
 #include "tests/unit/central/scene.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 // Of the stations' four that see one object, the first two also follow one each by name, whose rays
@@ -54,4 +54,4 @@ TEST(LiveTracks, ADroppedTrackTakesNothingThatAnotherOneHasTaught) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

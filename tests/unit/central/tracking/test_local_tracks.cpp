@@ -2,7 +2,7 @@
 
 #include "central/tracking/local_tracks.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 BearingMeasurement named(std::int64_t track_id, std::int64_t utime_us) {
@@ -36,4 +36,4 @@ TEST(LocalTracks, TwoIdentitiesBecomeOne) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

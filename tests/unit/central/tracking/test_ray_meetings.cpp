@@ -3,7 +3,7 @@
 #include "central/tracking/ray_meetings.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using namespace test;
@@ -54,4 +54,4 @@ TEST(RayMeetings, SayWhyThereAreNone) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

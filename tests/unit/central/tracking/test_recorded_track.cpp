@@ -6,7 +6,7 @@
 #include "central/tracking/recorded_track.h"
 #include "tests/unit/central/wrong_heading.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using test::HeadingError;
@@ -31,7 +31,8 @@ struct Fixes {
   std::string beside;  // stations
 };
 
-Fixes fuse(const std::vector<BearingMeasurement>& sightings, const OfflineConfig& config = ten_hertz()) {
+Fixes fuse(const std::vector<BearingMeasurement>& sightings,
+           const OfflineConfig& config = ten_hertz()) {
   Fixes fixes;
   for (const FusedTarget& target : fuse_offline(sightings, config)) {
     const double sd_m = std::sqrt(target.estimate.covariance_ecef.trace());
@@ -138,4 +139,4 @@ TEST(RecordedTrack, ARecordingIsLocatedFromItsFirstRays) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

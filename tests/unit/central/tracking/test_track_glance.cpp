@@ -3,7 +3,7 @@
 #include "central/tracking/track_glance.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using namespace test;
@@ -33,4 +33,4 @@ TEST(TrackGlance, GoesOnWithTheTrack) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

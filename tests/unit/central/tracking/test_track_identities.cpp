@@ -3,7 +3,7 @@
 #include "central/tracking/track_identities.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using namespace test;
@@ -78,4 +78,4 @@ TEST(TrackIdentities, AStationsNameFollowsItsTrack) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

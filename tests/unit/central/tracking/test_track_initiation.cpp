@@ -6,7 +6,7 @@
 #include "dev/estimators/bearing_world.h"
 #include "tests/unit/central/wrong_heading.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using test::error_m;
@@ -135,4 +135,4 @@ TEST(TrackInitiation, StationsWithGreatLearntBiasesFindTheNextTarget) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

@@ -3,7 +3,7 @@
 #include "central/tracking/unassociated_bearings.h"
 #include "tests/unit/central/flight.h"
 
-namespace ols {
+namespace ols::fusion {
 namespace {
 
 using namespace test;
@@ -44,4 +44,4 @@ TEST(UnassociatedBearings, ALookIsNearWhereItPoints) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::fusion

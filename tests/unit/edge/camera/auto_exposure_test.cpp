@@ -6,7 +6,7 @@
 #include <deque>
 #include <vector>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 constexpr ExposureLimits kLimits{
@@ -162,4 +162,4 @@ TEST(AutoExposure, WritesAtMostOnceInSoManyFrames) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::camera

@@ -5,7 +5,7 @@
 
 #include "base/config_section.h"
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 CameraConfig read(std::string_view text) {
@@ -113,4 +113,4 @@ TEST(CameraConfig, RefusesNamingTheKey) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::camera

@@ -6,7 +6,7 @@
 
 #include "edge/camera/clock_map.h"
 
-namespace ols {
+namespace ols::camera {
 
 // A camera's clock that is off by a constant and a rate, read over a network that takes its time.
 struct CameraWorld {
@@ -28,4 +28,4 @@ struct CameraWorld {
   }
 };
 
-}  // namespace ols
+}  // namespace ols::camera

@@ -7,7 +7,7 @@
 
 #include "tests/unit/edge/camera/camera_world.h"
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 double error_s(const ClockMap& map, const CameraWorld& world, double time_s) {
@@ -144,4 +144,4 @@ TEST(ClockMap, ArrivalsSurviveAStepBackOfTheCamerasClock) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::camera

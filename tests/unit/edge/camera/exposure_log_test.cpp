@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 constexpr double kPeriod_s = 0.1;
@@ -42,4 +42,4 @@ TEST(ExposureLog, ManyChangesEndAtTheLastOne) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::camera

@@ -7,7 +7,7 @@
 
 #include "tests/unit/edge/camera/camera_world.h"
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 ExposureLog fixed(double exposure_s) { return ExposureLog(exposure_s, 1.0 / 15.0); }
@@ -128,4 +128,4 @@ TEST(FrameClock, AnExposureThatMayBeEitherIsInTheUncertainty) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::camera

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 TEST(FrameNumbers, CountsOnAcrossTheWrapThatSkipsZero) {
@@ -60,4 +60,4 @@ TEST(FrameNumbers, TheSameIdTwiceIsNotALoss) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::camera

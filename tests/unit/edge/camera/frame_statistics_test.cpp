@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 TEST(FrameStatistics, RateAndLossesOfLate) {
@@ -17,4 +17,4 @@ TEST(FrameStatistics, RateAndLossesOfLate) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::camera

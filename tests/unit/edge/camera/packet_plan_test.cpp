@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 constexpr std::size_t kFrame = 1280 * 960;
@@ -34,4 +34,4 @@ TEST(PacketPlan, AStockBufferGetsTheFrameSpreadOverItsPeriod) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::camera

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 constexpr int kWidth = 32, kHeight = 24;
@@ -122,4 +122,4 @@ TEST(Picture, NamesOfFormats) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::camera

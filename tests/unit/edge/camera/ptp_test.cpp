@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::camera {
 namespace {
 
 TEST(PtpState, TheWordsOfDifferentFirmware) {
@@ -17,4 +17,4 @@ TEST(PtpState, TheWordsOfDifferentFirmware) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::camera

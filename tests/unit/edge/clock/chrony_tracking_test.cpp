@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-namespace ols {
+namespace ols::clock {
 namespace {
 
 // As chronyc 4.3 writes it for a receiver's pulse; the clock is 72 ns fast.
@@ -67,4 +67,4 @@ TEST(ChronyTracking, RefusesWhatIsNoSuchLine) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::clock

@@ -4,7 +4,7 @@
 
 #include "base/clocks.h"
 
-namespace ols {
+namespace ols::clock {
 namespace {
 
 TEST(ClockPair, IsOfOneInstant) {
@@ -14,4 +14,4 @@ TEST(ClockPair, IsOfOneInstant) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::clock

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::clock {
 namespace {
 
 ChronyTracking chrony_at_work() {
@@ -87,4 +87,4 @@ TEST(ClockReading, LeapSecondAndTai) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::clock

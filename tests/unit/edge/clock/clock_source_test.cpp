@@ -8,7 +8,7 @@
 #include "base/clocks.h"
 #include "tests/unit/eventually.h"
 
-namespace ols {
+namespace ols::clock {
 namespace {
 
 // The next reading.
@@ -46,4 +46,4 @@ TEST(ClockSource, DoesWithoutAChronyThatHangs) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::clock

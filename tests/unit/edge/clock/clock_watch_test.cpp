@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace ols {
+namespace ols::clock {
 namespace {
 
 using testing::HasSubstr;
@@ -274,4 +274,4 @@ TEST(ClockWatch, HandsOnOffsetAndTai) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::clock

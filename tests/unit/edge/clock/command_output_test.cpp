@@ -5,7 +5,7 @@
 
 #include <cerrno>
 
-namespace ols {
+namespace ols::clock {
 namespace {
 
 constexpr double kLong_s = 30.0;
@@ -42,4 +42,4 @@ TEST(CommandOutput, LeavesNoChildBehind) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::clock

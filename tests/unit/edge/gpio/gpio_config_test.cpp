@@ -4,7 +4,7 @@
 #include "base/config_section.h"
 #include "edge/gpio/gpio.h"
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 GpioConfig read(const std::string& text) {
@@ -61,4 +61,4 @@ TEST(GpioConfig, RefusesALineWithoutAChipAndALineUsedTwice) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::gpio

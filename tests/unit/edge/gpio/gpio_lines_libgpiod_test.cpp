@@ -12,7 +12,7 @@
 #include "edge/gpio/gpio_lines.h"
 #include "tests/unit/edge/gpio/fake_gpiod.h"
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 using testing::HasSubstr;
@@ -152,4 +152,4 @@ TEST_F(ChipLines, AChipThatVanishes) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::gpio

@@ -15,7 +15,7 @@
 
 #include "edge/gpio/gpio_lines.h"
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 using testing::HasSubstr;
@@ -122,4 +122,4 @@ TEST_F(SocketLines, APathThatIsTooLong) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::gpio

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 using testing::ElementsAre;
@@ -12,15 +12,15 @@ using testing::IsEmpty;
 const GpioConfig kConfig{.chip = "/dev/gpiochip0", .stop_line = 17};
 
 TEST(GpioReport, OfAStopThatIsReleased) {
-  const DeviceReport report =
+  const station::DeviceReport report =
       make_gpio_report(kConfig, {.open = true, .readable = true, .pressed = false});
-  EXPECT_EQ(report.state, DeviceState::kOk);
+  EXPECT_EQ(report.state, station::DeviceState::kOk);
   EXPECT_EQ(report.text, "/dev/gpiochip0, stop released");
   EXPECT_THAT(report.alarms, IsEmpty());
 }
 
 TEST(GpioReport, APressedStopIsAnAlarm) {
-  const DeviceReport report =
+  const station::DeviceReport report =
       make_gpio_report(kConfig, {.open = true, .readable = true, .pressed = true, .presses = 2});
   EXPECT_THAT(report.alarms, ElementsAre("gpio: emergency stop pressed"));
   EXPECT_EQ(report.counters.at("gpio_stop_presses"), 2U);
@@ -29,14 +29,15 @@ TEST(GpioReport, APressedStopIsAnAlarm) {
 TEST(GpioReport, BeforeTheFirstLevelTheStopCountsAsPressed) {
   EXPECT_TRUE(stop_pressed(kConfig, {.open = true}));
   EXPECT_FALSE(stop_pressed(GpioConfig{}, {.open = true}));
-  EXPECT_EQ(make_gpio_report(kConfig, {.open = true}).state, DeviceState::kStarting);
+  EXPECT_EQ(make_gpio_report(kConfig, {.open = true}).state, station::DeviceState::kStarting);
 }
 
 TEST(GpioReport, LinesThatAreGoneAreAnAlarm) {
-  const DeviceReport report = make_gpio_report(kConfig, {.error = "unplugged", .failures = 1});
-  EXPECT_EQ(report.state, DeviceState::kAbsent);
+  const station::DeviceReport report =
+      make_gpio_report(kConfig, {.error = "unplugged", .failures = 1});
+  EXPECT_EQ(report.state, station::DeviceState::kAbsent);
   EXPECT_THAT(report.alarms, ElementsAre("gpio: stop unreadable, taken as pressed: unplugged"));
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::gpio

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 // `seconds` of a pattern, a character a slot.
@@ -42,4 +42,4 @@ TEST(LedPattern, HoldsWithinASlotAndBeforeItsBeginning) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::gpio

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 using Levels = std::vector<LineProtocol::Level>;
@@ -30,4 +30,4 @@ TEST(LineProtocol, ALineWithoutEndIsRefusedHoweverItComes) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::gpio

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 TEST(RearmInput, CountsOnceWhenItIsHeldForLongEnough) {
@@ -52,4 +52,4 @@ TEST(RearmInput, AfterAnInterruptionItMustBeSeenOpenFirst) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::gpio

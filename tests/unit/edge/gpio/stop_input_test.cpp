@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::gpio {
 namespace {
 
 TEST(StopInput, IsUnknownBeforeTheFirstLevel) {
@@ -68,4 +68,4 @@ TEST(StopInput, ALostLineIsPressedUntilAStableRelease) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::gpio

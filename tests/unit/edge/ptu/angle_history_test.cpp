@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 AngleHistory ramp() {  // 0.4 rad/s pan, -0.1 rad/s tilt, a sample every 25 ms from 1.0 to 1.25 s
@@ -97,4 +97,4 @@ TEST(AngleHistory, CovarianceIsHonest) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

@@ -4,7 +4,7 @@
 
 #include "tests/unit/edge/ptu/unit_replies.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 using Verdict = PositionCheck::Verdict;
@@ -62,4 +62,4 @@ TEST_F(AngleIntakeTest, KeepsTheNewestSamplesWhenNobodyTakesThem) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

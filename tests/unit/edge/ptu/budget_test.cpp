@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 TEST(Budget, CyclesTakeWhatTheHeaderSays) {
@@ -20,4 +20,4 @@ TEST(Budget, CyclesTakeWhatTheHeaderSays) {
 TEST(Budget, ALineWithoutARateTakesNoTime) { EXPECT_EQ(byte_time_s(0), 0.0); }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

@@ -9,7 +9,7 @@
 #include "geometry/angles.h"
 #include "sim/ptu_unit.h"
 
-namespace ols {
+namespace ols::ptu {
 
 inline sim::PtuUnitConfig quick_unit(int baud = 38400) {
   sim::PtuUnitConfig config;
@@ -90,4 +90,4 @@ class ClosedLoop {
   double arrives_s_ = 0.0;
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 using A = PtuAxis;
@@ -224,4 +224,4 @@ TEST(PtuReplyParser, CutsDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

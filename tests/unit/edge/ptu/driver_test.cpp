@@ -8,7 +8,7 @@
 
 #include "tests/unit/edge/ptu/closed_loop.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 TEST(PtuDriver, StartsAUnitWithFactorySettings) {
@@ -315,4 +315,4 @@ TEST(PtuDriver, CountsLimitHits) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

@@ -6,7 +6,7 @@
 
 #include "tests/unit/edge/ptu/published_angles.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 struct Motion {
@@ -75,4 +75,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

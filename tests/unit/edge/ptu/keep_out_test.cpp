@@ -7,7 +7,7 @@
 #include "edge/ptu/servo.h"
 #include "tests/unit/edge/ptu/closed_loop.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 PanTilt deg(double pan, double tilt) { return {radians(pan), radians(tilt)}; }
@@ -177,4 +177,4 @@ TEST_F(KeepOutInMotion, IsNeverEnteredWhateverTheGoals) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

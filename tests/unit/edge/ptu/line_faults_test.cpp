@@ -7,7 +7,7 @@
 
 #include "tests/unit/edge/ptu/published_angles.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 // A share of the replies gets one byte lost, changed or put in, digits more often than not.
@@ -214,4 +214,4 @@ INSTANTIATE_TEST_SUITE_P(Rates, LineFaults,
                          [](const auto& test) { return "At" + std::to_string(test.param.baud); });
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

@@ -4,7 +4,7 @@
 
 #include "tests/unit/edge/ptu/unit_replies.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 using Result = ModeCheck::Result;
@@ -57,4 +57,4 @@ TEST_F(ModeCheckTest, TakesAUnitWithOtherAnswersForRestarted) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

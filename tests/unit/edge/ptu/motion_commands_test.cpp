@@ -4,7 +4,7 @@
 
 #include "tests/unit/edge/ptu/unit_replies.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 ServoGoal goal(double pan_rad, double time_s) { return {time_s, {pan_rad, 0.0}, {}, time_s + 0.5}; }
@@ -88,4 +88,4 @@ TEST(MotionCommands, SaysWhichLimitsLeaveNoRoom) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

@@ -3,7 +3,7 @@
 
 #include "tests/unit/edge/ptu/closed_loop.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 constexpr PtuReferenceDoubt kDoubted{false, false}, kBrokenOff{true, false};
@@ -113,4 +113,4 @@ TEST(PersistedDoubt, AVouchLetsTheNextLossBeHomedAgain) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

@@ -6,7 +6,7 @@
 
 #include "tests/unit/edge/ptu/unit_replies.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 constexpr double kByte_s = 1e-3;
@@ -89,4 +89,4 @@ TEST(PollCycle, MeasuresTheLatencyAtTheFirstQuery) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

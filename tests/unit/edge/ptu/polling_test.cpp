@@ -4,7 +4,7 @@
 
 #include "tests/unit/edge/ptu/unit_replies.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 constexpr double kInterval_s = 0.1, kByte_s = 1e-4;
@@ -70,4 +70,4 @@ TEST_F(PollingTest, KnowsForHowLongTheLineWasSilent) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

@@ -4,7 +4,7 @@
 
 #include "tests/unit/edge/ptu/unit_replies.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 using Verdict = PositionCheck::Verdict;
@@ -70,4 +70,4 @@ TEST_F(PositionCheckTest, SeesAUnitStand) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

@@ -6,7 +6,7 @@
 #include "base/config_section.h"
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 PtuConfig read(const std::string& text) {
@@ -90,4 +90,4 @@ TEST(PtuConfigFile, RefusesWhatIsWrongAndNamesIt) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

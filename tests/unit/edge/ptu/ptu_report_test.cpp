@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 using testing::AllOf;
@@ -26,9 +26,9 @@ PtuStatus good() {
 TEST(PtuReport, OfAUnitThatIsWell) {
   PtuStatus status = good();
   status.counters.requests = 7;
-  const DeviceReport report = ptu_report({}, status, 100.1);
+  const station::DeviceReport report = ptu_report({}, status, 100.1);
   EXPECT_EQ(report.name, "ptu");
-  EXPECT_EQ(report.state, DeviceState::kOk);
+  EXPECT_EQ(report.state, station::DeviceState::kOk);
   EXPECT_EQ(report.text, "PTU-D46 v2.12.1d1(C14/E), 38400 baud");
   EXPECT_THAT(report.alarms, IsEmpty());
   EXPECT_EQ(report.readings.at("ptu_supply_V"), 24.0);
@@ -82,4 +82,4 @@ TEST(PtuReport, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

@@ -21,7 +21,7 @@
 #include "sim/ptu_line.h"
 #include "tests/unit/eventually.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 using sim::PtuLine;
@@ -220,8 +220,8 @@ TEST(PtuThread, OpensThePortAgainWhenTheUnitFallsSilent) {
   line.set_faults(faults);
   ASSERT_TRUE(eventually([&] { return ptu.status().port.reopens > 0; }));
   EXPECT_TRUE(eventually([&] {
-    const DeviceReport report = ptu.report();
-    return report.state == DeviceState::kFault && !report.alarms.empty() &&
+    const station::DeviceReport report = ptu.report();
+    return report.state == station::DeviceState::kFault && !report.alarms.empty() &&
            report.counters.at("ptu_reopens") > 0;
   }));
   line.set_faults({});
@@ -242,4 +242,4 @@ TEST(PtuLine, DoesNotReplaceWhatIsNotALink) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

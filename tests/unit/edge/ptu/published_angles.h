@@ -11,7 +11,7 @@
 #include "edge/ptu/angle_history.h"
 #include "tests/unit/edge/ptu/closed_loop.h"
 
-namespace ols {
+namespace ols::ptu {
 
 class PublishedAngles {
  public:
@@ -71,4 +71,4 @@ class PublishedAngles {
   double nees_sum_ = 0.0, pan_nees_sum_ = 0.0, square_sum_ = 0.0;
 };
 
-}  // namespace ols
+}  // namespace ols::ptu

@@ -3,7 +3,7 @@
 
 #include "tests/unit/edge/ptu/closed_loop.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 bool moves_commanded(const std::string& sent) {
@@ -246,4 +246,4 @@ TEST(Emergency, HoldsThroughALostLineAndAPowerCycle) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

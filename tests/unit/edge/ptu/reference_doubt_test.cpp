@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 TEST(PtuReferenceDoubt, EachStateHasItsWordAndIsReadBackFromIt) {
@@ -38,4 +38,4 @@ TEST(PtuReferenceDoubt, EachCauseSaysWhatToDo) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

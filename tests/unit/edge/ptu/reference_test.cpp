@@ -4,7 +4,7 @@
 
 #include "tests/unit/edge/ptu/closed_loop.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 constexpr double kWrong_rad = 1e-3;
@@ -323,4 +323,4 @@ TEST(SlowUnit, NothingIsLoweredWhenTheUnitDoesAsItIsTold) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 ReferenceWatch driven() {
@@ -117,4 +117,4 @@ TEST(ReferenceWatch, KnowsForAWhileAtWhichRateAUnitHomes) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

@@ -6,7 +6,7 @@
 
 #include "tests/unit/edge/ptu/unit_replies.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 constexpr double kByte_s = 1e-3, kLatency_s = 4e-3;
@@ -50,4 +50,4 @@ TEST(ReplyTiming, BytesReadLateWidenTheInterval) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

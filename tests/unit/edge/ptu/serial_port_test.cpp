@@ -7,7 +7,7 @@
 
 #include <system_error>
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 class SerialPortTest : public testing::Test {
@@ -71,4 +71,4 @@ TEST_F(SerialPortTest, AWakeupEndsTheWaiting) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

@@ -7,7 +7,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 constexpr PtuLimits kLimits{-2.7, 2.7, -0.8, 0.5};
@@ -130,4 +130,4 @@ TEST(Reach, DirectLongWayRoundOrNotAtAll) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

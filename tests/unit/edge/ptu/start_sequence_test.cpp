@@ -7,7 +7,7 @@
 
 #include "tests/unit/edge/ptu/unit_replies.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 // Answers like a D46 until the sequence asks for `command`, or until it is done.
@@ -118,4 +118,4 @@ TEST(PtuStartSequence, WaitsLongerForASlowCommand) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

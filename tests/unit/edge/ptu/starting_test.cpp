@@ -4,7 +4,7 @@
 
 #include "tests/unit/edge/ptu/unit_replies.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 using Event = PtuStarting::Event;
@@ -97,4 +97,4 @@ TEST_F(Starting, SaysWhichReplyCannotBeUsed) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

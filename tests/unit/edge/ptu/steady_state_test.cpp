@@ -6,7 +6,7 @@
 
 #include "tests/unit/edge/ptu/unit_replies.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 using Kind = PtuSteadyState::Trouble::Kind;
@@ -173,4 +173,4 @@ TEST_F(SteadyState, AsksForTheEnvironmentAtItsInterval) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

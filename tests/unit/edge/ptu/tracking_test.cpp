@@ -9,7 +9,7 @@
 
 #include "tests/unit/edge/ptu/closed_loop.h"
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 PtuConfig brisk() {  // 60 deg/s^2
@@ -217,4 +217,4 @@ TEST(Tracking, AHostThatReadsLateLetsTheUnitStand) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ols {
+namespace ols::ptu {
 namespace {
 
 TEST(UnitModel, IsReadFromTheVersion) {
@@ -38,4 +38,4 @@ TEST(UnitModel, EnvironmentOfBothFamilies) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::ptu

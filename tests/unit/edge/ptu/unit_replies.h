@@ -7,7 +7,7 @@
 #include "edge/ptu/start_sequence.h"
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::ptu {
 
 inline PtuFacts d46_facts() {
   const double step_rad = radians(11.5714 / 3600.0);
@@ -34,4 +34,4 @@ inline PtuReply refusal(const std::string& text) {
   return made;
 }
 
-}  // namespace ols
+}  // namespace ols::ptu

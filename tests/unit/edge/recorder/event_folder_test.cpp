@@ -10,7 +10,7 @@
 
 #include "tests/unit/edge/recorder/temporary_folder.h"
 
-namespace ols {
+namespace ols::recorder {
 namespace {
 
 using testing::ElementsAre;
@@ -80,4 +80,4 @@ TEST(EventFolder, WithoutAFrameNothingStays) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::recorder

@@ -8,7 +8,7 @@
 #include "base/clocks.h"
 #include "tests/unit/edge/recorder/temporary_folder.h"
 
-namespace ols {
+namespace ols::recorder {
 namespace {
 
 using testing::ElementsAre;
@@ -203,4 +203,4 @@ TEST(EventStore, AFileInTheFoldersPlaceIsReported) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::recorder

@@ -4,7 +4,7 @@
 
 #include "tests/unit/edge/recorder/temporary_folder.h"
 
-namespace ols {
+namespace ols::recorder {
 namespace {
 
 TEST(FrameMemory, ForgetsWhatIsOlderThanItsSpan) {
@@ -44,4 +44,4 @@ TEST(FrameMemory, HandsOutATimeWithBothEnds) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::recorder

@@ -14,7 +14,7 @@
 
 #include "edge/recorder/frame_memory.h"
 
-namespace ols {
+namespace ols::recorder {
 
 class TemporaryFolder {
  public:
@@ -63,4 +63,4 @@ inline RecordedFrame noisy_frame(std::uint64_t number, double time_s, int side_p
   return frame;
 }
 
-}  // namespace ols
+}  // namespace ols::recorder

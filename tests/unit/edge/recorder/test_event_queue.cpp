@@ -2,7 +2,7 @@
 
 #include "edge/recorder/event_queue.h"
 
-namespace ols {
+namespace ols::recorder {
 namespace {
 
 RecordedFrame frame_at(double time_s) {
@@ -72,4 +72,4 @@ TEST(EventQueue, RecordsOnlyAFewEventsAtOnceAndOnlyWhatItRemembers) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::recorder

@@ -6,7 +6,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::sensors {
 namespace {
 
 constexpr double kRange_rad = 0.7;
@@ -106,4 +106,4 @@ TEST(Dpg2, TakesTheVersionOnlyWhenItWasAskedFor) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::sensors

@@ -10,7 +10,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::sensors {
 namespace {
 
 std::string tpv(const std::string& status, const std::string& second = "05.480",
@@ -164,4 +164,4 @@ TEST(GpsdEpochs, TheNextFixReleasesTheOneBefore) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::sensors

@@ -14,7 +14,7 @@
 #include <string>
 #include <system_error>
 
-namespace ols {
+namespace ols::sensors {
 
 class GpsdProcess {
  public:
@@ -62,4 +62,4 @@ class GpsdProcess {
   pid_t pid_ = -1;
 };
 
-}  // namespace ols
+}  // namespace ols::sensors

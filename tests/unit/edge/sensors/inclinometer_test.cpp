@@ -11,7 +11,7 @@
 #include "sim/inclinometer_line.h"
 #include "tests/unit/eventually.h"
 
-namespace ols {
+namespace ols::sensors {
 namespace {
 
 sim::InclinometerLineConfig sensor() {
@@ -31,9 +31,10 @@ InclinometerConfig config(const std::string& device) {
   return c;
 }
 
-bool reports(const Inclinometer& inclinometer, DeviceState state, const std::string& text) {
+bool reports(const Inclinometer& inclinometer, station::DeviceState state,
+             const std::string& text) {
   return eventually([&] {
-    const DeviceReport r = inclinometer.report();
+    const station::DeviceReport r = inclinometer.report();
     return r.state == state && r.text.find(text) != std::string::npos;
   });
 }
@@ -51,8 +52,8 @@ TEST(Inclinometer, GivesTheTiltAndTheVersion) {
     EXPECT_NEAR(degrees(readings[i].tilt_y_rad), -0.084, 0.02);
     EXPECT_GE(readings[i].time_s, readings[i == 0 ? 0 : i - 1].time_s);
   }
-  EXPECT_TRUE(reports(inclinometer, DeviceState::kOk, "DPG2 V1.4, x +0.4"));
-  const DeviceReport report = inclinometer.report();
+  EXPECT_TRUE(reports(inclinometer, station::DeviceState::kOk, "DPG2 V1.4, x +0.4"));
+  const station::DeviceReport report = inclinometer.report();
   EXPECT_NEAR(report.readings.at("inclinometer_x_deg"), 0.43, 0.02);
   EXPECT_NEAR(report.readings.at("inclinometer_y_deg"), -0.084, 0.02);
   EXPECT_GE(report.counters.at("inclinometer_readings"), 20U);
@@ -75,44 +76,44 @@ TEST(Inclinometer, GarbledLinesAreCountedAndTheRestIsRead) {
 TEST(Inclinometer, SilenceAndAStuckSensorAreToldAndHeal) {
   sim::InclinometerLine line(sensor(), 3);
   Inclinometer inclinometer(config(line.device()));
-  ASSERT_TRUE(reports(inclinometer, DeviceState::kOk, "x +0.4"));
+  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
   sim::InclinometerFaults faults;
   faults.silent = true;
   line.set_faults(faults);
-  ASSERT_TRUE(reports(inclinometer, DeviceState::kFault, "no reading for"));
+  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kFault, "no reading for"));
   EXPECT_GE(inclinometer.report().errors, 1U);
   line.set_faults({});
-  ASSERT_TRUE(reports(inclinometer, DeviceState::kOk, "x +0.4"));
+  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
   faults = {};
   faults.stuck = true;
   line.set_faults(faults);
-  ASSERT_TRUE(reports(inclinometer, DeviceState::kFault, "stuck at"));
+  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kFault, "stuck at"));
   line.set_faults({});
-  ASSERT_TRUE(reports(inclinometer, DeviceState::kOk, "x +0.4"));
+  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
 }
 
 TEST(Inclinometer, ASensorThatWasStoppedIsStartedAgain) {
   sim::InclinometerLine line(sensor(), 4);
   {
-    SerialPort port(line.device(), 9600);
+    ptu::SerialPort port(line.device(), 9600);
     port.write("s");
     port.drain(1.0);
   }
   Inclinometer inclinometer(config(line.device()));
-  EXPECT_TRUE(reports(inclinometer, DeviceState::kOk, "x +0.4"));
+  EXPECT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
 }
 
 TEST(Inclinometer, ADeviceThatIsNotThereYetOrVanishesIsOpenedAgain) {
   const std::string link = testing::TempDir() + "ols_inclinometer_" + std::to_string(::getpid());
   Inclinometer inclinometer(config(link));
-  ASSERT_TRUE(reports(inclinometer, DeviceState::kAbsent, link + ": cannot be opened"));
+  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kAbsent, link + ": cannot be opened"));
   EXPECT_EQ(inclinometer.report().alarms.size(), 1U);
   auto line = std::make_unique<sim::InclinometerLine>(sensor(), 5, link);
-  ASSERT_TRUE(reports(inclinometer, DeviceState::kOk, "x +0.4"));
+  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
   line.reset();
-  ASSERT_TRUE(reports(inclinometer, DeviceState::kAbsent, link));
+  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kAbsent, link));
   line = std::make_unique<sim::InclinometerLine>(sensor(), 6, link);
-  ASSERT_TRUE(reports(inclinometer, DeviceState::kOk, "x +0.4"));
+  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
   EXPECT_EQ(inclinometer.report().counters.at("inclinometer_reopened"), 1U);
 }
 
@@ -121,15 +122,15 @@ TEST(Inclinometer, EvenParityIsAccepted) {
   InclinometerConfig even = config(line.device());
   even.even_parity = true;
   Inclinometer inclinometer(even);
-  EXPECT_TRUE(reports(inclinometer, DeviceState::kOk, "x +0.4"));
+  EXPECT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
 }
 
 TEST(Inclinometer, WithoutADeviceThereIsNone) {
   Inclinometer inclinometer(InclinometerConfig{});
-  EXPECT_EQ(inclinometer.report().state, DeviceState::kAbsent);
+  EXPECT_EQ(inclinometer.report().state, station::DeviceState::kAbsent);
   EXPECT_EQ(inclinometer.report().text, "not configured");
   EXPECT_TRUE(inclinometer.report().alarms.empty());
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::sensors

@@ -6,7 +6,7 @@
 #include "geometry/angles.h"
 #include "geometry/kinematic_chain.h"
 
-namespace ols {
+namespace ols::sensors {
 namespace {
 
 TEST(OriginTilt, IsTheTiltOfTheChainThatTheAxesShow) {
@@ -43,4 +43,4 @@ TEST(OriginTilt, TheMountingOfTheSensorIsTakenOff) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::sensors

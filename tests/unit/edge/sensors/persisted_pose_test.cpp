@@ -9,7 +9,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::sensors {
 namespace {
 
 PersistedPose example() {
@@ -86,4 +86,4 @@ TEST(PersistedPose, NumbersThatAreNoPoseAreRefusedByTheirLine) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::sensors

@@ -9,7 +9,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::sensors {
 namespace {
 
 using Eigen::Vector3d;
@@ -263,8 +263,9 @@ TEST(PoseEstimator, ANewPlaceIsTakenOnlyWhereThatIsConfigured) {
   EXPECT_LT(distance_m(estimator.pose(600.0).position, kGround), 1e-3);
   feed(estimator, 600.0, 700.0, {8.0, 0.0, 0.0});
   EXPECT_LT(distance_m(estimator.pose(700.0).position, moved(kGround, {8.0, 0.0, 0.0})), 1e-3);
-  EXPECT_THAT(estimator.alarms(700.0),
-              ElementsAre("gnss: new position adopted, 8.00 m from the old one: check the heading"));
+  EXPECT_THAT(
+      estimator.alarms(700.0),
+      ElementsAre("gnss: new position adopted, 8.00 m from the old one: check the heading"));
 }
 
 TEST(PoseEstimator, ASlowSettlingOfTheTripodIsFollowed) {
@@ -416,4 +417,4 @@ TEST(PoseEstimatorResumed, WhatIsOldOrSurveyedIsNotTakenUp) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::sensors

@@ -4,7 +4,7 @@
 #include "edge/sensors/pose_estimator_config.h"
 #include "geometry/angles.h"
 
-namespace ols {
+namespace ols::sensors {
 namespace {
 
 InclinometerConfig inclinometer(const std::string& text) {
@@ -102,4 +102,4 @@ TEST(SensorsConfig, ErrorsNameFileLineAndKey) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::sensors

@@ -7,7 +7,7 @@
 #include "edge/tracker/acquisition.h"
 #include "synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using testing::Backdrop;
@@ -114,4 +114,4 @@ TEST_F(AcquisitionTest, RefusesWhatIsNoGrayPicture) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

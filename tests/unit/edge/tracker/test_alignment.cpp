@@ -3,7 +3,7 @@
 #include "edge/tracker/alignment.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 TEST(ReducedArea, IsWhatTheAreaTouchesInsideTheImage) {
@@ -35,4 +35,4 @@ TEST(BroughtToPresent, LeavesWhatWasNotSeen) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

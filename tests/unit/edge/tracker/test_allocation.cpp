@@ -29,7 +29,7 @@ extern "C" int posix_memalign(void** memory, std::size_t alignment, std::size_t 
   return *memory == nullptr ? ENOMEM : 0;
 }
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 TEST(Allocation, OfAPictureIsCounted) {
@@ -77,4 +77,4 @@ TEST(Allocation, TheFiltersInnerLoopHasNone) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

@@ -2,7 +2,7 @@
 
 #include "edge/tracker/belief.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 TEST(Belief, FallsAndRisesOverSomeFrames) {
@@ -42,4 +42,4 @@ TEST(Belief, UsualIsWhatTheTargetHasLookedLikeOfLate) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

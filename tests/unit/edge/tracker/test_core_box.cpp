@@ -2,7 +2,7 @@
 
 #include "edge/tracker/core_box.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 // A sky with a gradient and a little noise.
@@ -51,4 +51,4 @@ TEST(CoreBox, TakesBoxesAtAndOverTheBorder) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

@@ -6,7 +6,7 @@
 #include "edge/tracker/corner_flow.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 struct Pair {
@@ -76,4 +76,4 @@ TEST(CornerFlow, FindsNothingOffTheImage) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

@@ -5,7 +5,7 @@
 #include "edge/tracker/designation.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 MotionModel moving_by(double x, double y, double interval_s) {
@@ -51,4 +51,4 @@ TEST(Designation, IsGivenUpAfterTwoSeconds) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

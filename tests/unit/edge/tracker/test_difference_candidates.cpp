@@ -5,7 +5,7 @@
 #include "edge/tracker/difference_candidates.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using testing::Backdrop;
@@ -65,4 +65,4 @@ TEST(DifferenceCandidates, AreOnlyTheTargetOnceTheCameraIsAccountedFor) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

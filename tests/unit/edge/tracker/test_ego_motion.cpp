@@ -6,7 +6,7 @@
 #include "edge/tracker/particle.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using testing::Backdrop;
@@ -114,4 +114,4 @@ TEST(EgoMotion, TellsSenselessHomographies) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

@@ -5,7 +5,7 @@
 #include "edge/tracker/foreground_mask.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using testing::Backdrop;
@@ -53,4 +53,4 @@ TEST(ReferenceFrames, RememberWhatIsBehindATargetThatStands) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

@@ -4,7 +4,7 @@
 
 #include "edge/tracker/local_contrast.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 TEST(LocalContrast, IsTheMiddleLessItsSurroundings) {
@@ -23,4 +23,4 @@ TEST(LocalContrast, IsNothingOutsideOfItsArea) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

@@ -6,7 +6,7 @@
 #include "edge/tracker/motion_model.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using testing::shift_homography;
@@ -86,4 +86,4 @@ TEST(MotionModel, DisturbsByTheConfiguredNoise) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

@@ -8,7 +8,7 @@
 #include "edge/tracker/mover_detection.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using testing::Backdrop;
@@ -146,4 +146,4 @@ TEST(MoverDetection, GivesNoneForWhatItCannotUse) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

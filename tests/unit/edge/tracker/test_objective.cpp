@@ -4,7 +4,7 @@
 
 #include "edge/tracker/objective.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 Template pattern() {
@@ -50,4 +50,4 @@ TEST(Objective, WeighsByTheLesserOfBothMasks) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

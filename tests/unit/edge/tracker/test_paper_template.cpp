@@ -4,7 +4,7 @@
 
 #include "edge/tracker/paper_template.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 // Eq. (5) by hand: two pixels' share of it.
@@ -23,4 +23,4 @@ TEST(PaperObjective, IsEquationFive) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

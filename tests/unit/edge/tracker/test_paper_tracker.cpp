@@ -7,7 +7,7 @@
 #include "edge/tracker/tracker.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using testing::Backdrop;
@@ -126,4 +126,4 @@ TEST(PaperTracker, IsToldAPixelOfTheFrameGivenNext) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

@@ -7,7 +7,7 @@
 #include "edge/tracker/particle_filter.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 TEST(ParticleFilter, ResamplesInProportionAndStandsBadWeights) {
@@ -45,4 +45,4 @@ TEST(ParticleFilter, TakesThePredictedOneOfTwoAlike) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

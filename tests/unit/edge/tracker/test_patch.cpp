@@ -4,7 +4,7 @@
 
 #include "edge/tracker/patch.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 TEST(Patch, SamplesPixelCentres) {
@@ -80,4 +80,4 @@ TEST(Template, IsNotEmptyOnRoughGround) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

@@ -3,7 +3,7 @@
 #include "edge/tracker/point_measurement.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using testing::Backdrop;
@@ -38,4 +38,4 @@ TEST(PointMeasurement, IsOfTheDesignatedPointWithTheSizeThatTheImageShows) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

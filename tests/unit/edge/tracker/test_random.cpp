@@ -2,7 +2,7 @@
 
 #include "edge/tracker/random.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 TEST(Random, IsStandardNormalAndFixed) {
@@ -23,4 +23,4 @@ TEST(Random, IsStandardNormalAndFixed) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

@@ -7,7 +7,7 @@
 #include "edge/tracker/reacquisition.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using testing::Backdrop;
@@ -152,4 +152,4 @@ TEST(Reacquisition, WhoIsToldWhereItIsBelievesInItWholly) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

@@ -41,7 +41,7 @@ class Picture {
     gray_.convertTo(gray_, CV_8U);
   }
   const cv::Mat& gray() const { return gray_; }
-  ols::FrameView view() const { return {gray_, {0, 0}, 1}; }
+  ols::tracker::FrameView view() const { return {gray_, {0, 0}, 1}; }
 
  private:
   cv::Mat gray_;
@@ -49,21 +49,24 @@ class Picture {
 
 Vector2d box_of_side(double side) { return {1.1 * side, 0.9 * side}; }
 
-ols::TargetModel model_of(const Picture& first, double side) {
-  return {ols::TrackerConfig{}, first.gray(), ols::box_of(kPlace, box_of_side(side))};
+ols::tracker::TargetModel model_of(const Picture& first, double side) {
+  return {ols::tracker::TrackerConfig{}, first.gray(),
+          ols::tracker::box_of(kPlace, box_of_side(side))};
 }
 
 // As the tracker does it: placed by a box of a size, then measured.
-std::optional<ols::RefinedPosition> measured(const ols::TargetModel& model, const ols::Scene& scene,
-                                             const Vector2d& start, const Vector2d& size_px) {
+std::optional<ols::tracker::RefinedPosition> measured(const ols::tracker::TargetModel& model,
+                                                      const ols::tracker::Scene& scene,
+                                                      const Vector2d& start,
+                                                      const Vector2d& size_px) {
   const auto placed = model.place(scene, start, size_px);
   return placed ? model.measure(scene, *placed, size_px) : std::nullopt;
 }
 
-ols::Scene scene_of(const ols::TargetModel& model, const Picture& picture, const Vector2d& place,
-                    double side) {
-  return model.make_scene(picture.gray(), {}, ols::box_of(place, box_of_side(side)),
-                          ols::ReferenceFrames(0.3));
+ols::tracker::Scene scene_of(const ols::tracker::TargetModel& model, const Picture& picture,
+                             const Vector2d& place, double side) {
+  return model.make_scene(picture.gray(), {}, ols::tracker::box_of(place, box_of_side(side)),
+                          ols::tracker::ReferenceFrames(0.3));
 }
 
 // The size that it starts from is wrong by three in a hundred, as a particle's is: at 100 px the
@@ -90,7 +93,7 @@ TEST(Refinement, WhatWasDesignatedStaysOnAGrowingTarget) {
   const Vector2d off(3.0, -2.0);
   cv::RNG noise(2);
   const Picture first(kSide, kPlace, noise);
-  const ols::PositionRefiner refiner(first.view(), kPlace + off, box_of_side(kSide));
+  const ols::tracker::PositionRefiner refiner(first.view(), kPlace + off, box_of_side(kSide));
   double nees = 0.0;
   constexpr int kPictures = 40;
   for (int i = 0; i < kPictures; ++i) {
@@ -114,7 +117,7 @@ TEST(Refinement, ATargetThatLeavesThePictureIsPlacedByWhatIsLeftOfIt) {
   constexpr double kSide = 40.0;
   cv::RNG noise(4);
   const Picture first(kSide, kPlace, noise);
-  const ols::PositionRefiner refiner(first.view(), kPlace, box_of_side(kSide));
+  const ols::tracker::PositionRefiner refiner(first.view(), kPlace, box_of_side(kSide));
   for (const double outside : {0.0, 10.0, 16.0}) {
     const Vector2d place(299.0 - 0.5 * kSide + outside, 140.0);
     const Picture picture(kSide, place, noise);
@@ -132,7 +135,7 @@ TEST(Refinement, WhatNeighboursShareIsTold) {
   constexpr double kSide = 24.0;
   cv::RNG noise(5);
   const Picture first(kSide, kPlace, noise);
-  const ols::PositionRefiner refiner(first.view(), kPlace, box_of_side(kSide));
+  const ols::tracker::PositionRefiner refiner(first.view(), kPlace, box_of_side(kSide));
   const auto shared_noise = [&](bool spots) {
     double sum = 0.0;
     constexpr int kPictures = 20;

@@ -3,7 +3,7 @@
 #include "edge/tracker/scene_motion.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using testing::Backdrop;
@@ -54,4 +54,4 @@ TEST(SceneMotion, ForgetsTheImagesOfAnotherScene) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

@@ -3,7 +3,7 @@
 #include "edge/tracker/target_model.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using testing::Backdrop;
@@ -47,4 +47,4 @@ TEST(TargetModel, IsEmptyWhereNothingStandsOut) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

@@ -5,7 +5,7 @@
 
 #include "edge/tracker/target_tracker.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 TEST(TrackerError, HasATextOfItsOwn) {
@@ -18,4 +18,4 @@ TEST(TrackerError, HasATextOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

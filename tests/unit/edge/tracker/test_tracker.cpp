@@ -7,7 +7,7 @@
 #include "edge/tracker/tracker.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using testing::Backdrop;
@@ -313,4 +313,4 @@ TEST(StageTimes, ChargeEachStageByTheClockHandedIn) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

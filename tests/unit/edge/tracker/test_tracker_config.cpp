@@ -3,7 +3,7 @@
 #include "base/config_section.h"
 #include "edge/tracker/tracker_config.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 TEST(TrackerConfig, IsReadStrictly) {
@@ -28,4 +28,4 @@ TEST(TrackerConfig, ChoosesTheMode) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

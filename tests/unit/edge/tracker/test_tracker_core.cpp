@@ -6,7 +6,7 @@
 #include "edge/tracker/tracker_core.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
-namespace ols {
+namespace ols::tracker {
 namespace {
 
 using testing::Backdrop;
@@ -233,4 +233,4 @@ TEST(TrackerCore, SearchesWhereItIsToldThoughTheCameraRolls) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::tracker

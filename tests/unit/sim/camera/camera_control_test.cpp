@@ -23,7 +23,7 @@ INSTANTIATE_TEST_SUITE_P(Names, CameraControl,
                          });
 
 // Between the exposures of two frames that follow each other.
-double period_s(AravisCamera& camera) {
+double period_s(camera::AravisCamera& camera) {
   auto last = frame_of(camera);
   for (int i = 0; last && i < 200; ++i) {
     auto next = frame_of(camera);
@@ -37,10 +37,10 @@ double period_s(AravisCamera& camera) {
 
 TEST_P(CameraControl, RateExposureAndGainAreThoseThatAreSet) {
   const auto server = serve(as());
-  CameraConfig config = station();
+  camera::CameraConfig config = station();
   config.exposure_us = 1500.0;
   config.gain_dB = 6.0;
-  AravisCamera camera(config);
+  camera::AravisCamera camera(config);
   EXPECT_NEAR(period_s(camera), 1.0 / 20.0, 1e-3);
   const auto frame = frame_of(camera);
   ASSERT_TRUE(frame) << camera.last_error();
@@ -56,24 +56,24 @@ TEST_P(CameraControl, RateExposureAndGainAreThoseThatAreSet) {
 
 TEST_P(CameraControl, FreeRunIsAsFastAsTheCameraCan) {
   const auto server = serve(as());
-  CameraConfig config = station();
-  config.trigger = TriggerMode::kFreeRun;
+  camera::CameraConfig config = station();
+  config.trigger = camera::TriggerMode::kFreeRun;
   config.frame_rate_hz = 2.0;
-  AravisCamera camera(config);
+  camera::AravisCamera camera(config);
   EXPECT_NEAR(period_s(camera), 1.0 / 33.0, 1e-3);
 }
 
 TEST_P(CameraControl, ASoftwareTriggerMakesOneFrame) {
   const auto server = serve(as());
-  CameraConfig config = station();
-  config.trigger = TriggerMode::kSoftware;
+  camera::CameraConfig config = station();
+  config.trigger = camera::TriggerMode::kSoftware;
   config.no_frame_timeout_s = 0.1;
-  AravisCamera camera(config);
+  camera::AravisCamera camera(config);
   ASSERT_TRUE(becomes(camera, [&] { return has_alarm(camera, "waiting for a trigger"); }));
   EXPECT_EQ(camera.counters().frames_captured, 0U);
   for (std::uint64_t i = 1; i <= 3; ++i) {
     const double asked_s = clock_s(CLOCK_MONOTONIC);
-    std::optional<Frame> frame;
+    std::optional<camera::Frame> frame;
     // As long as it is busy with the last frame the camera takes no trigger.
     ASSERT_TRUE(becomes(camera, [&] {
       camera.trigger();
@@ -88,11 +88,11 @@ TEST_P(CameraControl, ASoftwareTriggerMakesOneFrame) {
 
 TEST_P(CameraControl, APulseOnItsLineMakesAFrameAfterTheDelay) {
   const auto server = serve(as());
-  CameraConfig config = station();
-  config.trigger = TriggerMode::kLine2;
+  camera::CameraConfig config = station();
+  config.trigger = camera::TriggerMode::kLine2;
   config.trigger_delay_us = 30'000.0;
   config.no_frame_timeout_s = 0.1;
-  AravisCamera camera(config);
+  camera::AravisCamera camera(config);
   ASSERT_TRUE(becomes(camera, [&] { return has_alarm(camera, "waiting for a trigger"); }));
   server->pulse(1);  // another line's
   EXPECT_FALSE(camera.next(0.3));
@@ -114,11 +114,11 @@ TEST_P(CameraControl, AutomaticExposureSettlesAndEveryFrameKnowsItsMiddle) {
     sign(exposure, picture);
   };
   const auto server = serve(how);
-  CameraConfig config = station();
+  camera::CameraConfig config = station();
   config.exposure_us = 500.0;
   config.auto_exposure = true;
   config.limits.exposure_max_us = 8000.0;
-  AravisCamera camera(config);
+  camera::AravisCamera camera(config);
   const double end_s = clock_s(CLOCK_MONOTONIC) + kDeadline_s;
   double level = 0.0;
   while (std::abs(level - 110.0) > 20.0 && clock_s(CLOCK_MONOTONIC) < end_s) {
@@ -137,9 +137,9 @@ TEST_P(CameraControl, AutomaticExposureSettlesAndEveryFrameKnowsItsMiddle) {
 
 TEST_P(CameraControl, ItsClockMayBecomeThatOfAPtpMaster) {
   const auto server = serve(as());
-  CameraConfig config = station();
+  camera::CameraConfig config = station();
   config.ptp = "slave";
-  AravisCamera camera(config);
+  camera::AravisCamera camera(config);
   EXPECT_TRUE(becomes(camera, [&] { return has_alarm(camera, "PTP is not yet synchronised"); }));
   // It steps from its own epoch to TAI; the frames around the step are the arrivals' to tell.
   EXPECT_TRUE(becomes(camera, [&] { return !has_alarm(camera, "camera: PTP"); }));
@@ -155,44 +155,44 @@ TEST_P(CameraControl, PacedPacketsFitASmallBuffer) {
   how.width_px = 1280;
   how.height_px = 960;
   const auto server = serve(how);
-  CameraConfig config = station();
+  camera::CameraConfig config = station();
   config.width_px = 1280;
   config.height_px = 960;
   config.frame_rate_hz = 5.0;  // a packet each 1.5 ms
   config.packet_size = 9000;
   config.packet_resend = false;
   config.socket_buffer = 200'000;  // a sixth of a frame; sent in one go hardly a frame is complete
-  AravisCamera camera(config);
+  camera::AravisCamera camera(config);
   EXPECT_TRUE(becomes(camera, [&] { return camera.counters().frames_captured >= 15; }))
       << camera.counters().frames_incomplete << " incomplete";
 }
 
 TEST(CameraClock, WithoutATickFrequencyTheStampsAreMarkedAsTheHosts) {
   const auto server = serve({.tick_frequency = false});
-  AravisCamera camera(station());
+  camera::AravisCamera camera(station());
   const auto frame = frame_of(camera);
   ASSERT_TRUE(frame) << camera.last_error();
-  EXPECT_EQ(frame->stamp_source, StampSource::kArrival);
-  EXPECT_DOUBLE_EQ(frame->stamp_sd_s, CameraConfig{}.readout_sd_s);
+  EXPECT_EQ(frame->stamp_source, camera::StampSource::kArrival);
+  EXPECT_DOUBLE_EQ(frame->stamp_sd_s, camera::CameraConfig{}.readout_sd_s);
   EXPECT_TRUE(has_alarm(camera, "camera: time stamps are the host's, +-10 ms"));
 }
 
 TEST(CameraLoss, ACameraThatWasOffAndOnIsOpenedAgain) {
   const auto server = serve();
-  AravisCamera camera(station());
+  camera::AravisCamera camera(station());
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
   server->power_cycle();
   EXPECT_TRUE(becomes(camera, [&] { return camera.counters().reconnects >= 1; }));
-  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kStreaming; }));
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kStreaming; }));
 }
 
 // No silence tells it here: only the heartbeat does.
 TEST(CameraLoss, ALostControlIsNoticedWithoutAnyFrame) {
   const auto server = serve();
-  CameraConfig config = station();
-  config.trigger = TriggerMode::kLine1;
-  AravisCamera camera(config);
-  ASSERT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kStarting; }));
+  camera::CameraConfig config = station();
+  config.trigger = camera::TriggerMode::kLine1;
+  camera::AravisCamera camera(config);
+  ASSERT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kStarting; }));
   server->power_cycle();
   EXPECT_TRUE(becomes(camera, [&] { return camera.counters().reconnects >= 1; }));
   EXPECT_EQ(camera.last_error(), "camera lost: it no longer answers");
@@ -204,13 +204,13 @@ TEST(CameraLoss, ALostControlIsNoticedWithoutAnyFrame) {
 
 TEST(CameraLoss, SilenceIsReportedBeforeTheCameraIsGivenUp) {
   const auto server = serve();
-  CameraConfig config = station();
+  camera::CameraConfig config = station();
   config.no_frame_timeout_s = 5.0;
-  AravisCamera camera(config);
+  camera::AravisCamera camera(config);
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
   server->set_faults({.gone = true, .pixel_format = {}});
   EXPECT_TRUE(becomes(camera, [&] { return has_alarm(camera, "camera: no frames for"); }));
-  EXPECT_EQ(camera.report().state, DeviceState::kFault);
+  EXPECT_EQ(camera.report().state, station::DeviceState::kFault);
   EXPECT_EQ(camera.counters().reconnects, 0U);
 }
 

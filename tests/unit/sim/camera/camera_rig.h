@@ -33,12 +33,12 @@ inline void pause() { std::this_thread::sleep_for(std::chrono::milliseconds(2));
 inline void sign(const sim::Exposure& exposure, cv::Mat& picture) {
   std::memcpy(picture.data, &exposure, sizeof exposure);
 }
-inline sim::Exposure exposure_of(const Frame& frame) {
+inline sim::Exposure exposure_of(const camera::Frame& frame) {
   sim::Exposure exposure;
   std::memcpy(&exposure, frame.gray.data, sizeof exposure);
   return exposure;
 }
-inline double true_middle_s(const Frame& frame) {
+inline double true_middle_s(const camera::Frame& frame) {
   const sim::Exposure exposure = exposure_of(frame);
   return 1e-9 * static_cast<double>(exposure.start_monotonic_ns) + 0.5 * exposure.exposure_s;
 }
@@ -69,8 +69,8 @@ inline std::unique_ptr<sim::CameraServer> serve(const Serve& how = {}) {
   return std::make_unique<sim::CameraServer>(config, how.paint);
 }
 
-inline CameraConfig station() {
-  CameraConfig config;
+inline camera::CameraConfig station() {
+  camera::CameraConfig config;
   config.device = "127.0.0.1";
   config.width_px = kWidth;
   config.height_px = kHeight;
@@ -81,14 +81,14 @@ inline CameraConfig station() {
   return config;
 }
 
-inline std::optional<Frame> frame_of(AravisCamera& camera) {
+inline std::optional<camera::Frame> frame_of(camera::AravisCamera& camera) {
   const double end_s = clock_s(CLOCK_MONOTONIC) + kDeadline_s;
   while (clock_s(CLOCK_MONOTONIC) < end_s)
     if (auto frame = camera.next(0.5)) return frame;
   return std::nullopt;
 }
 
-inline bool becomes(AravisCamera& camera, const std::function<bool()>& true_now) {
+inline bool becomes(camera::AravisCamera& camera, const std::function<bool()>& true_now) {
   const double end_s = clock_s(CLOCK_MONOTONIC) + kDeadline_s;
   while (clock_s(CLOCK_MONOTONIC) < end_s) {
     if (true_now()) return true;
@@ -97,7 +97,7 @@ inline bool becomes(AravisCamera& camera, const std::function<bool()>& true_now)
   return false;
 }
 
-inline bool has_alarm(const AravisCamera& camera, const std::string& part) {
+inline bool has_alarm(const camera::AravisCamera& camera, const std::string& part) {
   const auto alarms = camera.report().alarms;
   return std::any_of(alarms.begin(), alarms.end(), [&](const std::string& alarm) {
     return alarm.find(part) != std::string::npos;

@@ -11,7 +11,7 @@ namespace {
 
 TEST(CameraWire, PicturesArriveAsTheyWereDrawn) {
   const auto server = serve();
-  AravisCamera camera(station());
+  camera::AravisCamera camera(station());
   const auto frame = frame_of(camera);
   ASSERT_TRUE(frame) << camera.last_error();
   ASSERT_EQ(frame->gray.size(), cv::Size(kWidth, kHeight));
@@ -19,18 +19,18 @@ TEST(CameraWire, PicturesArriveAsTheyWereDrawn) {
   EXPECT_EQ(frame->gray.at<std::uint8_t>(100, 200), (200 + 2 * 100) / 8);
   EXPECT_EQ(frame->gray.at<std::uint8_t>(kHeight - 1, kWidth - 1),
             (kWidth - 1 + 2 * (kHeight - 1)) / 8);
-  EXPECT_EQ(camera.state(), CameraState::kStreaming);
+  EXPECT_EQ(camera.state(), camera::CameraState::kStreaming);
   EXPECT_EQ(camera.counters().frames_refused, 0U);
 }
 
 TEST(CameraWire, MidExposureIsThatOfTheCamera) {
   const auto server = serve();
-  AravisCamera camera(station());
+  camera::AravisCamera camera(station());
   std::uint64_t number = 0;
   for (int i = 0; i < 10; ++i) {
     const auto frame = frame_of(camera);
     ASSERT_TRUE(frame) << camera.last_error();
-    EXPECT_EQ(frame->stamp_source, StampSource::kCamera);
+    EXPECT_EQ(frame->stamp_source, camera::StampSource::kCamera);
     EXPECT_LT(std::abs(frame->mid_exposure_s - true_middle_s(*frame)),
               4.0 * frame->stamp_sd_s + 1e-3);
     EXPECT_LT(frame->stamp_sd_s, 5e-3);  // bare arrivals would leave 10 ms
@@ -41,9 +41,9 @@ TEST(CameraWire, MidExposureIsThatOfTheCamera) {
 
 TEST(CameraWire, AStampAtTheEndOfTheExposureIsTakenAsSuch) {
   const auto server = serve();
-  CameraConfig config = station();
-  config.stamp_at = StampAt::kExposureEnd;
-  AravisCamera camera(config);
+  camera::CameraConfig config = station();
+  config.stamp_at = camera::StampAt::kExposureEnd;
+  camera::AravisCamera camera(config);
   const auto frame = frame_of(camera);
   ASSERT_TRUE(frame) << camera.last_error();
   // The simulated camera stamps the start: read as the end, the middle is an exposure earlier.
@@ -53,10 +53,10 @@ TEST(CameraWire, AStampAtTheEndOfTheExposureIsTakenAsSuch) {
 
 TEST(CameraWire, WithoutThePacketSocketAndWithSmallPackets) {
   const auto server = serve();
-  CameraConfig config = station();
+  camera::CameraConfig config = station();
   config.packet_socket = false;
   config.packet_size = 1500;
-  AravisCamera camera(config);
+  camera::AravisCamera camera(config);
   const auto frame = frame_of(camera);
   ASSERT_TRUE(frame) << camera.last_error();
   EXPECT_EQ(frame->gray.at<std::uint8_t>(100, 200), (200 + 2 * 100) / 8);
@@ -69,9 +69,9 @@ TEST(CameraWire, ColourBecomesGray) {
   const double brightness = level * (0.299 * tint[0] + 0.587 * tint[1] + 0.114 * tint[2]);
   const auto server = serve();
   for (const char* format : {"BayerRG8", "BayerGR8", "BayerGB8", "BayerBG8", "RGB8", "BGR8"}) {
-    CameraConfig config = station();
+    camera::CameraConfig config = station();
     config.pixel_format = format;
-    AravisCamera camera(config);
+    camera::AravisCamera camera(config);
     const auto frame = frame_of(camera);
     ASSERT_TRUE(frame) << format << ": " << camera.last_error();
     ASSERT_EQ(frame->gray.size(), cv::Size(kWidth, kHeight));
@@ -82,36 +82,36 @@ TEST(CameraWire, ColourBecomesGray) {
 
 TEST(CameraWire, IsFoundByItsName) {
   const auto server = serve();
-  CameraConfig config = station();
+  camera::CameraConfig config = station();
   config.device = "AVT-T1";
-  AravisCamera camera(config);
+  camera::AravisCamera camera(config);
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
 }
 
 TEST(CameraWire, ASensorTooSmallIsAFault) {
   const auto server = serve({.width_px = 160, .height_px = 120});
-  AravisCamera camera(station());
-  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kFault; }));
+  camera::AravisCamera camera(station());
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kFault; }));
   EXPECT_NE(camera.last_error().find("320x240"), std::string::npos) << camera.last_error();
   EXPECT_EQ(camera.counters().frames_captured, 0U);
 }
 
 TEST(CameraWire, FramesOfAnotherSizeAreRefusedAndCounted) {
   const auto server = serve();
-  AravisCamera camera(station());
+  camera::AravisCamera camera(station());
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
   server->set_size(160, 120);
   EXPECT_TRUE(becomes(camera, [&] { return camera.counters().frames_refused >= 3; }));
-  EXPECT_EQ(camera.state(), CameraState::kFault);
+  EXPECT_EQ(camera.state(), camera::CameraState::kFault);
   EXPECT_EQ(camera.last_error(), "frame refused: wrong size");
   server->set_size(kWidth, kHeight);
-  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kStreaming; }));
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kStreaming; }));
 }
 
 // As after two seconds in which the station got no processor.
 TEST(CameraWire, FramesThatNobodyTakesAreLateAndOnlyTheNewestIsHandedOut) {
   const auto server = serve();
-  AravisCamera camera(station());
+  camera::AravisCamera camera(station());
   const auto first = frame_of(camera);
   ASSERT_TRUE(first) << camera.last_error();
   const double end_s = clock_s(CLOCK_MONOTONIC) + kDeadline_s;
@@ -127,11 +127,11 @@ TEST(CameraWire, FramesThatNobodyTakesAreLateAndOnlyTheNewestIsHandedOut) {
 
 TEST(CameraWire, ACameraThatVanishesIsOpenedAgain) {
   auto server = serve();
-  AravisCamera camera(station());
+  camera::AravisCamera camera(station());
   const auto before = frame_of(camera);
   ASSERT_TRUE(before) << camera.last_error();
   server.reset();
-  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kAbsent; }));
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kAbsent; }));
   EXPECT_NE(camera.last_error(), "");
   while (camera.next(0.0)) {
   }
@@ -145,25 +145,25 @@ TEST(CameraWire, ACameraThatVanishesIsOpenedAgain) {
 }
 
 TEST(CameraWire, AnAbsentCameraIsWaitedForAndTheStationCanEnd) {
-  AravisCamera camera(station());
+  camera::AravisCamera camera(station());
   EXPECT_FALSE(camera.next(0.0));
   EXPECT_TRUE(becomes(camera, [&] { return camera.last_error() != ""; }));
-  EXPECT_EQ(camera.state(), CameraState::kAbsent);
+  EXPECT_EQ(camera.state(), camera::CameraState::kAbsent);
   EXPECT_EQ(camera.counters().reconnects, 0U);
 }
 
 // The camera keeps its last master for a heartbeat of 3 s; this one is cut off for longer.
 TEST(CameraWire, ACameraThatWasCutOffIsBackSoonAfterTheCableIs) {
   const auto server = serve();
-  AravisCamera camera(station());
+  camera::AravisCamera camera(station());
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
   const double cut_s = clock_s(CLOCK_MONOTONIC);
   server->set_faults({.gone = true, .pixel_format = {}});
-  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kAbsent; }));
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kAbsent; }));
   EXPECT_TRUE(becomes(camera, [&] { return clock_s(CLOCK_MONOTONIC) > cut_s + 5.0; }));
   server->set_faults({});
   const double back_s = clock_s(CLOCK_MONOTONIC);
-  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kStreaming; }));
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kStreaming; }));
   RecordProperty("seconds_to_recover", std::to_string(clock_s(CLOCK_MONOTONIC) - back_s));
   // Without the farewell to the lost camera in the background it takes eight seconds more.
   EXPECT_LT(clock_s(CLOCK_MONOTONIC) - back_s, 6.0);
@@ -172,10 +172,10 @@ TEST(CameraWire, ACameraThatWasCutOffIsBackSoonAfterTheCableIs) {
 
 TEST(CameraWire, LostPacketsSpoilFramesOnlyWhereTheyCannotBeSentAgain) {
   const auto server = serve();
-  CameraConfig config = station();
+  camera::CameraConfig config = station();
   config.packet_size = 1500;  // 53 packets a frame
   server->set_faults({.packet_loss = 0.01, .no_resend = true, .pixel_format = {}});
-  AravisCamera camera(config);
+  camera::AravisCamera camera(config);
   EXPECT_TRUE(becomes(camera, [&] { return camera.counters().frames_incomplete >= 3; }));
   EXPECT_TRUE(becomes(camera, [&] { return camera.counters().frames_captured >= 3; }));
   EXPECT_NE(camera.last_error().find("incomplete"), std::string::npos) << camera.last_error();
@@ -184,27 +184,27 @@ TEST(CameraWire, LostPacketsSpoilFramesOnlyWhereTheyCannotBeSentAgain) {
 
 TEST(CameraWire, LostPacketsAreAskedForAgain) {
   const auto server = serve();
-  CameraConfig config = station();
+  camera::CameraConfig config = station();
   config.packet_size = 1500;
   server->set_faults({.packet_loss = 0.01, .pixel_format = {}});
-  AravisCamera camera(config);
+  camera::AravisCamera camera(config);
   ASSERT_TRUE(becomes(camera, [&] { return camera.counters().frames_captured >= 20; }));
   EXPECT_LE(camera.counters().frames_incomplete, camera.counters().frames_captured / 5);
 }
 
 TEST(CameraServer, KeepsThePixelFormatOfItsFaultFromTheNextConnectionOn) {
   const auto server = serve();
-  AravisCamera camera(station());
+  camera::AravisCamera camera(station());
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
   server->set_faults({.pixel_format = "BayerRG8"});
   EXPECT_TRUE(frame_of(camera)) << camera.last_error();
   server->set_faults({.gone = true, .pixel_format = "BayerRG8"});
-  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kAbsent; }));
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kAbsent; }));
   server->set_faults({.pixel_format = "BayerRG8"});
-  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kFault; }));
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kFault; }));
   EXPECT_TRUE(has_alarm(camera, "camera: wants pixel format BayerRG8 instead of Mono8"));
   server->set_faults({});
-  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == CameraState::kStreaming; }))
+  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kStreaming; }))
       << camera.last_error();
 }
 

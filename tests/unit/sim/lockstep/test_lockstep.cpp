@@ -60,7 +60,8 @@ TEST(Lockstep, EveryStationIsDesignatedAndTracks) {
   EXPECT_GT(result.designated_s, 0.0);
   EXPECT_GT(result.joint.size(), 200U);
   for (const StationRecord& station : result.stations) {
-    EXPECT_GT(share(station, [](const FrameNote& n) { return n.state == StationState::kTracking; }),
+    EXPECT_GT(share(station,
+                    [](const FrameNote& n) { return n.state == station::StationState::kTracking; }),
               0.95);
     EXPECT_GT(share(station, [](const FrameNote& n) { return n.inside_third; }), 0.95);
   }

@@ -40,7 +40,7 @@ TEST_P(WrongDesignation, TheStationAcquiresWhatItIsSlewedOnto) {
   ASSERT_NE(first, frames.end()) << "never on the target";
   EXPECT_GT(first->mid_s - began_s, 1.0) << "it was designated rightly";
   EXPECT_LT(first->mid_s - began_s, kAcquired_s);
-  EXPECT_EQ(frames.back().state, StationState::kTracking);
+  EXPECT_EQ(frames.back().state, station::StationState::kTracking);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lockstep, WrongDesignation,
@@ -58,7 +58,7 @@ TEST(WrongDesignations, TheFusionNamesWhoFollowsTheBackground) {
   Lockstep lockstep(world, fidelity);
   lockstep.run(16.0);
   const LockstepResult result = lockstep.result();
-  EXPECT_EQ(result.stations[0].frames.back().state, StationState::kTracking);
+  EXPECT_EQ(result.stations[0].frames.back().state, station::StationState::kTracking);
   ASSERT_EQ(result.alarms.size(), 1U);
   EXPECT_TRUE(result.alarms[0].starts_with("station alfa: ")) << result.alarms[0];
 }

@@ -27,7 +27,7 @@ bool soon(const auto& condition) {
 }
 
 // What the unit said at power-up may still be on the line.
-bool answers(SerialPort& port, const std::string& request, const std::string& reply) {
+bool answers(ptu::SerialPort& port, const std::string& request, const std::string& reply) {
   port.write(request);
   std::string heard;
   return soon([&] {
@@ -39,7 +39,7 @@ bool answers(SerialPort& port, const std::string& request, const std::string& re
 TEST(PtuLine, VanishesAndComesBackUnderItsLink) {
   const std::string link = testing::TempDir() + "ols_ptu_line_" + std::to_string(::getpid());
   PtuLine line(ready_unit(), 1, link);
-  SerialPort before(link, 9600);
+  ptu::SerialPort before(link, 9600);
   PtuFaults gone;
   gone.line_gone = true;
   line.set_faults(gone);
@@ -48,15 +48,15 @@ TEST(PtuLine, VanishesAndComesBackUnderItsLink) {
   EXPECT_THROW(while (true) before.read(0.01), std::system_error);
   line.set_faults({});
   ASSERT_TRUE(soon([&] { return !line.device().empty(); }));
-  SerialPort after(link, 9600);
+  ptu::SerialPort after(link, 9600);
   EXPECT_TRUE(answers(after, "PX ", "* 49467\r\n"));
 }
 
 TEST(PtuLine, IsFollowedToItsNewRate) {
   PtuLine line(ready_unit(), 1);
   EXPECT_TRUE(
-      answers(*std::make_unique<SerialPort>(line.device(), 9600), "@(38400,0,F) ", "*\r\n"));
-  SerialPort port(line.device(), 38400);
+      answers(*std::make_unique<ptu::SerialPort>(line.device(), 9600), "@(38400,0,F) ", "*\r\n"));
+  ptu::SerialPort port(line.device(), 38400);
   EXPECT_TRUE(answers(port, " PX ", "* 49467\r\n"));
 }
 

@@ -68,9 +68,9 @@ PassBy track(double rate_rad_s, double lag_s) {
   unit_config.reply_delay_s = 0.003;
   unit_config.reply_jitter_s = 0.003;
   PtuUnit unit(unit_config, 3, 0.0);
-  PtuConfig config;
+  ptu::PtuConfig config;
   config.poll_interval_s = 0.04;
-  PtuDriver driver(config);
+  ptu::PtuDriver driver(config);
   PtuTapWatch watch(kStep_rad);
   driver.restart(0.0);
   PassBy result;
@@ -81,7 +81,7 @@ PassBy track(double rate_rad_s, double lag_s) {
     if (!said.empty()) watch.unit_said(said, t, kByte_s);
     driver.receive(said, t);
     // There and back, as a target would lead it.
-    ServoGoal goal;
+    ptu::ServoGoal goal;
     goal.angles.pan_rad = 0.8 * std::sin(rate_rad_s / 0.8 * t);
     goal.rate.pan_rad = rate_rad_s * std::cos(rate_rad_s / 0.8 * t);
     goal.time_s = t;

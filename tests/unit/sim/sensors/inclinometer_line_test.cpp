@@ -21,7 +21,7 @@ InclinometerLineConfig still() {
   return c;
 }
 
-bool says(SerialPort& port, const std::string& text) {
+bool says(ptu::SerialPort& port, const std::string& text) {
   std::string heard;
   return eventually([&] {
     heard += port.read(0.02);
@@ -31,7 +31,7 @@ bool says(SerialPort& port, const std::string& text) {
 
 TEST(InclinometerLine, StreamsFromPowerUpAndObeysItsCommands) {
   const InclinometerLine line(still(), 1);
-  SerialPort port(line.device(), 9600);
+  ptu::SerialPort port(line.device(), 9600);
   EXPECT_TRUE(says(port, "X=+00.430\r\nY=-00.084\r\nX=+00.430\r\n"));
   port.write("sV");
   EXPECT_TRUE(says(port, "DPG2 V1.4\r\n"));

@@ -16,12 +16,13 @@ TEST(StationFiles, AreReadByTheStationAsTheNominalGeometry) {
   const std::string state = folder / "state";
   write_station_files(world, {"udpm://239.255.76.67:7667?ttl=0", "/tmp/lines", state}, folder);
   for (const StationTruth& truth : world.stations()) {
-    const StationSettings read = load_station_settings(folder / (truth.id + ".toml"));
+    const station::StationSettings read =
+        station::load_station_settings(folder / (truth.id + ".toml"));
     const StationGeometry& g = read.station.geometry;
     EXPECT_EQ(read.id, truth.id);
     EXPECT_EQ(read.state_folder, state);
-    const PersistedStationState memory(state, truth.id, true);
-    EXPECT_EQ(memory.begin(), StationState::kIdle);
+    const station::PersistedStationState memory(state, truth.id, true);
+    EXPECT_EQ(memory.begin(), station::StationState::kIdle);
     EXPECT_EQ(memory.doubt(), std::nullopt);
     EXPECT_LT((ecef_from_geodetic(g.position) - ecef_from_geodetic(truth.nominal.position)).norm(),
               1e-6);
