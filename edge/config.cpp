@@ -223,7 +223,7 @@ void pass_on(StationSettings& settings) {
   StationConfig& station = settings.station;
   sensors::set_sensors(settings.pose, settings.inclinometer, settings.gnss);
   settings.camera.keep_raw = !settings.recorder.folder.empty();
-  station.search_sd_px = std::min(station.search_sd_px, station.search_sd_most_px());
+  station.search_sd_px = std::min(station.search_sd_px, max_search_sd_px(station));
   station.angles = settings.ptu.history;
   station.limits = settings.ptu.limits;
   station.homing_allowed =

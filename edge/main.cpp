@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
     const char* folder = std::getenv("STATE_DIRECTORY");
     if (settings.state_folder.empty() && folder != nullptr) settings.state_folder = folder;
     if (check) {
-      for (const auto& line : ols::describe(settings)) std::printf("ok %s\n", line.c_str());
+      for (const auto& line : describe(settings)) std::printf("ok %s\n", line.c_str());
       ols::flush_output();
       return 0;
     }

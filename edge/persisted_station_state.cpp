@@ -58,9 +58,9 @@ void PersistedStationState::remember(StationState state,
   }
   // While there is no unit, what was known of it stays.
   if (doubt) {
-    doubt_.set(to_word(doubt));
+    doubt_.set(ptu::to_word(doubt));
   } else if (reference == ptu::PtuReference::kTrusted) {
-    doubt_.set(to_word(std::nullopt));
+    doubt_.set(ptu::to_word(std::nullopt));
     doubt_unknown_ = false;
   }
 }

@@ -34,7 +34,7 @@ double SlewSearch::search_sd_px(const PointingModel& pointing, const SlewCommand
   const double sd_rad =
       Eigen::Vector4d(slew.direction_sd_rad, own.heading_rad, own.tilt_rad, own.mount_rad).norm();
   return std::clamp(sd_rad * config_.geometry.camera.fx_px, config_.search_sd_px,
-                    config_.search_sd_most_px());
+                    max_search_sd_px(config_));
 }
 
 bool SlewSearch::is_where_slewed(const camera::Frame& frame, const tracker::TrackerOutput& output,
@@ -102,7 +102,7 @@ std::string SlewSearch::unacquired_alarm(const Slew& slew) const {
   const double waited_s = in_view_.to_s - in_view_.from_s;
   if (!slew || waited_s < config_.unacquired_alarm_s) return {};
   const double sd_px = slew->direction_sd_rad * config_.geometry.camera.fx_px;
-  if (sd_px > config_.search_sd_most_px()) return {};
+  if (sd_px > max_search_sd_px(config_)) return {};
   char text[120];
   std::snprintf(text, sizeof text,
                 "target: slewed for %.0f s with its place in the picture, nothing acquired: "

@@ -21,7 +21,7 @@ struct StationConfig {
   double angle_wait_s = 0.03;        // how long a frame may wait for the PTU sample after it
   double frame_memory_s = 1.0;       // frames kept for a designation in the past
   double search_interval_s = 0.5;    // while searching, the tracker is sent to the slew's pixel
-  double search_sd_px = 25.0;        // at least, around that pixel; not above search_sd_most_px()
+  double search_sd_px = 25.0;        // at least, around that pixel; at most max_search_sd_px()
   bool acquire_by_slew = true;       // a slewed station without a target looks for one itself,
   double own_target_s = 5.0;         // one with a target after it has looked for that for so long
   double unacquired_alarm_s = 10.0;  // slewed for so long without a target: an alarm
@@ -35,8 +35,11 @@ struct StationConfig {
   double slew_lease_max_s = 2.0;  // a longer lease is refused
   double point_time_s = 15.0;     // an operator's move may take this long
   double max_age_s = 1.0;         // older frames are not tracked, older bearings not sent
-
-  double search_sd_most_px() const { return geometry.camera.width_px / 4.0; }
 };
+
+// The widest search of the tracker around a slew's pixel.
+inline double max_search_sd_px(const StationConfig& config) {
+  return config.geometry.camera.width_px / 4.0;
+}
 
 }  // namespace ols::station

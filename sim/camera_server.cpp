@@ -119,7 +119,7 @@ std::int64_t CameraServer::Impl::device_ns(Clock::time_point time) {
 // Of the next exposure; nothing when none is known yet. Waits a little for a trigger.
 std::optional<Clock::time_point> CameraServer::Impl::next_start(const StreamSettings& settings) {
   const auto period = duration(settings.period_s);
-  if (camera::is_timed(settings.trigger)) return last_start_ ? *last_start_ + period : Clock::now();
+  if (is_timed(settings.trigger)) return last_start_ ? *last_start_ + period : Clock::now();
   const auto triggered = cue_.wait_for_trigger(kHeartbeatCheck);
   if (!triggered || triggered->first != settings.trigger) return std::nullopt;
   const auto start = triggered->second + duration(settings.trigger_delay_s);
@@ -148,7 +148,7 @@ void CameraServer::Impl::run_stream() {
     last_start_ = start;
     expose(*settings, *start);
     const auto period = duration(settings->period_s);
-    if (!camera::is_timed(settings->trigger)) continue;
+    if (!is_timed(settings->trigger)) continue;
     for (const auto now = Clock::now(); *last_start_ + period + until_drawn + period < now;) {
       *last_start_ += period;
       ++skipped_;

@@ -158,8 +158,8 @@ void gt1290c(Description& d) {
             {"Line4", 4},
             {"FixedRate", kFixedRate},
             {"Software", kSoftware}});
-  d.choice("PtpMode", camera::kPtpMode, {{"Off", 0}, {"Slave", 1}, {"Master", 2}, {"Auto", 3}});
-  d.choice("PtpStatus", camera::kPtpStatus,
+  d.choice("PtpMode", kPtpMode, {{"Off", 0}, {"Slave", 1}, {"Master", 2}, {"Auto", 3}});
+  d.choice("PtpStatus", kPtpStatus,
            {{"Off", kPtpOff}, {"Syncing", kPtpSyncing}, {"Slave", kPtpSlave}}, "RO");
   d.integer("StreamBytesPerSecond", kStreamBytesPerSecond,
             "<Min>1000000</Min><Max>124000000</Max>");
@@ -171,12 +171,12 @@ void sfnc(Description& d) {
   formats(d, "RGB8", "BGR8");
   d.real("ExposureTime", kExposure_us, 10.0, 1e7);
   d.real("AcquisitionFrameRate", kFrameRate_hz, 0.1, 100.0);
-  d.flag("AcquisitionFrameRateEnable", camera::kFrameRateEnable);
+  d.flag("AcquisitionFrameRateEnable", kFrameRateEnable);
   d.real("TriggerDelay", kTriggerDelay_us, 0.0, 1e6);
   d.choice("TriggerSource", kTriggerSource,
            {{"Line1", 1}, {"Line2", 2}, {"Line3", 3}, {"Line4", 4}, {"Software", kSoftware}});
-  d.flag("PtpEnable", camera::kPtpMode);
-  d.choice("PtpStatus", camera::kPtpStatus,
+  d.flag("PtpEnable", kPtpMode);
+  d.choice("PtpStatus", kPtpStatus,
            {{"Disabled", kPtpOff}, {"Uncalibrated", kPtpSyncing}, {"Slave", kPtpSlave}}, "RO");
 }
 

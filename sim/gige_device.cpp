@@ -110,7 +110,7 @@ void GigeDevice::set_temperature(double temperature_degC) {
   write_real(gige::kTemperature_degC, temperature_degC);
 }
 
-void GigeDevice::set_faults(bool can_resend, const std::string& camera::pixel_format) {
+void GigeDevice::set_faults(bool can_resend, const std::string& pixel_format) {
   const std::lock_guard lock(mutex_);
   can_resend_ = can_resend;
   write(gige::kCapability, gige::kCanWriteMemory | (can_resend ? gige::kCanResend : 0U));

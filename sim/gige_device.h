@@ -75,7 +75,7 @@ class GigeDevice {
   // Whether the camera says that it can send lost packets again; and the pixel format (by its
   // GenICam name) that it keeps from the next connection on, whatever a client writes; empty: none.
   // Throws std::invalid_argument on an unknown name.
-  void set_faults(bool can_resend, const std::string& camera::pixel_format);
+  void set_faults(bool can_resend, const std::string& pixel_format);
 
  private:
   std::uint32_t read(std::uint32_t address) const;

@@ -32,13 +32,13 @@ constexpr std::uint32_t kSensorWidth = 0xa000, kSensorHeight = 0xa004;
 constexpr std::uint32_t kWidth = 0xa008, kHeight = 0xa00c, kOffsetX = 0xa010, kOffsetY = 0xa014;
 constexpr std::uint32_t kPixelFormat = 0xa018;
 constexpr std::uint32_t kAcquisition = 0xa020, kAcquisitionMode = 0xa024;
-constexpr std::uint32_t kFrameRate_hz = 0xa028, camera::kFrameRateEnable = 0xa02c;
+constexpr std::uint32_t kFrameRate_hz = 0xa028, kFrameRateEnable = 0xa02c;
 constexpr std::uint32_t kExposure_us = 0xa030, kGain_dB = 0xa034;
 constexpr std::uint32_t kExposureAuto = 0xa038, kGainAuto = 0xa03c;
 constexpr std::uint32_t kTriggerSelector = 0xa040, kTriggerMode = 0xa044, kTriggerSource = 0xa048;
 constexpr std::uint32_t kTriggerActivation = 0xa04c, kTriggerDelay_us = 0xa050;
 constexpr std::uint32_t kTriggerSoftware = 0xa054;
-constexpr std::uint32_t kPtpMode = 0xa060, camera::kPtpStatus = 0xa064;
+constexpr std::uint32_t kPtpMode = 0xa060, kPtpStatus = 0xa064;
 constexpr std::uint32_t kTemperature_degC = 0xa070;
 constexpr std::uint32_t kStreamBytesPerSecond = 0xa080;
 

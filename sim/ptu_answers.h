@@ -29,7 +29,7 @@ class PtuAnswers {
   bool has_presets() const;
 
  private:
-  bool e_series() const { return config_.model == ptu::PtuModel::kE46; }
+  bool e_series() const { return config_.model == PtuModel::kE46; }
   std::string firmware() const;
   std::string version() const;
 

@@ -65,7 +65,7 @@ class PtuController {
   void forget(double before_s) { motion_.forget(before_s); }
 
  private:
-  bool e_series() const { return config_.model == ptu::PtuModel::kE46; }
+  bool e_series() const { return config_.model == PtuModel::kE46; }
   PtuAnswer dispatch(const std::string& command, double time_s);
   std::optional<std::string> at_once(std::string_view command, double time_s);
   std::optional<PtuAnswer> blocking(std::string_view command, double time_s);

@@ -62,7 +62,7 @@ void define(CLI::App& app, Options& o) {
 
 ols::sim::PtuUnitConfig unit_config(const Options& o) {
   ols::sim::PtuUnitConfig config = o.unit;
-  config.model = o.model == "e46" ? ptu::PtuModel::kE46 : ptu::PtuModel::kD46;
+  config.model = o.model == "e46" ? PtuModel::kE46 : PtuModel::kD46;
   // Counts of the default configuration are of its default resolution.
   const double scale = ols::sim::PtuUnitConfig{}.resolution_arcsec / config.resolution_arcsec;
   for (int* counts : {&config.pan_min_counts, &config.pan_max_counts, &config.tilt_min_counts,

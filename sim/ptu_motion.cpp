@@ -18,7 +18,7 @@ const char* limit_hit(int axis) { return axis == 0 ? "!P" : "!T"; }
 PtuMotion::PtuMotion(const PtuUnitConfig& config, PtuSettings& settings, double power_up_s)
     : config_(config),
       settings_(settings),
-      axes_{{{ptu::PtuAxis(0.0, power_up_s),
+      axes_{{{PtuAxis(0.0, power_up_s),
               config.pan_min_counts,
               config.pan_max_counts,
               1,
@@ -26,7 +26,7 @@ PtuMotion::PtuMotion(const PtuUnitConfig& config, PtuSettings& settings, double 
               config.homed_before,
               {},
               {}},
-             {ptu::PtuAxis(0.0, power_up_s),
+             {PtuAxis(0.0, power_up_s),
               config.tilt_min_counts,
               config.tilt_max_counts,
               1,
@@ -92,7 +92,7 @@ int PtuMotion::greatest(int axis) const {
   return limits_ == Limits::kUser ? settings_.axes[at(axis)].user_greatest : factory_greatest(axis);
 }
 
-ptu::PtuAxis::Profile PtuMotion::profile(int axis) const {
+PtuAxis::Profile PtuMotion::profile(int axis) const {
   const PtuAxisSettings& s = settings_.axes[at(axis)];
   const double steps_a_count = axes_[at(axis)].divisor;
   return {steps_a_count * std::max(1.0, std::abs(static_cast<double>(s.speed))),
@@ -222,7 +222,7 @@ double PtuMotion::home_together(double time_s) {
 double PtuMotion::home_axis(int axis, double time_s) {
   Axis& a = axes_[at(axis)];
   take_step_mode(axis);
-  ptu::PtuAxis::Profile homing = profile(axis);
+  PtuAxis::Profile homing = profile(axis);
   homing.speed = static_cast<double>(settings_.axes[at(axis)].home_speed) * a.divisor;
   homing.acceleration = 2.0 * homing.speed;
   a.slaved.reset();

@@ -79,7 +79,7 @@ class PtuMotion {
   // Positions of the mechanism are in the steps of PtuUnitConfig's resolution, from the middle of
   // its travel; the unit's counts are `divisor` of them, from where it believes the middle.
   struct Axis {
-    ptu::PtuAxis motion;
+    PtuAxis motion;
     int least, greatest;  // travel [steps]
     int divisor;          // steps a count
     double origin;        // of the counts [steps]
@@ -88,10 +88,10 @@ class PtuMotion {
     std::optional<double> hit_s;   // the motion runs into its limit then
   };
 
-  bool e_series() const { return config_.model == ptu::PtuModel::kE46; }
+  bool e_series() const { return config_.model == PtuModel::kE46; }
   double counts(const Axis& axis, double steps) const;
   double steps(const Axis& axis, double counts) const;
-  ptu::PtuAxis::Profile profile(int axis) const;
+  PtuAxis::Profile profile(int axis) const;
   void start_steps(int axis, double target_steps, double time_s);
   void stop(int axis, double time_s);
   void enter_velocity_mode(bool velocity, double time_s);

@@ -38,7 +38,7 @@ class PtuSetup {
   bool homes(int axis) const { return homes_[at(axis)]; }
 
  private:
-  bool e_series() const { return config_.model == ptu::PtuModel::kE46; }
+  bool e_series() const { return config_.model == PtuModel::kE46; }
   std::optional<std::string> toggles(std::string_view command);
   std::optional<std::string> homing_choice(std::string_view command);
   std::optional<std::string> keeping(std::string_view command);

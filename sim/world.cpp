@@ -92,7 +92,7 @@ World::World(const Scenario& scenario, std::uint64_t seed)
 }
 
 TargetTruth World::target(std::size_t index, double time_s) const {
-  const fusion::Motion motion = scenario_.targets.at(index).trajectory->at(time_s);
+  const Motion motion = scenario_.targets.at(index).trajectory->at(time_s);
   return {site_.to_ecef(motion.p_enu), site_.R_ecef_enu() * motion.v_enu};
 }
 

@@ -103,7 +103,7 @@ station::DeviceReport make_camera_report(const CameraConfig& config, const Camer
                                          double now_s) {
   station::DeviceReport report;
   report.name = "camera";
-  report.state = ctl::device_state(facts.state);
+  report.state = device_state(facts.state);
   report.text = facts.identity.empty() ? "" : facts.identity + ", ";
   report.text += config.pixel_format + " " + std::to_string(config.width_px) + "x" +
                  std::to_string(config.height_px) + words(", %.1f Hz", facts.frame_rate_hz);

@@ -21,8 +21,8 @@ class PositionCheck {
   explicit PositionCheck(const PtuFacts& facts) : pan_{facts.pan, 0.0}, tilt_{facts.tilt, 0.5} {}
 
   enum class Verdict {
-    kFirst,              // nothing to compare it with yet
-    tracker::kBelieved,  // sample() is it
+    kFirst,     // nothing to compare it with yet
+    kBelieved,  // sample() is it
     kRefused,
     kLate,  // the replies were read too late to date them: this host was busy
   };

@@ -99,7 +99,7 @@ struct Inclinometer::Impl {
     if (silent_s > config.stale_s) {
       return "no reading for " + std::to_string(static_cast<int>(silent_s)) + " s";
     }
-    if (last && now_s - changed_s > config.stuck_s) return "stuck at " + station::in_degrees(*last);
+    if (last && now_s - changed_s > config.stuck_s) return "stuck at " + in_degrees(*last);
     return {};
   }
 
@@ -130,8 +130,7 @@ struct Inclinometer::Impl {
       r.state = station::DeviceState::kStarting;
       r.text = "waiting for readings";
     } else if (r.state == station::DeviceState::kOk) {
-      r.text =
-          (parser.version().empty() ? "" : parser.version() + ", ") + station::in_degrees(*last);
+      r.text = (parser.version().empty() ? "" : parser.version() + ", ") + in_degrees(*last);
     }
   }
 

@@ -35,7 +35,8 @@ NOT_PURE = {
     "edge/recorder/event_folder.cpp edge/recorder/event_store.cpp sim/report.cpp "
     "sim/station_files.cpp",
     "the message bus": "base/bus_* base/channel_pattern.cpp base/lcm_bus.* base/lcm_url.* "
-    "base/multicast_socket.* edge/messages* central/app/messages* central/app/fusion_bus.* sim/*flood.cpp",
+    "base/multicast_socket.* edge/messages* central/app/messages* "
+    "central/app/fusion_bus.* sim/*flood.cpp",
     "the operating system": "base/boot_id.cpp base/clocks.h base/command_line.h "
     "base/plain_text.cpp base/progress.cpp base/service_notifier.cpp base/shutdown.cpp "
     "base/wakeup.cpp "

@@ -19,7 +19,7 @@ std::vector<std::string> cameras_that_answer() {
   return names;
 }
 
-std::string identity_of(camera::ArvCamera* camera) {
+std::string identity_of(ArvCamera* camera) {
   std::string words;
   camera::AravisError error;
   for (const auto get : {arv_camera_get_vendor_name, arv_camera_get_model_name,
@@ -33,7 +33,7 @@ std::string identity_of(camera::ArvCamera* camera) {
 }
 
 // The address of an opened camera, for the route of its stream.
-std::string address_of(camera::ArvDevice* device) {
+std::string address_of(ArvDevice* device) {
   GSocketAddress* socket = arv_gv_device_get_device_address(ARV_GV_DEVICE(device));
   if (socket == nullptr || !G_IS_INET_SOCKET_ADDRESS(socket)) return {};
   gchar* text =
@@ -43,8 +43,8 @@ std::string address_of(camera::ArvDevice* device) {
   return address;
 }
 
-void examine(camera::ArvCamera* camera, CameraAnswers& answers) {
-  camera::ArvDevice* device = arv_camera_get_device(camera);
+void examine(ArvCamera* camera, CameraAnswers& answers) {
+  ArvDevice* device = arv_camera_get_device(camera);
   answers.identity = identity_of(camera);
   if (!ARV_IS_GV_DEVICE(device)) {
     answers.trouble = answers.device + " is not a GigE Vision camera";
@@ -66,7 +66,7 @@ CameraAnswers ask_camera(const camera::CameraConfig& config) {
   answers.device = config.device;
   answers.rate_bytes_s = config.width_px * config.height_px * config.frame_rate_hz;
   camera::AravisError error;
-  const camera::Owned<camera::ArvCamera> camera(arv_camera_new(config.device.c_str(), error.out()));
+  const camera::Owned<ArvCamera> camera(arv_camera_new(config.device.c_str(), error.out()));
   if (camera == nullptr) {
     answers.trouble = config.device + " does not answer: " + error.text();
     answers.others = cameras_that_answer();

@@ -74,7 +74,8 @@ std::optional<double> ask_number(Questions& unit, ptu::PtuAxis axis, ptu::PtuQua
                                  PtuAnswers& answers) {
   const auto reply = unit.ask(ptu::PtuRequest().query(axis, quantity));
   if (!reply) return std::nullopt;
-  if (complaint(reply->text) == ptu::PtuComplaint::kNotReferenced) answers.not_referenced = true;
+  if (ptu::complaint(reply->text) == ptu::PtuComplaint::kNotReferenced)
+    answers.not_referenced = true;
   return reply->ok ? reply->number : std::nullopt;
 }
 

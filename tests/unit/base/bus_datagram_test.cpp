@@ -13,7 +13,7 @@ using testing::ElementsAreArray;
 std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
 DatagramFault fault_of(const std::string& text) {
-  const auto bytes = recorder::bytes_of(text);
+  const auto bytes = bytes_of(text);
   const auto parsed = parse_datagram(bytes);
   const auto* fault = std::get_if<DatagramFault>(&parsed);
   EXPECT_NE(fault, nullptr) << "accepted";
@@ -23,8 +23,8 @@ DatagramFault fault_of(const std::string& text) {
 TEST(BusDatagram, IsWhatLcmPutsOnTheWire) {
   const std::vector<std::uint8_t> payload{1, 0, 255};
   const auto bytes = make_datagram(0x01020304, "OLS_A", payload);
-  EXPECT_THAT(bytes, ElementsAreArray(recorder::bytes_of(
-                         std::string("LC02\x01\x02\x03\x04OLS_A\0\x01\0\xff", 17))));
+  EXPECT_THAT(bytes,
+              ElementsAreArray(bytes_of(std::string("LC02\x01\x02\x03\x04OLS_A\0\x01\0\xff", 17))));
   const auto parsed = parse_datagram(bytes);
   ASSERT_TRUE(std::holds_alternative<BusDatagram>(parsed));
   const auto& datagram = std::get<BusDatagram>(parsed);
@@ -66,7 +66,7 @@ TEST(BusDatagram, AChannelHasAPrintableNameOfLcmsLengthThatEnds) {
   for (const char* name : {"\x1b[2J", "A B", "A\n", "\x7f", "\xc3\xa9"}) {
     EXPECT_EQ(fault_of(start + name + end), DatagramFault::kChannel) << name;
   }
-  const auto longest = recorder::bytes_of(start + std::string(63, 'A') + end);
+  const auto longest = bytes_of(start + std::string(63, 'A') + end);
   EXPECT_TRUE(std::holds_alternative<BusDatagram>(parse_datagram(longest)));
 }
 

@@ -9,7 +9,7 @@
 #include "central/fusion/fusion.h"
 #include "tests/unit/central/scene.h"
 
-namespace ols::test {
+namespace ols::fusion::test {
 
 inline constexpr std::int64_t kStart = 1'700'000'000'000'000;
 
@@ -60,4 +60,4 @@ inline double error_m(const FusedTarget& target) {
   return (target.estimate.position_ecef - site().to_ecef(path(t_s))).norm();
 }
 
-}  // namespace ols::test
+}  // namespace ols::fusion::test

@@ -10,7 +10,7 @@
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 
-namespace ols::test {
+namespace ols::fusion::test {
 
 inline const LocalFrame& site() {
   static const LocalFrame frame({radians(49.2), radians(16.6), 250.0});
@@ -68,4 +68,4 @@ inline std::vector<Ray> rays_from(const std::vector<Eigen::Vector3d>& places,
   return rays;
 }
 
-}  // namespace ols::test
+}  // namespace ols::fusion::test

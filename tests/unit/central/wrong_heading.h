@@ -8,7 +8,7 @@
 
 #include "tests/unit/central/flight.h"
 
-namespace ols::test {
+namespace ols::fusion::test {
 
 // How far off a station's azimuth is, by its name and the time [rad].
 using HeadingError = std::function<double(char station, double t_s)>;
@@ -49,4 +49,4 @@ inline double slow_error_m(const FusedTarget& target) {
   return (target.estimate.position_ecef - site().to_ecef(path(kSlowly * t_s))).norm();
 }
 
-}  // namespace ols::test
+}  // namespace ols::fusion::test

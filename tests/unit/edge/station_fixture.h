@@ -11,7 +11,7 @@
 #include "edge/station.h"
 #include "geometry/angles.h"
 
-namespace ols::test {
+namespace ols::station::test {
 
 // A tracker that says what the test wants it to say.
 struct ScriptedTracker : tracker::TargetTracker {
@@ -121,4 +121,4 @@ class StationTest : public testing::Test {
   std::vector<Bearing> bearings_;
 };
 
-}  // namespace ols::test
+}  // namespace ols::station::test

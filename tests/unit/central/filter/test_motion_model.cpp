@@ -24,14 +24,14 @@ Vector3d position_after(Motion motion, const Vector9& state, double dt_s) {
   return state.head<3>() + t.f(0, 1) * state.segment<3>(3) + t.f(0, 2) * state.tail<3>();
 }
 
-TEST(tracker::MotionModel, WithoutAccelerationAllGoStraightOn) {
+TEST(MotionModel, WithoutAccelerationAllGoStraightOn) {
   for (const Motion motion : kAll) {
     const Vector3d p = position_after(motion, moving({10, -5, 1}), 2.0);
     EXPECT_NEAR((p - Vector3d(20, -10, 2)).norm(), 0.0, 1e-9) << to_string(motion);
   }
 }
 
-TEST(tracker::MotionModel, ATurnIsACircle) {
+TEST(MotionModel, ATurnIsACircle) {
   const double speed = 12.0, rate = 0.5, dt_s = 3.0, radius = speed / rate;
   const Vector3d p =
       position_after(Motion::kCoordinatedTurn, moving({speed, 0, 0}, {0, speed * rate, 0}), dt_s);
@@ -40,7 +40,7 @@ TEST(tracker::MotionModel, ATurnIsACircle) {
   EXPECT_NEAR((p - circle).norm(), 0.0, 1e-9);
 }
 
-TEST(tracker::MotionModel, SingersAccelerationFades) {
+TEST(MotionModel, SingersAccelerationFades) {
   const MotionConfig config;
   const Vector9 state = moving({10, 0, 0}, {0, 2, 0});
   const double dt_s = config.acceleration_time_s;
@@ -48,7 +48,7 @@ TEST(tracker::MotionModel, SingersAccelerationFades) {
   EXPECT_NEAR(t.f(2, 2), std::exp(-1.0), 1e-9);
 }
 
-TEST(tracker::MotionModel, NoiseIsAVarianceThatGrows) {
+TEST(MotionModel, NoiseIsAVarianceThatGrows) {
   for (const Motion motion : kAll) {
     double before = 0.0;
     for (const double dt_s : {0.01, 0.1, 1.0, 5.0}) {
@@ -61,7 +61,7 @@ TEST(tracker::MotionModel, NoiseIsAVarianceThatGrows) {
   }
 }
 
-TEST(tracker::MotionModel, WhoIsFasterMayManoeuvreHarder) {
+TEST(MotionModel, WhoIsFasterMayManoeuvreHarder) {
   const MotionConfig config;
   EXPECT_EQ(manoeuvre_sd(Vector3d::Zero(), config), config.acceleration_sd_m_s2);
   EXPECT_NEAR(manoeuvre_sd({0, 0, 1e4}, config), 3e3, 1.0);

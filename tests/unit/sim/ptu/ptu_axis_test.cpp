@@ -8,11 +8,11 @@
 namespace ols::sim {
 namespace {
 
-constexpr ptu::PtuAxis::Profile kProfile{1000.0, 2000.0, 0.0};
+constexpr PtuAxis::Profile kProfile{1000.0, 2000.0, 0.0};
 
 // By hand: 0.5 s up to 1000 counts/s over 250 counts, 500 counts at speed, 0.5 s down.
-TEST(ptu::PtuAxis, TrapezoidByHand) {
-  ptu::PtuAxis axis(0.0, 10.0);
+TEST(PtuAxis, TrapezoidByHand) {
+  PtuAxis axis(0.0, 10.0);
   axis.move(1000.0, kProfile, 10.0);
   EXPECT_NEAR(axis.position(10.5), 250.0, 1e-9);
   EXPECT_NEAR(axis.velocity(10.5), 1000.0, 1e-9);
@@ -23,16 +23,16 @@ TEST(ptu::PtuAxis, TrapezoidByHand) {
 }
 
 // Too short to reach full speed: a triangle with its peak at sqrt(a d).
-TEST(ptu::PtuAxis, TriangleByHand) {
-  ptu::PtuAxis axis(0.0, 0.0);
+TEST(PtuAxis, TriangleByHand) {
+  PtuAxis axis(0.0, 0.0);
   axis.move(-200.0, kProfile, 0.0);
   const double half_s = std::sqrt(200.0 / 2000.0);
   EXPECT_NEAR(axis.rest_s(), 2.0 * half_s, 1e-9);
   EXPECT_NEAR(axis.velocity(half_s), -2000.0 * half_s, 1e-6);
 }
 
-TEST(ptu::PtuAxis, TurnsRoundWhenTheTargetLiesBehind) {
-  ptu::PtuAxis axis(0.0, 0.0);
+TEST(PtuAxis, TurnsRoundWhenTheTargetLiesBehind) {
+  PtuAxis axis(0.0, 0.0);
   axis.move(5000.0, kProfile, 0.0);
   axis.move(0.0, kProfile, 1.0);  // at 750 with 1000 counts/s: stands at 1000 after 0.5 s
   EXPECT_NEAR(axis.position(1.5), 1000.0, 1e-9);
@@ -41,8 +41,8 @@ TEST(ptu::PtuAxis, TurnsRoundWhenTheTargetLiesBehind) {
   EXPECT_DOUBLE_EQ(axis.position(9.0), 0.0);
 }
 
-TEST(ptu::PtuAxis, ASlowerSpeedIsReachedByBraking) {
-  ptu::PtuAxis axis(0.0, 0.0);
+TEST(PtuAxis, ASlowerSpeedIsReachedByBraking) {
+  PtuAxis axis(0.0, 0.0);
   axis.move(5000.0, kProfile, 0.0);
   axis.move(5000.0, {400.0, 2000.0, 0.0}, 1.0);
   EXPECT_NEAR(axis.velocity(1.1), 800.0, 1e-9);
@@ -50,8 +50,8 @@ TEST(ptu::PtuAxis, ASlowerSpeedIsReachedByBraking) {
   EXPECT_NEAR(axis.velocity(2.0), 400.0, 1e-9);
 }
 
-TEST(ptu::PtuAxis, HaltStandsOnAWholeCount) {
-  ptu::PtuAxis axis(0.0, 0.0);
+TEST(PtuAxis, HaltStandsOnAWholeCount) {
+  PtuAxis axis(0.0, 0.0);
   axis.move(5000.0, kProfile, 0.0);
   axis.halt(kProfile, 0.777);
   const double end = axis.position(5.0);
@@ -59,8 +59,8 @@ TEST(ptu::PtuAxis, HaltStandsOnAWholeCount) {
   EXPECT_NEAR(end, axis.position(0.777) + 250.0, 1.0);
 }
 
-TEST(ptu::PtuAxis, BaseSpeedNeedsNoRamp) {
-  ptu::PtuAxis axis(0.0, 0.0);
+TEST(PtuAxis, BaseSpeedNeedsNoRamp) {
+  PtuAxis axis(0.0, 0.0);
   axis.move(1000.0, {1000.0, 2000.0, 200.0}, 0.0);
   EXPECT_NEAR(axis.velocity(0.0), 200.0, 1e-9);
   EXPECT_NEAR(axis.velocity(axis.rest_s() - 1e-9), 200.0, 1e-3);
@@ -68,11 +68,11 @@ TEST(ptu::PtuAxis, BaseSpeedNeedsNoRamp) {
 
 // Commands at any moment: the position is continuous, speed and acceleration stay within their
 // bounds, and the axis ends where the last command wanted it.
-TEST(ptu::PtuAxis, RetargetingKeepsToItsBounds) {
+TEST(PtuAxis, RetargetingKeepsToItsBounds) {
   std::mt19937 random(99);
   std::uniform_real_distribution<double> target(-5000.0, 5000.0), pause(0.001, 0.8);
-  const ptu::PtuAxis::Profile profile{1500.0, 3000.0, 57.0};
-  ptu::PtuAxis axis(0.0, 0.0);
+  const PtuAxis::Profile profile{1500.0, 3000.0, 57.0};
+  PtuAxis axis(0.0, 0.0);
   double time_s = 0.0, last = 0.0, last_velocity = 0.0, wanted = 0.0;
   constexpr double kStep_s = 1e-3;
   for (int move = 0; move < 300; ++move) {

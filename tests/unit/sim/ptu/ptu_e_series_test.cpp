@@ -11,7 +11,7 @@ namespace {
 
 PtuUnitConfig e46() {
   PtuUnitConfig config = ready_unit();
-  config.model = ptu::PtuModel::kE46;
+  config.model = PtuModel::kE46;
   return config;
 }
 

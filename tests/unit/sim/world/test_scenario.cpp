@@ -55,7 +55,7 @@ TEST(Scenario, ThePapersExperimentsLoad) {
   EXPECT_THROW(keep_target(table1, "pillar1"), std::invalid_argument);
   const Scenario walk = load_scenario(std::string(OLS_SCENARIOS) + "/walk.toml");
   for (double t = 3.0; t < 123.0; t += 0.5) {
-    const fusion::Motion m = walk.targets[0].trajectory->at(t);
+    const Motion m = walk.targets[0].trajectory->at(t);
     EXPECT_GT(m.p_enu.head<2>().norm(), 49.0);
     EXPECT_LT(m.p_enu.head<2>().norm(), 205.0);
     EXPECT_LT(m.v_enu.norm(), 2.5);
@@ -69,7 +69,7 @@ TEST(Scenario, LandmarkInUtmStandsWhereTheGridHasIt) {
   text.replace(text.find("\"line\""), 6,
                "\"utm\"\nzone = 33\neasting_m = 500100\nnorthing_m = 5427437.21\nheight_m = 310");
   const Scenario s = parse_scenario(text, "s.toml", ".");
-  const fusion::Motion m = s.targets[0].trajectory->at(7.0);
+  const Motion m = s.targets[0].trajectory->at(7.0);
   EXPECT_NEAR(m.p_enu.x(), 100.0 / 0.9996, 0.02);
   EXPECT_NEAR(m.p_enu.z(), 10.0, 1e-2);
   EXPECT_EQ(m.v_enu.norm(), 0.0);
@@ -118,7 +118,7 @@ TEST(Scenario, AnErrorIsSwitchedOffByItsName) {
 TEST(Scenario, Fig7HasTheSpeedsAndDistancesOfADrone) {
   const Scenario s = load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml");
   for (double t = 0; t < 600; t += 0.5) {
-    const fusion::Motion m = s.targets[0].trajectory->at(t);
+    const Motion m = s.targets[0].trajectory->at(t);
     EXPECT_GT(m.v_enu.norm(), 6.0);
     EXPECT_LT(m.v_enu.norm(), 16.0);
     EXPECT_GT(m.p_enu.z(), 40.0);
@@ -134,7 +134,7 @@ TEST(Scenario, ServoDemandsTenDegreesASecond) {
   const Scenario s = load_scenario(std::string(OLS_SCENARIOS) + "/servo.toml");
   double fastest = 0.0;
   for (double t = 0; t < 120; t += 0.02) {
-    const fusion::Motion m = s.targets[0].trajectory->at(t);
+    const Motion m = s.targets[0].trajectory->at(t);
     for (const StationScenario& station : s.stations) {
       const Eigen::Vector3d p = m.p_enu - station.p_enu;
       fastest = std::max(fastest, p.cross(m.v_enu).norm() / p.squaredNorm());

@@ -1,0 +1,73 @@
+"""What the sources declare, read with universal-ctags: classes, their data members, their files."""
+
+import json
+import subprocess
+from collections import defaultdict
+from dataclasses import dataclass, field
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDERS = ("geometry", "base", "edge", "central", "sim", "tools", "dev")
+
+
+@dataclass
+class Class:
+    """A class or struct with behaviour; a struct of values alone is a record, not a class."""
+
+    header: str = ""
+    members: int = 0
+    functions: int = 0
+    bodies: set[str] = field(default_factory=set)  # .cpp files that define its functions
+
+
+def sources(folders=FOLDERS) -> list[Path]:
+    return sorted(
+        path
+        for folder in folders
+        for path in (ROOT / folder).rglob("*")
+        if path.suffix in {".h", ".cpp"}
+    )
+
+
+def python_sources(folders=FOLDERS) -> list[Path]:
+    return sorted(path for folder in folders for path in (ROOT / folder).rglob("*.py"))
+
+
+def relative(path: Path) -> str:
+    return path.relative_to(ROOT).as_posix()
+
+
+def declared(paths: list[Path]) -> list[dict]:
+    """ctags' entries, one each declaration."""
+    command = ["ctags", "--output-format=json", "--fields=+nKS", "--kinds-C++=+p", "-f", "-"]
+    done = subprocess.run(
+        [*command, *map(str, paths)], capture_output=True, text=True, check=True, timeout=120
+    )
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def definitions(tags: list[dict]) -> dict[str, set[str]]:
+    """Full name of each type -> the files that define it; unnamed namespaces' are their own."""
+    found: dict[str, set[str]] = defaultdict(set)
+    for tag in tags:
+        if tag["kind"] in ("class", "struct", "enum", "union"):
+            found[f"{tag.get('scope', '')}::{tag['name']}"].add(tag["path"])
+    return found
+
+
+def classes(tags: list[dict]) -> dict[str, Class]:
+    """By their full names."""
+    found: dict[str, Class] = defaultdict(Class)
+    for tag in tags:
+        if tag.get("scopeKind") not in ("class", "struct"):
+            continue
+        one = found[tag["scope"]]
+        if tag["kind"] == "member" and "static constexpr" not in tag["pattern"]:
+            one.members += 1
+            one.header = tag["path"]
+        elif tag["kind"] in ("function", "prototype"):
+            is_constructor = tag["name"].lstrip("~") == tag["scope"].split("::")[-1]
+            one.functions += not is_constructor
+            if tag["path"].endswith(".cpp"):
+                one.bodies.add(tag["path"])
+    return found

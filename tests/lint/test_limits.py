@@ -1,0 +1,78 @@
+"""Sizes at which a class or a file has more than one subject."""
+
+import limits
+import pytest
+
+MOST_MEMBERS = 15
+MOST_LINES = 400
+# Name of a class or a file -> why it may be larger.
+EXCEPTIONS: dict[str, str] = {}
+TAGS = limits.declared(limits.sources())
+CLASSES = limits.classes(TAGS)
+
+
+def too_large(classes: dict[str, limits.Class]) -> list[str]:
+    return [
+        f"{name} has {one.members} data members ({one.header})"
+        for name, one in classes.items()
+        if one.functions > 0 and one.members > MOST_MEMBERS and name not in EXCEPTIONS
+    ]
+
+
+def in_several_files(classes: dict[str, limits.Class]) -> list[str]:
+    return [
+        f"{name} is defined in {sorted(one.bodies)}"
+        for name, one in classes.items()
+        if len(one.bodies) > 1 and name not in EXCEPTIONS
+    ]
+
+
+def test_no_class_has_too_many_members():
+    assert too_large(CLASSES) == []
+
+
+def test_a_class_has_one_cpp():
+    assert in_several_files(CLASSES) == []
+
+
+def test_a_type_is_defined_once():
+    """Two of one name in one program break the one-definition rule, and no linker says so."""
+    twice = {name: files for name, files in limits.definitions(TAGS).items() if len(files) > 1}
+    assert twice == {}
+
+
+def test_two_of_one_name_are_found(tmp_path):
+    for name in ("a.h", "b.h"):
+        (tmp_path / name).write_text("namespace n { struct View { int x; }; }")
+    found = limits.definitions(limits.declared(sorted(tmp_path.iterdir())))
+    assert len(found["n::View"]) == 2
+
+
+def test_the_counts_are_those_of_the_sources(tmp_path):
+    (tmp_path / "a.h").write_text(
+        "namespace n { class A { public: void f(); void g(); private: int x_ = 0, y_ = 0; }; }"
+        "struct Record { int a; int b; };"
+    )
+    (tmp_path / "a.cpp").write_text("namespace n { void A::f() {} }")
+    (tmp_path / "b.cpp").write_text("namespace n { void A::g() {} }")
+    tags = limits.declared(sorted(tmp_path.iterdir()))
+    found = limits.classes(tags)
+    assert found["n::A"].members == 2
+    assert found["Record"].functions == 0
+    assert in_several_files(found) == [
+        f"n::A is defined in {[str(tmp_path / 'a.cpp'), str(tmp_path / 'b.cpp')]}"
+    ]
+    found["n::A"].members = MOST_MEMBERS + 1
+    assert len(too_large(found)) == 1
+
+
+@pytest.mark.parametrize("path", [*limits.sources(), *limits.python_sources()], ids=limits.relative)
+def test_no_file_is_too_long(path):
+    lines = path.read_text().count("\n")
+    assert lines <= MOST_LINES or limits.relative(path) in EXCEPTIONS, f"{lines} lines"
+
+
+def test_exceptions_are_few_and_needed():
+    assert len(EXCEPTIONS) <= 5
+    names = {*CLASSES, *map(limits.relative, limits.sources())}
+    assert set(EXCEPTIONS) <= names
