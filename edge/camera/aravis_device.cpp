@@ -48,7 +48,8 @@ AravisDevice::AravisDevice(const CameraConfig& config) {
     throw CameraUnfit("camera " + config.device + " is not a GigE Vision camera");
   // Aravis goes on without control, and then every setting is refused.
   if (arv_gv_device_is_controller(ARV_GV_DEVICE(device())) == 0)
-    throw CameraAbsent("camera is under the control of another, or still of the last connection");
+    throw CameraAbsent(
+        "camera is controlled by another program, or still by the previous connection");
   g_signal_connect(device(), "control-lost",
                    G_CALLBACK(+[](ArvDevice*, std::atomic<bool>* lost) { *lost = true; }),
                    &control_lost_);
@@ -91,7 +92,7 @@ void AravisDevice::start(const CameraConfig& config) {
   const AravisFeatures features(camera_.get());
   latch_by_feature_ = features.has("GevTimestampControlLatch") && features.has("GevTimestampValue");
   stream_.reset(arv_camera_create_stream(camera_.get(), nullptr, nullptr, error.out()));
-  if (stream_ == nullptr) throw CameraAbsent("camera gives no stream: " + error.text());
+  if (stream_ == nullptr) throw CameraAbsent("camera provides no stream: " + error.text());
   g_object_set(stream_.get(), "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED,
                "socket-buffer-size", config.socket_buffer, "frame-retention", kFrameRetention_us,
                nullptr);
@@ -100,7 +101,7 @@ void AravisDevice::start(const CameraConfig& config) {
   // With large packets a frame has few of them: any number of them may be asked for again.
   g_object_set(stream_.get(), "packet-request-ratio", 1.0, nullptr);
   const guint payload = arv_camera_get_payload(camera_.get(), error.out());
-  error.check<CameraAbsent>("camera does not tell its payload");
+  error.check<CameraAbsent>("camera does not report its payload");
   for (int i = 0; i < kBuffers; ++i)
     arv_stream_push_buffer(stream_.get(), arv_buffer_new(payload, nullptr));
   arv_camera_start_acquisition(camera_.get(), error.out());

@@ -93,7 +93,7 @@ void check_near(double is, double wanted, const char* what, double tolerance) {
 void set_pace(ArvCamera* camera, const CameraConfig& config, int packet_bytes) {
   AravisError error;
   const guint payload = arv_camera_get_payload(camera, error.out());
-  error.check<CameraAbsent>("camera does not tell its payload");
+  error.check<CameraAbsent>("camera does not report its payload");
   const double rate_hz = config.trigger == TriggerMode::kFreeRun
                              ? std::max(config.frame_rate_hz, kFreeRun_hz)
                              : config.frame_rate_hz;
@@ -128,19 +128,19 @@ void set_picture(ArvCamera* camera, const CameraConfig& config) {
   arv_camera_set_pixel_format(camera, wanted, error.out());
   error.check<CameraUnfit>("camera refuses pixel format " + config.pixel_format);
   const ArvPixelFormat format = arv_camera_get_pixel_format(camera, error.out());
-  error.check<CameraAbsent>("camera does not tell its pixel format");
+  error.check<CameraAbsent>("camera does not report its pixel format");
   if (format != wanted)
-    throw CameraUnfit("camera wants pixel format " + pixel_format_name(format) + " instead of " +
-                      config.pixel_format);
+    throw CameraUnfit("camera insists on pixel format " + pixel_format_name(format) +
+                      " instead of " + config.pixel_format);
   const std::string size = std::to_string(config.width_px) + "x" + std::to_string(config.height_px);
   arv_camera_set_region(camera, 0, 0, config.width_px, config.height_px, error.out());
   error.check<CameraUnfit>("camera refuses size " + size);
   int x = 0, y = 0, width = 0, height = 0;
   arv_camera_get_region(camera, &x, &y, &width, &height, error.out());
-  error.check<CameraAbsent>("camera does not tell its size");
+  error.check<CameraAbsent>("camera does not report its size");
   if (width != config.width_px || height != config.height_px)
-    throw CameraUnfit("camera wants size " + std::to_string(width) + "x" + std::to_string(height) +
-                      " instead of " + size);
+    throw CameraUnfit("camera insists on size " + std::to_string(width) + "x" +
+                      std::to_string(height) + " instead of " + size);
   arv_camera_set_acquisition_mode(camera, ARV_ACQUISITION_MODE_CONTINUOUS, error.out());
   error.check<CameraUnfit>("camera refuses continuous acquisition");
 }
@@ -172,7 +172,7 @@ ExposureSetting set_exposure(ArvCamera* camera, const ExposureSetting& setting) 
   const AravisFeatures features(camera);
   features.set_number(kExposureTime, setting.exposure_us);
   const auto exposure_us = features.number(kExposureTime);
-  if (!exposure_us) throw CameraAbsent("camera does not tell its exposure");
+  if (!exposure_us) throw CameraAbsent("camera does not report its exposure");
   if (!features.has(kGain)) return {.exposure_us = *exposure_us};
   features.set_number(kGain, setting.gain_dB);
   return {.exposure_us = *exposure_us, .gain_dB = features.number(kGain).value_or(setting.gain_dB)};
@@ -232,7 +232,7 @@ void set_transport(ArvCamera* camera, const CameraConfig& config) {
     arv_camera_gv_auto_packet_size(camera, error.out());
   }
   const guint size = arv_camera_gv_get_packet_size(camera, error.out());
-  error.check<CameraAbsent>("camera does not tell its packet size");
+  error.check<CameraAbsent>("camera does not report its packet size");
   set_pace(camera, config, static_cast<int>(size));
 }
 

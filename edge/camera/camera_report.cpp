@@ -87,9 +87,9 @@ void add_alarms(const CameraConfig& config, const CameraFacts& facts, double now
     alarms.push_back(
         words("camera: %.0f %% of the frames incomplete", 100.0 * facts.incomplete_share));
   if (facts.missing_light > kMuchLight)
-    alarms.push_back("camera: picture too dark at the limits of exposure and gain");
+    alarms.push_back("camera: image too dark at the exposure and gain limits");
   if (facts.missing_light < 1.0 / kMuchLight)
-    alarms.push_back("camera: picture too bright at the limits of exposure and gain");
+    alarms.push_back("camera: image too bright at the exposure and gain limits");
   if (facts.ptp && *facts.ptp != PtpState::kSlave)
     alarms.push_back(std::string("camera: PTP is ") + to_string(*facts.ptp));
   if (facts.ptp_disagreement_s)

@@ -42,7 +42,7 @@ std::string EventQueue::refusal(const RecordCommand& command, double now_s) cons
   const double from_s = command.event_s - command.before_s;
   const double to_s = command.event_s + command.after_s;
   if (to_s < now_s && memory_.between(from_s, to_s).empty()) {
-    return "no frame of that time is remembered";
+    return "no frame of that time is in memory";
   }
   const auto busy = static_cast<std::size_t>(
       std::ranges::count_if(events_, &std::string::empty, &RecordedEvent::unfinished));

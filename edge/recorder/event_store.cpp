@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kNoRoom =
-    "no room: the quota is full of events that are kept; fetch some and remove them";
+    "no space: the quota is full of protected events; copy some away and delete them";
 // A file of the store: when it was written last, an event made room, or the store was new.
 constexpr const char* kRemoval = ".removal";
 constexpr const char* kPattern = "dddddddd?dddddd.ddd?_";  // d: a digit, ?: whatever stands there
@@ -140,7 +140,7 @@ double EventStore::room_bytes(const Names& open, std::int64_t now_utime_us) cons
 
 void EventStore::remember_removal() const {
   std::ofstream file(config_.folder + "/" + kRemoval);
-  file << "when an event last made room\n";
+  file << "when an event was last removed to free space\n";
   file.close();
   if (!file) throw std::system_error(EIO, std::generic_category(), config_.folder);
 }

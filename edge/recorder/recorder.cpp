@@ -78,7 +78,7 @@ struct Recorder::Impl {
     if (disk.good_s && wanted + queue.still_to_write() > disk.room_bytes) {
       ++counters.refused_no_room;
       wanted_bytes = wanted;
-      return "no room for " + std::to_string(std::llround(wanted * 1e-6)) + " MB";
+      return "no space for " + std::to_string(std::llround(wanted * 1e-6)) + " MB";
     }
     if (rate.admit(now_s)) return {};
     ++counters.refused_too_many;
@@ -295,8 +295,8 @@ station::DeviceReport Recorder::report() const {
                      {"recorder_room_bytes", disk.room_bytes}};
   if (impl_->wanted_bytes > disk.room_bytes) {
     report.alarms.emplace_back(
-        "recorder: recordings are refused, the quota is full of events that are kept: fetch some "
-        "and remove them");
+        "recorder: recordings are refused, the quota is full of protected events: copy some away "
+        "and delete them");
   }
   if (const std::string wrong = impl_->wrong(); !wrong.empty()) {
     report.state = station::DeviceState::kFault;
