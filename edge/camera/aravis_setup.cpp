@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kMaxPacket = 65000;            // [byte] IPv4 carries 65535
 constexpr double kExposureTolerance = 0.05;  // share; cameras round to their line time
-constexpr double kFreeRun_hz = 100.0;        // at most, of a camera that goes as fast as it can
+constexpr double kFreeRun_hz = 100.0;        // maximum, of a camera that runs at its own rate
 
 bool on_loopback(ArvDevice* device) {
   GSocketAddress* address = arv_gv_device_get_interface_address(ARV_GV_DEVICE(device));
@@ -29,7 +29,7 @@ bool on_loopback(ArvDevice* device) {
              g_inet_socket_address_get_address(G_INET_SOCKET_ADDRESS(address))) != 0;
 }
 
-// [byte] 0 when it cannot be found out.
+// [byte] 0: cannot be determined.
 int loopback_mtu() {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (fd < 0) return 0;
@@ -40,7 +40,7 @@ int loopback_mtu() {
   return result == 0 ? request.ifr_mtu : 0;
 }
 
-// [byte] What the kernel grants a socket that asks for so much, in the kernel's own count.
+// [byte] The buffer that the kernel grants for such a request, as the kernel counts it.
 std::size_t granted_buffer(int asked) {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (fd < 0) return 0;
@@ -53,7 +53,7 @@ std::size_t granted_buffer(int asked) {
 }
 
 struct TriggerSource {
-  const char* gt1290c;  // a source beside the lines; nullptr: not among them
+  const char* gt1290c;  // a source other than the lines; nullptr: not supported
   const char* sfnc;     // nullptr: the trigger is off
 };
 
@@ -102,20 +102,20 @@ void set_pace(ArvCamera* camera, const CameraConfig& config, int packet_bytes) {
                                   .frame_period_s = 1.0 / rate_hz,
                                   .receive_buffer = granted_buffer(config.socket_buffer),
                                   .spread = config.packet_spread});
-  // A ring of the kernel's loses nothing.
+  // The kernel's packet ring loses nothing.
   if (config.packet_socket) plan = {};
   if (config.packet_delay_us >= 0.0) {
     const double delay_s = 1e-6 * config.packet_delay_us;
     plan = {.delay_s = delay_s, .bytes_per_second = delay_s > 0.0 ? packet_bytes / delay_s : 0.0};
   }
-  // AVT's cameras have their own rate in place of the standard's delay.
+  // AVT's cameras have a rate in place of the standard's delay.
   const AravisFeatures features(camera);
   if (const auto bounds = features.bounds(kStreamRate)) {
     const double rate = plan.bytes_per_second > 0.0 ? plan.bytes_per_second : bounds->second;
     features.set_number(kStreamRate, std::clamp(rate, bounds->first, bounds->second));
     return;
   }
-  // A camera without a time base cannot be told a delay: it sends as fast as it can.
+  // A camera without a time base takes no delay: it sends at full speed.
   arv_camera_gv_set_packet_delay(camera, std::llround(1e9 * plan.delay_s), error.out());
 }
 
@@ -123,7 +123,7 @@ void set_pace(ArvCamera* camera, const CameraConfig& config, int packet_bytes) {
 
 void set_picture(ArvCamera* camera, const CameraConfig& config) {
   AravisError error;
-  // By the code, for its name differs: RGB8 is RGB8Packed in older cameras.
+  // By code, because names differ: RGB8 is RGB8Packed in older cameras.
   const auto wanted = static_cast<ArvPixelFormat>(*pixel_format(config.pixel_format));
   arv_camera_set_pixel_format(camera, wanted, error.out());
   error.check<CameraUnfit>("camera refuses pixel format " + config.pixel_format);
@@ -221,14 +221,14 @@ void set_transport(ArvCamera* camera, const CameraConfig& config) {
                                                ? ARV_GV_STREAM_OPTION_NONE
                                                : ARV_GV_STREAM_OPTION_PACKET_SOCKET_DISABLED);
   int packet_size = config.packet_size;
-  // Where no link lies between, the interface's own limit is the path's.
+  // On a direct link the interface's own limit is the path's.
   if (packet_size == 0 && on_loopback(device)) packet_size = std::min(loopback_mtu(), kMaxPacket);
   arv_camera_gv_set_packet_size_adjustment(camera, ARV_GV_PACKET_SIZE_ADJUSTMENT_NEVER);
   if (packet_size != 0) {
     arv_camera_gv_set_packet_size(camera, packet_size, error.out());
     error.check<CameraUnfit>("camera refuses packets of " + std::to_string(packet_size) + " bytes");
   } else {
-    // By test packets. A camera without them keeps its size.
+    // By test packets. A camera that does not support them keeps its size.
     arv_camera_gv_auto_packet_size(camera, error.out());
   }
   const guint size = arv_camera_gv_get_packet_size(camera, error.out());

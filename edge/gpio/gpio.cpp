@@ -24,8 +24,7 @@
 namespace ols::gpio {
 namespace {
 
-constexpr double kRefresh_s =
-    0.1;  // the stop's level is read at least this often, even without edges
+constexpr double kRefresh_s = 0.1;  // maximum interval between readings of the stop level
 constexpr double kReopen_s = 0.5;
 constexpr double kNever_s = std::numeric_limits<double>::infinity();
 

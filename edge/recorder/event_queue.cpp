@@ -27,7 +27,7 @@ int EventQueue::add(const RecordedFrame& frame) {
   return dropped;
 }
 
-// Shares the pixels; what is too much for the memory is dropped.
+// Shares the pixels; drops frames beyond the memory limit.
 bool EventQueue::enqueue(RecordedEvent& event, const RecordedFrame& frame) {
   if (static_cast<double>(waiting_bytes_ + bytes_of(frame)) > config_.memory_max_bytes) {
     return false;

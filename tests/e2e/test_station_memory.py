@@ -117,7 +117,9 @@ def test_a_folder_that_was_taken_away_is_no_leave_to_move(station):
     station.wait_for_state(STATUS.STATE_STOPPED)
     assert station.alarmed(f"{NOT_KNOWN} ({station.state_folder} is missing)")
     station.refuses_slews()
-    station.wait(lambda: station.alarmed("stop: state cannot be saved: "), "that it cannot remember")
+    station.wait(
+        lambda: station.alarmed("stop: state cannot be saved: "), "that it cannot remember"
+    )
     assert not station.state_folder.exists()
     station.state_folder.mkdir()
     station.wait(lambda: not station.alarmed("stop: state cannot be saved: "), "that it can again")
