@@ -39,7 +39,7 @@ class BearingQueue {
   void add(const PixelMeasurement& pixel) { waiting_.push_back(pixel); }
   void clear() { waiting_.clear(); }
 
-  // The pixels whose angles are known by now, or that have waited long enough.
+  // The pixels whose angles are known, or that have waited long enough.
   std::vector<MadeBearing> take(const PointingModel& pointing, double now_s);
 
   double frame_latency_s() const { return frame_latency_s_; }  // mid-exposure to bearing, smoothed

@@ -34,7 +34,7 @@ struct UnitActions {
 };
 
 struct StationOutput {
-  std::vector<Bearing> bearings;       // those whose PTU angles are known by now
+  std::vector<Bearing> bearings;       // those whose PTU angles are known
   std::optional<ptu::ServoGoal> goal;  // of the PTU; empty: halt
 };
 

@@ -31,7 +31,7 @@ struct ReceivedFrame {
   std::uint64_t id = 0;  // the camera's frame number
   bool complete = false;
   bool overtaken = false;                 // a newer one is already waiting
-  RawPicture picture;                     // valid while the buffer is
+  RawPicture picture;                     // valid as long as the buffer
   std::optional<std::int64_t> device_ns;  // the camera's own stamp
   double arrival_s = 0.0;                 // CLOCK_MONOTONIC of its first packet
 };

@@ -9,7 +9,7 @@ enum class PtpState {
   kOff,
   kSyncing,  // in progress
   kSlave,    // its clock is the master's: TAI
-  kMaster,   // a master itself, or passive beside one: its clock is free
+  kMaster,   // master, or passive next to one: its clock is free
   kFault,
   kUnknown,  // an undocumented word
 };

@@ -44,7 +44,7 @@ class EventQueue {
   double expected_bytes(const RecordCommand& command) const;
   double still_to_write() const;
 
-  // Ends the events whose last frame must have arrived by now.
+  // Ends the events whose last frame must have arrived.
   void close(double now_s);
   // Retries at once the events that could not be finished.
   void retry_all();

@@ -254,7 +254,7 @@ struct Recorder::Impl {
   double wanted_bytes = 0.0;  // of the last recording refused for lack of space
   std::string error;          // the last error
   std::uint64_t errors = 0;
-  std::string beside;   // why its thread has the control loop's priority; empty: it has not
+  std::string beside;   // why its thread could not lower its priority; empty: it could
   std::jthread thread;  // last: it uses the rest
 };
 

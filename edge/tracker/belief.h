@@ -13,10 +13,9 @@ struct FrameEvidence {
   double background_similarity = 0.0;
   double correlation = 0.0;
   double contrast = 1.0;
-  double standing_out = 1.0;  // from its surroundings, relative to what is usual for the target
-  double foreground = 1.0;    // share of the target's foreground that is foreground here,
-  bool by_subtraction =
-      false;  // compared with an earlier image of the place, not with a grey level
+  double standing_out = 1.0;    // from its surroundings, relative to what is usual for the target
+  double foreground = 1.0;      // share of the target's foreground that is foreground here,
+  bool by_subtraction = false;  // compared with an earlier image, not with a grey level
 };
 
 // The target's recent values: a sudden, much lower one means another object.

@@ -108,8 +108,7 @@ cv::Point2f step(const Window& window, const Square<kSide>& now) {
 
 double correlation(const Square<kSide>& one, const Square<kSide>& other) {
   Four p = cv::v_setzero_f32(), q = p, pp = p, qq = p, pq = p;
-  const Four level =
-      cv::v_setall_f32(one[kMiddle * kSide + kMiddle]);  // for the numerical precision
+  const Four level = cv::v_setall_f32(one[kMiddle * kSide + kMiddle]);  // for precision
   for (int i = 0; i < kSide * kSide; i += 4) {
     const Four u = cv::v_load(&one[i]) - level;
     const Four v = cv::v_load(&other[i]) - level;

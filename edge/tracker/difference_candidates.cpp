@@ -57,7 +57,7 @@ std::vector<Eigen::Vector2d> difference_candidates(const ReducedFrame& previous,
   cv::resize(difference(cv::Rect(0, 0, size.width * coarse, size.height * coarse)), response, size,
              0, 0, cv::INTER_AREA);
   const int side = std::max(3, static_cast<int>(length / coarse) | 1);
-  // The box filter responds equally wherever it contains the whole target.
+  // Gaussian: a box filter would respond equally wherever it contains the whole target.
   cv::GaussianBlur(response, response, cv::Size(side, side), 0.0, 0.0, cv::BORDER_CONSTANT);
   std::vector<Eigen::Vector2d> pixels;
   for (const cv::Point& at : greatest_maxima(response, side, most)) {

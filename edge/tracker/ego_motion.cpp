@@ -283,7 +283,7 @@ EgoMotionEstimator::Estimate EgoMotionEstimator::step(
   Estimate estimate;
   estimate.featureless = static_cast<int>(corners_.size()) < config_.ego_motion_least_inliers;
   Agreement agreed = agreeing(follow(guess), guess);
-  // Angles wrong by more than the corner search: assume the image's previous motion.
+  // The angles are off by more than the corner search reaches: start from the previous motion.
   if (predicted && agreed.corners.previous.empty()) agreed = agreeing(follow(last_), last_);
   last_ = predicted ? guess : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
   corners_.clear();

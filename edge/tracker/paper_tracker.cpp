@@ -138,7 +138,7 @@ std::vector<double> PaperTracker::normalised(std::vector<double> weights) {
 }
 
 // "The resulting estimate of the target position is chosen using the Maximum a posteriori
-// approach": resampled particles are equally probable before the update, so it is the greatest
+// approach": resampled particles are equally probable before the update, so it is the largest
 // weight.
 const Particle& PaperTracker::maximum_a_posteriori() const {
   const auto& weights = filter_.weights();

@@ -33,7 +33,7 @@ class ParticleFilter {
     weigh_by_log_likelihood();
   }
   const std::vector<double>& log_likelihood() const { return log_likelihood_; }
-  // Unchanged weights that sum to one.
+  // The weights must sum to one.
   void set_weights(std::vector<double> weights) { weights_ = std::move(weights); }
   const std::vector<double>& weights() const { return weights_; }
 

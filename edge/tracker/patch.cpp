@@ -234,8 +234,7 @@ float level_around(const FrameView& view, const Eigen::Vector2d& pixel,
 
 Template make_template(const FrameView& view, const Eigen::Vector2d& pixel,
                        const Eigen::Vector2d& size_px) {
-  constexpr float kLeastContrast =
-      8.0F;  // the comparison of a fainter target would be one of noise
+  constexpr float kLeastContrast = 8.0F;  // below it noise would dominate the comparison
   Template made;
   made.gray = sample_patch(view, pixel, size_px);
   std::vector<float> around = surroundings(view, pixel, size_px);

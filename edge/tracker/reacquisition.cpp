@@ -6,8 +6,7 @@
 namespace ols::tracker {
 namespace {
 
-constexpr double kNearFirst_s =
-    1.0;  // a lost target is searched for nearby for this long, then anywhere
+constexpr double kNearFirst_s = 1.0;  // search for a lost target nearby, then anywhere
 
 }  // namespace
 

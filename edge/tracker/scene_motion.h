@@ -40,7 +40,7 @@ class SceneMotion {
   bool alignment_lost() const { return unaligned_since_s_ == time_s_; }  // in the newest frame
   // The ego-motion was known up to the previous frame and is not now: perhaps a cut.
   bool may_be_cut() const { return may_be_cut_; }
-  // The scene of a moment ago is unknown.
+  // No aligned image of a moment ago exists.
   bool unknown_a_moment_ago() const { return a_moment_ago() == nullptr; }
   const ReferenceFrames::Reference* a_moment_ago() const;
 

@@ -125,7 +125,8 @@ std::optional<RefinedPosition> TargetModel::measure(const Scene& scene,
                                                     const Eigen::Vector2d& likely_size_px) const {
   const auto coarse = refiner_.refine(scene.view, placed.centre, placed.size_px, likely_size_px);
   if (!coarse || !fine_refiner_) return coarse;
-  // The reduced image loses edges, but only its gradients reach as far as from a particle.
+  // The reduced image loses edges, but only its gradients are wide enough to start from a
+  // particle. The full image then starts from its result.
   const auto fine =
       fine_refiner_->refine(scene.whole, coarse->centre, coarse->size_px, coarse->size_px);
   const auto variance = [](const RefinedPosition& position) {

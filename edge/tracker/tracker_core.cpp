@@ -9,9 +9,8 @@
 namespace ols::tracker {
 namespace {
 
-constexpr double kNotPlaced =
-    0.1;                        // of its size: 1 sigma without a better measurement of its place
-constexpr double kAgree = 2.0;  // sigmas of a step
+constexpr double kNotPlaced = 0.1;  // of its size: 1-sigma of a place that is not measured
+constexpr double kAgree = 2.0;      // sigmas of a step
 constexpr double kSureEnoughToLearn = 0.7;
 constexpr double kSureEnoughForMask = 0.8;
 
