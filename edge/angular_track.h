@@ -30,7 +30,7 @@ class AngularTrack {
   void update(double time_s, const PanTilt& angles, double sd_rad);
   void clear() { state_.reset(); }
 
-  // The state of the last update; nothing before the first.
+  // The state of the last update; empty before the first.
   std::optional<State> state() const { return state_; }
 
   // Extrapolated to an instant.

@@ -21,8 +21,8 @@ class CommandTurn {
 
   // Carried out at the end of the turn, or before another command.
   void designate(const DesignateCommand& command);
-  // To be called before another operator command: carries out the pending designation, up to two in
-  // a turn.
+  // Before another operator command: carries out the pending designation, unless one was carried
+  // out in this turn already. So there are at most two in a turn.
   Refusal before_other_command(double now_s);
   // After the turn's last command. Returns why the designation was refused.
   Refusal end(double now_s);

@@ -137,9 +137,11 @@ TEST_F(StationMemoryTest, ADoubtThatIsNotKnownIsADoubtWithAnAlarm) {
     EXPECT_EQ(m.doubt(), (ptu::PtuReferenceDoubt{condition.unreadable, condition.unreadable}));
     EXPECT_THAT(m.alarms(), Contains(HasSubstr("ptu: reference before the restart is unknown")));
     m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kUnknown);
-    EXPECT_THAT(m.alarms(), Contains(HasSubstr("in doubt is not known"))) << "no unit yet";
+    EXPECT_THAT(m.alarms(), Contains(HasSubstr("ptu: reference before the restart is unknown")))
+        << "no unit yet";
     m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kTrusted);
-    EXPECT_THAT(m.alarms(), Not(Contains(HasSubstr("in doubt is not known"))));
+    EXPECT_THAT(m.alarms(),
+                Not(Contains(HasSubstr("ptu: reference before the restart is unknown"))));
   }
 }
 

@@ -132,7 +132,7 @@ TEST_F(RecorderTest, RefusesWhatItCannotDo) {
   EXPECT_THAT(recorder.record({now_s, std::nan(""), 1.0, ""}), HasSubstr("at most"));
   EXPECT_THAT(recorder.record({std::nan(""), 1.0, 1.0, ""}), HasSubstr("at most"));
   EXPECT_THAT(recorder.record({now_s + 100.0, 1.0, 1.0, ""}), HasSubstr("future"));
-  EXPECT_THAT(recorder.record({now_s - 1000.0, 1.0, 1.0, ""}), HasSubstr("remembered"));
+  EXPECT_THAT(recorder.record({now_s - 1000.0, 1.0, 1.0, ""}), HasSubstr("in memory"));
   EXPECT_EQ(count(recorder, "recorder_commands_refused"), 9U);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(recorder.record({now_s, 1.0, 50.0, ""}), "");
   EXPECT_THAT(recorder.record({now_s, 1.0, 50.0, ""}), HasSubstr("busy"));
