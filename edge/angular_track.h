@@ -25,8 +25,8 @@ class AngularTrack {
 
   explicit AngularTrack(const Config& config) : config_(config) {}
 
-  // The PTU angles that would put the target on the optical axis, and their 1-sigma. A time that is
-  // not later than the last one is ignored.
+  // `angles`: those that would put the target on the optical axis, and their 1-sigma. Ignored
+  // unless later than the last update.
   void update(double time_s, const PanTilt& angles, double sd_rad);
   void clear() { state_.reset(); }
 

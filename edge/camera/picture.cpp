@@ -15,7 +15,7 @@ struct FormatRow {
   int to_gray;  // OpenCV's conversion; it demosaics and weights in one step
 };
 
-// OpenCV names a Bayer pattern, GRBG here, by its first row in the newer names.
+// The newer of OpenCV's names give a Bayer pattern by its first rows, here GRBG.
 constexpr std::array<FormatRow, 7> kFormats{{
     {"Mono8", PixelFormat::kMono8, 1, -1},
     {"BayerGR8", PixelFormat::kBayerGR8, 1, cv::COLOR_BayerGRBG2GRAY},

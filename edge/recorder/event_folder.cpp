@@ -121,7 +121,7 @@ std::size_t EventFolder::write(const RecordedFrame& frame, const std::vector<uns
 }
 
 bool EventFolder::exists() const {
-  // A disk that does not answer still has it.
+  // If the disk does not answer, the folder counts as present.
   return ::access((path_ + kPartial).c_str(), F_OK) == 0 || (errno != ENOENT && errno != ENOTDIR);
 }
 
