@@ -47,7 +47,7 @@ std::string presence_or_default(const Row& row) {
   return row.fallback;
 }
 
-// A bar would end the cell of the table.
+// A bar would end the table cell.
 std::string cell(const std::string& text) {
   std::string escaped;
   for (const char c : text) escaped.append(c == '|' ? "\\" : "").push_back(c);

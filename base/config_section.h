@@ -25,7 +25,7 @@ struct Range {
   double min, max;
 };
 
-// The unit in the file. A field that holds another one is converted both ways.
+// The unit in the file. A field in another unit is converted both ways.
 struct Unit {
   std::string name;
   double (*to_field)(double) = [](double value) { return value; };
@@ -45,19 +45,19 @@ inline const Unit kMilliseconds{"ms", [](double v) { return 1e-3 * v; },
 enum class Presence {
   kOptional,
   kRequired,
-  kWithSection,  // required where its section is there
+  kWithSection,  // required if its section is present
 };
 
 struct Row {
   std::string key, values, unit;  // values: the range or the choices
-  std::string fallback;           // as the file would have it
+  std::string fallback;           // as the file would write it
   std::string sentence;
   std::function<void(ConfigTable&)> read;
   Presence presence = Presence::kOptional;
 
   Row required() && { return with(Presence::kRequired); }
   Row required_with_section() && { return with(Presence::kWithSection); }
-  // Where the default is derived from something else: in words.
+  // Where the default is derived from something else: a description.
   Row default_is(std::string words) && {
     fallback = std::move(words);
     return std::move(*this);
@@ -75,7 +75,7 @@ struct Section {
   std::string sentence;
   std::vector<Row> rows = {};
   std::vector<Section> sections = {};
-  // What no single row can check; throws ConfigError. Runs when rows and sections are read.
+  // A check across rows; throws ConfigError. Runs after rows and sections are read.
   std::function<void(ConfigTable&)> check = {};
   // Of an array of tables: appends an element and returns its section.
   std::function<Section()> append = {};
@@ -83,7 +83,8 @@ struct Section {
 
 // Throws ConfigError for the first unknown key, missing key or bad value.
 void read(const Section& section, ConfigTable& table);
-// As Markdown: a heading and a table for the section and each one in it. `path`: of what holds it.
+// As Markdown: a heading and a table for the section and each nested one. `path`: of the parent
+// section.
 std::string markdown(const Section& section, const std::string& path = "");
 // As an example file: the rows of `values` ("ptu.baud" -> "9600"), in the order of the sections,
 // each with its sentence. Throws std::invalid_argument for a key that has no row.
@@ -101,7 +102,7 @@ Row texts(std::string key, std::vector<std::string>& field, std::string sentence
 Row choice(std::string key, std::string& field, std::vector<std::string> choices,
            std::string sentence);
 
-// For the templates below: a row that reads by position among the words, or an integer.
+// For the templates below: a row that reads an index into the choices, or an integer.
 Row word_row(std::string key, std::size_t fallback, std::vector<std::string> words,
              std::function<void(std::size_t)> set, std::string sentence);
 Row words_row(std::string key, const std::vector<std::size_t>& fallback,
@@ -136,7 +137,7 @@ Row integer(std::string key, T& field, std::int64_t min, std::int64_t max, std::
       [&field](std::int64_t value) { field = static_cast<T>(value); }, std::move(sentence));
 }
 
-// A field of any type by the words for its values.
+// A field of any type, by words for its values.
 template <class T>
 Row word(std::string key, T& field, const Words<std::type_identity_t<T>>& words,
          std::string sentence) {
@@ -145,7 +146,7 @@ Row word(std::string key, T& field, const Words<std::type_identity_t<T>>& words,
       [&field, words](std::size_t i) { field = words[i].second; }, std::move(sentence));
 }
 
-// Several of them: at least one, each once.
+// A list of such words: at least one, without duplicates.
 template <class T>
 Row word_list(std::string key, std::vector<T>& field, const Words<std::type_identity_t<T>>& words,
               std::string sentence) {

@@ -47,9 +47,9 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
-// The known key that was probably meant: at most a third of its letters differ. Empty: no such key.
+// The known key that was probably meant: at most a third of its letters differ. Empty: none.
 std::string most_similar(std::string_view key, const std::vector<std::string>& known) {
-  constexpr std::size_t kLongest = 64;  // nobody misspells a longer one
+  constexpr std::size_t kLongest = 64;  // longer keys are not worth a guess
   std::string best;
   std::size_t fewest = key.size() / 3 + 1;
   for (const std::string& candidate : known) {
@@ -73,7 +73,7 @@ std::shared_ptr<const Document> parse(std::string_view text, const std::string& 
 std::string file_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
-  // An empty file is a configuration without a key, but to a stream a failure.
+  // To a stream an empty file is a failure, but it is a valid configuration without keys.
   if (in && in.peek() == std::ifstream::traits_type::eof() && !in.bad()) return {};
   if (!in || !(text << in.rdbuf())) throw ConfigError(path + ": cannot be read");
   return text.str();
@@ -83,7 +83,7 @@ std::string file_text(const std::string& path) {
 
 struct ConfigTable::Impl {
   std::shared_ptr<const Document> document;
-  const toml::table* table = nullptr;  // nothing when the table is absent
+  const toml::table* table = nullptr;  // null: the table is absent
   std::string path;                    // "ptu.servo."; empty at the root
   std::map<std::string, std::unique_ptr<ConfigTable>, std::less<>> children;
   std::map<std::string, std::vector<std::unique_ptr<ConfigTable>>, std::less<>> arrays;

@@ -1,4 +1,4 @@
-// The slew that the station was given last, for as long as its lease lasts. Pure.
+// The station's latest slew, until its lease ends. Pure.
 #pragma once
 
 #include <optional>
@@ -15,9 +15,9 @@ class ActiveSlew {
   void clear() { command_.reset(); }
   void expire(double now_s);
 
-  // Nothing: no slew is active.
+  // Empty: no slew is active.
   const std::optional<SlewCommand>& command() const { return command_; }
-  // Nothing also where the unit cannot point.
+  // Also empty where the unit cannot point.
   std::optional<ptu::ServoGoal> goal(const PointingModel& pointing, double now_s) const;
   // More than one fusion slews this station.
   bool has_several_senders(double now_s) const { return senders_.are_several(now_s); }

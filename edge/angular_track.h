@@ -25,12 +25,12 @@ class AngularTrack {
 
   explicit AngularTrack(const Config& config) : config_(config) {}
 
-  // The PTU angles that would put the target on the optical axis, and their 1-sigma. A time that is
-  // not later than the last one is ignored.
+  // `angles`: those that would put the target on the optical axis, and their 1-sigma. Ignored
+  // unless later than the last update.
   void update(double time_s, const PanTilt& angles, double sd_rad);
   void clear() { state_.reset(); }
 
-  // The state of the last update; nothing before the first.
+  // The state of the last update; empty before the first.
   std::optional<State> state() const { return state_; }
 
   // Extrapolated to an instant.

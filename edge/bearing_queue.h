@@ -1,4 +1,4 @@
-// Pixels that wait for the PTU's angles of their exposure, and the bearings that they become. Pure.
+// Pixels that wait for the PTU angles of their exposure, and the bearings made of them. Pure.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct PixelMeasurement {
 struct MadeBearing {
   Bearing bearing;
   PanTilt angles;       // of the unit at the exposure
-  bool to_send = true;  // false: without a position or too old, good to follow the target only
+  bool to_send = true;  // false: no position, or too old: only for following the target
 };
 
 class BearingQueue {
@@ -39,7 +39,7 @@ class BearingQueue {
   void add(const PixelMeasurement& pixel) { waiting_.push_back(pixel); }
   void clear() { waiting_.clear(); }
 
-  // Those whose angles are known by now, or have been waited for long enough.
+  // The pixels whose angles are known, or that have waited long enough.
   std::vector<MadeBearing> take(const PointingModel& pointing, double now_s);
 
   double frame_latency_s() const { return frame_latency_s_; }  // mid-exposure to bearing, smoothed

@@ -25,7 +25,7 @@ std::optional<GateRefusal> CommandGate::admit(const CommandStamp& stamp,
       stamp.lease_s > config_.lease_max_s) {
     return GateRefusal::kLease;
   }
-  // In floating point: an absurd stamp must not overflow the difference.
+  // In floating point: an invalid stamp must not overflow the difference.
   const double age_s =
       (static_cast<double>(now_utime_us) - static_cast<double>(stamp.utime_us)) * 1e-6;
   if (age_s > stamp.lease_s + config_.clock_margin_s) return GateRefusal::kStale;
@@ -36,8 +36,8 @@ std::optional<GateRefusal> CommandGate::admit(const CommandStamp& stamp,
   return std::nullopt;
 }
 
-// A clock that was set back by more than a command can be fresh must not bar everybody until it
-// gets there again: what is forgotten by then may pass once more, as after a restart.
+// A clock that was set back by more than the longest freshness must not block all commands until it
+// catches up: what was forgotten may pass once more, as after a restart.
 void CommandGate::look_at_clock(std::int64_t now_utime_us) {
   const double back_s =
       (static_cast<double>(latest_utime_us_) - static_cast<double>(now_utime_us)) * 1e-6;
@@ -45,9 +45,9 @@ void CommandGate::look_at_clock(std::int64_t now_utime_us) {
   latest_utime_us_ = now_utime_us;
 }
 
-// Whatever was let through is found here again, or is not later than what was forgotten.
+// An accepted command is either still in the set or not later than the last one forgotten.
 bool CommandGate::is_replayed(const CommandStamp& stamp, std::int64_t now_utime_us) const {
-  // A clock that was set back since must not bar everybody until it gets there again.
+  // A clock that was set back since must not block all commands until it catches up.
   if (now_utime_us >= began_utime_us_ && stamp.utime_us < began_utime_us_) return true;
   if (forgotten_utime_us_ && stamp.utime_us <= *forgotten_utime_us_) return true;
   return passed_.contains({stamp.utime_us, stamp.boot_id, stamp.sequence});

@@ -1,12 +1,11 @@
-// Lets a command through once, and only while it is fresh. Pure.
+// Accepts each command once, and only while it is fresh. Pure.
 //
-// LCM has neither authentication nor protection against replay. A command counts once: its sender's
-// boot id, its sequence and its stamp are remembered for longer than it can be fresh. It is fresh
-// when its own stamp is not older than its lease by the station's UTC (a margin covers the
-// difference of two clocks). Sequences are never compared, and no sender's stamps bar another's:
-// who cannot tell senders apart must not let one speak for the others. Nothing passes twice that is
-// remembered; when the station's clock is set back by more than a lease, what is forgotten may, as
-// after a restart.
+// LCM has neither authentication nor replay protection. The gate remembers a command by its
+// sender's boot id, its sequence and its stamp for longer than it can stay fresh. A command is
+// fresh while its stamp, by the station's UTC, is not older than its lease plus a margin for the
+// difference of the two clocks. Sequences are never compared, and the stamps of one sender never
+// block another: senders cannot be authenticated, so none may affect the others. If the station's
+// clock is set back by more than a lease, forgotten commands may pass again, as after a restart.
 #pragma once
 
 #include <cstddef>
@@ -34,25 +33,25 @@ class CommandGate {
   struct Config {
     double clock_margin_s = 0.5;  // two clocks may differ by this much
     double lease_max_s = 10.0;
-    // So many are remembered in any case, however old: a clock that is set back makes them fresh
-    // again. Four minutes of slews.
+    // This many are remembered however old they are, because setting the clock back makes them
+    // fresh again: four minutes of slews.
     std::size_t kept = 4096;
-    // So many at most. Forged commands of the latest stamp bar others only when more of them than
-    // this come within the margin: 130 000 a second, which no station can read.
+    // The maximum. Forged commands with the latest stamp block others only if more than this arrive
+    // within the margin: 130 000 a second, more than a station can read.
     std::size_t most = 65536;
   };
-  // What was stamped before `began_utime_us` may have passed a gate of the process before this one:
-  // it is taken for replayed.
+  // A command stamped before `began_utime_us` is refused as replayed: the previous process may have
+  // accepted it.
   CommandGate(const Config& config, std::int64_t began_utime_us)
       : config_(config), began_utime_us_(began_utime_us) {}
 
-  // Nothing when the command may pass; it is then remembered.
+  // Empty: the command may pass, and is now remembered.
   std::optional<GateRefusal> admit(const CommandStamp& stamp, std::int64_t now_utime_us);
 
   std::size_t remembered() const { return passed_.size(); }
 
  private:
-  // Stamp [us], boot id and sequence: the oldest first.
+  // Stamp [us], boot id and sequence, oldest first.
   using Passed = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
 
   void look_at_clock(std::int64_t now_utime_us);
@@ -62,9 +61,9 @@ class CommandGate {
   Config config_;
   std::int64_t began_utime_us_;
   std::int64_t latest_utime_us_ =
-      std::numeric_limits<std::int64_t>::min();  // "now" of the last one
+      std::numeric_limits<std::int64_t>::min();  // "now" of the last call
   std::set<Passed> passed_;
-  // No stamp of a command that passed and is remembered no more is later.
+  // The latest stamp among the accepted commands that were forgotten.
   std::optional<std::int64_t> forgotten_utime_us_;
 };
 

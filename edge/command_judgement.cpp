@@ -64,7 +64,7 @@ Refusal judge(const SlewCommand& command, const Situation& situation) {
     return Refusal::kPrecedence;
   }
   if (mode.has_doubtful_angles()) return Refusal::kNoReference;
-  // On the whole way that this one command can lead, not only where it says it is.
+  // On the whole way that this one command can cover, not only at its end.
   for (const double time_s :
        {situation.now_s, command.effect_s, command.received_s + command.lease_s}) {
     if (!situation.pointing.aim(direction_at(command, time_s))) return Refusal::kUnreachable;
@@ -78,7 +78,7 @@ Refusal judge(const PointCommand& command, const Situation& situation) {
   if (refusal != Refusal::kNone) return refusal;
   if (!finite(command.angles)) return Refusal::kNotFinite;
   if (!in_range(command.angles)) return Refusal::kOutOfRange;
-  // It would go there whenever it comes, when nobody expects it any more.
+  // A unit that appears later would move when no one expects it.
   if (mode.reference() == ptu::PtuReference::kUnknown) return Refusal::kNoUnit;
   if (mode.has_doubtful_angles()) return Refusal::kNoReference;
   if (!situation.pointing.reachable(command.angles)) return Refusal::kUnreachable;

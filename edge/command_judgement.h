@@ -1,4 +1,4 @@
-// Why a command must not be carried out as things stand. Pure; nothing is changed by being judged.
+// Why a command must not be carried out in the present situation. Pure.
 #pragma once
 
 #include "edge/pointing_model.h"
@@ -15,13 +15,13 @@ struct Situation {
   double now_s = 0.0;  // station's monotonic clock
 };
 
-// kNone: it may be carried out, a designation as soon as its frame and the tracker agree.
+// kNone: permitted. A designation also needs its frame, and the tracker's consent.
 Refusal judge(const DesignateCommand& command, const Situation& situation);
 Refusal judge(const SlewCommand& command, const Situation& situation);
 Refusal judge(const PointCommand& command, const Situation& situation);
 Refusal judge_home(const Situation& situation);
 Refusal judge_reference_ok(const Situation& situation);
-Refusal judge_rearm(const Situation& situation);  // by a hand at the station
+Refusal judge_rearm(const Situation& situation);  // by a person at the station
 Refusal judge_rearm_over_bus(const Situation& situation);
 
 }  // namespace ols::station

@@ -20,7 +20,7 @@ Refusal CommandTurn::before_other_command(double now_s) {
 Refusal CommandTurn::carry_out_designation(double now_s) {
   const auto command = std::exchange(designation_, std::nullopt);
   if (!command) return Refusal::kNone;
-  // To follow what was marked costs the tracker time; a stop waits for nothing.
+  // Following a designation costs tracker time; a stop does not wait for it.
   if (stop_) {
     ++superseded_;
     return Refusal::kNone;
@@ -32,7 +32,7 @@ Refusal CommandTurn::carry_out_designation(double now_s) {
 Refusal CommandTurn::end(double now_s) {
   const Refusal refusal = carry_out_designation(now_s);
   designated_ = false;
-  // Last, so that nothing which came before it in this turn moves the unit after it.
+  // Last, so that no earlier command of this turn moves the unit after the stop.
   if (stop_.exchange(false)) station_.stop(now_s);
   return refusal;
 }

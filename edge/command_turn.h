@@ -1,6 +1,6 @@
-// The operator's commands of one turn of the control loop: of designations that come at once only
-// the newest is carried out, because each lets the tracker run through the frames since then; and a
-// stop waits for none of them.
+// The operator's commands of one turn of the control loop. Of several designations in a turn only
+// the newest is carried out, because the tracker must process all frames since each; a stop never
+// waits for a designation. Pure.
 #pragma once
 
 #include <atomic>
@@ -16,18 +16,18 @@ class CommandTurn {
   // The station must outlive it.
   explicit CommandTurn(Station& station) : station_(station) {}
 
-  // From any thread, without waiting; end() carries it out.
+  // From any thread, does not wait. end() carries it out.
   void stop() { stop_ = true; }
 
-  // Carried out at the turn's end, or before another command.
+  // Carried out at the end of the turn, or before another command.
   void designate(const DesignateCommand& command);
-  // Another command of the operator is about to be carried out: the designation before it comes
-  // first. But two designations a turn are the most.
+  // Before another operator command: carries out the pending designation, unless one was carried
+  // out in this turn already. So there are at most two in a turn.
   Refusal before_other_command(double now_s);
-  // After the turn's last command. What was refused of the designation.
+  // After the turn's last command. Returns why the designation was refused.
   Refusal end(double now_s);
 
-  // Designations that were not carried out because a newer one or a stop came.
+  // Designations dropped because of a newer one or a stop.
   std::uint64_t superseded() const { return superseded_; }
 
  private:

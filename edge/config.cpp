@@ -117,8 +117,8 @@ Section lens_section(StationSettings& settings) {
       }};
 }
 
-// How well the heading and the camera's mounting are known only a person can tell, and a zero that
-// nobody meant would make every position overconfident.
+// Only a person can say how well the heading and the camera's mounting are known; a zero by default
+// would make every position overconfident.
 Section calibration_section(StationSettings& settings) {
   CalibrationSd& sd = settings.station.geometry.sd;
   return {"calibration",
@@ -194,8 +194,8 @@ Section logic_section(StationConfig& station) {
                           "1-sigma of the target's angular acceleration, in the motion model.")}};
 }
 
-// What the survey leaves out comes from the sensors. Without tilt and inclinometer the head is
-// taken as roughly level, unless [calibration.sd] states how well it was levelled.
+// What is not surveyed comes from the sensors. Without a surveyed tilt and an inclinometer the head
+// is taken as roughly level, unless [calibration.sd] states how well it was levelled.
 void use_survey(ConfigTable& root, StationSettings& settings) {
   ConfigTable& pose = root.table("pose");
   const StationGeometry& geometry = settings.station.geometry;
@@ -218,7 +218,7 @@ void use_survey(ConfigTable& root, StationSettings& settings) {
   }
 }
 
-// One part's setting that is another part's input.
+// A setting of one part that is also an input of another.
 void pass_on(StationSettings& settings) {
   StationConfig& station = settings.station;
   sensors::set_sensors(settings.pose, settings.inclinometer, settings.gnss);

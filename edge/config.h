@@ -1,4 +1,4 @@
-// Everything that a station's configuration file holds: docs/configuration.md.
+// The content of a station's configuration file: docs/configuration.md.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace ols::station {
 struct StationSettings {
   std::string id;  // letters, digits, - and _; at most 32, because it is part of the channel names
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
-  std::string state_folder;  // what outlives a restart; empty: nothing does
+  std::string state_folder;  // for the state that survives a restart; empty: none is saved
   std::int64_t calibration_id = 0;
   std::uint64_t tracker_seed = 1;
   double status_interval_s = 0.5;

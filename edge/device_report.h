@@ -1,5 +1,5 @@
-// How one device of a station is, in the same words for every kind of device. What the status
-// message and ols-doctor show. Pure.
+// The state of one device, in the same form for all devices, for the status message and ols-doctor.
+// Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,24 +11,24 @@
 namespace ols::station {
 
 enum class DeviceState {
-  kAbsent,    // configured, but not there
-  kStarting,  // there, not of use yet
+  kAbsent,    // configured, but not found
+  kStarting,  // found, not usable yet
   kOk,
-  kFault,  // there, but something is wrong with it
+  kFault,  // found, but faulty
 };
 
 struct DeviceReport {
   std::string name;  // "camera", "ptu", "gnss", "inclinometer", "gpio", "recorder"
   DeviceState state = DeviceState::kAbsent;
-  std::string text;                   // what it is when it is well, what is wrong when it is not
+  std::string text;                   // what the device is, or what is wrong with it
   std::optional<double> last_good_s;  // CLOCK_MONOTONIC of the last good datum
 
-  std::string last_error;    // the last trouble in words; empty when there was none
-  std::uint64_t errors = 0;  // troubles so far: tells a new one in the same words from an old one
+  std::string last_error;    // the last error as text; empty: none yet
+  std::uint64_t errors = 0;  // so far; a new error may have the text of an old one
 
-  std::vector<std::string> alarms;         // conditions that hold now, in words
-  std::map<std::string, double> readings;  // go up and down; the unit ends the name: "ptu_supply_V"
-  std::map<std::string, std::uint64_t> counters;  // only go up; begin with the device's name
+  std::vector<std::string> alarms;         // conditions that hold now, as text
+  std::map<std::string, double> readings;  // may fall; the name ends with the unit: ptu_supply_V
+  std::map<std::string, std::uint64_t> counters;  // only rise; the name begins with the device
 };
 
 }  // namespace ols::station

@@ -16,13 +16,13 @@ DeviceSet::DeviceSet(const StationSettings& settings)
   }
 }
 
-// In the GPIO's thread: the unit is halted at once, the station learns of it in its next turn.
+// In the GPIO thread: halts the unit at once; the station follows in its next turn.
 void DeviceSet::on_stop(bool pressed) {
   stop_.set(pressed);
   if (pressed) ptu_.emergency_halt();
 }
 
-// A press after the release is either seen here or halts the unit after it was released.
+// A press after the release is either seen here, or halts the unit after its release.
 void DeviceSet::rearm() {
   ptu_.clear_emergency();
   if (stop_.pressed()) ptu_.emergency_halt();

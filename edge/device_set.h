@@ -1,4 +1,4 @@
-// The devices of a station, each with a thread of its own and each perhaps absent.
+// The devices of a station, each with its own thread. Any of them may be absent.
 #pragma once
 
 #include <optional>
@@ -25,19 +25,19 @@ class DeviceSet {
 
   camera::AravisCamera& camera() { return camera_; }
   ptu::PtuThread& ptu() { return ptu_; }
-  // Nothing where none is configured.
+  // Null if not configured.
   std::optional<gpio::Gpio>& gpio() { return gpio_; }
   std::optional<recorder::Recorder>& recorder() { return recorder_; }
   StopLatch& stop() { return stop_; }
   const StopLatch& stop() const { return stop_; }
 
-  // What the sensors have read since the last call.
+  // The sensor readings since the last call.
   void feed(sensors::PoseEstimator& keeper);
-  // Lets the PTU move after an emergency, unless the stop has been pressed meanwhile; or at first:
-  // where there is a stop it stands until the stop's level is known.
+  // Permits the PTU to move after an emergency stop, unless the stop was pressed again meanwhile.
+  // Also at the start: with a stop configured, the PTU is halted until the stop's level is known.
   void rearm();
 
-  // Of every configured device, camera and PTU first.
+  // All configured devices, camera and PTU first.
   std::vector<DeviceReport> reports() const;
 
  private:
@@ -48,8 +48,8 @@ class DeviceSet {
   std::optional<sensors::Inclinometer> inclinometer_;
   std::optional<sensors::Gnss> gnss_;
   camera::AravisCamera camera_;
-  // Before the camera ends, whatever it is waiting for: the PTU's end halts the unit. The GPIO's
-  // thread speaks to the PTU and ends before it.
+  // Destroyed before the camera, which may block: the PTU's destructor halts the unit. The GPIO
+  // thread uses the PTU and is destroyed first.
   ptu::PtuThread ptu_;
   std::optional<gpio::Gpio> gpio_;
 };

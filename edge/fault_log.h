@@ -1,5 +1,5 @@
-// The newest trouble of a station and when it came up. An alarm goes by itself; this stays. And the
-// news, good and bad, for the journal. Pure.
+// The newest fault of a station and its time: it stays after its alarm has gone. Also the news,
+// good and bad, for the journal. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,38 +14,38 @@ namespace ols::station {
 
 class FaultLog {
  public:
-  // What a source has to say now, and a number that tells a new trouble in the same words. The same
-  // words again and again (a device that is not there, tried each second) are one trouble, so that
-  // they do not hide what else comes up.
+  // The present error of a source, and a count that distinguishes a new error from an old one with
+  // the same text. A repeated text (a device that is absent, retried each second) is one fault, so
+  // that it does not hide others.
   void note(const std::string& source, const std::string& what, std::uint64_t number,
             std::int64_t utime_us);
-  // The same for what happens because somebody did something: each time is another trouble.
+  // The same for the result of someone's action: each one is a new fault.
   void note_event(const std::string& source, const std::string& what, std::uint64_t number,
                   std::int64_t utime_us);
-  // The alarms that hold now; one that did not hold a moment ago is a trouble. Its numbers may
-  // change ("silent for 5 s") without it becoming another one.
+  // The alarms that hold now. A new alarm is a fault. A changed number ("silent for 5 s") does not
+  // make it a new one.
   void note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us);
 
-  // Of what is always in one state or another; another one is news, whatever the `details` are.
+  // The state of a source that always has one. A changed state is news; changed `details` are not.
   void note_state(const std::string& source, const std::string& state, const std::string& details,
                   bool bad);
 
-  // What came up or ended since the last call, in the order of its coming.
+  // What began or ended since the last call, in order.
   std::vector<News> take_event() { return std::exchange(news_, {}); }
 
-  const std::string& text() const { return text_; }  // empty: there was none
+  const std::string& text() const { return text_; }  // empty: no fault yet
   std::int64_t utime_us() const { return utime_us_; }
 
  private:
   struct Noted {
     std::string what;
     std::uint64_t number = 0;
-    std::int64_t utime_us = 0;  // when it was said last
+    std::int64_t utime_us = 0;  // when it was last reported
   };
   void set(const std::string& source, const std::string& what, std::int64_t utime_us);
 
   std::map<std::string, Noted> noted_;
-  std::map<std::string, std::string> alarms_;  // by their words without digits
+  std::map<std::string, std::string> alarms_;  // by their text without digits
   std::map<std::string, std::string> states_;  // by source
   std::vector<News> news_;
   std::string text_;

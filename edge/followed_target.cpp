@@ -72,8 +72,8 @@ std::optional<tracker::TrackerOutput> FollowedTarget::track(const camera::Frame&
   return result.output;
 }
 
-// The camera's motion by the PTU's angles and by the picture: wrong angles, times or mounting show
-// here before they show in a position.
+// Compares the camera's motion by the PTU's angles with that of the image: wrong angles, times or
+// mounting show here before they affect a position.
 void FollowedTarget::compare_motion(const tracker::TrackerOutput& output) {
   if (output.prediction_dropped) counters_["predictions_dropped"] += 1;
   if (!output.prediction_error_px) return;

@@ -1,5 +1,5 @@
-// The frames of the last second: an operator designates in a picture that is older than the newest,
-// and a search compares pictures. Pure.
+// The frames of the last second: an operator designates in an image that is not the newest, and
+// acquisition compares images. Pure.
 #pragma once
 
 #include <deque>
@@ -13,9 +13,9 @@ class FrameHistory {
  public:
   explicit FrameHistory(double span_s) : span_s_(span_s) {}
 
-  // False: not later than the newest one, and left out.
+  // False: ignored, because it is not later than the newest one.
   bool add(const camera::Frame& frame);
-  // Nothing designated: the newest. Null when there is none at that instant.
+  // Without a time: the newest. Null: no frame of that instant.
   const camera::Frame* find(const std::optional<double>& mid_exposure_s) const;
   // Oldest first.
   const std::deque<camera::Frame>& frames() const { return frames_; }

@@ -19,9 +19,9 @@
 namespace ols::station {
 namespace {
 
-constexpr double kSlowTurn_s = 0.5;  // of the control loop, which takes some ms: counted
+constexpr double kSlowTurn_s = 0.5;  // of the control loop, which takes some ms; counted
 
-// The hottest zone, whatever it is called: kernels name them as they like.
+// The hottest zone: zone names differ between kernels.
 std::optional<double> hottest_degC(const std::string& folder) {
   std::optional<double> hottest;
   std::error_code none;
@@ -88,10 +88,10 @@ struct HostMonitor::Shared {
   std::condition_variable ended;
   bool end = false;
   HostReading reading;
-  double read_s = 0.0;  // of that reading; at first, of the start
+  double read_s = 0.0;  // of the reading; initially of the start
 };
 
-// Detached: who waits for a disk that hangs would never end.
+// Detached: joining a thread that waits for a hanging disk would never return.
 HostMonitor::HostMonitor(const HostConfig& config, Reader reader)
     : config_(config), shared_(std::make_shared<Shared>()) {
   shared_->read_s = clock_monotonic_s();

@@ -1,5 +1,5 @@
-// The station's own computer: temperature of its processor, room on its disk, turns of the control
-// loop that took too long. A thread looks: a disk over a network that hangs must not hold the loop.
+// The station's computer: processor temperature, free disk space, overlong turns of the control
+// loop. It reads in its own thread, because a network disk that hangs must not block the loop.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace ols::station {
 
 struct HostConfig {
   std::string thermal_folder = "/sys/class/thermal";
-  std::string disk_folder = "/";  // of the file system whose room is watched
+  std::string disk_folder = "/";  // the file system to watch
   double cpu_alarm_degC = 85.0;
   double disk_alarm_bytes = 5e8;
   double interval_s = 2.0;  // between two readings
@@ -26,7 +26,7 @@ struct HostReport {
   std::vector<std::string> alarms;
 };
 
-// What there is to be read; nothing where it cannot be.
+// A value that cannot be read is empty.
 struct HostReading {
   std::optional<double> cpu_degC;
   std::optional<double> disk_free_bytes;
@@ -37,7 +37,8 @@ HostReport report_on(const HostReading& reading, const HostConfig& config);
 class HostMonitor {
  public:
   using Reader = std::function<HostReading()>;
-  // Starts to read, again and again; whatever `reader` refers to must live as long as the program.
+  // Starts to read periodically. Everything that `reader` refers to must live until the program
+  // ends.
   explicit HostMonitor(const HostConfig& config)
       : HostMonitor(config, [c = config] { return read_host(c); }) {}
   HostMonitor(const HostConfig& config, Reader reader);
@@ -55,7 +56,7 @@ class HostMonitor {
 
   HostConfig config_;
   std::shared_ptr<Shared> shared_;
-  double slowest_s_ = 0.0;  // since the last look
+  double slowest_s_ = 0.0;  // since the last report
   std::uint64_t slow_turns_ = 0;
 };
 

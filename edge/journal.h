@@ -1,5 +1,5 @@
-// What a station writes into its journal: each thing when it comes up and when it ends, but no
-// flood of the same thing. Pure.
+// What a station writes into its journal: when each condition begins and ends, without flooding.
+// Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace ols::station {
 
 struct News {
-  std::string key;  // what it is about: things of the same key are counted together
+  std::string key;  // entries of the same key are counted together
   std::string text;
   bool bad = false;
 };
@@ -23,9 +23,9 @@ struct JournalLine {
 
 class Journal {
  public:
-  // What is to be written now. The first kBurst lines of a key in a kWindow_s are; of what follows
-  // the last one is told when it is over, with how many were left out, so that the end of a thing
-  // is never kept back for good. To be called also when there is nothing new. `now_s`: monotonic.
+  // The entries to write now: the first kBurst of a key within kWindow_s. Of the others the last is
+  // written after the window, with the number left out, so that the end of a condition is always
+  // written. Must also be called when there is nothing new. `now_s`: monotonic.
   std::vector<JournalLine> pass(const std::vector<News>& news, double now_s);
 
   static constexpr int kBurst = 4;

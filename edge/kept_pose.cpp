@@ -6,7 +6,7 @@ namespace ols::station {
 namespace {
 
 constexpr double kInterval_s = 0.1;
-constexpr double kKept_s = 10.0;  // the file is written so often
+constexpr double kKept_s = 10.0;  // interval of saving
 
 std::string pose_file(const StationSettings& settings) {
   if (settings.state_folder.empty()) return {};

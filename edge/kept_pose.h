@@ -1,4 +1,4 @@
-// The station's pose by survey and sensors, kept in a file over a restart.
+// The station's pose from survey and sensors, persisted in a file.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,11 @@ namespace ols::station {
 
 class KeptPose {
  public:
-  // Resumes what was kept of the sensors that the station still has.
+  // Restores the persisted pose, as far as the station still has the sensors.
   KeptPose(const StationSettings& settings, double now_s);
 
   sensors::StationPose pose(double now_s) const { return estimator_.pose(now_s); }
-  // In every turn; the pose when it is due. Does not wait for the disk.
+  // In every turn. Returns the pose when it is due. Does not wait for the disk.
   std::optional<sensors::StationPose> look(DeviceSet& devices, double now_s);
   std::vector<std::string> alarms(double now_s) const;
 

@@ -18,7 +18,7 @@
 namespace {
 
 int run(const ols::station::StationSettings& settings) {
-  cv::setNumThreads(1);  // a frame is small; the other core belongs to the camera's stream
+  cv::setNumThreads(1);  // a frame is small; the other core is for the camera's stream
   ols::station::StationProcess process(settings, ols::draw_boot_id());
   spdlog::info("station {} ready: camera {}, PTU {}, bus {}", settings.id, settings.camera.device,
                settings.ptu.device, settings.lcm_url);

@@ -13,7 +13,7 @@ namespace ols::station {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kDatagram_bytes = 60000;  // with room for the header, below 65 000
+constexpr std::size_t kDatagram_bytes = 60000;  // leaves space for the header, below 65 000
 
 void symmetric(const Eigen::Matrix2d& matrix, double (&out)[3]) {
   out[0] = matrix(0, 0);
@@ -47,7 +47,7 @@ std::int8_t pose_code(sensors::PoseSource source) {
   return M::POSE_NONE;
 }
 
-// The id of the configured calibration, or another one for each pose that the sensors gave in this
+// The id of the configured calibration, or a new one for each pose that the sensors gave in this
 // boot. (Steps of splitmix64.)
 std::int64_t calibration_id(std::int64_t configured, std::int64_t boot_id, std::int64_t revision) {
   if (revision == 0) return configured;
@@ -181,7 +181,7 @@ std::int64_t Sender::utime_us(double monotonic_s) const {
 }
 
 double Sender::monotonic_s(std::int64_t utime_us) const {
-  // Absurd stamps from outside must not overflow.
+  // Invalid stamps from outside must not overflow.
   return (static_cast<double>(utime_us) - static_cast<double>(utc_minus_monotonic_us)) * 1e-6;
 }
 

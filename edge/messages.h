@@ -1,4 +1,4 @@
-// Translation between the station's types and the LCM messages; nothing is decided here.
+// Translation between the station's types and the LCM messages, without any decision.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace ols::station {
 
-// Who sends, how its monotonic clock is turned into UTC at the moment, and how good that is.
+// The sender, the present conversion from monotonic time to UTC, and its quality.
 struct Sender {
   std::string station;
   std::int64_t boot_id = 0;
@@ -37,7 +37,7 @@ ols_msg::station_status_t to_message(const StationReport& report, const Sender& 
                                      const StationSettings& settings, double now_s,
                                      std::int64_t sequence);
 
-// A JPEG that fits into one datagram; nothing when even the smallest picture does not.
+// A JPEG that fits into one datagram; empty when even the smallest image does not.
 std::optional<ols_msg::preview_t> to_preview(const camera::Frame& frame,
                                              const std::optional<cv::Rect2d>& box,
                                              const Sender& sender, std::int64_t sequence);
@@ -45,7 +45,7 @@ std::optional<ols_msg::preview_t> to_preview(const camera::Frame& frame,
 DesignateCommand from_message(const ols_msg::designate_t& message, const Sender& sender);
 SlewCommand from_message(const ols_msg::slew_t& message, const Sender& sender, double now_s);
 PointCommand from_message(const ols_msg::ptu_command_t& message);
-// Nothing when its numbers are none: not finite, negative, or far from any memory.
+// Empty when its times are not valid: not finite, negative, or too large.
 std::optional<recorder::RecordCommand> from_message(const ols_msg::record_t& message,
                                                     const Sender& sender, double now_s);
 

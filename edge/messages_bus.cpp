@@ -62,9 +62,9 @@ void StationBus::subscribe() {
 
 std::string StationBus::ptu_channel() const { return station_channel(kPtuChannel, settings_.id); }
 
-// In the bus's own thread: a stop goes ahead of whatever else waits, and no flood pushes it out. It
-// is good at any age, from any clock, sender and schema that can be read: only what moves must be
-// fresh, and who says stop on this station's channel means this station.
+// In the bus's own thread: a stop overtakes all waiting messages and no flood displaces it. It is
+// accepted at any age, from any clock, sender and schema that can be read: only commands that cause
+// motion must be fresh, and a stop on this station's channel means this station.
 bool StationBus::take_stop(const void* data, int bytes) {
   ols_msg::ptu_command_t command{};
   const bool is_stop = decode_exactly(data, bytes, command) &&
@@ -79,12 +79,12 @@ void StationBus::disconnect(const std::string& why) {
   trouble_ = why;
 }
 
-// What cannot be sent is not kept: a bearing of yesterday is of no use to anybody.
+// A message that cannot be sent is not kept: old bearings are of no use.
 template <class Message>
 void StationBus::publish(const std::string& channel, const Message& message) {
   if (bus_ && bus_->publish(channel, message)) return;
   counters_["messages_not_sent"] += 1;
-  if (bus_) disconnect("the network takes no messages");
+  if (bus_) disconnect("sending fails: the network is down");
 }
 
 void StationBus::end_turn() { note("DESIGNATE", turn_.end(now_s_)); }
@@ -152,13 +152,13 @@ void StationBus::set_time(const clock::ClockPair& now, const clock::ClockQuality
   sender_.clock = quality;
 }
 
-// A bounded number of messages: a flood costs messages, not the control loop.
+// A bounded number of messages: a flood costs messages, but does not block the control loop.
 void StationBus::receive() {
   if (!bus_) connect(0.0);
   if (bus_) {
     bus_->handle(0);
     watch_.look(bus_->traffic(), now_s_);
-    if (bus_->is_deaf()) disconnect("nothing comes in any more, not even this station's own word");
+    if (bus_->is_deaf()) disconnect("no messages arrive any more, not even this station's own");
   }
   end_turn();
 }

@@ -1,6 +1,6 @@
-// A station on the bus: takes commands in, sends bearings, status and previews out. Decodes, checks
-// who is meant and whether the command is fresh, and counts whatever it refuses; decides nothing.
-// Without a network the station runs all the same: the connection is tried again once a second.
+// A station on the bus: receives commands, sends bearings, status and previews. Decodes, checks the
+// addressee and the freshness of a command, and counts what it refuses; decides nothing else. The
+// station also runs without a network: the bus retries the connection every second.
 #pragma once
 
 #include <cstdint>
@@ -24,37 +24,37 @@ namespace ols::station {
 
 class StationBus {
  public:
-  // Empty: accepted; else why not.
+  // Empty: accepted; otherwise the reason for the refusal.
   using Record = std::function<std::string(const recorder::RecordCommand&)>;
 
   // The references must outlive the bus.
   StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
              CommandTurn& turn, Record recorder);
 
-  // The clocks of this moment, for everything until the next call.
+  // The present clocks, for everything until the next call.
   void set_time(const clock::ClockPair& now, const clock::ClockQuality& quality);
 
-  // Seeks a connection; waits so long for it at most.
+  // Connects; waits at most this long.
   void connect(double wait_s);
-  // Hands the waiting commands to the station. Where there is no connection, one is sought; nobody
-  // waits for it.
+  // Passes the waiting commands to the station. Without a connection it starts an attempt and does
+  // not wait for it.
   void receive();
-  // One datagram, as it came from the network.
+  // One datagram as received.
   void take(const std::string& channel, const void* data, int bytes);
-  // A stop, in whatever thread it comes; false for anything else. end_turn() carries it out.
+  // True: the datagram is a stop, from any thread; end_turn() carries it out.
   bool take_stop(const void* data, int bytes);
   // After the datagrams of a turn.
   void end_turn();
 
-  // Why there is no connection; empty when there is one.
+  // Why there is no connection; empty: connected.
   const std::string& trouble() const { return trouble_; }
-  // The last refused command in words, and how many there were.
+  // The last refused command as text, and the number of refused commands.
   const std::string& last_refusal() const { return refused_.last(); }
   std::uint64_t refusals() const { return refused_.number(); }
-  // What a person should know of the bus: commands that keep being refused because they are not
-  // fresh, datagrams that are none.
+  // Conditions of the bus that a person should know: commands that keep being refused as not fresh,
+  // invalid datagrams.
   std::vector<std::string> alarms() const;
-  // Refusals before the station, messages not sent; go into each status.
+  // Messages refused before they reached the station, and messages not sent; part of each status.
   std::map<std::string, double> counters() const;
 
   void send(const Bearing& bearing);

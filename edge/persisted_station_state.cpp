@@ -5,7 +5,7 @@ namespace {
 
 constexpr const char* kFree = "free";
 constexpr const char* kStopped = "stopped";
-constexpr const char* kUnknown = "unknown";  // and nobody has acted since
+constexpr const char* kUnknown = "unknown";  // and no one has acted since
 constexpr const char* kEmergency = "emergency";
 
 std::string file_of(const std::string& folder, const std::string& id, const char* subject) {
@@ -25,7 +25,7 @@ PersistedStationState::PersistedStationState(const std::string& folder, const st
       hold_(file_of(folder, id, "hold"), {kFree, kStopped, kUnknown, kEmergency}),
       doubt_(file_of(folder, id, "doubt"), ptu::doubt_words()) {
   hold_unknown_ = hold_.restore_result() != RestoreResult::kKnown || hold_.word() == kUnknown;
-  // A damaged file, or one that could not be written any more, may have told of an emergency.
+  // A file that is damaged or cannot be written may have recorded an emergency.
   const bool may_be_grave = hold_.restore_result() == RestoreResult::kUnreadable ||
                             hold_.restore_result() == RestoreResult::kUnwritable;
   const bool perhaps_emergency = has_stop && may_be_grave;
@@ -49,14 +49,14 @@ void PersistedStationState::remember(StationState state,
                                      ptu::PtuReference reference) {
   hold_unknown_ = hold_unknown_ && state == begin_;
   if (state == StationState::kEmergency) {
-    // What a damaged file said stays with it until somebody has re-armed the station.
+    // A damaged file is not overwritten until a person has re-armed the station.
     if (!hold_unknown_) hold_.set(kEmergency);
   } else if (is_held(state)) {
     hold_.set(hold_unknown_ ? kUnknown : kStopped);
   } else {
     hold_.set(kFree);
   }
-  // While there is no unit, what was known of it stays.
+  // Without a unit, its last known state stays.
   if (doubt) {
     doubt_.set(ptu::to_word(doubt));
   } else if (reference == ptu::PtuReference::kTrusted) {
@@ -69,19 +69,19 @@ std::vector<std::string> PersistedStationState::alarms() const {
   std::vector<std::string> alarms;
   if (hold_unknown_) {
     const std::string why =
-        hold_.why_unknown().empty() ? "not since an earlier start" : hold_.why_unknown();
+        hold_.why_unknown().empty() ? "since an earlier start" : hold_.why_unknown();
     const std::string act = begin_ == StationState::kEmergency
                                 ? "check it, then re-arm it"
                                 : "check it, then ols-ctl " + id_ + " release";
-    alarms.push_back("stop: how the station was left is not known (" + why + "): " + act);
+    alarms.push_back("stop: state before the restart is unknown (" + why + "): " + act);
   }
-  if (!hold_.trouble().empty()) alarms.push_back("stop: not remembered: " + hold_.trouble());
+  if (!hold_.trouble().empty()) alarms.push_back("stop: state cannot be saved: " + hold_.trouble());
   if (doubt_unknown_) {
-    alarms.push_back("ptu: whether its reference was in doubt is not known (" +
-                     doubt_.why_unknown() + "): check it, then ols-ctl " + id_ + " reference-ok");
+    alarms.push_back("ptu: reference before the restart is unknown (" + doubt_.why_unknown() +
+                     "): check it, then ols-ctl " + id_ + " reference-ok");
   }
   if (!doubt_.trouble().empty()) {
-    alarms.push_back("ptu: doubt not remembered: " + doubt_.trouble());
+    alarms.push_back("ptu: reference state cannot be saved: " + doubt_.trouble());
   }
   return alarms;
 }

@@ -1,6 +1,6 @@
-// How a station was left, over a restart or a loss of power: whether somebody had taken its leave
-// to move, and whether its unit's reference was in doubt. A station that does not know how it was
-// left starts stopped, its reference in doubt, and says so in an alarm.
+// The state in which a station ended, across a restart or a power failure: whether it was permitted
+// to move, and whether its PTU's reference was in doubt. A station whose state is unknown starts
+// stopped, with its reference in doubt, and raises an alarm.
 #pragma once
 
 #include <optional>
@@ -16,21 +16,21 @@ namespace ols::station {
 
 class PersistedStationState {
  public:
-  // Files ID.hold and ID.doubt in `folder`; empty: nothing is remembered, so nothing is known.
-  // `has_stop`: the station has an emergency stop. A file that is damaged may have told of one.
+  // Files ID.hold and ID.doubt in `folder`. Empty: nothing is saved, so the state is unknown.
+  // `has_stop`: the station has an emergency stop; a damaged file may have recorded one.
   PersistedStationState(const std::string& folder, const std::string& id, bool has_stop);
 
-  // As it shall begin: kIdle, kStopped or kEmergency.
+  // The state to begin in: kIdle, kStopped or kEmergency.
   StationState begin() const { return begin_; }
-  // The doubt about the unit's reference that the process before this one left.
+  // The doubt about the PTU's reference at the end of the previous process.
   const std::optional<ptu::PtuReferenceDoubt>& doubt() const { return begin_doubt_; }
 
-  // What there is to remember by now; in every turn. `begin()` is unknown no longer once the
-  // station has left that state: a person has acted. Does not wait for the disk.
+  // Saves the present state; in every turn, does not wait for the disk. Once the station has left
+  // the state in which it began, a person has acted, and the state is no longer unknown.
   void remember(StationState state, const std::optional<ptu::PtuReferenceDoubt>& doubt,
                 ptu::PtuReference reference);
 
-  // What is not known and what to do; what is not remembered.
+  // What is unknown and what to do; what cannot be saved.
   std::vector<std::string> alarms() const;
 
  private:
@@ -41,7 +41,7 @@ class PersistedStationState {
   bool hold_unknown_ = false, doubt_unknown_ = false;
 };
 
-// Whether an operator, or the emergency stop, has the station in hand: it begins again stopped.
+// Whether the operator or the emergency stop holds the station: if so, it begins stopped next time.
 bool is_held(StationState state);
 
 }  // namespace ols::station

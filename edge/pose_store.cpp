@@ -11,7 +11,7 @@
 namespace ols::station {
 namespace {
 
-// A file that is not there is an empty memory. Throws std::system_error.
+// A missing file gives an empty pose. Throws std::system_error.
 sensors::PersistedPose read(const std::string& file) {
   constexpr std::size_t kMost = 16384;  // [byte]
   try {
@@ -33,7 +33,7 @@ PoseStore::PoseStore(const std::string& file) : file_(file) {
   try {
     found_ = read(file);
   } catch (const std::exception& failure) {
-    refused_ = std::string("the kept one is refused, ") + failure.what();
+    refused_ = std::string("saved pose refused: ") + failure.what();
   }
 }
 
@@ -48,7 +48,7 @@ void PoseStore::keep(sensors::PersistedPose pose) {
 std::string PoseStore::trouble() const {
   if (!refused_.empty()) return refused_;
   const std::string failed = file_.trouble();
-  return failed.empty() ? "" : "not kept, " + failed;
+  return failed.empty() ? "" : "cannot be saved: " + failed;
 }
 
 }  // namespace ols::station

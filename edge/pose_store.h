@@ -1,5 +1,5 @@
-// Keeps the sensors' pose in a file, so that a station restarted while the receiver has no fix
-// still knows where it is.
+// Persists the sensors' pose in a file, so that a station that restarts while the receiver has no
+// fix has a position.
 #pragma once
 
 #include <string>
@@ -11,19 +11,20 @@ namespace ols::station {
 
 class PoseStore {
  public:
-  // Reads `file`; empty: nothing is kept. What cannot be read, or is damaged, is a trouble.
+  // Reads `file`; empty: nothing is persisted. trouble() reports a file that is damaged or cannot
+  // be read.
   explicit PoseStore(const std::string& file);
 
-  // What was there at the start.
+  // The pose found at the start.
   const sensors::PersistedPose& found() const { return found_; }
-  // Written soon: does not wait for the disk. A part that is missing stays as it was found.
+  // Writes soon, without waiting for the disk. A missing part keeps its persisted value.
   void keep(sensors::PersistedPose pose);
-  // In words; empty when all is well.
+  // As text; empty: no trouble.
   std::string trouble() const;
 
  private:
   sensors::PersistedPose found_;
-  std::string refused_;  // why, until another is kept
+  std::string refused_;  // why; cleared when a pose is saved
   BackgroundFile file_;
 };
 

@@ -1,11 +1,11 @@
-// SIGUSR1 re-arms a station after an emergency stop: the hand at the station of who is logged in on
-// its computer. Nobody on the bus can send a signal.
+// SIGUSR1 re-arms a station after an emergency stop: someone logged in on its computer counts as a
+// person at the station. No program on the bus can send a signal.
 #pragma once
 
 namespace ols::station {
 
 void install_rearm_handler();
-// Whether the signal came since the last call.
+// True if the signal came since the last call.
 bool take_rearm_signal();
 
 }  // namespace ols::station

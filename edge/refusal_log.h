@@ -1,5 +1,5 @@
-// The messages that are refused before or by the station: counted, the last one in words, and an
-// alarm when commands keep being refused because they are not fresh. Pure.
+// The messages refused before or by the station: their number, the last one as text, and an alarm
+// when commands keep being refused as not fresh. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ namespace ols::station {
 
 class RefusalLog {
  public:
-  // What the station did not do, in words.
+  // An action that the station did not carry out, as text.
   void note(const std::string& what);
-  // The message was refused before the station has seen it. `kind`: "SLEW".
+  // The message was refused before it reached the station. `kind`: "SLEW".
   void refuse(const std::string& kind, const std::string& why);
   void refuse_at_gate(const std::string& kind, const std::string& why, double now_s);
 

@@ -5,7 +5,7 @@
 namespace ols::station {
 namespace {
 
-constexpr std::uint64_t kAlarm = 3;  // a doubled datagram or two are none
+constexpr std::uint64_t kAlarm = 3;  // a duplicated datagram or two raise no alarm
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// Says in words that commands keep being refused before they are looked at: who sends them in good
-// faith is locked out and should know why. Pure.
+// Raises an alarm when commands keep being refused before they reach the station: a legitimate
+// sender is locked out and should learn why. Pure.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace ols::station {
 
 class RefusalMonitor {
  public:
-  // One command of this kind ("slews") was refused. Kinds and reasons are a few of our own words.
+  // One command of this kind ("slews") was refused. Kinds and reasons come from short fixed lists.
   void note(const std::string& kind, const std::string& why, double now_s);
   // "commands: 12 slews refused in 10 s: replayed", for each kind and reason with three or more.
   std::vector<std::string> alarms(double now_s) const;

@@ -1,7 +1,7 @@
-// Whether more than one fusion slews this station. Pure.
+// Detects that more than one fusion slews this station. Pure.
 //
-// A fusion that was restarted is another sender than before, but the former one is heard no more:
-// two of them are at work when one that another has followed upon comes back.
+// A restarted fusion is a new sender, and the previous one is not heard again. Two fusions are
+// running if a sender comes back after another one.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@ namespace ols::station {
 
 class SlewConflictMonitor {
  public:
-  // The boot of the fusion whose slew was accepted; the station's monotonic clock.
+  // The boot id of the fusion whose slew was accepted; the station's monotonic clock.
   void note(std::int64_t boot_id, double now_s);
-  // There have been two within the last seconds.
+  // Two fusions have slewed within the last seconds.
   bool are_several(double now_s) const;
 
  private:

@@ -8,7 +8,7 @@ namespace ols::station {
 void SlewSearch::restart(bool found) {
   acquisition_.clear();
   if (found) in_view_ = {};
-  searched_s_ = kNever;  // at the first frame of a search the tracker is told where to look
+  searched_s_ = kNever;  // at the first frame of a search the tracker is sent a hint
 }
 
 std::optional<SlewSearch::Expected> SlewSearch::expected(const camera::Frame& frame,
@@ -28,7 +28,7 @@ std::optional<SlewSearch::Expected> SlewSearch::expected_in_picture(const camera
   return where && pointing.in_picture(where->pixel) ? where : std::nullopt;
 }
 
-// What the fusion does not know of the target, and this station of its own directions.
+// The fusion's uncertainty of the target, and this station's of its own directions.
 double SlewSearch::search_sd_px(const PointingModel& pointing, const SlewCommand& slew) const {
   const CalibrationSd& own = pointing.geometry().sd;
   const double sd_rad =
@@ -54,7 +54,7 @@ std::optional<SlewSearch::Place> SlewSearch::send_tracker(const camera::Frame& f
   return Place{where->pixel, search_sd_px(pointing, *slew)};
 }
 
-// Gaps are bridged: a lost frame, a late slew, a step of a search that leads out of the picture.
+// Gaps are bridged: a lost frame, a late slew, a search step that leads out of the image.
 void SlewSearch::note_in_view(const camera::Frame& frame, const PointingModel& pointing,
                               const Slew& slew) {
   constexpr double kGap_s = 3.0;
@@ -105,7 +105,7 @@ std::string SlewSearch::unacquired_alarm(const Slew& slew) const {
   if (sd_px > max_search_sd_px(config_)) return {};
   char text[120];
   std::snprintf(text, sizeof text,
-                "target: slewed for %.0f s with its place in the picture, nothing acquired: "
+                "target: slewed for %.0f s with its place in the image, nothing acquired: "
                 "designate it",
                 waited_s);
   return text;

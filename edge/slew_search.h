@@ -1,5 +1,5 @@
 // Where and how a slewed station looks for its target: with the template of an earlier track, or
-// for anything that behaves as the slew says. Pure.
+// for any object that behaves as the slew predicts. Pure.
 #pragma once
 
 #include <deque>
@@ -33,38 +33,36 @@ class SlewSearch {
     Eigen::Vector2d pixel;
     double sd_px = 0.0;
   };
-  // Where the tracker shall be sent to look for its target now. Nothing: it was sent a moment ago,
-  // or the PTU is still on its way.
+  // Where to send the tracker to look for its target. Empty: it was sent a moment ago, or the PTU
+  // has not arrived yet.
   std::optional<Place> send_tracker(const camera::Frame& frame, const PointingModel& pointing,
                                     const Slew& slew);
-  // What looks like the target elsewhere is not the one that the others see there.
+  // An object elsewhere that looks like the target is not the one that the other stations see.
   bool is_where_slewed(const camera::Frame& frame, const tracker::TrackerOutput& output,
                        const PointingModel& pointing, const Slew& slew) const;
 
-  // A slewed station that has not found its own target for own_target_s where the slews lead looks
-  // for whatever is there, as one without a target does: what it was told to follow may never have
-  // been the target.
+  // After own_target_s without its own target at the slew, a station acquires whatever is there,
+  // like a station without a target: what it was designated may never have been the target.
   bool looks_for_anything(const FollowedTarget& target) const;
-  // The box of what behaves as the slew says in these frames, the newest last.
+  // The box of the object that behaves as the slew predicts in these frames, oldest first.
   std::optional<cv::Rect2d> acquire(const std::deque<camera::Frame>& frames,
                                     const PointingModel& pointing, const Slew& slew);
-  // What was acquired is on trial since this instant; it was not believed in, and the own target
-  // has its turn again.
+  // When the trial of an acquired target began; it failed, and the own target is looked for again.
   void begin_trial(double time_s) { searched_s_ = time_s; }
   void end_trial(double time_s);
 
-  // An alarm about a slew to a place that is known well enough to be in the picture; else empty.
+  // An alarm about a slew to a place known well enough to be in the image; empty: none.
   std::string unacquired_alarm(const Slew& slew) const;
   const std::map<std::string, double>& counters() const { return counters_; }
 
  private:
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
-  // The time in which a slew has led to a place that is in the picture, by frames.
+  // The time, by frames, during which the slew's place was in the image.
   struct InView {
     double from_s = 0.0, to_s = kNever;
-    double own_from_s = kNever;  // since when it has been the own target that is looked for
+    double own_from_s = kNever;  // since when the own target has been looked for
   };
-  struct Expected {  // of the slew's target in a frame
+  struct Expected {  // the slew's target in a frame
     Eigen::Vector2d pixel;
     PanTilt angles;
   };
@@ -78,7 +76,7 @@ class SlewSearch {
   const StationConfig config_;
   tracker::Acquisition acquisition_;
   InView in_view_;
-  double searched_s_ = 0.0;  // when the tracker was last told where to search
+  double searched_s_ = 0.0;  // when the tracker was last sent to search
   std::map<std::string, double> counters_;
 };
 

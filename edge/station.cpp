@@ -14,7 +14,7 @@ Station::Station(const StationConfig& config, std::unique_ptr<tracker::TargetTra
       bearings_(config),
       motion_(config.motion) {}
 
-// --- What happens
+// --- Inputs
 
 void Station::on_angles(const ptu::AngleSample& sample) { pointing_.add(sample); }
 
@@ -107,7 +107,8 @@ void Station::set_reference(ptu::PtuReference reference) {
   if (had_angles && mode_.has_doubtful_angles()) forget_angles();
 }
 
-// Angles of before and after are not in the same frame. Who followed a target looks for it again.
+// Earlier and later angles are not in the same frame of reference. A station that followed a target
+// looks for it again.
 void Station::forget_angles() {
   pointing_.forget_angles();
   motion_.clear();
@@ -151,7 +152,7 @@ Refusal Station::designate(const DesignateCommand& command, double now_s) {
   motion_.clear();
   bearings_.clear();
   enter(StationState::kTracking);
-  // The operator saw an old frame: catch up with the frames since then.
+  // The operator saw an old frame: process the frames since then.
   for (const camera::Frame& frame : frames_.frames()) {
     if (frame.mid_exposure_s > start->mid_exposure_s && follows_target()) track(frame);
   }
@@ -184,14 +185,14 @@ void Station::begin_stopped() {
   if (!mode_.is(StationState::kEmergency)) enter(StationState::kStopped);
 }
 
-// No goal of a command is left, and no homing that was not begun.
+// Cancels the goal of any command, and homing that has not begun.
 void Station::give_up_unit() {
   slew_.clear();
   point_.reset();
   actions_.home = false;
 }
 
-// Also in an emergency: who says stop shall never read that it was refused.
+// Also in an emergency: a stop must never be answered with a refusal.
 void Station::stop(double now_s) {
   pass_time(now_s);
   give_up_unit();
@@ -254,7 +255,7 @@ Refusal Station::reference_ok(double now_s) {
   return count(refusal, "reference_ok");
 }
 
-// --- What comes out
+// --- Outputs
 
 StationOutput Station::step(double now_s) {
   if (now_s_ > 0.0 && now_s > now_s_) mode_.count_seconds(now_s - now_s_);
@@ -275,7 +276,7 @@ void Station::expire(double now_s) {
     enter(target_.exists() ? StationState::kLost : StationState::kIdle);
   }
   const bool following = mode_.is(StationState::kTracking) || mode_.is(StationState::kCoasting);
-  // Also when frames stop coming: no believed frame, no motion.
+  // Also when frames stop: without a believed frame there is no motion.
   if (following && now_s - believed_s_ > config_.coast_s) {
     motion_.clear();
     enter(slew_.command() ? StationState::kSlewed : StationState::kLost);
@@ -296,7 +297,7 @@ std::optional<ptu::ServoGoal> Station::goal(double now_s) const {
   switch (mode_.state()) {
     case StationState::kManual:
       if (point_) {
-        ptu::ServoGoal here = *point_;  // does not move: as good now as when it was given
+        ptu::ServoGoal here = *point_;  // stationary: still valid
         here.time_s = now_s;
         return here;
       }
@@ -352,12 +353,12 @@ std::vector<std::string> Station::alarms() const {
     }
   }
   if (slew_.has_several_senders(now_s_)) {
-    alarms.emplace_back("commands: slews from two fusions, end one of them");
+    alarms.emplace_back("commands: slews from two fusions: stop one of them");
   }
   return alarms;
 }
 
-// Each part counts under names of its own.
+// Each part uses its own counter names.
 std::map<std::string, double> Station::counters() const {
   auto all = counters_;
   for (const auto* part :

@@ -1,6 +1,6 @@
-// What a station does, decided without devices, clocks or messages: designate, track, coast, lose,
+// The decisions of a station, without devices, clocks or messages: designate, track, coast, lose,
 // be slewed, manual, stopped, emergency. Times are the station's monotonic clock [s]. One instance
-// a station, called from one thread.
+// for each station, called from one thread.
 #pragma once
 
 #include <map>
@@ -26,67 +26,68 @@
 
 namespace ols::station {
 
-// What the unit is told beside its goal.
+// Commands to the PTU in addition to its goal.
 struct UnitActions {
-  bool stop = false;  // whatever it does by itself: homing
+  bool stop = false;  // what the PTU does on its own: homing
   bool home = false;
-  bool reference_ok = false;  // a person vouches for it
+  bool reference_ok = false;  // a person confirms it
 };
 
 struct StationOutput {
-  std::vector<Bearing> bearings;       // those whose PTU angles are known by now
-  std::optional<ptu::ServoGoal> goal;  // of the PTU; nothing: halt
+  std::vector<Bearing> bearings;       // those whose PTU angles are known
+  std::optional<ptu::ServoGoal> goal;  // of the PTU; empty: halt
 };
 
 class Station {
  public:
   Station(const StationConfig& config, std::unique_ptr<tracker::TargetTracker> tracker);
 
-  // What happens to the station. Samples and frames come in time order, each kind for itself.
+  // Inputs. Samples and frames each come in time order.
   void on_angles(const ptu::AngleSample& sample);
   void on_frame(const camera::Frame& frame) { on_frame(frame, now_s_); }
-  // A frame that is older than max_age_s at now_s is dropped: the tracker gets no backlog.
+  // A frame older than max_age_s at now_s is dropped: the tracker gets no backlog.
   void on_frame(const camera::Frame& frame, double now_s);
-  // How far the unit can turn, once it is known.
+  // The PTU's travel, once it is known.
   void set_limits(const ptu::PtuLimits& limits) { pointing_.set_limits(limits); }
-  // What the PTU's angles are worth. In doubt nothing is pointed or slewed, and what is known of
-  // angles is forgotten; a target is kept, and slews lead back to it later.
+  // Whether the PTU's reference is valid. In doubt, the station neither points nor follows slews,
+  // and discards its angles; it keeps its target, and slews lead back to it later.
   void set_reference(ptu::PtuReference reference);
-  // Before the first call the pose is that of the configured geometry. Without a position there
-  // are no bearings.
+  // Before the first call the pose is that of the configured geometry. Without a position the
+  // station makes no bearings.
   void set_pose(const sensors::StationPose& pose) { pointing_.set_pose(pose); }
-  // The emergency stop's level, also when it has not changed. Pressed once, nothing moves until it
-  // is released, rearm() was accepted, and a command came after that.
+  // The level of the emergency stop, also when unchanged. Once pressed, nothing moves until the
+  // stop is released, rearm() was accepted and a new command has arrived.
   void emergency_stop(bool pressed, double now_s);
 
-  // Commands; what is refused changes nothing but its counter.
+  // Commands. A refused command changes only its counter.
   Refusal designate(const DesignateCommand& command, double now_s);
   Refusal slew(const SlewCommand& command, double now_s);
   Refusal point(const PointCommand& command, double now_s);
-  // What the unit does by itself ends too, as UnitActions says. For kStopHold_s nothing but an
-  // emergency's rearming is obeyed: what was sent before a stop, or crosses it, must not undo it.
+  // Also ends homing (see UnitActions). For kStopHold_s only re-arming is accepted: a command sent
+  // before the stop, or crossing it on the wire, must not undo it.
   void stop(double now_s);
-  // As a station that was stopped begins again: like stop(), but an operator may go on at once.
+  // For a station that was stopped when it ended: like stop(), but the operator may continue at
+  // once.
   void begin_stopped();
   static constexpr double kStopHold_s = StationMode::kStopHold_s;
   Refusal release(double now_s);
-  // After an emergency stop, by a hand at the station: leads to kStopped, from where the operator
-  // goes on.
+  // After an emergency stop, by a person at the station: leads to kStopped, from where the operator
+  // continues.
   Refusal rearm(double now_s);
-  // The same from afar, where anybody may send it: refused unless the site lets it.
+  // The same over the bus, where anyone may send it: refused unless the configuration permits it.
   Refusal rearm_over_bus(double now_s);
-  // The unit shall home.
+  // Homes the unit.
   Refusal home(double now_s);
-  // A person vouches for the unit's reference.
+  // A person confirms the unit's reference.
   Refusal reference_ok(double now_s);
-  // What the unit must do by now; each time once. Taken right after the commands, apart from
-  // step(): a stop does not wait for the tracker.
+  // The commands to the PTU that are due, each once. Call right after the commands, before step():
+  // a stop does not wait for the tracker.
   UnitActions take_actions() { return std::exchange(actions_, {}); }
 
-  // Lets time pass: leases and coasting end, state times grow.
+  // Advances time: leases and coasting end, state times grow.
   StationOutput step(double now_s);
 
-  // Where the PTU shall be; nothing: halt.
+  // The PTU's goal; empty: halt.
   std::optional<ptu::ServoGoal> goal(double now_s) const;
 
   StationState state() const { return mode_.state(); }
@@ -95,7 +96,7 @@ class Station {
 
  private:
   Situation situation(double now_s) const { return {config_, mode_, pointing_, now_s}; }
-  // A command was judged: the result is counted.
+  // Counts the result of a command.
   Refusal count(Refusal refusal, const char* command);
   void pass_time(double now_s);
   void expire(double now_s);
@@ -122,7 +123,7 @@ class Station {
   AngularTrack motion_;
   std::optional<ptu::ServoGoal> point_;
   UnitActions actions_;
-  double believed_s_ = 0.0;  // mid-exposure of the last believed frame
+  double believed_s_ = 0.0;  // mid-exposure of the last frame that was believed
   int believed_in_a_row_ = 0;
   double now_s_ = 0.0;
   std::map<std::string, double> counters_;

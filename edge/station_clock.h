@@ -1,4 +1,4 @@
-// The clocks of a station's process: both read at one instant, and how good its UTC is.
+// The clocks of a station's process, read at one instant, and the quality of its UTC.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ class StationClock {
   // In every turn, before anything is published.
   clock::ClockPair look();
   clock::ClockQuality quality(double now_s) const { return watch_.quality(now_s); }
-  // By the clocks of the last look.
+  // By the clocks of the last look().
   std::int64_t utime_us(double monotonic_s) const;
 
  private:
-  static constexpr double kInterval_s = 5.0;  // between two questions to kernel and chrony
+  static constexpr double kInterval_s = 5.0;  // between two queries of kernel and chrony
 
   clock::ClockWatch watch_;
   clock::ClockSource source_{kInterval_s};

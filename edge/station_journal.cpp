@@ -32,7 +32,7 @@ void StationJournal::note_bus(const Bus& bus, std::int64_t utime_us) {
   if (bus.trouble.empty()) {
     troubles_.note_state("bus", "connected", bus.url, false);
   } else {
-    troubles_.note_state("bus", "none", "tried again each second", true);
+    troubles_.note_state("bus", "none", "retrying every second", true);
   }
 }
 

@@ -1,4 +1,4 @@
-// Writes into the journal what has come up or ended at a station, and tells its newest trouble.
+// Writes into the journal what began or ended at a station, and reports its newest fault.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class StationJournal {
  public:
   struct Bus {
     std::string url;
-    std::string trouble;  // empty: it is connected
+    std::string trouble;  // empty: connected
     std::string last_refusal;
     std::uint64_t refusals = 0;
   };

@@ -1,5 +1,5 @@
-// Who has the unit: nobody, the operator, the target that is tracked, the fusion's slews; or a
-// stop. Pure.
+// What controls the unit: nothing, the operator, the tracked target, the fusion's slews, or a stop.
+// Pure.
 #pragma once
 
 #include <map>
@@ -17,23 +17,23 @@ class StationMode {
 
   StationState state() const { return state_; }
   bool is(StationState state) const { return state_ == state; }
-  // False: it is in it already.
+  // False: already in this state.
   bool enter(StationState state);
-  // The states in which a target, where there is one, is tracked.
+  // The states in which a target, if there is one, is tracked.
   bool may_track() const;
-  // So much time has passed.
+  // Adds elapsed time to the present state.
   void count_seconds(double seconds);
 
   // The emergency stop's level.
   void set_pressed(bool pressed) { pressed_ = pressed; }
   bool is_pressed() const { return pressed_; }
-  // For kStopHold_s after it nothing but an emergency's rearming is obeyed.
+  // For kStopHold_s after it only re-arming is accepted.
   static constexpr double kStopHold_s = 1.0;
   void note_stop(double now_s) { stopped_s_ = now_s; }
-  // Why the operator is not obeyed now: an emergency, or a stop of a moment ago.
+  // Why operator commands are refused now: an emergency, or a stop a moment ago.
   Refusal refuses_operator(double now_s) const;
 
-  // What the PTU's angles are worth.
+  // Whether the PTU's reference is valid.
   void set_reference(ptu::PtuReference reference) { reference_ = reference; }
   ptu::PtuReference reference() const { return reference_; }
   bool has_doubtful_angles() const;

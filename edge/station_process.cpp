@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kFrameWait_s = 0.004;
 
-// A receiver that has never had a fix starts for ever; without camera or PTU there is no station.
+// A receiver that has never had a fix keeps starting; the station needs only camera and PTU.
 gpio::LedPattern led_pattern(const StationReport& report) {
   if (report.snapshot.state == StationState::kEmergency) return gpio::LedPattern::kEmergency;
   if (!all_alarms(report).empty()) return gpio::LedPattern::kTrouble;
@@ -54,7 +54,7 @@ StationProcess::StationProcess(const StationSettings& settings, std::int64_t boo
   const double now_s = clock_monotonic_s();
   station_.set_pose(pose_.pose(now_s));
   resume_hold(now_s);
-  // Who says that it is ready shall hear what it is told.
+  // Ready means that subscriptions are active: a message sent after it is received.
   bus_.connect(BusConnector::kLongest_s);
 }
 
@@ -77,7 +77,7 @@ void StationProcess::turn() {
   if (const auto pose = pose_.look(devices_, start.monotonic_s)) station_.set_pose(*pose);
   take_frame();
   take_angles();
-  // Again, because the tracker takes its time: what is published is stamped by the clocks of now.
+  // Again, because the tracker takes time: publications carry the present time.
   const clock::ClockPair now = look_at_clocks();
   const StationOutput output = station_.step(now.monotonic_s);
   for (const Bearing& bearing : output.bearings) bus_.send(bearing);
@@ -94,7 +94,8 @@ clock::ClockPair StationProcess::look_at_clocks() {
   return now;
 }
 
-// Whatever ended it since somebody stopped it is no leave to move.
+// If the operator stopped the station before it ended, it stays stopped: a restart does not permit
+// motion.
 void StationProcess::resume_hold(double now_s) {
   devices_.ptu().restore_doubt(memory_.doubt());
   halted_ = !devices_.stop().known();
@@ -104,7 +105,7 @@ void StationProcess::resume_hold(double now_s) {
   station_.emergency_stop(true, now_s);
 }
 
-// The GPIO's thread has halted the unit already; here the station learns of it.
+// The GPIO thread has halted the unit already; here the station follows.
 void StationProcess::heed_emergency_stop(double now_s) {
   StopLatch& stop = devices_.stop();
   if (!stop.known()) return;
@@ -113,7 +114,7 @@ void StationProcess::heed_emergency_stop(double now_s) {
   halted_ = halted_ || station_.state() == StationState::kEmergency;
 }
 
-// The button beside it, or somebody who is logged in on its computer.
+// By the re-arm button, or by someone logged in on the station's computer.
 void StationProcess::heed_rearming(double now_s) {
   const bool button = devices_.stop().take_rearm();
   const bool signal = take_rearm_signal();
@@ -147,7 +148,7 @@ void StationProcess::take_frame() {
   if (auto& recorder = devices_.recorder()) {
     recorder->add(*frame, clock_.utime_us(frame->mid_exposure_s));
   }
-  take_angles();  // first: the frame's homography is predicted from them
+  take_angles();  // first: they predict the frame's homography
   station_.on_frame(*frame, clock_monotonic_s());
   devices_.camera().set_region(station_.target_box());
   newest_ = std::move(frame);
@@ -163,7 +164,7 @@ void StationProcess::trigger_camera(double now_s) {
   const bool by_software = settings_.camera.trigger == camera::TriggerMode::kSoftware;
   if (now_s < due_.trigger_s || (!by_line && !by_software)) return;
   const double period_s = 1.0 / settings_.camera.frame_rate_hz;
-  // In step with the rate, but without a burst after a pause.
+  // At the configured rate, without a burst after a pause.
   due_.trigger_s = std::max(due_.trigger_s + period_s, now_s);
   if (by_software) devices_.camera().trigger();
   if (by_line) devices_.gpio()->trigger();
@@ -195,7 +196,7 @@ StationReport StationProcess::report(const clock::ClockPair& now) {
     report.alarms.push_back(emergency_alarm());
   }
   if (report.snapshot.motion_disagrees) {
-    report.alarms.emplace_back("ptu: the picture moves otherwise than the angles say");
+    report.alarms.emplace_back("ptu: the image motion contradicts the reported angles");
   }
   for (const std::string& alarm : memory_.alarms()) report.alarms.push_back(alarm);
   for (const std::string& alarm : bus_.alarms()) report.alarms.push_back(alarm);

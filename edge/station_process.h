@@ -19,16 +19,17 @@ namespace ols::station {
 
 class StationProcess {
  public:
-  // Network and devices that are absent are waited for.
+  // Does not need a network or devices: retries those that are absent.
   StationProcess(const StationSettings& settings, std::int64_t boot_id);
 
-  // Turns until `ends` says so; tells systemd. Ready is who turns, whatever devices there are.
+  // Runs until `ends` returns true; notifies systemd. Ready after the first turn, whatever devices
+  // are present.
   void run(const std::function<bool()>& ends);
 
  private:
   // One turn of the control loop: commands, PTU angles, the newest frame, bearings, the PTU's goal,
-  // and now and then a status and a preview. Returns within a few milliseconds, or as long as the
-  // tracker takes for a frame.
+  // and at intervals a status and a preview. Takes a few milliseconds, or as long as the tracker
+  // needs for a frame.
   void turn();
   clock::ClockPair look_at_clocks();
   void resume_hold(double now_s);
@@ -46,7 +47,7 @@ class StationProcess {
   void show(const StationReport& report);
   std::string record(const recorder::RecordCommand& command);
 
-  // The monotonic instants at which something is done next.
+  // The monotonic instants of the next periodic actions.
   struct Due {
     double trigger_s = 0.0, status_s = 0.0, preview_s = 0.0;
   };
@@ -63,7 +64,7 @@ class StationProcess {
   StationJournal journal_;
   DeviceSet devices_;
   std::optional<camera::Frame> newest_;
-  bool halted_ = false;  // the PTU refuses to move until it is rearmed
+  bool halted_ = false;  // the PTU refuses to move until it is re-armed
   Due due_;
 };
 

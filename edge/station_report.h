@@ -1,4 +1,4 @@
-// Everything that a station's status tells. Pure.
+// The content of a station's status. Pure.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +19,19 @@ struct StationReport {
   ptu::PtuLimits limits;
   bool limits_known = false;
   std::vector<DeviceReport> devices;
-  // Beside those of the devices.
+  // In addition to those of the devices.
   std::vector<std::string> alarms;
   std::map<std::string, double> readings;
   std::map<std::string, double> counters;
 
-  std::string last_error;  // empty when there was none
+  std::string last_error;  // empty: none yet
   std::int64_t last_error_utime_us = 0;
 };
 
-// The alarms of the report and of its devices, each once.
+// The alarms of the report and of its devices, without duplicates.
 std::vector<std::string> all_alarms(const StationReport& report);
 
-// One line for a person: the state, the devices that are not well, the first alarm.
+// One line for a person: the state, devices that are not OK, the first alarm.
 std::string in_one_line(const StationReport& report);
 
 }  // namespace ols::station

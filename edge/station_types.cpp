@@ -72,7 +72,7 @@ AzimuthElevation direction_at(const SlewCommand& slew, double time_s) {
 }
 
 bool differs(const sensors::StationPose& stated, const sensors::StationPose& now) {
-  constexpr double kLeast_m = 1e-3, kLeast_rad = 1e-6;  // what no receiver and no level resolves
+  constexpr double kLeast_m = 1e-3, kLeast_rad = 1e-6;  // below any sensor's resolution
   if (stated.position_source != now.position_source || stated.tilt_source != now.tilt_source) {
     return true;
   }

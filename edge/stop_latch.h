@@ -1,5 +1,5 @@
-// Carries the emergency stop from the thread that sees its edges to the control loop. A press that
-// is shorter than a turn of the loop is not missed.
+// Carries the emergency stop from the thread that sees its edges to the control loop, without
+// missing a press shorter than a turn of the loop.
 #pragma once
 
 #include <atomic>
@@ -9,26 +9,26 @@ namespace ols::station {
 
 class StopLatch {
  public:
-  // Where there is a stop nobody knows whether it is pressed until its first level comes.
+  // With a stop configured, its state is unknown until its first level arrives.
   explicit StopLatch(bool has_stop) : known_(!has_stop) {}
 
-  // From the thread that sees the edges; before it halts the unit.
+  // From the thread that sees the edges, before it halts the unit.
   void set(bool pressed) {
     if (pressed) ++presses_;
-    if (pressed) rearm_ = false;  // it was held before
+    if (pressed) rearm_ = false;  // a re-arming before the press does not count
     pressed_ = pressed;
     known_ = true;
   }
   bool known() const { return known_; }
   bool pressed() const { return pressed_; }
-  // Whether it was pressed since the last call, if only for a moment.
+  // True if it was pressed since the last call, however briefly.
   bool take_press() {
     const std::uint64_t presses = presses_;
     const bool news = presses != seen_;
     seen_ = presses;
     return news;
   }
-  // A hand at the station re-arms it; from the same thread.
+  // A person at the station re-arms it; from the same thread.
   void rearm() { rearm_ = true; }
   bool take_rearm() { return rearm_.exchange(false); }
 
@@ -37,7 +37,7 @@ class StopLatch {
   std::atomic<bool> pressed_ = false;
   std::atomic<bool> rearm_ = false;
   std::atomic<std::uint64_t> presses_ = 0;
-  std::uint64_t seen_ = 0;  // of the control loop
+  std::uint64_t seen_ = 0;  // by the control loop
 };
 
 }  // namespace ols::station

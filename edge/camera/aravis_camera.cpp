@@ -26,7 +26,7 @@ struct AravisCamera::Impl {
   const CameraConfig config_;
   CameraHandover handover_;
   FrameNumbers numbers_;
-  std::future<void> closing_;  // the last device's end, which may take seconds
+  std::future<void> closing_;  // destroys the last device, which may take seconds
   std::thread thread_;
 };
 
@@ -42,13 +42,13 @@ void AravisCamera::Impl::run() {
       handover_.note_failure(CameraState::kAbsent, error.what());
     }
     if (device) close(std::move(device));
-    // A camera that does not answer is asked again and again by Aravis itself, for 2.5 s.
+    // Aravis itself retries a camera that does not answer, for 2.5 s.
     handover_.wait(config_.retry_s);
   }
 }
 
-// In a thread of its own: a camera that has come back is not to wait for the farewell to the one
-// that was gone. One at a time.
+// In its own thread: a camera that came back must not wait for the disconnection from the lost one.
+// One at a time.
 void AravisCamera::Impl::close(std::unique_ptr<AravisDevice> device) {
   closing_ = std::async(std::launch::async, [gone = std::move(device)]() mutable { gone.reset(); });
 }

@@ -1,6 +1,6 @@
-// A GigE Vision camera through Aravis, opened and kept open by a thread of its own.
+// A GigE Vision camera through Aravis, kept open by its own thread.
 //
-// The camera may be absent, vanish and come back at any time: next() then simply has no frame, and
+// The camera may be absent, vanish and come back at any time. next() then has no frame, and
 // state(), counters() and last_error() say why. After construction nothing throws.
 #pragma once
 
@@ -22,18 +22,18 @@ class AravisCamera {
   AravisCamera(const AravisCamera&) = delete;
   AravisCamera& operator=(const AravisCamera&) = delete;
 
-  // The newest frame that has not been handed out yet, waiting up to timeout_s for one.
+  // The newest frame that was not taken yet; waits up to timeout_s for one.
   std::optional<Frame> next(double timeout_s);
 
-  // Where the target is, for automatic exposure; nothing while there is none.
+  // The target's box, for automatic exposure; empty: no target.
   void set_region(const std::optional<cv::Rect2d>& target_box);
-  // One exposure, with the software trigger; otherwise nothing happens.
+  // One exposure, with the software trigger; without it a call has no effect.
   void trigger();
 
   station::DeviceReport report() const;
   CameraState state() const;
   CameraCounters counters() const;
-  std::string last_error() const;  // the last trouble in words; empty when there was none
+  std::string last_error() const;  // the last error as text; empty: none yet
 
  private:
   struct Impl;

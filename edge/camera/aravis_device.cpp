@@ -23,11 +23,11 @@ constexpr guint64 kPrivilege = 0x0a00;
 constexpr int kBuffers = 8;  // frames between the network and the station
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-// A frame whose packets stay away is given up after this; those behind it wait for that. Aravis
-// asks for the packets of the last frame again after 20 ms.
+// A frame with missing packets is abandoned after this; those behind it wait as long. Aravis
+// requests missing packets of the last frame after 20 ms.
 constexpr guint kFrameRetention_us = 50'000;
 
-// As Aravis does it for a frame's stamp, so that both are on the same line.
+// As Aravis converts a frame's stamp, so that both are on the same line.
 std::int64_t ticks_to_ns(std::uint64_t ticks, std::uint64_t hz) {
   constexpr auto kNs = static_cast<std::uint64_t>(kSecond_ns);
   return static_cast<std::int64_t>(ticks / hz * kNs + ticks % hz * kNs / hz);
@@ -46,13 +46,14 @@ AravisDevice::AravisDevice(const CameraConfig& config) {
     throw CameraAbsent("camera " + config.device + " does not answer: " + error.text());
   if (arv_camera_is_gv_device(camera_.get()) == 0)
     throw CameraUnfit("camera " + config.device + " is not a GigE Vision camera");
-  // Aravis goes on without control, and then every setting is refused.
+  // Aravis continues without control, and then every setting is refused.
   if (arv_gv_device_is_controller(ARV_GV_DEVICE(device())) == 0)
-    throw CameraAbsent("camera is under the control of another, or still of the last connection");
+    throw CameraAbsent(
+        "camera is controlled by another program, or still by the previous connection");
   g_signal_connect(device(), "control-lost",
                    G_CALLBACK(+[](ArvDevice*, std::atomic<bool>* lost) { *lost = true; }),
                    &control_lost_);
-  // A camera that its last master left streaming accepts no settings.
+  // A camera that its last controller left streaming accepts no settings.
   arv_camera_stop_acquisition(camera_.get(), AravisError().out());
   set_picture(camera_.get(), config);
   limits_ = exposure_limits(camera_.get(), config.limits);
@@ -91,16 +92,16 @@ void AravisDevice::start(const CameraConfig& config) {
   const AravisFeatures features(camera_.get());
   latch_by_feature_ = features.has("GevTimestampControlLatch") && features.has("GevTimestampValue");
   stream_.reset(arv_camera_create_stream(camera_.get(), nullptr, nullptr, error.out()));
-  if (stream_ == nullptr) throw CameraAbsent("camera gives no stream: " + error.text());
+  if (stream_ == nullptr) throw CameraAbsent("camera provides no stream: " + error.text());
   g_object_set(stream_.get(), "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED,
                "socket-buffer-size", config.socket_buffer, "frame-retention", kFrameRetention_us,
                nullptr);
   if (!config.packet_resend)
     g_object_set(stream_.get(), "packet-resend", ARV_GV_STREAM_PACKET_RESEND_NEVER, nullptr);
-  // With large packets a frame has few of them: any number of them may be asked for again.
+  // A frame has few large packets: any number of them may be requested again.
   g_object_set(stream_.get(), "packet-request-ratio", 1.0, nullptr);
   const guint payload = arv_camera_get_payload(camera_.get(), error.out());
-  error.check<CameraAbsent>("camera does not tell its payload");
+  error.check<CameraAbsent>("camera does not report its payload");
   for (int i = 0; i < kBuffers; ++i)
     arv_stream_push_buffer(stream_.get(), arv_buffer_new(payload, nullptr));
   arv_camera_start_acquisition(camera_.get(), error.out());
@@ -130,10 +131,11 @@ ReceivedFrame AravisDevice::describe(ArvBuffer* buffer) const {
                    .format = arv_buffer_get_image_pixel_format(buffer)};
   const guint64 stamp_ns = arv_buffer_get_timestamp(buffer);
   const guint64 system_ns = arv_buffer_get_system_timestamp(buffer);
-  // Aravis puts the host's time in place of a camera's that has no tick frequency, without a word.
+  // Without a tick frequency Aravis silently substitutes the host's time for the camera's.
   if (tick_hz_ != 0 && stamp_ns != system_ns && stamp_ns != 0)
     frame.device_ns = static_cast<std::int64_t>(stamp_ns);
-  // Aravis takes the arrival on CLOCK_REALTIME; a step since then is a matter of milliseconds.
+  // Aravis stamps the arrival on CLOCK_REALTIME; a clock step in the milliseconds since then is
+  // unlikely.
   const double age_s =
       1e-9 * static_cast<double>(clock_utc_ns()) - 1e-9 * static_cast<double>(system_ns);
   frame.arrival_s = clock_monotonic_s() - std::clamp(age_s, 0.0, 1.0);
@@ -192,7 +194,7 @@ std::optional<LatchSample> AravisDevice::latch() {
   if (!command_latch()) return std::nullopt;
   const double after_s = clock_monotonic_s();
   const auto ticks = latched_ticks();
-  // A camera without the latch leaves its register as it was.
+  // A camera without the latch leaves its register unchanged.
   if (!ticks || *ticks == last_latch_ticks_) return std::nullopt;
   last_latch_ticks_ = *ticks;
   return LatchSample{

@@ -26,12 +26,12 @@ struct Unref {
 template <typename T>
 using Owned = std::unique_ptr<T, Unref>;
 
-// One buffer as it came from the stream, given back to it at the end of its life.
+// One buffer of the stream; its destructor returns it.
 struct ReceivedFrame {
   std::uint64_t id = 0;  // the camera's frame number
   bool complete = false;
-  bool overtaken = false;                 // a newer one is waiting behind it
-  RawPicture picture;                     // valid as long as the buffer is
+  bool overtaken = false;                 // a newer one is already waiting
+  RawPicture picture;                     // valid as long as the buffer
   std::optional<std::int64_t> device_ns;  // the camera's own stamp
   double arrival_s = 0.0;                 // CLOCK_MONOTONIC of its first packet
 };
@@ -44,7 +44,7 @@ class AravisDevice {
   AravisDevice(const AravisDevice&) = delete;
   AravisDevice& operator=(const AravisDevice&) = delete;
 
-  // Waits for the next buffer and calls use(ReceivedFrame); false when none came in time.
+  // Waits for the next buffer and calls use(ReceivedFrame); false: none came in time.
   template <typename Use>
   bool receive(double timeout_s, Use use) {
     ArvBuffer* buffer = pop(timeout_s);
@@ -56,24 +56,24 @@ class AravisDevice {
 
   std::string identity() const;  // "AVT GT1290C 1234"
 
-  // Latches the camera's clock; nothing when the camera cannot.
+  // Latches the camera's clock; empty: the camera cannot.
   std::optional<LatchSample> latch();
-  // Whether it still answers.
+  // Whether the camera still answers.
   bool answers();
   void trigger();  // by software
 
-  // Exposure and gain as the camera has them, and how far they go.
+  // The camera's present exposure and gain, and their limits.
   const ExposureSetting& exposure() const { return exposure_; }
   const ExposureLimits& limits() const { return limits_; }
   // Throws CameraUnfit.
   void set_exposure(const ExposureSetting& setting);
 
-  std::optional<double> temperature_degC() const;  // nothing when the camera does not tell
+  std::optional<double> temperature_degC() const;  // empty: the camera does not report it
   std::optional<PtpState> ptp() const;
 
   bool control_lost() const { return control_lost_; }
-  // It is gone: its end asks it for nothing more. That end may take seconds all the same, because
-  // Aravis tells a camera of its leave and repeats it (5 times 0.5 s each).
+  // The camera is lost: sends it no more requests. The destructor may still take seconds, because
+  // Aravis announces the disconnection to the camera and repeats it (5 times, 0.5 s each).
   void give_up() { gone_ = true; }
 
  private:
@@ -95,7 +95,7 @@ class AravisDevice {
   bool gone_ = false;
   ExposureSetting exposure_;
   ExposureLimits limits_;
-  std::uint64_t tick_hz_ = 0;  // 0: the camera's clock is not to be had
+  std::uint64_t tick_hz_ = 0;  // 0: the camera's clock is not available
   bool latch_by_feature_ = false;
   std::uint64_t last_latch_ticks_ = 0;
 };

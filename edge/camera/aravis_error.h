@@ -1,4 +1,4 @@
-// What can go wrong with an opened camera, and GLib's errors.
+// The errors of an opened camera, and GLib's errors.
 #pragma once
 
 #include <arv.h>
@@ -16,7 +16,7 @@ class AravisError {
   AravisError(const AravisError&) = delete;
   AravisError& operator=(const AravisError&) = delete;
 
-  // For the next call; forgets the last one's.
+  // For the next call; clears the previous error.
   GError** out() {
     clear();
     return &error_;

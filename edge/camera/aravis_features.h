@@ -1,6 +1,5 @@
-// The features of an opened camera by what they are for. The GT1290C is older than GenICam's naming
-// convention (SFNC), and SFNC itself has renamed some: each is asked for by its names in turn, and
-// the first that is there is it.
+// The features of an opened camera by purpose. The GT1290C predates GenICam's naming convention
+// (SFNC), and SFNC itself has renamed some: the first name that the camera knows is used.
 #pragma once
 
 #include <array>
@@ -14,7 +13,7 @@ using ArvCamera = struct _ArvCamera;
 namespace ols::camera {
 
 struct Feature {
-  const char* what;                  // in words
+  const char* what;                  // for messages
   std::array<const char*, 3> names;  // nullptr: no further one
 };
 
@@ -38,7 +37,7 @@ inline constexpr Feature kFrameRateEnable{
 inline constexpr Feature kPtpLatch{"PTP latch",
                                    {"PtpDataSetLatch", "GevIEEE1588DataSetLatch", nullptr}};
 
-// Setters throw CameraUnfit in words that name the feature and what the camera says.
+// Setters throw CameraUnfit with the feature and the camera's error.
 class AravisFeatures {
  public:
   explicit AravisFeatures(ArvCamera* camera) : camera_(camera) {}
@@ -60,7 +59,7 @@ class AravisFeatures {
   bool execute(const Feature& command) const;
 
  private:
-  const char* name_of(const Feature& feature) const;  // nullptr: the camera has none of them
+  const char* name_of(const Feature& feature) const;  // nullptr: the camera has none of the names
 
   ArvCamera* camera_;
 };

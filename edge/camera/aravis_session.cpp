@@ -14,12 +14,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-constexpr int kFirstLatches = 10;      // in a row at the start: the first frame shall have its time
-constexpr double kLookEvery_s = 1.0;   // at the camera's clock, then
-constexpr int kTemperatureEvery = 10;  // looks
-constexpr double kPoll_s = 0.1;        // how soon a lost control or the end is noticed
-constexpr double kTriggerPoll_s = 0.002;  // how soon a software trigger goes out
-constexpr double kLongestTurn_s = 0.2;    // what of a turn counts as silence
+constexpr int kFirstLatches = 10;     // in a row at the start, so that the first frame has its time
+constexpr double kLookEvery_s = 1.0;  // between later checks of the camera's clock
+constexpr int kTemperatureEvery = 10;     // checks
+constexpr double kPoll_s = 0.1;           // delay until a lost control or the end is noticed
+constexpr double kTriggerPoll_s = 0.002;  // delay of a software trigger
+constexpr double kLongestTurn_s = 0.2;    // maximum that one turn adds to the silence
 
 FrameClock::Config clock_config(const CameraConfig& config) {
   return {.stamp_at = config.stamp_at,
@@ -75,16 +75,16 @@ void AravisSession::stream() {
     if (time && clock_monotonic_s() - looked_s_ >= kLookEvery_s) look();
   }
   if (is_timed(config_.trigger) && silence_s_ > kLongestTurn_s + 2.0 / config_.frame_rate_hz)
-    device_.give_up();  // at the end, too, a farewell that nobody hears takes seconds
+    device_.give_up();  // the disconnection from a silent camera would take seconds
 }
 
 // Throws CameraAbsent when the camera is gone.
 void AravisSession::watch(bool received, double turn_s) {
-  // A turn that took longer was this process's own sleep, not the camera's.
+  // A longer turn was a pause of this process, not of the camera.
   silence_s_ = received ? 0.0 : silence_s_ + std::min(turn_s, kLongestTurn_s);
   const bool silent = silence_s_ > config_.no_frame_timeout_s + 2.0 / config_.frame_rate_hz;
   if (silent && !is_timed(config_.trigger) && device_.answers()) {
-    silence_s_ = 0.0;  // nobody has triggered it
+    silence_s_ = 0.0;  // there was no trigger
   } else if (silent || device_.control_lost()) {
     device_.give_up();
     throw CameraAbsent(silent ? "camera lost: no frame arrives"
@@ -92,7 +92,7 @@ void AravisSession::watch(bool received, double turn_s) {
   }
 }
 
-// At what changes slowly: the camera's clock, PTP, temperature.
+// Checks what changes slowly: the camera's clock, PTP, temperature.
 void AravisSession::look() {
   looked_s_ = clock_monotonic_s();
   if (const auto sample = device_.latch()) clock_.map().add_latch(*sample);
@@ -128,7 +128,7 @@ void AravisSession::take(const ReceivedFrame& received) {
               .number = step.number,
               .raw = {},
               .pixel_format = pixel_format_name(received.picture.format)};
-  // Who was asleep gets the newest one, not those that have piled up.
+  // After a pause only the newest frame is used, not those that have piled up.
   if (!received.overtaken) {
     frame.gray = to_gray(received.picture);
     if (config_.keep_raw) frame.raw = raw_beside_gray(received.picture);

@@ -1,4 +1,4 @@
-// One opened camera, from its first frame until it is lost: gives its frames their time, looks at
+// One opened camera, from its first frame until it is lost: computes its frames' times, monitors
 // its clock and temperature, and sets its exposure.
 #pragma once
 
@@ -16,11 +16,11 @@ namespace ols::camera {
 
 class AravisSession {
  public:
-  // All must outlive it. The numbers go on from the session before.
+  // All references must outlive it. Frame numbers continue from the previous session.
   AravisSession(const CameraConfig& config, AravisDevice& device, FrameNumbers& numbers,
                 CameraHandover& handover);
 
-  // Until the end. Throws CameraAbsent when the camera is gone.
+  // Runs until the end. Throws CameraAbsent when the camera is lost.
   void stream();
 
  private:

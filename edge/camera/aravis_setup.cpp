@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kMaxPacket = 65000;            // [byte] IPv4 carries 65535
 constexpr double kExposureTolerance = 0.05;  // share; cameras round to their line time
-constexpr double kFreeRun_hz = 100.0;        // at most, of a camera that goes as fast as it can
+constexpr double kFreeRun_hz = 100.0;        // maximum, of a camera that runs at its own rate
 
 bool on_loopback(ArvDevice* device) {
   GSocketAddress* address = arv_gv_device_get_interface_address(ARV_GV_DEVICE(device));
@@ -29,7 +29,7 @@ bool on_loopback(ArvDevice* device) {
              g_inet_socket_address_get_address(G_INET_SOCKET_ADDRESS(address))) != 0;
 }
 
-// [byte] 0 when it cannot be found out.
+// [byte] 0: cannot be determined.
 int loopback_mtu() {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (fd < 0) return 0;
@@ -40,7 +40,7 @@ int loopback_mtu() {
   return result == 0 ? request.ifr_mtu : 0;
 }
 
-// [byte] What the kernel grants a socket that asks for so much, in the kernel's own count.
+// [byte] The buffer that the kernel grants for such a request, as the kernel counts it.
 std::size_t granted_buffer(int asked) {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (fd < 0) return 0;
@@ -53,7 +53,7 @@ std::size_t granted_buffer(int asked) {
 }
 
 struct TriggerSource {
-  const char* gt1290c;  // a source beside the lines; nullptr: not among them
+  const char* gt1290c;  // a source other than the lines; nullptr: not supported
   const char* sfnc;     // nullptr: the trigger is off
 };
 
@@ -93,7 +93,7 @@ void check_near(double is, double wanted, const char* what, double tolerance) {
 void set_pace(ArvCamera* camera, const CameraConfig& config, int packet_bytes) {
   AravisError error;
   const guint payload = arv_camera_get_payload(camera, error.out());
-  error.check<CameraAbsent>("camera does not tell its payload");
+  error.check<CameraAbsent>("camera does not report its payload");
   const double rate_hz = config.trigger == TriggerMode::kFreeRun
                              ? std::max(config.frame_rate_hz, kFreeRun_hz)
                              : config.frame_rate_hz;
@@ -102,20 +102,20 @@ void set_pace(ArvCamera* camera, const CameraConfig& config, int packet_bytes) {
                                   .frame_period_s = 1.0 / rate_hz,
                                   .receive_buffer = granted_buffer(config.socket_buffer),
                                   .spread = config.packet_spread});
-  // A ring of the kernel's loses nothing.
+  // The kernel's packet ring loses nothing.
   if (config.packet_socket) plan = {};
   if (config.packet_delay_us >= 0.0) {
     const double delay_s = 1e-6 * config.packet_delay_us;
     plan = {.delay_s = delay_s, .bytes_per_second = delay_s > 0.0 ? packet_bytes / delay_s : 0.0};
   }
-  // AVT's cameras have their own rate in place of the standard's delay.
+  // AVT's cameras have a rate in place of the standard's delay.
   const AravisFeatures features(camera);
   if (const auto bounds = features.bounds(kStreamRate)) {
     const double rate = plan.bytes_per_second > 0.0 ? plan.bytes_per_second : bounds->second;
     features.set_number(kStreamRate, std::clamp(rate, bounds->first, bounds->second));
     return;
   }
-  // A camera without a time base cannot be told a delay: it sends as fast as it can.
+  // A camera without a time base takes no delay: it sends at full speed.
   arv_camera_gv_set_packet_delay(camera, std::llround(1e9 * plan.delay_s), error.out());
 }
 
@@ -123,24 +123,24 @@ void set_pace(ArvCamera* camera, const CameraConfig& config, int packet_bytes) {
 
 void set_picture(ArvCamera* camera, const CameraConfig& config) {
   AravisError error;
-  // By the code, for its name differs: RGB8 is RGB8Packed in older cameras.
+  // By code, because names differ: RGB8 is RGB8Packed in older cameras.
   const auto wanted = static_cast<ArvPixelFormat>(*pixel_format(config.pixel_format));
   arv_camera_set_pixel_format(camera, wanted, error.out());
   error.check<CameraUnfit>("camera refuses pixel format " + config.pixel_format);
   const ArvPixelFormat format = arv_camera_get_pixel_format(camera, error.out());
-  error.check<CameraAbsent>("camera does not tell its pixel format");
+  error.check<CameraAbsent>("camera does not report its pixel format");
   if (format != wanted)
-    throw CameraUnfit("camera wants pixel format " + pixel_format_name(format) + " instead of " +
-                      config.pixel_format);
+    throw CameraUnfit("camera insists on pixel format " + pixel_format_name(format) +
+                      " instead of " + config.pixel_format);
   const std::string size = std::to_string(config.width_px) + "x" + std::to_string(config.height_px);
   arv_camera_set_region(camera, 0, 0, config.width_px, config.height_px, error.out());
   error.check<CameraUnfit>("camera refuses size " + size);
   int x = 0, y = 0, width = 0, height = 0;
   arv_camera_get_region(camera, &x, &y, &width, &height, error.out());
-  error.check<CameraAbsent>("camera does not tell its size");
+  error.check<CameraAbsent>("camera does not report its size");
   if (width != config.width_px || height != config.height_px)
-    throw CameraUnfit("camera wants size " + std::to_string(width) + "x" + std::to_string(height) +
-                      " instead of " + size);
+    throw CameraUnfit("camera insists on size " + std::to_string(width) + "x" +
+                      std::to_string(height) + " instead of " + size);
   arv_camera_set_acquisition_mode(camera, ARV_ACQUISITION_MODE_CONTINUOUS, error.out());
   error.check<CameraUnfit>("camera refuses continuous acquisition");
 }
@@ -172,7 +172,7 @@ ExposureSetting set_exposure(ArvCamera* camera, const ExposureSetting& setting) 
   const AravisFeatures features(camera);
   features.set_number(kExposureTime, setting.exposure_us);
   const auto exposure_us = features.number(kExposureTime);
-  if (!exposure_us) throw CameraAbsent("camera does not tell its exposure");
+  if (!exposure_us) throw CameraAbsent("camera does not report its exposure");
   if (!features.has(kGain)) return {.exposure_us = *exposure_us};
   features.set_number(kGain, setting.gain_dB);
   return {.exposure_us = *exposure_us, .gain_dB = features.number(kGain).value_or(setting.gain_dB)};
@@ -221,18 +221,18 @@ void set_transport(ArvCamera* camera, const CameraConfig& config) {
                                                ? ARV_GV_STREAM_OPTION_NONE
                                                : ARV_GV_STREAM_OPTION_PACKET_SOCKET_DISABLED);
   int packet_size = config.packet_size;
-  // Where no link lies between, the interface's own limit is the path's.
+  // On a direct link the interface's own limit is the path's.
   if (packet_size == 0 && on_loopback(device)) packet_size = std::min(loopback_mtu(), kMaxPacket);
   arv_camera_gv_set_packet_size_adjustment(camera, ARV_GV_PACKET_SIZE_ADJUSTMENT_NEVER);
   if (packet_size != 0) {
     arv_camera_gv_set_packet_size(camera, packet_size, error.out());
     error.check<CameraUnfit>("camera refuses packets of " + std::to_string(packet_size) + " bytes");
   } else {
-    // By test packets. A camera without them keeps its size.
+    // By test packets. A camera that does not support them keeps its size.
     arv_camera_gv_auto_packet_size(camera, error.out());
   }
   const guint size = arv_camera_gv_get_packet_size(camera, error.out());
-  error.check<CameraAbsent>("camera does not tell its packet size");
+  error.check<CameraAbsent>("camera does not report its packet size");
   set_pace(camera, config, static_cast<int>(size));
 }
 

@@ -1,6 +1,6 @@
-// How an opened camera is set up before it streams: picture, trigger, exposure, PTP, transport.
-// Each throws CameraUnfit when the camera does not take what is configured, CameraAbsent when it no
-// longer answers.
+// The setup of an opened camera before it streams: image, trigger, exposure, PTP, transport. Each
+// function throws CameraUnfit when the camera does not accept the configuration, CameraAbsent when
+// it no longer answers.
 #pragma once
 
 #include "edge/camera/camera_config.h"
@@ -9,24 +9,23 @@ using ArvCamera = struct _ArvCamera;
 
 namespace ols::camera {
 
-// Pixel format and size. Read back: some cameras take a value without a word and keep their own.
+// Pixel format and size. Read back: some cameras silently keep their own value.
 void set_picture(ArvCamera* camera, const CameraConfig& config);
 
 void set_trigger(ArvCamera* camera, const CameraConfig& config);
 
-// Exposure and gain as configured, the camera's own automatic control switched off.
+// Exposure and gain as configured; switches the camera's own automatic control off.
 ExposureSetting set_first_exposure(ArvCamera* camera, const CameraConfig& config);
 
-// What the camera made of it.
+// The camera's actual values.
 ExposureSetting set_exposure(ArvCamera* camera, const ExposureSetting& setting);
 
-// The configured limits as far as the camera goes.
+// The configured limits, within those of the camera.
 ExposureLimits exposure_limits(ArvCamera* camera, const ExposureLimits& configured);
 
 void set_ptp(ArvCamera* camera, const CameraConfig& config);
 
-// Packet size, packet socket and the pace of the packets; after the picture's format, before the
-// stream.
+// Packet size, packet socket and packet delay; after the image format, before the stream.
 void set_transport(ArvCamera* camera, const CameraConfig& config);
 
 }  // namespace ols::camera

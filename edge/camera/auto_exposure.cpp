@@ -7,11 +7,11 @@
 namespace ols::camera {
 namespace {
 
-constexpr int kStride = 4;            // of the whole picture every 16th pixel is enough
-constexpr double kSaturated = 250.0;  // gray level from which on a camera tells nothing more
+constexpr int kStride = 4;            // every 16th pixel of the whole image is enough
+constexpr double kSaturated = 250.0;  // from this gray level on a camera saturates
 constexpr double kManySaturated = 0.02;
 constexpr double kQuantile = 0.95;
-constexpr int kLeast_px = 9;  // pixels that say something
+constexpr int kLeast_px = 9;  // minimum number of pixels
 
 struct Histogram {
   std::array<int, 256> counts{};
@@ -87,9 +87,9 @@ AutoExposure::AutoExposure(const AutoExposureConfig& config, const ExposureLimit
                            const ExposureSetting& start)
     : config_(config), limits_(limits), setting_(start), since_change_(config.settle_frames) {}
 
-// By how much more light the levels would be where they should be.
+// The factor of light that brings the levels to their goals.
 double AutoExposure::wanted_factor(const PictureLevels& levels) const {
-  // How far beyond saturation it is nobody can see.
+  // Saturated pixels do not show by how much they exceed the range.
   if (levels.saturated > kManySaturated) return 1.0 / config_.greatest_factor;
   const double to_bright = config_.bright_level / std::max(levels.bright, 1.0);
   if (levels.target) return to_bright;

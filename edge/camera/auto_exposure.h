@@ -1,10 +1,10 @@
 // Automatic exposure that protects the target's contrast. Pure.
 //
 // Gray levels are proportional to light until they saturate, and so is the contrast between target
-// and surround. So the brighter one of the two is brought to a level just below saturation; what
-// the rest of the picture does is of no interest while there is a target. Without one the mean of
-// the whole picture is brought to a middle level. Exposure comes before gain, because gain only
-// makes noise brighter; the greatest exposure is the limit that motion blur sets.
+// and surround. So the brighter of the two is brought to a level just below saturation, and the
+// rest of the image is ignored. Without a target the mean of the whole image is brought to a middle
+// level. Exposure is raised before gain, because gain also amplifies noise; the maximum exposure is
+// the limit of motion blur.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -14,25 +14,25 @@
 
 namespace ols::camera {
 
-// Gray levels of a picture, or of a target and its surround.
+// Gray levels of an image, or of a target and its surround.
 struct PictureLevels {
-  bool target = false;     // of a target, otherwise of the whole picture
-  double mean = 0.0;       // of the whole picture; with a target, of its surround
-  double bright = 0.0;     // the brighter one's 95 % quantile
-  double saturated = 0.0;  // the brighter one's share of pixels at the upper end
+  bool target = false;     // of a target, otherwise of the whole image
+  double mean = 0.0;       // of the whole image; with a target, of its surround
+  double bright = 0.0;     // 95 % quantile of the brighter one
+  double saturated = 0.0;  // share of the brighter one's pixels that are saturated
 };
 
-// `gray` is 8-bit. The surround is the ring around the box, three times its size. A box that has no
-// part in the picture is none.
+// `gray` is 8-bit. The surround is the ring around the box, three times its size. A box outside the
+// image is ignored.
 PictureLevels measure_levels(const cv::Mat& gray, const std::optional<cv::Rect2d>& target_box);
 
 struct AutoExposureConfig {
-  double bright_level = 200.0;   // gray levels; of the brighter one of target and surround
-  double mean_level = 110.0;     // of the picture without a target
-  double dead_band = 0.12;       // nothing is changed for less than this share of light
-  double damping = 0.7;          // share of a (logarithmic) error that one change takes away
+  double bright_level = 200.0;   // gray levels; of the brighter of target and surround
+  double mean_level = 110.0;     // of the image without a target
+  double dead_band = 0.12;       // a smaller relative error of the light is ignored
+  double damping = 0.7;          // share of the (logarithmic) error that one change corrects
   double greatest_factor = 2.0;  // of one change
-  int settle_frames = 4;         // between changes: until a change is to be seen in the frames
+  int settle_frames = 4;         // between changes: frames until a change is visible
 };
 
 class AutoExposure {
@@ -40,12 +40,12 @@ class AutoExposure {
   AutoExposure(const AutoExposureConfig& config, const ExposureLimits& limits,
                const ExposureSetting& start);
 
-  // Once a frame; the next setting when it is to be changed. The caller tells the camera, and what
-  // the camera made of it by applied().
+  // Call for each frame. Returns the next setting if it must change; the caller sets the camera,
+  // and passes the camera's actual values to applied().
   std::optional<ExposureSetting> step(const PictureLevels& levels);
   void applied(const ExposureSetting& setting) { setting_ = setting; }
 
-  // How much more (> 1) or less light the picture should have and the limits do not allow.
+  // The factor of light that the image lacks (> 1), or has in excess, because of the limits.
   double missing_factor() const { return missing_; }
 
  private:

@@ -9,7 +9,7 @@ using config::Row;
 using Rows = std::vector<Row>;
 
 Rows image_rows(CameraConfig& c) {
-  // GigE Vision carries sizes in 32 bits; no sensor in use comes near 16384.
+  // GigE Vision has 32 bits for a size; no sensor in use comes near 16384.
   return {
       config::text("device", c.device,
                    "Aravis id, as arv-tool-0.8 lists it, or IPv4 address of the camera.",

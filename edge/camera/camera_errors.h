@@ -8,7 +8,7 @@ namespace ols::camera {
 struct CameraAbsent : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-// There, but it does not do what is configured.
+// Found, but it does not accept the configuration.
 struct CameraUnfit : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

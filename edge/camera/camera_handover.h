@@ -1,5 +1,5 @@
-// What the camera's thread and its callers hand to each other: the newest frame, the target's
-// place, the wish for an exposure, and how the camera is. Methods may be called from any thread.
+// The exchange between the camera's thread and its callers: the newest frame, the target's box,
+// trigger requests, and the camera's state. Methods may be called from any thread.
 #pragma once
 
 #include <condition_variable>
@@ -15,16 +15,16 @@ namespace ols::camera {
 
 class CameraHandover {
  public:
-  // For the callers; AravisCamera says what they mean.
+  // For the callers; documented in AravisCamera.
   std::optional<Frame> next(double timeout_s);
   void set_region(const std::optional<cv::Rect2d>& target_box);
   void ask_trigger();
   CameraFacts facts() const;
 
-  // The camera's thread shall end.
+  // Ends the camera's thread.
   void end();
   bool ended() const;
-  // Until the end, or so long.
+  // Until the end, or for this time.
   void wait(double duration_s);
 
   // For the camera's thread.
@@ -35,12 +35,12 @@ class CameraHandover {
     const std::lock_guard lock(mutex_);
     change(facts_);
   }
-  // A good frame after so many lost ones; without pixels when a newer one is waiting behind it.
+  // A good frame, after `lost` missing ones; without pixels if a newer one is already waiting.
   void publish(Frame frame, std::uint64_t lost, const FrameStatistics& statistics);
   void note_incomplete(std::uint64_t lost, const FrameStatistics& statistics);
-  // A frame that is complete and not what is configured.
+  // A complete frame that is not as configured.
   void note_refused(const std::string& why, std::uint64_t lost, const FrameStatistics& statistics);
-  // The camera is gone, or cannot be had.
+  // The camera is lost, or cannot be opened.
   void note_failure(CameraState state, const std::string& what);
 
  private:

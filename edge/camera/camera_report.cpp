@@ -9,8 +9,8 @@
 namespace ols::camera {
 namespace {
 
-constexpr double kSilence_s = 0.5;        // and three frame periods: an alarm
-constexpr double kManyIncomplete = 0.02;  // share of the frames of late
+constexpr double kSilence_s = 0.5;        // plus three frame periods: an alarm
+constexpr double kManyIncomplete = 0.02;  // of recent frames
 constexpr double kMuchLight = 1.3;        // factor
 
 template <typename... Values>
@@ -52,13 +52,13 @@ const char* to_string(PtpState state) {
   return "unknown";
 }
 
-// "camera refuses ..." is "camera: refuses ..." as an alarm.
+// Turns "camera refuses ..." into the alarm "camera: refuses ...".
 std::string without_subject(const std::string& what) {
   constexpr std::string_view kSubject = "camera ";
   return what.starts_with(kSubject) ? what.substr(kSubject.size()) : what;
 }
 
-// How long there has been no frame, when that is too long.
+// The time without frames, if it is too long.
 std::optional<double> silence_s(const CameraConfig& config, const CameraFacts& facts,
                                 double now_s) {
   const auto since = facts.last_frame_s ? facts.last_frame_s : facts.opened_s;
@@ -87,9 +87,9 @@ void add_alarms(const CameraConfig& config, const CameraFacts& facts, double now
     alarms.push_back(
         words("camera: %.0f %% of the frames incomplete", 100.0 * facts.incomplete_share));
   if (facts.missing_light > kMuchLight)
-    alarms.push_back("camera: picture too dark at the limits of exposure and gain");
+    alarms.push_back("camera: image too dark at the exposure and gain limits");
   if (facts.missing_light < 1.0 / kMuchLight)
-    alarms.push_back("camera: picture too bright at the limits of exposure and gain");
+    alarms.push_back("camera: image too bright at the exposure and gain limits");
   if (facts.ptp && *facts.ptp != PtpState::kSlave)
     alarms.push_back(std::string("camera: PTP is ") + to_string(*facts.ptp));
   if (facts.ptp_disagreement_s)
@@ -113,7 +113,7 @@ station::DeviceReport make_camera_report(const CameraConfig& config, const Camer
   report.last_error = facts.last_error;
   report.errors = facts.errors;
   add_alarms(config, facts, now_s, report.alarms);
-  // Frames have just stopped: the camera's thread will say so when its patience ends.
+  // Frames have just stopped: the camera's thread will report it after its timeout.
   if (report.state == station::DeviceState::kOk && is_timed(config.trigger) &&
       silence_s(config, facts, now_s)) {
     report.state = station::DeviceState::kFault;

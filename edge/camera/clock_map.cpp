@@ -9,8 +9,8 @@
 namespace ols::camera {
 namespace {
 
-constexpr double kHuber = 3.0;   // standard deviations up to which a latch has its full weight
-constexpr double kFarOff = 6.0;  // standard deviations beyond its interval: another line
+constexpr double kHuber = 3.0;   // standard deviations; a latch within them has its full weight
+constexpr double kFarOff = 6.0;  // standard deviations beyond its interval: the clock was stepped
 constexpr double kLateArrival_s = 1.0;
 constexpr int kLateArrivals = 3;
 
@@ -62,8 +62,8 @@ bool ClockMap::add_latch(const LatchSample& sample) {
   return true;
 }
 
-// Weighted least squares of offset and rate with a prior on the rate; Huber's weights against
-// latches that a busy moment has bent within their interval.
+// Weighted least squares of offset and rate with a prior on the rate; Huber weights against latches
+// that a busy host has shifted within their interval.
 void ClockMap::refit() {
   const double origin = middle(latches_.back());
   const auto variance = [&](const LatchSample& s) {
@@ -104,7 +104,7 @@ void ClockMap::refit() {
           .var_offset = covariance(0, 0),
           .var_rate = covariance(1, 1),
           .covariance = covariance(0, 1),
-          // The way there may always take longer than the way back: that does not average out.
+          // One direction may always take longer than the other: this does not average out.
           .systematic_sd_s = std::sqrt(half_square / 3.0)};
 }
 
@@ -121,8 +121,8 @@ std::optional<MappedTime> ClockMap::from_latches(std::int64_t device_ns) const {
 
 void ClockMap::add_arrival(std::int64_t device_ns, double arrival_s) {
   if (const auto earliest = from_arrivals(device_ns, 0.0)) {
-    // An arrival much later than the envelope is a busy moment; several in a row are a clock that
-    // was stepped back. One that was stepped forward makes a new envelope by itself.
+    // One arrival much later than the envelope is a busy host; several in a row are a clock that
+    // was stepped back. A clock stepped forward forms a new envelope by itself.
     const bool late = arrival_s - earliest->time_s > kLateArrival_s;
     arrivals_off_ = late ? arrivals_off_ + 1 : 0;
     if (arrivals_off_ >= kLateArrivals) {

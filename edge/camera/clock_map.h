@@ -1,9 +1,10 @@
 // The camera's clock against the station's CLOCK_MONOTONIC: a fitted line with its uncertainty.
 // Pure.
 //
-// Two sources. A *latch* reads the camera's clock between two readings of the station's: the truth
-// lies in between, whatever the network did. A frame's *arrival* only bounds it: it came no earlier
-// than its stamp plus a delay that is known roughly; the earliest of many is the closest.
+// Two sources. A *latch* reads the camera's clock between two readings of the station's clock: the
+// true instant lies in between, whatever the network delay. The *arrival* of a frame gives only a
+// bound: not earlier than its stamp plus a roughly known delay; the earliest of many is the
+// tightest.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +15,8 @@ namespace ols::camera {
 
 struct LatchSample {
   std::int64_t device_ns = 0;  // the camera's clock
-  double before_s = 0.0;       // the station's, before the latch was asked for
-  double after_s = 0.0;        // and after it was answered
+  double before_s = 0.0;       // the station's, before the request of the latch
+  double after_s = 0.0;        // and after its answer
 };
 
 struct MappedTime {
@@ -27,24 +28,24 @@ class ClockMap {
  public:
   struct Config {
     int window = 64;                 // latches kept
-    double rate_sd = 1e-4;           // how far off a camera's oscillator may be (1-sigma)
-    double rate_wander = 1e-6;       // by how much the rate may have changed over the window
-    double device_sd_s = 20e-6;      // of a single stamp or latch inside the camera
+    double rate_sd = 1e-4;           // 1-sigma of the rate error of a camera's oscillator
+    double rate_wander = 1e-6;       // possible change of the rate over the window
+    double device_sd_s = 20e-6;      // of a single stamp or latch in the camera
     double arrival_window_s = 10.0;  // arrivals kept
   };
   explicit ClockMap(const Config& config) : config_(config) {}
 
-  // False: refused, not an interval. A sample far off the line is set aside; when the next one
-  // agrees with it, the camera's clock was stepped and the fit begins anew.
+  // False: refused, not a valid interval. A sample far off the line is held back; if the next one
+  // agrees with it, the camera's clock was stepped and the fit restarts.
   bool add_latch(const LatchSample& sample);
   void add_arrival(std::int64_t device_ns, double arrival_s);
   void clear();
 
-  // From the latches; nothing without any.
+  // From the latches; empty without any.
   std::optional<MappedTime> from_latches(std::int64_t device_ns) const;
 
-  // From the arrivals: the instant `delay_s` before the earliest arrival that such a stamp could
-  // have had; sd_s is that of the envelope, to which the delay's own adds. Nothing without any.
+  // From the arrivals: the instant `delay_s` before the earliest possible arrival of such a stamp.
+  // sd_s is that of the envelope, without that of the delay. Empty without any.
   std::optional<MappedTime> from_arrivals(std::int64_t device_ns, double delay_s) const;
 
   int latches() const { return static_cast<int>(latches_.size()); }
@@ -70,7 +71,7 @@ class ClockMap {
     double arrival_s;
   };
   std::deque<Arrival> arrivals_;
-  int arrivals_off_ = 0;  // in a row that do not fit the envelope at all
+  int arrivals_off_ = 0;  // consecutive arrivals that do not fit the envelope
 };
 
 }  // namespace ols::camera

@@ -1,4 +1,4 @@
-// What an exposure is made with.
+// The settings of an exposure.
 #pragma once
 
 namespace ols::camera {

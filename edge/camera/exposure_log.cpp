@@ -5,7 +5,7 @@
 namespace ols::camera {
 namespace {
 
-constexpr std::size_t kKept = 8;  // changes; a frame is a few periods old at most
+constexpr std::size_t kKept = 8;  // changes; a frame is at most a few periods old
 
 }  // namespace
 
@@ -23,7 +23,7 @@ ExposureUsed ExposureLog::at(double start_s) const {
     if (start_s > c.granted_s + frame_period_s_) {
       used = {.exposure_s = c.exposure_s};
     } else {
-      // One or the other, each as likely.
+      // Either one, with equal probability.
       const double half = 0.5 * (c.exposure_s - used.exposure_s);
       used = {.exposure_s = used.exposure_s + half, .sd_s = std::hypot(used.sd_s, half)};
     }

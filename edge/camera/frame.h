@@ -1,4 +1,4 @@
-// One picture of the camera, ready for the tracker.
+// One camera image, ready for the tracker.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ struct Frame {
   double stamp_sd_s = 0.0;      // 1-sigma of mid_exposure_s
   StampSource stamp_source = StampSource::kCamera;
   std::uint64_t number = 0;  // the camera's frame counter, unwrapped
-  // As the camera sent it; empty where `gray` is just that, or where nobody records it.
+  // The raw image of the camera; empty where `gray` is identical, or where no recorder needs it.
   cv::Mat raw;
-  std::string pixel_format = "Mono8";  // GenICam's name of what the camera sent
+  std::string pixel_format = "Mono8";  // GenICam's name of the camera's format
 };
 
 }  // namespace ols::camera

@@ -5,14 +5,15 @@
 namespace ols::camera {
 namespace {
 
-// Frames cannot arrive before their stamps, nor this long after them: then the latched clock is not
-// the one that stamps the frames, and only the arrivals tell. It is the earliest of many arrivals
-// that counts: a station that got no processor for seconds reads what the kernel has kept.
+// A frame cannot arrive before its stamp, nor this long after it: otherwise the latched clock is
+// not the one that stamps the frames, and only the arrivals are used. The earliest of many arrivals
+// counts, because a station that got no processor time for seconds reads what the kernel has
+// buffered.
 constexpr double kOldest_s = 5.0;
 constexpr double kSlack_s = 1e-3;
 
-// PTP and latches agree within so many standard deviations, and the delays of a network that is
-// longer in one direction.
+// PTP and latches must agree within this many standard deviations, plus the asymmetry of the
+// network delay.
 constexpr double kAgree = 5.0;
 constexpr double kAgree_s = 1e-3;
 
@@ -23,7 +24,7 @@ bool plausible(const MappedTime& stamp, double earliest_s) {
 
 }  // namespace
 
-// From the beginning or the end of an exposure to its middle.
+// From the start or the end of an exposure to its middle.
 FrameTime FrameClock::from_mark(const MappedTime& mark, bool at_start, const ExposureLog& exposures,
                                 StampSource source) const {
   const double start_s = at_start ? mark.time_s : mark.time_s - exposures.newest_s();

@@ -1,4 +1,4 @@
-// When a frame was exposed, on the station's monotonic clock. Pure.
+// The exposure time of a frame on the station's monotonic clock. Pure.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ struct FrameTime {
   StampSource source = StampSource::kCamera;
 };
 
-// Where TAI, the time of a PTP slave, stands on the station's monotonic clock: by way of the
-// station's own UTC and the leap seconds.
+// TAI, the time of a PTP slave, on the station's monotonic clock: through the station's UTC and the
+// leap seconds.
 struct TaiReference {
   std::int64_t monotonic_minus_tai_ns = 0;
-  double sd_s = 0.0;  // 1-sigma, of the station's UTC and of the master together
+  double sd_s = 0.0;  // 1-sigma, of the station's UTC and of the master combined
 };
 
 class FrameClock {
@@ -36,15 +36,15 @@ class FrameClock {
 
   ClockMap& map() { return map_; }
 
-  // While the camera's clock is TAI and the station's UTC is to be trusted; otherwise nothing. It
-  // is a second opinion beside the latches: the better of the two counts as long as they agree, the
-  // latches when they do not.
+  // While the camera's clock is TAI and the station's UTC can be trusted; otherwise empty. A second
+  // source besides the latches: the better one is used while they agree, the latches if they do
+  // not.
   void set_tai(const std::optional<TaiReference>& reference) { tai_ = reference; }
-  // By how much PTP differs from the latches [s], when that is more than both can explain.
+  // The difference of PTP from the latches [s] if both uncertainties cannot explain it.
   std::optional<double> tai_disagreement_s() const { return tai_disagreement_s_; }
 
-  // The camera's stamp, or nothing when it has none of its own; the arrival of the frame's first
-  // packet; and the exposures that were set.
+  // `device_ns`: the camera's own stamp, empty if it has none. `arrival_s`: of the frame's first
+  // packet.
   FrameTime stamp(std::optional<std::int64_t> device_ns, double arrival_s,
                   const ExposureLog& exposures);
 

@@ -5,7 +5,7 @@ namespace {
 
 constexpr std::uint64_t kIds = 65535;  // 1..65535
 
-// Steps forward from `last` to `id`, 0 when it did not go forward.
+// Steps forward from `last` to `id`; 0 if it did not increase.
 std::uint64_t distance(std::uint64_t last, std::uint64_t id) {
   if (id > kIds || last > kIds) return id > last ? id - last : 0;
   const std::uint64_t steps = (id + kIds - last) % kIds;

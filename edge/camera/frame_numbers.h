@@ -1,4 +1,4 @@
-// The camera's frame numbers, unwrapped, and the frames that are missing between them. Pure.
+// The camera's frame numbers, unwrapped, and the number of missing frames. Pure.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@ namespace ols::camera {
 class FrameNumbers {
  public:
   struct Step {
-    std::uint64_t number = 0;  // never goes back
-    std::uint64_t lost = 0;    // frames missing since the one before
+    std::uint64_t number = 0;  // never decreases
+    std::uint64_t lost = 0;    // frames missing since the previous one
   };
 
-  // The number that came with a frame: 16 bits running from 1 to 65535 (GigE Vision 1.x; 0 is
-  // skipped) or 64 bits. One that does not go forward means that the camera began again.
+  // The number of a frame: 16 bits from 1 to 65535 (GigE Vision 1.x; 0 is skipped), or 64 bits. A
+  // number that does not increase means that the camera restarted.
   Step next(std::uint64_t id);
 
-  // The camera was opened again: its next number follows on without a loss.
+  // The camera was reopened: its next number follows without a loss.
   void restart() { running_ = false; }
 
  private:

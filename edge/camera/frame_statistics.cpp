@@ -25,7 +25,7 @@ double FrameStatistics::rate_hz() const {
   if (marks_.size() < 2) return 0.0;
   const double span_s = marks_.back().arrival_s - marks_.front().arrival_s;
   if (!(span_s > 0.0)) return 0.0;
-  // The share of complete ones of all that came in the intervals between the first and the last.
+  // The share of complete frames among those that arrived between the first and the last.
   const double all = static_cast<double>(marks_.size());
   return static_cast<double>(complete()) / all * (all - 1.0) / span_s;
 }

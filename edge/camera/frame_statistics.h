@@ -1,4 +1,4 @@
-// Frame rate and losses of late. Pure.
+// Recent frame rate and losses. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ class FrameStatistics {
  public:
   void add(double arrival_s, bool complete);
 
-  double rate_hz() const;           // of complete frames; 0 before there are two
+  double rate_hz() const;           // of complete frames; 0 before the second
   double incomplete_share() const;  // 0 without frames
 
  private:

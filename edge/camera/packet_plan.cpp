@@ -4,8 +4,8 @@ namespace ols::camera {
 namespace {
 
 constexpr std::size_t kHeaders = 20 + 8 + 8;  // [byte] IP, UDP and GVSP of each packet
-// What the kernel counts for a frame is up to about twice its bytes with packets of 1500, and a
-// second frame may come before the first one is read.
+// With packets of 1500 the kernel counts up to about twice a frame's bytes, and a second frame may
+// arrive before the first is read.
 constexpr std::size_t kBufferedFrames = 3;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How fast a camera may send a frame's packets. Pure.
+// The rate at which a camera may send a frame's packets. Pure.
 #pragma once
 
 #include <cstddef>
@@ -7,20 +7,20 @@ namespace ols::camera {
 
 struct PacketPlan {
   double delay_s = 0.0;           // between the starts of two packets; 0: none
-  double bytes_per_second = 0.0;  // the same as a rate of the stream; 0: no limit
+  double bytes_per_second = 0.0;  // the same as a stream rate; 0: no limit
 };
 
 struct StreamNeed {
   std::size_t frame_bytes = 0;
   int packet_bytes = 0;            // IP packet
   double frame_period_s = 0.0;     // the shortest
-  std::size_t receive_buffer = 0;  // [byte] as the kernel counts it: with what a packet costs it
-  double spread = 0.6;             // of the frame period, where the buffer holds no frame
+  std::size_t receive_buffer = 0;  // [byte] as the kernel counts it, with its overhead
+  double spread = 0.6;             // of the frame period, if the buffer does not hold a frame
 };
 
-// A buffer that holds frames takes each as fast as it comes: none is late. A smaller one overflows
-// whenever the receiving thread sleeps for longer than its share of the frame lasts, so there the
-// packets are spread, at the price that the frame is complete that much later.
+// A buffer that holds frames receives each at full speed without delay. A smaller one overflows
+// when the receiving thread sleeps for longer than its share of a frame, so the packets are spread,
+// and the frame completes later.
 PacketPlan plan_packets(const StreamNeed& need);
 
 }  // namespace ols::camera

@@ -12,10 +12,10 @@ struct FormatRow {
   std::string_view name;
   PixelFormat format;
   int channels;
-  int to_gray;  // OpenCV's conversion; of a mosaic it interpolates and weights in one step
+  int to_gray;  // OpenCV's conversion; it demosaics and weights in one step
 };
 
-// OpenCV names a Bayer pattern, GRBG here, by its first row in the newer names.
+// The newer of OpenCV's names give a Bayer pattern by its first rows, here GRBG.
 constexpr std::array<FormatRow, 7> kFormats{{
     {"Mono8", PixelFormat::kMono8, 1, -1},
     {"BayerGR8", PixelFormat::kBayerGR8, 1, cv::COLOR_BayerGRBG2GRAY},
@@ -32,7 +32,7 @@ const FormatRow* row_of(std::uint32_t code) {
   return nullptr;
 }
 
-// Of the camera's memory. cv::Mat takes no pointer to const; nobody writes through it.
+// On the camera's memory. cv::Mat takes no const pointer; nothing writes through it.
 cv::Mat view_of(const RawPicture& raw) {
   return {raw.height_px, raw.width_px, CV_8UC(row_of(raw.format)->channels),
           const_cast<std::uint8_t*>(raw.data)};

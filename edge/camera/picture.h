@@ -1,4 +1,4 @@
-// From the bytes of a frame as the camera sends them to the gray picture of the tracker. Pure.
+// From the bytes of the camera's frame to the tracker's gray image. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace ols::camera {
 
-// GenICam's (PFNC) codes of the pixel formats that a station takes.
+// GenICam's (PFNC) codes of the supported pixel formats.
 enum class PixelFormat : std::uint32_t {
   kMono8 = 0x01080001,
   kBayerGR8 = 0x01080008,
@@ -22,7 +22,7 @@ enum class PixelFormat : std::uint32_t {
 };
 // "Mono8", "BayerRG8", "RGB8", ...
 std::optional<PixelFormat> pixel_format(std::string_view genicam_name);
-// The name of a code; the code in hexadecimal digits when it is none of these.
+// The name of a code; an unsupported code in hexadecimal digits.
 std::string pixel_format_name(std::uint32_t code);
 
 struct RawPicture {
@@ -44,12 +44,12 @@ const char* to_string(PictureRefusal refusal);
 
 PictureRefusal check(const RawPicture& raw, const PictureFormat& expected);
 
-// The gray picture, in memory of its own: the camera's is overwritten soon. `raw` has passed
+// The gray image, in its own memory, because the camera's buffer is reused. `raw` must have passed
 // check().
 cv::Mat to_gray(const RawPicture& raw);
 
-// The same for what the camera sent, a mosaic or three channels in its order; empty where the gray
-// picture is just that.
+// A copy of the raw image: a mosaic, or three channels in the camera's order; empty where the gray
+// image is identical.
 cv::Mat raw_beside_gray(const RawPicture& raw);
 
 }  // namespace ols::camera

@@ -7,14 +7,14 @@ namespace ols::camera {
 
 enum class PtpState {
   kOff,
-  kSyncing,  // on its way
+  kSyncing,  // in progress
   kSlave,    // its clock is the master's: TAI
-  kMaster,   // a master itself, or passive beside one: its clock is its own
+  kMaster,   // master, or passive next to one: its clock is free
   kFault,
-  kUnknown,  // a word that nobody has written down
+  kUnknown,  // an undocumented word
 };
 
-// The words vary with the firmware: those of AVT's feature reference and of GenICam's SFNC 2.x.
+// The words differ between firmwares: AVT's feature reference, GenICam's SFNC 2.x.
 PtpState ptp_state(std::string_view status);
 
 }  // namespace ols::camera

@@ -24,13 +24,13 @@
 namespace ols::gpio {
 namespace {
 
-constexpr double kRefresh_s = 0.1;  // the stop's level is read at least so often, edges or not
+constexpr double kRefresh_s = 0.1;  // maximum interval between readings of the stop level
 constexpr double kReopen_s = 0.5;
 constexpr double kNever_s = std::numeric_limits<double>::infinity();
 
 LineUse line_use(const GpioConfig& config) {
   LineUse use;
-  // Towards "pressed": a broken wire then reads as an opened contact.
+  // Towards "pressed": a broken wire then reads as an open contact.
   const LineBias to_pressed = config.stop_active_low ? LineBias::kPullDown : LineBias::kPullUp;
   // Towards "open": a broken wire re-arms nothing.
   const LineBias to_open = config.rearm_active_low ? LineBias::kPullUp : LineBias::kPullDown;
@@ -73,7 +73,7 @@ struct Gpio::Impl {
     std::optional<bool> lit;          // as written to the line
     double trigger_end_s = kNever_s;  // a pulse is on the line until then
     while (!ended.stop_requested()) {
-      // First: after a standstill the answer may be there, however long ago it was asked for.
+      // First: after a suspension an answer may be waiting, however old its request.
       take_levels(lines);
       tell_stop();
       tell_rearm();
@@ -105,7 +105,7 @@ struct Gpio::Impl {
       }
       const bool pressed = level.high != config.stop_active_low;
       stop.level(pressed, level.time_s);
-      // Told edge by edge: a press that was over before this thread woke is a press all the same.
+      // At each edge: a press that ended before this thread woke still counts.
       if (pressed) tell_stop();
     }
     const std::lock_guard lock(mutex);
@@ -132,7 +132,7 @@ struct Gpio::Impl {
     if (on_stop) on_stop(pressed);
   }
 
-  // Held while the stop is pressed it is nothing.
+  // Has no effect while the stop is pressed.
   void tell_rearm() {
     if (config.rearm_line < 0 || !rearm.take(clock_monotonic_s())) return;
     {
@@ -197,7 +197,7 @@ struct Gpio::Impl {
     const std::lock_guard lock(mutex);
     facts.open = true;
     facts.readable = false;
-    trigger_wanted = false;  // of frames long past
+    trigger_wanted = false;  // an old request, for past frames
   }
 
   void note_failure(const std::string& what) {
@@ -215,11 +215,11 @@ struct Gpio::Impl {
   const GpioConfig config;
   const std::function<void(bool)> on_stop;
   const std::function<void()> on_rearm;
-  StopInput stop;  // this and the next: of the thread alone
+  StopInput stop;  // this and the next: used by the thread only
   RearmInput rearm;
   Wakeup wakeup;
 
-  mutable std::mutex mutex;  // of everything below
+  mutable std::mutex mutex;  // guards all members below
   GpioFacts facts;
   LedPattern pattern = LedPattern::kOff;
   double pattern_began_s = 0.0;

@@ -61,7 +61,7 @@ class SocketLines : public GpioLines {
     if (n < 0 && errno != EAGAIN) fail(errno, "has vanished");
     if (n <= 0) return levels;
     const auto heard = protocol_.receive({buffer.data(), static_cast<std::size_t>(n)});
-    if (!heard) fail(EPROTO, "sends what is no level");
+    if (!heard) fail(EPROTO, "sent something that is not a level");
     for (const LineProtocol::Level& level : *heard) {
       levels.push_back({level.line, level.high, clock_monotonic_s()});
       asked_s_.erase(level.line);

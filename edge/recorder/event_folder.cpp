@@ -55,7 +55,7 @@ class File {
   int fd_ = -1;
 };
 
-// All of the text or none of it.
+// Writes all of the text or nothing.
 void append(const std::string& path, std::string_view text) {
   File table(path, O_WRONLY | O_CREAT | O_APPEND);
   const off_t before = table.size();
@@ -72,12 +72,12 @@ void append(const std::string& path, std::string_view text) {
 
 std::vector<unsigned char> encode_png(const RecordedFrame& frame) {
   std::vector<unsigned char> png;
-  // OpenCV takes three channels as blue, green, red; in the file red is red. Into memory of its
-  // own: the frame shares its pixels with others.
+  // OpenCV stores three channels as blue, green, red; the file must have true colours. Into
+  // separate memory, because the frame shares its pixels.
   cv::Mat swapped;
   if (frame.pixel_format == "RGB8") cv::cvtColor(frame.picture, swapped, cv::COLOR_RGB2BGR);
   const cv::Mat& picture = swapped.empty() ? frame.picture : swapped;
-  // On camera noise Huffman codes alone are both the fastest and the smallest.
+  // On camera noise Huffman coding alone is both the fastest and the smallest.
   cv::imencode(".png", picture, png,
                {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY,
                 cv::IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY});
@@ -100,7 +100,7 @@ EventFolder::EventFolder(const std::string& store, const std::string& name)
 std::size_t EventFolder::write(const RecordedFrame& frame, const std::vector<unsigned char>& png) {
   const std::string folder = path_ + kPartial + "/";
   std::string name = std::to_string(frame.utime_us) + ".png";
-  // After a step of the clock two frames may bear the same time.
+  // After a step of the clock two frames may have the same time.
   if (::access((folder + name).c_str(), F_OK) == 0) {
     name = std::to_string(frame.utime_us) + "_" + std::to_string(frame.number) + ".png";
   }
@@ -121,14 +121,14 @@ std::size_t EventFolder::write(const RecordedFrame& frame, const std::vector<uns
 }
 
 bool EventFolder::exists() const {
-  // A disk that does not answer still has it.
+  // If the disk does not answer, the folder counts as present.
   return ::access((path_ + kPartial).c_str(), F_OK) == 0 || (errno != ENOENT && errno != ENOTDIR);
 }
 
 void EventFolder::finish() {
   const std::string partial = path_ + kPartial;
   {
-    // A name without its content after a loss of power would be worse than no event.
+    // After a power failure, a name without its content would be worse than no event.
     const File folder(partial, O_RDONLY | O_DIRECTORY);
     if (::syncfs(folder.fd()) != 0) fail(errno, partial);
   }

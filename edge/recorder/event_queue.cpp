@@ -27,7 +27,7 @@ int EventQueue::add(const RecordedFrame& frame) {
   return dropped;
 }
 
-// Shares the pixels; what is too much for the memory is dropped.
+// Shares the pixels; drops frames beyond the memory limit.
 bool EventQueue::enqueue(RecordedEvent& event, const RecordedFrame& frame) {
   if (static_cast<double>(waiting_bytes_ + bytes_of(frame)) > config_.memory_max_bytes) {
     return false;
@@ -42,7 +42,7 @@ std::string EventQueue::refusal(const RecordCommand& command, double now_s) cons
   const double from_s = command.event_s - command.before_s;
   const double to_s = command.event_s + command.after_s;
   if (to_s < now_s && memory_.between(from_s, to_s).empty()) {
-    return "no frame of that time is remembered";
+    return "no frame of that time is in memory";
   }
   const auto busy = static_cast<std::size_t>(
       std::ranges::count_if(events_, &std::string::empty, &RecordedEvent::unfinished));

@@ -23,12 +23,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kNoRoom =
-    "no room: the quota is full of events that are kept; fetch some and remove them";
-// A file of the store: when it was written last, an event made room, or the store was new.
+    "no space: the quota is full of protected events; copy some away and delete them";
+// The store's file: its modification time is that of the last removal, or of the store's creation.
 constexpr const char* kRemoval = ".removal";
-constexpr const char* kPattern = "dddddddd?dddddd.ddd?_";  // d: a digit, ?: whatever stands there
+constexpr const char* kPattern = "dddddddd?dddddd.ddd?_";  // d: a digit, ?: any character
 
-// Whatever else lies in the folder is not ours to count or to remove.
+// Other files in the folder are neither counted nor removed.
 bool is_event(const std::string& name) {
   const std::string pattern = kPattern;
   if (name.size() <= pattern.size() || name[8] != 'T' || name[19] != 'Z') return false;
@@ -118,12 +118,12 @@ std::string EventStore::free_name(std::int64_t utime_us, const std::string& labe
 void EventStore::make_room(double bytes, const Names& open, std::int64_t now_utime_us) {
   if (this->bytes() + bytes > config_.quota_bytes) {
     const auto event = removable(open, now_utime_us);
-    // None goes for nothing.
+    // Nothing is removed if that would not suffice.
     if (this->bytes() + bytes - (event == events_.end() ? 0.0 : event->second) >
         config_.quota_bytes) {
       throw DiskFull(kNoRoom);
     }
-    remember_removal();  // first: who cannot write that down may not remove
+    remember_removal();  // first: without this record nothing may be removed
     fs::remove_all(config_.folder + "/" + event->first);
     events_.erase(event);
     ++removed_;
@@ -140,7 +140,7 @@ double EventStore::room_bytes(const Names& open, std::int64_t now_utime_us) cons
 
 void EventStore::remember_removal() const {
   std::ofstream file(config_.folder + "/" + kRemoval);
-  file << "when an event last made room\n";
+  file << "when an event was last removed to free space\n";
   file.close();
   if (!file) throw std::system_error(EIO, std::generic_category(), config_.folder);
 }

@@ -1,8 +1,8 @@
-// The folder of all events: how much there is, how much room the disk has, and which may go.
+// The folder of all events: its size, the disk's free space, and which event may be removed.
 //
-// Anybody on the bus may ask for recordings, so they must not push out what was there before: once
-// in `protect_s` one event makes room for new ones, and only one that is older than that: the
-// oldest of the label that takes most room.
+// Anyone on the bus may request recordings, so new ones must not displace the old: once in
+// `protect_s` one event older than that is removed for new ones, the oldest of the label that
+// occupies most space.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace ols::recorder {
 // "20260301T120000.250Z": sorts by time.
 std::string utc_name(std::int64_t utime_us);
 
-// The disk has no room for what is to be written.
+// The disk has no space for the data.
 class DiskFull : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -34,19 +34,19 @@ class EventStore {
 
   explicit EventStore(Config config) : config_(std::move(config)) {}
 
-  // Looks at the disk: makes the folder where it is missing, and takes stock of events and room.
-  // Throws std::system_error when the folder is none, or cannot be written.
+  // Checks the disk: creates the folder if missing, and counts events and free space. Throws
+  // std::system_error when it is not a folder, or cannot be written.
   void survey();
-  // The same, and really writes something: for a disk that has failed before.
+  // The same, and writes a test file: for a disk that has failed before.
   void try_writing();
 
-  // A name that is still free.
+  // An unused name.
   std::string free_name(std::int64_t utime_us, const std::string& label) const;
-  // Removes what may go when `bytes` more do not fit into the quota, never what is of `open`, whose
-  // frames are still coming. Throws DiskFull when they do not fit all the same, or the disk's
-  // reserve would be touched. UTC decides what is how old.
+  // If `bytes` more do not fit into the quota, removes an event that may be removed, but none in
+  // `open`, whose frames are still arriving. Throws DiskFull when they still do not fit, or would
+  // use the disk's reserve. Ages are by UTC.
   void make_room(double bytes, const Names& open, std::int64_t now_utime_us);
-  // What fits into the quota, with what may go.
+  // What fits into the quota, including events that may be removed.
   double room_bytes(const Names& open, std::int64_t now_utime_us) const;
   void add(const std::string& name, double bytes) { events_[name] += bytes; }
   void finished(const std::string& name);
@@ -66,7 +66,7 @@ class EventStore {
   Events::const_iterator removable(const Names& open, std::int64_t now_utime_us) const;
 
   Config config_;
-  Events events_;  // by folder name; partial ones too
+  Events events_;  // by folder name, including partial ones
   double free_bytes_ = 0.0;
   std::uint64_t removed_ = 0;
 };

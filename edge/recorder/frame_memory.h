@@ -1,4 +1,4 @@
-// The frames of the last seconds, within a bound of bytes. Pure.
+// The frames of the last seconds, limited in bytes. Pure.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace ols::recorder {
 
 struct RecordedFrame {
-  cv::Mat picture;                     // as the camera sent it
+  cv::Mat picture;                     // the camera's raw image
   std::string pixel_format = "Mono8";  // GenICam's name
   std::int64_t utime_us = 0;           // mid-exposure
   double mid_exposure_s = 0.0;         // station's monotonic clock

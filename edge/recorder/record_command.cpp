@@ -21,11 +21,11 @@ bool is_label(const std::string& label) {
 
 std::string wrong_with(const RecordCommand& command, const RecorderConfig& config, double now_s) {
   if (config.folder.empty()) return "no recorder is configured";
-  if (!is_label(command.label)) return "the label may have 40 letters, digits, - and _";
+  if (!is_label(command.label)) return "the label must be at most 40 letters, digits, - or _";
   if (!std::isfinite(command.event_s) || !(command.before_s >= 0.0) || !(command.after_s >= 0.0) ||
       !(command.before_s + command.after_s <= config.event_max_s)) {
     char text[80];
-    std::snprintf(text, sizeof text, "before and after must be 0 s at least, together %g s at most",
+    std::snprintf(text, sizeof text, "before and after must be at least 0 s, together at most %g s",
                   config.event_max_s);
     return text;
   }

@@ -1,4 +1,4 @@
-// What a command to record may ask for.
+// The permitted commands to record.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace ols::recorder {
 
-inline constexpr double kLateFrame_s = 1.0;  // a frame comes at most so much after its exposure
+inline constexpr double kLateFrame_s = 1.0;  // maximum delay of a frame after its exposure
 
-// Why a recorder of this configuration cannot do it, whatever it remembers; empty: it may.
+// Why this configuration cannot carry it out, regardless of the frames in memory; empty: it can.
 std::string wrong_with(const RecordCommand& command, const RecorderConfig& config, double now_s);
 
-// Whoever asks again and again gets a few: eight at once, and then one more each 10 s.
+// Limits repeated requests: eight at once, then one more each 10 s.
 class RecordRate {
  public:
   bool admit(double now_s);

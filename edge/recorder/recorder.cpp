@@ -28,14 +28,14 @@
 namespace ols::recorder {
 namespace {
 
-constexpr double kSurvey_s = 2.0;  // the disk is looked at so often
-constexpr double kRetry_s = 2.0;   // until an event that could not be finished is tried again
-constexpr double kAtEnd_s = 5.0;   // for what is unwritten when the station stops
-constexpr int kNice = 10;          // the control loop goes first
+constexpr double kSurvey_s = 2.0;  // interval of the disk checks
+constexpr double kRetry_s = 2.0;   // until finishing an event is retried
+constexpr double kAtEnd_s = 5.0;   // to write the remaining frames when the station stops
+constexpr int kNice = 10;          // below the control loop
 
-// Of the disk, as last seen by the writing thread.
+// The disk as last checked by the writing thread.
 struct DiskState {
-  std::string trouble;  // what is wrong with it at this moment
+  std::string trouble;  // its present fault
   std::optional<double> good_s;
   double free_bytes = 0.0, stored_bytes = 0.0, room_bytes = 0.0;
   std::size_t stored_events = 0;
@@ -78,7 +78,7 @@ struct Recorder::Impl {
     if (disk.good_s && wanted + queue.still_to_write() > disk.room_bytes) {
       ++counters.refused_no_room;
       wanted_bytes = wanted;
-      return "no room for " + std::to_string(std::llround(wanted * 1e-6)) + " MB";
+      return "no space for " + std::to_string(std::llround(wanted * 1e-6)) + " MB";
     }
     if (rate.admit(now_s)) return {};
     ++counters.refused_too_many;
@@ -129,7 +129,7 @@ struct Recorder::Impl {
     }
   }
 
-  // Where a filter of system calls refuses it nothing is lost but the order, and that is told.
+  // If a system call filter forbids it, only the priority is lost, and the report says so.
   void go_behind() {
     const auto thread_id = static_cast<id_t>(::gettid());
     if (::getpriority(PRIO_PROCESS, thread_id) >= kNice) return;
@@ -139,7 +139,7 @@ struct Recorder::Impl {
     beside = std::string("runs at the control loop's priority (") + std::strerror(failed) + ")";
   }
 
-  // Condition of the disk, for the report and for the commands to come.
+  // The disk's condition, for the report and for later commands.
   void survey() {
     std::string found;
     try {
@@ -159,14 +159,14 @@ struct Recorder::Impl {
   void set_trouble(const std::string& what) {
     const double room = store.room_bytes(open_names(), clock_utime_us());
     const std::lock_guard lock(mutex);
-    // The room left changes all the time; only that it became too little is news.
+    // Free space changes all the time; only too little of it is news.
     if (!what.empty() && disk.trouble.empty()) note(what);
     if (what.empty()) disk.good_s = clock_monotonic_s();
     disk = {what, disk.good_s,    store.free_bytes(), store.bytes(),
             room, store.events(), store.removed()};
   }
 
-  // One frame, or one event's end. False when there was nothing to do.
+  // One frame, or the end of one event. False: nothing to do.
   bool write_one() {
     const double now_s = clock_monotonic_s();
     std::optional<EventQueue::Job> job;
@@ -192,7 +192,7 @@ struct Recorder::Impl {
         store.survey();
         if (event.name.empty()) event.name = store.free_name(event.utime_us, event.label);
       }
-      // A frame is hardly ever greater as PNG.
+      // A frame is hardly ever larger as PNG.
       store.make_room(static_cast<double>(bytes_of(frame)), open_names(), clock_utime_us());
       if (!event.folder) event.folder.emplace(config.folder, event.name);
       const std::size_t bytes = event.folder->write(frame, encode_png(frame));
@@ -201,7 +201,7 @@ struct Recorder::Impl {
       failed = failure.what();
     }
     set_trouble(failed);
-    // Somebody took the folder away: another one as soon as that is possible.
+    // The folder was removed: create another one as soon as possible.
     const bool lost = event.folder && !event.folder->exists();
     if (lost) event.folder.reset();
     const std::lock_guard lock(mutex);
@@ -231,7 +231,7 @@ struct Recorder::Impl {
     survey();
   }
 
-  // The others go on meanwhile.
+  // The others continue meanwhile.
   void put_off(RecordedEvent& event, const std::string& why) {
     const std::lock_guard lock(mutex);
     if (event.unfinished.empty()) note(why);
@@ -239,22 +239,22 @@ struct Recorder::Impl {
     event.retry_s = clock_monotonic_s() + kRetry_s;
   }
 
-  // What a person has to know of now: of the disk, or of an event. Empty when all is well.
+  // The present fault of the disk or of an event; empty: none.
   std::string wrong() const { return disk.trouble.empty() ? queue.unfinished() : disk.trouble; }
 
   const RecorderConfig config;
-  EventStore store;  // of the writing thread alone
+  EventStore store;  // used by the writing thread only
 
-  mutable std::mutex mutex;  // of everything below
+  mutable std::mutex mutex;  // guards all members below
   std::condition_variable_any wake;
   EventQueue queue;
   DiskState disk;
   RecordRate rate;
   RecorderCounters counters;
-  double wanted_bytes = 0.0;  // of the last recording, where there was no room for it
-  std::string error;          // the last trouble
+  double wanted_bytes = 0.0;  // of the last recording refused for lack of space
+  std::string error;          // the last error
   std::uint64_t errors = 0;
-  std::string beside;   // why its thread does not stand back for the control loop; empty: it does
+  std::string beside;   // why its thread could not lower its priority; empty: it could
   std::jthread thread;  // last: it uses the rest
 };
 
@@ -295,8 +295,8 @@ station::DeviceReport Recorder::report() const {
                      {"recorder_room_bytes", disk.room_bytes}};
   if (impl_->wanted_bytes > disk.room_bytes) {
     report.alarms.emplace_back(
-        "recorder: recordings are refused, the quota is full of events that are kept: fetch some "
-        "and remove them");
+        "recorder: recordings are refused, the quota is full of protected events: copy some away "
+        "and delete them");
   }
   if (const std::string wrong = impl_->wrong(); !wrong.empty()) {
     report.state = station::DeviceState::kFault;

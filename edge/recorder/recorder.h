@@ -1,6 +1,6 @@
-// Keeps the raw frames of the seconds around an event, on demand: a ring in memory, and a thread
-// that writes. A frame never waits for the disk; a full or read-only disk is reported and costs
-// nothing but the recording.
+// Keeps the raw frames around an event, on demand: a ring in memory, and a thread that writes. A
+// frame never waits for the disk; a full or read-only disk is reported and affects nothing but the
+// recording.
 //
 // One event is one folder FOLDER/<UTC>_<label>/: PNG frames named by utime, and frames.csv.
 #pragma once
@@ -19,13 +19,13 @@ namespace ols::recorder {
 
 struct RecorderConfig {
   std::string folder;     // empty: the station records nothing
-  double memory_s = 5.0;  // frames remembered before an event
+  double memory_s = 5.0;  // of frames in memory before an event
   double memory_max_bytes = 256e6;
   double quota_bytes = 4e9;  // all events together
-  // Once in this time one event that is older makes room for new ones; otherwise recordings that do
-  // not fit are refused. A day: a site is looked at that often, and alarms by then.
+  // Once in this time one older event is removed for new ones; otherwise recordings that do not fit
+  // are refused. A day, because someone checks a site, and its alarms, that often.
   double protect_s = 86400.0;
-  double disk_reserve_bytes = 1e9;  // never less than this left free on the disk
+  double disk_reserve_bytes = 1e9;  // always left free on the disk
   double event_max_s = 60.0;
 };
 
@@ -44,9 +44,9 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  // Remembers the frame (shares its pixels) and never waits. `utime_us`: its mid-exposure.
+  // Buffers the frame (shares its pixels), never waits. `utime_us`: its mid-exposure.
   void add(const camera::Frame& frame, std::int64_t utime_us);
-  // Empty: accepted; else why not.
+  // Empty: accepted; otherwise the reason.
   std::string record(const RecordCommand& command);
   station::DeviceReport report() const;
 

@@ -10,10 +10,10 @@
 namespace ols::tracker {
 namespace {
 
-// A part of the picture and what is looked for in it.
+// A part of the image and the object to look for in it.
 struct Scope {
   cv::Rect area;
-  cv::Mat raw, gray;  // as taken and smoothed
+  cv::Mat raw, gray;  // original and smoothed
   Eigen::Vector2d expected_px;
   double gate_px;
 };
@@ -26,7 +26,7 @@ cv::Mat smoothed(const cv::Mat& image) {
 
 cv::Mat square(int side) { return cv::getStructuringElement(cv::MORPH_RECT, {side, side}); }
 
-// Value below which a share of the pixels lies; of an 8-bit image, every few pixels.
+// The quantile of the pixels of an 8-bit image, from every few pixels.
 double quantile(const cv::Mat& image, double share) {
   constexpr int kStep = 3;
   std::array<int, 256> histogram{};
@@ -43,11 +43,11 @@ double quantile(const cv::Mat& image, double share) {
   return 255.0;
 }
 
-// Where a reference shows nothing the picture is compared with itself: no difference.
+// Where a reference shows nothing the image is compared with itself: no difference.
 cv::Mat difference(const Scope& scope, const AcquisitionReference& reference) {
   const cv::Mat before = smoothed(
       brought_to_present(reference.gray, reference.homography, scope.raw, scope.area.tl()));
-  // The angles place the background to about a pixel: what has a like neighbour has not changed.
+  // The angles place the background to about a pixel: a pixel with an equal neighbour is unchanged.
   cv::Mat low, high, above, below;
   cv::erode(before, low, square(5));
   cv::dilate(before, high, square(5));
@@ -56,7 +56,7 @@ cv::Mat difference(const Scope& scope, const AcquisitionReference& reference) {
   return cv::max(above, below);
 }
 
-// What differs from both earlier frames: where the target was then differs from one only.
+// Differences from both earlier frames: the target's earlier place differs from one only.
 cv::Mat moving(const Scope& scope, const std::vector<AcquisitionReference>& references,
                double apart_px) {
   const AcquisitionReference* near = nullptr;
@@ -72,7 +72,7 @@ cv::Mat moving(const Scope& scope, const std::vector<AcquisitionReference>& refe
   return {};
 }
 
-// What is smaller than `side_px` and darker or brighter than all around it; edges do not count.
+// Objects smaller than `side_px` and darker or brighter than all around; edges do not count.
 cv::Mat standing_out(const Scope& scope, double side_px) {
   const cv::Mat element = square(2 * static_cast<int>(side_px / 2.0) + 1);
   cv::Mat dark, bright;
@@ -91,16 +91,16 @@ Eigen::Vector2d centre_px(const cv::Rect2d& box) {
 
 double longer_side(const cv::Rect2d& box) { return std::max(box.width, box.height); }
 
-// Compact parts of `cue` that stand out of its own fluctuations.
+// Compact parts of `cue` above its own fluctuations.
 std::vector<AcquisitionCandidate> compact(const Scope& scope, const cv::Mat& cue,
                                           const AcquisitionConfig& config) {
   const double middle = quantile(cue, 0.5);
-  // The quartile's distance from the median, made that of a normal distribution.
+  // The quartile's distance from the median, scaled to a normal distribution's sigma.
   const double spread = std::max(0.5, (quantile(cue, 0.75) - middle) / 0.6745);
   const double threshold = std::max(config.least_contrast, middle + config.threshold_sd * spread);
   cv::Mat mask, labels, statistics, centroids;
   cv::threshold(cue, mask, threshold, 255.0, cv::THRESH_BINARY);
-  cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, square(9));  // a target's parts belong together
+  cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, square(9));  // joins a target's parts
   const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centroids);
   std::vector<AcquisitionCandidate> found;
   for (int i = 1; i < count; ++i) {
@@ -140,7 +140,7 @@ std::optional<cv::Rect2d> Acquisition::look(const AcquisitionView& view) {
   const Scope scope{area, view.gray(area), smoothed(view.gray(area)), view.expected_px, gate_px};
   candidates_ = compact(scope, standing_out(scope, config_.most_side_px), config_);
   const cv::Mat motion = moving(scope, view.references, config_.most_side_px);
-  // A target that stands out of a smooth background is there already, and whole.
+  // A target in front of a smooth background is complete already.
   for (const auto& mover :
        motion.empty() ? std::vector<AcquisitionCandidate>{} : compact(scope, motion, config_)) {
     const auto same = [&](const auto& other) { return overlap(other.box, mover.box); };
@@ -170,7 +170,8 @@ Acquisition::Track Acquisition::continued(const AcquisitionCandidate& candidate,
   return track;
 }
 
-// What was there in the frame before as well, at the right place, is no fluctuation: a rival.
+// An object that was also in the previous frame, at the right place, is no fluctuation: it
+// competes.
 std::optional<cv::Rect2d> Acquisition::sole() const {
   const auto best =
       std::max_element(tracks_.begin(), tracks_.end(), [](const auto& a, const auto& b) {
@@ -182,7 +183,7 @@ std::optional<cv::Rect2d> Acquisition::sole() const {
     return other.seen > 1 &&
            other.candidate.strength > config_.rival_fraction * best->candidate.strength;
   });
-  if (rivals > 1) return std::nullopt;  // it counts itself
+  if (rivals > 1) return std::nullopt;  // includes the candidate itself
   constexpr double kPadding = 0.1;
   const cv::Rect2d& box = best->candidate.box;
   const cv::Size2d pad(1.0 + kPadding * box.width, 1.0 + kPadding * box.height);

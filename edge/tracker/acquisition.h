@@ -1,6 +1,6 @@
-// Finds a target that nobody has marked: a compact object near the pixel where it is expected,
-// which moves against the background as expected or stands alone before a smooth one. Strict: a
-// wrong object is worse than none. Pure and deterministic.
+// Finds a target without a designation: a compact object near the expected pixel that moves against
+// the background as expected, or stands alone in front of a smooth one. Strict: a wrong object is
+// worse than none. Pure and deterministic.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,24 +11,24 @@
 namespace ols::tracker {
 
 struct AcquisitionConfig {
-  int frames = 3;                // in a row that must show the same object
-  double gate_sigma = 4.0;       // it is looked for so far from the expected pixel
-  double gate_most_px = 250.0;   // and no further than this
-  double threshold_sd = 8.0;     // of the picture's own fluctuations that it stands out by
-  double least_contrast = 10.0;  // [grey levels] and by this at least
-  double least_side_px = 4.0;    // of the object, the longer side
-  double most_side_px = 90.0;    // likewise
-  double place_px = 10.0;        // it keeps its place to the expected pixel so well,
-  double place_fraction = 0.15;  // and this share of its size
-  double size_ratio = 1.7;       // its size changes by less than this
-  double rival_fraction = 0.3;   // as conspicuous as this compared with it is a rival
+  int frames = 3;                // consecutive, that must show the same object
+  double gate_sigma = 4.0;       // search radius around the expected pixel
+  double gate_most_px = 250.0;   // maximum search radius
+  double threshold_sd = 8.0;     // minimum contrast, in the image's own fluctuations
+  double least_contrast = 10.0;  // [grey levels] minimum contrast
+  double least_side_px = 4.0;    // minimum of the object's longer side
+  double most_side_px = 90.0;    // maximum of the object's longer side
+  double place_px = 10.0;        // maximum drift relative to the expected pixel,
+  double place_fraction = 0.15;  // plus this share of the object's size
+  double size_ratio = 1.7;       // maximum change of its size
+  double rival_fraction = 0.3;   // minimum relative strength of a competing object
 };
 
-// An earlier frame and where the camera and the target were then.
+// An earlier frame, with the camera's and the target's position in it.
 struct AcquisitionReference {
   cv::Mat gray;
-  Eigen::Matrix3d homography;   // from its pixels to those of the frame looked at
-  Eigen::Vector2d expected_px;  // of the target, brought to the frame looked at
+  Eigen::Matrix3d homography;   // from its pixels to those of the present frame
+  Eigen::Vector2d expected_px;  // of the target, mapped to the present frame
 };
 
 struct AcquisitionView {
@@ -39,25 +39,25 @@ struct AcquisitionView {
 };
 
 struct AcquisitionCandidate {
-  cv::Rect2d box;         // [px] as of cv::Rect: the top-left pixel's corner is its origin
-  double strength = 0.0;  // [grey levels * px] how conspicuous it is
+  cv::Rect2d box;  // [px] like cv::Rect: the origin is the top-left corner of the top-left pixel
+  double strength = 0.0;  // [grey levels * px] how strongly it stands out
 };
 
 class Acquisition {
  public:
   explicit Acquisition(const AcquisitionConfig& config) : config_(config) {}
 
-  // The box of the one object that the last frames agree on, or nothing.
+  // The box of the only object that the last frames agree on, or empty.
   std::optional<cv::Rect2d> look(const AcquisitionView& view);
   void clear() { tracks_.clear(); }
-  // What the last frame looked at showed; more than one of them may be the same object's parts.
+  // The candidates of the last frame; several of them may be parts of one object.
   const std::vector<AcquisitionCandidate>& candidates() const { return candidates_; }
 
  private:
-  struct Track {  // a candidate followed over frames
+  struct Track {  // a candidate over several frames
     AcquisitionCandidate candidate;
-    Eigen::Vector2d first_offset_px;  // of its centre from the expected pixel, when first seen
-    int seen = 1;                     // frames in a row
+    Eigen::Vector2d first_offset_px;  // of its centre from the expected pixel, in the first frame
+    int seen = 1;                     // consecutive frames
   };
   Track continued(const AcquisitionCandidate& candidate, const Eigen::Vector2d& expected_px) const;
   std::optional<cv::Rect2d> sole() const;

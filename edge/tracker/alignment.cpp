@@ -8,7 +8,7 @@
 namespace ols::tracker {
 
 cv::Rect reduced_area(const ReducedFrame& frame, const cv::Rect2d& area) {
-  // Edge by edge: corner and size rounded apart would reach over the image's edge.
+  // Edge by edge: corner and size rounded separately could exceed the image's edge.
   const double scale = 1.0 / frame.reduction;
   const auto inside = [scale](double at, int side, auto whole) {
     return static_cast<int>(std::clamp(whole(at * scale), 0.0, static_cast<double>(side)));

@@ -1,4 +1,4 @@
-// An earlier image laid onto the present one, so that the two can be subtracted.
+// Maps an earlier image onto the present one, so that the two can be subtracted.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,12 +8,12 @@
 
 namespace ols::tracker {
 
-// The reduced pixels that an area of the full frame touches, inside the image.
+// The reduced pixels that an area of the full frame touches, within the image.
 cv::Rect reduced_area(const ReducedFrame& frame, const cv::Rect2d& area);
 
-// The earlier image as the camera would see it now; what it did not see is as it is now. `now` is
-// a part of the present image, its corner at `origin`; `to_present` takes the earlier image's
-// pixels to those of the whole present one.
+// The earlier image as the camera would see it now; where it shows nothing, the present image is
+// copied. `now` is a part of the present image with its corner at `origin`; `to_present` maps the
+// earlier image's pixels to those of the whole present one.
 cv::Mat brought_to_present(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
                            const cv::Mat& now, const cv::Point& origin);
 

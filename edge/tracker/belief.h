@@ -1,24 +1,24 @@
-// How far the tracker believes that what it follows is the target, 0..1.
+// The tracker's probability, 0..1, that it follows the target.
 #pragma once
 
 namespace ols::tracker {
 
-constexpr double kBelieved = 0.5;  // more is on the target, for what follows from it
+constexpr double kBelieved = 0.5;  // above it the tracker counts as being on the target
 
-// What one frame says for the target: the best candidate's similarity (eq. (5), 0..1) against what
-// the background around it reaches by chance, and the candidate's correlation and contrast with the
+// The evidence of one frame: the best candidate's similarity (eq. (5), 0..1) compared with what the
+// surrounding background reaches by chance, and the candidate's correlation and contrast with the
 // target's first image.
 struct FrameEvidence {
   double similarity = 0.0;
   double background_similarity = 0.0;
   double correlation = 0.0;
   double contrast = 1.0;
-  double standing_out = 1.0;    // of its own surroundings, the target's usual way being 1
+  double standing_out = 1.0;    // from its surroundings, relative to what is usual for the target
   double foreground = 1.0;      // share of the target's foreground that is foreground here,
-  bool by_subtraction = false;  // compared with an earlier image of the place, not with a level
+  bool by_subtraction = false;  // compared with an earlier image, not with a grey level
 };
 
-// What the target had of late: what suddenly looks much less like it is something else.
+// The target's recent values: a sudden, much lower one means another object.
 struct Typical {
   double correlation = 1.0;
   double correlation_variance = 0.0025;
@@ -27,8 +27,8 @@ struct Typical {
 
 double frame_belief(const FrameEvidence& evidence, const Typical& typical);
 
-// Smoothed over time, so that one poor frame does not lose the target; falls below a half within a
-// third of a second without it.
+// Smoothed over time, so that one poor frame does not lose the target; without the target it falls
+// below 0.5 within a third of a second.
 class Belief {
  public:
   void start() {
@@ -38,10 +38,10 @@ class Belief {
   void doubt() { value_ = value_ < kDoubt ? value_ : kDoubt; }
   void update(const FrameEvidence& evidence, double interval_s);
   double value() const { return value_; }
-  // Looks as the target does, by how its look has varied of late: where its place says nothing for
-  // it, its look must say more than that it is alike.
+  // Whether the target's recent values make this evidence plausible. Stricter than similarity, for
+  // a target whose place gives no evidence.
   bool usual(const FrameEvidence& evidence) const;
-  // What this evidence alone would be believed; the belief stays as it is.
+  // The belief of this evidence alone; does not change the belief.
   double in_frame(const FrameEvidence& evidence) const { return frame_belief(evidence, typical_); }
   double of_frame() const { return of_frame_; }  // the newest frame alone
 

@@ -10,17 +10,17 @@ namespace ols::tracker {
 namespace {
 
 constexpr double kCertain = 5.0;     // standard deviations of the surroundings
-constexpr double kShare = 0.35;      // of the greatest difference: still the target
+constexpr double kShare = 0.35;      // of the maximum difference: still the target
 constexpr double kLeastNoise = 0.7;  // [grey levels]
-constexpr double kMostFill = 0.6;    // of the box's area: then the box is the core
+constexpr double kMostFill = 0.6;    // of the box's area: beyond it the box is the core
 constexpr double kLeastSide = 8.0;   // [px]
 
 struct Ground {
   Eigen::Vector3d plane;  // grey level = plane . (x, y, 1)
-  double sd;              // of what the plane leaves over, robust
+  double sd;              // of the plane's residuals, robust
 };
 
-// A sky's gradient through the outermost pixels of the box.
+// A plane through the outermost pixels of the box: the sky's gradient.
 Ground fit_ground(const cv::Mat& gray) {
   const int band = std::max(1, std::min(gray.cols, gray.rows) / 8);
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -48,7 +48,7 @@ Ground fit_ground(const cv::Mat& gray) {
   return ground;
 }
 
-// |gray - ground|, less the further from the middle, where the target is meant to be.
+// |gray - ground|, weighted down away from the centre, where the operator put the target.
 cv::Mat difference_from(const cv::Mat& gray, const Ground& ground, cv::Mat& weighted) {
   cv::Mat difference(gray.size(), CV_32F);
   weighted.create(gray.size(), CV_32F);
@@ -65,7 +65,7 @@ cv::Mat difference_from(const cv::Mat& gray, const Ground& ground, cv::Mat& weig
   return difference;
 }
 
-// The bounds of the parts above the threshold that lie inside and belong to the greatest one.
+// The bounds of the parts above the threshold that lie inside and belong to the largest one.
 cv::Rect bounds_of(const cv::Mat& difference, double threshold, const cv::Point& peak) {
   cv::Mat mask, labels, statistics, centroids;
   cv::threshold(difference, mask, threshold, 255.0, cv::THRESH_BINARY);

@@ -12,16 +12,16 @@ namespace ols::tracker {
 namespace {
 
 using Four = cv::v_float32x4;
-constexpr int kSide = 12;  // of the window, a corner being at its pixel (6, 6)
+constexpr int kSide = 12;  // of the window; the corner is at its pixel (6, 6)
 constexpr int kMiddle = kSide / 2;
-constexpr int kFramed = kSide + 4;  // with what its derivatives need, in whole fours
+constexpr int kFramed = kSide + 4;  // with the margin of the derivatives, a multiple of four
 constexpr int kMostSteps = 15;
-constexpr float kEnough = 0.03F;  // [px] of a step
+constexpr float kEnough = 0.03F;  // [px] a step below it ends the iteration
 
 template <int side>
 using Square = std::array<float, static_cast<std::size_t>(side* side)>;
 
-// Not v_load_expand_q(): it reads an integer from where none may lie.
+// Not v_load_expand_q(): it may read beyond the memory.
 Four four_pixels(const std::uint8_t* at) {
   std::int32_t packed = 0;
   std::memcpy(&packed, at, sizeof packed);
@@ -30,8 +30,8 @@ Four four_pixels(const std::uint8_t* at) {
   return cv::v_cvt_f32(cv::v_reinterpret_as_s32(wide));
 }
 
-// A square of the image between its pixels, its first sample at `corner`; nothing when not even the
-// image's margin reaches so far.
+// A square of the image at sub-pixel positions, its first sample at `corner`; empty: beyond even
+// the image's margin.
 template <int side>
 bool sample(const cv::Mat& image, const cv::Point2f& corner, Square<side>& out) {
   constexpr int kMargin = ImagePyramid::kMargin;
@@ -92,7 +92,7 @@ std::optional<Window> window_around(const cv::Mat& image, const cv::Point2f& cor
   return window;
 }
 
-// The step that brings the window and what is seen at `now` together.
+// The step that aligns the window with the image at `now`.
 cv::Point2f step(const Window& window, const Square<kSide>& now) {
   Four x = cv::v_setzero_f32(), y = x;
   for (int i = 0; i < kSide * kSide; i += 4) {
@@ -108,7 +108,7 @@ cv::Point2f step(const Window& window, const Square<kSide>& now) {
 
 double correlation(const Square<kSide>& one, const Square<kSide>& other) {
   Four p = cv::v_setzero_f32(), q = p, pp = p, qq = p, pq = p;
-  const Four level = cv::v_setall_f32(one[kMiddle * kSide + kMiddle]);  // for the digits' sake
+  const Four level = cv::v_setall_f32(one[kMiddle * kSide + kMiddle]);  // for precision
   for (int i = 0; i < kSide * kSide; i += 4) {
     const Four u = cv::v_load(&one[i]) - level;
     const Four v = cv::v_load(&other[i]) - level;
@@ -146,7 +146,7 @@ void ImagePyramid::build(const cv::Mat& image) {
 
 FollowedCorner follow_corner(const ImagePyramid& previous, const ImagePyramid& current,
                              const cv::Point2f& corner, const cv::Point2f& guess) {
-  constexpr float kLeastDeterminant = 1e-3F;  // of an even surface
+  constexpr float kLeastDeterminant = 1e-3F;  // of a surface without texture
   FollowedCorner followed{guess};
   const cv::Point2f to_first(kMiddle, kMiddle);
   for (int level = ImagePyramid::kLevels - 1; level >= 0; --level) {

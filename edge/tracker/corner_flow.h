@@ -1,4 +1,4 @@
-// Where corners of one image are in the next one: pyramidal Lucas and Kanade.
+// Optical flow of corners between two images: pyramidal Lucas-Kanade.
 #pragma once
 
 #include <array>
@@ -6,14 +6,14 @@
 
 namespace ols::tracker {
 
-// An image and its halves, quarters and eighths, as cv::pyrDown() makes them: a pixel of one is at
-// half its coordinates in the next. Around each the outermost pixels are continued.
+// An image pyramid of four levels, as made by cv::pyrDown(): a pixel has half its coordinates in
+// the next level. Each level has a margin that repeats its outermost pixels.
 class ImagePyramid {
  public:
   static constexpr int kLevels = 4;
   static constexpr int kMargin = 16;  // [px] on each side
 
-  // Of an 8-bit image of one channel; copies it. The memory is used again.
+  // Copies an 8-bit image of one channel. Memory is reused.
   void build(const cv::Mat& image);
   const cv::Mat& level(int index) const { return levels_[static_cast<std::size_t>(index)]; }
 
@@ -24,12 +24,12 @@ class ImagePyramid {
 
 struct FollowedCorner {
   cv::Point2f at;
-  double correlation = -1.0;  // of its surroundings then and now; -1 when it was not found
+  double correlation = -1.0;  // of its surroundings in both images; -1: not found
 };
 
-// `guess` is where it is looked for first. J.-Y. Bouguet, "Pyramidal implementation of the Lucas
-// Kanade feature tracker", Intel 2000. OpenCV's own takes the derivatives of the whole picture and
-// a larger window, which costs five times as much.
+// Searches from `guess`. J.-Y. Bouguet, "Pyramidal implementation of the Lucas Kanade feature
+// tracker", Intel 2000. OpenCV's own version differentiates the whole image and uses a larger
+// window, which costs five times as much.
 FollowedCorner follow_corner(const ImagePyramid& previous, const ImagePyramid& current,
                              const cv::Point2f& corner, const cv::Point2f& guess);
 

@@ -10,16 +10,16 @@
 namespace ols::tracker {
 namespace {
 
-// So many pixels together that a target spans about `kSpan` of them: it takes no more to find it.
+// Binning so that a target spans about `kSpan` pixels, which is enough to find it.
 int coarseness(double side, const cv::Size& image) {
   constexpr double kSpan = 8.0;
   const int wanted = static_cast<int>(side / kSpan);
   return std::max(1, std::min({wanted, image.width, image.height}));
 }
 
-// The greatest maxima, each taken out with what is `side` around it.
+// The largest maxima, each removed together with `side` around it.
 std::vector<cv::Point> greatest_maxima(cv::Mat& response, int side, int most) {
-  constexpr double kLeastResponse = 2.0;  // [grey levels] below it is noise
+  constexpr double kLeastResponse = 2.0;  // [grey levels] below it: noise
   std::vector<cv::Point> maxima;
   while (static_cast<int>(maxima.size()) < most) {
     double value = 0.0;
@@ -57,7 +57,7 @@ std::vector<Eigen::Vector2d> difference_candidates(const ReducedFrame& previous,
   cv::resize(difference(cv::Rect(0, 0, size.width * coarse, size.height * coarse)), response, size,
              0, 0, cv::INTER_AREA);
   const int side = std::max(3, static_cast<int>(length / coarse) | 1);
-  // A box would reach as much wherever it holds the whole target.
+  // Gaussian: a box filter would respond equally wherever it contains the whole target.
   cv::GaussianBlur(response, response, cv::Size(side, side), 0.0, 0.0, cv::BORDER_CONSTANT);
   std::vector<Eigen::Vector2d> pixels;
   for (const cv::Point& at : greatest_maxima(response, side, most)) {

@@ -1,6 +1,6 @@
-// Where the picture changed most between adjacent frames: the paper's answer to a sky without
-// features, where no homography is found. With one, the previous frame is brought onto the present
-// one first: then it is the answer to a target that moves otherwise than was known.
+// The largest changes between adjacent frames: the paper's answer to a sky without features, where
+// no homography is found. With a homography the previous frame is first aligned: then it finds a
+// target whose motion the model did not predict.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,8 @@
 namespace ols::tracker {
 
 // Up to `most` maxima of the frame difference inside `area` of the frame, smoothed over the
-// target's size, strongest first, at least one target apart. `homography` takes the previous
-// frame's pixels to this one's. Full-frame pixels everywhere.
+// target's size, strongest first, at least one target apart. `homography` maps the previous frame's
+// pixels to this one's. All in full-frame pixels.
 std::vector<Eigen::Vector2d> difference_candidates(const ReducedFrame& previous,
                                                    const ReducedFrame& current,
                                                    const std::optional<Eigen::Matrix3d>& homography,

@@ -15,10 +15,10 @@
 namespace ols::tracker {
 namespace {
 
-constexpr double kAlike = 0.7;   // correlation of a corner's surroundings
+constexpr double kAlike = 0.7;   // minimum correlation of a corner's surroundings
 constexpr double kInlier = 1.5;  // reduced pixels
 
-// The strongest corners of each cell of a grid, so that they cover the picture.
+// The strongest corners of each cell of a grid, so that they cover the image.
 std::vector<cv::Point2f> spread(const std::vector<cv::KeyPoint>& corners, const cv::Size& image,
                                 int wanted) {
   constexpr int kColumns = 12;
@@ -43,7 +43,7 @@ Eigen::Vector2d vector_of(const cv::Point2f& point) {
   return {static_cast<double>(point.x), static_cast<double>(point.y)};
 }
 
-// The guess and the shift by which most of the corners are off it.
+// The guess, shifted by the offset of most of the corners.
 Eigen::Matrix3d shifted(const Eigen::Matrix3d& guess, const CornerMatches& matches) {
   std::vector<double> x, y;
   for (std::size_t i = 0; i < matches.previous.size(); ++i) {
@@ -58,7 +58,7 @@ Eigen::Matrix3d shifted(const Eigen::Matrix3d& guess, const CornerMatches& match
   return shift * guess;
 }
 
-// The corners that move as the homography says.
+// The corners whose motion matches the homography.
 CornerMatches explained(const CornerMatches& matches, const Eigen::Matrix3d& homography) {
   CornerMatches kept;
   for (std::size_t i = 0; i < matches.previous.size(); ++i) {
@@ -71,8 +71,8 @@ CornerMatches explained(const CornerMatches& matches, const Eigen::Matrix3d& hom
   return kept;
 }
 
-// Least squares for a homography near the unit matrix: its 3x3 less that, row by row, without the
-// last element.
+// Least squares for a homography near the identity: the 3x3 difference from it, row by row, without
+// the last element.
 class CorrectionFit {
  public:
   explicit CorrectionFit(double corner_sd) : corner_sd_(corner_sd) {}
@@ -96,7 +96,7 @@ class CorrectionFit {
     hold(0, 4, -1.0, 0.002);  // stretch
     hold(6, 6, 0.0, 0.005);   // perspective
     hold(7, 7, 0.0, 0.005);
-    hold(2, 2, 0.0, 1e3 * corner_sd_);  // a shift is as good as free
+    hold(2, 2, 0.0, 1e3 * corner_sd_);  // a shift is practically free
     hold(5, 5, 0.0, 1e3 * corner_sd_);
   }
 
@@ -117,7 +117,7 @@ class CorrectionFit {
     normal_ += row * row.transpose() / (sd * sd);
     right_ += row * value / (sd * sd);
   }
-  // Element i, plus `sign` times element j, is near zero.
+  // Prior: element i, plus `sign` times element j, is near zero.
   void hold(int i, int j, double sign, double sd) {
     Vector8 row = Vector8::Zero();
     row(i) = 1.0;
@@ -163,7 +163,7 @@ bool plausible_homography(const Eigen::Matrix3d& homography, const cv::Size& ima
 }
 
 bool aligns(const Eigen::Matrix3d& homography) {
-  constexpr double kMost = 100.0;  // times larger or smaller
+  constexpr double kMost = 100.0;  // factor of scale
   const double scale = std::abs(homography.determinant());
   return homography.allFinite() && scale > 1.0 / kMost && scale < kMost;
 }
@@ -171,7 +171,7 @@ bool aligns(const Eigen::Matrix3d& homography) {
 Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,
                                const std::vector<cv::Point2f>& current,
                                const Eigen::Matrix3d& guess, const cv::Size& image) {
-  // Coordinates about the picture's centre, half its width being 1.
+  // Coordinates relative to the image centre, in units of half its width.
   const double unit = image.width / 2.0;
   Eigen::Matrix3d to_unit;
   to_unit << 1.0 / unit, 0.0, -1.0, 0.0, 1.0 / unit, -image.height / (2.0 * unit), 0.0, 0.0, 1.0;
@@ -198,7 +198,7 @@ std::vector<cv::Point2f> EgoMotionEstimator::detect_corners(const cv::Rect2d& ta
   corner_threshold_ = std::clamp(corner_threshold_, least, std::max(least, kGreatestThreshold));
   std::vector<cv::KeyPoint> corners;
   cv::FAST(previous_.image, corners, corner_threshold_, true);
-  // The next threshold, so that there are enough corners and not too many to sort.
+  // The next threshold, for enough corners but not too many to sort.
   const auto found = static_cast<int>(corners.size());
   if (found < 4 * config_.ego_motion_corners) --corner_threshold_;
   if (found < config_.ego_motion_corners) corner_threshold_ -= 2;
@@ -208,7 +208,7 @@ std::vector<cv::Point2f> EgoMotionEstimator::detect_corners(const cv::Rect2d& ta
   return spread(corners, previous_.image.size(), config_.ego_motion_corners);
 }
 
-// Those followed so far, or new ones when they have become few or old.
+// The corners followed so far, or new ones if these are few or old.
 void EgoMotionEstimator::provide_corners(const cv::Rect2d& target_box) {
   constexpr int kLongest = 5;  // [frames] the camera turns to where there are none
   constexpr double kEnough = 0.7;
@@ -232,7 +232,7 @@ CornerMatches EgoMotionEstimator::follow(const Eigen::Matrix3d& guess) const {
     const Eigen::Vector2d moved = transform(guess, vector_of(corner));
     const cv::Point2f near(static_cast<float>(moved.x()), static_cast<float>(moved.y()));
     const FollowedCorner followed = follow_corner(previous_pyramid_, pyramid_, corner, near);
-    // A corner of noise stays where it was looked for, and would agree with any guess.
+    // A corner of noise stays at the start of its search, and would agree with any guess.
     if (followed.correlation < kAlike) continue;
     matches.previous.push_back(corner);
     matches.current.push_back(followed.at);
@@ -253,7 +253,7 @@ EgoMotionEstimator::Agreement EgoMotionEstimator::agreeing(const CornerMatches& 
   const auto enough = [](const CornerMatches& kept, double wanted) {
     return static_cast<double>(kept.previous.size()) >= wanted;
   };
-  // Mostly the camera turned as was guessed but for a shift, and nearly all corners say so: RANSAC
+  // Usually the camera turned as guessed except for a shift, and nearly all corners agree: RANSAC
   // would find no others.
   const double clear = std::max(least, 0.8 * count);
   CornerMatches kept = explained(matches, shifted(guess, matches));
@@ -261,7 +261,7 @@ EgoMotionEstimator::Agreement EgoMotionEstimator::agreeing(const CornerMatches& 
     kept = explained(matches, fitted(kept));
     if (enough(kept, clear)) return {kept, fitted(kept)};
   }
-  // RANSAC's random numbers are its own and start the same each time.
+  // RANSAC has its own random numbers, seeded equally each time.
   const cv::Mat found = cv::findHomography(matches.previous, matches.current, cv::RANSAC, kInlier,
                                            cv::noArray(), 500, 0.995);
   if (found.empty()) return {};
@@ -283,7 +283,7 @@ EgoMotionEstimator::Estimate EgoMotionEstimator::step(
   Estimate estimate;
   estimate.featureless = static_cast<int>(corners_.size()) < config_.ego_motion_least_inliers;
   Agreement agreed = agreeing(follow(guess), guess);
-  // Angles that are wrong by more than a corner is looked for: the picture goes on as it did.
+  // The angles are off by more than the corner search reaches: start from the previous motion.
   if (predicted && agreed.corners.previous.empty()) agreed = agreeing(follow(last_), last_);
   last_ = predicted ? guess : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
   corners_.clear();

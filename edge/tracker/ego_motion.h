@@ -11,10 +11,10 @@
 
 namespace ols::tracker {
 
-// A frame made smaller once, for everything that looks at the whole picture.
+// A frame, reduced once for all parts that process the whole image.
 struct ReducedFrame {
   cv::Mat image;
-  double reduction = 1.0;  // full-frame pixels a reduced one
+  double reduction = 1.0;  // full-frame pixels per reduced pixel
 
   Eigen::Matrix3d to_full() const;  // reduced pixels to full-frame pixels
 };
@@ -28,8 +28,8 @@ struct CornerMatches {
 };
 
 enum class HomographyFit {
-  kRansac,        // RANSAC's own, and nothing else
-  kLeastSquares,  // of the corners that agree on one
+  kRansac,        // only RANSAC's own
+  kLeastSquares,  // of the corners that agree with one
 };
 
 class EgoMotionEstimator {
@@ -38,13 +38,13 @@ class EgoMotionEstimator {
 
   struct Estimate {
     std::optional<Eigen::Matrix3d> homography;  // full-frame pixels, previous to this frame
-    bool featureless = false;                   // too few corners to tell any motion: blank sky
+    bool featureless = false;                   // too few corners for a motion: blank sky
   };
 
-  // The first frame: nothing to compare with.
+  // The first frame: no motion yet.
   void start(const ReducedFrame& frame);
-  // `predicted` is where the flow is looked for first, and what the estimate is drawn to where the
-  // corners leave it open. Corners inside `target_box` of the previous frame are not the scene's.
+  // `predicted` is the start of the flow search, and the prior where the corners do not determine
+  // the estimate. Corners inside `target_box` of the previous frame do not belong to the scene.
   Estimate step(const ReducedFrame& frame, const cv::Rect2d& target_box,
                 const std::optional<Eigen::Matrix3d>& predicted);
 
@@ -52,9 +52,9 @@ class EgoMotionEstimator {
   void provide_corners(const cv::Rect2d& target_box);
   std::vector<cv::Point2f> detect_corners(const cv::Rect2d& target);
   CornerMatches follow(const Eigen::Matrix3d& guess) const;
-  // The corners that one homography explains, and that one.
+  // The corners that one homography explains, with that homography.
   struct Agreement {
-    CornerMatches corners;  // none when they are too few to trust
+    CornerMatches corners;  // empty: too few to trust
     Eigen::Matrix3d homography = Eigen::Matrix3d::Identity();
   };
   Agreement agreeing(const CornerMatches& matches, const Eigen::Matrix3d& guess) const;
@@ -64,22 +64,22 @@ class EgoMotionEstimator {
   ReducedFrame previous_;
   ImagePyramid previous_pyramid_;
   ImagePyramid pyramid_;
-  std::vector<cv::Point2f> corners_;  // in the previous frame, reduced pixels
-  std::size_t detected_ = 0;          // how many there were when they were looked for,
-  int followed_ = 0;                  // so many frames ago
+  std::vector<cv::Point2f> corners_;                    // in the previous frame, reduced pixels
+  std::size_t detected_ = 0;                            // their number when they were detected,
+  int followed_ = 0;                                    // this many frames ago
   Eigen::Matrix3d last_ = Eigen::Matrix3d::Identity();  // reduced pixels
   int corner_threshold_ = 15;                           // of FAST [grey levels]
 };
 
-// A small camera rotation: finite, no mirror, little change of scale, most of the picture kept.
+// A small camera rotation: finite, no mirror image, little change of scale, most of the image kept.
 bool plausible_homography(const Eigen::Matrix3d& homography, const cv::Size& image);
 
-// An accumulated homography that can still be undone: finite, not near to singular.
+// An accumulated homography that can be inverted: finite, not nearly singular.
 bool aligns(const Eigen::Matrix3d& homography);
 
-// The homography nearest to `guess` that takes `previous` to `current`: least squares in which the
-// correction to `guess` is drawn to a pure shift, because corners on a strip of ground say little
-// of how the sky above it moves.
+// The homography that maps `previous` to `current`, by least squares; the prior draws its
+// correction to `guess` towards a pure shift, because corners on a strip of ground determine little
+// of the motion of the sky above it.
 Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,
                                const std::vector<cv::Point2f>& current,
                                const Eigen::Matrix3d& guess, const cv::Size& image);

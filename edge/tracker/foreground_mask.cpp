@@ -27,7 +27,7 @@ cv::Matx33d mask_to_reference(const FrameView& mask, const Eigen::Matrix3d& to_p
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
 }
 
-// The part of the frame, smaller where it is large: the mask is coarse anyway.
+// The part of the frame, reduced if large: the mask is coarse anyway.
 FrameView reduced_part(const cv::Mat& frame, const cv::Rect& area) {
   cv::Rect inside = area & cv::Rect(0, 0, frame.cols, frame.rows);
   if (inside.empty()) return {};
@@ -62,8 +62,8 @@ void ReferenceFrames::advance(const Eigen::Matrix3d& homography) {
 
 void ReferenceFrames::offer(const cv::Mat& gray, double time_s, const cv::Rect2d& target_box) {
   if (!references_.empty() && time_s - references_.back().time_s < interval_s_) return;
-  // The oldest one's memory is used again: a frame is a megabyte. But the only one that shows what
-  // is behind a target that stands is kept: what stood there before the target came is no target.
+  // Reuses the memory of the oldest: a frame is a megabyte. But the only one that shows the
+  // background of a stationary target is kept.
   cv::Mat memory;
   if (references_.size() == kMost) {
     const bool needed = without_overlap(target_box) == &references_.front();
@@ -84,7 +84,7 @@ const ReferenceFrames::Reference* ReferenceFrames::older_than(double time_s) con
 
 const ReferenceFrames::Reference* ReferenceFrames::without_overlap(
     const cv::Rect2d& target_box) const {
-  // Half a box further: a wing, or the blur, of the target as it was then is no foreground now.
+  // Half a box further, so that a wing, or the blur, of the earlier target is not foreground now.
   const cv::Rect2d wide(target_box.x - 0.5 * target_box.width,
                         target_box.y - 0.5 * target_box.height, 2.0 * target_box.width,
                         2.0 * target_box.height);

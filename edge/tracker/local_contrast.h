@@ -1,5 +1,5 @@
-// How far a place stands out of its own surroundings: what stays of a target when its shape changes
-// with every beat of a wing.
+// How far a place stands out from its surroundings: this persists when a target changes its shape
+// with each wing beat.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +15,8 @@ class LocalContrast {
   // Of the view's pixels within `area` of the full frame.
   LocalContrast(const FrameView& view, const cv::Rect& area);
 
-  // [grey levels] mean of the box's middle less that of a frame around the box; 0 where that does
-  // not lie within the area. Full-frame pixels.
+  // [grey levels] Mean of the box's centre minus that of a frame around the box; 0 outside the
+  // area. Full-frame pixels.
   double operator()(const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px) const;
 
  private:

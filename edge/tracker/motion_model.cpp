@@ -6,7 +6,7 @@
 namespace ols::tracker {
 namespace {
 
-constexpr double kLeastSide = 3.0;  // [px] smaller boxes hold no pattern
+constexpr double kLeastSide = 3.0;  // [px] smaller boxes contain no pattern
 
 Eigen::Vector2d noise(Random& random, double sd) {
   const double x = random.gaussian();
@@ -67,8 +67,8 @@ Particle MotionModel::disturbed(const Particle& particle, Random& random) const 
   const Eigen::Vector2d moved = noise(random, sd);
   Particle next = particle;
   next.pixel += moved;  // eq. (2)
-  // Eq. (3): what moves a target off its course is an acceleration, so that the two noises belong
-  // together, and choosing among positions chooses among velocities.
+  // Eq. (3): an acceleration moves the target off its course, so the two noises are correlated, and
+  // selecting positions also selects velocities.
   next.velocity_px_s +=
       config_.velocity_gain * moved / motion_.interval_s + noise(random, config_.velocity_sd_px_s);
   const Eigen::Vector2d growth = noise(random, config_.size_sd_fraction);

@@ -1,4 +1,4 @@
-// The motion model, eq. (2)-(4), over the ego-motion of the camera.
+// The motion model, eq. (2)-(4), with the ego-motion of the camera.
 #pragma once
 
 #include <optional>
@@ -10,44 +10,44 @@
 
 namespace ols::tracker {
 
-// What is known of the camera's motion between two frames.
+// The camera's motion between two frames.
 struct CameraMotion {
-  // Previous frame's pixels to this frame's; nothing when unknown.
+  // Maps the previous frame's pixels to this frame's; empty: unknown.
   std::optional<Eigen::Matrix3d> homography;
   double interval_s = 0.0;
 };
 
-// What a motion model can say something about: after a longer gap the target may be anywhere, and
-// two exposures are not nearer to each other.
+// The limits of the model: after a longer gap the target may be anywhere, and two exposures are
+// never closer.
 double usable_interval_s(double from_s, double to_s);
 
-// The particle within a frame's size of the frame, no faster than ten of its widths a second, no
-// larger than it: whatever clocks, homographies and hints say, pixels stay numbers.
+// Limits the particle to within a frame's size of the frame, ten frame widths a second and the
+// frame's size, so that no clock, homography or hint makes pixels overflow.
 Particle bounded(const Particle& particle, const cv::Size& frame);
 
-// Particles carry velocities against the scene. Where the homography is not known, the camera is
-// taken to turn on as before; when it is known again, the difference goes to the velocities, so
-// that the particles' motion in the image stays continuous.
+// Particles have velocities relative to the scene. Without a homography the camera is assumed to
+// keep turning; when it is known again, the difference is added to the velocities, so that the
+// particles' motion in the image stays continuous.
 class MotionModel {
  public:
   explicit MotionModel(const TrackerConfig& config) : config_(config) {}
 
-  // Takes the camera's motion at `pixel` (of the previous frame) into account for the steps below.
-  // What the velocities against the scene [px/s] change by.
+  // Accounts for the camera's motion at `pixel` (of the previous frame) in the steps below.
+  // The change of the velocities relative to the scene [px/s].
   Eigen::Vector2d begin_frame(const CameraMotion& motion, const Eigen::Vector2d& pixel);
 
-  // Where the particle would be without noise.
+  // The particle's prediction without noise.
   Particle advance(const Particle& particle) const;
-  // Eq. (2)-(4)'s noise, on a particle that stands in this frame.
+  // The noise of eq. (2)-(4), for a particle already advanced to this frame.
   Particle disturbed(const Particle& particle, Random& random) const;
 
   const std::optional<Eigen::Matrix3d>& homography() const { return motion_.homography; }
   double interval_s() const { return motion_.interval_s; }
-  // Where the scene at this pixel of the previous frame is now.
+  // The present place of the scene at this pixel of the previous frame.
   Eigen::Vector2d still(const Eigen::Vector2d& pixel) const;
-  // The velocity of something that stands still in the image.
+  // The velocity of an object that is stationary in the image.
   Eigen::Vector2d image_fixed_velocity() const { return -camera_rate_px_s_; }
-  // Standard deviation of eq. (2)'s noise for a box of this size.
+  // Standard deviation of the noise of eq. (2) for a box of this size.
   double position_sd(const Eigen::Vector2d& size_px) const;
 
  private:

@@ -12,8 +12,8 @@
 namespace ols::tracker {
 namespace {
 
-// Where the picture is brighter than all, or darker than all of the earlier image within a pixel,
-// and by how many grey levels.
+// The grey levels by which a pixel is brighter, or darker, than all of the earlier image within a
+// pixel.
 struct Difference {
   cv::Mat brighter, darker, either;
 
@@ -28,7 +28,7 @@ struct Difference {
   }
 };
 
-// The root mean square of the lower nine tenths: what the picture differs by anyway.
+// The root mean square of the lower nine tenths: the image's usual difference.
 double fluctuation(const cv::Mat& difference) {
   std::array<int, 256> histogram{};
   for (int row = 0; row < difference.rows; ++row) {
@@ -64,8 +64,8 @@ struct Part {
   bool brighter = false;  // than the earlier image
 };
 
-// Where a bright target came and where it left differ in sign. Before it has left its own place the
-// two are a crescent each, and it stands between them.
+// The places where a bright target arrived and which it left differ in sign. Until it has left its
+// former place both are crescents, and the target is between them.
 void widen_crescents(std::vector<Part>& parts) {
   for (Part& part : parts) {
     const cv::Rect2d& box = part.candidate.box;
@@ -99,7 +99,7 @@ Part part_of(const Difference& difference, const cv::Mat& labels, int label, con
   made.brighter = brighter > 0.5 * moments.sum;
   made.candidate.pixel = moments.centroid();
   made.candidate.strength = greatest / sd;
-  // A centroid's variance: the extent by the signal's strength, and a pixel's own width.
+  // A centroid's variance: extent divided by signal strength, plus a pixel's own width.
   made.candidate.covariance_px2 = moments.extent() / std::max(1.0, made.candidate.strength) +
                                   Eigen::Matrix2d::Identity() / 12.0;
   made.candidate.box = bounds;
@@ -119,7 +119,7 @@ std::vector<MoverCandidate> strongest(std::vector<Part> parts, std::size_t most)
   std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
     return a.candidate.strength > b.candidate.strength;
   });
-  // The other crescent is about as strong: it is not far behind.
+  // The other crescent is about as strong, and close by.
   parts.resize(std::min(parts.size(), 2 * most));
   widen_crescents(parts);
   parts.resize(std::min(parts.size(), most));
@@ -140,7 +140,7 @@ std::vector<MoverCandidate> detect_movers(const cv::Mat& earlier, const Eigen::M
   const cv::Mat now = current.image(area);
   const Eigen::Matrix3d to_reduced = current.to_full().inverse() * to_present;
   const Difference difference(now, brought_to_present(earlier, to_reduced, now, area.tl()));
-  // The tolerance hides most of the noise from the difference: what is left is its rare peaks.
+  // The tolerance removes most of the noise from the difference: only its rare peaks remain.
   const double sd = std::max(fluctuation(difference.either), pixel_noise(now));
   cv::Mat mask, labels, statistics, centroids;
   cv::threshold(difference.either, mask, std::max(search.least_levels, search.threshold_sd * sd),

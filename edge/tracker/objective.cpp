@@ -7,7 +7,7 @@
 namespace ols::tracker {
 namespace {
 
-// Four at a time, each in its own sum: their order is fixed.
+// Four at a time, each with its own sum: the order is fixed.
 using Four = cv::v_float32x4;
 constexpr std::size_t kFour = 4;
 
@@ -46,7 +46,7 @@ void Objective::learn(const Patch& gray, double share) {
   float scale = 1.0F / (kUnit * std::max(least_deviation_, level.deviation));
   float product = 0.0F;
   for (std::size_t i = 0; i < kPatchArea; ++i) product += learnt_[i] * (gray[i] - level.mean);
-  if (product < 0.0F) {  // dark where it was bright: the background's brightness has passed its own
+  if (product < 0.0F) {  // inverted: the background has become brighter, or darker, than the target
     for (float& value : learnt_) value = -value;
   }
   const auto part = static_cast<float>(share);
@@ -78,7 +78,7 @@ Similarity Objective::operator()(const Patch& gray, const MaskPatch& candidate_m
     const Four value = (cv::v_load(&gray[i]) - mean) * gain;
     const Four first = cv::v_load(&template_[i]);
     const Four alike = one - cv::v_min(one, cv::v_abs(first - value));
-    // Eq. (5); exp(min(Mt, Mc)) is the lesser of both exponentials.
+    // Eq. (5); exp(min(Mt, Mc)) is the smaller of the two exponentials.
     const Four mask = cv::v_min(cv::v_load(&exponential_[i]), cv::v_load(&weight[i]));
     sums += mask * alike * alike;
     products += first * value;

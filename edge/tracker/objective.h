@@ -8,7 +8,7 @@
 
 namespace ols::tracker {
 
-// exp(M) of a mask's 0, 1/255 ... 1: eq. (5)'s weights.
+// exp(M) for a mask's 0, 1/255 ... 1: the weights of eq. (5).
 template <typename Number>
 const std::array<Number, 256>& exponentials() {
   static const std::array<Number, 256> table = [] {
@@ -25,38 +25,37 @@ struct Similarity {
   double similarity = 0.0;         // eq. (5), 0..1
   double correlation = 0.0;        // of the grey values with the first or the learnt image, -1..1
   double first_correlation = 0.0;  // with the first image
-  double contrast = 0.0;           // deviation of the grey values, the template's being 1
+  double contrast = 0.0;           // deviation of the grey values, relative to the template's
 };
 
-// Eq. (5) divided by the greatest value it can take for this template, so 0..1. Each patch's
-// intensities are counted from their mean in units of their deviation, as long as that does not
-// fall far below the template's: a faint target is told from the sky as a strong one is, exposure
-// and the sky's gradient do not matter, and noise is not blown up to look like a target. An empty
-// mask is all zero.
+// Eq. (5) divided by its maximum for this template, so 0..1. Each patch's intensities are relative
+// to their mean, in units of their deviation, unless that is far below the template's. So a faint
+// target is distinguished from the sky like a strong one, exposure and gradients of the sky do not
+// matter, and noise is not amplified into a target. An empty mask counts as all zero.
 class Objective {
  public:
   explicit Objective(const Template& target);
 
   void set_mask(const MaskPatch& mask);  // M_t
 
-  // Takes the target's present look into the learnt image, by this share.
+  // Learns the target's present appearance with this weight.
   void learn(const Patch& gray, double share);
 
   Similarity operator()(const Patch& gray, const MaskPatch& candidate_mask) const;
 
  private:
-  // A warm target before a sky that grows warmer turns from bright to dark: as like, but rarer.
+  // A warm target in front of a warming sky turns from bright to dark: equally similar, but rarer.
   static constexpr float kInverted = 0.9F;
   static constexpr Patch ones() {
     Patch patch{};
     for (float& value : patch) value = 1.0F;
     return patch;
   }
-  static constexpr float kUnit = 2.0F;  // deviations that are the difference 1 of eq. (5)
+  static constexpr float kUnit = 2.0F;  // deviations that give a difference of 1 in eq. (5)
 
   Patch template_{};        // normalised
-  Patch learnt_{};          // likewise: how it looked of late
-  float deviation_ = 1.0F;  // the template's [grey levels]
+  Patch learnt_{};          // likewise: its recent appearance
+  float deviation_ = 1.0F;  // of the template [grey levels]
   float least_deviation_ = 1.0F;
   Patch exponential_ = ones();  // exp(M_t)
   double greatest_ = kPatchArea;

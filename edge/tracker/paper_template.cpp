@@ -27,16 +27,16 @@ PaperTemplate::PaperTemplate(const TrackerInput& frame, const cv::Rect2d& box)
       appearance_(make_template(whole(frame.gray), centre_of(box), size_of(box))) {}
 
 void PaperTemplate::follow(const SceneMotion& scene) {
-  if (scene.alignment_lost()) first_.gray.release();  // nothing aligns it any more
+  if (scene.alignment_lost()) first_.gray.release();  // it can no longer be aligned
   if (scene.homography()) first_.to_present = *scene.homography() * first_.to_present;
 }
 
-// "The FM Mt is estimated only once": the template's frame less the first later one in which the
+// "The FM Mt is estimated only once": the template's frame minus the first later one in which the
 // target has left its box.
 void PaperTemplate::estimate_mask(const cv::Mat& gray, double time_s, const Particle& target) {
   if (mask_) return;
   if (first_.gray.empty() || !aligns(first_.to_present)) {
-    // The camera's way from the template's frame is lost: what it takes begins anew.
+    // The alignment with the template's frame is lost: start again with the present frame.
     first_ = {gray.clone(), Eigen::Matrix3d::Identity(), box_of(target.pixel, target.size_px),
               time_s};
     return;

@@ -1,4 +1,4 @@
-// The paper's template and its foreground mask, both made once. Comments quote the paper.
+// The paper's template and its foreground mask, each made once. Comments quote the paper.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace ols::tracker {
 
-// Eq. (5): the sum over the patch of exp(min(Mt, Mc)) * (1 - |It - Ic|)^2, intensities and masks
-// being 0..1. Between 0 and kPatchArea * e.
+// Eq. (5): the sum over the patch of exp(min(Mt, Mc)) * (1 - |It - Ic|)^2, with intensities and
+// masks in 0..1. Between 0 and kPatchArea * e.
 double paper_objective(const Patch& template_gray, const MaskPatch& template_mask,
                        const Patch& candidate_gray, const MaskPatch& candidate_mask);
 
@@ -34,7 +34,7 @@ class PaperTemplate {
   double greatest_objective() const;
 
  private:
-  // The template's frame, or the first one since its alignment was lost, until the mask is made.
+  // The template's frame, or the first one after its alignment was lost, until the mask is made.
   ReferenceFrames::Reference first_;
   Template appearance_;
   std::optional<MaskPatch> mask_;  // Mt

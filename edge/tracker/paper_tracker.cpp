@@ -124,7 +124,7 @@ void PaperTracker::weigh(const cv::Mat& gray) {
   filter_.set_weights(normalised(std::move(objective)));
 }
 
-// To a sum of one, sharpened: see PaperTrackerConfig::weight_power. All alike where none is any.
+// Normalised and sharpened: see PaperTrackerConfig::weight_power. Equal if all are zero.
 std::vector<double> PaperTracker::normalised(std::vector<double> weights) {
   greatest_objective_ = *std::max_element(weights.begin(), weights.end());
   double sum = 0.0;
@@ -138,7 +138,7 @@ std::vector<double> PaperTracker::normalised(std::vector<double> weights) {
 }
 
 // "The resulting estimate of the target position is chosen using the Maximum a posteriori
-// approach": resampled particles are equally probable before the update, so it is the greatest
+// approach": resampled particles are equally probable before the update, so it is the largest
 // weight.
 const Particle& PaperTracker::maximum_a_posteriori() const {
   const auto& weights = filter_.weights();
@@ -146,8 +146,7 @@ const Particle& PaperTracker::maximum_a_posteriori() const {
   return filter_.particles()[static_cast<std::size_t>(best - weights.begin())];
 }
 
-// The paper's tracker has a belief but no formula of it: eq. (5) by the greatest value that it can
-// take.
+// The paper's tracker has a belief but no formula for it: eq. (5) divided by its maximum.
 TrackerOutput PaperTracker::output_of(const Particle& best) const {
   TrackerOutput output;
   output.box = box_of(best.pixel, best.size_px);

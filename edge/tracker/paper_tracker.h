@@ -1,4 +1,4 @@
-// The tracker of the paper's section 5 and nothing else: mode = "paper". Comments quote the paper.
+// Only the tracker of the paper's section 5: mode = "paper". Comments quote the paper.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,12 @@ class PaperTracker {
   PaperTracker(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
                const cv::Rect2d& box);
   TrackerOutput step(const TrackerInput& frame, StageTimer& timer);
-  // By the image, the previous frame's pixels to the newest one's; nothing without texture.
+  // From the image, previous frame's pixels to the newest one's; empty without texture.
   const std::optional<Eigen::Matrix3d>& image_homography() const {
     return scene_motion_.image_homography();
   }
-  // The paper's operator marks the target again; here the particles go where it is said to be.
+  // In the paper the operator designates the target again; here the particles go to the given
+  // place.
   void search_near(const Eigen::Vector2d& pixel, double sd_px);
 
  private:
@@ -39,7 +40,7 @@ class PaperTracker {
   ParticleFilter filter_;
   double greatest_objective_ = 0.0;  // eq. (5) of the best particle
   Particle last_;
-  bool placed_ = false;  // the particles stand in the coming frame already
+  bool placed_ = false;  // the particles are already advanced to the coming frame
 };
 
 }  // namespace ols::tracker

@@ -1,4 +1,4 @@
-// The filter's state (x, y, vx, vy, h, w) and the plane geometry that its users share.
+// The filter's state (x, y, vx, vy, h, w) and shared plane geometry.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,11 +10,11 @@ namespace ols::tracker {
 
 struct Particle {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();          // centre; (0, 0) is a pixel's centre
-  Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  // against the scene, not the image
+  Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  // relative to the scene, not the image
   Eigen::Vector2d size_px = Eigen::Vector2d::Zero();        // width, height
 };
 
-// A box's corner lies on pixel edges, the state's position on pixel centres.
+// A box's corner is on pixel edges, the state's position on pixel centres.
 inline cv::Rect2d box_of(const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px) {
   return {pixel.x() + 0.5 - size_px.x() / 2.0, pixel.y() + 0.5 - size_px.y() / 2.0, size_px.x(),
           size_px.y()};

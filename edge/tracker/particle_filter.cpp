@@ -7,8 +7,8 @@
 namespace ols::tracker {
 namespace {
 
-// Density of "anywhere" relative to the peak of the prediction: a target that did not follow the
-// motion model is still found, if nothing nearer looks like it.
+// Density of "anywhere" relative to the prediction's peak: a target that did not follow the motion
+// model is still found if nothing nearer is similar.
 constexpr double kAnywhere = 1e-4;
 
 }  // namespace

@@ -13,17 +13,17 @@ class ParticleFilter {
   std::vector<Particle>& particles() { return particles_; }
   const std::vector<Particle>& particles() const { return particles_; }
 
-  // Brings every particle to this frame, without noise.
+  // Advances every particle to this frame, without noise.
   void advance(const MotionModel& motion);
-  // Adds the motion model's noise to particles that stand in this frame; remembers where they would
-  // be without it.
+  // Adds the motion model's noise to particles already advanced to this frame; remembers their
+  // predictions without it.
   void disturb(const MotionModel& motion, Random& random);
-  // The prediction is uncertain by this standard deviation more than its particles are.
+  // Adds this standard deviation to the prediction's uncertainty beyond that of its particles.
   void widen_prediction(double sd_px) {
     predicted_covariance_px2_ += sd_px * sd_px * Eigen::Matrix2d::Identity();
   }
 
-  // Weights from the logarithm of each particle's likelihood; all equal when none is finite.
+  // Weights from each particle's log-likelihood; all equal if none is finite.
   template <typename LogLikelihood>
   void weigh(const LogLikelihood& log_likelihood_of) {
     log_likelihood_.clear();
@@ -33,12 +33,12 @@ class ParticleFilter {
     weigh_by_log_likelihood();
   }
   const std::vector<double>& log_likelihood() const { return log_likelihood_; }
-  // Weights as they are, of a sum of one.
+  // The weights must sum to one.
   void set_weights(std::vector<double> weights) { weights_ = std::move(weights); }
   const std::vector<double>& weights() const { return weights_; }
 
-  // Index of the maximum a posteriori: likelihood times the density that the motion model predicts
-  // at the particle, which is what tells the target from something that looks like it elsewhere.
+  // Index of the maximum a posteriori: likelihood times the predicted density at the particle,
+  // which distinguishes the target from a similar object elsewhere.
   std::size_t maximum_a_posteriori() const;
 
   Eigen::Vector2d mean_size_px() const;
@@ -53,7 +53,7 @@ class ParticleFilter {
   void weigh_by_log_likelihood();
 
   std::vector<Particle> particles_;
-  std::vector<Particle> resampled_;  // memory that is used again: no allocation in steady state
+  std::vector<Particle> resampled_;  // reused: no allocation in steady state
   std::vector<double> log_likelihood_;
   std::vector<double> weights_;
   Eigen::Vector2d predicted_mean_px_ = Eigen::Vector2d::Zero();

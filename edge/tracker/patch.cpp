@@ -11,14 +11,14 @@
 namespace ols::tracker {
 namespace {
 
-// [px] of the image across a patch, unless it is of a box many times wider than high.
+// [px] Of the image across a patch, except for a box many times wider than high.
 constexpr int kMostSpan = 512;
 
 double grid_position(double centre, double length, int index) {
   return centre + ((index + 0.5) / kPatchSide - 0.5) * length;
 }
 
-// One axis of the sampling grid: the two neighbours of each sample and the second's weight.
+// One axis of the sampling grid: each sample's two neighbours and the second one's weight.
 struct Axis {
   std::array<int, kPatchSide> low;
   std::array<int, kPatchSide> high;
@@ -40,18 +40,18 @@ Axis make_axis(double centre, double length, int limit) {
   return axis;
 }
 
-// The same by the nearest pixel, which may lie outside the image.
+// The same with the nearest pixel, which may be outside the image.
 std::array<int, kPatchSide> nearest_pixels(double centre, double length) {
   std::array<int, kPatchSide> pixels;
   for (int i = 0; i < kPatchSide; ++i) {
-    // Truncation rounds down only where the number is not negative.
+    // Truncation rounds down only if the number is not negative.
     const double at = grid_position(centre, length, i) + 0.5;
     pixels[static_cast<std::size_t>(i)] = at < 0.0 ? -1 : static_cast<int>(at);
   }
   return pixels;
 }
 
-// Between two lines of the image, pixel by pixel.
+// Interpolates between two image rows, pixel by pixel.
 void between(const std::uint8_t* upper, const std::uint8_t* lower, float weight, int count,
              float* out) {
   for (int i = 0; i < count; ++i) {
@@ -77,7 +77,7 @@ std::vector<float> surroundings(const FrameView& view, const Eigen::Vector2d& pi
   return values;
 }
 
-// The greatest deviation from the plane through the patch: a sky's gradient is no structure.
+// The largest deviation from the plane through the patch: a sky's gradient is no structure.
 float structure_of(const Patch& gray) {
   constexpr float kMiddle = (kPatchSide - 1) / 2.0F;
   float sum = 0.0F, along_x = 0.0F, along_y = 0.0F, squares = 0.0F;
@@ -117,7 +117,7 @@ double pixel_noise(const cv::Mat& image) {
   if (left.empty()) return 0.0;
   const auto middle = left.begin() + static_cast<std::ptrdiff_t>(left.size() / 2);
   std::nth_element(left.begin(), middle, left.end());
-  return 1.4826 * *middle / 6.0;  // the kernel's norm is 6
+  return 1.4826 * *middle / 6.0;  // 6 is the norm of the kernel
 }
 
 int reduction_for(const Eigen::Vector2d& size_px) {
@@ -136,7 +136,7 @@ FrameView make_view(const cv::Mat& frame, const cv::Rect& area, int reduction) {
 }
 
 FrameView smoothed(const FrameView& view, const cv::Rect& area, const Eigen::Vector2d& size_px) {
-  constexpr double kLeastSd = 0.4;  // [px] less is none
+  constexpr double kLeastSd = 0.4;  // [px] below it: no smoothing
   const cv::Rect part(static_cast<int>(std::floor(view.x_of(area.x))),
                       static_cast<int>(std::floor(view.y_of(area.y))),
                       area.width / view.reduction + 2, area.height / view.reduction + 2);
@@ -177,7 +177,7 @@ Patch sample_patch(const FrameView& view, const Eigen::Vector2d& pixel,
   const Axis y = make_axis(view.y_of(pixel.y()), size_px.y() * scale, view.image.rows);
   Patch patch;
   float* out = patch.data();
-  // Whole eights of the image's columns, where it has them: they are worked on together.
+  // In multiples of eight columns where possible: they are processed together.
   const int wanted = (x.high.back() - x.low.front()) / 8 * 8 + 8;
   const int left = std::max(0, std::min(x.low.front(), view.image.cols - wanted));
   const int span = std::min(wanted, view.image.cols - left);
@@ -191,7 +191,7 @@ Patch sample_patch(const FrameView& view, const Eigen::Vector2d& pixel,
   for (std::size_t j = 0; j < kPatchSide; ++j) {
     between(view.image.ptr<std::uint8_t>(y.low[j]) + left,
             view.image.ptr<std::uint8_t>(y.high[j]) + left, y.weight[j], span, line.data());
-    // What follows a line's last pixel is weighted by zero.
+    // The pixel after a row's end has weight zero.
     line[static_cast<std::size_t>(span)] = 0.0F;
     for (std::size_t i = 0; i < kPatchSide; i += 4) {
       cv::v_float32x4 near, next;
@@ -209,7 +209,7 @@ MaskPatch sample_mask(const FrameView& mask, const Eigen::Vector2d& pixel,
   const double scale = 1.0 / mask.reduction;
   const auto columns = nearest_pixels(mask.x_of(pixel.x()), size_px.x() * scale);
   const auto rows = nearest_pixels(mask.y_of(pixel.y()), size_px.y() * scale);
-  // They ascend: those inside lie together.
+  // They are ascending: those inside are contiguous.
   const auto first = std::lower_bound(columns.begin(), columns.end(), 0);
   const auto last = std::lower_bound(first, columns.end(), mask.image.cols);
   MaskPatch patch{};
@@ -234,7 +234,7 @@ float level_around(const FrameView& view, const Eigen::Vector2d& pixel,
 
 Template make_template(const FrameView& view, const Eigen::Vector2d& pixel,
                        const Eigen::Vector2d& size_px) {
-  constexpr float kLeastContrast = 8.0F;  // a fainter target would be compared by its noise
+  constexpr float kLeastContrast = 8.0F;  // below it noise would dominate the comparison
   Template made;
   made.gray = sample_patch(view, pixel, size_px);
   std::vector<float> around = surroundings(view, pixel, size_px);
@@ -247,9 +247,9 @@ Template make_template(const FrameView& view, const Eigen::Vector2d& pixel,
   const auto ninth = stands_out.begin() + kPatchArea * 9 / 10;
   std::nth_element(stands_out.begin(), ninth, stands_out.end());
   made.contrast = std::max(kLeastContrast, *ninth);
-  constexpr double kLeastNoise = 0.6;  // [grey levels] of the digits alone
-  constexpr double kMostNoise = 5.0;   // more is texture everywhere
-  constexpr double kCertain = 4.5;     // standard deviations that none of 576 pixels reaches
+  constexpr double kLeastNoise = 0.6;  // [grey levels] of the quantisation alone
+  constexpr double kMostNoise = 5.0;   // above it: texture everywhere
+  constexpr double kCertain = 4.5;  // standard deviations that none of 576 pixels reaches by chance
   const double pixel_sd = std::clamp(pixel_noise(view.image), kLeastNoise, kMostNoise);
   made.empty = static_cast<double>(structure_of(made.gray)) < kCertain * pixel_sd;
   return made;

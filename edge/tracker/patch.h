@@ -14,8 +14,8 @@ inline constexpr int kPatchArea = kPatchSide * kPatchSide;
 using Patch = std::array<float, kPatchArea>;             // grey values 0..255
 using MaskPatch = std::array<std::uint8_t, kPatchArea>;  // foreground, 255 is certain
 
-// A part of a frame, reduced where the target is much larger than a patch, so that patches are
-// sampled without aliasing. Positions asked for are pixels of the full frame.
+// A part of a frame, reduced if the target is much larger than a patch, so that patches are sampled
+// without aliasing. Positions are in pixels of the full frame.
 struct FrameView {
   cv::Mat image;  // 8-bit, one channel
   cv::Point origin{0, 0};
@@ -25,35 +25,34 @@ struct FrameView {
   double y_of(double y_px) const { return (y_px - origin.y + 0.5) / reduction - 0.5; }
 };
 
-// How much a target of this size is reduced.
+// The reduction factor for a target of this size.
 int reduction_for(const Eigen::Vector2d& size_px);
-// The part of `frame` inside `area`; shares the frame's memory where nothing is reduced.
+// The part of `frame` inside `area`; shares the frame's memory if not reduced.
 FrameView make_view(const cv::Mat& frame, const cv::Rect& area, int reduction);
 
-// The part of the view inside `area` of the full frame, smoothed by a pixel of the patch that a
-// target of this size is sampled to: small changes of its shape, and half a pixel between the
-// particles, then cost little.
+// The part of the view inside `area` of the full frame, smoothed by one pixel of a patch for this
+// target size: small changes of its shape, and half a pixel between particles, then matter little.
 FrameView smoothed(const FrameView& view, const cv::Rect& area, const Eigen::Vector2d& size_px);
 
-// Grey value between the pixels, the border continued outside; image coordinates.
+// Interpolated grey value, with the border continued outside; image coordinates.
 float bilinear(const cv::Mat& image, double x, double y);
 
-// Eq. (5)'s I: the box, brought to 24x24. Bilinear.
+// I of eq. (5): the box resampled to 24x24. Bilinear.
 Patch sample_patch(const FrameView& view, const Eigen::Vector2d& pixel,
                    const Eigen::Vector2d& size_px);
-// The same of a foreground mask. Nearest neighbour; nothing is foreground outside the mask.
+// The same for a foreground mask. Nearest neighbour; outside the mask there is no foreground.
 MaskPatch sample_mask(const FrameView& mask, const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& size_px);
 
 // The target's appearance, made once at initialisation.
 struct Template {
   Patch gray{};
-  float contrast = 1.0F;  // [grey levels] how far the target stands out of what surrounds it
-  float noise = 1.0F;     // [grey levels] standard deviation of what surrounds it
-  bool empty = false;     // noise and nothing else: any patch of sky is as much like it
+  float contrast = 1.0F;  // [grey levels] of the target against its surroundings
+  float noise = 1.0F;     // [grey levels] standard deviation of the surroundings
+  bool empty = false;     // only noise: any patch of sky is as similar
 };
 
-// Standard deviation of the noise [grey levels], from what a plane leaves over in 3x3 pixels; the
+// Standard deviation of the noise [grey levels], from the residuals of a plane in 3x3 pixels; the
 // median, so that edges do not count.
 double pixel_noise(const cv::Mat& image);
 

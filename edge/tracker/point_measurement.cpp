@@ -6,8 +6,8 @@
 namespace ols::tracker {
 namespace {
 
-constexpr double kSameShape = 0.9;       // correlation; less is no measurement of its size
-constexpr double kSharedByChance = 1.2;  // so much of it white noise has, by fluctuating
+constexpr double kSameShape = 0.9;       // correlation; below it the size is not measured
+constexpr double kSharedByChance = 1.2;  // white noise reaches this by fluctuation
 constexpr double kSharedNoiseTime_s = 1.0;
 
 }  // namespace
@@ -31,7 +31,7 @@ void PointMeasurement::restart() {
   shared_noise_count_ = 0;
 }
 
-// The mean of the first ones, and of the last second then: of one frame it is much by chance.
+// The mean of the first ones, later of the last second: a single frame fluctuates much.
 void PointMeasurement::learn_shared_noise(double shared_noise, double interval_s) {
   const double share =
       std::max(1.0 / ++shared_noise_count_, 1.0 - std::exp(-interval_s / kSharedNoiseTime_s));

@@ -7,26 +7,26 @@
 
 namespace ols::tracker {
 
-inline constexpr double kSamePattern = 0.5;  // correlation; less is no measurement of its place
+inline constexpr double kSamePattern = 0.5;  // correlation; below it the place is not measured
 
 struct MeasuredPoint {
   Eigen::Vector2d pixel;
-  Eigen::Matrix2d covariance_px2;  // without the floor of the configuration
+  Eigen::Matrix2d covariance_px2;  // without the configured minimum
 };
 
 class PointMeasurement {
  public:
-  // `placed` is where the box of the filter's size fits; `place` is the point's, in sizes from the
-  // centre. What is followed goes by a size that the particles agree on, which no smeared image
-  // leads astray; what is told, by the one that this image shows.
+  // `placed` is the fit of the box with the filter's size; `place` is the point's, in sizes from
+  // the centre. Tracking uses a size that the particles agree on, because smeared images do not
+  // mislead it; the output uses the size that this image shows.
   MeasuredPoint measure(const TargetModel& target, const Scene& scene,
                         const RefinedPosition& placed, const Eigen::Vector2d& filter_size_px,
                         const Eigen::Vector2d& place, double interval_s);
   // The newest frame does not show the target.
   void miss() { size_px_.reset(); }
-  // It is another target, or begins anew.
+  // Another target, or a new start.
   void restart();
-  // Of the first image in the newest frame: the box is of what has been learnt since, too.
+  // Size of the first image in the newest frame; the box also follows the learnt appearance.
   const std::optional<Eigen::Vector2d>& size_px() const { return size_px_; }
 
  private:
@@ -34,7 +34,7 @@ class PointMeasurement {
 
   std::optional<Eigen::Vector2d> size_px_;
   int shared_noise_count_ = 0;
-  double shared_noise_ = 1.0;  // RefinedPosition's, of late
+  double shared_noise_ = 1.0;  // recent value of RefinedPosition's
 };
 
 }  // namespace ols::tracker

@@ -1,5 +1,5 @@
-// Random numbers that are the same with every standard library: the engine is fixed by the
-// standard, its distributions are not.
+// Random numbers that do not depend on the standard library: the standard fixes the engine, but not
+// its distributions.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ class Random {
   // In [0, 1).
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
-  // Standard normal, by Box and Muller.
+  // Standard normal, by Box-Muller.
   double gaussian() {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
     return radius * std::cos(2.0 * std::numbers::pi * uniform());

@@ -6,7 +6,7 @@
 namespace ols::tracker {
 namespace {
 
-constexpr double kNearFirst_s = 1.0;  // a lost target is looked for nearby, then anywhere
+constexpr double kNearFirst_s = 1.0;  // search for a lost target nearby, then anywhere
 
 }  // namespace
 
@@ -27,7 +27,7 @@ void Reacquisition::start(double sd_px) {
 void Reacquisition::start_near(const Eigen::Vector2d& pixel, double sd_px) {
   region_ = Region{pixel, sd_px, std::max(sd_px, config_.search_sd_most_px), time_s_, true};
   believed_.pixel = pixel;
-  believed_identity_ = 1.0;  // who tells where it is knows which one it is
+  believed_identity_ = 1.0;  // a caller who reports the place knows which target it is
 }
 
 void Reacquisition::predict(const MotionModel& motion, const SceneMotion& scene, bool placed) {
@@ -51,7 +51,7 @@ void Reacquisition::scatter(std::vector<Particle>& particles, Random& random) co
   const auto count =
       static_cast<std::size_t>(config_.search_fraction * static_cast<double>(particles.size()));
   for (std::size_t i = 0; i < count; ++i) {
-    // Evenly among the resampled ones, which stand in order of their ancestors.
+    // Evenly among the resampled ones, which are in the order of their ancestors.
     particles[i * particles.size() / count] = drawn_near(region_->pixel, region_->sd_px, random);
   }
 }
@@ -64,7 +64,7 @@ Particle Reacquisition::drawn_near(const Eigen::Vector2d& pixel, double sd_px,
   particle.pixel = pixel + sd_px * Eigen::Vector2d(x, y);
   const double vx = random.gaussian();
   const double vy = random.gaussian();
-  // On as before, or no longer: it may have turned meanwhile.
+  // With the same velocity, or zero: it may have turned meanwhile.
   if (random.uniform() < 0.5) particle.velocity_px_s.setZero();
   particle.velocity_px_s += config_.initial_velocity_sd_px_s * Eigen::Vector2d(vx, vy);
   return particle;
@@ -89,7 +89,7 @@ void Reacquisition::force_onto_movers(std::vector<Particle>& particles, Random& 
   for (std::size_t i = 0; i < count; ++i) {
     const MoverCandidate& mover = movers_[i % movers_.size()];
     const double sd = 1.0 + 0.1 * std::sqrt(believed_.size_px.prod());
-    // Between those that the frame difference took.
+    // Between those used for the frame difference.
     particles[i * particles.size() / count + 1] = drawn_near(mover.pixel, sd, random);
   }
 }
@@ -107,7 +107,7 @@ bool Reacquisition::near_prediction(const Particle& particle) const {
   return looks_near_first() && off_px < reach_px;
 }
 
-// After a cut, or a kick, the prediction tells nothing.
+// After a cut or a shock the prediction is useless.
 bool Reacquisition::looks_near_first() const {
   const bool same_scene = unaligned_since_s_ < region_->since_s - kNearFirst_s;
   return same_scene && time_s_ - region_->since_s < kNearFirst_s;
@@ -121,7 +121,7 @@ void Reacquisition::identify(const Particle& found, const Scene& scene, const Ta
 
 double Reacquisition::identity_of(const Particle& found, const Scene& scene,
                                   const TargetModel& target, const Belief& belief) const {
-  constexpr double kOutOfSight = 0.25;  // as many more
+  constexpr double kOutOfSight = 0.25;  // assumed hidden candidates
   if (region_->told || near_prediction(found)) return believed_identity_;
   const cv::Rect2d box = box_of(found.pixel, found.size_px);
   double others = kOutOfSight;

@@ -10,29 +10,29 @@
 namespace ols::tracker {
 namespace {
 
-constexpr double kContext = 1.3;       // of the box, looked at
+constexpr double kContext = 1.3;       // of the box; area used
 constexpr int kLeastSide = 7;          // samples along a side
-constexpr std::size_t kMost = 2500;    // samples; of a larger target those that tell most
-constexpr double kMostLookedAt = 1e5;  // for these
-constexpr double kLeastSeen = 0.5;     // of the samples' weight, in the picture
-constexpr double kMostStep = 0.35;     // of the box, from where it starts
-constexpr double kMostGrowth = 0.25;   // of the box, from what it starts with
+constexpr std::size_t kMost = 2500;    // samples; of a larger target the most informative ones
+constexpr double kMostLookedAt = 1e5;  // candidates for these
+constexpr double kLeastSeen = 0.5;     // of the samples' weight, in the image
+constexpr double kMostStep = 0.35;     // of the box, from its start
+constexpr double kMostGrowth = 0.25;   // of the box, from its initial size
 constexpr int kMostSteps = 15;
-constexpr double kMostUnsettled = 0.02;  // of the box, by the last of them
-constexpr double kSizeSd = 0.02;         // of the size that it starts with, relative
+constexpr double kMostUnsettled = 0.02;  // of the box, in the last step
+constexpr double kSizeSd = 0.02;         // of the initial size, relative
 
 int samples_along(double size_px, int reduction) {
   return std::max(kLeastSide, static_cast<int>(std::round(kContext * size_px / reduction)));
 }
 
-// Of the sample in this column and row; blocks overlap nowhere.
+// Of the sample in this column and row; blocks do not overlap.
 int block_of(int column, int row, int columns) {
   const int side = std::clamp(columns / 6, 2, 6);
   return row / side * columns + column / side;
 }
 
-// Keys' cubic convolution: what lies between the pixels is not blurred as by a line, so that the
-// position does not lean on where between them the target stands.
+// Keys' cubic convolution: linear interpolation would blur between the pixels and bias the position
+// by its sub-pixel phase.
 std::array<double, 4> cubic_weights(double t) {
   return {t * (-0.5 + t * (1.0 - 0.5 * t)), 1.0 + t * t * (-2.5 + 1.5 * t),
           t * (0.5 + t * (2.0 - 1.5 * t)), t * t * (-0.5 + 0.5 * t)};
@@ -57,21 +57,20 @@ double cubic(const cv::Mat& image, double x, double y) {
 
 }  // namespace
 
-// The weighted normal equations of the Parameters and what was left over.
+// The weighted normal equations of the Parameters, and the residuals.
 struct PositionRefiner::Normal {
   Matrix matrix = Matrix::Zero();
-  Matrix spread = Matrix::Zero();  // with the squares of the weights
+  Matrix spread = Matrix::Zero();  // with squared weights
   Parameters right = Parameters::Zero();
-  Matrix blocks = Matrix::Zero();  // likewise, if what is left over in a block is of one piece
+  Matrix blocks = Matrix::Zero();  // likewise, if a block's residuals are fully correlated
   int block_count = 0;
   double squares = 0.0;
   double weights = 0.0;
   double weight_squares = 0.0;
-  double seen = 0.0;  // weight of the samples that lie in the picture
+  double seen = 0.0;                                  // weight of the samples in the image
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();  // of (template, image, 1), for correlation
 
-  // Both images are rounded to whole grey levels; the parameters have fitted some of the noise
-  // away.
+  // Both images are rounded to whole grey levels; the parameters have fitted part of the noise.
   double variance() const {
     const double count = weights * weights / weight_squares;
     const double left = std::max(1.0, count - static_cast<double>(Parameters::SizeAtCompileTime));
@@ -85,8 +84,7 @@ struct PositionRefiner::Normal {
     const double b = moments(1, 1) / n - moments(1, 2) * moments(1, 2) / (n * n);
     return a > 0.0 && b > 0.0 ? covariance / std::sqrt(a * b) : 0.0;
   }
-  // The size is what it was before, to kSizeSd; `off` is the logarithm of how far it has gone
-  // since.
+  // Prior: the size is unchanged, to kSizeSd; `off` is the logarithm of its change.
   void hold_size(const Eigen::Vector2d& off) {
     const double stiffness = variance() / (kSizeSd * kSizeSd);
     matrix.diagonal().segment<2>(2).array() += stiffness;
@@ -131,7 +129,7 @@ PositionRefiner::PositionRefiner(const FrameView& view, const Eigen::Vector2d& p
   find_anchor();
 }
 
-// `place` within the box, whose size is in the view's pixels.
+// `place` in the box, whose size is in the view's pixels.
 PositionRefiner::Sample PositionRefiner::sample_of(const cv::Mat& image, const cv::Point& at,
                                                    const Eigen::Vector2d& place,
                                                    const Eigen::Vector2d& size) {
@@ -140,7 +138,7 @@ PositionRefiner::Sample PositionRefiner::sample_of(const cv::Mat& image, const c
     const int y = std::clamp(at.y + dy, 0, image.rows - 1);
     return static_cast<double>(image.at<std::uint8_t>(y, x));
   };
-  // Sobel's smoothed differences: half as noisy as plain ones.
+  // Sobel's smoothed differences: half the noise of plain ones.
   const double along_x =
       (2.0 * (gray(1, 0) - gray(-1, 0)) + gray(1, -1) - gray(-1, -1) + gray(1, 1) - gray(-1, 1)) /
       8.0;
@@ -152,7 +150,7 @@ PositionRefiner::Sample PositionRefiner::sample_of(const cv::Mat& image, const c
   return {place.x(), place.y(), gray(0, 0), along_x * size.x(), along_y * size.y(), weight, 0};
 }
 
-// A position is told by where the template is steep.
+// Steep parts of the template determine a position.
 void PositionRefiner::keep_steepest(const Eigen::Vector2d& size_px) {
   if (samples_.size() <= kMost) return;
   const auto tells = [&](const Sample& sample) {
@@ -165,7 +163,7 @@ void PositionRefiner::keep_steepest(const Eigen::Vector2d& size_px) {
   samples_.shrink_to_fit();
 }
 
-// The middle of what tells the position: there the size and the place do not depend on each other.
+// The centre of the samples that determine the position: there size and position are uncorrelated.
 void PositionRefiner::find_anchor() {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Vector2d all = Eigen::Vector2d::Constant(1e-9);
@@ -183,7 +181,7 @@ void PositionRefiner::find_anchor() {
 void PositionRefiner::set_mask(const MaskPatch& mask) {
   constexpr double kBackground = 0.1;
   for (Sample& sample : samples_) {
-    // The mask's pixels within one of the sample's place: the target's edge tells most.
+    // The mask's pixels within one of the sample's: the target's edge is the most informative.
     const int column = static_cast<int>(std::floor((sample.u + 0.5) * kPatchSide));
     const int row = static_cast<int>(std::floor((sample.v + 0.5) * kPatchSide));
     int most = 0;
@@ -223,7 +221,7 @@ PositionRefiner::Normal PositionRefiner::accumulate(const FrameView& view, const
     if (x < -0.5 || y < -0.5 || x > last.x() || y > last.y()) continue;
     const double now = cubic(view.image, x, y);
     const double residual = now - state.gain * sample.gray - state.offset;
-    // Huber: what covers part of the target, or moves behind it, counts less.
+    // Huber weights: what covers the target, or moves behind it, counts less.
     const double limit = 2.0 * scale;
     const double robust = std::abs(residual) > limit ? limit / std::abs(residual) : 1.0;
     const double weight = sample.weight * robust;
@@ -291,7 +289,7 @@ std::optional<PositionRefiner::Normal> PositionRefiner::normal_at(
   return normal;
 }
 
-// The image there is the template seen from change off it and larger: step back by that.
+// The image there is the template, shifted by change and scaled: step back by that.
 void PositionRefiner::State::step_back(const Parameters& change) {
   anchor -= change.head<2>().cwiseProduct(size_px);
   size_px.array() *= (-change.segment<2>(2)).array().max(-0.1).min(0.1).exp();
@@ -316,7 +314,7 @@ std::optional<RefinedPosition> PositionRefiner::position_of(const State& state,
   to_px.topLeftCorner<2, 2>() = to_px.bottomRightCorner<2, 2>() = state.size_px.asDiagonal();
   to_px.topRightCorner<2, 2>() = (-anchor_.cwiseProduct(state.size_px)).asDiagonal();
   refined.covariance_px2 = to_px * covariance.topLeftCorner<4, 4>() * to_px.transpose();
-  // What the last step still moved is not known.
+  // The last step's size is uncertainty that remains.
   refined.covariance_px2.topLeftCorner<2, 2>() += shift * shift.transpose();
   const Eigen::Matrix2d size = state.size_px.asDiagonal();
   refined.shared_noise = (size * by_blocks.topLeftCorner<2, 2>() * size).trace() /

@@ -1,4 +1,4 @@
-// Sub-pixel position of the target by least squares between the first image of it and this one.
+// Sub-pixel position of the target: least squares between its first image and this one.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,14 +10,13 @@
 namespace ols::tracker {
 
 struct RefinedPosition {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // of the box in which the first image fits
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // of the box that fits the first image
   Eigen::Vector2d size_px = Eigen::Vector2d::Ones();
-  // Of centre and size [px], from the image's noise.
+  // Of centre and size [px], due to image noise.
   Eigen::Matrix4d covariance_px2 = Eigen::Matrix4d::Identity();
   double correlation = 0.0;  // -1..1
-  // How many times more uncertain it is than by noise that no two pixels share, by what is left
-  // over in neighbouring pixels: of a background that moves otherwise, of a lens, of a changed
-  // look.
+  // Factor by which the residuals of neighbouring pixels raise the uncertainty above that of
+  // independent noise: a background with another motion, a lens, a changed appearance.
   double shared_noise = 1.0;
 
   // A point of the target: its place in the box, in sizes from the centre.
@@ -33,16 +32,16 @@ struct RefinedPosition {
 
 class PositionRefiner {
  public:
-  // Keeps the target's image on a grid of the sampling view's own pixels, a little beyond the box.
+  // Keeps the target's image on the sampling view's own pixel grid, slightly beyond the box.
   PositionRefiner(const FrameView& view, const Eigen::Vector2d& pixel,
                   const Eigen::Vector2d& size_px);
 
-  // M_t: what is not foreground moves otherwise, and counts little from now on.
+  // M_t: pixels that are not foreground have another motion, and get little weight from now on.
   void set_mask(const MaskPatch& mask);
 
-  // From the centre of a box within about a third of the target; nothing when it does not settle
-  // there, the target shows too little structure, or half of it is outside the picture. The size is
-  // that of the box, or, where a likely one is told, estimated from there.
+  // From the centre of a box within about a third of the target; empty: it does not converge there,
+  // the target has too little structure, or half of it is outside the image. The size is that of
+  // the box, or, if a likely one is given, estimated from it.
   std::optional<RefinedPosition> refine(
       const FrameView& view, const Eigen::Vector2d& start, const Eigen::Vector2d& size_px,
       const std::optional<Eigen::Vector2d>& likely_size_px = std::nullopt) const;
@@ -51,18 +50,18 @@ class PositionRefiner {
   struct Sample {
     double u, v;  // position relative to the box, -0.5..0.5 inside
     double gray;
-    double gradient_u, gradient_v;  // grey levels per unit of u, v
+    double gradient_u, gradient_v;  // grey levels for each unit of u, v
     double weight;
-    int block;  // of neighbours, in whose order the samples stand
+    int block;  // of neighbours; the samples are in block order
   };
   // Shift along u and v, growth along u and v, gain, offset.
   using Parameters = Eigen::Matrix<double, 6, 1>;
   using Matrix = Eigen::Matrix<double, 6, 6>;
   struct Normal;
   struct State {
-    Eigen::Vector2d anchor;  // where it is [px]
+    Eigen::Vector2d anchor;  // its place [px]
     Eigen::Vector2d size_px;
-    double gain = 1.0;    // this image's grey levels over the first one's
+    double gain = 1.0;    // ratio of this image's grey levels to the first one's
     double offset = 0.0;  // [grey levels]
 
     void step_back(const Parameters& change);
@@ -81,7 +80,7 @@ class PositionRefiner {
 
   std::vector<Sample> samples_;
   double all_weight_ = 0.0;
-  // The middle, in sizes from the centre, of what tells the place.
+  // The centre, in sizes, of the samples that determine the position.
   Eigen::Vector2d anchor_ = Eigen::Vector2d::Zero();
 };
 

@@ -32,7 +32,7 @@ EgoMotion SceneMotion::advance(const TrackerInput& frame, const cv::Rect2d& targ
   if (homography_) {
     references_.advance(*homography_);
   } else if (!estimate.featureless) {
-    references_.clear();  // a sky without features looks the same wherever the camera turned
+    references_.clear();  // a sky without features looks the same in every direction
     unaligned_since_s_ = time_s_;
   }
   timer.lap(Stage::kEgoMotion);
@@ -41,7 +41,7 @@ EgoMotion SceneMotion::advance(const TrackerInput& frame, const cv::Rect2d& targ
 }
 
 const ReferenceFrames::Reference* SceneMotion::a_moment_ago() const {
-  constexpr double kEarlier = 0.2;  // [s] a small mover has left its own place by then
+  constexpr double kEarlier = 0.2;  // [s] enough for a small mover to leave its place
   return references_.older_than(time_s_ - kEarlier);
 }
 

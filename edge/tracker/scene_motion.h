@@ -1,5 +1,4 @@
-// The camera's motion against the scene from frame to frame, and the earlier images that it brings
-// to the present one.
+// The camera's motion relative to the scene from frame to frame, and earlier images aligned by it.
 #pragma once
 
 #include <limits>
@@ -17,10 +16,10 @@ class SceneMotion {
   SceneMotion(const TrackerConfig& config, HomographyFit fit, const TrackerInput& frame,
               const cv::Rect2d& target_box);
 
-  // Takes the next frame; the target was in `target_box` of the previous one. Where the image does
-  // not tell the ego-motion, it is the predicted one.
+  // Adds the next frame; the target was in `target_box` of the previous one. If the image does not
+  // show the ego-motion, the predicted one is used.
   EgoMotion advance(const TrackerInput& frame, const cv::Rect2d& target_box, StageTimer& timer);
-  // Keeps the newest frame, in which the target is in `target_box`, for later.
+  // Keeps the newest frame, in which the target is in `target_box`, for later alignment.
   void remember(const cv::Mat& gray, const cv::Rect2d& target_box) {
     references_.offer(gray, time_s_, target_box);
   }
@@ -30,23 +29,23 @@ class SceneMotion {
   const cv::Size& frame_size() const { return frame_size_; }
   const ReducedFrame& previous() const { return previous_; }
   const ReducedFrame& present() const { return present_; }
-  // The previous frame's pixels to the newest one's; nothing when unknown.
+  // Previous frame's pixels to the newest one's; empty: unknown.
   const std::optional<Eigen::Matrix3d>& homography() const { return homography_; }
-  // By the image alone; nothing without texture.
+  // From the image alone; empty without texture.
   const std::optional<Eigen::Matrix3d>& image_homography() const { return image_homography_; }
   const ReferenceFrames& references() const { return references_; }
 
-  // Since when there is no alignment with what was seen before: what is seen is another scene.
+  // When the alignment with earlier frames was lost: a new scene begins there.
   double unaligned_since_s() const { return unaligned_since_s_; }
   bool alignment_lost() const { return unaligned_since_s_ == time_s_; }  // in the newest frame
-  // The ego-motion was known up to the previous frame and is not: this may be a cut.
+  // The ego-motion was known up to the previous frame and is not now: perhaps a cut.
   bool may_be_cut() const { return may_be_cut_; }
-  // Nothing shows what was there a moment ago.
+  // No aligned image of a moment ago exists.
   bool unknown_a_moment_ago() const { return a_moment_ago() == nullptr; }
   const ReferenceFrames::Reference* a_moment_ago() const;
 
  private:
-  int width_px_;  // of the reduced frames, at most
+  int width_px_;  // of the reduced frames, maximum
   EgoMotionEstimator estimator_;
   ReducedFrame previous_;
   ReducedFrame present_;

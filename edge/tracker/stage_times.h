@@ -1,4 +1,4 @@
-// Where a frame's time goes. The tracker is pure and reads no clock: one may be handed in.
+// Processing time by stage. The tracker is pure and reads no clock, but accepts one.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace ols::tracker {
 
 enum class Stage {
-  kReduction,   // the frame made smaller, its pyramid
+  kReduction,   // reduced frame and its pyramid
   kEgoMotion,   // KLT and RANSAC
   kPrediction,  // eq. (2)-(4)
   kProposals,   // frame difference, movers
@@ -30,7 +30,7 @@ struct StageTimes {
 // Monotonic, in seconds.
 using StageClock = std::function<double()>;
 
-// Charges the time since the last lap to a stage; does nothing without a clock.
+// Adds the time since the last lap to a stage; without a clock does nothing.
 class StageTimer {
  public:
   void set_clock(StageClock clock) { clock_ = std::move(clock); }

@@ -15,7 +15,7 @@ cv::Rect widened(const cv::Rect2d& box, double sides) {
           static_cast<int>(std::ceil(box.height + 2.0 * y)) + 1};
 }
 
-// The part of the frame that the particles and the background's samples look at.
+// The part of the frame used by the particles and the background's samples.
 cv::Rect looked_at(const std::vector<Particle>& particles, const cv::Rect2d& expected) {
   cv::Rect2d area = widened(expected, 3.0);
   for (const Particle& particle : particles) area |= box_of(particle.pixel, particle.size_px);
@@ -102,7 +102,8 @@ double TargetModel::background_similarity(const Scene& scene, const cv::Rect2d& 
 double TargetModel::standing_out(const Scene& scene, const Eigen::Vector2d& pixel,
                                  const Eigen::Vector2d& size_px) const {
   if (std::abs(contrast_) < 0.1) return 0.0;
-  // Darker instead of brighter, or the reverse, as the background may change: as like, but rarer.
+  // Darker instead of brighter, or the reverse, as the background changes: equally similar, but
+  // rarer.
   constexpr double kInverted = 0.9;
   const double ratio = scene.contrast(pixel, size_px) / contrast_;
   return std::min(2.0, ratio < 0.0 ? -kInverted * ratio : ratio);
@@ -124,7 +125,8 @@ std::optional<RefinedPosition> TargetModel::measure(const Scene& scene,
                                                     const Eigen::Vector2d& likely_size_px) const {
   const auto coarse = refiner_.refine(scene.view, placed.centre, placed.size_px, likely_size_px);
   if (!coarse || !fine_refiner_) return coarse;
-  // Edges are lost in the reduced picture; but only its slopes reach as far as from a particle.
+  // The reduced image loses edges, but only its gradients are wide enough to start from a
+  // particle. The full image then starts from its result.
   const auto fine =
       fine_refiner_->refine(scene.whole, coarse->centre, coarse->size_px, coarse->size_px);
   const auto variance = [](const RefinedPosition& position) {

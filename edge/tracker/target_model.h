@@ -1,4 +1,4 @@
-// Everything that is known of how the target looks, and the judging of particles by it.
+// The target's appearance, and the evaluation of particles by it.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,14 @@
 
 namespace ols::tracker {
 
-// One frame as the objective sees it.
+// One frame, prepared for the objective function.
 struct Scene {
-  FrameView whole;                     // the frame as taken
-  FrameView view;                      // reduced to the target's size
-  FrameView smooth;                    // sampled for the candidates
-  FrameView mask;                      // foreground
-  bool mask_by_subtraction = false;    // of an earlier image, not of the surroundings' level
-  double background_similarity = 0.0;  // what TargetModel::background_similarity() gives for it
+  FrameView whole;                   // the original frame
+  FrameView view;                    // reduced to the target's size
+  FrameView smooth;                  // sampled for the candidates
+  FrameView mask;                    // foreground
+  bool mask_by_subtraction = false;  // from an earlier image, not from the surroundings' grey level
+  double background_similarity = 0.0;  // TargetModel::background_similarity() of this frame
   LocalContrast contrast;
   cv::Size frame;
 };
@@ -29,44 +29,44 @@ class TargetModel {
  public:
   TargetModel(const TrackerConfig& config, const cv::Mat& gray, const cv::Rect2d& box);
 
-  // `particles` say where it will be looked at; `expected` is where the target should be.
+  // `particles` are the places to evaluate; `expected` is the target's expected place.
   Scene make_scene(const cv::Mat& gray, const std::vector<Particle>& particles,
                    const cv::Rect2d& expected, const ReferenceFrames& references) const;
 
   Similarity likeness(const Scene& scene, const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& size_px) const;
-  // What boxes around `box` reach that are not the target: nearly the best of them.
+  // A high quantile of the similarity of boxes around `box` that are not the target.
   double background_similarity(const Scene& scene, const cv::Rect2d& box) const;
-  // How far a place stands out of its surroundings, the target's usual way being 1.
+  // How far a place stands out from its surroundings, relative to what is usual for the target.
   double standing_out(const Scene& scene, const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& size_px) const;
   // Share of the target's foreground that is foreground here.
   double foreground(const Scene& scene, const Eigen::Vector2d& pixel,
                     const Eigen::Vector2d& size_px) const;
-  // Logarithm of a likelihood: similarity against the background's, correlation, how it stands out,
-  // and the size's prior.
+  // A log-likelihood from similarity compared with the background's, correlation, standing out, and
+  // the prior of the size.
   double log_likelihood(const Similarity& likeness, double background, double standing_out,
                         const Eigen::Vector2d& size_px) const;
 
-  // What the scene says for a candidate.
+  // The evidence of the scene for a candidate.
   FrameEvidence evidence(const Scene& scene, const Particle& candidate) const;
 
-  // The target's look and contrast of now, taken in by this share.
+  // Learns the target's present appearance and contrast with this weight.
   void learn(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px,
              double share);
 
-  // The size that it has now, as an image showed it well.
+  // The target's present size, as a sharp image showed it.
   void learn_size(const Eigen::Vector2d& size_px, double share);
 
-  // M_t, once: the candidate's foreground while it is surely the target.
+  // M_t, once: the candidate's foreground while it is certainly the target.
   void learn_mask(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
 
-  // Where the box of this size fits best, from a start within about a third of the target.
+  // Where a box of this size fits best, from a start within about a third of the target.
   std::optional<RefinedPosition> place(const Scene& scene, const Eigen::Vector2d& start,
                                        const Eigen::Vector2d& size_px) const {
     return refiner_.refine(scene.view, start, size_px);
   }
-  // From there the sub-pixel position, with the size and from all that the frame shows.
+  // From there the sub-pixel position and size, from the full resolution.
   std::optional<RefinedPosition> measure(const Scene& scene, const RefinedPosition& placed,
                                          const Eigen::Vector2d& likely_size_px) const;
   const Eigen::Vector2d& usual_size_px() const { return usual_size_px_; }
@@ -80,15 +80,15 @@ class TargetModel {
 
   TrackerConfig config_;
   Eigen::Vector2d first_size_px_;
-  Eigen::Vector2d usual_size_px_;  // of late
+  Eigen::Vector2d usual_size_px_;  // recent
   Template template_;
   Objective objective_;
   PositionRefiner refiner_;
-  std::optional<PositionRefiner> fine_refiner_;  // of a reduced target, in the frame as taken
+  std::optional<PositionRefiner> fine_refiner_;  // of a reduced target, in the original frame
   MaskPatch mask_{};                             // M_t
   bool mask_learnt_ = false;
-  double contrast_ = 0.0;         // [grey levels] of late, against its surroundings
-  double contrast_weight_ = 0.0;  // 0..1, how much more than noise that is
+  double contrast_ = 0.0;         // [grey levels] recent, against its surroundings
+  double contrast_weight_ = 0.0;  // 0..1, how far this exceeds noise
 };
 
 }  // namespace ols::tracker

@@ -12,7 +12,7 @@
 namespace ols::tracker {
 namespace {
 
-constexpr double kLeastBoxSide = 3.0;  // [px] smaller ones hold no pattern
+constexpr double kLeastBoxSide = 3.0;  // [px] smaller ones contain no pattern
 
 std::optional<TrackerError> check_image(const TrackerInput& frame) {
   if (frame.gray.empty()) return TrackerError::kEmptyFrame;
@@ -29,14 +29,14 @@ bool usable_box(const cv::Rect2d& box, const cv::Size& frame) {
                       std::isfinite(box.height);
   if (!finite || box.width < kLeastBoxSide || box.height < kLeastBoxSide) return false;
   if (box.width > frame.width || box.height > frame.height) return false;
-  // Labels at the border reach over it: the centre counts.
+  // Labels at the border extend beyond it: the centre counts.
   const Eigen::Vector2d centre = centre_of(box);
   return centre.x() >= 0.0 && centre.y() >= 0.0 && centre.x() <= frame.width - 1.0 &&
          centre.y() <= frame.height - 1.0;
 }
 
-// An unusable prediction is none: the image may still tell. A usable one is taken at the scale at
-// which it was judged.
+// An unusable prediction is discarded: the image may still show the motion. A usable one is taken
+// at the scale at which it was checked.
 TrackerInput with_sane_prediction(const TrackerInput& frame) {
   TrackerInput checked = frame;
   auto& predicted = checked.predicted_homography;
@@ -49,12 +49,12 @@ TrackerInput with_sane_prediction(const TrackerInput& frame) {
   return checked;
 }
 
-// How far apart two homographies put a pixel.
+// The distance between a pixel's images by two homographies.
 double disagreement_px(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b,
                        const Eigen::Vector2d& pixel, const cv::Size& frame) {
   const double most = std::hypot(frame.width, frame.height);
   const double off = (transform(a, pixel) - transform(b, pixel)).norm();
-  return off < most ? off : most;  // one that is no number is far off
+  return off < most ? off : most;  // NaN counts as far off
 }
 
 using Filter = std::variant<PaperTracker, TrackerCore>;

@@ -1,8 +1,7 @@
-// The visual tracker (paper section 5): pixels in, one pixel measurement out.
+// The visual tracker (paper section 5): images in, one pixel measurement out.
 //
-// Knows nothing of PTU counts, LCM, files or clocks: an image, its time and, where the caller knows
-// one, the predicted ego-motion go in. Deterministic: the same seed and images give the same
-// output.
+// Independent of PTU counts, LCM, files and clocks: the inputs are an image, its time and, if
+// known, the predicted ego-motion. Deterministic: the same seed and images give the same output.
 #pragma once
 
 #include <cstdint>
@@ -25,19 +24,19 @@ class Tracker final : public TargetTracker {
   std::optional<TrackerError> initialise(const TrackerInput& frame, const cv::Rect2d& box) override;
   // One step: ego-motion, prediction (2)-(4), weighting (5), MAP, resampling.
   TrackerResult track(const TrackerInput& frame) override;
-  // Spreads the particles there, keeps the template.
+  // Moves the particles there, keeps the template.
   void search_near(const Eigen::Vector2d& pixel, double sd_px) override;
   void set_aside() override;
   void take_back() override;
 
   bool initialised() const { return followed_ != nullptr; }
 
-  // Without a clock nothing is timed. The times are those of the newest frame tracked.
+  // Without a clock no times are measured. They are those of the newest frame.
   void set_stage_clock(StageClock clock) { timer_.set_clock(std::move(clock)); }
   const StageTimes& stage_times() const { return timer_.times(); }
 
  private:
-  struct Followed;  // a target, and by which of the two filters it is followed
+  struct Followed;  // a target with its filter
 
   TrackerConfig config_;
   std::uint64_t seed_;

@@ -9,12 +9,12 @@
 namespace ols::tracker {
 namespace {
 
-constexpr double kNotPlaced = 0.1;  // of its size: 1 sigma where nothing tells its place better
+constexpr double kNotPlaced = 0.1;  // of its size: 1-sigma of a place that is not measured
 constexpr double kAgree = 2.0;      // sigmas of a step
 constexpr double kSureEnoughToLearn = 0.7;
 constexpr double kSureEnoughForMask = 0.8;
 
-// A target in a generous box moves as far as the box says, however small it is itself.
+// A target in a generous box moves in proportion to the box, however small it is.
 TrackerConfig with_reach_of(const cv::Rect2d& box, const cv::Rect2d& core, TrackerConfig config) {
   config.position_sd_fraction *= std::sqrt(box.area() / core.area());
   return config;
@@ -84,7 +84,7 @@ EgoMotion TrackerCore::move_camera(const TrackerInput& frame, StageTimer& timer)
   const CameraMotion motion{scene_motion_.homography(), scene_motion_.interval_s()};
   const Eigen::Vector2d change_px_s = motion_.begin_frame(motion, last_.pixel);
   for (Particle& particle : filter_.particles()) particle.velocity_px_s += change_px_s;
-  if (velocity_ == Velocity::kEstimated) {  // of a new target there is none to go on
+  if (velocity_ == Velocity::kEstimated) {  // a new target has no velocity yet
     last_.velocity_px_s += change_px_s;
     reacquisition_.change_velocity(change_px_s);
   }
@@ -121,7 +121,7 @@ void TrackerCore::predict(EgoMotion ego_motion, StageTimer& timer) {
   timer.lap(Stage::kPrediction);
 }
 
-// Particles where the motion model alone would hardly bring them.
+// Particles where the motion model alone would hardly place them.
 void TrackerCore::propose(EgoMotion ego_motion) {
   const bool searching = reacquisition_.searching();
   auto& particles = filter_.particles();
@@ -137,26 +137,26 @@ void TrackerCore::propose(EgoMotion ego_motion) {
   }
 }
 
-// Picture and mount tell different motions: dirt on the lens and burnt-in text stand still in the
-// one, a slipped gear in the other. The target's own look decides.
+// Image and mount report different motions: dirt on the lens and burnt-in text are stationary in
+// the image, a slipped gear in the mount. The target's appearance decides.
 void TrackerCore::move_half_by_other() {
   auto& particles = filter_.particles();
   for (std::size_t i = 0; i < particles.size(); i += 2) particles[i].pixel += *other_step_px_;
   filter_.widen_prediction(other_step_px_->norm());
 }
 
-// Where the target is expected in this frame.
+// The target's expected place in this frame.
 Eigen::Vector2d TrackerCore::expected_px() const {
   return placed_ ? last_.pixel : motion_.advance(last_).pixel;
 }
 
-// Where it would be in this frame if it had not moved against the scene.
+// Its place in this frame if it had not moved relative to the scene.
 Eigen::Vector2d TrackerCore::unmoved_px() const {
   return placed_ ? last_.pixel - last_.velocity_px_s * motion_.interval_s()
                  : motion_.still(last_.pixel);
 }
 
-// Where a target of unknown velocity may be found.
+// Where a target of unknown velocity can be.
 cv::Rect2d TrackerCore::reachable_area() const {
   const auto& region = reacquisition_.region();
   const Eigen::Vector2d centre = region ? region->pixel : unmoved_px();
@@ -165,7 +165,8 @@ cv::Rect2d TrackerCore::reachable_area() const {
   return box_of(centre, last_.size_px + Eigen::Vector2d::Constant(2.0 * reach));
 }
 
-// A new target either stands against the scene, or was being followed and stands in the image.
+// A new target is either stationary relative to the scene, or was followed by the camera and is
+// stationary in the image.
 void TrackerCore::guess_velocities() {
   bool with_camera = false;
   for (Particle& particle : filter_.particles()) {
@@ -191,7 +192,7 @@ void TrackerCore::force_onto_differences(const cv::Rect2d& area) {
     const double y = random_.gaussian();
     particle.pixel =
         maxima[i % maxima.size()] + 0.1 * Eigen::Vector2d(x, y).cwiseProduct(particle.size_px);
-    // The leap since the last frame tells the velocity, if the target was there then.
+    // The leap since the last frame gives the velocity, if the target was there then.
     if (moves_unknown && random_.uniform() < 0.5) {
       particle.velocity_px_s = (particle.pixel - unmoved_px()) / motion_.interval_s();
     }
@@ -220,7 +221,7 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, StageTimer& timer) 
 }
 
 void TrackerCore::weigh_particles(const Scene& scene) {
-  constexpr double kStill = 5.0;  // so much less likely, as a logarithm
+  constexpr double kStill = 5.0;  // reduces the log-likelihood
   filter_.weigh([&](const Particle& particle) {
     const Similarity likeness = target_.likeness(scene, particle.pixel, particle.size_px);
     const double out = target_.standing_out(scene, particle.pixel, particle.size_px);
@@ -230,8 +231,8 @@ void TrackerCore::weigh_particles(const Scene& scene) {
   });
 }
 
-// A bird beside the target may look more like it than itself in this frame: as long as what is
-// where the target was to be can be believed in, nothing beyond its reach is it.
+// A bird next to the target may look more like it in this frame than the target does: if the
+// candidate at the expected place can be believed, none beyond its reach is chosen.
 std::size_t TrackerCore::choose(const Scene& scene) const {
   const auto& particles = filter_.particles();
   const auto& log_likelihood = filter_.log_likelihood();
@@ -267,11 +268,11 @@ TrackerOutput TrackerCore::locate(const Scene& scene, std::size_t best) {
   return output;
 }
 
-// How far what was found is believed in.
+// The belief in the chosen candidate.
 void TrackerCore::judge(const Scene& scene) {
   const FrameEvidence evidence = target_.evidence(scene, last_);
   belief_.update(evidence, motion_.interval_s());
-  // What is new where the scene was known is as good as a mover.
+  // A new object in a known scene is as good as a mover.
   const bool is_new = evidence.by_subtraction && evidence.foreground > 0.5;
   const bool cut = scene_motion_.unknown_a_moment_ago() ||
                    (!reacquisition_.searching() && scene_motion_.may_be_cut());
@@ -294,7 +295,8 @@ void TrackerCore::learn(const Scene& scene) {
 
 void TrackerCore::after_update(const TrackerOutput& output) {
   const bool believed = output.belief >= kBelieved;
-  // A frame that shows something else says nothing of where the target is, however sure one was.
+  // A frame that shows another object says nothing about the target's place, however high the
+  // belief was.
   if (belief_.of_frame() >= kBelieved && believed) {
     reacquisition_.see({last_.pixel, filter_.mean_velocity_px_s(), last_.size_px});
   }
@@ -305,8 +307,8 @@ void TrackerCore::after_update(const TrackerOutput& output) {
   }
 }
 
-// A target that comes nearer grows by more than particles find by chance. Evenly among the
-// resampled ones, which stand in order of their ancestors.
+// An approaching target grows faster than the particles' noise. Evenly among the resampled ones,
+// which are in the order of their ancestors.
 void TrackerCore::propose_usual_size() {
   constexpr std::size_t kEvery = 8;
   constexpr double kOff = 0.15;
@@ -317,13 +319,13 @@ void TrackerCore::propose_usual_size() {
   for (std::size_t i = 0; i < particles.size(); i += kEvery) particles[i].size_px = usual;
 }
 
-// How far from its prediction a target that was followed may be.
+// How far a followed target can be from its prediction.
 double TrackerCore::reach_px() const {
   return 2.0 * motion_.position_sd(last_.size_px) +
          config_.search_growth_px_s * motion_.interval_s();
 }
 
-// Further from where the target was to be than it can have moved: a cut, or something else.
+// Further from the expected place than the target can have moved: a cut, or another object.
 bool TrackerCore::beyond_reach(const Eigen::Vector2d& pixel) const {
   const double most_px = 2.0 * reach_px() + last_.size_px.norm();
   const Eigen::Vector2d off_px = pixel - reacquisition_.believed().pixel;

@@ -1,5 +1,5 @@
-// The tracker once it has a target: one step of the paper's section 5 a frame. Input is checked by
-// tracker.h.
+// The tracker with a target: one step of the paper's section 5 for each frame. tracker.h checks the
+// input.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ class TrackerCore {
 
   TrackerOutput step(const TrackerInput& frame, StageTimer& timer);
   void search_near(const Eigen::Vector2d& pixel, double sd_px);
-  // By the image alone, the previous frame's pixels to the newest one's; nothing without texture.
+  // From the image, previous frame's pixels to the newest one's; empty without texture.
   const std::optional<Eigen::Matrix3d>& image_homography() const {
     return scene_motion_.image_homography();
   }
@@ -67,9 +67,9 @@ class TrackerCore {
   Particle last_;  // best estimate in the newest frame
   Reacquisition reacquisition_;
   Velocity velocity_ = Velocity::kUnknown;
-  // By the mount's homography from where the image's takes the target, where the two disagree.
+  // From the image's prediction of the target to the mount's, if the two disagree.
   std::optional<Eigen::Vector2d> other_step_px_;
-  bool placed_ = false;  // particles and last_ stand in the coming frame already
+  bool placed_ = false;  // particles and last_ are already advanced to the coming frame
 };
 
 }  // namespace ols::tracker

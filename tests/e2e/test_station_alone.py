@@ -34,14 +34,16 @@ LONG_LEASE_S = 9.0  # of what is played again some statuses later
 
 
 def starts_stopped(station):
-    """It remembers nothing, so nobody knows how it was left."""
+    """It saves nothing, so its state before the restart is unknown."""
     status = station.observer.status["lone"]
     assert status.state == ols_msg.station_status_t.STATE_STOPPED
-    unknown = "is not known (no state_folder is configured): check it, then ols-ctl lone "
-    assert f"stop: how the station was left {unknown}release" in status.alarm
-    assert f"ptu: whether its reference was in doubt {unknown}reference-ok" in status.alarm
+    unknown = "unknown (no state_folder is configured): check it, then ols-ctl lone "
+    assert f"stop: state before the restart is {unknown}release" in status.alarm
+    assert f"ptu: reference before the restart is {unknown}reference-ok" in status.alarm
     release(station)
-    station.wait(lambda: not any("left" in a for a in alarms(station)), "its alarm to go")
+    station.wait(
+        lambda: not any(a.startswith("stop: state") for a in alarms(station)), "its alarm to go"
+    )
 
 
 def alarms(station):

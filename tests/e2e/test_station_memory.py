@@ -33,7 +33,7 @@ chip = "socket:{folder}/gpio"
 stop_line = 17
 """
 STATUS, PTU = ols_msg.station_status_t, ols_msg.ptu_command_t
-NOT_KNOWN = "stop: how the station was left is not known"
+NOT_KNOWN = "stop: state before the restart is unknown"
 
 
 class Kept(Listener):
@@ -117,10 +117,12 @@ def test_a_folder_that_was_taken_away_is_no_leave_to_move(station):
     station.wait_for_state(STATUS.STATE_STOPPED)
     assert station.alarmed(f"{NOT_KNOWN} ({station.state_folder} is missing)")
     station.refuses_slews()
-    station.wait(lambda: station.alarmed("stop: not remembered: "), "that it cannot remember")
+    station.wait(
+        lambda: station.alarmed("stop: state cannot be saved: "), "that it cannot remember"
+    )
     assert not station.state_folder.exists()
     station.state_folder.mkdir()
-    station.wait(lambda: not station.alarmed("stop: not remembered: "), "that it can again")
+    station.wait(lambda: not station.alarmed("stop: state cannot be saved: "), "that it can again")
     station.kill()  # nobody has acted: it is still not known
     station.start()
     station.wait_for_state(STATUS.STATE_STOPPED)
@@ -172,7 +174,7 @@ def test_what_is_not_known_is_taken_for_the_worse(station, subject, spoil):
     spoil(station.state_folder, station.state_folder / f"kept.{subject}")
     station.start()
     if subject == "doubt":
-        assert station.alarmed("ptu: whether its reference was in doubt is not known")
+        assert station.alarmed("ptu: reference before the restart is unknown")
         return
     damaged = spoil not in (missing, folder_missing)
     station.wait_for_state(STATUS.STATE_EMERGENCY if damaged else STATUS.STATE_STOPPED)

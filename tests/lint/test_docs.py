@@ -128,7 +128,7 @@ NO_ALARMS = {"config_words.cpp"}  # --check-config says it
 NOT_ALARMS = re.compile(
     r"clock: (no time service|synchronised by)|gnss: (is being connected|waiting for the receiver)"
     r"|inclinometer: (is being opened|waiting for readings)|ptu: no unit"
-    r"|.*(no configured|not configured|when an event last made room)"
+    r"|.*(no configured|not configured|when an event was last removed to free space)"
 )
 
 

@@ -117,7 +117,7 @@ TEST_F(StationMemoryTest, AHoldThatIsNotKnownStartsStoppedWithAnAlarm) {
       EXPECT_EQ(m.begin(), condition.unreadable && has_stop ? StationState::kEmergency
                                                             : StationState::kStopped);
       EXPECT_THAT(m.alarms(),
-                  Contains(HasSubstr("stop: how the station was left is not known (" + folder)));
+                  Contains(HasSubstr("stop: state before the restart is unknown (" + folder)));
       EXPECT_THAT(m.alarms(), Contains(HasSubstr(m.begin() == StationState::kEmergency
                                                      ? "check it, then re-arm it"
                                                      : "check it, then ols-ctl a release")));
@@ -135,12 +135,13 @@ TEST_F(StationMemoryTest, ADoubtThatIsNotKnownIsADoubtWithAnAlarm) {
     condition.make(folder, folder + "/a.doubt");
     PersistedStationState m = memory();
     EXPECT_EQ(m.doubt(), (ptu::PtuReferenceDoubt{condition.unreadable, condition.unreadable}));
-    EXPECT_THAT(m.alarms(),
-                Contains(HasSubstr("ptu: whether its reference was in doubt is not known")));
+    EXPECT_THAT(m.alarms(), Contains(HasSubstr("ptu: reference before the restart is unknown")));
     m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kUnknown);
-    EXPECT_THAT(m.alarms(), Contains(HasSubstr("in doubt is not known"))) << "no unit yet";
+    EXPECT_THAT(m.alarms(), Contains(HasSubstr("ptu: reference before the restart is unknown")))
+        << "no unit yet";
     m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kTrusted);
-    EXPECT_THAT(m.alarms(), Not(Contains(HasSubstr("in doubt is not known"))));
+    EXPECT_THAT(m.alarms(),
+                Not(Contains(HasSubstr("ptu: reference before the restart is unknown"))));
   }
 }
 
@@ -154,7 +155,7 @@ TEST_F(StationMemoryTest, TheUnknownStaysUnknownOverRestartsUntilAPersonActs) {
   PersistedStationState m = memory();
   EXPECT_EQ(m.begin(), StationState::kStopped);
   m.remember(StationState::kStopped, std::nullopt, ptu::PtuReference::kTrusted);
-  EXPECT_THAT(m.alarms(), Contains(HasSubstr("is not known (not since an earlier start)")));
+  EXPECT_THAT(m.alarms(), Contains(HasSubstr("is unknown (since an earlier start)")));
   m.remember(StationState::kManual, std::nullopt, ptu::PtuReference::kTrusted);
   EXPECT_THAT(m.alarms(), IsEmpty());
   m.remember(StationState::kStopped, std::nullopt, ptu::PtuReference::kTrusted);
@@ -186,7 +187,7 @@ TEST_F(StationMemoryTest, WithoutAFolderNothingIsKnownAndNothingAlarmsOnceAPerso
   PersistedStationState m("", "a", true);
   EXPECT_EQ(m.begin(), StationState::kStopped);
   EXPECT_EQ(m.doubt(), ptu::PtuReferenceDoubt{});
-  EXPECT_THAT(m.alarms(), Contains("stop: how the station was left is not known (no state_folder "
+  EXPECT_THAT(m.alarms(), Contains("stop: state before the restart is unknown (no state_folder "
                                    "is configured): check it, then ols-ctl a release"));
   m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kTrusted);
   EXPECT_THAT(m.alarms(), IsEmpty());
@@ -198,7 +199,7 @@ TEST_F(StationMemoryTest, AFolderThatVanishesIsAnAlarmForAsLong) {
   PersistedStationState m = memory();
   const auto told = [&] {
     for (const std::string& alarm : m.alarms()) {
-      if (alarm.starts_with("stop: not remembered: ")) return true;
+      if (alarm.starts_with("stop: state cannot be saved: ")) return true;
     }
     return false;
   };
@@ -232,10 +233,10 @@ TEST_F(StationMemoryTest, AFolderThatCannotBeWrittenIsNotBelievedToPermit) {
     told = eventually([&] {
       const auto alarms = m.alarms();
       return alarms.size() == 4 &&
-             alarms[0].starts_with("stop: how the station was left is not known") &&
+             alarms[0].starts_with("stop: state before the restart is unknown") &&
              alarms[0].find("ermission denied") != std::string::npos &&
-             alarms[1].starts_with("stop: not remembered: ") &&
-             alarms[3].starts_with("ptu: doubt not remembered: ");
+             alarms[1].starts_with("stop: state cannot be saved: ") &&
+             alarms[3].starts_with("ptu: reference state cannot be saved: ");
     });
   }).join();
   fs::permissions(folder, fs::perms::owner_all);

@@ -68,7 +68,7 @@ TEST_F(PoseMemoryTest, ADamagedFileIsRefusedUntilItIsWrittenAnew) {
   std::ofstream(file) << "ols-pose 1\nposition 4";
   PoseStore memory(file);
   EXPECT_FALSE(memory.found().position);
-  EXPECT_EQ(memory.trouble(), "the kept one is refused, " + file + ": is damaged: wrong checksum");
+  EXPECT_EQ(memory.trouble(), "saved pose refused: " + file + ": is damaged: wrong checksum");
   memory.keep(pose);
   EXPECT_TRUE(eventually([&] { return memory.trouble().empty(); }));
   EXPECT_TRUE(holds(pose));
@@ -77,7 +77,7 @@ TEST_F(PoseMemoryTest, ADamagedFileIsRefusedUntilItIsWrittenAnew) {
 TEST_F(PoseMemoryTest, AFolderThatIsNotThereIsATrouble) {
   PoseStore memory(folder + "/none/a.pose");
   memory.keep(pose);
-  EXPECT_TRUE(eventually([&] { return memory.trouble().starts_with("not kept, "); }));
+  EXPECT_TRUE(eventually([&] { return memory.trouble().starts_with("cannot be saved: "); }));
   EXPECT_NE(memory.trouble().find("/none/a.pose"), std::string::npos) << memory.trouble();
 }
 

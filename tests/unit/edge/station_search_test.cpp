@@ -146,7 +146,7 @@ TEST_F(AcquisitionBySlewTest, SaysThatItAcquiresNothingWhereTheSlewsLead) {
   EXPECT_TRUE(station_.snapshot().alarms.empty());
   run_slewed(2.0, std::nullopt);
   EXPECT_TRUE(alarmed("target: slewed for 1") &&
-              alarmed(" s with its place in the picture, nothing"));
+              alarmed(" s with its place in the image, nothing"));
   script_.belief = 0.9;
   run_slewed(0.5, std::nullopt);
   EXPECT_EQ(station_.state(), StationState::kTracking);

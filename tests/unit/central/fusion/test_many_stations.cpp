@@ -11,6 +11,8 @@
 namespace ols::bench {
 namespace {
 
+using namespace ols::fusion;
+
 using Eigen::Vector3d;
 
 struct Seen {

@@ -86,14 +86,14 @@ TEST(CameraReport, WhatHoldsIsAnAlarm) {
   EXPECT_THAT(make_camera_report(CameraConfig{}, facts, 100.0).alarms,
               ElementsAre("camera: time stamps are the host's, +-10 ms",
                           "camera: 12 % of the frames incomplete",
-                          "camera: picture too dark at the limits of exposure and gain",
+                          "camera: image too dark at the exposure and gain limits",
                           "camera: PTP is not yet synchronised",
                           "camera: PTP differs from the camera's latched clock by -1.0000 s"));
   CameraFacts unfit = streaming();
   unfit.state = CameraState::kFault;
-  unfit.fault = "camera wants pixel format BayerRG8 instead of Mono8";
+  unfit.fault = "camera insists on pixel format BayerRG8 instead of Mono8";
   EXPECT_THAT(make_camera_report(CameraConfig{}, unfit, 100.0).alarms,
-              ElementsAre("camera: wants pixel format BayerRG8 instead of Mono8"));
+              ElementsAre("camera: insists on pixel format BayerRG8 instead of Mono8"));
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST_F(SocketLines, WhatIsNoLevelEndsTheConnection) {
   for (const char* text :
        {"hello", "in", "in 17", "in 17 2", "in -1 1", "in 17 1 1", "in x 1", ""}) {
     say(std::string(text) + "\n");
-    EXPECT_THAT(error_of_receive(), HasSubstr("sends what is no level")) << text;
+    EXPECT_THAT(error_of_receive(), HasSubstr("sent something that is not a level")) << text;
     lines_ = open_gpio_lines("socket:" + path_, {{{17}}, {}});
     hang_up();
     client_ = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
@@ -108,7 +108,7 @@ TEST_F(SocketLines, WhatIsNoLevelEndsTheConnection) {
 
 TEST_F(SocketLines, ALineWithoutEndEndsTheConnection) {
   say(std::string(5000, '1'));
-  EXPECT_THAT(error_of_receive(), HasSubstr("sends what is no level"));
+  EXPECT_THAT(error_of_receive(), HasSubstr("sent something that is not a level"));
 }
 
 TEST_F(SocketLines, AServerThatIsGone) {

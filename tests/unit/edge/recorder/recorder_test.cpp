@@ -132,7 +132,7 @@ TEST_F(RecorderTest, RefusesWhatItCannotDo) {
   EXPECT_THAT(recorder.record({now_s, std::nan(""), 1.0, ""}), HasSubstr("at most"));
   EXPECT_THAT(recorder.record({std::nan(""), 1.0, 1.0, ""}), HasSubstr("at most"));
   EXPECT_THAT(recorder.record({now_s + 100.0, 1.0, 1.0, ""}), HasSubstr("future"));
-  EXPECT_THAT(recorder.record({now_s - 1000.0, 1.0, 1.0, ""}), HasSubstr("remembered"));
+  EXPECT_THAT(recorder.record({now_s - 1000.0, 1.0, 1.0, ""}), HasSubstr("in memory"));
   EXPECT_EQ(count(recorder, "recorder_commands_refused"), 9U);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(recorder.record({now_s, 1.0, 50.0, ""}), "");
   EXPECT_THAT(recorder.record({now_s, 1.0, 50.0, ""}), HasSubstr("busy"));
@@ -167,7 +167,7 @@ TEST_F(RecorderTest, RecordingsDoNotPushOutWhatIsThere) {
         return recorder.report().readings.at("recorder_events") == static_cast<double>(accepted);
       }));
     } else {
-      EXPECT_THAT(why, HasSubstr("no room"));
+      EXPECT_THAT(why, HasSubstr("no space"));
     }
   }
   EXPECT_GE(accepted, 2);
@@ -251,7 +251,7 @@ TEST_F(RecorderTest, EventsAtTheSameTimeDoNotTakeEachOthersRoom) {
   ASSERT_TRUE(eventually([&] { return recorder.report().state == station::DeviceState::kOk; }));
   film(recorder, 150);
   EXPECT_EQ(recorder.record({time_of(145), 0.95, 30.0, "a"}), "");
-  EXPECT_THAT(recorder.record({time_of(145), 0.95, 30.0, "b"}), HasSubstr("no room"));
+  EXPECT_THAT(recorder.record({time_of(145), 0.95, 30.0, "b"}), HasSubstr("no space"));
   ASSERT_TRUE(counts(recorder, "recorder_frames_written", 14));
   number = 500;
   film(recorder, 1);  // it ends, and took less than was thought

@@ -64,7 +64,7 @@ TEST(EventQueue, AnEventThatCannotBeFinishedLetsTheOthersGoOn) {
 
 TEST(EventQueue, RecordsOnlyAFewEventsAtOnceAndOnlyWhatItRemembers) {
   EventQueue queue(config());
-  EXPECT_EQ(queue.refusal({10.0, 1.0, 1.0, "x"}, 12.0), "no frame of that time is remembered");
+  EXPECT_EQ(queue.refusal({10.0, 1.0, 1.0, "x"}, 12.0), "no frame of that time is in memory");
   queue.add(frame_at(10.0));
   EXPECT_EQ(queue.refusal({10.0, 1.0, 1.0, "x"}, 12.0), "");
   for (int i = 0; i < 4; ++i) queue.begin({10.0, 1.0, 1.0, "x"}, i);

@@ -202,7 +202,7 @@ TEST(CameraServer, KeepsThePixelFormatOfItsFaultFromTheNextConnectionOn) {
   EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kAbsent; }));
   server->set_faults({.pixel_format = "BayerRG8"});
   EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kFault; }));
-  EXPECT_TRUE(has_alarm(camera, "camera: wants pixel format BayerRG8 instead of Mono8"));
+  EXPECT_TRUE(has_alarm(camera, "camera: insists on pixel format BayerRG8 instead of Mono8"));
   server->set_faults({});
   EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kStreaming; }))
       << camera.last_error();
