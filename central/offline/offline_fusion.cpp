@@ -214,7 +214,7 @@ void guess_clocks(std::vector<BearingMeasurement>& sightings) {
 std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& sightings,
                                       const OfflineConfig& config, Unlocated* unlocated) {
   const auto estimator = make_estimator(config.estimator, config.fusion.estimators);
-  if (!estimator) throw std::invalid_argument("there is no estimator " + config.estimator);
+  if (!estimator) throw std::invalid_argument("unknown estimator " + config.estimator);
   const bool is_filter = config.estimator == "filter";
   if (config.smooth && !is_filter) throw std::invalid_argument("only the filter can be smoothed");
   UnusedBearings unused;
