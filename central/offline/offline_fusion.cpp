@@ -70,7 +70,7 @@ std::vector<std::int64_t> epochs_of(const std::vector<BearingMeasurement>& beari
   }
 }
 
-// Mean square angular speed over steps that are long against the noise [rad^2/s^2].
+// Mean square angular speed over steps that are long compared with the noise [rad^2/s^2].
 double mean_square_speed(const std::vector<const BearingMeasurement*>& bearings) {
   constexpr double kLeastStep = 10.0, kLongestS = 2.0;  // in sigmas
   double sum = 0.0, span = 0.0;
@@ -88,7 +88,7 @@ double mean_square_speed(const std::vector<const BearingMeasurement*>& bearings)
   return span > 0.0 ? sum / span : 0.0;
 }
 
-// The one object's track, and who looks beside it.
+// The track of the one object, and the stations that point elsewhere.
 class Recording {
  public:
   explicit Recording(const OfflineConfig& config)
@@ -121,7 +121,7 @@ FusedTarget target_of(std::int64_t epoch_us, const char* estimator, Located loca
   return target;
 }
 
-// Those with a position; of the others, why they have none.
+// Keeps the targets with a position; counts the others' reasons.
 struct Fixes {
   std::vector<FusedTarget> targets{};
   Unlocated unlocated{};
@@ -158,7 +158,7 @@ Fixes causal(const std::vector<BearingMeasurement>& bearings,
   return fixes;
 }
 
-// The estimators without memory have the whole recording.
+// The estimators without memory use the whole recording.
 Fixes interpolating(const std::vector<BearingMeasurement>& bearings,
                     const StationBearings& recording, const std::vector<std::int64_t>& epochs,
                     Estimator& estimator, const OfflineConfig& config) {
