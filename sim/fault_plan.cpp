@@ -8,11 +8,11 @@
 namespace ols::sim {
 namespace {
 
-constexpr const char* kEveryKind = "all";  // in a command that ends
+constexpr const char* kEveryKind = "all";  // in a command that ends faults
 
 struct Kind {
   const char* name;
-  double fallback, least, greatest;  // of the value; all the same: it takes none
+  double fallback, least, greatest;  // of the value; all equal: the kind takes no value
   void (*apply)(StationFaults&, double value);
 };
 

@@ -1,5 +1,5 @@
 // ols-sim-flood: floods an LCM bus with foreign and damaged messages, with forged commands, or with
-// channels that nobody knows.
+// unknown channels.
 
 #include <algorithm>
 #include <chrono>
@@ -23,8 +23,8 @@ struct Options {
   double rate_hz = 10000.0;
   std::vector<std::string> stations = {"alfa", "bravo", "charlie", "delta"};
   int names = 1000;
-  std::string commanded;      // station that forged commands go to; empty: foreign messages
-  std::uint64_t unknown = 0;  // so many channels that nobody knows, and the end; 0: the others
+  std::string commanded;      // station of forged commands; empty: foreign messages
+  std::uint64_t unknown = 0;  // number of unknown channels, then ends; 0: not this mode
   std::uint64_t seed = 1;
 };
 
@@ -49,7 +49,7 @@ void define(CLI::App& app, Options& o) {
       ->capture_default_str();
 }
 
-// What to send next, by its number.
+// The next message to send, by its number.
 std::function<ols::sim::Packet(std::uint64_t)> source(const Options& o) {
   if (o.unknown > 0) return ols::sim::unknown_channel;
   if (!o.commanded.empty()) {
@@ -65,7 +65,8 @@ std::function<ols::sim::Packet(std::uint64_t)> source(const Options& o) {
 void run(const Options& options) {
   using Clock = std::chrono::steady_clock;
   constexpr auto kTurn = std::chrono::milliseconds(1);
-  constexpr std::uint64_t kMostATurn = 10'000;  // one that cannot keep up can still be ended
+  constexpr std::uint64_t kMostATurn =
+      10'000;  // so that a flood that cannot keep up can still be ended
   constexpr auto kTell = std::chrono::seconds(1);
   ols::LcmBus bus(options.url);
   const auto next = source(options);

@@ -10,8 +10,7 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kDoubtS =
-    1.0;  // after a wrong pair, no other two rays begin a track for this long
+constexpr double kDoubtS = 1.0;  // after a wrong pair, before two other rays begin a track
 
 // Two stations see the same object, however large the correction of their headings.
 FilterConfig filter_of(const TrackManagerConfig& config) {

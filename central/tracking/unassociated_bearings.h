@@ -38,7 +38,7 @@ class UnassociatedBearings {
     BearingSummary look(const BearingMeasurement& sighting);
 
    private:
-    Eigen::Vector3d origin_ecef_ = Eigen::Vector3d::Zero();     // of the look that was made last,
+    Eigen::Vector3d origin_ecef_ = Eigen::Vector3d::Zero();     // of the last summary,
     Eigen::Matrix3d R_ecef_enu_ = Eigen::Matrix3d::Identity();  // and the axes there
   };
 
