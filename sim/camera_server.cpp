@@ -22,8 +22,7 @@ using Clock = ExposureCue::Clock;
 
 constexpr auto kHeartbeatCheck = std::chrono::milliseconds(200);
 constexpr std::uint64_t kFrameIds = 65535;
-constexpr std::uint64_t kFirstId =
-    65400;  // wraps soon, so that a client which cannot handle that fails early
+constexpr std::uint64_t kFirstId = 65400;  // wraps soon, to test the client early
 
 double seconds(Clock::time_point time) {
   return std::chrono::duration<double>(time.time_since_epoch()).count();

@@ -32,7 +32,7 @@ class FaultPlan {
   // Throws std::invalid_argument with what check() finds.
   void add(const Fault& fault);
 
-  // By command: the same from now on. With for_s = 0 it ends what is going on or planned of this
+  // By command: the same from now on. With for_s = 0 it ends the current and planned faults of this
   // kind (kind "all": of every kind) at this station (station empty: at all of them).
   void command(Fault fault, double now_s);
 

@@ -41,10 +41,10 @@ void define(CLI::App& app, Options& o) {
       app.add_option("--commands", o.commanded,
                      "send forged commands to this station instead: most refused, some obeyed");
   app.add_option("--unknown", o.unknown,
-                 "send instead one message each on so many channels that nobody knows, and end")
+                 "send one message each on this many unknown channels instead, and exit")
       ->check(CLI::Range(1, 1'000'000'000))
       ->excludes(commands);
-  app.add_option("--seed", o.seed, "of what is drawn")
+  app.add_option("--seed", o.seed, "seed of all random numbers")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
 }
@@ -65,8 +65,7 @@ std::function<ols::sim::Packet(std::uint64_t)> source(const Options& o) {
 void run(const Options& options) {
   using Clock = std::chrono::steady_clock;
   constexpr auto kTurn = std::chrono::milliseconds(1);
-  constexpr std::uint64_t kMostATurn =
-      10'000;  // so that a flood that cannot keep up can still be ended
+  constexpr std::uint64_t kMostATurn = 10'000;  // an overloaded flood can still be ended
   constexpr auto kTell = std::chrono::seconds(1);
   ols::LcmBus bus(options.url);
   const auto next = source(options);
@@ -97,7 +96,7 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   ols::install_shutdown_handler();
-  CLI::App app("Floods an LCM bus with foreign and damaged messages, or worse, until it is ended.");
+  CLI::App app("Floods an LCM bus with foreign, damaged or forged messages until it is stopped.");
   Options options;
   define(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-sim-flood")) return *status;
