@@ -33,7 +33,7 @@ TEST(PointingMonitor, BelievesAgainWhoIsExplained) {
   EXPECT_EQ(monitor.quarantine("a"), "");
 }
 
-// Or no target could ever begin again where it takes this station.
+// Otherwise no target could be initiated again if it needs this station.
 TEST(PointingMonitor, LapsesWithoutATargetToJudgeBy) {
   PointingMonitor monitor;
   hear(monitor, 0.0, 6.0, false, kOff);
