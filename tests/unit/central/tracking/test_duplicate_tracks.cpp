@@ -19,8 +19,7 @@ struct Flight {
   int stations = 4;
   double noise = 1.0;    // over the stated one
   double apart_m = 0.0;  // distance of a second object; 0: only one
-  bool named =
-      false;  // each station follows one object by its track id; every other one the second
+  bool named = false;    // each station follows one object by a track id; every other the second
   double missed = 0.05;
 };
 
