@@ -122,8 +122,8 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   ols::install_shutdown_handler();
   CLI::App app(
-      "A simulated PTU on a pseudo terminal, until SIGTERM or SIGINT. Standard "
-      "input takes lines: fault KIND [SECONDS [VALUE]], end KIND, end all, angles [MONOTONIC_S].");
+      "A simulated PTU on a pseudo terminal, until SIGTERM or SIGINT. Standard input takes "
+      "lines: fault KIND [SECONDS [VALUE]], end KIND, end all, angles [MONOTONIC_S].");
   Options options;
   define(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-sim-ptu")) return *status;

@@ -98,9 +98,8 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   ols::install_shutdown_handler();
   CLI::App app(
-      "Relays messages between two LCM buses and loses, duplicates, delays and reorders them on "
-      "the "
-      "way. Prints its counts at the end.");
+      "Relays messages between two LCM buses and loses, duplicates, delays and reorders them "
+      "on the way. Prints its counts at the end.");
   Options options;
   define(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-sim-relay")) return *status;

@@ -17,7 +17,7 @@ enum class BearingRefusal {
   kDuplicate,
   kQuarantine,  // the station's clock or pose is not credible
   kTooMany,     // more stations than max_stations
-  kFlood,       // more bearings of one station than max rate allows
+  kFlood,       // more bearings of one station than flood_hz allows
   kLowBelief,
 };
 const char* to_string(BearingRefusal refusal);

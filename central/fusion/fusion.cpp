@@ -10,7 +10,7 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kStepBackS = 1.0;  // "now" going back by more is a new message time
+constexpr double kStepBackS = 1.0;  // a larger step back of "now" resets message time
 
 TargetScheduleConfig schedule_of(const FusionConfig& config) {
   return {.estimator = config.estimator,

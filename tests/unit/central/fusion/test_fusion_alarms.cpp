@@ -35,7 +35,7 @@ std::vector<std::string> alarms_after(const std::vector<BearingMeasurement>& sig
 TEST(FusionAlarms, NamesWhoFollowsForLongWhatIsNoneOfTheTargets) {
   const auto alarms = alarms_after(with_a_stray(14.0));
   ASSERT_EQ(alarms.size(), 1U);
-  EXPECT_TRUE(alarms[0].starts_with("station d: follows for 1")) << alarms[0];
+  EXPECT_TRUE(alarms[0].starts_with("station d: has followed for 1")) << alarms[0];
 }
 
 // A constant error: its pose may be wrong, which is another alarm, and one is enough.
