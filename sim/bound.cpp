@@ -13,7 +13,7 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A parameter of a station that is not known: how it is changed, and by how much it may be off.
+// An unknown parameter of a station: how it is varied, and its 1-sigma.
 struct Unknown {
   std::function<void(StationGeometry&, double)> change;
   double sd;
@@ -51,7 +51,7 @@ Vector2d slope(double step, const std::function<Vector2d(double)>& pixel) {
 
 Matrix2d outer(const Vector2d& v) { return v * v.transpose(); }
 
-// Covariance of one pixel measurement about what the position explains.
+// Covariance of one pixel measurement about the prediction from the position.
 Matrix2d pixel_covariance(const World& world, const StationTruth& station, const PanTilt& angles,
                           const TargetTruth& target, const MeasurementNoise& noise) {
   const Errors& e = world.scenario().errors;

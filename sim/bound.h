@@ -1,7 +1,7 @@
 // The Cramer-Rao bound of a target's position at one instant, one exposure of each station: from
-// the true geometry, the scenario's error sigmas and the actual pixel noise. What each error does
-// to the pixel comes from differences of the projection, none of the product's covariances, so that
-// the bound (geometry/precision.h) can judge them.
+// the true geometry, the scenario's error sigmas and the actual pixel noise. The effect of each
+// error on the pixel comes from differences of the projection, not from the product's covariances,
+// so that the bound (geometry/precision.h) can judge them.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,12 +14,12 @@ namespace ols::sim {
 
 struct MeasurementNoise {
   double pixel_sd_px = 0.3;        // white
-  double designation_sd_px = 1.0;  // stays
-  // What is left of the white part; 0: as if averaged away, the bound that no smoothing gets below.
+  double designation_sd_px = 1.0;  // systematic
+  // Remaining share of the white noise; 0: averaged away, the bound that no smoothing beats.
   double white_share = 1.0;
 };
 
-// Covariance [m^2] in the site's east, north, up; nothing when these stations do not determine it.
+// Covariance [m^2] in the site's east, north, up; nullopt if these stations do not determine it.
 std::optional<Eigen::Matrix3d> position_bound_enu(const World& world, double time_s,
                                                   const std::vector<std::size_t>& stations,
                                                   const MeasurementNoise& noise);

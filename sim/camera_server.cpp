@@ -22,7 +22,7 @@ using Clock = ExposureCue::Clock;
 
 constexpr auto kHeartbeatCheck = std::chrono::milliseconds(200);
 constexpr std::uint64_t kFrameIds = 65535;
-constexpr std::uint64_t kFirstId = 65400;  // soon wraps: what cannot stand that shall show early
+constexpr std::uint64_t kFirstId = 65400;  // wraps soon, to test the client early
 
 double seconds(Clock::time_point time) {
   return std::chrono::duration<double>(time.time_since_epoch()).count();
@@ -59,7 +59,7 @@ struct CameraServer::Impl {
   GigeDevice device_;
   GigeStream stream_;
 
-  // Of the stream thread.
+  // only the stream thread's
   std::uint64_t frames_ = 0;
   std::optional<Clock::time_point> last_start_;
   cv::Mat gray_;
@@ -116,14 +116,14 @@ std::int64_t CameraServer::Impl::device_ns(Clock::time_point time) {
   return 1'000'000'000 + std::llround(age_ns * (1.0 + 1e-6 * config_.clock_drift_ppm));
 }
 
-// Of the next exposure; nothing when none is known yet. Waits a little for a trigger.
+// The start of the next exposure; nullopt while it is unknown. Waits briefly for a trigger.
 std::optional<Clock::time_point> CameraServer::Impl::next_start(const StreamSettings& settings) {
   const auto period = duration(settings.period_s);
   if (is_timed(settings.trigger)) return last_start_ ? *last_start_ + period : Clock::now();
   const auto triggered = cue_.wait_for_trigger(kHeartbeatCheck);
   if (!triggered || triggered->first != settings.trigger) return std::nullopt;
   const auto start = triggered->second + duration(settings.trigger_delay_s);
-  // As long as it is busy with the last exposure it takes no trigger.
+  // It ignores triggers while busy with the last exposure.
   if (last_start_ && start < *last_start_ + period) return std::nullopt;
   return start;
 }
@@ -139,7 +139,7 @@ void CameraServer::Impl::run_stream() {
     const auto start = next_start(*settings);
     if (cue_.wait_until(start.value_or(Clock::now()))) return;
     if (!start) continue;
-    // What is set when the exposure begins is what it is made with.
+    // The settings at the start of the exposure apply.
     settings = device_.streaming(seconds(Clock::now()));
     if (!settings) continue;
     const auto until_drawn = duration(settings->exposure_s + config_.readout_s);
@@ -158,7 +158,7 @@ void CameraServer::Impl::run_stream() {
 
 void CameraServer::Impl::expose(const StreamSettings& settings, Clock::time_point start) {
   if (gone_) {
-    ++frames_;  // the camera goes on behind the cut line until its heartbeat runs out
+    ++frames_;  // the camera continues behind the cut line until its heartbeat times out
     return;
   }
   const Exposure exposure{.start_monotonic_ns = nanoseconds(start),

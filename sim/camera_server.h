@@ -1,5 +1,5 @@
-// A simulated GigE Vision camera on one local address, its pictures drawn by a callback. One camera
-// an address (the control port is fixed).
+// A simulated GigE Vision camera on one local address; a callback draws its images. One camera per
+// address (the control port is fixed).
 #pragma once
 
 #include <array>
@@ -20,47 +20,47 @@ struct CameraServerConfig {
   int width_px = 1280;  // of the sensor
   int height_px = 960;
   double exposure_s = 0.005;  // until the client sets another one
-  double readout_s = 0.010;   // the exposure began this much + exposure before the frame is drawn
+  double readout_s = 0.010;   // from the end of the exposure to the drawing of the frame
 
   gige::FeatureNames names = gige::FeatureNames::kGt1290c;
-  bool tick_frequency = true;     // false: its register reads 0, as some firmware has it
-  double clock_drift_ppm = 20.0;  // of the camera's own clock, which begins near 0
+  bool tick_frequency = true;     // false: its register reads 0, as in some firmware
+  double clock_drift_ppm = 20.0;  // of the camera's own clock, which starts near 0
   double tai_minus_utc_s = 37.0;  // of the PTP master, whose UTC is the host's
 };
 
-// One exposure to be drawn.
+// One exposure to draw.
 struct Exposure {
   std::int64_t start_monotonic_ns = 0;  // CLOCK_MONOTONIC
-  double exposure_s = 0.0;              // as set by the client at the moment
+  double exposure_s = 0.0;              // as currently set by the client
   double gain_dB = 0.0;                 // likewise
   std::uint64_t frame = 0;
 };
 
 class CameraServer {
  public:
-  // `draw` fills the 8-bit gray picture, which is already of the right size; in a Bayer or RGB
-  // format the camera sends it as a scene of a slightly warm colour (kTint). Called in the camera's
-  // own thread, once a frame, while a client streams. Throws std::system_error when the address
-  // cannot be had.
+  // `draw` fills an 8-bit gray image of the right size; in a Bayer or RGB format the camera sends
+  // it with a slightly warm colour (kTint). Called in the camera's own thread, once per frame,
+  // while a client streams. Throws std::system_error if the address is not available.
   CameraServer(const CameraServerConfig& config,
                std::function<void(const Exposure&, cv::Mat&)> draw);
   ~CameraServer();
 
-  // Of red, green and blue before gray.
+  // Factors of red, green and blue on gray.
   static constexpr std::array<double, 3> kTint = {1.0, 0.9, 0.7};
 
-  // A pulse on one of the lines 1 to 4: an exposure, if the camera waits for one on that line.
+  // A pulse on one of the lines 1 to 4: an exposure, if the camera waits for a trigger on that
+  // line.
   void pulse(int line);
 
-  // The camera forgets the size that the client has set, as after a reset.
+  // The camera forgets the size set by the client, as after a reset.
   void set_size(int width_px, int height_px);
-  // It is off and on again, without a moment in which it answers nothing.
+  // It is switched off and on, but answers without interruption.
   void power_cycle();
 
-  // What is wrong with the camera from now on; from any thread.
+  // Faults of the camera from now on; from any thread.
   void set_faults(const CameraFaults& faults);
 
-  // Exposures that were never made because drawing took too long. Only goes up.
+  // Exposures skipped because drawing took too long. Only increases.
   std::uint64_t skipped() const;
 
  private:

@@ -11,11 +11,11 @@
 namespace ols::sim {
 namespace {
 
-constexpr std::int64_t kAhead_us = 450'000;    // within what two clocks may differ by
-constexpr std::int64_t kLong_us = 60'000'000;  // beyond any lease, and any difference
-constexpr std::int64_t kOldSender = 4711;      // whose sequences have all been used
+constexpr std::int64_t kAhead_us = 450'000;    // within the permitted clock difference
+constexpr std::int64_t kLong_us = 60'000'000;  // beyond any lease, and any clock difference
+constexpr std::int64_t kOldSender = 4711;      // whose sequences are used up
 constexpr double kLease_s = 1.0;
-constexpr double kBeyondTilt_rad = 1.5;  // no unit of ours gets there
+constexpr double kBeyondTilt_rad = 1.5;  // no unit reaches this
 
 template <class Message>
 std::vector<std::uint8_t> encoded(const Message& message) {
@@ -37,7 +37,7 @@ int CommandFlood::below(int limit) {
   return static_cast<int>(random_() % static_cast<std::uint64_t>(limit));
 }
 
-// From a sender that nobody has heard of, fresh.
+// A fresh command from an unknown sender.
 template <class Message>
 void CommandFlood::address(Message& message, std::int64_t utime_us) {
   message.utime = utime_us;
@@ -48,7 +48,7 @@ void CommandFlood::address(Message& message, std::int64_t utime_us) {
   message.lease_s = kLease_s;
 }
 
-// What no station may let through, whatever the command is; false: nothing was spoilt.
+// Makes the command one that every station must refuse; false: it was left valid.
 template <class Message>
 bool CommandFlood::spoil(Message& message, int how) {
   switch (how) {
@@ -58,7 +58,7 @@ bool CommandFlood::spoil(Message& message, int how) {
     case 1:
       message.utime += kLong_us;
       return true;
-    case 2:  // played again: of a minute ago, with its sequence, stamped by then
+    case 2:  // replayed: a minute old, with the sequence and stamp of then
       message.boot_id = kOldSender;
       message.sequence = below(1000);
       message.utime -= kLong_us;
@@ -87,7 +87,7 @@ Packet CommandFlood::ptu(std::int64_t utime_us) {
   } else if (how == 8) {
     message.command = ols_msg::ptu_command_t::COMMAND_POINT;
     message.pan_rad = swing_goal_rad(utime_us);
-  } else {  // fresh for all that a gate can see; refused for where it points
+  } else {  // fresh by every check of the gate; refused for its direction
     message.utime += how == 6 ? kAhead_us : 0;
     message.command = ols_msg::ptu_command_t::COMMAND_POINT;
     message.tilt_rad = kBeyondTilt_rad;
@@ -110,7 +110,7 @@ Packet CommandFlood::designate(std::int64_t utime_us) {
   ols_msg::designate_t message{};
   address(message, utime_us);
   if (!spoil(message, below(8))) message.utime += kAhead_us;
-  // Far outside of any picture: a designation that could be obeyed would end a stop.
+  // Far outside any image: a designation that could be obeyed would end a stop.
   message.x_px = message.y_px = 1e6;
   message.width_px = message.height_px = 10.0;
   return {station_channel(kDesignateChannel, station_), encoded(message)};

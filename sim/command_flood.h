@@ -1,9 +1,9 @@
-// Forged commands to one station, as somebody sends them who wants its operator unheard. Most are
-// such as no station may obey: stale, played again, from the future, for another station, of
-// another schema, damaged, out of limits (these pass for fresh, from ever new senders with stamps
-// somewhat ahead), slews with the greatest of sequences. One in eighteen is fresh and well-formed,
-// and without signatures it is obeyed: it points the unit to one side and to the other, in turns.
-// Pure; deterministic by its seed and the times it is given.
+// Forged commands to one station, from an attacker who wants to keep the operator out. Most must be
+// refused by every station: stale, replayed, from the future, for another station, of another
+// schema, damaged, out of limits (these look fresh: always new senders, stamps somewhat ahead),
+// slews with maximum sequences. One in eighteen is fresh and well-formed, and without signatures it
+// is obeyed: it points the unit to alternate sides. Pure; deterministic by its seed and the times
+// it is given.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace ols::sim {
 
-// Where the obeyed ones point at this instant: +- kSwing_rad, for kSwing_us each.
+// Where the obeyed ones point at this instant: alternately +- kSwing_rad, for kSwing_us each.
 constexpr double kSwing_rad = 1.4;
 constexpr std::int64_t kSwing_us = 4'000'000;
 double swing_goal_rad(std::int64_t utime_us);
@@ -23,7 +23,7 @@ class CommandFlood {
  public:
   CommandFlood(std::string station, std::uint64_t seed);
 
-  // `utime_us`: UTC since 1970, by which stamps are fresh or stale.
+  // `utime_us`: UTC since 1970, which decides whether stamps are fresh or stale.
   Packet next(std::int64_t utime_us);
 
  private:

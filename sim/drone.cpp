@@ -63,7 +63,7 @@ void over(float& colour, float& covered, float gray, float alpha) {
 }
 
 void draw_ellipse(const Ellipse& ellipse, float gray, double opacity, DroneMatte& canvas) {
-  // Thinner than a pixel: drawn a pixel wide and fainter, so that its sum of light stays.
+  // Thinner than a pixel: drawn one pixel wide and fainter, so that its total light is right.
   constexpr double kLeastHalfAxis = 0.5;
   const Eigen::Matrix2d Q =
       ellipse.Q + kLeastHalfAxis * kLeastHalfAxis * Eigen::Matrix2d::Identity();
@@ -134,7 +134,7 @@ DroneMatte drone_matte(const DroneView& view, cv::Size picture) {
   const cv::Rect area = area_of(view, picture);
   DroneMatte sum{area, cv::Mat1f::zeros(area.size()), cv::Mat1f::zeros(area.size())};
   if (area.empty()) return sum;
-  // The smear is the mean of stills along it, not farther apart than half a pixel.
+  // The smear is the mean of still images along it, at most half a pixel apart.
   const int stills = std::clamp(static_cast<int>(std::ceil(2.0 * view.smear_px.norm())), 1, 16);
   for (int i = 0; i < stills; ++i) {
     DroneView still = view;

@@ -1,6 +1,6 @@
 // Draws a multicopter: body, arms, motors and rotors as ellipsoids, with analytic anti-aliasing, so
-// that it stands sub-pixel exactly where it is. Symmetric about its centre: the centroid of what is
-// drawn is the image of the centre.
+// that its position is exact to a fraction of a pixel. Symmetric about its centre: the centroid of
+// the drawing is the image of the centre.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace ols::sim {
 
-// How a target's body appears in one picture.
+// The view of a target's body in one image.
 struct DroneView {
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, 3> px_per_m =
@@ -19,15 +19,14 @@ struct DroneView {
   double brightness = 0.2;  // of the body, 0..1
 };
 
-// Smallest upright box around the silhouette, without smear. As all boxes it is told by the edges
-// of pixels, while (0, 0) of view.centre_px is the centre of one: its middle is half a pixel
-// further.
+// Smallest upright box around the silhouette, without smear. Like all boxes it is given by pixel
+// edges, while (0, 0) of view.centre_px is a pixel centre: its middle is half a pixel further.
 cv::Rect2d drone_box(const DroneView& view);
 
-// What a target adds to a picture: what was there times (1 - covered), plus `colour`.
+// What a target adds to an image: the background times (1 - covered), plus `colour`.
 struct DroneMatte {
-  cv::Rect area;              // in the picture; empty when nothing of the target is inside
-  cv::Mat1f colour, covered;  // of `area`; colour [gray levels] is multiplied by what it covers
+  cv::Rect area;              // in the image; empty if no part of the target is inside
+  cv::Mat1f colour, covered;  // of `area`; colour [gray levels] is premultiplied by `covered`
 };
 
 DroneMatte drone_matte(const DroneView& view, cv::Size picture);

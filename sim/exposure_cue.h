@@ -18,15 +18,15 @@ class ExposureCue {
   using Triggered = std::pair<Trigger, Clock::time_point>;
 
   void trigger(Trigger source);
-  // The client has said something: perhaps to start.
+  // The client has sent a command: perhaps to start.
   void client_spoke();
   void end();
 
-  // Both return true when the camera shall end.
+  // Both return true when the camera is to end.
   bool wait_until(Clock::time_point time);
-  // While nobody streams; triggers are forgotten.
+  // Waits while no client streams; triggers are forgotten.
   bool wait_for_client(Clock::duration longest);
-  // Nothing when none came, or at the end.
+  // Nullopt without a trigger, or at the end.
   std::optional<Triggered> wait_for_trigger(Clock::duration longest);
 
  private:

@@ -8,11 +8,11 @@
 namespace ols::sim {
 namespace {
 
-constexpr const char* kEveryKind = "all";  // in a command that ends
+constexpr const char* kEveryKind = "all";  // in a command that ends faults
 
 struct Kind {
   const char* name;
-  double fallback, least, greatest;  // of the value; all the same: it takes none
+  double fallback, least, greatest;  // of the value; all equal: the kind takes no value
   void (*apply)(StationFaults&, double value);
 };
 
@@ -73,12 +73,12 @@ std::vector<std::string> fault_kinds() {
 
 FaultProblem check(const Fault& fault) {
   const Kind* kind = find(fault.kind);
-  if (kind == nullptr) return {"kind", "\"" + fault.kind + "\" is no kind of fault"};
+  if (kind == nullptr) return {"kind", "unknown kind of fault \"" + fault.kind + "\""};
   if (!(fault.at_s >= 0.0) || std::isinf(fault.at_s)) return {"at_s", "must be at least 0"};
   if (!(fault.for_s > 0.0)) return {"for_s", "must be more than 0"};
   if (std::isnan(fault.value)) return {};
   if (fault.value < kind->least || fault.value > kind->greatest) {
-    if (kind->least == kind->greatest) return {"value", fault.kind + " takes none"};
+    if (kind->least == kind->greatest) return {"value", fault.kind + " takes no value"};
     return {"value", fault.kind + " takes " + std::to_string(kind->least) + " to " +
                          std::to_string(kind->greatest)};
   }
@@ -95,7 +95,7 @@ void FaultPlan::command(Fault fault, double now_s) {
   forget(now_s);
   if (fault.for_s == 0.0) {
     if (fault.kind != kEveryKind && find(fault.kind) == nullptr) {
-      throw std::invalid_argument("kind: \"" + fault.kind + "\" is no kind of fault");
+      throw std::invalid_argument("kind: unknown kind of fault \"" + fault.kind + "\"");
     }
     std::erase_if(faults_, [&fault](const Fault& f) { return ends(fault, f); });
     return;

@@ -1,5 +1,5 @@
-// Which fault holds when: from a scenario's [[fault]] tables, and by command while the site runs.
-// Pure; deterministic.
+// Which fault is active when: from a scenario's [[fault]] tables, and by command while the site
+// runs. Pure; deterministic.
 #pragma once
 
 #include <limits>
@@ -13,7 +13,7 @@ namespace ols::sim {
 
 struct Fault {
   std::string kind;     // "ptu-line-cut", ...: fault_kinds()
-  std::string station;  // empty: all of them
+  std::string station;  // empty: all stations
   double at_s = 0.0;    // since the scenario's start
   double for_s = std::numeric_limits<double>::infinity();
   double value = std::numeric_limits<double>::quiet_NaN();  // NaN: the kind's default
@@ -21,8 +21,7 @@ struct Fault {
 
 std::vector<std::string> fault_kinds();
 
-// What is wrong with a fault that cannot be had, and with which of its keys; both empty when it
-// can.
+// What is wrong with a fault, and with which of its keys; both empty for a valid one.
 struct FaultProblem {
   std::string key, what;
 };
@@ -33,17 +32,17 @@ class FaultPlan {
   // Throws std::invalid_argument with what check() finds.
   void add(const Fault& fault);
 
-  // By command: the same from now on. With for_s = 0 it ends what is going on or planned of this
+  // By command: the same from now on. With for_s = 0 it ends the current and planned faults of this
   // kind (kind "all": of every kind) at this station (station empty: at all of them).
   void command(Fault fault, double now_s);
 
-  // What is wrong at one station at one moment. Of faults of one kind that overlap the one that
-  // began last counts.
+  // The faults of one station at one moment. Of overlapping faults of one kind, the one that began
+  // last counts.
   StationFaults at(std::string_view station, double time_s) const;
 
  private:
   void forget(double before_s);
-  std::vector<Fault> faults_;  // in the order in which they were added
+  std::vector<Fault> faults_;  // in the order of addition
 };
 
 }  // namespace ols::sim

@@ -1,5 +1,5 @@
-// What can be wrong with the simulated devices of one station at one moment. Each device takes its
-// part with set_faults(), from any thread; sim/fault_plan.h decides when. Pure.
+// The faults of the simulated devices of one station at one moment. Each device gets its part by
+// set_faults(), from any thread; sim/fault_plan.h decides when. Pure.
 #pragma once
 
 #include <optional>
@@ -8,22 +8,22 @@
 namespace ols::sim {
 
 struct PtuFaults {
-  bool line_cut = false;      // no byte in either direction; the device stays in place
+  bool line_cut = false;      // no byte in either direction; the device node remains
   bool line_gone = false;     // the device itself is gone (an unplugged USB adapter)
   double garble_share = 0.0;  // share of replies with a wrong byte (lost, flipped or inserted)
-  double reply_lost_every_s = 0.0;  // one reply lost each so many seconds; 0: none
-  bool echo_on = false;             // the edge from false to true switches echo on, as EE would
+  double reply_lost_every_s = 0.0;  // interval of lost replies; 0: none lost
+  bool echo_on = false;             // the edge from false to true switches echo on, as EE does
   bool power_cycle = false;         // the edge from false to true: off and on again
-  std::optional<bool> homes_then;   // by itself, when the power comes; nothing: as it was set to
-  double lost_steps_deg = 0.0;      // the edge from 0: pan slips by so much, unnoticed by the unit
+  std::optional<bool> homes_then;   // whether it homes when powered; nullopt: as configured
+  double lost_steps_deg = 0.0;      // the edge from 0: pan slips by this, unnoticed by the unit
   bool operator==(const PtuFaults&) const = default;
 };
 
 struct CameraFaults {
-  bool gone = false;         // answers nothing: unplugged
+  bool gone = false;         // answers nothing, as if unplugged
   double packet_loss = 0.0;  // share of image packets
-  bool no_resend = false;    // as a camera that cannot
-  std::string pixel_format;  // after the next connection the camera insists on it; empty: none
+  bool no_resend = false;    // a camera without packet resend
+  std::string pixel_format;  // that the camera enforces after the next connection; empty: none
   bool operator==(const CameraFaults&) const = default;
 };
 
@@ -37,7 +37,7 @@ struct GnssFaults {
 
 struct InclinometerFaults {
   bool silent = false;
-  bool stuck = false;  // the last value again and again
+  bool stuck = false;  // repeats the last value
   double garble_share = 0.0;
   bool operator==(const InclinometerFaults&) const = default;
 };
@@ -48,7 +48,7 @@ struct StationFaults {
   GnssFaults gnss;
   InclinometerFaults inclinometer;
   bool stop_pressed = false;  // emergency stop
-  bool rearm_held = false;    // no fault: a hand at its re-arm button
+  bool rearm_held = false;    // not a fault: a person holds the re-arm button
   bool operator==(const StationFaults&) const = default;
 };
 

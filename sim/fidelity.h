@@ -1,4 +1,4 @@
-// What the lockstep simulation leaves out, and what its operators do wrong.
+// What the lockstep simulation leaves out, and the mistakes of its operators.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,18 +8,18 @@
 
 namespace ols::sim {
 
-// What the operator marks at one station in place of the first target.
+// A wrong designation by the operator at one station, in place of the first target.
 struct Misdesignation {
   std::string station;
   std::size_t target = 0;                            // of the scenario; its box,
-  Eigen::Vector2d off_px = Eigen::Vector2d::Zero();  // beside it by this,
-  double scale = 1.0;                                // and so many times as large
+  Eigen::Vector2d off_px = Eigen::Vector2d::Zero();  // shifted by this
+  double scale = 1.0;                                // and scaled by this
 };
 
 struct Fidelity {
-  bool pictures = true;  // false: the pixel is the truth with noise of this deviation
+  bool pictures = true;  // false: the pixel is the truth plus noise with this sd
   double pixel_sd_px = 0.3;
-  std::vector<std::string> not_designated = {};  // stations that the operator leaves alone
+  std::vector<std::string> not_designated = {};  // stations without a designation
   std::vector<Misdesignation> misdesignated = {};
 };
 

@@ -73,7 +73,7 @@ std::string Flood::foreign_channel() {
   return name;
 }
 
-// One of the site's own channels, at times for a station of a huge number that is not there.
+// One of the site's own channels, sometimes for a non-existent station with a huge number.
 Packet Flood::damaged() {
   const Channel& channel = kChannels[static_cast<std::size_t>(below(kChannels.size()))];
   std::string name(channel.name);

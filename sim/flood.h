@@ -1,6 +1,6 @@
-// Foreign messages as a shared or hostile network has them: unknown channels, the site's own
-// channels with rubbish in them, with a right fingerprint and a damaged rest, and for stations that
-// do not exist. Pure; deterministic by its seed.
+// Foreign messages as on a shared or hostile network: unknown channels; the site's own channels
+// with random bytes, with a valid fingerprint and a damaged rest, and for stations that do not
+// exist. Pure; deterministic by its seed.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace ols::sim {
 
 class Flood {
  public:
-  // `names`: how many different foreign channels and stations there are. (liblcm remembers each
-  // name that it has ever heard, with or without a subscriber.)
+  // `names`: number of different foreign channels and stations. (liblcm keeps each name that it has
+  // ever received, with or without a subscriber.)
   Flood(std::vector<std::string> stations, int names, std::uint64_t seed);
 
   Packet next();
@@ -31,7 +31,7 @@ class Flood {
   std::mt19937_64 random_;
 };
 
-// A message on a channel that nobody knows; each number has a name of its own, of ordinary length.
+// A message on an unknown channel; each number has its own name, of ordinary length.
 Packet unknown_channel(std::uint64_t number);
 
 }  // namespace ols::sim

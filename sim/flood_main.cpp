@@ -1,5 +1,5 @@
 // ols-sim-flood: floods an LCM bus with foreign and damaged messages, with forged commands, or with
-// channels that nobody knows.
+// unknown channels.
 
 #include <algorithm>
 #include <chrono>
@@ -23,8 +23,8 @@ struct Options {
   double rate_hz = 10000.0;
   std::vector<std::string> stations = {"alfa", "bravo", "charlie", "delta"};
   int names = 1000;
-  std::string commanded;      // station that forged commands go to; empty: foreign messages
-  std::uint64_t unknown = 0;  // so many channels that nobody knows, and the end; 0: the others
+  std::string commanded;      // station of forged commands; empty: foreign messages
+  std::uint64_t unknown = 0;  // number of unknown channels, then ends; 0: not this mode
   std::uint64_t seed = 1;
 };
 
@@ -41,15 +41,15 @@ void define(CLI::App& app, Options& o) {
       app.add_option("--commands", o.commanded,
                      "send forged commands to this station instead: most refused, some obeyed");
   app.add_option("--unknown", o.unknown,
-                 "send instead one message each on so many channels that nobody knows, and end")
+                 "send one message each on this many unknown channels instead, and exit")
       ->check(CLI::Range(1, 1'000'000'000))
       ->excludes(commands);
-  app.add_option("--seed", o.seed, "of what is drawn")
+  app.add_option("--seed", o.seed, "seed of all random numbers")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
 }
 
-// What to send next, by its number.
+// The next message to send, by its number.
 std::function<ols::sim::Packet(std::uint64_t)> source(const Options& o) {
   if (o.unknown > 0) return ols::sim::unknown_channel;
   if (!o.commanded.empty()) {
@@ -65,7 +65,7 @@ std::function<ols::sim::Packet(std::uint64_t)> source(const Options& o) {
 void run(const Options& options) {
   using Clock = std::chrono::steady_clock;
   constexpr auto kTurn = std::chrono::milliseconds(1);
-  constexpr std::uint64_t kMostATurn = 10'000;  // one that cannot keep up can still be ended
+  constexpr std::uint64_t kMostATurn = 10'000;  // an overloaded flood can still be ended
   constexpr auto kTell = std::chrono::seconds(1);
   ols::LcmBus bus(options.url);
   const auto next = source(options);
@@ -96,7 +96,7 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   ols::install_shutdown_handler();
-  CLI::App app("Floods an LCM bus with foreign and damaged messages, or worse, until it is ended.");
+  CLI::App app("Floods an LCM bus with foreign, damaged or forged messages until it is stopped.");
   Options options;
   define(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-sim-flood")) return *status;

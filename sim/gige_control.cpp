@@ -34,7 +34,7 @@ int control_socket(in_addr_t address, bool shared) {
   return -1;
 }
 
-// The mask of the network that the interface with this address is on.
+// The netmask of the interface that has this address.
 in_addr_t network_mask(in_addr_t address) {
   ifaddrs* list = nullptr;
   if (getifaddrs(&list) != 0) return INADDR_BROADCAST;
@@ -97,7 +97,8 @@ void GigeControl::receive(int fd) {
   const ssize_t size =
       recvfrom(fd, packet.data(), packet.size(), 0, reinterpret_cast<sockaddr*>(&from), &from_size);
   if (size <= 0) return;
-  // The host's other interfaces hear broadcasts that a camera on this network would not.
+  // Packets from other networks: the host's other interfaces receive broadcasts that a camera on
+  // this network would not.
   if ((from.sin_addr.s_addr & mask_) != (address_ & mask_)) return;
   const std::uint64_t peer = std::uint64_t{from.sin_addr.s_addr} << 16 | from.sin_port;
   handle_(gige::Bytes(packet).first(static_cast<std::size_t>(size)), peer,

@@ -17,10 +17,11 @@ std::uint32_t camera_address(const std::string& text);
 class GigeControl {
  public:
   using Reply = std::function<void(gige::Bytes acknowledgement)>;
-  // A packet from the client known by `peer` (address << 16 | port); called in the own thread.
+  // A packet from the client `peer` (address << 16
+  //  port); called in the own thread.
   using Handle = std::function<void(gige::Bytes packet, std::uint64_t peer, const Reply& reply)>;
 
-  // Throws std::system_error when the address cannot be had.
+  // Throws std::system_error if the address is not available.
   GigeControl(const std::string& address, Handle handle);
   ~GigeControl();
   GigeControl(const GigeControl&) = delete;
@@ -32,7 +33,7 @@ class GigeControl {
 
   const std::uint32_t address_, mask_;
   const Handle handle_;
-  std::vector<int> sockets_;  // the own address first; the others hear broadcasts
+  std::vector<int> sockets_;  // the own address first; the others receive broadcasts
   int wake_ = -1;
   std::thread thread_;
 };

@@ -20,7 +20,7 @@ constexpr std::string_view kHead = R"(<?xml version="1.0" encoding="utf-8"?>
   ProductGuid="0" VersionGuid="0" xmlns="http://www.genicam.org/GenApi/Version_1_1">
 )";
 
-// What no table below describes.
+// Features that no table below describes.
 constexpr std::string_view kTail = R"(
 <IntSwissKnife Name="PayloadSize">
   <pVariable Name="WIDTH">Width</pVariable>

@@ -1,11 +1,11 @@
-// The GenICam description of the simulated camera: which features it has and where they lie. Pure.
+// The GenICam description of the simulated camera: its features and their registers. Pure.
 #pragma once
 
 #include <string>
 
 namespace ols::sim::gige {
 
-// By what names the features go.
+// The naming of the features.
 enum class FeatureNames {
   kGt1290c,  // those of a Prosilica GT1290C, older than GenICam's convention
   kSfnc,     // GenICam's Standard Features Naming Convention 2.x

@@ -219,7 +219,7 @@ std::vector<std::uint8_t> GigeDevice::read_memory(const gige::ControlPacket& ask
   const std::size_t count = gige::big_endian(asked.data.subspan(4)) & 0xffffU;
   if (count == 0 || count > kMaxBlock || address >= memory_.size())
     return gige::acknowledge(asked, gige::Status::kInvalidAddress, no_data());
-  // Behind the end of the description it reads zeros.
+  // Beyond the end of the description it reads zeros.
   std::vector<std::uint8_t> data(4 + count);
   std::copy_n(asked.data.begin(), 4, data.begin());
   std::copy_n(&memory_[address], std::min(count, memory_.size() - address), data.begin() + 4);

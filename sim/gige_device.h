@@ -1,7 +1,7 @@
-// The registers of a simulated GigE Vision camera and what its control channel answers.
+// The registers of a simulated GigE Vision camera and the answers of its control channel.
 //
-// Not Aravis' fake camera: it has no time latch and no trigger line, all its cameras expose at the
-// same instant, and drawing a picture blocks its control channel.
+// Aravis' fake camera does not suffice: it has no time latch and no trigger line, all its cameras
+// expose at the same instant, and drawing an image blocks its control channel.
 #pragma once
 
 #include <cstdint>
@@ -48,33 +48,33 @@ struct GigeDeviceConfig {
   int width_px = 0, height_px = 0;
   double exposure_s = 0.005;
   gige::FeatureNames names = gige::FeatureNames::kGt1290c;
-  bool tick_frequency = true;  // false: its register reads 0, as some firmware has it
+  bool tick_frequency = true;  // false: its register reads 0, as in some firmware
 };
 
 class GigeDevice {
  public:
   explicit GigeDevice(const GigeDeviceConfig& config);
 
-  // A control packet from the client known by `peer` (address << 16 | port); the camera's clock and
-  // the monotonic one.
+  // A control packet from the client `peer` (address << 16
+  //  port); the camera's clock and the monotonic one.
   Answer handle(gige::Bytes packet, std::uint64_t peer, std::int64_t clock_ns, double time_s);
 
-  // What to stream, nothing while no client wants it. A client that is silent for longer than the
-  // heartbeat allows is forgotten.
+  // What to stream; nullopt while no client streams. A client silent for longer than the heartbeat
+  // timeout is forgotten.
   std::optional<StreamSettings> streaming(double time_s);
 
-  // Whether its clock follows a PTP master by now.
+  // Whether its clock already follows a PTP master.
   bool ptp_slave(double time_s);
 
-  // The camera forgets the size that was set, as after a reset.
+  // The camera forgets the set size, as after a reset.
   void set_size(int width_px, int height_px);
   // It forgets everything: off and on again.
   void power_cycle();
   void set_temperature(double temperature_degC);
 
-  // Whether the camera says that it can send lost packets again; and the pixel format (by its
-  // GenICam name) that it keeps from the next connection on, whatever a client writes; empty: none.
-  // Throws std::invalid_argument on an unknown name.
+  // Whether the camera claims to support packet resend; and the pixel format (by its GenICam name)
+  // that it enforces from the next connection on, whatever a client writes; empty: none. Throws
+  // std::invalid_argument for an unknown name.
   void set_faults(bool can_resend, const std::string& pixel_format);
 
  private:
@@ -100,11 +100,12 @@ class GigeDevice {
   mutable std::mutex mutex_;
   std::vector<std::uint8_t> memory_;  // registers and, behind them, the description
   std::optional<std::uint64_t> controller_;
-  double heard_s_ = 0.0;  // from the controller, last
+  double heard_s_ = 0.0;  // last packet from the controller
   bool can_resend_ = true;
-  bool triggered_ = false;                                       // by the packet in hand
-  std::optional<double> ptp_since_s_;                            // when PTP was switched on
-  std::optional<std::uint32_t> kept_format_, kept_format_next_;  // PFNC; now, and once opened again
+  bool triggered_ = false;             // by the current packet
+  std::optional<double> ptp_since_s_;  // when PTP was switched on
+  std::optional<std::uint32_t> kept_format_,
+      kept_format_next_;  // PFNC; now, and after the next connection
 };
 
 }  // namespace ols::sim

@@ -6,7 +6,7 @@
 
 namespace ols::sim::gige {
 
-constexpr std::uint32_t kMemory = 0x10000;  // [byte]; the GenICam description lies behind
+constexpr std::uint32_t kMemory = 0x10000;  // [byte]; the GenICam description follows
 
 // GigE Vision 1.x, bootstrap registers.
 constexpr std::uint32_t kVersion = 0x0000, kDeviceMode = 0x0004;
@@ -44,10 +44,10 @@ constexpr std::uint32_t kStreamBytesPerSecond = 0xa080;
 
 // Values of kTriggerSource; 1 to 4 are the lines.
 constexpr std::uint32_t kFreerun = 0, kFixedRate = 5, kSoftware = 6;
-// Values of kPtpMode other than 0, off, and of kPtpStatus.
+// Values of kPtpMode other than 0 (off), and of kPtpStatus.
 constexpr std::uint32_t kPtpOff = 0, kPtpSyncing = 1, kPtpSlave = 2;
 
-// GenICam's codes (PFNC) of the pixel formats that it offers.
+// GenICam's codes (PFNC) of the available pixel formats.
 constexpr std::uint32_t kMono8 = 0x01080001;
 constexpr std::uint32_t kBayerGR8 = 0x01080008, kBayerRG8 = 0x01080009;
 constexpr std::uint32_t kBayerGB8 = 0x0108000a, kBayerBG8 = 0x0108000b;

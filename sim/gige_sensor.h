@@ -1,4 +1,4 @@
-// What the simulated camera makes of a gray picture: the bytes of its pixel format. Pure.
+// Converts a gray image to the bytes of the simulated camera's pixel format. Pure.
 #pragma once
 
 #include <array>
@@ -7,11 +7,11 @@
 
 namespace ols::sim::gige {
 
-// OpenCV's type of a picture of this format (PFNC code).
+// OpenCV's type of an image of this format (PFNC code).
 int picture_type(std::uint32_t pixel_format);
 
-// `gray` seen through a tint (of red, green, blue) in this format. `raw` has the right size and
-// type already.
+// `gray` with a tint (of red, green, blue) in this format. `raw` already has the right size and
+// type.
 void develop(const cv::Mat& gray, const std::array<double, 3>& tint, std::uint32_t pixel_format,
              cv::Mat& raw);
 

@@ -15,11 +15,11 @@
 namespace ols::sim {
 namespace {
 
-constexpr std::size_t kKept = 2;     // frames that can be asked for again
-constexpr std::size_t kWaiting = 2;  // frames to be sent, at most
+constexpr std::size_t kKept = 2;     // frames available for resend
+constexpr std::size_t kWaiting = 2;  // max frames waiting to be sent
 
-// What is due within the first goes out at once: a sleep is no more exact. Who is later than the
-// second does not catch up, or the packets would come in bursts as no link brings them.
+// Packets due within the first are sent at once: a sleep is no more exact. A sender later than the
+// second does not catch up; otherwise the packets would come in unrealistic bursts.
 constexpr std::int64_t kGrain_ns = 300'000, kCatchUp_ns = 2'000'000;
 
 void sleep_until(std::int64_t monotonic_ns) {
@@ -68,7 +68,7 @@ cv::Mat GigeStream::blank(int width_px, int height_px, int type) {
   const std::lock_guard lock(mutex_);
   cv::Mat picture;
   if (sent_.size() > kKept + kWaiting) {
-    // Nobody else holds it: resend() works under the lock, and it was sent long ago.
+    // It has no other owner: resend() works under the lock, and it was sent long ago.
     picture = sent_.front()->picture;
     sent_.pop_front();
   }
@@ -104,7 +104,7 @@ void GigeStream::send_packet(const Sent& sent, std::uint32_t packet, gige::Statu
   message.msg_namelen = sizeof to;
   message.msg_iov = parts.data();
   message.msg_iovlen = status == gige::Status::kSuccess ? 2 : 1;
-  // What the network loses is the client's to notice.
+  // The client must notice what the network loses.
   [[maybe_unused]] const ssize_t result = sendmsg(fd_, &message, MSG_NOSIGNAL);
 }
 

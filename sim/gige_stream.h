@@ -1,5 +1,5 @@
-// The stream channel of a simulated GigE Vision camera: a picture as packets on the wire, and again
-// the packets that the client has lost.
+// The stream channel of a simulated GigE Vision camera: sends an image as packets, and resends
+// packets that the client has lost.
 #pragma once
 
 #include <condition_variable>
@@ -24,15 +24,15 @@ class GigeStream {
   GigeStream(const GigeStream&) = delete;
   GigeStream& operator=(const GigeStream&) = delete;
 
-  // A picture to draw into: one whose frame can no longer be asked for again.
+  // An image to draw into: one whose frame is no longer available for resend.
   cv::Mat blank(int width_px, int height_px, int type);
-  // Sends the picture in the client's pace and keeps it for resend(). Returns at once, but for a
-  // client that wants the packets slower than the pictures come.
+  // Sends the image at the client's rate and keeps it for resend(). Returns at once, unless the
+  // client wants packets slower than images come.
   void send(const StreamSettings& settings, const gige::Picture& description,
             const cv::Mat& picture);
   void resend(const ResendRequest& request);
 
-  // From now on this share of packets gets lost; and whether lost ones are sent again.
+  // The share of lost packets from now on, and whether lost ones are resent.
   void set_loss(double share, bool can_resend);
 
  private:
@@ -50,7 +50,7 @@ class GigeStream {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::shared_ptr<const Sent>> waiting_;  // to be sent
-  std::deque<std::shared_ptr<const Sent>> sent_;     // or on its way; the newest last
+  std::deque<std::shared_ptr<const Sent>> sent_;     // or being sent; the newest last
   bool stop_ = false;
 
   std::mutex loss_mutex_;

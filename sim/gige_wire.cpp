@@ -10,7 +10,7 @@ constexpr std::uint8_t kCommandKey = 0x42;
 constexpr std::size_t kControlHeader = 8;
 constexpr std::uint16_t kImage = 1;  // payload type
 
-// Writes numbers one after the other, the most significant byte first.
+// Writes numbers one after the other, most significant byte first.
 class Writer {
  public:
   explicit Writer(std::span<std::uint8_t> to) : to_(to) {}
@@ -71,7 +71,7 @@ std::array<std::uint8_t, kHeader> stream_header(std::uint16_t id, Content conten
 }
 
 std::array<std::uint8_t, 36> leader(const Picture& picture) {
-  std::array<std::uint8_t, 36> bytes{};  // what is left out below is zero: offsets and paddings
+  std::array<std::uint8_t, 36> bytes{};  // fields left out below are zero: offsets and paddings
   Writer(bytes)
       .put(std::uint16_t{0})
       .put(kImage)

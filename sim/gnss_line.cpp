@@ -17,7 +17,7 @@ namespace ols::sim {
 
 namespace {
 
-constexpr double kLongestSleep_s = 0.02;  // so that an end is noticed
+constexpr double kLongestSleep_s = 0.02;  // so that it ends promptly
 constexpr double kWander_s = 60.0;
 
 }  // namespace
@@ -40,7 +40,7 @@ struct GnssLine::Impl {
     double next_s = clock_monotonic_s();
     while (!stop.stop_requested()) {
       pty.wait(std::clamp(next_s - clock_monotonic_s(), 0.0, kLongestSleep_s));
-      static_cast<void>(pty.read());  // it obeys nobody
+      static_cast<void>(pty.read());  // it ignores all commands
       if (clock_monotonic_s() < next_s) continue;
       next_s = std::max(next_s + 1.0 / config.rate_hz, clock_monotonic_s());
       send_epoch();
@@ -63,7 +63,7 @@ struct GnssLine::Impl {
     pty.write(spoilt(nmea_epoch(epoch), now.garble_share));
   }
 
-  // Gauss and Markov's process of first order.
+  // First-order Gauss-Markov process.
   void wander() {
     const double kept = std::exp(-1.0 / (config.rate_hz * kWander_s));
     error_enu_m =
@@ -99,7 +99,7 @@ struct GnssLine::Impl {
   const std::function<std::int64_t()> utime_us;
   const LocalFrame frame;
   const Eigen::Vector3d sd_enu_m;
-  std::mutex mutex;  // of faults
+  std::mutex mutex;  // for faults
   GnssFaults faults;
   std::mt19937_64 random;
   std::normal_distribution<double> normal;

@@ -1,4 +1,4 @@
-// A GNSS receiver on a pseudo terminal in real time, sending NMEA: what gpsd opens.
+// A GNSS receiver on a pseudo terminal in real time, sending NMEA for gpsd.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 namespace ols::sim {
 
 struct GnssLineConfig {
-  Geodetic antenna;       // where it truly is
-  double geoid_m = 44.0;  // of the geoid above the ellipsoid there
-  // 1-sigma of the error, which wanders within a minute, as multipath does; it is stated rightly.
+  Geodetic antenna;       // true position
+  double geoid_m = 44.0;  // height of the geoid above the ellipsoid there
+  // 1-sigma of the error, which wanders within a minute, like multipath; it is stated correctly.
   double sd_horizontal_m = 0.01;  // of each of east and north
   double sd_up_m = 0.015;
   int quality = 4;  // of GGA: RTK fixed

@@ -86,7 +86,7 @@ struct GpioServer::Impl {
     const bool high = line == config.stop_line ? pressed != config.stop_active_low
                                                : rearm_held != config.rearm_active_low;
     const std::string text = "in " + std::to_string(line) + (high ? " 1\n" : " 0\n");
-    // Who does not read is told no more; the next poll finds who is gone.
+    // A client that does not read gets no more; the next poll finds closed ones.
     [[maybe_unused]] const ssize_t n = ::send(fd, text.data(), text.size(), MSG_NOSIGNAL);
   }
 
@@ -109,7 +109,7 @@ struct GpioServer::Impl {
     clients.erase(fd);
   }
 
-  // False when the message is none of the protocol.
+  // False for a message that is not of the protocol.
   bool obey(int fd, const std::string& text) {
     int line = -1, level = -1;
     char more = 0;
@@ -134,8 +134,8 @@ struct GpioServer::Impl {
   const int listener;
   const int bell = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
 
-  mutable std::mutex mutex;            // of everything below
-  std::map<int, std::string> clients;  // what each has sent of an unfinished line
+  mutable std::mutex mutex;            // for everything below
+  std::map<int, std::string> clients;  // the unfinished line of each
   bool pressed = false, rearm_held = false, silent = false;
   bool led = false, trigger = false;
   std::uint64_t led_changes = 0, triggers = 0;

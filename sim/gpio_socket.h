@@ -1,5 +1,5 @@
-// GPIO lines on a Unix socket, as edge/gpio/gpio_lines.h has its protocol: an emergency stop and
-// a re-arm button to press, a status LED and a camera trigger to look at. Thread-safe.
+// GPIO lines on a Unix socket, with the protocol of edge/gpio/gpio_lines.h: inputs for emergency
+// stop and re-arm button, outputs for status LED and camera trigger. Thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace ols::sim {
 
 struct GpioServerConfig {
-  std::string path;  // of the socket; a leftover there is replaced
+  std::string path;  // of the socket; an old one is replaced
   int stop_line = 17;
   bool stop_active_low = false;  // as in GpioConfig
   int rearm_line = 18;
@@ -27,7 +27,7 @@ class GpioServer {
 
   void set_pressed(bool pressed);
   void hold_rearm(bool held);
-  // Connections stay open and nothing is answered: a process that hangs.
+  // Connections stay open without an answer: a process that hangs.
   void set_silent(bool silent);
 
   bool led() const;

@@ -17,7 +17,7 @@ namespace ols::sim {
 
 namespace {
 
-constexpr double kLongestSleep_s = 0.02;  // so that an end is noticed
+constexpr double kLongestSleep_s = 0.02;  // so that it ends promptly
 constexpr const char* kVersion = "DPG2 V1.4\r\n";
 
 }  // namespace
@@ -81,7 +81,7 @@ struct InclinometerLine::Impl {
   }
 
   const InclinometerLineConfig config;
-  std::mutex mutex;  // of faults
+  std::mutex mutex;  // for faults
   InclinometerFaults faults;
   std::mt19937_64 random;
   std::normal_distribution<double> normal;

@@ -12,9 +12,9 @@
 namespace ols::sim {
 
 struct InclinometerLineConfig {
-  // Of the tripod's head, in the sense of the kinematic chain.
+  // Of the tripod's head, as in the kinematic chain.
   double tilt_x_rad = 0.0, tilt_y_rad = 0.0;
-  double zero_sd_rad = 0.0;   // of each axis' zero: drawn once
+  double zero_sd_rad = 0.0;   // of the zero of each axis: drawn once
   double noise_sd_rad = 0.0;  // of each reading
   double rate_hz = 10.0;
 };

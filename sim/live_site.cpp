@@ -21,18 +21,18 @@ namespace ols::sim {
 namespace {
 
 constexpr double kPtuSample_s = 0.0025;
-constexpr std::int64_t kMostPtuSamples = 400;  // a line remembers two seconds
+constexpr std::int64_t kMostPtuSamples = 400;  // a line keeps two seconds
 
 }  // namespace
 
-// One station's devices. The camera's thread draws, so it ends before what it draws with.
+// One station's devices. The camera's thread draws, so it ends before the objects that it uses.
 struct LiveSite::Device {
   std::size_t station = 0;
   std::unique_ptr<Renderer> renderer;
   std::unique_ptr<PtuDevice> ptu;
   std::unique_ptr<CameraServer> camera;
   std::unique_ptr<GpioServer> gpio;
-  std::unique_ptr<InclinometerLine> inclinometer;  // nothing: the scenario has none
+  std::unique_ptr<InclinometerLine> inclinometer;  // null: not in the scenario
   std::unique_ptr<GnssLine> gnss;
   StationFaults faults;              // as applied
   std::int64_t stop_edge_utime = 0;  // true UTC
@@ -120,7 +120,7 @@ std::int64_t LiveSite::true_utime_us(double scenario_s) const {
 }
 
 void LiveSite::draw(Device& device, const Exposure& exposure, cv::Mat& gray) {
-  // The host's clock is the station's clock; the world is seen at the true time of that instant.
+  // The host's clock is the station's clock; the world is drawn at the true time of that instant.
   const double offset_s = world_.stations()[device.station].clock_offset_s;
   const std::int64_t mid_monotonic_ns =
       exposure.start_monotonic_ns + std::llround(0.5e9 * exposure.exposure_s);
@@ -176,7 +176,7 @@ void LiveSite::publish_target(std::size_t index, double now_s) {
 
 void LiveSite::publish_ptu(Device& device, double now_s) {
   const auto due = static_cast<std::int64_t>(now_s / kPtuSample_s);
-  // After a pause of this process only what the line still remembers.
+  // After a pause of this process, only the time that the line still keeps.
   device.ptu_samples = std::max(device.ptu_samples, due - kMostPtuSamples);
   ols_msg::truth_ptu_t message;
   message.utime = true_utime_us(static_cast<double>(device.ptu_samples) * kPtuSample_s);

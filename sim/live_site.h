@@ -1,5 +1,5 @@
 // The world in real time, behind real wires: a GigE Vision camera, and PTU, inclinometer and GNSS
-// receiver on ptys, for every station. The truth goes out on channels that no product process
+// receiver on ptys, for every station. The truth is published on channels that no product process
 // reads; faults come from the scenario and by OLS_SIM_FAULT.
 #pragma once
 
@@ -21,19 +21,18 @@ namespace ols::sim {
 
 class LiveSite {
  public:
-  // The scenario's time 0 is now, and true UTC is what the host's clock says now; from here on the
-  // monotonic clock counts, so that a step of the host's clock does not move the targets.
-  // `line_folder`: where the serial lines are linked. Throws std::system_error when an address or a
-  // link cannot be had.
+  // The scenario's time 0 is now, and true UTC is the host's clock now. From here on the monotonic
+  // clock counts, so that a step of the host's clock does not move the targets. `line_folder`: for
+  // the links to the serial lines. Throws std::system_error if an address or a link is not
+  // available.
   LiveSite(const World& world, const std::string& line_folder, LcmBus& bus);
   ~LiveSite();
 
-  // OLS_SIM_TRUTH and OLS_SIM_PTU_<station>: targets and PTUs as they are now, and have been since
-  // the last call.
+  // OLS_SIM_TRUTH and OLS_SIM_PTU_<station>: targets and PTUs now, and since the last call.
   void publish_truth();
 
-  // Gives every device the faults that hold now. Call it every few milliseconds, in the thread that
-  // handles the bus.
+  // Applies the currently active faults to every device. Call it every few milliseconds, in the
+  // thread that handles the bus.
   void apply_faults();
 
  private:

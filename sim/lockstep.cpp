@@ -57,7 +57,7 @@ void Lockstep::send(std::size_t station, const station::Bearing& bearing, double
   const StationTruth& truth = world_.stations()[station];
   fusion::BearingMeasurement sighting;
   sighting.station = truth.id;
-  // The station's clock is off; its own times of frame and angles agree with each other.
+  // The station's clock is off; its times of frame and angles are consistent with each other.
   const double exposed_s = bearing.mid_exposure_s - monotonic_s(0.0);
   sighting.utime_us = utime_us(exposed_s + truth.clock_offset_s);
   sighting.sight = bearing.sight;
@@ -98,7 +98,7 @@ void Lockstep::record(const fusion::FusedTarget& target, std::vector<Fix>& fixes
 void Lockstep::deliver(const AddressedSlew& addressed, double time_s) {
   const fusion::Slew& slew = addressed.slew;
   std::int64_t& newest_us = newest_slew_us_[addressed.station];
-  if (slew.utime_us <= newest_us) return;  // doubled or overtaken
+  if (slew.utime_us <= newest_us) return;  // duplicated or overtaken
   newest_us = slew.utime_us;
   station::SlewCommand command;
   const double offset_s = world_.stations()[addressed.station].clock_offset_s;

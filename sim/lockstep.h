@@ -15,7 +15,7 @@
 
 namespace ols::sim {
 
-// One published target beside the truth, in the site's east, north, up.
+// One published target and the truth, in the site's east, north, up.
 struct Fix {
   std::int64_t utime_us = 0;
   double time_s = 0.0;  // of the scenario
@@ -31,7 +31,7 @@ struct LockstepResult {
   std::vector<StationRecord> stations;
   std::map<std::string, double> counters;  // of the fusion at the end
   std::vector<std::string> alarms;         // of the fusion at the end
-  double designated_s = -1.0;  // when the last station that is to be was; < 0: not all were
+  double designated_s = -1.0;  // when the last station was designated; < 0: not all were
 };
 
 class Lockstep {

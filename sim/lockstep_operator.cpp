@@ -7,12 +7,12 @@ namespace ols::sim {
 namespace {
 
 constexpr double kBoot_s = 100.0;         // of the monotonic clock at the scenario's start
-constexpr double kOperatorDelay_s = 0.3;  // what the operator sees is as old as this
+constexpr double kOperatorDelay_s = 0.3;  // delay of the operator's image
 constexpr double kPointInterval_s = 2.0, kPointLead_s = 1.2;
-constexpr double kStill_s = 0.1;   // nobody marks a target in a sweeping picture
-constexpr double kSettle_s = 1.5;  // from the PTU's readiness to the first look
+constexpr double kStill_s = 0.1;   // no one designates a target in a moving image
+constexpr double kSettle_s = 1.5;  // from the PTU's readiness to the first designation
 constexpr double kRemembered_s = 1.0;
-constexpr double kDesignationSd_px = 1.0;  // of each axis, as StationConfig expects it of a person
+constexpr double kDesignationSd_px = 1.0;  // of each axis, as StationConfig assumes for a person
 
 }  // namespace
 
@@ -81,7 +81,7 @@ void LockstepOperator::designate_seen(double time_s) {
       station_.designate({frame->stamp_s, *box}, monotonic_s(time_s)) == station::Refusal::kNone;
 }
 
-// The target's box, or what this operator takes for it; nothing: it is not in the picture.
+// The target's box as this operator designates it; nullopt: it is not in the image.
 std::optional<cv::Rect2d> LockstepOperator::marked(const Seen& seen) const {
   if (!wrong_) return seen.view.box;
   const ViewTruth view = view_truth(world_, index_, seen.exposure, wrong_->target);

@@ -1,5 +1,5 @@
-// The operator of one station in simulated time: points the camera roughly, and marks the target as
-// soon as it is seen in a picture that stands still.
+// The operator of one station in simulated time: points the camera roughly, and designates the
+// target as soon as it is in a stationary image.
 #pragma once
 
 #include <deque>
@@ -14,7 +14,7 @@
 
 namespace ols::sim {
 
-// All that is random at one station, in the order in which it is asked for.
+// All random numbers of one station, in the order of their use.
 struct LockstepNoise {
   explicit LockstepNoise(std::uint64_t seed) : generator(seed) {}
   double uniform() { return std::uniform_real_distribution<double>()(generator); }
@@ -40,7 +40,7 @@ class LockstepOperator {
                    LockstepNoise& noise, const PtuUnit& unit, station::Station& station);
 
   void see(const Seen& seen);
-  // What it does at this instant, the PTU being ready.
+  // The operator's action at this instant, with the PTU ready.
   void act(double time_s);
 
   bool designated() const { return designated_; }
@@ -55,7 +55,7 @@ class LockstepOperator {
   const World& world_;
   std::size_t index_;
   LockstepNoise& noise_;
-  const PtuUnit& unit_;  // as its picture shows
+  const PtuUnit& unit_;  // as its image shows
   station::Station& station_;
   std::optional<Misdesignation> wrong_;
   bool leaves_alone_;

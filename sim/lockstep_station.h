@@ -1,5 +1,5 @@
-// One station in simulated time: the product's Station and PTU driver, joined to a simulated unit
-// by bytes and to a simulated camera by frames.
+// One station in simulated time: the product's Station and PTU driver, connected to a simulated
+// unit by bytes and to a simulated camera by frames.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +20,16 @@
 
 namespace ols::sim {
 
-// One frame after the designation, or of a station that is left alone: what the station made of it,
-// beside the truth.
+// One frame after the designation, or of a station without one: the station's result and the truth.
 struct FrameNote {
   double mid_s = 0.0;  // true time since the scenario's start
   station::StationState state = station::StationState::kIdle;
   double belief = 0.0;
   ViewTruth view;
-  bool inside_third = false;                // the target is inside the central third, both ways
-  std::optional<Eigen::Vector2d> error_px;  // of the pixel measured, while tracking
-  std::optional<cv::Rect2d> box;            // [px] as the tracker has it
-  std::vector<std::string> alarms;          // of the station's own decisions
+  bool inside_third = false;  // the target is inside the central third, horizontally and vertically
+  std::optional<Eigen::Vector2d> error_px;  // of the measured pixel, while tracking
+  std::optional<cv::Rect2d> box;            // [px] of the tracker
+  std::vector<std::string> alarms;          // of the station's own logic
 };
 
 struct StationRecord {
@@ -41,11 +40,11 @@ struct StationRecord {
 
 class LockstepStation {
  public:
-  // `renderer` is null without pictures; `world` must outlive the station.
+  // `renderer` is null without images; `world` must outlive the station.
   LockstepStation(const World& world, std::size_t index, const Fidelity& fidelity,
                   std::unique_ptr<Renderer> renderer);
 
-  // Goes on to this instant of true time (by a millisecond or so); returns the bearings made.
+  // Advances to this instant of true time (in steps of about a millisecond); returns the bearings.
   std::vector<station::Bearing> advance(double time_s);
 
   station::Refusal slew(station::SlewCommand command, double time_s);
@@ -74,7 +73,7 @@ class LockstepStation {
   LockstepOperator operator_;
   StationRecord record_;
   std::int64_t next_frame_ = 0;
-  bool limits_known_ = false;  // to the station
+  bool limits_known_ = false;  // sent to the station
 };
 
 }  // namespace ols::sim

@@ -36,7 +36,7 @@ struct Options {
 
 void define(CLI::App& app, Options& o) {
   app.add_option("--scenario", o.scenario, "scenario file (TOML)")->required();
-  app.add_option("--seed", o.seed, "seed of everything that is drawn")
+  app.add_option("--seed", o.seed, "seed of all random numbers")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--lcm-url", o.lcm_url, "LCM network of the stations and of the truth")
@@ -44,18 +44,18 @@ void define(CLI::App& app, Options& o) {
   app.add_option("--directory", o.line_folder, "folder for the links to the PTUs' serial lines")
       ->capture_default_str();
   app.add_option("--write-configs", o.config_folder,
-                 "write the stations' configuration files into this folder, and end");
+                 "write the stations' configuration files into this folder and exit");
   app.add_option("--state-folder", o.state_folder,
-                 "with --write-configs: where the stations remember how they were left; what is "
-                 "new there is left released, with its unit's reference checked");
+                 "with --write-configs: folder of the stations' persisted state; new stations are "
+                 "released, with a checked PTU reference");
   app.add_flag("--list", o.list,
-               "print id, camera address and serial line of each station, and end");
-  app.add_option("--target", o.target, "keep only this one of the scenario's targets (its id)");
+               "print id, camera address and serial line of each station and exit");
+  app.add_option("--target", o.target, "simulate only this target of the scenario (its id)");
   app.add_option("--without", o.without,
-                 "switch these errors of the scenario off: heading,tilt,...")
+                 "switch off these errors of the scenario: heading,tilt,...")
       ->delimiter(',');
   app.add_option("--stationing", o.stationing,
-                 "how the stations find their headings, instead of the scenario's way: drawn, "
+                 "how the stations find their headings, in place of the scenario's method: drawn, "
                  "each-other, landmarks");
   const auto lockstep =
       app.add_flag("--lockstep", o.lockstep, "simulated time, stations and fusion in this process");
@@ -64,8 +64,7 @@ void define(CLI::App& app, Options& o) {
       ->check(CLI::Range(1.0, 86400.0));
   app.add_option("--output", o.output, "folder for the lockstep run's files")->needs(lockstep);
   lockstep->needs("--output");
-  app.add_flag("--pixels", o.pixels,
-               "lockstep without pictures: the pixel is the truth with drawn noise")
+  app.add_flag("--pixels", o.pixels, "lockstep without images: the pixel is the truth plus noise")
       ->needs(lockstep);
   app.add_option("--pixel-sd", o.pixel_sd_px, "[px] deviation of that noise, each coordinate")
       ->capture_default_str()

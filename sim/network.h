@@ -1,5 +1,5 @@
-// The network between stations and fusion in simulated time: it delays, loses, doubles and delivers
-// late. Deterministic; messages that arrive at the same instant keep their order of sending.
+// The network between stations and fusion in simulated time: it delays, loses and duplicates
+// messages. Deterministic; messages that arrive at the same instant keep their order of sending.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class Network {
   Network(const Errors::Messages& errors, std::uint64_t seed) : errors_(errors), generator_(seed) {}
 
   void send(const Message& message, double time_s) {
-    // All are drawn, so that one switch does not shift the others.
+    // All random numbers are always drawn, so that one switch does not change the others.
     const bool lost = draw() < errors_.lost, doubled = draw() < errors_.doubled;
     const bool late = draw() < errors_.late;
     if (errors_.on && lost) return;
@@ -27,7 +27,7 @@ class Network {
     if (errors_.on && doubled) put(message, arrival_s + errors_.delay_s);
   }
 
-  // What has arrived by now, in the order of arrival.
+  // The messages that have arrived by now, in order of arrival.
   std::vector<Message> receive(double time_s) {
     std::vector<Message> arrived;
     while (!queue_.empty() && queue_.begin()->first.first <= time_s) {

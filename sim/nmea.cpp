@@ -78,7 +78,7 @@ std::string gsa(const NmeaEpoch& e, const System& system, int satellites) {
          std::to_string(system.id);
 }
 
-// All of one system in view, four in a sentence.
+// All satellites of one system in view, four per sentence.
 std::string gsv(const System& system, int satellites) {
   const int sentences = (satellites + 3) / 4;
   std::string out;

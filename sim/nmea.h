@@ -1,4 +1,4 @@
-// The sentences (NMEA 0183 4.10) that a receiver of several systems sends in one epoch. Pure.
+// The sentences (NMEA 0183 4.10) of one epoch of a multi-system receiver. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ struct NmeaEpoch {
   bool has_fix = true;  // false: no position in any sentence
   int quality = 4;      // of GGA: 1 plain, 2 differential, 4 RTK fixed, 5 RTK float
   Geodetic antenna;
-  double geoid_m = 44.0;                           // of the geoid above the ellipsoid
+  double geoid_m = 44.0;                           // height of the geoid above the ellipsoid
   Eigen::Vector3d sd_enu_m{0.01, 0.01, 0.015};     // stated
   int gps_satellites = 8, glonass_satellites = 6;  // in view and used; at most 12 each
 };

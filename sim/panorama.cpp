@@ -11,13 +11,14 @@
 namespace ols::sim {
 namespace {
 
-constexpr int kCell = 32;            // [px] of the coarse grid; bilinear in between errs < 0.01 px
-constexpr int kPeriod = 2048;        // [texel] of the slopes' texture
-constexpr double kAirLight = 190.0;  // [gray] far slopes fade into this
+constexpr int kCell = 32;      // [px] of the coarse grid; bilinear interpolation errs by < 0.01 px
+constexpr int kPeriod = 2048;  // [texel] of the slopes' texture
+constexpr double kAirLight = 190.0;  // [gray] distant slopes fade to this
 constexpr double kSkyTexel = radians(0.1);
 constexpr double kSkyBottom = radians(-10.0), kSkyTop = radians(70.0);
 
-// How far a pixel may be from the image's centre, with room for azimuths that widen with elevation.
+// Max distance of a pixel from the image's centre, with a margin for azimuths that widen with
+// elevation.
 double reach_px(const CameraIntrinsics& camera) {
   return 0.6 * std::hypot(camera.width_px, camera.height_px);
 }
@@ -110,8 +111,8 @@ void Panorama::draw(const Eigen::Matrix3d& R_enu_cam, cv::Mat& gray) {
 
 void Panorama::compute_nodes(const Eigen::Matrix3d& R_enu_cam) {
   const AzimuthElevation axis = azimuth_elevation_from_enu(R_enu_cam.col(2));
-  // Nodes relative to a corner of the texture's period beyond the upper left of the picture, so
-  // that they are small, positive and precise as floats.
+  // Nodes relative to a corner of the texture's period beyond the upper left of the image, so that
+  // they are small, positive and precise as floats.
   const double reach = reach_px(camera_);
   const double u_axis = axis.azimuth_rad * texels_per_rad_;
   const double v_axis = -axis.elevation_rad * texels_per_rad_;
@@ -179,7 +180,7 @@ void Panorama::find_ridge_rows() {
     for (int iteration = 0; iteration < 4; ++iteration) {
       const Node n = node_at(static_cast<float>(x), y);
       const auto u = (origin + static_cast<std::int64_t>(n.u) + 2 * around) % around;
-      // Elevation grows upwards, rows downwards, both by nearly one texel a pixel.
+      // Elevation grows upwards, rows downwards, both by nearly one texel per pixel.
       y += -ridge_[static_cast<std::size_t>(u)] - static_cast<float>(n.v + v_origin_);
       y = std::clamp(y, -4000.0F, 4000.0F);
     }

@@ -1,5 +1,5 @@
-// What stands behind the target: wooded slopes below a ridge line, sky and clouds above it. All of
-// it at infinity, so that the background moves by a pure rotation's homography.
+// The background of the target: wooded slopes below a ridge line, sky and clouds above it. All at
+// infinity, so that it moves by a pure rotation's homography.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,12 +17,12 @@ cv::Mat slopes_texture(const Landscape& landscape, const CameraIntrinsics& camer
 
 class Panorama {
  public:
-  // One panorama a station, of about one texel per pixel of this camera. `slopes` is a texture from
-  // slopes_texture(), which stations share.
+  // One panorama per station, of about one texel per pixel of this camera. `slopes` is a texture
+  // from slopes_texture(), which stations share.
   Panorama(const Landscape& landscape, const CameraIntrinsics& camera, const cv::Mat& slopes,
            std::uint64_t seed);
 
-  // Draws the background of a picture taken with this rotation (camera to east-north-up).
+  // Draws the background of an image taken with this rotation (camera to east-north-up).
   void draw(const Eigen::Matrix3d& R_enu_cam, cv::Mat& gray);
 
   // Elevation of the ridge line at an azimuth.
@@ -37,7 +37,7 @@ class Panorama {
   Node node_at(float x, float y) const;
   void draw_sky(int end, cv::Mat& gray) const;  // rows before `end`
   void find_ridge_rows();
-  // Rows from `first` hold slopes, rows from `pure` nothing else.
+  // Rows from `first` contain slopes, rows from `pure` only slopes.
   void draw_slopes(int first, int pure, cv::Mat& gray) const;
   void sample_row(int y, std::uint8_t* out) const;
   void blend_row(int y, const std::uint8_t* in, std::uint8_t* out) const;
@@ -48,7 +48,7 @@ class Panorama {
   cv::Mat sky_;               // float, whole panorama, coarse
   std::vector<float> ridge_;  // elevation in texels, for each texel of azimuth
 
-  // Per picture.
+  // Per image.
   int columns_ = 0, rows_ = 0;             // of the grid
   std::vector<Eigen::Vector3d> rays_cam_;  // of the grid's nodes
   std::vector<Node> nodes_;

@@ -11,8 +11,8 @@ namespace ols::sim {
 
 namespace {
 
-// What a D46 takes its resolution for as long as it has not found its gears at a reset: the
-// coarsest of the family.
+// The resolution that a D46 assumes until it has found its gears at a reset: the coarsest of the
+// family.
 constexpr double kUnknownGears_arcsec = 185.1428;
 
 struct Phrase {  // `before` holds % for the name of the axis

@@ -1,4 +1,4 @@
-// What the simulated PTU says to queries: the texts of the PTU-D46's manual and of transcripts of
+// The simulated PTU's answers to queries: texts from the PTU-D46's manual and from transcripts of
 // real units.
 #pragma once
 
@@ -17,15 +17,15 @@ class PtuAnswers {
   PtuAnswers(const PtuUnitConfig& config, const PtuSetup& setup, const PtuMotion& motion)
       : config_(config), setup_(setup), motion_(motion) {}
 
-  // Of one axis: the number alone, and in the words that are set. `what`: one of PORNXSDABUL.
+  // Of one axis: the bare number, and with the selected verbosity. `what`: one of PORNXSDABUL.
   std::string number(int axis, char what, double time_s) const;
   std::string query(int axis, char what, double time_s) const;
 
-  // The answer; nothing: the command does not ask what kind of unit it is.
+  // The answer; nullopt: the command is not an identification query.
   std::optional<std::string> information(std::string_view command) const;
-  // What it says before it is ready.
+  // Its output before it is ready.
   std::string banner() const;
-  // Its firmware knows the commands of presets.
+  // Its firmware has the preset commands.
   bool has_presets() const;
 
  private:

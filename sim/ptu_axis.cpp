@@ -35,7 +35,7 @@ double PtuAxis::velocity(double time_s) const {
   return s.velocity + s.acceleration * std::max(0.0, time_s - s.start_s);
 }
 
-// The last segment so far gets this motion for `duration_s` and is followed by rest.
+// The current last segment gets this motion for `duration_s` and is followed by rest.
 void PtuAxis::append(double duration_s, double velocity, double acceleration) {
   Segment& last = segments_.back();
   last.velocity = velocity;
@@ -45,8 +45,8 @@ void PtuAxis::append(double duration_s, double velocity, double acceleration) {
   segments_.push_back({last.start_s + duration_s, end, 0.0, 0.0});
 }
 
-// Accelerate, cruise, decelerate from the last segment's place, entering at `entry_speed` in the
-// direction of the target, from where it can still be reached without turning.
+// Accelerate, cruise, decelerate from the last segment's position, entered at `entry_speed` towards
+// a target that can be reached without reversing.
 void PtuAxis::travel(double target_counts, double entry_speed, const Profile& profile) {
   const double a = profile.acceleration;
   const double path = target_counts - segments_.back().position;

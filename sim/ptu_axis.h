@@ -1,5 +1,5 @@
-// One axis of the simulated PTU: a stepper motor that follows trapezoids of speed, in encoder
-// counts. Motion is kept as closed-form segments, so that any instant can be asked for without
+// One axis of the simulated PTU: a stepper motor with trapezoidal speed profiles, in encoder
+// counts. Motion is kept as closed-form segments, so that any instant can be evaluated without
 // stepping.
 #pragma once
 
@@ -9,7 +9,7 @@ namespace ols::sim {
 
 class PtuAxis {
  public:
-  // What shapes a move; all [counts/s] and [counts/s^2], positive.
+  // The parameters of a move; all [counts/s] and [counts/s^2], positive.
   struct Profile {
     double speed = 0.0;
     double acceleration = 0.0;
@@ -18,19 +18,19 @@ class PtuAxis {
 
   PtuAxis(double position_counts, double time_s);
 
-  // From now on towards `target_counts`, whatever the axis is doing; it ends there at rest.
-  // `time_s` may lie in the future; what was planned after it is dropped.
+  // Moves to `target_counts` from now on, whatever the axis is doing; it ends there at rest.
+  // `time_s` may be in the future; plans after it are dropped.
   void move(double target_counts, const Profile& profile, double time_s);
 
   // Brakes to rest on the next whole count.
   void halt(const Profile& profile, double time_s);
 
-  // The axis gives way at this instant, and goes on from there as it would have.
+  // The axis slips at this instant, and continues from there.
   void shift(double counts, double time_s);
 
   double position(double time_s) const;                       // [counts], continuous
   double velocity(double time_s) const;                       // [counts/s]
-  double rest_s() const { return segments_.back().start_s; }  // since or from when it stands
+  double rest_s() const { return segments_.back().start_s; }  // since or from when it is stationary
   double target() const { return segments_.back().position; }
 
   // Drops the history before this instant.
@@ -44,7 +44,7 @@ class PtuAxis {
   void append(double duration_s, double velocity, double acceleration);
   void travel(double target_counts, double entry_speed, const Profile& profile);
 
-  std::deque<Segment> segments_;  // never empty; the last one stands still
+  std::deque<Segment> segments_;  // never empty; the last one is at rest
 };
 
 }  // namespace ols::sim

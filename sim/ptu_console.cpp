@@ -16,8 +16,8 @@ std::string full_name(const std::string& kind) {
   return kind.rfind("ptu-", 0) == 0 || kind == "all" ? kind : "ptu-" + kind;
 }
 
-// The next word as a number, if there is one. Throws std::invalid_argument when it is something
-// else.
+// The next word as a number; nullopt at the end of the line. Throws std::invalid_argument for
+// another word.
 std::optional<double> next_number(std::istream& words) {
   std::string word;
   if (!(words >> word)) return std::nullopt;
@@ -29,7 +29,7 @@ std::optional<double> next_number(std::istream& words) {
     used = 0;
   }
   if (used != word.size() || !std::isfinite(value)) {
-    throw std::invalid_argument("\"" + word + "\" is no number");
+    throw std::invalid_argument("\"" + word + "\" is not a number");
   }
   return value;
 }
@@ -55,7 +55,7 @@ std::variant<std::string, PtuConsole::AskedAngles> PtuConsole::take(std::string_
     } else {
       wanted.for_s = next_number(words).value_or(wanted.for_s);
       wanted.value = next_number(words).value_or(wanted.value);
-      if (!(wanted.for_s > 0.0)) return std::string("refused: a fault lasts more than 0 s");
+      if (!(wanted.for_s > 0.0)) return std::string("refused: a fault must last more than 0 s");
     }
     if (words >> rest) return std::string(kUsage);
     return fault(wanted, now_s);

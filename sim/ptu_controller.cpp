@@ -65,7 +65,7 @@ PtuAnswer PtuController::dispatch(const std::string& command, double time_s) {
           time_s + (slow && sets ? config_.parameter_set_s : 0.0)};
 }
 
-// What is answered when the motion is over.
+// The answer at the end of the motion.
 std::optional<PtuAnswer> PtuController::blocking(std::string_view command, double time_s) {
   if (command == "A") {
     motion_.start_slaved(time_s);
@@ -73,7 +73,7 @@ std::optional<PtuAnswer> PtuController::blocking(std::string_view command, doubl
   }
   if (command == "R") return PtuAnswer{"*", home(true, true, time_s)};
   if (!e_series()) return std::nullopt;
-  // On a D46 these choose what is homed at power-up.
+  // On a D46 these select the axes that home at power-up.
   if (command == "RP") return PtuAnswer{"*", home(true, false, time_s)};
   if (command == "RT") return PtuAnswer{"*", home(false, true, time_s)};
   if (command != "RS") return std::nullopt;
@@ -88,7 +88,7 @@ double PtuController::home(bool pan, bool tilt, double time_s) {
   return motion_.home(pan, tilt, time_s);
 }
 
-// Commands that are not of one axis.
+// Commands for both axes.
 std::optional<std::string> PtuController::at_once(std::string_view command, double time_s) {
   if (auto answer = motion_.execute(command, setup_.verbose(), time_s)) return answer;
   if (auto answer = setup_.execute(command)) return answer;
@@ -145,7 +145,7 @@ std::optional<std::string> PtuController::clock(std::string_view command, double
   return std::nullopt;
 }
 
-// B: positions and speeds of both axes, asked for or set; BT: with a time stamp behind them [ms].
+// B: queries or sets positions and speeds of both axes; BT: with a time stamp appended [ms].
 std::optional<std::string> PtuController::both_axes(std::string_view command, double time_s) {
   if (command == "B" || command == "BT") {
     if (!motion_.homed(0) || !motion_.homed(1)) return kAxisError;

@@ -1,5 +1,5 @@
 // The simulated PTU's command interpreter: one command in, one answer out, and the motion of both
-// axes. Knows nothing of bytes on a line; ptu_unit.cpp gives it commands in time.
+// axes. It does not know the serial line; ptu_unit.cpp gives it commands in time.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@
 namespace ols::sim {
 
 struct PtuAnswer {
-  std::string text;      // with its `*` or `!`, without the line's end; empty: it stays silent
-  double ready_s = 0.0;  // not before: commands that wait for the motion
+  std::string text;      // with its `*` or `!`, without the line's end; empty: no answer
+  double ready_s = 0.0;  // earliest time of the answer: some commands wait for the motion
 };
 
 class PtuController {
@@ -26,24 +26,24 @@ class PtuController {
   PtuController(const PtuController&) = delete;
   PtuController& operator=(const PtuController&) = delete;
 
-  // The power comes: settings as saved, homing if chosen. What the unit says when that is over;
-  // what it says before is banner().
+  // Power-up: settings as saved, homing if selected. Returns the output at its end; banner() is the
+  // output before it.
   PtuAnswer power_up(double time_s);
-  // It was gone for a moment, and with it what the unit knew of where it stands.
+  // A short power failure: the unit loses its position.
   PtuAnswer power_cycle(double time_s);
   std::string banner() const { return answers_.banner(); }
   void home_at_power_up(bool homes) { setup_.home_at_power_up(homes); }
 
   PtuAnswer execute(std::string_view command, double time_s);
 
-  // A byte has arrived, whichever: it ends a scan that began before.
+  // Any byte has arrived: it ends a scan that began before.
   void interrupt(double time_s) { scan_.interrupt(time_s); }
   bool scanning() const { return scan_.running(); }
 
-  // What the unit does by itself up to an instant: the legs of a scan.
+  // Advances the unit's own actions up to an instant: the legs of a scan.
   void advance(double time_s) { scan_.advance(time_s); }
 
-  // Limit hits up to an instant that were not handed out before, and when the next one is due.
+  // Limit hits up to an instant, each returned once, and when the next one is due.
   std::vector<PtuToken> take_tokens(double time_s);
   std::optional<double> next_token_s() const { return motion_.next_token_s(); }
 
@@ -53,12 +53,12 @@ class PtuController {
   }
   int baud() const { return setup_.baud(); }
 
-  // Of the mechanism, whatever the unit thinks [counts of PtuUnitConfig's resolution].
+  // Of the mechanism, whatever the unit assumes [counts of PtuUnitConfig's resolution].
   double position_counts(int axis, double time_s) const {
     return motion_.mechanism_steps(axis, time_s);
   }
 
-  // The mechanism gives way; the unit's counter does not notice.
+  // The mechanism slips; the unit's counter does not notice.
   void slip(int axis, int counts, double time_s) { motion_.slip(axis, counts, time_s); }
   void switch_echo_on() { setup_.switch_echo_on(); }
 

@@ -1,4 +1,4 @@
-// What a simulated station's camera stands on: the simulated unit, or a real one on its line.
+// The PTU under a simulated station's camera: the simulated unit, or a real one on its line.
 #pragma once
 
 #include "geometry/kinematic_chain.h"
@@ -13,7 +13,7 @@ class PtuDevice {
   // From any thread.
   virtual void set_faults(const PtuFaults& faults) = 0;
 
-  // Waits, but never for long, until as much is known of that instant of CLOCK_MONOTONIC [s] as
+  // Waits briefly until the angles at that instant of CLOCK_MONOTONIC [s] are known as well as they
   // ever will be.
   virtual void await(double /*monotonic_s*/) {}
 

@@ -1,4 +1,4 @@
-// The simulated PTU with what can be wrong with it and with its line. Pure.
+// The simulated PTU with the faults of the unit and of its line. Pure.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class FaultyPtuUnit {
   std::optional<double> next_output_s() const { return unit_.next_output_s(); }
   PanTilt angles_at(double time_s) const { return unit_.angles_at(time_s); }
 
-  // What the unit answers is still true; this is what became of it on the line.
+  // The unit's answers are still true; this is what the line made of them.
   const PtuReplyFaults& replies() const { return replies_; }
 
  private:

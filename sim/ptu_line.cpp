@@ -13,8 +13,8 @@ namespace ols::sim {
 
 namespace {
 
-constexpr double kLongestSleep_s = 0.02;  // so that an end is noticed
-constexpr double kBatch_s = 1e-3;         // bytes that come within this are handed on together
+constexpr double kLongestSleep_s = 0.02;  // so that it ends promptly
+constexpr double kBatch_s = 1e-3;         // bytes within this time are passed on together
 
 }  // namespace
 
@@ -55,7 +55,7 @@ struct PtuLine::Impl {
     device = pty.device();
   }
 
-  // Until bytes arrive or the unit has some.
+  // Waits until bytes arrive or the unit has some.
   void wait() {
     double sleep_s = kLongestSleep_s;
     {
@@ -69,7 +69,7 @@ struct PtuLine::Impl {
 
   void advance() { latest_s = std::max(latest_s, clock_monotonic_s()); }
 
-  std::mutex mutex;  // of all but the pty, which is the thread's
+  std::mutex mutex;  // for everything but the pty, which only the thread uses
   FaultyPtuUnit unit;
   std::string pending;
   double latest_s = 0.0;
@@ -96,7 +96,7 @@ void PtuLine::set_faults(const PtuFaults& faults) {
 
 PanTilt PtuLine::angles_at(double monotonic_time_s) {
   const std::lock_guard lock(impl_->mutex);
-  // What the unit has received by now takes effect first.
+  // The bytes that the unit has received by now take effect first.
   impl_->advance();
   impl_->pending += impl_->unit.transmit(impl_->latest_s);
   return impl_->unit.angles_at(monotonic_time_s);

@@ -1,5 +1,5 @@
-// Puts a simulated PTU on a pseudo terminal in real time: what ols-station opens as its serial
-// device. The line outlives clients: one may close the device and another open it again.
+// A simulated PTU on a pseudo terminal in real time: ols-station opens it as its serial device. The
+// line outlives clients: one may close the device and another open it again.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace ols::sim {
 
 class PtuLine : public PtuDevice {
  public:
-  // The unit powers up now. `link`: a symbolic link to the device is made there (an old link is
-  // replaced) and removed at the end; empty: none. Throws std::system_error.
+  // The unit powers up now. `link`: path of a symbolic link to the device; replaces an old link,
+  // and is removed at the end; empty: none. Throws std::system_error.
   PtuLine(const PtuUnitConfig& config, std::uint64_t seed, const std::string& link = "");
   ~PtuLine() override;
   PtuLine(const PtuLine&) = delete;
@@ -25,7 +25,7 @@ class PtuLine : public PtuDevice {
 
   void set_faults(const PtuFaults& faults) override;
 
-  // The true ones.
+  // The true angles.
   PanTilt angles_at(double monotonic_s) override;
 
  private:

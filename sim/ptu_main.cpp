@@ -1,4 +1,4 @@
-// ols-sim-ptu: the simulated PTU alone, as a process of its own on a pseudo terminal.
+// ols-sim-ptu: the simulated PTU alone, as a separate process on a pseudo terminal.
 
 #include <poll.h>
 #include <unistd.h>
@@ -21,7 +21,7 @@ using ols::sim::PtuConsole;
 using ols::sim::PtuLine;
 using ols::sim::PtuModel;
 
-constexpr int kTurn_ms = 20;  // faults begin and end with this precision
+constexpr int kTurn_ms = 20;  // precision of the begin and end of faults
 
 struct Options {
   std::string link, model = "d46";
@@ -32,7 +32,7 @@ struct Options {
 };
 
 void define(CLI::App& app, Options& o) {
-  app.add_option("--link", o.link, "symbolic link to the device, made and removed")->required();
+  app.add_option("--link", o.link, "symbolic link to the device, created and removed")->required();
   app.add_option("--model", o.model, "which unit it is")
       ->check(CLI::IsMember({"d46", "e46"}))
       ->capture_default_str();
@@ -44,26 +44,26 @@ void define(CLI::App& app, Options& o) {
   app.add_option("--resolution-arcsec", o.unit.resolution_arcsec, "[arc seconds] of one count")
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
-  app.add_option("--delay-ms", o.delay_ms, "[ms] that a reply takes")
+  app.add_option("--delay-ms", o.delay_ms, "[ms] delay of a reply")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
-  app.add_option("--jitter-ms", o.jitter_ms, "[ms] of that, uniform +-")
+  app.add_option("--jitter-ms", o.jitter_ms, "[ms] jitter of that, uniform +-")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
-  app.add_option("--parameter-set-s", o.unit.parameter_set_s, "[s] that setting PA PB PU PL takes")
+  app.add_option("--parameter-set-s", o.unit.parameter_set_s, "[s] duration of setting PA PB PU PL")
       ->check(CLI::Range(0.0, 600.0))
       ->capture_default_str();
-  app.add_option("--seed", o.seed, "of everything that is drawn")
+  app.add_option("--seed", o.seed, "seed of all random numbers")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_flag("--no-home", o.no_home, "it has been homed before, and does not at power-up");
-  app.add_flag("--terse", o.terse, "echo off and terse replies from the begin");
+  app.add_flag("--no-home", o.no_home, "homed before, no homing at power-up");
+  app.add_flag("--terse", o.terse, "echo off and terse replies from the start");
 }
 
 ols::sim::PtuUnitConfig unit_config(const Options& o) {
   ols::sim::PtuUnitConfig config = o.unit;
   config.model = o.model == "e46" ? PtuModel::kE46 : PtuModel::kD46;
-  // Counts of the default configuration are of its default resolution.
+  // The default counts assume the default resolution.
   const double scale = ols::sim::PtuUnitConfig{}.resolution_arcsec / config.resolution_arcsec;
   for (int* counts : {&config.pan_min_counts, &config.pan_max_counts, &config.tilt_min_counts,
                       &config.tilt_max_counts, &config.max_speed_counts_s}) {
@@ -91,7 +91,7 @@ void answer(PtuConsole& console, PtuLine& line, const std::string& text) {
   std::cout << shown.data() << std::endl;
 }
 
-// Reads what has come on the standard input; false at its end.
+// Reads the available standard input; false at its end.
 bool read_lines(PtuConsole& console, PtuLine& line, std::string& pending) {
   std::array<char, 512> buffer;
   const ssize_t n = ::read(STDIN_FILENO, buffer.data(), buffer.size());
@@ -111,7 +111,7 @@ void run(const Options& options) {
   std::cout << "ready" << std::endl;
   pollfd input{STDIN_FILENO, POLLIN, 0};
   while (!ols::shutdown_requested()) {
-    // Without anybody at its standard input it goes on.
+    // Without standard input it continues.
     if (::poll(&input, 1, kTurn_ms) > 0 && !read_lines(console, line, pending)) input.fd = -1;
     line.set_faults(console.faults(ols::clock_monotonic_s()));
   }
@@ -122,8 +122,8 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   ols::install_shutdown_handler();
   CLI::App app(
-      "A simulated PTU on a pseudo terminal, until it is told to end (SIGTERM, SIGINT). Standard "
-      "input takes lines: fault KIND [SECONDS [VALUE]], end KIND, end all, angles [MONOTONIC_S].");
+      "A simulated PTU on a pseudo terminal, until SIGTERM or SIGINT. Standard input takes "
+      "lines: fault KIND [SECONDS [VALUE]], end KIND, end all, angles [MONOTONIC_S].");
   Options options;
   define(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-sim-ptu")) return *status;

@@ -142,8 +142,8 @@ std::string PtuMotion::set_speed(int axis, int speed, double time_s) {
   return "*";
 }
 
-// A D46 takes these only at rest. What it says otherwise is not documented; this is the only
-// refusal seen anywhere.
+// A D46 accepts these only at rest. Its answer otherwise is not documented; this is the only
+// refusal seen on real units.
 std::string PtuMotion::set_parameter(int axis, char what, int value, double time_s) {
   PtuAxisSettings& s = settings_.axes[at(axis)];
   const bool moving = axes_[at(axis)].motion.rest_s() > time_s;
@@ -162,7 +162,7 @@ void PtuMotion::start(int axis, double target_counts, double time_s) {
   start_steps(axis, steps(axes_[at(axis)], target_counts), time_s);
 }
 
-// Without soft limits the axis runs into its mechanical stop and loses nothing but the way beyond.
+// Without soft limits the axis runs into its mechanical stop and loses only the distance beyond.
 void PtuMotion::start_steps(int axis, double target_steps, double time_s) {
   Axis& a = axes_[at(axis)];
   const double reached = std::clamp<double>(target_steps, a.least - kHardStopMargin_steps,
@@ -195,7 +195,7 @@ void PtuMotion::enter_velocity_mode(bool velocity, double time_s) {
   velocity_mode_ = velocity;
 }
 
-// Both wordings are of real units.
+// Real units use both wordings.
 std::string PtuMotion::refuse_speed(int axis, int fastest) const {
   return std::string("! ") + ptu_axis_name(axis) + " speed cannot exceed " +
          std::to_string(fastest) + (e_series() ? " positions/sec" : " pos/sec");
@@ -239,7 +239,7 @@ double PtuMotion::home_axis(int axis, double time_s) {
   return end_s;
 }
 
-// A new step mode holds from the next reset on: one count is then more or fewer steps.
+// A new step mode applies from the next reset on; it changes the steps per count.
 void PtuMotion::take_step_mode(int axis) {
   Axis& a = axes_[at(axis)];
   PtuAxisSettings& s = settings_.axes[at(axis)];
@@ -254,7 +254,7 @@ void PtuMotion::take_step_mode(int axis) {
 
 std::optional<std::string> PtuMotion::modes(std::string_view command, bool verbose, double time_s) {
   if (command == "C") {
-    if (e_series()) {  // tersely, too
+    if (e_series()) {  // in terse mode, too
       return velocity_mode_ ? "* Pure Velocity speed control mode"
                             : "* Independent speed control mode";
     }

@@ -1,5 +1,5 @@
-// How the simulated PTU moves: positions, speeds and the limits of both, homing, and what it says
-// when it runs into an end.
+// The motion of the simulated PTU: positions, speeds and the limits of both, homing, and its output
+// when it runs into a limit.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace ols::sim {
 
-// `!P`, `!T`: not a reply, no line's end.
+// `!P`, `!T`: neither a reply nor the end of a line.
 struct PtuToken {
   double time_s = 0.0;
   std::string text;
@@ -21,16 +21,15 @@ struct PtuToken {
 
 class PtuMotion {
  public:
-  // `settings` must outlive it; a homing run takes the step mode, and with it changes what a count
-  // is.
+  // `settings` must outlive it; homing applies the step mode, which changes the size of a count.
   PtuMotion(const PtuUnitConfig& config, PtuSettings& settings, double power_up_s);
 
-  // The power comes: all modes as from the factory, nothing planned.
+  // Power-up: factory modes, no motion planned.
   void power_up();
-  // The power goes: it stops where it is, and no longer knows where that is.
+  // Power failure: it stops, and loses its position.
   void power_off(double time_s);
 
-  // The answer; nothing: the command is not of the motion.
+  // The answer; nullopt: not a motion command.
   std::optional<std::string> execute(std::string_view command, bool verbose, double time_s);
 
   // Answers to commands of one axis [counts].
@@ -41,16 +40,16 @@ class PtuMotion {
   void start(int axis, double target_counts, double time_s);
   void start_slaved(double time_s);
 
-  // Tilt first. Without homing the counters begin where the mechanism stands. Returns when it is
-  // over.
+  // Homes, tilt first. Without homing the counters start at the mechanism's position. Returns the
+  // time of the end.
   double home(bool pan, bool tilt, double time_s);
   double home_together(double time_s);
 
-  // In the unit's counts, from where it believes the middle.
+  // In the unit's counts, from its assumed middle.
   double position(int axis, double time_s) const;
   double target(int axis) const;
   double velocity(int axis, double time_s) const;
-  int least(int axis) const;  // that commands are held to
+  int least(int axis) const;  // limits of commands
   int greatest(int axis) const;
   int factory_least(int axis) const { return axes_[at(axis)].least / axes_[at(axis)].divisor; }
   int factory_greatest(int axis) const {
@@ -60,15 +59,15 @@ class PtuMotion {
   int steps_a_count(int axis) const { return axes_[at(axis)].divisor; }
   bool homed(int axis) const { return axes_[at(axis)].homed; }
   double rest_s(int axis) const { return axes_[at(axis)].motion.rest_s(); }
-  // Of the mechanism, whatever the unit thinks [steps].
+  // Of the mechanism, whatever the unit assumes [steps].
   double mechanism_steps(int axis, double time_s) const {
     return axes_[at(axis)].motion.position(time_s);
   }
 
-  // The mechanism gives way; the unit's counter does not notice.
+  // The mechanism slips; the unit's counter does not notice.
   void slip(int axis, int slipped_steps, double time_s);
 
-  // Limit hits up to an instant that were not handed out before, and when the next one is due.
+  // Limit hits up to an instant, each returned once, and when the next one is due.
   std::vector<PtuToken> take_tokens(double time_s);
   std::optional<double> next_token_s() const;
 
@@ -77,15 +76,15 @@ class PtuMotion {
  private:
   enum class Limits { kFactory, kUser, kOff };
   // Positions of the mechanism are in the steps of PtuUnitConfig's resolution, from the middle of
-  // its travel; the unit's counts are `divisor` of them, from where it believes the middle.
+  // its travel; the unit's counts are `divisor` of them, from its assumed middle.
   struct Axis {
     PtuAxis motion;
     int least, greatest;  // travel [steps]
-    int divisor;          // steps a count
+    int divisor;          // steps per count
     double origin;        // of the counts [steps]
     bool homed;
     std::optional<double> slaved;  // target that waits for A or I [steps]
-    std::optional<double> hit_s;   // the motion runs into its limit then
+    std::optional<double> hit_s;   // when the motion runs into its limit
   };
 
   bool e_series() const { return config_.model == PtuModel::kE46; }
@@ -108,7 +107,7 @@ class PtuMotion {
   bool velocity_mode_ = false;
   bool immediate_ = true;
   Limits limits_ = Limits::kFactory;
-  std::vector<PtuToken> tokens_;  // of a homing run, in order of time
+  std::vector<PtuToken> tokens_;  // of homing, in order of time
 };
 
 }  // namespace ols::sim

@@ -1,4 +1,4 @@
-// Positions that the simulated PTU keeps under a number.
+// The simulated PTU's numbered preset positions.
 #pragma once
 
 #include <map>
@@ -16,7 +16,7 @@ class PtuPresets {
   // `motion` must outlive it.
   explicit PtuPresets(PtuMotion& motion) : motion_(motion) {}
 
-  // The answer; nothing: the command is not of the presets.
+  // The answer; nullopt: not a preset command.
   std::optional<std::string> execute(std::string_view command, double time_s);
 
  private:

@@ -4,8 +4,8 @@ namespace ols::sim {
 
 namespace {
 
-// How long a reply will be is not known at its begin: the error is at one of so many bytes, or at
-// the last one of a shorter reply.
+// The length of a reply is unknown at its begin: the error is at one of this many bytes, or at the
+// last byte of a shorter reply.
 constexpr int kTypicalReply_bytes = 8;
 
 }  // namespace

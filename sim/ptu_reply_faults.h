@@ -1,4 +1,4 @@
-// What a bad line does to a unit's replies: one byte of some is wrong, and some never come. Pure.
+// The effect of a bad line on a unit's replies: one wrong byte in some, and some lost. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ class PtuReplyFaults {
  public:
   explicit PtuReplyFaults(std::uint64_t seed) : random_(seed) {}
 
-  // Share of the replies (lines) of which one byte is flipped in one bit, lost, or has another one
-  // before it; and one reply lost each so many seconds from `time_s` on (0: none). What stays as it
-  // was before goes on undisturbed.
+  // Share of the replies (lines) with one byte that is flipped in one bit, lost, or preceded by an
+  // extra one; and the interval of lost replies from `time_s` on (0: none). An unchanged value does
+  // not restart anything.
   void set(double garble_share, double lost_every_s, double time_s);
 
   // The bytes as they arrive. A reply may come in any number of pieces.
@@ -35,7 +35,7 @@ class PtuReplyFaults {
   double next_loss_s_ = 0.0;
   bool within_reply_ = false;
   bool losing_ = false;
-  std::optional<int> bytes_to_error_;  // of this reply
+  std::optional<int> bytes_to_error_;  // of the current reply
   std::uint64_t garbled_ = 0, lost_ = 0;
 };
 

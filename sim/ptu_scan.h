@@ -1,4 +1,4 @@
-// The simulated PTU's scan ("monitor"): it goes to and fro by itself until a byte comes.
+// The simulated PTU's scan ("monitor"): it moves to and fro on its own until a byte arrives.
 #pragma once
 
 #include <array>
@@ -17,25 +17,25 @@ class PtuScan {
   // Both must outlive it.
   PtuScan(PtuSetup& setup, PtuMotion& motion) : setup_(setup), motion_(motion) {}
 
-  // The power comes.
+  // Power-up.
   void power_up();
 
-  // The answer; nothing: the command is not of the scan.
+  // The answer; nullopt: not a scan command.
   std::optional<std::string> execute(std::string_view command, bool e_series, double time_s);
-  // Between these [counts]: pan, or pan and tilt; none: over the whole range of pan.
+  // Between these [counts]: pan, or pan and tilt; empty: over the whole range of pan.
   std::string start(const std::vector<int>& ends, double time_s);
-  // Without a way back: the axis is wanted for something else.
+  // Ends the scan without returning home: another command needs the axis.
   void end(int axis) { sweeps_[at(axis)].reset(); }
 
-  // A byte has arrived, whichever: it ends a scan that began before.
+  // Any byte has arrived: it ends a scan that began before.
   void interrupt(double time_s);
-  // The legs up to an instant.
+  // Plans the legs up to an instant.
   void advance(double time_s);
   bool running() const { return sweeps_[0] || sweeps_[1]; }
 
  private:
   struct Sweep {
-    double first, second;  // between them [counts]
+    double first, second;  // ends of the sweep [counts]
     bool to_second;
     double begun_s;
   };

@@ -1,4 +1,4 @@
-// What a simulated PTU can be set to, and keeps with DS.
+// The simulated PTU's settings that DS saves.
 #pragma once
 
 #include <array>

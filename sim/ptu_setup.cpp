@@ -41,7 +41,7 @@ void PtuSetup::power_up() {
   baud_ = baud_at_power_up_;
 }
 
-// Kept at once.
+// Saved at once.
 void PtuSetup::scan_at_power_up(bool scans) {
   settings_.scan_at_power_up = saved_.scan_at_power_up = scans;
 }
@@ -73,7 +73,7 @@ std::optional<std::string> PtuSetup::toggles(std::string_view command) {
   return "*";
 }
 
-// Kept at once. On an E-series unit RP and RT home instead: see PtuController.
+// Saved at once. On an E-series unit RP and RT home instead: see PtuController.
 std::optional<std::string> PtuSetup::homing_choice(std::string_view command) {
   if (e_series() && command == "RQ") {
     if (homes_[0]) return homes_[1] ? "* E" : "* P";
@@ -112,7 +112,7 @@ std::optional<std::string> PtuSetup::keeping(std::string_view command) {
   return "*";
 }
 
-// @(rate,delay of bytes,T or F: also at power-up). The second port has nobody at its other end.
+// @(rate,delay of bytes,T or F: also at power-up). Nothing is connected to the second port.
 std::optional<std::string> PtuSetup::host_port(std::string_view command) {
   constexpr std::array<int, 9> kRates{600, 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200};
   if (command == "CHA" || command == "CHB") return "*";
@@ -132,7 +132,7 @@ std::optional<std::string> PtuSetup::host_port(std::string_view command) {
   return "*";
 }
 
-// Several units on one line: one that has an id listens to `_id` and `_0` only, until selected.
+// Several units on one line: a unit with an id accepts only `_id` and `_0` until selected.
 std::optional<std::string> PtuSetup::unit_id(std::string_view command) {
   if (command.empty() || (command[0] != '_' && command[0] != 'U')) return std::nullopt;
   if (command == "U") {
@@ -197,7 +197,7 @@ std::string PtuSetup::power(int axis, std::string_view what) {
   return "*";
 }
 
-// A user's range holds zero and lies within the factory's.
+// A user's range contains zero and lies within the factory's.
 std::string PtuSetup::user_limit(int axis, std::string_view what, int factory_limit) {
   PtuAxisSettings& s = settings_.axes[at(axis)];
   const bool low = what[0] == 'N';

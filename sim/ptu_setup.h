@@ -1,4 +1,4 @@
-// The simulated PTU's settings and the commands that switch, choose and keep them. Nothing moves
+// The simulated PTU's settings and the commands that switch, select and save them. Nothing moves
 // here.
 #pragma once
 
@@ -15,10 +15,10 @@ class PtuSetup {
  public:
   explicit PtuSetup(const PtuUnitConfig& config);
 
-  // The power comes: all as saved.
+  // Power-up: all as saved.
   void power_up();
 
-  // The answer; nothing: the command is not of the settings.
+  // The answer; nullopt: not a settings command.
   std::optional<std::string> execute(std::string_view command);
 
   // Of one axis, `what` without its letter: H or M, with or without a level.
@@ -50,8 +50,8 @@ class PtuSetup {
 
   PtuUnitConfig config_;
   PtuSettings settings_, saved_;
-  std::array<bool, 2> homes_;  // which axes home at power-up; kept at once
-  bool selected_ = true;       // of the units on one line, it is the one that is talked to
+  std::array<bool, 2> homes_;  // which axes home at power-up; saved at once
+  bool selected_ = true;       // of several units on one line, this one is addressed
   int baud_, baud_at_power_up_;
 };
 

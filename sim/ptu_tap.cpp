@@ -21,12 +21,12 @@ namespace {
 constexpr double kTurn_s = 0.02;   // so that ends, faults and failures are noticed
 constexpr double kRetry_s = 0.25;  // between attempts to open the device
 constexpr double kLongestAwait_s = 0.08;
-constexpr double kSilent_s = 0.3;  // whoever said nothing for so long is not waited for
+constexpr double kSilent_s = 0.3;  // a side that was silent for this long is not waited for
 
 }  // namespace
 
-// One thread owns the station's terminal and sends what comes from there; while the unit's device
-// is open a second one listens to it.
+// One thread owns the station's terminal and forwards its bytes; while the unit's device is open, a
+// second one reads from it.
 struct PtuTap::Impl {
   struct Session {
     Session(Impl& impl, int baud) : port(impl.config.device, baud) {
@@ -78,7 +78,7 @@ struct PtuTap::Impl {
     watch.interrupted();
   }
 
-  // The station's device is there when the unit's is.
+  // The station's device exists while the unit's does.
   void replug() {
     bool wanted = session != nullptr;
     {
@@ -143,13 +143,13 @@ struct PtuTap::Impl {
   std::atomic<int> baud;
   std::atomic<std::uint64_t> opened = 0, failures = 0;
   std::condition_variable heard;
-  mutable std::mutex mutex;  // of these three
+  mutable std::mutex mutex;  // for these three
   PtuTapWatch watch;
   PtuReplyFaults replies;
   PtuFaults faults;
   std::mutex pty_mutex;  // the listener writes, the owner plugs and unplugs
   Pty pty;
-  std::unique_ptr<Session> session;  // of the owner
+  std::unique_ptr<Session> session;  // only the owner's
   std::jthread thread;               // last: it uses the rest
 };
 

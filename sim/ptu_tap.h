@@ -1,5 +1,5 @@
 // Hardware in the loop: a real PTU's serial device, with a pseudo terminal in between for the
-// station. Bytes pass both ways unchanged; the positions among them tell where the unit points.
+// station. Bytes pass both ways unchanged; the positions among them show where the unit points.
 #pragma once
 
 #include <cstdint>
@@ -12,28 +12,28 @@ namespace ols::sim {
 
 struct PtuTapConfig {
   std::string device;         // of the unit, for example /dev/ttyUSB0
-  int baud = 9600;            // until the station talks: its rate is followed then
-  double step_rad = 5.61e-5;  // of a count, until the unit has been asked for it
+  int baud = 9600;            // until the station sends: then its rate applies
+  double step_rad = 5.61e-5;  // per count, until the unit has reported it
 };
 
 class PtuTap : public PtuDevice {
  public:
-  // `link`: where the station finds its line, as long as the unit's device is there. A device that
-  // is missing is waited for. Throws std::system_error when there cannot be such a link.
+  // `link`: the station's line, while the unit's device exists. A missing device is waited for.
+  // Throws std::system_error if the link cannot be made.
   PtuTap(const PtuTapConfig& config, std::uint64_t seed, const std::string& link);
   ~PtuTap() override;
 
-  // Those of the line; what happens to the unit itself is not in our hands.
+  // Faults of the line; faults of a real unit cannot be simulated.
   void set_faults(const PtuFaults& faults) override;
 
-  // A unit tells where it is some thirty times a second: about half of the instants of which a
-  // camera draws lie behind what it has said by then.
+  // A unit reports its position some thirty times a second: about half of the instants at which a
+  // camera draws are later than its last report.
   void await(double monotonic_s) override;
 
-  // As far as the unit has said.
+  // As far as the unit has reported.
   PanTilt angles_at(double monotonic_s) override;
 
-  struct Counters {                              // only go up
+  struct Counters {                              // only increase
     std::uint64_t opened = 0, failures = 0;      // of the unit's device
     std::uint64_t readings = 0, mismatched = 0;  // of positions
   };

@@ -11,12 +11,12 @@ namespace ols::sim {
 
 namespace {
 
-// Longer than any master waits for an answer; a reset takes longer, but says nothing of positions.
+// Longer than any master waits for an answer; a reset takes longer, but contains no positions.
 constexpr double kPatience_s = 1.0;
 
-constexpr double kTimely_s = 1e-3;        // reading a byte may be late by this
+constexpr double kTimely_s = 1e-3;        // max delay of reading a byte
 constexpr double kGain = 0.1;             // of the average of latencies
-constexpr std::size_t kAround_bytes = 3;  // of a reply after its mark: blank, CR, LF
+constexpr std::size_t kAround_bytes = 3;  // of a reply besides its number: blank, CR, LF
 
 ptu::AngleHistory::Config history_config() {
   ptu::AngleHistory::Config config;
@@ -31,7 +31,7 @@ bool asks_for(std::string_view command, char what) {
 
 int axis_of(std::string_view command) { return command[0] == 'P' ? 0 : 1; }
 
-// Whether a query of this name is answered with a number; others are, or are not.
+// Whether a query of this name is answered with a number; other commands may not be answered.
 bool wants_number(std::string_view command) {
   return command.size() == 2 && (command[0] == 'P' || command[0] == 'T') &&
          std::string_view("PORNXSDABUL").find(command[1]) != std::string_view::npos;
@@ -76,8 +76,8 @@ void PtuTapWatch::drop_questions() {
   taken_.clear();
 }
 
-// Replies come in the order of the commands. One that was lost shows in that a later one is not of
-// its kind; nothing of that burst of commands is believed then.
+// Replies come in the order of the commands. After a lost one, a later reply is of the wrong kind;
+// no reading of that burst of commands is then used.
 void PtuTapWatch::take(const ptu::PtuReply& reply, double byte_s) {
   if (asked_.empty()) return;
   const Asked asked = asked_.front();
@@ -103,9 +103,9 @@ void PtuTapWatch::take(const ptu::PtuReply& reply, double byte_s) {
   taken_.clear();
 }
 
-// The unit read its counter when it had the whole question and had begun with the answer before
-// it, and not after it began to answer. An answer that had to wait for the end of the one before
-// tells nothing of that: then it took about as long as usual.
+// The unit read its counter between the end of the query, or of the answer before, and the begin of
+// its answer. If the answer had to wait for the one before, the interval is too long to be useful:
+// then the usual latency is assumed.
 void PtuTapWatch::read(int axis, const Asked& asked, const ptu::PtuReply& reply, double byte_s) {
   const auto counts = reply.count();
   if (!counts) return;

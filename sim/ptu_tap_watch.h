@@ -1,5 +1,5 @@
-// Listens to the line between a master and a PTU, and knows from the position queries that pass by
-// where the unit points. Pure.
+// Monitors the line between a master and a PTU, and derives from the position queries on it where
+// the unit points. Pure.
 #pragma once
 
 #include <array>
@@ -17,27 +17,28 @@ namespace ols::sim {
 
 class PtuTapWatch {
  public:
-  // `step_rad`: of a count, until the unit has been asked for its resolution.
+  // `step_rad`: per count, until the unit has reported its resolution.
   explicit PtuTapWatch(double step_rad);
 
-  // What passes, with an instant [s]: bytes of the master from when on they are sent to the unit,
-  // bytes of the unit that had all come by then. `byte_s`: what one takes on the unit's line.
+  // The traffic, with an instant [s]: bytes of the master, by the time at which sending to the unit
+  // starts; bytes of the unit, by the time at which all had arrived. `byte_s`: duration of one on
+  // the unit's line.
   void master_said(std::string_view bytes, double time_s, double byte_s);
   void unit_said(std::string_view bytes, double time_s, double byte_s);
 
-  // The unit or its line was gone: nothing that was asked will be answered.
+  // The unit or its line was gone: pending queries will not be answered.
   void interrupted();
 
-  // Where the unit points, interpolated; after the newest reading going on as it moved, and after
-  // a while without any staying where it was last seen.
+  // Where the unit points, interpolated; extrapolated after the newest reading, and constant after
+  // a while without any.
   PanTilt at(double time_s) const;
 
-  // The newest instant at which both axes were read; long ago when they were not.
+  // The newest instant at which both axes were read; long ago if they were not.
   double known_until_s() const;
 
-  struct Counters {                // only go up
+  struct Counters {                // only increase
     std::uint64_t readings = 0;    // positions of either axis
-    std::uint64_t mismatched = 0;  // replies that were not what had been asked for
+    std::uint64_t mismatched = 0;  // replies that did not match the query
   };
   const Counters& counters() const { return counters_; }
 
@@ -55,15 +56,15 @@ class PtuTapWatch {
   void read(int axis, const Asked& asked, const ptu::PtuReply& reply, double byte_s);
 
   std::array<double, 2> step_rad_;
-  std::array<ptu::AngleHistory, 2> history_;  // each axis is read at instants of its own
+  std::array<ptu::AngleHistory, 2> history_;  // each axis is read at its own instants
   ptu::PtuReplyParser parser_;
-  std::string begun_;           // command without its end yet
+  std::string begun_;           // incomplete command
   double line_free_s_ = 0.0;    // the master's bytes
   double last_reply_s_ = 0.0;   // begin of the last reply,
   double line_until_s_ = 0.0;   // and its end
-  double usual_s_ = 1e-3;       // that the unit takes to answer
-  std::deque<Asked> asked_;     // not answered yet
-  std::vector<Reading> taken_;  // of this burst of commands, to be believed when it ends well
+  double usual_s_ = 1e-3;       // usual latency of the unit's answers
+  std::deque<Asked> asked_;     // unanswered queries
+  std::vector<Reading> taken_;  // of this burst of commands, used if it ends without a mismatch
   Counters counters_;
 };
 

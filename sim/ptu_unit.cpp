@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kHistory_s = 2.5;
 
-// A command's delay is drawn when it becomes the next; within it the unit reads its counters.
+// A command's delay is drawn when the command starts; the unit reads its counters within the delay.
 class ReplyDelay {
  public:
   ReplyDelay(const PtuUnitConfig& config, std::uint64_t seed)
@@ -54,7 +54,7 @@ struct PtuUnit::Impl {
     begin(controller.power_up(power_up_s), power_up_s);
   }
 
-  // The power has come.
+  // Power-up.
   void begin(const PtuAnswer& ready, double time_s) {
     wire.clear(time_s);
     delay.forget();
@@ -64,7 +64,7 @@ struct PtuUnit::Impl {
     wire.say(controller.banner(), time_s);
   }
 
-  // When something happens next inside the unit, or nothing.
+  // When the next internal event is due, if any.
   std::optional<double> next_event_s() {
     if (pending_answer) return pending_answer->ready_s;
     const auto command_s = wire.command_s();
@@ -90,7 +90,7 @@ struct PtuUnit::Impl {
     controller.forget(now_s - kHistory_s);
   }
 
-  // Every byte that has come by then, understood or not, ends a scan.
+  // Any byte that has arrived by then, understood or not, ends a scan.
   void hear(double time_s) {
     controller.advance(time_s);
     if (!controller.scanning()) return;
@@ -121,13 +121,12 @@ struct PtuUnit::Impl {
     } else if (new_line_after(command.delimiter)) {
       wire.say("\n", time_s);
     }
-    // A new rate holds from the byte after the answer on: the answer itself is still at the old
-    // one.
+    // A new rate applies from the byte after the answer on.
     pending_answer = controller.execute(command.text, time_s);
     pending_answer->ready_s = std::max(pending_answer->ready_s, time_s + rest_s);
   }
 
-  // With its echo off an E-series unit begins a new line after a bare CR, and none after CR LF:
+  // With its echo off an E-series unit begins a new line after a bare CR, but not after CR LF:
   // transcripts of two such units.
   bool new_line_after(char delimiter) const {
     const bool bare =
@@ -140,7 +139,7 @@ struct PtuUnit::Impl {
   ReplyDelay delay;
   PtuWire wire;
   double now_s;
-  double busy_until_s = 0.0;  // no command is taken before
+  double busy_until_s = 0.0;  // no command is accepted before
   std::optional<PtuAnswer> pending_answer;
 };
 

@@ -1,7 +1,7 @@
 // A simulated FLIR PTU-D46-70 or PTU-E46-70 behind its serial line: bytes and time in, bytes and
-// true angles out. Pure; sim/ptu_line.* puts it on a pty in real time, the lockstep
-// simulation steps it. What of it is documented, seen on real units or only assumed:
-// docs/ptu-conformance.md.
+// true angles out. Pure; sim/ptu_line.* puts it on a pty in real time, the lockstep simulation
+// steps it. docs/ptu-conformance.md says which behaviour is documented, seen on real units or only
+// assumed.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,14 @@ struct PtuUnitConfig {
   int min_speed_counts_s = 31;
   int base_speed_counts_s = 57;
   int acceleration_counts_s2 = 2000;  // factory default; the master raises it
-  int baud = 9600;                    // at power-up: time a byte takes on the line; 0: none
+  int baud = 9600;                    // at power-up; determines the duration of a byte; 0: none
   double reply_delay_s = 0.001;       // of the controller
   double reply_jitter_s = 0.0;        // uniform +-; the unit reads its counters within the delay
-  double parameter_set_s = 0.0;       // that setting PA, PB, PU, PL takes (seconds on real units)
+  double parameter_set_s = 0.0;       // duration of setting PA, PB, PU, PL (seconds on real units)
   bool echo = true;                   // factory default
   bool verbose = true;                // factory default
   bool home_at_power_up = true;
-  bool homed_before = true;  // if not at power-up: somebody homed it before time began
+  bool homed_before = true;  // without homing at power-up: it was homed before the start
   double home_speed_rad_s = 0.7;
 };
 
@@ -42,28 +42,28 @@ class PtuUnit {
   PtuUnit(const PtuUnitConfig& config, std::uint64_t seed, double power_up_s);
   ~PtuUnit();
 
-  // Bytes from the master; `time_s` is when the first of them begins on the line. Time never goes
-  // back between calls of any method.
+  // Bytes from the master; the first begins on the line at `time_s`. Time never decreases between
+  // calls of any method.
   void receive(std::string_view bytes, double time_s);
 
-  // Bytes whose last bit is on the line by `time_s` and that were not handed out before.
+  // Bytes whose last bit is on the line by `time_s`, each returned once.
   std::string transmit(double time_s);
 
-  // When transmit() will next have something to give, as far as known now; nothing: the line stays
-  // silent until it receives.
+  // When transmit() will next return something, as far as known now; nullopt: the line stays silent
+  // until it receives.
   std::optional<double> next_output_s() const;
 
-  // The power goes and comes again: what was not saved is forgotten, also where it stood.
+  // A power cycle: everything that was not saved is lost, including the position.
   void power_cycle(double time_s);
-  // As if somebody had chosen so with RE or RD.
+  // As if RE or RD had been sent.
   void home_at_power_up(bool homes);
-  // As if somebody had sent EE.
+  // As if EE had been sent.
   void switch_echo_on(double time_s);
-  // The pan mechanism gives way, unnoticed by the unit.
+  // The pan mechanism slips, unnoticed by the unit.
   void slip(double pan_rad, double time_s);
 
-  // The rate of the master's port: another one than the unit's makes noise of every byte. 0, as at
-  // first: it is always right.
+  // The rate of the master's port: with a rate other than the unit's every byte becomes noise. 0
+  // (default): always right.
   void set_master_baud(int baud);
 
   // True shaft angles of the mechanism (pan left positive, tilt up positive), continuous, at any

@@ -27,7 +27,7 @@ char PtuWire::on_the_line(char byte, int byte_baud) {
 void PtuWire::receive(std::string_view bytes, double time_s) {
   for (const char byte : bytes) {
     input_free_s_ = std::max(input_free_s_, time_s) + byte_s();
-    // A full buffer loses its last byte, so that a delimiter always gets in.
+    // A full buffer loses its last byte, so that a delimiter always fits.
     if (input_.size() == kInputBuffer_bytes) input_.pop_back();
     input_.push_back({on_the_line(byte, baud_), input_free_s_, baud_});
   }

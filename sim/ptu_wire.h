@@ -18,29 +18,29 @@ class PtuWire {
     int baud;
   };
   struct Command {
-    std::string text;  // without what ends it; cut when too long
+    std::string text;  // without its delimiter; truncated if too long
     char delimiter = '\0';
   };
 
   explicit PtuWire(std::uint64_t noise_seed) : noise_(noise_seed) {}
 
-  // Nothing is on the line from this instant on.
+  // Clears the line from this instant on.
   void clear(double time_s);
   void set_baud(int baud) { baud_ = baud; }
-  // Another rate than the unit's makes noise of every byte; 0: it is always right.
+  // With a rate other than the unit's every byte becomes noise; 0: always right.
   void set_master_baud(int baud) { master_baud_ = baud; }
 
   // Bytes from the master; the first begins at `time_s`.
   void receive(std::string_view bytes, double time_s);
   const std::deque<Byte>& input() const { return input_; }
-  // When the first command that waits was complete.
+  // When the first waiting command was complete.
   std::optional<double> command_s() const;
-  // There must be one.
+  // Only if a command is waiting.
   Command take_command();
 
-  // Puts text on the line, not before `time_s`, in order.
+  // Puts text on the line, in order, not before `time_s`.
   void say(const std::string& text, double time_s);
-  // What is on the line by `time_s` and was not handed out before.
+  // The bytes on the line by `time_s`, each returned once.
   std::string transmit(double time_s);
   std::optional<double> next_output_s() const;
 
@@ -50,7 +50,7 @@ class PtuWire {
 
   std::mt19937_64 noise_;
   int baud_ = 0, master_baud_ = 0;
-  double line_free_s_ = 0.0;   // our transmitter
+  double line_free_s_ = 0.0;   // the unit's transmitter
   double input_free_s_ = 0.0;  // the master's
   std::deque<Byte> input_, output_;
 };

@@ -85,7 +85,7 @@ struct Pty::Terminal {
     std::filesystem::create_symlink(device, link);
   }
 
-  // Somebody else may have taken the link over.
+  // Another process may have replaced the link.
   ~Terminal() {
     std::error_code ignored;
     if (!link.empty() && std::filesystem::read_symlink(link, ignored) == device) {
@@ -95,7 +95,7 @@ struct Pty::Terminal {
 
   Descriptor master;
   std::string device;
-  Descriptor slave;  // held open, so that a client that leaves does not hang the line up
+  Descriptor slave;  // held open, so that a client that leaves does not hang up the line
   std::string link;
 };
 

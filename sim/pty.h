@@ -1,6 +1,6 @@
-// A pseudo terminal that stands in for a serial device: what a product process opens is its slave,
-// or a link to it. The line outlives clients: one may close the device and another open it again.
-// For one thread at a time.
+// A pseudo terminal in place of a serial device: a product process opens its slave, or a link to
+// it. The line outlives clients: one may close the device and another open it again. For one thread
+// at a time.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@ namespace ols::sim {
 
 class Pty {
  public:
-  // `link`: a symbolic link to the device is made there (an old link is replaced) and removed at
-  // the end; empty: none. Throws std::system_error.
+  // `link`: path of a symbolic link to the device; replaces an old link, and is removed at the end;
+  // empty: none. Throws std::system_error.
   explicit Pty(const std::string& link = "");
   ~Pty();
   Pty(Pty&&) noexcept;
@@ -20,30 +20,31 @@ class Pty {
   // The slave, for example /dev/pts/3; empty while unplugged.
   const std::string& device() const;
 
-  // As when a USB adapter is pulled and put in again: the link goes, who has the device open finds
-  // it hung up; then there is a new device under the same link. Doing either twice does nothing.
+  // As when a USB adapter is unplugged and plugged in again: the link disappears, and a client that
+  // has the device open gets a hang-up; then there is a new device under the same link. Repeating
+  // either has no effect.
   void unplug();
   void plug();
   bool plugged() const;
 
-  // Until a client has written something, but no longer than this.
+  // Waits until a client has written something, but no longer than this.
   void wait(double timeout_s) const;
 
-  // What clients have written by now; does not wait. Empty while unplugged.
+  // The bytes that clients have written by now; does not wait. Empty while unplugged.
   std::string read();
 
-  // The rate that the client has set on its port, or who had it open last; 0 while unplugged or
-  // when it is none that serial ports usually have.
+  // The rate that the current or last client has set on its port; 0 while unplugged or for a rate
+  // that is unusual for serial ports.
   int client_baud() const;
 
-  // For whoever has the device open. A line that nobody reads loses its bytes, here once the
-  // terminal's buffer is full; so does one that is unplugged.
+  // Sends to a client that has the device open. Without a reader bytes are lost once the terminal's
+  // buffer is full; while unplugged, at once.
   void write(std::string_view bytes);
 
  private:
   struct Terminal;
   std::string link_;
-  std::unique_ptr<Terminal> terminal_;  // nothing while unplugged
+  std::unique_ptr<Terminal> terminal_;  // null while unplugged
 };
 
 }  // namespace ols::sim

@@ -1,4 +1,4 @@
-// Any bytes as a message that LcmBus can publish.
+// Arbitrary bytes as a message that LcmBus can publish.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// ols-sim-relay: joins two LCM buses by a bad network.
+// ols-sim-relay: connects two LCM buses by a bad network.
 
 #include <cmath>
 #include <iostream>
@@ -23,7 +23,7 @@ struct Options {
 };
 
 void define(CLI::App& app, Options& o) {
-  // CLI::Range lets NaN through: it compares.
+  // CLI::Range accepts NaN, because it only compares.
   const CLI::Validator number(
       [](std::string& text) { return text == "nan" ? "not a number" : std::string(); }, "");
   const auto share = [&](const char* name, double& value, const char* what) {
@@ -37,16 +37,16 @@ void define(CLI::App& app, Options& o) {
   app.add_option("--channels", o.channels, "regular expression: these go from --from to --to")
       ->capture_default_str();
   app.add_option("--back-channels", o.back_channels,
-                 "these go back, but for those that match --channels; default: none");
+                 "these go back, except those that match --channels; default: none");
   share("--loss", o.impairments.loss, "probability that a message is lost");
   share("--duplicate", o.impairments.duplicate, "probability that it is sent twice");
   share("--reorder", o.impairments.reorder, "probability that it is held back");
-  milliseconds("--reorder-ms", o.reorder_ms, "[ms] for so long (default 50)");
+  milliseconds("--reorder-ms", o.reorder_ms, "[ms] how long it is held back (default 50)");
   milliseconds("--delay-ms", o.delay_ms, "[ms] delay of every message");
-  app.add_option("--queue", o.impairments.capacity, "messages under way at most, each way")
+  app.add_option("--queue", o.impairments.capacity, "maximum messages in transit, each way")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  app.add_option("--seed", o.seed, "of what is drawn")
+  app.add_option("--seed", o.seed, "seed of all random numbers")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
 }
@@ -56,7 +56,7 @@ void receive(ols::LcmBus& bus, const std::string& channels, const std::string& b
   const std::regex excluded(but_not);
   bus.subscribe(channels,
                 [&queue, excluded, exclude = !but_not.empty()](const ols::BusMessage& message) {
-                  // What this relay itself has sent comes back to it on this bus.
+                  // The relay receives its own messages on this bus.
                   if (exclude && std::regex_match(message.channel, excluded)) return;
                   queue.offer({message.channel, message.payload}, ols::clock_monotonic_s());
                 });
@@ -98,8 +98,8 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   ols::install_shutdown_handler();
   CLI::App app(
-      "Relays messages between two LCM buses and loses, doubles, delays and reorders them on the "
-      "way. Prints its counts at the end.");
+      "Relays messages between two LCM buses and loses, duplicates, delays and reorders them "
+      "on the way. Prints its counts at the end.");
   Options options;
   define(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-sim-relay")) return *status;

@@ -11,7 +11,8 @@ bool RelayQueue::draw(double probability) {
 
 void RelayQueue::offer(Packet packet, double time_s) {
   ++counts_.received;
-  // All are drawn, so that one probability does not shift the others' choice.
+  // All random numbers are always drawn, so that one probability does not change the others'
+  // results.
   const bool lost = draw(impairments_.loss), doubled = draw(impairments_.duplicate);
   const bool late = draw(impairments_.reorder), copy_late = draw(impairments_.reorder);
   if (lost) {

@@ -1,5 +1,5 @@
-// One direction of a relay between two buses: loses, doubles, delays and reorders what passes, by
-// drawn lots. Pure; deterministic by its seed, whatever the times are.
+// One direction of a relay between two buses: loses, duplicates, delays and reorders messages at
+// random. Pure; deterministic by its seed, whatever the times are.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,10 @@
 namespace ols::sim {
 
 struct Impairments {
-  double loss = 0.0, duplicate = 0.0, reorder = 0.0;  // probabilities, each message
+  double loss = 0.0, duplicate = 0.0, reorder = 0.0;  // probabilities, per message
   double delay_s = 0.0;                               // of every message
   double reorder_s = 0.05;      // added to a reordered one, so that later ones overtake it
-  std::size_t capacity = 1000;  // messages under way; more are dropped
+  std::size_t capacity = 1000;  // max messages in transit; further ones are dropped
 };
 
 struct Packet {
@@ -34,7 +34,7 @@ class RelayQueue {
   RelayQueue(const Impairments& impairments, std::uint64_t seed);
 
   void offer(Packet packet, double time_s);
-  // What is due by now, in the order of its instant.
+  // The messages due by now, in the order of their due times.
   std::vector<Packet> take(double time_s);
 
   std::size_t size() const { return queue_.size(); }
@@ -46,7 +46,7 @@ class RelayQueue {
 
   Impairments impairments_;
   std::mt19937_64 random_;
-  std::uint64_t number_ = 0;  // keeps those of one instant in order
+  std::uint64_t number_ = 0;  // keeps messages of one instant in order
   std::map<std::pair<double, std::uint64_t>, Packet> queue_;
   RelayCounts counts_;
 };

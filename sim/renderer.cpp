@@ -12,7 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kNoiseStrip = std::size_t{1} << 21;
-// Light in 16 bits, in 64ths of a gray level; the greatest gain and noise still fit.
+// Light in 16 bits, in 64ths of a gray level; maximum gain and noise still fit.
 constexpr int kLevelBits = 6, kLevel = 1 << kLevelBits;
 constexpr double kUnitGain = 16384.0, kGreatestGain = 1.4;
 constexpr std::uint64_t kPanoramaTag = 1000, kNoiseTag = 2000;
@@ -27,7 +27,7 @@ Eigen::Isometry3d camera_pose(const StationTruth& station, const PanTilt& angles
   return enu_from_camera(station.truth.chain, angles);
 }
 
-// A target's place in the camera frame at an instant.
+// A target's position in the camera frame at an instant.
 Vector3d in_camera(const World& world, const StationTruth& station, std::size_t target,
                    double time_s, const PanTilt& angles) {
   const LocalFrame local(station.truth.position);
@@ -69,7 +69,7 @@ cv::Mat box_kernel(double length_px) {
   return kernel;
 }
 
-// 16-bit arithmetic throughout, which compilers turn into vector instructions.
+// 16-bit arithmetic throughout, which compilers vectorise.
 void develop_row(const std::vector<std::uint16_t>& column_gain, std::uint16_t falloff,
                  const std::int16_t* __restrict noise, std::uint8_t* __restrict out) {
   const std::uint16_t* __restrict gain = column_gain.data();
@@ -156,7 +156,7 @@ void Renderer::smear(const ExposureTruth& exposure, cv::Mat& gray) const {
   const Matrix3d H = rotation_homography(truth, exposure.start, exposure.end);
   const Vector3d centre(truth.camera.cx_px, truth.camera.cy_px, 1.0);
   const Eigen::Vector2d motion = (H * centre).hnormalized() - centre.head<2>();
-  // Along the two axes one after the other: exact for a pan or a tilt.
+  // Along one axis after the other: exact for a pan or a tilt.
   constexpr double kNoticed = 0.7;  // [px] below this the lens blurs more
   const double along_x = std::max(1.0, std::abs(motion.x()));
   const double along_y = std::max(1.0, std::abs(motion.y()));

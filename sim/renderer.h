@@ -1,4 +1,4 @@
-// What one station's camera sees, from where its PTU really points, with the truth about it.
+// The image of one station's camera, at the true angles of its PTU, with the truth about it.
 #pragma once
 
 #include <cstdint>
@@ -22,12 +22,12 @@ struct ExposureTruth {
 };
 
 struct ViewTruth {
-  bool visible = false;  // the target's centre is inside the picture
+  bool visible = false;  // the target's centre is inside the image
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
   cv::Rect2d box;
 };
 
-// The truth about one picture without drawing it; of the scenario's first target, or another one.
+// The truth about one image without drawing it; of the scenario's first target, or another one.
 ViewTruth view_truth(const World& world, std::size_t station, const ExposureTruth& exposure,
                      std::size_t target = 0);
 
@@ -40,7 +40,7 @@ class Renderer {
   // `world` must outlive the renderer; `slopes` as for Panorama.
   Renderer(const World& world, std::size_t station, const cv::Mat& slopes);
 
-  // Draws the picture; the same exposure gives the same picture.
+  // Draws the image; the same exposure gives the same image.
   ViewTruth draw(const ExposureTruth& exposure, cv::Mat& gray);
 
   const Panorama& panorama() const { return panorama_; }
@@ -52,7 +52,7 @@ class Renderer {
   const World& world_;
   std::size_t station_;
   Panorama panorama_;
-  std::vector<std::int16_t> noise_;         // a long strip, read at random places
+  std::vector<std::int16_t> noise_;         // a long strip, read at random positions
   std::vector<std::uint16_t> column_gain_;  // of a row through the image's centre
   std::vector<std::uint16_t> row_falloff_;
 };

@@ -52,7 +52,7 @@ void write_fixes(const std::vector<Fix>& fixes, const std::string& path) {
   file.commit();
 }
 
-// (What is not a number is null in JSON.)
+// (JSON has null in place of NaN.)
 nlohmann::ordered_json estimator_json(const EstimatorSummary& s) {
   return {{"fixes", s.fixes},
           {"rmse_m", s.rmse_m},

@@ -1,4 +1,4 @@
-// What a lockstep run writes down: fixes beside the truth, and a summary.
+// The output files of a lockstep run: fixes with the truth, and a summary.
 #pragma once
 
 #include <string>
@@ -27,16 +27,16 @@ EstimatorSummary summarise(const std::vector<Fix>& fixes);
 BoundSummary summarise_bound(const World& world, const std::vector<Fix>& fixes,
                              const MeasurementNoise& noise, std::size_t stride = 10);
 
-// Of all believed pixels of all stations, the part that is new with every frame (about the mean of
-// its station) and the mean.
+// Of all pixels above min belief of all stations: the mean, and the white part (about the mean of
+// each station).
 struct PixelSummary {
   double white_sd_px = 0.0;
   double mean_px = 0.0;
 };
 PixelSummary summarise_pixels(const std::vector<StationRecord>& stations);
 
-// truth.csv, fixes.csv, fixes_paper.csv, frames.csv, slews.csv, counters.csv and summary.json in
-// `folder`, which is made.
+// Writes truth.csv, fixes.csv, fixes_paper.csv, frames.csv, slews.csv, counters.csv and
+// summary.json into `folder`, which it creates.
 void write_report(const World& world, const LockstepResult& result, double duration_s,
                   const std::string& folder);
 

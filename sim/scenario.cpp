@@ -17,7 +17,7 @@ namespace {
 using config::Row;
 using config::Section;
 
-// What a row cannot hold: the camera's optics as data sheets have them.
+// Values without a configuration row: the camera's optics as data sheets state them.
 struct Optics {
   double focal_length_mm = 50.0, pixel_um = 3.75;
   std::array<double, 5> distortion{};
@@ -109,7 +109,7 @@ Section landscape_section(Landscape& l) {
       "landscape",
       "What stands around the site.",
       {angle("ridge_mean_deg", l.ridge_mean_rad, {-10, 40}, "Mean elevation of the ridge."),
-       angle("ridge_relief_deg", l.ridge_relief_rad, {0, 30}, "Its greatest departure from it."),
+       angle("ridge_relief_deg", l.ridge_relief_rad, {0, 30}, "Its maximum deviation from that."),
        config::number("cloudiness", l.cloudiness, {0, 2}, "", "0: clear sky."),
        config::number("haze", l.haze, {0, 1}, "", "Share of air light before the slopes."),
        config::integer("seed", l.seed, 0, 1 << 30, "", "Seed of its shapes.")}};
@@ -270,7 +270,7 @@ void check_fault(ConfigTable& table, const Fault& fault, const Scenario& s) {
   if (!problem.key.empty()) throw table.error(problem.key, problem.what);
   if (!fault.station.empty() &&
       std::ranges::count(s.stations, fault.station, &StationScenario::id) == 0)
-    throw table.error("station", "there is no station of this id");
+    throw table.error("station", "names an unknown station");
 }
 
 Section fault_section(Scenario& s) {
@@ -342,7 +342,7 @@ void switch_off(Errors& e, const std::string& name) {
     }
     known += std::string(known.empty() ? "" : ", ") + known_name;
   }
-  throw std::invalid_argument("there is no error '" + name + "'; there are " + known);
+  throw std::invalid_argument("unknown error '" + name + "'; known ones: " + known);
 }
 
 void keep_target(Scenario& scenario, const std::string& id) {

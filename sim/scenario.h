@@ -17,7 +17,8 @@ struct Section;
 }
 namespace ols::sim {
 
-// What a real site has. A switched-off error has no effect and is stated as zero to the stations.
+// The errors of a real site. A switched-off error has no effect and is stated as zero to the
+// stations.
 struct Errors {
   struct Switch {
     bool on = true;
@@ -39,7 +40,7 @@ struct Errors {
     double step_arcsec = 11.5714;
   } encoder;
   struct Distortion : Switch {
-    double residual_k1_sd = 0.02;  // what calibration left of k1
+    double residual_k1_sd = 0.02;  // error of k1 after calibration
   } distortion;
   struct Noise : Switch {
     double sd_gray = 2.0;
@@ -73,7 +74,7 @@ struct StationScenario {
   ChainParameters chain;        // as calibrated
   std::string camera_address;
   std::string ptu_line;    // file name of the pty's link
-  std::string ptu_device;  // of a real unit that takes the simulated one's place; empty: none
+  std::string ptu_device;  // of a real unit that replaces the simulated one; empty: none
 };
 
 struct TargetScenario {
@@ -83,29 +84,29 @@ struct TargetScenario {
   double brightness = 0.22;  // 0 black .. 1 as bright as the sky
 };
 
-// How the stations find their headings: not at all, what they are off is drawn (errors.heading);
-// each by sighting the other stations; or by sighting landmarks.
+// How the stations find their headings: not at all, their errors are drawn (errors.heading); each
+// by sighting the other stations; or by sighting landmarks.
 enum class StationingBy { kDrawn, kEachOther, kLandmarks };
 
-// With errors.heading switched off the landmarks are where they are said to be, and marked exactly.
+// With errors.heading switched off the landmarks are exact, and so are the operator's marks.
 struct StationingScenario {
   struct Landmark {
     std::string id;
-    Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();  // [m] as the land register has it
+    Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();  // [m] as in the land register
     double sd_m = 0.1;                                 // of each axis
   };
   StationingBy by = StationingBy::kDrawn;
   double mark_sd_px = 0.5;             // of the operator's mark, each coordinate
-  double each_other_sd_m = 0.05;       // of which point of a station the others mark, each axis
-  double highest_rad = radians(10.0);  // from the horizon, of what is to be looked at
+  double each_other_sd_m = 0.05;       // of the point of a station that the others sight, each axis
+  double highest_rad = radians(10.0);  // max elevation or depression of a sighting
   std::vector<Landmark> landmarks;
 };
 
-// How the stations' PTUs are set up.
+// The configuration of the stations' PTUs.
 struct PtuScenario {
   int baud = 38400;
   double poll_interval_s = 0.025;
-  bool home_at_power_up = true;  // for about twenty seconds, in which it answers nothing
+  bool home_at_power_up = true;  // for about twenty seconds without answers
 };
 
 // The inclinometer of every station.
@@ -120,15 +121,15 @@ struct GnssScenario {
   bool on = true;
   double sd_m = 0.01;  // of each of east and north; half as much again of up
   Eigen::Vector3d ground_to_antenna_enu_m{0.1, -0.2, 1.9};
-  int gpsd_port = 2950;  // of the first station's gpsd; the others' follow
+  int gpsd_port = 2950;  // of the first station's gpsd; the others follow
 };
 
 // The emergency stop input of every station.
 struct GpioScenario {
-  bool on = false;  // a station without it is told of none
+  bool on = false;  // without it a station's configuration has no stop input
 };
 
-// What stands around the site, seen at infinity.
+// The landscape around the site, at infinity.
 struct Landscape {
   double ridge_mean_rad = radians(8.0);
   double ridge_relief_rad = radians(6.0);  // the ridge line stays within mean +- relief
@@ -156,15 +157,15 @@ struct Scenario {
   std::vector<Fault> faults;
 };
 
-// Switches an error off by its name in the file ("heading", "tilt", ...). std::invalid_argument,
-// listing the names, when there is no such error.
+// Switches an error off by its name in the file ("heading", "tilt", ...). Throws
+// std::invalid_argument, listing the names, for an unknown one.
 void switch_off(Errors& errors, const std::string& name);
 
-// "drawn", "each-other" or "landmarks". std::invalid_argument, listing these, for another one or
-// where there are no landmarks.
+// "drawn", "each-other" or "landmarks". Throws std::invalid_argument, listing these, for another
+// one or if there are no landmarks.
 void choose_stationing(StationingScenario& stationing, const std::string& by);
 
-// Leaves only this one of the targets. std::invalid_argument when there is none of this id.
+// Keeps only this target. Throws std::invalid_argument for an unknown id.
 void keep_target(Scenario& scenario, const std::string& id);
 
 // The whole file; files named in it are relative to `folder`.

@@ -72,7 +72,7 @@ config::Section stationing_section(StationingScenario& s) {
            config::number("each_other_sd_m", s.each_other_sd_m, {0.0, 100.0}, "m",
                           "1-sigma of the point of a station that the others mark, each axis."),
            config::number("highest_deg", s.highest_rad, {0.0, 80.0}, station::in_degrees(),
-                          "Greatest elevation or depression of a sighting.")},
+                          "Maximum elevation or depression of a sighting.")},
           {landmark_section(s.landmarks)},
           [&s](ConfigTable& table) {
             if (s.by == StationingBy::kLandmarks && s.landmarks.empty())
@@ -92,7 +92,7 @@ void choose_stationing(StationingScenario& stationing, const std::string& by) {
     }
     known += std::string(known.empty() ? "" : ", ") + name;
   }
-  throw std::invalid_argument("there is no stationing '" + by + "'; there are " + known);
+  throw std::invalid_argument("unknown stationing '" + by + "'; known ones: " + known);
 }
 
 }  // namespace ols::sim

@@ -1,5 +1,5 @@
-// The places of a scenario that are given in UTM, as a land register has them: landmarks, and how
-// the stations find their headings by sighting them.
+// The landmarks of a scenario, given in UTM as in a land register, and how the stations find their
+// headings by sighting them.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ struct UtmPlace {
 };
 
 std::vector<config::Row> utm_rows(UtmPlace& place);
-// ConfigError for a place outside its zone.
+// Throws ConfigError for a place outside its zone.
 Geodetic geodetic(ConfigTable& table, const UtmPlace& place);
 
 config::Section stationing_section(StationingScenario& stationing);

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr config::Range kSite_m{-kFar_m, kFar_m};
 
-// The keys of all kinds, of which each has some.
+// The keys of all kinds; each kind uses some.
 struct TrajectoryKeys {
   std::string kind = "lissajous";
   Vector3d centre_enu_m = Vector3d::Zero(), amplitude_m = Vector3d::Zero();
@@ -94,7 +94,7 @@ std::unique_ptr<Trajectory> made(ConfigTable& table, const TrajectoryKeys& keys,
   if (keys.kind == "lissajous") return lissajous(keys);
   if (keys.kind == "circle") return circle(keys);
   if (keys.kind == "waypoints") return waypoints(table, keys);
-  if (keys.kind == "utm")  // a landmark as a land register has it: it is stationary
+  if (keys.kind == "utm")  // a landmark as in a land register: it is stationary
     return line(site.to_enu(ecef_from_geodetic(geodetic(table, keys.utm))), Vector3d::Zero());
   if (keys.kind == "file")
     return load_trajectory_file(

@@ -1,4 +1,4 @@
-// How a scenario's target moves: [target.trajectory].
+// The motion of a scenario's target: [target.trajectory].
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace ols::sim {
 
-// Of the site whose origin is read by then; files are relative to `folder`.
+// Of a site whose origin has been read before; files are relative to `folder`.
 struct TrajectoryPlace {
   const Geodetic& origin;
   std::string folder;

@@ -13,11 +13,11 @@ using Eigen::Vector3d;
 
 constexpr std::uint64_t kLandmarkTag = 4000, kMarkTag = 4100;
 
-// What is sighted, where it is said to be and where it is.
+// A sighted point: its stated and its true position.
 struct Sighted {
   std::string id;
   Vector3d told_ecef, true_ecef;
-  double sd_m = 0.0;  // of what is told
+  double sd_m = 0.0;  // of the stated position
 };
 
 class Draw {
@@ -45,7 +45,7 @@ std::vector<Sighted> landmarks(const StationingScenario& s, double on, std::uint
   return all;
 }
 
-// The others' camera centres, each marked at a slightly wrong point.
+// The other stations' camera centres, each marked at a slightly wrong point.
 std::vector<Sighted> others(const std::vector<StationTruth>& stations, std::size_t own,
                             double mark_sd_m, Draw& draw) {
   std::vector<Sighted> all;
@@ -99,7 +99,7 @@ void find_headings(const Scenario& scenario, std::uint64_t seed, double step_rad
     for (const Sighted& each : sighted) {
       sightings.push_back(sighting(before[i], each, on * how.mark_sd_px, step_rad, draw));
     }
-    // No landmark here is mistaken: a test that says so in one stationing of a thousand is wrong.
+    // There are no gross errors here, so the test would be wrong in one stationing of a thousand.
     constexpr StationingLevels kLevels{.mistaken = 1e-12};
     stations[i].nominal =
         station_by_landmarks(before[i].nominal, sightings, how.highest_rad, kLevels).station;

@@ -1,5 +1,5 @@
-// The stationing of the world's stations, as a field team does it: each station sights landmarks
-// (or the other stations), and the product's stationing finds its pose (geometry/stationing.h).
+// The stationing of the world's stations, as by a field team: each station sights landmarks (or the
+// other stations), and the product's stationing finds its pose (geometry/stationing.h).
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace ols::sim {
 
-// Puts what was found in the place of `nominal`. A landmark is wrong by the same for all stations;
-// marks are drawn for each. step_rad: of the PTUs' encoders. std::invalid_argument where a landmark
-// is out of reach of a station.
+// Replaces `nominal` by the result. A landmark's error is the same for all stations; marks are
+// drawn for each. step_rad: of the PTUs' encoders. Throws std::invalid_argument if a landmark is
+// out of reach of a station.
 void find_headings(const Scenario& scenario, std::uint64_t seed, double step_rad,
                    std::vector<StationTruth>& stations);
 

@@ -98,7 +98,7 @@ std::string station_file(const World& world, std::size_t station,
                          const StationFileOptions& options) {
   const StationTruth& truth = world.stations()[station];
   std::ostringstream out;
-  // As many digits as a double has: what is read is what was written.
+  // All digits of a double, so that reading restores the written value.
   out << std::setprecision(17);
   out << "# Station " << truth.id << " of the simulated site \"" << world.scenario().name << "\".\n"
       << "id = \"" << truth.id << "\"\nlcm_url = \"" << options.lcm_url << "\"\n"

@@ -1,8 +1,9 @@
-// A library to preload into one process: its wall clock is off by what a file says at the moment,
-// and can so be stepped while it runs. Nothing else changes: neither CLOCK_MONOTONIC nor any sleep.
-// (libfaketime 0.9.10 also takes clock_nanosleep over, and then refuses absolute monotonic times.)
+// A library to preload into one process: its wall clock is offset by the current content of a file,
+// so that it can be stepped while it runs. Nothing else changes: neither CLOCK_MONOTONIC nor any
+// sleep. (libfaketime 0.9.10 also intercepts clock_nanosleep, and then refuses absolute monotonic
+// times.)
 //
-// OLS_CLOCK_OFFSET_FILE names a file of eight bytes: int64, nanoseconds, of this machine's order.
+// OLS_CLOCK_OFFSET_FILE names a file of eight bytes: int64, nanoseconds, native byte order.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-// Written by another process: only ever loaded whole.
+// Written by another process: always loaded as a whole.
 const std::atomic<std::int64_t>* offset_ns = nullptr;
 
 __attribute__((constructor)) void open_offset() {

@@ -25,7 +25,7 @@ cv::Mat octave(cv::Size size, double wavelength_px, std::mt19937_64& generator) 
   return large;
 }
 
-// Draws a disc on a periodic picture.
+// Draws a disc on a periodic image.
 void disc(cv::Mat& picture, cv::Point centre, int radius, int gray) {
   const int n = picture.cols;
   for (int dy : {-n, 0, n}) {
@@ -44,7 +44,7 @@ void crown(cv::Mat& picture, cv::Point centre, int radius, int gray) {
   disc(picture, centre + cv::Point(-radius / 4, -radius / 4), radius * 2 / 5, gray + 12);
 }
 
-// Moves each texel by smooth noise, so that crowns lose their round outline.
+// Displaces each texel by smooth noise, so that crowns are not round.
 cv::Mat crumple(const cv::Mat& picture, double amplitude_px, std::mt19937_64& generator) {
   constexpr int kMargin = 64;
   const cv::Size size = picture.size();
@@ -84,7 +84,7 @@ cv::Mat wood(int size, std::mt19937_64& generator) {
   std::uniform_int_distribution<int> across(0, size - 1), radius(6, 20), tone(-12, 12);
   const int crowns = size * size / 200;
   for (int i = 0; i < crowns; ++i) {
-    // From the top downwards: the nearer trees stand lower and cover the farther ones.
+    // From the top downwards: nearer trees are lower in the image and cover the farther ones.
     const cv::Point centre(across(generator),
                            static_cast<int>(static_cast<std::int64_t>(size) * i / crowns));
     const int r = radius(generator), t = tone(generator);

@@ -8,9 +8,9 @@
 
 namespace ols::sim {
 
-// Fractal noise, float, about zero mean and unit deviation. Wavelengths from `longest_px` down to
-// `shortest_px`, each octave `roughness` times the amplitude of the one before. Periodic in both
-// directions.
+// Fractal noise, float, with zero mean and unit deviation. Wavelengths from `longest_px` down to
+// `shortest_px`, each octave with `roughness` times the amplitude of the one before. Periodic in
+// both directions.
 cv::Mat fractal_noise(cv::Size size, double longest_px, double shortest_px, double roughness,
                       std::mt19937_64& generator);
 

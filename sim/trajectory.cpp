@@ -26,7 +26,7 @@ void check(const std::vector<double>& times_s, std::size_t points) {
     throw std::invalid_argument("needs at least two points");
   }
   for (std::size_t i = 1; i < points; ++i) {
-    if (!(times_s[i] > times_s[i - 1])) throw std::invalid_argument("times must grow");
+    if (!(times_s[i] > times_s[i - 1])) throw std::invalid_argument("times must increase");
   }
 }
 

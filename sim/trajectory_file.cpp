@@ -7,7 +7,7 @@
 namespace ols::sim {
 namespace {
 
-// To whoever reads a scenario, its trajectory's file is part of it.
+// A trajectory file is part of the scenario: its errors are configuration errors.
 std::vector<FlightRow> rows_of(const std::string& path) {
   try {
     return read_flight(path);

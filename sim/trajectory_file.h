@@ -9,7 +9,7 @@
 
 namespace ols::sim {
 
-// Scenario time 0 is the first row. Throws ConfigError naming file, line and what is wrong.
+// Scenario time 0 is the first row. Throws ConfigError with file, line and reason.
 std::unique_ptr<Trajectory> load_trajectory_file(const std::string& path, const LocalFrame& site);
 
 }  // namespace ols::sim

@@ -1,5 +1,5 @@
-// Stands where the visual tracker stands, but measures the true pixel with drawn noise of the
-// stated covariance: Monte Carlo runs without pictures.
+// Replaces the visual tracker: measures the true pixel with drawn noise of the stated covariance,
+// for Monte Carlo runs without images.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace ols::sim {
 
-// The truth about a station's last frames, by their time stamps.
+// The truth about a station's recent frames, by their time stamps.
 class ViewMemory {
  public:
   void add(double time_s, const ViewTruth& view);
-  // Nothing when there was no frame with this very stamp.
+  // Nullopt without a frame of exactly this stamp.
   const ViewTruth* at(double time_s) const;
 
  private:
@@ -27,7 +27,7 @@ class ViewTracker final : public tracker::TargetTracker {
   // `views` must outlive the tracker. pixel_sd_px: of each coordinate, new with every frame.
   ViewTracker(const ViewMemory& views, double pixel_sd_px, std::uint64_t seed);
 
-  // What the box is off from the target's centre stays in all that follows, as a template would.
+  // The box's offset from the target's centre remains, as with a template.
   std::optional<tracker::TrackerError> initialise(const tracker::TrackerInput& frame,
                                                   const cv::Rect2d& box) override;
   tracker::TrackerResult track(const tracker::TrackerInput& frame) override;

@@ -8,7 +8,7 @@
 namespace ols::sim {
 namespace {
 
-// Draws every error whether it is on or not, so that a switch changes nothing but its own error.
+// Draws every error even if it is off, so that a switch changes only its own error.
 class ErrorSource {
  public:
   explicit ErrorSource(std::uint64_t seed) : generator_(seed) {}

@@ -14,8 +14,8 @@ namespace ols::sim {
 
 struct StationTruth {
   std::string id;
-  // What the station is told, with the sigmas of what it is not told. After a stationing: what that
-  // has found.
+  // The geometry in the station's configuration, with its sigmas. After a stationing: the result of
+  // that.
   StationGeometry nominal;
   StationGeometry truth;
   double clock_offset_s = 0.0;  // the station's UTC minus true UTC

@@ -12,7 +12,7 @@ Admission::Admission(const AdmissionConfig& config)
 
 void Admission::evict(const std::string& station, FusionLog& log) {
   log.count("stations_evicted");
-  log.error(station, "forgotten, too many stations");
+  log.error(station, "removed, too many stations");
   time_.forget(station);
   clocks_.forget(station);
 }
@@ -47,7 +47,8 @@ Admitted Admission::admit(const BearingMeasurement& sighting, FusionLog& log) {
   return admitted;
 }
 
-// By the station's clock and by "now", then by what else the station has sent.
+// Checks the stamp against the station's clock and "now", then against the station's other
+// bearings.
 BearingRefusal Admission::judge(const BearingMeasurement& sighting, KnownStation& station,
                                 FusionLog& log) {
   if (time_.hear(sighting.station, sighting.utime_us)) {
@@ -91,7 +92,7 @@ BearingRefusal Admission::store(const BearingMeasurement& sighting, KnownStation
   return BearingRefusal::kNone;
 }
 
-// Of its calibration, and of the process that numbers its objects.
+// Detects a new calibration and a new station process, whose track ids start again.
 void Admission::notice_changes(const BearingMeasurement& sighting, FusionLog& log,
                                Admitted& admitted) {
   KnownStation& station = *admitted.station;

@@ -1,4 +1,4 @@
-// Which bearings are taken: in the order of docs/fusion.md, "Which bearings are taken". Pure.
+// Which bearings are admitted, in the order of docs/fusion.md, "Which bearings are taken". Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,24 +15,25 @@
 namespace ols::fusion {
 
 struct AdmissionConfig {
-  double min_belief = 0.5;              // bearings believed less are not used
-  double stale_s = 1.0;                 // older than "now" by more is refused
-  double future_s = 0.5;                // newer than "now" by more is refused
-  double flood_hz = 1000.0;             // more bearings of one station are refused
-  std::vector<std::string> stations{};  // nobody else's bearings are taken; empty: anybody's
-  int max_stations = 1024;  // one more takes the place of the one that is silent longest;
-                            // never of one that has delivered and still does
-  double silence_s = Activity::kDeliversS;  // who is silent for longer does not count for "now"
+  double min_belief = 0.5;              // bearings with a lower belief are not used
+  double stale_s = 1.0;                 // max age before "now"
+  double future_s = 0.5;                // max lead over "now"
+  double flood_hz = 1000.0;             // max rate of bearings of one station
+  std::vector<std::string> stations{};  // only these are admitted; empty: all are
+  // One more replaces the station that is silent longest, but never one that still delivers.
+  int max_stations = 1024;
+  // A station silent for longer does not count in the median "now".
+  double silence_s = Activity::kDeliversS;
   ClockMonitorConfig clocks{};
 };
 
-// What became of a bearing, and what else is to be forgotten by it.
+// The fate of a bearing, and what the rest of the fusion must forget because of it.
 struct Admitted {
   BearingRefusal refusal = BearingRefusal::kNone;
-  KnownStation* station = nullptr;       // whose bearing was taken
-  std::optional<std::string> evicted{};  // this station gave its place to the bearing's
-  bool recalibrated = false;             // the station's systematic errors are other ones,
-  bool restarted = false;                // and its process numbers its objects anew
+  KnownStation* station = nullptr;       // the sender of an admitted bearing
+  std::optional<std::string> evicted{};  // the station that was replaced
+  bool recalibrated = false;             // the station has new systematic errors
+  bool restarted = false;                // its process numbers its tracks from the start again
 };
 
 class Admission {
@@ -40,14 +41,14 @@ class Admission {
   explicit Admission(const AdmissionConfig& config);
 
   Admitted admit(const BearingMeasurement& sighting, FusionLog& log);
-  // What a station's status tells. Who gave way to it.
+  // Takes a station's status; returns the station that it replaced.
   std::optional<std::string> know_station(const std::string& station, const StationTraits& traits,
                                           FusionLog& log);
   void allow_slews(const std::string& station, bool allowed);
-  // Another time line: what was judged by the old one is forgotten.
+  // Message time was reset: forgets what was judged by the old one.
   void begin_time_line();
 
-  // Ahead of "now" by more than is taken.
+  // More than future_s ahead of "now".
   bool is_future(std::int64_t utime_us) const;
   const MessageTime& time() const { return time_; }
   const ClockMonitor& clocks() const { return clocks_; }

@@ -25,25 +25,25 @@ bool in_range(const BearingMeasurement& s) {
          is_a_stations_place(s.sight.origin_ecef, s.sight.origin_sd_enu_m);
 }
 
-// Determinant; an asymmetric matrix counts with the worse of its two off-diagonal elements.
+// Determinant; of an asymmetric matrix, with the worse of its two off-diagonal elements.
 double determinant(const Eigen::Matrix2d& m) {
   const double off = std::max(std::abs(m(0, 1)), std::abs(m(1, 0)));
   return m(0, 0) * m(1, 1) - off * off;
 }
 
 bool variances_within(const Eigen::Matrix2d& m, double least_rad2) {
-  constexpr double kGreatestRad2 = 10.0;  // about (180 deg)^2: nothing is known
+  constexpr double kGreatestRad2 = 10.0;  // about (180 deg)^2: the direction is unknown
   return m.diagonal().minCoeff() >= least_rad2 && m.diagonal().maxCoeff() <= kGreatestRad2;
 }
 
-// The bounds are far beyond any camera's; outside of them one bearing would upset the arithmetic
-// of the whole fit.
+// The bounds are far beyond those of any camera; beyond them, one bearing would make the whole fit
+// ill-conditioned.
 bool covariances_hold(const LineOfSight& sight) {
   constexpr double kLeastWhiteRad2 = 1e-18;
-  constexpr double kWorstCondition = 1e8;  // of the white one: greatest eigenvalue over least
+  constexpr double kWorstCondition = 1e8;  // white part: largest eigenvalue over smallest
   const Eigen::Matrix2d& white = sight.covariance_white;
   const Eigen::Matrix2d& stays = sight.covariance_systematic;
-  const double slack = 1e-9 * stays(0, 0) * stays(1, 1);  // rounding of a singular one
+  const double slack = 1e-9 * stays(0, 0) * stays(1, 1);  // rounding of a singular matrix
   return variances_within(white, kLeastWhiteRad2) && variances_within(stays, 0.0) &&
          determinant(white) >= white.trace() * white.trace() / kWorstCondition &&
          determinant(stays) >= -slack;

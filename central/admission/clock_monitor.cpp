@@ -11,7 +11,7 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kTighter = 0.7;  // of the limits, to be believed again
+constexpr double kTighter = 0.7;  // of the limits, to end the quarantine
 constexpr std::size_t kLeastStationsToCompare = 3;
 
 std::string words(const char* format, double value) {
@@ -44,7 +44,7 @@ std::string ClockMonitor::judge(const std::string& name, const Station& station,
                                 const MessageTime& time) const {
   const double limit = station.quarantine.empty() ? 1.0 : kTighter;
   if (station.error_s > limit * config_.error_limit_s && others_are_better(name, time)) {
-    return words("its clock is wrong by %.2g s, it says", station.error_s);
+    return words("it reports a clock error of %.2g s", station.error_s);
   }
   if (time.delivering_count() < kLeastStationsToCompare) return "";
   const double offset_s = common_offset_s(station);

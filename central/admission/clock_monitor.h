@@ -1,18 +1,19 @@
-// Which stations' clocks can be believed: what each says of its own clock, and how its stamps stand
-// to those of the others. Pure.
+// Which stations' clocks are credible, by what each states of its own clock and by its stamps
+// compared with those of the others. Pure.
 //
-// A station whose clock cannot be believed is quarantined: its bearings are not used, it does not
-// count for the fusion's "now", and the others go on without it. A smaller doubt only inflates its
-// covariance along the target's motion.
+// The bearings of a quarantined station are not used, and it does not count for the fusion's "now";
+// the others continue without it. A smaller clock error only inflates its covariance along the
+// target's motion.
 //
-//  - By its own mark: it states an error beyond error_limit_s while most of the others state less.
-//    (Where nobody has a better clock, the errors are in the covariances and nobody is set aside.)
-//  - By comparison, from three stations on: its stamps lie ahead of the median of all stations'
-//    newest stamps by more than offset_limit_s, or behind it. Late messages look as a slow clock
-//    does, so that only what all stamps of the last second share counts, and a station that is
-//    synchronised is not judged by being late. Two stations cannot be told apart.
+//  - By its own statement: it states an error beyond error_limit_s while most others state less.
+//    (Where no station has a better clock, the covariances contain the errors and none is
+//    quarantined.)
+//  - By comparison, from three stations on: its stamps are ahead of or behind the median of all
+//    stations' newest stamps by more than offset_limit_s. Late messages look like a slow clock.
+//    Only the offset common to all stamps of the last second counts, so a synchronised station is
+//    not quarantined for delays. Of two stations, it is unknown which one is wrong.
 //
-// The quarantine ends when for release_s nothing of this has held, by tighter limits.
+// The quarantine ends when neither has held for release_s, by tighter limits.
 #pragma once
 
 #include <cstdint>
@@ -28,22 +29,22 @@ namespace ols::fusion {
 struct ClockMonitorConfig {
   double error_limit_s = 0.1;    // stated 1-sigma
   double offset_limit_s = 0.4;   // from the median
-  double usual_offset_s = 0.15;  // what phases of frames and ways of messages explain
+  double usual_offset_s = 0.15;  // that frame phases and network delays explain
   double release_s = 3.0;
-  int stamps = 15;  // of a station that are compared
+  int stamps = 15;  // of a station, to compare
 };
 
 class ClockMonitor {
  public:
   explicit ClockMonitor(const ClockMonitorConfig& config = {}) : config_(config) {}
 
-  // A bearing that `time` has heard already.
+  // A bearing that `time` has already taken.
   void hear(const BearingMeasurement& sighting, const MessageTime& time);
-  // Why a station is quarantined, in words; empty when it is not.
+  // Why a station is quarantined, as text; empty when it is not.
   const std::string& quarantine(const std::string& station) const;
-  // What to add to the 1-sigma of a station's stamps for being off the others' time.
+  // What to add to the 1-sigma of a station's stamps because they are offset from the others'.
   double added_sd_s(const std::string& station) const;
-  // Of its stamps from the median lately, 0 within what is usual; NaN before the first.
+  // Recent offset of its stamps from the median, 0 within usual_offset_s; NaN before the first.
   double offset_s(const std::string& station) const;
   void forget(const std::string& station) { stations_.erase(station); }
   void clear() { stations_.clear(); }
@@ -54,10 +55,10 @@ class ClockMonitor {
     bool synchronised = false;
     std::deque<double> offsets_s;
     std::string quarantine;
-    double bad_s = 0.0;  // MessageTime's elapsed time when it was bad last
+    double bad_s = 0.0;  // MessageTime's elapsed time when it was last bad
   };
 
-  // The offset that all of the last stamps share.
+  // The offset common to all recent stamps.
   double common_offset_s(const Station& station) const;
   bool others_are_better(const std::string& station, const MessageTime& time) const;
   std::string judge(const std::string& name, const Station& station, const MessageTime& time) const;

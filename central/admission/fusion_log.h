@@ -1,4 +1,4 @@
-// What the fusion counts, and what went wrong last.
+// The fusion's counters and last error.
 #pragma once
 
 #include <map>
@@ -7,7 +7,7 @@
 namespace ols::fusion {
 
 struct FusionLog {
-  std::map<std::string, double> counters;  // only go up
+  std::map<std::string, double> counters;  // they only increase
   std::string last_error;
 
   void count(const std::string& name, double more = 1.0) { counters[name] += more; }

@@ -24,7 +24,7 @@ bool MessageTime::hear(const std::string& name, std::int64_t utime_us) {
     station.newest_us = utime_us;
     station.progress_s = elapsed_s_;
   }
-  // One leap of one clock must not make all others look silent.
+  // One jump of one clock must not make all others look silent.
   const double most_s = silence_s_ / 2.0;
   const double step_s = static_cast<double>(utime_us - station.newest_us) * 1e-6;
   station.progress_s += std::clamp(step_s, 0.0, most_s);

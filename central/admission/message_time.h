@@ -1,5 +1,5 @@
-// The fusion's "now", from nothing but the stamps of the messages: the median of the stations'
-// newest stamps. So a replay is as good as the present, and one wrong clock hurts only its owner.
+// The fusion's "now": the median of the stations' newest stamps. It uses no other clock, so a
+// replay gives the same results as the live run, and one wrong clock affects only its own station.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,30 @@ namespace ols::fusion {
 
 class MessageTime {
  public:
-  // A station counts while the others' stamps have gone on by less than this since its last
+  // A station counts while the others' stamps have advanced by less than this since its last
   // message.
   explicit MessageTime(double silence_s = Activity::kDeliversS) : silence_s_(silence_s) {}
 
-  // Every message's stamp, in order of arrival. True when the station's clock has stepped back:
-  // three stamps in a row more than a second older than its newest.
+  // Every message's stamp, in order of arrival. Returns true when the station's clock has stepped
+  // back: three stamps in a row more than a second older than its newest.
   bool hear(const std::string& station, std::int64_t utime_us);
-  // The median of the newest stamps of the stations that still deliver, the lower of the two middle
-  // ones for an even number: a target then is seldom asked for ahead of most stations' bearings.
-  // 0 before the first. Stations that are not trusted do not count while there is another one.
-  // Of many stations (more than kMany) it is taken anew only after a share of them has been heard.
+  // The median of the newest stamps of the delivering stations, 0 before the first. For an even
+  // number it is the lower of the two middle stamps, so that targets are seldom due before most
+  // stations' bearings. Untrusted stations do not count while there is a trusted one. With more
+  // than kMany stations it is recomputed only after a share of them has sent.
   std::int64_t now_us() const { return now_us_; }
-  // The same of all of them, trusted or not.
+  // The same over all stations, trusted or not.
   std::int64_t middle_us() const { return middle_us_; }
-  // What has become known of a station's clock.
+  // Sets whether a station's clock is trusted.
   void trust(const std::string& station, bool trusted);
   // The station's newest stamp, 0 before the first.
   std::int64_t newest_us(const std::string& station) const;
-  // How far the others' stamps have gone on since the station's last message, 0 before the first.
+  // How far the others' stamps have advanced since the station's last message, 0 before the first.
   double silent_s(const std::string& station) const;
-  // The stations that still deliver, and how many.
+  // The delivering stations, and their number.
   std::vector<std::string> delivering() const;
   std::size_t delivering_count() const { return delivering_; }
-  // Time without a clock: the farthest progress of any station's stamps, steps clipped.
+  // Elapsed time without a clock: the largest progress of any station's stamps, steps clipped.
   double elapsed_s() const { return elapsed_s_; }
   void forget(const std::string& station);
 
@@ -55,7 +55,7 @@ class MessageTime {
   double elapsed_s_ = 0.0;
   std::int64_t now_us_ = 0, middle_us_ = 0;
   std::size_t delivering_ = 0;
-  std::size_t heard_ = 0;  // messages since the medians were taken
+  std::size_t heard_ = 0;  // messages since the medians were computed
   std::map<std::string, Station> stations_;
 };
 

@@ -26,7 +26,7 @@ void PointingMonitor::hear(const std::string& name, std::int64_t utime_us, bool 
   judge(station);
 }
 
-// Without a target there is nothing to judge by.
+// Without a target there is no reference to compare with.
 void PointingMonitor::lapse(const std::string& name, std::int64_t utime_us) {
   const auto found = stations_.find(name);
   if (found == stations_.end()) return;
@@ -48,7 +48,7 @@ void PointingMonitor::judge(Station& station) const {
       std::sqrt(std::max(0.0, station.squared / station.judged - mean.squaredNorm()));
   if (off < config_.least_off_rad || spread > config_.spread * off) return;
   char text[96];
-  std::snprintf(text, sizeof text, "its bearings are %.2g deg off the others' target",
+  std::snprintf(text, sizeof text, "its bearings are %.2g deg off the target of the other stations",
                 degrees(off));
   station.quarantine = text;
 }

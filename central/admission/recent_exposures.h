@@ -1,5 +1,4 @@
-// One station's exposures of the last second: which bearings are duplicates, and how many come.
-// Pure.
+// One station's exposures of the last second, to detect duplicates and floods. Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +10,14 @@ namespace ols::fusion {
 
 class RecentExposures {
  public:
-  // Is it the same exposure's bearing of the same object, or in the same direction, again?
+  // Is it a duplicate: the same exposure, and the same object or the same direction?
   bool has(const BearingMeasurement& sighting) const;
-  // Forgets what is a second older than the newest, this one included: a bearing that is refused
-  // goes on in time, too, or a flood would lock its station out for good.
+  // Forgets what is a second older than the newest bearing, including this one. Refused bearings
+  // advance the time too; otherwise a flood would lock its station out permanently.
   void go_on_to(std::int64_t utime_us);
   void add(const BearingMeasurement& sighting);
   void clear() { exposures_.clear(); }
-  // So many bearings in the span that is kept.
+  // This many bearings in the kept span.
   bool is_flood(double flood_hz) const;
   double rate_hz() const { return rate_hz_; }
 

@@ -6,9 +6,9 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kForgottenS = 10.0;  // silent for longer: gives its place to any other
+constexpr double kForgottenS = 10.0;  // silent for longer: any other station may replace it
 
-// Strangers must not push out who has worked here and still does.
+// Foreign stations must not displace one that has delivered and still does.
 bool is_evictable(const std::string& name, const KnownStation& station, const MessageTime& time) {
   constexpr std::int64_t kAtHome = 10;  // bearings
   return station.bearings < kAtHome || time.silent_s(name) > kForgottenS;
@@ -24,7 +24,8 @@ bool StationRegistry::full(const std::string& station) const {
   return stations_.size() >= static_cast<std::size_t>(most_) && !stations_.contains(station);
 }
 
-// By messages, not by stamps: a station's clock may be wrong. Those without a bearing come first.
+// By messages, not by stamps: a station's clock may be wrong. Stations without a bearing come
+// first.
 StationRegistry::Entry StationRegistry::longest_silent(const MessageTime& time) {
   return std::ranges::min_element(stations_, {}, [&](const auto& entry) {
     const KnownStation& station = entry.second;

@@ -1,5 +1,5 @@
-// The stations that the fusion knows: who belongs to the site, and who gives way to another one
-// where there are too many. Pure.
+// The stations that the fusion knows: which belong to the site, and which is replaced when there
+// are too many. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,31 +15,31 @@
 
 namespace ols::fusion {
 
-// What is known of a station that can be slewed.
+// What must be known of a station to slew it.
 struct StationTraits {
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d camera_sd_enu_m = Eigen::Vector3d::Zero();
   double latency_s = 0.05;          // mid-exposure to bearing
-  double field_of_view_rad = 0.05;  // the narrower one
-  bool commandable = true;          // no operator has it, and it is not stopped
+  double field_of_view_rad = 0.05;  // the narrower of the two
+  bool commandable = true;          // not under operator control, and not stopped
 };
 
 struct KnownStation {
   StationTraits traits;
   RecentExposures exposures;
-  std::int64_t bearings = 0;  // taken
-  bool delivered = false;     // a bearing, if only one that was refused
-  std::int64_t heard = 0;     // number of its last message among all
+  std::int64_t bearings = 0;  // admitted
+  bool delivered = false;     // it has sent a bearing, even if a refused one
+  std::int64_t heard = 0;     // index of its last message among all
   std::int64_t calibration_id = 0;
   std::int64_t boot_id = 0;
-  std::int64_t target_id = 0;  // the target that it saw last
+  std::int64_t target_id = 0;  // the last target that it saw
   Activity saw_target;
 
   void set_position(const LineOfSight& sight) {
     traits.camera_ecef = sight.origin_ecef;
     traits.camera_sd_enu_m = sight.origin_sd_enu_m;
   }
-  // A target that it follows, or did a moment ago; 0: none.
+  // The target that it follows or followed until a moment ago; 0: none.
   std::int64_t follows(std::int64_t now_us) const {
     return saw_target.age_s(now_us) < Activity::kFollowsS ? target_id : 0;
   }
@@ -47,18 +47,18 @@ struct KnownStation {
 
 class StationRegistry {
  public:
-  // names: nobody else belongs to the site; empty: anybody does. most: one more takes the place of
-  // the one that is silent longest; never of one that has delivered and still does.
+  // names: the stations of the site; empty: all. most: one more station replaces the one that is
+  // silent longest, but never one that has delivered and still does.
   StationRegistry(const std::vector<std::string>& names, int most) : names_(names), most_(most) {}
 
   bool belongs(const std::string& station) const;
   struct Place {
-    KnownStation* station = nullptr;       // none: there are too many
-    std::optional<std::string> evicted{};  // who gave way to it
+    KnownStation* station = nullptr;       // null: there are too many
+    std::optional<std::string> evicted{};  // the station that was replaced
   };
   // For a station that sends a bearing.
   Place for_bearing(const std::string& station, const MessageTime& time);
-  // For one of which only a status is known.
+  // For a station known only by its status.
   Place for_status(const std::string& station, const MessageTime& time);
   std::map<std::string, KnownStation>& all() { return stations_; }
   const std::map<std::string, KnownStation>& all() const { return stations_; }

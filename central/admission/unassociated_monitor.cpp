@@ -9,7 +9,7 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kGap_s = 3.0;  // a silence that begins the count anew
+constexpr double kGap_s = 3.0;  // a longer silence restarts the count
 
 }  // namespace
 
@@ -28,8 +28,8 @@ std::string UnassociatedMonitor::alarm(const std::string& station, std::int64_t 
   if (for_s < config_.alarm_s || std::abs(seconds(now_us - span.to_us)) > kGap_s) return {};
   char text[120];
   std::snprintf(text, sizeof text,
-                "follows for %.0f s what is none of the targets: another object, or designate it "
-                "anew",
+                "has followed for %.0f s an object that is not a target: another object, or a "
+                "wrong designation",
                 for_s);
   return "station " + station + ": " + text;
 }

@@ -1,6 +1,6 @@
-// Stations that follow, by a name of their own, what no target explains while there is a target:
-// another object that nobody else has seen, or a wrong designation. Nobody can tell which from
-// bearings, so that such a station's lines go on as they are; but a person should look. Pure.
+// Stations that follow, under their own track id, an object that no target explains although there
+// is a target: an object that no other station has seen, or a wrong designation. Bearings cannot
+// distinguish the two, so the station's bearing-only track continues; a person should check. Pure.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 namespace ols::fusion {
 
 struct UnassociatedConfig {
-  double alarm_s = 10.0;  // for so long without a bearing that a target explains
+  double alarm_s = 10.0;  // without a bearing that a target explains
 };
 
 class UnassociatedMonitor {
  public:
   explicit UnassociatedMonitor(const UnassociatedConfig& config = {}) : config_(config) {}
 
-  // A bearing that no target explains, though there is one; in the station's own time.
+  // A bearing that no existing target explains; in the station's own time.
   void unassociated(const std::string& station, std::int64_t utime_us);
-  // One that a target explains, or there is no target to compare with.
+  // A bearing that a target explains, or that cannot be compared because there is no target.
   void agrees(const std::string& station) { stations_.erase(station); }
-  // What the station's bearings show, in words; empty: nothing. now_us: the fusion's time.
+  // The finding about a station, as text; empty: none. now_us: the fusion's time.
   std::string alarm(const std::string& station, std::int64_t now_us) const;
   void forget(const std::string& station) { stations_.erase(station); }
   void clear() { stations_.clear(); }

@@ -13,7 +13,7 @@ namespace ols::fusion {
 namespace {
 
 constexpr int kWaitMs = 50;
-constexpr std::size_t kChannels = 1000;  // with a sequence of their own
+constexpr std::size_t kChannels = 1000;  // with their own sequence
 
 }  // namespace
 
@@ -40,7 +40,7 @@ void FusionBus::connect(double wait_s) {
     if (!trouble_.empty()) spdlog::info("connected to {}", url_);
     trouble_.clear();
   } else if (!why.empty() && why != trouble_) {
-    spdlog::warn("no bus, tried again each second: {}", why);
+    spdlog::warn("no bus, retrying every second: {}", why);
     trouble_ = why;
   }
 }
@@ -60,9 +60,9 @@ void FusionBus::handle() {
 
 void FusionBus::end_if_broken() {
   if (bus_ && (send_failed_ || bus_->is_deaf())) {
-    trouble_ = send_failed_ ? "the network takes no messages"
-                            : "nothing comes in any more, not even the fusion's own word";
-    spdlog::warn("no bus, tried again each second: {}", trouble_);
+    trouble_ = send_failed_ ? "sending fails: the network is down"
+                            : "no messages arrive any more, not even this program's own";
+    spdlog::warn("no bus, retrying every second: {}", trouble_);
     bus_.reset();
     slew_bus_.reset();
     watch_.connection_ended();
@@ -82,8 +82,8 @@ MessageStamp FusionBus::next_stamp(std::string_view channel) {
   return stamp;
 }
 
-// Stations come and go, a flood brings any number of names. Each channel's sequence must only grow,
-// so that all begin again above the greatest.
+// Stations come and go, and a flood brings any number of names. Each channel's sequence must only
+// grow, so a forgotten channel continues above the largest one.
 void FusionBus::forget_sequences() {
   for (const auto& [channel, sequence] : sequences_) {
     forgotten_sequence_ = std::max(forgotten_sequence_, sequence);

@@ -1,5 +1,5 @@
-// The fusion's networks: the bus, and where slews go. Without a network it waits for one. Numbers
-// the messages of each channel, and counts what was not sent.
+// The fusion's connections: the bus, and the bus for slews. Retries while there is no network.
+// Numbers the messages of each channel, and counts those that could not be sent.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,15 @@ namespace ols::fusion {
 class FusionBus {
  public:
   using Subscribe = std::function<void(LcmBus&)>;
-  // subscribe: on each new connection. slew_url: may be the same.
+  // subscribe: called on each new connection. slew_url: may equal the bus's.
   FusionBus(const std::string& url, const std::string& slew_url, std::int64_t boot_id,
             Subscribe subscribe);
 
-  // Waits so long for a network, where there is none.
+  // If there is no network, waits this long for one.
   void connect(double wait_s);
-  // Handles what has arrived, waiting a little for the first message.
+  // Handles the messages that have arrived; waits briefly for the first.
   void handle();
-  // Ends a connection that sends no more, or on which nothing comes in: a new one may.
+  // Closes a connection that cannot send or receives nothing, so that it is opened again.
   void end_if_broken();
   template <class Message>
   void send(std::string_view channel, const Message& message) {
@@ -41,7 +41,7 @@ class FusionBus {
 
   bool is_connected() const { return bus_ != nullptr; }
   const std::string& trouble() const { return trouble_; }
-  // In words, what is wrong with the traffic; empty: nothing.
+  // What is wrong with the traffic, as text; empty: nothing.
   std::string alarm() const;
   void count(std::map<std::string, double>& counters) const;
 
@@ -53,15 +53,15 @@ class FusionBus {
   std::int64_t boot_id_;
   Subscribe subscribe_;
   BusConnector connector_;
-  std::unique_ptr<LcmBus> bus_;       // nothing: no network
-  std::unique_ptr<LcmBus> slew_bus_;  // nothing: slews go on the same bus
+  std::unique_ptr<LcmBus> bus_;       // null: no network
+  std::unique_ptr<LcmBus> slew_bus_;  // null: slews go on the same bus
   BusMonitor watch_;
   std::string alarm_;    // the last one
   std::string trouble_;  // of the network
   bool send_failed_ = false;
   std::int64_t not_sent_ = 0;
   std::map<std::string, std::int64_t, std::less<>> sequences_;
-  std::int64_t forgotten_sequence_ = 0;  // the greatest of a channel that was forgotten
+  std::int64_t forgotten_sequence_ = 0;  // the largest of a forgotten channel
 };
 
 }  // namespace ols::fusion

@@ -5,7 +5,7 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kSilent_s = 5.0;  // some statuses may get lost
+constexpr double kSilent_s = 5.0;  // some statuses may be lost
 
 }  // namespace
 
@@ -18,7 +18,7 @@ bool FusionConflictMonitor::hear(std::int64_t boot_id, double now_s) {
 
 std::string FusionConflictMonitor::alarm(double now_s) const {
   if (now_s - heard_s_ > kSilent_s) return {};
-  return "another fusion is on the bus: end one of them";
+  return "another fusion is on the bus: stop one of them";
 }
 
 bool FusionConflictMonitor::take_event() { return std::exchange(news_, false); }

@@ -1,4 +1,4 @@
-// Another fusion on the same bus: two of them slew the stations against each other. Pure.
+// Another fusion on the same bus: the two would send conflicting slews. Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ class FusionConflictMonitor {
  public:
   explicit FusionConflictMonitor(std::int64_t own_boot_id) : own_boot_id_(own_boot_id) {}
 
-  // A fusion's status was heard, one's own as well; now_s: the host's monotonic clock. True for
-  // another one's.
+  // A fusion status has arrived, possibly our own; now_s: the host's monotonic clock. Returns true
+  // for another fusion's.
   bool hear(std::int64_t boot_id, double now_s);
-  // In words, while another one was heard within the last seconds; empty otherwise.
+  // The alarm, while another fusion was heard within the last seconds; empty otherwise.
   std::string alarm(double now_s) const;
-  // Once at the beginning of such a time.
+  // True once, when such a conflict begins.
   bool take_event();
 
  private:

@@ -25,7 +25,7 @@ FusionProcess::FusionProcess(const FusionSettings& settings, const FusionProcess
   for (int i = 0; i <= static_cast<int>(MessageRefusal::kNoPosition); ++i) {
     counters_[to_string(static_cast<MessageRefusal>(i))] = 0.0;
   }
-  // A process that reports "ready" has to receive what is sent to it from then on.
+  // "Ready" means that the subscriptions are active: a message sent after it is received.
   bus_.connect(BusConnector::kLongest_s);
 }
 
@@ -34,7 +34,7 @@ void FusionProcess::subscribe(LcmBus& bus) {
                 [this](const BusMessage& message) { on_bearing(message); });
   bus.subscribe(std::string(kStatusChannel) + ".*",
                 [this](const BusMessage& message) { on_status(message); });
-  // A recording has the status of the fusion that it was recorded with.
+  // A recording contains the status messages of the fusion that ran then.
   if (options_.replay) return;
   bus.subscribe(std::string(kFusionStatusChannel),
                 [this](const BusMessage& message) { on_fusion_status(message); });
@@ -96,11 +96,13 @@ void FusionProcess::on_fusion_status(const BusMessage& message) {
 
 void FusionProcess::refuse(MessageRefusal refusal, const std::string& channel) {
   ++counters_[to_string(refusal)];
-  if (refusal == MessageRefusal::kNoPosition) return;  // it will know one day
+  if (refusal == MessageRefusal::kNoPosition)
+    return;  // not an error: it may get its position later
   errors_.last = channel + ": " + to_string(refusal);
 }
 
-// What waited for a standing process is still worked off, so that the tracks go on.
+// Messages that queued up while the process was suspended are still processed, so that the tracks
+// continue.
 bool FusionProcess::is_present(std::int64_t utime_us, const char* counter) {
   if (options_.replay) return true;
   const double now_s = clock_monotonic_s();
@@ -130,7 +132,8 @@ void FusionProcess::publish(const FusionOutput& output) {
   }
 }
 
-// By the messages' time, so that a replay at any speed shows the same; by the clock in silence.
+// In message time, so that a replay at any speed gives the same; in host time when no messages
+// arrive.
 void FusionProcess::publish_status_when_due() {
   const double interval_s = settings_.status_interval_s;
   const double now_s = clock_monotonic_s();
@@ -144,7 +147,7 @@ void FusionProcess::publish_status_when_due() {
             to_message(health, latency_.median_s(), bus_.next_stamp(kFusionStatusChannel)));
 }
 
-// The fusion's own, and what this process sees beside it.
+// The fusion's own alarms, and those of this process.
 FusionHealth FusionProcess::watched_health() const {
   const double now_s = clock_monotonic_s();
   FusionHealth health = fusion_.health();

@@ -1,5 +1,5 @@
-// The fusion on the bus: bearings and station status in; targets, slews and the fusion's own status
-// out. Counts whatever it refuses. Without a network it waits for one.
+// The fusion on the bus: bearings and station status in; targets, slews and its own status out.
+// Counts every refused message. Retries while there is no network.
 #pragma once
 
 #include <cstdint>
@@ -25,9 +25,9 @@ class FusionProcess {
  public:
   FusionProcess(const FusionSettings& settings, const FusionProcessOptions& options);
 
-  // Handles what has arrived, waiting a little for the first message; publishes what follows.
+  // Handles the messages that have arrived (waits briefly for the first) and publishes the results.
   void turn();
-  // How it is, in one line for a person.
+  // One status line for a person.
   std::string in_one_line() const;
 
  private:
@@ -41,14 +41,14 @@ class FusionProcess {
   void publish(const FusionOutput& output);
   void publish_status_when_due();
 
-  // The last error, of the fusion or of this process.
+  // The last error of the fusion or of this process.
   struct Errors {
     std::string last{}, told{}, of_fusion{};
 
-    // Of the two the one that is new since the last status.
+    // Of the two errors, the one that is new since the last status.
     const std::string& newest(const std::string& of_fusion_now);
   };
-  // From a target's instant to its publication.
+  // From a target's epoch to its publication.
   struct Latency {
     std::deque<double> lately_s{};
 

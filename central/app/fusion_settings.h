@@ -1,4 +1,4 @@
-// Everything that the fusion's configuration file holds: docs/configuration.md.
+// The fusion's configuration file: docs/configuration.md.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// ols-fusion: bearings in, targets and slews out. Parses, loads, wires and loops.
+// ols-fusion: parses the command line, loads the configuration, wires the parts and loops.
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -19,7 +19,7 @@
 
 namespace {
 
-// Another group and port than any site's bus.
+// Group and port differ from those of any site's bus.
 constexpr const char* kReplaySlewUrl = "udpm://239.255.76.68:7668?ttl=0";
 
 struct Arguments {
@@ -30,7 +30,7 @@ struct Arguments {
   bool check_config = false;
 };
 
-// For the command line: what is wrong with the URL; empty if nothing.
+// What is wrong with the URL, for the command line; empty: nothing.
 std::string url_problem(const std::string& url) {
   try {
     ols::parse_lcm_url(url);

@@ -16,9 +16,9 @@
 namespace ols::fusion {
 namespace {
 
-constexpr std::size_t kAlarms = 16;  // told in a status
+constexpr std::size_t kAlarms = 16;  // max number in a status
 
-// What every message of a station must fulfil.
+// Checks that apply to every message of a station.
 template <class Message>
 std::optional<MessageRefusal> decode_from_station(std::string_view prefix,
                                                   const std::string& channel, const void* data,
@@ -43,7 +43,7 @@ StationClock clock_from(std::int8_t state) {
   return StationClock::kUnknown;
 }
 
-// The operator comes before the fusion.
+// The operator has precedence over the fusion.
 bool commandable(std::int8_t state) {
   using ols_msg::station_status_t;
   return state != station_status_t::STATE_MANUAL && state != station_status_t::STATE_STOPPED &&
@@ -94,7 +94,8 @@ void fill_bearing(const std::optional<BearingOnly>& only, ols_msg::target_t& mes
   for (int axis = 0; axis < 2; ++axis) message.direction_rate_rad_s[axis] = only->rate_rad_s(axis);
 }
 
-// A datagram holds so many with the longest of their texts. The next message tells the next ones.
+// As many as fit into a datagram with texts of maximum length. The next message carries the next
+// ones.
 std::span<const StationHealth> in_turn(const std::vector<StationHealth>& all,
                                        std::int64_t sequence) {
   constexpr std::size_t kMost = 250;

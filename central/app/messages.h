@@ -1,5 +1,5 @@
-// Translation between the fusion's types and the LCM messages; nothing is decided here but whether
-// a message is what its channel says.
+// Translates between the fusion's types and LCM messages. Decides only whether a message is valid
+// for its channel.
 #pragma once
 
 #include <cstdint>
@@ -16,30 +16,29 @@
 
 namespace ols::fusion {
 
-// Why a datagram is not the message that its channel promises; to_string() names the counter.
-// kNoPosition: of a status whose station does not know it yet, which is no fault.
+// Why a datagram is not a valid message of its channel; to_string() names the counter. kNoPosition
+// is no fault: the status of a station that does not know its position yet.
 enum class MessageRefusal { kMalformed, kSchema, kOtherStation, kOutOfRange, kNoPosition };
 const char* to_string(MessageRefusal refusal);
 
-// Never throws, whatever the bytes. The numbers' values are left to check() of
-// central/fusion/fusion.h.
+// Never throws, whatever the bytes. check() of central/admission/bearing_check.h judges the values.
 std::variant<BearingMeasurement, MessageRefusal> sighting_from(const std::string& channel,
                                                                const void* data, int bytes);
 
-// What a station's status tells of it. Its place is nearly the camera centre, until a bearing
-// tells.
+// What a station's status states. Until its first bearing, its position stands for the camera
+// centre.
 struct StationPlace {
   std::string station;
   StationTraits traits;
-  std::optional<MessageRefusal> no_place{};  // why the traits have none
+  std::optional<MessageRefusal> no_place{};  // why the traits have no position
 };
 std::variant<StationPlace, MessageRefusal> station_place_from(const std::string& channel,
                                                               const void* data, int bytes);
 
-// Which boot of a fusion the status is of.
+// The boot id of the fusion that sent the status.
 std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, int bytes);
 
-// Who sends, and which message of its channel in this boot it is.
+// The sender, and the message's sequence on its channel in this boot.
 struct MessageStamp {
   std::int64_t boot_id = 0;
   std::int64_t sequence = 0;

@@ -7,12 +7,12 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kTold_s = 3.0;  // a status or two tell it, also of a moment
+constexpr double kTold_s = 3.0;  // so that one or two statuses report even a short one
 
 }  // namespace
 
 bool TimelinessGate::passes(std::int64_t utime_us, std::int64_t host_us, double now_s) {
-  // In floating point: the difference to an absurd stamp must not overflow.
+  // In floating point: the difference from an absurd stamp must not overflow.
   const double off_s = (static_cast<double>(utime_us) - static_cast<double>(host_us)) * 1e-6;
   if (std::abs(off_s) <= tolerance_s_) return true;
   news_ = news_ || now_s - withheld_s_ > kTold_s;
@@ -25,8 +25,9 @@ std::string TimelinessGate::alarm(double now_s) const {
   if (now_s - withheld_s_ > kTold_s) return {};
   char text[200];
   std::snprintf(text, sizeof text,
-                "targets and slews withheld: the messages' time is %+.1f s from this host's clock; "
-                "it passes after a standstill, else set the clock, or use --replay for a replay",
+                "targets and slews withheld: message time is %+.1f s from this host's clock; "
+                "normal for some seconds after a suspend; otherwise set the clock, or use "
+                "--replay",
                 off_s_);
   return text;
 }

@@ -1,6 +1,6 @@
-// Whether what the fusion makes is of the present, by its host's clock. The fusion itself knows no
-// time but that of the messages: after a standstill (a closed lid, a stopped process) it works off
-// what has waited for it, and would tell targets of long ago as if they were new. Pure.
+// Whether the fusion's output is current by the host's clock. The fusion has no time but that of
+// the messages: after a suspension (a closed lid, a stopped process) it processes the queued
+// messages and would publish old targets as if they were new. Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,21 @@ namespace ols::fusion {
 
 class TimelinessGate {
  public:
-  // tolerance_s: how far from the host's clock the messages' time may be.
+  // tolerance_s: max difference of message time from the host's clock.
   explicit TimelinessGate(double tolerance_s) : tolerance_s_(tolerance_s) {}
 
-  // What is made for this instant may go out. host_us: UTC by the host; now_s: its monotonic clock.
+  // Whether output for this epoch may be sent. host_us: the host's UTC; now_s: its monotonic clock.
   bool passes(std::int64_t utime_us, std::int64_t host_us, double now_s);
-  // In words, while something was withheld within the last seconds; empty otherwise.
+  // The alarm, while output was withheld within the last seconds; empty otherwise.
   std::string alarm(double now_s) const;
-  // Once at the beginning of such a time.
+  // True once, when such a time begins.
   bool take_event();
 
  private:
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
   double tolerance_s_;
-  double withheld_s_ = kNever;  // when something was, last
-  double off_s_ = 0.0;          // of that, from the host's clock
+  double withheld_s_ = kNever;  // when output was last withheld
+  double off_s_ = 0.0;          // its offset from the host's clock
   bool news_ = false;
 };
 

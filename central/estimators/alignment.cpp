@@ -24,7 +24,8 @@ double seconds_between(std::int64_t later_us, std::int64_t earlier_us) {
   return static_cast<double>(later_us - earlier_us) * 1e-6;
 }
 
-// The bearings in a window of the given span that ends as late as possible, but is at most centred.
+// The bearings in a window of the given span, which ends as late as possible but is at most
+// centred.
 std::span<const BearingMeasurement> window_of(std::span<const BearingMeasurement> all,
                                               std::int64_t epoch_us, double window_s) {
   const auto span_us = static_cast<std::int64_t>(std::llround(window_s * 1e6));
@@ -78,7 +79,8 @@ Eigen::Matrix<double, 3, 2> coefficients(const std::vector<Sample>& samples,
   return A_inverse * right;
 }
 
-// Variance of the prior of the quadratic coefficient: physics, and what the data show beyond noise.
+// Variance of the prior of the quadratic coefficient: the target's acceleration, and the curvature
+// of the data beyond noise.
 double quadratic_variance(const std::vector<Sample>& samples, const Eigen::Matrix3d& A,
                           double range_m, const AlignmentConfig& config) {
   const double physics = std::pow(config.acceleration_sd_m_s2 / (2.0 * range_m), 2.0);
@@ -170,7 +172,7 @@ std::optional<Ray> align(std::span<const BearingMeasurement> sightings, std::int
   ray.belief = 0.0;
   for (const BearingMeasurement& s : window)
     ray.belief += s.belief / static_cast<double>(window.size());
-  if (!all_finite(ray)) return std::nullopt;  // one such ray would spoil the fit of all
+  if (!all_finite(ray)) return std::nullopt;  // one such ray would spoil the joint fit
   return ray;
 }
 

@@ -11,8 +11,8 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kRangeIsNewsS = 1.0;  // a position tells the range for so long
-constexpr double kAverageGapS = 1.0;   // the moving average starts anew after a gap
+constexpr double kRangeIsNewsS = 1.0;  // how long a position's range is used
+constexpr double kAverageGapS = 1.0;   // the moving average restarts after a longer gap
 
 class FilterEstimator : public Estimator {
  public:
@@ -25,7 +25,7 @@ class FilterEstimator : public Estimator {
   }
 };
 
-// What works on the rays of one instant.
+// An estimator that uses the rays of one instant.
 class RayEstimator : public Estimator {
  public:
   explicit RayEstimator(const EstimatorConfig& config) : config_(config) {}
@@ -103,7 +103,7 @@ class PaperEstimator : public RayEstimator {
   std::optional<std::int64_t> last_us_;
 };
 
-// Between the lines from a position to each two of them.
+// The largest angle between the directions from a position to any two of them.
 double greatest_crossing(const std::vector<FilterStation>& stations,
                          const Eigen::Vector3d& p_ecef) {
   double greatest = 0.0;
@@ -117,7 +117,7 @@ double greatest_crossing(const std::vector<FilterStation>& stations,
   return greatest;
 }
 
-// What is told of those whose bearings make the position now.
+// The report on the stations whose bearings currently make the position.
 void tell_geometry(const TrackFilter& filter, std::int64_t utime_us, Estimate& estimate) {
   std::vector<FilterStation> stations = filter.stations();
   std::erase_if(stations, [&](const FilterStation& station) {

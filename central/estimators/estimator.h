@@ -3,7 +3,8 @@
 //   filter         the track's own filter (track_filter.h): over time, with velocity
 //   least-squares  the joint maximum likelihood of all rays at the instant (least_squares.h)
 //   paper          the OLS paper's (paper_triangulation.h), its parts switched by PaperConfig
-// Which bearings belong to the target is decided before (track_manager.h), for all of them alike.
+// Which bearings belong to the target is decided before (track_manager.h), for all estimators
+// alike.
 #pragma once
 
 #include <cstddef>
@@ -39,36 +40,36 @@ struct Located {
   std::vector<ContributingStation> stations;  // in the order of their ids
 };
 
-// Instants without a position, by why.
+// Number of instants without a position, by reason.
 using Unlocated = std::map<Solution, std::size_t>;
 
-// What there is of one target. The estimators other than the filter need none.
+// The data of one target. Only the filter estimator needs the filter.
 struct TrackView {
   const StationBearings& bearings;
   const BiasModel& errors;
   const TrackFilter* filter = nullptr;
 };
 
-// One object serves one target: it may remember earlier instants.
+// One object serves one target: it may keep state from earlier instants.
 class Estimator {
  public:
   virtual ~Estimator() = default;
   virtual const char* name() const = 0;
-  // Instants in order of time.
+  // Call it with instants in order of time.
   virtual Located locate(const TrackView& target, std::int64_t epoch_us) = 0;
 };
 
 inline constexpr const char* kEstimators[] = {"filter", "least-squares", "paper"};
 
-// Nothing for another name.
+// Null for an unknown name.
 std::unique_ptr<Estimator> make_estimator(std::string_view name, const EstimatorConfig& config);
 
-// The stations whose bearings a filter has had lately, in the order of their ids.
+// The stations whose bearings a filter has used recently, in the order of their ids.
 std::vector<ContributingStation> contributing(const TrackFilter& filter, std::int64_t epoch_us);
 
-// A filter's state as an estimate, by the geometry guard (judge_position), with what the biases
-// make of its covariance. The crossing angle and the residual are those of the stations that had a
-// bearing used lately by state.utime_us.
+// A filter's state as an estimate, after the geometry guard (judge_position), with the systematic
+// part of its covariance. Crossing angle and residual are those of the stations that had a bearing
+// used recently before state.utime_us.
 Estimate estimate_of(const TrackFilter& filter, const KinematicState& state,
                      const SystematicPart& systematic);
 

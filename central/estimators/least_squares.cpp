@@ -19,7 +19,7 @@ using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// All rays relative to their centroid: positions of millions of metres would cost digits.
+// All rays relative to their centroid: coordinates of millions of metres would cost digits.
 struct Problem {
   const std::vector<Ray>& rays;
   std::vector<RayFrame> frames;
@@ -73,7 +73,7 @@ int count_used(const std::vector<double>& weights) {
   return static_cast<int>(std::ranges::count_if(weights, [](double w) { return w > 0.0; }));
 }
 
-// Point of least squared distance to all lines; nothing when they are parallel.
+// Point of least squared distance to all lines; nullopt when they are parallel.
 std::optional<Eigen::Vector3d> linear_start(const Problem& problem,
                                             const std::vector<double>& weights) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
@@ -121,7 +121,7 @@ Normal normal_at(const Problem& problem, const std::vector<double>& weights,
   return normal;
 }
 
-// A start behind a camera: nearly parallel rays do that by chance, others mean it.
+// Moves an initial point that is behind a camera. Nearly parallel rays may put it there by chance.
 Solution why_behind(const Problem& problem, const std::vector<double>& weights) {
   std::vector<RayUse> use(weights.size());
   for (std::size_t i = 0; i < weights.size(); ++i) use[i].used = weights[i] > 0.0;
@@ -136,7 +136,7 @@ Solution why_behind(const Problem& problem, const std::vector<double>& weights) 
   return crossing_rad < doubtful_rad ? Solution::kParallelRays : Solution::kBehindCamera;
 }
 
-// Gauss-Newton with the step halved where it would pass a camera.
+// Gauss-Newton; a step that would pass a camera is halved.
 Solution iterate(const Problem& problem, const LeastSquaresConfig& config, Fit& fit) {
   for (int iteration = 0; iteration < config.max_iterations; ++iteration) {
     const Normal normal = normal_at(problem, fit.weights, fit.x);
@@ -153,7 +153,7 @@ Solution iterate(const Problem& problem, const LeastSquaresConfig& config, Fit& 
   return Solution::kNotConverged;
 }
 
-// The guards on a converged fit.
+// The checks of a converged fit.
 Solution judge(const Problem& problem, const LeastSquaresConfig& config, const Fit& fit) {
   double nearest_m = kNever;
   for (std::size_t i = 0; i < fit.weights.size(); ++i) {
@@ -195,13 +195,13 @@ Fit fit_weighted(const Problem& problem, std::vector<double> weights,
   return fit;
 }
 
-// chi^2 over its limit: up to 1 the rays agree.
+// chi^2 over its limit: up to 1 the rays are consistent.
 double disagreement(const Fit& fit, const LeastSquaresConfig& config) {
   if (fit.solution != Solution::kOk) return kNever;
   return fit.chi2 / chi_square_critical(normal_level(config.gate_sigma), fit.degrees);
 }
 
-// Sets aside, one after the other, the ray without which the others agree best.
+// Rejects, one after the other, the ray without which the others agree best.
 std::optional<Fit> set_aside(const Problem& problem, const LeastSquaresConfig& config) {
   std::vector<double> weights(problem.rays.size(), 1.0);
   const int most = (static_cast<int>(weights.size()) - 1) / 2;
@@ -222,7 +222,8 @@ std::optional<Fit> set_aside(const Problem& problem, const LeastSquaresConfig& c
   return std::nullopt;
 }
 
-// No set of rays agrees: all of them, weighted down by Huber's function, and honest about it.
+// No subset of the rays is consistent: all of them, weighted by Huber's function, with an inflated
+// covariance.
 Fit fit_robustly(const Problem& problem, Fit fit, const LeastSquaresConfig& config) {
   constexpr int kRounds = 10;
   for (int round = 0; round < kRounds && fit.solution == Solution::kOk; ++round) {
@@ -253,7 +254,7 @@ Eigen::Matrix3d white_part(const Problem& problem, const Fit& fit) {
   return white;
 }
 
-// A ray that took part pulls the fit towards itself, one set aside does not: hence the sign.
+// A used ray pulls the fit towards itself, a rejected one does not: hence the sign.
 RayUse use_of(const Problem& problem, const Fit& fit, std::size_t i) {
   RayUse use{.used = fit.weights[i] > 0.0, .weight = fit.weights[i]};
   if (problem.ahead(i, fit.x) <= 0.0) return use;

@@ -1,9 +1,9 @@
 // One joint maximum-likelihood position from N rays, robust to a bad one.
 //
 // Minimises sum_i r_i^T R_i^-1 r_i over the position in ECEF. r_i is the predicted direction on the
-// measured ray's tangent plane (gnomonic), R_i its white covariance plus what stays: calibration,
-// clock along the motion, station position seen from the target. Directions are exact at each
-// camera centre, so it holds from metres to hundreds of kilometres.
+// measured ray's tangent plane (gnomonic), R_i its white covariance plus the systematic one:
+// calibration, clock error along the motion, station position error seen from the target.
+// Directions are exact at each camera centre, so it holds from metres to hundreds of kilometres.
 #pragma once
 
 #include <vector>
@@ -13,21 +13,21 @@
 namespace ols::fusion {
 
 struct LeastSquaresConfig {
-  double gate_sigma = 3.1;      // a set of rays is believed while its chi^2 is within this
-                                // (as a normal deviate: 3.1 is a probability of 0.999)
-  double huber_sigma = 2.0;     // where no subset agrees: rays beyond are weighted down
-  double range_sd_limit = 0.3;  // greatest 1-sigma over range; beyond it is "parallel rays"
+  double gate_sigma = 3.1;      // rays are consistent up to this chi^2, stated as a normal
+                                // deviate: 3.1 is a probability of 0.999
+  double huber_sigma = 2.0;     // without a consistent subset, rays beyond it are weighted down
+  double range_sd_limit = 0.3;  // max 1-sigma over range; beyond: "parallel rays"
   double max_range_m = 500e3;
   int max_iterations = 30;
 };
 
-// Rays are set aside only if the others, a majority, then agree: one of three or four, two of five
-// or six. Where no set agrees (always so for two rays that miss each other), all are kept with
-// robust weights and the covariance grows by chi^2 over its degrees of freedom.
+// Rays are rejected only if the others, a majority, then agree: one of three or four, two of five
+// or six. Without a consistent subset (always so for two rays that miss each other), all are kept
+// with robust weights, and the covariance is multiplied by chi^2 over its degrees of freedom.
 Estimate least_squares(const std::vector<Ray>& rays, const LeastSquaresConfig& config = {});
 
-// Joint velocity of the rays used, from their angular rates; fills velocity and its covariance, NaN
-// where the rates do not determine it.
+// Joint velocity of the used rays, from their angular rates; sets velocity and its covariance, NaN
+// where the rates do not determine them.
 void estimate_velocity(const std::vector<Ray>& rays, Estimate& estimate);
 
 }  // namespace ols::fusion

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSamePlaceM = 1e-3;
 
-// A pair of views whose rays meet.
+// A pair of views whose rays intersect.
 struct Base {
   Eigen::Vector3d point;  // t_i
   Baseline baseline;
@@ -24,7 +24,7 @@ double angle_about(const Eigen::Vector3d& axis, const Eigen::Vector3d& a,
   return std::atan2(axis.dot(a.cross(b)), a.dot(b));
 }
 
-// Where the rays centre1 + s u and centre2 + t v, in one plane, cross.
+// Intersection of the coplanar rays centre1 + s u and centre2 + t v.
 PaperPoint intersect_in_plane(const PaperView& first, const PaperView& second,
                               const Eigen::Vector3d& u, const Eigen::Vector3d& v,
                               const PaperConfig& config) {
@@ -39,7 +39,7 @@ PaperPoint intersect_in_plane(const PaperView& first, const PaperView& second,
   return {Solution::kOk, first.centre_ecef + s * u};
 }
 
-// All pairs that meet; `failure` becomes the last pair's reason.
+// All pairs that intersect; `failure` becomes the last pair's reason.
 std::vector<Base> bases_of(const std::vector<PaperView>& views, const PaperConfig& config,
                            Solution& failure) {
   std::vector<Base> bases;
@@ -89,7 +89,7 @@ std::optional<Eigen::Matrix<double, 3, 2>> derivative(std::vector<PaperView> vie
   return jacobian;
 }
 
-// Fills both covariances; false where the estimator cannot be differentiated.
+// Sets both covariances; false if the estimator cannot be differentiated.
 bool propagate(const std::vector<Ray>& rays, const PaperConfig& config, Estimate& estimate) {
   const std::vector<PaperView> views = views_of(rays);
   estimate.covariance_ecef.setZero();
@@ -165,7 +165,7 @@ Estimate paper_estimate(const std::vector<Ray>& rays, const PaperConfig& config)
   return estimate;
 }
 
-// Of the noise of two estimates, by their windows.
+// The covariance between the noise of two estimates, by the overlap of their windows.
 double MovingAverage::shared(std::int64_t first_us, std::int64_t second_us) const {
   const double apart_s = 1e-6 * std::abs(static_cast<double>(second_us - first_us));
   return apart_s < window_s_ ? 1.0 - apart_s / window_s_ : 0.0;
@@ -179,7 +179,7 @@ Estimate MovingAverage::add(const Estimate& estimate, std::int64_t utime_us) {
   Eigen::Matrix3d white = Eigen::Matrix3d::Zero();
   for (const Timed& each : estimates_) {
     offset += (each.estimate.position_ecef - estimate.position_ecef) / n;
-    double counts = 0.0;  // itself, and what the others have of it
+    double counts = 0.0;  // its own noise and the share of the others that overlaps
     for (const Timed& other : estimates_) {
       counts += &each == &other ? 1.0 : shared(each.utime_us, other.utime_us);
     }

@@ -10,10 +10,10 @@ namespace {
 
 bool states_anything(const Eigen::Array2d& stated_rad2) { return stated_rad2.maxCoeff() > 0.0; }
 
-// A tilt shows on both axes, a heading, which stays with a level circle, as what cross-elevation
-// has more than that.
+// A tilt affects both axes. A heading error affects only cross-elevation: it is the excess of that
+// axis over elevation.
 Eigen::Array3d rotation_variance(const Eigen::Array2d& bias_rad2, double elevation_rad) {
-  constexpr double kLevel = 1e-3;  // towards the zenith a heading is hardly seen
+  constexpr double kLevel = 1e-3;  // towards the zenith a heading is hardly observable
   const double up = std::pow(std::sin(elevation_rad), 2), level = std::max(kLevel, 1.0 - up);
   const double tilt = bias_rad2.y();
   return {tilt, tilt, std::max(0.0, (bias_rad2.x() - tilt * up) / level)};
@@ -49,13 +49,13 @@ BiasModel::Seen& BiasModel::at(const std::string& station) {
 }
 
 void BiasModel::observe_noise(const std::string& station, double squared_ratio) {
-  constexpr double kMost = 9.0;  // an outlier says nothing of the noise
+  constexpr double kMost = 9.0;  // an outlier says nothing about the noise
   double& share = at(station).white_share;
   share += (std::min(squared_ratio, kMost) - share) / config_.colour_memory;
 }
 
-// The mean of samples of a noise with the correlation time T, one every dt, has the variance of so
-// many times fewer: 1 + 2 T / dt.
+// A noise with the correlation time T, sampled every dt, averages like that many times fewer white
+// samples: 1 + 2 T / dt.
 double BiasModel::inflation(const std::string& station, double interval_s) const {
   const Seen* const seen = find(station);
   if (seen == nullptr || !(interval_s > 0.0)) return 1.0;
@@ -127,7 +127,7 @@ BiasPrior BiasModel::prior(const std::string& station, const LineOfSight& sight,
   const Eigen::Array3d unseen = rotation_variance(before.max(least * noise), elevation_rad);
   prior.shown = (1.0 - unseen / prior.rotation.max(kNone)).max(0.0);
   prior.time_s.setConstant(told ? config_.stated_time_s : config_.untold_time_s);
-  // What a heading has more than a tilt was wrong from the start on: all axes drift alike.
+  // The heading's excess over a tilt existed from the start: all axes drift alike.
   constexpr double kLongest = 100.0;
   const double ratio = prior.rotation(2) / std::max(kNone, prior.rotation(0));
   if (told) prior.time_s(2) *= std::clamp(ratio, 1.0, kLongest);
@@ -148,7 +148,7 @@ void BiasModel::observe(const std::string& station, const LineOfSight& sight,
   Seen& seen = at(station);
   count(seen, -1.0);
   const double decay = std::exp(-dt_s / config_.memory_s);
-  // A bias within one correlation time is one draw, however often it is looked at.
+  // A bias within one correlation time is one sample, however often it is estimated.
   const double news = std::min(
       1.0, dt_s / (states_anything(stated) ? config_.stated_time_s : config_.untold_time_s));
   constexpr double kNone = 1e-24;
@@ -157,7 +157,7 @@ void BiasModel::observe(const std::string& station, const LineOfSight& sight,
   seen.squared_now_rad2 = bias.value.square() - known * bias.variance;
   seen.weight = seen.weight * decay + news * seen.weight_now;
   seen.squared_rad2 = seen.squared_rad2 * decay + news * seen.squared_now_rad2;
-  // Stations that state their errors tell nothing of those that do not.
+  // Stations that declare their errors are no evidence for those that do not.
   seen.noise_rad2 = states_anything(stated) ? Eigen::Array2d::Zero()
                                             : Eigen::Array2d(sight.covariance_white.diagonal());
   count(seen, 1.0);

@@ -1,23 +1,23 @@
-// What stays in each station's bearings: what it states of its calibration, and what its residuals
-// show beyond that. Pure.
+// The bias and noise model of each station: what it declares of its calibration, and what its
+// residuals show beyond that. Pure.
 //
-// The filter carries what makes each station's bias (cross-elevation, elevation) as states with a
-// prior of zero mean. The variance v of the bias before any bearing is learnt here. A bias
-// estimated as b with the variance P shows the share k = 1 - P / v of itself, and its square is
-// worth b^2 - k P with the weight k^2 (one step of Fisher scoring on the marginal likelihood,
-// Harville, 1977): nothing where the geometry does not show the bias, all where it does. A source
-// that tells no systematic error is first taken to have one of half the size of its noise; what the
-// others show of theirs, in units of what they state as noise, counts for it too. There is no
-// length and no time scale in this but that of the bias' own memory, so it holds for a drone and
-// for a meteor.
+// The filter carries each station's bias (cross-elevation, elevation) as states with a prior of
+// zero mean. The prior variance v is learnt here. A bias that is estimated as b with variance P is
+// observable with the share k = 1 - P / v; its square counts as b^2 - k P with the weight k^2 (one
+// step of Fisher scoring on the marginal likelihood, Harville, 1977): nothing where the geometry
+// does not determine the bias, all where it does. The sd of an undeclared systematic error is first
+// assumed to be half that of the noise; the biases of other undeclared stations, in units of their
+// stated noise, count for it too. The only scale in this is the bias's correlation time, so it
+// holds for a drone and for a meteor.
 //
-// How great the noise is, is seen in the residuals: its expectation given the residual, squared, is
-// worth one bearing (expectation maximisation). It may be less or more than what is stated.
+// The noise variance is learnt from the residuals: the expected square of the noise, given the
+// residual, counts as one bearing (expectation maximisation). It may be smaller or larger than
+// stated.
 //
-// Noise is rarely white: a tracker's error, or a hand's, is nearly the same in the next frame. How
-// much of it is new in each frame is seen in the second differences of a station's own bearings,
-// from which the target's motion drops out. The rest averages out more slowly, and each bearing is
-// worth that much less.
+// Noise is rarely white: the error of a tracker, or of a person, is nearly the same in the next
+// frame. The white share is estimated from the second differences of a station's own bearings, in
+// which the target's motion cancels. The rest averages out more slowly, and the weight of each
+// bearing is reduced accordingly.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,39 +31,38 @@
 namespace ols::fusion {
 
 struct BiasModelConfig {
-  double stated_time_s = 1800.0;   // correlation time of a pose's error within what is stated
-  double untold_time_s = 5.0;      // and of one that the station does not tell
-  double memory_s = 600.0;         // what was seen longer ago counts less than 1/e
-  double stated_weight = 20.0;     // seen biases that a statement is worth
-  double untold_weight = 1.0;      // and that the guess is worth where nothing is stated
-  double untold_over_noise = 0.5;  // that guess: sd of the bias over the sd of the noise
-  double least_over_noise = 0.2;   // what is taken for zero stays zero: least sd of any bias
-  double noise_weight = 20.0;      // bearings that a stated noise is worth
-  double noise_memory = 500.0;     // bearings in whose mean the noise is judged
-  double least_noise = 0.1;        // bounds of the noise over what is stated [variances]
+  double stated_time_s = 1800.0;   // correlation time of a declared pose error
+  double untold_time_s = 5.0;      // and of an undeclared one
+  double memory_s = 600.0;         // older evidence counts less than 1/e
+  double stated_weight = 20.0;     // weight of a declared bias, in estimated biases
+  double untold_weight = 1.0;      // and of the assumed one where none is declared
+  double untold_over_noise = 0.5;  // that assumption: sd of the bias over sd of the noise
+  double least_over_noise = 0.2;   // min sd of any bias, over sd of the noise
+  double noise_weight = 20.0;      // weight of a stated noise, in bearings
+  double noise_memory = 500.0;     // over which the noise is averaged [bearings]
+  double least_noise = 0.1;        // bounds of the noise over the stated one [variances]
   double greatest_noise = 100.0;
   double clock_time_s = 5.0;     // correlation time of a clock's error
-  double colour_time_s = 0.3;    // and of the noise that is not new in each frame: between that
-                                 // and the bias, which is slow
-  double colour_memory = 500.0;  // second differences in whose mean the share is judged
+  double colour_time_s = 0.3;    // and of coloured noise: between a frame and the slow bias
+  double colour_memory = 500.0;  // over which the white share is averaged [second differences]
 };
 
-// The prior of one station's bias as seen towards a target, and of what makes it: a small rotation
-// of the station (about east, north, up: two tilts alike and a heading), and where its place is
-// told apart, an error of that.
+// The prior of one station's bias as seen towards a target, and its causes: a small rotation of the
+// station (about east, north, up: two equal tilts and a heading) and, with position_states, an
+// error of its position.
 struct BiasPrior {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] stationary, tangent plane
   Eigen::Array3d rotation = Eigen::Array3d::Zero();      // [rad^2] stationary variances
   Eigen::Array3d time_s = Eigen::Array3d::Ones();        // its correlation times
-  bool position_states = false;                          // otherwise the rotation contains it
+  bool position_states = false;                          // false: the rotation contains it
   Eigen::Array3d place_m2 = Eigen::Array3d::Zero();      // stationary variances: east, north, up
   double place_time_s = 1.0;                             // its correlation time
-  // Of the rotation's variances, the share that the residuals have shown beyond what was stated or
-  // guessed.
+  // Empirical share of the rotation's variances: beyond the declared or assumed ones.
   Eigen::Array3d shown = Eigen::Array3d::Zero();
 };
 
-// A station's bias [rad], cross-elevation and elevation, each with its variance after and before.
+// A station's bias [rad], cross-elevation and elevation, each with its posterior and prior
+// variance.
 struct BiasEstimate {
   Eigen::Array2d value = Eigen::Array2d::Zero();
   Eigen::Array2d variance = Eigen::Array2d::Zero();
@@ -73,28 +72,29 @@ struct BiasEstimate {
 class BiasModel {
  public:
   explicit BiasModel(const BiasModelConfig& config = {}) : config_(config) {}
-  // Evidence on top of what is known: it reads through to `known`, which has to outlive it, and
-  // keeps what bearings show to itself. known.learn() takes it over.
+  // Evidence on top of `known`: reads through to `known`, which must outlive it, and stores
+  // separately what bearings show. known.learn() adopts it.
   static BiasModel evidence_on(const BiasModel& known);
   void learn(const BiasModel& evidence);
 
-  // Stays of the sight line itself: calibration, and the station's place seen from the range.
+  // Systematic error of the line of sight itself: calibration, and the station's position error
+  // over the range.
   BiasPrior prior(const std::string& station, const LineOfSight& sight, double range_m,
                   bool position_states = false) const;
-  // The same, added to what a ray states, for estimators without bias states [rad^2].
+  // The variance to add to what a ray states, for estimators without bias states [rad^2].
   Eigen::Matrix2d undeclared(const std::string& station, const LineOfSight& sight) const;
-  // A bias as the filter has it and what its prior was, over dt_s since it was told last.
+  // A bias estimated by the filter and its prior, dt_s after its last report.
   void observe(const std::string& station, const LineOfSight& sight, const BiasEstimate& bias,
                double dt_s, double range_m);
-  // What the residual of a bearing shows of the noise's variance, over the one it was taken with.
+  // The noise variance that a bearing's residual shows, over the one with which it was processed.
   void observe_residual(const std::string& station, double ratio);
-  // The variance of a station's noise over the one that it states.
+  // The variance of a station's noise over the stated one.
   double noise_scale(const std::string& station) const;
-  // A second difference of a station's bearings, squared, over what white noise of noise_scale()
-  // would make.
+  // The squared second difference of a station's bearings, over its expectation for white noise of
+  // noise_scale().
   void observe_noise(const std::string& station, double squared_ratio);
-  // How many times its stated variance a bearing counts with, when they come at this interval: 1 if
-  // the noise is white.
+  // By which factor to multiply a bearing's stated variance when bearings come at this interval: 1
+  // if the noise is white.
   double inflation(const std::string& station, double interval_s) const;
   double clock_time_s() const { return config_.clock_time_s; }
   void forget(const std::string& station);
@@ -102,12 +102,12 @@ class BiasModel {
 
  private:
   struct Seen {
-    // Of earlier biases, and of the one as it is now: that is one more, however new.
+    // Of earlier biases; the current one counts as one more, however new.
     Eigen::Array2d weight = Eigen::Array2d::Zero(), weight_now = Eigen::Array2d::Zero();
     Eigen::Array2d squared_rad2 = Eigen::Array2d::Zero(), squared_now_rad2 = Eigen::Array2d::Zero();
-    Eigen::Array2d noise_rad2 = Eigen::Array2d::Zero();  // stated, of one bearing, lately
+    Eigen::Array2d noise_rad2 = Eigen::Array2d::Zero();  // stated, of one recent bearing
     double residuals = 0.0, noise = 0.0;                 // bearings; sum of noise over stated
-    double white_share = 1.0;                            // of its noise, new in each frame
+    double white_share = 1.0;                            // of the variance of its noise
   };
   const Seen* find(const std::string& station) const;
   Seen& at(const std::string& station);
@@ -116,9 +116,9 @@ class BiasModel {
                         const Eigen::Array2d& noise_rad2) const;
 
   BiasModelConfig config_;
-  const BiasModel* known_ = nullptr;  // of evidence: what it is on top of
+  const BiasModel* known_ = nullptr;  // of evidence: the model below it
   std::map<std::string, Seen, std::less<>> stations_;
-  // Over the stations that state nothing: weights, and squared biases over the noise's variance.
+  // Over the stations that declare nothing: weights, and squared biases over the noise's variance.
   Eigen::Array2d common_weight_ = Eigen::Array2d::Zero();
   Eigen::Array2d common_ratio_ = Eigen::Array2d::Zero();
 };

@@ -21,13 +21,13 @@ bool is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
   return second_order < kSmall * kSmall * white.trace() / 2.0;
 }
 
-// A bearing's equation is linear about the predicted direction, whose error is also in the
-// residual. So what a state gains from it is off to one side, in every bearing anew, by what goes
-// with the depth, over the depth. Where a bearing tells less than that of a state, its mean drifts
-// away by sigmas while its variance stays (the same in mapping by a moving camera: Huang, Mourikis
-// and Roumeliotis, 2010). Of the states of the station's own pose and place, over their sigmas: the
-// drift, and what the bearing tells along that. The depth is that from the place, which moves the
-// target along with it.
+// A bearing's equation is linearised about the predicted direction, whose error is also in the
+// residual. Each update of a state is therefore wrong by the relative error of the depth, in the
+// same sense for every bearing. Where a bearing contributes less information than that, the state's
+// mean drifts by several sigmas while its variance stays (the same in SLAM with a moving camera:
+// Huang, Mourikis and Roumeliotis, 2010). For the states of the station's own pose and position, in
+// units of their sigmas: the drift, and the information that the bearing has along it. The depth is
+// measured from the station's position, which moves the target along with it.
 bool shows_bias(const FilterMatrix2& G, const FilterMatrix& P, const StationPart& part,
                 const Eigen::Vector3d& along, double off_share) {
   constexpr double kSmall = 3.0;

@@ -6,7 +6,7 @@ namespace ols::fusion {
 
 double ColouredNoise::observe(const BearingMeasurement& sighting, const RayFrame& frame,
                               BiasModel& shown) {
-  constexpr double kNearS = 0.3;  // further apart the target's own motion shows
+  constexpr double kNearS = 0.3;  // over longer times the target's own motion shows
   const double first_s = seconds(utime_us_[1] - utime_us_[0]);
   const double second_s = seconds(sighting.utime_us - utime_us_[1]);
   if (second_s <= 0.0) return 1.0;

@@ -1,5 +1,5 @@
-// How white a station's noise is, from the second differences of its own bearings: the target's
-// motion drops out of them. Pure.
+// How white a station's noise is, from the second differences of its own bearings, in which the
+// target's motion cancels. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,8 +14,8 @@ namespace ols::fusion {
 
 class ColouredNoise {
  public:
-  // Tells the errors how much a bearing differs from the line between its neighbours, and gives the
-  // factor by which its variance counts more than stated.
+  // Gives the errors the distance of a bearing from the line between its neighbours, and returns
+  // the factor by which its variance counts more than stated.
   double observe(const BearingMeasurement& sighting, const RayFrame& frame, BiasModel& shown);
 
  private:

@@ -1,4 +1,4 @@
-// Bearings set aside one after the other: when they say that the target has done what no model
+// Bearings that were rejected one after the other: when they show a manoeuvre that no motion model
 // allows. Pure.
 #pragma once
 
@@ -8,10 +8,10 @@ namespace ols::fusion {
 
 class ConsecutiveRejections {
  public:
-  // A bearing was used: the row ends.
+  // A bearing was used: the count restarts.
   void clear();
-  // One more of this station was set aside. True: they are so many, of two stations or more, that
-  // the target needs covariance inflation; a new row begins.
+  // One more of this station was rejected. Returns true when there are so many, of two stations or
+  // more, that the covariance must be inflated; the count then restarts.
   bool add(const std::string& station);
 
   static constexpr int kMany = 6;

@@ -24,7 +24,7 @@ void propagate_columns(const Eigen::Matrix3d& f, FilterMatrix& P) {
   }
 }
 
-// A mixture's mean, and what the parts' means are off it.
+// A mixture's mean, and the deviations of its components' means.
 struct Mixture {
   Mixture(std::span<const FilterGaussian> parts, std::span<const double> of_each,
           Eigen::Index states)
@@ -33,7 +33,7 @@ struct Mixture {
     for (std::size_t i = 0; i < parts.size(); ++i) off[i] = parts[i].mean.head(states) - mean;
   }
 
-  // Of its covariance, so many from the diagonal on.
+  // That many rows of its covariance, from the diagonal on.
   void column(Eigen::Index j, Eigen::Index n, std::span<const FilterGaussian> parts,
               FilterVector& result) const {
     const auto of = [&](std::size_t i) {
@@ -58,7 +58,7 @@ void subtract_square(const FilterMatrix2& G, Eigen::Index columns, FilterMatrix&
   }
 }
 
-// P' = F P F^T + Q: the columns with all that is correlated, then the target's own rows.
+// P' = F P F^T + Q: the columns of all correlated states, then the target's own rows.
 void propagate(const Transition& motion, FilterGaussian& state) {
   FilterMatrix& P = state.covariance;
   auto own = P.topLeftCorner<9, 9>();

@@ -1,8 +1,8 @@
-// The Gaussian of a filter's state, and what a filter does to it with every bearing. Pure.
+// The Gaussian of a filter's state, and the operations on it for every bearing. Pure.
 //
-// First come the target's nine states (motion_model.h), then those of the stations. Of the
-// covariance the lower triangle alone is kept and changed: half the work, and nothing that could
-// drift apart from its mirror image. Each function goes once through its columns.
+// First come the target's nine states (motion_model.h), then those of the stations. Only the lower
+// triangle of the covariance is stored: half the work, and it cannot become asymmetric. Each
+// function goes through its columns once.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +15,8 @@
 namespace ols::fusion {
 
 inline constexpr int kFilterStations = 12;  // with states of their own; no more are used
-// Of a station: its rotation about east, north and up, its clock's offset, and where that matters
-// the error of its place (east, north, up).
+// Of a station: its rotation about east, north and up, its clock's offset, and where relevant the
+// error of its position (east, north, up).
 inline constexpr int kPoseStates = 4, kPlaceStates = 3;
 inline constexpr int kStationStates = kPoseStates + kPlaceStates;
 inline constexpr int kFilterStates = 9 + kStationStates * kFilterStations;
@@ -27,20 +27,20 @@ using FilterMatrix =
 using FilterMatrix2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
 
 struct FilterGaussian {
-  FilterGaussian() {}  // without states; its room of 70 kB is not set to zero
+  FilterGaussian() {}  // without states; its 70 kB are not set to zero
   FilterGaussian(FilterVector m, FilterMatrix P) : mean(std::move(m)), covariance(std::move(P)) {}
 
   FilterVector mean;
-  FilterMatrix covariance;  // its lower triangle
+  FilterMatrix covariance;  // lower triangle
 };
 
-// A square on the diagonal, with both its triangles.
+// A square on the diagonal, with both triangles.
 template <int K>
 Eigen::Matrix<double, K, K> whole_block(const FilterMatrix& P, Eigen::Index first) {
   return P.block<K, K>(first, first).template selfadjointView<Eigen::Lower>();
 }
 
-// Adds P H^T, for the H (2 x states) that has these columns from the first on and is else zero.
+// Adds P H^T for an H (2 x states) that has these columns from `first` on and is zero elsewhere.
 template <int K>
 void add_product(const FilterMatrix& P, Eigen::Index first, const Eigen::Matrix<double, 2, K>& H,
                  FilterMatrix2& result) {
@@ -54,20 +54,20 @@ void add_product(const FilterMatrix& P, Eigen::Index first, const Eigen::Matrix<
 // P - G G^T in the first columns; the others stay as they are.
 void subtract_square(const FilterMatrix2& G, Eigen::Index columns, FilterMatrix& P);
 
-// The target goes on by a motion.
+// Propagates the target by a motion.
 void propagate(const Transition& motion, FilterGaussian& state);
 
 // Each state times its own factor.
 void scale(const FilterVector& factors, FilterGaussian& state);
 
-// Room for more states before the given one, or at the end; they are zero.
+// Inserts zero states before the given one, or at the end.
 void insert_states(Eigen::Index before, Eigen::Index more, FilterGaussian& state);
 
-// Of a mixture with these weights, mean and covariance of so many states; both triangles.
+// Of a mixture with these weights: mean and covariance of the first states; both triangles.
 FilterGaussian mixture(std::span<const FilterGaussian> parts, std::span<const double> weights,
                        Eigen::Index states);
 
-// Each becomes a mixture of all, with weights of its own (Blom and Bar-Shalom's interaction).
+// Each becomes a mixture of all, with its own weights (Blom and Bar-Shalom's interaction).
 using MixtureWeights = std::array<double, kMotions>;
 void interact(const std::array<MixtureWeights, kMotions>& weights, std::span<FilterGaussian> parts);
 

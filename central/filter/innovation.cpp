@@ -9,7 +9,7 @@
 namespace ols::fusion {
 namespace {
 
-// The part of the target's own states.
+// The contribution of the target's own states.
 void see_target(const FilterMatrix& P, ModelInnovation& seen) {
   Eigen::Matrix3d position = whole_block<3>(P, 0);
   if (seen.ahead_s != 0.0) {
@@ -98,7 +98,7 @@ ModelInnovation innovation_of(const InteractingModels& models, std::size_t which
 std::optional<JudgedInnovation> judge(const Innovation& seen, std::size_t models,
                                       const Eigen::Matrix2d& white, double gate_nis) {
   JudgedInnovation judged;
-  double squared = 0.0, expected = 0.0;  // of the noise's own part of the residual
+  double squared = 0.0, expected = 0.0;  // of the part of the residual that is noise
   for (std::size_t m = 0; m < models; ++m) {
     const ModelInnovation& own = seen.models[m];
     if (!(own.depth_m > 0.0)) return std::nullopt;
@@ -110,8 +110,8 @@ std::optional<JudgedInnovation> judge(const Innovation& seen, std::size_t models
     squared = scaled.dot(white * scaled);
     expected = S.solve(white).trace();
   }
-  // One far off counts as one at the gate (Huber): where noise is many times what is stated, most
-  // are, and the others would never show it.
+  // A far outlier counts as one at the gate (Huber): if the noise is many times the stated one,
+  // most are there, and the others alone would never show it.
   squared *= std::min(1.0, gate_nis / judged.nis);
   judged.noise = 1.0 + (squared - expected) / 2.0;
   return judged;

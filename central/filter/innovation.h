@@ -1,4 +1,4 @@
-// The measurement model: what a motion model expects of a bearing, and the innovation. Pure.
+// The measurement model: each motion model's prediction of a bearing, and the innovation. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,15 +22,15 @@ struct StationPart {
   Eigen::Matrix3d R_ecef_enu;
 };
 
-// One model's expectation of one bearing against it: H = [J, ahead J, curved J] of the target, and
-// of the station its pose's and its place's.
+// One model's prediction compared with one bearing: H = [J, ahead J, curved J] of the target, and
+// the columns of the station's pose and position.
 struct ModelInnovation {
   double depth_m = 0.0;
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the residual, without noise
   Eigen::Matrix<double, 2, 3> J;
   double ahead_s = 0.0, curved_s2 = 0.0;
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // at which a clock's error counts
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // by which a clock error counts
   Eigen::Matrix<double, 2, kPoseStates> by_pose;
   Eigen::Matrix<double, 2, kPlaceStates> by_place;
 
@@ -42,13 +42,14 @@ struct ModelInnovation {
 struct Innovation {
   std::array<ModelInnovation, kMotions> models;
   RayFrame frame;
-  std::optional<StationPart> part;  // nothing: the filter has no states of the station
-  // The least squared normalised residual (NIS, 2 degrees of freedom); infinite behind the camera.
+  std::optional<StationPart> part;  // nullopt: the filter has no states of the station
+  // The smallest squared normalised residual (NIS, 2 degrees of freedom); infinite behind the
+  // camera.
   double nis = std::numeric_limits<double>::infinity();
-  std::int64_t state = 0;  // the filter's state that it is of
+  std::int64_t state = 0;  // the filter's state for which it was computed
 };
 
-// The motion, if any, that the equations are linear about, instead of about what is known so far.
+// The motion about which to linearise, if not about the current estimate.
 ModelInnovation innovation_of(const InteractingModels& models, std::size_t which,
                               const BearingMeasurement& sighting, const RayFrame& frame,
                               const StationPart* station,
@@ -56,11 +57,11 @@ ModelInnovation innovation_of(const InteractingModels& models, std::size_t which
 
 struct JudgedInnovation {
   double nis = std::numeric_limits<double>::infinity();
-  // What the bearing shows of its noise's variance, over the one that is supposed.
+  // The noise variance that the bearing shows, over the assumed one.
   double noise = 1.0;
 };
 
-// With this noise, against so many models: nothing behind a camera.
+// With this noise and that many models: nullopt behind a camera.
 std::optional<JudgedInnovation> judge(const Innovation& seen, std::size_t models,
                                       const Eigen::Matrix2d& white, double gate_nis);
 

@@ -18,10 +18,10 @@ struct KinematicState {
   Matrix9 covariance = Matrix9::Zero();
 };
 
-// At another instant, with its acceleration.
+// At another instant, extrapolated with its acceleration.
 Eigen::Vector3d position_at(const KinematicState& state, std::int64_t utime_us);
 
-// Where a target may be and how it may move, with vague knowledge.
+// Initial position and motion of a target, with large variances.
 struct FilterStart {
   Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d v_ecef = Eigen::Vector3d::Zero();
@@ -31,7 +31,7 @@ struct FilterStart {
 
 class InteractingModels {
  public:
-  // std::invalid_argument for a configuration without models.
+  // Throws std::invalid_argument for a configuration without models.
   InteractingModels(const MotionConfig& config, std::int64_t utime_us, const FilterStart& start);
 
   std::int64_t utime_us() const { return utime_us_; }
@@ -42,18 +42,18 @@ class InteractingModels {
   std::vector<FilterGaussian>& each() { return models_; }
   const std::vector<double>& probabilities() const { return probabilities_; }
 
-  // Each model by itself; utime_us is not before the state's own instant.
+  // Predicts each model separately; utime_us is not before the state's own instant.
   void predict(std::int64_t utime_us);
   // The models' interaction after this time.
   void interact(double dt_s);
-  // After a measurement, of each model.
+  // Updates each model after a measurement.
   void weigh(std::span<const double> log_likelihood);
-  // Covariance inflation: for so long, any acceleration in these directions that a target of this
-  // velocity may have.
+  // Covariance inflation: for this time, any acceleration in these directions that is possible at
+  // this velocity.
   void inflate(double time_s, const Eigen::Matrix3d& along, const Eigen::Vector3d& v_ecef);
 
-  // Mixed over the models: the kinematics at the state's own instant or at any other one, and the
-  // whole state.
+  // Mixed over the models: the kinematics at the state's own instant or at any other, and the whole
+  // state.
   KinematicState kinematics() const;
   KinematicState at(std::int64_t utime_us) const;
   FilterGaussian mixed() const;
@@ -61,7 +61,7 @@ class InteractingModels {
  private:
   MotionConfig config_;
   std::int64_t utime_us_;
-  std::vector<FilterGaussian> models_;  // as config_.models
+  std::vector<FilterGaussian> models_;  // in the order of config_.models
   std::vector<double> probabilities_;
 };
 

@@ -32,11 +32,11 @@ double turn_rate(const Vector9& state, double limit_rad_s) {
   return std::min(v.cross(a).norm() / squared, limit_rad_s);
 }
 
-// White noise of the jerk on top of the turn; over one step the turn does not change its noise.
+// White jerk noise on top of the turn; within one step the turn does not change its noise.
 Transition coordinated_turn(double dt, double rate_rad_s, double jerk) {
   Transition t;
   const double angle = rate_rad_s * dt;
-  constexpr double kStraight = 1e-4;  // below, the series of the terms below is exact
+  constexpr double kStraight = 1e-4;  // below it, the series of the terms below is exact
   const double sine = std::sin(angle), cosine = std::cos(angle);
   const double s1 = angle < kStraight ? dt : sine / rate_rad_s;
   const double c2 = angle < kStraight ? dt * dt / 2.0 : (1.0 - cosine) / (rate_rad_s * rate_rad_s);
@@ -45,8 +45,8 @@ Transition coordinated_turn(double dt, double rate_rad_s, double jerk) {
   return t;
 }
 
-// Singer's model. For steps short against its time the noise is that of white jerk; longer ones
-// are taken as several.
+// Singer's model. For steps short against its time constant, the noise is that of white jerk;
+// longer steps are divided.
 Transition singer(double dt, double sd, double time_s) {
   const double decay = std::exp(-dt / time_s);
   Transition t;

@@ -18,9 +18,9 @@ SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
   const Eigen::Index biases = P.rows() - 9;
   if (biases == 0) return {};
   Eigen::MatrixXd own = P.bottomRightCorner(biases, biases);
-  own.diagonal().array() += 1e-18;  // a clock that is known has no variance
+  own.diagonal().array() += 1e-18;  // a perfect clock has no variance
   const auto cross = P.topRightCorner(3, biases);
-  // What each bias moves the position by.
+  // How much each bias moves the position.
   Eigen::Matrix<double, 3, Eigen::Dynamic> moves = own.ldlt().solve(cross.transpose()).transpose();
   SystematicPart part;
   part.all_m2 = moves * own * moves.transpose();

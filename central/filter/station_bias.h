@@ -1,4 +1,4 @@
-// What a filter's states of the stations tell: each station's bias, and what the biases make of the
+// Reads the stations' states of a filter: each station's bias, and the systematic part of the
 // position's covariance. Pure.
 #pragma once
 
@@ -15,8 +15,8 @@ inline Eigen::Index states_of(const BiasPrior& prior) {
   return prior.position_states ? kStationStates : kPoseStates;
 }
 
-// The part of the position's covariance that the biases make, at the state's own instant; and of it
-// what makes those that nobody stated and only the residuals show.
+// The systematic part of the position's covariance at the state's own instant; and its empirical
+// part: of biases that no station declares and that only the residuals show.
 struct SystematicPart {
   Eigen::Matrix3d all_m2 = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d empirical_m2 = Eigen::Matrix3d::Zero();
@@ -36,7 +36,7 @@ struct StationBias {
   double clock_prior_sd_s = 0.0;
 };
 
-// Mixed over the models: the states of a station from `first` on, as they move its last bearing.
+// Mixed over the models: a station's states from `first` on, projected to its last bearing.
 StationBias station_bias(const InteractingModels& models, Eigen::Index first,
                          const BiasPrior& prior, const LineOfSight& sight, double range_m);
 

@@ -11,7 +11,7 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kLatestS = 2.0;  // a bearing later than this is no longer compared
+constexpr double kLatestS = 2.0;  // a bearing later than this is not compared any more
 
 }  // namespace
 
@@ -28,7 +28,7 @@ int TrackFilter::index_of(const std::string& station) const {
   return -1;
 }
 
-// A station seldom moves, and to find its axes costs as much as a good part of the filter.
+// A station seldom moves, and computing its axes costs as much as a good part of the filter.
 RayFrame TrackFilter::frame_of(const BearingMeasurement& sighting, int station) const {
   if (station < 0) return ray_frame(sighting.sight);
   const FilterStation& known = stations_[static_cast<std::size_t>(station)];
@@ -56,7 +56,7 @@ bool TrackFilter::place_matters(const LineOfSight& sight) const {
   return of_place > 0.0 && of_place >= config_.place_share * all;
 }
 
-// New states, or those of the station that is silent longest where all are given away; -1: none.
+// New states, or those of the station that is silent longest if all are in use; -1: none free.
 int TrackFilter::claim_station_states(const BearingMeasurement& sighting) {
   if (stations_.size() < kFilterStations) {
     stations_.emplace_back();
@@ -97,7 +97,7 @@ void TrackFilter::enter(int station, const BearingMeasurement& sighting, const B
   }
 }
 
-// Without the station's part where the filter has no states of it.
+// Without the station's part if the filter has no states of it.
 Innovation TrackFilter::compare(const BearingMeasurement& sighting, int station) const {
   Innovation seen;
   seen.state = state_;
@@ -118,7 +118,7 @@ Innovation TrackFilter::innovation(const BearingMeasurement& sighting,
   if (station < 0) {
     const double range_m = (position() - sighting.sight.origin_ecef).norm();
     more += priors.prior(sighting.station, sighting.sight, range_m).covariance;
-  } else {  // what it knows of its bias may be of another pose, or of another point
+  } else {  // its bias may be that of another pose or of another point of the target
     const FilterStation& known = stations_[static_cast<std::size_t>(station)];
     const bool same =
         known.calibration_id == sighting.calibration_id && known.track_id == sighting.track_id;
@@ -154,9 +154,10 @@ BiasModel TrackFilter::advance(std::int64_t utime_us, const BiasModel& priors) {
   return shown;
 }
 
-// The target was designated to the station anew, and it follows another point of it: its bias may
-// be as great as before any bearing, but what it shares with the other states stays. Of a station
-// which changes its mind with each frame the bias would else seem new each time, and average out.
+// The target was designated again at the station, which now follows another point of it: its bias
+// variance returns to the prior, but the correlation with the other states stays. Otherwise a
+// station that changes the point with each frame would seem to have a new bias each time, and it
+// would average out.
 void TrackFilter::reset_bias(int station, std::int64_t track_id) {
   stations_[static_cast<std::size_t>(station)].track_id = track_id;
   const BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
@@ -166,8 +167,8 @@ void TrackFilter::reset_bias(int station, std::int64_t track_id) {
   }
 }
 
-// The station's states, new where it is new or has another calibration; its clock as it states it
-// now. -1: it has none.
+// The station's states, new for a new station or calibration, with its clock error as currently
+// stated. -1: none free.
 int TrackFilter::station_of(const BearingMeasurement& sighting, const BiasModel& priors) {
   int station = index_of(sighting.station);
   const bool is_new = station < 0;
@@ -195,7 +196,7 @@ int TrackFilter::station_of(const BearingMeasurement& sighting, const BiasModel&
   return station;
 }
 
-// At the state's own instant, or late.
+// At the state's own instant, or for a late bearing.
 void TrackFilter::take(const BearingMeasurement& sighting, const Innovation* known,
                        FilterUpdate& update) {
   const int station = station_of(sighting, update.shown);
@@ -241,7 +242,7 @@ void TrackFilter::note_use(FilterStation& entry, const BearingMeasurement& sight
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);
 }
 
-// Where biases are not found the stations' states stay as they are and are only considered.
+// Where biases are not observable, the stations' states are only considered, not estimated.
 void TrackFilter::correct(const Innovation& seen, const Eigen::Matrix2d& noise,
                           const Eigen::Vector3d* along) {
   bool finds_bias = along != nullptr;
@@ -282,8 +283,8 @@ std::ptrdiff_t TrackFilter::agreed_since(const FilterStation& station) const {
   });
 }
 
-// One station alone is always agreed with: the target goes along its ray, and where it has turned
-// hard along that, only the other of two stations sees it.
+// One station alone never disagrees: its bearings move the target along its line of sight. Where
+// the target has turned hard along one line of sight, only the other of two stations sees it.
 void TrackFilter::inflate_unseen_by_other(const FilterStation& entry) {
   if (entry.used == 0 || agreed_since(entry) != 1) return;
   const auto other = std::ranges::max_element(
@@ -310,7 +311,7 @@ void TrackFilter::predict(std::int64_t utime_us, BiasModel& shown) {
   models_.interact(since_s);
 }
 
-// What each station's bias shows by now is evidence; it moves on by its prior.
+// Each station's bias estimate is reported as evidence, then propagated by its prior.
 void TrackFilter::move_biases(double dt_s, BiasModel& shown) {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     FilterStation& station = stations_[i];
@@ -328,7 +329,7 @@ void TrackFilter::move_biases(double dt_s, BiasModel& shown) {
   fade_biases(dt_s, shown.clock_time_s());
 }
 
-// The station has states for its place from now on: a target that has come nearer.
+// The station gets position states: a target has come nearer.
 void TrackFilter::add_position_states(int station) {
   BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
   if (prior.position_states) return;
@@ -342,7 +343,7 @@ void TrackFilter::add_position_states(int station) {
   }
 }
 
-// Each of the stations' states fades, and has as much added as its prior wants.
+// Each of the stations' states decays, and gets the noise that keeps its prior variance.
 void TrackFilter::fade_biases(double dt_s, double clock_time_s) {
   const Eigen::Index n = models_[0].mean.size();
   FilterVector rate = FilterVector::Zero(n), variance = FilterVector::Zero(n);

@@ -1,5 +1,5 @@
-// A bearing goes to the track that it belongs to, and what a wrong pose shows goes to its monitor:
-// the same live and in a recording. Pure.
+// Associates a bearing with its track, and reports pointing errors to their monitor: the same live
+// and offline. Pure.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace ols::fusion {
 struct Associated {
   Association result;
   bool explained = false;    // by a track
-  bool quarantined = false;  // the station's pose is not believed
+  bool quarantined = false;  // the station's pose is not credible
   bool newly_so = false;     // since this bearing
 };
 

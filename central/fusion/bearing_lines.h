@@ -1,4 +1,5 @@
-// The lines of sight of stations that follow what no track explains. Pure.
+// The bearing-only tracks: lines of sight of stations that follow an object that no track explains.
+// Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +14,17 @@
 
 namespace ols::fusion {
 
-// A look at what there is now: short-lived.
+// A view of the current state; short-lived.
 class BearingLines {
  public:
   BearingLines(const TrackManager& tracks, const PointingMonitor& pointing,
                const AlignmentConfig& config)
       : tracks_(tracks), pointing_(pointing), config_(config) {}
 
-  // Stations that have lately sent what no track explains.
+  // Stations that have recently sent an unassociated bearing.
   std::vector<std::string> stations(std::int64_t epoch_us) const;
-  // What a station follows by a name of its own and no track takes: the newest bearing of each, the
-  // smallest names first, which most trackers gave first.
+  // The newest bearing of each local track that no target takes; the smallest ids first, which most
+  // trackers gave first.
   std::vector<const BearingMeasurement*> of(const std::string& station,
                                             std::int64_t epoch_us) const;
   // The newest bearing of a station.

@@ -1,4 +1,4 @@
-// What comes out of the fusion: targets, and lines of sight where there is no position.
+// The fusion's output: targets, and lines of sight where there is no position.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@
 
 namespace ols::fusion {
 
-// A station that has a target in view which no other one sees: where it is known to lie.
+// A station that alone has a target in view: the line on which the target lies.
 struct BearingOnly {
   std::string station;
   std::int64_t track_id = 0;  // the station's own
@@ -24,7 +24,7 @@ struct BearingOnly {
 
 struct FusedTarget {
   std::int64_t utime_us = 0;   // the epoch
-  std::int64_t target_id = 0;  // 0: no object yet. A line's becomes that of its position
+  std::int64_t target_id = 0;  // 0: no object yet. A bearing-only track's id passes to its target
   TrackState state = TrackState::kTentative;
   std::string estimator;  // its name
   Estimate estimate;
@@ -33,10 +33,10 @@ struct FusedTarget {
 };
 
 struct FusionOutput {
-  BearingRefusal refusal = BearingRefusal::kNone;  // what became of the bearing
-  // Of one epoch: each confirmed object; where there is none, what there is in place of it; and the
-  // lines of stations that follow what is no target (kBearingOnly). Of many, some; the next
-  // bearings bring the others of the same epoch, in the order of their ids, the lines last.
+  BearingRefusal refusal = BearingRefusal::kNone;  // the fate of the bearing
+  // Each confirmed object of one epoch; without any, one target that states why. Also the
+  // bearing-only tracks (kBearingOnly). With many objects, a part; the next bearings bring the rest
+  // of the epoch, in the order of ids, bearing-only tracks last.
   std::vector<FusedTarget> targets;
   std::vector<FusedTarget> targets_paper;  // the paper's estimate of the same objects
   std::vector<Slew> slews;

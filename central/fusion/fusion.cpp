@@ -10,7 +10,7 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kStepBackS = 1.0;  // "now" going back by more is another time line
+constexpr double kStepBackS = 1.0;  // a larger step back of "now" resets message time
 
 TargetScheduleConfig schedule_of(const FusionConfig& config) {
   return {.estimator = config.estimator,
@@ -31,7 +31,7 @@ Fusion::Fusion(const FusionConfig& config)
       targets_(schedule_of(config)),
       slews_(config.slew, config.keeper.drop_s) {
   if (!make_estimator(config.estimator, config.estimators)) {
-    throw std::invalid_argument("there is no estimator " + config.estimator);
+    throw std::invalid_argument("unknown estimator " + config.estimator);
   }
   for (const char* name : {"bearings", "targets", "targets_without_position", "slews",
                            "clock_stepped_back", "time_stepped_back", "stations_evicted",
@@ -62,7 +62,7 @@ FusionOutput Fusion::add(const BearingMeasurement& sighting) {
   }
   note_refusal(output.refusal, sighting);
   const std::int64_t now = now_us();
-  // After a silence "now" is old until most stations are heard again: nothing is told by it.
+  // After a silence "now" is old until most stations have sent again: nothing is published by it.
   if (now == 0 || admission_.is_future(sighting.utime_us)) return output;
   if (targets_.epoch_us() && seconds(*targets_.epoch_us() - now) > kStepBackS) begin_time_line();
   targets_.tell(now, tracks_, admission_.clocks(), pointing_, output, log_);
@@ -72,7 +72,7 @@ FusionOutput Fusion::add(const BearingMeasurement& sighting) {
   return output;
 }
 
-// A clock that is off the others' counts as that much worse.
+// An offset from the others' clocks adds to the stated clock error.
 BearingRefusal Fusion::associate(const BearingMeasurement& sighting, KnownStation& station) {
   BearingMeasurement judged = sighting;
   const double added_sd_s = admission_.clocks().added_sd_s(sighting.station);
@@ -90,7 +90,7 @@ BearingRefusal Fusion::associate(const BearingMeasurement& sighting, KnownStatio
   return used ? BearingRefusal::kNone : BearingRefusal::kQuarantine;
 }
 
-// A track that is only born explains nothing yet, nor does it deny.
+// A tentative track counts neither as an explanation nor as a contradiction.
 void Fusion::note_unassociated(const BearingMeasurement& sighting, const Association& result) {
   const bool by_none =
       result.kind == Association::Kind::kUnexplained || result.kind == Association::Kind::kRejected;
@@ -126,14 +126,14 @@ void Fusion::forget_what_changed(const BearingMeasurement& sighting, const Admit
 void Fusion::note_refusal(BearingRefusal refusal, const BearingMeasurement& sighting) {
   if (refusal == BearingRefusal::kNone) return;
   log_.count(to_string(refusal));
-  // Ordinary, or said when it began.
+  // A normal condition, or already reported when it began.
   if (refusal == BearingRefusal::kLowBelief || refusal == BearingRefusal::kQuarantine) return;
   log_.error(sighting.station, to_string(refusal));
 }
 
 void Fusion::begin_time_line() {
   log_.count("time_stepped_back");
-  log_.last_error = "time has stepped back: another replay, or most stations' clocks";
+  log_.last_error = "message time stepped back: a new replay, or most stations' clocks changed";
   targets_.clear();
   slews_.clear();
   tracks_.clear();

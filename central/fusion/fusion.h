@@ -1,10 +1,10 @@
 // The fusion: bearings in, targets and slews out. Pure: its time is that of the messages, so the
-// same bearings in the same order give the same targets to the last digit. It never waits: a target
-// is made as soon as "now" has gone on by a period, from what each station has delivered. Where
-// there are many targets or stations, what a period brings is spread over some bearings.
+// same bearings in the same order give the same targets to the last digit. It never waits: targets
+// are computed as soon as "now" has advanced by a period, from what each station has delivered.
+// With many targets or stations, the work of a period is spread over several bearings.
 //
-// Admission says which bearings are taken, the tracks which target each belongs to, the schedules
-// what is told when.
+// Admission decides which bearings are used, the tracks which target each belongs to, the schedules
+// what is published when.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +24,9 @@ namespace ols::fusion {
 
 struct FusionConfig {
   std::string estimator = "filter";  // of the targets; a name of make_estimator()
-  double rate_hz = 15.0;             // targets a second, at most, of each object
-  int paper_targets = 8;             // the paper's estimate is made of the first so many: it costs
-                                     // the square of a target's stations
+  double rate_hz = 15.0;             // max targets per second, of each object
+  int paper_targets = 8;  // the paper's estimate is made of this many targets: its cost grows with
+                          // the square of a target's stations
   AdmissionConfig admission{};
   EstimatorConfig estimators{};
   TrackManagerConfig keeper{};
@@ -37,14 +37,14 @@ struct FusionConfig {
 
 class Fusion {
  public:
-  // std::invalid_argument for an unknown estimator.
+  // Throws std::invalid_argument for an unknown estimator.
   explicit Fusion(const FusionConfig& config);
 
-  // What a station's status tells: so that it can be slewed before its first bearing.
+  // Takes a station's status, so that it can be slewed before its first bearing.
   void know_station(const std::string& station, const StationTraits& traits);
-  // ... and whether it may be slewed: also of a station that has lost its place.
+  // The same for a station without a position: only whether it may be slewed.
   void allow_slews(const std::string& station, bool allowed);
-  // One bearing, in order of arrival.
+  // Processes one bearing, in order of arrival.
   FusionOutput add(const BearingMeasurement& sighting);
 
   FusionHealth health() const;

@@ -7,7 +7,7 @@
 namespace ols::fusion {
 namespace {
 
-// Seen by the geometry: known twice as well as before the first bearing.
+// Observable: the variance is at most half of that before the first bearing.
 constexpr double kSeen = 0.5;
 
 std::map<std::string, double> all_counters(const FusionLog& log, const TrackManager& tracks) {

@@ -1,4 +1,4 @@
-// What the fusion tells of itself.
+// The fusion's report on itself.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@
 
 namespace ols::fusion {
 
-// A station's bias and clock as the filter has them; NaN where the geometry does not show them.
+// The filter's estimate of a station's bias and clock; NaN where they are not observable.
 struct StationBiasReport {
   Eigen::Vector2d bias_rad = nan_vector().head<2>();  // cross-elevation, elevation
   Eigen::Vector2d bias_sd_rad = nan_vector().head<2>();
@@ -25,20 +25,20 @@ struct StationBiasReport {
 
 struct StationHealth {
   std::string station;
-  std::int64_t bearings = 0;  // taken
+  std::int64_t bearings = 0;  // admitted
   double rate_hz = 0.0;
   double age_s = 0.0;           // "now" minus its newest stamp
-  double residual = 0.0;        // lately, RMS normalised; NaN if none
+  double residual = 0.0;        // recent, RMS normalised; NaN if none
   double clock_offset_s = 0.0;  // of its stamps from the median; NaN if none
-  std::string quarantine{};     // why it is not used; empty: it is
+  std::string quarantine{};     // why it is not used; empty: it is used
   StationBiasReport finding{};
 };
 
 struct FusionHealth {
   std::int64_t now_us = 0;
   std::vector<StationHealth> stations;     // in the order of their ids
-  std::map<std::string, double> counters;  // only go up
-  std::vector<std::string> alarms;         // what is wrong now, in words
+  std::map<std::string, double> counters;  // they only increase
+  std::vector<std::string> alarms;         // current ones, as text
   std::string last_error;
 };
 

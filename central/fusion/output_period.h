@@ -1,4 +1,4 @@
-// When the next of what is made at a rate is due.
+// When the next periodic output is due.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace ols::fusion {
 
-// A tenth of tolerance: frames of the same rate must not be missed every other time.
+// A tenth of tolerance, so that frames of the same rate do not miss every other period.
 inline bool is_due(const std::optional<std::int64_t>& last_us, std::int64_t now_us,
                    double rate_hz) {
   return !last_us || static_cast<double>(now_us - *last_us) >= 0.9e6 / rate_hz;

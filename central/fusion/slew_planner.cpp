@@ -11,7 +11,7 @@
 namespace ols::fusion {
 namespace {
 
-// A tenth is left for the difference of two clocks.
+// A tenth remains for the difference of two clocks.
 constexpr double kLongestLead_s = 0.9 * kSlewLead_s;
 
 void turn(Slew& slew, const Eigen::Vector2d& offset_rad) {
@@ -24,7 +24,7 @@ void turn(Slew& slew, const Eigen::Vector2d& offset_rad) {
 
 }  // namespace
 
-// Along it the arc is as long as the square of the angle over 4 pi, its turns are a unit apart.
+// The arc length of the spiral is the square of the angle over 4 pi; its turns are a unit apart.
 Eigen::Vector2d spiral_point(int k) {
   const double radius = std::sqrt(k / kPi), angle = std::sqrt(4.0 * kPi * k);
   return {radius * std::cos(angle), radius * std::sin(angle)};
@@ -62,7 +62,7 @@ double SlewPlanner::searched_s(const std::string& station, std::int64_t target_i
   return std::max(0.0, seconds(now_us - search.begun_us));  // "now" may fall back a little
 }
 
-// The one that it sees; or the one that it is being led to; or the one that the fewest see.
+// The target that it sees, else the one that it is being led to, else the one that the fewest see.
 const Track* SlewPlanner::target_for(const SlewStation& station,
                                      const std::vector<const Track*>& targets,
                                      std::map<std::int64_t, int>& seen_by) {
@@ -106,7 +106,7 @@ Slew SlewPlanner::towards(const Track& track, const SlewStation& station, std::i
   return slew;
 }
 
-// Steps along the ray by equal angles as this station sees them, to the far end and back.
+// Steps along the ray at equal angles as seen from this station, to the far end and back.
 Slew SlewPlanner::along(const CueRay& ray, const SlewStation& station, std::int64_t now_us) {
   const Eigen::Vector3d& camera = station.traits.camera_ecef;
   const auto point = [&](double range_m) {
@@ -120,7 +120,7 @@ Slew SlewPlanner::along(const CueRay& ray, const SlewStation& station, std::int6
   const double searched = searched_s(station.station, 0, ray.station, now_us);
   const int k = static_cast<int>(searched / config_.dwell_s) % (2 * steps);
   const double share = static_cast<double>(k <= steps ? k : 2 * steps - k) / steps;
-  // On the plane of the two lines, the line at this share of the angle between them.
+  // In the plane of the two directions, the direction at this share of the angle between them.
   const Eigen::Vector3d u = near.normalized();
   const Eigen::Vector3d v = (far - far.dot(u) * u).normalized();
   const double angle = share * sweep_rad;

@@ -35,7 +35,7 @@ std::vector<Slew> SlewSchedule::plan(std::int64_t now_us, const StationRegistry&
   if (next_ && seconds(now_us - *begun_us_) > give_up_s_) next_.reset();
   if (!next_ && is_due(begun_us_, now_us, config_.rate_hz)) begin(now_us, stations, lines);
   if (!next_) return {};
-  round_.now_us = now_us;  // a round may take a while; each slew is for when it is made
+  round_.now_us = now_us;  // a round may take a while; each slew is for the time of its creation
   std::vector<SlewStation> some;
   auto station = stations.all().lower_bound(*next_);
   for (; station != stations.all().end() && some.size() < kStationsABearing; ++station) {

@@ -1,5 +1,5 @@
-// The rounds of slews: each station's, some with each bearing, so that no bearing waits for long
-// behind a thousand stations' slews. Pure.
+// The rounds of slews. Each bearing triggers a share of the stations' slews, so that no bearing
+// waits long for those of a thousand stations. Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ namespace ols::fusion {
 
 class SlewSchedule {
  public:
-  // give_up_s: a round that was not ended for so long is given up.
+  // give_up_s: a round that has not ended after this time is abandoned.
   SlewSchedule(const SlewConfig& config, double give_up_s)
       : config_(config), give_up_s_(give_up_s), planner_(config) {}
 
-  // Those that are made with one bearing, at the instant "now".
+  // The slews due with one bearing, at the time "now".
   std::vector<Slew> plan(std::int64_t now_us, const StationRegistry& stations,
                          const BearingLines& lines, const std::vector<Track>& tracks);
   void forget(const std::string& station) { planner_.forget(station); }
@@ -33,7 +33,7 @@ class SlewSchedule {
   SlewPlanner planner_;
   SlewRound round_;
   std::optional<std::int64_t> begun_us_;  // the last round
-  std::optional<std::string> next_;       // the station that is next in it; nothing: it is over
+  std::optional<std::string> next_;       // the next station of the round; nullopt: it is over
 };
 
 }  // namespace ols::fusion

@@ -9,8 +9,8 @@
 namespace ols::fusion {
 namespace {
 
-constexpr int kLines = 16;  // of what is no target, told an epoch
-// With one bearing: so many targets; the paper's estimate of one costs as much as several.
+constexpr int kLines = 16;  // max bearing-only tracks per epoch
+// Max targets per bearing; the paper's estimate of one costs as much as several.
 constexpr int kTargetsABearing = 8, kPaperIsWorth = 4;
 
 FusedTarget target_of(std::int64_t epoch_us, const Track& track, const char* estimator,
@@ -57,7 +57,7 @@ void TargetSchedule::begin(std::int64_t now_us, TrackManager& tracks) {
 
 void TargetSchedule::tell(std::int64_t now_us, TrackManager& tracks, const ClockMonitor& clocks,
                           const PointingMonitor& pointing, FusionOutput& output, FusionLog& log) {
-  // After a silence, what was not told yet is told no more: by now it may be dropped.
+  // After a silence, pending outputs are discarded: their tracks may be deleted by now.
   const bool is_old = epoch_.utime_us && seconds(now_us - *epoch_.utime_us) > config_.give_up_s;
   if (!epoch_.is_over() && is_old) epoch_ = {.utime_us = epoch_.utime_us};
   if (epoch_.is_over() && is_due(epoch_.utime_us, now_us, config_.rate_hz)) begin(now_us, tracks);
@@ -98,8 +98,8 @@ FusedTarget TargetSchedule::locate(const Track& track, bool by_paper, const Trac
   return target_of(epoch_us, track, estimator.name(), std::move(located));
 }
 
-// No object: why there is none, or the one line that there is. And the line of each station that
-// follows what is no target.
+// Without an object: the reason, or the single bearing-only track. Also the bearing-only track of
+// each station that follows an object other than the targets.
 void TargetSchedule::report_bearing_only(TrackManager& tracks, const PointingMonitor& pointing,
                                          FusionOutput& output) {
   epoch_.bearing_only_reported = true;

@@ -1,5 +1,5 @@
-// What is told of an epoch: targets, then lines, then the paper's estimates; a share with each
-// bearing, so that no bearing waits for long behind many targets. Pure.
+// What is published of an epoch: targets, then bearing-only tracks, then the paper's estimates; a
+// share with each bearing, so that no bearing waits long with many targets. Pure.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,9 @@ namespace ols::fusion {
 
 struct TargetScheduleConfig {
   std::string estimator = "filter";  // a name of make_estimator()
-  double rate_hz = 15.0;             // epochs a second, at most
-  int paper_targets = 8;             // the paper's estimate is made of so many
-  double give_up_s = 2.0;            // what was not told for so long is told no more
+  double rate_hz = 15.0;             // max epochs per second
+  int paper_targets = 8;             // the paper's estimate is made of this many
+  double give_up_s = 2.0;            // older pending outputs are discarded
   EstimatorConfig estimators{};
 };
 
@@ -30,17 +30,17 @@ class TargetSchedule {
  public:
   explicit TargetSchedule(const TargetScheduleConfig& config) : config_(config) {}
 
-  // With one bearing, at the instant "now".
+  // The outputs due with one bearing, at the time "now".
   void tell(std::int64_t now_us, TrackManager& tracks, const ClockMonitor& clocks,
             const PointingMonitor& pointing, FusionOutput& output, FusionLog& log);
-  // The last epoch; nothing: there was none.
+  // The last epoch; nullopt before the first.
   std::optional<std::int64_t> epoch_us() const { return epoch_.utime_us; }
   void clear();
 
  private:
   struct Epoch {
     std::optional<std::int64_t> utime_us{};
-    std::deque<std::int64_t> targets{};  // that are not told yet; then come the lines,
+    std::deque<std::int64_t> targets{};  // pending; then the bearing-only tracks,
     bool bearing_only_reported = true;
     std::deque<std::int64_t> papers{};  // then the paper's estimates
 

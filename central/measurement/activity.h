@@ -1,4 +1,4 @@
-// Who is active: how long after its last bearing a station counts, and for what.
+// Activity of a station: how long after its last bearing it counts, and for what.
 #pragma once
 
 #include <algorithm>
@@ -10,11 +10,11 @@ namespace ols::fusion {
 
 struct Activity {
   // The windows, each a default where it can be configured.
-  static constexpr double kDeliversS = 0.3;     // counts for "now", and as one that sees a target
-  static constexpr double kContributesS = 0.5;  // makes the position that is told
+  static constexpr double kDeliversS = 0.3;     // counts for "now", and as seeing a target
+  static constexpr double kContributesS = 0.5;  // contributes to the published position
   static constexpr double kFollowsS = 1.0;      // has its target, and its states in a full filter
-  static constexpr double kSupportsS = 2.0;     // is one of those that a track rests on
-  static constexpr double kTeachesS = 30.0;     // what it has shown of the others' errors may hold
+  static constexpr double kSupportsS = 2.0;     // supports a track
+  static constexpr double kTeachesS = 30.0;     // what it has taught of the others' errors may hold
 
   std::int64_t last_us = 0;  // the newest bearing; 0: none
 

@@ -1,4 +1,4 @@
-// What the fusion takes in: one bearing of one station.
+// The fusion's input: one bearing of one station.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace ols::fusion {
 
-// How a station's UTC is kept, by its own words.
+// How a station's UTC is synchronised, as it states.
 enum class StationClock { kUnknown, kSynchronised, kUnsynchronised };
 
 struct BearingMeasurement {
@@ -16,11 +16,11 @@ struct BearingMeasurement {
   std::int64_t utime_us = 0;  // UTC since 1970 at mid-exposure, by the station's clock
   LineOfSight sight;
   double belief = 1.0;
-  double clock_sd_s = 0.0;  // 1-sigma of utime_us, stays
+  double clock_sd_s = 0.0;  // 1-sigma of utime_us, systematic
   StationClock clock = StationClock::kUnknown;
-  std::int64_t boot_id = 0;         // of the station's process: track_id begins anew with each
-  std::int64_t track_id = 0;        // one id is one followed object of that station
-  std::int64_t calibration_id = 0;  // another one: other systematic errors
+  std::int64_t boot_id = 0;   // of the station's process: each numbers its track_ids from the start
+  std::int64_t track_id = 0;  // identifies one followed object of that station
+  std::int64_t calibration_id = 0;  // a new id: new systematic errors
 };
 
 }  // namespace ols::fusion

@@ -1,4 +1,4 @@
-// Spans of time as they are counted and as they are calculated with.
+// Conversion of time spans between microseconds and seconds.
 #pragma once
 
 #include <cstdint>

@@ -70,7 +70,7 @@ std::vector<std::int64_t> epochs_of(const std::vector<BearingMeasurement>& beari
   }
 }
 
-// Mean square angular speed over steps that are long against the noise [rad^2/s^2].
+// Mean square angular speed over steps that are long compared with the noise [rad^2/s^2].
 double mean_square_speed(const std::vector<const BearingMeasurement*>& bearings) {
   constexpr double kLeastStep = 10.0, kLongestS = 2.0;  // in sigmas
   double sum = 0.0, span = 0.0;
@@ -88,7 +88,7 @@ double mean_square_speed(const std::vector<const BearingMeasurement*>& bearings)
   return span > 0.0 ? sum / span : 0.0;
 }
 
-// The one object's track, and who looks beside it.
+// The track of the one object, and the stations that point elsewhere.
 class Recording {
  public:
   explicit Recording(const OfflineConfig& config)
@@ -121,7 +121,7 @@ FusedTarget target_of(std::int64_t epoch_us, const char* estimator, Located loca
   return target;
 }
 
-// Those with a position; of the others, why they have none.
+// Keeps the targets with a position; counts the others' reasons.
 struct Fixes {
   std::vector<FusedTarget> targets{};
   Unlocated unlocated{};
@@ -158,7 +158,7 @@ Fixes causal(const std::vector<BearingMeasurement>& bearings,
   return fixes;
 }
 
-// The estimators without memory have the whole recording.
+// The estimators without memory use the whole recording.
 Fixes interpolating(const std::vector<BearingMeasurement>& bearings,
                     const StationBearings& recording, const std::vector<std::int64_t>& epochs,
                     Estimator& estimator, const OfflineConfig& config) {
@@ -214,7 +214,7 @@ void guess_clocks(std::vector<BearingMeasurement>& sightings) {
 std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& sightings,
                                       const OfflineConfig& config, Unlocated* unlocated) {
   const auto estimator = make_estimator(config.estimator, config.fusion.estimators);
-  if (!estimator) throw std::invalid_argument("there is no estimator " + config.estimator);
+  if (!estimator) throw std::invalid_argument("unknown estimator " + config.estimator);
   const bool is_filter = config.estimator == "filter";
   if (config.smooth && !is_filter) throw std::invalid_argument("only the filter can be smoothed");
   UnusedBearings unused;

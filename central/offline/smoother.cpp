@@ -15,12 +15,12 @@ struct Whole {
   Eigen::MatrixXd covariance;
 };
 
-// Of what is known: only so that it can be inverted. 10 ns, 10 nrad, 10 nm.
+// Added so that it can be inverted: 10 ns, 10 nrad, 10 nm.
 constexpr double kLeast = 1e-16;
 
 using Order = std::map<std::string, Eigen::Index>;  // station -> first of its states
 
-// The state spread over all stations' states; what it does not hold is known as by the prior.
+// The state extended to all stations' states; those that it does not hold get their prior.
 Whole spread(const TrackFilter& filter, const Order& order, const Eigen::VectorXd& prior,
              double clock_sign) {
   const auto [mean, covariance] = filter.mixed();
@@ -49,7 +49,8 @@ Whole spread(const TrackFilter& filter, const Order& order, const Eigen::VectorX
   return whole;
 }
 
-// The models expect no acceleration, each run anew: taken from one run only, or it counts twice.
+// The models expect no acceleration, in both runs: the prior is taken from one run only, or it
+// would count twice.
 void forget_acceleration(Whole& whole) {
   constexpr double kUnknown = 1e12;
   whole.mean.segment<3>(6).setZero();
@@ -58,7 +59,7 @@ void forget_acceleration(Whole& whole) {
   whole.covariance.diagonal().segment<3>(6).setConstant(kUnknown);
 }
 
-// The information of both, less that of the prior that both contain.
+// The sum of both informations, minus that of the prior that both contain.
 std::optional<Whole> join(const Whole& a, const Whole& b, const Eigen::VectorXd& prior) {
   const Eigen::LDLT<Eigen::MatrixXd> Pa(a.covariance), Pb(b.covariance);
   const auto n = prior.size();
@@ -67,7 +68,7 @@ std::optional<Whole> join(const Whole& a, const Whole& b, const Eigen::VectorXd&
   information.diagonal().tail(n - 9) -= prior.tail(n - 9).cwiseInverse();
   const Eigen::LDLT<Eigen::MatrixXd> joint(information);
   if (joint.info() != Eigen::Success || !joint.isPositive()) return std::nullopt;
-  // Relative to the first mean: positions of millions of metres would cost digits.
+  // Relative to the first mean: coordinates of millions of metres would cost digits.
   return Whole{a.mean + joint.solve(Pb.solve(b.mean - a.mean)), joint.solve(one)};
 }
 
@@ -78,8 +79,8 @@ std::vector<BearingMeasurement> mirrored(std::vector<BearingMeasurement> bearing
   return bearings;
 }
 
-// The forward and the backward track. One that still rests on two rays, of which either may be
-// wrong, is not joined: it is taken alone, and only where the other is no better.
+// The forward and the backward track. A track that still rests on two rays, one of which may be
+// wrong, is not joined: it is used alone, and only if the other is no better.
 std::pair<const Track*, const Track*> worth_joining(const RecordedTrack& forward,
                                                     const RecordedTrack& backward) {
   const Track *ahead = forward.located(), *behind = backward.located();
@@ -89,9 +90,9 @@ std::pair<const Track*, const Track*> worth_joining(const RecordedTrack& forward
   return {ahead, behind};
 }
 
-// What the biases make of the position is told as the better of the two tells it: how fast biases
-// change is the least known of all, and what of them does not change in some seconds is the same
-// before and after.
+// The systematic part of the covariance is taken from the better of the two filters: how fast
+// biases change is the least known of all, and a bias that is constant over some seconds is the
+// same before and after.
 SystematicPart told_biases(const std::optional<TrackFilter>& from_past,
                            const std::optional<TrackFilter>& from_future) {
   if (!from_past) return from_future->systematic();
@@ -101,7 +102,7 @@ SystematicPart told_biases(const std::optional<TrackFilter>& from_past,
   return after.all_m2.trace() < before.all_m2.trace() ? after : before;
 }
 
-// Goes through bearings up to an instant.
+// Processes the bearings up to an instant.
 struct Runner {
   RecordedTrack track;
   const std::vector<BearingMeasurement>* bearings;
@@ -157,7 +158,7 @@ class Smoother {
   std::int64_t about_us_;
   std::vector<BearingMeasurement> backward_;
   std::set<std::string> beside_;
-  RecordedTrack learnt_;  // empty, with what is known of the stations
+  RecordedTrack learnt_;  // empty, with the learnt errors of the stations
   Order order_;
   std::vector<BearingMeasurement> sights_;  // one of each station, in that order
 };
@@ -183,7 +184,7 @@ Eigen::VectorXd Smoother::prior(const std::vector<BiasPrior>& biases) const {
   return variance;
 }
 
-// Both filters' states at the instant; one alone where the other has none, or cannot be joined.
+// Both filters' states at the instant; one alone if the other has none or they cannot be joined.
 Whole Smoother::both(const std::optional<TrackFilter>& from_past,
                      const std::optional<TrackFilter>& from_future,
                      const Eigen::VectorXd& variance) const {
@@ -225,7 +226,7 @@ Smoothed Smoother::at(std::int64_t epoch_us, const RecordedTrack& forward,
 }
 
 std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs, Unlocated& unlocated) {
-  constexpr std::size_t kBlock = 256;  // epochs between which the forward states are kept
+  constexpr std::size_t kBlock = 256;  // epochs between stored forward states
   std::vector<Runner> starts;
   Runner forward{learnt_, &forward_, &beside_};
   for (std::size_t i = 0; i < epochs.size(); i += kBlock) {

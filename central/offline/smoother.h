@@ -1,10 +1,10 @@
-// The filter on a recording, with the bearings after each instant too (fixed-interval smoothing).
+// The filter on a recording, using also the bearings after each instant (fixed-interval smoothing).
 //
-// Two filters, one forwards and one backwards in time (Fraser and Potter, 1969): at each instant
-// the forward one's state, which contains the bearings up to it, is joined with the backward one's
-// prediction, which contains those after it. Both have the biases' prior in them, once too often:
-// it is taken out. What the stations do not tell of their errors is learnt in a run before; who
-// looked beside the target in that takes part in no start.
+// Two filters run forwards and backwards in time (Fraser and Potter, 1969). At each instant the
+// forward state, with the bearings up to it, is combined with the backward prediction, with those
+// after it. Both contain the biases' prior; one copy is subtracted. The undeclared errors of the
+// stations are learnt in a run before; a station that pointed away from the target in that run
+// takes part in no track initiation.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,14 @@ struct Smoothed {
   Located located;
 };
 
-// What a run over the bearings has shown of the stations.
+// What a first run has shown of the stations.
 struct KnownStations {
   BiasModel errors;
   std::set<std::string> beside;
 };
 
-// One object's bearings and the instants, both in order of time; positions only. Of the other
-// instants it is counted why.
+// One object's bearings and the instants, both in order of time; returns positions only, and counts
+// the reasons of the other instants.
 std::vector<Smoothed> smooth(const std::vector<BearingMeasurement>& bearings,
                              const std::vector<std::int64_t>& epochs,
                              const TrackManagerConfig& config, const KnownStations& known,

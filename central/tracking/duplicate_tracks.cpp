@@ -8,7 +8,7 @@
 namespace ols::fusion {
 namespace {
 
-constexpr std::size_t kMostTracks = 4;  // that explain one bearing
+constexpr std::size_t kMostTracks = 4;  // max number per bearing
 constexpr std::size_t kMostPairs = 64;
 
 }  // namespace

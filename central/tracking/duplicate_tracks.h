@@ -1,13 +1,12 @@
-// Which confirmed tracks are one object: its bearings are told apart by nothing but their noise.
-// Pure.
+// Which confirmed tracks are duplicates: only the noise distinguishes their bearings. Pure.
 //
 // A station that sees two objects has, in most exposures, a bearing for each. Of one object it has
-// one, and that one either track explains, or now the one and now the other. So for each pair of
-// tracks that have explained the same bearing it is counted, by station, how many exposures had one
-// bearing for the two, how many of those bearings both explain, and how many exposures had more.
-// Stations that follow one object each never have more than one bearing; then it counts that two
-// real objects are not near to each other in everybody's view, and that what a station follows is
-// explained best by always the same one.
+// one, which both tracks explain, or now the one and now the other. So for each pair of tracks that
+// have explained the same bearing, three numbers are counted by station: exposures with one bearing
+// for the two, how many of those bearings both explain, and exposures with more bearings. Stations
+// that follow one object each never have more than one bearing. Then two real objects differ in
+// that they are not near to each other in every station's view, and that always the same track
+// explains a station's bearings best.
 #pragma once
 
 #include <cstdint>
@@ -22,22 +21,22 @@
 namespace ols::fusion {
 
 struct DuplicatesConfig {
-  double long_s = 1.0;         // so long at least
+  double long_s = 1.0;         // min duration
   double memory_s = 1.0;       // older exposures count less than 1/e
-  double least_single = 15.0;  // exposures with one bearing for the two
-  double most_apart = 0.05;    // greatest share of exposures with more
-  double both_explain = 0.3;   // least share of each station's bearings that both explain
-  double each_best = 0.15;     // and of most stations' that either explains best
+  double least_single = 15.0;  // min number of exposures with one bearing for the two
+  double most_apart = 0.05;    // max share of exposures with more
+  double both_explain = 0.3;   // min share of each station's bearings that both explain
+  double each_best = 0.15;     // and, of most stations, that either explains best
 };
 
 class DuplicateTracks {
  public:
   explicit DuplicateTracks(const DuplicatesConfig& config = {}) : config_(config) {}
 
-  // A bearing and the confirmed tracks that explain it and have no other one of its exposure, the
-  // best first: it counts for the pairs that this one is of.
+  // A bearing and the confirmed tracks, best first, that explain it and have no other bearing of
+  // its exposure: it counts for the pairs that contain the first.
   void note(const BearingMeasurement& sighting, std::span<const std::int64_t> tracks);
-  // Pairs that are one object, the older identity first.
+  // Pairs that are duplicates, the older identity first.
   std::vector<std::pair<std::int64_t, std::int64_t>> same() const;
   void forget(std::int64_t track);
   bool empty() const { return pairs_.empty(); }
@@ -45,11 +44,11 @@ class DuplicateTracks {
  private:
   // The exposures of one station.
   struct Tally {
-    std::int64_t utime_us = 0;  // the newest one,
-    int bearings = 0;           // its bearings for the two
-    bool shared = false;        // and whether both explain one
-    bool first = false;         // and whether the first of the two explains it best
-    double single = 0.0, both_explain = 0.0, first_best = 0.0, apart = 0.0;  // of those before
+    std::int64_t utime_us = 0;  // of the newest one,
+    int bearings = 0;           // number of its bearings for the two
+    bool shared = false;        // whether both explain one
+    bool first = false;         // whether the first of the two explains it best
+    double single = 0.0, both_explain = 0.0, first_best = 0.0, apart = 0.0;  // of the earlier ones
   };
   struct Pair {
     std::int64_t since_us = 0, newest_us = 0;

@@ -7,7 +7,7 @@
 namespace ols::fusion {
 namespace {
 
-// With which probability two estimates of one object are told apart.
+// Probability with which two estimates of one object are taken for two.
 constexpr double kSamePlaceLevel = 0.01, kSameMotionLevel = 0.001;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// When two states are taken for one object's. Pure.
+// When two states are taken for the same object. Pure.
 #pragma once
 
 #include "central/filter/interacting_models.h"
@@ -6,7 +6,7 @@
 
 namespace ols::fusion {
 
-// Their positions at one instant are nearer to each other than both know.
+// Their positions at one instant differ by less than both covariances allow.
 bool is_same_place(const KinematicState& a, const KinematicState& b);
 
 // Likewise position and velocity, at the first one's instant.

@@ -44,8 +44,8 @@ Association LiveTracks::add(const BearingMeasurement& sighting, bool may_begin) 
     }
     return give_to(tracks_[near[0].track], sighting, &near[0].seen);
   }
-  // A station that follows an object follows it still, if a little wildly: told to the filter, so
-  // that it learns when the target has gone beyond its models.
+  // A station that follows an object still follows it, even if its bearings scatter. The filter
+  // gets the bearing, so that it detects a manoeuvre beyond its models.
   if (Track* const own = identities_.follower(sighting, tracks_); own != nullptr) {
     const Association result = give_to(*own, sighting);
     if (result.kind == Association::Kind::kTrack) return result;
@@ -72,7 +72,7 @@ Association LiveTracks::initiate(const BearingMeasurement& sighting) {
   errors_.learn(start->shown);
   Track& begun = begin(std::move(start->track));
   consider(begun);
-  // It may be that of a station which has waited for its turn.
+  // It may be one of a station that has waited for its search.
   return begun.has_taken(sighting) ? Association{Association::Kind::kTrack, begun.id}
                                    : Association{};
 }
@@ -94,8 +94,8 @@ bool LiveTracks::is_lost_when_born(double unseen_s) const {
   return unseen_s > config_.tentative_delete_s || unseen_s > config_.drop_s;
 }
 
-// One station alone is no position for long. Before that, where one has parted from the others: the
-// room that was given them has not helped, either.
+// One station alone gives a position only for a short time; less, if its bearings disagree with the
+// others' although the covariance was inflated.
 bool LiveTracks::is_lost(const Track& track, double unseen_s, std::int64_t now_us) const {
   const bool parted = unseen_s > config_.coast_s &&
                       consecutive_rejections(track.filter, now_us) >= 2 * kMaxConsecutiveRejections;
@@ -106,7 +106,7 @@ void LiveTracks::merge_duplicates() {
   for (const auto& [older, younger] : duplicates_.same()) merge(older, younger);
 }
 
-// Two tracks are one object. The one stays that has more of its bearings, with the older identity.
+// Two tracks are one object. The one with more of its bearings stays, with the older identity.
 void LiveTracks::merge(std::int64_t older, std::int64_t younger) {
   duplicates_.forget(younger);
   const auto own = std::ranges::find(tracks_, older, &Track::id);

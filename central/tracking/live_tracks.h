@@ -1,19 +1,20 @@
 // Live tracks: several targets, and which bearing belongs to which. Pure.
 //
-// The rules (docs/fusion.md tells them at length):
-//  - A bearing goes to the confirmed track that explains it best, or else to the best of those that
-//    are only born; within one exposure of one station a track takes one bearing.
+// The rules (details in docs/fusion.md):
+//  - A bearing is associated with the confirmed track that explains it best, or else with the best
+//    tentative one; within one exposure of one station a track takes one bearing.
 //  - A bearing that two confirmed tracks explain about as well (they cross in that station's view)
-//    goes to none: the other stations tell them apart.
-//  - What no track explains is kept for track initiation (track_initiation.h).
-//  - born -> confirmed: three stations have given two bearings each, or two stations five each
-//    for confirm_s, most of what they gave being explained, and the position is one.
-//  - born -> dropped: no two stations have seen it for tentative_delete_s; or it is a duplicate.
+//    is ambiguous and updates neither: the other stations distinguish them.
+//  - Unassociated bearings are kept for track initiation (track_initiation.h).
+//  - tentative -> confirmed: three stations have given two bearings each, or two stations five each
+//    for confirm_s; the track explains most of their bearings; and it has a position.
+//  - tentative -> dropped: no two stations have seen it for tentative_delete_s; or it is a
+//    duplicate.
 //  - coasted -> dropped: no two stations for drop_s; or for coast_s, after too many consecutive
 //    rejections of one while no two others agree.
-//  - two confirmed ones -> one: they have been one object for a second (duplicate_tracks.h).
-//  - A track that is confirmed where one that was dropped must be by now has its identity; or else
-//    that of the line which one of its stations has followed.
+//  - two confirmed ones -> one: they have been duplicates for a second (duplicate_tracks.h).
+//  - A track that is confirmed at the predicted position of a dropped one takes over its identity;
+//    otherwise that of the bearing-only track of one of its stations.
 #pragma once
 
 #include <vector>
@@ -29,7 +30,7 @@ class LiveTracks : public TrackManager {
 
   using TrackManager::add;
   Association add(const BearingMeasurement& sighting, bool may_begin) override;
-  // Another time line: identities are not given away again.
+  // Message time was reset: identities are not assigned again.
   void clear();
 
  private:

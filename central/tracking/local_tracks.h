@@ -1,6 +1,6 @@
-// What each station follows by its own names (a bearing's track_id other than 0), and which
-// objects those are. Of one station the last few: one that names everything anew takes no more
-// memory than any other. Pure.
+// The local tracks of each station (a bearing's track_id other than 0), and which objects they are.
+// Keeps the last few of each station, so one that keeps changing ids takes no more memory than any
+// other. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@ namespace ols::fusion {
 class LocalTracks {
  public:
   struct Object {
-    std::int64_t id = 0;         // the target's or the line's; 0: none yet
-    std::int64_t since_us = 0;   // without one
+    std::int64_t id = 0;         // the target's or the bearing-only track's; 0: none yet
+    std::int64_t since_us = 0;   // when it began to be without one
     std::int64_t given_us = 0;   // the last bearing that its track took
-    std::int64_t newest_us = 0;  // the last one at all
+    std::int64_t newest_us = 0;  // its last bearing
   };
   static constexpr std::size_t kOfAStation = 16;
 
-  // By a bearing's station and name; null: nothing is known of it.
+  // By a bearing's station and track id; null: unknown.
   const Object* find(const BearingMeasurement& sighting) const;
-  // New where nothing is known; it takes the place of the one that was not heard of for longest.
+  // A new entry if unknown; it replaces the one whose last bearing is oldest.
   Object& at(const BearingMeasurement& sighting);
   // Two identities are one object.
   void rename(std::int64_t from, std::int64_t to);

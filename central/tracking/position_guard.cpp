@@ -19,9 +19,9 @@ double may_be_off(const TrackFilter& filter, const FilterStation& station) {
   return states_pose ? 0.0 : filter.config().undeclared_sd_rad;
 }
 
-// One that states its errors counts. Any other does as long as what it has taught of the rest may
-// hold, and not by a single bearing where others have more: from where two seemed to meet, far off
-// the truth, one bearing leads nowhere and seems to know.
+// A station that declares its errors counts. Any other counts as long as its contribution to the
+// others' biases may hold, and not by a single bearing where others have more: with two rays that
+// intersected far from the truth, a single bearing proves nothing yet seems certain.
 std::vector<const FilterStation*> that_count(const TrackFilter& filter) {
   constexpr int kTwice = 2;
   std::vector<const FilterStation*> found;
@@ -36,8 +36,8 @@ std::vector<const FilterStation*> that_count(const TrackFilter& filter) {
   return found;
 }
 
-// Two rays that cross at less than what they may be off by, undeclared, over the range's least
-// accuracy tell no range, however well they seem to: what they learn of each other is their errors.
+// Two rays that cross at less than their undeclared errors, over the min range accuracy, do not
+// determine a range, however small its variance: their residuals only show the undeclared errors.
 bool crosses_widely(const TrackFilter& filter, const Eigen::Vector3d& p_ecef) {
   const std::vector<const FilterStation*> stations = that_count(filter);
   for (std::size_t i = 0; i < stations.size(); ++i) {

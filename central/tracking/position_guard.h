@@ -1,4 +1,4 @@
-// What a filter's state is worth as a position. Pure.
+// Whether a filter's state is good enough for a position. Pure.
 #pragma once
 
 #include <cstdint>
@@ -7,25 +7,25 @@
 
 namespace ols::fusion {
 
-// With two stations alone one residual has nothing to be checked against: whatever makes their rays
-// miss, two objects as well as a wrong heading, is learnt as bias. Whether that is more than what
-// they state allows.
+// With two stations alone nothing checks their residual: whatever makes their rays miss, two
+// objects or a wrong heading, is estimated as bias. Returns whether that exceeds the errors that
+// they state.
 bool is_inconsistent_pair(const TrackFilter& filter);
 
-// Of a station that delivers, and that no two others have outvoted since its last used bearing: how
-// many in a row are set aside, at most. It follows something else, or the target has turned as
-// nobody thought; from kMaxConsecutiveRejections on there is no position, because nobody tells
-// which.
+// Max consecutive rejections of a station that delivers and that no two others have outvoted since
+// its last used bearing. It follows another object, or the target has made an unforeseen manoeuvre.
+// From kMaxConsecutiveRejections on there is no position, because the bearings cannot distinguish
+// the two.
 int consecutive_rejections(const TrackFilter& filter, std::int64_t now_us);
 inline constexpr int kMaxConsecutiveRejections = 6;
 
-// Whether the greatest 1-sigma of the position is below this share of the nearest station's range.
+// Whether the largest 1-sigma of the position is below this share of the nearest station's range.
 bool has_range(const TrackFilter& filter, const KinematicState& state, double share);
 
-// What a filter's state is worth as a position: kOk, or the named reason why it is none.
+// kOk if a filter's state is good enough for a position, otherwise the reason why not.
 Solution judge_position(const TrackFilter& filter, const KinematicState& state);
 
-// Stations whose bearings the filter has used within so long of its own time.
+// Stations with a bearing that the filter used less than this before its own time.
 int stations_lately(const TrackFilter& filter, double within_s);
 
 }  // namespace ols::fusion

@@ -16,7 +16,7 @@ double RayMeetings::moved_rad(double dt_s) const {
   return config_.miss_sigma * config_.rate_sd_rad_s * std::min(1.0, dt_s);
 }
 
-// How far off a bearing of one target may be: noise, bias, and motion between the two instants.
+// Max angle of a bearing off its target: noise, bias, and motion between the two instants.
 double RayMeetings::gate_rad(const BearingMeasurement& sighting, double dt_s, double range_m,
                              const BiasModel& errors) const {
   const BiasPrior bias = errors.prior(sighting.station, sighting.sight, std::max(1.0, range_m));
@@ -26,8 +26,8 @@ double RayMeetings::gate_rad(const BearingMeasurement& sighting, double dt_s, do
   return config_.miss_sigma * std::sqrt(variance);
 }
 
-// Where two rays pass each other: kOk, if they do so in front of both cameras and near enough. What
-// the looks rule out is not asked for exactly: that costs ten times as much.
+// Where two rays intersect: kOk if they pass near each other in front of both cameras. Pairs that
+// the summaries rule out are not computed exactly: that costs ten times as much.
 Solution RayMeetings::meet(const LookedAt& a, const LookedAt& b, const BiasModel& errors,
                            RayMeeting& meeting) const {
   const BearingSummary &look = a.look, &other = b.look;
@@ -60,8 +60,8 @@ Solution RayMeetings::meet(const LookedAt& a, const LookedAt& b, const BiasModel
   return Solution::kOk;
 }
 
-// Of a station's bearings near in time to another one, the one that is nearest to the meeting; the
-// latest where there is no meeting yet. -1: none.
+// Of a station's bearings near in time to another one: the one nearest to the intersection, or the
+// latest without an intersection. -1: none.
 std::ptrdiff_t RayMeetings::nearest(const UnassociatedBearings::Station& own,
                                     const BearingMeasurement& to, const RayMeeting* meeting,
                                     const BiasModel& errors) const {

@@ -1,4 +1,4 @@
-// Where rays of different stations meet: what a new track may be tried from. Pure.
+// Where rays of different stations intersect: the hypotheses for track initiation. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,17 +13,17 @@
 namespace ols::fusion {
 
 struct MeetingConfig {
-  double pair_s = 0.1;         // the two rays are not further apart in time
-  double rate_sd_rad_s = 0.5;  // angular rate that a target may have, 1-sigma
-  double miss_sigma = 4.0;     // greatest miss of two rays
+  double pair_s = 0.1;         // max time between the two rays
+  double rate_sd_rad_s = 0.5;  // possible angular rate of a target, 1-sigma
+  double miss_sigma = 4.0;     // max miss of two rays
 };
 
 struct RayMeeting {
   Eigen::Vector3d p_ecef;
   double range_m = 0.0;
-  std::string first, second;  // the stations whose rays meet
-  double miss = 0.0;          // distance of the rays over the greatest one
-  int support = 0;            // other stations that look there
+  std::string first, second;  // the stations whose rays intersect
+  double miss = 0.0;          // distance of the rays over the max one
+  int support = 0;            // other stations with a bearing in that direction
 };
 
 class RayMeetings {
@@ -31,17 +31,17 @@ class RayMeetings {
   RayMeetings(const MeetingConfig& config, double max_range_m)
       : config_(config), max_range_m_(max_range_m) {}
 
-  // Where a ray meets those of other stations; where more of the others pass by, first.
-  // failure: what it does with the last one that it does not meet.
+  // Where a ray intersects those of other stations; those with more support first. failure: the
+  // reason for the last ray that it does not intersect.
   std::vector<RayMeeting> of(const BearingMeasurement& sighting,
                              const UnassociatedBearings& bearings, const BiasModel& errors,
                              Solution& failure) const;
-  // How far a target may have gone on, generously.
+  // Generous bound of a target's motion in this time.
   double moved_rad(double dt_s) const;
   const MeetingConfig& config() const { return config_; }
 
  private:
-  // A ray, and what a quick look at it needs.
+  // A ray, and what a quick check needs.
   struct LookedAt {
     const BearingMeasurement& sighting;
     const BearingSummary& look;

@@ -10,9 +10,9 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kDoubtS = 1.0;  // two rays do not begin a track so soon after they were wrong
+constexpr double kDoubtS = 1.0;  // after a wrong pair, before two other rays begin a track
 
-// Two stations see the same object, however far they have to be turned.
+// Two stations see the same object, however large the correction of their headings.
 FilterConfig filter_of(const TrackManagerConfig& config) {
   FilterConfig filter = config.filter;
   filter.two_stations_nis = std::numeric_limits<double>::infinity();
@@ -47,7 +47,7 @@ Association RecordedTrack::add(const BearingMeasurement& sighting, bool may_begi
   return begun ? Association{Association::Kind::kTrack, tracks_.front().id} : given;
 }
 
-// By the number of bearings, not by time: stations may be as slow as they like.
+// By the number of bearings, not by time: stations may have any frame rate.
 void RecordedTrack::note(const BearingMeasurement& sighting, bool used) {
   constexpr double kMemory = 8.0;
   Explains& own = explains_[sighting.station];
@@ -55,7 +55,7 @@ void RecordedTrack::note(const BearingMeasurement& sighting, bool used) {
   own.share += ((used ? 1.0 : 0.0) - own.share) / kMemory;
 }
 
-// Stations that have delivered lately, most of whose bearings the track explains, or does not.
+// Recently delivering stations; the track explains most of their bearings, or does not.
 int RecordedTrack::stations(bool explained) const {
   std::int64_t now_us = 0;
   for (const auto& [name, own] : explains_) now_us = std::max(now_us, own.newest_us);
@@ -71,7 +71,7 @@ bool RecordedTrack::in_trial_pause() const {
   return against >= 2 && against >= stations(true);
 }
 
-// The rays on which the track began were not of one object, or one of them was wrong.
+// The rays that began the track were of two objects, or one was wrong.
 void RecordedTrack::take_back(std::int64_t utime_us) {
   errors_ = errors_before_;
   taken_back_us_ = utime_us;
@@ -79,8 +79,8 @@ void RecordedTrack::take_back(std::int64_t utime_us) {
   advance(utime_us);
 }
 
-// Looks for a start that the bearings of several stations agree on: for the track on trial, for one
-// that most do not agree with, or where there is none.
+// Searches an initial state on which the bearings of several stations agree: for a track on trial,
+// for one with which most stations disagree, or if there is no track.
 void RecordedTrack::confirm_by_initiation(const BearingMeasurement& sighting) {
   const bool none = tracks_.empty(), on_trial = !none && !proved_;
   const auto doubt_us = static_cast<std::int64_t>(kDoubtS * 1e6);
@@ -103,13 +103,13 @@ void RecordedTrack::confirm_by_initiation(const BearingMeasurement& sighting) {
   proved_ = !accept_two_rays;
 }
 
-// Than the track that there is.
+// Compared with the current track.
 bool RecordedTrack::is_better(const Track& start) const {
   if (are_duplicates(start.filter, tracks_.front().filter)) return false;
   return !proved_ || static_cast<int>(start.hits.size()) > stations(true);
 }
 
-// One station alone is a position for as long as its own covariance says so.
+// One station alone gives a position as long as its covariance permits.
 bool RecordedTrack::is_lost(const Track& track, double unseen_s, std::int64_t now_us) const {
   if (unseen_s <= config_.drop_s) return false;
   const bool silent = stations_lately(track.filter, config_.drop_s) == 0 ||

@@ -1,14 +1,13 @@
 // The one track of a recording of one object: every bearing is offered to it. Pure.
 //
-//  - Two rays begin it, on trial, and it is confirmed when its position is one. It is is_initiated
-//  by a
-//    start as it would need among several objects, from the same bearings. If a bearing does not
-//    fit before, it is taken back with all that it has taught, and for a second only such a start
-//    begins one.
-//  - When two stations or more, and half of all, are set aside most of the time, a start on which
-//    more stations agree takes its place, under the same identity.
-//  - coasted -> dropped: no two stations for drop_s, and half of the stations are set aside, or its
-//    position is none any more, or there is nothing at all.
+//  - Two rays begin it, on trial; it is confirmed once it has a position. The trial ends with an
+//    initiation from the same bearings as several objects would need. If a bearing does not fit
+//    before, the track and all that it has taught are undone, and for a second only such an
+//    initiation begins one.
+//  - When at least two stations, and half of all, are rejected most of the time, an initiation on
+//    which more stations agree replaces it under the same identity.
+//  - coasted -> dropped: no two stations for drop_s, and half of the stations are rejected, or it
+//    has no position any more, or there are no bearings at all.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +25,13 @@ class RecordedTrack : public TrackManager {
 
   using TrackManager::add;
   Association add(const BearingMeasurement& sighting, bool may_begin) override;
-  // Has a start of several stations agreed with the track?
+  // Has an initiation of several stations confirmed the track?
   bool is_initiated() const { return proved_; }
   // The confirmed track; null: none.
   const Track* located() const;
 
  private:
-  // Which share of a station's bearings the track explains, lately.
+  // The recent share of a station's bearings that the track explains.
   struct Explains {
     std::int64_t newest_us = 0;
     double share = 1.0;
@@ -50,8 +49,8 @@ class RecordedTrack : public TrackManager {
 
   std::map<std::string, Explains> explains_;
   bool proved_ = false;
-  BiasModel errors_before_;                    // the track on trial
-  std::optional<std::int64_t> taken_back_us_;  // when one was, last
+  BiasModel errors_before_;                    // before the track on trial
+  std::optional<std::int64_t> taken_back_us_;  // when one was last undone
 };
 
 }  // namespace ols::fusion

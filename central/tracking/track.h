@@ -1,4 +1,4 @@
-// One object that the tracker follows: its filter, its bearings, and where it is in its life.
+// One tracked object: its filter, its bearings and its state in the life cycle.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,7 @@
 
 namespace ols::fusion {
 
-// The rules by which a track goes from one to the next are in docs/fusion.md and in
-// central/tracking/track_manager.h.
+// The transitions are in docs/fusion.md and central/tracking/track_manager.h.
 enum class TrackState { kTentative, kConfirmed, kCoasted, kDropped };
 const char* to_string(TrackState state);
 
@@ -28,11 +27,11 @@ struct Track {
   TrackState state = TrackState::kTentative;
   std::int64_t initiated_us = 0;
   std::map<std::string, int> hits;       // bearings used, by station
-  int misses = 0;                        // bearings set aside
-  std::int64_t last_two_station_us = 0;  // when two stations had seen it lately, last
+  int misses = 0;                        // rejected bearings
+  std::int64_t last_two_station_us = 0;  // when two stations had last seen it
   StationBearings bearings;              // of the last second
 
-  // Has it a bearing of this station and exposure already?
+  // Whether it already has a bearing of this station and exposure.
   bool has_taken(const BearingMeasurement& sighting) const;
 };
 

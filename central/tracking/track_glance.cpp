@@ -13,7 +13,7 @@ TrackGlance summarise_track(const Track& track) {
           std::sqrt(state.covariance.block<3, 3>(3, 3).trace())};
 }
 
-// Within so many of everything that may be off.
+// Within this many sigmas of all possible errors.
 bool TrackGlance::may_see(const BearingMeasurement& sighting, const Eigen::Vector3d& d) const {
   const double dt_s = seconds(sighting.utime_us - utime_us);
   const Eigen::Vector3d line = p_ecef + dt_s * v_ecef - sighting.sight.origin_ecef;

@@ -1,4 +1,4 @@
-// What a quick look at a track needs, side by side: a whole track fills the cache by itself. Pure.
+// The data of a track for a quick check, stored compactly: whole tracks would fill the cache. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@ struct TrackGlance {
   Eigen::Vector3d p_ecef, v_ecef;
   double position_sd_m = 0.0, velocity_sd_m_s = 0.0;
 
-  // Whether it may be in this direction (the bearing's, ECEF): generously.
+  // Whether the track may be in this direction (the bearing's, ECEF); generous.
   bool may_see(const BearingMeasurement& sighting, const Eigen::Vector3d& direction_ecef) const;
 };
 TrackGlance summarise_track(const Track& track);

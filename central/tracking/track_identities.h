@@ -1,4 +1,4 @@
-// Which identity an object has: as a track, and before and after that as a station's line. Pure.
+// Which identity an object has, as a track and, before and after, as a bearing-only track. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +14,30 @@ namespace ols::fusion {
 
 class TrackIdentities {
  public:
-  // same_place: an identity of a dropped track is taken over only where that must be by now.
+  // same_place: a track takes over the identity of a dropped one only at its predicted position.
   explicit TrackIdentities(bool same_place) : same_place_(same_place) {}
 
-  // Gives a track that is confirmed its identity: that of a dropped track, or that of the oldest
-  // line of its stations, or a new one.
+  // Assigns an identity to a confirmed track: that of a dropped track, that of the oldest
+  // bearing-only track of its stations, or a new one.
   void confirm(Track& track, const std::vector<Track>& tracks);
-  // The track takes what the station follows by this name.
+  // Binds the station's local track to the track.
   void follow(const BearingMeasurement& sighting, const Track& track);
-  // The sure track that the station follows by this name; null: none.
+  // The confirmed track of this local track; null: none.
   Track* follower(const BearingMeasurement& sighting, std::vector<Track>& tracks) const;
-  // Whether a track takes what the station follows by this name: the last bearing not longer ago.
+  // Whether a track takes the bearings of this local track: the last one not longer ago than this.
   bool takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s,
              const std::vector<Track>& tracks) const;
-  // A line's: 0 for the first new_after_s, and for what the station does not name. `told`: those of
-  // others at the same instant; one id is one object.
+  // The identity of a bearing-only track: 0 for the first new_after_s, and without a local track
+  // id. `told`: those already published at the same instant; one identity is one object.
   std::int64_t identify(const BearingMeasurement& newest, double new_after_s,
                         std::set<std::int64_t>& told, const std::vector<Track>& tracks);
   void merge(std::int64_t older, std::int64_t younger) { local_.rename(younger, older); }
-  // A confirmed track ended: it may be found again.
+  // A confirmed track ended; it may be reacquired.
   void drop(const Track& track) { dropped_.push_back(track); }
   void forget_dropped(std::int64_t now_us, double after_s);
-  // A station's names mean something else from now on.
+  // The local track ids of a station have new meanings from now on.
   void forget(const std::string& station) { local_.forget(station); }
-  // Everything but which identities are given away.
+  // Forgets everything except which identities are in use.
   void clear();
   const LocalTracks& local() const { return local_; }
 

@@ -13,9 +13,9 @@
 namespace ols::fusion {
 namespace {
 
-constexpr std::size_t kMostStarts = 3;  // that are tried for one bearing
-constexpr int kMostRounds = 6;          // over its bearings
-constexpr double kLeastKnown = 1.0;     // of the range, 1-sigma
+constexpr std::size_t kMostStarts = 3;  // max hypotheses per bearing
+constexpr int kMostRounds = 6;          // iterations over its bearings
+constexpr double kLeastKnown = 1.0;     // max 1-sigma over range
 
 }  // namespace
 
@@ -41,9 +41,9 @@ std::optional<TrackStart> TrackInitiation::add(const BearingMeasurement& sightin
   return next ? search(*next, errors, accept_two_rays) : std::nullopt;
 }
 
-// Each bearing pays for a search among so many stations. Among more, whoever waits longest is the
-// next: of its newest frame any bearing. Were it each in turn, a station's turns could be in step
-// with all others' and fall on the same one for ever.
+// Each bearing pays for a search among kStationsABearing stations; beyond that, the station that
+// has waited longest is searched next, from a random bearing of its newest frame. In a fixed order,
+// a station's searches could stay in step with the others' and always get the same bearing.
 std::optional<BearingMeasurement> TrackInitiation::next_station_to_search(
     const BearingMeasurement& sighting) {
   constexpr std::size_t kStationsABearing = 64;
@@ -122,11 +122,11 @@ std::vector<Frame> frames_backwards(
 
 struct Explained {
   int frames = 0;
-  double misfit = 0.0;  // sum of the squared normalised residuals, the gate at most
+  double misfit = 0.0;  // sum of the squared normalised residuals, each limited to the gate
   std::vector<BearingMeasurement> bearings;  // the latest first
 };
 
-// Runs the filter over the frames: each gives its nearest bearing, if that is in the gate.
+// Runs the filter over the frames: each contributes its nearest bearing, if that is in the gate.
 std::map<std::string, Explained> explain(const std::vector<Frame>& frames, TrackFilter& filter,
                                          BiasModel& shown) {
   std::map<std::string, Explained> stations;
@@ -152,14 +152,14 @@ std::map<std::string, Explained> explain(const std::vector<Frame>& frames, Track
   return stations;
 }
 
-// What the stations that agree on a start have in common.
+// Summary of the stations that agree on a hypothesis.
 struct Agreement {
   int hits = 0, frames = 0;
   double misfit = 0.0;
   std::int64_t oldest_us = 0;
 };
 
-// Gives the track the bearings of those stations that agree on it.
+// Gives the track the bearings of the stations that agree on it.
 Agreement agree(std::map<std::string, Explained>& stations, double least_share, Track& track) {
   Agreement sum{.oldest_us = track.initiated_us};
   for (auto& [name, station] : stations) {
@@ -176,7 +176,7 @@ Agreement agree(std::map<std::string, Explained>& stations, double least_share, 
   return sum;
 }
 
-// Position and velocity are where the equations are linear, as well as they are known.
+// The update moved position and velocity by little, compared with their sigmas.
 bool is_settled(const KinematicState& found, const Vector9& about) {
   constexpr double kNear = 0.1;  // squared, in sigmas
   const Eigen::Matrix<double, 6, 1> off = (found.mean - about).head<6>();
@@ -187,7 +187,8 @@ bool is_settled(const KinematicState& found, const Vector9& about) {
 
 }  // namespace
 
-// Who has lately had a bearing towards the start: nobody else's bearings can be explained by it.
+// Stations with a recent bearing towards the hypothesis: only their bearings can be explained by
+// it.
 std::vector<const UnassociatedBearings::Station*> TrackInitiation::looking_at(
     const RayMeeting& start, std::int64_t now_us) const {
   std::vector<const UnassociatedBearings::Station*> found;
@@ -204,7 +205,7 @@ std::vector<const UnassociatedBearings::Station*> TrackInitiation::looking_at(
   return found;
 }
 
-// The newest instant of whoever is heard at the time of a bearing.
+// The newest instant of the stations that have a bearing near this time.
 std::int64_t TrackInitiation::now_at(std::int64_t utime_us) const {
   std::int64_t now_us = utime_us;
   for (const auto& [station, own] : pool_.stations()) {
@@ -216,14 +217,15 @@ std::int64_t TrackInitiation::now_at(std::int64_t utime_us) const {
   return now_us;
 }
 
-// Runs the filter backwards over what is kept, from `now_us` on: with the bearings that it takes of
-// the stations that agree on the start. Nothing where it diverges.
+// Runs the filter backwards over the kept bearings, from `now_us` on, and returns it with the used
+// bearings of the stations that agree on the hypothesis. Nullopt if it diverges.
 std::optional<TrackInitiation::Hypothesis> TrackInitiation::run(const RayMeeting& start,
                                                                 std::int64_t now_us,
                                                                 const BiasModel& errors) const {
   auto frames = frames_backwards(looking_at(start, now_us),
                                  now_us - static_cast<std::int64_t>(config_.pool_s * 1e6));
-  // A start is vague: whoever is heard first, it goes to. So first the two that made it.
+  // The first state is vague and moves to the first bearings, so the two stations that made it come
+  // first.
   std::stable_partition(frames.begin(), frames.end(), [&](const Frame& frame) {
     const std::string& station = frame.bearings.front()->station;
     return station == start.first || station == start.second;
@@ -234,8 +236,8 @@ std::optional<TrackInitiation::Hypothesis> TrackInitiation::run(const RayMeeting
   std::optional<Hypothesis> begun;
   std::optional<KinematicState> about;
   std::map<std::string, Explained> stations;
-  // What is known after the first bearings is vague, and equations that are linear about that can
-  // lead astray and be sure of it. So each round is linear about where the one before has ended.
+  // Linearising about the vague first estimate can lead to a wrong one with false certainty. So
+  // each iteration is linearised about the result of the one before.
   for (int round = 0; round < kMostRounds && !(begun && begun->settled); ++round) {
     begun.emplace(
         TrackStart{Track(TrackFilter(filter_, now_us, from)), BiasModel::evidence_on(errors)});
@@ -272,8 +274,8 @@ std::optional<TrackInitiation::Hypothesis> TrackInitiation::try_start(
   const bool enough = begun->bearings >= config_.least_bearings && long_enough;
   if (needed == Needed::kTwoRays) return begun;
   if (!enough) return std::nullopt;
-  // Rays that are parallel by chance meet somewhere far: what has no range explains everything, and
-  // would take the bearings of all that are nearer.
+  // Rays that are parallel by chance intersect far away: a hypothesis without a range explains
+  // everything and would take the bearings of all nearer objects.
   const TrackFilter& filter = begun->start.track.filter;
   const bool is_somewhere = has_range(filter, filter.summary(), kLeastKnown);
   if (!is_somewhere) failure_ = Solution::kParallelRays;
@@ -282,7 +284,7 @@ std::optional<TrackInitiation::Hypothesis> TrackInitiation::try_start(
 
 void TrackInitiation::take(const Track& track) {
   for (const auto& [station, bearings] : track.bearings) {
-    const auto& taken = bearings;  // clang 14 captures no structured binding
+    const auto& taken = bearings;  // clang 14 cannot capture a structured binding
     pool_.erase_if(station, [&](const BearingMeasurement& s) {
       return std::ranges::any_of(taken, [&](const BearingMeasurement& t) {
         return t.utime_us == s.utime_us &&

@@ -34,7 +34,8 @@ Association TrackManager::give_to(Track& track, const BearingMeasurement& sighti
   const FilterUpdate update = track.filter.update(sighting, errors_, seen);
   errors_.learn(update.shown);
   glances_[static_cast<std::size_t>(&track - tracks_.data())] = summarise_track(track);
-  // One more than the filter has states for is of the target all the same, and begins no other.
+  // One more station than the filter has states for still sees the target, and begins no other
+  // track.
   if (update.use != BearingUse::kUsed && update.use != BearingUse::kNoFreeState) {
     ++track.misses;
     ++counts_.set_aside;
@@ -60,11 +61,11 @@ void TrackManager::keep(Track& track, const BearingMeasurement& sighting) const 
   const auto span_us = static_cast<std::int64_t>(config_.memory_s * 1e6);
   const std::int64_t oldest_us = own.back().utime_us - span_us;
   const auto kept = std::ranges::lower_bound(own, oldest_us, {}, &BearingMeasurement::utime_us);
-  constexpr std::ptrdiff_t kTogether = 16;  // each one by itself would move all others every time
+  constexpr std::ptrdiff_t kTogether = 16;  // in a batch: removing each alone would move all others
   if (kept - own.begin() >= kTogether) own.erase(own.begin(), kept);
 }
 
-// The same object as a sure one.
+// Whether it is the same object as a confirmed one.
 bool TrackManager::is_duplicate(const Track& track) const {
   return std::ranges::any_of(tracks_, [&](const Track& other) {
     return &other != &track && is_established(other) && are_duplicates(track.filter, other.filter);
@@ -91,7 +92,7 @@ void TrackManager::confirm(Track& track) {
   on_confirmed(track);
 }
 
-// What a station's other tracks have taught of it stays true: they go on with it.
+// What the other tracks have taught of a station remains true: they keep it.
 void TrackManager::forget_what_it_taught(const Track& track) {
   const auto has_another = [&](const std::string& station) {
     return std::ranges::any_of(tracks_, [&](const Track& other) {
@@ -105,7 +106,7 @@ void TrackManager::forget_what_it_taught(const Track& track) {
 }
 
 void TrackManager::age(Track& track, std::int64_t now_us) {
-  if (is_inconsistent_pair(track.filter)) {  // what it has taught of them is not true, either
+  if (is_inconsistent_pair(track.filter)) {  // what it has taught of the stations is wrong, too
     forget_what_it_taught(track);
     track.state = TrackState::kDropped;
     return;

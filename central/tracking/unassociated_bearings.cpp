@@ -13,8 +13,8 @@ bool BearingSummary::is_near(const Eigen::Vector3d& p_ecef, double more_rad) con
   return (line.normalized() - direction_ecef).squaredNorm() < within * within;
 }
 
-// What has been learnt of the station's bias is within the least one: a track loses a station whose
-// bias grows beyond 0.02 rad and as much as here (TrackGlance).
+// kLeastRad covers the station's learnt bias: beyond 0.02 rad plus the same multiple of the stated
+// errors, a track loses the station anyway (TrackGlance).
 BearingSummary summarise(const BearingMeasurement& sighting, const Eigen::Matrix3d& R_ecef_enu) {
   constexpr double kGenerous = 8.0, kLeastRad = 0.05;
   const LineOfSight& sight = sighting.sight;
@@ -27,7 +27,7 @@ BearingSummary summarise(const BearingMeasurement& sighting, const Eigen::Matrix
           .track_id = sighting.track_id};
 }
 
-// A station seldom moves, and to find its axes costs as much as the rest.
+// A station seldom moves, and computing its axes costs as much as the rest.
 BearingSummary UnassociatedBearings::Station::look(const BearingMeasurement& sighting) {
   if (origin_ecef_ != sighting.sight.origin_ecef) {
     origin_ecef_ = sighting.sight.origin_ecef;

@@ -1,4 +1,4 @@
-// The bearings of the last moments that belong to no track, by station. Pure.
+// The recent bearings that belong to no track, by station. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,24 +13,24 @@
 
 namespace ols::fusion {
 
-// What a quick look at a bearing needs, side by side.
+// The data of a bearing for a quick check, stored compactly.
 struct BearingSummary {
   std::int64_t utime_us = 0;
   Eigen::Vector3d origin_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction_ecef = Eigen::Vector3d::UnitX();
-  double spread_rad = 0.0;  // generously, how far off its target it may point
+  double spread_rad = 0.0;  // generous bound of the angle off its target
   double clock_sd_s = 0.0;
   std::int64_t track_id = 0;
 
-  // Whether it points at a place, within what it may be off and something more.
+  // Whether it points at this position, within that bound and a margin.
   bool is_near(const Eigen::Vector3d& p_ecef, double more_rad) const;
 };
-// With the axes at its origin: R_ecef_enu(sighting.sight.origin_ecef).
+// With the given axes at its origin: R_ecef_enu(sighting.sight.origin_ecef).
 BearingSummary summarise(const BearingMeasurement& sighting, const Eigen::Matrix3d& R_ecef_enu);
 
 class UnassociatedBearings {
  public:
-  // Of one station, both in order of time and as long as each other.
+  // Of one station, both in order of time and of equal length.
   struct Station {
     std::deque<BearingMeasurement> bearings;
     std::vector<BearingSummary> looks;
@@ -38,11 +38,11 @@ class UnassociatedBearings {
     BearingSummary look(const BearingMeasurement& sighting);
 
    private:
-    Eigen::Vector3d origin_ecef_ = Eigen::Vector3d::Zero();     // of the look that was made last,
+    Eigen::Vector3d origin_ecef_ = Eigen::Vector3d::Zero();     // of the last summary,
     Eigen::Matrix3d R_ecef_enu_ = Eigen::Matrix3d::Identity();  // and the axes there
   };
 
-  // A bearing is kept until one of its station is newer by so long, or so many are.
+  // A bearing is kept until one of its station is newer by this, or until there are this many.
   UnassociatedBearings(double span_s, int most)
       : span_s_(span_s), most_(static_cast<std::size_t>(most)) {}
 

@@ -100,7 +100,7 @@ ols_msg::fusion_status_t fusion_status() {
   message.counter_name = {"targets"};
   message.counter_value = {3.0};
   message.alarms = 1;
-  message.alarm = {"another fusion is on the bus: end one of them"};
+  message.alarm = {"another fusion is on the bus: stop one of them"};
   return message;
 }
 

@@ -105,12 +105,12 @@ SUBJECT = re.compile(
 )
 # Texts and files whose texts become alarms elsewhere, with what is put before them there.
 CARRIED_ON = {
-    r"its \w+ (is|are) ": "station …: not used, ",
-    r"follows for ": "station …: ",
+    r"(its \w+ (is|are)|it reports) ": "station …: not used, ",
+    r"has followed for ": "station …: ",
     r"[^:]*: home it, or reference-ok": "ptu: ",
 }
 PASSED_ON = {
-    "present_watch.cpp": "",
+    "timeliness_gate.cpp": "",
     "fusion_conflict_monitor.cpp": "",
     "clock_watch.cpp": "clock: ",
     "ptu_report.cpp": "ptu: ",

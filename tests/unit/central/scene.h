@@ -1,4 +1,4 @@
-// Stations and targets at known places for the tests of the central part.
+// Stations and targets at known positions.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@ inline AzimuthElevation direction_to(const Eigen::Vector3d& from_ecef,
   return azimuth_elevation_from_enu(R_ecef_enu(from_ecef).transpose() * (to_ecef - from_ecef));
 }
 
-// An exact ray from one place of the site to another [m, site's east-north-up].
+// An exact ray between two points of the site [m, site's east-north-up].
 inline Ray ray_to(const std::string& station, const Eigen::Vector3d& from_enu,
                   const Eigen::Vector3d& to_enu, double sigma_rad = 1e-4) {
   Ray ray;
@@ -35,7 +35,7 @@ inline Ray ray_to(const std::string& station, const Eigen::Vector3d& from_enu,
   return ray;
 }
 
-// The ray turned by small angles across and up.
+// The ray turned by small angles in cross-elevation and elevation.
 inline Ray turned(Ray ray, double cross_elevation_rad, double elevation_rad) {
   ray.sight.direction.elevation_rad += elevation_rad;
   ray.sight.direction.azimuth_rad =

@@ -1,4 +1,4 @@
-// Stations of which one looks beside the target, as their bearings.
+// The bearings of stations of which one points away from the target.
 #pragma once
 
 #include <functional>
@@ -10,16 +10,16 @@
 
 namespace ols::fusion::test {
 
-// How far off a station's azimuth is, by its name and the time [rad].
+// The error of a station's azimuth, by its name and the time [rad].
 using HeadingError = std::function<double(char station, double t_s)>;
 
 inline HeadingError off_by(char station, double degrees_off) {
   return [=](char name, double) { return name == station ? radians(degrees_off) : 0.0; };
 }
 
-inline constexpr double kSlowly = 0.5;  // of the time of path()
+inline constexpr double kSlowly = 0.5;  // over the speed of path()
 
-// The stations (letters of the square's corners), in this order of exposures, each 15 times a
+// The stations (letters of the square's corners) in this order of exposures, each 15 times per
 // second; the path of flight.h at half its speed. In order of time.
 inline std::vector<BearingMeasurement> watch(const std::string& stations, double seconds,
                                              double noise_rad, const HeadingError& heading,

@@ -60,7 +60,7 @@ TEST(DoctorOnSite, SmallBuffersLonelinessAndRivalsAreTold) {
 
 TEST(DoctorOnSite, TheFusionsAlarmsAreTold) {
   BusHeard bus = good_bus();
-  bus.fusion_alarms = {"another fusion is on the bus: end one of them"};
+  bus.fusion_alarms = {"another fusion is on the bus: stop one of them"};
   EXPECT_EQ(exit_status(judge_company(bus, "alfa")), 1);
   EXPECT_THAT(lines(judge_company(bus, "alfa")), HasSubstr("fusion: alarm: another fusion is"));
 }

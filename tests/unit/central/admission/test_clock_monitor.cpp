@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPeriod_s = 1.0 / 15.0;
 
-// Stations at 15 Hz, each with its clock's offset, its messages' delay and what it says of itself.
+// Stations at 15 Hz, each with its clock offset, message delay and stated error.
 class ClockMonitorTest : public testing::Test {
  protected:
   struct Clock {

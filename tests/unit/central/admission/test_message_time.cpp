@@ -13,7 +13,7 @@ TEST(MessageTime, NowIsTheLowerMedianOfTheNewestStamps) {
   time.hear("a", kStart);
   time.hear("b", kStart + 1000);
   EXPECT_EQ(time.now_us(), kStart);
-  time.hear("c", kStart + 50'000'000);  // one wrong clock hurts only its owner
+  time.hear("c", kStart + 50'000'000);  // one wrong clock affects only its own station
   EXPECT_EQ(time.now_us(), kStart + 1000);
 }
 

@@ -21,7 +21,8 @@ void hear(PointingMonitor& monitor, double from_s, double to_s, bool explained,
 TEST(PointingMonitor, NamesWhoIsAlwaysOffByTheSame) {
   PointingMonitor monitor;
   hear(monitor, 0.0, 6.0, false, kOff);
-  EXPECT_EQ(monitor.quarantine("a"), "its bearings are 4.6 deg off the others' target");
+  EXPECT_EQ(monitor.quarantine("a"),
+            "its bearings are 4.6 deg off the target of the other stations");
   EXPECT_EQ(monitor.quarantine("b"), "");
 }
 
@@ -32,7 +33,7 @@ TEST(PointingMonitor, BelievesAgainWhoIsExplained) {
   EXPECT_EQ(monitor.quarantine("a"), "");
 }
 
-// Or no target could ever begin again where it takes this station.
+// Otherwise no target could be initiated again if it needs this station.
 TEST(PointingMonitor, LapsesWithoutATargetToJudgeBy) {
   PointingMonitor monitor;
   hear(monitor, 0.0, 6.0, false, kOff);

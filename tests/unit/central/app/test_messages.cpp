@@ -193,7 +193,7 @@ TEST(Messages, ForeignAndLongerMessagesAreRefused) {
   EXPECT_TRUE(refused(decode_bearing(longer), MessageRefusal::kMalformed));
 }
 
-// The string's length is the first thing after stamp and version: 8 + 8 + 4 bytes.
+// The string's length follows stamp and version: 8 + 8 + 4 bytes.
 TEST(Messages, AbsurdLengthsAreRefused) {
   for (const std::uint32_t length : {0U, 0xFFFFFFFFU, 0x80000000U, 0x7FFFFFFFU}) {
     Bytes bytes = encoded(bearing());
@@ -241,7 +241,7 @@ TEST(Messages, OtherSchemaStationOrPlaceIsRefused) {
   EXPECT_EQ(no_place(encoded(nowhere)), MessageRefusal::kNoPosition);
 }
 
-// An operator's hand on a station counts, whether it knows its place or not.
+// Operator control of a station counts, whether the station knows its position or not.
 TEST(Messages, AStatusWithoutAPlaceTellsWhoHasTheStation) {
   auto nowhere = status();
   nowhere.position_source = ols_msg::station_status_t::POSE_NONE;

@@ -21,7 +21,7 @@ constexpr std::int64_t kEpoch = 1'700'000'000'000'000;
 using Path = std::function<Vector3d(double)>;
 
 Vector3d straight(double t_s) { return {30.0 + 20.0 * t_s, 250.0 - 10.0 * t_s, 60.0 + 3.0 * t_s}; }
-// 60 m radius at 15 m/s: 3.75 m/s^2 across.
+// 60 m radius at 15 m/s: 3.75 m/s^2 of centripetal acceleration.
 Vector3d circle(double t_s) {
   return {60.0 * std::sin(0.25 * t_s), 250.0 + 60.0 * std::cos(0.25 * t_s), 60.0};
 }

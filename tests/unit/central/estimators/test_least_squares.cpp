@@ -81,7 +81,7 @@ TEST(LeastSquares, DoesNotDependOnTheOrderOfStations) {
   EXPECT_LT((first.position_ecef - second.position_ecef).norm(), 1e-8);
 }
 
-// One grossly wrong ray of three or more is set aside; the others' answer stands.
+// One grossly wrong ray of three or more is rejected; the result of the others is unaffected.
 TEST(LeastSquares, SetsOneBadRayAside) {
   const Vector3d target(50, 80, 120);
   for (const std::size_t stations : {std::size_t{3}, std::size_t{4}}) {

@@ -24,7 +24,7 @@ TEST(PaperTwoView, MeetsWhereExactRaysMeet) {
 
 // By hand: baseline 2 along x; both rays at 45 degrees towards each other in their own planes,
 // which contain the x axis and are turned by +-0.1 rad about it. The common plane lies between, at
-// a quarter of the angle from the plane of the three times more believed view.
+// a quarter of the angle from the plane of the view with three times the belief.
 TEST(PaperTwoView, TurnsTheLessBelievedRayMore) {
   const double tilt = 0.1;
   const PaperView first{{-1, 0, 0}, Vector3d(1, std::cos(tilt), std::sin(tilt)).normalized(), 3.0};
@@ -51,7 +51,7 @@ TEST(PaperTwoView, NamesItsFailures) {
     return paper_two_view({a, u.normalized(), 1.0}, {second, v.normalized(), 1.0}).solution;
   };
   EXPECT_EQ(solution({0, 1, 0}, {0, 1, 0}, b), Solution::kParallelRays);
-  EXPECT_EQ(solution({0, 1, 0}, {0, 1, 0.1}, a), Solution::kParallelRays);  // one place
+  EXPECT_EQ(solution({0, 1, 0}, {0, 1, 0.1}, a), Solution::kParallelRays);  // one position
   EXPECT_EQ(solution({1, 0, 0}, {0, 1, 0}, b), Solution::kParallelRays);    // along the baseline
   EXPECT_EQ(solution({-1, 1, 0}, {1, 1, 0}, b), Solution::kBehindCamera);
   EXPECT_EQ(solution({0, 1, 0}, {-1.5e-5, 1, 0}, b), Solution::kParallelRays);
@@ -70,7 +70,7 @@ TEST(PaperNView, DoesNotOverflowAtThousandsOfMetres) {
   EXPECT_LT((point.position_ecef - target).norm(), 1e-5);
 }
 
-// Algorithm 1 written out for three views whose pairs meet at different points.
+// Algorithm 1 written out for three views whose pairs intersect at different points.
 TEST(PaperNView, WeighsPairsByTheirAngle) {
   const Vector3d target(0, 100, 0);
   std::vector<PaperView> views = {view({-10, 0, 0}, target), view({10, 0, 0}, target),
@@ -153,10 +153,10 @@ TEST(MovingAverage, IsTheMeanOfTheLastTen) {
   EXPECT_NEAR(last.position_ecef.x(), (15 + 24) / 2.0, 1e-12);
   EXPECT_NEAR(last.covariance_white_ecef(1, 1), 0.1, 1e-12);
   EXPECT_NEAR(last.covariance_ecef(1, 1), 2.0 + 0.1, 1e-12);
-  EXPECT_NEAR(last.covariance_ecef(0, 0), 2.0 + 0.1 + 4.5 * 4.5, 1e-12);  // trails by 4.5
+  EXPECT_NEAR(last.covariance_ecef(0, 0), 2.0 + 0.1 + 4.5 * 4.5, 1e-12);  // lag of 4.5
 }
 
-// Of two estimates that are made of the same bearings the mean is no better than either.
+// The mean of two estimates from the same bearings is no better than either.
 TEST(MovingAverage, CountsWhatWindowsShareOnce) {
   Estimate estimate;
   estimate.solution = Solution::kOk;

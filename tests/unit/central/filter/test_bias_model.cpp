@@ -21,7 +21,7 @@ LineOfSight sight() {
   return line;
 }
 
-// Biases of this size, each drawn anew, seen with an error of this size as the filter would.
+// Biases of this size, each drawn independently, estimated with an error of this size.
 double learnt_sd(double bias_sd, double error_sd) {
   BiasModel errors;
   std::mt19937_64 random(4);
@@ -78,8 +78,8 @@ TEST(BiasModel, WhatIsStatedLastsAndWhatNobodyToldDoesNot) {
   EXPECT_TRUE(told.time_s.isApproxToConstant(config.stated_time_s, 1e-6));
 }
 
-// Four times the variance on the level axis: three of it are a heading's, which stays so much
-// longer that as much is new of each in the same time.
+// Four times the variance on the level axis: three parts are the heading's, whose correlation time
+// is longer, so that both change by the same amount in the same time.
 TEST(BiasModel, TakeForAHeadingWhatOneAxisHasMore) {
   const BiasPrior prior = BiasModel().prior("a", stated(0.0, 4e-6, 1e-6), 500.0);
   EXPECT_TRUE(prior.rotation.isApprox(Eigen::Array3d(1e-6, 1e-6, 4e-6), 1e-9));
@@ -87,7 +87,7 @@ TEST(BiasModel, TakeForAHeadingWhatOneAxisHasMore) {
   EXPECT_NEAR(prior.time_s(1) / prior.time_s(0), 1.0, 1e-6);
 }
 
-// Whatever the elevation: a rotation with the prior's variances makes the bias that is stated.
+// At any elevation, a rotation with the prior's variances makes the stated bias.
 TEST(BiasModel, ARotationMakesWhatIsStated) {
   for (const double elevation_rad : {-0.2, 0.0, 0.7, 1.4}) {
     const LineOfSight line = stated(elevation_rad, 5e-6, 2e-6);
@@ -108,7 +108,7 @@ TEST(BiasModel, ARotationMovesADirectionOnItsTangentPlane) {
   EXPECT_TRUE((shift_by_rotation(tangent_basis(d)) * rotation).isApprox(moved, 1e-12));
 }
 
-// A place of its own is no rotation.
+// A position error with states of its own is not part of the rotation.
 TEST(BiasModel, APlaceIsPartOfTheRotationOrApart) {
   LineOfSight line = stated(0.0, 1e-6, 1e-6);
   line.origin_sd_enu_m.setConstant(1.0);
@@ -122,7 +122,7 @@ TEST(BiasModel, APlaceIsPartOfTheRotationOrApart) {
 
 class NoiseScale : public testing::TestWithParam<double> {};
 
-// A station's noise is found, be it less or more than what it states.
+// A station's noise is learnt, whether smaller or larger than stated.
 TEST_P(NoiseScale, IsFoundFromTheResiduals) {
   BiasModel errors;
   TrackFilter filter({}, test::kStart,

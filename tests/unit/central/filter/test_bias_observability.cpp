@@ -6,7 +6,7 @@
 namespace ols::fusion {
 namespace {
 
-// A station's rotation of 1 mrad a side, seen with a noise of 0.1 mrad.
+// A station's rotation of 1 mrad per axis, measured with a noise of 0.1 mrad.
 bool is_linear_at(double range_sd_m) {
   const RayFrame frame = ray_frame(test::ray_to("a", {0, 0, 0}, {0, 300, 50}).sight);
   const StationPart part{.first = 9,
@@ -28,7 +28,7 @@ TEST(BiasObservability, NeedsMoreThanLinearisationMakesUp) {
   const Eigen::Vector3d along(0, 1, 0);
   FilterMatrix P = FilterMatrix::Zero(13, 13);
   P.diagonal().segment<3>(9).setConstant(1e-6);
-  P(9, 1) = 0.9e-3 * 10.0;  // correlated with a depth that is known to 10 m
+  P(9, 1) = 0.9e-3 * 10.0;  // correlated with a depth of 10 m sd
   const StationPart part{.first = 9, .has_place = false, .by_rotation = {}, .R_ecef_enu = {}};
   FilterMatrix2 G = FilterMatrix2::Zero(13, 2);
   const double off_share = 1.0 / 300.0;

@@ -8,7 +8,7 @@
 namespace ols::fusion {
 namespace {
 
-// Bearings of a thing at rest, their errors correlated by `same` from one frame to the next.
+// Bearings of a stationary object, their errors correlated by `same` from one frame to the next.
 double inflation_of(double same) {
   constexpr double kNoise = 1e-4;
   std::mt19937_64 random(3);

@@ -1,4 +1,4 @@
-// What is done to a lower triangle, against the whole matrices' own formulas.
+// The operations on the lower triangle, compared with the formulas on whole matrices.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -12,7 +12,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNotKept = 1e30;  // what stands above the diagonal must not matter
+constexpr double kNotKept = 1e30;  // the part above the diagonal must not matter
 constexpr Eigen::Index kStates = 9 + 2 * kPoseStates + kPlaceStates;
 
 class FilterGaussianTest : public testing::Test {

@@ -49,7 +49,7 @@ TEST(TrackFilter, FindsPositionAndVelocityFromStaggeredBearings) {
   EXPECT_LT(error(filter, filter.utime_us() + 200'000).norm(), 0.3);
 }
 
-// Of a target that is known never to turn, one model is enough.
+// For a target that never turns, one model is enough.
 TEST(TrackFilter, OneModelAloneFollowsWhatMovesLikeThat) {
   BiasModel errors;
   FilterConfig config;
@@ -66,8 +66,8 @@ TEST(TrackFilter, OneModelAloneFollowsWhatMovesLikeThat) {
   EXPECT_LT(error(filter, filter.utime_us() + 200'000).norm(), 0.2);
 }
 
-// With all that the stations' states have in common: rotation, clock and place. Of one model the
-// whole state is at hand, and what it expects of a bearing can be found from it at once.
+// With all correlations of the stations' states: rotation, clock and position. With one model the
+// whole state is available, and the prediction of a bearing follows from it directly.
 class OneModel : public testing::TestWithParam<Motion> {
  protected:
   struct Expected {
@@ -76,7 +76,7 @@ class OneModel : public testing::TestWithParam<Motion> {
     Eigen::Matrix2d S;
   };
 
-  // After four seconds' flight: by then a bearing tells of biases.
+  // After four seconds of flight, when a bearing has information on biases.
   OneModel() {
     config.motion.models = {GetParam()};
     filter.emplace(
@@ -92,7 +92,7 @@ class OneModel : public testing::TestWithParam<Motion> {
     }
   }
 
-  // Of the last station, so much off the state's own instant, with an error.
+  // Of the last station, at this offset from the state's own instant, with an error.
   BearingMeasurement next(double ahead_s) const {
     BearingMeasurement result = seen.back();
     EXPECT_EQ(filter->stations().back().station, result.station);
@@ -144,7 +144,7 @@ TEST_P(OneModel, GatesByTheWholeStatesCovariance) {
   }
 }
 
-// A late bearing teaches what it shows of now: of the velocity, too.
+// A late bearing corrects the current state, including the velocity.
 TEST_P(OneModel, LearnsByTheWholeStatesGain) {
   for (const double ahead_s : {0.0, -0.1}) {
     TrackFilter after = *filter;
@@ -225,7 +225,7 @@ TEST(TrackFilter, FollowsAManoeuvreBeyondItsModels) {
   EXPECT_LT((filter.position() - site().to_ecef(corner(t_s))).norm(), 0.5);
 }
 
-// One station in five is off by more than the noise, and says nothing of it.
+// One station in five has an error larger than its noise, and does not declare it.
 TEST(TrackFilter, ABiasIsFoundWhereTheGeometryShowsIt) {
   BiasModel errors;
   TrackFilter filter = filter_at(path(0.0));
@@ -249,7 +249,7 @@ TEST(TrackFilter, ABiasIsFoundWhereTheGeometryShowsIt) {
   }
 }
 
-// Systematic errors do not average away: the covariance stays that of the stations' statements.
+// Systematic errors do not average out: the covariance contains the stations' statements.
 TEST(TrackFilter, AveragingDoesNotMakeABadHeadingGoAway) {
   BiasModel errors;
   TrackFilter filter = filter_at({0.0, 300.0, 50.0});
@@ -286,7 +286,7 @@ TEST(TrackFilter, TellsWhatErrorsThatNobodyStatedMakeOfItsCovariance) {
   EXPECT_GT(part.empirical_m2.trace(), 0.5 * part.all_m2.trace());
 }
 
-// Twelve have states; one more is of the target without moving it, until one of them is silent.
+// Twelve have states; a thirteenth does not move the target until one of them is silent.
 TEST(TrackFilter, AThirteenthStationWaitsForAPlace) {
   const auto bearing = [](int station, double t_s) {
     const double angle = 2.0 * kPi * station / 13.0;
@@ -330,8 +330,8 @@ TEST(TrackFilter, AClockThatWasBadForAMomentIsForgiven) {
   EXPECT_LT(sd_m(0.05), 1.5 * always_good_m);
 }
 
-// Walks to and fro 50 to 200 m before stations side by side whose headings are off by what they
-// state: what the base hides must not be learnt from small non-linearities.
+// Walks to and fro 50 to 200 m in front of adjacent stations with heading errors as stated: a bias
+// that the short base makes unobservable must not be learnt from small non-linearities.
 struct ShortBase : testing::TestWithParam<std::vector<double>> {
   static Vector3d walker(double t_s) {
     return {20.0 * std::sin(0.07 * t_s), 125.0 + 75.0 * std::sin(0.05 * t_s), 2.0};

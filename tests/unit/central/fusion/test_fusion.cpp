@@ -60,7 +60,7 @@ TEST(Fusion, PaperEstimateStandsBesideTheJointOne) {
     const FusedTarget& paper = output.targets_paper[0];
     ASSERT_EQ(paper.estimate.solution, Solution::kOk);
     EXPECT_EQ(paper.target_id, output.targets[0].target_id);
-    // Trails by the moving average: at most ten targets' time, and says so.
+    // Lags by the moving average, at most ten targets, and its covariance contains that.
     const double off_m = error_m(paper);
     EXPECT_LT(off_m, 21.0 * 10 / 12.0);
     EXPECT_LT(off_m, 3.0 * std::sqrt(paper.estimate.covariance_ecef.trace()) + 0.1);
@@ -68,8 +68,8 @@ TEST(Fusion, PaperEstimateStandsBesideTheJointOne) {
   EXPECT_GT(both, 30);
 }
 
-// One wrong clock hurts only its owner, whichever station it is and whichever way it is wrong, also
-// when it is the first to be heard.
+// One wrong clock affects only its own station, whichever station it is, whether fast or slow, and
+// also if it sends first.
 TEST(Fusion, OneWrongClockHurtsOnlyItsOwner) {
   for (const std::string wrong : {"a", "b", "d"}) {
     for (const std::int64_t offset : {kHour, -kHour, std::int64_t{5'000'000}}) {
@@ -93,7 +93,7 @@ TEST(Fusion, OneWrongClockHurtsOnlyItsOwner) {
       }
       EXPECT_NE(health.last_error.find("station " + wrong), std::string::npos);
       for (const FusedTarget& target : targets) {
-        // Before the others are heard, the wrong clock alone is the time: no position then.
+        // Until the others send, the wrong clock alone is the time: no position then.
         const bool warm = target.utime_us > kStart + 1'000'000;
         if (warm && target.estimate.solution == Solution::kOk) {
           EXPECT_LT(error_m(target), 0.05);
@@ -154,9 +154,9 @@ TEST(Fusion, StartsAnewWhenTheReplayIsStartedAgain) {
   EXPECT_EQ(fusion.health().counters.at("time_stepped_back"), 1.0);
 }
 
-// What the first replay taught about the stations is not known in the second one.
+// What the first replay taught about the stations is forgotten in the second one.
 TEST(Fusion, EveryFurtherReplayGivesTheSameTargets) {
-  for (const double noise : {2e-4, 3e-4, 1e-3}) {  // all worse than they state
+  for (const double noise : {2e-4, 3e-4, 1e-3}) {  // all larger than stated
     const auto sightings = flight(5.0, 1e-4, noise);
     Fusion fusion{FusionConfig{}};
     const auto first = targets_of(fusion, sightings);
@@ -173,8 +173,8 @@ TEST(Fusion, EveryFurtherReplayGivesTheSameTargets) {
       ++compared;
     }
     EXPECT_GT(compared, 60U) << noise;
-    // The first one differs by the bearings that it takes to notice the step. At ten sigmas these
-    // decide where tracks begin, and the two are not comparable.
+    // The first one differs by the bearings needed to detect the step. At ten sigmas these decide
+    // where tracks begin, and the two are not comparable.
     if (noise > 3e-4) continue;
     const double was = first.back().estimate.covariance_ecef.trace();
     EXPECT_NEAR(second.back().estimate.covariance_ecef.trace() / was, 1.0, 0.1) << noise;
@@ -185,7 +185,7 @@ TEST(Fusion, EveryFurtherReplayGivesTheSameTargets) {
 
 class WorseThanStated : public testing::TestWithParam<double> {};
 
-// Noise of more than what is stated does not make two objects of one, nor its position worthless.
+// Noise above the stated one neither splits an object in two nor spoils its position.
 TEST_P(WorseThanStated, IsStillOneTarget) {
   Fusion fusion{FusionConfig{}};
   int located = 0, judged = 0;
@@ -205,8 +205,8 @@ TEST_P(WorseThanStated, IsStillOneTarget) {
 
 INSTANTIATE_TEST_SUITE_P(Times, WorseThanStated, testing::Values(2.0, 3.0));
 
-// Bearings of the object that a station follows are told to its target even when they are wild.
-// After a restart the same track_id is whatever the station was shown then.
+// Bearings of the object that a station follows update its target even if they scatter. After a
+// restart the same track_id is a new object.
 TEST(Fusion, WhatARestartedStationFollowsIsNotWhatItFollowedBefore) {
   const auto set_aside = [](std::int64_t boot_after) {
     auto sightings = flight(2.0);
@@ -260,7 +260,7 @@ TEST(Fusion, ANewTrackIsAnotherObject) {
   EXPECT_GT(lines, 10);
 }
 
-// Bearings that belong to nothing, late and in between, do not touch the target.
+// Late and interspersed bearings of no object do not move the target.
 TEST(Fusion, ALateBearingOfAnotherObjectDoesNotDisturbTheTarget) {
   std::vector<BearingMeasurement> with_late;
   for (const BearingMeasurement& sighting : flight(2.0)) {
@@ -300,7 +300,7 @@ TEST(Fusion, OneStationAloneIsALineAndNoPosition) {
   EXPECT_TRUE(std::isnan(last.estimate.position_ecef.x()));
 }
 
-// Its target is no one else's: the others' target goes on, and its line is told beside it.
+// No other station sees its target: the others' target continues, next to its bearing-only track.
 TEST(Fusion, WhoFollowsSomethingElseIsALineBesideTheTarget) {
   auto sightings = flight(3.0);
   for (BearingMeasurement& sighting : sightings) {
@@ -342,7 +342,7 @@ TEST(Fusion, TwoWhoFollowTwoObjectsAreTwoLinesAndNoPosition) {
   EXPECT_GT(lines["c"], 30);
 }
 
-// The order of names decides nothing.
+// The order of the station names does not matter.
 TEST(Fusion, RenamingTheStationsChangesNothing) {
   const auto sightings = flight(3.0, 1e-4, 1e-4);
   auto renamed = sightings;
@@ -354,12 +354,12 @@ TEST(Fusion, RenamingTheStationsChangesNothing) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(a[i].estimate.solution, b[i].estimate.solution);
     if (a[i].estimate.solution != Solution::kOk) continue;
-    if (a[i].utime_us < kStart + 1'000'000) continue;  // begun with another pair
+    if (a[i].utime_us < kStart + 1'000'000) continue;  // initiated by another pair
     EXPECT_LT((a[i].estimate.position_ecef - b[i].estimate.position_ecef).norm(), 1e-2);
   }
 }
 
-// A bearing or a status, whichever came last: a station may be set up anew elsewhere.
+// A bearing or a status, whichever came last: a station may be set up again elsewhere.
 TEST(Fusion, SlewsAStationFromWhereItsLastMessageTold) {
   Fusion fusion{FusionConfig{}};
   const Vector3d anew(0.0, -120.0, 2.0);
@@ -426,7 +426,7 @@ TEST(Fusion, StopsSlewingSomeTimeAfterTheLastPosition) {
   for (const BearingMeasurement& sighting : sightings) {
     const FusionOutput output = fusion.add(sighting);
     if (!output.slews.empty()) last_slew_us = output.slews[0].utime_us;
-    // One station alone: the position is let go, its line is kept.
+    // One station alone: the position ends, its bearing-only track continues.
     if (!output.targets.empty() && output.targets[0].utime_us > kStart + 5'000'000) {
       EXPECT_NE(output.targets[0].estimate.solution, Solution::kOk);
       without_position = true;

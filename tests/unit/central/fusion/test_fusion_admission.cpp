@@ -1,4 +1,4 @@
-// Whose bearings the fusion takes, and what becomes of the others.
+// Which bearings the fusion admits, and what happens to the others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -125,7 +125,7 @@ TEST(FusionAdmission, WhoDoesNotBelongToTheSiteIsRefused) {
   EXPECT_LT(error_m(targets.back()), 0.05);
 }
 
-// A heading that is 5 degrees off: named, and the others' target stays.
+// A heading that is 5 degrees off: the station is named, and the others' target stays.
 TEST(FusionAdmission, AWrongHeadingIsQuarantinedByNameAndTheOthersGoOn) {
   auto sightings = flight(10.0);
   for (BearingMeasurement& sighting : sightings) {
@@ -147,8 +147,8 @@ TEST(FusionAdmission, AWrongHeadingIsQuarantinedByNameAndTheOthersGoOn) {
   EXPECT_GT(fusion.health().counters.at("refused_quarantine"), 10.0);
 }
 
-// The least and the greatest variances that are taken, in every combination, from a station that
-// sees nothing of the target: the others' position stays.
+// The smallest and the largest admitted variances, in every combination, from a station that does
+// not see the target: the others' position stays.
 TEST(FusionAdmission, NoStatementOfOneStationKeepsTheOthersFromAPosition) {
   for (const double white : {1e-18, 10.0}) {
     for (const double stays : {0.0, 10.0}) {
@@ -207,10 +207,10 @@ TEST(FusionAdmission, ForgetsTheStationThatIsSilentLongest) {
   next.station = "y";
   EXPECT_EQ(fusion.add(next).refusal, BearingRefusal::kNone);
   EXPECT_EQ(names(fusion), (std::vector<std::string>{"b", "c", "d", "x", "y"}));
-  // A status alone takes no place of a station that was heard a moment ago...
+  // A status alone does not replace a station that has sent a moment ago...
   fusion.know_station("lookout", {.camera_ecef = site().to_ecef({0.0, 0.0, 30.0})});
   EXPECT_EQ(names(fusion), (std::vector<std::string>{"b", "c", "d", "x", "y"}));
-  // ... but that of one long silent.
+  // ... but one that has long been silent.
   auto later = flight(13.0);
   std::erase_if(later, [&](const BearingMeasurement& sighting) {
     return sighting.station == "a" || sighting.utime_us <= next.utime_us;

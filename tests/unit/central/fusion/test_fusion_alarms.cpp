@@ -1,4 +1,4 @@
-// What the fusion says aloud: stations that follow what nobody else does.
+// The fusion's alarms about stations that follow an object that no other station follows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace {
 using test::flight;
 using test::kStart;
 
-// The stations of a flight past them, d turned away from what the others follow by a growing angle:
-// another object, or the background.
+// The stations of a flight; d points away from the others' object by a growing angle: another
+// object, or the background.
 std::vector<BearingMeasurement> with_a_stray(double seconds) {
   auto sightings = flight(seconds);
   for (BearingMeasurement& sighting : sightings) {
@@ -35,10 +35,10 @@ std::vector<std::string> alarms_after(const std::vector<BearingMeasurement>& sig
 TEST(FusionAlarms, NamesWhoFollowsForLongWhatIsNoneOfTheTargets) {
   const auto alarms = alarms_after(with_a_stray(14.0));
   ASSERT_EQ(alarms.size(), 1U);
-  EXPECT_TRUE(alarms[0].starts_with("station d: follows for 1")) << alarms[0];
+  EXPECT_TRUE(alarms[0].starts_with("station d: has followed for 1")) << alarms[0];
 }
 
-// Always off by the same: its pose may be wrong, which is another alarm, and one is enough.
+// A constant error: its pose may be wrong, which is another alarm, and one is enough.
 TEST(FusionAlarms, NamesWhoIsQuarantined) {
   auto sightings = flight(14.0);
   for (BearingMeasurement& sighting : sightings) {
@@ -61,7 +61,7 @@ TEST(FusionAlarms, SaysNothingOfStationsThatFollowATarget) {
   EXPECT_TRUE(alarms_after(sightings).empty());
 }
 
-// Detections without a name are many things at once, most of them no target.
+// Detections without a track id are of many objects, most of them no targets.
 TEST(FusionAlarms, SaysNothingOfWhatAStationDoesNotName) {
   auto sightings = with_a_stray(14.0);
   for (BearingMeasurement& sighting : sightings) {
@@ -77,7 +77,7 @@ TEST(FusionAlarms, SaysNothingWhereThereIsNoTargetToCompareWith) {
   EXPECT_TRUE(alarms_after(sightings).empty());
 }
 
-// Who follows two objects by two names has one of the targets in view, and knows what it does.
+// A station that follows two objects by two track ids has one of the targets in view.
 TEST(FusionAlarms, SaysNothingOfWhoFollowsTheTargetBesideAnotherObject) {
   auto sightings = with_a_stray(14.0);
   std::vector<BearingMeasurement> both;
@@ -97,7 +97,7 @@ TEST(FusionAlarms, TheAlarmGoesWithItsReason) {
   ASSERT_FALSE(fusion.health().alarms.empty());
   auto onwards = flight(16.0);
   for (BearingMeasurement& sighting : onwards) {
-    sighting.track_id = sighting.station == "d" ? 2 : 1;  // designated anew
+    sighting.track_id = sighting.station == "d" ? 2 : 1;  // designated again
     if (sighting.utime_us > kStart + 14'000'000) fusion.add(sighting);
   }
   EXPECT_TRUE(fusion.health().alarms.empty());

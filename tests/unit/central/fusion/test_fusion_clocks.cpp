@@ -1,4 +1,4 @@
-// What becomes of stations whose clock, calibration or place among the others has changed.
+// Stations whose clock, calibration or message time changes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -96,12 +96,12 @@ TEST(FusionClocks, AStatedErrorInflatesAlongTheMotion) {
     Fusion fusion{FusionConfig{}};
     return targets_of(fusion, sightings).back().estimate.covariance_ecef.trace();
   };
-  // 20 m/s for 50 ms are a metre, and four stations do not average it away.
+  // 20 m/s for 50 ms are a metre, and averaging four stations does not remove it.
   EXPECT_LT(trace_with(0.0), 0.01);
   EXPECT_GT(trace_with(0.05), 0.1);
 }
 
-// The fusion was restarted while the stations went on.
+// The fusion was restarted while the stations continued.
 TEST(FusionClocks, AFusionThatBeginsInMidFlightLocatesAtOnce) {
   Fusion fusion{FusionConfig{}};
   for (const FusedTarget& target : targets_of(fusion, flight(1.0))) {

@@ -1,4 +1,5 @@
-// What comes out of the fusion in a period: identities of lines, and many targets' share of it.
+// The fusion's output of a period: identities of bearing-only tracks, and the shares of many
+// targets.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ using test::targets_of;
 
 std::int64_t us(double seconds) { return kStart + std::llround(seconds * 1e6); }
 
-// A flight whose stations follow something, each by the same name all the time.
+// A flight whose stations follow an object, each by a constant track id.
 std::vector<BearingMeasurement> followed(double seconds) {
   auto sightings = flight(seconds, 1e-4, 1e-4);
   for (BearingMeasurement& sighting : sightings) sighting.track_id = 7;
@@ -29,7 +30,8 @@ void turn(BearingMeasurement& sighting, double azimuth_rad) {
   azimuth = wrap_two_pi(azimuth + azimuth_rad);
 }
 
-// One station, then all, then that one again: a line, a position, a line of one object.
+// One station, then all, then that one again: bearing-only, position, and bearing-only of one
+// object.
 TEST(FusionEpoch, ALineIsTheObjectThatItsPositionIs) {
   auto sightings = followed(9.0);
   std::erase_if(sightings, [](const BearingMeasurement& s) {
@@ -61,7 +63,7 @@ TEST(FusionEpoch, WhatAStationFollowsNextIsAnotherObject) {
   std::set<std::int64_t> first, second;
   for (const FusedTarget& target : targets_of(fusion, sightings)) {
     if (!target.bearing_only || target.target_id == 0) continue;
-    // What it may follow still is told for as long as a silent station's line.
+    // A silent station's bearing-only track is still published for this long.
     if (target.utime_us > us(2.0) && target.utime_us < us(2.4)) continue;
     (target.utime_us < us(2.0) ? first : second).insert(target.target_id);
   }
@@ -70,7 +72,7 @@ TEST(FusionEpoch, WhatAStationFollowsNextIsAnotherObject) {
   EXPECT_NE(first, second);
 }
 
-// A station's own two names are two objects, side by side and each for as long as it is followed.
+// Two track ids of one station are two objects, each while it is followed.
 std::vector<BearingMeasurement> two_of_one_station(double seconds) {
   auto sightings = followed(seconds);
   std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station != "b"; });
@@ -86,7 +88,7 @@ std::vector<BearingMeasurement> two_of_one_station(double seconds) {
 
 TEST(FusionEpoch, WhatOneStationFollowsAtOnceAreTwoLines) {
   Fusion fusion{FusionConfig{}};
-  std::map<std::int64_t, std::set<std::int64_t>> ids;      // by the station's name
+  std::map<std::int64_t, std::set<std::int64_t>> ids;      // by the station's track id
   std::map<std::int64_t, std::set<std::int64_t>> at_once;  // by the instant
   int lines = 0;
   for (const FusedTarget& target : targets_of(fusion, two_of_one_station(4.0))) {
@@ -104,7 +106,8 @@ TEST(FusionEpoch, WhatOneStationFollowsAtOnceAreTwoLines) {
   EXPECT_GT(lines, 80);
 }
 
-// All see the one, and that station alone the other: before, while and after the one is a target.
+// All stations see one object, and one station also another: before, during and after the first is
+// a target.
 TEST(FusionEpoch, AStationsLineBesideItsTargetKeepsItsIdentity) {
   auto sightings = two_of_one_station(8.0);
   for (const BearingMeasurement& s : followed(8.0)) {
@@ -129,7 +132,7 @@ TEST(FusionEpoch, AStationsLineBesideItsTargetKeepsItsIdentity) {
   EXPECT_NE(ids[7], ids[9]);
 }
 
-// A wild bearing of each of two objects goes to the target that the station follows by its name.
+// An outlier of each of two objects goes to the target that the station follows by that track id.
 TEST(FusionEpoch, AStationFollowsTwoTargetsByTheirNames) {
   auto sightings = followed(3.0);
   const std::size_t count = sightings.size();
@@ -153,7 +156,7 @@ TEST(FusionEpoch, AStationFollowsTwoTargetsByTheirNames) {
   EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_established), 2);
 }
 
-// Every bearing has a name of its own: that harms nobody, and takes no memory for good.
+// Every bearing has a new track id: this has no effect, and memory stays bounded.
 TEST(FusionEpoch, AStationThatNamesEverythingAnewIsForgottenAsItGoes) {
   auto sightings = followed(4.0);
   std::int64_t name = 100;
@@ -175,7 +178,7 @@ TEST(FusionEpoch, AStationThatNamesEverythingAnewIsForgottenAsItGoes) {
   EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_established), 1);
 }
 
-// Detections without a name of their own may be of anything.
+// Detections without a track id may be of any object.
 TEST(FusionEpoch, WhatAStationDoesNotNameHasNoIdentity) {
   auto sightings = flight(3.0);
   std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station != "b"; });
@@ -183,7 +186,7 @@ TEST(FusionEpoch, WhatAStationDoesNotNameHasNoIdentity) {
   for (const FusedTarget& target : targets_of(fusion, sightings)) EXPECT_EQ(target.target_id, 0);
 }
 
-// All have followed one object; then each follows something of its own by the same name.
+// All have followed one object; then each follows an object of its own by the same track id.
 TEST(FusionEpoch, OneIdentityIsNotTwoLines) {
   auto sightings = followed(9.0);
   const std::map<std::string, double> turned = {{"a", 0.0}, {"b", 0.7}, {"c", 1.4}, {"d", 2.1}};
@@ -215,7 +218,7 @@ TEST(FusionEpoch, OneIdentityIsNotTwoLines) {
 
 constexpr int kTargets = 30, kEach = 3;
 
-// Groups of stations, each with a target of its own. In order of time.
+// Groups of stations, each with its own target. In order of time.
 std::vector<BearingMeasurement> many_targets(double seconds) {
   std::mt19937_64 random(5);
   std::vector<BearingMeasurement> all;
@@ -234,7 +237,7 @@ std::vector<BearingMeasurement> many_targets(double seconds) {
   return all;
 }
 
-// A silence in the midst of an epoch: what was not told before is not told after.
+// A silence within an epoch: pending outputs are discarded.
 TEST(FusionEpoch, NothingOldIsToldAfterASilence) {
   constexpr std::int64_t kSilenceUs = 10'000'000;
   Fusion fusion{FusionConfig{}};
@@ -260,8 +263,8 @@ TEST(FusionEpoch, NothingOldIsToldAfterASilence) {
   EXPECT_GT(slews, 50U);
 }
 
-// A round of slews for many stations goes on with the bearings of a few: each is for when it is
-// made.
+// A round of slews for many stations continues with the bearings of a few: each slew is for the
+// time of its creation.
 TEST(FusionEpoch, SlewsOfManyStationsAreEachForTheirOwnInstant) {
   Fusion fusion{FusionConfig{}};
   for (int i = 0; i < 200; ++i) {
@@ -285,7 +288,7 @@ TEST(FusionEpoch, SlewsOfManyStationsAreEachForTheirOwnInstant) {
 
 TEST(FusionEpoch, WhomAnOperatorTakesIsSlewedNoMore) {
   Fusion fusion{FusionConfig{}};
-  std::map<bool, int> slews;  // of station b, by whether it is taken
+  std::map<bool, int> slews;  // of station b, by whether it is commandable
   for (const BearingMeasurement& sighting : flight(4.0, 1e-4, 1e-4)) {
     const bool is_taken = sighting.utime_us > us(2.0);
     fusion.allow_slews("b", !is_taken);
@@ -297,7 +300,7 @@ TEST(FusionEpoch, WhomAnOperatorTakesIsSlewedNoMore) {
   EXPECT_EQ(fusion.health().stations.size(), 4U);
 }
 
-// Each target once an epoch, few with one bearing, and every station is slewed in each round.
+// Each target once per epoch, few with one bearing, and every station is slewed in each round.
 TEST(FusionEpoch, ManyTargetsAreToldInTurn) {
   Fusion fusion{FusionConfig{}};
   std::map<std::int64_t, std::vector<std::int64_t>> epochs;
@@ -315,7 +318,7 @@ TEST(FusionEpoch, ManyTargetsAreToldInTurn) {
         static_cast<int>(output.targets_paper.size());
     for (const Slew& slew : output.slews) rounds[slew.utime_us].insert(slew.station);
   }
-  // The first and the last may be told in part.
+  // The first and the last may be incomplete.
   ASSERT_GT(epochs.size(), 10U);
   for (auto epoch = std::next(epochs.begin()); epoch != std::prev(epochs.end()); ++epoch) {
     EXPECT_EQ(epoch->second.size(), static_cast<std::size_t>(kTargets));

@@ -1,5 +1,5 @@
-// What must not change the fusion's answer, does not: the order in which stations are named, the
-// place on the globe, the size of the scene.
+// Invariance of the fusion's result: to the order of the station names, the place on the globe, and
+// the scale of the scene.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -61,7 +61,7 @@ TEST_P(EachEstimator, DoesNotCareHowStationsAreNamed) {
   expect_same(fused(before, GetParam()), fused(after, GetParam()), Eigen::Isometry3d::Identity());
 }
 
-// The ellipsoid looks the same from every longitude.
+// The ellipsoid is the same at every longitude.
 TEST_P(EachEstimator, DoesNotCareWhereOnTheGlobeTheSiteLies) {
   const auto before = flight(4.0, 1e-4, 1e-4);
   for (const double turn_deg : {-16.6, 90.0, 163.4, 179.9}) {
@@ -75,9 +75,9 @@ TEST_P(EachEstimator, DoesNotCareWhereOnTheGlobeTheSiteLies) {
   }
 }
 
-// Nor does it look otherwise from any latitude, but for its curvature, and rays in space know of no
-// horizon: the whole site, moved as one rigid thing. The second differences of the elevations and
-// azimuths that are interpolated depend on the horizons by some thousandths.
+// It is nearly the same at every latitude, and rays in space do not depend on the horizon: the
+// whole site is moved as a rigid body. The second differences of the interpolated elevations and
+// azimuths depend on the horizons by some thousandths.
 TEST_P(EachEstimator, DoesNotCareWhichWayUpTheSiteLies) {
   const auto before = flight(4.0, 1e-4, 1e-4);
   const LocalFrame& here = test::site();
@@ -106,8 +106,8 @@ INSTANTIATE_TEST_SUITE_P(Fusion, EachEstimator, testing::Values("filter", "least
                            return name;
                          });
 
-// The same flight some times as large: what is measured in angles stays, errors grow with it. The
-// horizons of the stations turn by the Earth's curvature, so that this holds to some thousandths.
+// The same flight, scaled: angles stay, errors grow with the scale. The horizons of the stations
+// turn by the Earth's curvature, so this holds to some thousandths.
 std::vector<BearingMeasurement> scaled_flight(double scale) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;

@@ -22,8 +22,8 @@ struct Seen {
   std::size_t most_at_once = 0;
 };
 
-// Each states its bias, and that is so great that only who believes it to be new in every frame
-// would be surer than twelve stations.
+// Each states its bias, which is so large that only a filter that takes it for new in every frame
+// would be more certain than twelve stations.
 void fly(int stations, double rate_hz, std::uint64_t seed, Seen& seen) {
   constexpr double kDurationS = 8.0, kSettledS = 2.0;
   std::mt19937_64 random(seed);
@@ -63,8 +63,8 @@ TEST_P(ManyStationsRates, AreNoSurerThanTheirBiasesLetThem) {
   EXPECT_LT(nees, 1.6);
 }
 
-// Where more stations than can search with each bearing see new targets in one instant, they take
-// turns; none is forgotten, also where each frame has false bearings too.
+// If more stations than one bearing can search see new targets at one instant, they take turns;
+// every station gets its turn, even with false bearings in each frame.
 TEST(ManyStations, WhatTheySeeAllAtOnceIsAllFound) {
   constexpr int kGroups = 24, kEach = 4;
   constexpr double kDurationS = 0.6;
@@ -97,15 +97,15 @@ TEST(ManyStations, WhatTheySeeAllAtOnceIsAllFound) {
   EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_established), kGroups);
 }
 
-// Up and away from all others: it meets nobody's.
+// Upwards, away from all others: it intersects none.
 BearingMeasurement of_nothing(BearingMeasurement sighting, double elevation_rad) {
   const Vector3d place = site().to_enu(sighting.sight.origin_ecef);
   sighting.sight.direction = {wrap_two_pi(std::atan2(place.x(), place.y())), elevation_rad};
   return sighting;
 }
 
-// 128 stations in a fixed order, two bearings in each frame: then each has its turn once in a round
-// of frames. The object's come second in the frames of every other station.
+// 128 stations in a fixed order, two bearings in each frame: each has one search in a round of
+// frames. In the frames of every other station the object's bearing comes second.
 TEST(ManyStations, NobodysTurnFallsOnTheSameBearingForEver) {
   constexpr std::size_t kStations = 128;
   constexpr int kFrames = 60;

@@ -1,5 +1,4 @@
-// Poses that are off by what the stations state, for as long as they stand: headings, tilts,
-// places.
+// Constant pose errors as the stations state them: headings, tilts, positions.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -31,7 +30,7 @@ Path circling() {
   return path;
 }
 
-// Each of a station's bearings by another name: it would say that its bias is new every time.
+// Each of a station's bearings by another track id: its bias would be new every time.
 void rename_each(std::vector<BearingMeasurement>& sightings) {
   std::int64_t name = 0;
   for (BearingMeasurement& sighting : sightings) sighting.track_id = ++name;
@@ -78,12 +77,12 @@ WorldConfig world_of(double tilt_sd_rad, double heading_sd_rad, double place_sd_
   return world;
 }
 
-// What a minute shows of headings and tilts is learnt, and no more.
+// Only the bias that is observable within a minute is learnt.
 TEST(PoseErrors, ARotationOfTheStationsIsFound) {
   const Result result = fly(world_of(5e-4, 1e-3, 0.0), {});
   EXPECT_GT(result.nees, 0.5);
   EXPECT_LT(result.nees, 1.3);
-  // One instant by itself: 1 mrad at 300 m by four stations.
+  // One instant alone: 1 mrad at 300 m by four stations.
   EXPECT_LT(result.error_m, 0.12);
 }
 
@@ -102,7 +101,7 @@ TEST(PoseErrors, WhoChangesItsMindWithEachFrameIsNotBelievedMore) {
   EXPECT_LT(fly(world_of(5e-4, 1e-3, 1.0), {}, true).nees, 1.6);
 }
 
-// Far away a place is nothing beside a heading; near by it is all.
+// Far away a position error is small compared with a heading error; nearby it dominates.
 TEST(PoseErrors, APlaceBeginsToMatterAsATargetComesNearer) {
   constexpr double kFlightS = 95.0;
   WorldConfig world = world_of(3e-4, 1e-3, 0.5);
@@ -123,8 +122,8 @@ TEST(PoseErrors, APlaceBeginsToMatterAsATargetComesNearer) {
   EXPECT_LT(nees / fixes, 2.0);
 }
 
-// A base of 30 m hides the difference of its headings: minutes of bearings must not find one. The
-// paper's walk.
+// With a base of 30 m the difference of the headings is not observable: minutes of bearings must
+// not estimate one. The paper's walk.
 TEST(PoseErrors, WhatAShortBaseHidesIsNotFound) {
   constexpr double kWalkS = 120.0;
   for (const double noise_rad : {7e-6, 22e-6, 75e-6}) {
@@ -151,7 +150,7 @@ TEST(PoseErrors, WhatAShortBaseHidesIsNotFound) {
   }
 }
 
-// Rounding must not eat the covariance in a long flight: eight stations for minutes.
+// Rounding must not make the covariance indefinite in a long flight: eight stations for minutes.
 TEST(PoseErrors, ALongFlightKeepsItsTrack) {
   constexpr double kFlightS = 300.0;
   WorldConfig world{.stations_enu = circle(8, 300.0), .aims_enu = {}};
@@ -171,7 +170,7 @@ TEST(PoseErrors, ALongFlightKeepsItsTrack) {
   EXPECT_GT(axes.eigenvalues().minCoeff(), -1e-9);
 }
 
-// A station whose pose is known to be another from now on begins anew, and is not set aside.
+// A station with a new calibration starts again, and is not rejected.
 TEST(PoseErrors, ANewDesignationMayBeOffAsStated) {
   constexpr double kFlightS = 30.0, kTurnedS = 10.0, kOffRad = 5e-3;
   WorldConfig world = world_of(1e-5, kOffRad, 0.0);

@@ -84,7 +84,7 @@ TEST(SlewPlanner, WhoSeesNothingHelpsWhereTheFewestLook) {
   EXPECT_EQ(slews[3].target_id, 2);
 }
 
-// What a station would refuse is not asked for: over the zenith the azimuth turns without a limit.
+// No slew that a station would refuse: across the zenith the azimuth rate is unlimited.
 TEST(SlewPlanner, NoTargetIsTooNearOrTooUnsureForAStationsLimits) {
   StationTraits station = station_at("a", {0, 0, 0}).traits;
   double fastest = 0.0;
@@ -153,7 +153,7 @@ TEST(SlewPlanner, ASearchStaysADirectionWhenNowFallsBack) {
   EXPECT_TRUE(std::isfinite(slews[0].direction.elevation_rad));
 }
 
-// Nobody has a position: the others look along the ray that there is, from near to far and back.
+// There is no position: the others search along the only ray, from near to far and back.
 TEST(SlewPlanner, SearchesAlongARayWithinItsPlane) {
   SlewPlanner planner;
   const Vector3d from(0, 0, 0), camera(400, 0, 0);
@@ -164,7 +164,7 @@ TEST(SlewPlanner, SearchesAlongARayWithinItsPlane) {
   for (int i = 0; i < 2000; ++i) {
     SlewRound round{.now_us = kStart + i * 100'000, .bearing_only_stations = {"a"}, .ray = ray};
     const auto slews = planner.plan(round, stations, {});
-    ASSERT_EQ(slews.size(), 1U);  // not the one that sees it
+    ASSERT_EQ(slews.size(), 1U);  // not for the one that sees it
     EXPECT_EQ(slews[0].station, "b");
     EXPECT_EQ(slews[0].target_id, 0);
     const Vector3d line = enu_from_azimuth_elevation(slews[0].direction);
@@ -193,7 +193,7 @@ TEST(SlewPlanner, IsNoSurerThanTheStationsPlaceIsKnown) {
               std::hypot(sure_rad, 3.0 * std::cos(elevation_rad) / range_m / std::sqrt(2.0)), 1e-9);
 }
 
-// A camera that has to cross its search at each step never looks anywhere.
+// A camera that has to cross its search area at each step would never see anything.
 TEST(SlewPlanner, ASearchGoesOnByStepsOfAUnitAndLeavesNoGap) {
   EXPECT_EQ(spiral_point(0), Eigen::Vector2d::Zero());
   std::vector<Eigen::Vector2d> points = {spiral_point(0)};

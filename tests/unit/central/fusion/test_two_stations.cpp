@@ -1,4 +1,4 @@
-// Two stations alone: one residual, and nothing to check it against.
+// Two stations alone: one residual, and nothing to check it.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -25,7 +25,7 @@ Path climbing(const Vector3d& from, double speed_m_s, double duration_s = kDurat
   return cruising({from, {0, 0, speed_m_s}}, 1e-6, duration_s, random);
 }
 
-// Each follows an object of its own; for a moment, three seconds after the start, their rays meet.
+// Each follows its own object; for a moment, three seconds after the start, their rays intersect.
 std::vector<BearingMeasurement> of_two_objects() {
   const WorldConfig world{.stations_enu = stations(), .aims_enu = {}};
   std::mt19937_64 random(2);
@@ -41,7 +41,7 @@ std::vector<BearingMeasurement> of_two_objects() {
   return seen;
 }
 
-// A third station's, of a place: what it takes for the target once.
+// One bearing of a third station, towards that point.
 BearingMeasurement chance_bearing(const FusedTarget& target) {
   const WorldConfig world{.stations_enu = {{0, 300, 0}}, .aims_enu = {}};
   const Path there(100, PathPoint{site().to_enu(target.estimate.position_ecef), Vector3d::Zero()});
@@ -52,8 +52,8 @@ BearingMeasurement chance_bearing(const FusedTarget& target) {
   return sighting;
 }
 
-// That is a position until they part again, and not what is learnt of both as if it were one
-// object; also where a third station has seen something there for a moment.
+// That is a position until the rays part again; nothing is learnt as if both were one object, even
+// if a third station has seen something there for a moment.
 TEST(TwoStations, WhoFollowTwoObjectsAreAPositionOnlyWhileTheirRaysMeet) {
   for (const bool third : {false, true}) {
     Fusion fusion(FusionConfig{});
@@ -75,8 +75,8 @@ TEST(TwoStations, WhoFollowTwoObjectsAreAPositionOnlyWhileTheirRaysMeet) {
   }
 }
 
-// A track which such rays begin, next to one that four stations follow, is dropped before it is
-// confirmed; it must not leave its stations with the biases that made its rays meet.
+// A track that begins on such rays, next to one that four stations follow, is dropped before it is
+// confirmed; it must not leave its stations with the biases that made its rays intersect.
 TEST(TwoStations, WhatTheirRaysHadToBeTurnedByIsForgottenWithABornTrack) {
   constexpr double kLongS = 40.0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -107,7 +107,7 @@ TEST(TwoStations, WhatTheirRaysHadToBeTurnedByIsForgottenWithABornTrack) {
   }
 }
 
-// What they state may be off is no miss.
+// A miss within their stated errors does not make them an inconsistent pair.
 TEST(TwoStations, WhoseHeadingsAreAsStatedKeepTheirTarget) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     WorldConfig world{.stations_enu = stations(), .aims_enu = {}, .bias_sd_rad = 2e-3};
@@ -131,7 +131,7 @@ TEST(TwoStations, WhoseHeadingsAreAsStatedKeepTheirTarget) {
   }
 }
 
-// What is told as a position, and when one was last off by more than five sigmas.
+// The published positions, and the last time that one was off by more than five sigmas.
 struct Told {
   int fixes = 0, rays_miss = 0;
   std::size_t targets = 0;  // identities
@@ -161,8 +161,8 @@ Told told_of(const std::vector<BearingMeasurement>& seen, const Path& path) {
   return told;
 }
 
-// A precise pair on a short base, near its target. While one is heard of late, the range is vague,
-// and equations linear about what is known then would put the target metres off, and be sure of it.
+// A precise pair on a short base, near its target. After one was silent the range is vague, and
+// linearising about that estimate would put the target metres off with false certainty.
 TEST(TwoStations, OfWhichOneIsHeardOfLateAreNotLedAstrayAtTheStart) {
   constexpr std::int64_t kLateUs = 100'000, kBeginsUs = 200'000;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -193,7 +193,7 @@ TEST(TwoStations, OfWhichOneIsHeardOfLateAreNotLedAstrayAtTheStart) {
   }
 }
 
-// Many bearings of one are no agreement of two: the other one has to say so five times.
+// Many bearings of one station do not confirm a pair: the other one must agree five times.
 TEST(TwoStations, OfWhichOneIsSlowAreConfirmedByTheSlowOne) {
   constexpr std::int64_t kEachUs = 300'000;
   const WorldConfig world{.stations_enu = stations(), .aims_enu = {}};
@@ -213,8 +213,9 @@ TEST(TwoStations, OfWhichOneIsSlowAreConfirmedByTheSlowOne) {
   EXPECT_EQ(told.last_wrong_s, 0.0);
 }
 
-// Three g, nearly along the ray of one of the two: only the other one sees it, and is not outvoted
-// by a station that always agrees with itself. Until they meet again there is no position.
+// Three g, nearly along the line of sight of one of the two: only the other one sees it, and a
+// station that always agrees with itself must not outvote it. Until they agree again there is no
+// position.
 TEST(TwoStations, FollowAHardTurnThatOnlyOneOfThemSees) {
   constexpr double kTurnS = 4.0, kHard = 30.0;
   const WorldConfig world{.stations_enu = {{-150, 0, 0}, {150, 0, 0}},
@@ -239,7 +240,7 @@ TEST(TwoStations, FollowAHardTurnThatOnlyOneOfThemSees) {
   EXPECT_LT(told.last_wrong_s, kTurnS + 0.5);
 }
 
-// A third one that is seldom heard has said which of them is wrong: the target is theirs for good.
+// A third station with few bearings has shown which of them is wrong: the target stays theirs.
 TEST(TwoStations, OfWhichOneIsWrongAreToldApartByASlowThird) {
   constexpr double kWrongS = 3.0;
   constexpr std::int64_t kEachUs = 900'000;
@@ -267,8 +268,8 @@ TEST(TwoStations, OfWhichOneIsWrongAreToldApartByASlowThird) {
   EXPECT_EQ(told.last_wrong_s, 0.0);
 }
 
-// Side by side, and two milliradians apart: what they are off by, untold, looks like a target that
-// is twenty times nearer. With a third one far away the range is known.
+// Side by side, two milliradians apart: their undeclared errors look like a target that is twenty
+// times nearer. With a third station far away the range is observable.
 TEST(TwoStations, SideBySideTheyTellNoRangeOfWhatIsFar) {
   constexpr double kOffRad = 2e-3, kFlightS = 5.0, kSecondS = 0.03;
   for (const bool third : {false, true}) {
@@ -288,7 +289,7 @@ TEST(TwoStations, SideBySideTheyTellNoRangeOfWhatIsFar) {
       ++fixes;
       const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
       const Vector3d truth = site().to_ecef(at(path, time_s).p_enu);
-      if (time_s < kSecondS) continue;  // one bearing of each is all there is to judge by
+      if (time_s < kSecondS) continue;  // one bearing of each is not enough to judge by
       farthest_m = std::max(farthest_m, (target.estimate.position_ecef - truth).norm());
     }
     EXPECT_EQ(fixes > 0, third);
@@ -296,7 +297,7 @@ TEST(TwoStations, SideBySideTheyTellNoRangeOfWhatIsFar) {
   }
 }
 
-// ... and is no more when the third one has long left.
+// ... and is unobservable again long after the third one has left.
 TEST(TwoStations, SideBySideTheyForgetTheRangeThatAThirdHasTold) {
   constexpr double kOffRad = 2e-3, kFlightS = 40.0, kLeavesS = 1.0;
   WorldConfig world{.stations_enu = {{0, 0, 0}, {0, 25, 0}, {20e3, 0, 0}}, .aims_enu = {}};

@@ -25,8 +25,8 @@ Vector3d path(double t_s) {
   return {100.0 * std::sin(0.2 * t_s), 80.0 * std::cos(0.2 * t_s), 100.0 + t_s};
 }
 
-// Four stations with rates and phases of their own; "c" sees the target only in the first half.
-// `stated` is the systematic error that they state, in units of their noise; they have none.
+// Four stations with their own rates and phases; "c" sees the target only in the first half.
+// `stated` is their stated systematic error in units of their noise; the true one is zero.
 std::vector<BearingMeasurement> recording(double seconds, double sigma_rad, unsigned seed,
                                           double stated = 0.0) {
   std::mt19937_64 random(seed);
@@ -52,7 +52,7 @@ Vector3d error(const FusedTarget& target) {
   return target.estimate.position_ecef - site().to_ecef(path(t_s));
 }
 
-// Mean squared error over what the covariances say; 1 is honest, less is cautious.
+// Mean squared error over the covariance; 1 is consistent, less is cautious.
 double normalised_square(const std::vector<FusedTarget>& targets) {
   double sum = 0.0;
   for (const FusedTarget& target : targets) {
@@ -76,8 +76,8 @@ TEST(OfflineFusion, InterpolatesAndIsHonest) {
   EXPECT_EQ(targets.back().stations.size(), 3U);
 }
 
-// Who states no systematic error is taken to have one as great as the noise until the bearings have
-// shown that there is none: more is said to be unknown than is, never less, and not by much.
+// Without a stated systematic error, one as large as the noise is assumed until the bearings show
+// that there is none: the covariance is never too small, and not much too large.
 TEST(OfflineFusion, IsCautiousWhereNothingIsStated) {
   for (const char* name : {"least-squares", "filter"}) {
     OfflineConfig config;
@@ -91,8 +91,8 @@ TEST(OfflineFusion, IsCautiousWhereNothingIsStated) {
   }
 }
 
-// Errors that nobody stated and the residuals show may be common to all stations in part, which
-// they do not show: the covariance has room for that, and nothing else changes.
+// Undeclared errors that the residuals show may be partly common-mode, which residuals do not show:
+// the covariance is inflated for that, and nothing else changes.
 TEST(OfflineFusion, LeavesRoomForWhatAllStationsHaveInCommon) {
   auto sightings = recording(20.0, 1e-4, 6);
   for (BearingMeasurement& s : sightings) {
@@ -107,7 +107,8 @@ TEST(OfflineFusion, LeavesRoomForWhatAllStationsHaveInCommon) {
   EXPECT_LT(after.covariance_ecef.trace(), 2.01 * before.covariance_ecef.trace());
 }
 
-// Of a recording's one object every bearing is one: what most stations contradict is given up.
+// All bearings of a recording belong to its one object: a track that most stations contradict is
+// replaced.
 TEST(OfflineFusion, BeginsAnewWhereMostStationsContradict) {
   auto sightings = recording(12.0, 1e-4, 5, 1.0);
   const std::int64_t jump_us = kStart + 5'000'000;
@@ -183,8 +184,7 @@ TEST(OfflineFusion, SmoothingIsBetterThanTheFilterAndAsHonest) {
   EXPECT_LT(rms[1], 0.8 * rms[0]);
 }
 
-// The part of the covariance that averaging makes smaller is one: none of its variances is
-// negative.
+// The white part of the covariance is positive semidefinite.
 TEST(OfflineFusion, SmoothingTellsAWhitePartThatIsOne) {
   OfflineConfig config;
   config.rate_hz = 10.0;
@@ -199,7 +199,7 @@ TEST(OfflineFusion, SmoothingTellsAWhitePartThatIsOne) {
   }
 }
 
-// Two on a diagonal of the square are left: their rays are nearer to one line than the others were.
+// Two on a diagonal of the square are left: their rays are more nearly parallel.
 TEST(OfflineFusion, TellsTheGeometryOfThoseThatStillSeeTheTarget) {
   auto sightings = recording(12.0, 1e-4, 8, 1.0);
   std::erase_if(sightings, [](const BearingMeasurement& s) {
@@ -218,7 +218,8 @@ TEST(OfflineFusion, TellsTheGeometryOfThoseThatStillSeeTheTarget) {
   EXPECT_NEAR(last.estimate.crossing_angle_rad, std::min(angle, kPi - angle), 1e-3);
 }
 
-// The noise is four times what is stated, which the filter's run learns: the velocity knows, too.
+// The noise is four times the stated one, which the filter's run learns: the velocity's covariance
+// contains it.
 TEST(OfflineFusion, LeastSquaresVelocityCountsTheNoiseThatIsLearnt) {
   auto sightings = recording(40.0, 8e-4, 9, 0.01);
   for (BearingMeasurement& s : sightings) s.sight.covariance_white /= 16.0;
@@ -237,7 +238,7 @@ TEST(OfflineFusion, LeastSquaresVelocityCountsTheNoiseThatIsLearnt) {
   EXPECT_LT(sum / static_cast<double>(targets.size()), 2.0);
 }
 
-// The filter at an instant knows nothing of what comes after it.
+// The filter at an instant does not depend on later bearings.
 TEST(OfflineFusion, TheFilterIsCausal) {
   auto sightings = recording(6.0, 2e-4, 9);
   const auto whole = fuse_offline(sightings, {});

@@ -1,4 +1,4 @@
-// Two tracks of one object become one; two objects that fly side by side do not.
+// Two tracks of one object are merged; two objects that fly side by side are not.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@ constexpr double kDurationS = 10.0, kStatedRad = 3e-4;
 struct Flight {
   int stations = 4;
   double noise = 1.0;    // over the stated one
-  double apart_m = 0.0;  // of a second one at the first one's side; 0: there is none
-  bool named = false;    // each station follows one object, and says so; of two every other one
+  double apart_m = 0.0;  // distance of a second object; 0: only one
+  bool named = false;    // each station follows one object by a track id; every other the second
   double missed = 0.05;
 };
 
@@ -55,7 +55,7 @@ std::vector<BearingMeasurement> bearings_of(const Flight& flight, const std::vec
 }
 
 struct Seen {
-  std::size_t at_the_end = 0;  // sure tracks
+  std::size_t at_the_end = 0;  // confirmed tracks
   std::int64_t merged = 0;
   bool oldest_stays = true;  // when two are merged
   double off_m = 0.0;        // of each object at the end, from the nearest track
@@ -94,7 +94,7 @@ Seen fly(const Flight& flight, std::uint64_t seed) {
   return seen;
 }
 
-// Noise of which most is outside of the gate before it is learnt: several tracks are confirmed.
+// Most of the noise is outside the gate before it is learnt: several tracks are confirmed.
 TEST(DuplicateTracks, OneObjectIsOneTrackAlsoWhereItsNoiseIsFiveTimesTheStatedOne) {
   std::int64_t merged = 0;
   for (const bool named : {false, true}) {
@@ -139,7 +139,7 @@ TEST(DuplicateTracks, TwoObjectsSideBySideWithUntoldNoiseAreTwoInTheEnd) {
   }
 }
 
-// Each of eight stations follows one of two, and never has a bearing for each.
+// Each of eight stations follows one of two objects, and never has a bearing for each.
 TEST(DuplicateTracks, TwoObjectsThatNobodySeesBothOfStayTwo) {
   for (const double noise : {1.0, 3.0}) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -158,7 +158,7 @@ TEST(DuplicateTracks, AlsoWhenTheyAreNearToEachOther) {
   }
 }
 
-// Ten thousand pairs that have nothing to do with each other take no memory for good.
+// Ten thousand unrelated pairs take no memory permanently.
 TEST(DuplicateTracks, PairsWithoutEvidenceAreForgotten) {
   DuplicateTracks rivals;
   BearingMeasurement sighting;

@@ -10,8 +10,8 @@
 namespace ols::fusion {
 namespace {
 
-// Of the stations' four that see one object, the first two also follow one each by name, whose rays
-// meet for a moment. All are twice as noisy as they state.
+// Four stations see one object; the first two also follow one each by a track id, whose rays
+// intersect for a moment. All are twice as noisy as they state.
 std::vector<BearingMeasurement> with_a_ghost(double seconds) {
   constexpr double kTwice = 2.0;
   bench::WorldConfig world{.stations_enu = test::square(), .aims_enu = {}};

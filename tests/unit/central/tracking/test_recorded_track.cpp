@@ -28,7 +28,7 @@ struct Fixes {
   std::size_t count = 0;
   double worst_m = 0.0;
   double worst_sigmas = 0.0;
-  std::string beside;  // stations
+  std::string beside;  // stations that point elsewhere
 };
 
 Fixes fuse(const std::vector<BearingMeasurement>& sightings,
@@ -57,7 +57,7 @@ TEST(RecordedTrack, ARecordingWithOneWrongStationOfFour) {
   }
 }
 
-// Of three it is told by whose rays miss the others'.
+// With three stations, its rays miss those of the others.
 TEST(RecordedTrack, ARecordingWithOneWrongStationOfThree) {
   for (const char wrong : std::string("abc")) {
     for (const double off_deg : {1.0, -1.0, 2.0, -2.0, 5.0, -5.0}) {
@@ -70,8 +70,8 @@ TEST(RecordedTrack, ARecordingWithOneWrongStationOfThree) {
   }
 }
 
-// So small an error is learnt as that station's noise and bias, and nobody is named. Three stations
-// tell the two apart badly: the error is limited, but greater than stated.
+// Such a small error is learnt as that station's noise and bias, and no station is named. Three
+// stations distinguish the two poorly: the error is bounded, but larger than stated.
 TEST(RecordedTrack, ARecordingWithAStationThatIsHalfADegreeOff) {
   for (const std::string stations : {"abcd", "abc"}) {
     for (const char wrong : stations) {
@@ -100,7 +100,7 @@ TEST(RecordedTrack, ARecordingWithAStationThatIsWrongAtFirst) {
   }
 }
 
-// At its end the backward filter has only begun, on two rays of which one may be the wrong one's.
+// At its end the backward filter has only begun, on two rays of which one may be wrong.
 TEST(RecordedTrack, ASmoothedRecordingWithOneWrongStation) {
   for (const std::string stations : {"abcd", "abc"}) {
     for (const char wrong : stations) {
@@ -113,7 +113,7 @@ TEST(RecordedTrack, ASmoothedRecordingWithOneWrongStation) {
   }
 }
 
-// Three of four stations turn together: most say that the target is elsewhere than its track.
+// Three of four stations turn together: most contradict the track.
 TEST(RecordedTrack, ATrackThatMostStationsContradictIsBegunAnew) {
   const HeadingError wrong_then_right = [](char name, double t_s) {
     return t_s < 2.0 && name != 'd' ? radians(20.0) : 0.0;
@@ -130,7 +130,7 @@ TEST(RecordedTrack, ATrackThatMostStationsContradictIsBegunAnew) {
   EXPECT_GT(targets.back().utime_us, kStart + 5'500'000);
 }
 
-// A position from two rays on, as long as nothing contradicts it.
+// A position from two rays on, until something contradicts it.
 TEST(RecordedTrack, ARecordingIsLocatedFromItsFirstRays) {
   OfflineConfig config;
   const auto targets = fuse_offline(watch("abcd", 1.0, kNoise, off_by('x', 0.0)), config);

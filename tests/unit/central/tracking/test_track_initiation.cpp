@@ -16,7 +16,7 @@ using test::watch;
 
 struct Live {
   double first_s = 1e9;  // the first position
-  double worst_m = 0.0;  // error of any
+  double worst_m = 0.0;  // largest error
   std::string named;     // stations in quarantine
   Solution last = Solution::kOk;
 };
@@ -37,8 +37,8 @@ Live live(const std::vector<BearingMeasurement>& sightings) {
   return result;
 }
 
-// Two stations that agree make a fix in about a second; a third one that is wrong must not keep
-// them from it, in whatever order they expose.
+// Two stations that agree make a fix in about a second; a wrong third one must not prevent that, in
+// any order of exposures.
 TEST(TrackInitiation, OneWrongStationOfThreeKeepsTheOthersFromNothing) {
   for (const double off_deg : {5.0, -5.0, 2.0, 90.0}) {
     std::string order = "abc";
@@ -47,7 +47,7 @@ TEST(TrackInitiation, OneWrongStationOfThreeKeepsTheOthersFromNothing) {
       const Live found = live(sightings);
       EXPECT_LT(found.first_s, 1.5) << order << ' ' << off_deg;
       EXPECT_LT(found.worst_m, 1.0) << order << ' ' << off_deg;
-      // 90 deg off it may as well follow something else.
+      // 90 deg off it may follow another object.
       EXPECT_EQ(found.named, off_deg == 90.0 ? "" : "c") << order << ' ' << off_deg;
     } while (std::ranges::next_permutation(order).found);
   }
@@ -85,8 +85,8 @@ TEST(TrackInitiation, SaysThatRaysMiss) {
   EXPECT_EQ(live(watch("ab", 0.2, 1e-4, off_by('c', 0.0), 1e-4)).last, Solution::kTooFewRays);
 }
 
-// What a start shows of the stations is known once it is a track; not by those that came to
-// nothing.
+// The evidence of a hypothesis on the stations counts once it is a track; that of failed ones does
+// not.
 TEST(TrackInitiation, AStartThatIsRejectedTeachesNothing) {
   TrackInitiation birth({}, {});
   BiasModel errors;
@@ -104,8 +104,8 @@ TEST(TrackInitiation, AStartThatIsRejectedTeachesNothing) {
   EXPECT_NE(errors.noise_scale("a"), 1.0);
 }
 
-// Headings that drift, by up to 2 deg and nobody says so, are learnt; without a target for a while
-// the next one is found at once, by all four.
+// Undeclared drift of headings up to 2 deg is learnt; after a while without a target, all four find
+// the next one at once.
 TEST(TrackInitiation, StationsWithGreatLearntBiasesFindTheNextTarget) {
   constexpr double kDriftS = 350.0, kEndS = kDriftS + 8.0;
   constexpr double kDriftRadS = 1e-4;
