@@ -1,4 +1,4 @@
-// The channels of the bus; the README of the messages says what each carries.
+// The channels of the bus; the messages of lcmtypes/ say what each carries.
 #pragma once
 
 #include <string>

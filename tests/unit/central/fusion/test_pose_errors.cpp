@@ -12,6 +12,9 @@
 #include "tests/unit/central/flight.h"
 
 namespace ols::bench {
+
+using namespace ols::fusion;
+
 namespace {
 
 using Eigen::Vector3d;

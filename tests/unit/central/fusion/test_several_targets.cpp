@@ -3,6 +3,7 @@
 #include "dev/estimators/several_targets.h"
 
 namespace ols::bench {
+
 namespace {
 
 TEST(SeveralTargets, KeepTheirIdentitiesThroughCrossingsMissesAndFalseBearings) {

@@ -12,6 +12,9 @@
 #include "dev/estimators/bearing_world.h"
 
 namespace ols::bench {
+
+using namespace ols::fusion;
+
 namespace {
 
 using Eigen::Vector3d;

@@ -99,7 +99,7 @@ TEST(OfflineFusion, LeavesRoomForWhatAllStationsHaveInCommon) {
     s.sight.direction.elevation_rad += (s.station == "a" || s.station == "c") ? 1e-3 : -1e-3;
   }
   OfflineConfig none, some;
-  none.fusion.keeper.filter.in_common = 0.0;
+  none.fusion.keeper.filter.common_mode = 0.0;
   const Estimate before = fuse_offline(sightings, none).back().estimate;
   const Estimate after = fuse_offline(sightings, some).back().estimate;
   EXPECT_EQ(before.position_ecef, after.position_ecef);

@@ -89,7 +89,7 @@ TEST_F(Starting, SaysWhichReplyCannotBeUsed) {
     EXPECT_FALSE(starting_.waits_for_reply());
     EXPECT_EQ(until_event(20.0).bytes, next);
   }
-  const PtuReply refused = ols::refusal("Illegal");
+  const PtuReply refused = refusal("Illegal");
   EXPECT_FALSE(starting_.take(refused));
   EXPECT_EQ(starting_.refusal(refused),
             "the unit may be in velocity mode: unusable reply to CI: ! Illegal");

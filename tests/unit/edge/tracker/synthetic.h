@@ -10,7 +10,7 @@
 
 #include "edge/tracker/tracker.h"
 
-namespace ols::testing {
+namespace ols::tracker::testing {
 
 enum class Backdrop { kTextured, kSky };
 
@@ -109,4 +109,4 @@ inline Tracker started(SyntheticScene& scene, const TrackerConfig& config = {}) 
   return tracker;
 }
 
-}  // namespace ols::testing
+}  // namespace ols::tracker::testing

@@ -69,7 +69,7 @@ inline std::unique_ptr<sim::CameraServer> serve(const Serve& how = {}) {
   return std::make_unique<sim::CameraServer>(config, how.paint);
 }
 
-inline camera::CameraConfig station() {
+inline camera::CameraConfig station_camera() {
   camera::CameraConfig config;
   config.device = "127.0.0.1";
   config.width_px = kWidth;

@@ -11,7 +11,7 @@ namespace {
 
 TEST(CameraWire, PicturesArriveAsTheyWereDrawn) {
   const auto server = serve();
-  camera::AravisCamera camera(station());
+  camera::AravisCamera camera(station_camera());
   const auto frame = frame_of(camera);
   ASSERT_TRUE(frame) << camera.last_error();
   ASSERT_EQ(frame->gray.size(), cv::Size(kWidth, kHeight));
@@ -25,7 +25,7 @@ TEST(CameraWire, PicturesArriveAsTheyWereDrawn) {
 
 TEST(CameraWire, MidExposureIsThatOfTheCamera) {
   const auto server = serve();
-  camera::AravisCamera camera(station());
+  camera::AravisCamera camera(station_camera());
   std::uint64_t number = 0;
   for (int i = 0; i < 10; ++i) {
     const auto frame = frame_of(camera);
@@ -41,7 +41,7 @@ TEST(CameraWire, MidExposureIsThatOfTheCamera) {
 
 TEST(CameraWire, AStampAtTheEndOfTheExposureIsTakenAsSuch) {
   const auto server = serve();
-  camera::CameraConfig config = station();
+  camera::CameraConfig config = station_camera();
   config.stamp_at = camera::StampAt::kExposureEnd;
   camera::AravisCamera camera(config);
   const auto frame = frame_of(camera);
@@ -53,7 +53,7 @@ TEST(CameraWire, AStampAtTheEndOfTheExposureIsTakenAsSuch) {
 
 TEST(CameraWire, WithoutThePacketSocketAndWithSmallPackets) {
   const auto server = serve();
-  camera::CameraConfig config = station();
+  camera::CameraConfig config = station_camera();
   config.packet_socket = false;
   config.packet_size = 1500;
   camera::AravisCamera camera(config);
@@ -69,7 +69,7 @@ TEST(CameraWire, ColourBecomesGray) {
   const double brightness = level * (0.299 * tint[0] + 0.587 * tint[1] + 0.114 * tint[2]);
   const auto server = serve();
   for (const char* format : {"BayerRG8", "BayerGR8", "BayerGB8", "BayerBG8", "RGB8", "BGR8"}) {
-    camera::CameraConfig config = station();
+    camera::CameraConfig config = station_camera();
     config.pixel_format = format;
     camera::AravisCamera camera(config);
     const auto frame = frame_of(camera);
@@ -82,7 +82,7 @@ TEST(CameraWire, ColourBecomesGray) {
 
 TEST(CameraWire, IsFoundByItsName) {
   const auto server = serve();
-  camera::CameraConfig config = station();
+  camera::CameraConfig config = station_camera();
   config.device = "AVT-T1";
   camera::AravisCamera camera(config);
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
@@ -90,7 +90,7 @@ TEST(CameraWire, IsFoundByItsName) {
 
 TEST(CameraWire, ASensorTooSmallIsAFault) {
   const auto server = serve({.width_px = 160, .height_px = 120});
-  camera::AravisCamera camera(station());
+  camera::AravisCamera camera(station_camera());
   EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kFault; }));
   EXPECT_NE(camera.last_error().find("320x240"), std::string::npos) << camera.last_error();
   EXPECT_EQ(camera.counters().frames_captured, 0U);
@@ -98,7 +98,7 @@ TEST(CameraWire, ASensorTooSmallIsAFault) {
 
 TEST(CameraWire, FramesOfAnotherSizeAreRefusedAndCounted) {
   const auto server = serve();
-  camera::AravisCamera camera(station());
+  camera::AravisCamera camera(station_camera());
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
   server->set_size(160, 120);
   EXPECT_TRUE(becomes(camera, [&] { return camera.counters().frames_refused >= 3; }));
@@ -111,7 +111,7 @@ TEST(CameraWire, FramesOfAnotherSizeAreRefusedAndCounted) {
 // As after two seconds in which the station got no processor.
 TEST(CameraWire, FramesThatNobodyTakesAreLateAndOnlyTheNewestIsHandedOut) {
   const auto server = serve();
-  camera::AravisCamera camera(station());
+  camera::AravisCamera camera(station_camera());
   const auto first = frame_of(camera);
   ASSERT_TRUE(first) << camera.last_error();
   const double end_s = clock_s(CLOCK_MONOTONIC) + kDeadline_s;
@@ -127,7 +127,7 @@ TEST(CameraWire, FramesThatNobodyTakesAreLateAndOnlyTheNewestIsHandedOut) {
 
 TEST(CameraWire, ACameraThatVanishesIsOpenedAgain) {
   auto server = serve();
-  camera::AravisCamera camera(station());
+  camera::AravisCamera camera(station_camera());
   const auto before = frame_of(camera);
   ASSERT_TRUE(before) << camera.last_error();
   server.reset();
@@ -145,7 +145,7 @@ TEST(CameraWire, ACameraThatVanishesIsOpenedAgain) {
 }
 
 TEST(CameraWire, AnAbsentCameraIsWaitedForAndTheStationCanEnd) {
-  camera::AravisCamera camera(station());
+  camera::AravisCamera camera(station_camera());
   EXPECT_FALSE(camera.next(0.0));
   EXPECT_TRUE(becomes(camera, [&] { return camera.last_error() != ""; }));
   EXPECT_EQ(camera.state(), camera::CameraState::kAbsent);
@@ -155,7 +155,7 @@ TEST(CameraWire, AnAbsentCameraIsWaitedForAndTheStationCanEnd) {
 // The camera keeps its last master for a heartbeat of 3 s; this one is cut off for longer.
 TEST(CameraWire, ACameraThatWasCutOffIsBackSoonAfterTheCableIs) {
   const auto server = serve();
-  camera::AravisCamera camera(station());
+  camera::AravisCamera camera(station_camera());
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
   const double cut_s = clock_s(CLOCK_MONOTONIC);
   server->set_faults({.gone = true, .pixel_format = {}});
@@ -172,7 +172,7 @@ TEST(CameraWire, ACameraThatWasCutOffIsBackSoonAfterTheCableIs) {
 
 TEST(CameraWire, LostPacketsSpoilFramesOnlyWhereTheyCannotBeSentAgain) {
   const auto server = serve();
-  camera::CameraConfig config = station();
+  camera::CameraConfig config = station_camera();
   config.packet_size = 1500;  // 53 packets a frame
   server->set_faults({.packet_loss = 0.01, .no_resend = true, .pixel_format = {}});
   camera::AravisCamera camera(config);
@@ -184,7 +184,7 @@ TEST(CameraWire, LostPacketsSpoilFramesOnlyWhereTheyCannotBeSentAgain) {
 
 TEST(CameraWire, LostPacketsAreAskedForAgain) {
   const auto server = serve();
-  camera::CameraConfig config = station();
+  camera::CameraConfig config = station_camera();
   config.packet_size = 1500;
   server->set_faults({.packet_loss = 0.01, .pixel_format = {}});
   camera::AravisCamera camera(config);
@@ -194,7 +194,7 @@ TEST(CameraWire, LostPacketsAreAskedForAgain) {
 
 TEST(CameraServer, KeepsThePixelFormatOfItsFaultFromTheNextConnectionOn) {
   const auto server = serve();
-  camera::AravisCamera camera(station());
+  camera::AravisCamera camera(station_camera());
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
   server->set_faults({.pixel_format = "BayerRG8"});
   EXPECT_TRUE(frame_of(camera)) << camera.last_error();
