@@ -81,8 +81,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const ols::station::StationSettings kSettings = settings();
   static Recorder recorder;
   ols::station::Station station(kSettings.station, std::make_unique<ols::fuzz::NoTracker>());
+  ols::station::CommandTurn turn(station);
   ols::station::StationBus station_bus(
-      kSettings, 1, station, [](const ols::recorder::RecordCommand&) { return std::string(); });
+      kSettings, 1, station, turn,
+      [](const ols::recorder::RecordCommand&) { return std::string(); });
   station_bus.set_time({kNow_s, kNow_us}, {});
   ols::fusion::Fusion fusion({});
   ols::BusInbox inbox;

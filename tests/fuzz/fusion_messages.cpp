@@ -52,7 +52,7 @@ void receive(ols::fusion::Fusion& fusion, bool is_status, const std::string& sta
     for (const auto& target : output.targets_paper) check_target(target);
     for (const auto& slew : output.slews) {
       check_slew(slew);
-      static_cast<void>(ols::to_message(slew, {}));
+      static_cast<void>(to_message(slew, {}));
     }
   }
 }

@@ -38,7 +38,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ols::station::Station station(kSettings.station, std::make_unique<ols::fuzz::NoTracker>());
   station.set_reference(ols::ptu::PtuReference::kTrusted);
   station.on_angles({kNow_s - 0.02, 1e-4, {0.0, 0.0}, {}});
-  ols::station::StationBus bus(kSettings, 1, station,
+  ols::station::CommandTurn turn(station);
+  ols::station::StationBus bus(kSettings, 1, station, turn,
                                [](const ols::recorder::RecordCommand&) { return std::string(); });
   ols::fuzz::Input input(data, size);
   double now_s = kNow_s;

@@ -53,7 +53,7 @@ TEST_F(CommandTurnTest, AStopWaitsForNoDesignationAndEndsTheTurn) {
 TEST_F(CommandTurnTest, TellsWhyADesignationWasRefused) {
   script_.accept = false;
   designate(100);
-  EXPECT_EQ(turn_.end(now_), Refusal::kTracker);
+  EXPECT_EQ(turn_.end(now_), Refusal::kBox);
 }
 
 }  // namespace

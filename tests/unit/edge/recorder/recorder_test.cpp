@@ -128,7 +128,7 @@ TEST_F(RecorderTest, RefusesWhatItCannotDo) {
   EXPECT_THAT(recorder.record({now_s, 1.0, 1.0, "../x"}), HasSubstr("label"));
   EXPECT_THAT(recorder.record({now_s, 1.0, 1.0, std::string(41, 'x')}), HasSubstr("label"));
   EXPECT_THAT(recorder.record({now_s, -1.0, 1.0, ""}), HasSubstr("at most"));
-  EXPECT_THAT(recorder.record({now_s, 30.0, 31.0, ""}), HasSubstr("together 60 s at most"));
+  EXPECT_THAT(recorder.record({now_s, 30.0, 31.0, ""}), HasSubstr("together at most 60 s"));
   EXPECT_THAT(recorder.record({now_s, std::nan(""), 1.0, ""}), HasSubstr("at most"));
   EXPECT_THAT(recorder.record({std::nan(""), 1.0, 1.0, ""}), HasSubstr("at most"));
   EXPECT_THAT(recorder.record({now_s + 100.0, 1.0, 1.0, ""}), HasSubstr("future"));

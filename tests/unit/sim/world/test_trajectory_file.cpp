@@ -39,7 +39,7 @@ TEST_F(TrajectoryFile, BeginsAtItsFirstRow) {
 
 TEST_F(TrajectoryFile, NamesTheBadRow) {
   const std::string head = "utime_us,lat,lon,h\n1,49,16,350\n";
-  EXPECT_EQ(error_of("time,lat\n"), "NamesTheBadRow:1: utime_us: there is no such column");
+  EXPECT_EQ(error_of("time,lat\n"), "NamesTheBadRow:1: utime_us: the column is missing");
   EXPECT_EQ(error_of(head + "2,49,16\n"),
             "NamesTheBadRow:3: row: too few or too many columns, or a quote that stays open");
   EXPECT_EQ(error_of(head + "2,49,16,nan\n"),
