@@ -75,7 +75,9 @@ std::string with_value(const std::string& text, const std::string& table_path,
 
 // The values that `table` must have after the change.
 void set_values(toml::table& table, const toml::table& changes) {
-  for (const auto& [key, node] : changes) {
+  for (const auto& change : changes) {
+    const toml::key& key = change.first;  // a structured binding cannot be captured below
+    const toml::node& node = change.second;
     if (const toml::table* inner = node.as_table()) {
       auto& own = *table.insert(key, toml::table{}).first->second.as_table();
       set_values(own, *inner);
