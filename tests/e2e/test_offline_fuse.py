@@ -104,7 +104,8 @@ def test_tells_what_was_not_used(folder):
     result = fuse_in(folder)
     assert result.returncode == 0
     assert result.stderr == (
-        "ols-fuse: 2 of 4 bearings not used: 1 of low belief, 1 a station and time given before\n"
+        "ols-fuse: 2 of 4 bearings not used: 1 of low belief, "
+        "1 with an earlier bearing's station and time\n"
     )
 
 

@@ -240,7 +240,12 @@ def test_an_output_that_cannot_be_written_is_an_error(survey):
         ("landmarks.csv", ",33N,", ",33U,", "landmarks.csv:2: zone: '33U'"),
         ("landmarks.csv", ",33N,", ",61N,", "landmarks.csv:2: zone: '61N'"),
         ("landmarks.csv", ",33N,", ",33N,9", "landmarks.csv:2: easting_m:"),
-        ("landmarks.csv", "tower,,", "tower,49.2,", "landmarks.csv:2: zone: there are latitude"),
+        (
+            "landmarks.csv",
+            "tower,,",
+            "tower,49.2,",
+            "landmarks.csv:2: zone: must be empty: latitude",
+        ),
         ("landmarks.csv", "spire,", "tower,", "landmarks.csv:3: landmark: 'tower' appears twice"),
         ("landmarks.csv", "sd_m", "sigma", "landmarks.csv:1: sd_m: the column is missing"),
         ("sightings.csv", "mast,", "must,", "sightings.csv:4: landmark: 'must' is not one of"),
@@ -249,8 +254,13 @@ def test_an_output_that_cannot_be_written_is_an_error(survey):
         ("sightings.csv", "pan_deg", "pan", "sightings.csv:1: pan_deg: the column is missing"),
         ("landmarks.csv", ",33N,", ",32N,", "sightings.csv:2: landmark: 'tower' is 4"),
         ("landmarks.csv", ",33N,", ",33S,", "sightings.csv:2: landmark: 'tower' is "),
-        ("station.toml", "id = 4", f"id = {2**63 - 1}", "station.toml:9: calibration.id: there is"),
-        ("station.toml", "heading_deg = 40.0", "haeding_deg = 1", "station.toml:2: "),
+        (
+            "station.toml",
+            "id = 4",
+            f"id = {2**63 - 1}",
+            "station.toml:9: calibration.id: is the highest",
+        ),
+        ("station.toml", "heading_deg = 40.0", "haeding_deg = 1", "station.toml:6: "),
     ],
 )
 def test_refuses_bad_input_by_name(survey, name, old, new, where):

@@ -51,7 +51,9 @@ def test_an_output_that_is_an_input_is_refused(folder, command):
 def test_a_signal_leaves_nothing_half_written(folder, number):
     """The figure of four million points takes longer than the signal does to arrive."""
     figure = ["figure3", "--steps", "2000", "--output", "out.csv"]
-    with subprocess.Popen([BIN / "ols-precision", *figure], cwd=folder) as process:
+    # A background job is born deaf to SIGINT.
+    heard = {"preexec_fn": lambda: signal.signal(number, signal.SIG_DFL)}
+    with subprocess.Popen([BIN / "ols-precision", *figure], cwd=folder, **heard) as process:
         while not (folder / "out.csv.partial").exists():
             assert process.poll() is None
         process.send_signal(number)
