@@ -218,7 +218,8 @@ void TrackFilter::take(const BearingMeasurement& sighting, const Innovation* kno
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   ++state_;
   update.use = BearingUse::kRejected;
-  if (judged->nis > config_.gate_nis) return reject(entry);
+  // Written so that a NIS that is not a number is rejected, too.
+  if (!(judged->nis <= config_.gate_nis)) return reject(entry);
   rejections_.clear();
   update.use = BearingUse::kUsed;
   note_use(entry, sighting, judged->nis);

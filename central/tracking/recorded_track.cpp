@@ -38,7 +38,7 @@ Association RecordedTrack::add(const BearingMeasurement& sighting, bool may_begi
     if (!used && !proved_) take_back(sighting.utime_us);
   }
   if (!may_begin) return given;
-  if (!tracks_.empty() && proved_ && !in_trial_pause()) {
+  if (!tracks_.empty() && proved_ && !most_stations_disagree()) {
     initiation_.store(sighting);
     return given;
   }
@@ -66,7 +66,7 @@ int RecordedTrack::stations(bool explained) const {
   }));
 }
 
-bool RecordedTrack::in_trial_pause() const {
+bool RecordedTrack::most_stations_disagree() const {
   const int against = stations(false);
   return against >= 2 && against >= stations(true);
 }
@@ -114,7 +114,7 @@ bool RecordedTrack::is_lost(const Track& track, double unseen_s, std::int64_t no
   if (unseen_s <= config_.drop_s) return false;
   const bool silent = stations_lately(track.filter, config_.drop_s) == 0 ||
                       seconds(now_us - track.filter.utime_us()) > config_.drop_s;
-  return silent || in_trial_pause() ||
+  return silent || most_stations_disagree() ||
          judge_position(track.filter, track.filter.at(now_us)) != Solution::kOk;
 }
 

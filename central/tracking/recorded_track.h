@@ -41,7 +41,7 @@ class RecordedTrack : public TrackManager {
   void confirm_by_initiation(const BearingMeasurement& sighting);
   bool is_better(const Track& start) const;
   int stations(bool explained) const;
-  bool in_trial_pause() const;
+  bool most_stations_disagree() const;
 
   bool is_worth_confirming(const Track&) const override { return true; }
   bool is_lost_when_born(double unseen_s) const override { return unseen_s > config_.drop_s; }

@@ -239,8 +239,8 @@ std::optional<TrackInitiation::Hypothesis> TrackInitiation::run(const RayMeeting
   // Linearising about the vague first estimate can lead to a wrong one with false certainty. So
   // each iteration is linearised about the result of the one before.
   for (int round = 0; round < kMostRounds && !(begun && begun->settled); ++round) {
-    begun.emplace(
-        TrackStart{Track(TrackFilter(filter_, now_us, from)), BiasModel::evidence_on(errors)});
+    begun.emplace(Hypothesis{
+        TrackStart{Track(TrackFilter(filter_, now_us, from)), BiasModel::evidence_on(errors)}});
     TrackFilter& filter = begun->start.track.filter;
     if (about) filter.linearise_about(*about);
     stations = explain(frames, filter, begun->start.shown);

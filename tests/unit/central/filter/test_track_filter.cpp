@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <random>
 #include <stdexcept>
@@ -47,6 +48,17 @@ TEST(TrackFilter, FindsPositionAndVelocityFromStaggeredBearings) {
   const Vector3d velocity = site().R_ecef_enu().transpose() * filter.velocity();
   EXPECT_LT((velocity - Vector3d(20, -5, 2)).norm(), 0.5);
   EXPECT_LT(error(filter, filter.utime_us() + 200'000).norm(), 0.3);
+}
+
+TEST(TrackFilter, ABearingWithoutANormalisedInnovationIsRejectedAndChangesNothing) {
+  BiasModel errors;
+  TrackFilter filter = filter_at(path(0.0));
+  const std::vector<BearingMeasurement> bearings = flight(1.0, 1e-4, 1e-4);
+  for (const BearingMeasurement& s : bearings) feed(filter, s, errors);
+  BearingMeasurement broken = bearings.back();
+  broken.sight.covariance_white(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(feed(filter, broken, errors), BearingUse::kRejected);
+  EXPECT_TRUE(filter.at(filter.utime_us()).mean.allFinite());
 }
 
 // For a target that never turns, one model is enough.
