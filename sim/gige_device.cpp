@@ -105,11 +105,6 @@ void GigeDevice::power_cycle() {
   set_defaults();
 }
 
-void GigeDevice::set_temperature(double temperature_degC) {
-  const std::lock_guard lock(mutex_);
-  write_real(gige::kTemperature_degC, temperature_degC);
-}
-
 void GigeDevice::set_faults(bool can_resend, const std::string& pixel_format) {
   const std::lock_guard lock(mutex_);
   can_resend_ = can_resend;

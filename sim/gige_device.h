@@ -70,7 +70,6 @@ class GigeDevice {
   void set_size(int width_px, int height_px);
   // It forgets everything: off and on again.
   void power_cycle();
-  void set_temperature(double temperature_degC);
 
   // Whether the camera claims to support packet resend; and the pixel format (by its GenICam name)
   // that it enforces from the next connection on, whatever a client writes; empty: none. Throws

@@ -50,7 +50,6 @@ class LockstepStation {
   station::Refusal slew(station::SlewCommand command, double time_s);
   const station::Station& station() const { return station_; }
   StationRecord record() const;
-  const ptu::PtuCounters& ptu_counters() const { return driver_.counters(); }
   bool designated() const { return operator_.designated(); }
   bool left_alone() const { return operator_.leaves_alone(); }
 

@@ -358,10 +358,6 @@ bool PtuDriver::not_referenced() const {
 
 const PtuLimits& PtuDriver::limits() const { return ready() ? ready()->limits() : config_.limits; }
 
-double PtuDriver::pan_resolution_rad() const {
-  return ready() ? ready()->facts().pan.resolution_rad : 0.0;
-}
-
 std::string PtuDriver::firmware() const {
   return ready() ? ready()->facts().firmware : std::string();
 }

@@ -70,10 +70,9 @@ class PtuDriver {
 
   PtuState state() const;
   const PtuCounters& counters() const { return counters_; }
-  const PtuLimits& limits() const;    // those in force; meaningful once ready
-  double pan_resolution_rad() const;  // per count; 0 until ready
-  std::string firmware() const;       // answer to V; empty until ready
-  std::string last_error() const;     // empty: no error so far
+  const PtuLimits& limits() const;  // those in force; meaningful once ready
+  std::string firmware() const;     // answer to V; empty until ready
+  std::string last_error() const;   // empty: no error so far
   std::optional<PtuEnvironment> environment() const;
   std::optional<double> last_good_s() const;  // time of the newest angle sample
   bool not_referenced() const;                // the unit must be homed
