@@ -31,82 +31,83 @@ void Admission::allow_slews(const std::string& station, bool allowed) {
   if (known != registry_.all().end()) known->second.traits.commandable = allowed;
 }
 
-Admitted Admission::admit(const BearingMeasurement& sighting, FusionLog& log) {
-  const BearingRefusal broken = check(sighting);
+Admitted Admission::admit(const BearingMeasurement& measurement, FusionLog& log) {
+  const BearingRefusal broken = check(measurement);
   if (broken != BearingRefusal::kNone) return {.refusal = broken};
-  if (!registry_.belongs(sighting.station)) return {.refusal = BearingRefusal::kUnknown};
-  const auto known = registry_.all().find(sighting.station);
+  if (!registry_.belongs(measurement.station)) return {.refusal = BearingRefusal::kUnknown};
+  const auto known = registry_.all().find(measurement.station);
   const bool is_first = known == registry_.all().end() || !known->second.delivered;
-  const StationRegistry::Place place = registry_.for_bearing(sighting.station, time_);
+  const StationRegistry::Place place = registry_.for_bearing(measurement.station, time_);
   if (place.station == nullptr) return {.refusal = BearingRefusal::kTooMany};
-  if (is_first) place.station->set_position(sighting.sight);
+  if (is_first) place.station->set_position(measurement.sight);
   if (place.evicted) evict(*place.evicted, log);
   Admitted admitted{.station = place.station, .evicted = place.evicted};
-  admitted.refusal = judge(sighting, *place.station, log);
-  if (admitted.refusal == BearingRefusal::kNone) notice_changes(sighting, log, admitted);
+  admitted.refusal = judge(measurement, *place.station, log);
+  if (admitted.refusal == BearingRefusal::kNone) notice_changes(measurement, log, admitted);
   return admitted;
 }
 
 // Checks the stamp against the station's clock and "now", then against the station's other
 // bearings.
-BearingRefusal Admission::judge(const BearingMeasurement& sighting, KnownStation& station,
+BearingRefusal Admission::judge(const BearingMeasurement& measurement, KnownStation& station,
                                 FusionLog& log) {
-  if (time_.hear(sighting.station, sighting.utime_us)) {
+  if (time_.hear(measurement.station, measurement.utime_us)) {
     station.exposures.clear();
     log.count("clock_stepped_back");
-    if (clocks_.quarantine(sighting.station).empty()) {
-      log.error(sighting.station, "its clock has stepped back");
+    if (clocks_.quarantine(measurement.station).empty()) {
+      log.error(measurement.station, "its clock has stepped back");
     }
   }
-  if (!clock_is_believed(sighting, log)) {
+  if (!clock_is_believed(measurement, log)) {
     station.exposures.clear();
     return BearingRefusal::kQuarantine;
   }
-  if (is_future(sighting.utime_us)) return BearingRefusal::kFuture;
-  if (seconds(sighting.utime_us - time_.now_us()) < -config_.stale_s) {
+  if (is_future(measurement.utime_us)) return BearingRefusal::kFuture;
+  if (seconds(measurement.utime_us - time_.now_us()) < -config_.stale_s) {
     return BearingRefusal::kStale;
   }
-  if (sighting.belief < config_.min_belief) return BearingRefusal::kLowBelief;
-  return store(sighting, station);
+  if (measurement.belief < config_.min_belief) return BearingRefusal::kLowBelief;
+  return store(measurement, station);
 }
 
 bool Admission::is_future(std::int64_t utime_us) const {
   return seconds(utime_us - time_.now_us()) > config_.future_s;
 }
 
-bool Admission::clock_is_believed(const BearingMeasurement& sighting, FusionLog& log) {
-  const bool before = clocks_.quarantine(sighting.station).empty();
-  clocks_.hear(sighting, time_);
-  const std::string& why = clocks_.quarantine(sighting.station);
-  time_.trust(sighting.station, why.empty());
-  if (before && !why.empty()) log.quarantine(sighting.station, why);
+bool Admission::clock_is_believed(const BearingMeasurement& measurement, FusionLog& log) {
+  const bool before = clocks_.quarantine(measurement.station).empty();
+  clocks_.hear(measurement, time_);
+  const std::string& why = clocks_.quarantine(measurement.station);
+  time_.trust(measurement.station, why.empty());
+  if (before && !why.empty()) log.quarantine(measurement.station, why);
   return why.empty();
 }
 
-BearingRefusal Admission::store(const BearingMeasurement& sighting, KnownStation& station) const {
-  if (station.exposures.has(sighting)) return BearingRefusal::kDuplicate;
-  station.exposures.go_on_to(sighting.utime_us);
+BearingRefusal Admission::store(const BearingMeasurement& measurement,
+                                KnownStation& station) const {
+  if (station.exposures.has(measurement)) return BearingRefusal::kDuplicate;
+  station.exposures.go_on_to(measurement.utime_us);
   if (station.exposures.is_flood(config_.flood_hz)) return BearingRefusal::kFlood;
-  station.exposures.add(sighting);
-  station.set_position(sighting.sight);
+  station.exposures.add(measurement);
+  station.set_position(measurement.sight);
   return BearingRefusal::kNone;
 }
 
 // Detects a new calibration and a new station process, whose track ids start again.
-void Admission::notice_changes(const BearingMeasurement& sighting, FusionLog& log,
+void Admission::notice_changes(const BearingMeasurement& measurement, FusionLog& log,
                                Admitted& admitted) {
   KnownStation& station = *admitted.station;
-  if (station.bearings > 0 && station.calibration_id != sighting.calibration_id) {
+  if (station.bearings > 0 && station.calibration_id != measurement.calibration_id) {
     admitted.recalibrated = true;
     log.count("calibrations_changed");
   }
-  station.calibration_id = sighting.calibration_id;
-  if (station.bearings > 0 && station.boot_id != sighting.boot_id) {
+  station.calibration_id = measurement.calibration_id;
+  if (station.bearings > 0 && station.boot_id != measurement.boot_id) {
     admitted.restarted = true;
     station.target_id = 0;
     log.count("stations_restarted");
   }
-  station.boot_id = sighting.boot_id;
+  station.boot_id = measurement.boot_id;
   ++station.bearings;
   log.count("bearings");
 }

@@ -40,7 +40,7 @@ class Admission {
  public:
   explicit Admission(const AdmissionConfig& config);
 
-  Admitted admit(const BearingMeasurement& sighting, FusionLog& log);
+  Admitted admit(const BearingMeasurement& measurement, FusionLog& log);
   // Takes a station's status; returns the station that it replaced.
   std::optional<std::string> know_station(const std::string& station, const StationTraits& traits,
                                           FusionLog& log);
@@ -55,10 +55,11 @@ class Admission {
   const StationRegistry& stations() const { return registry_; }
 
  private:
-  BearingRefusal judge(const BearingMeasurement& sighting, KnownStation& station, FusionLog& log);
-  bool clock_is_believed(const BearingMeasurement& sighting, FusionLog& log);
-  BearingRefusal store(const BearingMeasurement& sighting, KnownStation& station) const;
-  static void notice_changes(const BearingMeasurement& sighting, FusionLog& log,
+  BearingRefusal judge(const BearingMeasurement& measurement, KnownStation& station,
+                       FusionLog& log);
+  bool clock_is_believed(const BearingMeasurement& measurement, FusionLog& log);
+  BearingRefusal store(const BearingMeasurement& measurement, KnownStation& station) const;
+  static void notice_changes(const BearingMeasurement& measurement, FusionLog& log,
                              Admitted& admitted);
   void evict(const std::string& station, FusionLog& log);
 

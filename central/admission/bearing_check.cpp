@@ -88,10 +88,10 @@ bool is_a_stations_place(const Eigen::Vector3d& p_ecef, const Eigen::Vector3d& s
          sd_enu_m.maxCoeff() <= kGreatestSdM;
 }
 
-BearingRefusal check(const BearingMeasurement& sighting) {
-  if (!all_finite(sighting)) return BearingRefusal::kNotFinite;
-  if (!in_range(sighting)) return BearingRefusal::kOutOfRange;
-  if (!covariances_hold(sighting.sight)) return BearingRefusal::kCovariance;
+BearingRefusal check(const BearingMeasurement& measurement) {
+  if (!all_finite(measurement)) return BearingRefusal::kNotFinite;
+  if (!in_range(measurement)) return BearingRefusal::kOutOfRange;
+  if (!covariances_hold(measurement.sight)) return BearingRefusal::kCovariance;
   return BearingRefusal::kNone;
 }
 

@@ -27,6 +27,6 @@ const char* to_string(BearingRefusal refusal);
 bool is_a_stations_place(const Eigen::Vector3d& p_ecef, const Eigen::Vector3d& sd_enu_m);
 
 // The checks that need only the bearing itself.
-BearingRefusal check(const BearingMeasurement& sighting);
+BearingRefusal check(const BearingMeasurement& measurement);
 
 }  // namespace ols::fusion

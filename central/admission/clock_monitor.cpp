@@ -57,16 +57,16 @@ std::string ClockMonitor::judge(const std::string& name, const Station& station,
   return "";
 }
 
-void ClockMonitor::hear(const BearingMeasurement& sighting, const MessageTime& time) {
-  Station& station = stations_[sighting.station];
-  station.error_s = sighting.clock_sd_s;
-  station.synchronised = sighting.clock == StationClock::kSynchronised;
-  const double offset_s = seconds(sighting.utime_us - time.middle_us());
+void ClockMonitor::hear(const BearingMeasurement& measurement, const MessageTime& time) {
+  Station& station = stations_[measurement.station];
+  station.error_s = measurement.clock_sd_s;
+  station.synchronised = measurement.clock == StationClock::kSynchronised;
+  const double offset_s = seconds(measurement.utime_us - time.middle_us());
   station.offsets_s.push_back(offset_s);
   if (station.offsets_s.size() > static_cast<std::size_t>(config_.stamps)) {
     station.offsets_s.pop_front();
   }
-  const std::string bad = judge(sighting.station, station, time);
+  const std::string bad = judge(measurement.station, station, time);
   if (!bad.empty()) {
     station.quarantine = bad;
     station.bad_s = time.elapsed_s();

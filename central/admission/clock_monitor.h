@@ -39,7 +39,7 @@ class ClockMonitor {
   explicit ClockMonitor(const ClockMonitorConfig& config = {}) : config_(config) {}
 
   // A bearing that `time` has already taken.
-  void hear(const BearingMeasurement& sighting, const MessageTime& time);
+  void hear(const BearingMeasurement& measurement, const MessageTime& time);
   // Why a station is quarantined, as text; empty when it is not.
   const std::string& quarantine(const std::string& station) const;
   // What to add to the 1-sigma of a station's stamps because they are offset from the others'.

@@ -11,14 +11,16 @@ constexpr double kMemoryS = 1.0;
 
 }  // namespace
 
-bool RecentExposures::has(const BearingMeasurement& sighting) const {
-  const auto at = std::ranges::lower_bound(exposures_, sighting.utime_us, {}, &Exposure::utime_us);
-  const auto end = std::ranges::upper_bound(exposures_, sighting.utime_us, {}, &Exposure::utime_us);
-  const AzimuthElevation& d = sighting.sight.direction;
+bool RecentExposures::has(const BearingMeasurement& measurement) const {
+  const auto at =
+      std::ranges::lower_bound(exposures_, measurement.utime_us, {}, &Exposure::utime_us);
+  const auto end =
+      std::ranges::upper_bound(exposures_, measurement.utime_us, {}, &Exposure::utime_us);
+  const AzimuthElevation& d = measurement.sight.direction;
   return std::any_of(at, end, [&](const Exposure& e) {
     const bool same_way =
         e.direction.azimuth_rad == d.azimuth_rad && e.direction.elevation_rad == d.elevation_rad;
-    return same_way || (sighting.track_id != 0 && e.track_id == sighting.track_id);
+    return same_way || (measurement.track_id != 0 && e.track_id == measurement.track_id);
   });
 }
 
@@ -34,10 +36,11 @@ bool RecentExposures::is_flood(double flood_hz) const {
   return static_cast<double>(exposures_.size()) >= flood_hz * kMemoryS;
 }
 
-void RecentExposures::add(const BearingMeasurement& sighting) {
+void RecentExposures::add(const BearingMeasurement& measurement) {
   const auto later =
-      std::ranges::upper_bound(exposures_, sighting.utime_us, {}, &Exposure::utime_us);
-  exposures_.insert(later, {sighting.utime_us, sighting.sight.direction, sighting.track_id});
+      std::ranges::upper_bound(exposures_, measurement.utime_us, {}, &Exposure::utime_us);
+  exposures_.insert(later,
+                    {measurement.utime_us, measurement.sight.direction, measurement.track_id});
   const double span_s = seconds(exposures_.back().utime_us - exposures_.front().utime_us);
   rate_hz_ = span_s > 0.0 ? static_cast<double>(exposures_.size() - 1) / span_s : 0.0;
 }

@@ -61,8 +61,8 @@ std::string FusionProcess::in_one_line() const {
 }
 
 void FusionProcess::on_bearing(const BusMessage& message) {
-  const auto decoded = sighting_from(message.channel, message.payload.data(),
-                                     static_cast<int>(message.payload.size()));
+  const auto decoded = measurement_from(message.channel, message.payload.data(),
+                                        static_cast<int>(message.payload.size()));
   if (const auto* refusal = std::get_if<MessageRefusal>(&decoded)) {
     return refuse(*refusal, message.channel);
   }

@@ -122,26 +122,26 @@ const char* to_string(MessageRefusal refusal) {
   return "unknown";
 }
 
-std::variant<BearingMeasurement, MessageRefusal> sighting_from(const std::string& channel,
-                                                               const void* data, int bytes) {
+std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::string& channel,
+                                                                  const void* data, int bytes) {
   ols_msg::bearing_t message;
   const auto refusal = decode_from_station(kBearingChannel, channel, data, bytes, message);
   if (refusal) return *refusal;
-  BearingMeasurement sighting;
-  sighting.station = message.station;
-  sighting.utime_us = message.utime;
-  sighting.boot_id = message.boot_id;
-  sighting.track_id = message.track_id;
-  sighting.belief = message.belief;
-  sighting.clock_sd_s = message.clock_error_s;
-  sighting.clock = clock_from(message.clock_state);
-  sighting.calibration_id = message.calibration_id;
-  sighting.sight.origin_ecef = Eigen::Vector3d(message.camera_ecef_m);
-  sighting.sight.direction = {message.azimuth_rad, message.elevation_rad};
-  sighting.sight.covariance_white = symmetric(message.covariance_white_rad2);
-  sighting.sight.covariance_systematic = symmetric(message.covariance_systematic_rad2);
-  sighting.sight.origin_sd_enu_m = Eigen::Vector3d(message.camera_position_sd_m);
-  return sighting;
+  BearingMeasurement measurement;
+  measurement.station = message.station;
+  measurement.utime_us = message.utime;
+  measurement.boot_id = message.boot_id;
+  measurement.track_id = message.track_id;
+  measurement.belief = message.belief;
+  measurement.clock_sd_s = message.clock_error_s;
+  measurement.clock = clock_from(message.clock_state);
+  measurement.calibration_id = message.calibration_id;
+  measurement.sight.origin_ecef = Eigen::Vector3d(message.camera_ecef_m);
+  measurement.sight.direction = {message.azimuth_rad, message.elevation_rad};
+  measurement.sight.covariance_white = symmetric(message.covariance_white_rad2);
+  measurement.sight.covariance_systematic = symmetric(message.covariance_systematic_rad2);
+  measurement.sight.origin_sd_enu_m = Eigen::Vector3d(message.camera_position_sd_m);
+  return measurement;
 }
 
 std::variant<StationPlace, MessageRefusal> station_place_from(const std::string& channel,

@@ -22,8 +22,8 @@ enum class MessageRefusal { kMalformed, kSchema, kOtherStation, kOutOfRange, kNo
 const char* to_string(MessageRefusal refusal);
 
 // Never throws, whatever the bytes. check() of central/admission/bearing_check.h judges the values.
-std::variant<BearingMeasurement, MessageRefusal> sighting_from(const std::string& channel,
-                                                               const void* data, int bytes);
+std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::string& channel,
+                                                                  const void* data, int bytes);
 
 // What a station's status states. Until its first bearing, its position stands for the camera
 // centre.

@@ -38,8 +38,8 @@ std::span<const BearingMeasurement> window_of(std::span<const BearingMeasurement
 
 const BearingMeasurement& nearest(std::span<const BearingMeasurement> window,
                                   std::int64_t epoch_us) {
-  return *std::ranges::min_element(window, {}, [&](const BearingMeasurement& sighting) {
-    return std::llabs(sighting.utime_us - epoch_us);
+  return *std::ranges::min_element(window, {}, [&](const BearingMeasurement& measurement) {
+    return std::llabs(measurement.utime_us - epoch_us);
   });
 }
 
@@ -47,16 +47,16 @@ std::vector<Sample> samples_of(std::span<const BearingMeasurement> window, std::
                                const BearingMeasurement& reference, const RayFrame& frame,
                                double noise_scale) {
   std::vector<Sample> samples;
-  for (const BearingMeasurement& sighting : window) {
-    const RayFrame own = ray_frame(sighting.sight);
+  for (const BearingMeasurement& measurement : window) {
+    const RayFrame own = ray_frame(measurement.sight);
     const double ahead = frame.direction.dot(own.direction);
     if (ahead <= 0.1) continue;  // not on this tangent plane
     const Eigen::Matrix2d turn = frame.tangent.transpose() * own.tangent;
     const Eigen::Matrix2d white =
-        noise_scale * turn * sighting.sight.covariance_white * turn.transpose();
-    samples.push_back({seconds_between(sighting.utime_us, epoch_us),
+        noise_scale * turn * measurement.sight.covariance_white * turn.transpose();
+    samples.push_back({seconds_between(measurement.utime_us, epoch_us),
                        frame.tangent.transpose() * own.direction / ahead, white,
-                       sighting.sight.origin_ecef - reference.sight.origin_ecef,
+                       measurement.sight.origin_ecef - reference.sight.origin_ecef,
                        2.0 / white.trace()});
   }
   return samples;
@@ -152,11 +152,11 @@ bool all_finite(const Ray& ray) {
 
 }  // namespace
 
-std::optional<Ray> align(std::span<const BearingMeasurement> sightings, std::int64_t epoch_us,
+std::optional<Ray> align(std::span<const BearingMeasurement> measurements, std::int64_t epoch_us,
                          std::optional<double> range_m, const AlignmentConfig& config,
                          double noise_scale) {
-  if (sightings.empty()) return std::nullopt;
-  const auto window = window_of(sightings, epoch_us, config.window_s);
+  if (measurements.empty()) return std::nullopt;
+  const auto window = window_of(measurements, epoch_us, config.window_s);
   if (window.empty()) return std::nullopt;
   const BearingMeasurement& reference = nearest(window, epoch_us);
   if (std::abs(seconds_between(reference.utime_us, epoch_us)) > config.max_age_s) {
@@ -168,7 +168,7 @@ std::optional<Ray> align(std::span<const BearingMeasurement> sightings, std::int
       ray_of(reference, frame, fit(samples, range_m.value_or(config.range_unknown_m), config));
   ray.bearing_variance_rad2 = noise_scale * reference.sight.covariance_white.trace() / 2.0;
   ray.clock_sd_s = reference.clock_sd_s;
-  ray.age_s = seconds_between(epoch_us, sightings.back().utime_us);
+  ray.age_s = seconds_between(epoch_us, measurements.back().utime_us);
   ray.belief = 0.0;
   for (const BearingMeasurement& s : window)
     ray.belief += s.belief / static_cast<double>(window.size());

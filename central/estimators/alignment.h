@@ -28,7 +28,7 @@ struct AlignmentConfig {
 // One station's bearings, in order of time -> its ray at the epoch; nullopt without a bearing near
 // it. range_m: distance to the target if known, for the prior of its angular acceleration.
 // noise_scale: the variance of the bearings' noise over the stated one.
-std::optional<Ray> align(std::span<const BearingMeasurement> sightings, std::int64_t epoch_us,
+std::optional<Ray> align(std::span<const BearingMeasurement> measurements, std::int64_t epoch_us,
                          std::optional<double> range_m, const AlignmentConfig& config = {},
                          double noise_scale = 1.0);
 

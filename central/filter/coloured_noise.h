@@ -16,7 +16,7 @@ class ColouredNoise {
  public:
   // Gives the errors the distance of a bearing from the line between its neighbours, and returns
   // the factor by which its variance counts more than stated.
-  double observe(const BearingMeasurement& sighting, const RayFrame& frame, BiasModel& shown);
+  double observe(const BearingMeasurement& measurement, const RayFrame& frame, BiasModel& shown);
 
  private:
   // The two bearings before the next one.

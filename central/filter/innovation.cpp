@@ -65,20 +65,20 @@ FilterMatrix2 ModelInnovation::cross(const FilterMatrix& P, const StationPart& p
 }
 
 ModelInnovation innovation_of(const InteractingModels& models, std::size_t which,
-                              const BearingMeasurement& sighting, const RayFrame& frame,
+                              const BearingMeasurement& measurement, const RayFrame& frame,
                               const StationPart* station,
                               const std::optional<KinematicState>& about) {
   const Motion motion = models.motion(which);
   const FilterGaussian& model = models[which];
   ModelInnovation result;
-  result.ahead_s = seconds(sighting.utime_us - models.utime_us());  // < 0: late
+  result.ahead_s = seconds(measurement.utime_us - models.utime_us());  // < 0: late
   if (motion != Motion::kConstantVelocity) result.curved_s2 = std::pow(result.ahead_s, 2) / 2.0;
   result.velocity = model.mean.segment<3>(3);
   if (about) result.velocity = about->mean.segment<3>(3);
   const Eigen::Vector3d p_ecef = model.mean.head<3>() + result.ahead_s * model.mean.segment<3>(3) +
                                  result.curved_s2 * model.mean.segment<3>(6);
-  const Eigen::Vector3d about_ecef = about ? position_at(*about, sighting.utime_us) : p_ecef;
-  const Eigen::Vector3d line = about_ecef - sighting.sight.origin_ecef;
+  const Eigen::Vector3d about_ecef = about ? position_at(*about, measurement.utime_us) : p_ecef;
+  const Eigen::Vector3d line = about_ecef - measurement.sight.origin_ecef;
   result.depth_m = frame.direction.dot(line);
   if (!(result.depth_m > 0.0)) return result;
   result.residual = -frame.tangent.transpose() * line / result.depth_m;

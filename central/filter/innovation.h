@@ -51,7 +51,7 @@ struct Innovation {
 
 // The motion about which to linearise, if not about the current estimate.
 ModelInnovation innovation_of(const InteractingModels& models, std::size_t which,
-                              const BearingMeasurement& sighting, const RayFrame& frame,
+                              const BearingMeasurement& measurement, const RayFrame& frame,
                               const StationPart* station,
                               const std::optional<KinematicState>& about);
 

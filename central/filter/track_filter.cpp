@@ -29,11 +29,11 @@ int TrackFilter::index_of(const std::string& station) const {
 }
 
 // A station seldom moves, and computing its axes costs as much as a good part of the filter.
-RayFrame TrackFilter::frame_of(const BearingMeasurement& sighting, int station) const {
-  if (station < 0) return ray_frame(sighting.sight);
+RayFrame TrackFilter::frame_of(const BearingMeasurement& measurement, int station) const {
+  if (station < 0) return ray_frame(measurement.sight);
   const FilterStation& known = stations_[static_cast<std::size_t>(station)];
-  const bool same = known.sight.origin_ecef == sighting.sight.origin_ecef;
-  return same ? ray_frame(sighting.sight, known.R_ecef_enu) : ray_frame(sighting.sight);
+  const bool same = known.sight.origin_ecef == measurement.sight.origin_ecef;
+  return same ? ray_frame(measurement.sight, known.R_ecef_enu) : ray_frame(measurement.sight);
 }
 
 Eigen::Index TrackFilter::first_of(int station) const {
@@ -57,35 +57,36 @@ bool TrackFilter::place_matters(const LineOfSight& sight) const {
 }
 
 // New states, or those of the station that is silent longest if all are in use; -1: none free.
-int TrackFilter::claim_station_states(const BearingMeasurement& sighting) {
+int TrackFilter::claim_station_states(const BearingMeasurement& measurement) {
   if (stations_.size() < kFilterStations) {
     stations_.emplace_back();
-    priors_.push_back({.position_states = place_matters(sighting.sight)});
+    priors_.push_back({.position_states = place_matters(measurement.sight)});
     const Eigen::Index n = models_[0].mean.size(), more = states_of(priors_.back());
     for (FilterGaussian& model : models_.each()) insert_states(n, more, model);
     return static_cast<int>(stations_.size()) - 1;
   }
   const auto silent = std::ranges::min_element(
       stations_, {}, [](const FilterStation& s) { return s.last_offered.last_us; });
-  if (silent->last_offered.age_s(sighting.utime_us) < Activity::kFollowsS) return -1;
+  if (silent->last_offered.age_s(measurement.utime_us) < Activity::kFollowsS) return -1;
   const int station = static_cast<int>(silent - stations_.begin());
-  silent->sight = sighting.sight;
-  if (place_matters(sighting.sight)) add_position_states(station);
+  silent->sight = measurement.sight;
+  if (place_matters(measurement.sight)) add_position_states(station);
   return station;
 }
 
-void TrackFilter::enter(int station, const BearingMeasurement& sighting, const BiasModel& priors) {
+void TrackFilter::enter(int station, const BearingMeasurement& measurement,
+                        const BiasModel& priors) {
   stations_[static_cast<std::size_t>(station)] = {
-      .station = sighting.station,
-      .sight = sighting.sight,
-      .R_ecef_enu = R_ecef_enu(sighting.sight.origin_ecef),
+      .station = measurement.station,
+      .sight = measurement.sight,
+      .R_ecef_enu = R_ecef_enu(measurement.sight.origin_ecef),
       .last_used = {},
       .last_offered = {},
-      .calibration_id = sighting.calibration_id,
-      .track_id = sighting.track_id};
+      .calibration_id = measurement.calibration_id,
+      .track_id = measurement.track_id};
   BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
-  const double range_m = (models_[0].mean.head<3>() - sighting.sight.origin_ecef).norm();
-  prior = priors.prior(sighting.station, sighting.sight, range_m, prior.position_states);
+  const double range_m = (models_[0].mean.head<3>() - measurement.sight.origin_ecef).norm();
+  prior = priors.prior(measurement.station, measurement.sight, range_m, prior.position_states);
   const Eigen::Index at = first_of(station), n = states_of(prior);
   for (FilterGaussian& model : models_.each()) {
     model.mean.segment(at, n).setZero();
@@ -98,30 +99,31 @@ void TrackFilter::enter(int station, const BearingMeasurement& sighting, const B
 }
 
 // Without the station's part if the filter has no states of it.
-Innovation TrackFilter::compare(const BearingMeasurement& sighting, int station) const {
+Innovation TrackFilter::compare(const BearingMeasurement& measurement, int station) const {
   Innovation seen;
   seen.state = state_;
-  seen.frame = frame_of(sighting, station);
+  seen.frame = frame_of(measurement, station);
   if (station >= 0) seen.part = part_of(station, seen.frame);
   const StationPart* const part = seen.part ? &*seen.part : nullptr;
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    seen.models[m] = innovation_of(models_, m, sighting, seen.frame, part, about_);
+    seen.models[m] = innovation_of(models_, m, measurement, seen.frame, part, about_);
   }
   return seen;
 }
 
-Innovation TrackFilter::innovation(const BearingMeasurement& sighting,
+Innovation TrackFilter::innovation(const BearingMeasurement& measurement,
                                    const BiasModel& priors) const {
-  const int station = index_of(sighting.station);
-  Innovation seen = compare(sighting, station);
-  Eigen::Matrix2d more = sighting.sight.covariance_white * priors.noise_scale(sighting.station);
+  const int station = index_of(measurement.station);
+  Innovation seen = compare(measurement, station);
+  Eigen::Matrix2d more =
+      measurement.sight.covariance_white * priors.noise_scale(measurement.station);
   if (station < 0) {
-    const double range_m = (position() - sighting.sight.origin_ecef).norm();
-    more += priors.prior(sighting.station, sighting.sight, range_m).covariance;
+    const double range_m = (position() - measurement.sight.origin_ecef).norm();
+    more += priors.prior(measurement.station, measurement.sight, range_m).covariance;
   } else {  // its bias may be that of another pose or of another point of the target
     const FilterStation& known = stations_[static_cast<std::size_t>(station)];
-    const bool same =
-        known.calibration_id == sighting.calibration_id && known.track_id == sighting.track_id;
+    const bool same = known.calibration_id == measurement.calibration_id &&
+                      known.track_id == measurement.track_id;
     if (!same) more += priors_[static_cast<std::size_t>(station)].covariance;
   }
   for (std::size_t m = 0; m < models_.size(); ++m) {
@@ -129,7 +131,7 @@ Innovation TrackFilter::innovation(const BearingMeasurement& sighting,
     if (!(own.depth_m > 0.0)) continue;
     Eigen::Matrix2d S = own.covariance + more;
     if (!seen.part) {
-      const Eigen::Vector2d clock = own.J * own.velocity * sighting.clock_sd_s;
+      const Eigen::Vector2d clock = own.J * own.velocity * measurement.clock_sd_s;
       S += clock * clock.transpose();
     }
     seen.nis = std::min(seen.nis, own.residual.dot(S.llt().solve(own.residual)));
@@ -137,12 +139,12 @@ Innovation TrackFilter::innovation(const BearingMeasurement& sighting,
   return seen;
 }
 
-FilterUpdate TrackFilter::update(const BearingMeasurement& sighting, const BiasModel& priors,
+FilterUpdate TrackFilter::update(const BearingMeasurement& measurement, const BiasModel& priors,
                                  const Innovation* known) {
   FilterUpdate update{.shown = BiasModel::evidence_on(priors)};
-  if (seconds(utime_us() - sighting.utime_us) > kLatestS) return update;
-  predict(sighting.utime_us, update.shown);
-  take(sighting, known, update);
+  if (seconds(utime_us() - measurement.utime_us) > kLatestS) return update;
+  predict(measurement.utime_us, update.shown);
+  take(measurement, known, update);
   refresh();
   return update;
 }
@@ -169,52 +171,52 @@ void TrackFilter::reset_bias(int station, std::int64_t track_id) {
 
 // The station's states, new for a new station or calibration, with its clock error as currently
 // stated. -1: none free.
-int TrackFilter::station_of(const BearingMeasurement& sighting, const BiasModel& priors) {
-  int station = index_of(sighting.station);
+int TrackFilter::station_of(const BearingMeasurement& measurement, const BiasModel& priors) {
+  int station = index_of(measurement.station);
   const bool is_new = station < 0;
-  if (is_new) station = claim_station_states(sighting);
+  if (is_new) station = claim_station_states(measurement);
   if (station < 0) return station;
   const FilterStation& known = stations_[static_cast<std::size_t>(station)];
-  if (is_new || known.calibration_id != sighting.calibration_id) {
-    enter(station, sighting, priors);
+  if (is_new || known.calibration_id != measurement.calibration_id) {
+    enter(station, measurement, priors);
     ++state_;
-  } else if (known.track_id != sighting.track_id) {
-    reset_bias(station, sighting.track_id);
+  } else if (known.track_id != measurement.track_id) {
+    reset_bias(station, measurement.track_id);
     ++state_;
   }
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
-  entry.last_offered.note(sighting.utime_us);
+  entry.last_offered.note(measurement.utime_us);
   entry.weight = 0.0;
   // A worse clock counts at once, a better one as the old error fades.
-  if (sighting.clock_sd_s > entry.clock_sd_s) {
+  if (measurement.clock_sd_s > entry.clock_sd_s) {
     const Eigen::Index at = first_of(station) + 3;
-    const double more = std::pow(sighting.clock_sd_s, 2) - std::pow(entry.clock_sd_s, 2);
+    const double more = std::pow(measurement.clock_sd_s, 2) - std::pow(entry.clock_sd_s, 2);
     for (FilterGaussian& model : models_.each()) model.covariance(at, at) += more;
     ++state_;
   }
-  entry.clock_sd_s = sighting.clock_sd_s;
+  entry.clock_sd_s = measurement.clock_sd_s;
   return station;
 }
 
 // At the state's own instant, or for a late bearing.
-void TrackFilter::take(const BearingMeasurement& sighting, const Innovation* known,
+void TrackFilter::take(const BearingMeasurement& measurement, const Innovation* known,
                        FilterUpdate& update) {
-  const int station = station_of(sighting, update.shown);
+  const int station = station_of(measurement, update.shown);
   if (station < 0) {
-    update.nis = innovation(sighting, update.shown).nis;
+    update.nis = innovation(measurement, update.shown).nis;
     update.use = update.nis < config_.gate_nis ? BearingUse::kNoFreeState : BearingUse::kRejected;
     return;
   }
   const Eigen::Matrix2d white =
-      sighting.sight.covariance_white * update.shown.noise_scale(sighting.station);
+      measurement.sight.covariance_white * update.shown.noise_scale(measurement.station);
   const bool at_hand = known != nullptr && known->state == state_;
-  const Innovation own = at_hand ? Innovation() : compare(sighting, station);
+  const Innovation own = at_hand ? Innovation() : compare(measurement, station);
   const Innovation& seen = at_hand ? *known : own;
   const auto judged = judge(seen, models_.size(), white, config_.gate_nis);
   update.use = BearingUse::kBehindCamera;
   if (!judged) return;
   update.nis = judged->nis;
-  update.shown.observe_residual(sighting.station, judged->noise);
+  update.shown.observe_residual(measurement.station, judged->noise);
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   ++state_;
   update.use = BearingUse::kRejected;
@@ -222,23 +224,23 @@ void TrackFilter::take(const BearingMeasurement& sighting, const Innovation* kno
   if (!(judged->nis <= config_.gate_nis)) return reject(entry);
   rejections_.clear();
   update.use = BearingUse::kUsed;
-  note_use(entry, sighting, judged->nis);
+  note_use(entry, measurement, judged->nis);
   const bool may_learn =
       is_linear(*seen.part, seen.frame, seen.models[0].depth_m,
                 summary_.covariance.topLeftCorner<3, 3>(), models_[0].covariance, white);
-  const double inflation = entry.noise.observe(sighting, seen.frame, update.shown);
+  const double inflation = entry.noise.observe(measurement, seen.frame, update.shown);
   correct(seen, white * (inflation / entry.weight), may_learn ? &seen.frame.direction : nullptr);
 }
 
-void TrackFilter::note_use(FilterStation& entry, const BearingMeasurement& sighting,
+void TrackFilter::note_use(FilterStation& entry, const BearingMeasurement& measurement,
                            double nis) const {
   entry.rejected = 0;
   entry.weight = nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
-  if (entry.sight.origin_ecef != sighting.sight.origin_ecef) {
-    entry.R_ecef_enu = R_ecef_enu(sighting.sight.origin_ecef);
+  if (entry.sight.origin_ecef != measurement.sight.origin_ecef) {
+    entry.R_ecef_enu = R_ecef_enu(measurement.sight.origin_ecef);
   }
-  entry.sight = sighting.sight;
-  entry.last_used.note(sighting.utime_us);
+  entry.sight = measurement.sight;
+  entry.last_used.note(measurement.utime_us);
   ++entry.used;
   entry.mean_nis += 0.05 * (nis - entry.mean_nis);
 }

@@ -89,9 +89,9 @@ class TrackFilter {
   // An initial state for the first bearings. Throws std::invalid_argument without motion models.
   TrackFilter(const FilterConfig& config, std::int64_t utime_us, const FilterStart& start);
 
-  Innovation innovation(const BearingMeasurement& sighting, const BiasModel& priors) const;
+  Innovation innovation(const BearingMeasurement& measurement, const BiasModel& priors) const;
   // `known`: the bearing's innovation() with the same priors, if available.
-  [[nodiscard]] FilterUpdate update(const BearingMeasurement& sighting, const BiasModel& priors,
+  [[nodiscard]] FilterUpdate update(const BearingMeasurement& measurement, const BiasModel& priors,
                                     const Innovation* known = nullptr);
   // Propagates the state without a bearing; returns the evidence on the biases.
   [[nodiscard]] BiasModel advance(std::int64_t utime_us, const BiasModel& priors);
@@ -119,21 +119,21 @@ class TrackFilter {
   const FilterConfig& config() const { return config_; }
 
  private:
-  RayFrame frame_of(const BearingMeasurement& sighting, int station) const;
+  RayFrame frame_of(const BearingMeasurement& measurement, int station) const;
   Eigen::Index first_of(int station) const;
   StationPart part_of(int station, const RayFrame& frame) const;
   int index_of(const std::string& station) const;
   bool place_matters(const LineOfSight& sight) const;
-  int claim_station_states(const BearingMeasurement& sighting);
-  void enter(int station, const BearingMeasurement& sighting, const BiasModel& priors);
+  int claim_station_states(const BearingMeasurement& measurement);
+  void enter(int station, const BearingMeasurement& measurement, const BiasModel& priors);
   void reset_bias(int station, std::int64_t track_id);
   void add_position_states(int station);
-  int station_of(const BearingMeasurement& sighting, const BiasModel& priors);
-  Innovation compare(const BearingMeasurement& sighting, int station) const;
+  int station_of(const BearingMeasurement& measurement, const BiasModel& priors);
+  Innovation compare(const BearingMeasurement& measurement, int station) const;
   // `along`: the bearing's direction if biases may be estimated from it.
   void correct(const Innovation& seen, const Eigen::Matrix2d& noise, const Eigen::Vector3d* along);
-  void take(const BearingMeasurement& sighting, const Innovation* known, FilterUpdate& update);
-  void note_use(FilterStation& entry, const BearingMeasurement& sighting, double nis) const;
+  void take(const BearingMeasurement& measurement, const Innovation* known, FilterUpdate& update);
+  void note_use(FilterStation& entry, const BearingMeasurement& measurement, double nis) const;
   void predict(std::int64_t utime_us, BiasModel& shown);
   void move_biases(double dt_s, BiasModel& shown);
   void fade_biases(double dt_s, double clock_time_s);

@@ -16,7 +16,7 @@ struct Associated {
   bool newly_so = false;     // since this bearing
 };
 
-Associated associate(const BearingMeasurement& sighting, TrackManager& tracks,
+Associated associate(const BearingMeasurement& measurement, TrackManager& tracks,
                      PointingMonitor& pointing);
 
 }  // namespace ols::fusion

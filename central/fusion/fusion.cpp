@@ -52,18 +52,18 @@ void Fusion::allow_slews(const std::string& station, bool allowed) {
   admission_.allow_slews(station, allowed);
 }
 
-FusionOutput Fusion::add(const BearingMeasurement& sighting) {
+FusionOutput Fusion::add(const BearingMeasurement& measurement) {
   FusionOutput output;
-  const Admitted admitted = admission_.admit(sighting, log_);
-  forget_what_changed(sighting, admitted);
+  const Admitted admitted = admission_.admit(measurement, log_);
+  forget_what_changed(measurement, admitted);
   output.refusal = admitted.refusal;
   if (output.refusal == BearingRefusal::kNone) {
-    output.refusal = associate(sighting, *admitted.station);
+    output.refusal = associate(measurement, *admitted.station);
   }
-  note_refusal(output.refusal, sighting);
+  note_refusal(output.refusal, measurement);
   const std::int64_t now = now_us();
   // After a silence "now" is old until most stations have sent again: nothing is published by it.
-  if (now == 0 || admission_.is_future(sighting.utime_us)) return output;
+  if (now == 0 || admission_.is_future(measurement.utime_us)) return output;
   if (targets_.epoch_us() && seconds(*targets_.epoch_us() - now) > kStepBackS) begin_time_line();
   targets_.tell(now, tracks_, admission_.clocks(), pointing_, output, log_);
   const BearingLines lines(tracks_, pointing_, config_.estimators.alignment);
@@ -73,34 +73,34 @@ FusionOutput Fusion::add(const BearingMeasurement& sighting) {
 }
 
 // An offset from the others' clocks adds to the stated clock error.
-BearingRefusal Fusion::associate(const BearingMeasurement& sighting, KnownStation& station) {
-  BearingMeasurement judged = sighting;
-  const double added_sd_s = admission_.clocks().added_sd_s(sighting.station);
-  judged.clock_sd_s = std::hypot(sighting.clock_sd_s, added_sd_s);
+BearingRefusal Fusion::associate(const BearingMeasurement& measurement, KnownStation& station) {
+  BearingMeasurement judged = measurement;
+  const double added_sd_s = admission_.clocks().added_sd_s(measurement.station);
+  judged.clock_sd_s = std::hypot(measurement.clock_sd_s, added_sd_s);
   const Associated associated = ols::fusion::associate(judged, tracks_, pointing_);
   if (associated.explained && associated.result.track_id != 0) {
     station.target_id = associated.result.track_id;
-    station.saw_target.last_us = sighting.utime_us;
+    station.saw_target.last_us = measurement.utime_us;
   }
-  note_unassociated(sighting, associated.result);
+  note_unassociated(measurement, associated.result);
   if (associated.newly_so) {
-    log_.quarantine(sighting.station, pointing_.quarantine(sighting.station));
+    log_.quarantine(measurement.station, pointing_.quarantine(measurement.station));
   }
   const bool used = associated.explained || !associated.quarantined;
   return used ? BearingRefusal::kNone : BearingRefusal::kQuarantine;
 }
 
 // A tentative track counts neither as an explanation nor as a contradiction.
-void Fusion::note_unassociated(const BearingMeasurement& sighting, const Association& result) {
+void Fusion::note_unassociated(const BearingMeasurement& measurement, const Association& result) {
   const bool by_none =
       result.kind == Association::Kind::kUnexplained || result.kind == Association::Kind::kRejected;
   if (!by_none) {
     const bool by_born = result.kind == Association::Kind::kTrack && result.track_id == 0;
-    if (!by_born) unassociated_.agrees(sighting.station);
+    if (!by_born) unassociated_.agrees(measurement.station);
   } else if (!std::ranges::any_of(tracks_.tracks(), is_established)) {
-    unassociated_.agrees(sighting.station);
-  } else if (sighting.track_id != 0) {
-    unassociated_.unassociated(sighting.station, sighting.utime_us);
+    unassociated_.agrees(measurement.station);
+  } else if (measurement.track_id != 0) {
+    unassociated_.unassociated(measurement.station, measurement.utime_us);
   }
 }
 
@@ -111,24 +111,24 @@ void Fusion::forget(const std::string& station) {
   slews_.forget(station);
 }
 
-void Fusion::forget_what_changed(const BearingMeasurement& sighting, const Admitted& admitted) {
+void Fusion::forget_what_changed(const BearingMeasurement& measurement, const Admitted& admitted) {
   if (admitted.evicted) forget(*admitted.evicted);
   if (admitted.recalibrated) {
-    tracks_.forget_errors(sighting.station);
-    pointing_.forget(sighting.station);
+    tracks_.forget_errors(measurement.station);
+    pointing_.forget(measurement.station);
   }
   if (admitted.restarted) {
-    tracks_.forget_followed(sighting.station);
-    unassociated_.forget(sighting.station);
+    tracks_.forget_followed(measurement.station);
+    unassociated_.forget(measurement.station);
   }
 }
 
-void Fusion::note_refusal(BearingRefusal refusal, const BearingMeasurement& sighting) {
+void Fusion::note_refusal(BearingRefusal refusal, const BearingMeasurement& measurement) {
   if (refusal == BearingRefusal::kNone) return;
   log_.count(to_string(refusal));
   // A normal condition, or already reported when it began.
   if (refusal == BearingRefusal::kLowBelief || refusal == BearingRefusal::kQuarantine) return;
-  log_.error(sighting.station, to_string(refusal));
+  log_.error(measurement.station, to_string(refusal));
 }
 
 void Fusion::begin_time_line() {

@@ -45,19 +45,19 @@ class Fusion {
   // The same for a station without a position: only whether it may be slewed.
   void allow_slews(const std::string& station, bool allowed);
   // Processes one bearing, in order of arrival.
-  FusionOutput add(const BearingMeasurement& sighting);
+  FusionOutput add(const BearingMeasurement& measurement);
 
   FusionHealth health() const;
   std::int64_t now_us() const { return admission_.time().now_us(); }
   const TrackManager& tracks() const { return tracks_; }
 
  private:
-  BearingRefusal associate(const BearingMeasurement& sighting, KnownStation& station);
-  void note_unassociated(const BearingMeasurement& sighting, const Association& result);
+  BearingRefusal associate(const BearingMeasurement& measurement, KnownStation& station);
+  void note_unassociated(const BearingMeasurement& measurement, const Association& result);
   void forget(const std::string& station);
-  void forget_what_changed(const BearingMeasurement& sighting, const Admitted& admitted);
+  void forget_what_changed(const BearingMeasurement& measurement, const Admitted& admitted);
   void begin_time_line();
-  void note_refusal(BearingRefusal refusal, const BearingMeasurement& sighting);
+  void note_refusal(BearingRefusal refusal, const BearingMeasurement& measurement);
 
   FusionConfig config_;
   Admission admission_;

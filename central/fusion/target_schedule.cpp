@@ -124,11 +124,11 @@ void TargetSchedule::report_bearing_only(TrackManager& tracks, const PointingMon
   for (const std::string& station : stations) {
     auto newest = lines.of(station, epoch_us);
     if (newest.empty() && alone) newest.push_back(lines.newest_of(station));
-    for (const BearingMeasurement* const sighting : newest) {
-      const auto line = lines.at(*sighting, epoch_us);
+    for (const BearingMeasurement* const measurement : newest) {
+      const auto line = lines.at(*measurement, epoch_us);
       if (!line) continue;
       if (++count > kLines) return;
-      target.target_id = tracks.identify(*sighting, told);
+      target.target_id = tracks.identify(*measurement, told);
       target.stations = {{station, true, 1.0, 0.0}};
       target.bearing_only = line;
       output.targets.push_back(target);

@@ -14,12 +14,12 @@
 namespace ols::fusion {
 namespace {
 
-StationBearings recording_of(const std::vector<BearingMeasurement>& sightings, double min_belief,
+StationBearings recording_of(const std::vector<BearingMeasurement>& measurements, double min_belief,
                              UnusedBearings& unused) {
   StationBearings recording;
-  for (const BearingMeasurement& sighting : sightings) {
-    if (sighting.belief >= min_belief) {
-      recording[sighting.station].push_back(sighting);
+  for (const BearingMeasurement& measurement : measurements) {
+    if (measurement.belief >= min_belief) {
+      recording[measurement.station].push_back(measurement);
     } else {
       ++unused.low_belief;
     }
@@ -57,7 +57,7 @@ void require_reasonable(double rate_hz, double span_s) {
 std::vector<std::int64_t> epochs_of(const std::vector<BearingMeasurement>& bearings,
                                     double rate_hz) {
   std::vector<std::int64_t> epochs;
-  for (const BearingMeasurement& sighting : bearings) epochs.push_back(sighting.utime_us);
+  for (const BearingMeasurement& measurement : bearings) epochs.push_back(measurement.utime_us);
   epochs.erase(std::unique(epochs.begin(), epochs.end()), epochs.end());
   if (epochs.empty()) return epochs;
   require_reasonable(rate_hz, static_cast<double>(epochs.back() - epochs.front()) * 1e-6);
@@ -94,11 +94,11 @@ class Recording {
   explicit Recording(const OfflineConfig& config)
       : track_(config.fusion.keeper), pointing_(config.fusion.pointing), tell_(config.tell) {}
 
-  void add(const BearingMeasurement& sighting) {
+  void add(const BearingMeasurement& measurement) {
     if (tell_) tell_();
-    track_.advance(sighting.utime_us);
-    if (!associate(sighting, track_, pointing_).newly_so) return;
-    beside_.try_emplace(sighting.station, pointing_.quarantine(sighting.station));
+    track_.advance(measurement.utime_us);
+    if (!associate(measurement, track_, pointing_).newly_so) return;
+    beside_.try_emplace(measurement.station, pointing_.quarantine(measurement.station));
   }
   void advance(std::int64_t utime_us) { track_.advance(utime_us); }
   const RecordedTrack& track() const { return track_; }
@@ -163,7 +163,7 @@ Fixes interpolating(const std::vector<BearingMeasurement>& bearings,
                     const StationBearings& recording, const std::vector<std::int64_t>& epochs,
                     Estimator& estimator, const OfflineConfig& config) {
   Recording run(config);
-  for (const BearingMeasurement& sighting : bearings) run.add(sighting);
+  for (const BearingMeasurement& measurement : bearings) run.add(measurement);
   Fixes fixes;
   for (const std::int64_t epoch_us : epochs) {
     fixes.add(epoch_us, estimator.name(),
@@ -175,7 +175,7 @@ Fixes interpolating(const std::vector<BearingMeasurement>& bearings,
 Fixes smoothed(const std::vector<BearingMeasurement>& bearings,
                const std::vector<std::int64_t>& epochs, const OfflineConfig& config) {
   Recording run(config);
-  for (const BearingMeasurement& sighting : bearings) run.add(sighting);
+  for (const BearingMeasurement& measurement : bearings) run.add(measurement);
   KnownStations known{run.track().errors(), {}};
   for (const auto& [station, why] : run.beside()) known.beside.insert(station);
   Fixes fixes;
@@ -187,31 +187,31 @@ Fixes smoothed(const std::vector<BearingMeasurement>& bearings,
 
 }  // namespace
 
-UnusedBearings unused_bearings(const std::vector<BearingMeasurement>& sightings,
+UnusedBearings unused_bearings(const std::vector<BearingMeasurement>& measurements,
                                const OfflineConfig& config) {
   UnusedBearings unused;
-  recording_of(sightings, config.fusion.admission.min_belief, unused);
+  recording_of(measurements, config.fusion.admission.min_belief, unused);
   return unused;
 }
 
-void guess_clocks(std::vector<BearingMeasurement>& sightings) {
+void guess_clocks(std::vector<BearingMeasurement>& measurements) {
   constexpr double kNoises = 4.0, kHalfAFrameS = 0.02;
   std::map<std::string, std::vector<const BearingMeasurement*>> stations;
-  for (const BearingMeasurement& sighting : sightings)
-    stations[sighting.station].push_back(&sighting);
+  for (const BearingMeasurement& measurement : measurements)
+    stations[measurement.station].push_back(&measurement);
   std::map<std::string, double> speeds;
   for (auto& [name, bearings] : stations) {
     std::ranges::stable_sort(bearings, {}, [](const BearingMeasurement* s) { return s->utime_us; });
     speeds[name] = std::sqrt(mean_square_speed(bearings));
   }
-  for (BearingMeasurement& sighting : sightings) {
-    const double noise = std::sqrt(sighting.sight.covariance_white.trace() / 2.0);
-    const double speed = speeds.at(sighting.station);
-    sighting.clock_sd_s = std::min(kHalfAFrameS, kNoises * noise / std::max(1e-9, speed));
+  for (BearingMeasurement& measurement : measurements) {
+    const double noise = std::sqrt(measurement.sight.covariance_white.trace() / 2.0);
+    const double speed = speeds.at(measurement.station);
+    measurement.clock_sd_s = std::min(kHalfAFrameS, kNoises * noise / std::max(1e-9, speed));
   }
 }
 
-std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& sightings,
+std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& measurements,
                                       const OfflineConfig& config, Unlocated* unlocated) {
   const auto estimator = make_estimator(config.estimator, config.fusion.estimators);
   if (!estimator) throw std::invalid_argument("unknown estimator " + config.estimator);
@@ -219,7 +219,7 @@ std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& sig
   if (config.smooth && !is_filter) throw std::invalid_argument("only the filter can be smoothed");
   UnusedBearings unused;
   const StationBearings recording =
-      recording_of(sightings, config.fusion.admission.min_belief, unused);
+      recording_of(measurements, config.fusion.admission.min_belief, unused);
   const std::vector<BearingMeasurement> bearings = in_order(recording);
   const std::vector<std::int64_t> epochs = epochs_of(bearings, config.rate_hz);
   Fixes fixes = config.smooth ? smoothed(bearings, epochs, config)
@@ -229,13 +229,13 @@ std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& sig
   return std::move(fixes.targets);
 }
 
-std::map<std::string, std::string> stations_beside(const std::vector<BearingMeasurement>& sightings,
-                                                   const OfflineConfig& config) {
+std::map<std::string, std::string> stations_beside(
+    const std::vector<BearingMeasurement>& measurements, const OfflineConfig& config) {
   UnusedBearings unused;
   Recording run(config);
-  for (const BearingMeasurement& sighting :
-       in_order(recording_of(sightings, config.fusion.admission.min_belief, unused))) {
-    run.add(sighting);
+  for (const BearingMeasurement& measurement :
+       in_order(recording_of(measurements, config.fusion.admission.min_belief, unused))) {
+    run.add(measurement);
   }
   return run.beside();
 }

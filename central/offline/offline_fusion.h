@@ -30,24 +30,24 @@ struct UnusedBearings {
   std::size_t low_belief = 0;
   std::size_t duplicate = 0;  // the same station and stamp: the first is used
 };
-UnusedBearings unused_bearings(const std::vector<BearingMeasurement>& sightings,
+UnusedBearings unused_bearings(const std::vector<BearingMeasurement>& measurements,
                                const OfflineConfig& config);
 
 // For a recording without statements on its clocks: sets for each station the offset [s] that would
 // move a bearing by four times its noise at the object's usual angular speed, at most 0.02 s (half
 // a video frame). A clock thus counts as much for a meteor as for a drone.
-void guess_clocks(std::vector<BearingMeasurement>& sightings);
+void guess_clocks(std::vector<BearingMeasurement>& measurements);
 
 // One object's bearings, in any order. Returns one target for each epoch that has a position, in
 // order of time, and counts the reasons of the others. Bearings that check() refuses must be left
 // out. Throws std::invalid_argument for a rate that is not finite or makes more than ten million
 // epochs, for an unknown estimator, and for smoothing with an estimator other than the filter.
-std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& sightings,
+std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& measurements,
                                       const OfflineConfig& config, Unlocated* unlocated = nullptr);
 
 // Stations whose bearings are off the target of the other stations by the same angle for seconds,
 // with that angle as text. Runs its own filter.
-std::map<std::string, std::string> stations_beside(const std::vector<BearingMeasurement>& sightings,
-                                                   const OfflineConfig& config);
+std::map<std::string, std::string> stations_beside(
+    const std::vector<BearingMeasurement>& measurements, const OfflineConfig& config);
 
 }  // namespace ols::fusion

@@ -74,7 +74,8 @@ std::optional<Whole> join(const Whole& a, const Whole& b, const Eigen::VectorXd&
 
 std::vector<BearingMeasurement> mirrored(std::vector<BearingMeasurement> bearings,
                                          std::int64_t about_us) {
-  for (BearingMeasurement& sighting : bearings) sighting.utime_us = about_us - sighting.utime_us;
+  for (BearingMeasurement& measurement : bearings)
+    measurement.utime_us = about_us - measurement.utime_us;
   std::ranges::reverse(bearings);
   return bearings;
 }
@@ -111,10 +112,11 @@ struct Runner {
 
   void run(std::int64_t utime_us, bool inclusive) {
     for (; next < bearings->size(); ++next) {
-      const BearingMeasurement& sighting = (*bearings)[next];
-      if (sighting.utime_us > utime_us || (sighting.utime_us == utime_us && !inclusive)) break;
-      track.advance(sighting.utime_us);
-      track.add(sighting, !beside->contains(sighting.station));
+      const BearingMeasurement& measurement = (*bearings)[next];
+      if (measurement.utime_us > utime_us || (measurement.utime_us == utime_us && !inclusive))
+        break;
+      track.advance(measurement.utime_us);
+      track.add(measurement, !beside->contains(measurement.station));
     }
   }
 };
@@ -130,12 +132,12 @@ class Smoother {
         learnt_(same_states(config)) {
     learnt_.set_errors(known.errors);
     for (const std::string& station : beside_) learnt_.forget_station(station);
-    for (const BearingMeasurement& sighting : bearings) {
+    for (const BearingMeasurement& measurement : bearings) {
       if (order_
-              .try_emplace(sighting.station,
+              .try_emplace(measurement.station,
                            9 + kStationStates * static_cast<Eigen::Index>(order_.size()))
               .second) {
-        sights_.push_back(sighting);
+        sights_.push_back(measurement);
       }
     }
   }
@@ -165,9 +167,9 @@ class Smoother {
 
 std::vector<BiasPrior> Smoother::priors(const Eigen::Vector3d& p_ecef) const {
   std::vector<BiasPrior> biases;
-  for (const BearingMeasurement& sighting : sights_) {
-    const double range_m = (p_ecef - sighting.sight.origin_ecef).norm();
-    biases.push_back(learnt_.errors().prior(sighting.station, sighting.sight, range_m, true));
+  for (const BearingMeasurement& measurement : sights_) {
+    const double range_m = (p_ecef - measurement.sight.origin_ecef).norm();
+    biases.push_back(learnt_.errors().prior(measurement.station, measurement.sight, range_m, true));
   }
   return biases;
 }

@@ -13,7 +13,7 @@ constexpr std::size_t kMostPairs = 64;
 
 }  // namespace
 
-void DuplicateTracks::note(const BearingMeasurement& sighting,
+void DuplicateTracks::note(const BearingMeasurement& measurement,
                            std::span<const std::int64_t> tracks) {
   if (tracks.empty()) return;
   const auto explains = [&](std::int64_t id) {
@@ -23,35 +23,36 @@ void DuplicateTracks::note(const BearingMeasurement& sighting,
   for (std::size_t i = 0; i < best.size() && pairs_.size() < kMostPairs; ++i) {
     for (std::size_t k = i + 1; k < best.size(); ++k) {
       const auto [own, is_new] = pairs_.try_emplace(std::minmax(best[i], best[k]));
-      if (is_new) own->second.since_us = own->second.newest_us = sighting.utime_us;
+      if (is_new) own->second.since_us = own->second.newest_us = measurement.utime_us;
     }
   }
   for (auto& [ids, pair] : pairs_) {
     if (ids.first != best.front() && ids.second != best.front()) continue;
-    count(pair, sighting, explains(ids.first) && explains(ids.second), ids.first == best.front());
+    count(pair, measurement, explains(ids.first) && explains(ids.second),
+          ids.first == best.front());
   }
   std::erase_if(pairs_, [&](const auto& entry) {
-    return seconds(sighting.utime_us - entry.second.newest_us) > 3.0 * config_.memory_s;
+    return seconds(measurement.utime_us - entry.second.newest_us) > 3.0 * config_.memory_s;
   });
 }
 
-void DuplicateTracks::count(Pair& pair, const BearingMeasurement& sighting, bool shared,
+void DuplicateTracks::count(Pair& pair, const BearingMeasurement& measurement, bool shared,
                             bool first) const {
-  Tally& own = pair.stations[sighting.station];
-  if (shared) pair.newest_us = std::max(pair.newest_us, sighting.utime_us);
-  if (own.utime_us == sighting.utime_us) {
+  Tally& own = pair.stations[measurement.station];
+  if (shared) pair.newest_us = std::max(pair.newest_us, measurement.utime_us);
+  if (own.utime_us == measurement.utime_us) {
     ++own.bearings;
     own.shared = own.shared || shared;
     return;
   }
   const double decay =
-      std::exp(-std::abs(seconds(sighting.utime_us - own.utime_us)) / config_.memory_s);
+      std::exp(-std::abs(seconds(measurement.utime_us - own.utime_us)) / config_.memory_s);
   const bool single = own.bearings == 1;
   own.single = decay * (own.single + (single ? 1.0 : 0.0));
   own.both_explain = decay * (own.both_explain + (single && own.shared ? 1.0 : 0.0));
   own.first_best = decay * (own.first_best + (single && own.first ? 1.0 : 0.0));
   own.apart = decay * (own.apart + (own.bearings > 1 ? 1.0 : 0.0));
-  own.utime_us = sighting.utime_us;
+  own.utime_us = measurement.utime_us;
   own.bearings = 1;
   own.shared = shared;
   own.first = first;

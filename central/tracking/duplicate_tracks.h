@@ -35,7 +35,7 @@ class DuplicateTracks {
 
   // A bearing and the confirmed tracks, best first, that explain it and have no other bearing of
   // its exposure: it counts for the pairs that contain the first.
-  void note(const BearingMeasurement& sighting, std::span<const std::int64_t> tracks);
+  void note(const BearingMeasurement& measurement, std::span<const std::int64_t> tracks);
   // Pairs that are duplicates, the older identity first.
   std::vector<std::pair<std::int64_t, std::int64_t>> same() const;
   void forget(std::int64_t track);
@@ -54,7 +54,7 @@ class DuplicateTracks {
     std::int64_t since_us = 0, newest_us = 0;
     std::map<std::string, Tally> stations;
   };
-  void count(Pair& pair, const BearingMeasurement& sighting, bool shared, bool first) const;
+  void count(Pair& pair, const BearingMeasurement& measurement, bool shared, bool first) const;
   bool are_same(const Pair& pair) const;
 
   DuplicatesConfig config_;

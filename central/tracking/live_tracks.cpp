@@ -11,51 +11,51 @@ namespace ols::fusion {
 LiveTracks::LiveTracks(const TrackManagerConfig& config)
     : TrackManager(config, config.filter, true), duplicates_(config.rivals) {}
 
-std::vector<LiveTracks::Candidate> LiveTracks::candidates(const BearingMeasurement& sighting,
+std::vector<LiveTracks::Candidate> LiveTracks::candidates(const BearingMeasurement& measurement,
                                                           bool confirmed) const {
   std::vector<Candidate> found;
   if (tracks_.empty()) return found;
-  const Eigen::Vector3d direction = direction_ecef(sighting.sight);
+  const Eigen::Vector3d direction = direction_ecef(measurement.sight);
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (!glances_[i].may_see(sighting, direction)) continue;
+    if (!glances_[i].may_see(measurement, direction)) continue;
     const Track& track = tracks_[i];
     if (is_established(track) != confirmed || track.state == TrackState::kDropped) continue;
-    if (track.has_taken(sighting)) continue;
-    Innovation seen = track.filter.innovation(sighting, errors_);
+    if (track.has_taken(measurement)) continue;
+    Innovation seen = track.filter.innovation(measurement, errors_);
     if (seen.nis < config_.filter.gate_nis) found.push_back({i, std::move(seen)});
   }
   std::ranges::sort(found, {}, [](const Candidate& c) { return c.seen.nis; });
   return found;
 }
 
-Association LiveTracks::add(const BearingMeasurement& sighting, bool may_begin) {
+Association LiveTracks::add(const BearingMeasurement& measurement, bool may_begin) {
   for (const bool confirmed : {true, false}) {
-    const auto near = candidates(sighting, confirmed);
+    const auto near = candidates(measurement, confirmed);
     if (near.empty()) continue;
-    if (confirmed) note_duplicates(sighting, near);
-    Track* const own = identities_.follower(sighting, tracks_);
+    if (confirmed) note_duplicates(measurement, near);
+    Track* const own = identities_.follower(measurement, tracks_);
     const auto by_id =
         std::ranges::find_if(near, [&](const Candidate& c) { return &tracks_[c.track] == own; });
-    if (by_id != near.end()) return give_to(*own, sighting, &by_id->seen);
+    if (by_id != near.end()) return give_to(*own, measurement, &by_id->seen);
     if (confirmed && near.size() > 1 &&
         near[1].seen.nis - near[0].seen.nis < config_.ambiguous_nis) {
       ++counts_.ambiguous;
       return {Association::Kind::kAmbiguous, 0};
     }
-    return give_to(tracks_[near[0].track], sighting, &near[0].seen);
+    return give_to(tracks_[near[0].track], measurement, &near[0].seen);
   }
   // A station that follows an object still follows it, even if its bearings scatter. The filter
   // gets the bearing, so that it detects a manoeuvre beyond its models.
-  if (Track* const own = identities_.follower(sighting, tracks_); own != nullptr) {
-    const Association result = give_to(*own, sighting);
+  if (Track* const own = identities_.follower(measurement, tracks_); own != nullptr) {
+    const Association result = give_to(*own, measurement);
     if (result.kind == Association::Kind::kTrack) return result;
   }
   ++counts_.unexplained;
   const bool room = static_cast<int>(tracks_.size()) < config_.max_tracks;
-  return may_begin && room ? initiate(sighting) : Association{};
+  return may_begin && room ? initiate(measurement) : Association{};
 }
 
-void LiveTracks::note_duplicates(const BearingMeasurement& sighting,
+void LiveTracks::note_duplicates(const BearingMeasurement& measurement,
                                  const std::vector<Candidate>& near) {
   if (near.size() < 2 && duplicates_.empty()) return;
   std::vector<std::int64_t> ids;
@@ -63,18 +63,18 @@ void LiveTracks::note_duplicates(const BearingMeasurement& sighting,
     const Track& track = tracks_[candidate.track];
     if (track.state == TrackState::kConfirmed) ids.push_back(track.id);
   }
-  duplicates_.note(sighting, ids);
+  duplicates_.note(measurement, ids);
 }
 
-Association LiveTracks::initiate(const BearingMeasurement& sighting) {
-  auto start = initiation_.add(sighting, errors_, false);
+Association LiveTracks::initiate(const BearingMeasurement& measurement) {
+  auto start = initiation_.add(measurement, errors_, false);
   if (!start) return {};
   errors_.learn(start->shown);
   Track& begun = begin(std::move(start->track));
   consider(begun);
   // It may be one of a station that has waited for its search.
-  return begun.has_taken(sighting) ? Association{Association::Kind::kTrack, begun.id}
-                                   : Association{};
+  return begun.has_taken(measurement) ? Association{Association::Kind::kTrack, begun.id}
+                                      : Association{};
 }
 
 bool LiveTracks::is_worth_confirming(const Track& track) const {

@@ -29,7 +29,7 @@ class LiveTracks : public TrackManager {
   explicit LiveTracks(const TrackManagerConfig& config);
 
   using TrackManager::add;
-  Association add(const BearingMeasurement& sighting, bool may_begin) override;
+  Association add(const BearingMeasurement& measurement, bool may_begin) override;
   // Message time was reset: identities are not assigned again.
   void clear();
 
@@ -38,9 +38,9 @@ class LiveTracks : public TrackManager {
     std::size_t track = 0;
     Innovation seen;
   };
-  std::vector<Candidate> candidates(const BearingMeasurement& sighting, bool confirmed) const;
-  void note_duplicates(const BearingMeasurement& sighting, const std::vector<Candidate>& near);
-  Association initiate(const BearingMeasurement& sighting);
+  std::vector<Candidate> candidates(const BearingMeasurement& measurement, bool confirmed) const;
+  void note_duplicates(const BearingMeasurement& measurement, const std::vector<Candidate>& near);
+  Association initiate(const BearingMeasurement& measurement);
   void merge(std::int64_t older, std::int64_t younger);
 
   bool is_worth_confirming(const Track& track) const override;

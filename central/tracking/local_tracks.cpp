@@ -4,22 +4,22 @@
 
 namespace ols::fusion {
 
-const LocalTracks::Object* LocalTracks::find(const BearingMeasurement& sighting) const {
-  const auto station = stations_.find(sighting.station);
+const LocalTracks::Object* LocalTracks::find(const BearingMeasurement& measurement) const {
+  const auto station = stations_.find(measurement.station);
   if (station == stations_.end()) return nullptr;
-  const auto own = station->second.find(sighting.track_id);
+  const auto own = station->second.find(measurement.track_id);
   return own == station->second.end() ? nullptr : &own->second;
 }
 
-LocalTracks::Object& LocalTracks::at(const BearingMeasurement& sighting) {
-  auto& objects = stations_[sighting.station];
-  if (objects.size() >= kOfAStation && !objects.contains(sighting.track_id)) {
+LocalTracks::Object& LocalTracks::at(const BearingMeasurement& measurement) {
+  auto& objects = stations_[measurement.station];
+  if (objects.size() >= kOfAStation && !objects.contains(measurement.track_id)) {
     objects.erase(std::ranges::min_element(
         objects, {}, [](const auto& entry) { return entry.second.newest_us; }));
   }
-  const auto [own, is_new] = objects.try_emplace(sighting.track_id);
-  if (is_new) own->second.since_us = sighting.utime_us;
-  own->second.newest_us = std::max(own->second.newest_us, sighting.utime_us);
+  const auto [own, is_new] = objects.try_emplace(measurement.track_id);
+  if (is_new) own->second.since_us = measurement.utime_us;
+  own->second.newest_us = std::max(own->second.newest_us, measurement.utime_us);
   return own->second;
 }
 

@@ -22,9 +22,9 @@ class LocalTracks {
   static constexpr std::size_t kOfAStation = 16;
 
   // By a bearing's station and track id; null: unknown.
-  const Object* find(const BearingMeasurement& sighting) const;
+  const Object* find(const BearingMeasurement& measurement) const;
   // A new entry if unknown; it replaces the one whose last bearing is oldest.
-  Object& at(const BearingMeasurement& sighting);
+  Object& at(const BearingMeasurement& measurement);
   // Two identities are one object.
   void rename(std::int64_t from, std::int64_t to);
   void forget(const std::string& station) { stations_.erase(station); }

@@ -17,12 +17,13 @@ double RayMeetings::moved_rad(double dt_s) const {
 }
 
 // Max angle of a bearing off its target: noise, bias, and motion between the two instants.
-double RayMeetings::gate_rad(const BearingMeasurement& sighting, double dt_s, double range_m,
+double RayMeetings::gate_rad(const BearingMeasurement& measurement, double dt_s, double range_m,
                              const BiasModel& errors) const {
-  const BiasPrior bias = errors.prior(sighting.station, sighting.sight, std::max(1.0, range_m));
+  const BiasPrior bias =
+      errors.prior(measurement.station, measurement.sight, std::max(1.0, range_m));
   const double variance =
-      (sighting.sight.covariance_white + bias.covariance).trace() / 2.0 +
-      std::pow(config_.rate_sd_rad_s * std::min(1.0, dt_s + sighting.clock_sd_s), 2);
+      (measurement.sight.covariance_white + bias.covariance).trace() / 2.0 +
+      std::pow(config_.rate_sd_rad_s * std::min(1.0, dt_s + measurement.clock_sd_s), 2);
   return config_.miss_sigma * std::sqrt(variance);
 }
 
@@ -38,7 +39,7 @@ Solution RayMeetings::meet(const LookedAt& a, const LookedAt& b, const BiasModel
   if (base.norm() < kOnePlaceM) return Solution::kParallelRays;
   if (across < std::pow((look.spread_rad + other.spread_rad) / 2.0, 2)) {
     const double noise_rad =
-        gate_rad(a.sighting, 0.0, 1e9, errors) + gate_rad(b.sighting, 0.0, 1e9, errors);
+        gate_rad(a.measurement, 0.0, 1e9, errors) + gate_rad(b.measurement, 0.0, 1e9, errors);
     if (across < noise_rad * noise_rad / 4.0) return Solution::kParallelRays;
   }
   const double s = (base.dot(u) - along * base.dot(v)) / across;
@@ -46,16 +47,16 @@ Solution RayMeetings::meet(const LookedAt& a, const LookedAt& b, const BiasModel
   if (s <= 0.0 || t <= 0.0) return Solution::kBehindCamera;
   if (std::min(s, t) > max_range_m_) return Solution::kTooFar;
   const Eigen::Vector3d on_a = look.origin_ecef + s * u, on_b = other.origin_ecef + t * v;
-  const double dt_s = std::abs(seconds(a.sighting.utime_us - b.sighting.utime_us));
+  const double dt_s = std::abs(seconds(a.measurement.utime_us - b.measurement.utime_us));
   const double off_m = (on_a - on_b).norm();
   if (off_m > s * (look.spread_rad + moved_rad(dt_s + look.clock_sd_s)) +
                   t * (other.spread_rad + moved_rad(other.clock_sd_s))) {
     return Solution::kRaysMiss;
   }
   const double miss_m =
-      s * gate_rad(a.sighting, dt_s, s, errors) + t * gate_rad(b.sighting, 0.0, t, errors);
+      s * gate_rad(a.measurement, dt_s, s, errors) + t * gate_rad(b.measurement, 0.0, t, errors);
   if (off_m > miss_m) return Solution::kRaysMiss;
-  meeting = {(on_a + on_b) / 2.0, std::min(s, t), a.sighting.station, b.sighting.station,
+  meeting = {(on_a + on_b) / 2.0, std::min(s, t), a.measurement.station, b.measurement.station,
              off_m / miss_m};
   return Solution::kOk;
 }
@@ -74,9 +75,9 @@ std::ptrdiff_t RayMeetings::nearest(const UnassociatedBearings::Station& own,
     if (dt_s > config_.pair_s) continue;
     if (meeting == nullptr) return i;
     if (!look.is_near(meeting->p_ecef, moved_rad(dt_s + look.clock_sd_s))) continue;
-    const BearingMeasurement& sighting = own.bearings[static_cast<std::size_t>(i)];
+    const BearingMeasurement& measurement = own.bearings[static_cast<std::size_t>(i)];
     const double off = angle_between(look.direction_ecef, meeting->p_ecef - look.origin_ecef) /
-                       gate_rad(sighting, dt_s, meeting->range_m, errors);
+                       gate_rad(measurement, dt_s, meeting->range_m, errors);
     if (off >= least) continue;
     least = off;
     best = i;
@@ -84,21 +85,21 @@ std::ptrdiff_t RayMeetings::nearest(const UnassociatedBearings::Station& own,
   return best;
 }
 
-std::vector<RayMeeting> RayMeetings::of(const BearingMeasurement& sighting,
+std::vector<RayMeeting> RayMeetings::of(const BearingMeasurement& measurement,
                                         const UnassociatedBearings& bearings,
                                         const BiasModel& errors, Solution& failure) const {
   constexpr std::size_t kEnough = 16;
-  const BearingSummary look = summarise(sighting, R_ecef_enu(sighting.sight.origin_ecef));
+  const BearingSummary look = summarise(measurement, R_ecef_enu(measurement.sight.origin_ecef));
   std::vector<RayMeeting> meetings;
   for (const auto& [station, own] : bearings.stations()) {
-    if (station == sighting.station) continue;
-    const std::ptrdiff_t latest = nearest(own, sighting, nullptr, errors);
+    if (station == measurement.station) continue;
+    const std::ptrdiff_t latest = nearest(own, measurement, nullptr, errors);
     for (auto i = latest; i >= 0; --i) {
       const auto at = static_cast<std::size_t>(i);
       if (own.looks[at].utime_us < own.looks[static_cast<std::size_t>(latest)].utime_us) break;
       RayMeeting meeting;
       const Solution how =
-          meet({sighting, look}, {own.bearings[at], own.looks[at]}, errors, meeting);
+          meet({measurement, look}, {own.bearings[at], own.looks[at]}, errors, meeting);
       if (how == Solution::kOk) {
         meetings.push_back(std::move(meeting));
       } else {
@@ -111,7 +112,7 @@ std::vector<RayMeeting> RayMeetings::of(const BearingMeasurement& sighting,
   for (RayMeeting& meeting : meetings) {
     for (const auto& [third, own] : bearings.stations()) {
       if (third == meeting.first || third == meeting.second) continue;
-      meeting.support += nearest(own, sighting, &meeting, errors) >= 0 ? 1 : 0;
+      meeting.support += nearest(own, measurement, &meeting, errors) >= 0 ? 1 : 0;
     }
   }
   std::ranges::stable_sort(meetings, std::greater<>(), &RayMeeting::support);

@@ -33,7 +33,7 @@ class RayMeetings {
 
   // Where a ray intersects those of other stations; those with more support first. failure: the
   // reason for the last ray that it does not intersect.
-  std::vector<RayMeeting> of(const BearingMeasurement& sighting,
+  std::vector<RayMeeting> of(const BearingMeasurement& measurement,
                              const UnassociatedBearings& bearings, const BiasModel& errors,
                              Solution& failure) const;
   // Generous bound of a target's motion in this time.
@@ -43,14 +43,14 @@ class RayMeetings {
  private:
   // A ray, and what a quick check needs.
   struct LookedAt {
-    const BearingMeasurement& sighting;
+    const BearingMeasurement& measurement;
     const BearingSummary& look;
   };
   Solution meet(const LookedAt& a, const LookedAt& b, const BiasModel& errors,
                 RayMeeting& meeting) const;
   std::ptrdiff_t nearest(const UnassociatedBearings::Station& own, const BearingMeasurement& to,
                          const RayMeeting* meeting, const BiasModel& errors) const;
-  double gate_rad(const BearingMeasurement& sighting, double dt_s, double range_m,
+  double gate_rad(const BearingMeasurement& measurement, double dt_s, double range_m,
                   const BiasModel& errors) const;
 
   MeetingConfig config_;

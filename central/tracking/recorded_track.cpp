@@ -29,29 +29,29 @@ const Track* RecordedTrack::located() const {
   return found == tracks_.end() ? nullptr : &*found;
 }
 
-Association RecordedTrack::add(const BearingMeasurement& sighting, bool may_begin) {
+Association RecordedTrack::add(const BearingMeasurement& measurement, bool may_begin) {
   Association given;
   if (!tracks_.empty()) {
-    given = give_to(tracks_.front(), sighting);
+    given = give_to(tracks_.front(), measurement);
     const bool used = given.kind == Association::Kind::kTrack;
-    note(sighting, used);
-    if (!used && !proved_) take_back(sighting.utime_us);
+    note(measurement, used);
+    if (!used && !proved_) take_back(measurement.utime_us);
   }
   if (!may_begin) return given;
   if (!tracks_.empty() && proved_ && !most_stations_disagree()) {
-    initiation_.store(sighting);
+    initiation_.store(measurement);
     return given;
   }
-  confirm_by_initiation(sighting);
+  confirm_by_initiation(measurement);
   const bool begun = given.kind == Association::Kind::kUnexplained && !tracks_.empty();
   return begun ? Association{Association::Kind::kTrack, tracks_.front().id} : given;
 }
 
 // By the number of bearings, not by time: stations may have any frame rate.
-void RecordedTrack::note(const BearingMeasurement& sighting, bool used) {
+void RecordedTrack::note(const BearingMeasurement& measurement, bool used) {
   constexpr double kMemory = 8.0;
-  Explains& own = explains_[sighting.station];
-  own.newest_us = sighting.utime_us;
+  Explains& own = explains_[measurement.station];
+  own.newest_us = measurement.utime_us;
   own.share += ((used ? 1.0 : 0.0) - own.share) / kMemory;
 }
 
@@ -81,12 +81,12 @@ void RecordedTrack::take_back(std::int64_t utime_us) {
 
 // Searches an initial state on which the bearings of several stations agree: for a track on trial,
 // for one with which most stations disagree, or if there is no track.
-void RecordedTrack::confirm_by_initiation(const BearingMeasurement& sighting) {
+void RecordedTrack::confirm_by_initiation(const BearingMeasurement& measurement) {
   const bool none = tracks_.empty(), on_trial = !none && !proved_;
   const auto doubt_us = static_cast<std::int64_t>(kDoubtS * 1e6);
   const bool accept_two_rays =
-      none && (!taken_back_us_ || sighting.utime_us - *taken_back_us_ > doubt_us);
-  auto start = initiation_.add(sighting, on_trial ? errors_before_ : errors_, accept_two_rays);
+      none && (!taken_back_us_ || measurement.utime_us - *taken_back_us_ > doubt_us);
+  auto start = initiation_.add(measurement, on_trial ? errors_before_ : errors_, accept_two_rays);
   if (!start) return;
   if (none || is_better(start->track)) {
     if (accept_two_rays) errors_before_ = errors_;

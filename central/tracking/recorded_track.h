@@ -24,7 +24,7 @@ class RecordedTrack : public TrackManager {
   explicit RecordedTrack(const TrackManagerConfig& config);
 
   using TrackManager::add;
-  Association add(const BearingMeasurement& sighting, bool may_begin) override;
+  Association add(const BearingMeasurement& measurement, bool may_begin) override;
   // Has an initiation of several stations confirmed the track?
   bool is_initiated() const { return proved_; }
   // The confirmed track; null: none.
@@ -36,9 +36,9 @@ class RecordedTrack : public TrackManager {
     std::int64_t newest_us = 0;
     double share = 1.0;
   };
-  void note(const BearingMeasurement& sighting, bool used);
+  void note(const BearingMeasurement& measurement, bool used);
   void take_back(std::int64_t utime_us);
-  void confirm_by_initiation(const BearingMeasurement& sighting);
+  void confirm_by_initiation(const BearingMeasurement& measurement);
   bool is_better(const Track& start) const;
   int stations(bool explained) const;
   bool most_stations_disagree() const;

@@ -18,13 +18,13 @@ const char* to_string(TrackState state) {
   return "unknown";
 }
 
-bool Track::has_taken(const BearingMeasurement& sighting) const {
-  const auto own = bearings.find(sighting.station);
+bool Track::has_taken(const BearingMeasurement& measurement) const {
+  const auto own = bearings.find(measurement.station);
   if (own == bearings.end()) return false;
   const auto& taken = own->second;
   const auto at =
-      std::ranges::lower_bound(taken, sighting.utime_us, {}, &BearingMeasurement::utime_us);
-  return at != taken.end() && at->utime_us == sighting.utime_us;
+      std::ranges::lower_bound(taken, measurement.utime_us, {}, &BearingMeasurement::utime_us);
+  return at != taken.end() && at->utime_us == measurement.utime_us;
 }
 
 bool is_established(const Track& track) {

@@ -32,7 +32,7 @@ struct Track {
   StationBearings bearings;              // of the last second
 
   // Whether it already has a bearing of this station and exposure.
-  bool has_taken(const BearingMeasurement& sighting) const;
+  bool has_taken(const BearingMeasurement& measurement) const;
 };
 
 // Confirmed or coasted.

@@ -14,14 +14,14 @@ TrackGlance summarise_track(const Track& track) {
 }
 
 // Within this many sigmas of all possible errors.
-bool TrackGlance::may_see(const BearingMeasurement& sighting, const Eigen::Vector3d& d) const {
-  const double dt_s = seconds(sighting.utime_us - utime_us);
-  const Eigen::Vector3d line = p_ecef + dt_s * v_ecef - sighting.sight.origin_ecef;
+bool TrackGlance::may_see(const BearingMeasurement& measurement, const Eigen::Vector3d& d) const {
+  const double dt_s = seconds(measurement.utime_us - utime_us);
+  const Eigen::Vector3d line = p_ecef + dt_s * v_ecef - measurement.sight.origin_ecef;
   const double depth = d.dot(line);
   if (!(depth > 0.0)) return false;
   const double spread_m = position_sd_m + std::abs(dt_s) * velocity_sd_m_s;
-  const double angle = std::sqrt(sighting.sight.covariance_white.trace() +
-                                 sighting.sight.covariance_systematic.trace());
+  const double angle = std::sqrt(measurement.sight.covariance_white.trace() +
+                                 measurement.sight.covariance_systematic.trace());
   constexpr double kGenerous = 8.0, kLeastRad = 0.02;
   return (line - depth * d).norm() < kGenerous * (spread_m + depth * angle) + depth * kLeastRad;
 }

@@ -14,7 +14,7 @@ struct TrackGlance {
   double position_sd_m = 0.0, velocity_sd_m_s = 0.0;
 
   // Whether the track may be in this direction (the bearing's, ECEF); generous.
-  bool may_see(const BearingMeasurement& sighting, const Eigen::Vector3d& direction_ecef) const;
+  bool may_see(const BearingMeasurement& measurement, const Eigen::Vector3d& direction_ecef) const;
 };
 TrackGlance summarise_track(const Track& track);
 

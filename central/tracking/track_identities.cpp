@@ -35,17 +35,17 @@ void TrackIdentities::confirm(Track& track, const std::vector<Track>& tracks) {
   std::erase_if(dropped_, [&](const Track& old) { return old.id == track.id; });
 }
 
-void TrackIdentities::follow(const BearingMeasurement& sighting, const Track& track) {
-  if (sighting.track_id == 0 || track.id == 0) return;
-  LocalTracks::Object& own = local_.at(sighting);
+void TrackIdentities::follow(const BearingMeasurement& measurement, const Track& track) {
+  if (measurement.track_id == 0 || track.id == 0) return;
+  LocalTracks::Object& own = local_.at(measurement);
   own.id = track.id;
-  own.given_us = std::max(own.given_us, sighting.utime_us);
+  own.given_us = std::max(own.given_us, measurement.utime_us);
 }
 
-Track* TrackIdentities::follower(const BearingMeasurement& sighting,
+Track* TrackIdentities::follower(const BearingMeasurement& measurement,
                                  std::vector<Track>& tracks) const {
-  if (sighting.track_id == 0) return nullptr;
-  const LocalTracks::Object* const own = local_.find(sighting);
+  if (measurement.track_id == 0) return nullptr;
+  const LocalTracks::Object* const own = local_.find(measurement);
   if (own == nullptr) return nullptr;
   const auto track = std::ranges::find_if(
       tracks, [&](const Track& t) { return is_established(t) && t.id == own->id; });

@@ -21,9 +21,9 @@ class TrackIdentities {
   // bearing-only track of its stations, or a new one.
   void confirm(Track& track, const std::vector<Track>& tracks);
   // Binds the station's local track to the track.
-  void follow(const BearingMeasurement& sighting, const Track& track);
+  void follow(const BearingMeasurement& measurement, const Track& track);
   // The confirmed track of this local track; null: none.
-  Track* follower(const BearingMeasurement& sighting, std::vector<Track>& tracks) const;
+  Track* follower(const BearingMeasurement& measurement, std::vector<Track>& tracks) const;
   // Whether a track takes the bearings of this local track: the last one not longer ago than this.
   bool takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s,
              const std::vector<Track>& tracks) const;

@@ -19,25 +19,25 @@ constexpr double kLeastKnown = 1.0;     // max 1-sigma over range
 
 }  // namespace
 
-std::optional<TrackStart> TrackInitiation::search(const BearingMeasurement& sighting,
+std::optional<TrackStart> TrackInitiation::search(const BearingMeasurement& measurement,
                                                   const BiasModel& errors, bool accept_two_rays) {
   failure_ = Solution::kTooFewRays;
-  const std::vector<RayMeeting> starts = meetings_.of(sighting, pool_, errors, failure_);
+  const std::vector<RayMeeting> starts = meetings_.of(measurement, pool_, errors, failure_);
   for (std::size_t i = 0; i < std::min(starts.size(), kMostStarts); ++i) {
-    auto begun =
-        try_start(sighting, starts[i], errors, accept_two_rays ? Needed::kTwoRays : Needed::kAll);
+    auto begun = try_start(measurement, starts[i], errors,
+                           accept_two_rays ? Needed::kTwoRays : Needed::kAll);
     if (!begun) continue;
-    if (!accept_two_rays && has_better_hypothesis(*begun, sighting, errors)) continue;
+    if (!accept_two_rays && has_better_hypothesis(*begun, measurement, errors)) continue;
     if (!accept_two_rays) take(begun->start.track);
     return std::move(begun->start);
   }
   return std::nullopt;
 }
 
-std::optional<TrackStart> TrackInitiation::add(const BearingMeasurement& sighting,
+std::optional<TrackStart> TrackInitiation::add(const BearingMeasurement& measurement,
                                                const BiasModel& errors, bool accept_two_rays) {
-  store(sighting);
-  const std::optional<BearingMeasurement> next = next_station_to_search(sighting);
+  store(measurement);
+  const std::optional<BearingMeasurement> next = next_station_to_search(measurement);
   return next ? search(*next, errors, accept_two_rays) : std::nullopt;
 }
 
@@ -45,16 +45,16 @@ std::optional<TrackStart> TrackInitiation::add(const BearingMeasurement& sightin
 // has waited longest is searched next, from a random bearing of its newest frame. In a fixed order,
 // a station's searches could stay in step with the others' and always get the same bearing.
 std::optional<BearingMeasurement> TrackInitiation::next_station_to_search(
-    const BearingMeasurement& sighting) {
+    const BearingMeasurement& measurement) {
   constexpr std::size_t kStationsABearing = 64;
   const std::size_t cost = pool_.stations().size();
   saved_ = std::min(saved_ + kStationsABearing, cost);
   if (waiting_.empty() && saved_ == cost) {
     saved_ = 0;
-    return sighting;
+    return measurement;
   }
-  if (std::ranges::find(waiting_, sighting.station) == waiting_.end()) {
-    waiting_.push_back(sighting.station);
+  if (std::ranges::find(waiting_, measurement.station) == waiting_.end()) {
+    waiting_.push_back(measurement.station);
   }
   while (saved_ == cost && !waiting_.empty()) {
     const auto own = pool_.stations().find(waiting_.front());
@@ -108,12 +108,12 @@ std::vector<Frame> frames_backwards(
     const std::vector<const UnassociatedBearings::Station*>& stations, std::int64_t oldest_us) {
   std::vector<Frame> frames;
   for (const UnassociatedBearings::Station* const station : stations) {
-    for (const BearingMeasurement& sighting : station->bearings) {
-      if (sighting.utime_us < oldest_us) continue;
-      const bool same = !frames.empty() && frames.back().utime_us == sighting.utime_us &&
-                        frames.back().bearings.front()->station == sighting.station;
-      if (!same) frames.push_back({sighting.utime_us, {}});
-      frames.back().bearings.push_back(&sighting);
+    for (const BearingMeasurement& measurement : station->bearings) {
+      if (measurement.utime_us < oldest_us) continue;
+      const bool same = !frames.empty() && frames.back().utime_us == measurement.utime_us &&
+                        frames.back().bearings.front()->station == measurement.station;
+      if (!same) frames.push_back({measurement.utime_us, {}});
+      frames.back().bearings.push_back(&measurement);
     }
   }
   std::ranges::stable_sort(frames, std::greater<>(), &Frame::utime_us);
@@ -134,11 +134,11 @@ std::map<std::string, Explained> explain(const std::vector<Frame>& frames, Track
     const BearingMeasurement* best = nullptr;
     Innovation least;
     least.nis = filter.config().gate_nis;
-    for (const BearingMeasurement* sighting : frame.bearings) {
-      Innovation seen = filter.innovation(*sighting, shown);
+    for (const BearingMeasurement* measurement : frame.bearings) {
+      Innovation seen = filter.innovation(*measurement, shown);
       if (seen.nis >= least.nis) continue;
       least = std::move(seen);
-      best = sighting;
+      best = measurement;
     }
     Explained& station = stations[frame.bearings.front()->station];
     ++station.frames;
@@ -305,8 +305,8 @@ void TrackInitiation::give(const Track& track, const BiasModel& errors) {
     if (looks) stations.push_back(station);
   }
   for (const std::string& station : stations) {
-    pool_.erase_if(station, [&](const BearingMeasurement& sighting) {
-      return track.filter.innovation(sighting, errors).nis < filter_.robust_nis;
+    pool_.erase_if(station, [&](const BearingMeasurement& measurement) {
+      return track.filter.innovation(measurement, errors).nis < filter_.robust_nis;
     });
   }
 }

@@ -50,10 +50,10 @@ class TrackInitiation {
   // Takes an unassociated bearing. Returns a new track, with its bearings removed from the pool: it
   // may be a track of this bearing or, with many waiting stations, of another. `accept_two_rays`:
   // two rays are enough for now; the pool keeps them, for a better track.
-  std::optional<TrackStart> add(const BearingMeasurement& sighting, const BiasModel& errors,
+  std::optional<TrackStart> add(const BearingMeasurement& measurement, const BiasModel& errors,
                                 bool accept_two_rays);
   // Keeps a bearing without a search.
-  void store(const BearingMeasurement& sighting) { pool_.store(sighting); }
+  void store(const BearingMeasurement& measurement) { pool_.store(measurement); }
   // Removes the bearings that a newly confirmed track explains.
   void give(const Track& track, const BiasModel& errors);
   void forget(const std::string& station) { pool_.forget(station); }
@@ -77,9 +77,9 @@ class TrackInitiation {
     double misfit = 0.0;   // mean squared normalised residual of their frames; NaN without any
   };
   enum class Needed { kTwoRays, kHalf, kAll };  // share of two_stations_s
-  std::optional<TrackStart> search(const BearingMeasurement& sighting, const BiasModel& errors,
+  std::optional<TrackStart> search(const BearingMeasurement& measurement, const BiasModel& errors,
                                    bool accept_two_rays);
-  std::optional<BearingMeasurement> next_station_to_search(const BearingMeasurement& sighting);
+  std::optional<BearingMeasurement> next_station_to_search(const BearingMeasurement& measurement);
   std::vector<const UnassociatedBearings::Station*> looking_at(const RayMeeting& start,
                                                                std::int64_t now_us) const;
   std::int64_t now_at(std::int64_t utime_us) const;

@@ -29,9 +29,9 @@ void TrackManager::replace(Track& track, Track by) {
   glances_[static_cast<std::size_t>(&track - tracks_.data())] = summarise_track(track);
 }
 
-Association TrackManager::give_to(Track& track, const BearingMeasurement& sighting,
+Association TrackManager::give_to(Track& track, const BearingMeasurement& measurement,
                                   const Innovation* seen) {
-  const FilterUpdate update = track.filter.update(sighting, errors_, seen);
+  const FilterUpdate update = track.filter.update(measurement, errors_, seen);
   errors_.learn(update.shown);
   glances_[static_cast<std::size_t>(&track - tracks_.data())] = summarise_track(track);
   // One more station than the filter has states for still sees the target, and begins no other
@@ -41,9 +41,9 @@ Association TrackManager::give_to(Track& track, const BearingMeasurement& sighti
     ++counts_.set_aside;
     return {Association::Kind::kRejected, track.id};
   }
-  ++track.hits[sighting.station];
-  keep(track, sighting);
-  identities_.follow(sighting, track);
+  ++track.hits[measurement.station];
+  keep(track, measurement);
+  identities_.follow(measurement, track);
   if (stations_lately(track.filter, Activity::kDeliversS) >= 2) {
     track.last_two_station_us = track.filter.utime_us();
     if (track.state == TrackState::kCoasted) track.state = TrackState::kConfirmed;
@@ -53,11 +53,11 @@ Association TrackManager::give_to(Track& track, const BearingMeasurement& sighti
   return {Association::Kind::kTrack, id};
 }
 
-void TrackManager::keep(Track& track, const BearingMeasurement& sighting) const {
-  auto& own = track.bearings[sighting.station];
+void TrackManager::keep(Track& track, const BearingMeasurement& measurement) const {
+  auto& own = track.bearings[measurement.station];
   const auto place =
-      std::ranges::upper_bound(own, sighting.utime_us, {}, &BearingMeasurement::utime_us);
-  own.insert(place, sighting);
+      std::ranges::upper_bound(own, measurement.utime_us, {}, &BearingMeasurement::utime_us);
+  own.insert(place, measurement);
   const auto span_us = static_cast<std::int64_t>(config_.memory_s * 1e6);
   const std::int64_t oldest_us = own.back().utime_us - span_us;
   const auto kept = std::ranges::lower_bound(own, oldest_us, {}, &BearingMeasurement::utime_us);
@@ -136,15 +136,16 @@ void TrackManager::advance(std::int64_t now_us) {
   identities_.forget_dropped(now_us, config_.remember_s + config_.drop_s);
 }
 
-std::optional<Eigen::Vector2d> TrackManager::off_nearest(const BearingMeasurement& sighting) const {
-  const RayFrame frame = ray_frame(sighting.sight);
+std::optional<Eigen::Vector2d> TrackManager::off_nearest(
+    const BearingMeasurement& measurement) const {
+  const RayFrame frame = ray_frame(measurement.sight);
   std::optional<Eigen::Vector2d> best;
   for (const Track& track : tracks_) {
     if (track.state != TrackState::kConfirmed) continue;
     const KinematicState& state = track.filter.summary();
-    const double dt_s = seconds(sighting.utime_us - state.utime_us);
+    const double dt_s = seconds(measurement.utime_us - state.utime_us);
     const Eigen::Vector3d line =
-        state.mean.head<3>() + dt_s * state.mean.segment<3>(3) - sighting.sight.origin_ecef;
+        state.mean.head<3>() + dt_s * state.mean.segment<3>(3) - measurement.sight.origin_ecef;
     const double depth = frame.direction.dot(line);
     if (!(depth > 0.0)) continue;
     const Eigen::Vector2d off = frame.tangent.transpose() * line / depth;

@@ -54,8 +54,8 @@ class TrackManager {
   virtual ~TrackManager() = default;
 
   // may_begin: whether it may take part in track initiation.
-  virtual Association add(const BearingMeasurement& sighting, bool may_begin) = 0;
-  Association add(const BearingMeasurement& sighting) { return add(sighting, true); }
+  virtual Association add(const BearingMeasurement& measurement, bool may_begin) = 0;
+  Association add(const BearingMeasurement& measurement) { return add(measurement, true); }
   // Changes the tracks' states, by the fusion's time.
   void advance(std::int64_t now_us);
   void forget_station(const std::string& station);
@@ -87,7 +87,7 @@ class TrackManager {
   const Counts& counts() const { return counts_; }
   // Predicted minus measured (cross-elevation, elevation), for the confirmed track that is nearest
   // to a station's bearing.
-  std::optional<Eigen::Vector2d> off_nearest(const BearingMeasurement& sighting) const;
+  std::optional<Eigen::Vector2d> off_nearest(const BearingMeasurement& measurement) const;
 
  protected:
   TrackManager(const TrackManagerConfig& config, const FilterConfig& filter, bool same_place);
@@ -104,7 +104,7 @@ class TrackManager {
   // Called before the dropped tracks are removed.
   virtual void merge_duplicates() {}
 
-  Association give_to(Track& track, const BearingMeasurement& sighting,
+  Association give_to(Track& track, const BearingMeasurement& measurement,
                       const Innovation* seen = nullptr);
   Track& begin(Track track);
   void replace(Track& track, Track by);
@@ -125,7 +125,7 @@ class TrackManager {
   void age(Track& track, std::int64_t now_us);
   bool is_duplicate(const Track& track) const;
   void confirm(Track& track);
-  void keep(Track& track, const BearingMeasurement& sighting) const;
+  void keep(Track& track, const BearingMeasurement& measurement) const;
   void forget_what_it_taught(const Track& track);
 };
 

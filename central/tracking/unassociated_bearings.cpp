@@ -15,34 +15,34 @@ bool BearingSummary::is_near(const Eigen::Vector3d& p_ecef, double more_rad) con
 
 // kLeastRad covers the station's learnt bias: beyond 0.02 rad plus the same multiple of the stated
 // errors, a track loses the station anyway (TrackGlance).
-BearingSummary summarise(const BearingMeasurement& sighting, const Eigen::Matrix3d& R_ecef_enu) {
+BearingSummary summarise(const BearingMeasurement& measurement, const Eigen::Matrix3d& R_ecef_enu) {
   constexpr double kGenerous = 8.0, kLeastRad = 0.05;
-  const LineOfSight& sight = sighting.sight;
+  const LineOfSight& sight = measurement.sight;
   const double variance = sight.covariance_white.trace() + sight.covariance_systematic.trace();
-  return {.utime_us = sighting.utime_us,
+  return {.utime_us = measurement.utime_us,
           .origin_ecef = sight.origin_ecef,
           .direction_ecef = R_ecef_enu * enu_from_azimuth_elevation(sight.direction),
           .spread_rad = kLeastRad + kGenerous * std::sqrt(variance),
-          .clock_sd_s = sighting.clock_sd_s,
-          .track_id = sighting.track_id};
+          .clock_sd_s = measurement.clock_sd_s,
+          .track_id = measurement.track_id};
 }
 
 // A station seldom moves, and computing its axes costs as much as the rest.
-BearingSummary UnassociatedBearings::Station::look(const BearingMeasurement& sighting) {
-  if (origin_ecef_ != sighting.sight.origin_ecef) {
-    origin_ecef_ = sighting.sight.origin_ecef;
+BearingSummary UnassociatedBearings::Station::look(const BearingMeasurement& measurement) {
+  if (origin_ecef_ != measurement.sight.origin_ecef) {
+    origin_ecef_ = measurement.sight.origin_ecef;
     R_ecef_enu_ = ols::R_ecef_enu(origin_ecef_);
   }
-  return summarise(sighting, R_ecef_enu_);
+  return summarise(measurement, R_ecef_enu_);
 }
 
-void UnassociatedBearings::store(const BearingMeasurement& sighting) {
-  Station& own = stations_[sighting.station];
+void UnassociatedBearings::store(const BearingMeasurement& measurement) {
+  Station& own = stations_[measurement.station];
   const auto later =
-      std::ranges::upper_bound(own.looks, sighting.utime_us, {}, &BearingSummary::utime_us);
+      std::ranges::upper_bound(own.looks, measurement.utime_us, {}, &BearingSummary::utime_us);
   const auto place = later - own.looks.begin();
-  own.bearings.insert(own.bearings.begin() + place, sighting);
-  own.looks.insert(later, own.look(sighting));
+  own.bearings.insert(own.bearings.begin() + place, measurement);
+  own.looks.insert(later, own.look(measurement));
   const std::int64_t oldest_us = own.looks.back().utime_us - std::llround(span_s_ * 1e6);
   const auto first = std::ranges::lower_bound(own.looks, oldest_us, {}, &BearingSummary::utime_us);
   auto gone = first - own.looks.begin();
@@ -64,7 +64,8 @@ void UnassociatedBearings::erase_if(
   }
   if (own.bearings.size() == own.looks.size()) return;
   own.looks.clear();
-  for (const BearingMeasurement& sighting : own.bearings) own.looks.push_back(own.look(sighting));
+  for (const BearingMeasurement& measurement : own.bearings)
+    own.looks.push_back(own.look(measurement));
 }
 
 }  // namespace ols::fusion

@@ -25,8 +25,8 @@ struct BearingSummary {
   // Whether it points at this position, within that bound and a margin.
   bool is_near(const Eigen::Vector3d& p_ecef, double more_rad) const;
 };
-// With the given axes at its origin: R_ecef_enu(sighting.sight.origin_ecef).
-BearingSummary summarise(const BearingMeasurement& sighting, const Eigen::Matrix3d& R_ecef_enu);
+// With the given axes at its origin: R_ecef_enu(measurement.sight.origin_ecef).
+BearingSummary summarise(const BearingMeasurement& measurement, const Eigen::Matrix3d& R_ecef_enu);
 
 class UnassociatedBearings {
  public:
@@ -35,7 +35,7 @@ class UnassociatedBearings {
     std::deque<BearingMeasurement> bearings;
     std::vector<BearingSummary> looks;
 
-    BearingSummary look(const BearingMeasurement& sighting);
+    BearingSummary look(const BearingMeasurement& measurement);
 
    private:
     Eigen::Vector3d origin_ecef_ = Eigen::Vector3d::Zero();     // of the last summary,
@@ -46,7 +46,7 @@ class UnassociatedBearings {
   UnassociatedBearings(double span_s, int most)
       : span_s_(span_s), most_(static_cast<std::size_t>(most)) {}
 
-  void store(const BearingMeasurement& sighting);
+  void store(const BearingMeasurement& measurement);
   void erase_if(const std::string& station,
                 const std::function<bool(const BearingMeasurement&)>& condition);
   void forget(const std::string& station) { stations_.erase(station); }

@@ -22,21 +22,22 @@ inline std::vector<BearingMeasurement> flight(double seconds, double sigma_rad =
                                               double noise = 0.0) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
-  std::vector<BearingMeasurement> sightings;
+  std::vector<BearingMeasurement> measurements;
   for (int i = 0; i < static_cast<int>(60.0 * seconds); ++i) {
     const double t_s = i / 60.0;
     const auto station = static_cast<std::size_t>(i % 4);
     Ray ray = ray_to(std::string(1, static_cast<char>('a' + i % 4)), square()[station], path(t_s),
                      sigma_rad);
     ray = turned(ray, noise * normal(random), noise * normal(random));
-    sightings.push_back(sighting_of(ray, kStart + std::llround(t_s * 1e6)));
+    measurements.push_back(measurement_of(ray, kStart + std::llround(t_s * 1e6)));
   }
-  return sightings;
+  return measurements;
 }
 
 // Processes a bearing, and learns what it shows of the stations.
-inline BearingUse feed(TrackFilter& filter, const BearingMeasurement& sighting, BiasModel& errors) {
-  const FilterUpdate update = filter.update(sighting, errors);
+inline BearingUse feed(TrackFilter& filter, const BearingMeasurement& measurement,
+                       BiasModel& errors) {
+  const FilterUpdate update = filter.update(measurement, errors);
   errors.learn(update.shown);
   return update.use;
 }
@@ -46,10 +47,10 @@ inline void move_on(TrackFilter& filter, std::int64_t utime_us, BiasModel& error
 }
 
 inline std::vector<FusedTarget> targets_of(Fusion& fusion,
-                                           const std::vector<BearingMeasurement>& sightings) {
+                                           const std::vector<BearingMeasurement>& measurements) {
   std::vector<FusedTarget> targets;
-  for (const BearingMeasurement& sighting : sightings) {
-    const FusionOutput output = fusion.add(sighting);
+  for (const BearingMeasurement& measurement : measurements) {
+    const FusionOutput output = fusion.add(measurement);
     targets.insert(targets.end(), output.targets.begin(), output.targets.end());
   }
   return targets;

@@ -44,12 +44,12 @@ inline Ray turned(Ray ray, double cross_elevation_rad, double elevation_rad) {
   return ray;
 }
 
-inline BearingMeasurement sighting_of(const Ray& ray, std::int64_t utime_us) {
-  BearingMeasurement sighting;
-  sighting.station = ray.station;
-  sighting.utime_us = utime_us;
-  sighting.sight = ray.sight;
-  return sighting;
+inline BearingMeasurement measurement_of(const Ray& ray, std::int64_t utime_us) {
+  BearingMeasurement measurement;
+  measurement.station = ray.station;
+  measurement.utime_us = utime_us;
+  measurement.sight = ray.sight;
+  return measurement;
 }
 
 inline const std::vector<Eigen::Vector3d>& square() {

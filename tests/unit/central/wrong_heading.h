@@ -26,7 +26,7 @@ inline std::vector<BearingMeasurement> watch(const std::string& stations, double
                                              double stated_rad = 0.0) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
-  std::vector<BearingMeasurement> sightings;
+  std::vector<BearingMeasurement> measurements;
   for (int i = 0; i < static_cast<int>(60.0 * seconds); ++i) {
     const double t_s = i / 60.0;
     const auto turn = static_cast<std::size_t>(i % 4);
@@ -38,10 +38,10 @@ inline std::vector<BearingMeasurement> watch(const std::string& stations, double
     AzimuthElevation& direction = ray.sight.direction;
     direction.azimuth_rad = wrap_two_pi(direction.azimuth_rad + heading(name, t_s));
     ray.sight.covariance_systematic = Eigen::Matrix2d::Identity() * (stated_rad * stated_rad);
-    sightings.push_back(sighting_of(ray, kStart + std::llround(t_s * 1e6)));
-    sightings.back().clock_sd_s = 1e-3;
+    measurements.push_back(measurement_of(ray, kStart + std::llround(t_s * 1e6)));
+    measurements.back().clock_sd_s = 1e-3;
   }
-  return sightings;
+  return measurements;
 }
 
 inline double slow_error_m(const FusedTarget& target) {

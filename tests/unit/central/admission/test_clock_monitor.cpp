@@ -26,14 +26,14 @@ class ClockMonitorTest : public testing::Test {
       double phase_s = 0.0;
       for (const auto& [name, clock] : clocks_) {
         phase_s += kPeriod_s / 8.0;
-        BearingMeasurement sighting;
-        sighting.station = name;
-        sighting.utime_us =
+        BearingMeasurement measurement;
+        measurement.station = name;
+        measurement.utime_us =
             1'000'000'000 + std::llround(1e6 * (now_s_ + phase_s + clock.offset_s - clock.late_s));
-        sighting.clock_sd_s = clock.error_s;
-        sighting.clock = clock.says;
-        time_.hear(name, sighting.utime_us);
-        monitor_.hear(sighting, time_);
+        measurement.clock_sd_s = clock.error_s;
+        measurement.clock = clock.says;
+        time_.hear(name, measurement.utime_us);
+        monitor_.hear(measurement, time_);
       }
     }
   }

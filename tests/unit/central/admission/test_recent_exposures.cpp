@@ -8,11 +8,11 @@ namespace {
 constexpr std::int64_t kStart = 1'600'000'000'000'000;
 
 BearingMeasurement bearing(std::int64_t utime_us, double azimuth_rad, std::int64_t track_id = 0) {
-  BearingMeasurement sighting;
-  sighting.utime_us = utime_us;
-  sighting.sight.direction.azimuth_rad = azimuth_rad;
-  sighting.track_id = track_id;
-  return sighting;
+  BearingMeasurement measurement;
+  measurement.utime_us = utime_us;
+  measurement.sight.direction.azimuth_rad = azimuth_rad;
+  measurement.track_id = track_id;
+  return measurement;
 }
 
 TEST(RecentExposures, ADuplicateHasTheStampAndTheDirectionOrTheTrackId) {

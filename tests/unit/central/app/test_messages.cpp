@@ -70,7 +70,7 @@ bool refused(const Result& result, MessageRefusal why) {
 }
 
 auto decode_bearing(const Bytes& bytes, const std::string& channel = "OLS_BEARING_north") {
-  return sighting_from(channel, bytes.data(), static_cast<int>(bytes.size()));
+  return measurement_from(channel, bytes.data(), static_cast<int>(bytes.size()));
 }
 
 auto decode_status(const Bytes& bytes, const std::string& channel = "OLS_STATUS_north") {
@@ -83,26 +83,26 @@ std::optional<MessageRefusal> no_place(const Bytes& bytes) {
   return place == nullptr ? std::nullopt : place->no_place;
 }
 
-TEST(Messages, BearingBecomesASighting) {
+TEST(Messages, BearingBecomesAMeasurement) {
   const auto result = decode_bearing(encoded(bearing()));
   ASSERT_TRUE(std::holds_alternative<BearingMeasurement>(result));
-  const auto& sighting = std::get<BearingMeasurement>(result);
-  EXPECT_EQ(sighting.station, "north");
-  EXPECT_EQ(sighting.utime_us, 1'700'000'000'123'456);
-  EXPECT_EQ(sighting.boot_id, 77);
-  EXPECT_EQ(sighting.track_id, 3);
-  EXPECT_EQ(sighting.belief, 0.75);
-  EXPECT_EQ(sighting.clock_sd_s, 1e-3);
-  EXPECT_EQ(sighting.clock, StationClock::kUnsynchronised);
-  EXPECT_EQ(sighting.calibration_id, 12);
-  EXPECT_EQ(sighting.sight.direction.azimuth_rad, 1.25);
-  EXPECT_EQ(sighting.sight.direction.elevation_rad, 0.5);
-  EXPECT_EQ(sighting.sight.covariance_white(0, 0), 4e-8);
-  EXPECT_EQ(sighting.sight.covariance_white(1, 0), 1e-8);
-  EXPECT_EQ(sighting.sight.covariance_white(1, 1), 2e-8);
-  EXPECT_EQ(sighting.sight.covariance_systematic(1, 1), 3e-8);
-  EXPECT_EQ(sighting.sight.origin_sd_enu_m, Eigen::Vector3d(0, 0.5, 0));
-  EXPECT_EQ(check(sighting), BearingRefusal::kNone);
+  const auto& measurement = std::get<BearingMeasurement>(result);
+  EXPECT_EQ(measurement.station, "north");
+  EXPECT_EQ(measurement.utime_us, 1'700'000'000'123'456);
+  EXPECT_EQ(measurement.boot_id, 77);
+  EXPECT_EQ(measurement.track_id, 3);
+  EXPECT_EQ(measurement.belief, 0.75);
+  EXPECT_EQ(measurement.clock_sd_s, 1e-3);
+  EXPECT_EQ(measurement.clock, StationClock::kUnsynchronised);
+  EXPECT_EQ(measurement.calibration_id, 12);
+  EXPECT_EQ(measurement.sight.direction.azimuth_rad, 1.25);
+  EXPECT_EQ(measurement.sight.direction.elevation_rad, 0.5);
+  EXPECT_EQ(measurement.sight.covariance_white(0, 0), 4e-8);
+  EXPECT_EQ(measurement.sight.covariance_white(1, 0), 1e-8);
+  EXPECT_EQ(measurement.sight.covariance_white(1, 1), 2e-8);
+  EXPECT_EQ(measurement.sight.covariance_systematic(1, 1), 3e-8);
+  EXPECT_EQ(measurement.sight.origin_sd_enu_m, Eigen::Vector3d(0, 0.5, 0));
+  EXPECT_EQ(check(measurement), BearingRefusal::kNone);
 }
 
 TEST(Messages, StatusTellsWhereAStationStands) {
@@ -215,9 +215,9 @@ TEST(Messages, AnyDamageIsSurvived) {
       bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
     }
     const auto result = decode_bearing(bytes);
-    if (const auto* sighting = std::get_if<BearingMeasurement>(&result)) {
+    if (const auto* measurement = std::get_if<BearingMeasurement>(&result)) {
       Fusion fusion{FusionConfig{}};
-      fusion.add(*sighting);
+      fusion.add(*measurement);
       ++decoded;
     }
   }

@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 using test::direction_to;
+using test::measurement_of;
 using test::ray_to;
-using test::sighting_of;
 using test::site;
 
 constexpr std::int64_t kEpoch = 1'700'000'000'000'000;
@@ -28,12 +28,12 @@ Vector3d circle(double t_s) {
 
 std::vector<BearingMeasurement> seen(const Path& path, const std::vector<double>& times_s,
                                      double sigma_rad = 1e-4) {
-  std::vector<BearingMeasurement> sightings;
+  std::vector<BearingMeasurement> measurements;
   for (const double t_s : times_s) {
-    sightings.push_back(sighting_of(ray_to("a", {0, 0, 0}, path(t_s), sigma_rad),
-                                    kEpoch + std::llround(t_s * 1e6)));
+    measurements.push_back(measurement_of(ray_to("a", {0, 0, 0}, path(t_s), sigma_rad),
+                                          kEpoch + std::llround(t_s * 1e6)));
   }
-  return sightings;
+  return measurements;
 }
 
 std::vector<double> frames(double from_s, double to_s, double rate_hz) {
@@ -105,16 +105,16 @@ TEST(Alignment, NoRayFarFromAllBearings) {
 }
 
 TEST(Alignment, LeavesWhatStaysAsItIs) {
-  auto sightings = seen(straight, frames(-0.3, 0.0, 30.0));
-  for (BearingMeasurement& sighting : sightings) {
-    sighting.sight.covariance_systematic << 3e-8, 1e-8, 1e-8, 2e-8;
-    sighting.sight.origin_sd_enu_m = {1, 2, 3};
-    sighting.clock_sd_s = 0.002;
-    sighting.belief = 0.8;
+  auto measurements = seen(straight, frames(-0.3, 0.0, 30.0));
+  for (BearingMeasurement& measurement : measurements) {
+    measurement.sight.covariance_systematic << 3e-8, 1e-8, 1e-8, 2e-8;
+    measurement.sight.origin_sd_enu_m = {1, 2, 3};
+    measurement.clock_sd_s = 0.002;
+    measurement.belief = 0.8;
   }
-  const auto ray = align(sightings, kEpoch, 250.0);
+  const auto ray = align(measurements, kEpoch, 250.0);
   ASSERT_TRUE(ray);
-  EXPECT_EQ(ray->sight.covariance_systematic, sightings[0].sight.covariance_systematic);
+  EXPECT_EQ(ray->sight.covariance_systematic, measurements[0].sight.covariance_systematic);
   EXPECT_EQ(ray->sight.origin_sd_enu_m, Vector3d(1, 2, 3));
   EXPECT_EQ(ray->clock_sd_s, 0.002);
   EXPECT_NEAR(ray->belief, 0.8, 1e-12);
@@ -123,12 +123,12 @@ TEST(Alignment, LeavesWhatStaysAsItIs) {
 // A lever arm: the camera centre moves while the PTU turns.
 TEST(Alignment, TheCameraCentreMovesAlong) {
   const auto centre = [](double t_s) { return Vector3d(0.1 * t_s, 0.05 * t_s, 0.0); };
-  std::vector<BearingMeasurement> sightings;
+  std::vector<BearingMeasurement> measurements;
   for (const double t_s : frames(-0.4, -0.05, 30.0)) {
-    sightings.push_back(
-        sighting_of(ray_to("a", centre(t_s), straight(t_s)), kEpoch + std::llround(t_s * 1e6)));
+    measurements.push_back(
+        measurement_of(ray_to("a", centre(t_s), straight(t_s)), kEpoch + std::llround(t_s * 1e6)));
   }
-  const auto ray = align(sightings, kEpoch, 250.0);
+  const auto ray = align(measurements, kEpoch, 250.0);
   ASSERT_TRUE(ray);
   EXPECT_LT((ray->sight.origin_ecef - site().to_ecef(centre(0.0))).norm(), 1e-3);
 }
@@ -155,13 +155,13 @@ TEST(Alignment, CovarianceIsConsistent) {
       const Path path = [&](double t_s) {
         return Vector3d(Vector3d(50, 250, 60) + velocity * t_s + acceleration * (t_s * t_s / 2.0));
       };
-      auto sightings = seen(path, frames(-0.4, last_s, 15.0));
-      for (BearingMeasurement& sighting : sightings) {
+      auto measurements = seen(path, frames(-0.4, last_s, 15.0));
+      for (BearingMeasurement& measurement : measurements) {
         Ray ray;
-        ray.sight = sighting.sight;
-        sighting.sight = test::turned(ray, 1e-4 * normal(random), 1e-4 * normal(random)).sight;
+        ray.sight = measurement.sight;
+        measurement.sight = test::turned(ray, 1e-4 * normal(random), 1e-4 * normal(random)).sight;
       }
-      const auto ray = align(sightings, kEpoch, 262.0);
+      const auto ray = align(measurements, kEpoch, 262.0);
       ASSERT_TRUE(ray);
       const RayFrame frame = ray_frame(ray->sight);
       const Vector3d truth = site().to_ecef(path(0.0)) - ray->sight.origin_ecef;

@@ -22,8 +22,9 @@ double inflation_of(double same) {
     off = same * off + fresh * kNoise * Eigen::Vector2d(normal(random), normal(random));
     const Ray ray =
         test::turned(test::ray_to("a", {0, 0, 0}, {0, 300, 50}, kNoise), off.x(), off.y());
-    const BearingMeasurement sighting = test::sighting_of(ray, 1'600'000'000'000'000 + i * 40'000);
-    inflation = noise.observe(sighting, ray_frame(sighting.sight), errors);
+    const BearingMeasurement measurement =
+        test::measurement_of(ray, 1'600'000'000'000'000 + i * 40'000);
+    inflation = noise.observe(measurement, ray_frame(measurement.sight), errors);
   }
   return inflation;
 }

@@ -21,10 +21,10 @@ InteractingModels models_at(const Vector3d& p_enu) {
 }
 
 ModelInnovation seen(const Vector3d& predicted_enu, const Vector3d& measured_enu, double at_s) {
-  const BearingMeasurement sighting = test::sighting_of(test::ray_to("a", {0, 0, 0}, measured_enu),
-                                                        kStart + std::llround(at_s * 1e6));
-  return innovation_of(models_at(predicted_enu), 0, sighting, ray_frame(sighting.sight), nullptr,
-                       std::nullopt);
+  const BearingMeasurement measurement = test::measurement_of(
+      test::ray_to("a", {0, 0, 0}, measured_enu), kStart + std::llround(at_s * 1e6));
+  return innovation_of(models_at(predicted_enu), 0, measurement, ray_frame(measurement.sight),
+                       nullptr, std::nullopt);
 }
 
 TEST(Innovation, IsNoneWhereTheTargetIs) {

@@ -14,9 +14,9 @@ TrackFilter flown(double bias_rad) {
       {}, kStart,
       {.p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 30.0});
   BiasModel errors;
-  for (BearingMeasurement sighting : flight(3.0, 1e-4)) {
-    sighting.sight.covariance_systematic = bias_rad * bias_rad * Eigen::Matrix2d::Identity();
-    feed(filter, sighting, errors);
+  for (BearingMeasurement measurement : flight(3.0, 1e-4)) {
+    measurement.sight.covariance_systematic = bias_rad * bias_rad * Eigen::Matrix2d::Identity();
+    feed(filter, measurement, errors);
   }
   return filter;
 }

@@ -20,9 +20,9 @@ using Eigen::Vector3d;
 using test::feed;
 using test::flight;
 using test::kStart;
+using test::measurement_of;
 using test::path;
 using test::ray_to;
-using test::sighting_of;
 using test::site;
 using test::square;
 using test::turned;
@@ -96,11 +96,11 @@ class OneModel : public testing::TestWithParam<Motion> {
         FilterStart{
             .p_ecef = site().to_ecef(path(0.0)), .position_sd_m = 100.0, .velocity_sd_m_s = 50.0});
     seen = flight(4.0, 1e-4, 1e-4);
-    for (BearingMeasurement& sighting : seen) {
-      sighting.sight.covariance_systematic = 1e-7 * Eigen::Matrix2d::Identity();
-      sighting.sight.origin_sd_enu_m.setConstant(0.2);
-      sighting.clock_sd_s = 1e-2;
-      EXPECT_EQ(feed(*filter, sighting, errors), BearingUse::kUsed);
+    for (BearingMeasurement& measurement : seen) {
+      measurement.sight.covariance_systematic = 1e-7 * Eigen::Matrix2d::Identity();
+      measurement.sight.origin_sd_enu_m.setConstant(0.2);
+      measurement.clock_sd_s = 1e-2;
+      EXPECT_EQ(feed(*filter, measurement, errors), BearingUse::kUsed);
     }
   }
 
@@ -187,18 +187,19 @@ TEST(TrackFilter, RefusesToMixNoModel) {
 
 // Late bearings, out of order, each count at their own instant.
 TEST(TrackFilter, LateBearingsCountAtTheirOwnInstant) {
-  auto sightings = flight(3.0, 1e-4, 1e-4);
+  auto measurements = flight(3.0, 1e-4, 1e-4);
   BiasModel errors;
   TrackFilter in_order = filter_at(path(0.0)), late = filter_at(path(0.0));
-  for (const BearingMeasurement& s : sightings) feed(in_order, s, errors);
-  for (std::size_t i = 0; i + 8 < sightings.size(); i += 8) {
-    std::swap(sightings[i], sightings[i + 7]);
+  for (const BearingMeasurement& s : measurements) feed(in_order, s, errors);
+  for (std::size_t i = 0; i + 8 < measurements.size(); i += 8) {
+    std::swap(measurements[i], measurements[i + 7]);
   }
   BiasModel others;
-  for (const BearingMeasurement& s : sightings) EXPECT_EQ(feed(late, s, others), BearingUse::kUsed);
+  for (const BearingMeasurement& s : measurements)
+    EXPECT_EQ(feed(late, s, others), BearingUse::kUsed);
   const std::int64_t end_us = in_order.utime_us();
   EXPECT_LT((in_order.at(end_us).mean - late.at(end_us).mean).head<3>().norm(), 0.1);
-  BearingMeasurement ancient = sightings.front();
+  BearingMeasurement ancient = measurements.front();
   ancient.utime_us -= 5'000'000;
   EXPECT_EQ(feed(late, ancient, others), BearingUse::kTooLate);
 }
@@ -206,9 +207,9 @@ TEST(TrackFilter, LateBearingsCountAtTheirOwnInstant) {
 TEST(TrackFilter, SetsAWildRayAsideAndNamesWhatIsBehind) {
   BiasModel errors;
   TrackFilter filter = filter_at(path(0.0));
-  const auto sightings = flight(2.0, 1e-4);
-  for (const BearingMeasurement& s : sightings) feed(filter, s, errors);
-  BearingMeasurement wild = sightings.back();
+  const auto measurements = flight(2.0, 1e-4);
+  for (const BearingMeasurement& s : measurements) feed(filter, s, errors);
+  BearingMeasurement wild = measurements.back();
   wild.sight.direction.elevation_rad += 0.05;
   const Vector3d before = filter.position();
   EXPECT_EQ(feed(filter, wild, errors), BearingUse::kRejected);
@@ -228,7 +229,7 @@ TEST(TrackFilter, FollowsAManoeuvreBeyondItsModels) {
     const double t_s = i / 60.0;
     const auto k = static_cast<std::size_t>(i % 4);
     feed(filter,
-         sighting_of(
+         measurement_of(
              ray_to(std::string(1, static_cast<char>('a' + i % 4)), square()[k], corner(t_s), 1e-4),
              kStart + std::llround(t_s * 1e6)),
          errors);
@@ -250,7 +251,7 @@ TEST(TrackFilter, ABiasIsFoundWhereTheGeometryShowsIt) {
     Ray ray =
         ray_to(std::string(1, static_cast<char>('a' + i % 4)), square()[k], path(0.5 * t_s), sigma);
     ray = test::turned(ray, sigma * normal(random), sigma * normal(random) + (k == 2 ? bias : 0.0));
-    feed(filter, sighting_of(ray, kStart + std::llround(t_s * 1e6)), errors);
+    feed(filter, measurement_of(ray, kStart + std::llround(t_s * 1e6)), errors);
   }
   for (std::size_t i = 0; i < filter.stations().size(); ++i) {
     const StationBias found = filter.bias(i);
@@ -270,7 +271,7 @@ TEST(TrackFilter, AveragingDoesNotMakeABadHeadingGoAway) {
     const auto k = static_cast<std::size_t>(i % 2);
     Ray ray = ray_to(k == 0 ? "a" : "b", square()[k], {0.0, 300.0, 50.0}, 1e-4);
     ray.sight.covariance_systematic = Eigen::Matrix2d::Identity() * heading * heading;
-    feed(filter, sighting_of(ray, kStart + i * 10'000), errors);
+    feed(filter, measurement_of(ray, kStart + i * 10'000), errors);
   }
   const Eigen::Matrix3d P = filter.summary().covariance.topLeftCorner<3, 3>();
   const double range_m = Vector3d(200.0, 500.0, 50.0).norm();
@@ -292,7 +293,7 @@ TEST(TrackFilter, TellsWhatErrorsThatNobodyStatedMakeOfItsCovariance) {
     Ray ray =
         ray_to(std::string(1, static_cast<char>('a' + i % 4)), square()[k], path(i / 60.0), 1e-4);
     ray = test::turned(ray, biases[k].x(), biases[k].y());
-    feed(filter, sighting_of(ray, kStart + std::llround(i / 60.0 * 1e6)), errors);
+    feed(filter, measurement_of(ray, kStart + std::llround(i / 60.0 * 1e6)), errors);
   }
   const SystematicPart part = filter.systematic();
   EXPECT_GT(part.empirical_m2.trace(), 0.5 * part.all_m2.trace());
@@ -303,8 +304,9 @@ TEST(TrackFilter, AThirteenthStationWaitsForAPlace) {
   const auto bearing = [](int station, double t_s) {
     const double angle = 2.0 * kPi * station / 13.0;
     const Vector3d place(300.0 * std::cos(angle), 300.0 * std::sin(angle), 0.0);
-    return sighting_of(ray_to(std::string(1, static_cast<char>('a' + station)), place, path(t_s)),
-                       kStart + std::llround(t_s * 1e6));
+    return measurement_of(
+        ray_to(std::string(1, static_cast<char>('a' + station)), place, path(t_s)),
+        kStart + std::llround(t_s * 1e6));
   };
   BiasModel errors;
   TrackFilter filter = filter_at(path(0.0));
@@ -371,7 +373,7 @@ TEST_P(ShortBase, IsAsUnsureAsItsHeadingsAre) {
         ray = test::turned(ray, heading_off[i] + kPixelSd * normal(random),
                            kPixelSd * normal(random));
         ray.sight.covariance_systematic(0, 0) = kHeadingSd * kHeadingSd;
-        feed(filter, sighting_of(ray, utime_us), errors);
+        feed(filter, measurement_of(ray, utime_us), errors);
       }
       if (frame < 15 * 10 || frame % 15 != 0) continue;
       const Vector3d off = filter.position() - site().to_ecef(walker(t_s));

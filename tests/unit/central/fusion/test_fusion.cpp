@@ -13,9 +13,9 @@ using Eigen::Vector3d;
 using test::error_m;
 using test::flight;
 using test::kStart;
+using test::measurement_of;
 using test::path;
 using test::ray_to;
-using test::sighting_of;
 using test::site;
 using test::square;
 using test::targets_of;
@@ -37,9 +37,9 @@ TEST(Fusion, FollowsAMovingTargetWithStaggeredStations) {
 }
 
 TEST(Fusion, ReplayGivesTheSameToTheLastDigit) {
-  const auto sightings = flight(3.0, 1e-4, 1e-4);
+  const auto measurements = flight(3.0, 1e-4, 1e-4);
   Fusion first{FusionConfig{}}, second{FusionConfig{}};
-  const auto a = targets_of(first, sightings), b = targets_of(second, sightings);
+  const auto a = targets_of(first, measurements), b = targets_of(second, measurements);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].utime_us, b[i].utime_us);
@@ -52,8 +52,8 @@ TEST(Fusion, ReplayGivesTheSameToTheLastDigit) {
 TEST(Fusion, PaperEstimateStandsBesideTheJointOne) {
   Fusion fusion{FusionConfig{}};
   int both = 0;
-  for (const BearingMeasurement& sighting : flight(3.0)) {
-    const FusionOutput output = fusion.add(sighting);
+  for (const BearingMeasurement& measurement : flight(3.0)) {
+    const FusionOutput output = fusion.add(measurement);
     if (output.targets.empty() || output.targets[0].estimate.solution != Solution::kOk) continue;
     ++both;
     ASSERT_EQ(output.targets_paper.size(), 1U);
@@ -74,11 +74,11 @@ TEST(Fusion, OneWrongClockHurtsOnlyItsOwner) {
   for (const std::string wrong : {"a", "b", "d"}) {
     for (const std::int64_t offset : {kHour, -kHour, std::int64_t{5'000'000}}) {
       Fusion fusion{FusionConfig{}};
-      auto sightings = flight(4.0);
-      for (BearingMeasurement& sighting : sightings) {
-        if (sighting.station == wrong) sighting.utime_us += offset;
+      auto measurements = flight(4.0);
+      for (BearingMeasurement& measurement : measurements) {
+        if (measurement.station == wrong) measurement.utime_us += offset;
       }
-      const auto targets = targets_of(fusion, sightings);
+      const auto targets = targets_of(fusion, measurements);
       const auto good = std::ranges::count_if(targets, [&](const FusedTarget& target) {
         return target.estimate.solution == Solution::kOk && target.stations.size() == 3;
       });
@@ -104,30 +104,30 @@ TEST(Fusion, OneWrongClockHurtsOnlyItsOwner) {
 }
 
 TEST(Fusion, TakesLateAndDoubledBearings) {
-  auto sightings = flight(3.0);
-  for (std::size_t i = 20; i + 3 < sightings.size(); i += 10) {
-    std::swap(sightings[i], sightings[i + 3]);
+  auto measurements = flight(3.0);
+  for (std::size_t i = 20; i + 3 < measurements.size(); i += 10) {
+    std::swap(measurements[i], measurements[i + 3]);
   }
   std::vector<BearingMeasurement> doubled;
-  for (const BearingMeasurement& sighting : sightings) {
-    doubled.push_back(sighting);
-    doubled.push_back(sighting);
+  for (const BearingMeasurement& measurement : measurements) {
+    doubled.push_back(measurement);
+    doubled.push_back(measurement);
   }
   Fusion fusion{FusionConfig{}};
   const auto targets = targets_of(fusion, doubled);
   EXPECT_EQ(fusion.health().counters.at("refused_duplicate"),
-            static_cast<double>(sightings.size()));
+            static_cast<double>(measurements.size()));
   for (std::size_t i = 10; i < targets.size(); ++i) EXPECT_LT(error_m(targets[i]), 0.05);
 }
 
 TEST(Fusion, GoesOnWhenStationsDropOutAndReturn) {
-  auto sightings = flight(6.0);
-  std::erase_if(sightings, [](const BearingMeasurement& sighting) {
-    const double t_s = static_cast<double>(sighting.utime_us - kStart) * 1e-6;
-    return sighting.station > "b" && t_s > 2.0 && t_s < 4.0;  // two of four at once
+  auto measurements = flight(6.0);
+  std::erase_if(measurements, [](const BearingMeasurement& measurement) {
+    const double t_s = static_cast<double>(measurement.utime_us - kStart) * 1e-6;
+    return measurement.station > "b" && t_s > 2.0 && t_s < 4.0;  // two of four at once
   });
   Fusion fusion{FusionConfig{}};
-  const auto targets = targets_of(fusion, sightings);
+  const auto targets = targets_of(fusion, measurements);
   std::int64_t longest_us = 0;
   for (std::size_t i = 1; i < targets.size(); ++i) {
     longest_us = std::max(longest_us, targets[i].utime_us - targets[i - 1].utime_us);
@@ -145,10 +145,10 @@ TEST(Fusion, GoesOnWhenStationsDropOutAndReturn) {
 }
 
 TEST(Fusion, StartsAnewWhenTheReplayIsStartedAgain) {
-  const auto sightings = flight(5.0);
+  const auto measurements = flight(5.0);
   Fusion fusion{FusionConfig{}};
-  const auto first = targets_of(fusion, sightings);
-  const auto second = targets_of(fusion, sightings);
+  const auto first = targets_of(fusion, measurements);
+  const auto second = targets_of(fusion, measurements);
   EXPECT_GT(second.size(), first.size() - 10);
   EXPECT_LT(error_m(second.back()), 0.02);
   EXPECT_EQ(fusion.health().counters.at("time_stepped_back"), 1.0);
@@ -157,11 +157,11 @@ TEST(Fusion, StartsAnewWhenTheReplayIsStartedAgain) {
 // What the first replay taught about the stations is forgotten in the second one.
 TEST(Fusion, EveryFurtherReplayGivesTheSameTargets) {
   for (const double noise : {2e-4, 3e-4, 1e-3}) {  // all larger than stated
-    const auto sightings = flight(5.0, 1e-4, noise);
+    const auto measurements = flight(5.0, 1e-4, noise);
     Fusion fusion{FusionConfig{}};
-    const auto first = targets_of(fusion, sightings);
-    const auto second = targets_of(fusion, sightings);
-    const auto third = targets_of(fusion, sightings);
+    const auto first = targets_of(fusion, measurements);
+    const auto second = targets_of(fusion, measurements);
+    const auto third = targets_of(fusion, measurements);
     ASSERT_EQ(second.size(), third.size()) << noise;
     std::size_t compared = 0;
     for (std::size_t i = 0; i < second.size(); ++i) {
@@ -209,17 +209,17 @@ INSTANTIATE_TEST_SUITE_P(Times, WorseThanStated, testing::Values(2.0, 3.0));
 // restart the same track_id is a new object.
 TEST(Fusion, WhatARestartedStationFollowsIsNotWhatItFollowedBefore) {
   const auto set_aside = [](std::int64_t boot_after) {
-    auto sightings = flight(2.0);
-    for (BearingMeasurement& sighting : sightings) {
-      sighting.track_id = 1;
-      sighting.boot_id = 5;
-      if (sighting.station != "a" || sighting.utime_us < kStart + 1'000'000) continue;
-      sighting.boot_id = boot_after;
-      sighting.sight.direction.azimuth_rad =
-          wrap_two_pi(sighting.sight.direction.azimuth_rad + 0.2);
+    auto measurements = flight(2.0);
+    for (BearingMeasurement& measurement : measurements) {
+      measurement.track_id = 1;
+      measurement.boot_id = 5;
+      if (measurement.station != "a" || measurement.utime_us < kStart + 1'000'000) continue;
+      measurement.boot_id = boot_after;
+      measurement.sight.direction.azimuth_rad =
+          wrap_two_pi(measurement.sight.direction.azimuth_rad + 0.2);
     }
     Fusion fusion{FusionConfig{}};
-    for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    for (const FusedTarget& target : targets_of(fusion, measurements)) {
       if (target.bearing_only || target.utime_us < kStart + 500'000) continue;
       EXPECT_LT(error_m(target), 0.05);
     }
@@ -231,16 +231,17 @@ TEST(Fusion, WhatARestartedStationFollowsIsNotWhatItFollowedBefore) {
 }
 
 TEST(Fusion, ANewTrackIsAnotherObject) {
-  auto sightings = flight(2.0);
-  for (BearingMeasurement& sighting : sightings) {
-    const bool later = sighting.utime_us > kStart + 1'000'000;
-    if (sighting.station != "a" || !later) continue;
-    sighting.track_id = 2;
-    sighting.sight.direction.azimuth_rad = wrap_two_pi(sighting.sight.direction.azimuth_rad + 0.2);
+  auto measurements = flight(2.0);
+  for (BearingMeasurement& measurement : measurements) {
+    const bool later = measurement.utime_us > kStart + 1'000'000;
+    if (measurement.station != "a" || !later) continue;
+    measurement.track_id = 2;
+    measurement.sight.direction.azimuth_rad =
+        wrap_two_pi(measurement.sight.direction.azimuth_rad + 0.2);
   }
   Fusion fusion{FusionConfig{}};
   int lines = 0;
-  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+  for (const FusedTarget& target : targets_of(fusion, measurements)) {
     if (target.utime_us < kStart + 500'000) continue;
     if (target.bearing_only) {
       EXPECT_EQ(target.bearing_only->station, "a");
@@ -263,10 +264,10 @@ TEST(Fusion, ANewTrackIsAnotherObject) {
 // Late and interspersed bearings of no object do not move the target.
 TEST(Fusion, ALateBearingOfAnotherObjectDoesNotDisturbTheTarget) {
   std::vector<BearingMeasurement> with_late;
-  for (const BearingMeasurement& sighting : flight(2.0)) {
-    with_late.push_back(sighting);
-    if (sighting.utime_us < kStart + 1'000'000 || sighting.station != "a") continue;
-    with_late.push_back(sighting);
+  for (const BearingMeasurement& measurement : flight(2.0)) {
+    with_late.push_back(measurement);
+    if (measurement.utime_us < kStart + 1'000'000 || measurement.station != "a") continue;
+    with_late.push_back(measurement);
     with_late.back().sight.direction.elevation_rad += 0.1;
     with_late.back().utime_us -= 100'000;
   }
@@ -277,23 +278,23 @@ TEST(Fusion, ALateBearingOfAnotherObjectDoesNotDisturbTheTarget) {
 }
 
 TEST(Fusion, TwoStationsAtOnePlaceGiveNoPosition) {
-  auto sightings = flight(3.0);
-  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station > "b"; });
-  for (BearingMeasurement& sighting : sightings) {
-    const double t_s = static_cast<double>(sighting.utime_us - kStart) * 1e-6;
-    sighting.sight = ray_to("a", square()[0], path(t_s), 1e-5).sight;
+  auto measurements = flight(3.0);
+  std::erase_if(measurements, [](const BearingMeasurement& s) { return s.station > "b"; });
+  for (BearingMeasurement& measurement : measurements) {
+    const double t_s = static_cast<double>(measurement.utime_us - kStart) * 1e-6;
+    measurement.sight = ray_to("a", square()[0], path(t_s), 1e-5).sight;
   }
   Fusion fusion{FusionConfig{}};
-  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+  for (const FusedTarget& target : targets_of(fusion, measurements)) {
     EXPECT_NE(target.estimate.solution, Solution::kOk);
   }
 }
 
 TEST(Fusion, OneStationAloneIsALineAndNoPosition) {
-  auto sightings = flight(3.0);
-  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station != "c"; });
+  auto measurements = flight(3.0);
+  std::erase_if(measurements, [](const BearingMeasurement& s) { return s.station != "c"; });
   Fusion fusion{FusionConfig{}};
-  const FusedTarget last = targets_of(fusion, sightings).back();
+  const FusedTarget last = targets_of(fusion, measurements).back();
   EXPECT_EQ(last.estimate.solution, Solution::kBearingOnly);
   ASSERT_TRUE(last.bearing_only.has_value());
   EXPECT_EQ(last.bearing_only->station, "c");
@@ -302,16 +303,16 @@ TEST(Fusion, OneStationAloneIsALineAndNoPosition) {
 
 // No other station sees its target: the others' target continues, next to its bearing-only track.
 TEST(Fusion, WhoFollowsSomethingElseIsALineBesideTheTarget) {
-  auto sightings = flight(3.0);
-  for (BearingMeasurement& sighting : sightings) {
-    sighting.track_id = 1;
-    if (sighting.station != "d") continue;
-    double& azimuth = sighting.sight.direction.azimuth_rad;
+  auto measurements = flight(3.0);
+  for (BearingMeasurement& measurement : measurements) {
+    measurement.track_id = 1;
+    if (measurement.station != "d") continue;
+    double& azimuth = measurement.sight.direction.azimuth_rad;
     azimuth = wrap_two_pi(azimuth + 0.7);
   }
   Fusion fusion{FusionConfig{}};
   int located = 0, lines = 0;
-  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+  for (const FusedTarget& target : targets_of(fusion, measurements)) {
     if (target.utime_us < kStart + 1'500'000) continue;
     located += target.estimate.solution == Solution::kOk ? 1 : 0;
     if (target.estimate.solution != Solution::kBearingOnly) continue;
@@ -325,16 +326,16 @@ TEST(Fusion, WhoFollowsSomethingElseIsALineBesideTheTarget) {
 }
 
 TEST(Fusion, TwoWhoFollowTwoObjectsAreTwoLinesAndNoPosition) {
-  auto sightings = flight(3.0);
-  std::erase_if(sightings,
+  auto measurements = flight(3.0);
+  std::erase_if(measurements,
                 [](const BearingMeasurement& s) { return s.station == "b" || s.station == "d"; });
-  for (BearingMeasurement& sighting : sightings) {
-    sighting.track_id = 1;
-    if (sighting.station == "c") sighting.sight.direction.elevation_rad = 1.4;
+  for (BearingMeasurement& measurement : measurements) {
+    measurement.track_id = 1;
+    if (measurement.station == "c") measurement.sight.direction.elevation_rad = 1.4;
   }
   Fusion fusion{FusionConfig{}};
   std::map<std::string, int> lines;
-  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+  for (const FusedTarget& target : targets_of(fusion, measurements)) {
     EXPECT_NE(target.estimate.solution, Solution::kOk);
     if (target.bearing_only) ++lines[target.bearing_only->station];
   }
@@ -344,12 +345,12 @@ TEST(Fusion, TwoWhoFollowTwoObjectsAreTwoLinesAndNoPosition) {
 
 // The order of the station names does not matter.
 TEST(Fusion, RenamingTheStationsChangesNothing) {
-  const auto sightings = flight(3.0, 1e-4, 1e-4);
-  auto renamed = sightings;
+  const auto measurements = flight(3.0, 1e-4, 1e-4);
+  auto renamed = measurements;
   for (BearingMeasurement& s : renamed)
     s.station = std::string(1, static_cast<char>('z' - s.station[0] + 'a'));
   Fusion first{FusionConfig{}}, second{FusionConfig{}};
-  const auto a = targets_of(first, sightings), b = targets_of(second, renamed);
+  const auto a = targets_of(first, measurements), b = targets_of(second, renamed);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(a[i].estimate.solution, b[i].estimate.solution);
@@ -364,17 +365,17 @@ TEST(Fusion, SlewsAStationFromWhereItsLastMessageTold) {
   Fusion fusion{FusionConfig{}};
   const Vector3d anew(0.0, -120.0, 2.0);
   std::optional<Slew> before, after;
-  for (const BearingMeasurement& sighting : flight(4.0)) {
-    const bool gone = sighting.utime_us > kStart + 2'000'000;
-    if (gone && sighting.station == "a") continue;
+  for (const BearingMeasurement& measurement : flight(4.0)) {
+    const bool gone = measurement.utime_us > kStart + 2'000'000;
+    if (gone && measurement.station == "a") continue;
     if (gone) fusion.know_station("a", {.camera_ecef = site().to_ecef(anew)});
-    for (const Slew& slew : fusion.add(sighting).slews) {
+    for (const Slew& slew : fusion.add(measurement).slews) {
       if (slew.station == "a") (gone ? after : before) = slew;
     }
   }
   ASSERT_TRUE(before && after);
   const double t_s = static_cast<double>(after->effect_utime_us - kStart) * 1e-6;
-  const auto expected = sighting_of(ray_to("a", anew, path(t_s)), 0).sight.direction;
+  const auto expected = measurement_of(ray_to("a", anew, path(t_s)), 0).sight.direction;
   EXPECT_NEAR(wrap_pi(after->direction.azimuth_rad - expected.azimuth_rad), 0.0, 2e-3);
   EXPECT_NEAR(after->direction.elevation_rad, expected.elevation_rad, 2e-3);
 }
@@ -386,8 +387,8 @@ TEST(Fusion, SlewsEveryKnownStationAheadOfTheTarget) {
   fusion.know_station("lookout", {.camera_ecef = site().to_ecef(lookout)});
   std::int64_t last_us = 0;
   int slews = 0;
-  for (const BearingMeasurement& sighting : flight(4.0)) {
-    const FusionOutput output = fusion.add(sighting);
+  for (const BearingMeasurement& measurement : flight(4.0)) {
+    const FusionOutput output = fusion.add(measurement);
     if (output.slews.empty()) continue;
     EXPECT_GE(output.slews[0].utime_us - last_us, 90'000);
     last_us = output.slews[0].utime_us;
@@ -398,8 +399,8 @@ TEST(Fusion, SlewsEveryKnownStationAheadOfTheTarget) {
     ASSERT_EQ(slew.station, "lookout");
     EXPECT_EQ(slew.effect_utime_us, slew.utime_us + 150'000);
     const double t_s = static_cast<double>(slew.effect_utime_us - kStart) * 1e-6;
-    const BearingMeasurement there = sighting_of(ray_to("lookout", lookout, path(t_s)), 0);
-    const BearingMeasurement next = sighting_of(ray_to("lookout", lookout, path(t_s + 0.01)), 0);
+    const BearingMeasurement there = measurement_of(ray_to("lookout", lookout, path(t_s)), 0);
+    const BearingMeasurement next = measurement_of(ray_to("lookout", lookout, path(t_s + 0.01)), 0);
     const auto& now = there.sight.direction;
     EXPECT_NEAR(wrap_pi(slew.direction.azimuth_rad - now.azimuth_rad), 0.0, 1e-3);
     EXPECT_NEAR(slew.direction.elevation_rad, now.elevation_rad, 1e-3);
@@ -417,14 +418,14 @@ TEST(Fusion, SlewsEveryKnownStationAheadOfTheTarget) {
 TEST(Fusion, StopsSlewingSomeTimeAfterTheLastPosition) {
   FusionConfig config;
   Fusion fusion{config};
-  auto sightings = flight(6.0);
-  std::erase_if(sightings, [](const BearingMeasurement& sighting) {
-    return sighting.station != "a" && sighting.utime_us > kStart + 2'000'000;
+  auto measurements = flight(6.0);
+  std::erase_if(measurements, [](const BearingMeasurement& measurement) {
+    return measurement.station != "a" && measurement.utime_us > kStart + 2'000'000;
   });
   std::int64_t last_slew_us = 0;
   bool without_position = false;
-  for (const BearingMeasurement& sighting : sightings) {
-    const FusionOutput output = fusion.add(sighting);
+  for (const BearingMeasurement& measurement : measurements) {
+    const FusionOutput output = fusion.add(measurement);
     if (!output.slews.empty()) last_slew_us = output.slews[0].utime_us;
     // One station alone: the position ends, its bearing-only track continues.
     if (!output.targets.empty() && output.targets[0].utime_us > kStart + 5'000'000) {

@@ -85,10 +85,10 @@ TEST(FusionAdmission, RefusesWhatIsNotABearing) {
 TEST(FusionAdmission, AFloodOfOneStationIsRefusedByNameAndTheOthersGoOn) {
   Fusion fusion{FusionConfig{.admission = {.flood_hz = 200.0}}};
   std::vector<FusedTarget> targets;
-  for (const BearingMeasurement& sighting : flight(4.0)) {
-    for (const FusedTarget& target : fusion.add(sighting).targets) targets.push_back(target);
-    for (int i = 0; sighting.station == "a" && i < 50; ++i) {
-      BearingMeasurement more = sighting;
+  for (const BearingMeasurement& measurement : flight(4.0)) {
+    for (const FusedTarget& target : fusion.add(measurement).targets) targets.push_back(target);
+    for (int i = 0; measurement.station == "a" && i < 50; ++i) {
+      BearingMeasurement more = measurement;
       more.sight.direction.azimuth_rad = wrap_two_pi(0.01 * i + 0.1);
       fusion.add(more);
     }
@@ -101,12 +101,12 @@ TEST(FusionAdmission, AFloodOfOneStationIsRefusedByNameAndTheOthersGoOn) {
 TEST(FusionAdmission, AfterAFloodItsStationIsHeardAgain) {
   Fusion fusion{FusionConfig{.admission = {.flood_hz = 200.0}}};
   int taken = 0;
-  for (const BearingMeasurement& sighting : flight(5.0)) {
-    const bool refused = fusion.add(sighting).refusal != BearingRefusal::kNone;
-    if (sighting.station != "a") continue;
-    if (!refused && sighting.utime_us > kStart + 3'500'000) ++taken;
-    for (int i = 0; sighting.utime_us < kStart + 2'000'000 && i < 50; ++i) {
-      BearingMeasurement more = sighting;
+  for (const BearingMeasurement& measurement : flight(5.0)) {
+    const bool refused = fusion.add(measurement).refusal != BearingRefusal::kNone;
+    if (measurement.station != "a") continue;
+    if (!refused && measurement.utime_us > kStart + 3'500'000) ++taken;
+    for (int i = 0; measurement.utime_us < kStart + 2'000'000 && i < 50; ++i) {
+      BearingMeasurement more = measurement;
       more.utime_us += i;
       more.sight.direction.azimuth_rad = wrap_two_pi(0.01 * i + 0.1);
       fusion.add(more);
@@ -127,13 +127,13 @@ TEST(FusionAdmission, WhoDoesNotBelongToTheSiteIsRefused) {
 
 // A heading that is 5 degrees off: the station is named, and the others' target stays.
 TEST(FusionAdmission, AWrongHeadingIsQuarantinedByNameAndTheOthersGoOn) {
-  auto sightings = flight(10.0);
-  for (BearingMeasurement& sighting : sightings) {
-    double& azimuth = sighting.sight.direction.azimuth_rad;
-    if (sighting.station == "b") azimuth = wrap_two_pi(azimuth + radians(5.0));
+  auto measurements = flight(10.0);
+  for (BearingMeasurement& measurement : measurements) {
+    double& azimuth = measurement.sight.direction.azimuth_rad;
+    if (measurement.station == "b") azimuth = wrap_two_pi(azimuth + radians(5.0));
   }
   Fusion fusion{FusionConfig{}};
-  const auto targets = targets_of(fusion, sightings);
+  const auto targets = targets_of(fusion, measurements);
   for (const FusedTarget& target : targets) {
     if (target.utime_us < kStart + 1'000'000) continue;
     ASSERT_EQ(target.estimate.solution, Solution::kOk);
@@ -153,18 +153,18 @@ TEST(FusionAdmission, NoStatementOfOneStationKeepsTheOthersFromAPosition) {
   for (const double white : {1e-18, 10.0}) {
     for (const double stays : {0.0, 10.0}) {
       for (const double large : {0.0, 1.0}) {
-        auto sightings = flight(3.0);
-        for (BearingMeasurement& sighting : sightings) {
-          if (sighting.station != "b") continue;
-          sighting.sight.direction = {3.0, -0.5};
-          sighting.sight.covariance_white = Eigen::Matrix2d::Identity() * white;
-          sighting.sight.covariance_systematic = Eigen::Matrix2d::Identity() * stays;
-          sighting.sight.origin_sd_enu_m.setConstant(large * 1e6);
-          sighting.clock_sd_s = large * 1e4;
-          ASSERT_EQ(check(sighting), BearingRefusal::kNone);
+        auto measurements = flight(3.0);
+        for (BearingMeasurement& measurement : measurements) {
+          if (measurement.station != "b") continue;
+          measurement.sight.direction = {3.0, -0.5};
+          measurement.sight.covariance_white = Eigen::Matrix2d::Identity() * white;
+          measurement.sight.covariance_systematic = Eigen::Matrix2d::Identity() * stays;
+          measurement.sight.origin_sd_enu_m.setConstant(large * 1e6);
+          measurement.clock_sd_s = large * 1e4;
+          ASSERT_EQ(check(measurement), BearingRefusal::kNone);
         }
         Fusion fusion{FusionConfig{}};
-        for (const FusedTarget& target : targets_of(fusion, sightings)) {
+        for (const FusedTarget& target : targets_of(fusion, measurements)) {
           if (target.utime_us < kStart + 1'000'000) continue;
           ASSERT_EQ(target.estimate.solution, Solution::kOk)
               << white << " " << stays << " " << large;
@@ -195,12 +195,12 @@ TEST(FusionAdmission, StrangeStationsNeitherFillThePlacesNorMakeItGrow) {
 TEST(FusionAdmission, ForgetsTheStationThatIsSilentLongest) {
   Fusion fusion{FusionConfig{.admission = {.max_stations = 5}}};
   fusion.know_station("lookout", {.camera_ecef = site().to_ecef({0.0, 0.0, 30.0})});
-  auto sightings = flight(1.0);
-  std::erase_if(sightings, [](const BearingMeasurement& sighting) {
-    return sighting.station == "a" && sighting.utime_us > kStart + 500'000;
+  auto measurements = flight(1.0);
+  std::erase_if(measurements, [](const BearingMeasurement& measurement) {
+    return measurement.station == "a" && measurement.utime_us > kStart + 500'000;
   });
-  targets_of(fusion, sightings);
-  BearingMeasurement next = sightings.back();
+  targets_of(fusion, measurements);
+  BearingMeasurement next = measurements.back();
   next.station = "x";
   EXPECT_EQ(fusion.add(next).refusal, BearingRefusal::kNone);
   EXPECT_EQ(names(fusion), (std::vector<std::string>{"a", "b", "c", "d", "x"}));
@@ -212,8 +212,8 @@ TEST(FusionAdmission, ForgetsTheStationThatIsSilentLongest) {
   EXPECT_EQ(names(fusion), (std::vector<std::string>{"b", "c", "d", "x", "y"}));
   // ... but one that has long been silent.
   auto later = flight(13.0);
-  std::erase_if(later, [&](const BearingMeasurement& sighting) {
-    return sighting.station == "a" || sighting.utime_us <= next.utime_us;
+  std::erase_if(later, [&](const BearingMeasurement& measurement) {
+    return measurement.station == "a" || measurement.utime_us <= next.utime_us;
   });
   targets_of(fusion, later);
   fusion.know_station("lookout", {.camera_ecef = site().to_ecef({0.0, 0.0, 30.0})});

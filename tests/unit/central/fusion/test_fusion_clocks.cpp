@@ -17,14 +17,14 @@ using test::kStart;
 using test::targets_of;
 
 // The flight with one station's bearings changed from an instant on.
-std::vector<BearingMeasurement> changed(std::vector<BearingMeasurement> sightings,
+std::vector<BearingMeasurement> changed(std::vector<BearingMeasurement> measurements,
                                         const std::string& station, double from_s,
                                         const std::function<void(BearingMeasurement&)>& change) {
-  for (BearingMeasurement& sighting : sightings) {
-    const double t_s = static_cast<double>(sighting.utime_us - kStart) * 1e-6;
-    if (sighting.station == station && t_s >= from_s) change(sighting);
+  for (BearingMeasurement& measurement : measurements) {
+    const double t_s = static_cast<double>(measurement.utime_us - kStart) * 1e-6;
+    if (measurement.station == station && t_s >= from_s) change(measurement);
   }
-  return sightings;
+  return measurements;
 }
 
 std::string quarantined(const Fusion& fusion) {
@@ -37,14 +37,14 @@ std::string quarantined(const Fusion& fusion) {
 
 TEST(FusionClocks, AMarkedStepQuarantinesThatStationAloneAndTheOthersGoOn) {
   for (const std::int64_t step_us : {2'000'000, -2'000'000}) {
-    const auto sightings = changed(flight(6.0), "b", 3.0, [&](BearingMeasurement& sighting) {
-      sighting.utime_us += step_us;
-      sighting.clock = StationClock::kUnsynchronised;
-      sighting.clock_sd_s = 2.0;
+    const auto measurements = changed(flight(6.0), "b", 3.0, [&](BearingMeasurement& measurement) {
+      measurement.utime_us += step_us;
+      measurement.clock = StationClock::kUnsynchronised;
+      measurement.clock_sd_s = 2.0;
     });
     Fusion fusion{FusionConfig{}};
     int after = 0;
-    for (const FusedTarget& target : targets_of(fusion, sightings)) {
+    for (const FusedTarget& target : targets_of(fusion, measurements)) {
       const double t_s = static_cast<double>(target.utime_us - kStart) * 1e-6;
       if (t_s < 1.0) continue;
       ASSERT_EQ(target.estimate.solution, Solution::kOk) << t_s;
@@ -63,27 +63,27 @@ TEST(FusionClocks, AMarkedStepQuarantinesThatStationAloneAndTheOthersGoOn) {
 }
 
 TEST(FusionClocks, OfTwoStationsTheMarkedOneIsSetAsideAndTheOtherKeepsTheTime) {
-  auto sightings = changed(flight(6.0), "a", 3.0, [&](BearingMeasurement& sighting) {
-    sighting.utime_us -= 2'000'000;
-    sighting.clock = StationClock::kUnsynchronised;
-    sighting.clock_sd_s = 2.0;
+  auto measurements = changed(flight(6.0), "a", 3.0, [&](BearingMeasurement& measurement) {
+    measurement.utime_us -= 2'000'000;
+    measurement.clock = StationClock::kUnsynchronised;
+    measurement.clock_sd_s = 2.0;
   });
-  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station > "b"; });
+  std::erase_if(measurements, [](const BearingMeasurement& s) { return s.station > "b"; });
   Fusion fusion{FusionConfig{}};
-  targets_of(fusion, sightings);
+  targets_of(fusion, measurements);
   EXPECT_EQ(quarantined(fusion), "a");
   EXPECT_GT(fusion.now_us(), kStart + 5'800'000);
   EXPECT_EQ(fusion.health().counters.at("refused_future"), 0.0) << "nothing of the good one";
 }
 
 TEST(FusionClocks, AQuarantinedStationIsStillSlewed) {
-  const auto sightings =
+  const auto measurements =
       changed(flight(4.0), "b", 2.0, [](BearingMeasurement& s) { s.clock_sd_s = 2.0; });
   Fusion fusion{FusionConfig{}};
   bool slewed = false;
-  for (const BearingMeasurement& sighting : sightings) {
-    const FusionOutput output = fusion.add(sighting);
-    if (sighting.utime_us < kStart + 3'000'000) continue;
+  for (const BearingMeasurement& measurement : measurements) {
+    const FusionOutput output = fusion.add(measurement);
+    if (measurement.utime_us < kStart + 3'000'000) continue;
     for (const Slew& slew : output.slews) slewed = slewed || slew.station == "b";
   }
   EXPECT_TRUE(slewed) << "whether it may heed them, its own gate decides by its own clock";
@@ -91,10 +91,10 @@ TEST(FusionClocks, AQuarantinedStationIsStillSlewed) {
 
 TEST(FusionClocks, AStatedErrorInflatesAlongTheMotion) {
   const auto trace_with = [](double error_s) {
-    auto sightings = flight(3.0);
-    for (BearingMeasurement& sighting : sightings) sighting.clock_sd_s = error_s;
+    auto measurements = flight(3.0);
+    for (BearingMeasurement& measurement : measurements) measurement.clock_sd_s = error_s;
     Fusion fusion{FusionConfig{}};
-    return targets_of(fusion, sightings).back().estimate.covariance_ecef.trace();
+    return targets_of(fusion, measurements).back().estimate.covariance_ecef.trace();
   };
   // 20 m/s for 50 ms are a metre, and averaging four stations does not remove it.
   EXPECT_LT(trace_with(0.0), 0.01);
@@ -112,10 +112,10 @@ TEST(FusionClocks, AFusionThatBeginsInMidFlightLocatesAtOnce) {
 }
 
 TEST(FusionClocks, AnotherCalibrationStartsAnew) {
-  const auto sightings =
+  const auto measurements =
       changed(flight(4.0), "c", 2.0, [](BearingMeasurement& s) { s.calibration_id = 77; });
   Fusion fusion{FusionConfig{}};
-  const auto targets = targets_of(fusion, sightings);
+  const auto targets = targets_of(fusion, measurements);
   EXPECT_EQ(fusion.health().counters.at("calibrations_changed"), 1.0);
   EXPECT_EQ(targets.back().stations.size(), 4U);
   EXPECT_LT(error_m(targets.back()), 0.05);
@@ -123,12 +123,12 @@ TEST(FusionClocks, AnotherCalibrationStartsAnew) {
 
 TEST(FusionClocks, StrangersCannotPushOutWhoWorksHere) {
   Fusion fusion{FusionConfig{.admission = {.max_stations = 4}}};
-  const auto sightings = flight(4.0);
+  const auto measurements = flight(4.0);
   double refused = 0.0;
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
-    fusion.add(sightings[i]);
-    if (sightings[i].utime_us < kStart + 1'000'000) continue;
-    BearingMeasurement stranger = sightings[i];
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    fusion.add(measurements[i]);
+    if (measurements[i].utime_us < kStart + 1'000'000) continue;
+    BearingMeasurement stranger = measurements[i];
     stranger.station = "stranger" + std::to_string(i);
     EXPECT_EQ(fusion.add(stranger).refusal, BearingRefusal::kTooMany);
     ++refused;

@@ -20,27 +20,27 @@ std::int64_t us(double seconds) { return kStart + std::llround(seconds * 1e6); }
 
 // A flight whose stations follow an object, each by a constant track id.
 std::vector<BearingMeasurement> followed(double seconds) {
-  auto sightings = flight(seconds, 1e-4, 1e-4);
-  for (BearingMeasurement& sighting : sightings) sighting.track_id = 7;
-  return sightings;
+  auto measurements = flight(seconds, 1e-4, 1e-4);
+  for (BearingMeasurement& measurement : measurements) measurement.track_id = 7;
+  return measurements;
 }
 
-void turn(BearingMeasurement& sighting, double azimuth_rad) {
-  double& azimuth = sighting.sight.direction.azimuth_rad;
+void turn(BearingMeasurement& measurement, double azimuth_rad) {
+  double& azimuth = measurement.sight.direction.azimuth_rad;
   azimuth = wrap_two_pi(azimuth + azimuth_rad);
 }
 
 // One station, then all, then that one again: bearing-only, position, and bearing-only of one
 // object.
 TEST(FusionEpoch, ALineIsTheObjectThatItsPositionIs) {
-  auto sightings = followed(9.0);
-  std::erase_if(sightings, [](const BearingMeasurement& s) {
+  auto measurements = followed(9.0);
+  std::erase_if(measurements, [](const BearingMeasurement& s) {
     return s.station != "b" && (s.utime_us < us(2.0) || s.utime_us > us(4.0));
   });
   Fusion fusion{FusionConfig{}};
   std::set<std::int64_t> ids;
   int before = 0, positions = 0, after = 0;
-  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+  for (const FusedTarget& target : targets_of(fusion, measurements)) {
     if (target.utime_us < us(1.0) || target.target_id == 0) continue;
     ids.insert(target.target_id);
     before += target.bearing_only && target.utime_us < us(2.0) ? 1 : 0;
@@ -54,14 +54,14 @@ TEST(FusionEpoch, ALineIsTheObjectThatItsPositionIs) {
 }
 
 TEST(FusionEpoch, WhatAStationFollowsNextIsAnotherObject) {
-  auto sightings = followed(4.0);
-  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station != "b"; });
-  for (BearingMeasurement& sighting : sightings) {
-    if (sighting.utime_us > us(2.0)) sighting.track_id = 8;
+  auto measurements = followed(4.0);
+  std::erase_if(measurements, [](const BearingMeasurement& s) { return s.station != "b"; });
+  for (BearingMeasurement& measurement : measurements) {
+    if (measurement.utime_us > us(2.0)) measurement.track_id = 8;
   }
   Fusion fusion{FusionConfig{}};
   std::set<std::int64_t> first, second;
-  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+  for (const FusedTarget& target : targets_of(fusion, measurements)) {
     if (!target.bearing_only || target.target_id == 0) continue;
     // A silent station's bearing-only track is still published for this long.
     if (target.utime_us > us(2.0) && target.utime_us < us(2.4)) continue;
@@ -74,16 +74,16 @@ TEST(FusionEpoch, WhatAStationFollowsNextIsAnotherObject) {
 
 // Two track ids of one station are two objects, each while it is followed.
 std::vector<BearingMeasurement> two_of_one_station(double seconds) {
-  auto sightings = followed(seconds);
-  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station != "b"; });
-  const std::size_t count = sightings.size();
+  auto measurements = followed(seconds);
+  std::erase_if(measurements, [](const BearingMeasurement& s) { return s.station != "b"; });
+  const std::size_t count = measurements.size();
   for (std::size_t i = 0; i < count; ++i) {
-    sightings.push_back(sightings[i]);
-    sightings.back().track_id = 9;
-    turn(sightings.back(), 0.3);
+    measurements.push_back(measurements[i]);
+    measurements.back().track_id = 9;
+    turn(measurements.back(), 0.3);
   }
-  std::ranges::stable_sort(sightings, {}, &BearingMeasurement::utime_us);
-  return sightings;
+  std::ranges::stable_sort(measurements, {}, &BearingMeasurement::utime_us);
+  return measurements;
 }
 
 TEST(FusionEpoch, WhatOneStationFollowsAtOnceAreTwoLines) {
@@ -109,16 +109,16 @@ TEST(FusionEpoch, WhatOneStationFollowsAtOnceAreTwoLines) {
 // All stations see one object, and one station also another: before, during and after the first is
 // a target.
 TEST(FusionEpoch, AStationsLineBesideItsTargetKeepsItsIdentity) {
-  auto sightings = two_of_one_station(8.0);
+  auto measurements = two_of_one_station(8.0);
   for (const BearingMeasurement& s : followed(8.0)) {
-    if (s.station != "b" && s.utime_us > us(2.0) && s.utime_us < us(4.0)) sightings.push_back(s);
+    if (s.station != "b" && s.utime_us > us(2.0) && s.utime_us < us(4.0)) measurements.push_back(s);
   }
-  std::ranges::stable_sort(sightings, {}, &BearingMeasurement::utime_us);
+  std::ranges::stable_sort(measurements, {}, &BearingMeasurement::utime_us);
   Fusion fusion{FusionConfig{}};
   std::map<std::int64_t, std::set<std::int64_t>> ids;
   std::map<std::int64_t, int> beside;
   int positions = 0;
-  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+  for (const FusedTarget& target : targets_of(fusion, measurements)) {
     if (target.utime_us < us(1.0) || target.target_id == 0) continue;
     const std::int64_t name = target.bearing_only ? target.bearing_only->track_id : 7;
     ids[name].insert(target.target_id);
@@ -134,23 +134,23 @@ TEST(FusionEpoch, AStationsLineBesideItsTargetKeepsItsIdentity) {
 
 // An outlier of each of two objects goes to the target that the station follows by that track id.
 TEST(FusionEpoch, AStationFollowsTwoTargetsByTheirNames) {
-  auto sightings = followed(3.0);
-  const std::size_t count = sightings.size();
+  auto measurements = followed(3.0);
+  const std::size_t count = measurements.size();
   for (std::size_t i = 0; i < count; ++i) {
-    BearingMeasurement& own = sightings[i];
+    BearingMeasurement& own = measurements[i];
     const Eigen::Vector3d place = test::square()[static_cast<std::size_t>(own.station[0] - 'a')];
     const double t_s = 1e-6 * static_cast<double>(own.utime_us - kStart);
     const Eigen::Vector3d there = test::path(t_s) + Eigen::Vector3d(0, 0, 60);
     Ray ray = test::ray_to(own.station, place, there, 1e-4);
-    sightings.push_back(test::sighting_of(ray, own.utime_us));
-    sightings.back().track_id = 9;
+    measurements.push_back(test::measurement_of(ray, own.utime_us));
+    measurements.back().track_id = 9;
   }
-  std::ranges::stable_sort(sightings, {}, &BearingMeasurement::utime_us);
-  for (BearingMeasurement& s : sightings) {
+  std::ranges::stable_sort(measurements, {}, &BearingMeasurement::utime_us);
+  for (BearingMeasurement& s : measurements) {
     if (s.station == "a" && s.utime_us > us(2.5)) s.sight.direction.elevation_rad += 0.01;
   }
   Fusion fusion{FusionConfig{}};
-  for (const BearingMeasurement& s : sightings) fusion.add(s);
+  for (const BearingMeasurement& s : measurements) fusion.add(s);
   // Half a second of it, 15 frames a second, of either.
   EXPECT_GE(fusion.tracks().counts().set_aside, 12);
   EXPECT_EQ(std::ranges::count_if(fusion.tracks().tracks(), is_established), 2);
@@ -158,17 +158,17 @@ TEST(FusionEpoch, AStationFollowsTwoTargetsByTheirNames) {
 
 // Every bearing has a new track id: this has no effect, and memory stays bounded.
 TEST(FusionEpoch, AStationThatNamesEverythingAnewIsForgottenAsItGoes) {
-  auto sightings = followed(4.0);
+  auto measurements = followed(4.0);
   std::int64_t name = 100;
-  for (BearingMeasurement& sighting : sightings) {
-    if (sighting.station != "a") continue;
-    sighting.track_id = ++name;
-    turn(sighting, 0.5);
+  for (BearingMeasurement& measurement : measurements) {
+    if (measurement.station != "a") continue;
+    measurement.track_id = ++name;
+    turn(measurement, 0.5);
   }
   Fusion fusion{FusionConfig{}};
-  for (const BearingMeasurement& sighting : sightings) {
+  for (const BearingMeasurement& measurement : measurements) {
     std::map<std::string, std::size_t> lines;
-    for (const FusedTarget& target : fusion.add(sighting).targets) {
+    for (const FusedTarget& target : fusion.add(measurement).targets) {
       if (target.bearing_only) ++lines[target.bearing_only->station];
     }
     EXPECT_LE(lines["a"], 4U);
@@ -180,27 +180,27 @@ TEST(FusionEpoch, AStationThatNamesEverythingAnewIsForgottenAsItGoes) {
 
 // Detections without a track id may be of any object.
 TEST(FusionEpoch, WhatAStationDoesNotNameHasNoIdentity) {
-  auto sightings = flight(3.0);
-  std::erase_if(sightings, [](const BearingMeasurement& s) { return s.station != "b"; });
+  auto measurements = flight(3.0);
+  std::erase_if(measurements, [](const BearingMeasurement& s) { return s.station != "b"; });
   Fusion fusion{FusionConfig{}};
-  for (const FusedTarget& target : targets_of(fusion, sightings)) EXPECT_EQ(target.target_id, 0);
+  for (const FusedTarget& target : targets_of(fusion, measurements)) EXPECT_EQ(target.target_id, 0);
 }
 
 // All have followed one object; then each follows an object of its own by the same track id.
 TEST(FusionEpoch, OneIdentityIsNotTwoLines) {
-  auto sightings = followed(9.0);
+  auto measurements = followed(9.0);
   const std::map<std::string, double> turned = {{"a", 0.0}, {"b", 0.7}, {"c", 1.4}, {"d", 2.1}};
-  for (BearingMeasurement& sighting : sightings) {
-    if (sighting.utime_us > us(3.0)) {
-      turn(sighting, turned.at(sighting.station));
-      sighting.sight.direction.elevation_rad += 0.2 * turned.at(sighting.station);
+  for (BearingMeasurement& measurement : measurements) {
+    if (measurement.utime_us > us(3.0)) {
+      turn(measurement, turned.at(measurement.station));
+      measurement.sight.direction.elevation_rad += 0.2 * turned.at(measurement.station);
     }
   }
   Fusion fusion{FusionConfig{}};
   std::map<std::int64_t, std::set<std::int64_t>> at_instant;
   std::map<std::string, std::set<std::int64_t>> of_station;
   int lines = 0;
-  for (const FusedTarget& target : targets_of(fusion, sightings)) {
+  for (const FusedTarget& target : targets_of(fusion, measurements)) {
     if (target.target_id == 0) continue;
     EXPECT_TRUE(at_instant[target.utime_us].insert(target.target_id).second);
     if (!target.bearing_only || target.utime_us < us(7.0)) continue;
@@ -244,18 +244,19 @@ TEST(FusionEpoch, NothingOldIsToldAfterASilence) {
   std::set<std::pair<std::int64_t, std::int64_t>> told;
   std::int64_t silent_us = 0;
   std::size_t before = 0, after = 0, slews = 0;
-  for (BearingMeasurement sighting : many_targets(2.0)) {
-    sighting.utime_us += silent_us;
-    const FusionOutput output = fusion.add(sighting);
+  for (BearingMeasurement measurement : many_targets(2.0)) {
+    measurement.utime_us += silent_us;
+    const FusionOutput output = fusion.add(measurement);
     for (const FusedTarget& target : output.targets) {
-      EXPECT_LT(sighting.utime_us - target.utime_us, 2'000'000);
+      EXPECT_LT(measurement.utime_us - target.utime_us, 2'000'000);
       EXPECT_TRUE(told.insert({target.utime_us, target.target_id}).second);
     }
-    for (const Slew& slew : output.slews) EXPECT_LT(sighting.utime_us - slew.utime_us, 2'000'000);
+    for (const Slew& slew : output.slews)
+      EXPECT_LT(measurement.utime_us - slew.utime_us, 2'000'000);
     (silent_us == 0 ? before : after) += output.targets.size();
     slews += silent_us == 0 ? 0 : output.slews.size();
     const bool amidst = !output.targets.empty() && !output.slews.empty();
-    if (amidst && sighting.utime_us > bench::kStartUs + 1'000'000) silent_us = kSilenceUs;
+    if (amidst && measurement.utime_us > bench::kStartUs + 1'000'000) silent_us = kSilenceUs;
   }
   EXPECT_EQ(silent_us, kSilenceUs);
   EXPECT_GT(before, 100U);
@@ -273,8 +274,8 @@ TEST(FusionEpoch, SlewsOfManyStationsAreEachForTheirOwnInstant) {
   }
   int slews = 0;
   std::set<std::string> stations;
-  for (const BearingMeasurement& sighting : flight(4.0, 1e-4, 1e-4)) {
-    const FusionOutput output = fusion.add(sighting);
+  for (const BearingMeasurement& measurement : flight(4.0, 1e-4, 1e-4)) {
+    const FusionOutput output = fusion.add(measurement);
     for (const Slew& slew : output.slews) {
       EXPECT_EQ(slew.utime_us, fusion.now_us());
       EXPECT_EQ(slew.effect_utime_us, fusion.now_us() + 150'000);
@@ -289,11 +290,11 @@ TEST(FusionEpoch, SlewsOfManyStationsAreEachForTheirOwnInstant) {
 TEST(FusionEpoch, WhomAnOperatorTakesIsSlewedNoMore) {
   Fusion fusion{FusionConfig{}};
   std::map<bool, int> slews;  // of station b, by whether it is commandable
-  for (const BearingMeasurement& sighting : flight(4.0, 1e-4, 1e-4)) {
-    const bool is_taken = sighting.utime_us > us(2.0);
+  for (const BearingMeasurement& measurement : flight(4.0, 1e-4, 1e-4)) {
+    const bool is_taken = measurement.utime_us > us(2.0);
     fusion.allow_slews("b", !is_taken);
     fusion.allow_slews("nobody", true);
-    for (const Slew& slew : fusion.add(sighting).slews) slews[is_taken] += slew.station == "b";
+    for (const Slew& slew : fusion.add(measurement).slews) slews[is_taken] += slew.station == "b";
   }
   EXPECT_GT(slews[false], 5);
   EXPECT_EQ(slews[true], 0);
@@ -306,11 +307,11 @@ TEST(FusionEpoch, ManyTargetsAreToldInTurn) {
   std::map<std::int64_t, std::vector<std::int64_t>> epochs;
   std::map<std::int64_t, std::set<std::string>> rounds;
   std::map<std::int64_t, int> papers;
-  for (const BearingMeasurement& sighting : many_targets(2.0)) {
-    const FusionOutput output = fusion.add(sighting);
+  for (const BearingMeasurement& measurement : many_targets(2.0)) {
+    const FusionOutput output = fusion.add(measurement);
     EXPECT_LE(output.targets.size(), 10U);
     EXPECT_LE(output.slews.size(), 20U);
-    if (sighting.utime_us < bench::kStartUs + 1'000'000) continue;
+    if (measurement.utime_us < bench::kStartUs + 1'000'000) continue;
     for (const FusedTarget& target : output.targets) {
       epochs[target.utime_us].push_back(target.target_id);
     }

@@ -18,7 +18,7 @@ using test::kStart;
 
 class EachEstimator : public testing::TestWithParam<const char*> {};
 
-std::vector<FusedTarget> fused(const std::vector<BearingMeasurement>& sightings,
+std::vector<FusedTarget> fused(const std::vector<BearingMeasurement>& measurements,
                                const char* estimator, double scale = 1.0) {
   OfflineConfig config;
   config.estimator = estimator;
@@ -29,7 +29,7 @@ std::vector<FusedTarget> fused(const std::vector<BearingMeasurement>& sightings,
   AlignmentConfig& alignment = config.fusion.estimators.alignment;
   alignment.acceleration_sd_m_s2 *= scale;
   alignment.range_unknown_m *= scale;
-  return fuse_offline(sightings, config);
+  return fuse_offline(measurements, config);
 }
 
 constexpr double kSame = 1e-4;  // of the stated error: only the order of sums differs
@@ -55,8 +55,8 @@ void expect_same(const std::vector<FusedTarget>& a, const std::vector<FusedTarge
 TEST_P(EachEstimator, DoesNotCareHowStationsAreNamed) {
   const auto before = flight(4.0, 1e-4, 1e-4);
   auto after = before;
-  for (BearingMeasurement& sighting : after) {
-    sighting.station = std::string(1, "dbca"[sighting.station[0] - 'a']);
+  for (BearingMeasurement& measurement : after) {
+    measurement.station = std::string(1, "dbca"[measurement.station[0] - 'a']);
   }
   expect_same(fused(before, GetParam()), fused(after, GetParam()), Eigen::Isometry3d::Identity());
 }
@@ -68,8 +68,8 @@ TEST_P(EachEstimator, DoesNotCareWhereOnTheGlobeTheSiteLies) {
     const Eigen::Matrix3d turn =
         Eigen::AngleAxisd(radians(turn_deg), Vector3d::UnitZ()).toRotationMatrix();
     auto after = before;
-    for (BearingMeasurement& sighting : after) {
-      sighting.sight.origin_ecef = (turn * sighting.sight.origin_ecef).eval();
+    for (BearingMeasurement& measurement : after) {
+      measurement.sight.origin_ecef = (turn * measurement.sight.origin_ecef).eval();
     }
     expect_same(fused(before, GetParam()), fused(after, GetParam()), Eigen::Isometry3d(turn));
   }
@@ -89,11 +89,11 @@ TEST_P(EachEstimator, DoesNotCareWhichWayUpTheSiteLies) {
     moved.linear() = there.R_ecef_enu() * here.R_ecef_enu().transpose();
     moved.translation() = there.origin_ecef() - moved.linear() * here.origin_ecef();
     auto after = before;
-    for (BearingMeasurement& sighting : after) {
-      const Vector3d ray = moved.linear() * direction_ecef(sighting.sight);
-      sighting.sight.origin_ecef = (moved * sighting.sight.origin_ecef).eval();
-      sighting.sight.direction =
-          azimuth_elevation_from_enu(R_ecef_enu(sighting.sight.origin_ecef).transpose() * ray);
+    for (BearingMeasurement& measurement : after) {
+      const Vector3d ray = moved.linear() * direction_ecef(measurement.sight);
+      measurement.sight.origin_ecef = (moved * measurement.sight.origin_ecef).eval();
+      measurement.sight.direction =
+          azimuth_elevation_from_enu(R_ecef_enu(measurement.sight.origin_ecef).transpose() * ray);
     }
     expect_same(fused(before, GetParam()), fused(after, GetParam()), moved, 3e-3);
   }
@@ -111,15 +111,15 @@ INSTANTIATE_TEST_SUITE_P(Fusion, EachEstimator, testing::Values("filter", "least
 std::vector<BearingMeasurement> scaled_flight(double scale) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
-  std::vector<BearingMeasurement> sightings;
+  std::vector<BearingMeasurement> measurements;
   for (int i = 0; i < 240; ++i) {
     const auto k = static_cast<std::size_t>(i % 4);
     Ray ray = test::ray_to(std::string(1, static_cast<char>('a' + i % 4)),
                            scale * test::square()[k], scale * test::path(i / 60.0), 1e-4);
     ray = test::turned(ray, 1e-4 * normal(random), 1e-4 * normal(random));
-    sightings.push_back(test::sighting_of(ray, kStart + std::llround(i / 60.0 * 1e6)));
+    measurements.push_back(test::measurement_of(ray, kStart + std::llround(i / 60.0 * 1e6)));
   }
-  return sightings;
+  return measurements;
 }
 
 TEST(FusionProperties, AFlightTenTimesAsLargeHasTenTimesTheErrors) {

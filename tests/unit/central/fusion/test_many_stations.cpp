@@ -31,8 +31,8 @@ void fly(int stations, double rate_hz, std::uint64_t seed, Seen& seen) {
   world.bias_sd_rad = 2e-3;
   const Path path = cruising({{-60, 40, 80}, {9.0, -6.0, 1.0}}, 0.5, kDurationS, random);
   Fusion fusion(FusionConfig{.paper_targets = 0});
-  for (const BearingMeasurement& sighting : measure(world, {path}, kDurationS, random)) {
-    const FusionOutput output = fusion.add(sighting);
+  for (const BearingMeasurement& measurement : measure(world, {path}, kDurationS, random)) {
+    const FusionOutput output = fusion.add(measurement);
     seen.most_at_once = std::max(seen.most_at_once, output.targets.size());
     for (const FusedTarget& target : output.targets) {
       if (target.target_id != 0) seen.ids.insert(target.target_id);
@@ -86,7 +86,7 @@ TEST(ManyStations, WhatTheySeeAllAtOnceIsAllFound) {
   }
   std::ranges::stable_sort(all, {}, &BearingMeasurement::utime_us);
   Fusion fusion{FusionConfig{}};
-  for (const BearingMeasurement& sighting : all) fusion.add(sighting);
+  for (const BearingMeasurement& measurement : all) fusion.add(measurement);
   for (const Path& path : paths) {
     const Vector3d there = site().to_ecef(at(path, kDurationS).p_enu);
     const auto near = std::ranges::count_if(fusion.tracks().tracks(), [&](const Track& track) {
@@ -98,10 +98,10 @@ TEST(ManyStations, WhatTheySeeAllAtOnceIsAllFound) {
 }
 
 // Upwards, away from all others: it intersects none.
-BearingMeasurement of_nothing(BearingMeasurement sighting, double elevation_rad) {
-  const Vector3d place = site().to_enu(sighting.sight.origin_ecef);
-  sighting.sight.direction = {wrap_two_pi(std::atan2(place.x(), place.y())), elevation_rad};
-  return sighting;
+BearingMeasurement of_nothing(BearingMeasurement measurement, double elevation_rad) {
+  const Vector3d place = site().to_enu(measurement.sight.origin_ecef);
+  measurement.sight.direction = {wrap_two_pi(std::atan2(place.x(), place.y())), elevation_rad};
+  return measurement;
 }
 
 // 128 stations in a fixed order, two bearings in each frame: each has one search in a round of

@@ -34,9 +34,9 @@ Path circling() {
 }
 
 // Each of a station's bearings by another track id: its bias would be new every time.
-void rename_each(std::vector<BearingMeasurement>& sightings) {
+void rename_each(std::vector<BearingMeasurement>& measurements) {
   std::int64_t name = 0;
-  for (BearingMeasurement& sighting : sightings) sighting.track_id = ++name;
+  for (BearingMeasurement& measurement : measurements) measurement.track_id = ++name;
 }
 
 struct Result {
@@ -51,9 +51,9 @@ Result fly(const WorldConfig& world, const OfflineConfig& config, bool renamed =
   int fixes = 0;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
     std::mt19937_64 random(seed);
-    std::vector<BearingMeasurement> sightings = measure(world, {path}, kDurationS, random);
-    if (renamed) rename_each(sightings);
-    for (const FusedTarget& target : fuse_offline(sightings, config)) {
+    std::vector<BearingMeasurement> measurements = measure(world, {path}, kDurationS, random);
+    if (renamed) rename_each(measurements);
+    for (const FusedTarget& target : fuse_offline(measurements, config)) {
       const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
       if (time_s < kSettledS) continue;
       const Vector3d e = target.estimate.position_ecef - site().to_ecef(at(path, time_s).p_enu);
@@ -162,8 +162,8 @@ TEST(PoseErrors, ALongFlightKeepsItsTrack) {
   std::mt19937_64 random(3);
   const Path path = cruising({{-100, 20, 120}, {0.7, 0.1, 0.0}}, 0.01, kFlightS, random);
   Fusion fusion(FusionConfig{});
-  for (const BearingMeasurement& sighting : measure(world, {path}, kFlightS, random))
-    fusion.add(sighting);
+  for (const BearingMeasurement& measurement : measure(world, {path}, kFlightS, random))
+    fusion.add(measurement);
   EXPECT_EQ(fusion.tracks().counts().dropped, 0);
   ASSERT_EQ(fusion.tracks().tracks().size(), 1U);
   const FilterMatrix P = fusion.tracks().tracks().front().filter.mixed().covariance;
@@ -181,15 +181,15 @@ TEST(PoseErrors, ANewDesignationMayBeOffAsStated) {
   const Path path = cruising({{-100, 20, 120}, {5, 1, 0}}, 0.1, kFlightS, random);
   TrackFilter filter = filter_on(path);
   BiasModel errors;
-  for (BearingMeasurement& sighting : measure(world, {path}, kFlightS, random)) {
-    sighting.track_id = 1;
-    const double time_s = 1e-6 * static_cast<double>(sighting.utime_us - kStartUs);
-    if (sighting.station == "s0" && time_s > kTurnedS) {
-      sighting.track_id = 2;
-      sighting.sight.direction.azimuth_rad += kOffRad;
-      ASSERT_LT(filter.innovation(sighting, errors).nis, 25.0) << time_s;
+  for (BearingMeasurement& measurement : measure(world, {path}, kFlightS, random)) {
+    measurement.track_id = 1;
+    const double time_s = 1e-6 * static_cast<double>(measurement.utime_us - kStartUs);
+    if (measurement.station == "s0" && time_s > kTurnedS) {
+      measurement.track_id = 2;
+      measurement.sight.direction.azimuth_rad += kOffRad;
+      ASSERT_LT(filter.innovation(measurement, errors).nis, 25.0) << time_s;
     }
-    test::feed(filter, sighting, errors);
+    test::feed(filter, measurement, errors);
   }
 }
 
@@ -203,7 +203,7 @@ TEST(PoseErrors, ItIsNeverLessCertainThanStated) {
   BiasModel errors;
   std::vector<BearingMeasurement> seen = measure(world, {path}, kFlightS, random);
   rename_each(seen);
-  for (const BearingMeasurement& sighting : seen) test::feed(filter, sighting, errors);
+  for (const BearingMeasurement& measurement : seen) test::feed(filter, measurement, errors);
   ASSERT_EQ(filter.stations().size(), 4U);
   for (std::size_t i = 0; i < 4; ++i) {
     const StationBias bias = filter.bias(i);

@@ -49,10 +49,10 @@ BearingMeasurement chance_bearing(const FusedTarget& target) {
   const WorldConfig world{.stations_enu = {{0, 300, 0}}, .aims_enu = {}};
   const Path there(100, PathPoint{site().to_enu(target.estimate.position_ecef), Vector3d::Zero()});
   std::mt19937_64 random(7);
-  BearingMeasurement sighting = measure(world, {there}, 0.5, random).front();
-  sighting.station = "s9";
-  sighting.utime_us = target.utime_us;
-  return sighting;
+  BearingMeasurement measurement = measure(world, {there}, 0.5, random).front();
+  measurement.station = "s9";
+  measurement.utime_us = target.utime_us;
+  return measurement;
 }
 
 // That is a position until the rays part again; nothing is learnt as if both were one object, even
@@ -62,8 +62,8 @@ TEST(TwoStations, WhoFollowTwoObjectsAreAPositionOnlyWhileTheirRaysMeet) {
     Fusion fusion(FusionConfig{});
     double first_s = 0.0, last_s = 0.0;
     bool had_third = false;
-    for (const BearingMeasurement& sighting : of_two_objects()) {
-      for (const FusedTarget& target : fusion.add(sighting).targets) {
+    for (const BearingMeasurement& measurement : of_two_objects()) {
+      for (const FusedTarget& target : fusion.add(measurement).targets) {
         if (target.estimate.solution != Solution::kOk) continue;
         last_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
         if (first_s == 0.0) first_s = last_s;
@@ -101,8 +101,8 @@ TEST(TwoStations, WhatTheirRaysHadToBeTurnedByIsForgottenWithABornTrack) {
     std::ranges::stable_sort(seen, {}, &BearingMeasurement::utime_us);
     Fusion fusion(FusionConfig{});
     double greatest_rad = 0.0;
-    for (const BearingMeasurement& sighting : seen) {
-      fusion.add(sighting);
+    for (const BearingMeasurement& measurement : seen) {
+      fusion.add(measurement);
       const auto prior = fusion.tracks().errors().prior("s0", seen.front().sight, 300.0);
       greatest_rad = std::max(greatest_rad, std::sqrt(prior.covariance.trace()));
     }
@@ -119,8 +119,8 @@ TEST(TwoStations, WhoseHeadingsAreAsStatedKeepTheirTarget) {
     Fusion fusion(FusionConfig{});
     double nees = 0.0;
     int located = 0;
-    for (const BearingMeasurement& sighting : measure(world, {path}, kDurationS, random)) {
-      for (const FusedTarget& target : fusion.add(sighting).targets) {
+    for (const BearingMeasurement& measurement : measure(world, {path}, kDurationS, random)) {
+      for (const FusedTarget& target : fusion.add(measurement).targets) {
         const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
         if (time_s < 1.5) continue;
         ASSERT_EQ(target.estimate.solution, Solution::kOk) << seed << ", " << time_s << " s";
@@ -146,8 +146,8 @@ Told told_of(const std::vector<BearingMeasurement>& seen, const Path& path) {
   Fusion fusion(FusionConfig{});
   Told told;
   std::set<std::int64_t> targets;
-  for (const BearingMeasurement& sighting : seen) {
-    for (const FusedTarget& target : fusion.add(sighting).targets) {
+  for (const BearingMeasurement& measurement : seen) {
+    for (const FusedTarget& target : fusion.add(measurement).targets) {
       told.rays_miss += target.estimate.solution == Solution::kRaysMiss ? 1 : 0;
       if (target.estimate.solution != Solution::kOk) continue;
       EXPECT_NE(target.target_id, 0);
@@ -204,10 +204,10 @@ TEST(TwoStations, OfWhichOneIsSlowAreConfirmedByTheSlowOne) {
   const Path path = cruising({{-30, 20, 80}, {12, 5, 0}}, 0.1, kDurationS, random);
   auto seen = measure(world, {path}, kDurationS, random);
   std::int64_t next_us = 0;
-  std::erase_if(seen, [&](const BearingMeasurement& sighting) {
-    if (sighting.station != "s1") return false;
-    if (sighting.utime_us < next_us) return true;
-    next_us = sighting.utime_us + kEachUs;
+  std::erase_if(seen, [&](const BearingMeasurement& measurement) {
+    if (measurement.station != "s1") return false;
+    if (measurement.utime_us < next_us) return true;
+    next_us = measurement.utime_us + kEachUs;
     return false;
   });
   const Told told = told_of(seen, path);
@@ -236,7 +236,7 @@ TEST(TwoStations, FollowAHardTurnThatOnlyOneOfThemSees) {
     if (time_s >= kTurnS) now.v_enu += std::min(1.0, most) * change;
   }
   auto seen = measure(world, {path}, kDurationS, random);
-  for (BearingMeasurement& sighting : seen) sighting.track_id = 1;
+  for (BearingMeasurement& measurement : seen) measurement.track_id = 1;
   const Told told = told_of(seen, path);
   EXPECT_GT(told.fixes, 85);
   EXPECT_GT(told.rays_miss, 0);
@@ -254,16 +254,16 @@ TEST(TwoStations, OfWhichOneIsWrongAreToldApartByASlowThird) {
   auto seen = measure(world, {path}, kDurationS, random);
   const auto wrong_us = kStartUs + static_cast<std::int64_t>(1e6 * kWrongS);
   std::int64_t next_us = 0;
-  std::erase_if(seen, [&](const BearingMeasurement& sighting) {
-    if (sighting.station != "s2" || sighting.utime_us < wrong_us) return false;
-    if (sighting.utime_us < next_us) return true;
-    next_us = sighting.utime_us + kEachUs;
+  std::erase_if(seen, [&](const BearingMeasurement& measurement) {
+    if (measurement.station != "s2" || measurement.utime_us < wrong_us) return false;
+    if (measurement.utime_us < next_us) return true;
+    next_us = measurement.utime_us + kEachUs;
     return false;
   });
-  for (BearingMeasurement& sighting : seen) {
-    sighting.track_id = 1;
-    if (sighting.station != "s0" || sighting.utime_us < wrong_us) continue;
-    sighting.sight.direction.elevation_rad += 0.05;
+  for (BearingMeasurement& measurement : seen) {
+    measurement.track_id = 1;
+    if (measurement.station != "s0" || measurement.utime_us < wrong_us) continue;
+    measurement.sight.direction.elevation_rad += 0.05;
   }
   const Told told = told_of(seen, path);
   EXPECT_GT(told.last_s, kDurationS - 0.5);
@@ -281,9 +281,9 @@ TEST(TwoStations, SideBySideTheyTellNoRangeOfWhatIsFar) {
     std::mt19937_64 random(1);
     const Path path = cruising({{0, 150e3, 80e3}, {300, -900, 0}}, 0.1, kFlightS, random);
     auto seen = measure(world, {path}, kFlightS, random);
-    for (BearingMeasurement& sighting : seen) {
-      const double off_rad = sighting.station == "s0" ? -0.5 * kOffRad : 0.5 * kOffRad;
-      sighting.sight.direction.elevation_rad += off_rad;
+    for (BearingMeasurement& measurement : seen) {
+      const double off_rad = measurement.station == "s0" ? -0.5 * kOffRad : 0.5 * kOffRad;
+      measurement.sight.direction.elevation_rad += off_rad;
     }
     int fixes = 0;
     double farthest_m = 0.0;
@@ -309,11 +309,11 @@ TEST(TwoStations, SideBySideTheyForgetTheRangeThatAThirdHasTold) {
   const Path path = cruising({{0, 150e3, 80e3}, {300, -900, 0}}, 0.1, kFlightS, random);
   auto seen = measure(world, {path}, kFlightS, random);
   const auto leaves_us = kStartUs + static_cast<std::int64_t>(1e6 * kLeavesS);
-  std::erase_if(seen, [&](const BearingMeasurement& sighting) {
-    return sighting.station == "s2" && sighting.utime_us > leaves_us;
+  std::erase_if(seen, [&](const BearingMeasurement& measurement) {
+    return measurement.station == "s2" && measurement.utime_us > leaves_us;
   });
-  for (BearingMeasurement& sighting : seen) {
-    if (sighting.station == "s1") sighting.sight.direction.elevation_rad += kOffRad;
+  for (BearingMeasurement& measurement : seen) {
+    if (measurement.station == "s1") measurement.sight.direction.elevation_rad += kOffRad;
   }
   double last_s = 0.0;
   for (const FusedTarget& target : fuse_offline(seen, {})) {

@@ -14,8 +14,8 @@ namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
+using test::measurement_of;
 using test::ray_to;
-using test::sighting_of;
 using test::site;
 using test::square;
 
@@ -31,7 +31,7 @@ std::vector<BearingMeasurement> recording(double seconds, double sigma_rad, unsi
                                           double stated = 0.0) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  std::vector<BearingMeasurement> sightings;
+  std::vector<BearingMeasurement> measurements;
   const double rates_hz[] = {25.0, 30.0, 50.0, 27.3};
   for (std::size_t k = 0; k < 4; ++k) {
     for (double t_s = 0.007 * static_cast<double>(k); t_s < seconds; t_s += 1.0 / rates_hz[k]) {
@@ -41,10 +41,10 @@ std::vector<BearingMeasurement> recording(double seconds, double sigma_rad, unsi
       ray = test::turned(ray, sigma_rad * normal(random), sigma_rad * normal(random));
       ray.sight.covariance_systematic =
           Eigen::Matrix2d::Identity() * std::pow(stated * sigma_rad, 2);
-      sightings.push_back(sighting_of(ray, kStart + std::llround(t_s * 1e6)));
+      measurements.push_back(measurement_of(ray, kStart + std::llround(t_s * 1e6)));
     }
   }
-  return sightings;
+  return measurements;
 }
 
 Vector3d error(const FusedTarget& target) {
@@ -94,14 +94,14 @@ TEST(OfflineFusion, IsCautiousWhereNothingIsStated) {
 // Undeclared errors that the residuals show may be partly common-mode, which residuals do not show:
 // the covariance is inflated for that, and nothing else changes.
 TEST(OfflineFusion, LeavesRoomForWhatAllStationsHaveInCommon) {
-  auto sightings = recording(20.0, 1e-4, 6);
-  for (BearingMeasurement& s : sightings) {
+  auto measurements = recording(20.0, 1e-4, 6);
+  for (BearingMeasurement& s : measurements) {
     s.sight.direction.elevation_rad += (s.station == "a" || s.station == "c") ? 1e-3 : -1e-3;
   }
   OfflineConfig none, some;
   none.fusion.keeper.filter.common_mode = 0.0;
-  const Estimate before = fuse_offline(sightings, none).back().estimate;
-  const Estimate after = fuse_offline(sightings, some).back().estimate;
+  const Estimate before = fuse_offline(measurements, none).back().estimate;
+  const Estimate after = fuse_offline(measurements, some).back().estimate;
   EXPECT_EQ(before.position_ecef, after.position_ecef);
   EXPECT_GT(after.covariance_ecef.trace(), 1.1 * before.covariance_ecef.trace());
   EXPECT_LT(after.covariance_ecef.trace(), 2.01 * before.covariance_ecef.trace());
@@ -110,27 +110,27 @@ TEST(OfflineFusion, LeavesRoomForWhatAllStationsHaveInCommon) {
 // All bearings of a recording belong to its one object: a track that most stations contradict is
 // replaced.
 TEST(OfflineFusion, BeginsAnewWhereMostStationsContradict) {
-  auto sightings = recording(12.0, 1e-4, 5, 1.0);
+  auto measurements = recording(12.0, 1e-4, 5, 1.0);
   const std::int64_t jump_us = kStart + 5'000'000;
-  for (BearingMeasurement& s : sightings) {
+  for (BearingMeasurement& s : measurements) {
     if (s.utime_us < jump_us || s.station == "a") continue;
     const double t_s = static_cast<double>(s.utime_us - kStart) * 1e-6;
     s.sight = ray_to(s.station, square()[static_cast<std::size_t>(s.station[0] - 'a')],
                      {0.0, 0.0, 30.0 + t_s}, 1e-4)
                   .sight;
   }
-  const auto targets = fuse_offline(sightings, {});
+  const auto targets = fuse_offline(measurements, {});
   ASSERT_FALSE(targets.empty());
   const Vector3d there = site().to_ecef({0.0, 0.0, 42.0});
   EXPECT_LT((targets.back().estimate.position_ecef - there).norm(), 2.0);
 }
 
 TEST(OfflineFusion, DoesNotDependOnTheOrderOfRows) {
-  auto sightings = recording(3.0, 1e-4, 4);
-  const auto first = fuse_offline(sightings, {});
+  auto measurements = recording(3.0, 1e-4, 4);
+  const auto first = fuse_offline(measurements, {});
   std::mt19937_64 random(1);
-  std::ranges::shuffle(sightings, random);
-  const auto second = fuse_offline(sightings, {});
+  std::ranges::shuffle(measurements, random);
+  const auto second = fuse_offline(measurements, {});
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
     EXPECT_EQ(first[i].utime_us, second[i].utime_us);
@@ -139,13 +139,13 @@ TEST(OfflineFusion, DoesNotDependOnTheOrderOfRows) {
 }
 
 TEST(OfflineFusion, EveryEstimatorFollows) {
-  const auto sightings = recording(5.0, 1e-5, 5);
+  const auto measurements = recording(5.0, 1e-5, 5);
   for (const char* name : kEstimators) {
     OfflineConfig config;
     config.estimator = name;
     config.fusion.estimators.paper.moving_average = 1;
     config.rate_hz = 20.0;
-    const auto targets = fuse_offline(sightings, config);
+    const auto targets = fuse_offline(measurements, config);
     ASSERT_GT(targets.size(), 95U) << name;
     for (const FusedTarget& target : targets) {
       EXPECT_EQ(target.estimator, name);
@@ -154,7 +154,7 @@ TEST(OfflineFusion, EveryEstimatorFollows) {
   }
   OfflineConfig guess;
   guess.estimator = "guess";
-  EXPECT_THROW(fuse_offline(sightings, guess), std::invalid_argument);
+  EXPECT_THROW(fuse_offline(measurements, guess), std::invalid_argument);
 }
 
 TEST(OfflineFusion, MovingAverageTrails) {
@@ -168,13 +168,13 @@ TEST(OfflineFusion, MovingAverageTrails) {
 }
 
 TEST(OfflineFusion, SmoothingIsBetterThanTheFilterAndAsHonest) {
-  const auto sightings = recording(40.0, 2e-4, 8);
+  const auto measurements = recording(40.0, 2e-4, 8);
   double rms[2] = {0.0, 0.0};
   for (const bool smooth : {false, true}) {
     OfflineConfig config;
     config.rate_hz = 10.0;
     config.smooth = smooth;
-    const auto targets = fuse_offline(sightings, config);
+    const auto targets = fuse_offline(measurements, config);
     ASSERT_GT(targets.size(), 390U);
     for (const FusedTarget& target : targets) {
       rms[smooth ? 1 : 0] += error(target).squaredNorm() / static_cast<double>(targets.size());
@@ -201,13 +201,13 @@ TEST(OfflineFusion, SmoothingTellsAWhitePartThatIsOne) {
 
 // Two on a diagonal of the square are left: their rays are more nearly parallel.
 TEST(OfflineFusion, TellsTheGeometryOfThoseThatStillSeeTheTarget) {
-  auto sightings = recording(12.0, 1e-4, 8, 1.0);
-  std::erase_if(sightings, [](const BearingMeasurement& s) {
+  auto measurements = recording(12.0, 1e-4, 8, 1.0);
+  std::erase_if(measurements, [](const BearingMeasurement& s) {
     return s.utime_us > kStart + 6'000'000 && s.station != "b" && s.station != "d";
   });
   OfflineConfig config;
   config.rate_hz = 10.0;
-  const auto targets = fuse_offline(sightings, config);
+  const auto targets = fuse_offline(measurements, config);
   ASSERT_FALSE(targets.empty());
   const FusedTarget& last = targets.back();
   ASSERT_GT(last.utime_us, kStart + 11'000'000);
@@ -221,13 +221,13 @@ TEST(OfflineFusion, TellsTheGeometryOfThoseThatStillSeeTheTarget) {
 // The noise is four times the stated one, which the filter's run learns: the velocity's covariance
 // contains it.
 TEST(OfflineFusion, LeastSquaresVelocityCountsTheNoiseThatIsLearnt) {
-  auto sightings = recording(40.0, 8e-4, 9, 0.01);
-  for (BearingMeasurement& s : sightings) s.sight.covariance_white /= 16.0;
+  auto measurements = recording(40.0, 8e-4, 9, 0.01);
+  for (BearingMeasurement& s : measurements) s.sight.covariance_white /= 16.0;
   OfflineConfig config;
   config.estimator = "least-squares";
   config.rate_hz = 10.0;
   double sum = 0.0;
-  const auto targets = fuse_offline(sightings, config);
+  const auto targets = fuse_offline(measurements, config);
   ASSERT_GT(targets.size(), 300U);
   for (const FusedTarget& target : targets) {
     const double t_s = static_cast<double>(target.utime_us - kStart) * 1e-6;
@@ -240,11 +240,11 @@ TEST(OfflineFusion, LeastSquaresVelocityCountsTheNoiseThatIsLearnt) {
 
 // The filter at an instant does not depend on later bearings.
 TEST(OfflineFusion, TheFilterIsCausal) {
-  auto sightings = recording(6.0, 2e-4, 9);
-  const auto whole = fuse_offline(sightings, {});
-  std::erase_if(sightings,
+  auto measurements = recording(6.0, 2e-4, 9);
+  const auto whole = fuse_offline(measurements, {});
+  std::erase_if(measurements,
                 [](const BearingMeasurement& s) { return s.utime_us > kStart + 3'000'000; });
-  const auto part = fuse_offline(sightings, {});
+  const auto part = fuse_offline(measurements, {});
   ASSERT_GT(part.size(), 100U);
   for (std::size_t i = 0; i < part.size(); ++i) {
     EXPECT_EQ(part[i].estimate.position_ecef, whole[i].estimate.position_ecef);
@@ -259,30 +259,30 @@ TEST(OfflineFusion, OnlyTheFilterCanBeSmoothed) {
 }
 
 TEST(OfflineFusion, RefusesARateWithoutAnEnd) {
-  const auto sightings = recording(2.0, 1e-4, 7);
+  const auto measurements = recording(2.0, 1e-4, 7);
   for (const double rate_hz :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e7}) {
     OfflineConfig config;
     config.rate_hz = rate_hz;
-    EXPECT_THROW(fuse_offline(sightings, config), std::invalid_argument) << rate_hz;
+    EXPECT_THROW(fuse_offline(measurements, config), std::invalid_argument) << rate_hz;
   }
 }
 
 TEST(OfflineFusion, CountsWhatItDoesNotUse) {
-  auto sightings = recording(2.0, 1e-4, 7);
-  EXPECT_EQ(unused_bearings(sightings, {}).low_belief, 0U);
-  EXPECT_EQ(unused_bearings(sightings, {}).duplicate, 0U);
-  sightings.push_back(sightings[3]);
-  sightings.push_back(sightings[3]);
-  sightings[7].belief = 0.2;
-  EXPECT_EQ(unused_bearings(sightings, {}).low_belief, 1U);
-  EXPECT_EQ(unused_bearings(sightings, {}).duplicate, 2U);
+  auto measurements = recording(2.0, 1e-4, 7);
+  EXPECT_EQ(unused_bearings(measurements, {}).low_belief, 0U);
+  EXPECT_EQ(unused_bearings(measurements, {}).duplicate, 0U);
+  measurements.push_back(measurements[3]);
+  measurements.push_back(measurements[3]);
+  measurements[7].belief = 0.2;
+  EXPECT_EQ(unused_bearings(measurements, {}).low_belief, 1U);
+  EXPECT_EQ(unused_bearings(measurements, {}).duplicate, 2U);
 }
 
 TEST(OfflineFusion, AClockIsGuessedByWhatItDoesToTheBearings) {
-  auto sightings = recording(10.0, 1e-4, 7);
-  guess_clocks(sightings);
-  for (const BearingMeasurement& s : sightings) {
+  auto measurements = recording(10.0, 1e-4, 7);
+  guess_clocks(measurements);
+  for (const BearingMeasurement& s : measurements) {
     EXPECT_GT(s.clock_sd_s, 4e-4 / 0.3);
     EXPECT_LT(s.clock_sd_s, 4e-4 / 0.02);
   }
@@ -294,7 +294,8 @@ TEST(OfflineFusion, AClockIsGuessedByWhatItDoesToTheBearings) {
 TEST(OfflineFusion, NothingGivesNothing) {
   EXPECT_TRUE(fuse_offline({}, {}).empty());
   auto alone = recording(2.0, 1e-4, 7);
-  std::erase_if(alone, [](const BearingMeasurement& sighting) { return sighting.station != "a"; });
+  std::erase_if(alone,
+                [](const BearingMeasurement& measurement) { return measurement.station != "a"; });
   EXPECT_TRUE(fuse_offline(alone, {}).empty());
 }
 

@@ -164,17 +164,17 @@ TEST(DuplicateTracks, AlsoWhenTheyAreNearToEachOther) {
 // Ten thousand unrelated pairs take no memory permanently.
 TEST(DuplicateTracks, PairsWithoutEvidenceAreForgotten) {
   DuplicateTracks rivals;
-  BearingMeasurement sighting;
-  sighting.station = "a";
+  BearingMeasurement measurement;
+  measurement.station = "a";
   for (std::int64_t i = 0; i < 10000; ++i) {
-    sighting.utime_us = kStartUs + 10'000 * i;
+    measurement.utime_us = kStartUs + 10'000 * i;
     const std::int64_t both[] = {2 * i + 1, 2 * i + 2};
-    rivals.note(sighting, both);
+    rivals.note(measurement, both);
   }
   EXPECT_TRUE(rivals.same().empty());
-  sighting.utime_us += 10'000'000;
+  measurement.utime_us += 10'000'000;
   const std::int64_t one[] = {1};
-  rivals.note(sighting, one);
+  rivals.note(measurement, one);
   EXPECT_TRUE(rivals.empty());
 }
 

@@ -39,13 +39,13 @@ std::vector<BearingMeasurement> with_a_ghost(double seconds) {
 TEST(LiveTracks, ADroppedTrackTakesNothingThatAnotherOneHasTaught) {
   LiveTracks live{TrackManagerConfig{}};
   std::int64_t dropped = 0;
-  for (const BearingMeasurement& sighting : with_a_ghost(8.0)) {
-    live.add(sighting);
-    live.advance(sighting.utime_us);
-    if (sighting.utime_us < bench::kStartUs + 2'000'000) continue;
+  for (const BearingMeasurement& measurement : with_a_ghost(8.0)) {
+    live.add(measurement);
+    live.advance(measurement.utime_us);
+    if (measurement.utime_us < bench::kStartUs + 2'000'000) continue;
     for (const char* station : {"s0", "s1", "s2", "s3"}) {
       ASSERT_GT(live.errors().noise_scale(station), 2.0)
-          << station << ' ' << sighting.utime_us - bench::kStartUs;
+          << station << ' ' << measurement.utime_us - bench::kStartUs;
     }
     dropped = live.counts().dropped;
   }

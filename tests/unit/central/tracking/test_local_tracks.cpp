@@ -6,11 +6,11 @@ namespace ols::fusion {
 namespace {
 
 BearingMeasurement named(std::int64_t track_id, std::int64_t utime_us) {
-  BearingMeasurement sighting;
-  sighting.station = std::string("a");
-  sighting.track_id = track_id;
-  sighting.utime_us = utime_us;
-  return sighting;
+  BearingMeasurement measurement;
+  measurement.station = std::string("a");
+  measurement.track_id = track_id;
+  measurement.utime_us = utime_us;
+  return measurement;
 }
 
 TEST(LocalTracks, TheOneThatWasNotHeardOfForLongestGivesWay) {

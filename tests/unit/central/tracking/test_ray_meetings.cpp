@@ -10,7 +10,7 @@ using namespace test;
 using Eigen::Vector3d;
 
 BearingMeasurement seen(const std::string& station, const Vector3d& from, const Vector3d& to) {
-  return sighting_of(ray_to(station, from, to), kStart);
+  return measurement_of(ray_to(station, from, to), kStart);
 }
 
 struct Met {

@@ -31,17 +31,17 @@ struct Fixes {
   std::string beside;  // stations that point elsewhere
 };
 
-Fixes fuse(const std::vector<BearingMeasurement>& sightings,
+Fixes fuse(const std::vector<BearingMeasurement>& measurements,
            const OfflineConfig& config = ten_hertz()) {
   Fixes fixes;
-  for (const FusedTarget& target : fuse_offline(sightings, config)) {
+  for (const FusedTarget& target : fuse_offline(measurements, config)) {
     const double sd_m = std::sqrt(target.estimate.covariance_ecef.trace());
     const double error = slow_error_m(target);
     ++fixes.count;
     fixes.worst_m = std::max(fixes.worst_m, error);
     fixes.worst_sigmas = std::max(fixes.worst_sigmas, error / sd_m);
   }
-  for (const auto& [station, why] : stations_beside(sightings, config)) fixes.beside += station;
+  for (const auto& [station, why] : stations_beside(measurements, config)) fixes.beside += station;
   return fixes;
 }
 
@@ -104,8 +104,8 @@ TEST(RecordedTrack, ARecordingWithAStationThatIsWrongAtFirst) {
 TEST(RecordedTrack, ASmoothedRecordingWithOneWrongStation) {
   for (const std::string stations : {"abcd", "abc"}) {
     for (const char wrong : stations) {
-      const auto sightings = watch(stations, 4.0, kNoise, off_by(wrong, 1.0));
-      const Fixes fixes = fuse(sightings, ten_hertz(true));
+      const auto measurements = watch(stations, 4.0, kNoise, off_by(wrong, 1.0));
+      const Fixes fixes = fuse(measurements, ten_hertz(true));
       EXPECT_GE(fixes.count, 35U) << stations << ' ' << wrong;
       EXPECT_LT(fixes.worst_sigmas, 3.0) << stations << ' ' << wrong;
       EXPECT_LT(fixes.worst_m, 0.5) << stations << ' ' << wrong;
@@ -118,8 +118,8 @@ TEST(RecordedTrack, ATrackThatMostStationsContradictIsBegunAnew) {
   const HeadingError wrong_then_right = [](char name, double t_s) {
     return t_s < 2.0 && name != 'd' ? radians(20.0) : 0.0;
   };
-  auto sightings = watch("abcd", 6.0, kNoise, wrong_then_right);
-  const auto targets = fuse_offline(sightings, ten_hertz());
+  auto measurements = watch("abcd", 6.0, kNoise, wrong_then_right);
+  const auto targets = fuse_offline(measurements, ten_hertz());
   ASSERT_FALSE(targets.empty());
   for (const FusedTarget& target : targets) {
     EXPECT_EQ(target.target_id, 1);

@@ -15,9 +15,9 @@ bool may_see(const Vector3d& looks_at, double after_s = 0.0) {
                                  .v_ecef = site().R_ecef_enu() * Vector3d(50, 0, 0),
                                  .position_sd_m = 0.1,
                                  .velocity_sd_m_s = 0.1}));
-  const BearingMeasurement sighting =
-      sighting_of(ray_to("a", {0, 0, 0}, looks_at), kStart + std::llround(after_s * 1e6));
-  return summarise_track(track).may_see(sighting, direction_ecef(sighting.sight));
+  const BearingMeasurement measurement =
+      measurement_of(ray_to("a", {0, 0, 0}, looks_at), kStart + std::llround(after_s * 1e6));
+  return summarise_track(track).may_see(measurement, direction_ecef(measurement.sight));
 }
 
 TEST(TrackGlance, RulesOutWhatLooksElsewhere) {

@@ -17,10 +17,10 @@ Track track_at(const Eigen::Vector3d& p_enu) {
 }
 
 BearingMeasurement named(std::int64_t track_id, double t_s = 0.0) {
-  BearingMeasurement sighting =
-      sighting_of(ray_to("a", {0, 0, 0}, path(t_s)), kStart + std::llround(t_s * 1e6));
-  sighting.track_id = track_id;
-  return sighting;
+  BearingMeasurement measurement =
+      measurement_of(ray_to("a", {0, 0, 0}, path(t_s)), kStart + std::llround(t_s * 1e6));
+  measurement.track_id = track_id;
+  return measurement;
 }
 
 TEST(TrackIdentities, ADroppedTrackIsFoundAgainWhereItMustBe) {

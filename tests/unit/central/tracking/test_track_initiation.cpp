@@ -21,10 +21,10 @@ struct Live {
   Solution last = Solution::kOk;
 };
 
-Live live(const std::vector<BearingMeasurement>& sightings) {
+Live live(const std::vector<BearingMeasurement>& measurements) {
   Fusion fusion(FusionConfig{});
   Live result;
-  for (const FusedTarget& target : test::targets_of(fusion, sightings)) {
+  for (const FusedTarget& target : test::targets_of(fusion, measurements)) {
     result.last = target.estimate.solution;
     if (result.last != Solution::kOk) continue;
     const double t_s = static_cast<double>(target.utime_us - kStart) * 1e-6;
@@ -43,8 +43,8 @@ TEST(TrackInitiation, OneWrongStationOfThreeKeepsTheOthersFromNothing) {
   for (const double off_deg : {5.0, -5.0, 2.0, 90.0}) {
     std::string order = "abc";
     do {
-      const auto sightings = watch(order, 6.0, 1e-4, off_by('c', off_deg), 1e-4);
-      const Live found = live(sightings);
+      const auto measurements = watch(order, 6.0, 1e-4, off_by('c', off_deg), 1e-4);
+      const Live found = live(measurements);
       EXPECT_LT(found.first_s, 1.5) << order << ' ' << off_deg;
       EXPECT_LT(found.worst_m, 1.0) << order << ' ' << off_deg;
       // 90 deg off it may follow another object.
@@ -91,8 +91,8 @@ TEST(TrackInitiation, AStartThatIsRejectedTeachesNothing) {
   TrackInitiation birth({}, {});
   BiasModel errors;
   bool begun = false;
-  for (const BearingMeasurement& sighting : watch("abcd", 1.0, 5e-4, off_by('c', 0.0))) {
-    const auto start = birth.add(sighting, errors, false);
+  for (const BearingMeasurement& measurement : watch("abcd", 1.0, 5e-4, off_by('c', 0.0))) {
+    const auto start = birth.add(measurement, errors, false);
     begun = start.has_value();
     if (begun) errors.learn(start->shown);
     if (begun) break;
@@ -116,17 +116,17 @@ TEST(TrackInitiation, StationsWithGreatLearntBiasesFindTheNextTarget) {
   const auto path = bench::cruising({{30, 20, 80}, {0, 0, 0}}, 1e-3, kEndS, random);
   Fusion fusion(FusionConfig{.paper_targets = 0});
   double first_s = 1e9;
-  for (BearingMeasurement sighting : bench::measure(world, {path}, kEndS, random)) {
-    const double t_s = 1e-6 * static_cast<double>(sighting.utime_us - bench::kStartUs);
-    const double sign = sighting.station == "s0" || sighting.station == "s2" ? 1.0 : -1.0;
-    double& azimuth = sighting.sight.direction.azimuth_rad;
+  for (BearingMeasurement measurement : bench::measure(world, {path}, kEndS, random)) {
+    const double t_s = 1e-6 * static_cast<double>(measurement.utime_us - bench::kStartUs);
+    const double sign = measurement.station == "s0" || measurement.station == "s2" ? 1.0 : -1.0;
+    double& azimuth = measurement.sight.direction.azimuth_rad;
     azimuth = wrap_two_pi(azimuth + sign * kDriftRadS * std::min(t_s, kDriftS));
     if (t_s > kDriftS && t_s < kDriftS + 6.0) continue;
     if (t_s <= kDriftS && kDriftS - t_s < 0.1) {
-      const BiasPrior prior = fusion.tracks().errors().prior("s0", sighting.sight, 300.0);
+      const BiasPrior prior = fusion.tracks().errors().prior("s0", measurement.sight, 300.0);
       EXPECT_GT(std::sqrt(prior.covariance(0, 0)), 0.01);
     }
-    for (const FusedTarget& target : fusion.add(sighting).targets) {
+    for (const FusedTarget& target : fusion.add(measurement).targets) {
       if (target.estimate.solution != Solution::kOk || target.stations.size() < 4) continue;
       if (t_s > kDriftS) first_s = std::min(first_s, t_s - kDriftS - 6.0);
     }

@@ -9,7 +9,7 @@ namespace {
 using namespace test;
 
 BearingMeasurement at(double t_s) {
-  return sighting_of(ray_to("a", {0, 0, 0}, path(t_s)), kStart + std::llround(t_s * 1e6));
+  return measurement_of(ray_to("a", {0, 0, 0}, path(t_s)), kStart + std::llround(t_s * 1e6));
 }
 
 TEST(UnassociatedBearings, AreInOrderOfTimeAndNotOld) {
