@@ -38,7 +38,7 @@ Fusion::Fusion(const FusionConfig& config)
                            "stations_quarantined", "calibrations_changed", "stations_restarted"}) {
     log_.counters[name] = 0.0;
   }
-  for (int i = 1; i <= static_cast<int>(BearingRefusal::kLowBelief); ++i) {
+  for (int i = 1; i < static_cast<int>(BearingRefusal::kCount); ++i) {
     log_.counters[to_string(static_cast<BearingRefusal>(i))] = 0.0;
   }
 }

@@ -16,7 +16,7 @@
 #include "ols_msg/station_status_t.hpp"
 #include "tools/ctl/heard_status.h"
 #include "tools/ctl/operator.h"
-#include "tools/doctor/judge_site.h"
+#include "tools/doctor/judge_host.h"
 
 namespace ols::doctor {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 
 namespace ols::doctor {
@@ -15,12 +14,6 @@ constexpr double kMega = 1e6;
 constexpr double kBitsPerByte = 8.0;
 constexpr double kHot_degC = 65.0;  // GT1290: operating range to 65 degC, of the housing
 constexpr double kArcsecPerDegree = 3600.0;
-
-std::string number(double value, const char* format) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
