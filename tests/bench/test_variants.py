@@ -134,12 +134,16 @@ def test_motion_is_chained_towards_the_reference():
     assert chained([step] * 4, 1)[:, 0, 2] == pytest.approx([-2.0, 0.0, 2.0, 4.0, 6.0])
 
 
-@pytest.mark.parametrize(("kind", "frames"), [("mirrored", 150), ("half", 150), ("alternate", 75)])
-def test_the_target_is_where_the_new_truth_has_it(tmp_path, kind, frames):
+@pytest.mark.parametrize(
+    ("kind", "frames", "least"),
+    [("mirrored", 150, 240), ("half", 150, 225), ("alternate", 75, 240)],
+)
+def test_the_target_is_where_the_new_truth_has_it(tmp_path, kind, frames, least):
+    """Halved, its edge may share a pixel with the background."""
     clip = a_clip(tmp_path)
     [made] = variant(kind, [clip], tmp_path / "made")
     assert made.frames == frames and made.truth.there.all()
-    assert (brightnesses(made, made.truth.xywh) > 225).all()
+    assert (brightnesses(made, made.truth.xywh) >= least).all()
     assert not np.array_equal(made.truth.xywh[1], clip.truth.xywh[1])
 
 
