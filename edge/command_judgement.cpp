@@ -81,7 +81,6 @@ Refusal judge(const PointCommand& command, const Situation& situation) {
   // A unit that appears later would move when no one expects it.
   if (mode.reference() == ptu::PtuReference::kUnknown) return Refusal::kNoUnit;
   if (mode.has_doubtful_angles()) return Refusal::kNoReference;
-  if (!situation.pointing.reachable(command.angles)) return Refusal::kUnreachable;
   return Refusal::kNone;
 }
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "edge/camera/frame.h"
-#include "edge/device_report.h"
+#include "edge/device/device_report.h"
 
 namespace ols::config {
 struct Section;
@@ -48,7 +48,7 @@ class Recorder {
   void add(const camera::Frame& frame, std::int64_t utime_us);
   // Empty: accepted; otherwise the reason.
   std::string record(const RecordCommand& command);
-  station::DeviceReport report() const;
+  device::DeviceReport report() const;
 
  private:
   struct Impl;

@@ -220,8 +220,8 @@ TEST(PtuThread, OpensThePortAgainWhenTheUnitFallsSilent) {
   line.set_faults(faults);
   ASSERT_TRUE(eventually([&] { return ptu.status().port.reopens > 0; }));
   EXPECT_TRUE(eventually([&] {
-    const station::DeviceReport report = ptu.report();
-    return report.state == station::DeviceState::kFault && !report.alarms.empty() &&
+    const device::DeviceReport report = ptu.report();
+    return report.state == device::DeviceState::kFault && !report.alarms.empty() &&
            report.counters.at("ptu_reopens") > 0;
   }));
   line.set_faults({});

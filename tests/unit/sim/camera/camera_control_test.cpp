@@ -210,7 +210,7 @@ TEST(CameraLoss, SilenceIsReportedBeforeTheCameraIsGivenUp) {
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
   server->set_faults({.gone = true, .pixel_format = {}});
   EXPECT_TRUE(becomes(camera, [&] { return has_alarm(camera, "camera: no frames for"); }));
-  EXPECT_EQ(camera.report().state, station::DeviceState::kFault);
+  EXPECT_EQ(camera.report().state, device::DeviceState::kFault);
   EXPECT_EQ(camera.counters().reconnects, 0U);
 }
 

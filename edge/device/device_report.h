@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace ols::station {
+namespace ols::device {
 
 enum class DeviceState {
   kAbsent,    // configured, but not found
@@ -16,6 +16,7 @@ enum class DeviceState {
   kOk,
   kFault,  // found, but faulty
 };
+const char* to_string(DeviceState state);
 
 struct DeviceReport {
   std::string name;  // "camera", "ptu", "gnss", "inclinometer", "gpio", "recorder"
@@ -31,4 +32,4 @@ struct DeviceReport {
   std::map<std::string, std::uint64_t> counters;  // only rise; the name begins with the device
 };
 
-}  // namespace ols::station
+}  // namespace ols::device

@@ -1,5 +1,5 @@
 // The retries, counts and reports of a device's thread, with a session in place of a device.
-#include "edge/device_thread.h"
+#include "edge/device/device_thread.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/unit/eventually.h"
 
-namespace ols::station {
+namespace ols::device {
 namespace {
 
 DeviceThread::Config quick() { return {"gnss", "is being connected", 0.001, 0.004}; }
@@ -91,4 +91,4 @@ TEST(DeviceThread, TheEndStopsTheSessionAndDoesNotWaitForThePause) {
 }
 
 }  // namespace
-}  // namespace ols::station
+}  // namespace ols::device

@@ -1,4 +1,4 @@
-#include "edge/device_thread.h"
+#include "edge/device/device_thread.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,7 +7,7 @@
 
 #include "base/clocks.h"
 
-namespace ols::station {
+namespace ols::device {
 
 DeviceThread::DeviceThread(const Config& config)
     : config_(config), pause_s_(config.first_pause_s) {}
@@ -85,4 +85,4 @@ DeviceReport DeviceThread::report() const {
   return r;
 }
 
-}  // namespace ols::station
+}  // namespace ols::device

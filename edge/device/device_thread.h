@@ -10,9 +10,9 @@
 #include <string>
 #include <thread>
 
-#include "edge/device_report.h"
+#include "edge/device/device_report.h"
 
-namespace ols::station {
+namespace ols::device {
 
 class DeviceThread {
  public:
@@ -69,4 +69,4 @@ class DeviceThread {
   std::jthread thread_;  // last: it uses the rest
 };
 
-}  // namespace ols::station
+}  // namespace ols::device
