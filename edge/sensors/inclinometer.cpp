@@ -60,7 +60,7 @@ struct Inclinometer::Impl {
         if (starts >= kStartsBeforeReopening) throw std::runtime_error("sends no readings");
         ++starts;
         last_reading_s = clock_monotonic_s();
-        start_streaming(port);  // someone may have stopped it, or it lost its setting with power
+        start_streaming(port);  // it may have been stopped, or a power cycle reset it
       }
     }
   }

@@ -1,4 +1,4 @@
-"""A station whose memory of how it was left is gone or damaged: it starts stopped, and says so."""
+"""A station whose persisted state is missing or damaged starts stopped and raises an alarm."""
 
 import os
 import shutil
@@ -123,7 +123,7 @@ def test_a_folder_that_was_taken_away_is_no_leave_to_move(station):
     assert not station.state_folder.exists()
     station.state_folder.mkdir()
     station.wait(lambda: not station.alarmed("stop: state cannot be saved: "), "that it can again")
-    station.kill()  # nobody has acted: it is still not known
+    station.kill()  # no operator has acted: it is still unknown
     station.start()
     station.wait_for_state(STATUS.STATE_STOPPED)
     assert station.alarmed(NOT_KNOWN)
