@@ -70,7 +70,7 @@ TEST_F(PersistedStationStateTest, WhatIsKnownIsTakenUpWithoutAnAlarm) {
   }
 }
 
-// Each condition of a file: what makes it so, and whether somebody may have pressed the stop.
+// Each condition of a file: what makes it so, and whether the stop may have been pressed.
 struct Condition {
   const char* name;
   std::function<void(const std::string& folder, const std::string& file)> make;

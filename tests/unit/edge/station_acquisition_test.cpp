@@ -39,7 +39,7 @@ class AcquisitionBySlewTest : public StationTest {
     return std::ranges::any_of(
         alarms, [&](const std::string& alarm) { return alarm.find(words) != std::string::npos; });
   }
-  // A box on nothing: what the tracker was given is found no more.
+  // A box on empty sky: the tracker loses it and does not find it again.
   void designated_in_vain() {
     designated();
     script_.belief = 0.1;
@@ -158,7 +158,7 @@ TEST_F(AcquisitionBySlewTest, SaysSoWithoutEverHavingHadATarget) {
   EXPECT_TRUE(alarmed("nothing acquired"));
   run_until(now_ + 1.0);
   EXPECT_EQ(station_.state(), StationState::kIdle);
-  EXPECT_TRUE(station_.snapshot().alarms.empty()) << "nobody slews it";
+  EXPECT_TRUE(station_.snapshot().alarms.empty()) << "it is not slewed";
 }
 
 // On its way, or where the unit does not get, there is nothing to be acquired.

@@ -129,7 +129,7 @@ TEST(PtuThread, OpensThePortAgainWhenItVanished) {
   EXPECT_EQ(ptu.status().state, PtuState::kFault);
   EXPECT_FALSE(ptu.status().port.open);
   EXPECT_NE(ptu.status().last_error.find(link), std::string::npos);
-  // It is another one, as after a power cycle: nobody saw it home.
+  // It is another unit, as after a power cycle: the thread has not seen it home.
   line = std::make_unique<PtuLine>(unit(), 2, link);
   EXPECT_TRUE(eventually([&] { return ptu.reference() == PtuReference::kDoubted; }));
   EXPECT_EQ(ptu.status().doubt, PtuDoubtCause::kPowerCycle);
