@@ -123,11 +123,13 @@ TEST_F(AdmissionTest, AStationThatStillDeliversIsNotReplaced) {
   AdmissionConfig config;
   config.max_stations = 2;
   begin(config);
-  admit("a", 0.0);
-  admit("b", 0.0);
-  EXPECT_EQ(admit("c", 0.05), BearingRefusal::kTooMany);
-  for (int i = 1; i <= 20; ++i) admit("b", 0.1 * i);  // a has fallen silent
-  EXPECT_EQ(admit("c", 2.0), BearingRefusal::kNone);
+  for (int i = 0; i < 10; ++i) {
+    admit("a", 0.1 * i);
+    admit("b", 0.1 * i);
+  }
+  EXPECT_EQ(admit("c", 1.0), BearingRefusal::kTooMany);
+  for (int i = 10; i <= 120; ++i) admit("b", 0.1 * i);  // a has fallen silent
+  EXPECT_EQ(admit("c", 12.0), BearingRefusal::kNone);
   EXPECT_EQ(last_.evicted, "a");
   EXPECT_EQ(log_.counters["stations_evicted"], 1.0);
   EXPECT_FALSE(admission_.stations().all().contains("a"));
