@@ -41,7 +41,7 @@ const char* advice_for(const std::string& device) {
   return "see the station's journal";
 }
 
-const char* advice_for(const station::DeviceReport& report) {
+const char* advice_for(const device::DeviceReport& report) {
   if (report.text.find("reference-ok") == std::string::npos) return advice_for(report.name);
   return "clear its whole travel of people and cables, then ols-ctl STATION home; or compare its "
          "angles with something known, then ols-ctl STATION reference-ok";
@@ -95,15 +95,15 @@ Finding judge_supply(const PtuAnswers& ptu) {
 
 }  // namespace
 
-Finding judge(const station::DeviceReport& device) {
+Finding judge(const device::DeviceReport& device) {
   const std::string words = device.name + (device.text.empty() ? "" : ": " + device.text);
   switch (device.state) {
-    case station::DeviceState::kOk:
+    case device::DeviceState::kOk:
       return ok(words);
-    case station::DeviceState::kStarting:
+    case device::DeviceState::kStarting:
       return warn(words, "starting; ask again in a minute");
-    case station::DeviceState::kAbsent:
-    case station::DeviceState::kFault:
+    case device::DeviceState::kAbsent:
+    case device::DeviceState::kFault:
       break;
   }
   const std::string trouble = device.last_error.empty() || device.last_error == device.text

@@ -122,7 +122,7 @@ Findings judge(const StationHeard& station) {
   } else {
     findings.push_back(ok("station: " + station.id + " runs, " + station.state));
   }
-  for (const station::DeviceReport& device : station.devices) findings.push_back(judge(device));
+  for (const device::DeviceReport& device : station.devices) findings.push_back(judge(device));
   findings.push_back(judge_clock(station));
   if (!station.position_known) {
     findings.push_back(fail("pose: no position, and so no bearings",

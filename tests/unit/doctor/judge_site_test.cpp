@@ -69,7 +69,7 @@ StationHeard good_station() {
   station.state = "tracking";
   station.devices.resize(1);
   station.devices[0].name = "camera";
-  station.devices[0].state = station::DeviceState::kOk;
+  station.devices[0].state = device::DeviceState::kOk;
   station.clock = clock::ClockState::kSynchronised;
   station.clock_error_s = 2e-4;
   station.counters = {{"frames_captured", 1000.0}, {"frames_lost", 5.0}};
@@ -92,7 +92,7 @@ TEST(DoctorOnSite, WhatAStationComplainsOfIsPassedOn) {
   station.clock = clock::ClockState::kUnsynchronised;
   EXPECT_EQ(exit_status(judge(station)), 1);
   station = good_station();
-  station.devices[0].state = station::DeviceState::kAbsent;
+  station.devices[0].state = device::DeviceState::kAbsent;
   EXPECT_EQ(exit_status(judge(station)), 2);
   station = good_station();
   station.position_known = false;
