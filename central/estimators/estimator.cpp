@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "central/estimators/position_covariance.h"
 #include "central/measurement/time_span.h"
 #include "central/tracking/position_guard.h"
 #include "geometry/angles.h"
@@ -163,7 +165,7 @@ Estimate estimate_of(const TrackFilter& filter, const KinematicState& state,
   estimate.velocity_ecef = state.mean.segment<3>(3);
   estimate.velocity_covariance_ecef = state.covariance.block<3, 3>(3, 3);
   tell_geometry(filter, state.utime_us, estimate);
-  return estimate;
+  return checked(std::move(estimate));
 }
 
 std::unique_ptr<Estimator> make_estimator(std::string_view name, const EstimatorConfig& config) {

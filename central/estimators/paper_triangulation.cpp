@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "central/estimators/paper_pairing.h"
+#include "central/estimators/position_covariance.h"
 
 namespace ols::fusion {
 namespace {
@@ -92,7 +94,7 @@ Estimate paper_estimate(const std::vector<Ray>& rays, const PaperConfig& config)
   estimate.position_ecef = pairing.position_ecef;
   estimate.crossing_angle_rad = crossing_angle(rays, estimate.rays);
   propagate(rays, views, pairing, config, estimate);
-  return estimate;
+  return checked(std::move(estimate));
 }
 
 // The covariance between the noise of two estimates, by the overlap of their windows.
@@ -119,7 +121,7 @@ Estimate MovingAverage::add(const Estimate& estimate, std::int64_t utime_us) {
   average.position_ecef += offset;
   average.covariance_ecef += white - estimate.covariance_white_ecef + offset * offset.transpose();
   average.covariance_white_ecef = white;
-  return average;
+  return checked(std::move(average));
 }
 
 }  // namespace ols::fusion
