@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -72,23 +73,25 @@ std::optional<Whole> join(const Whole& a, const Whole& b, const Eigen::VectorXd&
   return Whole{a.mean + joint.solve(Pb.solve(b.mean - a.mean)), joint.solve(one)};
 }
 
-std::vector<BearingMeasurement> mirrored(std::vector<BearingMeasurement> bearings,
-                                         std::int64_t about_us) {
-  for (BearingMeasurement& measurement : bearings)
-    measurement.utime_us = about_us - measurement.utime_us;
-  std::ranges::reverse(bearings);
-  return bearings;
-}
+// What is needed of a run at an instant.
+struct Passed {
+  std::optional<TrackFilter> filter;  // nothing: no position
+  bool is_initiated = false;
 
-// The forward and the backward track. A track that still rests on two rays, one of which may be
-// wrong, is not joined: it is used alone, and only if the other is no better.
-std::pair<const Track*, const Track*> worth_joining(const RecordedTrack& forward,
-                                                    const RecordedTrack& backward) {
-  const Track *ahead = forward.located(), *behind = backward.located();
-  if (ahead == nullptr || behind == nullptr) return {ahead, behind};
-  if (!backward.is_initiated()) return {ahead, nullptr};
-  if (!forward.is_initiated()) return {nullptr, behind};
-  return {ahead, behind};
+  explicit Passed(const RecordedTrack& track) : is_initiated(track.is_initiated()) {
+    if (const Track* const located = track.located()) filter = located->filter;
+  }
+};
+
+// A track that still rests on two rays, one of which may be wrong, is not joined: it is used alone,
+// and only if the other is no better.
+void leave_worth_joining(Passed& past, Passed& future) {
+  if (!past.filter || !future.filter) return;
+  if (!future.is_initiated) {
+    future.filter.reset();
+  } else if (!past.is_initiated) {
+    past.filter.reset();
+  }
 }
 
 // The systematic part of the covariance is taken from the better of the two filters: how fast
@@ -103,46 +106,60 @@ SystematicPart told_biases(const std::optional<TrackFilter>& from_past,
   return after.all_m2.trace() < before.all_m2.trace() ? after : before;
 }
 
-// Processes the bearings up to an instant.
+// Processes the bearings up to an instant, forwards, or backwards in mirrored time.
 struct Runner {
   RecordedTrack track;
-  const std::vector<BearingMeasurement>* bearings;
+  const BearingPointers* bearings;
   const std::set<std::string>* beside;
+  const std::function<void()>* tell;
+  std::optional<std::int64_t> mirrored_about_us{};
   std::size_t next = 0;
 
   void run(std::int64_t utime_us, bool inclusive) {
     for (; next < bearings->size(); ++next) {
-      const BearingMeasurement& measurement = (*bearings)[next];
-      if (measurement.utime_us > utime_us || (measurement.utime_us == utime_us && !inclusive))
-        break;
-      track.advance(measurement.utime_us);
-      track.add(measurement, !beside->contains(measurement.station));
+      if (!mirrored_about_us) {
+        if (!take(*(*bearings)[next], utime_us, inclusive)) break;
+        continue;
+      }
+      BearingMeasurement measurement = *(*bearings)[bearings->size() - 1 - next];
+      measurement.utime_us = *mirrored_about_us - measurement.utime_us;
+      if (!take(measurement, utime_us, inclusive)) break;
     }
+  }
+
+ private:
+  bool take(const BearingMeasurement& measurement, std::int64_t utime_us, bool inclusive) {
+    if (measurement.utime_us > utime_us || (measurement.utime_us == utime_us && !inclusive))
+      return false;
+    if (*tell) (*tell)();
+    track.advance(measurement.utime_us);
+    track.add(measurement, !beside->contains(measurement.station));
+    return true;
   }
 };
 
 class Smoother {
  public:
-  Smoother(const std::vector<BearingMeasurement>& bearings, const TrackManagerConfig& config,
-           const KnownStations& known)
-      : forward_(bearings),
-        about_us_(bearings.front().utime_us + bearings.back().utime_us),
-        backward_(mirrored(bearings, about_us_)),
+  Smoother(const BearingPointers& bearings, const TrackManagerConfig& config,
+           const KnownStations& known, const SmootherOutput& output)
+      : bearings_(bearings),
+        about_us_(bearings.front()->utime_us + bearings.back()->utime_us),
+        output_(output),
         beside_(known.beside),
         learnt_(same_states(config)) {
     learnt_.set_errors(known.errors);
     for (const std::string& station : beside_) learnt_.forget_station(station);
-    for (const BearingMeasurement& measurement : bearings) {
+    for (const BearingMeasurement* measurement : bearings) {
       if (order_
-              .try_emplace(measurement.station,
+              .try_emplace(measurement->station,
                            9 + kStationStates * static_cast<Eigen::Index>(order_.size()))
               .second) {
-        sights_.push_back(measurement);
+        sights_.push_back(*measurement);
       }
     }
   }
 
-  std::vector<Smoothed> run(const std::vector<std::int64_t>& epochs, Unlocated& unlocated);
+  void run(const std::vector<std::int64_t>& epochs) const;
 
  private:
   static TrackManagerConfig same_states(TrackManagerConfig config) {
@@ -153,12 +170,13 @@ class Smoother {
   Eigen::VectorXd prior(const std::vector<BiasPrior>& biases) const;
   Whole both(const std::optional<TrackFilter>& from_past,
              const std::optional<TrackFilter>& from_future, const Eigen::VectorXd& variance) const;
-  Smoothed at(std::int64_t epoch_us, const RecordedTrack& forward,
-              const RecordedTrack& backward) const;
+  Smoothed at(std::int64_t epoch_us, const RecordedTrack& forward, Passed future) const;
+  std::vector<Runner> block_ends(const std::vector<std::int64_t>& epochs, std::size_t block) const;
+  Runner backward() const { return {learnt_, &bearings_, &beside_, &output_.tell, about_us_}; }
 
-  const std::vector<BearingMeasurement>& forward_;
+  const BearingPointers& bearings_;
   std::int64_t about_us_;
-  std::vector<BearingMeasurement> backward_;
+  const SmootherOutput& output_;
   std::set<std::string> beside_;
   RecordedTrack learnt_;  // empty, with the learnt errors of the stations
   Order order_;
@@ -198,22 +216,18 @@ Whole Smoother::both(const std::optional<TrackFilter>& from_past,
   return join(before, after, variance).value_or(before);
 }
 
-Smoothed Smoother::at(std::int64_t epoch_us, const RecordedTrack& forward,
-                      const RecordedTrack& backward) const {
+Smoothed Smoother::at(std::int64_t epoch_us, const RecordedTrack& forward, Passed future) const {
   Smoothed fix{epoch_us, {}};
-  const auto [ahead, behind] = worth_joining(forward, backward);
-  if (ahead == nullptr && behind == nullptr) {
+  Passed past(forward);
+  leave_worth_joining(past, future);
+  std::optional<TrackFilter>&from_past = past.filter, &from_future = future.filter;
+  if (!from_past && !from_future) {
     fix.located.estimate.solution = forward.why_none(epoch_us);
     return fix;
   }
   BiasModel shown = BiasModel::evidence_on(learnt_.errors());
-  std::optional<TrackFilter> from_past, from_future;
-  if (ahead != nullptr) {
-    shown.learn(from_past.emplace(ahead->filter).advance(epoch_us, shown));
-  }
-  if (behind != nullptr) {
-    shown.learn(from_future.emplace(behind->filter).advance(about_us_ - epoch_us, shown));
-  }
+  if (from_past) shown.learn(from_past->advance(epoch_us, shown));
+  if (from_future) shown.learn(from_future->advance(about_us_ - epoch_us, shown));
   const TrackFilter& any = from_past ? *from_past : *from_future;
   const std::vector<BiasPrior> biases = priors(any.position());
   const Whole joint = both(from_past, from_future, prior(biases));
@@ -227,47 +241,47 @@ Smoothed Smoother::at(std::int64_t epoch_us, const RecordedTrack& forward,
   return fix;
 }
 
-std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs, Unlocated& unlocated) {
-  constexpr std::size_t kBlock = 256;  // epochs between stored forward states
-  std::vector<Runner> starts;
-  Runner forward{learnt_, &forward_, &beside_};
-  for (std::size_t i = 0; i < epochs.size(); i += kBlock) {
-    starts.push_back(forward);
-    forward.run(epochs[std::min(i + kBlock, epochs.size()) - 1], true);
+// The backward run at the end of each block, the last block's first.
+std::vector<Runner> Smoother::block_ends(const std::vector<std::int64_t>& epochs,
+                                         std::size_t block) const {
+  std::vector<Runner> ends;
+  Runner run = backward();
+  for (std::size_t first = (epochs.size() - 1) / block * block;; first -= block) {
+    ends.push_back(run);
+    if (first == 0) break;
+    run.run(about_us_ - epochs[first], false);
   }
-  std::vector<Smoothed> fixes;
-  Runner backward{learnt_, &backward_, &beside_};
-  for (std::size_t block = starts.size(); block-- > 0;) {
-    const std::size_t first = block * kBlock, last = std::min(first + kBlock, epochs.size());
-    std::vector<RecordedTrack> past;
-    for (std::size_t i = first; i < last; ++i) {
-      starts[block].run(epochs[i], true);
-      past.push_back(starts[block].track);
+  return ends;
+}
+
+void Smoother::run(const std::vector<std::int64_t>& epochs) const {
+  constexpr std::size_t kLeastBlock = 256;
+  const auto block = std::max(
+      kLeastBlock, static_cast<std::size_t>(std::sqrt(static_cast<double>(epochs.size()))));
+  std::vector<Runner> ends = block_ends(epochs, block);
+  Runner forward{learnt_, &bearings_, &beside_, &output_.tell};
+  for (std::size_t first = 0; first < epochs.size(); first += block) {
+    std::vector<Passed> future;
+    for (std::size_t i = std::min(first + block, epochs.size()); i-- > first;) {
+      ends.back().run(about_us_ - epochs[i], false);
+      future.emplace_back(ends.back().track);
     }
-    for (std::size_t i = last; i-- > first;) {
-      backward.run(about_us_ - epochs[i], false);
-      Smoothed fix = at(epochs[i], past[i - first], backward.track);
-      const Solution solution = fix.located.estimate.solution;
-      if (solution == Solution::kOk) {
-        fixes.push_back(std::move(fix));
-      } else {
-        ++unlocated[solution];
-      }
+    ends.pop_back();
+    for (std::size_t i = first; !future.empty(); ++i) {
+      forward.run(epochs[i], true);
+      output_.take(at(epochs[i], forward.track, std::move(future.back())));
+      future.pop_back();
     }
-    starts.pop_back();
   }
-  std::ranges::reverse(fixes);
-  return fixes;
 }
 
 }  // namespace
 
-std::vector<Smoothed> smooth(const std::vector<BearingMeasurement>& bearings,
-                             const std::vector<std::int64_t>& epochs,
-                             const TrackManagerConfig& config, const KnownStations& known,
-                             Unlocated& unlocated) {
-  if (bearings.empty()) return {};
-  return Smoother(bearings, config, known).run(epochs, unlocated);
+void smooth(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
+            const TrackManagerConfig& config, const KnownStations& known,
+            const SmootherOutput& output) {
+  if (bearings.empty() || epochs.empty()) return;
+  Smoother(bearings, config, known, output).run(epochs);
 }
 
 }  // namespace ols::fusion

@@ -98,6 +98,12 @@ TEST_F(CsvFilesTest, ReadsBearingsExactly) {
   EXPECT_EQ(bearings[0].target, "drone");
   EXPECT_EQ(bearings[1].belief, 1.0);
   EXPECT_EQ(bearings[1].target, "1");
+  const auto anonymous = read_bearings(
+      write("n.csv",
+            "utime_us,station,azimuth_deg,elevation_deg,sigma_deg\n1600000018965925,a,0,0,1"),
+      stations);
+  ASSERT_EQ(anonymous.size(), 1U);
+  EXPECT_EQ(anonymous[0].target, "");
 }
 
 TEST_F(CsvFilesTest, NamesTheBadStation) {
