@@ -23,7 +23,8 @@ struct OfflineConfig {
   bool smooth = false;               // only for the filter
   double rate_hz = 0.0;              // epochs on an even grid; 0: at the instant of every bearing
   FusionConfig fusion{};             // shared with the live fusion
-  std::function<void()> tell{};      // called for every bearing that the filter has processed
+  // Called for every bearing that a filter has processed; with `smooth` by two threads at a time.
+  std::function<void()> tell{};
 };
 
 // Bearings that fuse_offline leaves out before it checks the geometry.
@@ -51,8 +52,8 @@ void guess_clocks(std::vector<BearingMeasurement>& measurements);
 // order of time. Bearings that check() refuses must be left out. Throws std::invalid_argument for a
 // rate that is not finite or makes more than ten million epochs, for an unknown estimator, and for
 // smoothing with an estimator other than the filter.
-// The memory it needs besides the bearings does not grow with their number for the filter, and with
-// its square root for smoothing; the other estimators copy the bearings.
+// The memory it needs besides the bearings does not grow with their number for the filter, and
+// hardly for smoothing; the other estimators copy the bearings.
 OfflineReport fuse_offline(const BearingPointers& measurements, const OfflineConfig& config,
                            const std::function<void(FusedTarget)>& take);
 

@@ -2,9 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
+#include <future>
 #include <map>
 #include <optional>
+#include <span>
+#include <thread>
 #include <utility>
 
 namespace ols::fusion {
@@ -19,12 +21,16 @@ struct Whole {
 // Added so that it can be inverted: 10 ns, 10 nrad, 10 nm.
 constexpr double kLeast = 1e-16;
 
+// Instants of which both runs are stored, and parts of which the backward run is: a part has a
+// part's part, or a block.
+constexpr std::size_t kBlock = 128, kParts = 96;
+
 using Order = std::map<std::string, Eigen::Index>;  // station -> first of its states
 
 // The state extended to all stations' states; those that it does not hold get their prior.
-Whole spread(const TrackFilter& filter, const Order& order, const Eigen::VectorXd& prior,
-             double clock_sign) {
-  const auto [mean, covariance] = filter.mixed();
+Whole spread(const TrackFilter& filter, const FilterGaussian& mixed, const Order& order,
+             const Eigen::VectorXd& prior, double clock_sign) {
+  const auto& [mean, covariance] = mixed;
   std::vector<Eigen::Index> to(static_cast<std::size_t>(mean.size()));
   std::vector<double> sign(to.size(), 1.0);
   for (std::size_t i = 0; i < 9; ++i) to[i] = static_cast<Eigen::Index>(i);
@@ -77,9 +83,14 @@ std::optional<Whole> join(const Whole& a, const Whole& b, const Eigen::VectorXd&
 struct Passed {
   std::optional<TrackFilter> filter;  // nothing: no position
   bool is_initiated = false;
+  Solution why_none = Solution::kOk;
 
-  explicit Passed(const RecordedTrack& track) : is_initiated(track.is_initiated()) {
-    if (const Track* const located = track.located()) filter = located->filter;
+  Passed(const RecordedTrack& track, std::int64_t epoch_us) : is_initiated(track.is_initiated()) {
+    if (const Track* const located = track.located()) {
+      filter = located->filter;
+    } else {
+      why_none = track.why_none(epoch_us);
+    }
   }
 };
 
@@ -94,11 +105,20 @@ void leave_worth_joining(Passed& past, Passed& future) {
   }
 }
 
+// A filter at the instant, mixed once.
+struct Side {
+  const TrackFilter* filter;
+  FilterGaussian mixed;
+
+  explicit Side(const TrackFilter& at) : filter(&at), mixed(at.mixed()) {}
+  SystematicPart systematic() const { return systematic_part(mixed.covariance, filter->priors()); }
+};
+
 // The systematic part of the covariance is taken from the better of the two filters: how fast
 // biases change is the least known of all, and a bias that is constant over some seconds is the
 // same before and after.
-SystematicPart told_biases(const std::optional<TrackFilter>& from_past,
-                           const std::optional<TrackFilter>& from_future) {
+SystematicPart told_biases(const std::optional<Side>& from_past,
+                           const std::optional<Side>& from_future) {
   if (!from_past) return from_future->systematic();
   const SystematicPart before = from_past->systematic();
   if (!from_future) return before;
@@ -111,7 +131,7 @@ struct Runner {
   RecordedTrack track;
   const BearingPointers* bearings;
   const std::set<std::string>* beside;
-  const std::function<void()>* tell;
+  std::function<void()> tell;
   std::optional<std::int64_t> mirrored_about_us{};
   std::size_t next = 0;
 
@@ -131,7 +151,7 @@ struct Runner {
   bool take(const BearingMeasurement& measurement, std::int64_t utime_us, bool inclusive) {
     if (measurement.utime_us > utime_us || (measurement.utime_us == utime_us && !inclusive))
       return false;
-    if (*tell) (*tell)();
+    if (tell) tell();
     track.advance(measurement.utime_us);
     track.add(measurement, !beside->contains(measurement.station));
     return true;
@@ -149,36 +169,42 @@ class Smoother {
         learnt_(same_states(config)) {
     learnt_.set_errors(known.errors);
     for (const std::string& station : beside_) learnt_.forget_station(station);
+    has_places_ = std::ranges::any_of(bearings, [](const BearingMeasurement* measurement) {
+      return !measurement->sight.origin_sd_enu_m.isZero(0.0);
+    });
     for (const BearingMeasurement* measurement : bearings) {
-      if (order_
-              .try_emplace(measurement->station,
-                           9 + kStationStates * static_cast<Eigen::Index>(order_.size()))
-              .second) {
-        sights_.push_back(*measurement);
-      }
+      const Eigen::Index first = 9 + states() * std::ssize(sights_);
+      if (order_.try_emplace(measurement->station, first).second) sights_.push_back(*measurement);
     }
   }
 
-  void run(const std::vector<std::int64_t>& epochs) const;
+  void run(std::span<const std::int64_t> epochs) const {
+    Runner forward{learnt_, &bearings_, &beside_, output_.tell};
+    run(epochs, {learnt_, &bearings_, &beside_, output_.tell, about_us_}, forward);
+  }
 
  private:
   static TrackManagerConfig same_states(TrackManagerConfig config) {
     config.filter.place_share = 0.0;  // the same states at both ends
     return config;
   }
+  Eigen::Index states() const { return has_places_ ? kStationStates : kPoseStates; }
   std::vector<BiasPrior> priors(const Eigen::Vector3d& p_ecef) const;
   Eigen::VectorXd prior(const std::vector<BiasPrior>& biases) const;
-  Whole both(const std::optional<TrackFilter>& from_past,
-             const std::optional<TrackFilter>& from_future, const Eigen::VectorXd& variance) const;
-  Smoothed at(std::int64_t epoch_us, const RecordedTrack& forward, Passed future) const;
-  std::vector<Runner> block_ends(const std::vector<std::int64_t>& epochs, std::size_t block) const;
-  Runner backward() const { return {learnt_, &bearings_, &beside_, &output_.tell, about_us_}; }
+  Whole both(const std::optional<Side>& from_past, const std::optional<Side>& from_future,
+             const Eigen::VectorXd& variance) const;
+  Smoothed at(std::int64_t epoch_us, Passed& past, Passed& future) const;
+  std::vector<Runner> ends_of(std::span<const std::int64_t> epochs, std::size_t part,
+                              Runner end) const;
+  void run(std::span<const std::int64_t> epochs, Runner end, Runner& forward) const;
+  void run_block(std::span<const std::int64_t> epochs, Runner end, Runner& forward) const;
 
   const BearingPointers& bearings_;
   std::int64_t about_us_;
   const SmootherOutput& output_;
   std::set<std::string> beside_;
-  RecordedTrack learnt_;  // empty, with the learnt errors of the stations
+  RecordedTrack learnt_;     // empty, with the learnt errors of the stations
+  bool has_places_ = false;  // some station states an error of its position
   Order order_;
   std::vector<BearingMeasurement> sights_;  // one of each station, in that order
 };
@@ -187,48 +213,57 @@ std::vector<BiasPrior> Smoother::priors(const Eigen::Vector3d& p_ecef) const {
   std::vector<BiasPrior> biases;
   for (const BearingMeasurement& measurement : sights_) {
     const double range_m = (p_ecef - measurement.sight.origin_ecef).norm();
-    biases.push_back(learnt_.errors().prior(measurement.station, measurement.sight, range_m, true));
+    biases.push_back(
+        learnt_.errors().prior(measurement.station, measurement.sight, range_m, has_places_));
   }
   return biases;
 }
 
 // Variances of the stations' states before any bearing.
 Eigen::VectorXd Smoother::prior(const std::vector<BiasPrior>& biases) const {
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(9 + kStationStates * std::ssize(sights_));
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(9 + states() * std::ssize(sights_));
   for (std::size_t i = 0; i < sights_.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(9 + kStationStates * i);
+    const auto at = 9 + states() * static_cast<Eigen::Index>(i);
     variance.segment<3>(at) = biases[i].rotation.max(kLeast);
     variance(at + 3) = std::max(kLeast, sights_[i].clock_sd_s * sights_[i].clock_sd_s);
-    variance.segment<kPlaceStates>(at + kPoseStates) = biases[i].place_m2.max(kLeast);
+    if (has_places_)
+      variance.segment<kPlaceStates>(at + kPoseStates) = biases[i].place_m2.max(kLeast);
   }
   return variance;
 }
 
 // Both filters' states at the instant; one alone if the other has none or they cannot be joined.
-Whole Smoother::both(const std::optional<TrackFilter>& from_past,
-                     const std::optional<TrackFilter>& from_future,
+Whole Smoother::both(const std::optional<Side>& from_past, const std::optional<Side>& from_future,
                      const Eigen::VectorXd& variance) const {
-  if (!from_past) return spread(*from_future, order_, variance, -1.0);
-  const Whole before = spread(*from_past, order_, variance, 1.0);
+  const auto whole = [&](const Side& side, double clock_sign) {
+    return spread(*side.filter, side.mixed, order_, variance, clock_sign);
+  };
+  if (!from_past) return whole(*from_future, -1.0);
+  const Whole before = whole(*from_past, 1.0);
   if (!from_future) return before;
-  Whole after = spread(*from_future, order_, variance, -1.0);
+  Whole after = whole(*from_future, -1.0);
   forget_acceleration(after);
   return join(before, after, variance).value_or(before);
 }
 
-Smoothed Smoother::at(std::int64_t epoch_us, const RecordedTrack& forward, Passed future) const {
+Smoothed Smoother::at(std::int64_t epoch_us, Passed& past, Passed& future) const {
   Smoothed fix{epoch_us, {}};
-  Passed past(forward);
   leave_worth_joining(past, future);
-  std::optional<TrackFilter>&from_past = past.filter, &from_future = future.filter;
-  if (!from_past && !from_future) {
-    fix.located.estimate.solution = forward.why_none(epoch_us);
+  if (!past.filter && !future.filter) {
+    fix.located.estimate.solution = past.why_none;
     return fix;
   }
   BiasModel shown = BiasModel::evidence_on(learnt_.errors());
-  if (from_past) shown.learn(from_past->advance(epoch_us, shown));
-  if (from_future) shown.learn(from_future->advance(about_us_ - epoch_us, shown));
-  const TrackFilter& any = from_past ? *from_past : *from_future;
+  std::optional<Side> from_past, from_future;
+  if (past.filter) {
+    shown.learn(past.filter->advance(epoch_us, shown));
+    from_past.emplace(*past.filter);
+  }
+  if (future.filter) {
+    shown.learn(future.filter->advance(about_us_ - epoch_us, shown));
+    from_future.emplace(*future.filter);
+  }
+  const TrackFilter& any = past.filter ? *past.filter : *future.filter;
   const std::vector<BiasPrior> biases = priors(any.position());
   const Whole joint = both(from_past, from_future, prior(biases));
   KinematicState state{any.utime_us(), joint.mean.head<9>(),
@@ -241,37 +276,58 @@ Smoothed Smoother::at(std::int64_t epoch_us, const RecordedTrack& forward, Passe
   return fix;
 }
 
-// The backward run at the end of each block, the last block's first.
-std::vector<Runner> Smoother::block_ends(const std::vector<std::int64_t>& epochs,
-                                         std::size_t block) const {
-  std::vector<Runner> ends;
-  Runner run = backward();
-  for (std::size_t first = (epochs.size() - 1) / block * block;; first -= block) {
-    ends.push_back(run);
-    if (first == 0) break;
-    run.run(about_us_ - epochs[first], false);
+// Both runs at the instants of a block, then what they give together, on all processors: each
+// instant by itself.
+void Smoother::run_block(std::span<const std::int64_t> epochs, Runner end, Runner& forward) const {
+  std::vector<Passed> past, future;
+  past.reserve(epochs.size());
+  future.reserve(epochs.size());
+  auto backwards = std::async(std::launch::async, [&] {
+    for (std::size_t i = epochs.size(); i-- > 0;) {
+      end.run(about_us_ - epochs[i], false);
+      future.emplace_back(end.track, epochs[i]);
+    }
+  });
+  for (const std::int64_t epoch_us : epochs) {
+    forward.run(epoch_us, true);
+    past.emplace_back(forward.track, epoch_us);
   }
-  return ends;
+  backwards.get();
+  std::vector<Smoothed> fixes(epochs.size());
+  const auto join_share = [&](std::size_t first, std::size_t step) {
+    for (std::size_t i = first; i < epochs.size(); i += step)
+      fixes[i] = at(epochs[i], past[i], future[epochs.size() - 1 - i]);
+  };
+  const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
+  std::vector<std::future<void>> others;
+  for (std::size_t k = 1; k < threads; ++k)
+    others.push_back(std::async(std::launch::async, join_share, k, threads));
+  join_share(0, threads);
+  for (auto& other : others) other.get();
+  for (Smoothed& fix : fixes) output_.take(std::move(fix));
 }
 
-void Smoother::run(const std::vector<std::int64_t>& epochs) const {
-  constexpr std::size_t kLeastBlock = 256;
-  const auto block = std::max(
-      kLeastBlock, static_cast<std::size_t>(std::sqrt(static_cast<double>(epochs.size()))));
-  std::vector<Runner> ends = block_ends(epochs, block);
-  Runner forward{learnt_, &bearings_, &beside_, &output_.tell};
-  for (std::size_t first = 0; first < epochs.size(); first += block) {
-    std::vector<Passed> future;
-    for (std::size_t i = std::min(first + block, epochs.size()); i-- > first;) {
-      ends.back().run(about_us_ - epochs[i], false);
-      future.emplace_back(ends.back().track);
-    }
+// The backward run at the end of each part, the last part's first.
+std::vector<Runner> Smoother::ends_of(std::span<const std::int64_t> epochs, std::size_t part,
+                                      Runner end) const {
+  std::vector<Runner> ends;
+  for (std::size_t first = (epochs.size() - 1) / part * part;; first -= part) {
+    ends.push_back(end);
+    if (first == 0) return ends;
+    end.run(about_us_ - epochs[first], false);
+  }
+}
+
+// `end`: the backward run after these instants.
+void Smoother::run(std::span<const std::int64_t> epochs, Runner end, Runner& forward) const {
+  if (epochs.size() <= kBlock) return run_block(epochs, std::move(end), forward);
+  std::size_t part = kBlock;
+  while (part * kParts < epochs.size()) part *= kParts;
+  std::vector<Runner> ends = ends_of(epochs, part, std::move(end));
+  for (std::size_t first = 0; first < epochs.size(); first += part) {
+    Runner last = std::move(ends.back());
     ends.pop_back();
-    for (std::size_t i = first; !future.empty(); ++i) {
-      forward.run(epochs[i], true);
-      output_.take(at(epochs[i], forward.track, std::move(future.back())));
-      future.pop_back();
-    }
+    run(epochs.subspan(first, std::min(part, epochs.size() - first)), std::move(last), forward);
   }
 }
 
@@ -282,6 +338,12 @@ void smooth(const BearingPointers& bearings, const std::vector<std::int64_t>& ep
             const SmootherOutput& output) {
   if (bearings.empty() || epochs.empty()) return;
   Smoother(bearings, config, known, output).run(epochs);
+}
+
+std::size_t smoother_runs(std::size_t epochs) {
+  std::size_t runs = 2;
+  for (std::size_t part = kBlock; part < epochs; part *= kParts) ++runs;
+  return runs;
 }
 
 }  // namespace ols::fusion

@@ -32,14 +32,14 @@ struct KnownStations {
 
 struct SmootherOutput {
   std::function<void(Smoothed)> take{};  // in order of time; without a position, with the reason
-  std::function<void()> tell{};          // called for every bearing that a filter has processed
+  // Called for every bearing that a filter has processed; by two threads at a time.
+  std::function<void()> tell{};
 };
-// How often each bearing is processed: backwards twice, forwards once.
-inline constexpr int kSmootherRuns = 3;
+// How often each bearing is processed, for so many instants.
+std::size_t smoother_runs(std::size_t epochs);
 
 // One object's bearings and the instants, both in order of time. The backward filter is stored at
-// the ends of blocks and run again in each: its memory grows with the root of the number of
-// instants.
+// the ends of parts, and run again in each: its memory hardly grows with the number of instants.
 void smooth(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
             const TrackManagerConfig& config, const KnownStations& known,
             const SmootherOutput& output);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -112,9 +113,24 @@ ols::fusion::OfflineConfig config_of(const Options& options) {
   return config;
 }
 
+// How far the filters are, over all their runs.
+class Steps {
+ public:
+  Steps(std::size_t bearings, std::size_t runs) : bearings_(bearings), runs_(runs) {}
+  void operator()() {
+    const std::lock_guard lock(mutex_);
+    progress_(++done_ / runs_, bearings_);
+  }
+
+ private:
+  std::size_t bearings_, runs_, done_ = 0;
+  ols::Progress progress_{"ols-fuse", "bearings"};
+  std::mutex mutex_;
+};
+
 // How often filters process each bearing.
-std::size_t runs_of(const Options& options, bool separates) {
-  return (options.smooth ? 1 + ols::fusion::kSmootherRuns : 1) + (separates ? 1 : 0);
+std::size_t runs_of(const Options& options, std::size_t bearings, bool separates) {
+  return 1 + (options.smooth ? ols::fusion::smoother_runs(bearings) : 0) + (separates ? 1 : 0);
 }
 
 void set_clocks(const Options& options, const ols::fusion::MutableBearings& all) {
@@ -188,10 +204,8 @@ std::size_t run(const Options& options) {
   const bool separates =
       recording.targets.empty() && ols::fusion::shows_several_objects(targets.front().bearings);
   ols::fusion::OfflineConfig config = config_of(options);
-  config.tell = [done = std::size_t{0}, runs = runs_of(options, separates), bearings,
-                 progress = ols::Progress("ols-fuse", "bearings")]() mutable {
-    progress(++done / runs, bearings);
-  };
+  Steps steps(bearings, runs_of(options, bearings, separates));
+  config.tell = [&steps] { steps(); };
   Unused unused;
   for (const auto& target : targets) set_clocks(options, target.bearings);
   if (separates) {

@@ -41,10 +41,10 @@ def target_at(target: int, time_s: float) -> np.ndarray:
 class Stations:
     """All expose at the same instants, as cameras on one clock do; the worst case for a queue."""
 
-    def __init__(self, count: int, targets: int, bus: lcm.LCM):
+    def __init__(self, count: int, targets: int, each: int, bus: lcm.LCM):
         self.cameras = cameras_of(count)
         self.axes = [ols.R_ecef_enu(camera).T for camera in self.cameras]
-        self.targets, self.bus = targets, bus
+        self.targets, self.each, self.bus = targets, each, bus
         self.random = np.random.default_rng(19)
         self.messages = [self.message(i) for i in range(count)]
 
@@ -64,7 +64,8 @@ class Stations:
         places = [target_at(target, time_s) for target in range(self.targets)]
         for i, message in enumerate(self.messages):
             message.utime = utime
-            for place in places:
+            for k in range(self.each):
+                place = places[(i + k) % self.targets]
                 direction = ols.azimuth_elevation_from_enu(self.axes[i] @ (place - self.cameras[i]))
                 noise = self.random.normal(0.0, NOISE_RAD, 2)
                 message.elevation_rad = direction.elevation_rad + noise[0]
@@ -119,7 +120,12 @@ def measure(arguments: argparse.Namespace, folder: Path) -> bool:
     receiver = lcm.LCM(LIVE_URL)
     subscription = receiver.subscribe("OLS_(TARGET.*|FUSION_STATUS)", published.receive)
     subscription.set_queue_capacity(10_000)
-    stations = Stations(arguments.stations, arguments.targets, lcm.LCM(LIVE_URL))
+    stations = Stations(
+        arguments.stations,
+        arguments.targets,
+        arguments.each or arguments.targets,
+        lcm.LCM(LIVE_URL),
+    )
     fusion = [str(arguments.bin / "ols-fusion"), "--lcm-url", LIVE_URL]
     if arguments.config:
         fusion += ["--config", str(arguments.config)]
@@ -163,6 +169,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="tools/bench-fusion-load", description=__doc__)
     parser.add_argument("--stations", type=int, default=100)
     parser.add_argument("--targets", type=int, default=1)
+    parser.add_argument("--each", type=int, help="targets that a station sees; default: all")
     parser.add_argument("--rate", type=float, default=15.0, help="[Hz] of each station")
     parser.add_argument("--seconds", type=float, default=10.0)
     parser.add_argument("--config", type=Path, help="of ols-fusion")
