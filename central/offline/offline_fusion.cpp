@@ -183,8 +183,8 @@ Beside smoothed(const BearingPointers& bearings, const std::vector<std::int64_t>
   }
   for (const auto& [station, why] : beside) known.beside.insert(station);
   const SmootherOutput output{
-      [&](Smoothed fix) { fixes.add(fix.utime_us, "filter", std::move(fix.located)); },
-      config.tell};
+      [&](Smoothed fix) { fixes.add(fix.utime_us, "filter", std::move(fix.located)); }, config.tell,
+      config.workers};
   smooth(bearings, epochs, config.fusion.keeper, known, output);
   return beside;
 }

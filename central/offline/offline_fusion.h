@@ -15,6 +15,7 @@
 
 #include "central/fusion/fusion.h"
 #include "central/offline/bearing_pointers.h"
+#include "central/offline/tasks.h"
 
 namespace ols::fusion {
 
@@ -23,8 +24,9 @@ struct OfflineConfig {
   bool smooth = false;               // only for the filter
   double rate_hz = 0.0;              // epochs on an even grid; 0: at the instant of every bearing
   FusionConfig fusion{};             // shared with the live fusion
-  // Called for every bearing that a filter has processed; with `smooth` by two threads at a time.
+  // Called for every bearing that a filter has processed, with `smooth` by the workers.
   std::function<void()> tell{};
+  Workers workers{};  // for `smooth`
 };
 
 // Bearings that fuse_offline leaves out before it checks the geometry.

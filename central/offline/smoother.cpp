@@ -2,11 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <future>
 #include <map>
 #include <optional>
 #include <span>
-#include <thread>
 #include <utility>
 
 namespace ols::fusion {
@@ -276,34 +274,33 @@ Smoothed Smoother::at(std::int64_t epoch_us, Passed& past, Passed& future) const
   return fix;
 }
 
-// Both runs at the instants of a block, then what they give together, on all processors: each
-// instant by itself.
+// Both runs at the instants of a block, then what they give together: each instant by itself.
 void Smoother::run_block(std::span<const std::int64_t> epochs, Runner end, Runner& forward) const {
   std::vector<Passed> past, future;
   past.reserve(epochs.size());
   future.reserve(epochs.size());
-  auto backwards = std::async(std::launch::async, [&] {
+  const auto backwards = [&] {
     for (std::size_t i = epochs.size(); i-- > 0;) {
       end.run(about_us_ - epochs[i], false);
       future.emplace_back(end.track, epochs[i]);
     }
-  });
-  for (const std::int64_t epoch_us : epochs) {
-    forward.run(epoch_us, true);
-    past.emplace_back(forward.track, epoch_us);
-  }
-  backwards.get();
-  std::vector<Smoothed> fixes(epochs.size());
-  const auto join_share = [&](std::size_t first, std::size_t step) {
-    for (std::size_t i = first; i < epochs.size(); i += step)
-      fixes[i] = at(epochs[i], past[i], future[epochs.size() - 1 - i]);
   };
-  const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
-  std::vector<std::future<void>> others;
-  for (std::size_t k = 1; k < threads; ++k)
-    others.push_back(std::async(std::launch::async, join_share, k, threads));
-  join_share(0, threads);
-  for (auto& other : others) other.get();
+  const auto forwards = [&] {
+    for (const std::int64_t epoch_us : epochs) {
+      forward.run(epoch_us, true);
+      past.emplace_back(forward.track, epoch_us);
+    }
+  };
+  output_.workers.run({backwards, forwards});
+  std::vector<Smoothed> fixes(epochs.size());
+  Tasks joins;
+  for (std::size_t share = 0; share < output_.workers.count; ++share) {
+    joins.emplace_back([&, share] {
+      for (std::size_t i = share; i < epochs.size(); i += output_.workers.count)
+        fixes[i] = at(epochs[i], past[i], future[epochs.size() - 1 - i]);
+    });
+  }
+  output_.workers.run(joins);
   for (Smoothed& fix : fixes) output_.take(std::move(fix));
 }
 

@@ -15,6 +15,7 @@
 
 #include "central/estimators/estimator.h"
 #include "central/offline/bearing_pointers.h"
+#include "central/offline/tasks.h"
 #include "central/tracking/recorded_track.h"
 
 namespace ols::fusion {
@@ -32,8 +33,9 @@ struct KnownStations {
 
 struct SmootherOutput {
   std::function<void(Smoothed)> take{};  // in order of time; without a position, with the reason
-  // Called for every bearing that a filter has processed; by two threads at a time.
+  // Called for every bearing that a filter has processed, by the workers.
   std::function<void()> tell{};
+  Workers workers{};
 };
 // How often each bearing is processed, for so many instants.
 std::size_t smoother_runs(std::size_t epochs);

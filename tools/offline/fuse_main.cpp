@@ -2,10 +2,12 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <iostream>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -128,6 +130,17 @@ class Steps {
   std::mutex mutex_;
 };
 
+ols::fusion::Workers all_processors() {
+  const auto run = [](const ols::fusion::Tasks& tasks) {
+    std::vector<std::future<void>> others;
+    for (std::size_t i = 1; i < tasks.size(); ++i)
+      others.push_back(std::async(std::launch::async, tasks[i]));
+    tasks.front()();
+    for (std::future<void>& other : others) other.get();
+  };
+  return {std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8), run};
+}
+
 // How often filters process each bearing.
 std::size_t runs_of(const Options& options, std::size_t bearings, bool separates) {
   return 1 + (options.smooth ? ols::fusion::smoother_runs(bearings) : 0) + (separates ? 1 : 0);
@@ -206,6 +219,7 @@ std::size_t run(const Options& options) {
   ols::fusion::OfflineConfig config = config_of(options);
   Steps steps(bearings, runs_of(options, bearings, separates));
   config.tell = [&steps] { steps(); };
+  config.workers = all_processors();
   Unused unused;
   for (const auto& target : targets) set_clocks(options, target.bearings);
   if (separates) {
