@@ -6,14 +6,13 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <iomanip>
-#include <iterator>
+#include <memory>
 #include <set>
 #include <sstream>
 #include <string_view>
 #include <tuple>
 
-#include "base/atomic_file.h"
+#include "base/fix_writer.h"
 
 // Rows are few enough for one thread.
 #define CSV_IO_NO_THREAD
@@ -42,6 +41,7 @@ class Row {
                    what);
   }
   unsigned line() const { return line_; }
+  bool has_column(std::size_t column) const { return cells_[column] != nullptr; }
   bool has(std::size_t column) const {
     return cells_[column] != nullptr && *cells_[column] != '\0';
   }
@@ -88,16 +88,17 @@ using Reader = io::CSVReader<kColumns, io::trim_chars<' ', '\t'>, io::double_quo
                              io::throw_on_overflow, io::empty_line_comment>;
 
 // The column separator that a spreadsheet has used instead of a comma.
-std::string other_separator(const std::string& content) {
-  const std::string header = content.substr(0, content.find('\n'));
+std::string other_separator(const std::string& path) {
+  std::string header;
+  std::getline(std::ifstream(path, std::ios::binary), header);
   if (header.find(',') != std::string::npos) return "";
   if (header.find(';') != std::string::npos) return "semicolons";
   return header.find('\t') != std::string::npos ? "tabs" : "";
 }
 
 template <std::size_t kColumns>
-void read_header(Reader<kColumns>& reader, const std::string& path, const Header<kColumns>& header,
-                 const std::string& content) {
+void read_header(Reader<kColumns>& reader, const std::string& path,
+                 const Header<kColumns>& header) {
   std::apply(
       [&](auto... names) {
         reader.read_header(io::ignore_extra_column | io::ignore_missing_column, names...);
@@ -105,7 +106,7 @@ void read_header(Reader<kColumns>& reader, const std::string& path, const Header
       header.names);
   for (std::size_t i = 0; i < header.required; ++i) {
     if (reader.has_column(header.names[i])) continue;
-    const std::string separator = other_separator(content);
+    const std::string separator = other_separator(path);
     if (!separator.empty()) {
       throw CsvError(path + ":1: header: columns are separated by " + separator +
                      ", commas are needed");
@@ -114,23 +115,38 @@ void read_header(Reader<kColumns>& reader, const std::string& path, const Header
   }
 }
 
-// The whole file, its last line ended: the library reads past the end of one that is not.
-std::string content_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  file.peek();  // opening a folder succeeds; reading fails here
-  if (!file.is_open() || file.bad()) throw CsvError(path + ": cannot be read");
-  std::string content{std::istreambuf_iterator<char>(file), {}};
-  if (!content.empty() && content.back() != '\n') content += '\n';
-  return content;
-}
+// A file, its last line ended: the library reads past the end of one that is not.
+class EndedLines : public io::ByteSourceBase {
+ public:
+  explicit EndedLines(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+    file_.peek();  // opening a folder succeeds; reading fails here
+    if (!file_.is_open() || file_.bad()) throw CsvError(path + ": cannot be read");
+    file_.clear();
+  }
+  int read(char* buffer, int size) override {
+    file_.read(buffer, size);
+    if (file_.bad()) throw CsvError(path_ + ": cannot be read");
+    auto count = static_cast<int>(file_.gcount());
+    if (count > 0) {
+      last_ = buffer[count - 1];
+    } else if (last_ != '\n' && size > 0) {
+      buffer[count++] = last_ = '\n';
+    }
+    return count;
+  }
+
+ private:
+  std::string path_;
+  std::ifstream file_;
+  char last_ = '\n';
+};
 
 // Passes each row to `take`; translates the library's errors.
 template <std::size_t kColumns, class Take>
 void for_each_row(const std::string& path, const Header<kColumns>& header, Take take) {
   try {
-    const std::string content = content_of(path);
-    Reader<kColumns> reader(path, content.data(), content.data() + content.size());
-    read_header<kColumns>(reader, path, header, content);
+    Reader<kColumns> reader(path, std::make_unique<EndedLines>(path));
+    read_header<kColumns>(reader, path, header);
     std::array<const char*, kColumns> cells{};
     const auto next = [&](auto&... cell) { return reader.read_row(cell...); };
     while (std::apply(next, cells)) {
@@ -245,7 +261,7 @@ BearingRow bearing_row(const Row<7>& row) {
   bearing.elevation_deg = row.number<double>(3, -90.0, 90.0);
   bearing.sigma_deg = row.number<double>(4, kLeastSigmaDeg, 90.0);
   bearing.belief = row.optional_number(5, 0.0, 1.0).value_or(1.0);
-  if (row.has(6)) bearing.target = row.id(6);
+  if (row.has_column(6)) bearing.target = row.has(6) ? row.id(6) : "1";
   return bearing;
 }
 
@@ -264,18 +280,26 @@ std::vector<StationRow> read_stations(const std::string& path) {
   return stations;
 }
 
-std::vector<BearingRow> read_bearings(const std::string& path,
-                                      const std::vector<StationRow>& stations) {
+void for_each_bearing(const std::string& path, const std::vector<StationRow>& stations,
+                      const std::function<void(const BearingRow&)>& take) {
   std::set<std::string> ids;
   for (const StationRow& station : stations) ids.insert(station.station);
-  std::vector<BearingRow> bearings;
+  bool any = false;
   for_each_row(path, kBearings, [&](const Row<7>& row) {
-    bearings.push_back(bearing_row(row));
-    if (!ids.contains(bearings.back().station)) {
-      row.fail(1, "'" + bearings.back().station + "' is not one of the stations");
+    const BearingRow bearing = bearing_row(row);
+    if (!ids.contains(bearing.station)) {
+      row.fail(1, "'" + bearing.station + "' is not one of the stations");
     }
+    any = true;
+    take(bearing);
   });
-  if (bearings.empty()) throw CsvError(path + ":2: row: the file has a header but no rows");
+  if (!any) throw CsvError(path + ":2: row: the file has a header but no rows");
+}
+
+std::vector<BearingRow> read_bearings(const std::string& path,
+                                      const std::vector<StationRow>& stations) {
+  std::vector<BearingRow> bearings;
+  for_each_bearing(path, stations, [&](const BearingRow& row) { bearings.push_back(row); });
   return bearings;
 }
 
@@ -339,21 +363,9 @@ std::vector<FlightRow> read_flight(const std::string& path) {
 }
 
 void write_fixes(const std::string& path, const std::vector<FixRow>& fixes) {
-  AtomicFile file(path);
-  std::ostream& out = file.stream();
-  out << "utime_us,target,latitude_deg,longitude_deg,height_m,east_sd_m,north_sd_m,up_sd_m,"
-         "stations_used,stations_set_aside,crossing_angle_deg,residual\n"
-      << std::fixed;
-  for (const FixRow& fix : fixes) {
-    // A hundredth of a microdegree is a millimetre.
-    out << fix.utime_us << ',' << fix.target << std::setprecision(9) << ',' << fix.latitude_deg
-        << ',' << fix.longitude_deg << std::setprecision(4) << ',' << fix.height_m << ','
-        << fix.east_sd_m << ',' << fix.north_sd_m << ',' << fix.up_sd_m << ',' << fix.stations_used
-        << ',' << fix.stations_set_aside << ',' << fix.crossing_angle_deg << ',';
-    if (!std::isnan(fix.residual)) out << fix.residual;
-    out << '\n';
-  }
-  file.commit();
+  FixWriter writer(path);
+  for (const FixRow& fix : fixes) writer.add(fix);
+  writer.commit();
 }
 
 }  // namespace ols
