@@ -80,7 +80,7 @@ struct SightedRow {
   unsigned line = 0;                     // of the file
 };
 
-// Where somebody flew, as in a trajectory's file.
+// A point of a recorded flight: a row of a trajectory file.
 struct FlightRow {
   std::int64_t utime_us = 0;
   double latitude_deg = 0.0;

@@ -39,7 +39,7 @@ Fusion::Fusion(const FusionConfig& config)
         "stations_restarted", "paper_targets_thinned"}) {
     log_.counters[name] = 0.0;
   }
-  for (int i = 1; i <= static_cast<int>(BearingRefusal::kLowBelief); ++i) {
+  for (int i = 1; i < static_cast<int>(BearingRefusal::kCount); ++i) {
     log_.counters[to_string(static_cast<BearingRefusal>(i))] = 0.0;
   }
 }

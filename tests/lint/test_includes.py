@@ -43,7 +43,7 @@ NOT_PURE = {
     "base/wakeup.cpp "
     "edge/host_monitor.cpp edge/rearm_signal.cpp edge/clock/clock_pair.cpp "
     "edge/clock/clock_source.cpp edge/clock/command_output.cpp",
-    "devices and their threads": "edge/device_thread.* "
+    "devices and their threads": "edge/device/device_thread.* "
     "edge/camera/aravis_*.cpp edge/camera/aravis_error.h "
     "edge/camera/aravis_session.h edge/camera/camera_handover.* edge/camera/tai_reference.cpp "
     "edge/gpio/gpio.cpp edge/gpio/gpio_lines_* edge/ptu/ptu_thread.cpp edge/ptu/serial_port.cpp "

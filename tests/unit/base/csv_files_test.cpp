@@ -171,6 +171,27 @@ TEST_F(CsvFilesTest, NamesTheBadBearing) {
   }
 }
 
+TEST_F(CsvFilesTest, NamesTheBadRowOfAFlight) {
+  const auto error_of = [this](const std::string& text) -> std::string {
+    try {
+      read_flight(write("f.csv", text));
+    } catch (const CsvError& error) {
+      return std::string(error.what()).substr(folder_.string().size() + 1);
+    }
+    return "none";
+  };
+  const std::string head = "utime_us,lat,lon,h\n1,49,16,350\n";
+  EXPECT_EQ(error_of(head + "2,49,16,350\n"), "none");
+  EXPECT_EQ(error_of("time,lat\n"), "f.csv:1: utime_us: the column is missing");
+  EXPECT_EQ(error_of(head + "2,49,16\n"),
+            "f.csv:3: row: too few or too many columns, or a quote that stays open");
+  EXPECT_EQ(error_of(head + "2,49,16,nan\n"), "f.csv:3: h: nan is outside -10000 .. 100000");
+  EXPECT_EQ(error_of(head + "1,49,16,350\n"),
+            "f.csv:3: utime_us: is not later than in the row before");
+  EXPECT_EQ(error_of(head + "2,149,16,350\n"), "f.csv:3: lat: 149 is outside -90 .. 90");
+  EXPECT_EQ(error_of(head), "f.csv: at least two rows are needed");
+}
+
 TEST_F(CsvFilesTest, NamesAnotherSeparator) {
   std::string header = kStations;
   std::ranges::replace(header, ',', ';');
