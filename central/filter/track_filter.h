@@ -20,6 +20,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,9 +58,8 @@ struct FilterConfig {
   double common_mode = 1.0;
 };
 
-// What became of a bearing. kNoFreeState: all states belong to stations that still deliver. Without
-// states, a station's bearings would count as if its bias were new in each of them.
-enum class BearingUse { kUsed, kRejected, kBehindCamera, kTooLate, kNoFreeState };
+// What became of a bearing.
+enum class BearingUse { kUsed, kRejected, kBehindCamera, kTooLate };
 
 // A contributing station.
 struct FilterStation {
@@ -71,7 +71,8 @@ struct FilterStation {
   int rejected = 0;                               // consecutively, since the last used one
   std::int64_t calibration_id = 0, track_id = 0;  // a new id means a new bias
   double weight = 0.0;                            // of the last one, 0: rejected
-  double clock_sd_s = 0.0;
+  double clock_sd_s = 0.0;                        // as learnt
+  double stated_clock_sd_s = 0.0;
   double mean_nis = 2.0;  // recent mean of the used bearings; 2 is ideal
   ColouredNoise noise{};
 };
@@ -132,6 +133,7 @@ class TrackFilter {
   Innovation compare(const BearingMeasurement& measurement, int station) const;
   // `along`: the bearing's direction if biases may be estimated from it.
   void correct(const Innovation& seen, const Eigen::Matrix2d& noise, const Eigen::Vector3d* along);
+  void take_without_states(const BearingMeasurement& measurement, FilterUpdate& update);
   void take(const BearingMeasurement& measurement, const Innovation* known, FilterUpdate& update);
   void note_use(FilterStation& entry, const BearingMeasurement& measurement, double nis) const;
   void predict(std::int64_t utime_us, BiasModel& shown);
@@ -148,6 +150,8 @@ class TrackFilter {
   std::int64_t state_ = 1;  // version of the state; an innovation belongs to one
   std::vector<FilterStation> stations_;
   std::vector<BiasPrior> priors_;
+  // The newest bearing of each station for which no states are left.
+  std::map<std::string, std::int64_t> without_states_;
   KinematicState summary_;  // mixed over the models
   std::optional<KinematicState> about_;
   ConsecutiveRejections rejections_;

@@ -136,20 +136,24 @@ struct Fixes {
   }
 };
 
-Fixes causal(const std::vector<BearingMeasurement>& bearings,
-             const std::vector<std::int64_t>& epochs, Estimator& estimator,
-             const OfflineConfig& config) {
+// The filter's state as far after the instant as the other estimators look, taken back to it.
+Fixes filtered(const std::vector<BearingMeasurement>& bearings,
+               const std::vector<std::int64_t>& epochs, Estimator& estimator,
+               const OfflineConfig& config) {
   Recording recording(config);
   Fixes fixes;
   auto next = bearings.begin();
+  const auto ahead_us =
+      static_cast<std::int64_t>(0.5e6 * config.fusion.estimators.alignment.window_s);
   for (const std::int64_t epoch_us : epochs) {
-    for (; next != bearings.end() && next->utime_us <= epoch_us; ++next) {
+    const std::int64_t last_us = std::min(epoch_us + ahead_us, bearings.back().utime_us);
+    for (; next != bearings.end() && next->utime_us <= last_us; ++next) {
       recording.add(*next);
     }
-    recording.advance(epoch_us);
+    recording.advance(last_us);
     const Track* const track = recording.track().located();
     if (track == nullptr) {
-      ++fixes.unlocated[recording.track().why_none(epoch_us)];
+      ++fixes.unlocated[recording.track().why_none(last_us)];
       continue;
     }
     const TrackView view{track->bearings, recording.track().errors(), &track->filter};
@@ -195,7 +199,7 @@ UnusedBearings unused_bearings(const std::vector<BearingMeasurement>& measuremen
 }
 
 void guess_clocks(std::vector<BearingMeasurement>& measurements) {
-  constexpr double kNoises = 4.0, kHalfAFrameS = 0.02;
+  constexpr double kNoises = 0.5, kHalfAFrameS = 0.02;
   std::map<std::string, std::vector<const BearingMeasurement*>> stations;
   for (const BearingMeasurement& measurement : measurements)
     stations[measurement.station].push_back(&measurement);
@@ -223,7 +227,7 @@ std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& mea
   const std::vector<BearingMeasurement> bearings = in_order(recording);
   const std::vector<std::int64_t> epochs = epochs_of(bearings, config.rate_hz);
   Fixes fixes = config.smooth ? smoothed(bearings, epochs, config)
-                : is_filter   ? causal(bearings, epochs, *estimator, config)
+                : is_filter   ? filtered(bearings, epochs, *estimator, config)
                               : interpolating(bearings, recording, epochs, *estimator, config);
   if (unlocated != nullptr) *unlocated = std::move(fixes.unlocated);
   return std::move(fixes.targets);

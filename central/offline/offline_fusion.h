@@ -1,9 +1,9 @@
 // Fusion of recorded bearings of one object.
 //
-// The filter is causal: a fix uses only the bearings up to its instant, as live. Smoothing also
-// uses the later ones (smoother.h). The other estimators interpolate each station's bearings on
-// both sides of the instant; a run of the filter provides the errors that the stations do not
-// declare.
+// Every estimator uses the bearings up to half an alignment window after the instant: the filter
+// is run as far and its state taken back; the other estimators interpolate each station's bearings
+// on both sides, and a run of the filter provides the errors that the stations do not declare.
+// Smoothing uses all later ones (smoother.h).
 #pragma once
 
 #include <cstddef>
@@ -34,8 +34,9 @@ UnusedBearings unused_bearings(const std::vector<BearingMeasurement>& measuremen
                                const OfflineConfig& config);
 
 // For a recording without statements on its clocks: sets for each station the offset [s] that would
-// move a bearing by four times its noise at the object's usual angular speed, at most 0.02 s (half
-// a video frame). A clock thus counts as much for a meteor as for a drone.
+// move a bearing by half its noise at the object's usual angular speed, at most 0.02 s (half a
+// video frame). A clock thus counts as much for a meteor as for a drone. With
+// BiasModelConfig::clock_weight the bearings teach more.
 void guess_clocks(std::vector<BearingMeasurement>& measurements);
 
 // One object's bearings, in any order. Returns one target for each epoch that has a position, in

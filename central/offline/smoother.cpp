@@ -180,7 +180,9 @@ Eigen::VectorXd Smoother::prior(const std::vector<BiasPrior>& biases) const {
   for (std::size_t i = 0; i < sights_.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(9 + kStationStates * i);
     variance.segment<3>(at) = biases[i].rotation.max(kLeast);
-    variance(at + 3) = std::max(kLeast, sights_[i].clock_sd_s * sights_[i].clock_sd_s);
+    const double clock_scale = learnt_.errors().clock_scale(sights_[i].station);
+    variance(at + 3) =
+        std::max(kLeast, clock_scale * sights_[i].clock_sd_s * sights_[i].clock_sd_s);
     variance.segment<kPlaceStates>(at + kPoseStates) = biases[i].place_m2.max(kLeast);
   }
   return variance;

@@ -283,10 +283,10 @@ TEST(OfflineFusion, AClockIsGuessedByWhatItDoesToTheBearings) {
   auto measurements = recording(10.0, 1e-4, 7);
   guess_clocks(measurements);
   for (const BearingMeasurement& s : measurements) {
-    EXPECT_GT(s.clock_sd_s, 4e-4 / 0.3);
-    EXPECT_LT(s.clock_sd_s, 4e-4 / 0.02);
+    EXPECT_GT(s.clock_sd_s, 5e-5 / 0.3);
+    EXPECT_LT(s.clock_sd_s, 5e-5 / 0.02);
   }
-  auto rough = recording(10.0, 2e-3, 7);
+  auto rough = recording(10.0, 1.6e-2, 7);
   guess_clocks(rough);
   for (const BearingMeasurement& s : rough) EXPECT_EQ(s.clock_sd_s, 0.02);
 }
