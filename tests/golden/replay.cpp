@@ -51,7 +51,7 @@ fusion::BearingMeasurement decoded(const ols_msg::bearing_t& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
   const int size = message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   return std::get<fusion::BearingMeasurement>(
-      fusion::sighting_from(std::string(kBearingChannel) + message.station, bytes.data(), size));
+      fusion::measurement_from(std::string(kBearingChannel) + message.station, bytes.data(), size));
 }
 
 class Output {
