@@ -8,6 +8,9 @@
 namespace ols::fusion {
 namespace {
 
+// The share of the stated noise that does not show as noise.
+double not_white(double noise_scale) { return std::max(0.0, 1.0 - noise_scale); }
+
 bool states_anything(const Eigen::Array2d& stated_rad2) { return stated_rad2.maxCoeff() > 0.0; }
 
 // A tilt affects both axes. A heading error affects only cross-elevation: it is the excess of that
@@ -100,9 +103,8 @@ Eigen::Array2d BiasModel::learnt(const std::string& station, const Eigen::Array2
   const double least = config_.least_over_noise * config_.least_over_noise;
   const Eigen::Array2d common = (config_.untold_weight * least + common_ratio_).max(0.0) /
                                 (config_.untold_weight + common_weight_);
-  const double not_white = std::max(0.0, 1.0 - noise_scale(station));
   const Eigen::Array2d prior =
-      told ? stated_rad2 : Eigen::Array2d((common + not_white) * noise_rad2);
+      told ? stated_rad2 : Eigen::Array2d((common + not_white(noise_scale(station))) * noise_rad2);
   const Seen* const seen = find(station);
   if (seen == nullptr) return prior;
   const Eigen::Array2d squared = weight * prior + seen->squared_rad2 + seen->squared_now_rad2;
@@ -122,10 +124,11 @@ BiasPrior BiasModel::prior(const std::string& station, const LineOfSight& sight,
       position_states ? sight.covariance_systematic.diagonal().array() : stated;
   const double least = config_.least_over_noise * config_.least_over_noise;
   const double elevation_rad = sight.direction.elevation_rad;
-  const Eigen::Array2d before = told ? pose : Eigen::Array2d::Zero();
   prior.covariance.diagonal().array() += more;
   prior.rotation = rotation_variance((pose + more).max(least * noise), elevation_rad);
-  const Eigen::Array3d unseen = rotation_variance(before.max(least * noise), elevation_rad);
+  Eigen::Array2d declared = Eigen::Array2d::Zero();
+  if (told) declared = pose.max(least * noise);
+  const Eigen::Array3d unseen = rotation_variance(declared, elevation_rad);
   prior.shown = (1.0 - unseen / prior.rotation.max(kNone)).max(0.0);
   prior.time_s.setConstant(told ? config_.stated_time_s : config_.untold_time_s);
   // The heading's excess over a tilt existed from the start: all axes drift alike.

@@ -136,15 +136,14 @@ struct Fixes {
   }
 };
 
-// The filter's state as far after the instant as the other estimators look, taken back to it.
+// The filter's state some time after the instant, taken back to it.
 Fixes filtered(const std::vector<BearingMeasurement>& bearings,
                const std::vector<std::int64_t>& epochs, Estimator& estimator,
                const OfflineConfig& config) {
   Recording recording(config);
   Fixes fixes;
   auto next = bearings.begin();
-  const auto ahead_us =
-      static_cast<std::int64_t>(0.5e6 * config.fusion.estimators.alignment.window_s);
+  const std::int64_t ahead_us = std::llround(1e6 * config.look_ahead_s);
   for (const std::int64_t epoch_us : epochs) {
     const std::int64_t last_us = std::min(epoch_us + ahead_us, bearings.back().utime_us);
     for (; next != bearings.end() && next->utime_us <= last_us; ++next) {

@@ -1,8 +1,8 @@
 // Fusion of recorded bearings of one object.
 //
-// Every estimator uses the bearings up to half an alignment window after the instant: the filter
-// is run as far and its state taken back; the other estimators interpolate each station's bearings
-// on both sides, and a run of the filter provides the errors that the stations do not declare.
+// Every estimator uses the bearings up to 0.15 s after the instant: the filter is run as far and its
+// state taken back; the other estimators interpolate each station's bearings on both sides, and a
+// run of the filter provides the errors that the stations do not declare.
 // Smoothing uses all later ones (smoother.h).
 #pragma once
 
@@ -20,6 +20,9 @@ namespace ols::fusion {
 struct OfflineConfig {
   std::string estimator = "filter";  // a name of make_estimator()
   bool smooth = false;               // only for the filter
+  // Of the filter: the fix at an instant uses the bearings up to this time after it, as the other
+  // estimators do, which interpolate. 0: as live.
+  double look_ahead_s = 0.15;
   double rate_hz = 0.0;              // epochs on an even grid; 0: at the instant of every bearing
   FusionConfig fusion{};             // shared with the live fusion
   std::function<void()> tell{};      // called for every bearing that the filter has processed
