@@ -238,8 +238,10 @@ void TrackFilter::take(const BearingMeasurement& measurement, const Innovation* 
   rejections_.clear();
   update.use = BearingUse::kUsed;
   note_use(entry, measurement, judged->nis);
+  // What turns two lines of sight to meet is what shows an inconsistent pair: it is estimated.
+  const bool judges_pairs = std::isfinite(config_.two_stations_nis);
   const bool may_learn =
-      is_redundant(stations_, entry) &&
+      (judges_pairs || is_redundant(stations_, entry)) &&
       is_linear(*seen.part, seen.frame, seen.models[0].depth_m,
                 summary_.covariance.topLeftCorner<3, 3>(), models_[0].covariance, white);
   const double inflation = entry.noise.observe(measurement, seen.frame, update.shown);
