@@ -8,6 +8,9 @@
 namespace ols::fusion {
 namespace {
 
+// The share of the stated noise that does not show as noise.
+double not_white(double noise_scale) { return std::max(0.0, 1.0 - noise_scale); }
+
 bool states_anything(const Eigen::Array2d& stated_rad2) { return stated_rad2.maxCoeff() > 0.0; }
 
 // A tilt affects both axes. A heading error affects only cross-elevation: it is the excess of that
@@ -56,11 +59,12 @@ void BiasModel::observe_noise(const std::string& station, double squared_ratio) 
 
 // A noise with the correlation time T, sampled every dt, averages like that many times fewer white
 // samples: 1 + 2 T / dt.
-double BiasModel::inflation(const std::string& station, double interval_s) const {
+double BiasModel::inflation(const std::string& station, bool told, double interval_s) const {
   const Seen* const seen = find(station);
   if (seen == nullptr || !(interval_s > 0.0)) return 1.0;
   const double coloured = std::clamp(1.0 - seen->white_share, 0.0, 1.0);
-  return 1.0 + coloured * 2.0 * config_.colour_time_s / interval_s;
+  const double time_s = told ? config_.colour_time_s : config_.untold_colour_time_s;
+  return 1.0 + coloured * 2.0 * time_s / interval_s;
 }
 
 void BiasModel::observe_residual(const std::string& station, double ratio) {
@@ -96,14 +100,14 @@ Eigen::Array2d BiasModel::learnt(const std::string& station, const Eigen::Array2
                                  const Eigen::Array2d& noise_rad2) const {
   const bool told = states_anything(stated_rad2);
   const double weight = told ? config_.stated_weight : config_.untold_weight;
-  const double guess = config_.untold_over_noise * config_.untold_over_noise;
-  const Eigen::Array2d common = (config_.untold_weight * guess + common_ratio_).max(0.0) /
+  const double least = config_.least_over_noise * config_.least_over_noise;
+  const Eigen::Array2d common = (config_.untold_weight * least + common_ratio_).max(0.0) /
                                 (config_.untold_weight + common_weight_);
-  const Eigen::Array2d prior = told ? stated_rad2 : Eigen::Array2d(common * noise_rad2);
+  const Eigen::Array2d prior =
+      told ? stated_rad2 : Eigen::Array2d((common + not_white(noise_scale(station))) * noise_rad2);
   const Seen* const seen = find(station);
   if (seen == nullptr) return prior;
   const Eigen::Array2d squared = weight * prior + seen->squared_rad2 + seen->squared_now_rad2;
-  const double least = config_.least_over_noise * config_.least_over_noise;
   return (squared / (weight + seen->weight + seen->weight_now)).max(least * noise_rad2);
 }
 
@@ -118,13 +122,13 @@ BiasPrior BiasModel::prior(const std::string& station, const LineOfSight& sight,
   const Eigen::Array2d more = (learnt(station, stated, noise) - stated).max(0.0);
   const Eigen::Array2d pose =
       position_states ? sight.covariance_systematic.diagonal().array() : stated;
-  const double guess = config_.untold_over_noise * config_.untold_over_noise;
   const double least = config_.least_over_noise * config_.least_over_noise;
   const double elevation_rad = sight.direction.elevation_rad;
-  const Eigen::Array2d before = told ? pose : Eigen::Array2d(guess * noise);
   prior.covariance.diagonal().array() += more;
   prior.rotation = rotation_variance((pose + more).max(least * noise), elevation_rad);
-  const Eigen::Array3d unseen = rotation_variance(before.max(least * noise), elevation_rad);
+  Eigen::Array2d declared = Eigen::Array2d::Zero();
+  if (told) declared = pose.max(least * noise);
+  const Eigen::Array3d unseen = rotation_variance(declared, elevation_rad);
   prior.shown = (1.0 - unseen / prior.rotation.max(kNone)).max(0.0);
   prior.time_s.setConstant(told ? config_.stated_time_s : config_.untold_time_s);
   // The heading's excess over a tilt existed from the start: all axes drift alike.
@@ -161,6 +165,26 @@ void BiasModel::observe(const std::string& station, const LineOfSight& sight,
   seen.noise_rad2 = states_anything(stated) ? Eigen::Array2d::Zero()
                                             : Eigen::Array2d(sight.covariance_white.diagonal());
   count(seen, 1.0);
+}
+
+void BiasModel::observe_clock(const std::string& station, double value_s, double variance_s2,
+                              double prior_s2, double stated_s2, double dt_s) {
+  if (!(stated_s2 > 0.0 && config_.clock_weight > 0.0)) return;
+  Seen& seen = at(station);
+  const double decay = std::exp(-dt_s / config_.memory_s);
+  const double news = std::min(1.0, dt_s / config_.clock_time_s);
+  const double known = std::clamp(1.0 - variance_s2 / prior_s2, 0.0, 1.0);
+  seen.clock_now = known * known;
+  seen.clock_squared_now = (value_s * value_s - known * variance_s2) / stated_s2;
+  seen.clock_weight = seen.clock_weight * decay + news * seen.clock_now;
+  seen.clock_squared = seen.clock_squared * decay + news * seen.clock_squared_now;
+}
+
+double BiasModel::clock_scale(const std::string& station) const {
+  const Seen* const seen = find(station);
+  if (seen == nullptr || !(config_.clock_weight > 0.0)) return 1.0;
+  const double squared = config_.clock_weight + seen->clock_squared + seen->clock_squared_now;
+  return std::max(1.0, squared / (config_.clock_weight + seen->clock_weight + seen->clock_now));
 }
 
 }  // namespace ols::fusion

@@ -5,14 +5,15 @@
 // zero mean. The prior variance v is learnt here. A bias that is estimated as b with variance P is
 // observable with the share k = 1 - P / v; its square counts as b^2 - k P with the weight k^2 (one
 // step of Fisher scoring on the marginal likelihood, Harville, 1977): nothing where the geometry
-// does not determine the bias, all where it does. The sd of an undeclared systematic error is first
-// assumed to be half that of the noise; the biases of other undeclared stations, in units of their
-// stated noise, count for it too. The only scale in this is the bias's correlation time, so it
-// holds for a drone and for a meteor.
+// does not determine the bias, all where it does. An undeclared systematic error is first assumed
+// to be small; the biases of other undeclared stations, in units of their stated noise, count for
+// it too. The only scale in this is the bias's correlation time, so it holds for a drone and for a
+// meteor. A clock's offset is learnt alike where its error is only guessed.
 //
 // The noise variance is learnt from the residuals: the expected square of the noise, given the
 // residual, counts as one bearing (expectation maximisation). It may be smaller or larger than
-// stated.
+// stated. What is stated as noise and does not show as such is still there: it is added to the
+// assumed bias of a station that declares none, until estimated biases show less.
 //
 // Noise is rarely white: the error of a tracker, or of a person, is nearly the same in the next
 // frame. The white share is estimated from the second differences of a station's own bearings, in
@@ -31,19 +32,23 @@
 namespace ols::fusion {
 
 struct BiasModelConfig {
-  double stated_time_s = 1800.0;   // correlation time of a declared pose error
-  double untold_time_s = 5.0;      // and of an undeclared one
-  double memory_s = 600.0;         // older evidence counts less than 1/e
-  double stated_weight = 20.0;     // weight of a declared bias, in estimated biases
-  double untold_weight = 1.0;      // and of the assumed one where none is declared
-  double untold_over_noise = 0.5;  // that assumption: sd of the bias over sd of the noise
-  double least_over_noise = 0.2;   // min sd of any bias, over sd of the noise
-  double noise_weight = 20.0;      // weight of a stated noise, in bearings
-  double noise_memory = 500.0;     // over which the noise is averaged [bearings]
-  double least_noise = 0.1;        // bounds of the noise over the stated one [variances]
+  double stated_time_s = 1800.0;  // correlation time of a declared pose error
+  double untold_time_s = 5.0;     // and of an undeclared one
+  double memory_s = 600.0;        // older evidence counts less than 1/e
+  double stated_weight = 20.0;    // weight of a declared bias, in estimated biases
+  double untold_weight = 1.0;     // and of the assumed one where none is declared
+  // Min sd of any bias, over sd of the noise: assumed where nothing is declared or shown.
+  double least_over_noise = 0.2;
+  double noise_weight = 20.0;   // weight of a stated noise, in bearings
+  double noise_memory = 500.0;  // over which the noise is averaged [bearings]
+  double least_noise = 0.1;     // bounds of the noise over the stated one [variances]
   double greatest_noise = 100.0;
-  double clock_time_s = 5.0;     // correlation time of a clock's error
-  double colour_time_s = 0.3;    // and of coloured noise: between a frame and the slow bias
+  double clock_time_s = 5.0;  // correlation time of a clock's error
+  // Weight of a clock's stated error, in estimated offsets; 0: what is stated is not learnt.
+  double clock_weight = 0.0;
+  double colour_time_s = 0.3;  // and of coloured noise: between a frame and the slow bias
+  // The same where no bias is declared: what is slower is in the bias.
+  double untold_colour_time_s = 0.05;
   double colour_memory = 500.0;  // over which the white share is averaged [second differences]
 };
 
@@ -57,7 +62,7 @@ struct BiasPrior {
   bool position_states = false;                          // false: the rotation contains it
   Eigen::Array3d place_m2 = Eigen::Array3d::Zero();      // stationary variances: east, north, up
   double place_time_s = 1.0;                             // its correlation time
-  // Empirical share of the rotation's variances: beyond the declared or assumed ones.
+  // Empirical share of the rotation's variances: what no station declares.
   Eigen::Array3d shown = Eigen::Array3d::Zero();
 };
 
@@ -94,9 +99,15 @@ class BiasModel {
   // noise_scale().
   void observe_noise(const std::string& station, double squared_ratio);
   // By which factor to multiply a bearing's stated variance when bearings come at this interval: 1
-  // if the noise is white.
-  double inflation(const std::string& station, double interval_s) const;
+  // if the noise is white. told: the station declares a bias.
+  double inflation(const std::string& station, bool told, double interval_s) const;
   double clock_time_s() const { return config_.clock_time_s; }
+  // A clock offset estimated by the filter, its variance and its prior, dt_s after the last report,
+  // and the variance that the station states [s^2].
+  void observe_clock(const std::string& station, double value_s, double variance_s2,
+                     double prior_s2, double stated_s2, double dt_s);
+  // The variance of a station's clock offset over the stated one, at least 1.
+  double clock_scale(const std::string& station) const;
   void forget(const std::string& station);
   void clear() { *this = BiasModel(config_); }
 
@@ -105,9 +116,11 @@ class BiasModel {
     // Of earlier biases; the current one counts as one more, however new.
     Eigen::Array2d weight = Eigen::Array2d::Zero(), weight_now = Eigen::Array2d::Zero();
     Eigen::Array2d squared_rad2 = Eigen::Array2d::Zero(), squared_now_rad2 = Eigen::Array2d::Zero();
-    Eigen::Array2d noise_rad2 = Eigen::Array2d::Zero();  // stated, of one recent bearing
-    double residuals = 0.0, noise = 0.0;                 // bearings; sum of noise over stated
-    double white_share = 1.0;                            // of the variance of its noise
+    Eigen::Array2d noise_rad2 = Eigen::Array2d::Zero();   // stated, of one recent bearing
+    double residuals = 0.0, noise = 0.0;                  // bearings; sum of noise over stated
+    double clock_weight = 0.0, clock_now = 0.0;           // as above, of clock offsets
+    double clock_squared = 0.0, clock_squared_now = 0.0;  // over the stated variance
+    double white_share = 1.0;                             // of the variance of its noise
   };
   const Seen* find(const std::string& station) const;
   Seen& at(const std::string& station);

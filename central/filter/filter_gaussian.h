@@ -14,7 +14,7 @@
 
 namespace ols::fusion {
 
-inline constexpr int kFilterStations = 12;  // with states of their own; no more are used
+inline constexpr int kFilterStations = 12;  // with states of their own
 // Of a station: its rotation about east, north and up, its clock's offset, and where relevant the
 // error of its position (east, north, up).
 inline constexpr int kPoseStates = 4, kPlaceStates = 3;

@@ -52,15 +52,17 @@ void see_station(const FilterGaussian& state, const StationPart& part, ModelInno
 
 }  // namespace
 
-FilterMatrix2 ModelInnovation::cross(const FilterMatrix& P, const StationPart& part) const {
+FilterMatrix2 ModelInnovation::cross(const FilterMatrix& P,
+                                     const std::optional<StationPart>& part) const {
   FilterMatrix2 result = FilterMatrix2::Zero(P.rows(), 2);
   add_product<3>(P, 0, J, result);
   if (ahead_s != 0.0) {
     add_product<3>(P, 3, ahead_s * J, result);
     add_product<3>(P, 6, curved_s2 * J, result);
   }
-  add_product<kPoseStates>(P, part.first, by_pose, result);
-  if (part.has_place) add_product<kPlaceStates>(P, part.first + kPoseStates, by_place, result);
+  if (!part) return result;
+  add_product<kPoseStates>(P, part->first, by_pose, result);
+  if (part->has_place) add_product<kPlaceStates>(P, part->first + kPoseStates, by_place, result);
   return result;
 }
 

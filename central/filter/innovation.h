@@ -35,7 +35,7 @@ struct ModelInnovation {
   Eigen::Matrix<double, 2, kPlaceStates> by_place;
 
   // P H^T, the covariance of the whole state with the residual.
-  FilterMatrix2 cross(const FilterMatrix& P, const StationPart& part) const;
+  FilterMatrix2 cross(const FilterMatrix& P, const std::optional<StationPart>& part) const;
 };
 
 // The innovation of each model.

@@ -106,7 +106,10 @@ KinematicState InteractingModels::at(std::int64_t utime_us) const {
     then[m].covariance = models_[m].covariance.topLeftCorner<9, 9>();
     const Vector9 now = then[m].mean;
     Transition t = transition(motion(m), now, std::abs(dt_s), config_);
-    if (dt_s < 0.0) t.f << 1.0, dt_s, dt_s * dt_s / 2.0, 0.0, 1.0, dt_s, 0.0, 0.0, 1.0;
+    if (dt_s < 0.0) {  // the disturbance since then is in the state, and its bearings have shown it
+      t.f << 1.0, dt_s, dt_s * dt_s / 2.0, 0.0, 1.0, dt_s, 0.0, 0.0, 1.0;
+      t.q.setZero();
+    }
     propagate(t, then[m]);
   }
   const FilterGaussian state = mixture(std::span(then).first(models_.size()), probabilities_, 9);

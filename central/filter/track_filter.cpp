@@ -22,10 +22,8 @@ TrackFilter::TrackFilter(const FilterConfig& config, std::int64_t utime_us,
 }
 
 int TrackFilter::index_of(const std::string& station) const {
-  for (std::size_t i = 0; i < stations_.size(); ++i) {
-    if (stations_[i].station == station) return static_cast<int>(i);
-  }
-  return -1;
+  const auto found = std::ranges::find(stations_, station, &FilterStation::station);
+  return found == stations_.end() ? -1 : static_cast<int>(found - stations_.begin());
 }
 
 // A station seldom moves, and computing its axes costs as much as a good part of the filter.
@@ -187,14 +185,17 @@ int TrackFilter::station_of(const BearingMeasurement& measurement, const BiasMod
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   entry.last_offered.note(measurement.utime_us);
   entry.weight = 0.0;
+  entry.stated_clock_sd_s = measurement.clock_sd_s;
+  const double clock_sd_s =
+      measurement.clock_sd_s * std::sqrt(priors.clock_scale(measurement.station));
   // A worse clock counts at once, a better one as the old error fades.
-  if (measurement.clock_sd_s > entry.clock_sd_s) {
+  if (clock_sd_s > entry.clock_sd_s) {
     const Eigen::Index at = first_of(station) + 3;
-    const double more = std::pow(measurement.clock_sd_s, 2) - std::pow(entry.clock_sd_s, 2);
+    const double more = std::pow(clock_sd_s, 2) - std::pow(entry.clock_sd_s, 2);
     for (FilterGaussian& model : models_.each()) model.covariance(at, at) += more;
     ++state_;
   }
-  entry.clock_sd_s = measurement.clock_sd_s;
+  entry.clock_sd_s = clock_sd_s;
   return station;
 }
 
@@ -203,8 +204,7 @@ void TrackFilter::take(const BearingMeasurement& measurement, const Innovation* 
                        FilterUpdate& update) {
   const int station = station_of(measurement, update.shown);
   if (station < 0) {
-    update.nis = innovation(measurement, update.shown).nis;
-    update.use = update.nis < config_.gate_nis ? BearingUse::kNoFreeState : BearingUse::kRejected;
+    take_without_states(measurement, update);
     return;
   }
   const Eigen::Matrix2d white =
@@ -224,25 +224,42 @@ void TrackFilter::take(const BearingMeasurement& measurement, const Innovation* 
   if (!(judged->nis <= config_.gate_nis)) return reject(entry);
   rejections_.clear();
   update.use = BearingUse::kUsed;
-  note_use(entry, measurement, judged->nis);
+  entry.note_use(measurement, judged->nis, weight_of(judged->nis));
+  // What turns two lines of sight to meet is what shows an inconsistent pair: it is estimated.
+  const bool judges_pairs = std::isfinite(config_.two_stations_nis);
   const bool may_learn =
+      (judges_pairs || is_redundant(stations_, entry)) &&
       is_linear(*seen.part, seen.frame, seen.models[0].depth_m,
                 summary_.covariance.topLeftCorner<3, 3>(), models_[0].covariance, white);
   const double inflation = entry.noise.observe(measurement, seen.frame, update.shown);
   correct(seen, white * (inflation / entry.weight), may_learn ? &seen.frame.direction : nullptr);
 }
 
-void TrackFilter::note_use(FilterStation& entry, const BearingMeasurement& measurement,
-                           double nis) const {
-  entry.rejected = 0;
-  entry.weight = nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
-  if (entry.sight.origin_ecef != measurement.sight.origin_ecef) {
-    entry.R_ecef_enu = R_ecef_enu(measurement.sight.origin_ecef);
-  }
-  entry.sight = measurement.sight;
-  entry.last_used.note(measurement.utime_us);
-  ++entry.used;
-  entry.mean_nis += 0.05 * (nis - entry.mean_nis);
+// A bias without states counts as noise of which every bearing within the filter's memory has the
+// same.
+void TrackFilter::take_without_states(const BearingMeasurement& measurement, FilterUpdate& update) {
+  constexpr double kMemoryS = 0.3;
+  std::int64_t& last_us = without_states_[measurement.station];
+  const double interval_s = std::clamp(seconds(measurement.utime_us - last_us), 1e-3, kMemoryS);
+  last_us = std::max(last_us, measurement.utime_us);
+  const Innovation seen = compare(measurement, -1);
+  const double range_m = (position() - measurement.sight.origin_ecef).norm();
+  Eigen::Matrix2d bias =
+      update.shown.prior(measurement.station, measurement.sight, range_m).covariance;
+  const Eigen::Vector2d clock = seen.models[0].J * velocity() * measurement.clock_sd_s;
+  bias += clock * clock.transpose();
+  const Eigen::Matrix2d white =
+      measurement.sight.covariance_white * update.shown.noise_scale(measurement.station);
+  update.use = BearingUse::kBehindCamera;
+  const auto judged = judge(seen, models_.size(), white + bias, config_.gate_nis);
+  if (!judged) return;
+  update.nis = judged->nis;
+  update.use = BearingUse::kRejected;
+  if (!(judged->nis <= config_.gate_nis)) return;
+  ++state_;
+  update.use = BearingUse::kUsed;
+  const Eigen::Matrix2d noise = white + bias * (1.0 + 2.0 * kMemoryS / interval_s);
+  correct(seen, noise / weight_of(judged->nis), nullptr);
 }
 
 // Where biases are not observable, the stations' states are only considered, not estimated.
@@ -258,7 +275,7 @@ void TrackFilter::correct(const Innovation& seen, const Eigen::Matrix2d& noise,
     const Eigen::Vector2d whitened = S.matrixL().solve(own.residual);
     // The gain is G L^-1 with G = P H^T L^-T.
     const Eigen::Matrix2d inverse_t = S.matrixU().solve(Eigen::Matrix2d::Identity());
-    const FilterMatrix2 G = own.cross(model.covariance, *seen.part).lazyProduct(inverse_t);
+    const FilterMatrix2 G = own.cross(model.covariance, seen.part).lazyProduct(inverse_t);
     if (m == 0 && finds_bias) {
       const double off_share = (1.0 - S.solve(noise).trace() / 2.0) / own.depth_m;
       finds_bias = shows_bias(G, model.covariance, *seen.part, *along, off_share);
@@ -326,6 +343,9 @@ void TrackFilter::move_biases(double dt_s, BiasModel& shown) {
       shown.observe(station.station, station.sight,
                     {now.bias_rad, now.covariance_rad2.diagonal(), now.prior_rad2.diagonal()}, dt_s,
                     range_m);
+      shown.observe_clock(station.station, now.clock_s, std::pow(now.clock_sd_s, 2),
+                          std::pow(now.clock_prior_sd_s, 2), std::pow(station.stated_clock_sd_s, 2),
+                          dt_s);
     }
     priors_[i] = shown.prior(station.station, station.sight, range_m, priors_[i].position_states);
   }

@@ -20,13 +20,14 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "central/filter/bias_model.h"
-#include "central/filter/coloured_noise.h"
 #include "central/filter/consecutive_rejections.h"
+#include "central/filter/filter_station.h"
 #include "central/filter/innovation.h"
 #include "central/filter/interacting_models.h"
 #include "central/filter/station_bias.h"
@@ -57,24 +58,8 @@ struct FilterConfig {
   double common_mode = 1.0;
 };
 
-// What became of a bearing. kNoFreeState: all states belong to stations that still deliver. Without
-// states, a station's bearings would count as if its bias were new in each of them.
-enum class BearingUse { kUsed, kRejected, kBehindCamera, kTooLate, kNoFreeState };
-
-// A contributing station.
-struct FilterStation {
-  std::string station;
-  LineOfSight sight;                                         // its last bearing
-  Eigen::Matrix3d R_ecef_enu = Eigen::Matrix3d::Identity();  // at its origin
-  Activity last_used, last_offered;
-  int used = 0;                                   // bearings
-  int rejected = 0;                               // consecutively, since the last used one
-  std::int64_t calibration_id = 0, track_id = 0;  // a new id means a new bias
-  double weight = 0.0;                            // of the last one, 0: rejected
-  double clock_sd_s = 0.0;
-  double mean_nis = 2.0;  // recent mean of the used bearings; 2 is ideal
-  ColouredNoise noise{};
-};
+// What became of a bearing.
+enum class BearingUse { kUsed, kRejected, kBehindCamera, kTooLate };
 
 // The result of an update, and what it shows of the stations' errors: evidence on top of the priors
 // that were given.
@@ -132,8 +117,11 @@ class TrackFilter {
   Innovation compare(const BearingMeasurement& measurement, int station) const;
   // `along`: the bearing's direction if biases may be estimated from it.
   void correct(const Innovation& seen, const Eigen::Matrix2d& noise, const Eigen::Vector3d* along);
+  void take_without_states(const BearingMeasurement& measurement, FilterUpdate& update);
   void take(const BearingMeasurement& measurement, const Innovation* known, FilterUpdate& update);
-  void note_use(FilterStation& entry, const BearingMeasurement& measurement, double nis) const;
+  double weight_of(double nis) const {
+    return nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
+  }
   void predict(std::int64_t utime_us, BiasModel& shown);
   void move_biases(double dt_s, BiasModel& shown);
   void fade_biases(double dt_s, double clock_time_s);
@@ -148,6 +136,8 @@ class TrackFilter {
   std::int64_t state_ = 1;  // version of the state; an innovation belongs to one
   std::vector<FilterStation> stations_;
   std::vector<BiasPrior> priors_;
+  // The newest bearing of each station for which no states are left.
+  std::map<std::string, std::int64_t> without_states_;
   KinematicState summary_;  // mixed over the models
   std::optional<KinematicState> about_;
   ConsecutiveRejections rejections_;

@@ -137,18 +137,21 @@ struct Fixes {
 
 using Beside = std::map<std::string, std::string>;
 
-Beside causal(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
-              Estimator& estimator, const OfflineConfig& config, Fixes fixes) {
+// The filter's state some time after the instant, taken back to it.
+Beside filtered(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
+                Estimator& estimator, const OfflineConfig& config, Fixes fixes) {
   Recording recording(config);
   auto next = bearings.begin();
+  const std::int64_t ahead_us = std::llround(1e6 * config.look_ahead_s);
   for (const std::int64_t epoch_us : epochs) {
-    for (; next != bearings.end() && (*next)->utime_us <= epoch_us; ++next) {
+    const std::int64_t last_us = std::min(epoch_us + ahead_us, bearings.back()->utime_us);
+    for (; next != bearings.end() && (*next)->utime_us <= last_us; ++next) {
       recording.add(**next);
     }
-    recording.advance(epoch_us);
+    recording.advance(last_us);
     const Track* const track = recording.track().located();
     if (track == nullptr) {
-      ++fixes.unlocated[recording.track().why_none(epoch_us)];
+      ++fixes.unlocated[recording.track().why_none(last_us)];
       continue;
     }
     const TrackView view{track->bearings, recording.track().errors(), &track->filter};
@@ -192,7 +195,7 @@ Beside smoothed(const BearingPointers& bearings, const std::vector<std::int64_t>
 }  // namespace
 
 void guess_clocks(const MutableBearings& measurements) {
-  constexpr double kNoises = 4.0, kHalfAFrameS = 0.02;
+  constexpr double kNoises = 0.5, kHalfAFrameS = 0.02;
   std::map<std::string, BearingPointers> stations;
   for (const BearingMeasurement* measurement : measurements)
     stations[measurement->station].push_back(measurement);
@@ -226,7 +229,7 @@ OfflineReport fuse_offline(const BearingPointers& measurements, const OfflineCon
   const std::vector<std::int64_t> epochs = epochs_of(bearings, config.rate_hz);
   const Fixes fixes{take, report.unlocated};
   report.beside = config.smooth ? smoothed(bearings, epochs, config, fixes)
-                  : is_filter   ? causal(bearings, epochs, *estimator, config, fixes)
+                  : is_filter   ? filtered(bearings, epochs, *estimator, config, fixes)
                                 : interpolating(bearings, epochs, *estimator, config, fixes);
   return report;
 }

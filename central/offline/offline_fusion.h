@@ -1,9 +1,9 @@
 // Fusion of recorded bearings of one object.
 //
-// The filter is causal: a fix uses only the bearings up to its instant, as live. Smoothing also
-// uses the later ones (smoother.h). The other estimators interpolate each station's bearings on
-// both sides of the instant; a run of the filter provides the errors that the stations do not
-// declare.
+// Every estimator uses the bearings up to 0.15 s after the instant: the filter is run as far and
+// its state taken back; the other estimators interpolate each station's bearings on both sides, and
+// a run of the filter provides the errors that the stations do not declare. Smoothing uses all
+// later ones (smoother.h).
 #pragma once
 
 #include <cstddef>
@@ -22,8 +22,11 @@ namespace ols::fusion {
 struct OfflineConfig {
   std::string estimator = "filter";  // a name of make_estimator()
   bool smooth = false;               // only for the filter
-  double rate_hz = 0.0;              // epochs on an even grid; 0: at the instant of every bearing
-  FusionConfig fusion{};             // shared with the live fusion
+  // Of the filter: the fix at an instant uses the bearings up to this time after it, as the other
+  // estimators do, which interpolate. 0: as live.
+  double look_ahead_s = 0.15;
+  double rate_hz = 0.0;   // epochs on an even grid; 0: at the instant of every bearing
+  FusionConfig fusion{};  // shared with the live fusion
   // Called for every bearing that a filter has processed, with `smooth` by the workers.
   std::function<void()> tell{};
   Workers workers{};  // for `smooth`
@@ -45,8 +48,9 @@ struct OfflineReport {
 };
 
 // For a recording without statements on its clocks: sets for each station the offset [s] that would
-// move a bearing by four times its noise at the object's usual angular speed, at most 0.02 s (half
-// a video frame). A clock thus counts as much for a meteor as for a drone.
+// move a bearing by half its noise at the object's usual angular speed, at most 0.02 s (half a
+// video frame). A clock thus counts as much for a meteor as for a drone. With
+// BiasModelConfig::clock_weight the bearings teach more.
 void guess_clocks(const MutableBearings& measurements);
 void guess_clocks(std::vector<BearingMeasurement>& measurements);
 

@@ -64,14 +64,22 @@ void forget_acceleration(Whole& whole) {
   whole.covariance.diagonal().segment<3>(6).setConstant(kUnknown);
 }
 
-// The sum of both informations, minus that of the prior that both contain.
-std::optional<Whole> join(const Whole& a, const Whole& b, const Eigen::VectorXd& prior) {
+// The target's nine states if the stations' are these.
+Whole given(const Eigen::VectorXd& biases, const Whole& whole) {
+  const Eigen::Index n = whole.mean.size() - 9;
+  const Eigen::MatrixXd cross = whole.covariance.bottomLeftCorner(n, 9);
+  const Eigen::MatrixXd own = whole.covariance.bottomRightCorner(n, n);
+  const Eigen::MatrixXd moves = own.ldlt().solve(cross).transpose();
+  return {whole.mean.head<9>() + moves * (biases - whole.mean.tail(n)),
+          whole.covariance.topLeftCorner<9, 9>() - moves * cross};
+}
+
+// The sum of both informations.
+std::optional<Whole> join(const Whole& a, const Whole& b) {
   const Eigen::LDLT<Eigen::MatrixXd> Pa(a.covariance), Pb(b.covariance);
-  const auto n = prior.size();
+  const auto n = a.mean.size();
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n);
-  Eigen::MatrixXd information = Pa.solve(one) + Pb.solve(one);
-  information.diagonal().tail(n - 9) -= prior.tail(n - 9).cwiseInverse();
-  const Eigen::LDLT<Eigen::MatrixXd> joint(information);
+  const Eigen::LDLT<Eigen::MatrixXd> joint(Pa.solve(one) + Pb.solve(one));
   if (joint.info() != Eigen::Success || !joint.isPositive()) return std::nullopt;
   // Relative to the first mean: coordinates of millions of metres would cost digits.
   return Whole{a.mean + joint.solve(Pb.solve(b.mean - a.mean)), joint.solve(one)};
@@ -223,25 +231,33 @@ Eigen::VectorXd Smoother::prior(const std::vector<BiasPrior>& biases) const {
   for (std::size_t i = 0; i < sights_.size(); ++i) {
     const auto at = 9 + states() * static_cast<Eigen::Index>(i);
     variance.segment<3>(at) = biases[i].rotation.max(kLeast);
-    variance(at + 3) = std::max(kLeast, sights_[i].clock_sd_s * sights_[i].clock_sd_s);
+    const double clock_scale = learnt_.errors().clock_scale(sights_[i].station);
+    variance(at + 3) =
+        std::max(kLeast, clock_scale * sights_[i].clock_sd_s * sights_[i].clock_sd_s);
     if (has_places_)
       variance.segment<kPlaceStates>(at + kPoseStates) = biases[i].place_m2.max(kLeast);
   }
   return variance;
 }
 
-// Both filters' states at the instant; one alone if the other has none or they cannot be joined.
+// The target's states at the instant for the biases of the surer filter, which both have in common:
+// how the other's differ shows how biases change, not what they are.
 Whole Smoother::both(const std::optional<Side>& from_past, const std::optional<Side>& from_future,
                      const Eigen::VectorXd& variance) const {
   const auto whole = [&](const Side& side, double clock_sign) {
     return spread(*side.filter, side.mixed, order_, variance, clock_sign);
   };
-  if (!from_past) return whole(*from_future, -1.0);
-  const Whole before = whole(*from_past, 1.0);
-  if (!from_future) return before;
-  Whole after = whole(*from_future, -1.0);
-  forget_acceleration(after);
-  return join(before, after, variance).value_or(before);
+  std::optional<Whole> before, after;
+  if (from_past) before = whole(*from_past, 1.0);
+  if (from_future) after = whole(*from_future, -1.0);
+  if (!after) return given(before->mean.tail(variance.size() - 9), *before);
+  if (!before) return given(after->mean.tail(variance.size() - 9), *after);
+  forget_acceleration(*after);
+  const bool past_is_surer =
+      from_past->systematic().all_m2.trace() <= from_future->systematic().all_m2.trace();
+  const Eigen::VectorXd biases = (past_is_surer ? before : after)->mean.tail(variance.size() - 9);
+  const Whole first = given(biases, *before);
+  return join(first, given(biases, *after)).value_or(first);
 }
 
 Smoothed Smoother::at(std::int64_t epoch_us, Passed& past, Passed& future) const {
@@ -264,11 +280,9 @@ Smoothed Smoother::at(std::int64_t epoch_us, Passed& past, Passed& future) const
   const TrackFilter& any = past.filter ? *past.filter : *future.filter;
   const std::vector<BiasPrior> biases = priors(any.position());
   const Whole joint = both(from_past, from_future, prior(biases));
-  KinematicState state{any.utime_us(), joint.mean.head<9>(),
-                       joint.covariance.topLeftCorner<9, 9>()};
+  KinematicState state{any.utime_us(), joint.mean.head<9>(), joint.covariance};
   const SystematicPart part = told_biases(from_past, from_future);
-  state.covariance.topLeftCorner<3, 3>() +=
-      part.all_m2 - systematic_part(joint.covariance, biases).all_m2;
+  state.covariance.topLeftCorner<3, 3>() += part.all_m2;
   fix.located.estimate = estimate_of(any, state, part);
   fix.located.stations = contributing(any, any.utime_us());
   return fix;

@@ -34,9 +34,7 @@ Association TrackManager::give_to(Track& track, const BearingMeasurement& measur
   const FilterUpdate update = track.filter.update(measurement, errors_, seen);
   errors_.learn(update.shown);
   glances_[static_cast<std::size_t>(&track - tracks_.data())] = summarise_track(track);
-  // One more station than the filter has states for still sees the target, and begins no other
-  // track.
-  if (update.use != BearingUse::kUsed && update.use != BearingUse::kNoFreeState) {
+  if (update.use != BearingUse::kUsed) {
     ++track.misses;
     ++counts_.set_aside;
     return {Association::Kind::kRejected, track.id};

@@ -98,6 +98,7 @@ constexpr double kFlightS = 12.0, kWarmS = 4.0, kDisturbance = 0.5;
 // The bound holds for the true motion: the filter gets the same model.
 fusion::OfflineConfig config_of(const FilterCase& filter) {
   fusion::OfflineConfig config;
+  config.look_ahead_s = 0.0;  // the bound is that of the bearings so far
   config.fusion.keeper.filter.motion.cruise_sd_m_s2 = kDisturbance;
   config.fusion.keeper.filter.motion.cruise_per_speed_s = 0.0;
   config.fusion.keeper.errors.stated_time_s = filter.told_s;

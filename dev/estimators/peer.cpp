@@ -49,7 +49,7 @@ fusion::TrackManagerConfig pinned() {
   config.errors.noise_weight = 1e9;
   config.errors.stated_weight = 1e9;
   config.errors.least_over_noise = 0.0;
-  config.errors.colour_time_s = 0.0;
+  config.errors.colour_time_s = config.errors.untold_colour_time_s = 0.0;
   return config;
 }
 

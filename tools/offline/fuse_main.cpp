@@ -109,6 +109,7 @@ ols::fusion::OfflineConfig config_of(const Options& options) {
   config.estimator = options.estimator;
   config.smooth = options.smooth;
   config.rate_hz = options.rate_hz;
+  if (!options.clock_sd_s) config.fusion.keeper.errors.clock_weight = 1.0;  // guesses are learnt
   config.fusion.estimators.paper = options.paper;
   config.fusion.estimators.paper.pairs = kPaperPairs.at(options.paper_pairs);
   config.fusion.estimators.paper.by_belief = !options.paper_halves;

@@ -46,7 +46,7 @@ TEST(BiasModel, LearnTheBiasesSizeFromWhatTheGeometryShows) {
 }
 
 TEST(BiasModel, KeepTheGuessWhereTheGeometryShowsNothing) {
-  const double guess = BiasModelConfig{}.untold_over_noise * kNoise;
+  const double guess = BiasModelConfig{}.least_over_noise * kNoise;
   EXPECT_NEAR(learnt_sd(0.0, 1.0), guess, 0.01 * guess);
 }
 
@@ -118,6 +118,44 @@ TEST(BiasModel, APlaceIsPartOfTheRotationOrApart) {
   EXPECT_NEAR(apart.rotation(0), 1e-6, 1e-12);
   EXPECT_TRUE(apart.place_m2.isApproxToConstant(1.0, 1e-12));
   EXPECT_TRUE(within.covariance.isApprox(apart.covariance, 1e-12));
+}
+
+// What is stated and does not show as noise is still there, as a bias that nothing shows.
+TEST(BiasModel, WhatIsStatedAndNotSeenAsNoiseIsABias) {
+  BiasModel errors;
+  for (int i = 0; i < 5000; ++i) errors.observe_residual("a", 0.3 / errors.noise_scale("a"));
+  EXPECT_NEAR(errors.noise_scale("a"), 0.3, 0.03);
+  const Eigen::Array2d bias = errors.prior("a", sight(), 500.0).covariance.diagonal();
+  const double least = std::pow(BiasModelConfig{}.least_over_noise, 2);
+  EXPECT_NEAR(bias.mean() / (kNoise * kNoise), 0.7 + least, 0.05);
+  BiasEstimate none{.variance = {1e-12, 1e-12}, .prior = bias};
+  for (int i = 0; i < 20; ++i)
+    errors.observe("a", sight(), none, BiasModelConfig{}.untold_time_s, 500.0);
+  const Eigen::Array2d shown = errors.prior("a", sight(), 500.0).covariance.diagonal();
+  EXPECT_LT(shown.mean(), 0.1 * bias.mean());
+}
+
+// Clock offsets of this size, estimated with an error of this size; over the guessed sd.
+double learnt_clock(double offset_s, double error_s, double weight) {
+  constexpr double kGuessS = 1e-3;
+  BiasModel errors({.clock_weight = weight});
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 2000; ++i) {
+    const double prior = kGuessS * kGuessS * errors.clock_scale("a");
+    const double gain = prior / (prior + error_s * error_s);
+    const double offset = normal(random) * offset_s, error = normal(random) * error_s;
+    errors.observe_clock("a", gain * (offset + error), prior * (1.0 - gain), prior,
+                         kGuessS * kGuessS, 5.0);
+  }
+  return std::sqrt(errors.clock_scale("a"));
+}
+
+TEST(BiasModel, LearnAGuessedClockFromWhatTheGeometryShows) {
+  EXPECT_NEAR(learnt_clock(10e-3, 1e-4, 1.0), 10.0, 1.0);
+  EXPECT_NEAR(learnt_clock(10e-3, 5e-3, 1.0), 10.0, 1.5);
+  EXPECT_LT(learnt_clock(1e-4, 1e-3, 1.0), 1.2);
+  EXPECT_EQ(learnt_clock(10e-3, 1e-4, 0.0), 1.0);
 }
 
 class NoiseScale : public testing::TestWithParam<double> {};

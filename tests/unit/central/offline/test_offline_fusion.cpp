@@ -238,17 +238,24 @@ TEST(OfflineFusion, LeastSquaresVelocityCountsTheNoiseThatIsLearnt) {
   EXPECT_LT(sum / static_cast<double>(targets.size()), 2.0);
 }
 
-// The filter at an instant does not depend on later bearings.
-TEST(OfflineFusion, TheFilterIsCausal) {
+// The filter at an instant does not depend on bearings later than half an alignment window.
+TEST(OfflineFusion, TheFilterLooksNoFurtherAheadThanTheOthers) {
   auto measurements = recording(6.0, 2e-4, 9);
   const auto whole = fuse_offline(measurements, {});
   std::erase_if(measurements,
                 [](const BearingMeasurement& s) { return s.utime_us > kStart + 3'000'000; });
   const auto part = fuse_offline(measurements, {});
   ASSERT_GT(part.size(), 100U);
+  int later = 0;
   for (std::size_t i = 0; i < part.size(); ++i) {
-    EXPECT_EQ(part[i].estimate.position_ecef, whole[i].estimate.position_ecef);
+    const bool is_same = part[i].estimate.position_ecef == whole[i].estimate.position_ecef;
+    if (part[i].utime_us <= kStart + 2'850'000) {
+      EXPECT_TRUE(is_same) << part[i].utime_us;
+    } else {
+      later += is_same ? 0 : 1;
+    }
   }
+  EXPECT_GT(later, 0);
 }
 
 TEST(OfflineFusion, OnlyTheFilterCanBeSmoothed) {
@@ -286,10 +293,10 @@ TEST(OfflineFusion, AClockIsGuessedByWhatItDoesToTheBearings) {
   auto measurements = recording(10.0, 1e-4, 7);
   guess_clocks(measurements);
   for (const BearingMeasurement& s : measurements) {
-    EXPECT_GT(s.clock_sd_s, 4e-4 / 0.3);
-    EXPECT_LT(s.clock_sd_s, 4e-4 / 0.02);
+    EXPECT_GT(s.clock_sd_s, 5e-5 / 0.3);
+    EXPECT_LT(s.clock_sd_s, 5e-5 / 0.02);
   }
-  auto rough = recording(10.0, 2e-3, 7);
+  auto rough = recording(10.0, 1.6e-2, 7);
   guess_clocks(rough);
   for (const BearingMeasurement& s : rough) EXPECT_EQ(s.clock_sd_s, 0.02);
 }
