@@ -56,7 +56,6 @@ class Reacquisition {
   // there.
   void look_for_movers(const SceneMotion& scene, const Eigen::Vector2d& size_px);
   void force_onto_movers(std::vector<Particle>& particles, Random& random) const;
-  const std::vector<MoverCandidate>& movers() const { return movers_; }
   Particle drawn_near(const Eigen::Vector2d& pixel, double sd_px, Random& random) const;
 
   // After a loss, a stationary object away from the prediction is not accepted, however similar: it
