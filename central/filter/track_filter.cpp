@@ -9,11 +9,6 @@
 #include "geometry/wgs84.h"
 
 namespace ols::fusion {
-namespace {
-
-constexpr double kLatestS = 2.0;  // a bearing later than this is not compared any more
-
-}  // namespace
 
 TrackFilter::TrackFilter(const FilterConfig& config, std::int64_t utime_us,
                          const FilterStart& start)
@@ -140,6 +135,7 @@ Innovation TrackFilter::innovation(const BearingMeasurement& measurement,
 FilterUpdate TrackFilter::update(const BearingMeasurement& measurement, const BiasModel& priors,
                                  const Innovation* known) {
   FilterUpdate update{.shown = BiasModel::evidence_on(priors)};
+  constexpr double kLatestS = 2.0;  // a bearing later than this is not compared any more
   if (seconds(utime_us() - measurement.utime_us) > kLatestS) return update;
   predict(measurement.utime_us, update.shown);
   take(measurement, known, update);
@@ -392,8 +388,8 @@ void TrackFilter::fade_biases(double dt_s, double clock_time_s) {
 StationBias TrackFilter::bias(std::size_t station) const {
   const FilterStation& entry = stations_[station];
   const double range_m = (position() - entry.sight.origin_ecef).norm();
-  StationBias bias = station_bias(models_, first_of(static_cast<int>(station)), priors_[station],
-                                  entry.sight, range_m);
+  auto bias = station_bias(models_, first_of(static_cast<int>(station)), priors_[station],
+                           entry.sight, range_m);
   bias.clock_prior_sd_s = entry.clock_sd_s;
   return bias;
 }

@@ -10,6 +10,7 @@ constexpr double kFallTime = 0.12;  // [s]
 constexpr double kRiseTime = 0.15;
 constexpr double kTypicalTime = 1.0;
 constexpr double kSimilarityShare = 0.2;
+constexpr double kLeastRecognised = 0.4;
 constexpr double kMostContrastRatio = 0.8;  // natural logarithm of the ratio
 
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
@@ -25,9 +26,14 @@ double frame_belief(const FrameEvidence& evidence, const Typical& typical) {
       std::abs(std::log(std::max(evidence.contrast, 1e-3) / std::max(typical.contrast, 1e-3)));
   const double out = std::clamp(evidence.standing_out, 0.0, 1.0);
   const double fore = evidence.by_subtraction ? logistic(14.0 * (evidence.foreground - 0.3)) : 1.0;
-  return logistic(14.0 *
-                  (evidence.correlation + kSimilarityShare * above + 0.3 * (out - 0.5) - least)) *
-         logistic(8.0 * (kMostContrastRatio - contrast)) * fore;
+  const double by_template =
+      14.0 * (evidence.correlation + kSimilarityShare * above + 0.3 * (out - 0.5) - least);
+  // What the filter has learnt to recognise need not look like the first image.
+  if (evidence.recognised) {
+    return logistic(12.0 * (*evidence.recognised - kLeastRecognised) +
+                    std::clamp(by_template, -1.0, 1.0));
+  }
+  return logistic(by_template) * logistic(8.0 * (kMostContrastRatio - contrast)) * fore;
 }
 
 bool Belief::usual(const FrameEvidence& evidence) const {

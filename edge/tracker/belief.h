@@ -1,6 +1,8 @@
 // The tracker's probability, 0..1, that it follows the target.
 #pragma once
 
+#include <optional>
+
 namespace ols::tracker {
 
 constexpr double kBelieved = 0.5;  // above it the tracker counts as being on the target
@@ -13,6 +15,8 @@ struct FrameEvidence {
   double background_similarity = 0.0;
   double correlation = 0.0;
   double contrast = 1.0;
+  // LearntAppearance::recognised(), of a target that is followed by it.
+  std::optional<double> recognised = {};
   double standing_out = 1.0;    // from its surroundings, relative to what is usual for the target
   double foreground = 1.0;      // share of the target's foreground that is foreground here,
   bool by_subtraction = false;  // compared with an earlier image, not with a grey level

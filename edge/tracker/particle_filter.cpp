@@ -13,6 +13,31 @@ constexpr double kAnywhere = 1e-4;
 
 }  // namespace
 
+void ParticleFilter::restart(const Particle& target) {
+  particles_.assign(particles_.size(), target);
+  weights_.assign(particles_.size(), 1.0 / static_cast<double>(particles_.size()));
+}
+
+void ParticleFilter::guess_velocities(const MotionModel& motion, double sd_px_s, Random& random) {
+  bool with_camera = false;
+  for (Particle& particle : particles_) {
+    particle.velocity_px_s = with_camera ? motion.image_fixed_velocity() : Eigen::Vector2d::Zero();
+    particle.velocity_px_s.x() += sd_px_s * random.gaussian();
+    particle.velocity_px_s.y() += sd_px_s * random.gaussian();
+    with_camera = !with_camera;
+  }
+}
+
+// Evenly among the resampled ones, which are in the order of their ancestors.
+void ParticleFilter::propose_size(const Eigen::Vector2d& present_px,
+                                  const Eigen::Vector2d& usual_px) {
+  constexpr std::size_t kEvery = 8;
+  constexpr double kOff = 0.15;
+  const Eigen::Vector2d off = usual_px.cwiseQuotient(present_px).array().log();
+  if (off.cwiseAbs().maxCoeff() < kOff) return;
+  for (std::size_t i = 0; i < particles_.size(); i += kEvery) particles_[i].size_px = usual_px;
+}
+
 void ParticleFilter::advance(const MotionModel& motion) {
   for (Particle& particle : particles_) particle = motion.advance(particle);
 }

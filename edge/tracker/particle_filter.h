@@ -18,6 +18,13 @@ class ParticleFilter {
   // Adds the motion model's noise to particles already advanced to this frame; remembers their
   // predictions without it.
   void disturb(const MotionModel& motion, Random& random);
+  // Starts again around a target that was found otherwise: the next disturb() spreads them.
+  void restart(const Particle& target);
+  // A new target is either stationary relative to the scene, or was followed by the camera and is
+  // stationary in the image.
+  void guess_velocities(const MotionModel& motion, double sd_px_s, Random& random);
+  // An approaching target grows faster than the particles' noise: some get its usual size.
+  void propose_size(const Eigen::Vector2d& present_px, const Eigen::Vector2d& usual_px);
   // Adds this standard deviation to the prediction's uncertainty beyond that of its particles.
   void widen_prediction(double sd_px) {
     predicted_covariance_px2_ += sd_px * sd_px * Eigen::Matrix2d::Identity();

@@ -9,18 +9,19 @@
 namespace ols::tracker {
 
 enum class Stage {
-  kReduction,   // reduced frame and its pyramid
-  kEgoMotion,   // KLT and RANSAC
-  kPrediction,  // eq. (2)-(4)
-  kProposals,   // frame difference, movers
-  kMasks,       // foreground masks and views
-  kWeighting,   // eq. (5) of all particles, maximum a posteriori
-  kPosition,    // sub-pixel refinement
-  kLearning,    // belief, appearance, references, resampling
+  kReduction,    // reduced frame and its pyramid
+  kEgoMotion,    // KLT and RANSAC
+  kRecognition,  // learnt appearance
+  kPrediction,   // eq. (2)-(4)
+  kProposals,    // frame difference, movers
+  kMasks,        // foreground masks and views
+  kWeighting,    // eq. (5) of all particles, maximum a posteriori
+  kPosition,     // sub-pixel refinement
+  kLearning,     // belief, appearance, references, resampling
 };
-inline constexpr std::array<const char*, 8> kStageNames{"reduction", "ego_motion", "prediction",
-                                                        "proposals", "masks",      "weighting",
-                                                        "position",  "learning"};
+inline constexpr std::array<const char*, 9> kStageNames{"reduction",  "ego_motion", "recognition",
+                                                        "prediction", "proposals",  "masks",
+                                                        "weighting",  "position",   "learning"};
 
 struct StageTimes {
   std::array<double, kStageNames.size()> seconds{};  // indexed by Stage

@@ -15,6 +15,8 @@ struct TrackerInput {
   // angles. Empty: unknown. An impossible one (mirror image, zoom, most of the image gone) is not
   // used: see the output's `ego_motion`.
   std::optional<Eigen::Matrix3d> predicted_homography;
+  // The same picture in colour, 8-bit, blue, green, red: helps to recognise the target. May be empty.
+  cv::Mat colour = {};
 };
 
 enum class EgoMotion { kNone, kImage, kPredicted };  // source of this frame's homography

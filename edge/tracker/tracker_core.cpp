@@ -11,6 +11,11 @@ namespace {
 
 constexpr double kNotPlaced = 0.1;  // of its size: 1-sigma of a place that is not measured
 constexpr double kAgree = 2.0;      // sigmas of a step
+// Of the usual response of the learnt appearance: the target is followed by it, is found again by
+// it, teaches it.
+constexpr double kFollowed = 0.35;
+constexpr double kFoundAgain = 0.5;
+constexpr double kLearnt = 0.6;
 constexpr double kSureEnoughToLearn = 0.7;
 constexpr double kSureEnoughForMask = 0.8;
 
@@ -37,6 +42,7 @@ TrackerCore::TrackerCore(const TrackerConfig& config, std::uint64_t seed, const 
       scene_motion_(config, HomographyFit::kLeastSquares, frame, core),
       motion_(with_reach_of(box, core, config)),
       target_(config, frame.gray, core),
+      appearance_(frame, centre_of(core), size_of(core)),
       designation_(box, core),
       last_(at_rest_in(core)),
       reacquisition_(config, last_, frame.time_s) {
@@ -46,14 +52,17 @@ TrackerCore::TrackerCore(const TrackerConfig& config, std::uint64_t seed, const 
 
 TrackerOutput TrackerCore::step(const TrackerInput& frame, StageTimer& timer) {
   const EgoMotion ego_motion = move_camera(frame, timer);
-  if (target_.empty()) designate_late(frame.gray);
-  predict(ego_motion, timer);
-  TrackerOutput output = update(frame, timer);
+  if (target_.empty()) designate_late(frame);
+  reacquisition_.predict(motion_, scene_motion_, placed_);
+  const bool recognised = recognise(frame);
+  timer.lap(Stage::kRecognition);
+  if (!recognised) predict(ego_motion, timer);
+  TrackerOutput output = recognised ? follow(frame, timer) : update(frame, timer);
   output.ego_motion = ego_motion;
   after_update(output);
   scene_motion_.remember(frame.gray, box_of(last_.pixel, last_.size_px));
   filter_.resample(random_);
-  propose_usual_size();
+  filter_.propose_size(last_.size_px, target_.usual_size_px());
   placed_ = false;
   timer.lap(Stage::kLearning);
   return output;
@@ -91,10 +100,11 @@ EgoMotion TrackerCore::move_camera(const TrackerInput& frame, StageTimer& timer)
   return source;
 }
 
-void TrackerCore::designate_late(const cv::Mat& gray) {
-  const auto core = designation_.find_late(gray, motion_);
+void TrackerCore::designate_late(const TrackerInput& frame) {
+  const auto core = designation_.find_late(frame.gray, motion_);
   if (!core) return;
-  target_ = TargetModel(config_, gray, *core);
+  target_ = TargetModel(config_, frame.gray, *core);
+  appearance_ = LearntAppearance(frame, centre_of(*core), size_of(*core));
   measurement_.restart();
   last_ = at_rest_in(*core);
   reacquisition_.restart(last_);
@@ -103,12 +113,42 @@ void TrackerCore::designate_late(const cv::Mat& gray) {
   placed_ = true;
 }
 
+// The learnt appearance, where the target is expected: moves `last_` there if it is found.
+bool TrackerCore::recognise(const TrackerInput& frame) {
+  if (target_.empty()) return false;
+  const bool searching = reacquisition_.searching();
+  const bool known = velocity_ == Velocity::kEstimated;
+  const Eigen::Vector2d expected = known ? expected_px() : unmoved_px();
+  std::vector<Eigen::Vector2d> places{expected};
+  if (other_step_px_) places.push_back(expected + *other_step_px_);
+  const Particle& believed = reacquisition_.believed();
+  if (searching) places.push_back(believed.pixel);
+  const auto found =
+      appearance_.find(frame, places, target_.usual_size_px(), searching ? kFoundAgain : kFollowed);
+  if (!found || !reacquisition_.may_be_it({*found, {0.0, 0.0}, last_.size_px})) return false;
+  constexpr double kGain = 0.5;  // of an alpha-beta filter for the velocity
+  Eigen::Vector2d moved_px = *found - unmoved_px();
+  const bool by_other =
+      other_step_px_ && (*found - expected - *other_step_px_).norm() < (*found - expected).norm();
+  if (by_other) moved_px -= *other_step_px_;
+  const Eigen::Vector2d velocity_px_s = moved_px / motion_.interval_s();
+  if (searching) {  // it has leapt from where something else was: its former velocity is better
+    last_.velocity_px_s = believed.velocity_px_s;
+  } else {
+    if (!known) last_.velocity_px_s.setZero();
+    last_.velocity_px_s += kGain * (velocity_px_s - last_.velocity_px_s);
+  }
+  last_.pixel = *found;
+  last_.size_px = target_.usual_size_px();
+  return true;
+}
+
 void TrackerCore::predict(EgoMotion ego_motion, StageTimer& timer) {
-  if (placed_ || velocity_ == Velocity::kUnknown) guess_velocities();
+  if (placed_ || velocity_ == Velocity::kUnknown)
+    filter_.guess_velocities(motion_, config_.initial_velocity_sd_px_s, random_);
   if (!placed_) filter_.advance(motion_);
   filter_.disturb(motion_, random_);
   if (other_step_px_) move_half_by_other();
-  reacquisition_.predict(motion_, scene_motion_, placed_);
   timer.lap(Stage::kPrediction);
   propose(ego_motion);
   timer.lap(Stage::kProposals);
@@ -165,18 +205,6 @@ cv::Rect2d TrackerCore::reachable_area() const {
   return box_of(centre, last_.size_px + Eigen::Vector2d::Constant(2.0 * reach));
 }
 
-// A new target is either stationary relative to the scene, or was followed by the camera and is
-// stationary in the image.
-void TrackerCore::guess_velocities() {
-  bool with_camera = false;
-  for (Particle& particle : filter_.particles()) {
-    particle.velocity_px_s = with_camera ? motion_.image_fixed_velocity() : Eigen::Vector2d::Zero();
-    particle.velocity_px_s.x() += config_.initial_velocity_sd_px_s * random_.gaussian();
-    particle.velocity_px_s.y() += config_.initial_velocity_sd_px_s * random_.gaussian();
-    with_camera = !with_camera;
-  }
-}
-
 void TrackerCore::force_onto_differences(const cv::Rect2d& area) {
   constexpr int kMaxima = 5;
   const bool moves_unknown = reacquisition_.searching() || velocity_ == Velocity::kUnknown;
@@ -199,6 +227,37 @@ void TrackerCore::force_onto_differences(const cv::Rect2d& area) {
   }
 }
 
+// A target that its learnt appearance places needs no particles: they wait around it. Where it
+// looks as it did at first, that image measures the place.
+TrackerOutput TrackerCore::follow(const TrackerInput& frame, StageTimer& timer) {
+  constexpr double kSameImage = 0.85;  // correlation with the first image
+  constexpr double kSamePlace = 0.9;   // of the response
+  velocity_ = Velocity::kEstimated;
+  filter_.restart(last_);
+  const cv::Rect2d box = box_of(last_.pixel, last_.size_px);
+  const Scene scene =
+      target_.make_scene(frame.gray, filter_.particles(), box, scene_motion_.references());
+  timer.lap(Stage::kMasks);
+  const double recognised = appearance_.recognised(last_.pixel);
+  auto placed = target_.place(scene, last_.pixel, last_.size_px);
+  const bool same = placed && placed->correlation > kSameImage &&
+                    appearance_.recognised(placed->centre) >= kSamePlace * recognised;
+  if (!same) placed.reset();
+  TrackerOutput output = locate(scene, placed);
+  timer.lap(Stage::kPosition);
+  FrameEvidence evidence = target_.evidence(scene, last_);
+  evidence.recognised = recognised;
+  belief_.update(evidence, motion_.interval_s());
+  reacquisition_.identify(last_, scene, target_, belief_);
+  if (recognised > kLearnt) {
+    learn(scene);
+    appearance_.learn(frame, last_.pixel, target_.usual_size_px(), motion_.interval_s());
+  }
+  output.box = designation_.box(last_);
+  output.belief = reacquisition_.identity() * belief_.value();
+  return output;
+}
+
 TrackerOutput TrackerCore::update(const TrackerInput& frame, StageTimer& timer) {
   const cv::Rect2d expected = box_of(expected_px(), last_.size_px);
   Scene scene =
@@ -211,7 +270,10 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, StageTimer& timer) 
   last_.size_px = filter_.mean_size_px();
   timer.lap(Stage::kWeighting);
 
-  TrackerOutput output = locate(scene, best);
+  auto placed = target_.place(scene, last_.pixel, last_.size_px);
+  if (placed && placed->correlation <= kSamePattern) placed.reset();
+  TrackerOutput output = locate(scene, placed);
+  filter_.particles()[best].pixel = last_.pixel;
   timer.lap(Stage::kPosition);
   judge(scene);
   learn(scene);
@@ -249,11 +311,11 @@ std::size_t TrackerCore::choose(const Scene& scene) const {
 }
 
 // The designated point, where the target is placed, and its covariance.
-TrackerOutput TrackerCore::locate(const Scene& scene, std::size_t best) {
+TrackerOutput TrackerCore::locate(const Scene& scene,
+                                  const std::optional<RefinedPosition>& placed) {
   TrackerOutput output;
-  const auto placed = target_.place(scene, last_.pixel, last_.size_px);
-  if (placed && placed->correlation > kSamePattern) {
-    last_.pixel = filter_.particles()[best].pixel = placed->centre;
+  if (placed) {
+    last_.pixel = placed->centre;
     const MeasuredPoint point = measurement_.measure(target_, scene, *placed, last_.size_px,
                                                      designation_.place(), motion_.interval_s());
     output.pixel = point.pixel;
@@ -305,18 +367,6 @@ void TrackerCore::after_update(const TrackerOutput& output) {
   } else if (!reacquisition_.searching()) {
     reacquisition_.start(reach_px());
   }
-}
-
-// An approaching target grows faster than the particles' noise. Evenly among the resampled ones,
-// which are in the order of their ancestors.
-void TrackerCore::propose_usual_size() {
-  constexpr std::size_t kEvery = 8;
-  constexpr double kOff = 0.15;
-  const Eigen::Vector2d& usual = target_.usual_size_px();
-  const Eigen::Vector2d off = usual.cwiseQuotient(last_.size_px).array().log();
-  if (off.cwiseAbs().maxCoeff() < kOff) return;
-  auto& particles = filter_.particles();
-  for (std::size_t i = 0; i < particles.size(); i += kEvery) particles[i].size_px = usual;
 }
 
 // How far a followed target can be from its prediction.

@@ -7,6 +7,7 @@
 
 #include "edge/tracker/belief.h"
 #include "edge/tracker/designation.h"
+#include "edge/tracker/learnt_appearance.h"
 #include "edge/tracker/particle_filter.h"
 #include "edge/tracker/point_measurement.h"
 #include "edge/tracker/reacquisition.h"
@@ -34,23 +35,23 @@ class TrackerCore {
               const cv::Rect2d& box, const cv::Rect2d& core);
 
   EgoMotion move_camera(const TrackerInput& frame, StageTimer& timer);
-  void designate_late(const cv::Mat& gray);
+  void designate_late(const TrackerInput& frame);
+  bool recognise(const TrackerInput& frame);
   void predict(EgoMotion ego_motion, StageTimer& timer);
   void propose(EgoMotion ego_motion);
   void move_half_by_other();
-  void guess_velocities();
   void force_onto_differences(const cv::Rect2d& area);
   Eigen::Vector2d expected_px() const;
   Eigen::Vector2d unmoved_px() const;
   cv::Rect2d reachable_area() const;
+  TrackerOutput follow(const TrackerInput& frame, StageTimer& timer);
   TrackerOutput update(const TrackerInput& frame, StageTimer& timer);
   void weigh_particles(const Scene& scene);
   std::size_t choose(const Scene& scene) const;
-  TrackerOutput locate(const Scene& scene, std::size_t best);
+  TrackerOutput locate(const Scene& scene, const std::optional<RefinedPosition>& placed);
   void judge(const Scene& scene);
   void learn(const Scene& scene);
   void after_update(const TrackerOutput& output);
-  void propose_usual_size();
   double reach_px() const;
   bool beyond_reach(const Eigen::Vector2d& pixel) const;
   bool followed() const;
@@ -61,6 +62,7 @@ class TrackerCore {
   MotionModel motion_;
   ParticleFilter filter_;
   TargetModel target_;
+  LearntAppearance appearance_;
   Belief belief_;
   Designation designation_;
   PointMeasurement measurement_;

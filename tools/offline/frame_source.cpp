@@ -133,10 +133,10 @@ class QuietErrors {
 };
 
 // Empty if it cannot be read; OpenCV throws if the header announces too large an image.
-cv::Mat read_picture(const std::string& file) {
+cv::Mat read_picture(const std::string& file, cv::ImreadModes mode) {
   const QuietErrors quiet;
   try {
-    return cv::imread(file, cv::IMREAD_GRAYSCALE);
+    return cv::imread(file, mode);
   } catch (const cv::Exception&) {
     return {};
   }
@@ -183,7 +183,10 @@ std::optional<cv::Mat> FrameSource::next() {
 
 std::optional<cv::Mat> FrameSource::next_of_clip() {
   cv::Mat picture;
-  if (clip_.read(picture) && !picture.empty()) return to_gray(picture);
+  if (clip_.read(picture) && !picture.empty()) {
+    colour_ = picture.channels() == 3 ? picture : cv::Mat();
+    return to_gray(picture);
+  }
   // Containers may announce a frame or two more than they hold; a larger gap is a damaged clip.
   constexpr std::size_t kTolerated = 2;
   if (read_ == 0 || read_ + kTolerated < announced_) {
@@ -195,8 +198,10 @@ std::optional<cv::Mat> FrameSource::next_of_clip() {
 
 std::optional<cv::Mat> FrameSource::next_file() {
   if (read_ >= files_.size()) return std::nullopt;
-  const cv::Mat picture = read_picture(files_[read_]);
+  const cv::Mat picture = read_picture(files_[read_], cv::IMREAD_GRAYSCALE);
   if (picture.empty()) throw FrameSourceError(files_[read_] + ": cannot be read as a picture");
+  // Decoded apart: decoders weight colours to grey in their own way.
+  colour_ = read_picture(files_[read_], cv::IMREAD_COLOR);
   return picture;
 }
 

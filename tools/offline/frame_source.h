@@ -1,4 +1,5 @@
-// Images from a clip, a folder of images or a printf pattern of them, in order, as grey images.
+// Images from a clip, a folder of images or a printf pattern of them, in order: grey, and in
+// colour.
 #pragma once
 
 #include <memory>
@@ -24,6 +25,8 @@ class FrameSource {
   // The next image; nothing at the end. Throws FrameSourceError if one cannot be read or a clip
   // ends before its announced number of frames.
   std::optional<cv::Mat> next();
+  // The newest image in colour: 8-bit, blue, green, red; empty if it has none.
+  const cv::Mat& colour() const { return colour_; }
   // The clip's frame rate; 30 if it has none.
   double frames_per_second() const { return frames_per_second_; }
   // The announced number of frames, for progress only: a clip may have a few less; 0: unknown.
@@ -38,6 +41,7 @@ class FrameSource {
   std::string input_;
   std::vector<std::string> files_;
   cv::VideoCapture clip_;
+  cv::Mat colour_;
   double frames_per_second_ = 30.0;
   std::size_t announced_ = 0;
   std::size_t read_ = 0;

@@ -188,7 +188,7 @@ void run(const Arguments& arguments) {
   long frame = 0;
   for (auto picture = source.next(); picture; picture = source.next(), ++frame) {
     const double time_s = static_cast<double>(frame) / source.frames_per_second();
-    following.take(frame, {*picture, time_s, std::nullopt});
+    following.take(frame, {*picture, time_s, std::nullopt, source.colour()});
     progress(static_cast<std::size_t>(frame) + 1, source.announced());
   }
   if (frame <= arguments.start_frame) {

@@ -1,0 +1,48 @@
+// A discriminative model of the target: a filter whose response is high at the target and zero
+// around it. Spatially and temporally regularised: F. Li, C. Tian, W. Zuo, L. Zhang, M.-H. Yang,
+// "Learning spatial-temporal regularized correlation filters for visual tracking", CVPR 2018.
+#pragma once
+
+#include "edge/tracker/feature_map.h"
+#include "edge/tracker/spectrum.h"
+
+namespace ols::tracker {
+
+// The filter's response in a window of a frame, one value for each cell's shift of the target.
+struct Response {
+  struct Peak {
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // full frame, interpolated between cells
+    double value = 0.0;
+  };
+
+  FeatureWindow window;
+  Map values{};
+
+  // At a pixel of the full frame; bilinear, 0 outside the window.
+  double at(const Eigen::Vector2d& pixel) const;
+  Peak peak() const;
+};
+
+class CorrelationFilter {
+ public:
+  // Learns the box of this frame alone.
+  CorrelationFilter(const TrackerInput& frame, const Eigen::Vector2d& pixel,
+                    const Eigen::Vector2d& size_px);
+
+  // In the window around `pixel`, four boxes wide; `size_px` is the target's present size.
+  Response respond(const TrackerInput& frame, const Eigen::Vector2d& pixel,
+                   const Eigen::Vector2d& size_px) const;
+  // Learns that the target is there and nowhere else in its window; the filter changes as little as
+  // this allows, so it hardly drifts.
+  void learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,
+             const Eigen::Vector2d& size_px);
+
+ private:
+  void fit(const Spectra& features, double inertia);
+
+  Map support_{};    // 1 in the box, where the filter may differ from zero
+  Spectrum wanted_;  // response: a narrow peak without a shift
+  Spectra filter_{};
+};
+
+}  // namespace ols::tracker

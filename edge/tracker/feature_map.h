@@ -1,0 +1,26 @@
+// The features of the correlation filter: histograms of oriented gradients, grey levels and colours
+// of cells.
+#pragma once
+
+#include "edge/tracker/particle.h"
+#include "edge/tracker/spectrum.h"
+#include "edge/tracker/target_tracker.h"
+
+namespace ols::tracker {
+
+using FeatureMap = std::array<Map, kChannels>;
+
+// A square part of a frame, divided into kMapSide x kMapSide cells.
+struct FeatureWindow {
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // centre
+  double cell_px = 1.0;                             // side of a cell
+};
+
+// Of each cell: histograms of 12 signed and 6 unsigned orientations relative to the gradients of
+// the neighbouring cells (P. F. Felzenszwalb et al., "Object detection with discriminatively
+// trained part-based models", PAMI 32(9), 2010), these gradients, the grey level, red against
+// green, yellow against blue. All are small, and tapered towards the window's edge. The image's
+// border is continued outside; colours are zero without a colour image.
+FeatureMap extract_features(const TrackerInput& frame, const FeatureWindow& window);
+
+}  // namespace ols::tracker

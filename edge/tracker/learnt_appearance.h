@@ -1,0 +1,34 @@
+// The target's learnt appearance: the correlation filter, and what its response usually is.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "edge/tracker/correlation_filter.h"
+
+namespace ols::tracker {
+
+class LearntAppearance {
+ public:
+  // The target is in this box of `frame`.
+  LearntAppearance(const TrackerInput& frame, const Eigen::Vector2d& pixel,
+                   const Eigen::Vector2d& size_px);
+
+  // Looks for the target in windows around these places of a new frame: the strongest response, if
+  // it is at least `least` of the usual one.
+  std::optional<Eigen::Vector2d> find(const TrackerInput& frame,
+                                      const std::vector<Eigen::Vector2d>& places,
+                                      const Eigen::Vector2d& size_px, double least);
+  // The response there in the newest frame, relative to the usual one; 0 where nobody looked.
+  double recognised(const Eigen::Vector2d& pixel) const;
+  // The target is there in the newest frame.
+  void learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,
+             const Eigen::Vector2d& size_px, double interval_s);
+
+ private:
+  CorrelationFilter filter_;
+  std::vector<Response> responses_;  // of the newest frame
+  double usual_;                     // response at the target
+};
+
+}  // namespace ols::tracker

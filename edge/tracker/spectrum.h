@@ -1,0 +1,32 @@
+// Fourier transforms of small square real maps, two at a time, and their correlation.
+#pragma once
+
+#include <array>
+
+namespace ols::tracker {
+
+inline constexpr int kMapSide = 32;
+inline constexpr int kMapArea = kMapSide * kMapSide;
+inline constexpr int kHalf = kMapSide / 2 + 1;  // a real map's spectrum is symmetric
+inline constexpr int kSpectrumSize = kMapSide * kHalf;
+
+using Map = std::array<float, kMapArea>;  // row by row, like a spectrum
+
+// Real and imaginary parts apart, so that the compiler vectorises sums over them.
+struct Spectrum {
+  std::array<float, kSpectrumSize> re{};
+  std::array<float, kSpectrumSize> im{};
+};
+
+// One for each channel of the features.
+inline constexpr int kChannels = 22;  // even: transformed in pairs
+using Spectra = std::array<Spectrum, kChannels>;
+
+// The unnormalised transforms of two maps.
+void transform(const Map& a, const Map& b, Spectrum& to_a, Spectrum& to_b);
+// The reverse: transform() and then this gives the maps again.
+void transform_back(const Spectrum& a, const Spectrum& b, Map& to_a, Map& to_b);
+// The sum over all channels of conj(a) b.
+Spectrum correlation(const Spectra& a, const Spectra& b);
+
+}  // namespace ols::tracker

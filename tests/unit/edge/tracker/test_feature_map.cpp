@@ -1,0 +1,48 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "edge/tracker/feature_map.h"
+
+namespace ols::tracker {
+namespace {
+
+TrackerInput half_red() {
+  TrackerInput frame;
+  frame.gray = cv::Mat(200, 200, CV_8U, cv::Scalar(100));
+  frame.colour = cv::Mat(200, 200, CV_8UC3, cv::Scalar(100, 100, 100));
+  cv::rectangle(frame.colour, cv::Rect(100, 0, 100, 200), cv::Scalar(100, 20, 180), cv::FILLED);
+  return frame;
+}
+
+float greatest(const Map& map) { return *std::max_element(map.begin(), map.end()); }
+
+TEST(FeatureMap, AColourShowsWhereGreyLevelsAreEqual) {
+  const TrackerInput frame = half_red();
+  const FeatureMap features = extract_features(frame, {{99.5, 99.5}, 3.0});
+  EXPECT_GT(greatest(features[kChannels - 2]), 0.3F);
+  for (std::size_t c = 0; c + 2 < features.size(); ++c)
+    EXPECT_LT(greatest(features[c]), 1e-6F) << c;
+}
+
+TEST(FeatureMap, WithoutAColourImageItsChannelsAreZero) {
+  TrackerInput frame = half_red();
+  frame.colour = cv::Mat();
+  const FeatureMap features = extract_features(frame, {{99.5, 99.5}, 3.0});
+  EXPECT_EQ(greatest(features[kChannels - 2]), 0.0F);
+  EXPECT_EQ(greatest(features[kChannels - 1]), 0.0F);
+}
+
+TEST(FeatureMap, AnEdgesDirectionHasItsChannel) {
+  TrackerInput frame;
+  frame.gray = cv::Mat(200, 200, CV_8U, cv::Scalar(50));
+  cv::rectangle(frame.gray, cv::Rect(100, 0, 100, 200), cv::Scalar(150), cv::FILLED);
+  const FeatureMap features = extract_features(frame, {{99.5, 99.5}, 3.0});
+  EXPECT_GT(greatest(features[0]), 0.3F);   // brighter to the right
+  EXPECT_LT(greatest(features[6]), 1e-6F);  // to the left
+  EXPECT_GT(greatest(features[12]), 0.3F);  // either
+}
+
+}  // namespace
+}  // namespace ols::tracker
