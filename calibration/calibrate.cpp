@@ -124,20 +124,38 @@ void check_ambiguity(const Adjustment& adjustment, const Fit& fit, const Levels&
   }
 }
 
-ModelTest global_test(const Adjustment& adjustment, const Fit& fit, double level) {
-  ModelTest test;
-  const Network& network = adjustment.network();
-  double squares = fit.misfit;
-  test.redundancy = -static_cast<int>(network.stations.size());  // the headings
-  for (std::size_t g = 0; g < network.groups.size(); ++g) {
-    const Group& group = network.groups[g];
-    if (group.is_tested() && fit.kept[g]) test.redundancy += group.degrees_of_freedom;
-    if (group.is_tested()) continue;
-    // Robust weights have no chi-square, and there are thousands of them.
-    for (const std::size_t b : group.blocks) squares -= fit.equations[b].misfit;
+// What a block's squares are expected to be: its degrees of freedom less the share of the
+// parameters that it determines itself (its partial redundancy, W. Foerstner 1979).
+double redundancy_of(const Fit& fit, const BlockEquations& one, int degrees_of_freedom) {
+  double share = 0.0;
+  for (std::size_t k = 0; k < one.columns.size(); ++k) {
+    for (std::size_t l = 0; l < one.columns.size(); ++l) {
+      share += one.information(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) *
+               fit.covariance(one.columns[l], one.columns[k]);
+    }
   }
+  return degrees_of_freedom - share;
+}
+
+// Without the scenery: robust weights have no chi-square, and its points are thousands.
+ModelTest global_test(const Adjustment& adjustment, const Fit& fit, double level) {
+  const Network& network = adjustment.network();
+  std::vector<bool> counts(network.blocks.size(), true);
+  for (std::size_t g = 0; g < network.groups.size(); ++g) {
+    for (const std::size_t b : network.groups[g].blocks) {
+      counts[b] = network.groups[g].is_tested() && fit.kept[g];
+    }
+  }
+  double squares = 0.0, redundancy = 0.0;
+  for (std::size_t b = 0; b < counts.size(); ++b) {
+    if (!counts[b]) continue;
+    squares += fit.equations[b].squares;
+    redundancy += redundancy_of(fit, fit.equations[b], network.blocks[b]->degrees_of_freedom());
+  }
+  ModelTest test;
+  test.redundancy = static_cast<int>(std::lround(redundancy));
   if (test.redundancy <= 0) return test;
-  test.variance_factor = std::max(0.0, squares) / test.redundancy;
+  test.variance_factor = std::max(0.0, squares) / redundancy;
   test.critical = chi_square_critical(level, test.redundancy) / test.redundancy;
   return test;
 }

@@ -5,6 +5,7 @@
 #include "base/atomic_file.h"
 #include "base/command_line.h"
 #include "base/output_check.h"
+#include "calibration/exchange.h"
 #include "tools/calibrate/result_files.h"
 
 namespace {
@@ -62,7 +63,11 @@ void adjust(const calibration::CaseOptions& options) {
   check_output(options);
   const calibration::Case what = calibration::read_case(options);
   const calibration::Adjustment adjustment(calibration::network_of(what));
-  const calibration::Calibration found = calibration::calibrate(adjustment);
+  calibration::Calibration found = calibration::calibrate(adjustment);
+  for (const std::string& line :
+       calibration::exchanged_landmarks(what.problem, adjustment, found)) {
+    found.remarks.push_back(line);
+  }
   const auto results = calibration::station_results(what, adjustment, found);
   // All is computed before anything is written.
   const std::string predicted =

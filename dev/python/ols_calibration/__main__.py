@@ -89,9 +89,7 @@ def run(program, build, figure, seed):
         rows = volume(site, rng)
         arguments = site.write(folder, predict_text(rows))
         command = [program, "adjust", *arguments, "--output", folder / "out"]
-        done = subprocess.run(
-            list(map(str, command)), capture_output=True, text=True, check=False
-        )
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
         if done.returncode != 0:
             return done.stderr.strip().splitlines()[-1]
         return measure(figure, rows, folder / "out")
@@ -134,7 +132,8 @@ def main():
     parser.add_argument("--report", type=Path, help="write the figures as JSON")
     arguments = parser.parse_args()
     seeds = range(arguments.seed, arguments.seed + arguments.instruments)
-    print(f"{'case, seeds ' + str(seeds[0]) + '..' + str(seeds[-1]):44} {'actual':>9} {'told/actual':>20}")
+    title = f"case, seeds {seeds[0]}..{seeds[-1]}"
+    print(f"{title:44} {'actual':>9} {'told/actual':>20}")
     table = {}
     for name, (build, limit, figure) in CASES.items():
         if arguments.case and arguments.case not in name:

@@ -40,9 +40,14 @@ def sight_landmarks(site, one, points, sd_m, times):
 
 def stars(rng):
     site, one = one_station(rng, is_new=True)
-    for frame in range(20):
-        counts = one.unit.counts_to(anywhere(rng, one.unit, (12, 29)))
-        approach = rng.choice([-1, 1], 2)
+    tilts = rng.permutation(np.linspace(13, 30.5, 20))
+    approaches = rng.permutation(5 * [(1, 1), (1, -1), (-1, 1), (-1, -1)])
+    for frame, pan_deg in enumerate(np.linspace(-150, 150, 20)):
+        # All around, each at another height, in unequal steps: at equal ones the worm looks like an
+        # eccentricity, at few heights that of tilt stays unknown.
+        pan_deg += rng.uniform(-7, 7)
+        tilt_deg, approach = tilts[frame], approaches[frame]
+        counts = np.round(np.array([pan_deg, tilt_deg]) / 360 * 112000)
         shafts = one.unit.posed(rng, *counts, approach)
         utime_us = UTIME_US + 3_000_000 * frame
         for k in range(12):
@@ -106,6 +111,7 @@ def sweep(rng):
         )
         for _ in range(1500)
     ]
+    directions = np.array([point / np.linalg.norm(point) for point in scenery])
     degree = 112000 / 360
     ring = [(pan, 1.0 if i % 2 else 0.0) for i, pan in enumerate(np.linspace(-150, 150, 70))]
     block = [(rng.uniform(-2, 2), rng.uniform(-1.5, 3.5)) for _ in range(22)]
@@ -114,7 +120,10 @@ def sweep(rng):
         approach = rng.choice([-1, 1], 2)
         shafts = one.unit.posed(rng, *counts, approach)
         inside = 0
-        for k, point in enumerate(scenery):
+        axis = one.unit.look(shafts, (640, 480))
+        near = np.flatnonzero(directions @ axis > np.cos(np.radians(4.5)))
+        for k in near:
+            point = scenery[k]
             pixel = one.unit.image(shafts, point)
             seen = one.add(
                 *("scene", counts, approach, pixel),
@@ -153,11 +162,15 @@ def aircraft(rng):
 
 
 def joint_track(rng):
-    """Two stations 800 m apart follow what flies across the line through both of them."""
-    places = [Place(*PLACE), Place(PLACE[0], PLACE[1] + 0.011, PLACE[2] + 4)]
-    units = [station(rng, name, p, False) for name, p in zip(("alfa", "bravo"), places)]
+    """Two stations 2.2 km apart follow what flies across the line through both of them."""
+    places = [Place(*PLACE), Place(PLACE[0], PLACE[1] + 0.03, PLACE[2] + 4)]
+    units = [
+        station(rng, name, p, False) for name, p in zip(("alfa", "bravo"), places, strict=True)
+    ]
     site = Site(rng, units)
     for one in units:
+        # Either sees east and west: neither is behind its limits.
+        one.unit.heading = rng.choice([0, np.pi]) + rng.uniform(-0.7, 0.7)
         one.level()
         one.true_place = Place(*PLACE)
         one.true_place.axes = one.place.axes
@@ -168,9 +181,8 @@ def joint_track(rng):
         for _ in range(2):
             one.sight("landmark", point, name)
     for k, share in enumerate(np.linspace(-1, 1, 60)):
-        # To and fro over the line through both, between them and beyond; the stations are 800 m
-        # apart from west to east.
-        target = np.array([1600.0 if k % 2 else 400.0, 80 * share, 130 + 50 * share])
+        # To and fro over the line through both, between them and beyond.
+        target = np.array([5000.0 if k % 2 else 1100.0, 250 * share, 500 + 100 * share])
         where = units[0].place.to_ecef(target)
         for one in units:
             point = one.true_place.to_enu(where)

@@ -89,9 +89,7 @@ def key_of(name):
 def drawn(rng, sizes, around):
     """Values around some, each with its deviation."""
     unit = {name: 1.0 if name in PLAIN else ARCSEC for name in sizes}
-    return {
-        name: around[name] + rng.normal() * size * unit[name] for name, size in sizes.items()
-    }
+    return {name: around[name] + rng.normal() * size * unit[name] for name, size in sizes.items()}
 
 
 @dataclass

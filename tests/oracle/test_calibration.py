@@ -1,0 +1,169 @@
+"""ols-calibrate against scipy, on the model that the simulator in dev/python has written anew."""
+
+import json
+import subprocess
+
+import numpy as np
+import pytest
+from conftest import BIN
+from ols_calibration import cases
+from ols_calibration.model import (
+    ANGLE_SD,
+    NEW,
+    PLAIN,
+    Place,
+    Unit,
+    from_azimuth_elevation,
+    geodetic,
+    refracted,
+)
+from ols_calibration.site import PRESSURE_HPA, TEMPERATURE_DEGC, UT1_UTC_S, UTIME_US, icrs_of
+from scipy.optimize import least_squares
+
+SEED = 20260119
+NAMES = [*NEW, "heading", "tilt_x", "tilt_y", "east_m", "north_m", "up_m", "refraction_k"]
+PLAIN_NAMES = {*PLAIN, "east_m", "north_m", "up_m", "refraction_k"}
+
+
+def adjust(folder, *arguments):
+    command = [BIN / "ols-calibrate", "adjust", *arguments, "--output", folder / "out"]
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return json.loads((folder / "out/report.json").read_text())
+
+
+def in_file(name, value):
+    return value if name in PLAIN_NAMES else np.degrees(value)
+
+
+class Problem:
+    """Landmarks and an inclinometer's readings, as one least-squares problem without groups: all
+    unknowns beside each other, every prior a residual."""
+
+    def __init__(self, site):
+        self.one = site.stations[0]
+        self.lines = [line for line in self.one.lines if line["kind"] == "landmark"]
+        self.level = next(line for line in self.one.lines if line["kind"] == "inclinometer")
+        self.places, self.place_sds = {}, {}
+        for row in site.references:
+            name, latitude, longitude, height, sd = row.split(",")[:5]
+            self.places[name] = Place(float(latitude), float(longitude), float(height)).origin
+            self.place_sds[name] = float(sd)
+        self.prior_mean = np.array([*self.one.known.values(), 0, 0, 0, 0, 0, 0, 0.13])
+        sizes = [
+            size if name in PLAIN else np.radians(size / 3600)
+            for name, size in self.one.sizes.items()
+        ]
+        self.prior_sd = np.array(
+            [*sizes, np.inf, *[np.radians(0.5)] * 2, *[site.position_sd] * 3, 0.3]
+        )
+        self.unknowns = len(NAMES) + 2 * len(self.lines) + 3 * len(self.places) + 2
+
+    def residuals(self, x):
+        values, rest = np.split(x, [len(NAMES)])
+        poses, rest = np.split(rest, [2 * len(self.lines)])
+        offsets, zero = np.split(rest, [3 * len(self.places)])
+        offsets = dict(zip(self.places, offsets.reshape(-1, 3), strict=True))
+        instrument = dict(zip(NAMES, values, strict=True))
+        unit = Unit(instrument, instrument["heading"], (instrument["tilt_x"], instrument["tilt_y"]))
+        unit.second_worm = 0.0
+        place = self.one.place
+        origin = place.to_ecef(values[-4:-1])
+        moved = Place(*np.degrees(geodetic(origin)[:2]), geodetic(origin)[2])
+        parts = [((values - self.prior_mean) / self.prior_sd), poses / ANGLE_SD]
+        for line, pose in zip(self.lines, poses.reshape(-1, 2), strict=True):
+            name = line["reference"]
+            point = moved.to_enu(self.places[name] + offsets[name])
+            approach = (line["approach_pan"], line["approach_tilt"])
+            shafts = unit.shafts(line["pan_counts"], line["tilt_counts"], approach)
+            pixel = unit.image(np.array(shafts) + pose, refracted(point, values[-1]))
+            parts.append((pixel - [line["x_px"], line["y_px"]]) / line["sd_px"])
+        parts += [offset / self.place_sds[name] for name, offset in offsets.items()]
+        tilt = np.array([instrument["tilt_x"], instrument["tilt_y"]])
+        read = np.radians([self.level["x_deg"], self.level["y_deg"]])
+        parts.append((tilt + zero - read) / np.radians(self.level["sd_deg"]))
+        parts.append(zero / np.radians(self.level["zero_sd_deg"]))
+        return np.concatenate(parts)
+
+    def solve(self):
+        start = np.zeros(self.unknowns)
+        start[: len(NAMES)] = self.prior_mean
+        start[len(NEW)] = self.one.unit.heading
+        sd = self.prior_sd.copy()
+        sd[len(NEW)] = 1e-3
+        scale = np.concatenate(
+            [
+                sd,
+                np.full(2 * len(self.lines), ANGLE_SD),
+                *[np.full(3, self.place_sds[name]) for name in self.places],
+                np.full(2, 1e-4),
+            ]
+        )
+        found = least_squares(
+            lambda z: self.residuals(z * scale),
+            start / scale,
+            jac="3-point",
+            xtol=1e-15,
+            ftol=1e-15,
+            gtol=1e-15,
+        )
+        covariance = np.linalg.inv(found.jac.T @ found.jac) * np.outer(scale, scale)
+        return found.x * scale, covariance
+
+
+@pytest.mark.parametrize("build", [cases.rtk_landmarks, cases.cadastral_landmarks])
+def test_estimate_and_covariance_are_scipys(tmp_path, build):
+    print(f"seed {SEED}")
+    site = build(np.random.default_rng(SEED))
+    problem = Problem(site)
+    x, covariance = problem.solve()
+    arguments = site.write(tmp_path, "pan_counts,tilt_counts,x_px,y_px\n0,0,640,480\n")
+    report = adjust(tmp_path, *arguments)
+    scale = report["deviations_scaled_by"]
+    found = {one["parameter"]: one for one in report["stations"][0]["parameters"]}
+    for i, name in enumerate(NAMES):
+        one = found[name if name in PLAIN_NAMES else name + "_deg"]
+        sd = in_file(name, np.sqrt(covariance[i, i]))
+        off = one["value"] - in_file(name, x[i])
+        if name == "heading":
+            off = (off + 180) % 360 - 180
+        assert one["sd"] == pytest.approx(scale * sd, rel=1e-3), name
+        assert abs(off) < 1e-2 * sd, name
+    # The whole matrix: what matters is the error of directions, differences of huge numbers.
+    rows = (tmp_path / "out/covariance.csv").read_text().splitlines()
+    matrix = np.array([row.split(",")[1:] for row in rows[1:]], dtype=float)[:30, :30]
+    unit = np.array([1.0 if name in PLAIN_NAMES else np.degrees(1) for name in NAMES])
+    expected = covariance[:30, :30] * np.outer(unit, unit) * scale**2
+    sds = np.sqrt(np.diag(expected))
+    assert np.abs((matrix - expected) / np.outer(sds, sds)).max() < 2e-3
+
+
+def test_stars_stand_where_erfas_own_inverse_has_them(tmp_path):
+    """A unit without errors, sighted stars whose places ERFA's atoc13 has found."""
+    rng = np.random.default_rng(SEED + 1)
+    site, one = cases.one_station(rng, is_new=True)
+    one.unit.values = one.known
+    one.unit.wave = one.unit.second_worm = 0.0
+    one.unit.tilt = (0.0, 0.0)
+    one.lines.clear()
+    for k in range(24):
+        direction = from_azimuth_elevation(rng.uniform(0, 2 * np.pi), np.radians(12 + k))
+        counts = one.unit.counts_to(direction)
+        if abs(counts[0]) > 49000:
+            continue
+        shafts = np.array(one.unit.shafts(*counts)) - 0.0
+        pixel = np.array([500.0, 300.0])
+        utime_us = UTIME_US + 3_600_000_000 * k
+        site.refer_star(f"star{k}", *icrs_of(one.place, one.unit.look(shafts, pixel), utime_us))
+        one.lines.append(
+            {
+                **{"kind": "star", "station": one.name, "utime_us": utime_us, "sd_px": 0.01},
+                **{"pan_counts": counts[0], "tilt_counts": counts[1], "reference": f"star{k}"},
+                **{"x_px": pixel[0], "y_px": pixel[1]},
+            }
+        )
+    arguments = site.write(tmp_path, "pan_counts,tilt_counts,x_px,y_px\n0,0,640,480\n")
+    assert (UT1_UTC_S, PRESSURE_HPA, TEMPERATURE_DEGC) == (0.0312, 976.0, 12.0)
+    report = adjust(tmp_path, *arguments)
+    worst_px = max(max(abs(r["x_px"]), abs(r["y_px"])) for r in report["residuals"])
+    assert worst_px < 0.01, "a hundredth of a pixel is 0.15 arc seconds"
