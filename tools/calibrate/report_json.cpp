@@ -30,14 +30,37 @@ Json parameters_of(const StationResult& result) {
   return all;
 }
 
+using AzimuthRow = Eigen::Matrix<double, 1, kStationParameters>;
+
+// The mean azimuth of the horizon, all around, by the parameters: the deviation of the heading
+// alone says little, because its error is spread over the mounting, too.
+AzimuthRow mean_azimuth(const StationModel& model) {
+  constexpr int kPans = 12;
+  constexpr double kTurn = 5.0 / 6.0;  // pan -150..150 degrees
+  AzimuthRow J = AzimuthRow::Zero();
+  for (int i = 0; i < kPans; ++i) {
+    UnitReading reading;
+    reading.pan.counts =
+        static_cast<double>(model.pan.counts_per_turn) * ((i + 0.5) / kPans - 0.5) * kTurn;
+    reading.pan.approach = reading.tilt.approach = i % 2 == 0 ? 1 : -1;
+    const auto seen = predict_direction(model, reading,
+                                        {model.geometry.camera.cx_px, model.geometry.camera.cy_px});
+    if (seen) J.head<kModelParameters>() += seen->by_parameters.row(0) / kPans;
+  }
+  return J;
+}
+
 Json stations_of(const std::vector<StationResult>& results) {
   Json all = Json::array();
   for (const StationResult& result : results) {
     const VolumePrecision volume = volume_precision(result.state.model, result.covariance);
+    const AzimuthRow azimuth = mean_azimuth(result.state.model);
     all.push_back({{"station", result.id},
                    {"calibration_id", result.calibration_id},
                    {"systematic_rms_arcsec", arcsec(volume.rms_rad)},
                    {"systematic_worst_arcsec", arcsec(volume.worst_rad)},
+                   {"mean_azimuth_sd_arcsec",
+                    arcsec(std::sqrt((azimuth * result.covariance * azimuth.transpose())(0, 0)))},
                    {"parameters", parameters_of(result)}});
   }
   return all;
@@ -80,31 +103,15 @@ Json residuals_of(const Case& what, const Calibration& found) {
   return all;
 }
 
-// What remains of the difference of two stations' headings, by their azimuths all around: that of
-// the headings alone is spread over the mounting, too.
 Json differences_of(const Adjustment& adjustment, const Calibration& found) {
   Json all = Json::array();
   const Network& network = adjustment.network();
-  const auto azimuth = [&](std::size_t s) {
-    constexpr int kPans = 12;
-    const StationModel& model = found.fit.state.stations[s].model;
-    Eigen::Matrix<double, 1, kStationParameters> J =
-        Eigen::Matrix<double, 1, kStationParameters>::Zero();
-    for (int i = 0; i < kPans; ++i) {
-      UnitReading reading;
-      reading.pan.counts =
-          static_cast<double>(model.pan.counts_per_turn) * ((i + 0.5) / kPans - 0.5) * 5.0 / 6.0;
-      const auto seen = predict_direction(
-          model, reading, {model.geometry.camera.cx_px, model.geometry.camera.cy_px});
-      if (seen) J.head<kModelParameters>() += seen->by_parameters.row(0) / kPans;
-    }
-    return J;
-  };
   for (std::size_t a = 0; a < network.stations.size(); ++a) {
     for (std::size_t b = a + 1; b < network.stations.size(); ++b) {
       Eigen::RowVectorXd J = Eigen::RowVectorXd::Zero(network.layout.size());
-      J.segment<kStationParameters>(network.layout.station(a)) = azimuth(a);
-      J.segment<kStationParameters>(network.layout.station(b)) = -azimuth(b);
+      const auto& stations = found.fit.state.stations;
+      J.segment<kStationParameters>(network.layout.station(a)) = mean_azimuth(stations[a].model);
+      J.segment<kStationParameters>(network.layout.station(b)) = -mean_azimuth(stations[b].model);
       const double variance = (J * found.fit.covariance * J.transpose())(0, 0);
       all.push_back({{"stations", {network.names[a], network.names[b]}},
                      {"sd_arcsec", arcsec(found.scaled_by * std::sqrt(variance))}});

@@ -40,11 +40,11 @@ def sight_landmarks(site, one, points, sd_m, times):
 
 def stars(rng):
     site, one = one_station(rng, is_new=True)
-    tilts = rng.permutation(np.linspace(13, 30.5, 20))
+    tilts = rng.permutation([*np.linspace(13, 17.5, 10), *np.linspace(26, 30.5, 10)])
     approaches = rng.permutation(5 * [(1, 1), (1, -1), (-1, 1), (-1, -1)])
     for frame, pan_deg in enumerate(np.linspace(-150, 150, 20)):
-        # All around, each at another height, in unequal steps: at equal ones the worm looks like an
-        # eccentricity, at few heights that of tilt stays unknown.
+        # All around, low and high, each over a turn of the worm, and in unequal steps: at equal
+        # ones the worm looks like an eccentricity.
         pan_deg += rng.uniform(-7, 7)
         tilt_deg, approach = tilts[frame], approaches[frame]
         counts = np.round(np.array([pan_deg, tilt_deg]) / 360 * 112000)
@@ -69,7 +69,7 @@ def rtk_landmarks(rng):
 
 def cadastral_landmarks(rng):
     site, one = one_station(rng, is_new=False)
-    sight_landmarks(site, one, landmark_points(rng, one, 8), 0.14, 2)
+    sight_landmarks(site, one, landmark_points(rng, one, 8, (500, 3000)), 0.14, 2)
     return site
 
 
