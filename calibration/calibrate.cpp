@@ -207,7 +207,7 @@ void remark_scene(const Adjustment& adjustment, Calibration& result) {
       }
     }
     if (held < kMany * all) continue;
-    result.remarks.push_back(group.name + ": " + std::to_string(std::lround(100.0 * held / all)) +
+    result.remarks.push_back(label(group) + ": " + std::to_string(std::lround(100.0 * held / all)) +
                              " % of its points do not stay where they are: does it move?");
   }
 }

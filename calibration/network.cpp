@@ -152,13 +152,39 @@ class Builder {
     return direction;
   }
 
+  // Another zone or hemisphere, or latitude and longitude exchanged, are farther; no sight is.
+  void check_distance(const Observation& one) const {
+    constexpr double kLeast_m = 1.0, kGreatest_m = 500e3;
+    const auto found = problem_.references.find(one.reference);
+    if (found == problem_.references.end()) return;
+    const auto* point = std::get_if<FixedPoint>(&found->second);
+    const auto* trajectory = std::get_if<Trajectory>(&found->second);
+    if (!point && !trajectory) return;
+    const Geodetic& place = problem_.stations[one.station].model.geometry.position;
+    const Eigen::Vector3d& there = point ? point->ecef : trajectory->points.front().ecef;
+    const double distance_m = (there - ecef_from_geodetic(place)).norm();
+    if (distance_m < kLeast_m)
+      refuse(one, "reference", "'" + one.reference + "' is at the station");
+    if (distance_m < kGreatest_m) return;
+    refuse(one, "reference",
+           "'" + one.reference + "' is " + std::to_string(std::lround(1e-3 * distance_m)) +
+               " km from the station, more than can be sighted");
+  }
+
+  void check_pixel(const Observation& one) const {
+    const StationModel& model = problem_.stations[one.station].model;
+    if (!unproject(model.geometry.camera, one.pixel)) {
+      refuse(one, "x_px", "the pixel is outside of the lens model");
+    }
+  }
+
   void add(const std::vector<std::size_t>& members) {
     const Observation& first = problem_.observations[members.front()];
     Group group;
     group.kind = first.kind;
     group.name = first.reference;
     group.station = first.station;
-    if (first.kind == Kind::kScene) group.name = "scene of " + problem_.names[first.station];
+    if (first.kind == Kind::kScene) group.name = problem_.names[first.station];
     if (first.kind == Kind::kInclinometer) {
       add_level(group, members);
     } else if (first.kind == Kind::kScene) {
@@ -208,6 +234,8 @@ class Builder {
     for (const std::size_t i : members) {
       const Observation& one = problem_.observations[i];
       if (one.kind == Kind::kAircraft || one.kind == Kind::kDrone) trajectory_of(problem_, one);
+      check_distance(one);
+      check_pixel(one);
       sightings.push_back(sighting_of(i));
     }
     take(group, members,
@@ -216,7 +244,7 @@ class Builder {
   }
 
   void add_level(Group& group, const std::vector<std::size_t>& members) {
-    group.name = "inclinometer of " + problem_.names[group.station];
+    group.name = problem_.names[group.station];
     std::vector<Observation> readings;
     for (const std::size_t i : members) readings.push_back(problem_.observations[i]);
     take(group, members, level_block(network_.layout, std::move(readings)));

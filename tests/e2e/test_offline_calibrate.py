@@ -163,6 +163,25 @@ def test_a_star_without_a_name_is_refused(run):
     assert "22: reference: a star without a name cannot be used" in done.stderr
 
 
+def test_a_landmark_of_another_zone_is_refused(run):
+    run.change("references.csv", 2, "landmark0,49.", "landmark0,39.")
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "observations.jsonl:2: reference: 'landmark0' is 111" in done.stderr
+    assert "km from the station" in done.stderr
+
+
+def test_without_an_instrument_the_unit_is_a_new_one(run):
+    assert run.adjust().returncode == 0
+    known = run.report()["stations"][0]["systematic_rms_arcsec"]
+    at = run.arguments.index("--instrument")
+    del run.arguments[at : at + 2]
+    run.output = run.folder / "new"
+    done = run.adjust()
+    assert done.returncode == 0, done.stderr
+    assert run.report()["stations"][0]["systematic_rms_arcsec"] > 1.5 * known
+
+
 def test_serial_numbers_that_differ_are_refused(run):
     for name, serial in (("alfa.toml", "L-1"), ("alfa-instrument.toml", "L-2")):
         with (run.folder / name).open("a") as file:

@@ -54,29 +54,31 @@ std::string shade(double share) {
 void write_volume(std::ostream& out, const StationResult& result) {
   const VolumePrecision volume = volume_precision(result.state.model, result.covariance);
   const WorkingVolume range;
-  constexpr double kWidth = 720.0, kHeight = 150.0, kLeft = 50.0, kTop = 10.0;
+  constexpr double kWidth = 720.0, kHeight = 150.0, kLeft = 60.0, kTop = 10.0;
   const auto x_of = [&](double pan) { return kLeft + kWidth * (pan / range.pan_deg + 1.0) / 2.0; };
   const auto y_of = [&](double tilt) {
     return kTop + kHeight * (range.highest_deg - tilt) / (range.highest_deg - range.lowest_deg);
   };
-  out << "<h2>Predicted systematic error over the working volume</h2>\n<svg width=\"860\" "
+  out << "<h2>Predicted systematic error over the working volume</h2>\n<svg width=\"880\" "
          "height=\"210\" role=\"img\">";
   for (const VolumePoint& point : volume.points) {
     out << "<rect x=\"" << x_of(point.pan_deg) - 15 << "\" y=\"" << y_of(point.tilt_deg) - 8
         << "\" width=\"30\" height=\"21\" fill=\"" << shade(point.rms_rad / volume.worst_rad)
         << "\"><title>" << arcsec(point.rms_rad) << " arc seconds</title></rect>";
   }
+  out << std::setprecision(0);
   for (const double pan : {-150.0, -100.0, -50.0, 0.0, 50.0, 100.0, 150.0}) {
     out << "<text x=\"" << x_of(pan) << "\" y=\"190\" text-anchor=\"middle\">" << pan << "°</text>";
   }
   for (const double tilt : {-5.0, 10.0, 30.0}) {
-    out << "<text x=\"28\" y=\"" << y_of(tilt) + 6 << "\" text-anchor=\"end\">" << tilt
+    out << "<text x=\"40\" y=\"" << y_of(tilt) + 6 << "\" text-anchor=\"end\">" << tilt
         << "°</text>";
   }
-  out << "<text x=\"410\" y=\"207\" text-anchor=\"middle\">pan of the unit</text>";
+  out << std::setprecision(1)
+      << "<text x=\"420\" y=\"207\" text-anchor=\"middle\">pan of the unit</text>";
   for (int i = 0; i <= 4; ++i) {
-    out << "<rect x=\"795\" y=\"" << 20 + 30 * i << "\" width=\"16\" height=\"28\" fill=\""
-        << shade(0.25 * i) << "\"/><text x=\"816\" y=\"" << 38 + 30 * i << "\">"
+    out << "<rect x=\"805\" y=\"" << 20 + 30 * i << "\" width=\"16\" height=\"28\" fill=\""
+        << shade(0.25 * i) << "\"/><text x=\"826\" y=\"" << 38 + 30 * i << "\">"
         << arcsec(0.25 * i * volume.worst_rad) << "″</text>";
   }
   out << "</svg>\n";
@@ -85,7 +87,7 @@ void write_volume(std::ostream& out, const StationResult& result) {
 // Residuals of all sightings of a group, as dots on two lines: x and y.
 void write_residuals(std::ostream& out, const Adjustment& adjustment, const Calibration& found) {
   constexpr std::size_t kMost = 60;
-  constexpr double kMiddle = 470.0, kHalf = 290.0;
+  constexpr double kMiddle = 500.0, kHalf = 270.0;
   std::vector<std::size_t> shown;
   double most = 0.5;
   const auto each = [&](const Group& group, const auto& take) {
@@ -129,7 +131,8 @@ void write_residuals(std::ostream& out, const Adjustment& adjustment, const Cali
       << "\" text-anchor=\"middle\">" << most << "</text></svg>\n";
 }
 
-std::string detectable(double rad) {
+std::string detectable(const Group& group, double rad) {
+  if (group.kind == Kind::kInclinometer) return "–";
   if (!std::isfinite(rad)) return "unchecked";
   std::ostringstream out;
   out << std::fixed << std::setprecision(0) << arcsec(rad) << "″";
@@ -151,8 +154,8 @@ void write_tests(std::ostream& out, const Adjustment& adjustment, const Calibrat
     out << (test.rejected ? "<tr class=\"bad\"><td>" : "<tr><td>") << name(group.kind) << ' '
         << escaped(group.name) << (test.rejected ? " REJECTED" : "") << "</td><td>"
         << group.observations.size() << "</td><td>" << test.w << "</td><td>" << test.critical
-        << "</td><td>" << detectable(test.detectable_rad[0]) << "</td><td>"
-        << detectable(test.detectable_rad[1]) << "</td></tr>\n";
+        << "</td><td>" << detectable(group, test.detectable_rad[0]) << "</td><td>"
+        << detectable(group, test.detectable_rad[1]) << "</td></tr>\n";
   }
   out << "</table>\n";
 }

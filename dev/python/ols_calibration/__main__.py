@@ -124,6 +124,16 @@ def shown(name, row):
     return f"{name:44} {figures:32} {'ok' if row['ok'] else 'MISSED'}{note}"
 
 
+def write_site(arguments):
+    """The files of the first case that is asked for, and the command that reads them."""
+    name = next(name for name in CASES if (arguments.case or "") in name)
+    arguments.write.mkdir(parents=True)
+    rng = np.random.default_rng(arguments.seed)
+    site = CASES[name][0](rng)
+    command = site.write(arguments.write, predict_text(volume(site, rng)))
+    print("ols-calibrate adjust", *command, "--output", arguments.write / "calibration")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--instruments", type=int, default=40, help="of each case")
@@ -132,7 +142,11 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--program", type=Path, default=ROOT / "build/release/bin/ols-calibrate")
     parser.add_argument("--report", type=Path, help="write the figures as JSON")
+    parser.add_argument("--write", type=Path, help="only write one site's files into this folder")
     arguments = parser.parse_args()
+    if arguments.write:
+        write_site(arguments)
+        return
     seeds = range(arguments.seed, arguments.seed + arguments.instruments)
     title = f"case, seeds {seeds[0]}..{seeds[-1]}"
     print(f"{title:44} {'actual':>9} {'told/actual':>20}")
