@@ -212,6 +212,16 @@ void remark_scene(const Adjustment& adjustment, Calibration& result) {
   }
 }
 
+void remark_single(const Adjustment& adjustment, Calibration& result) {
+  std::vector<std::size_t> kept;
+  for (std::size_t g = 0; g < result.tests.size(); ++g) {
+    if (adjustment.groups()[g].is_absolute() && result.fit.kept[g]) kept.push_back(g);
+  }
+  if (kept.size() != 1) return;
+  result.remarks.push_back(label(adjustment.groups()[kept[0]]) +
+                           " is the only reference: nothing checks it");
+}
+
 void remark_rejected(const Adjustment& adjustment, Calibration& result) {
   for (std::size_t g = 0; g < result.tests.size(); ++g) {
     if (!result.tests[g].rejected) continue;
@@ -244,6 +254,7 @@ Calibration calibrate(const Adjustment& adjustment, const Levels& levels) {
         "the observations disagree by more than was stated: all deviations are scaled up");
   }
   remark_rejected(adjustment, result);
+  remark_single(adjustment, result);
   remark_scene(adjustment, result);
   add_residuals(adjustment, result);
   return result;

@@ -118,6 +118,16 @@ def test_a_landmark_that_is_wrong_by_a_metre_is_named(tmp_path):
     assert "landmark 'landmark0' is rejected as mistaken" in done.stderr
 
 
+def test_one_landmark_alone_is_said_to_be_unchecked(run):
+    lines = [line for line in run.lines("observations.jsonl") if "landmark0" in line]
+    (run.folder / "observations.jsonl").write_text("\n".join(lines) + "\n")
+    done = run.adjust()
+    assert done.returncode == 0, done.stderr
+    assert "landmark 'landmark0' is the only reference: nothing checks it" in done.stderr
+    [group] = run.report()["groups"]
+    assert group["detectable_across_arcsec"] is None
+
+
 def test_landmarks_that_were_exchanged_are_named(run):
     text = (run.folder / "observations.jsonl").read_text()
     for old, new in (("landmark1", "x"), ("landmark3", "landmark1"), ("x", "landmark3")):
