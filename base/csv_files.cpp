@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <set>
 
-#include "base/atomic_file.h"
 #include "base/csv_rows.h"
+#include "base/fix_writer.h"
 
 namespace ols {
 namespace {
@@ -90,7 +89,7 @@ BearingRow bearing_row(const Row<7>& row) {
   bearing.elevation_deg = row.number<double>(3, -90.0, 90.0);
   bearing.sigma_deg = row.number<double>(4, kLeastSigmaDeg, 90.0);
   bearing.belief = row.optional_number(5, 0.0, 1.0).value_or(1.0);
-  if (row.has(6)) bearing.target = row.id(6);
+  if (row.has_column(6)) bearing.target = row.has(6) ? row.id(6) : "1";
   return bearing;
 }
 
@@ -109,18 +108,26 @@ std::vector<StationRow> read_stations(const std::string& path) {
   return stations;
 }
 
-std::vector<BearingRow> read_bearings(const std::string& path,
-                                      const std::vector<StationRow>& stations) {
+void for_each_bearing(const std::string& path, const std::vector<StationRow>& stations,
+                      const std::function<void(const BearingRow&)>& take) {
   std::set<std::string> ids;
   for (const StationRow& station : stations) ids.insert(station.station);
-  std::vector<BearingRow> bearings;
+  bool any = false;
   for_each_row(path, kBearings, [&](const Row<7>& row) {
-    bearings.push_back(bearing_row(row));
-    if (!ids.contains(bearings.back().station)) {
-      row.fail(1, "'" + bearings.back().station + "' is not one of the stations");
+    const BearingRow bearing = bearing_row(row);
+    if (!ids.contains(bearing.station)) {
+      row.fail(1, "'" + bearing.station + "' is not one of the stations");
     }
+    any = true;
+    take(bearing);
   });
-  if (bearings.empty()) throw CsvError(path + ":2: row: the file has a header but no rows");
+  if (!any) throw CsvError(path + ":2: row: the file has a header but no rows");
+}
+
+std::vector<BearingRow> read_bearings(const std::string& path,
+                                      const std::vector<StationRow>& stations) {
+  std::vector<BearingRow> bearings;
+  for_each_bearing(path, stations, [&](const BearingRow& row) { bearings.push_back(row); });
   return bearings;
 }
 
@@ -184,21 +191,9 @@ std::vector<FlightRow> read_flight(const std::string& path) {
 }
 
 void write_fixes(const std::string& path, const std::vector<FixRow>& fixes) {
-  AtomicFile file(path);
-  std::ostream& out = file.stream();
-  out << "utime_us,target,latitude_deg,longitude_deg,height_m,east_sd_m,north_sd_m,up_sd_m,"
-         "stations_used,stations_set_aside,crossing_angle_deg,residual\n"
-      << std::fixed;
-  for (const FixRow& fix : fixes) {
-    // A hundredth of a microdegree is a millimetre.
-    out << fix.utime_us << ',' << fix.target << std::setprecision(9) << ',' << fix.latitude_deg
-        << ',' << fix.longitude_deg << std::setprecision(4) << ',' << fix.height_m << ','
-        << fix.east_sd_m << ',' << fix.north_sd_m << ',' << fix.up_sd_m << ',' << fix.stations_used
-        << ',' << fix.stations_set_aside << ',' << fix.crossing_angle_deg << ',';
-    if (!std::isnan(fix.residual)) out << fix.residual;
-    out << '\n';
-  }
-  file.commit();
+  FixWriter writer(path);
+  for (const FixRow& fix : fixes) writer.add(fix);
+  writer.commit();
 }
 
 }  // namespace ols

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -36,9 +37,9 @@ struct BearingRow {
   std::string station;
   double azimuth_deg = 0.0;  // clockwise from true north, -360..360 is accepted
   double elevation_deg = 0.0;
-  double sigma_deg = 0.0;    // 1-sigma of each axis, white
-  double belief = 1.0;       // 1 if the file has no such column
-  std::string target = "1";  // "1" if the file has no such column
+  double sigma_deg = 0.0;  // 1-sigma of each axis, white
+  double belief = 1.0;     // 1 if the file has no such column
+  std::string target;      // empty if the file has no such column; an empty cell is "1"
 };
 
 // A landmark before a base, as in the paper's Table 1.
@@ -79,7 +80,7 @@ struct SightedRow {
   unsigned line = 0;                     // of the file
 };
 
-// Where somebody flew, as in a trajectory's file.
+// A point of a recorded flight: a row of a trajectory file.
 struct FlightRow {
   std::int64_t utime_us = 0;
   double latitude_deg = 0.0;
@@ -104,7 +105,10 @@ struct FixRow {
 
 // At least one row; station ids are unique.
 std::vector<StationRow> read_stations(const std::string& path);
-// At least one row, in the order of the file; every row's station is one of `stations`.
+// At least one row, in the order of the file; every row's station is one of `stations`. The first
+// form passes them on one by one: files of a million rows need not fit into memory.
+void for_each_bearing(const std::string& path, const std::vector<StationRow>& stations,
+                      const std::function<void(const BearingRow&)>& take);
 std::vector<BearingRow> read_bearings(const std::string& path,
                                       const std::vector<StationRow>& stations);
 // At least one row.

@@ -2,11 +2,12 @@
 // written with. Reads files.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -42,6 +43,7 @@ class Row {
                    what);
   }
   unsigned line() const { return line_; }
+  bool has_column(std::size_t column) const { return cells_[column] != nullptr; }
   bool has(std::size_t column) const {
     return cells_[column] != nullptr && *cells_[column] != '\0';
   }
@@ -88,16 +90,17 @@ using Reader = io::CSVReader<kColumns, io::trim_chars<' ', '\t'>, io::double_quo
                              io::throw_on_overflow, io::empty_line_comment>;
 
 // The column separator that a spreadsheet has used instead of a comma.
-inline std::string other_separator(const std::string& content) {
-  const std::string header = content.substr(0, content.find('\n'));
+inline std::string other_separator(const std::string& path) {
+  std::string header;
+  std::getline(std::ifstream(path, std::ios::binary), header);
   if (header.find(',') != std::string::npos) return "";
   if (header.find(';') != std::string::npos) return "semicolons";
   return header.find('\t') != std::string::npos ? "tabs" : "";
 }
 
 template <std::size_t kColumns>
-void read_header(Reader<kColumns>& reader, const std::string& path, const Header<kColumns>& header,
-                 const std::string& content) {
+void read_header(Reader<kColumns>& reader, const std::string& path,
+                 const Header<kColumns>& header) {
   std::apply(
       [&](auto... names) {
         reader.read_header(io::ignore_extra_column | io::ignore_missing_column, names...);
@@ -105,7 +108,7 @@ void read_header(Reader<kColumns>& reader, const std::string& path, const Header
       header.names);
   for (std::size_t i = 0; i < header.required; ++i) {
     if (reader.has_column(header.names[i])) continue;
-    const std::string separator = other_separator(content);
+    const std::string separator = other_separator(path);
     if (!separator.empty()) {
       throw CsvError(path + ":1: header: columns are separated by " + separator +
                      ", commas are needed");
@@ -114,23 +117,38 @@ void read_header(Reader<kColumns>& reader, const std::string& path, const Header
   }
 }
 
-// The whole file, its last line ended: the library reads past the end of one that is not.
-inline std::string content_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  file.peek();  // opening a folder succeeds; reading fails here
-  if (!file.is_open() || file.bad()) throw CsvError(path + ": cannot be read");
-  std::string content{std::istreambuf_iterator<char>(file), {}};
-  if (!content.empty() && content.back() != '\n') content += '\n';
-  return content;
-}
+// A file, its last line ended: the library reads past the end of one that is not.
+class EndedLines : public io::ByteSourceBase {
+ public:
+  explicit EndedLines(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+    file_.peek();  // opening a folder succeeds; reading fails here
+    if (!file_.is_open() || file_.bad()) throw CsvError(path + ": cannot be read");
+    file_.clear();
+  }
+  int read(char* buffer, int size) override {
+    file_.read(buffer, size);
+    if (file_.bad()) throw CsvError(path_ + ": cannot be read");
+    auto count = static_cast<int>(file_.gcount());
+    if (count > 0) {
+      last_ = buffer[count - 1];
+    } else if (last_ != '\n' && size > 0) {
+      buffer[count++] = last_ = '\n';
+    }
+    return count;
+  }
+
+ private:
+  std::string path_;
+  std::ifstream file_;
+  char last_ = '\n';
+};
 
 // Passes each row to `take`; translates the library's errors.
 template <std::size_t kColumns, class Take>
 void for_each_row(const std::string& path, const Header<kColumns>& header, Take take) {
   try {
-    const std::string content = content_of(path);
-    Reader<kColumns> reader(path, content.data(), content.data() + content.size());
-    read_header<kColumns>(reader, path, header, content);
+    Reader<kColumns> reader(path, std::make_unique<EndedLines>(path));
+    read_header<kColumns>(reader, path, header);
     std::array<const char*, kColumns> cells{};
     const auto next = [&](auto&... cell) { return reader.read_row(cell...); };
     while (std::apply(next, cells)) {

@@ -78,10 +78,9 @@ Refusal judge(const PointCommand& command, const Situation& situation) {
   if (refusal != Refusal::kNone) return refusal;
   if (!finite(command.angles)) return Refusal::kNotFinite;
   if (!in_range(command.angles)) return Refusal::kOutOfRange;
-  // A unit that appears later would move when no one expects it.
+  // A unit that appears later would move unexpectedly.
   if (mode.reference() == ptu::PtuReference::kUnknown) return Refusal::kNoUnit;
   if (mode.has_doubtful_angles()) return Refusal::kNoReference;
-  if (!situation.pointing.reachable(command.angles)) return Refusal::kUnreachable;
   return Refusal::kNone;
 }
 

@@ -15,7 +15,8 @@ struct Situation {
   double now_s = 0.0;  // station's monotonic clock
 };
 
-// kNone: permitted. A designation also needs its frame, and the tracker's consent.
+// kNone: permitted. A designation also needs its frame and that the tracker accepts it; a point
+// command, that the unit reaches its angles.
 Refusal judge(const DesignateCommand& command, const Situation& situation);
 Refusal judge(const SlewCommand& command, const Situation& situation);
 Refusal judge(const PointCommand& command, const Situation& situation);

@@ -34,7 +34,7 @@ Section pose_section(StationSettings& settings) {
   constexpr const char* kFromGnss = "required without [gnss]";
   constexpr const char* kFromInclinometer = "by [inclinometer], or level";
   StationGeometry& g = settings.station.geometry;
-  sensors::PoseEstimator::Config& keeper = settings.pose;
+  sensors::PoseEstimator::Config& pose = settings.pose;
   return {"pose",
           "The survey of GROUND; it overrides GNSS and inclinometer, which then only check it.",
           {config::number("latitude_deg", g.position.latitude_rad, {-90.0, 90.0}, in_degrees(),
@@ -55,9 +55,9 @@ Section pose_section(StationSettings& settings) {
            angle("tilt_y_deg", g.chain.tilt_y_rad, 45.0,
                  "Inclination of ORIGIN about Y, nose down positive.")
                .default_is(kFromInclinometer),
-           angle_sd("level_sd_deg", keeper.level_sd_rad,
+           angle_sd("level_sd_deg", pose.level_sd_rad,
                     "1-sigma of a tilt that is neither surveyed nor measured."),
-           config::number("alarm_sigma", keeper.alarm_sigma, {1.0, 100.0}, "sigma",
+           config::number("alarm_sigma", pose.alarm_sigma, {1.0, 100.0}, "sigma",
                           "A sensor reading further from the pose is not believed.")}};
 }
 
@@ -207,22 +207,22 @@ Section logic_section(StationConfig& station) {
 void use_survey(ConfigTable& root, StationSettings& settings) {
   ConfigTable& pose = root.table("pose");
   const StationGeometry& geometry = settings.station.geometry;
-  sensors::PoseEstimator::Config& keeper = settings.pose;
+  sensors::PoseEstimator::Config& estimator = settings.pose;
   bool any_place = settings.gnss.host.empty();
   for (const char* key : {"latitude_deg", "longitude_deg", "height_m"})
     any_place = any_place || pose.has(key);
   if (any_place) {
     for (const char* key : {"latitude_deg", "longitude_deg", "height_m"})
       if (!pose.has(key)) throw pose.error(key, "is missing");
-    keeper.surveyed_position = geometry.position;
-    keeper.surveyed_position_sd_m = geometry.sd.position_m;
+    estimator.surveyed_position = geometry.position;
+    estimator.surveyed_position_sd_m = geometry.sd.position_m;
   }
   const bool levelled =
       settings.inclinometer.device.empty() && root.table("calibration").table("sd").has("tilt_deg");
   if (pose.has("tilt_x_deg") || pose.has("tilt_y_deg") || levelled) {
-    keeper.surveyed_tilt_rad =
+    estimator.surveyed_tilt_rad =
         Eigen::Vector2d(geometry.chain.tilt_x_rad, geometry.chain.tilt_y_rad);
-    keeper.surveyed_tilt_sd_rad = geometry.sd.tilt_rad;
+    estimator.surveyed_tilt_sd_rad = geometry.sd.tilt_rad;
   }
 }
 

@@ -28,17 +28,18 @@ void DeviceSet::rearm() {
   if (stop_.pressed()) ptu_.emergency_halt();
 }
 
-void DeviceSet::feed(sensors::PoseEstimator& keeper) {
+void DeviceSet::feed(sensors::PoseEstimator& estimator) {
   if (inclinometer_) {
-    for (const sensors::TiltReading& reading : inclinometer_->take_readings()) keeper.add(reading);
+    for (const sensors::TiltReading& reading : inclinometer_->take_readings())
+      estimator.add(reading);
   }
   if (gnss_) {
-    for (const sensors::GnssReading& reading : gnss_->take_readings()) keeper.add(reading);
+    for (const sensors::GnssReading& reading : gnss_->take_readings()) estimator.add(reading);
   }
 }
 
-std::vector<DeviceReport> DeviceSet::reports() const {
-  std::vector<DeviceReport> reports{camera_.report(), ptu_.report()};
+std::vector<device::DeviceReport> DeviceSet::reports() const {
+  std::vector<device::DeviceReport> reports{camera_.report(), ptu_.report()};
   if (inclinometer_) reports.push_back(inclinometer_->report());
   if (gnss_) reports.push_back(gnss_->report());
   if (gpio_) reports.push_back(gpio_->report());

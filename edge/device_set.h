@@ -6,7 +6,7 @@
 
 #include "edge/camera/aravis_camera.h"
 #include "edge/config.h"
-#include "edge/device_report.h"
+#include "edge/device/device_report.h"
 #include "edge/gpio/gpio.h"
 #include "edge/ptu/ptu_thread.h"
 #include "edge/recorder/recorder.h"
@@ -32,13 +32,13 @@ class DeviceSet {
   const StopLatch& stop() const { return stop_; }
 
   // The sensor readings since the last call.
-  void feed(sensors::PoseEstimator& keeper);
+  void feed(sensors::PoseEstimator& estimator);
   // Permits the PTU to move after an emergency stop, unless the stop was pressed again meanwhile.
   // Also at the start: with a stop configured, the PTU is halted until the stop's level is known.
   void rearm();
 
   // All configured devices, camera and PTU first.
-  std::vector<DeviceReport> reports() const;
+  std::vector<device::DeviceReport> reports() const;
 
  private:
   void on_stop(bool pressed);

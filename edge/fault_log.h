@@ -19,7 +19,7 @@ class FaultLog {
   // that it does not hide others.
   void note(const std::string& source, const std::string& what, std::uint64_t number,
             std::int64_t utime_us);
-  // The same for the result of someone's action: each one is a new fault.
+  // The same for the result of an operator's action: each one is a new fault.
   void note_event(const std::string& source, const std::string& what, std::uint64_t number,
                   std::int64_t utime_us);
   // The alarms that hold now. A new alarm is a fault. A changed number ("silent for 5 s") does not

@@ -16,8 +16,8 @@ std::string pose_file(const StationSettings& settings) {
 }  // namespace
 
 KeptPose::KeptPose(const StationSettings& settings, double now_s)
-    : estimator_(settings.pose), memory_(pose_file(settings)) {
-  sensors::PersistedPose known = memory_.found();
+    : estimator_(settings.pose), store_(pose_file(settings)) {
+  sensors::PersistedPose known = store_.found();
   if (settings.gnss.host.empty()) known.position.reset();
   if (settings.inclinometer.device.empty()) known.tilt.reset();
   estimator_.resume(known, now_s, clock_utime_us());
@@ -29,7 +29,7 @@ std::optional<sensors::StationPose> KeptPose::look(DeviceSet& devices, double no
   devices.feed(estimator_);
   if (now_s >= kept_due_s_) {
     kept_due_s_ = now_s + kKept_s;
-    memory_.keep(estimator_.to_persist(now_s, clock_utime_us()));
+    store_.keep(estimator_.to_persist(now_s, clock_utime_us()));
   }
   return estimator_.pose(now_s);
 }
@@ -39,7 +39,7 @@ std::vector<std::string> KeptPose::alarms(double now_s) const {
   if (estimator_.pose(now_s).position_source == sensors::PoseSource::kNone) {
     alarms.emplace_back("pose: no position yet, no bearings");
   }
-  if (const std::string trouble = memory_.trouble(); !trouble.empty()) {
+  if (const std::string trouble = store_.trouble(); !trouble.empty()) {
     alarms.push_back("pose: " + trouble);
   }
   return alarms;

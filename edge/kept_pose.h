@@ -24,7 +24,7 @@ class KeptPose {
 
  private:
   sensors::PoseEstimator estimator_;
-  PoseStore memory_;
+  PoseStore store_;
   double due_s_ = 0.0;
   double kept_due_s_ = 0.0;
 };

@@ -125,23 +125,23 @@ std::int8_t state_code(StationState state) {
   return M::STATE_IDLE;
 }
 
-std::int8_t device_code(DeviceState state) {
+std::int8_t device_code(device::DeviceState state) {
   using M = ols_msg::station_status_t;
   switch (state) {
-    case DeviceState::kAbsent:
+    case device::DeviceState::kAbsent:
       return M::DEVICE_ABSENT;
-    case DeviceState::kStarting:
+    case device::DeviceState::kStarting:
       return M::DEVICE_STARTING;
-    case DeviceState::kOk:
+    case device::DeviceState::kOk:
       return M::DEVICE_OK;
-    case DeviceState::kFault:
+    case device::DeviceState::kFault:
       return M::DEVICE_FAULT;
   }
   return M::DEVICE_FAULT;
 }
 
 void fill_devices(const StationReport& report, double now_s, ols_msg::station_status_t& message) {
-  for (const DeviceReport& device : report.devices) {
+  for (const device::DeviceReport& device : report.devices) {
     message.device_name.push_back(device.name);
     message.device_state.push_back(device_code(device.state));
     message.device_text.push_back(device.text);
@@ -156,7 +156,7 @@ void fill_numbers(const StationReport& report, ols_msg::station_status_t& messag
   std::map<std::string, double> readings = report.readings;
   std::map<std::string, double> counters = report.counters;
   counters.insert(report.snapshot.counters.begin(), report.snapshot.counters.end());
-  for (const DeviceReport& device : report.devices) {
+  for (const device::DeviceReport& device : report.devices) {
     readings.insert(device.readings.begin(), device.readings.end());
     for (const auto& [name, value] : device.counters) {
       counters.emplace(name, static_cast<double>(value));

@@ -75,7 +75,7 @@ bool StationBus::take_stop(const void* data, int bytes) {
 
 void StationBus::disconnect(const std::string& why) {
   bus_.reset();
-  watch_.connection_ended();
+  monitor_.connection_ended();
   trouble_ = why;
 }
 
@@ -157,7 +157,7 @@ void StationBus::receive() {
   if (!bus_) connect(0.0);
   if (bus_) {
     bus_->handle(0);
-    watch_.look(bus_->traffic(), now_s_);
+    monitor_.look(bus_->traffic(), now_s_);
     if (bus_->is_deaf()) disconnect("no messages arrive any more, not even this station's own");
   }
   end_turn();
@@ -165,7 +165,7 @@ void StationBus::receive() {
 
 std::vector<std::string> StationBus::alarms() const {
   auto alarms = refused_.alarms(now_s_);
-  if (auto alarm = watch_.alarm(now_s_); !alarm.empty()) alarms.push_back(std::move(alarm));
+  if (auto alarm = monitor_.alarm(now_s_); !alarm.empty()) alarms.push_back(std::move(alarm));
   return alarms;
 }
 
@@ -175,7 +175,7 @@ std::map<std::string, double> StationBus::counters() const {
   if (turn_.superseded() > 0) {
     counters["designations_superseded"] = static_cast<double>(turn_.superseded());
   }
-  watch_.count(counters);
+  monitor_.count(counters);
   return counters;
 }
 

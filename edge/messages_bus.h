@@ -84,7 +84,7 @@ class StationBus {
   std::vector<std::pair<std::string, Receive>> subscriptions_;
   BusConnector connector_;
   std::unique_ptr<LcmBus> bus_;
-  BusMonitor watch_;
+  BusMonitor monitor_;
   std::string trouble_ = "not connected yet";
   std::map<std::string, CommandGate> gates_;
   RefusalLog refused_;

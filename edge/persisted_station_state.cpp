@@ -5,7 +5,7 @@ namespace {
 
 constexpr const char* kFree = "free";
 constexpr const char* kStopped = "stopped";
-constexpr const char* kUnknown = "unknown";  // and no one has acted since
+constexpr const char* kUnknown = "unknown";  // and no operator has acted since
 constexpr const char* kEmergency = "emergency";
 
 std::string file_of(const std::string& folder, const std::string& id, const char* subject) {

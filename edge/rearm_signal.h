@@ -1,4 +1,4 @@
-// SIGUSR1 re-arms a station after an emergency stop: someone logged in on its computer counts as a
+// SIGUSR1 re-arms a station after an emergency stop: a user logged in on its computer counts as a
 // person at the station. No program on the bus can send a signal.
 #pragma once
 

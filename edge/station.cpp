@@ -174,8 +174,9 @@ Refusal Station::point(const PointCommand& command, double now_s) {
   pass_time(now_s);
   const Refusal refusal = judge(command, situation(now_s));
   if (refusal != Refusal::kNone) return count(refusal, "point");
-  const PanTilt angles = pointing_.reachable(command.angles).value();
-  point_ = ptu::ServoGoal{now_s, angles, {}, now_s + config_.point_time_s};
+  const auto angles = pointing_.reachable(command.angles);
+  if (!angles) return count(Refusal::kUnreachable, "point");
+  point_ = ptu::ServoGoal{now_s, *angles, {}, now_s + config_.point_time_s};
   enter(StationState::kManual);
   return count(Refusal::kNone, "point");
 }

@@ -74,7 +74,7 @@ class Station {
   // After an emergency stop, by a person at the station: leads to kStopped, from where the operator
   // continues.
   Refusal rearm(double now_s);
-  // The same over the bus, where anyone may send it: refused unless the configuration permits it.
+  // The same over the bus, where any program can send it: refused unless configured otherwise.
   Refusal rearm_over_bus(double now_s);
   // Homes the unit.
   Refusal home(double now_s);

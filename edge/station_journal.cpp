@@ -19,9 +19,10 @@ void StationJournal::note(const clock::ClockPair& now, const Bus& bus, StationRe
 }
 
 void StationJournal::note_devices(const StationReport& report, std::int64_t utime_us) {
-  for (const DeviceReport& device : report.devices) {
+  for (const device::DeviceReport& device : report.devices) {
     troubles_.note(device.name, device.last_error, device.errors, utime_us);
-    const bool ails = device.state == DeviceState::kAbsent || device.state == DeviceState::kFault;
+    const bool ails =
+        device.state == device::DeviceState::kAbsent || device.state == device::DeviceState::kFault;
     troubles_.note_state(device.name, to_string(device.state), ails ? device.text : "", ails);
   }
 }

@@ -21,13 +21,14 @@ gpio::LedPattern led_pattern(const StationReport& report) {
   if (report.snapshot.state == StationState::kEmergency) return gpio::LedPattern::kEmergency;
   if (!all_alarms(report).empty()) return gpio::LedPattern::kTrouble;
   const auto any = [&report](const auto& is) { return std::ranges::any_of(report.devices, is); };
-  if (any([](const DeviceReport& device) {
-        return device.state != DeviceState::kOk && device.state != DeviceState::kStarting;
+  if (any([](const device::DeviceReport& device) {
+        return device.state != device::DeviceState::kOk &&
+               device.state != device::DeviceState::kStarting;
       })) {
     return gpio::LedPattern::kTrouble;
   }
-  if (any([](const DeviceReport& device) {
-        return device.state == DeviceState::kStarting &&
+  if (any([](const device::DeviceReport& device) {
+        return device.state == device::DeviceState::kStarting &&
                (device.name == "camera" || device.name == "ptu");
       })) {
     return gpio::LedPattern::kStarting;
@@ -48,8 +49,8 @@ StationProcess::StationProcess(const StationSettings& settings, std::int64_t boo
       bus_(settings_, boot_id, station_, command_turn_,
            [this](const recorder::RecordCommand& command) { return record(command); }),
       host_(settings_.host),
-      memory_(settings_.state_folder, settings_.id,
-              !settings_.gpio.chip.empty() && settings_.gpio.stop_line >= 0),
+      persisted_(settings_.state_folder, settings_.id,
+                 !settings_.gpio.chip.empty() && settings_.gpio.stop_line >= 0),
       devices_(settings_) {
   const double now_s = clock_monotonic_s();
   station_.set_pose(pose_.pose(now_s));
@@ -73,7 +74,8 @@ void StationProcess::turn() {
   heed_emergency_stop(start.monotonic_s);
   heed_rearming(start.monotonic_s);
   receive_commands();
-  memory_.remember(station_.state(), devices_.ptu().doubt_to_persist(), devices_.ptu().reference());
+  persisted_.remember(station_.state(), devices_.ptu().doubt_to_persist(),
+                      devices_.ptu().reference());
   if (const auto pose = pose_.look(devices_, start.monotonic_s)) station_.set_pose(*pose);
   take_frame();
   take_angles();
@@ -97,10 +99,10 @@ clock::ClockPair StationProcess::look_at_clocks() {
 // If the operator stopped the station before it ended, it stays stopped: a restart does not permit
 // motion.
 void StationProcess::resume_hold(double now_s) {
-  devices_.ptu().restore_doubt(memory_.doubt());
+  devices_.ptu().restore_doubt(persisted_.doubt());
   halted_ = !devices_.stop().known();
-  if (memory_.begin() == StationState::kStopped) station_.begin_stopped();
-  if (memory_.begin() != StationState::kEmergency) return;
+  if (persisted_.begin() == StationState::kStopped) station_.begin_stopped();
+  if (persisted_.begin() != StationState::kEmergency) return;
   devices_.ptu().emergency_halt();
   station_.emergency_stop(true, now_s);
 }
@@ -114,7 +116,7 @@ void StationProcess::heed_emergency_stop(double now_s) {
   halted_ = halted_ || station_.state() == StationState::kEmergency;
 }
 
-// By the re-arm button, or by someone logged in on the station's computer.
+// By the re-arm button, or by a user logged in on the station's computer.
 void StationProcess::heed_rearming(double now_s) {
   const bool button = devices_.stop().take_rearm();
   const bool signal = take_rearm_signal();
@@ -198,7 +200,7 @@ StationReport StationProcess::report(const clock::ClockPair& now) {
   if (report.snapshot.motion_disagrees) {
     report.alarms.emplace_back("ptu: the image motion contradicts the reported angles");
   }
-  for (const std::string& alarm : memory_.alarms()) report.alarms.push_back(alarm);
+  for (const std::string& alarm : persisted_.alarms()) report.alarms.push_back(alarm);
   for (const std::string& alarm : bus_.alarms()) report.alarms.push_back(alarm);
   add_pose_and_clock(now.monotonic_s, report);
   add_host(now.monotonic_s, report);

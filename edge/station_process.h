@@ -60,7 +60,7 @@ class StationProcess {
   CommandTurn command_turn_;
   StationBus bus_;
   HostMonitor host_;
-  PersistedStationState memory_;
+  PersistedStationState persisted_;
   StationJournal journal_;
   DeviceSet devices_;
   std::optional<camera::Frame> newest_;

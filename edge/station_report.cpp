@@ -3,19 +3,6 @@
 #include <algorithm>
 
 namespace ols::station {
-const char* to_string(DeviceState state) {
-  switch (state) {
-    case DeviceState::kAbsent:
-      return "absent";
-    case DeviceState::kStarting:
-      return "starting";
-    case DeviceState::kOk:
-      return "ok";
-    case DeviceState::kFault:
-      return "fault";
-  }
-  return "unknown";
-}
 
 std::vector<std::string> all_alarms(const StationReport& report) {
   std::vector<std::string> all;
@@ -25,14 +12,14 @@ std::vector<std::string> all_alarms(const StationReport& report) {
     }
   };
   add(report.alarms);
-  for (const DeviceReport& device : report.devices) add(device.alarms);
+  for (const device::DeviceReport& device : report.devices) add(device.alarms);
   return all;
 }
 
 std::string in_one_line(const StationReport& report) {
   std::string line = to_string(report.snapshot.state);
-  for (const DeviceReport& device : report.devices) {
-    if (device.state == DeviceState::kOk) continue;
+  for (const device::DeviceReport& device : report.devices) {
+    if (device.state == device::DeviceState::kOk) continue;
     line += "; " + device.name + " " + to_string(device.state);
   }
   const auto alarms = all_alarms(report);

@@ -6,19 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "edge/device_report.h"
+#include "edge/device/device_report.h"
 #include "edge/ptu/servo.h"
 #include "edge/station_types.h"
 
 namespace ols::station {
 
-const char* to_string(DeviceState state);
-
 struct StationReport {
   StationSnapshot snapshot;
   ptu::PtuLimits limits;
   bool limits_known = false;
-  std::vector<DeviceReport> devices;
+  std::vector<device::DeviceReport> devices;
   // In addition to those of the devices.
   std::vector<std::string> alarms;
   std::map<std::string, double> readings;

@@ -17,8 +17,8 @@ std::uint32_t camera_address(const std::string& text);
 class GigeControl {
  public:
   using Reply = std::function<void(gige::Bytes acknowledgement)>;
-  // A packet from the client `peer` (address << 16
-  //  port); called in the own thread.
+  // A packet from the client `peer` (its address << 16, plus its port). Called in the own
+  // thread.
   using Handle = std::function<void(gige::Bytes packet, std::uint64_t peer, const Reply& reply)>;
 
   // Throws std::system_error if the address is not available.

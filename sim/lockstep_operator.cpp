@@ -9,7 +9,7 @@ namespace {
 constexpr double kBoot_s = 100.0;         // of the monotonic clock at the scenario's start
 constexpr double kOperatorDelay_s = 0.3;  // delay of the operator's image
 constexpr double kPointInterval_s = 2.0, kPointLead_s = 1.2;
-constexpr double kStill_s = 0.1;   // no one designates a target in a moving image
+constexpr double kStill_s = 0.1;   // an operator does not designate a target in a moving image
 constexpr double kSettle_s = 1.5;  // from the PTU's readiness to the first designation
 constexpr double kRemembered_s = 1.0;
 constexpr double kDesignationSd_px = 1.0;  // of each axis, as StationConfig assumes for a person

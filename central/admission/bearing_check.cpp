@@ -77,6 +77,8 @@ const char* to_string(BearingRefusal refusal) {
       return "refused_flood";
     case BearingRefusal::kLowBelief:
       return "unused_low_belief";
+    case BearingRefusal::kCount:
+      break;
   }
   return "unknown";
 }

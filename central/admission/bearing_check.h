@@ -19,6 +19,7 @@ enum class BearingRefusal {
   kTooMany,     // more stations than max_stations
   kFlood,       // more bearings of one station than flood_hz allows
   kLowBelief,
+  kCount,  // not a reason: how many there are
 };
 const char* to_string(BearingRefusal refusal);
 

@@ -52,8 +52,8 @@ void FusionBus::handle() {
   }
   bus_->handle(kWaitMs);
   const double now_s = clock_monotonic_s();
-  watch_.look(bus_->traffic(), now_s);
-  const std::string alarm = watch_.alarm(now_s);
+  monitor_.look(bus_->traffic(), now_s);
+  const std::string alarm = monitor_.alarm(now_s);
   if (!alarm.empty() && alarm_.empty()) spdlog::warn("{}", alarm);
   alarm_ = alarm;
 }
@@ -65,7 +65,7 @@ void FusionBus::end_if_broken() {
     spdlog::warn("no bus, retrying every second: {}", trouble_);
     bus_.reset();
     slew_bus_.reset();
-    watch_.connection_ended();
+    monitor_.connection_ended();
   }
   send_failed_ = false;
 }
@@ -91,11 +91,11 @@ void FusionBus::forget_sequences() {
   sequences_.clear();
 }
 
-std::string FusionBus::alarm() const { return watch_.alarm(clock_monotonic_s()); }
+std::string FusionBus::alarm() const { return monitor_.alarm(clock_monotonic_s()); }
 
 void FusionBus::count(std::map<std::string, double>& counters) const {
   counters["messages_not_sent"] = static_cast<double>(not_sent_);
-  watch_.count(counters);
+  monitor_.count(counters);
 }
 
 }  // namespace ols::fusion

@@ -55,7 +55,7 @@ class FusionBus {
   BusConnector connector_;
   std::unique_ptr<LcmBus> bus_;       // null: no network
   std::unique_ptr<LcmBus> slew_bus_;  // null: slews go on the same bus
-  BusMonitor watch_;
+  BusMonitor monitor_;
   std::string alarm_;    // the last one
   std::string trouble_;  // of the network
   bool send_failed_ = false;

@@ -66,6 +66,7 @@ void FusionProcess::on_bearing(const BusMessage& message) {
   if (const auto* refusal = std::get_if<MessageRefusal>(&decoded)) {
     return refuse(*refusal, message.channel);
   }
+  waited_s_ = static_cast<double>(clock_utime_us() - message.received_utime_us) * 1e-6;
   publish(fusion_.add(std::get<BearingMeasurement>(decoded)));
 }
 
@@ -106,7 +107,7 @@ void FusionProcess::refuse(MessageRefusal refusal, const std::string& channel) {
 bool FusionProcess::is_present(std::int64_t utime_us, const char* counter) {
   if (options_.replay) return true;
   const double now_s = clock_monotonic_s();
-  if (present_.passes(utime_us, clock_utime_us(), now_s)) return true;
+  if (present_.passes(utime_us, clock_utime_us(), now_s, waited_s_)) return true;
   ++counters_[counter];
   if (present_.take_event()) {
     errors_.last = present_.alarm(now_s);

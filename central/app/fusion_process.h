@@ -65,6 +65,7 @@ class FusionProcess {
   FusionConflictMonitor others_;
   Errors errors_;
   Latency latency_;
+  double waited_s_ = 0.0;               // the bearing that is processed, before
   std::int64_t status_message_us_ = 0;  // "now" of the last status
   double status_s_ = 0.0;               // this host's monotonic clock at the last status
 };

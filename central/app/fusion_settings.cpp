@@ -99,6 +99,9 @@ std::vector<config::Row> admission_rows(FusionConfig& c) {
                      "How positions are estimated: docs/fusion.md."),
       config::number("rate_hz", c.rate_hz, {0.1, 1000.0}, "Hz",
                      "Maximum rate of positions of each target."),
+      config::integer("paper_targets", c.paper_targets, 0, 1000, "",
+                      "Targets for which the paper's estimate is published as well, on "
+                      "OLS_TARGET_PAPER; 0: none."),
       config::number("min_belief", c.admission.min_belief, {0.0, 1.0}, "",
                      "Bearings with a lower belief are not used."),
       config::number("stale_s", c.admission.stale_s, {0.01, 60.0}, "s",

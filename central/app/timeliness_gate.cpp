@@ -8,22 +8,32 @@ namespace ols::fusion {
 namespace {
 
 constexpr double kTold_s = 3.0;  // so that one or two statuses report even a short one
+constexpr double kLoad = 0.5;    // overload: the wait is more than this share of the offset
 
 }  // namespace
 
-bool TimelinessGate::passes(std::int64_t utime_us, std::int64_t host_us, double now_s) {
+bool TimelinessGate::passes(std::int64_t utime_us, std::int64_t host_us, double now_s,
+                            double waited_s) {
   // In floating point: the difference from an absurd stamp must not overflow.
   const double off_s = (static_cast<double>(utime_us) - static_cast<double>(host_us)) * 1e-6;
   if (std::abs(off_s) <= tolerance_s_) return true;
   news_ = news_ || now_s - withheld_s_ > kTold_s;
   withheld_s_ = now_s;
   off_s_ = off_s;
+  waited_s_ = waited_s;
   return false;
 }
 
 std::string TimelinessGate::alarm(double now_s) const {
   if (now_s - withheld_s_ > kTold_s) return {};
   char text[200];
+  if (waited_s_ > kLoad * std::abs(off_s_)) {
+    std::snprintf(text, sizeof text,
+                  "targets and slews withheld: overload: messages wait %.1f s before they are "
+                  "processed; give this host more processor time, or fewer bearings",
+                  waited_s_);
+    return text;
+  }
   std::snprintf(text, sizeof text,
                 "targets and slews withheld: message time is %+.1f s from this host's clock; "
                 "normal for some seconds after a suspend; otherwise set the clock, or use "

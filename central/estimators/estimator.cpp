@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
+#include "central/estimators/position_covariance.h"
 #include "central/measurement/time_span.h"
 #include "central/tracking/position_guard.h"
 #include "geometry/angles.h"
@@ -45,12 +48,15 @@ class RayEstimator : public Estimator {
 
  protected:
   virtual Estimate solve(const std::vector<Ray>& rays, std::int64_t epoch_us) = 0;
+  // How many stations at most; the first ones.
+  virtual std::size_t most_rays() const { return std::numeric_limits<std::size_t>::max(); }
   const EstimatorConfig& config() const { return config_; }
 
  private:
   std::vector<Ray> rays_at(const TrackView& target, std::int64_t epoch_us) const {
     std::vector<Ray> rays;
     for (const auto& [station, bearings] : target.bearings) {
+      if (rays.size() >= most_rays()) break;
       if (bearings.empty()) continue;
       std::optional<double> range_m;
       if (located_us_ && seconds(epoch_us - *located_us_) < kRangeIsNewsS) {
@@ -96,6 +102,10 @@ class PaperEstimator : public RayEstimator {
     if (last_us_ && seconds(epoch_us - *last_us_) > kAverageGapS) average_.reset();
     last_us_ = epoch_us;
     return average_.add(estimate, epoch_us);
+  }
+  std::size_t most_rays() const override {
+    const int most = config().paper.max_stations;
+    return most > 0 ? static_cast<std::size_t>(most) : RayEstimator::most_rays();
   }
 
  private:
@@ -155,7 +165,7 @@ Estimate estimate_of(const TrackFilter& filter, const KinematicState& state,
   estimate.velocity_ecef = state.mean.segment<3>(3);
   estimate.velocity_covariance_ecef = state.covariance.block<3, 3>(3, 3);
   tell_geometry(filter, state.utime_us, estimate);
-  return estimate;
+  return checked(std::move(estimate));
 }
 
 std::unique_ptr<Estimator> make_estimator(std::string_view name, const EstimatorConfig& config) {

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "central/estimators/position_covariance.h"
 #include "geometry/angles.h"
 #include "geometry/chi_square.h"
 
@@ -189,7 +191,12 @@ Fit fit_weighted(const Problem& problem, std::vector<double> weights,
   fit.solution = iterate(problem, config, fit);
   if (fit.solution != Solution::kOk) return fit;
   const Normal normal = normal_at(problem, fit.weights, fit.x);
-  fit.covariance = normal.information.inverse();
+  const auto covariance = covariance_from(normal.information);
+  if (!covariance) {
+    fit.solution = Solution::kParallelRays;
+    return fit;
+  }
+  fit.covariance = *covariance;
   fit.chi2 = normal.chi2;
   fit.solution = judge(problem, config, fit);
   return fit;
@@ -292,7 +299,7 @@ Estimate least_squares(const std::vector<Ray>& rays, const LeastSquaresConfig& c
   for (std::size_t i = 0; i < rays.size(); ++i) estimate.rays[i] = use_of(problem, fit, i);
   estimate.crossing_angle_rad = crossing_angle(rays, estimate.rays);
   estimate.residual = std::sqrt(fit.chi2 / fit.degrees);
-  return estimate;
+  return checked(std::move(estimate));
 }
 
 void estimate_velocity(const std::vector<Ray>& rays, Estimate& estimate) {
@@ -308,13 +315,12 @@ void estimate_velocity(const std::vector<Ray>& rays, Estimate& estimate) {
     information += weighted * H.transpose();
     right += weighted * rays[i].rate_rad_s;
   }
-  const Eigen::LDLT<Eigen::Matrix3d> solver(information);
-  if (!information.allFinite() || solver.info() != Eigen::Success || !solver.isPositive()) return;
-  const Eigen::Vector3d velocity = solver.solve(right);
-  const Eigen::Matrix3d covariance = solver.solve(Eigen::Matrix3d::Identity());
-  if (!velocity.allFinite() || !covariance.allFinite()) return;
+  const auto covariance = covariance_from(information);
+  if (!covariance) return;
+  const Eigen::Vector3d velocity = *covariance * right;
+  if (!velocity.allFinite()) return;
   estimate.velocity_ecef = velocity;
-  estimate.velocity_covariance_ecef = (covariance + covariance.transpose()) / 2.0;
+  estimate.velocity_covariance_ecef = *covariance;
 }
 
 }  // namespace ols::fusion

@@ -3,20 +3,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
-#include "geometry/precision_paper.h"
+#include "central/estimators/paper_pairing.h"
+#include "central/estimators/position_covariance.h"
 
 namespace ols::fusion {
 namespace {
 
 constexpr double kSamePlaceM = 1e-3;
-
-// A pair of views whose rays intersect.
-struct Base {
-  Eigen::Vector3d point;  // t_i
-  Baseline baseline;
-};
 
 // Angle from a to b about the unit axis, -pi..pi.
 double angle_about(const Eigen::Vector3d& axis, const Eigen::Vector3d& a,
@@ -39,29 +34,6 @@ PaperPoint intersect_in_plane(const PaperView& first, const PaperView& second,
   return {Solution::kOk, first.centre_ecef + s * u};
 }
 
-// All pairs that intersect; `failure` becomes the last pair's reason.
-std::vector<Base> bases_of(const std::vector<PaperView>& views, const PaperConfig& config,
-                           Solution& failure) {
-  std::vector<Base> bases;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    for (std::size_t j = i + 1; j < views.size(); ++j) {
-      const PaperPoint point = paper_two_view(views[i], views[j], config);
-      if (point.solution != Solution::kOk) {
-        failure = point.solution;
-        continue;
-      }
-      bases.push_back({point.position_ecef, {views[i].centre_ecef, views[j].centre_ecef}});
-    }
-  }
-  return bases;
-}
-
-Eigen::Vector3d unweighted_centroid(const std::vector<Base>& bases) {
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-  for (const Base& base : bases) offset += base.point - bases.front().point;
-  return bases.front().point + offset / static_cast<double>(bases.size());
-}
-
 std::vector<PaperView> views_of(const std::vector<Ray>& rays) {
   std::vector<PaperView> views;
   for (const Ray& ray : rays) {
@@ -70,40 +42,19 @@ std::vector<PaperView> views_of(const std::vector<Ray>& rays) {
   return views;
 }
 
-// d position / d (cross-elevation, elevation) of one view, by central differences.
-std::optional<Eigen::Matrix<double, 3, 2>> derivative(std::vector<PaperView> views,
-                                                      std::size_t index, const RayFrame& frame,
-                                                      const PaperConfig& config) {
-  constexpr double kStepRad = 1e-7;
-  Eigen::Matrix<double, 3, 2> jacobian;
-  for (int axis = 0; axis < 2; ++axis) {
-    PaperPoint ends[2];
-    for (int side = 0; side < 2; ++side) {
-      const double step = side == 0 ? -kStepRad : kStepRad;
-      views[index].direction_ecef = (frame.direction + step * frame.tangent.col(axis)).normalized();
-      ends[side] = paper_n_view(views, config);
-      if (ends[side].solution != Solution::kOk) return std::nullopt;
-    }
-    jacobian.col(axis) = (ends[1].position_ecef - ends[0].position_ecef) / (2.0 * kStepRad);
-  }
-  return jacobian;
-}
-
-// Sets both covariances; false if the estimator cannot be differentiated.
-bool propagate(const std::vector<Ray>& rays, const PaperConfig& config, Estimate& estimate) {
-  const std::vector<PaperView> views = views_of(rays);
+// Sets both covariances, to first order.
+void propagate(const std::vector<Ray>& rays, const std::vector<PaperView>& views,
+               const PaperPairing& pairing, const PaperConfig& config, Estimate& estimate) {
   estimate.covariance_ecef.setZero();
   estimate.covariance_white_ecef.setZero();
+  const auto derivatives = derivatives_by_direction(views, pairing, config);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const auto J = derivative(views, i, ray_frame(rays[i].sight), config);
-    if (!J) return false;
+    const Eigen::Matrix<double, 3, 2> J = derivatives[i] * ray_frame(rays[i].sight).tangent;
     const double range_m = (estimate.position_ecef - rays[i].sight.origin_ecef).norm();
-    const Eigen::Matrix3d white = *J * rays[i].sight.covariance_white * J->transpose();
+    const Eigen::Matrix3d white = J * rays[i].sight.covariance_white * J.transpose();
     estimate.covariance_white_ecef += white;
-    estimate.covariance_ecef +=
-        white + *J * systematic_covariance(rays[i], range_m) * J->transpose();
+    estimate.covariance_ecef += white + J * systematic_covariance(rays[i], range_m) * J.transpose();
   }
-  return true;
 }
 
 }  // namespace
@@ -129,40 +80,21 @@ PaperPoint paper_two_view(const PaperView& first, const PaperView& second,
 }
 
 PaperPoint paper_n_view(const std::vector<PaperView>& views, const PaperConfig& config) {
-  Solution failure = Solution::kTooFewRays;
-  const std::vector<Base> bases = bases_of(views, config, failure);
-  if (bases.empty()) return {failure, nan_vector()};
-  const Eigen::Vector3d T0 = unweighted_centroid(bases);  // T' of Algorithm 1, line 4
-  if (config.pairs == PaperPairs::kCentroid) return {Solution::kOk, T0};
-  if (config.pairs == PaperPairs::kBestBaseline) {
-    std::vector<Baseline> baselines;
-    for (const Base& base : bases) baselines.push_back(base.baseline);
-    return {Solution::kOk, bases[best_baseline(baselines, T0)].point};
-  }
-  double sum = 0.0;
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-  for (const Base& base : bases) {
-    const double weight = std::exp(normal_component(base.baseline, T0));  // line 6
-    sum += weight;
-    offset += weight * (base.point - T0);
-  }
-  return {Solution::kOk, T0 + offset / sum};  // line 8
+  const PaperPairing pairing = pair_views(views, config);
+  return {pairing.solution, pairing.position_ecef};
 }
 
 Estimate paper_estimate(const std::vector<Ray>& rays, const PaperConfig& config) {
   Estimate estimate;
   estimate.rays.assign(rays.size(), RayUse{.used = true, .weight = 1.0});
-  const PaperPoint point = paper_n_view(views_of(rays), config);
-  estimate.solution = point.solution;
-  if (point.solution != Solution::kOk) return estimate;
-  estimate.position_ecef = point.position_ecef;
+  const std::vector<PaperView> views = views_of(rays);
+  const PaperPairing pairing = pair_views(views, config);
+  estimate.solution = pairing.solution;
+  if (pairing.solution != Solution::kOk) return estimate;
+  estimate.position_ecef = pairing.position_ecef;
   estimate.crossing_angle_rad = crossing_angle(rays, estimate.rays);
-  if (!propagate(rays, config, estimate)) {
-    estimate = Estimate();
-    estimate.solution = Solution::kParallelRays;
-    estimate.rays.assign(rays.size(), RayUse{.used = true, .weight = 1.0});
-  }
-  return estimate;
+  propagate(rays, views, pairing, config, estimate);
+  return checked(std::move(estimate));
 }
 
 // The covariance between the noise of two estimates, by the overlap of their windows.
@@ -189,7 +121,7 @@ Estimate MovingAverage::add(const Estimate& estimate, std::int64_t utime_us) {
   average.position_ecef += offset;
   average.covariance_ecef += white - estimate.covariance_white_ecef + offset * offset.transpose();
   average.covariance_white_ecef = white;
-  return average;
+  return checked(std::move(average));
 }
 
 }  // namespace ols::fusion

@@ -33,12 +33,13 @@ Fusion::Fusion(const FusionConfig& config)
   if (!make_estimator(config.estimator, config.estimators)) {
     throw std::invalid_argument("unknown estimator " + config.estimator);
   }
-  for (const char* name : {"bearings", "targets", "targets_without_position", "slews",
-                           "clock_stepped_back", "time_stepped_back", "stations_evicted",
-                           "stations_quarantined", "calibrations_changed", "stations_restarted"}) {
+  for (const char* name :
+       {"bearings", "targets", "targets_without_position", "slews", "clock_stepped_back",
+        "time_stepped_back", "stations_evicted", "stations_quarantined", "calibrations_changed",
+        "stations_restarted", "paper_targets_thinned"}) {
     log_.counters[name] = 0.0;
   }
-  for (int i = 1; i <= static_cast<int>(BearingRefusal::kLowBelief); ++i) {
+  for (int i = 1; i < static_cast<int>(BearingRefusal::kCount); ++i) {
     log_.counters[to_string(static_cast<BearingRefusal>(i))] = 0.0;
   }
 }

@@ -25,8 +25,7 @@ namespace ols::fusion {
 struct FusionConfig {
   std::string estimator = "filter";  // of the targets; a name of make_estimator()
   double rate_hz = 15.0;             // max targets per second, of each object
-  int paper_targets = 8;  // the paper's estimate is made of this many targets: its cost grows with
-                          // the square of a target's stations
+  int paper_targets = 8;  // of this many targets the paper's estimate is made as well; 0: of none
   AdmissionConfig admission{};
   EstimatorConfig estimators{};
   TrackManagerConfig keeper{};

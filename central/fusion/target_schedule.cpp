@@ -25,6 +25,15 @@ FusedTarget target_of(std::int64_t epoch_us, const Track& track, const char* est
   return target;
 }
 
+// The paper's estimate beside another one: with more stations its cost, which grows with their
+// square, would delay the targets and slews.
+constexpr int kPaperStations = 100;
+
+EstimatorConfig beside(EstimatorConfig config) {
+  config.paper.max_stations = kPaperStations;
+  return config;
+}
+
 const Track* next_of(std::deque<std::int64_t>& waiting, const TrackManager& tracks) {
   const std::int64_t id = waiting.front();
   waiting.pop_front();
@@ -72,7 +81,9 @@ void TargetSchedule::tell(std::int64_t now_us, TrackManager& tracks, const Clock
   for (; work < kTargetsABearing && epoch_.bearing_only_reported && !epoch_.papers.empty();
        work += kPaperIsWorth) {
     const Track* const track = next_of(epoch_.papers, tracks);
-    if (track != nullptr) output.targets_paper.push_back(locate(*track, true, tracks, clocks));
+    if (track == nullptr) continue;
+    output.targets_paper.push_back(locate(*track, true, tracks, clocks));
+    if (track->bearings.size() > kPaperStations) log.count("paper_targets_thinned");
   }
   for (const FusedTarget& target : output.targets) {
     const bool located = target.estimate.solution == Solution::kOk;
@@ -85,7 +96,7 @@ FusedTarget TargetSchedule::locate(const Track& track, bool by_paper, const Trac
   Object& object = objects_[track.id];
   if (!object.main) {
     object.main = make_estimator(config_.estimator, config_.estimators);
-    object.paper = make_estimator("paper", config_.estimators);
+    object.paper = make_estimator("paper", beside(config_.estimators));
   }
   Estimator& estimator = by_paper ? *object.paper : *object.main;
   const std::int64_t epoch_us = *epoch_.utime_us;

@@ -21,7 +21,7 @@ namespace ols::fusion {
 struct TargetScheduleConfig {
   std::string estimator = "filter";  // a name of make_estimator()
   double rate_hz = 15.0;             // max epochs per second
-  int paper_targets = 8;             // the paper's estimate is made of this many
+  int paper_targets = 8;             // of this many the paper's estimate is made, too; 0: none
   double give_up_s = 2.0;            // older pending outputs are discarded
   EstimatorConfig estimators{};
 };

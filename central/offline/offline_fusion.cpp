@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "central/fusion/association.h"
 #include "central/offline/smoother.h"
@@ -14,33 +17,29 @@
 namespace ols::fusion {
 namespace {
 
-StationBearings recording_of(const std::vector<BearingMeasurement>& measurements, double min_belief,
-                             UnusedBearings& unused) {
-  StationBearings recording;
-  for (const BearingMeasurement& measurement : measurements) {
-    if (measurement.belief >= min_belief) {
-      recording[measurement.station].push_back(measurement);
-    } else {
-      ++unused.low_belief;
-    }
-  }
-  for (auto& [name, all] : recording) {
-    std::ranges::stable_sort(all, {}, &BearingMeasurement::utime_us);
-    const auto same_instant = [](const BearingMeasurement& a, const BearingMeasurement& b) {
-      return a.utime_us == b.utime_us;
-    };
-    const auto first_doubled = std::unique(all.begin(), all.end(), same_instant);
-    unused.duplicate += static_cast<std::size_t>(all.end() - first_doubled);
-    all.erase(first_doubled, all.end());
-  }
-  return recording;
+// Those that are used, in order of time, then of station.
+BearingPointers in_order(const BearingPointers& measurements, double min_belief,
+                         UnusedBearings& unused) {
+  BearingPointers used;
+  used.reserve(measurements.size());
+  std::ranges::copy_if(measurements, std::back_inserter(used),
+                       [&](const BearingMeasurement* m) { return m->belief >= min_belief; });
+  unused.low_belief = measurements.size() - used.size();
+  const auto exposure = [](const BearingMeasurement* m) {
+    return std::tie(m->utime_us, m->station);
+  };
+  std::ranges::stable_sort(used, {}, exposure);
+  const auto doubled = std::ranges::unique(used, {}, exposure);
+  unused.duplicate = doubled.size();
+  used.erase(doubled.begin(), doubled.end());
+  return used;
 }
 
-std::vector<BearingMeasurement> in_order(const StationBearings& recording) {
-  std::vector<BearingMeasurement> all;
-  for (const auto& [name, own] : recording) all.insert(all.end(), own.begin(), own.end());
-  std::ranges::stable_sort(all, {}, &BearingMeasurement::utime_us);
-  return all;
+StationBearings by_station(const BearingPointers& bearings) {
+  StationBearings recording;
+  for (const BearingMeasurement* measurement : bearings)
+    recording[measurement->station].push_back(*measurement);
+  return recording;
 }
 
 void require_reasonable(double rate_hz, double span_s) {
@@ -54,10 +53,10 @@ void require_reasonable(double rate_hz, double span_s) {
   }
 }
 
-std::vector<std::int64_t> epochs_of(const std::vector<BearingMeasurement>& bearings,
-                                    double rate_hz) {
+std::vector<std::int64_t> epochs_of(const BearingPointers& bearings, double rate_hz) {
   std::vector<std::int64_t> epochs;
-  for (const BearingMeasurement& measurement : bearings) epochs.push_back(measurement.utime_us);
+  epochs.reserve(bearings.size());
+  for (const BearingMeasurement* measurement : bearings) epochs.push_back(measurement->utime_us);
   epochs.erase(std::unique(epochs.begin(), epochs.end()), epochs.end());
   if (epochs.empty()) return epochs;
   require_reasonable(rate_hz, static_cast<double>(epochs.back() - epochs.front()) * 1e-6);
@@ -121,30 +120,30 @@ FusedTarget target_of(std::int64_t epoch_us, const char* estimator, Located loca
   return target;
 }
 
-// Keeps the targets with a position; counts the others' reasons.
+// Passes on the targets with a position; counts the others' reasons.
 struct Fixes {
-  std::vector<FusedTarget> targets{};
-  Unlocated unlocated{};
+  const std::function<void(FusedTarget)>& take;
+  Unlocated& unlocated;
 
   void add(std::int64_t epoch_us, const char* estimator, Located located) {
     const Solution solution = located.estimate.solution;
     if (solution == Solution::kOk) {
-      targets.push_back(target_of(epoch_us, estimator, std::move(located)));
+      take(target_of(epoch_us, estimator, std::move(located)));
     } else {
       ++unlocated[solution];
     }
   }
 };
 
-Fixes causal(const std::vector<BearingMeasurement>& bearings,
-             const std::vector<std::int64_t>& epochs, Estimator& estimator,
-             const OfflineConfig& config) {
+using Beside = std::map<std::string, std::string>;
+
+Beside causal(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
+              Estimator& estimator, const OfflineConfig& config, Fixes fixes) {
   Recording recording(config);
-  Fixes fixes;
   auto next = bearings.begin();
   for (const std::int64_t epoch_us : epochs) {
-    for (; next != bearings.end() && next->utime_us <= epoch_us; ++next) {
-      recording.add(*next);
+    for (; next != bearings.end() && (*next)->utime_us <= epoch_us; ++next) {
+      recording.add(**next);
     }
     recording.advance(epoch_us);
     const Track* const track = recording.track().located();
@@ -155,89 +154,91 @@ Fixes causal(const std::vector<BearingMeasurement>& bearings,
     const TrackView view{track->bearings, recording.track().errors(), &track->filter};
     fixes.add(epoch_us, estimator.name(), estimator.locate(view, epoch_us));
   }
-  return fixes;
+  for (; next != bearings.end(); ++next) recording.add(**next);
+  return recording.beside();
 }
 
 // The estimators without memory use the whole recording.
-Fixes interpolating(const std::vector<BearingMeasurement>& bearings,
-                    const StationBearings& recording, const std::vector<std::int64_t>& epochs,
-                    Estimator& estimator, const OfflineConfig& config) {
+Beside interpolating(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
+                     Estimator& estimator, const OfflineConfig& config, Fixes fixes) {
   Recording run(config);
-  for (const BearingMeasurement& measurement : bearings) run.add(measurement);
-  Fixes fixes;
+  for (const BearingMeasurement* measurement : bearings) run.add(*measurement);
+  const StationBearings recording = by_station(bearings);
   for (const std::int64_t epoch_us : epochs) {
     fixes.add(epoch_us, estimator.name(),
               estimator.locate({recording, run.track().errors()}, epoch_us));
   }
-  return fixes;
+  return run.beside();
 }
 
-Fixes smoothed(const std::vector<BearingMeasurement>& bearings,
-               const std::vector<std::int64_t>& epochs, const OfflineConfig& config) {
-  Recording run(config);
-  for (const BearingMeasurement& measurement : bearings) run.add(measurement);
-  KnownStations known{run.track().errors(), {}};
-  for (const auto& [station, why] : run.beside()) known.beside.insert(station);
-  Fixes fixes;
-  for (Smoothed& fix : smooth(bearings, epochs, config.fusion.keeper, known, fixes.unlocated)) {
-    fixes.add(fix.utime_us, "filter", std::move(fix.located));
+Beside smoothed(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
+                const OfflineConfig& config, Fixes fixes) {
+  KnownStations known;
+  Beside beside;
+  {
+    Recording run(config);
+    for (const BearingMeasurement* measurement : bearings) run.add(*measurement);
+    known.errors = run.track().errors();
+    beside = run.beside();
   }
-  return fixes;
+  for (const auto& [station, why] : beside) known.beside.insert(station);
+  const SmootherOutput output{
+      [&](Smoothed fix) { fixes.add(fix.utime_us, "filter", std::move(fix.located)); }, config.tell,
+      config.workers};
+  smooth(bearings, epochs, config.fusion.keeper, known, output);
+  return beside;
 }
 
 }  // namespace
 
-UnusedBearings unused_bearings(const std::vector<BearingMeasurement>& measurements,
-                               const OfflineConfig& config) {
-  UnusedBearings unused;
-  recording_of(measurements, config.fusion.admission.min_belief, unused);
-  return unused;
-}
-
-void guess_clocks(std::vector<BearingMeasurement>& measurements) {
+void guess_clocks(const MutableBearings& measurements) {
   constexpr double kNoises = 4.0, kHalfAFrameS = 0.02;
-  std::map<std::string, std::vector<const BearingMeasurement*>> stations;
-  for (const BearingMeasurement& measurement : measurements)
-    stations[measurement.station].push_back(&measurement);
+  std::map<std::string, BearingPointers> stations;
+  for (const BearingMeasurement* measurement : measurements)
+    stations[measurement->station].push_back(measurement);
   std::map<std::string, double> speeds;
   for (auto& [name, bearings] : stations) {
     std::ranges::stable_sort(bearings, {}, [](const BearingMeasurement* s) { return s->utime_us; });
     speeds[name] = std::sqrt(mean_square_speed(bearings));
   }
-  for (BearingMeasurement& measurement : measurements) {
-    const double noise = std::sqrt(measurement.sight.covariance_white.trace() / 2.0);
-    const double speed = speeds.at(measurement.station);
-    measurement.clock_sd_s = std::min(kHalfAFrameS, kNoises * noise / std::max(1e-9, speed));
+  for (BearingMeasurement* measurement : measurements) {
+    const double noise = std::sqrt(measurement->sight.covariance_white.trace() / 2.0);
+    const double speed = speeds.at(measurement->station);
+    measurement->clock_sd_s = std::min(kHalfAFrameS, kNoises * noise / std::max(1e-9, speed));
   }
 }
 
-std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& measurements,
-                                      const OfflineConfig& config, Unlocated* unlocated) {
+void guess_clocks(std::vector<BearingMeasurement>& measurements) {
+  MutableBearings pointers;
+  for (BearingMeasurement& measurement : measurements) pointers.push_back(&measurement);
+  guess_clocks(pointers);
+}
+
+OfflineReport fuse_offline(const BearingPointers& measurements, const OfflineConfig& config,
+                           const std::function<void(FusedTarget)>& take) {
   const auto estimator = make_estimator(config.estimator, config.fusion.estimators);
   if (!estimator) throw std::invalid_argument("unknown estimator " + config.estimator);
   const bool is_filter = config.estimator == "filter";
   if (config.smooth && !is_filter) throw std::invalid_argument("only the filter can be smoothed");
-  UnusedBearings unused;
-  const StationBearings recording =
-      recording_of(measurements, config.fusion.admission.min_belief, unused);
-  const std::vector<BearingMeasurement> bearings = in_order(recording);
+  OfflineReport report;
+  const BearingPointers bearings =
+      in_order(measurements, config.fusion.admission.min_belief, report.unused);
   const std::vector<std::int64_t> epochs = epochs_of(bearings, config.rate_hz);
-  Fixes fixes = config.smooth ? smoothed(bearings, epochs, config)
-                : is_filter   ? causal(bearings, epochs, *estimator, config)
-                              : interpolating(bearings, recording, epochs, *estimator, config);
-  if (unlocated != nullptr) *unlocated = std::move(fixes.unlocated);
-  return std::move(fixes.targets);
+  const Fixes fixes{take, report.unlocated};
+  report.beside = config.smooth ? smoothed(bearings, epochs, config, fixes)
+                  : is_filter   ? causal(bearings, epochs, *estimator, config, fixes)
+                                : interpolating(bearings, epochs, *estimator, config, fixes);
+  return report;
 }
 
-std::map<std::string, std::string> stations_beside(
-    const std::vector<BearingMeasurement>& measurements, const OfflineConfig& config) {
-  UnusedBearings unused;
-  Recording run(config);
-  for (const BearingMeasurement& measurement :
-       in_order(recording_of(measurements, config.fusion.admission.min_belief, unused))) {
-    run.add(measurement);
-  }
-  return run.beside();
+std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& measurements,
+                                      const OfflineConfig& config, OfflineReport* report) {
+  std::vector<FusedTarget> targets;
+  const OfflineReport found =
+      fuse_offline(pointers_to(measurements), config,
+                   [&](FusedTarget target) { targets.push_back(std::move(target)); });
+  if (report != nullptr) *report = found;
+  return targets;
 }
 
 }  // namespace ols::fusion

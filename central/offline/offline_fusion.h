@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "central/fusion/fusion.h"
+#include "central/offline/bearing_pointers.h"
+#include "central/offline/tasks.h"
 
 namespace ols::fusion {
 
@@ -22,7 +24,9 @@ struct OfflineConfig {
   bool smooth = false;               // only for the filter
   double rate_hz = 0.0;              // epochs on an even grid; 0: at the instant of every bearing
   FusionConfig fusion{};             // shared with the live fusion
-  std::function<void()> tell{};      // called for every bearing that the filter has processed
+  // Called for every bearing that a filter has processed, with `smooth` by the workers.
+  std::function<void()> tell{};
+  Workers workers{};  // for `smooth`
 };
 
 // Bearings that fuse_offline leaves out before it checks the geometry.
@@ -30,24 +34,33 @@ struct UnusedBearings {
   std::size_t low_belief = 0;
   std::size_t duplicate = 0;  // the same station and stamp: the first is used
 };
-UnusedBearings unused_bearings(const std::vector<BearingMeasurement>& measurements,
-                               const OfflineConfig& config);
+
+// What a run shows besides positions.
+struct OfflineReport {
+  UnusedBearings unused{};
+  Unlocated unlocated{};  // instants without a position
+  // Stations whose bearings are off the target of the other stations by the same angle for seconds,
+  // with that angle as text.
+  std::map<std::string, std::string> beside{};
+};
 
 // For a recording without statements on its clocks: sets for each station the offset [s] that would
 // move a bearing by four times its noise at the object's usual angular speed, at most 0.02 s (half
 // a video frame). A clock thus counts as much for a meteor as for a drone.
+void guess_clocks(const MutableBearings& measurements);
 void guess_clocks(std::vector<BearingMeasurement>& measurements);
 
-// One object's bearings, in any order. Returns one target for each epoch that has a position, in
-// order of time, and counts the reasons of the others. Bearings that check() refuses must be left
-// out. Throws std::invalid_argument for a rate that is not finite or makes more than ten million
-// epochs, for an unknown estimator, and for smoothing with an estimator other than the filter.
-std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& measurements,
-                                      const OfflineConfig& config, Unlocated* unlocated = nullptr);
+// One object's bearings, in any order. Passes on a target for each epoch that has a position, in
+// order of time. Bearings that check() refuses must be left out. Throws std::invalid_argument for a
+// rate that is not finite or makes more than ten million epochs, for an unknown estimator, and for
+// smoothing with an estimator other than the filter.
+// The memory it needs besides the bearings does not grow with their number for the filter, and
+// hardly for smoothing; the other estimators copy the bearings.
+OfflineReport fuse_offline(const BearingPointers& measurements, const OfflineConfig& config,
+                           const std::function<void(FusedTarget)>& take);
 
-// Stations whose bearings are off the target of the other stations by the same angle for seconds,
-// with that angle as text. Runs its own filter.
-std::map<std::string, std::string> stations_beside(
-    const std::vector<BearingMeasurement>& measurements, const OfflineConfig& config);
+// The same with all targets in memory.
+std::vector<FusedTarget> fuse_offline(const std::vector<BearingMeasurement>& measurements,
+                                      const OfflineConfig& config, OfflineReport* report = nullptr);
 
 }  // namespace ols::fusion

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace ols::fusion {
@@ -18,12 +19,16 @@ struct Whole {
 // Added so that it can be inverted: 10 ns, 10 nrad, 10 nm.
 constexpr double kLeast = 1e-16;
 
+// Instants of which both runs are stored, and parts of which the backward run is: a part has a
+// part's part, or a block.
+constexpr std::size_t kBlock = 128, kParts = 96;
+
 using Order = std::map<std::string, Eigen::Index>;  // station -> first of its states
 
 // The state extended to all stations' states; those that it does not hold get their prior.
-Whole spread(const TrackFilter& filter, const Order& order, const Eigen::VectorXd& prior,
-             double clock_sign) {
-  const auto [mean, covariance] = filter.mixed();
+Whole spread(const TrackFilter& filter, const FilterGaussian& mixed, const Order& order,
+             const Eigen::VectorXd& prior, double clock_sign) {
+  const auto& [mean, covariance] = mixed;
   std::vector<Eigen::Index> to(static_cast<std::size_t>(mean.size()));
   std::vector<double> sign(to.size(), 1.0);
   for (std::size_t i = 0; i < 9; ++i) to[i] = static_cast<Eigen::Index>(i);
@@ -72,30 +77,46 @@ std::optional<Whole> join(const Whole& a, const Whole& b, const Eigen::VectorXd&
   return Whole{a.mean + joint.solve(Pb.solve(b.mean - a.mean)), joint.solve(one)};
 }
 
-std::vector<BearingMeasurement> mirrored(std::vector<BearingMeasurement> bearings,
-                                         std::int64_t about_us) {
-  for (BearingMeasurement& measurement : bearings)
-    measurement.utime_us = about_us - measurement.utime_us;
-  std::ranges::reverse(bearings);
-  return bearings;
+// What is needed of a run at an instant.
+struct Passed {
+  std::optional<TrackFilter> filter;  // nothing: no position
+  bool is_initiated = false;
+  Solution why_none = Solution::kOk;
+
+  Passed(const RecordedTrack& track, std::int64_t epoch_us) : is_initiated(track.is_initiated()) {
+    if (const Track* const located = track.located()) {
+      filter = located->filter;
+    } else {
+      why_none = track.why_none(epoch_us);
+    }
+  }
+};
+
+// A track that still rests on two rays, one of which may be wrong, is not joined: it is used alone,
+// and only if the other is no better.
+void leave_worth_joining(Passed& past, Passed& future) {
+  if (!past.filter || !future.filter) return;
+  if (!future.is_initiated) {
+    future.filter.reset();
+  } else if (!past.is_initiated) {
+    past.filter.reset();
+  }
 }
 
-// The forward and the backward track. A track that still rests on two rays, one of which may be
-// wrong, is not joined: it is used alone, and only if the other is no better.
-std::pair<const Track*, const Track*> worth_joining(const RecordedTrack& forward,
-                                                    const RecordedTrack& backward) {
-  const Track *ahead = forward.located(), *behind = backward.located();
-  if (ahead == nullptr || behind == nullptr) return {ahead, behind};
-  if (!backward.is_initiated()) return {ahead, nullptr};
-  if (!forward.is_initiated()) return {nullptr, behind};
-  return {ahead, behind};
-}
+// A filter at the instant, mixed once.
+struct Side {
+  const TrackFilter* filter;
+  FilterGaussian mixed;
+
+  explicit Side(const TrackFilter& at) : filter(&at), mixed(at.mixed()) {}
+  SystematicPart systematic() const { return systematic_part(mixed.covariance, filter->priors()); }
+};
 
 // The systematic part of the covariance is taken from the better of the two filters: how fast
 // biases change is the least known of all, and a bias that is constant over some seconds is the
 // same before and after.
-SystematicPart told_biases(const std::optional<TrackFilter>& from_past,
-                           const std::optional<TrackFilter>& from_future) {
+SystematicPart told_biases(const std::optional<Side>& from_past,
+                           const std::optional<Side>& from_future) {
   if (!from_past) return from_future->systematic();
   const SystematicPart before = from_past->systematic();
   if (!from_future) return before;
@@ -103,64 +124,85 @@ SystematicPart told_biases(const std::optional<TrackFilter>& from_past,
   return after.all_m2.trace() < before.all_m2.trace() ? after : before;
 }
 
-// Processes the bearings up to an instant.
+// Processes the bearings up to an instant, forwards, or backwards in mirrored time.
 struct Runner {
   RecordedTrack track;
-  const std::vector<BearingMeasurement>* bearings;
+  const BearingPointers* bearings;
   const std::set<std::string>* beside;
+  std::function<void()> tell;
+  std::optional<std::int64_t> mirrored_about_us{};
   std::size_t next = 0;
 
   void run(std::int64_t utime_us, bool inclusive) {
     for (; next < bearings->size(); ++next) {
-      const BearingMeasurement& measurement = (*bearings)[next];
-      if (measurement.utime_us > utime_us || (measurement.utime_us == utime_us && !inclusive))
-        break;
-      track.advance(measurement.utime_us);
-      track.add(measurement, !beside->contains(measurement.station));
+      if (!mirrored_about_us) {
+        if (!take(*(*bearings)[next], utime_us, inclusive)) break;
+        continue;
+      }
+      BearingMeasurement measurement = *(*bearings)[bearings->size() - 1 - next];
+      measurement.utime_us = *mirrored_about_us - measurement.utime_us;
+      if (!take(measurement, utime_us, inclusive)) break;
     }
+  }
+
+ private:
+  bool take(const BearingMeasurement& measurement, std::int64_t utime_us, bool inclusive) {
+    if (measurement.utime_us > utime_us || (measurement.utime_us == utime_us && !inclusive))
+      return false;
+    if (tell) tell();
+    track.advance(measurement.utime_us);
+    track.add(measurement, !beside->contains(measurement.station));
+    return true;
   }
 };
 
 class Smoother {
  public:
-  Smoother(const std::vector<BearingMeasurement>& bearings, const TrackManagerConfig& config,
-           const KnownStations& known)
-      : forward_(bearings),
-        about_us_(bearings.front().utime_us + bearings.back().utime_us),
-        backward_(mirrored(bearings, about_us_)),
+  Smoother(const BearingPointers& bearings, const TrackManagerConfig& config,
+           const KnownStations& known, const SmootherOutput& output)
+      : bearings_(bearings),
+        about_us_(bearings.front()->utime_us + bearings.back()->utime_us),
+        output_(output),
         beside_(known.beside),
         learnt_(same_states(config)) {
     learnt_.set_errors(known.errors);
     for (const std::string& station : beside_) learnt_.forget_station(station);
-    for (const BearingMeasurement& measurement : bearings) {
-      if (order_
-              .try_emplace(measurement.station,
-                           9 + kStationStates * static_cast<Eigen::Index>(order_.size()))
-              .second) {
-        sights_.push_back(measurement);
-      }
+    has_places_ = std::ranges::any_of(bearings, [](const BearingMeasurement* measurement) {
+      return !measurement->sight.origin_sd_enu_m.isZero(0.0);
+    });
+    for (const BearingMeasurement* measurement : bearings) {
+      const Eigen::Index first = 9 + states() * std::ssize(sights_);
+      if (order_.try_emplace(measurement->station, first).second) sights_.push_back(*measurement);
     }
   }
 
-  std::vector<Smoothed> run(const std::vector<std::int64_t>& epochs, Unlocated& unlocated);
+  void run(std::span<const std::int64_t> epochs) const {
+    Runner forward{learnt_, &bearings_, &beside_, output_.tell};
+    run(epochs, {learnt_, &bearings_, &beside_, output_.tell, about_us_}, forward);
+  }
 
  private:
   static TrackManagerConfig same_states(TrackManagerConfig config) {
     config.filter.place_share = 0.0;  // the same states at both ends
     return config;
   }
+  Eigen::Index states() const { return has_places_ ? kStationStates : kPoseStates; }
   std::vector<BiasPrior> priors(const Eigen::Vector3d& p_ecef) const;
   Eigen::VectorXd prior(const std::vector<BiasPrior>& biases) const;
-  Whole both(const std::optional<TrackFilter>& from_past,
-             const std::optional<TrackFilter>& from_future, const Eigen::VectorXd& variance) const;
-  Smoothed at(std::int64_t epoch_us, const RecordedTrack& forward,
-              const RecordedTrack& backward) const;
+  Whole both(const std::optional<Side>& from_past, const std::optional<Side>& from_future,
+             const Eigen::VectorXd& variance) const;
+  Smoothed at(std::int64_t epoch_us, Passed& past, Passed& future) const;
+  std::vector<Runner> ends_of(std::span<const std::int64_t> epochs, std::size_t part,
+                              Runner end) const;
+  void run(std::span<const std::int64_t> epochs, Runner end, Runner& forward) const;
+  void run_block(std::span<const std::int64_t> epochs, Runner end, Runner& forward) const;
 
-  const std::vector<BearingMeasurement>& forward_;
+  const BearingPointers& bearings_;
   std::int64_t about_us_;
-  std::vector<BearingMeasurement> backward_;
+  const SmootherOutput& output_;
   std::set<std::string> beside_;
-  RecordedTrack learnt_;  // empty, with the learnt errors of the stations
+  RecordedTrack learnt_;     // empty, with the learnt errors of the stations
+  bool has_places_ = false;  // some station states an error of its position
   Order order_;
   std::vector<BearingMeasurement> sights_;  // one of each station, in that order
 };
@@ -169,52 +211,57 @@ std::vector<BiasPrior> Smoother::priors(const Eigen::Vector3d& p_ecef) const {
   std::vector<BiasPrior> biases;
   for (const BearingMeasurement& measurement : sights_) {
     const double range_m = (p_ecef - measurement.sight.origin_ecef).norm();
-    biases.push_back(learnt_.errors().prior(measurement.station, measurement.sight, range_m, true));
+    biases.push_back(
+        learnt_.errors().prior(measurement.station, measurement.sight, range_m, has_places_));
   }
   return biases;
 }
 
 // Variances of the stations' states before any bearing.
 Eigen::VectorXd Smoother::prior(const std::vector<BiasPrior>& biases) const {
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(9 + kStationStates * std::ssize(sights_));
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(9 + states() * std::ssize(sights_));
   for (std::size_t i = 0; i < sights_.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(9 + kStationStates * i);
+    const auto at = 9 + states() * static_cast<Eigen::Index>(i);
     variance.segment<3>(at) = biases[i].rotation.max(kLeast);
     variance(at + 3) = std::max(kLeast, sights_[i].clock_sd_s * sights_[i].clock_sd_s);
-    variance.segment<kPlaceStates>(at + kPoseStates) = biases[i].place_m2.max(kLeast);
+    if (has_places_)
+      variance.segment<kPlaceStates>(at + kPoseStates) = biases[i].place_m2.max(kLeast);
   }
   return variance;
 }
 
 // Both filters' states at the instant; one alone if the other has none or they cannot be joined.
-Whole Smoother::both(const std::optional<TrackFilter>& from_past,
-                     const std::optional<TrackFilter>& from_future,
+Whole Smoother::both(const std::optional<Side>& from_past, const std::optional<Side>& from_future,
                      const Eigen::VectorXd& variance) const {
-  if (!from_past) return spread(*from_future, order_, variance, -1.0);
-  const Whole before = spread(*from_past, order_, variance, 1.0);
+  const auto whole = [&](const Side& side, double clock_sign) {
+    return spread(*side.filter, side.mixed, order_, variance, clock_sign);
+  };
+  if (!from_past) return whole(*from_future, -1.0);
+  const Whole before = whole(*from_past, 1.0);
   if (!from_future) return before;
-  Whole after = spread(*from_future, order_, variance, -1.0);
+  Whole after = whole(*from_future, -1.0);
   forget_acceleration(after);
   return join(before, after, variance).value_or(before);
 }
 
-Smoothed Smoother::at(std::int64_t epoch_us, const RecordedTrack& forward,
-                      const RecordedTrack& backward) const {
+Smoothed Smoother::at(std::int64_t epoch_us, Passed& past, Passed& future) const {
   Smoothed fix{epoch_us, {}};
-  const auto [ahead, behind] = worth_joining(forward, backward);
-  if (ahead == nullptr && behind == nullptr) {
-    fix.located.estimate.solution = forward.why_none(epoch_us);
+  leave_worth_joining(past, future);
+  if (!past.filter && !future.filter) {
+    fix.located.estimate.solution = past.why_none;
     return fix;
   }
   BiasModel shown = BiasModel::evidence_on(learnt_.errors());
-  std::optional<TrackFilter> from_past, from_future;
-  if (ahead != nullptr) {
-    shown.learn(from_past.emplace(ahead->filter).advance(epoch_us, shown));
+  std::optional<Side> from_past, from_future;
+  if (past.filter) {
+    shown.learn(past.filter->advance(epoch_us, shown));
+    from_past.emplace(*past.filter);
   }
-  if (behind != nullptr) {
-    shown.learn(from_future.emplace(behind->filter).advance(about_us_ - epoch_us, shown));
+  if (future.filter) {
+    shown.learn(future.filter->advance(about_us_ - epoch_us, shown));
+    from_future.emplace(*future.filter);
   }
-  const TrackFilter& any = from_past ? *from_past : *from_future;
+  const TrackFilter& any = past.filter ? *past.filter : *future.filter;
   const std::vector<BiasPrior> biases = priors(any.position());
   const Whole joint = both(from_past, from_future, prior(biases));
   KinematicState state{any.utime_us(), joint.mean.head<9>(),
@@ -227,47 +274,73 @@ Smoothed Smoother::at(std::int64_t epoch_us, const RecordedTrack& forward,
   return fix;
 }
 
-std::vector<Smoothed> Smoother::run(const std::vector<std::int64_t>& epochs, Unlocated& unlocated) {
-  constexpr std::size_t kBlock = 256;  // epochs between stored forward states
-  std::vector<Runner> starts;
-  Runner forward{learnt_, &forward_, &beside_};
-  for (std::size_t i = 0; i < epochs.size(); i += kBlock) {
-    starts.push_back(forward);
-    forward.run(epochs[std::min(i + kBlock, epochs.size()) - 1], true);
-  }
-  std::vector<Smoothed> fixes;
-  Runner backward{learnt_, &backward_, &beside_};
-  for (std::size_t block = starts.size(); block-- > 0;) {
-    const std::size_t first = block * kBlock, last = std::min(first + kBlock, epochs.size());
-    std::vector<RecordedTrack> past;
-    for (std::size_t i = first; i < last; ++i) {
-      starts[block].run(epochs[i], true);
-      past.push_back(starts[block].track);
+// Both runs at the instants of a block, then what they give together: each instant by itself.
+void Smoother::run_block(std::span<const std::int64_t> epochs, Runner end, Runner& forward) const {
+  std::vector<Passed> past, future;
+  past.reserve(epochs.size());
+  future.reserve(epochs.size());
+  const auto backwards = [&] {
+    for (std::size_t i = epochs.size(); i-- > 0;) {
+      end.run(about_us_ - epochs[i], false);
+      future.emplace_back(end.track, epochs[i]);
     }
-    for (std::size_t i = last; i-- > first;) {
-      backward.run(about_us_ - epochs[i], false);
-      Smoothed fix = at(epochs[i], past[i - first], backward.track);
-      const Solution solution = fix.located.estimate.solution;
-      if (solution == Solution::kOk) {
-        fixes.push_back(std::move(fix));
-      } else {
-        ++unlocated[solution];
-      }
+  };
+  const auto forwards = [&] {
+    for (const std::int64_t epoch_us : epochs) {
+      forward.run(epoch_us, true);
+      past.emplace_back(forward.track, epoch_us);
     }
-    starts.pop_back();
+  };
+  output_.workers.run({backwards, forwards});
+  std::vector<Smoothed> fixes(epochs.size());
+  Tasks joins;
+  for (std::size_t share = 0; share < output_.workers.count; ++share) {
+    joins.emplace_back([&, share] {
+      for (std::size_t i = share; i < epochs.size(); i += output_.workers.count)
+        fixes[i] = at(epochs[i], past[i], future[epochs.size() - 1 - i]);
+    });
   }
-  std::ranges::reverse(fixes);
-  return fixes;
+  output_.workers.run(joins);
+  for (Smoothed& fix : fixes) output_.take(std::move(fix));
+}
+
+// The backward run at the end of each part, the last part's first.
+std::vector<Runner> Smoother::ends_of(std::span<const std::int64_t> epochs, std::size_t part,
+                                      Runner end) const {
+  std::vector<Runner> ends;
+  for (std::size_t first = (epochs.size() - 1) / part * part;; first -= part) {
+    ends.push_back(end);
+    if (first == 0) return ends;
+    end.run(about_us_ - epochs[first], false);
+  }
+}
+
+// `end`: the backward run after these instants.
+void Smoother::run(std::span<const std::int64_t> epochs, Runner end, Runner& forward) const {
+  if (epochs.size() <= kBlock) return run_block(epochs, std::move(end), forward);
+  std::size_t part = kBlock;
+  while (part * kParts < epochs.size()) part *= kParts;
+  std::vector<Runner> ends = ends_of(epochs, part, std::move(end));
+  for (std::size_t first = 0; first < epochs.size(); first += part) {
+    Runner last = std::move(ends.back());
+    ends.pop_back();
+    run(epochs.subspan(first, std::min(part, epochs.size() - first)), std::move(last), forward);
+  }
 }
 
 }  // namespace
 
-std::vector<Smoothed> smooth(const std::vector<BearingMeasurement>& bearings,
-                             const std::vector<std::int64_t>& epochs,
-                             const TrackManagerConfig& config, const KnownStations& known,
-                             Unlocated& unlocated) {
-  if (bearings.empty()) return {};
-  return Smoother(bearings, config, known).run(epochs, unlocated);
+void smooth(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
+            const TrackManagerConfig& config, const KnownStations& known,
+            const SmootherOutput& output) {
+  if (bearings.empty() || epochs.empty()) return;
+  Smoother(bearings, config, known, output).run(epochs);
+}
+
+std::size_t smoother_runs(std::size_t epochs) {
+  std::size_t runs = 2;
+  for (std::size_t part = kBlock; part < epochs; part *= kParts) ++runs;
+  return runs;
 }
 
 }  // namespace ols::fusion

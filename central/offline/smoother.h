@@ -8,11 +8,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "central/estimators/estimator.h"
+#include "central/offline/bearing_pointers.h"
+#include "central/offline/tasks.h"
 #include "central/tracking/recorded_track.h"
 
 namespace ols::fusion {
@@ -24,15 +27,23 @@ struct Smoothed {
 
 // What a first run has shown of the stations.
 struct KnownStations {
-  BiasModel errors;
-  std::set<std::string> beside;
+  BiasModel errors{};
+  std::set<std::string> beside{};
 };
 
-// One object's bearings and the instants, both in order of time; returns positions only, and counts
-// the reasons of the other instants.
-std::vector<Smoothed> smooth(const std::vector<BearingMeasurement>& bearings,
-                             const std::vector<std::int64_t>& epochs,
-                             const TrackManagerConfig& config, const KnownStations& known,
-                             Unlocated& unlocated);
+struct SmootherOutput {
+  std::function<void(Smoothed)> take{};  // in order of time; without a position, with the reason
+  // Called for every bearing that a filter has processed, by the workers.
+  std::function<void()> tell{};
+  Workers workers{};
+};
+// How often each bearing is processed, for so many instants.
+std::size_t smoother_runs(std::size_t epochs);
+
+// One object's bearings and the instants, both in order of time. The backward filter is stored at
+// the ends of parts, and run again in each: its memory hardly grows with the number of instants.
+void smooth(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
+            const TrackManagerConfig& config, const KnownStations& known,
+            const SmootherOutput& output);
 
 }  // namespace ols::fusion

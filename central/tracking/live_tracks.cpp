@@ -124,6 +124,7 @@ void LiveTracks::merge(std::int64_t older, std::int64_t younger) {
   other->id = 0;
   other->state = TrackState::kDropped;
   identities_.merge(older, younger);
+  merged_.emplace_back(older, younger);
   ++counts_.merged;
 }
 

@@ -17,6 +17,8 @@
 //    otherwise that of the bearing-only track of one of its stations.
 #pragma once
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "central/tracking/duplicate_tracks.h"
@@ -32,6 +34,8 @@ class LiveTracks : public TrackManager {
   Association add(const BearingMeasurement& measurement, bool may_begin) override;
   // Message time was reset: identities are not assigned again.
   void clear();
+  // The identities of duplicates, the one that stays first, in the order of their merging.
+  const std::vector<std::pair<std::int64_t, std::int64_t>>& merged() const { return merged_; }
 
  private:
   struct Candidate {
@@ -50,6 +54,7 @@ class LiveTracks : public TrackManager {
   void merge_duplicates() override;
 
   DuplicateTracks duplicates_;
+  std::vector<std::pair<std::int64_t, std::int64_t>> merged_;
 };
 
 }  // namespace ols::fusion

@@ -5,7 +5,8 @@
 
 namespace ols::bench {
 
-// A line for each number of stations, up to eight of them on a target: processor time.
+// A line for each site: processor time. Up to 1000 stations, eight on a target; and up to 100 that
+// are all on the same target or targets.
 void cost(Limits& limits);
 
 }  // namespace ols::bench

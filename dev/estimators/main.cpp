@@ -9,6 +9,7 @@
 #include "base/command_line.h"
 #include "dev/estimators/accuracy.h"
 #include "dev/estimators/cost.h"
+#include "dev/estimators/long_recording.h"
 #include "dev/estimators/peer.h"
 
 using namespace ols;
@@ -49,12 +50,30 @@ int main(int argc, char** argv) {
   app.add_option("--write-peer", peer,
                  "instead: a folder for bearings and our filter's fixes, as tools/bench-estimators "
                  "gives them to Stone Soup");
+  std::string folder;
+  LongRecording recording;
+  bool anonymous = false;
+  app.add_option("--write-recording", folder,
+                 "instead: a folder for stations.csv and bearings.csv of a long recording");
+  app.add_option("--rows", recording.rows, "its bearings")->capture_default_str();
+  app.add_option("--stations", recording.stations, "its stations")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  app.add_option("--targets", recording.targets, "its targets")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  app.add_flag("--anonymous", anonymous, "without the column `target`");
   if (const auto status = parse_command_line(app, argc, argv, "ols-bench-estimators")) {
     return *status;
   }
   try {
     if (!peer.empty()) {
       write_peer_runs(peer, runs);
+      return 0;
+    }
+    if (!folder.empty()) {
+      recording.are_named = !anonymous;
+      write_long_recording(folder, recording);
       return 0;
     }
     const bool holds = measure(what, quick, runs);

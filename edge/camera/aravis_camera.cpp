@@ -66,7 +66,7 @@ void AravisCamera::set_region(const std::optional<cv::Rect2d>& target_box) {
 
 void AravisCamera::trigger() { impl_->handover_.ask_trigger(); }
 
-station::DeviceReport AravisCamera::report() const {
+device::DeviceReport AravisCamera::report() const {
   return make_camera_report(impl_->config_, impl_->handover_.facts(), clock_monotonic_s());
 }
 

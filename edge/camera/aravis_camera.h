@@ -30,7 +30,7 @@ class AravisCamera {
   // One exposure, with the software trigger; without it a call has no effect.
   void trigger();
 
-  station::DeviceReport report() const;
+  device::DeviceReport report() const;
   CameraState state() const;
   CameraCounters counters() const;
   std::string last_error() const;  // the last error as text; empty: none yet

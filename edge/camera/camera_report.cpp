@@ -20,18 +20,18 @@ std::string words(const char* format, Values... values) {
   return text.data();
 }
 
-station::DeviceState device_state(CameraState state) {
+device::DeviceState device_state(CameraState state) {
   switch (state) {
     case CameraState::kAbsent:
-      return station::DeviceState::kAbsent;
+      return device::DeviceState::kAbsent;
     case CameraState::kStarting:
-      return station::DeviceState::kStarting;
+      return device::DeviceState::kStarting;
     case CameraState::kStreaming:
-      return station::DeviceState::kOk;
+      return device::DeviceState::kOk;
     case CameraState::kFault:
-      return station::DeviceState::kFault;
+      return device::DeviceState::kFault;
   }
-  return station::DeviceState::kFault;
+  return device::DeviceState::kFault;
 }
 
 const char* to_string(PtpState state) {
@@ -99,9 +99,9 @@ void add_alarms(const CameraConfig& config, const CameraFacts& facts, double now
 
 }  // namespace
 
-station::DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,
-                                         double now_s) {
-  station::DeviceReport report;
+device::DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,
+                                        double now_s) {
+  device::DeviceReport report;
   report.name = "camera";
   report.state = device_state(facts.state);
   report.text = facts.identity.empty() ? "" : facts.identity + ", ";
@@ -114,9 +114,9 @@ station::DeviceReport make_camera_report(const CameraConfig& config, const Camer
   report.errors = facts.errors;
   add_alarms(config, facts, now_s, report.alarms);
   // Frames have just stopped: the camera's thread will report it after its timeout.
-  if (report.state == station::DeviceState::kOk && is_timed(config.trigger) &&
+  if (report.state == device::DeviceState::kOk && is_timed(config.trigger) &&
       silence_s(config, facts, now_s)) {
-    report.state = station::DeviceState::kFault;
+    report.state = device::DeviceState::kFault;
     report.text = report.alarms.front();
   }
   report.readings = {{"camera_exposure_us", facts.exposure.exposure_us},

@@ -8,7 +8,7 @@
 #include "edge/camera/camera_config.h"
 #include "edge/camera/frame.h"
 #include "edge/camera/ptp.h"
-#include "edge/device_report.h"
+#include "edge/device/device_report.h"
 
 namespace ols::camera {
 
@@ -50,7 +50,7 @@ struct CameraFacts {
   std::optional<double> ptp_disagreement_s;
 };
 
-station::DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,
-                                         double now_s);
+device::DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,
+                                        double now_s);
 
 }  // namespace ols::camera

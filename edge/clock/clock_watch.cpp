@@ -77,7 +77,7 @@ void ClockWatch::add(const ClockReading& reading) {
   }
 }
 
-// The kernel clears its synchronised flag when someone sets the clock (ntp_clear), but chronyd
+// The kernel clears its synchronised flag when the clock is set (ntp_clear), but chronyd
 // notices it only at its next measurement.
 bool ClockWatch::confirms(const ClockReading& reading) const {
   if (!reading.synchronised) return false;

@@ -5,7 +5,7 @@
 //                   has been silent for a while: the error grows from the last good one by the
 //                   drift of a free-running clock; or the clock was stepped and no service has
 //                   confirmed the new time
-//   unknown         no trace of a time service since boot: someone set the clock, accurately or
+//   unknown         no trace of a time service since boot: the clock was set by hand, accurately or
 //   not.
 //                   The error is the one assumed by the configuration; the fusion compares stations
 //

@@ -260,7 +260,7 @@ bool Gpio::stop_pressed() const {
   return ols::gpio::stop_pressed(impl_->config, impl_->facts);
 }
 
-station::DeviceReport Gpio::report() const {
+device::DeviceReport Gpio::report() const {
   const std::lock_guard lock(impl_->mutex);
   return make_gpio_report(impl_->config, impl_->facts);
 }

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "edge/device_report.h"
+#include "edge/device/device_report.h"
 #include "edge/gpio/led_pattern.h"
 
 namespace ols::config {
@@ -53,7 +53,7 @@ class Gpio {
   void trigger();  // a pulse on trigger_line
   // True also as long as the first level is not known; false without a stop_line.
   bool stop_pressed() const;
-  station::DeviceReport report() const;
+  device::DeviceReport report() const;
 
  private:
   struct Impl;

@@ -6,9 +6,9 @@ bool stop_pressed(const GpioConfig& config, const GpioFacts& facts) {
   return config.stop_line >= 0 && facts.pressed.value_or(true);
 }
 
-station::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts) {
+device::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts) {
   const bool pressed = stop_pressed(config, facts);
-  station::DeviceReport report;
+  device::DeviceReport report;
   report.name = "gpio";
   report.last_good_s = facts.last_good_s;
   report.last_error = facts.error;
@@ -18,17 +18,17 @@ station::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts
                      {"gpio_rearms", facts.rearms},
                      {"gpio_triggers", facts.triggers}};
   if (facts.open && facts.readable) {
-    report.state = station::DeviceState::kOk;
+    report.state = device::DeviceState::kOk;
     report.text = config.chip;
     if (config.stop_line >= 0) report.text += pressed ? ", stop pressed" : ", stop released";
     if (config.stop_line >= 0 && pressed) {
       report.alarms.push_back("gpio: emergency stop pressed");
     }
   } else if (facts.open || facts.failures == 0) {
-    report.state = station::DeviceState::kStarting;
+    report.state = device::DeviceState::kStarting;
     report.text = config.chip + ": waiting for the first level";
   } else {
-    report.state = station::DeviceState::kAbsent;
+    report.state = device::DeviceState::kAbsent;
     report.text = facts.error;
     report.alarms.push_back(config.stop_line >= 0
                                 ? "gpio: stop unreadable, taken as pressed: " + facts.error

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "edge/device_report.h"
+#include "edge/device/device_report.h"
 #include "edge/gpio/gpio.h"
 
 namespace ols::gpio {
@@ -23,6 +23,6 @@ struct GpioFacts {
 // True also as long as the first level is not known; false without a stop_line.
 bool stop_pressed(const GpioConfig& config, const GpioFacts& facts);
 
-station::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts);
+device::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts);
 
 }  // namespace ols::gpio

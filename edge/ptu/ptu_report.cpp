@@ -20,48 +20,48 @@ std::string describe(const PtuLoweredSpeed& lowered) {
                      degrees(lowered.speed_rad_s));
 }
 
-station::DeviceState state_of(const PtuStatus& status) {
-  if (!status.port.open) return station::DeviceState::kAbsent;
+device::DeviceState state_of(const PtuStatus& status) {
+  if (!status.port.open) return device::DeviceState::kAbsent;
   switch (status.state) {
     case PtuState::kStarting:
-      return station::DeviceState::kStarting;
+      return device::DeviceState::kStarting;
     case PtuState::kReady:
-      return station::DeviceState::kOk;
+      return device::DeviceState::kOk;
     case PtuState::kFault:
       break;
   }
-  return station::DeviceState::kFault;
+  return device::DeviceState::kFault;
 }
 
-std::string text_of(const PtuStatus& status, station::DeviceState state) {
+std::string text_of(const PtuStatus& status, device::DeviceState state) {
   const std::string rate = std::to_string(status.line_baud) + " baud";
-  if (state == station::DeviceState::kOk) return ptu_name(status.firmware) + ", " + rate;
-  if (state == station::DeviceState::kStarting && status.homing) return "homing, " + rate;
-  if (state == station::DeviceState::kStarting) return "starting, " + rate;
+  if (state == device::DeviceState::kOk) return ptu_name(status.firmware) + ", " + rate;
+  if (state == device::DeviceState::kStarting && status.homing) return "homing, " + rate;
+  if (state == device::DeviceState::kStarting) return "starting, " + rate;
   return status.last_error.empty() ? "no unit" : status.last_error;
 }
 
 void add_alarms(const PtuConfig& config, const PtuStatus& status, double now_s,
-                station::DeviceReport& report) {
+                device::DeviceReport& report) {
   constexpr double kOld_s = 1.0;
   const auto alarm = [&report](const std::string& what) {
     report.alarms.push_back("ptu: " + what);
   };
   if (status.emergency) alarm(status.standing ? "emergency stop" : "emergency stop, still moving");
-  if (report.state == station::DeviceState::kAbsent) alarm("no serial port: " + status.last_error);
-  if (report.state == station::DeviceState::kFault) alarm("halted, " + status.last_error);
+  if (report.state == device::DeviceState::kAbsent) alarm("no serial port: " + status.last_error);
+  if (report.state == device::DeviceState::kFault) alarm("halted, " + status.last_error);
   if (status.not_referenced) alarm("no reference: home it");
   if (status.homing) alarm("homing");
   if (status.doubt && status.last_error != describe(*status.doubt)) alarm(describe(*status.doubt));
   if (status.lowered_speed) alarm(describe(*status.lowered_speed));
   const bool silent = !status.last_good_s || now_s - *status.last_good_s > kOld_s;
-  if (report.state == station::DeviceState::kOk && silent) alarm("no angles");
+  if (report.state == device::DeviceState::kOk && silent) alarm("no angles");
   if (status.environment && status.environment->supply_V < config.supply_min_V) {
     alarm(with_number("supply voltage low (%.1f V)", status.environment->supply_V));
   }
 }
 
-void add_readings(const PtuStatus& status, station::DeviceReport& report) {
+void add_readings(const PtuStatus& status, device::DeviceReport& report) {
   report.readings["ptu_line_baud"] = status.line_baud;
   if (!status.environment) return;
   const PtuEnvironment& environment = *status.environment;
@@ -71,7 +71,7 @@ void add_readings(const PtuStatus& status, station::DeviceReport& report) {
   if (environment.tilt_degC) report.readings["ptu_tilt_degC"] = *environment.tilt_degC;
 }
 
-void add_counters(const PtuStatus& status, station::DeviceReport& report) {
+void add_counters(const PtuStatus& status, device::DeviceReport& report) {
   const PtuCounters& c = status.counters;
   report.counters = {{"ptu_requests", c.requests},
                      {"ptu_replies", c.replies},
@@ -91,9 +91,9 @@ void add_counters(const PtuStatus& status, station::DeviceReport& report) {
 
 }  // namespace
 
-station::DeviceReport ptu_report(const PtuConfig& config, const PtuStatus& status, double now_s) {
+device::DeviceReport ptu_report(const PtuConfig& config, const PtuStatus& status, double now_s) {
   const PtuCounters& c = status.counters;
-  station::DeviceReport report;
+  device::DeviceReport report;
   report.name = "ptu";
   report.state = state_of(status);
   report.text = text_of(status, report.state);

@@ -5,6 +5,6 @@
 
 namespace ols::ptu {
 
-station::DeviceReport ptu_report(const PtuConfig& config, const PtuStatus& status, double now_s);
+device::DeviceReport ptu_report(const PtuConfig& config, const PtuStatus& status, double now_s);
 
 }  // namespace ols::ptu

@@ -5,7 +5,7 @@
 #include <stop_token>
 
 #include "base/clocks.h"
-#include "edge/device_thread.h"
+#include "edge/device/device_thread.h"
 #include "edge/ptu/ptu_report.h"
 #include "edge/ptu/serial_port.h"
 
@@ -95,7 +95,7 @@ struct PtuThread::Impl {
   mutable std::mutex mutex;               // of everything below but the thread
   PtuDriver driver;
   std::uint64_t reopens = 0;
-  station::DeviceThread thread;  // last: it uses the rest
+  device::DeviceThread thread;  // last: it uses the rest
 };
 
 PtuThread::PtuThread(const PtuConfig& config) : impl_(std::make_unique<Impl>(config)) {
@@ -166,7 +166,7 @@ PtuStatus PtuThread::status() const {
   const std::lock_guard lock(impl_->mutex);
   const PtuDriver& driver = impl_->driver;
   PtuStatus status;
-  const station::DeviceThread::Link link = impl_->thread.link();
+  const device::DeviceThread::Link link = impl_->thread.link();
   status.port = {link.is_open, link.failures, impl_->reopens};
   status.state = link.is_open || link.failures == 0 ? driver.state() : PtuState::kFault;
   status.emergency = impl_->emergency;
@@ -185,7 +185,7 @@ PtuStatus PtuThread::status() const {
   return status;
 }
 
-station::DeviceReport PtuThread::report() const {
+device::DeviceReport PtuThread::report() const {
   return ptu_report(impl_->config, status(), clock_monotonic_s());
 }
 

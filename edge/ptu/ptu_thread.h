@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "edge/device_report.h"
+#include "edge/device/device_report.h"
 #include "edge/ptu/driver.h"
 
 namespace ols::ptu {
@@ -67,7 +67,7 @@ class PtuThread {
   std::optional<PtuReferenceDoubt> doubt_to_persist() const;
 
   PtuStatus status() const;
-  station::DeviceReport report() const;
+  device::DeviceReport report() const;
 
  private:
   struct Impl;

@@ -1,6 +1,6 @@
 // The folder of all events: its size, the disk's free space, and which event may be removed.
 //
-// Anyone on the bus may request recordings, so new ones must not displace the old: once in
+// Any program on the bus can request recordings, so new ones must not displace the old: once in
 // `protect_s` one event older than that is removed for new ones, the oldest of the label that
 // occupies most space.
 #pragma once

@@ -273,9 +273,9 @@ void Recorder::add(const camera::Frame& frame, std::int64_t utime_us) {
 
 std::string Recorder::record(const RecordCommand& command) { return impl_->record(command); }
 
-station::DeviceReport Recorder::report() const {
+device::DeviceReport Recorder::report() const {
   const std::lock_guard lock(impl_->mutex);
-  station::DeviceReport report;
+  device::DeviceReport report;
   report.name = "recorder";
   const DiskState& disk = impl_->disk;
   report.last_good_s = disk.good_s;
@@ -299,14 +299,14 @@ station::DeviceReport Recorder::report() const {
         "and delete them");
   }
   if (const std::string wrong = impl_->wrong(); !wrong.empty()) {
-    report.state = station::DeviceState::kFault;
+    report.state = device::DeviceState::kFault;
     report.text = wrong;
     report.alarms.push_back("recorder: " + wrong);
   } else if (!disk.good_s) {
-    report.state = station::DeviceState::kStarting;
+    report.state = device::DeviceState::kStarting;
     report.text = impl_->config.folder;
   } else {
-    report.state = station::DeviceState::kOk;
+    report.state = device::DeviceState::kOk;
     report.text = std::to_string(disk.stored_events) + " events in " + impl_->config.folder;
     if (!impl_->queue.empty()) report.text += ", recording";
     if (!impl_->beside.empty()) report.text += "; " + impl_->beside;

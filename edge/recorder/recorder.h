@@ -10,7 +10,7 @@
 #include <string>
 
 #include "edge/camera/frame.h"
-#include "edge/device_report.h"
+#include "edge/device/device_report.h"
 
 namespace ols::config {
 struct Section;
@@ -23,7 +23,7 @@ struct RecorderConfig {
   double memory_max_bytes = 256e6;
   double quota_bytes = 4e9;  // all events together
   // Once in this time one older event is removed for new ones; otherwise recordings that do not fit
-  // are refused. A day, because someone checks a site, and its alarms, that often.
+  // are refused. A day, because a site and its alarms are checked that often.
   double protect_s = 86400.0;
   double disk_reserve_bytes = 1e9;  // always left free on the disk
   double event_max_s = 60.0;
@@ -48,7 +48,7 @@ class Recorder {
   void add(const camera::Frame& frame, std::int64_t utime_us);
   // Empty: accepted; otherwise the reason.
   std::string record(const RecordCommand& command);
-  station::DeviceReport report() const;
+  device::DeviceReport report() const;
 
  private:
   struct Impl;

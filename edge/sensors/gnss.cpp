@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/clocks.h"
-#include "edge/device_thread.h"
+#include "edge/device/device_thread.h"
 #include "edge/sensors/gnss_from_gpsd.h"
 #include "edge/sensors/gpsd_link.h"
 
@@ -117,9 +117,9 @@ struct Gnss::Impl {
     return {};
   }
 
-  station::DeviceReport report() const {
+  device::DeviceReport report() const {
     const std::lock_guard lock(mutex);
-    station::DeviceReport r = thread.report();
+    device::DeviceReport r = thread.report();
     describe(r);
     r.last_good_s = last_fix_s;
     if (last) {
@@ -133,12 +133,12 @@ struct Gnss::Impl {
     return r;
   }
 
-  void describe(station::DeviceReport& r) const {
-    if (r.state == station::DeviceState::kFault) {
-      if (silence != GpsdLink::Silence::kReceiverSilent) r.state = station::DeviceState::kAbsent;
+  void describe(device::DeviceReport& r) const {
+    if (r.state == device::DeviceState::kFault) {
+      if (silence != GpsdLink::Silence::kReceiverSilent) r.state = device::DeviceState::kAbsent;
       if (!last) r.alarms.push_back("gnss: " + r.text);
-    } else if (r.state == station::DeviceState::kOk) {
-      if (!last || !is_fix(*last)) r.state = station::DeviceState::kStarting;
+    } else if (r.state == device::DeviceState::kOk) {
+      if (!last || !is_fix(*last)) r.state = device::DeviceState::kStarting;
       r.text = last ? format(*last) : "waiting for the receiver";
     }
   }
@@ -150,7 +150,7 @@ struct Gnss::Impl {
   std::optional<double> last_fix_s;
   GpsdLink::Silence silence = GpsdLink::Silence::kReceiverSilent;  // the cause of a silence
   std::uint64_t reports = 0, fixes = 0;
-  station::DeviceThread thread;  // last: it uses the rest
+  device::DeviceThread thread;  // last: it uses the rest
 };
 
 Gnss::Gnss(const GnssConfig& config) : impl_(std::make_unique<Impl>(config)) {
@@ -165,6 +165,6 @@ std::vector<GnssReading> Gnss::take_readings() {
   return std::exchange(impl_->readings, {});
 }
 
-station::DeviceReport Gnss::report() const { return impl_->report(); }
+device::DeviceReport Gnss::report() const { return impl_->report(); }
 
 }  // namespace ols::sensors

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "edge/device_report.h"
+#include "edge/device/device_report.h"
 #include "edge/sensors/gnss_reading.h"
 
 namespace ols::config {
@@ -36,7 +36,7 @@ class Gnss {
   Gnss& operator=(const Gnss&) = delete;
 
   std::vector<GnssReading> take_readings();  // since the last call, oldest first
-  station::DeviceReport report() const;
+  device::DeviceReport report() const;
 
  private:
   struct Impl;

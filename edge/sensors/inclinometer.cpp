@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/clocks.h"
-#include "edge/device_thread.h"
+#include "edge/device/device_thread.h"
 #include "edge/ptu/serial_port.h"
 #include "geometry/angles.h"
 
@@ -60,7 +60,7 @@ struct Inclinometer::Impl {
         if (starts >= kStartsBeforeReopening) throw std::runtime_error("sends no readings");
         ++starts;
         last_reading_s = clock_monotonic_s();
-        start_streaming(port);  // someone may have stopped it, or it lost its setting with power
+        start_streaming(port);  // it may have been stopped, or a power cycle reset it
       }
     }
   }
@@ -103,9 +103,9 @@ struct Inclinometer::Impl {
     return {};
   }
 
-  station::DeviceReport report() const {
+  device::DeviceReport report() const {
     const std::lock_guard lock(mutex);
-    station::DeviceReport r = thread.report();
+    device::DeviceReport r = thread.report();
     describe(r);
     if (last) {
       r.last_good_s = last->time_s;
@@ -123,13 +123,13 @@ struct Inclinometer::Impl {
     return r;
   }
 
-  void describe(station::DeviceReport& r) const {
-    if (r.state == station::DeviceState::kFault) {
+  void describe(device::DeviceReport& r) const {
+    if (r.state == device::DeviceState::kFault) {
       if (!last) r.alarms.push_back("inclinometer: " + r.text);
-    } else if (r.state == station::DeviceState::kOk && !last) {
-      r.state = station::DeviceState::kStarting;
+    } else if (r.state == device::DeviceState::kOk && !last) {
+      r.state = device::DeviceState::kStarting;
       r.text = "waiting for readings";
-    } else if (r.state == station::DeviceState::kOk) {
+    } else if (r.state == device::DeviceState::kOk) {
       r.text = (parser.version().empty() ? "" : parser.version() + ", ") + in_degrees(*last);
     }
   }
@@ -141,7 +141,7 @@ struct Inclinometer::Impl {
   std::optional<AxisAngles> last;  // the last good pair
   double changed_s = 0.0;          // last time a digit changed
   std::uint64_t starts_sent = 0;
-  station::DeviceThread thread;  // last: it uses the rest
+  device::DeviceThread thread;  // last: it uses the rest
 };
 
 Inclinometer::Inclinometer(const InclinometerConfig& config)
@@ -157,6 +157,6 @@ std::vector<TiltReading> Inclinometer::take_readings() {
   return std::exchange(impl_->readings, {});
 }
 
-station::DeviceReport Inclinometer::report() const { return impl_->report(); }
+device::DeviceReport Inclinometer::report() const { return impl_->report(); }
 
 }  // namespace ols::sensors

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "edge/device_report.h"
+#include "edge/device/device_report.h"
 #include "edge/sensors/dpg2.h"
 #include "edge/sensors/tilt_reading.h"
 
@@ -46,7 +46,7 @@ class Inclinometer {
 
   // Readings since the last call, oldest first.
   std::vector<TiltReading> take_readings();
-  station::DeviceReport report() const;
+  device::DeviceReport report() const;
 
  private:
   struct Impl;

@@ -191,7 +191,7 @@ def test_bad_folders_are_refused(tmp_path):
         read_folder(tmp_path)
 
 
-@pytest.mark.parametrize("folder", ["tracking", "tracking_gaps"])
+@pytest.mark.parametrize("folder", ["tracking", "tracking_gaps", "tracking_ground"])
 def test_same_figures_as_the_other_scorer(shared, tmp_path, folder):
     """Boxes that are off by more and more, some of them missing."""
     path = shared / "tools/score_boxes.py"

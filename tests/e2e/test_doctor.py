@@ -102,7 +102,7 @@ def test_a_running_station_is_asked_and_left_alone(devices):
     after = listener.wait_for_status("alfa")
     assert after.boot_id == before.boot_id
     known = dict(zip(before.counter_name, before.counter_value, strict=True))
-    for name in ("camera_reconnects", "ptu_port_failures"):  # as when somebody else has opened it
+    for name in ("camera_reconnects", "ptu_port_failures"):  # as when another program has opened it
         assert listener.counter("alfa", name) == known[name]
     site.check()
 

@@ -176,7 +176,7 @@ def test_a_doubt_outlives_the_station_until_a_person_vouches(loop):
     assert ctl("stop") == 0
     wait_for_alarm(loop, "homing was interrupted")
     restart(loop)
-    # While it sweeps on it answers nobody; then it could be driven, but is not.
+    # While it sweeps it does not answer; then it could be driven, but is not.
     wait_for_alarm(loop, "halted, its reference was in doubt already before this start")
     assert not ptu_is(loop, OK)
     assert ctl("reference-ok") == 0

@@ -7,6 +7,8 @@ import re
 import subprocess
 import sys
 
+import numpy as np
+import ols
 import pytest
 from conftest import BIN, lines_said
 
@@ -71,6 +73,71 @@ def test_targets_are_kept_apart(folder):
     (folder / "bearings.csv").write_text("\n".join(rows))
     assert fuse_in(folder).returncode == 0
     assert [fix["target"] for fix in csv.DictReader((folder / "fixes.csv").open())] == ["a", "b"]
+
+
+SITE = ols.LocalFrame(
+    ols.Geodetic(latitude_rad=math.radians(49.2), longitude_rad=math.radians(16.6), height_m=250.0)
+)
+PLACES = {"a": (-200.0, 0.0, 0.0), "b": (200.0, 0.0, 2.0), "c": (0.0, 250.0, -1.0)}
+
+
+def where(target, time_s):
+    """Three targets, each at its own height; the first two cross in every station's view."""
+    start, velocity = [
+        ((-60.0, 40.0, 60.0), (12.0, 5.0, 0.5)),
+        ((60.0, 60.0, 90.0), (-12.0, -4.0, -0.5)),
+        ((0.0, 130.0, 130.0), (3.0, -11.0, 0.0)),
+    ][target]
+    return np.array(start) + time_s * np.array(velocity)
+
+
+def anonymous_recording(folder, duration_s=8.0, rate_hz=25.0, noise_rad=3e-4):
+    random = np.random.default_rng(19)
+    stations, bearings = [STATIONS.splitlines()[0]], [BEARINGS.splitlines()[0]]
+    cameras = {name: SITE.to_ecef(np.array(place)) for name, place in PLACES.items()}
+    for name, camera in cameras.items():
+        place = ols.geodetic_from_ecef(camera)
+        latitude, longitude = math.degrees(place.latitude_rad), math.degrees(place.longitude_rad)
+        stations.append(f"{name},{latitude:.9f},{longitude:.9f},{place.height_m:.4f}")
+    for k in range(int(duration_s * rate_hz)):
+        for i, (name, camera) in enumerate(cameras.items()):
+            time_s = (k + i / 3) / rate_hz
+            for target in random.permutation(3):
+                line = ols.R_ecef_enu(camera).T @ (SITE.to_ecef(where(target, time_s)) - camera)
+                direction = ols.azimuth_elevation_from_enu(line)
+                elevation = direction.elevation_rad + random.normal(0.0, noise_rad)
+                across = random.normal(0.0, noise_rad) / math.cos(direction.elevation_rad)
+                bearings.append(
+                    f"{1_600_000_000_000_000 + round(1e6 * time_s)},{name},"
+                    f"{math.degrees(direction.azimuth_rad + across):.6f},"
+                    f"{math.degrees(elevation):.6f},{math.degrees(noise_rad):.6f}"
+                )
+    (folder / "stations.csv").write_text("\n".join(stations))
+    (folder / "bearings.csv").write_text("\n".join(bearings))
+
+
+@pytest.mark.parametrize("options", [[], ["--smooth"], ["--estimator", "least-squares"]])
+def test_several_targets_without_names_are_those_of_the_live_tracks(tmp_path, options):
+    anonymous_recording(tmp_path)
+    result = fuse_in(tmp_path, *options)
+    assert result.returncode == 0, result.stderr
+    followed, errors_m = {}, []
+    for fix in csv.DictReader((tmp_path / "fixes.csv").open()):
+        place = ols.Geodetic(
+            latitude_rad=math.radians(float(fix["latitude_deg"])),
+            longitude_rad=math.radians(float(fix["longitude_deg"])),
+            height_m=float(fix["height_m"]),
+        )
+        at = SITE.to_enu(ols.ecef_from_geodetic(place))
+        time_s = 1e-6 * (int(fix["utime_us"]) - 1_600_000_000_000_000)
+        off_m = [float(np.linalg.norm(at - where(target, time_s))) for target in range(3)]
+        errors_m.append(min(off_m))
+        followed.setdefault(fix["target"], []).append(int(np.argmin(off_m)))
+    assert sorted(map(set, followed.values()), key=min) == [{0}, {1}, {2}]
+    assert min(map(len, followed.values())) > 0.9 * 3 * 200
+    assert np.percentile(errors_m, 95) < 0.5
+    unused = re.search(r"(\d+) of 1800 bearings not used", result.stderr)
+    assert unused is None or int(unused[1]) < 90
 
 
 @pytest.mark.parametrize(

@@ -117,7 +117,7 @@ def station(network, tmp_path_factory):
         listener.start()
         listener.site, listener.config = site, config
         listener.wait_for_status("tool")
-        # Nobody knows how it was left: it has just been set up.
+        # Its last state is unknown: it has just been set up.
         listener.wait_for_state(ols_msg.station_status_t.STATE_STOPPED)
         listener.command(ols_msg.ptu_command_t.COMMAND_RELEASE)
         listener.wait_for_state(ols_msg.station_status_t.STATE_IDLE)

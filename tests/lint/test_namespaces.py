@@ -11,6 +11,7 @@ NAMESPACES = {
     "base": "ols",
     "edge/camera": "ols::camera",
     "edge/clock": "ols::clock",
+    "edge/device": "ols::device",
     "edge/gpio": "ols::gpio",
     "edge/ptu": "ols::ptu",
     "edge/recorder": "ols::recorder",

@@ -16,7 +16,7 @@
 #include "ols_msg/station_status_t.hpp"
 #include "tools/ctl/heard_status.h"
 #include "tools/ctl/operator.h"
-#include "tools/doctor/judge_site.h"
+#include "tools/doctor/judge_host.h"
 
 namespace ols::doctor {
 namespace {
@@ -25,17 +25,17 @@ constexpr int kPoll_ms = 50;
 constexpr double kCommand_s = 2.0;
 constexpr std::size_t kMostBoots = 100;  // limits the memory that forged messages can use
 
-station::DeviceState device_state_of(std::int8_t code) {
+device::DeviceState device_state_of(std::int8_t code) {
   using M = ols_msg::station_status_t;
   switch (code) {
     case M::DEVICE_STARTING:
-      return station::DeviceState::kStarting;
+      return device::DeviceState::kStarting;
     case M::DEVICE_OK:
-      return station::DeviceState::kOk;
+      return device::DeviceState::kOk;
     case M::DEVICE_FAULT:
-      return station::DeviceState::kFault;
+      return device::DeviceState::kFault;
     default:
-      return station::DeviceState::kAbsent;
+      return device::DeviceState::kAbsent;
   }
 }
 
@@ -51,7 +51,7 @@ StationHeard station_from(const ols_msg::station_status_t& status) {
   station.id = status.station;
   station.state = ctl::state_name(status.state);
   for (std::size_t i = 0; i < status.device_name.size(); ++i) {
-    station::DeviceReport device;
+    device::DeviceReport device;
     device.name = status.device_name[i];
     device.state = device_state_of(status.device_state[i]);
     device.text = status.device_text[i];

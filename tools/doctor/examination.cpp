@@ -8,6 +8,7 @@
 #include "edge/config.h"
 #include "tools/doctor/bus_listener.h"
 #include "tools/doctor/judge_devices.h"
+#include "tools/doctor/judge_host.h"
 #include "tools/doctor/judge_site.h"
 #include "tools/doctor/probe.h"
 #include "tools/logger/logger_config.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "edge/clock/clock_watch.h"
-#include "edge/device_report.h"
+#include "edge/device/device_report.h"
 #include "edge/ptu/unit_model.h"
 
 namespace ols::doctor {
@@ -17,7 +17,7 @@ namespace ols::doctor {
 struct StationHeard {
   std::string id;
   std::string state;  // "tracking"
-  std::vector<station::DeviceReport> devices;
+  std::vector<device::DeviceReport> devices;
   clock::ClockState clock = clock::ClockState::kUnknown;
   double clock_error_s = 0.0;
   bool position_known = true;

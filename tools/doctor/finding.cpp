@@ -1,6 +1,7 @@
 #include "tools/doctor/finding.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "base/plain_text.h"
@@ -27,6 +28,12 @@ Verdict gravest(const Findings& findings) {
 }
 
 }  // namespace
+
+std::string number(double value, const char* format) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
 
 void append(Findings& all, const Findings& more) {
   all.insert(all.end(), more.begin(), more.end());

@@ -22,6 +22,9 @@ inline Finding fail(std::string what, std::string advice) {
   return {Verdict::kFail, std::move(what), std::move(advice)};
 }
 
+// A value in printf's notation, for the text of a finding.
+std::string number(double value, const char* format);
+
 using Findings = std::vector<Finding>;
 
 void append(Findings& all, const Findings& more);

@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 
 namespace ols::doctor {
@@ -15,12 +14,6 @@ constexpr double kMega = 1e6;
 constexpr double kBitsPerByte = 8.0;
 constexpr double kHot_degC = 65.0;  // GT1290: operating range to 65 degC, of the housing
 constexpr double kArcsecPerDegree = 3600.0;
-
-std::string number(double value, const char* format) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -48,7 +41,7 @@ const char* advice_for(const std::string& device) {
   return "see the station's journal";
 }
 
-const char* advice_for(const station::DeviceReport& report) {
+const char* advice_for(const device::DeviceReport& report) {
   if (report.text.find("reference-ok") == std::string::npos) return advice_for(report.name);
   return "clear its whole travel of people and cables, then ols-ctl STATION home; or compare its "
          "angles with something known, then ols-ctl STATION reference-ok";
@@ -102,15 +95,15 @@ Finding judge_supply(const PtuAnswers& ptu) {
 
 }  // namespace
 
-Finding judge(const station::DeviceReport& device) {
+Finding judge(const device::DeviceReport& device) {
   const std::string words = device.name + (device.text.empty() ? "" : ": " + device.text);
   switch (device.state) {
-    case station::DeviceState::kOk:
+    case device::DeviceState::kOk:
       return ok(words);
-    case station::DeviceState::kStarting:
+    case device::DeviceState::kStarting:
       return warn(words, "starting; ask again in a minute");
-    case station::DeviceState::kAbsent:
-    case station::DeviceState::kFault:
+    case device::DeviceState::kAbsent:
+    case device::DeviceState::kFault:
       break;
   }
   const std::string trouble = device.last_error.empty() || device.last_error == device.text

@@ -7,7 +7,7 @@
 namespace ols::doctor {
 
 // A device as the station or its own driver reports it.
-Finding judge(const station::DeviceReport& device);
+Finding judge(const device::DeviceReport& device);
 // Nothing when the line can be used.
 std::optional<Finding> judge_line(const std::string& name, const SerialFacts& serial);
 Findings judge(const PtuAnswers& ptu);

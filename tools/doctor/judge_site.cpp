@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <sstream>
 
 #include "tools/doctor/judge_devices.h"
 
@@ -15,14 +11,7 @@ namespace {
 constexpr std::int64_t kRmemLeast = 8 << 20;
 constexpr double kFrameLossWarning = 0.01;
 constexpr double kRecent_s = 60.0;
-constexpr double kGiga = 1e9;
 constexpr double kMilli = 1e-3;
-
-std::string number(double value, const char* format) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 double counter(const StationHeard& station, const char* name) {
   const auto found = station.counters.find(name);
@@ -133,7 +122,7 @@ Findings judge(const StationHeard& station) {
   } else {
     findings.push_back(ok("station: " + station.id + " runs, " + station.state));
   }
-  for (const station::DeviceReport& device : station.devices) findings.push_back(judge(device));
+  for (const device::DeviceReport& device : station.devices) findings.push_back(judge(device));
   findings.push_back(judge_clock(station));
   if (!station.position_known) {
     findings.push_back(fail("pose: no position, and so no bearings",
@@ -147,94 +136,6 @@ Findings judge(const StationHeard& station) {
              "journalctl -u 'ols-station@*' shows more"));
   }
   return findings;
-}
-
-Finding judge(const clock::ClockQuality& clock) {
-  const std::string words =
-      "clock: " + clock.text + (clock.alarm.empty() ? "" : " (" + clock.alarm + ")");
-  if (clock.state == clock::ClockState::kSynchronised && clock.alarm.empty()) return ok(words);
-  if (clock.state == clock::ClockState::kUnknown) {
-    return warn(words, "install chrony; examples: chrony-gnss.conf");
-  }
-  return warn(words, "chronyc sources and chronyc tracking show why");
-}
-
-Finding judge(const FolderFacts& folder) {
-  const std::string words = "disk: " + folder.name + " " + folder.folder;
-  if (folder.error != 0) {
-    return fail(words + ": " + std::strerror(folder.error),
-                "make it (systemd-tmpfiles --create), give it to user ols, check that the disk is "
-                "mounted writable");
-  }
-  const std::string free = ", " + number(folder.free_bytes / kGiga, "%.1f GB free");
-  if (folder.free_bytes < folder.reserve_bytes) {
-    return warn(words + free, "free disk space: recording pauses below" +
-                                  number(folder.reserve_bytes / kGiga, " %.1f GB"));
-  }
-  return ok(words + free);
-}
-
-Findings judge(const station::HostReport& host) {
-  Findings findings;
-  for (const std::string& alarm : host.alarms) {
-    findings.push_back(
-        warn("host: " + alarm, "give a hot processor shade and air; free disk space"));
-  }
-  const auto cpu = host.readings.find("cpu_degC");
-  if (host.alarms.empty() && cpu != host.readings.end()) {
-    findings.push_back(ok("host: processor" + number(cpu->second, " %.0f degC")));
-  }
-  return findings;
-}
-
-std::optional<Finding> judge(const UnitFacts& unit) {
-  if (unit.load != "loaded") return std::nullopt;
-  const std::string words =
-      "service: " + unit.id + " " + unit.active + (unit.status.empty() ? "" : ", " + unit.status);
-  const std::string journal = "journalctl -u " + unit.id + " -n 20";
-  if (unit.active == "failed") {
-    return fail(words + " (" + unit.result + ")",
-                journal + " shows why; it is restarted every minute");
-  }
-  if (unit.active == "activating") return warn(words + " (" + unit.sub + ")", journal);
-  if (unit.active != "active") return warn(words, "systemctl enable --now " + unit.id);
-  if (unit.restarts > 0) {
-    return warn(words + ", started again " + std::to_string(unit.restarts) + " times", journal);
-  }
-  return ok(words);
-}
-
-std::vector<UnitFacts> parse_units(const std::string& text) {
-  std::vector<UnitFacts> units;
-  std::istringstream lines(text);
-  bool inside = false;
-  for (std::string line; std::getline(lines, line);) {
-    const auto equals = line.find('=');
-    if (equals == std::string::npos) {
-      inside = false;  // an empty line ends a block
-      continue;
-    }
-    if (!inside) units.emplace_back();
-    inside = true;
-    UnitFacts& unit = units.back();
-    const std::string key = line.substr(0, equals), value = line.substr(equals + 1);
-    if (key == "Id") unit.id = value;
-    if (key == "LoadState") unit.load = value;
-    if (key == "ActiveState") unit.active = value;
-    if (key == "SubState") unit.sub = value;
-    if (key == "Result") unit.result = value;
-    if (key == "StatusText") unit.status = value;
-    if (key == "NRestarts") unit.restarts = std::atoi(value.c_str());
-  }
-  return units;
-}
-
-std::string parse_route(const std::string& text) {
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (word == "dev" && words >> word) return word;
-  }
-  return {};
 }
 
 }  // namespace ols::doctor

@@ -19,10 +19,10 @@ PtuAnswers ask_ptu(const ptu::PtuConfig& config);
 CameraAnswers ask_camera(const camera::CameraConfig& config);
 
 // The sensors by their own drivers, for as long as each takes to be well, at most `seconds`.
-station::DeviceReport ask_gnss(const sensors::GnssConfig& config, double seconds);
-station::DeviceReport ask_inclinometer(const sensors::InclinometerConfig& config, double seconds);
+device::DeviceReport ask_gnss(const sensors::GnssConfig& config, double seconds);
+device::DeviceReport ask_inclinometer(const sensors::InclinometerConfig& config, double seconds);
 // Reads the emergency stop; outputs stay untouched.
-station::DeviceReport ask_gpio(const gpio::GpioConfig& config);
+device::DeviceReport ask_gpio(const gpio::GpioConfig& config);
 
 clock::ClockQuality ask_clock(const clock::ClockWatch::Config& config, double seconds);
 

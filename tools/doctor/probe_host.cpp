@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "edge/clock/command_output.h"
-#include "tools/doctor/judge_site.h"
+#include "tools/doctor/judge_host.h"
 #include "tools/doctor/probe.h"
 
 namespace ols::doctor {

@@ -21,45 +21,45 @@ void wait_until(Well well, double seconds) {
 }
 
 template <typename Sensor, typename Config>
-station::DeviceReport ask_sensor(const Config& config, double seconds) {
+device::DeviceReport ask_sensor(const Config& config, double seconds) {
   Sensor sensor(config);
-  wait_until([&] { return sensor.report().state == station::DeviceState::kOk; }, seconds);
+  wait_until([&] { return sensor.report().state == device::DeviceState::kOk; }, seconds);
   return sensor.report();
 }
 
 }  // namespace
 
-station::DeviceReport ask_gnss(const sensors::GnssConfig& config, double seconds) {
+device::DeviceReport ask_gnss(const sensors::GnssConfig& config, double seconds) {
   return ask_sensor<sensors::Gnss>(config, seconds);
 }
 
-station::DeviceReport ask_inclinometer(const sensors::InclinometerConfig& config, double seconds) {
+device::DeviceReport ask_inclinometer(const sensors::InclinometerConfig& config, double seconds) {
   return ask_sensor<sensors::Inclinometer>(config, seconds);
 }
 
-station::DeviceReport ask_gpio(const gpio::GpioConfig& config) {
+device::DeviceReport ask_gpio(const gpio::GpioConfig& config) {
   constexpr double kLevel_s = 0.5;
-  station::DeviceReport report;
+  device::DeviceReport report;
   report.name = "gpio";
   try {
     gpio::LineUse use;
     if (config.stop_line >= 0) use.inputs.push_back({config.stop_line, gpio::LineBias::kPullUp});
     const auto lines = gpio::open_gpio_lines(config.chip, use);
-    report.state = station::DeviceState::kOk;
+    report.state = device::DeviceState::kOk;
     report.text = config.chip;
     if (config.stop_line < 0) return report;
     std::vector<gpio::LineLevel> levels;
     lines->refresh();
     wait_until([&] { return !(levels = lines->receive()).empty(); }, kLevel_s);
     if (levels.empty()) {
-      report.state = station::DeviceState::kFault;
+      report.state = device::DeviceState::kFault;
       report.text += ": the emergency stop's line does not answer";
     } else {
       report.text +=
           levels.back().high ? ", emergency stop's line is high" : ", emergency stop's line is low";
     }
   } catch (const std::system_error& trouble) {
-    report.state = station::DeviceState::kAbsent;
+    report.state = device::DeviceState::kAbsent;
     report.text = trouble.what();
   }
   return report;

@@ -2,17 +2,24 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <iostream>
 #include <map>
+#include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "base/atomic_file.h"
 #include "base/command_line.h"
 #include "base/csv_files.h"
+#include "base/fix_writer.h"
 #include "base/output_check.h"
 #include "base/progress.h"
+#include "central/offline/object_separation.h"
 #include "central/offline/offline_fusion.h"
+#include "central/offline/smoother.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "tools/offline/recorded_bearings.h"
@@ -61,14 +68,19 @@ ols::FixRow fix_of(const ols::fusion::FusedTarget& target, const std::string& id
   return fix;
 }
 
-void tell_unused(const ols::fusion::UnusedBearings& unused, std::size_t bearings) {
-  const std::size_t all = unused.low_belief + unused.duplicate;
+struct Unused {
+  std::size_t low_belief = 0, duplicate = 0, unexplained = 0;
+};
+
+void tell_unused(const Unused& unused, std::size_t bearings) {
+  const std::size_t all = unused.low_belief + unused.duplicate + unused.unexplained;
   if (all == 0) return;
   std::cerr << "ols-fuse: " << all << " of " << bearings << " bearings not used:";
   const char* separator = " ";
   for (const auto& [count, why] :
        {std::pair(unused.low_belief, "of low belief"),
-        std::pair(unused.duplicate, "with an earlier bearing's station and time")}) {
+        std::pair(unused.duplicate, "with an earlier bearing's station and time"),
+        std::pair(unused.unexplained, "of no target")}) {
     if (count == 0) continue;
     std::cerr << separator << count << ' ' << why;
     separator = ", ";
@@ -92,14 +104,7 @@ void tell_unlocated(const ols::fusion::Unlocated& unlocated, std::size_t fixes,
   std::cerr << '\n';
 }
 
-std::size_t count(const ols::offline::RecordedBearings& recording) {
-  std::size_t bearings = 0;
-  for (const auto& [id, sightings] : recording) bearings += sightings.size();
-  return bearings;
-}
-
-ols::fusion::OfflineConfig config_of(const Options& options, std::size_t bearings) {
-  constexpr std::size_t kRuns = 2;  // of the filter: the stations' errors first, then the positions
+ols::fusion::OfflineConfig config_of(const Options& options) {
   ols::fusion::OfflineConfig config;
   config.estimator = options.estimator;
   config.smooth = options.smooth;
@@ -107,9 +112,99 @@ ols::fusion::OfflineConfig config_of(const Options& options, std::size_t bearing
   config.fusion.estimators.paper = options.paper;
   config.fusion.estimators.paper.pairs = kPaperPairs.at(options.paper_pairs);
   config.fusion.estimators.paper.by_belief = !options.paper_halves;
-  config.tell = [bearings, progress = ols::Progress("ols-fuse", "bearings"),
-                 taken = std::size_t{0}]() mutable { progress(++taken / kRuns, bearings); };
   return config;
+}
+
+// How far the filters are, over all their runs.
+class Steps {
+ public:
+  Steps(std::size_t bearings, std::size_t runs) : bearings_(bearings), runs_(runs) {}
+  void operator()() {
+    const std::lock_guard lock(mutex_);
+    progress_(++done_ / runs_, bearings_);
+  }
+
+ private:
+  std::size_t bearings_, runs_, done_ = 0;
+  ols::Progress progress_{"ols-fuse", "bearings"};
+  std::mutex mutex_;
+};
+
+ols::fusion::Workers all_processors() {
+  const auto run = [](const ols::fusion::Tasks& tasks) {
+    std::vector<std::future<void>> others;
+    for (std::size_t i = 1; i < tasks.size(); ++i)
+      others.push_back(std::async(std::launch::async, tasks[i]));
+    tasks.front()();
+    for (std::future<void>& other : others) other.get();
+  };
+  return {std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8), run};
+}
+
+// How often filters process each bearing.
+std::size_t runs_of(const Options& options, std::size_t bearings, bool separates) {
+  return 1 + (options.smooth ? ols::fusion::smoother_runs(bearings) : 0) + (separates ? 1 : 0);
+}
+
+void set_clocks(const Options& options, const ols::fusion::MutableBearings& all) {
+  if (!options.clock_sd_s) return ols::fusion::guess_clocks(all);
+  for (ols::fusion::BearingMeasurement* bearing : all) bearing->clock_sd_s = *options.clock_sd_s;
+}
+
+using Targets = std::vector<ols::offline::RecordedTarget>;
+
+// The targets of a file that names none, but shows several: those of the live tracks.
+Targets separated(const ols::offline::RecordedTarget& anonymous,
+                  const ols::fusion::OfflineConfig& config, Unused& unused) {
+  auto found = ols::fusion::separate_objects(anonymous.bearings, config.fusion, config.tell);
+  unused = {found.low_belief, found.duplicate, found.unexplained};
+  Targets targets;
+  for (auto& [id, bearings] : found.objects)
+    targets.push_back({std::to_string(id), std::move(bearings)});
+  return targets;
+}
+
+// Writes fixes in order of time: of one target at once, of several at the end.
+class Output {
+ public:
+  Output(const std::string& path, bool several) : writer_(path), several_(several) {}
+  void add(const ols::FixRow& fix) {
+    ++count_;
+    if (several_) {
+      fixes_.push_back(fix);
+    } else {
+      writer_.add(fix);
+    }
+  }
+  std::size_t commit() {
+    std::ranges::stable_sort(fixes_, {}, &ols::FixRow::utime_us);
+    for (const ols::FixRow& fix : fixes_) writer_.add(fix);
+    writer_.commit();
+    return count_;
+  }
+
+ private:
+  ols::FixWriter writer_;
+  bool several_;
+  std::vector<ols::FixRow> fixes_;
+  std::size_t count_ = 0;
+};
+
+void fuse(const ols::offline::RecordedTarget& target, const ols::fusion::OfflineConfig& config,
+          Output& output, Unused& unused) {
+  std::size_t fixes = 0;
+  const auto report = ols::fusion::fuse_offline({target.bearings.begin(), target.bearings.end()},
+                                                config, [&](const ols::fusion::FusedTarget& fused) {
+                                                  output.add(fix_of(fused, target.name));
+                                                  ++fixes;
+                                                });
+  unused.low_belief += report.unused.low_belief;
+  unused.duplicate += report.unused.duplicate;
+  for (const auto& [station, why] : report.beside) {
+    std::cerr << "ols-fuse: station " << station << ", target " << target.name << ": " << why
+              << '\n';
+  }
+  tell_unlocated(report.unlocated, fixes, target.name);
 }
 
 // How many positions there are.
@@ -117,30 +212,25 @@ std::size_t run(const Options& options) {
   ols::check_outputs({{"--stations", options.stations}, {"--bearings", options.bearings}},
                      {{"--output", options.output}});
   auto recording = ols::offline::read_recorded_bearings(options.stations, options.bearings);
-  const std::size_t bearings = count(recording);
-  const ols::fusion::OfflineConfig config = config_of(options, bearings);
-  std::vector<ols::FixRow> fixes;
-  ols::fusion::UnusedBearings unused;
-  for (auto& [id, sightings] : recording) {
-    if (options.clock_sd_s) {
-      for (ols::fusion::BearingMeasurement& sighting : sightings)
-        sighting.clock_sd_s = *options.clock_sd_s;
-    }
-    const ols::fusion::UnusedBearings here = ols::fusion::unused_bearings(sightings, config);
-    unused.low_belief += here.low_belief;
-    unused.duplicate += here.duplicate;
-    for (const auto& [station, why] : ols::fusion::stations_beside(sightings, config)) {
-      std::cerr << "ols-fuse: station " << station << ", target " << id << ": " << why << '\n';
-    }
-    ols::fusion::Unlocated unlocated;
-    const auto targets = ols::fusion::fuse_offline(sightings, config, &unlocated);
-    for (const auto& target : targets) fixes.push_back(fix_of(target, id));
-    tell_unlocated(unlocated, targets.size(), id);
+  const std::size_t bearings = recording.bearings.size();
+  Targets targets = ols::offline::targets_of(recording);
+  const bool separates =
+      recording.targets.empty() && ols::fusion::shows_several_objects(targets.front().bearings);
+  ols::fusion::OfflineConfig config = config_of(options);
+  Steps steps(bearings, runs_of(options, bearings, separates));
+  config.tell = [&steps] { steps(); };
+  config.workers = all_processors();
+  Unused unused;
+  for (const auto& target : targets) set_clocks(options, target.bearings);
+  if (separates) {
+    targets = separated(targets.front(), config, unused);
+    // Of all objects together a station's bearings seem to jump.
+    for (const auto& target : targets) set_clocks(options, target.bearings);
   }
-  std::ranges::stable_sort(fixes, {}, &ols::FixRow::utime_us);
-  ols::write_fixes(options.output, fixes);
+  Output output(options.output, targets.size() > 1);
+  for (const auto& target : targets) fuse(target, config, output, unused);
   tell_unused(unused, bearings);
-  return fixes.size();
+  return output.commit();
 }
 
 void add_files(CLI::App& app, Options& options) {

@@ -1,20 +1,32 @@
 // Reads stations.csv and bearings.csv as input of the fusion.
 #pragma once
 
-#include <map>
-#include <optional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "central/measurement/bearing_measurement.h"
+#include "central/offline/bearing_pointers.h"
 
 namespace ols::offline {
 
-using RecordedBearings =
-    std::map<std::string, std::vector<fusion::BearingMeasurement>>;  // by target id
+struct RecordedBearings {
+  std::vector<fusion::BearingMeasurement> bearings{};  // in the order of the file
+  // By number, from 0: the names in the column `target`, and the number of each bearing's. Empty
+  // where the file has no such column.
+  std::vector<std::string> targets{};
+  std::vector<std::uint32_t> target_of{};
+};
 
 // Throws CsvError, also if the angles can only be radians, despite the columns' names.
 RecordedBearings read_recorded_bearings(const std::string& stations_path,
                                         const std::string& bearings_path);
+
+// The bearings of each target, in the order of their names; the one of a file that names none
+// is "1".
+struct RecordedTarget {
+  std::string name;
+  fusion::MutableBearings bearings{};
+};
+std::vector<RecordedTarget> targets_of(RecordedBearings& recording);
 
 }  // namespace ols::offline

@@ -10,9 +10,11 @@ import cv2
 
 from ols_bench import figures, tables, worst
 from ols_bench.clips import BadInput, Clip, read_folder
+from ols_bench.pictures import frames_per_second
 from ols_bench.places import places_of
-from ols_bench.results import results_of
-from ols_bench.trackers import NAMES, OURS, frames_per_second, run_opencv, run_ours
+from ols_bench.results import Result, results_of, with_repeats
+from ols_bench.trackers import NAMES, OURS, RANDOM, run_opencv, run_ours
+from ols_bench.variants import KINDS, variant
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -24,7 +26,14 @@ def arguments() -> argparse.Namespace:
         type=Path,
         nargs="+",
         metavar="CLIPS",
-        help="folder with NAME.mp4 or NAME.avi and NAME.csv (frame,x,y,w,h: the truth)",
+        help="folder with NAME.mp4, NAME.avi or a folder NAME/ of pictures, and NAME.csv "
+        "(frame,x,y,w,h: the truth)",
+    )
+    parser.add_argument(
+        "--variants",
+        default="",
+        metavar="KINDS",
+        help="run also on clips made of the given ones, into OUTPUT/clips: " + ", ".join(KINDS),
     )
     parser.add_argument("--output", type=Path, default=ROOT / "out/tracking")
     parser.add_argument(
@@ -34,7 +43,10 @@ def arguments() -> argparse.Namespace:
         "there (default: %(default)s)",
     )
     parser.add_argument(
-        "--seed", type=int, default=1, help="of the random numbers (default: %(default)s)"
+        "--seeds",
+        default="1",
+        help="of the random numbers, such as 1,2,3: tables and plots are of the first one, mean "
+        "and range of all are given beside (default: %(default)s)",
     )
     parser.add_argument("--config", type=Path, help="TOML file with a table [tracker] for ours")
     parser.add_argument(
@@ -53,14 +65,53 @@ def folders_of(paths: list[Path]) -> dict[str, list[Clip]]:
     return folders
 
 
-def run(tracker: str, folders: dict[str, list[Clip]], given: argparse.Namespace) -> None:
+def variants_of(
+    folders: dict[str, list[Clip]], kinds: list[str], output: Path
+) -> dict[str, list[Clip]]:
+    made = {}
+    for folder, clips in folders.items():
+        for kind in kinds:
+            name = f"{folder}-{kind}"
+            made[name] = variant(kind, clips, output / "clips" / name)
+            print(f"{name}: made of {len(made[name])} of {len(clips)} clips", flush=True)
+    return {name: clips for name, clips in made.items() if clips}
+
+
+def names_in(text: str, known: tuple[str, ...], option: str) -> list[str]:
+    names = [name.strip() for name in text.split(",") if name.strip()]
+    for name in names:
+        if name not in known:
+            raise BadInput(f"{option}: {name}: none of {', '.join(known)}")
+    return names
+
+
+def seeds_in(text: str) -> list[int]:
+    try:
+        seeds = [int(part) for part in text.split(",")]
+    except ValueError:
+        raise BadInput(f"--seeds: not whole numbers: {text}") from None
+    if min(seeds) < 0 or len(set(seeds)) < len(seeds):
+        raise BadInput(f"--seeds: negative, or one of them twice: {text}")
+    return seeds
+
+
+def seed_places(tracker: str, seeds: list[int]) -> dict[int, int | None]:
+    """Of each seed to run with, what its place is called by."""
+    wanted = seeds if tracker in RANDOM else seeds[:1]
+    return {seed: seed if place else None for place, seed in enumerate(wanted)}
+
+
+def run(
+    tracker: str, folders: dict[str, list[Clip]], given: argparse.Namespace, seeds: list[int]
+) -> None:
     for folder, clips in folders.items():
         for clip in clips:
-            places = places_of(given.output, tracker, folder, clip)
-            if tracker in OURS:
-                run_ours(tracker, clip, places, given.seed, given.program, given.config)
-            else:
-                run_opencv(tracker, clip, places, given.seed)
+            for seed, place in seed_places(tracker, seeds).items():
+                places = places_of(given.output, tracker, folder, clip, place)
+                if tracker in OURS:
+                    run_ours(tracker, clip, places, seed, given.program, given.config)
+                else:
+                    run_opencv(tracker, clip, places, seed)
             print(f"{tracker:14} {folder}/{clip.name}", flush=True)
 
 
@@ -72,7 +123,7 @@ def complete(tracker: str, folders: dict[str, list[Clip]], output: Path) -> bool
     )
 
 
-def about(ran: list[str], shown: list[str], seed: int) -> str:
+def about(ran: list[str], shown: list[str], seeds: list[int]) -> str:
     core = ",".join(map(str, sorted(os.sched_getaffinity(0))))
     model = "unknown processor"
     for line in Path("/proc/cpuinfo").read_text().splitlines():
@@ -81,7 +132,7 @@ def about(ran: list[str], shown: list[str], seed: int) -> str:
             break
     text = (
         f"One thread on core {core} of {platform.machine()}, {model}; OpenCV {cv2.__version__}'s "
-        f"trackers; seed {seed}. Times are processor time inside the trackers' update alone, "
+        f"trackers; seed {seeds[0]}. Times are processor time inside the trackers' update alone, "
         "decoding apart."
     )
     earlier = [tracker for tracker in shown if tracker not in ran]
@@ -90,24 +141,45 @@ def about(ran: list[str], shown: list[str], seed: int) -> str:
     return text
 
 
+def results_with_seeds(
+    tracker: str,
+    folders: dict[str, list[Clip]],
+    together: list[str],
+    output: Path,
+    seeds: list[int],
+) -> dict[str, Result]:
+    rates = {clip.path: frames_per_second(clip) for clips in folders.values() for clip in clips}
+    first, *others = (
+        results_of(output, tracker, folders, rates, together, place)
+        for place in seed_places(tracker, seeds).values()
+    )
+    return with_repeats(first, others)
+
+
+def bench(given: argparse.Namespace) -> None:
+    wanted = names_in(given.trackers, NAMES, "--trackers")
+    kinds = names_in(given.variants, KINDS, "--variants")
+    seeds = seeds_in(given.seeds)
+    folders = folders_of(given.clips)
+    together = list(folders)
+    folders |= variants_of(folders, kinds, given.output)
+    for name in wanted:
+        run(name, folders, given, seeds)
+    shown = [name for name in NAMES if name in wanted or complete(name, folders, given.output)]
+    results = {}
+    for name in shown:
+        of = seeds if name in wanted else seeds[:1]
+        results[name] = results_with_seeds(name, folders, together, given.output, of)
+    tables.write(given.output, results, about(wanted, shown, seeds))
+    figures.draw(given.output, results)
+    if "ours (full)" in results:
+        worst.draw(given.output, "ours (full)", folders, results["ours (full)"])
+
+
 def main() -> None:
     given = arguments()
-    wanted = [name.strip() for name in given.trackers.split(",")]
     try:
-        for name in wanted:
-            if name not in NAMES:
-                raise BadInput(f"--trackers: {name}: none of {', '.join(NAMES)}")
-        folders = folders_of(given.clips)
-        for name in wanted:
-            run(name, folders, given)
-        shown = [name for name in NAMES if complete(name, folders, given.output)]
-        rates = {clip.path: frames_per_second(clip) for clips in folders.values() for clip in clips}
-        results = {name: results_of(given.output, name, folders, rates) for name in shown}
-        text = about(wanted, shown, given.seed)
-        tables.write(given.output, results, text)
-        figures.draw(given.output, results)
-        if "ours (full)" in results:
-            worst.draw(given.output, "ours (full)", folders, results["ours (full)"])
+        bench(given)
     except (BadInput, OSError) as error:
         sys.exit(f"bench-tracking: {error}")
     print((given.output / "tracking.md").read_text())

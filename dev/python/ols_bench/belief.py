@@ -46,6 +46,13 @@ def auroc(belief: np.ndarray, on_target: np.ndarray) -> float | None:
     return float((ranks[on_target].sum() - positive * (positive + 1) / 2) / (positive * negative))
 
 
+def off_target_believed(judged: list[Judged], on_target: list[np.ndarray]) -> float | None:
+    """Share of the frames off target that are believed in, over all of them."""
+    off = np.concatenate([~on for on in on_target])
+    believed = np.concatenate([j.believed for j in judged])
+    return float(believed[off].mean()) if off.any() else None
+
+
 def losses(judged: Judged, on_target: np.ndarray) -> list[float]:
     """Seconds from the first frame off target to the first one not believed in, for each loss of a
     target that was believed in; infinite where the loss ends or the clip does before that."""
@@ -86,6 +93,8 @@ def measures_of(judged: list[Judged], on_target: list[np.ndarray]) -> dict:
     return {
         "calibration_error": calibration_error(rows),
         "auroc": auroc(belief, on),
+        "off_target": int((~on).sum()),
+        "off_target_believed": off_target_believed(judged, on_target),
         "reliability": rows,
         "losses": len(times),
         "noticed_in_time": (

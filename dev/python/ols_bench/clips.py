@@ -1,11 +1,13 @@
 """Clips with ground truth, and boxes that a tracker gave for them.
 
-A folder of clips holds NAME.mp4 or NAME.avi and NAME.csv (frame,x,y,w,h: frames from 0, pixels,
-top-left corner; no x,y,w,h where the target is absent). Boxes of a tracker are NAME.csv with the
-same columns and, where it has an opinion on itself, belief.
+A folder of clips holds NAME.mp4, NAME.avi or a folder NAME/ of pictures, and NAME.csv
+(frame,x,y,w,h: frames from 0, pixels, top-left corner; no x,y,w,h where the target is absent).
+Boxes of a tracker are NAME.csv with the same columns and, where it has an opinion on itself,
+belief.
 """
 
 import csv
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,6 +15,7 @@ import numpy as np
 
 COORDINATES = "xywh"
 KINDS = (".mp4", ".avi")
+PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".tif", ".tiff")  # as ols-track has
 
 
 class BadInput(Exception):
@@ -33,12 +36,18 @@ class Boxes:
 
 @dataclass
 class Clip:
-    path: Path
+    path: Path  # of the video, or of the folder of pictures
     truth: Boxes
+    given: np.ndarray | None = None  # the tracker's first box, where it is not the true one
 
     @property
     def name(self) -> str:
-        return self.path.stem
+        return self.path.name if self.path.is_dir() else self.path.stem
+
+    @property
+    def first_box(self) -> list[float]:
+        box = self.truth.xywh[self.first] if self.given is None else self.given
+        return [float(value) for value in box]
 
     @property
     def frames(self) -> int:
@@ -85,13 +94,31 @@ def read_boxes(path: Path, frames: int | None = None) -> Boxes:
     return Boxes(xywh, belief if has_belief else None)
 
 
+def in_order(path: Path) -> tuple:
+    """Sorts 2.png before 10.png, as ols-track does."""
+    parts = re.split(r"(\d+)", path.name)
+    return ([int(p) if p.isdigit() else p for p in parts], path.name)
+
+
+def picture_files(folder: Path) -> list[Path]:
+    return sorted((p for p in folder.iterdir() if p.suffix.lower() in PICTURES), key=in_order)
+
+
+def is_clip(path: Path) -> bool:
+    return bool(picture_files(path)) if path.is_dir() else path.suffix.lower() in KINDS
+
+
+def truth_path(path: Path) -> Path:
+    return path.with_name((path.name if path.is_dir() else path.stem) + ".csv")
+
+
 def read_folder(folder: Path) -> list[Clip]:
     """The clips of a folder by name."""
     if not folder.is_dir():
         raise BadInput(f"{folder}: no such folder")
     clips = []
-    for path in sorted(p for p in folder.iterdir() if p.suffix.lower() in KINDS):
-        truth = path.with_suffix(".csv")
+    for path in sorted(p for p in folder.iterdir() if is_clip(p)):
+        truth = truth_path(path)
         if not truth.exists():
             raise BadInput(f"{truth}: the ground truth of {path.name} is missing")
         clip = Clip(path, read_boxes(truth))
@@ -99,5 +126,15 @@ def read_folder(folder: Path) -> list[Clip]:
             raise BadInput(f"{truth}: no row has a box")
         clips.append(clip)
     if not clips:
-        raise BadInput(f"{folder}: no clips ({', '.join(KINDS)})")
+        raise BadInput(f"{folder}: no clips ({', '.join(KINDS)}, folders of pictures)")
     return clips
+
+
+def write_boxes(path: Path, boxes: np.ndarray) -> None:
+    """The truth of a clip: one row a frame, empty where a box is nan."""
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(("frame", *COORDINATES))
+        for frame, box in enumerate(boxes):
+            there = np.isfinite(box).all()
+            writer.writerow((frame, *(f"{v:.2f}" for v in box)) if there else (frame, *[""] * 4))

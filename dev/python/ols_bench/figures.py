@@ -6,16 +6,17 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ols_bench.measures import DISTANCES, NEAR_PX, OVERLAPS, precision_curve, success_curve
-from ols_bench.results import Result
+from ols_bench.results import ALL, Result
 from ols_bench.style import COLOURS, FAINT, INK, pyplot
 from ols_bench.tables import Results
 
 OUR_TRACKERS = ("ours (full)", "ours (paper)")
 
 
-def last_folder(results: Results) -> str:
-    """All clips together, where there are several folders."""
-    return list(next(iter(results.values())))[-1]
+def main_folder(results: Results) -> str:
+    """All clips together, where there are several folders; otherwise the first one."""
+    folders = list(next(iter(results.values())))
+    return ALL if ALL in folders else folders[0]
 
 
 def line_style(tracker: str) -> dict:
@@ -153,7 +154,7 @@ def draw_time(path: Path, results: Results, folder: str) -> None:
 
 
 def draw(output: Path, results: Results) -> None:
-    folder = last_folder(results)
+    folder = main_folder(results)
     draw_success_and_precision(output / "success_precision.png", results, folder)
     draw_belief(output / "belief.png", results, folder)
     draw_time(output / "time.png", results, folder)

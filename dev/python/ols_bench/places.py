@@ -20,9 +20,13 @@ class Places:
         return self.boxes.exists() and self.times.exists()
 
 
-def places_of(output: Path, tracker: str, folder: str, clip: Clip) -> Places:
-    """Made so that a folder below `boxes` is one that a scorer reads."""
+def places_of(
+    output: Path, tracker: str, folder: str, clip: Clip, seed: int | None = None
+) -> Places:
+    """Made so that a folder below `boxes` is one that a scorer reads. The first seed of a run is
+    not named."""
     name = tracker.replace("(", "").replace(")", "").replace(" ", "_")
+    name += f"_seed_{seed}" if seed is not None else ""
     places = Places(
         output / "boxes" / name / folder / f"{clip.name}.csv",
         output / "times" / name / folder / f"{clip.name}.csv",

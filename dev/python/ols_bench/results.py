@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ols_bench.absence import absence_measures
 from ols_bench.belief import belief_measures
 from ols_bench.clips import Clip, read_boxes
 from ols_bench.measures import Judged, clip_measures, folder_measures, judge
@@ -33,26 +34,61 @@ class Speed:
 
 @dataclass
 class Result:
-    """One tracker on one folder, or on all of them."""
+    """One tracker on one folder, or on all of them, with one seed."""
 
     judged: list[Judged]
     speed: Speed
+    repeats: list["Result"] = field(default_factory=list)  # with the further seeds
     clips: dict[str, dict] = field(init=False)
     total: dict = field(init=False)
     belief: dict | None = field(init=False)
+    absence: dict = field(init=False)
 
     def __post_init__(self) -> None:
         self.clips = {j.name: clip_measures(j) for j in self.judged}
         self.total = folder_measures(self.clips)
         self.belief = belief_measures(self.judged)
+        self.absence = absence_measures(self.judged)
 
     def as_json(self) -> dict:
         return {
             "total": self.total,
             "belief": self.belief,
+            "absence": self.absence,
+            "seeds": spread([self, *self.repeats]),
             "speed": self.speed.figures(),
             "clips": self.clips,
         }
+
+
+# Name, and where the figure is found.
+SPREAD = {
+    "iou": lambda r: r.total["iou"],
+    "p20": lambda r: r.total["p20"],
+    "lock": lambda r: r.total["lock"],
+    "auroc": lambda r: r.belief and r.belief["auroc"],
+    "off_target_believed": lambda r: r.belief and r.belief["off_target_believed"],
+    "calibration_error": lambda r: r.belief and r.belief["calibration_error"],
+    "late_absent_believed": lambda r: r.absence["late_absent_believed"],
+    "found_again_in_time": lambda r: r.absence["found_again_in_time"],
+}
+
+
+def spread(results: list[Result]) -> dict[str, dict | None]:
+    """Mean, least and greatest of each figure over the seeds; nothing where one has none."""
+    rows = {}
+    for name, figure in SPREAD.items():
+        values = [figure(result) for result in results]
+        rows[name] = (
+            None
+            if any(value is None for value in values)
+            else {
+                "mean": float(np.mean(values)),
+                "least": float(min(values)),
+                "greatest": float(max(values)),
+            }
+        )
+    return rows
 
 
 def joined(times: list[dict[str, np.ndarray]]) -> Speed:
@@ -64,20 +100,32 @@ def joined(times: list[dict[str, np.ndarray]]) -> Speed:
 
 
 def results_of(
-    output: Path, tracker: str, folders: dict[str, list[Clip]], rates: dict[Path, float]
+    output: Path,
+    tracker: str,
+    folders: dict[str, list[Clip]],
+    rates: dict[Path, float],
+    together: list[str],
+    seed: int | None = None,
 ) -> dict[str, Result]:
-    """By folder; of several folders also of all clips together."""
+    """By folder; where several are to be taken together, also of all of their clips."""
     found = {}
     every_judged, every_time = [], []
     for folder, clips in folders.items():
         judged, times = [], []
         for clip in clips:
-            places = places_of(output, tracker, folder, clip)
+            places = places_of(output, tracker, folder, clip, seed)
             judged.append(judge(clip, read_boxes(places.boxes, clip.frames), rates[clip.path]))
             times.append(read_times(places.times))
         found[folder] = Result(judged, joined(times))
-        every_judged += judged
-        every_time += times
-    if len(folders) > 1:
+        if folder in together:
+            every_judged += judged
+            every_time += times
+    if len(together) > 1:
         found[ALL] = Result(every_judged, joined(every_time))
     return found
+
+
+def with_repeats(first: dict[str, Result], others: list[dict[str, Result]]) -> dict[str, Result]:
+    for folder, result in first.items():
+        result.repeats = [other[folder] for other in others]
+    return first

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ols_bench.results import Result
+from ols_bench.results import ALL, Result, spread
 
 Results = dict[str, dict[str, Result]]  # tracker, folder
 
@@ -23,14 +23,27 @@ COLUMNS = (
 )
 BELIEF_COLUMNS = (
     "tracker",
-    "absent frames believed in",
-    "of a target followed on",
-    "calibration error",
+    "off target, believed in",
     "AUROC",
+    "calibration error",
+    "absent, believed in",
+    "after the tenth frame",
+    "of a target followed on",
     "losses",
     "noticed ≤ 0.33 s",
     "median",
+    "found again ≤ 0.5 s",
 )
+SEED_COLUMNS = {
+    "mean IoU": "iou",
+    "within 20 px": "p20",
+    "kept lock": "lock",
+    "AUROC": "auroc",
+    "off target, believed in": "off_target_believed",
+    "calibration error": "calibration_error",
+    "absent after the tenth frame, believed in": "late_absent_believed",
+    "found again ≤ 0.5 s": "found_again_in_time",
+}
 
 
 def line(cells: list[str] | tuple[str, ...]) -> str:
@@ -64,31 +77,58 @@ def accuracy_row(name: str, result: Result, reference: Result | None) -> list[st
 
 
 def belief_cells(measures: dict) -> list[str]:
+    return [text(measures[key]) for key in ("off_target_believed", "auroc", "calibration_error")]
+
+
+def loss_cells(measures: dict) -> list[str]:
     median = measures["noticed_median_s"]
     never = "never" if measures["losses"] else "–"
     return [
-        text(measures["calibration_error"]),
-        text(measures["auroc"]),
         str(measures["losses"]),
         text(measures["noticed_in_time"], ".2f"),
         never if median is None else f"{median:.2f} s",
     ]
 
 
+def found_again(absence: dict) -> str:
+    if not absence["returns"]:
+        return "–"
+    return f"{text(absence['found_again_in_time'], '.2f')} of {absence['returns']}"
+
+
 def belief_rows(name: str, result: Result) -> list[list[str]]:
     """By the labels, and, where they end before what they label, with that in the count."""
-    belief = result.belief
+    belief, absence = result.belief, result.absence
     believed = text(result.total["false_belief"])
+    found = found_again(absence)
     if belief is None:
-        return [[name, believed, *["–"] * 6]]
+        return [[name, *["–"] * 3, believed, *["–"] * 5, found]]
     followed_on = belief["followed_on"]
-    rows = [[name, believed, text(followed_on), *belief_cells(belief)]]
+    away = [believed, text(absence["late_absent_believed"]), text(followed_on)]
+    rows = [[name, *belief_cells(belief), *away, *loss_cells(belief), found]]
     if followed_on:
         on_other = text(result.total["false_belief"] - followed_on)
-        rows.append(
-            [f"{name}, followed on", on_other, "–", *belief_cells(belief["with_followed_on"])]
-        )
+        other = belief["with_followed_on"]
+        cells = [*belief_cells(other), on_other, "–", "–", *loss_cells(other), "–"]
+        rows.append([f"{name}, followed on", *cells])
     return rows
+
+
+def seed_cell(figures: dict | None) -> str:
+    if figures is None:
+        return "–"
+    return f"{figures['mean']:.3f} ({figures['least']:.3f} to {figures['greatest']:.3f})"
+
+
+def seed_table(results: Results, folder: str) -> str:
+    """Mean, least and greatest over the seeds, of the trackers that ran with several."""
+    rows = []
+    for name, by_folder in results.items():
+        result = by_folder[folder]
+        if result.repeats:
+            figures = spread([result, *result.repeats])
+            rows.append([name, *(seed_cell(figures[key]) for key in SEED_COLUMNS.values())])
+    return table(["mean (least to greatest)", *SEED_COLUMNS], rows)
 
 
 def stage_table(results: Results, folder: str) -> str:
@@ -138,9 +178,11 @@ def markdown(results: Results, about: str) -> str:
         parts.append(table(COLUMNS, rows))
         rows = [row for t, by in results.items() for row in belief_rows(t, by[folder])]
         parts.append(table(BELIEF_COLUMNS, rows))
+        if any(by[folder].repeats for by in results.values()):
+            parts.append(seed_table(results, folder))
         if any(by[folder].speed.stages for by in results.values()):
             parts.append(stage_table(results, folder))
-        if len(any_result) == 1 or folder != list(any_result)[-1]:
+        if folder != ALL:
             parts.append("Clip by clip; **bold** where lock was lost:")
             parts.append(clip_table(results, folder))
     return "\n\n".join(parts) + "\n"

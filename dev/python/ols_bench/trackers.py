@@ -15,6 +15,7 @@ import cv2
 import numpy as np
 
 from ols_bench.clips import BadInput, Clip
+from ols_bench.pictures import pictures
 from ols_bench.places import Places
 
 OPENCV = {
@@ -25,25 +26,7 @@ OPENCV = {
 }
 OURS = {"ours (paper)": "paper", "ours (full)": "full"}
 NAMES = (*OURS, *OPENCV)
-
-
-def frames_per_second(clip: Clip) -> float:
-    rate = cv2.VideoCapture(str(clip.path)).get(cv2.CAP_PROP_FPS)
-    return rate if np.isfinite(rate) and 0.1 < rate < 10000 else 30.0
-
-
-def pictures(clip: Clip):
-    """Every frame as OpenCV reads it."""
-    video = cv2.VideoCapture(str(clip.path))
-    for _ in range(clip.frames):
-        read, picture = video.read()
-        if not read:
-            return
-        yield picture
-
-
-def first_box(clip: Clip) -> list[float]:
-    return [float(value) for value in clip.truth.xywh[clip.first]]
+RANDOM = (*OURS, "MIL")
 
 
 def start(create: Callable, picture: np.ndarray, box: list[float]):
@@ -65,8 +48,8 @@ def run_opencv(name: str, clip: Clip, places: Places, seed: int) -> None:
         if frame < clip.first:
             continue
         if tracker is None:
-            tracker = start(OPENCV[name], picture, first_box(clip))
-            boxes.append((frame, *first_box(clip)))
+            tracker = start(OPENCV[name], picture, clip.first_box)
+            boxes.append((frame, *clip.first_box))
             continue
         began = time.thread_time()
         found, box = tracker.update(picture)
@@ -80,7 +63,7 @@ def run_ours(
     name: str, clip: Clip, places: Places, seed: int, program: Path, config: Path | None
 ) -> None:
     command = [program, "--input", clip.path, "--mode", OURS[name], "--seed", seed]
-    command += ["--init", ",".join(f"{value:.6g}" for value in first_box(clip))]
+    command += ["--init", ",".join(f"{value:.6g}" for value in clip.first_box)]
     command += ["--start-frame", clip.first, "--output", places.boxes, "--timing", places.times]
     if config:
         command += ["--config", config]

@@ -10,10 +10,10 @@ from matplotlib.patches import Rectangle
 
 from ols_bench.clips import Clip, read_boxes
 from ols_bench.measures import NEAR_PX, Judged
+from ols_bench.pictures import pictures
 from ols_bench.places import places_of
 from ols_bench.results import Result
 from ols_bench.style import FAINT, TRUTH, pyplot
-from ols_bench.trackers import pictures
 
 TILES = 12
 COLUMNS = 4

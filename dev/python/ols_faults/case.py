@@ -91,7 +91,7 @@ class Outcome:
         *,
         broken_by: Mutation | None = None,
     ) -> None:
-        """The recovery time of the table, and a check that it came at all and in time."""
+        """Adds the recovery time to the table, and checks that the recovery came in time."""
         self.recovery_s = seconds
         self.at_most(what, seconds, limit_s, "s", broken_by=broken_by)
 
@@ -138,7 +138,7 @@ def case(name: str, fault: str, criterion: str, judge: Callable[[Evidence, Outco
 
 
 def judged(case: Case, evidence: Evidence) -> Outcome:
-    """The case's own checks, and what every fault must leave alone: no process of ours ends."""
+    """The case's own checks, and one for every case: none of our processes may end."""
     outcome = Outcome()
     case.judge(evidence, outcome)
     ended = evidence["ended"]

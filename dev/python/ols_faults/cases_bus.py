@@ -28,7 +28,7 @@ UNKNOWN_S = 150.0
 
 
 def targets_of(session: Session) -> list[str]:
-    """A channel that each kind of process reads; each station its own."""
+    """The channels that each kind of process reads."""
     channels = ["OLS_STATUS_x", "OLS_BEARING_x", "OLS_FUSION_STATUS", "OLS_TARGET"]
     for station in session.stations:
         channels += [f"OLS_{kind}_{station}" for kind in ("PTU", "SLEW", "DESIGNATE", "STATUS")]
@@ -53,7 +53,7 @@ class Logger:
         return sum(path.stat().st_size for path in self._folder.iterdir())
 
     def recorders(self) -> list[int]:
-        """Processes that it records with, where it does not do so itself."""
+        """The processes that record for it, if it does not record itself."""
         pid = self._session.pid("ols-logger")
         path = Path(f"/proc/{pid}/task/{pid}/children")
         return [int(child) for child in path.read_text().split()] if path.exists() else []
@@ -64,7 +64,7 @@ class Logger:
 
 
 def attack(session: Session, sender: Sender) -> None:
-    """All of it once, over all channels."""
+    """Sends every datagram once on each channel."""
     sequence = time.monotonic_ns() % (1 << 30)
     for channel in targets_of(session):
         groups = [fragments.pair(channel, sequence), *fragments.relatives(channel, sequence)]
@@ -77,7 +77,7 @@ def attack(session: Session, sender: Sender) -> None:
 
 
 def ctl_meanwhile(session: Session, sender: Sender) -> int | None:
-    """The status that `ols-ctl` ends with while the pair is sent repeatedly; None: it hangs."""
+    """The exit status of `ols-ctl` while the pair is sent repeatedly; None if it hangs."""
     program = session.wiring.program("ols-ctl")
     with subprocess.Popen(
         [program, "all", "status"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
@@ -197,7 +197,7 @@ def many_channels(session: Session, evidence: Evidence) -> None:
 
 
 def flood_with_channels(session: Session, evidence: Evidence) -> None:
-    """As many as each must receive, plus those that the kernel drops if one is overrun."""
+    """As many as each process must receive, plus what the kernel drops if one is overrun."""
     names = ours(session)
     pids = {name: session.pid(name) for name in names}
     before = {name: resident_bytes(pid) for name, pid in pids.items()}

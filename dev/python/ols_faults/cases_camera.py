@@ -93,7 +93,7 @@ def camera_packet_loss(session: Session, evidence: Evidence) -> None:
 
 
 def judge_wrong_format(evidence: Evidence, outcome: Outcome) -> None:
-    """Only alarms after the camera's return: there are others during its absence."""
+    """Ignores the alarms of the camera's absence: only those after its return count."""
     station, back_us = evidence["station"], evidence["back_us"]
     judge_outage(evidence, outcome, station, (back_us, evidence["wrong_until_us"]))
     words = "camera:", "BayerRG8", "Mono8"  # what it sends, and what it was configured to send

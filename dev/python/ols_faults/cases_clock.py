@@ -1,4 +1,4 @@
-"""A station's clock that is stepped: for its process alone."""
+"""Steps a station's clock, as seen by its process alone."""
 
 import sys
 from functools import partial

@@ -80,7 +80,7 @@ SLEWS: list[Bad] = [
 
 
 def standing(session: Session, station: str) -> Any:
-    """The station at rest where it is, in manual control; its status."""
+    """Brings the station to rest in manual control; returns its status."""
     status = session.status(station)
     session.command(station, POINT, status.pan_rad, status.tilt_rad)
     session.wait(lambda: session.state(station) == "manual", 3.0)
@@ -91,7 +91,7 @@ def standing(session: Session, station: str) -> Any:
 def send_bad(
     session: Session, evidence: Evidence, kind: str, channel: str, bad: list[Callable[[], Any]]
 ) -> None:
-    """Notes when, and what the station counted before and after."""
+    """Notes the time, and the station's counters before and after."""
     station = evidence["station"]
     before = reasons(session.fresh_status(station))
     start_us = session.now_us()
@@ -113,7 +113,7 @@ def altered(make: Callable[[], Any], bad: list[Bad]) -> list[Callable[[], Any]]:
 
 
 def judge_refused(evidence: Evidence, outcome: Outcome, kind: str, expected: list[str]) -> None:
-    """All must be refused, each counted by its own reason, and none move anything."""
+    """All must be refused, each counted under its own reason, and none may move anything."""
     station, noted = evidence["station"], evidence[kind]
     window = noted["window"]
     one_moves = window[0], window[0] + 500_000
@@ -143,7 +143,7 @@ def judge_refused(evidence: Evidence, outcome: Outcome, kind: str, expected: lis
 
 
 def judge_good(evidence: Evidence, outcome: Outcome, share: float) -> None:
-    """What the bad ones would have done, had they been obeyed."""
+    """What would have happened if the bad commands had been obeyed."""
     station, window = evidence["station"], evidence["good"]
     outcome.at_least(
         "moved by a well-formed one, from any sender",

@@ -22,7 +22,7 @@ REPORTED_S = 4.0
 
 
 def mount(folder: Path) -> None:
-    """A small disk of its own in our mount namespace."""
+    """Mounts a small disk in our mount namespace."""
     folder.mkdir(parents=True, exist_ok=True)
     command = ["mount", "-t", "tmpfs", "-o", f"size={DISK_BYTES},mode=0777", "tmpfs", str(folder)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -56,7 +56,7 @@ def record(session: Session, station: str, label: str) -> None:
 
 
 def recorded(folder: Path) -> set[str]:
-    """Events that are complete: one that is not is called .partial, and has no list of frames."""
+    """Complete events. An incomplete one is called .partial and has no list of frames."""
     return {path.parent.name for path in folder.glob("*/frames.csv") if is_complete(path)}
 
 

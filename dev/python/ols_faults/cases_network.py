@@ -39,7 +39,7 @@ FUSION_HZ = FLOOD_HZ / 2 * 2 / 9 * 4 / 5
 
 
 class FarFusion:
-    """The fusion on a bus of its own behind a relay, for one case."""
+    """Runs the fusion behind a relay on a separate bus for one case."""
 
     def __init__(self, session: Session):
         self._session = session
@@ -178,7 +178,7 @@ def lcm_bad_network(session: Session, evidence: Evidence) -> None:
 
 
 def relayed(log: Path) -> tuple[int, ...]:
-    """Messages received, lost, duplicated, reordered by the newest relay."""
+    """How many messages the newest relay received, lost, duplicated and reordered."""
     found = re.findall(
         r"forward: received (\d+), lost (\d+), duplicated (\d+), reordered (\d+)",
         log.read_text(errors="replace"),

@@ -36,7 +36,7 @@ POLL_S = 0.025  # a command may just have been sent
 
 
 def kill(session: Session, evidence: Evidence, station: str) -> None:
-    """Returns now, after the time that its PTU may need to come to rest."""
+    """Kills the station and waits as long as its PTU may need to come to rest."""
     evidence["station"] = station
     evidence["boot"] = session.status(station).boot_id
     evidence["at_us"] = session.kill(session.process(station))
@@ -56,7 +56,7 @@ def back(session: Session, evidence: Evidence, held: bool = False) -> None:
 
 
 def judge_speed(evidence: Evidence, outcome: Outcome, what: str, least_deg_s: float) -> None:
-    """It moved before the kill: otherwise coming to rest proves nothing."""
+    """Checks that it moved before the kill; otherwise coming to rest proves nothing."""
     station, at_us = evidence["station"], evidence["at_us"]
     window = at_us - 150_000, at_us
     speed = measure.speeds(*measure.ptu_track(evidence.heard, station, *window))
@@ -150,7 +150,7 @@ def turn_steadily(
 
 
 def judge_full_speed(evidence: Evidence, outcome: Outcome) -> None:
-    """Whether it moves on as long and as far as its servo permits, and no further."""
+    """Checks that it moves no longer and no further than its servo permits."""
     station = evidence["station"]
     window = evidence["at_us"], evidence["dead_until_us"]
     judge_speed(evidence, outcome, "PTU's speed at the kill", 0.95 * FULL_DEG_S)

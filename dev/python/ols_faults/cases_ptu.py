@@ -46,7 +46,7 @@ def well_again_s(recording: Any, station: str, since_us: int, until_us: int) -> 
 
 
 def wait_until_well(session: Session, station: str, since_us: int, deadline_s: float) -> int:
-    """Returns when it was, or the deadline."""
+    """Returns the time when it happened, or the deadline."""
     session.wait(
         lambda: well_again_s(session.heard, station, since_us, session.now_us()) is not None,
         deadline_s,
@@ -115,7 +115,7 @@ case(
 
 
 def aim_px(recording: Any, station: str, window: tuple[int, int]) -> float:
-    """How far the target was from the image centre at most; infinite if it was outside."""
+    """The target's greatest distance from the image centre; infinite if it left the image."""
     views = [v for v in recording.views.get(station, []) if window[0] <= v.utime <= window[1]]
     if not views:
         return float("nan")
@@ -195,7 +195,7 @@ through(
 
 
 def power_cycle(session: Session, evidence: Evidence, number: int, homes: bool) -> None:
-    """Off and on."""
+    """Switches the unit off and on."""
     station = evidence["station"] = session.stations[number]
     session.fresh_status(station)
     evidence["at_us"] = session.fault("ptu-power-cycle", station, 2.0, float(homes))
@@ -209,7 +209,7 @@ def judge_reported(evidence: Evidence, outcome: Outcome) -> None:
 
 
 def home_and_back(session: Session, evidence: Evidence) -> None:
-    """The operator has it homed."""
+    """The operator homes it."""
     station = evidence["station"]
     session.command(station, HOME)
     session.run(2.0)
@@ -291,7 +291,7 @@ def is_without(target: Any, station: str) -> bool:
 
 
 def judge_lost_steps(evidence: Evidence, outcome: Outcome) -> None:
-    """The unit does not report it, so its station cannot; the other stations reveal it."""
+    """The unit does not report this fault, so its station cannot; the other stations reveal it."""
     station, at_us, window = (evidence[name] for name in ("station", "at_us", "window"))
     without = partial(is_without, station=station)
     outcome.at_most(

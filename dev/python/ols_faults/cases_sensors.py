@@ -29,7 +29,7 @@ def place(status: Any) -> np.ndarray:
 
 
 def around(evidence: Evidence) -> tuple[Any, Any]:
-    """Its last statuses before the fault and before the fault's end."""
+    """The station's last status before the fault and its last before the fault's end."""
     station = evidence["station"]
     before = measure.statuses(evidence.heard, station, 0, evidence["at_us"])
     during = measure.statuses(evidence.heard, station, evidence["at_us"], evidence["ended_us"])

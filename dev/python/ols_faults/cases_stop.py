@@ -134,7 +134,7 @@ def emergency_stop(session: Session, evidence: Evidence) -> None:
 
 
 def provoke(session: Session, station: str, side: float) -> tuple[int, int]:
-    """The operator points, the fusion slews, a release and a rearm arrive: nothing may move."""
+    """Nothing may move, although a point, a slew, a release and a rearm command arrive."""
     start_us = session.now_us()
     for _ in range(4):
         swing(session, station, side * WAY_DEG / 2)

@@ -1,4 +1,4 @@
-"""The operator's STOP while an attacker suppresses it."""
+"""The operator's STOP while an attacker tries to suppress it."""
 
 import subprocess
 import threading
@@ -35,7 +35,7 @@ PAIRS_HZ = 500
 
 
 def swung_by_hand(session: Session, station: str) -> bool:
-    """To the side that is further off; whether it got fast."""
+    """Points to the side that is further away; returns whether the PTU became fast."""
     status = session.status(station)
     side = -1.0 if status.pan_rad > 0 else 1.0
     deadline = time.monotonic() + 6.0
@@ -48,7 +48,7 @@ def swung_by_hand(session: Session, station: str) -> bool:
 
 
 def swung_by_the_flood(session: Session, station: str) -> bool:
-    """The forged commands that are obeyed swing it: whether it got fast, with a way to go yet."""
+    """Forged commands swing it; returns whether it became fast with travel left."""
 
     def has_far_to_go() -> bool:
         now_us = session.now_us()
@@ -65,7 +65,7 @@ def swung_by_the_flood(session: Session, station: str) -> bool:
 def stop_once(
     session: Session, station: str, swung: Callable[[Session, str], bool]
 ) -> dict[str, Any]:
-    """Has `ols-ctl STATION stop` do its work while the PTU swings, and notes when that was."""
+    """Runs `ols-ctl STATION stop` while the PTU swings, and notes the time."""
     fast = swung(session, station)
     heard_before = len(session.bus.stops_us.get(station, []))
     program = session.wiring.program("ols-ctl")
@@ -88,7 +88,7 @@ def stop_once(
 
 
 def braking_s(evidence: Evidence, since_us: int | None) -> float:
-    """From then until its PTU began to brake; NaN: it did not, or was not fast."""
+    """Time from then until its PTU began to brake; NaN if it did not, or was not fast."""
     if since_us is None:
         return float("nan")
     speed, begins_s, slowing = measure.braking(evidence.heard, evidence["station"], since_us)
@@ -140,7 +140,7 @@ def one_dies(evidence: Evidence) -> None:
 
 
 def release(session: Session, station: str) -> bool:
-    """An operator who tries again: a stop holds for a moment. Whether it is released."""
+    """Releases repeatedly, because a stop holds for a moment; returns whether it succeeded."""
     if session.state(station) in ("stopped", "manual"):
         session.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
         session.run(0.6)

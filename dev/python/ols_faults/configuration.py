@@ -1,4 +1,4 @@
-"""Changes of the fault run to the stations' configurations, which the simulator writes."""
+"""The fault run's changes to the station configurations that the simulator writes."""
 
 import re
 from pathlib import Path
@@ -18,7 +18,7 @@ def without_survey(text: str) -> str:
 
 
 def with_recorder(text: str, folder: Path) -> str:
-    """Small enough for a small disk."""
+    """Recordings that fit a small disk."""
     return (
         f'{text}\n[recorder]\nfolder = "{folder}"\nmemory_s = 2\n'
         "quota_gb = 0.015\ndisk_reserve_gb = 0.001\n"

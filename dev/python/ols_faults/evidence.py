@@ -21,7 +21,7 @@ Change = Callable[[Any, int], list[tuple[Any, int]]]
 
 
 def rows(recording: Recording, channel: str) -> list[Any]:
-    """The messages of this channel, in the order of their arrivals_us; to be altered in place."""
+    """The messages of this channel in the order of arrival. The list may be altered in place."""
     station = channel.rsplit("_", 1)[-1]
     if channel.startswith("OLS_TARGET"):
         return recording.targets.setdefault(channel, [])
@@ -56,7 +56,7 @@ def rewrite(recording: Recording, channel: str, change: Change) -> None:
 
 
 def part(recording: Recording, first_us: int, last_us: int) -> Recording:
-    """What arrived in between; the messages themselves are shared."""
+    """The part that arrived between the two; the messages themselves are shared."""
     result = Recording(start_us=recording.start_us)
     for channel, arrivals in recording.arrivals_us.items():
         span = slice(bisect.bisect_left(arrivals, first_us), bisect.bisect_right(arrivals, last_us))
@@ -80,10 +80,10 @@ class Evidence:
         self.facts[name] = value
 
     def copy(self) -> Evidence:
-        """One that may be altered without the first one noticing."""
+        """A copy that can be altered without changing this one."""
         whole = part(self.heard, -(1 << 62), 1 << 62)
         return Evidence(whole, list(self.stations), copy.deepcopy(self.facts))
 
     def close(self, begun_us: int, ended_us: int) -> None:
-        """The case is over: nothing that comes later belongs to it."""
+        """Ends the case: later messages do not belong to it."""
         self.heard = part(self.heard, begun_us - BEFORE_US, ended_us)

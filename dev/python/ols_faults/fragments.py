@@ -15,7 +15,7 @@ OUTSIDE = 0xFFFFFF00  # with 272 bytes it ends at 16: inside of a message of 100
 def fragment(
     sequence: int, size: int, offset: int, number: int, count: int, payload: bytes
 ) -> bytes:
-    """One fragment; of the first one (number 0) the payload begins with the channel's name."""
+    """One fragment. The payload of the first one (number 0) begins with the channel's name."""
     return struct.pack(">IIIIHH", FRAGMENT, sequence, size, offset, number, count) + payload
 
 

@@ -67,7 +67,7 @@ def judge_angles(
 
 
 def judge_motion(evidence: Evidence, outcome: Outcome, station: str, window: Window) -> None:
-    """It moves as one that follows the target: by the true shafts and the true target."""
+    """Checks by the true shafts and the true target that the PTU follows the target."""
     outcome.at_most(
         f"{station}: motion beyond what follows the target",
         pursuit.excess_deg_s(evidence.heard, station, *window),
@@ -85,7 +85,7 @@ def judge_motion(evidence: Evidence, outcome: Outcome, station: str, window: Win
 
 
 def judge_target(evidence: Evidence, outcome: Outcome, window: Window, least_hz: float) -> None:
-    """Relative to the published error: fewer stations are less exact."""
+    """Relative to the published error, because fewer stations are less accurate."""
     found = evaluate.accuracy(evidence.heard, evaluate.JOINT, window)
     outcome.at_least(
         "targets",
@@ -115,7 +115,7 @@ def judge_target(evidence: Evidence, outcome: Outcome, window: Window, least_hz:
 def judge_goes_on(
     evidence: Evidence, outcome: Outcome, station: str, window: Window, least_hz: float
 ) -> None:
-    """It says so, and its bearings come."""
+    """Checks that the station goes on tracking and sending bearings."""
     seen = measure.states(evidence.heard, station, *window)
     outcome.holds(
         f"{station}: goes on tracking",
@@ -147,7 +147,7 @@ def judge_outage(evidence: Evidence, outcome: Outcome, station: str, window: Win
 def judge_tracking_again(
     evidence: Evidence, outcome: Outcome, what: str, station: str, since_us: int, limit_s: float
 ) -> None:
-    """The recovery: its first bearing of an image taken since."""
+    """The recovery is its first bearing of an image taken since then."""
     outcome.recovered(
         what,
         measure.tracking_again_s(evidence.heard, station, since_us, mutations.EVER),
@@ -221,7 +221,7 @@ def judge_counted(
     window: Window,
     least: float,
 ) -> None:
-    """By these counters together."""
+    """The sum of these counters."""
     names = (names,) if isinstance(names, str) else names
     counted = [measure.grown(evidence.heard, channel, name, *window) for name in names]
     silent = [mutations.without_counter(channel, name) for name in names]

@@ -55,7 +55,7 @@ def speeds(times: np.ndarray, angles: np.ndarray) -> np.ndarray:
 
 
 def rest_s(recording: Recording, station: str, start_us: int, end_us: int) -> float | None:
-    """How long after the start the PTU came to rest, to stay there for REST_S at least."""
+    """Time from the start until the PTU came to rest for at least REST_S."""
     times, angles = ptu_track(recording, station, start_us, end_us)
     moving = speeds(times, angles) > REST_DEG_S
     if len(times) == 0 or times[-1] < REST_S:
@@ -77,7 +77,7 @@ def rest_uncertainty_s(recording: Recording, station: str) -> float:
 
 
 def moved_deg(recording: Recording, station: str, start_us: int, end_us: int) -> float:
-    """How far the PTU got from where it was at the start, the greater of both axes; NaN unknown."""
+    """The PTU's greatest distance from its position at the start, of both axes; NaN if unknown."""
     _, angles = ptu_track(recording, station, start_us, end_us)
     return float(np.abs(angles - angles[0]).max()) if len(angles) else float("nan")
 
@@ -113,7 +113,7 @@ def braking(recording: Recording, station: str, edge_us: int) -> tuple[float, fl
 
 
 def between(messages: list[Any], start_us: int, end_us: int) -> list[Any]:
-    """Those with a utime in the window; a station whose clock was stepped has them out of order."""
+    """Those with a utime in the window. After a clock step they are not in order."""
     return [m for m in messages if start_us <= m.utime <= end_us]
 
 
@@ -156,7 +156,7 @@ def bearing_errors(
 def between_arrivals(
     recording: Recording, channel: str, start_us: int, end_us: int
 ) -> list[tuple[Any, int]]:
-    """Messages that arrived in the window, with the instant [us] at which each did."""
+    """Messages that arrived in the window, each with its arrival time [us]."""
     return [(m, at) for m, at in heard(recording, channel) if start_us <= at <= end_us]
 
 
@@ -177,7 +177,7 @@ def first_s(
     end_us: int,
     condition: Callable[[Any], bool],
 ) -> float | None:
-    """How long after the start the first message came for which the condition holds, or None."""
+    """Time from the start to the first message that meets the condition, or None."""
     for message, at in between_arrivals(recording, channel, start_us, end_us):
         if condition(message):
             return (at - start_us) * 1e-6
@@ -187,7 +187,7 @@ def first_s(
 def tracking_again_s(
     recording: Recording, station: str, start_us: int, end_us: int
 ) -> float | None:
-    """How long after the start its first bearing of an image taken since came, or None."""
+    """Time from the start to its first bearing of an image taken since then, or None."""
 
     def since(bearing: Any) -> bool:
         return bearing.utime >= start_us
@@ -210,13 +210,13 @@ def grown(
 def counter_at_end(
     recording: Recording, channel: str, name: str, start_us: int, end_us: int
 ) -> float | None:
-    """Of the last status in the window: 0 where it has no such counter (yet); None without one."""
+    """The counter in the window's last status: 0 if not there yet, None without a status."""
     during = between_arrivals(recording, channel, start_us, end_us)
     return counters(during[-1][0]).get(name, 0.0) if during else None
 
 
 def used(target: Any) -> set[str]:
-    """The stations whose rays a target with a position comes from."""
+    """The stations whose rays a located target is computed from."""
     return {s for s, is_used in zip(target.station, target.used, strict=True) if is_used}
 
 
@@ -227,7 +227,7 @@ def positions(recording: Recording, start_us: int, end_us: int) -> list[Any]:
 
 
 def target_arrivals_us(recording: Recording, start_us: int, end_us: int) -> list[int]:
-    """When targets with a position were heard."""
+    """The arrival times of targets with a position."""
     both = zip(recording.targets.get(JOINT, []), recording.arrivals_us.get(JOINT, []), strict=True)
     return [at for target, at in both if target.solution == OK and start_us <= at <= end_us]
 
@@ -238,7 +238,7 @@ def longest_gap_s(arrivals_us: list[int], start_us: int, end_us: int) -> float:
 
 
 def bearing_ages_s(recording: Recording, station: str, start_us: int, end_us: int) -> np.ndarray:
-    """(n, 2): when bearings were heard [s after start], and how old they were then [s]."""
+    """(n, 2): arrival times of bearings [s after start], and their ages then [s]."""
     channel = f"OLS_BEARING_{station}"
     both = zip(
         recording.bearings.get(station, []), recording.arrivals_us.get(channel, []), strict=True
@@ -252,7 +252,7 @@ def bearing_ages_s(recording: Recording, station: str, start_us: int, end_us: in
 
 
 def aim_offsets_px(recording: Recording, station: str, start_us: int, end_us: int) -> np.ndarray:
-    """How far the target was from the image centre, in each frame with a known place of it."""
+    """The target's distance from the image centre in each frame where its place is known."""
     statuses = recording.statuses.get(station)
     if not statuses:
         return np.zeros(0)

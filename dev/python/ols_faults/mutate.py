@@ -61,7 +61,7 @@ def try_case(case: Case, evidence: Evidence) -> Iterator[Trial]:
 
 
 def try_all(names: list[str], evidences: dict[str, Evidence]) -> list[Trial]:
-    """Of the named cases; one that was not done to its end has no evidence: that is a failure."""
+    """The results of the named cases; a case without evidence, because unfinished, fails."""
     trials = []
     for name in names:
         if name in evidences:

@@ -1,4 +1,4 @@
-"""Ways in which a product or a fault could be broken: the evidence that would have resulted."""
+"""Evidence as it would be if the product or the fault were broken in some way."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ ALWAYS: Window = (0, EVER)
 def altering(
     what: str, channel: str, change: Callable[[Any], Any], window: Window = ALWAYS
 ) -> Mutation:
-    """What arrived in the window becomes what `change` makes of it; None: it never came."""
+    """Applies `change` to each message that arrived in the window; None removes it."""
 
     def one(message: Any, at: int) -> list[tuple[Any, int]]:
         if not window[0] <= at <= window[1]:
@@ -43,7 +43,7 @@ def together(what: str, *parts: Mutation) -> Mutation:
 
 
 def fact(what: str, name: str, value: Any) -> Mutation:
-    """`value` or, of a function, what it makes of the one noted."""
+    """`value`, or if that is a function, its result for the noted value."""
 
     def alter(evidence: Evidence) -> None:
         evidence[name] = value(evidence[name]) if callable(value) else value
@@ -58,7 +58,7 @@ def put(message: Any, **fields: Any) -> Any:
 
 
 def lost(what: str, channel: str, window: Window = ALWAYS, share: float = 1.0) -> Mutation:
-    """A share of the channel's messages, evenly spread, does not arrive."""
+    """Removes an evenly spread share of the channel's messages."""
     account = [0.0]
 
     def change(message: Any) -> Any:
@@ -131,7 +131,7 @@ def sigmas_scaled(station: str, factor: float) -> Mutation:
 
 
 def goes_on_publishing(station: str, window: Window) -> Mutation:
-    """Its bearings continue as without the fault; also: the fault was not done."""
+    """Its bearings continue as without the fault, as if the fault had not been applied."""
 
     def alter(evidence: Evidence) -> None:
         channel = f"OLS_BEARING_{station}"
@@ -164,7 +164,7 @@ def shafts_altered(what: str, station: str, turn: Callable[[np.ndarray], np.ndar
 
 
 def swings(station: str, window: Window, deg_s: float = 46.0, period_s: float = 2.0) -> Mutation:
-    """To and fro, about where it should point."""
+    """Swings to and fro about the right direction."""
     amplitude = deg_s * period_s / (2 * np.pi)
 
     def turn(times: np.ndarray) -> np.ndarray:
@@ -176,7 +176,7 @@ def swings(station: str, window: Window, deg_s: float = 46.0, period_s: float = 
 
 
 def jerks(station: str, window: Window, deg_s2: float) -> Mutation:
-    """A short push in the middle of the window."""
+    """Adds a short push in the middle of the window."""
     middle_us, lasts_s = sum(window) / 2, 0.2
 
     def turn(times: np.ndarray) -> np.ndarray:
@@ -187,7 +187,7 @@ def jerks(station: str, window: Window, deg_s2: float) -> Mutation:
 
 
 def moves_on(station: str, window: Window, deg_s: float) -> Mutation:
-    """At that speed to the window's end, and stays there."""
+    """Moves at that speed until the window's end, and stays there."""
 
     def turn(times: np.ndarray) -> np.ndarray:
         return deg_s * (np.clip(times, window[0], window[1]) - window[0]) * 1e-6
@@ -197,7 +197,7 @@ def moves_on(station: str, window: Window, deg_s: float) -> Mutation:
 
 
 def goes_further(station: str, window: Window, factor: float) -> Mutation:
-    """All motion from the window's start on is scaled by a factor."""
+    """Scales all motion after the window's start by a factor."""
 
     def alter(evidence: Evidence) -> None:
         before = [p for p in evidence.heard.ptus[station] if p.utime <= window[0]]
@@ -214,7 +214,7 @@ def goes_further(station: str, window: Window, factor: float) -> Mutation:
 
 
 def stands(station: str, window: Window, what: str = "the PTU does not move") -> Mutation:
-    """As it stood at the window's start."""
+    """Freezes it at its state of the window's start."""
 
     def alter(evidence: Evidence) -> None:
         before = [p for p in evidence.heard.ptus[station] if p.utime <= window[0]]
@@ -245,7 +245,7 @@ def statuses_lost(station: str, window: Window = ALWAYS) -> Mutation:
 
 
 def says_nothing(station: str, window: Window = ALWAYS) -> Mutation:
-    """No alarm, every device well."""
+    """Removes all alarms and makes every device well."""
 
     def change(status: Any) -> Any:
         return put(
@@ -294,7 +294,7 @@ def in_state(station: str, state: str, window: Window = ALWAYS) -> Mutation:
 
 
 def without_counter(channel: str, name: str, window: Window = ALWAYS) -> Mutation:
-    """It does not count: the counter stays at 0."""
+    """Keeps the counter at 0."""
 
     def change(status: Any) -> Any:
         both = zip(status.counter_name, status.counter_value, strict=True)
@@ -338,7 +338,7 @@ def target_sigmas_scaled(factor: float, channel: str = JOINT) -> Mutation:
 
 
 def rays(what: str, station: str, used: bool, window: Window = ALWAYS) -> Mutation:
-    """The fusion uses this station's rays, or does not, as long as the window lasts."""
+    """Makes the fusion use this station's rays, or not, during the window."""
 
     def change(target: Any) -> Any:
         names, flags = list(target.station), list(target.used)
@@ -351,7 +351,7 @@ def rays(what: str, station: str, used: bool, window: Window = ALWAYS) -> Mutati
 
 
 def shafts_late(station: str, seconds: float) -> Mutation:
-    """The PTU's motion is delayed."""
+    """Delays the PTU's motion."""
 
     def change(ptu: Any) -> Any:
         return put(ptu, utime=ptu.utime + round(seconds * 1e6))

@@ -1,4 +1,4 @@
-"""Whether a PTU moves as one that follows its target: by the true shafts and the true target alone.
+"""Judges from the true shafts and the true target alone whether a PTU follows its target.
 
 Between standing still and going with the target everything is right, and so is what closes the
 distance to it, at the servo's gain. Anything beyond is unwanted motion.
@@ -35,7 +35,7 @@ def needed_deg(recording: Recording, station: str, times_us: np.ndarray) -> np.n
 def sampled(
     recording: Recording, station: str, start_us: int, end_us: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Times [s after start] every STEP_S and the true shafts then [deg] (n, 2)."""
+    """Times every STEP_S [s after start] and the true shaft angles at those times [deg] (n, 2)."""
     times, angles = measure.ptu_track(recording, station, start_us, end_us)
     if len(times) < 2:
         return np.zeros(0), np.zeros((0, 2))
@@ -46,7 +46,7 @@ def sampled(
 
 
 def rates(angles: np.ndarray) -> np.ndarray:
-    """(n - 2 h, 2) [deg/s] about each instant but the first and last h."""
+    """(n - 2 h, 2) [deg/s] about each instant except the first and last h."""
     h = round(HALF_S / STEP_S)
     return (angles[2 * h :] - angles[: -2 * h]) / (2 * h * STEP_S)
 

@@ -57,7 +57,7 @@ class Session:
         self._listeners: list[Callable[[str, Any], None]] = []
 
     def add_handler(self, handler: Callable[[], None]) -> None:
-        """Called at every turn."""
+        """Is called in every turn."""
         self._handlers.append(handler)
 
     def remove_handler(self, handler: Callable[[], None]) -> None:
@@ -103,7 +103,7 @@ class Session:
 
     @property
     def sensor_station(self) -> str:
-        """The one whose pose is not surveyed."""
+        """The station whose pose is not surveyed."""
         return self.stations[-1]
 
     @property
@@ -128,14 +128,14 @@ class Session:
             handler()
 
     def run(self, seconds: float) -> tuple[int, int]:
-        """Lets the site run; the window [us] of that time."""
+        """Lets the site run; returns the window of that time [us]."""
         start_us, end = self.now_us(), time.monotonic() + seconds
         while time.monotonic() < end:
             self.turn()
         return start_us, self.now_us()
 
     def wait(self, condition: Callable[[], bool], deadline_s: float) -> float | None:
-        """Seconds until the condition held, or None when it did not within the deadline."""
+        """Seconds until the condition held, or None if it did not hold before the deadline."""
         start = time.monotonic()
         while not condition():
             if time.monotonic() - start > deadline_s:
@@ -177,19 +177,19 @@ class Session:
         return counters(status).get(name, 0.0) if status else 0.0
 
     def fresh_status(self, station: str, deadline_s: float = 3.0) -> Any:
-        """A status that was sent from now on, or None."""
+        """Waits for a status sent after this call; None if none comes."""
         since_us = self.now_us()
         if self.wait(lambda: bool(self.statuses_since(station, since_us)), deadline_s) is None:
             return None
         return self.status(station)
 
     def tracks(self, station: str, since_us: int = 0) -> bool:
-        """Whether its newest status since then says so."""
+        """Whether it tracks by its newest status since then."""
         recent = self.statuses_since(station, since_us)
         return bool(recent) and STATES.get(recent[-1].state) == "tracking"
 
     def wait_for_tracking(self, station: str, since_us: int, deadline_s: float) -> None:
-        """Until it has sent a bearing of an image taken since then, or the deadline."""
+        """Waits until it has sent a bearing of an image taken since then, or until the deadline."""
         self.wait(
             lambda: (
                 measure.tracking_again_s(self.heard, station, since_us, self.now_us()) is not None
@@ -198,7 +198,7 @@ class Session:
         )
 
     def speed_deg_s(self, station: str) -> float:
-        """Of the PTU's true shafts, newest."""
+        """The present speed of the PTU's true shafts."""
         now_us = self.now_us()
         times, angles = measure.ptu_track(self.heard, station, now_us - 150_000, now_us)
         return float(np.median(measure.speeds(times, angles))) if len(times) > 10 else 0.0
@@ -212,7 +212,7 @@ class Session:
         self.bus.lcm.publish(channel, message.encode())
 
     def fault(self, kind: str, station: str, duration_s: float, value: float = float("nan")) -> int:
-        """Done from now on; returns now."""
+        """Applies a fault from now on; returns the time."""
         message = ols_msg.sim_fault_t()
         message.utime, message.kind, message.station = self.now_us(), kind, station
         message.duration_s, message.value = duration_s, value
@@ -220,7 +220,7 @@ class Session:
         return message.utime
 
     def address(self, message: Any, station: str) -> Any:
-        """Fills what every command has: fresh, valid, for this station."""
+        """Fills the fields that all commands share: fresh, valid, for this station."""
         self._sequence += 1
         message.utime = self.now_us()
         message.schema_version = message.SCHEMA_VERSION
@@ -242,7 +242,7 @@ class Session:
         return self.site.processes[name].pid
 
     def kill(self, name: str) -> int:
-        """SIGKILL; returns now."""
+        """Sends SIGKILL; returns the time."""
         at_us = self.now_us()
         self.site.stop(name, signal.SIGKILL)
         return at_us
@@ -253,7 +253,7 @@ class Session:
         return at_us
 
     def start_station(self, station: str, environment: dict[str, str] | None = None) -> int:
-        """Returns when its process was started, without having heard anything since."""
+        """Starts its process and forgets its earlier status; returns the time."""
         at_us = self.now_us()
         self.observer.status.pop(station, None)
         self.wiring.start_station(self.site, station, environment)
@@ -265,12 +265,12 @@ class Session:
         return at_us
 
     def release_held(self, station: str) -> None:
-        """A station that was in the operator's hand when it was killed comes up stopped."""
+        """Releases a station that comes up stopped because it was in manual control when killed."""
         self.wait(lambda: self.state(station) == "stopped", 5.0)
         self.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
 
     def rearm(self, station: str) -> None:
-        """A hand at the station's button, unless one is just there: it must be let go between."""
+        """Holds the station's button, unless it is held already: it must be released in between."""
         now = time.monotonic()
         if now - self._rearmed.get(station, -REARM_AGAIN_S) >= REARM_AGAIN_S:
             self._rearmed[station] = now
@@ -282,14 +282,14 @@ class Session:
         return [name for name, p in self.site.processes.items() if p.poll() is not None]
 
     def bury(self) -> list[str]:
-        """Returns their names and forgets them, so that restore() starts them again."""
+        """Removes ended processes, so that restore() starts them again; returns their names."""
         names = self.ended()
         for name in names:
             del self.site.processes[name]
         return names
 
     def can_go_on(self) -> bool:
-        """Stations and fusion can be restarted, the simulation cannot."""
+        """Whether the site can continue: only the simulation cannot be restarted."""
         return "ols-sim" in self.site.processes and not self.ended()
 
     def close(self) -> None:
@@ -298,7 +298,7 @@ class Session:
     # Back to normal.
 
     def restore(self) -> None:
-        """Every process runs, every station tracks, targets come. Raises SiteError when not."""
+        """Restarts what ended and waits until all stations track and targets arrive; or SiteError."""
         self.fault_ends()
         if "ols-fusion" not in self.site.processes:
             self.start_fusion()
@@ -333,7 +333,7 @@ class Session:
         return located and all(self.on_target(s) for s in self.stations)
 
     def on_target(self, station: str) -> bool:
-        """Whether it tracks, now, and the target at that: any other object is believed as well."""
+        """Whether it now tracks the target itself: a station believes in other objects, too."""
         now_us = self.now_us()
         since_us = max(now_us - 1_500_000, self._restoring_us)
         if not self.tracks(station, since_us):
@@ -349,7 +349,7 @@ class Session:
                 self.command(station, ols_msg.ptu_command_t.COMMAND_RELEASE)
 
     def _take_in_hand(self) -> set[str]:
-        """Stations that the operator has to point and designate again."""
+        """The stations that the operator must point and designate again."""
         astray = {s for s in self.stations if not self.on_target(s)}
         for station in astray:
             self.operator.tracking.discard(station)

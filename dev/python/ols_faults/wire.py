@@ -34,13 +34,13 @@ def address(url: str) -> tuple[str, int]:
 
 
 def is_stop(channel: bytes, payload: bytes) -> bool:
-    """Whether this is a STOP for the station of its channel: looked at under a flood of others."""
+    """Whether this is a STOP for the station of its channel. Cheap enough to ask during a flood."""
     name = len(channel) - len(PTU)
     return len(payload) == STOP_BYTES + name and payload[STOP_AT + name] == 1
 
 
 class Sender:
-    """Datagrams as they are given, to the bus."""
+    """Sends the datagrams to the bus unchanged."""
 
     def __init__(self, url: str):
         self._address = address(url)
@@ -115,7 +115,7 @@ class Ear:
         try:
             name = channel.decode()
             message = decode(name, payload)
-        except (ValueError, struct.error):  # anybody may send anything on any channel
+        except (ValueError, struct.error):  # any program can send anything on any channel
             self.undecodable += 1
             return
         if message is not None:

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <sstream>
 
 namespace ols {
@@ -98,6 +97,12 @@ TEST_F(CsvFilesTest, ReadsBearingsExactly) {
   EXPECT_EQ(bearings[0].target, "drone");
   EXPECT_EQ(bearings[1].belief, 1.0);
   EXPECT_EQ(bearings[1].target, "1");
+  const auto anonymous = read_bearings(
+      write("n.csv",
+            "utime_us,station,azimuth_deg,elevation_deg,sigma_deg\n1600000018965925,a,0,0,1"),
+      stations);
+  ASSERT_EQ(anonymous.size(), 1U);
+  EXPECT_EQ(anonymous[0].target, "");
 }
 
 TEST_F(CsvFilesTest, NamesTheBadStation) {
@@ -165,6 +170,27 @@ TEST_F(CsvFilesTest, NamesTheBadBearing) {
   }
 }
 
+TEST_F(CsvFilesTest, NamesTheBadRowOfAFlight) {
+  const auto error_of = [this](const std::string& text) -> std::string {
+    try {
+      read_flight(write("f.csv", text));
+    } catch (const CsvError& error) {
+      return std::string(error.what()).substr(folder_.string().size() + 1);
+    }
+    return "none";
+  };
+  const std::string head = "utime_us,lat,lon,h\n1,49,16,350\n";
+  EXPECT_EQ(error_of(head + "2,49,16,350\n"), "none");
+  EXPECT_EQ(error_of("time,lat\n"), "f.csv:1: utime_us: the column is missing");
+  EXPECT_EQ(error_of(head + "2,49,16\n"),
+            "f.csv:3: row: too few or too many columns, or a quote that stays open");
+  EXPECT_EQ(error_of(head + "2,49,16,nan\n"), "f.csv:3: h: nan is outside -10000 .. 100000");
+  EXPECT_EQ(error_of(head + "1,49,16,350\n"),
+            "f.csv:3: utime_us: is not later than in the row before");
+  EXPECT_EQ(error_of(head + "2,149,16,350\n"), "f.csv:3: lat: 149 is outside -90 .. 90");
+  EXPECT_EQ(error_of(head), "f.csv: at least two rows are needed");
+}
+
 TEST_F(CsvFilesTest, NamesAnotherSeparator) {
   std::string header = kStations;
   std::ranges::replace(header, ',', ';');
@@ -173,38 +199,6 @@ TEST_F(CsvFilesTest, NamesAnotherSeparator) {
   std::ranges::replace(header, ';', '\t');
   EXPECT_EQ(error_of_stations(header + "a\t1\t2\t3\n"),
             "s.csv:1: header: columns are separated by tabs, commas are needed");
-}
-
-TEST_F(CsvFilesTest, LeavesAResidualThatIsNoneEmpty) {
-  FixRow fix;
-  fix.target = "1";
-  fix.residual = std::numeric_limits<double>::quiet_NaN();
-  const std::string path = folder_ / "fixes.csv";
-  write_fixes(path, {fix});
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  EXPECT_TRUE(text.str().ends_with(",0.0000,\n")) << text.str();
-}
-
-TEST_F(CsvFilesTest, WritesFixesWhole) {
-  FixRow fix;
-  fix.utime_us = 1600000000200000;
-  fix.target = "1";
-  fix.latitude_deg = 49.1234567894;
-  fix.longitude_deg = -16.5;
-  fix.height_m = 266.63494;
-  fix.east_sd_m = 0.13;
-  fix.stations_used = 3;
-  const std::string path = folder_ / "fixes.csv";
-  write_fixes(path, {fix});
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  EXPECT_EQ(text.str(),
-            "utime_us,target,latitude_deg,longitude_deg,height_m,east_sd_m,north_sd_m,up_sd_m,"
-            "stations_used,stations_set_aside,crossing_angle_deg,residual\n"
-            "1600000000200000,1,49.123456789,-16.500000000,266.6349,0.1300,0.0000,0.0000,3,0,"
-            "0.0000,0.0000\n");
-  EXPECT_ANY_THROW(write_fixes(folder_ / "absent" / "fixes.csv", {fix}));
 }
 
 TEST_F(CsvFilesTest, ReadsASurveyOfBothForms) {

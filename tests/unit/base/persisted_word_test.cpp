@@ -44,7 +44,7 @@ TEST_F(PersistedWordTest, OutlivesItsOwner) {
   }
 }
 
-// "Nothing to remember" is in the file as well: none at all means that nobody knows.
+// "Nothing to remember" is written, too: an absent file means that the state is unknown.
 TEST_F(PersistedWordTest, AFileOrFolderThatIsNotThereIsUnknown) {
   const PersistedWord without_file(file, kWords);
   EXPECT_EQ(without_file.restore_result(), RestoreResult::kMissing);

@@ -87,24 +87,24 @@ TEST(DoctorOnDevices, ALineThatCannotBeUsedNamesTheReason) {
 }
 
 TEST(DoctorOnDevices, AReportedDeviceKeepsItsWordsAndGetsAdvice) {
-  station::DeviceReport gnss{.name = "gnss",
-                             .state = station::DeviceState::kOk,
-                             .text = "3D, 9 satellites",
-                             .last_good_s = {},
-                             .last_error = {},
-                             .alarms = {},
-                             .readings = {},
-                             .counters = {}};
+  device::DeviceReport gnss{.name = "gnss",
+                            .state = device::DeviceState::kOk,
+                            .text = "3D, 9 satellites",
+                            .last_good_s = {},
+                            .last_error = {},
+                            .alarms = {},
+                            .readings = {},
+                            .counters = {}};
   EXPECT_EQ(line(judge(gnss)), "ok    gnss: 3D, 9 satellites");
-  gnss.state = station::DeviceState::kFault;
+  gnss.state = device::DeviceState::kFault;
   gnss.text = "no fix";
   gnss.last_error = "no report for 6 s";
   EXPECT_THAT(line(judge(gnss)), HasSubstr("FAIL  gnss: no fix (no report for 6 s)  — check gpsd"));
-  gnss.state = station::DeviceState::kStarting;
+  gnss.state = device::DeviceState::kStarting;
   EXPECT_EQ(judge(gnss).verdict, Verdict::kWarn);
-  station::DeviceReport ptu = gnss;
+  device::DeviceReport ptu = gnss;
   ptu.name = "ptu";
-  ptu.state = station::DeviceState::kFault;
+  ptu.state = device::DeviceState::kFault;
   ptu.text =
       "ran into a limit and may have lost steps: home it, or reference-ok once it was checked";
   EXPECT_THAT(line(judge(ptu)), HasSubstr("ols-ctl STATION home"));

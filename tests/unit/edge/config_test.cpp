@@ -97,7 +97,7 @@ TEST_F(StationConfigFile, ATiltThatNobodyToldIsNotTakenAsExact) {
   const std::string untold = kStart + "[pose]\nheading_deg = 10\n" + kPlace;
   EXPECT_FALSE(load(untold).pose.surveyed_tilt_rad);
   EXPECT_TRUE(load(untold + "[calibration.sd]\ntilt_deg = 0.2\n").pose.surveyed_tilt_rad)
-      << "levelled, and somebody says how well";
+      << "levelled, with a stated accuracy";
 }
 
 TEST_F(StationConfigFile, NamesWhatIsMissing) {

@@ -30,9 +30,9 @@ StationReport report() {
   report.snapshot.pose.position_source = sensors::PoseSource::kSensor;
   report.snapshot.camera_ecef = {1e6, 2e6, 3e6};
   report.snapshot.counters["bearings"] = 7.0;
-  DeviceReport gnss;
+  device::DeviceReport gnss;
   gnss.name = "gnss";
-  gnss.state = DeviceState::kFault;
+  gnss.state = device::DeviceState::kFault;
   gnss.text = "no fix";
   gnss.last_good_s = 40.0;
   gnss.alarms = {"gnss: no fix"};

@@ -24,15 +24,15 @@ using testing::IsEmpty;
 using testing::Not;
 namespace fs = std::filesystem;
 
-class StationMemoryTest : public testing::Test {
+class PersistedStationStateTest : public testing::Test {
  protected:
-  StationMemoryTest() {
+  PersistedStationStateTest() {
     root = testing::TempDir() + "ols_memory_" + std::to_string(::getpid());
     fs::remove_all(root);
     folder = root + "/state";
     fs::create_directories(folder);
   }
-  ~StationMemoryTest() override { fs::remove_all(root); }
+  ~PersistedStationStateTest() override { fs::remove_all(root); }
 
   void put(const char* subject, const std::string& text) const {
     std::ofstream(folder + "/a." + subject) << text;
@@ -47,7 +47,7 @@ class StationMemoryTest : public testing::Test {
   std::string root, folder;
 };
 
-TEST_F(StationMemoryTest, WhatIsKnownIsTakenUpWithoutAnAlarm) {
+TEST_F(PersistedStationStateTest, WhatIsKnownIsTakenUpWithoutAnAlarm) {
   struct Case {
     const char* hold;
     StationState state;
@@ -70,7 +70,7 @@ TEST_F(StationMemoryTest, WhatIsKnownIsTakenUpWithoutAnAlarm) {
   }
 }
 
-// Each condition of a file: what makes it so, and whether somebody may have pressed the stop.
+// Each condition of a file: what makes it so, and whether the stop may have been pressed.
 struct Condition {
   const char* name;
   std::function<void(const std::string& folder, const std::string& file)> make;
@@ -104,7 +104,7 @@ const std::vector<Condition> kConditions{
      true},
 };
 
-TEST_F(StationMemoryTest, AHoldThatIsNotKnownStartsStoppedWithAnAlarm) {
+TEST_F(PersistedStationStateTest, AHoldThatIsNotKnownStartsStoppedWithAnAlarm) {
   for (const Condition& condition : kConditions) {
     for (const bool has_stop : {false, true}) {
       SCOPED_TRACE(std::string(condition.name) + (has_stop ? ", stop" : ", no stop"));
@@ -125,7 +125,7 @@ TEST_F(StationMemoryTest, AHoldThatIsNotKnownStartsStoppedWithAnAlarm) {
   }
 }
 
-TEST_F(StationMemoryTest, ADoubtThatIsNotKnownIsADoubtWithAnAlarm) {
+TEST_F(PersistedStationStateTest, ADoubtThatIsNotKnownIsADoubtWithAnAlarm) {
   for (const Condition& condition : kConditions) {
     SCOPED_TRACE(condition.name);
     fs::remove_all(folder);
@@ -145,7 +145,7 @@ TEST_F(StationMemoryTest, ADoubtThatIsNotKnownIsADoubtWithAnAlarm) {
   }
 }
 
-TEST_F(StationMemoryTest, TheUnknownStaysUnknownOverRestartsUntilAPersonActs) {
+TEST_F(PersistedStationStateTest, TheUnknownStaysUnknownOverRestartsUntilAPersonActs) {
   {
     PersistedStationState m = memory();
     EXPECT_EQ(m.begin(), StationState::kStopped);
@@ -164,7 +164,7 @@ TEST_F(StationMemoryTest, TheUnknownStaysUnknownOverRestartsUntilAPersonActs) {
 }
 
 // Pressed, released, not re-armed, killed; the file damaged, or the folder taken away.
-TEST_F(StationMemoryTest, APressedStopIsNotForgotten) {
+TEST_F(PersistedStationStateTest, APressedStopIsNotForgotten) {
   {
     PersistedStationState m = memory();
     m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kTrusted);
@@ -183,7 +183,7 @@ TEST_F(StationMemoryTest, APressedStopIsNotForgotten) {
   EXPECT_EQ(memory().begin(), StationState::kStopped);
 }
 
-TEST_F(StationMemoryTest, WithoutAFolderNothingIsKnownAndNothingAlarmsOnceAPersonActed) {
+TEST_F(PersistedStationStateTest, WithoutAFolderNothingIsKnownAndNothingAlarmsOnceAPersonActed) {
   PersistedStationState m("", "a", true);
   EXPECT_EQ(m.begin(), StationState::kStopped);
   EXPECT_EQ(m.doubt(), ptu::PtuReferenceDoubt{});
@@ -193,7 +193,7 @@ TEST_F(StationMemoryTest, WithoutAFolderNothingIsKnownAndNothingAlarmsOnceAPerso
   EXPECT_THAT(m.alarms(), IsEmpty());
 }
 
-TEST_F(StationMemoryTest, AFolderThatVanishesIsAnAlarmForAsLong) {
+TEST_F(PersistedStationStateTest, AFolderThatVanishesIsAnAlarmForAsLong) {
   put("hold", "free\n");
   put("doubt", "none\n");
   PersistedStationState m = memory();
@@ -218,7 +218,7 @@ bool heed_permissions() {
 }
 
 // What it says may be old: the stop that was pressed since could not be written.
-TEST_F(StationMemoryTest, AFolderThatCannotBeWrittenIsNotBelievedToPermit) {
+TEST_F(PersistedStationStateTest, AFolderThatCannotBeWrittenIsNotBelievedToPermit) {
   put("hold", "free\n");
   put("doubt", "none\n");
   fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);

@@ -12,9 +12,9 @@
 namespace ols::station {
 namespace {
 
-class PoseMemoryTest : public testing::Test {
+class PoseStoreTest : public testing::Test {
  protected:
-  PoseMemoryTest() {
+  PoseStoreTest() {
     folder = testing::TempDir() + "pose_memory_" + std::to_string(::getpid());
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
@@ -22,7 +22,7 @@ class PoseMemoryTest : public testing::Test {
     pose.position = {{0.85, 0.29, 310.0}, {0.02, 0.02, 0.03}, 1'700'000'000'000'000};
     pose.tilt = {{0.002, -0.001}, 2e-4, 1'700'000'000'000'000};
   }
-  ~PoseMemoryTest() override { std::filesystem::remove_all(folder); }
+  ~PoseStoreTest() override { std::filesystem::remove_all(folder); }
 
   bool holds(const sensors::PersistedPose& wanted) {
     return eventually([&] {
@@ -36,7 +36,7 @@ class PoseMemoryTest : public testing::Test {
   sensors::PersistedPose pose;
 };
 
-TEST_F(PoseMemoryTest, WhatIsKeptIsFoundAgain) {
+TEST_F(PoseStoreTest, WhatIsKeptIsFoundAgain) {
   {
     PoseStore memory(file);
     EXPECT_FALSE(memory.found().position);
@@ -51,7 +51,7 @@ TEST_F(PoseMemoryTest, WhatIsKeptIsFoundAgain) {
   EXPECT_EQ(again.trouble(), "");
 }
 
-TEST_F(PoseMemoryTest, APartThatIsMissingStaysAsItWasFound) {
+TEST_F(PoseStoreTest, APartThatIsMissingStaysAsItWasFound) {
   std::ofstream(file) << to_text(pose);
   PoseStore memory(file);
   sensors::PersistedPose tilt_only;
@@ -64,7 +64,7 @@ TEST_F(PoseMemoryTest, APartThatIsMissingStaysAsItWasFound) {
   EXPECT_TRUE(holds(both));
 }
 
-TEST_F(PoseMemoryTest, ADamagedFileIsRefusedUntilItIsWrittenAnew) {
+TEST_F(PoseStoreTest, ADamagedFileIsRefusedUntilItIsWrittenAnew) {
   std::ofstream(file) << "ols-pose 1\nposition 4";
   PoseStore memory(file);
   EXPECT_FALSE(memory.found().position);
@@ -74,14 +74,14 @@ TEST_F(PoseMemoryTest, ADamagedFileIsRefusedUntilItIsWrittenAnew) {
   EXPECT_TRUE(holds(pose));
 }
 
-TEST_F(PoseMemoryTest, AFolderThatIsNotThereIsATrouble) {
+TEST_F(PoseStoreTest, AFolderThatIsNotThereIsATrouble) {
   PoseStore memory(folder + "/none/a.pose");
   memory.keep(pose);
   EXPECT_TRUE(eventually([&] { return memory.trouble().starts_with("cannot be saved: "); }));
   EXPECT_NE(memory.trouble().find("/none/a.pose"), std::string::npos) << memory.trouble();
 }
 
-TEST_F(PoseMemoryTest, WithoutAFileNothingIsKept) {
+TEST_F(PoseStoreTest, WithoutAFileNothingIsKept) {
   PoseStore memory("");
   memory.keep(pose);
   EXPECT_EQ(memory.trouble(), "");

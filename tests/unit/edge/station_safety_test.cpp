@@ -90,7 +90,7 @@ TEST_F(StationSafetyTest, NoSpoiltPointMoves) {
   for (const double pan_deg : {159.1, -159.1, 180.0}) {
     EXPECT_EQ(station_.point({{radians(pan_deg), 0.0}}, now_), Refusal::kUnreachable) << pan_deg;
   }
-  // By whole turns it could be reached, but it is not what somebody meant.
+  // It could be reached by whole turns, but that is not what the operator meant.
   for (const PanTilt& slip :
        {PanTilt{radians(500.0), 0.0}, {radians(-361.0), 0.0}, {0.0, radians(355.0)}, {0.0, -1e6}}) {
     EXPECT_EQ(station_.point({slip}, now_), Refusal::kOutOfRange) << degrees(slip.pan_rad);

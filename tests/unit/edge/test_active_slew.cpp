@@ -32,7 +32,7 @@ TEST_F(ActiveSlewTest, LeadsTheUnitWithItsRateUntilItsLeaseIsOver) {
   EXPECT_NEAR(degrees(goal->angles.pan_rad), 10.0, 1e-3);
   EXPECT_NEAR(goal->rate.pan_rad, 0.1, 1e-4);
   EXPECT_EQ(goal->valid_until_s, 10.5);
-  EXPECT_FALSE(slew.goal(pointing, 10.51)) << "over, though nobody has expired it yet";
+  EXPECT_FALSE(slew.goal(pointing, 10.51)) << "over, although expire() has not been called yet";
   slew.expire(10.5);
   EXPECT_TRUE(slew.command());
   slew.expire(10.51);

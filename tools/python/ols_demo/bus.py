@@ -51,7 +51,7 @@ class Bus:
     def _receive(self, channel: str, data: bytes) -> None:
         try:
             message = decode(channel, data)
-        except (ValueError, struct.error):  # anybody may send anything on any channel
+        except (ValueError, struct.error):  # any program can send anything on any channel
             self.undecodable += 1
             return
         if message is not None:

@@ -33,7 +33,7 @@ TEST(BearingCheck, NamesWhatIsWrong) {
 }
 
 TEST(BearingCheck, EachRefusalHasACounterOfItsOwn) {
-  for (int i = 0; i <= static_cast<int>(BearingRefusal::kLowBelief); ++i) {
+  for (int i = 0; i < static_cast<int>(BearingRefusal::kCount); ++i) {
     for (int k = 0; k < i; ++k) {
       EXPECT_STRNE(to_string(static_cast<BearingRefusal>(i)),
                    to_string(static_cast<BearingRefusal>(k)));

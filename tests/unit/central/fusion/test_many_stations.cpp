@@ -45,6 +45,25 @@ void fly(int stations, double rate_hz, std::uint64_t seed, Seen& seen) {
   }
 }
 
+// Beside another estimator, the paper's uses the first 100 stations, and says so.
+TEST(ManyStations, ThinThePapersEstimateBesideTheFilters) {
+  constexpr int kStations = 104;
+  std::mt19937_64 random(3);
+  WorldConfig world{.stations_enu = circle(kStations, 250.0), .aims_enu = {}, .rate_hz = 15.0};
+  const Path path = cruising({{-60, 40, 80}, {9.0, -6.0, 1.0}}, 0.5, 2.0, random);
+  Fusion fusion{FusionConfig{}};
+  std::set<std::size_t> of_paper;
+  for (const BearingMeasurement& measurement : measure(world, {path}, 2.0, random)) {
+    for (const FusedTarget& target : fusion.add(measurement).targets_paper) {
+      if (measurement.utime_us < kStartUs + 1'500'000) continue;
+      EXPECT_EQ(target.estimate.solution, Solution::kOk);
+      of_paper.insert(target.stations.size());
+    }
+  }
+  EXPECT_EQ(of_paper, std::set<std::size_t>{100});
+  EXPECT_GT(fusion.health().counters.at("paper_targets_thinned"), 0.0);
+}
+
 class ManyStationsRates : public testing::TestWithParam<double> {};
 
 TEST_P(ManyStationsRates, AreNoSurerThanTheirBiasesLetThem) {

@@ -270,13 +270,16 @@ TEST(OfflineFusion, RefusesARateWithoutAnEnd) {
 
 TEST(OfflineFusion, CountsWhatItDoesNotUse) {
   auto measurements = recording(2.0, 1e-4, 7);
-  EXPECT_EQ(unused_bearings(measurements, {}).low_belief, 0U);
-  EXPECT_EQ(unused_bearings(measurements, {}).duplicate, 0U);
+  OfflineReport report;
+  fuse_offline(measurements, {}, &report);
+  EXPECT_EQ(report.unused.low_belief, 0U);
+  EXPECT_EQ(report.unused.duplicate, 0U);
   measurements.push_back(measurements[3]);
   measurements.push_back(measurements[3]);
   measurements[7].belief = 0.2;
-  EXPECT_EQ(unused_bearings(measurements, {}).low_belief, 1U);
-  EXPECT_EQ(unused_bearings(measurements, {}).duplicate, 2U);
+  fuse_offline(measurements, {}, &report);
+  EXPECT_EQ(report.unused.low_belief, 1U);
+  EXPECT_EQ(report.unused.duplicate, 2U);
 }
 
 TEST(OfflineFusion, AClockIsGuessedByWhatItDoesToTheBearings) {

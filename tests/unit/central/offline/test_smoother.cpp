@@ -10,6 +10,24 @@ using namespace test;
 
 constexpr double kNoise = 3e-4;
 
+// Those with a position; counts the reasons of the other instants.
+std::vector<Smoothed> smooth(const std::vector<BearingMeasurement>& bearings,
+                             const std::vector<std::int64_t>& epochs,
+                             const TrackManagerConfig& config, const KnownStations& known,
+                             Unlocated& unlocated) {
+  std::vector<Smoothed> fixes;
+  const auto take = [&](Smoothed fix) {
+    const Solution solution = fix.located.estimate.solution;
+    if (solution != Solution::kOk) {
+      ++unlocated[solution];
+    } else {
+      fixes.push_back(std::move(fix));
+    }
+  };
+  fusion::smooth(pointers_to(bearings), epochs, config, known, {take});
+  return fixes;
+}
+
 KnownStations nothing_known() { return {BiasModel(), {}}; }
 
 std::vector<std::int64_t> every_tenth_of(double seconds) {

@@ -34,14 +34,15 @@ struct Fixes {
 Fixes fuse(const std::vector<BearingMeasurement>& measurements,
            const OfflineConfig& config = ten_hertz()) {
   Fixes fixes;
-  for (const FusedTarget& target : fuse_offline(measurements, config)) {
+  OfflineReport report;
+  for (const FusedTarget& target : fuse_offline(measurements, config, &report)) {
     const double sd_m = std::sqrt(target.estimate.covariance_ecef.trace());
     const double error = slow_error_m(target);
     ++fixes.count;
     fixes.worst_m = std::max(fixes.worst_m, error);
     fixes.worst_sigmas = std::max(fixes.worst_sigmas, error / sd_m);
   }
-  for (const auto& [station, why] : stations_beside(measurements, config)) fixes.beside += station;
+  for (const auto& [station, why] : report.beside) fixes.beside += station;
   return fixes;
 }
 

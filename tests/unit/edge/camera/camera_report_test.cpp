@@ -30,9 +30,9 @@ TEST(CameraReport, OfACameraThatIsWell) {
                     .frames_late = 4,
                     .frames_refused = 3,
                     .reconnects = 2};
-  const station::DeviceReport report = make_camera_report(CameraConfig{}, facts, 100.0);
+  const device::DeviceReport report = make_camera_report(CameraConfig{}, facts, 100.0);
   EXPECT_EQ(report.name, "camera");
-  EXPECT_EQ(report.state, station::DeviceState::kOk);
+  EXPECT_EQ(report.state, device::DeviceState::kOk);
   EXPECT_EQ(report.text, "AVT GT1290C 1234, Mono8 1280x960, 15.0 Hz");
   EXPECT_EQ(report.last_good_s, 99.95);
   EXPECT_THAT(report.alarms, IsEmpty());
@@ -49,23 +49,23 @@ TEST(CameraReport, OfACameraThatIsWell) {
 }
 
 TEST(CameraReport, SilenceIsReportedWithinASecond) {
-  const station::DeviceReport report = make_camera_report(CameraConfig{}, streaming(), 99.95 + 0.7);
+  const device::DeviceReport report = make_camera_report(CameraConfig{}, streaming(), 99.95 + 0.7);
   EXPECT_THAT(report.alarms, ElementsAre("camera: no frames for 0.7 s"));
-  EXPECT_EQ(report.state, station::DeviceState::kFault);
+  EXPECT_EQ(report.state, device::DeviceState::kFault);
   CameraFacts lost = streaming();
   lost.state = CameraState::kAbsent;
   lost.last_error = "camera lost: no frame arrives";
-  const station::DeviceReport later = make_camera_report(CameraConfig{}, lost, 99.95 + 2.1);
+  const device::DeviceReport later = make_camera_report(CameraConfig{}, lost, 99.95 + 2.1);
   EXPECT_THAT(later.alarms, ElementsAre("camera: no frames for 2.1 s"));
-  EXPECT_EQ(later.state, station::DeviceState::kAbsent);
+  EXPECT_EQ(later.state, device::DeviceState::kAbsent);
   EXPECT_EQ(later.text, "camera lost: no frame arrives");
 }
 
 TEST(CameraReport, ACameraThatWaitsForATriggerIsNotLost) {
   CameraConfig config;
   config.trigger = TriggerMode::kLine1;
-  const station::DeviceReport report = make_camera_report(config, streaming(), 110.02);
-  EXPECT_EQ(report.state, station::DeviceState::kOk);
+  const device::DeviceReport report = make_camera_report(config, streaming(), 110.02);
+  EXPECT_EQ(report.state, device::DeviceState::kOk);
   EXPECT_THAT(report.alarms,
               ElementsAre("camera: no frames for 10.1 s, it is waiting for a trigger"));
 }

@@ -155,8 +155,8 @@ TEST_F(GpioTest, NobodyServesTheLines) {
   const Gpio gpio(config, listener());
   ASSERT_TRUE(hears({true}));
   EXPECT_TRUE(gpio.stop_pressed());
-  const station::DeviceReport report = gpio.report();
-  EXPECT_EQ(report.state, station::DeviceState::kAbsent);
+  const device::DeviceReport report = gpio.report();
+  EXPECT_EQ(report.state, device::DeviceState::kAbsent);
   EXPECT_THAT(report.last_error, HasSubstr("cannot be connected"));
   ASSERT_EQ(report.alarms.size(), 1U);
   EXPECT_THAT(report.alarms[0], HasSubstr("gpio: stop unreadable, taken as pressed"));
@@ -168,11 +168,11 @@ TEST_F(GpioTest, LinesThatVanishArePressedAndAreOpenedAgain) {
   ASSERT_TRUE(hears({false}));
   server.reset();
   ASSERT_TRUE(hears({false, true}));
-  EXPECT_TRUE(eventually([&] { return gpio.report().state == station::DeviceState::kAbsent; }));
+  EXPECT_TRUE(eventually([&] { return gpio.report().state == device::DeviceState::kAbsent; }));
   EXPECT_GE(gpio.report().counters.at("gpio_failures"), 1U);
   server = std::make_unique<GpioServer>(server_config);
   ASSERT_TRUE(hears({false, true, false}));
-  EXPECT_EQ(gpio.report().state, station::DeviceState::kOk);
+  EXPECT_EQ(gpio.report().state, device::DeviceState::kOk);
 }
 
 TEST_F(GpioTest, LinesThatNoLongerAnswerArePressed) {

@@ -57,7 +57,7 @@ TEST(PersistedDoubt, IsTheSameInEveryPhase) {
     loop.driver.restore_doubt(doubt);
     int others = 0;
     const auto count = [&] { others += loop.driver.doubt_to_persist() == doubt ? 0 : 1; };
-    loop.cut = true;  // nobody answers
+    loop.cut = true;  // the unit does not answer
     loop.run(5.0, count);
     loop.cut = false;
     loop.run(10.0, count);

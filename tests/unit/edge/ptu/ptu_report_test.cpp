@@ -26,9 +26,9 @@ PtuStatus good() {
 TEST(PtuReport, OfAUnitThatIsWell) {
   PtuStatus status = good();
   status.counters.requests = 7;
-  const station::DeviceReport report = ptu_report({}, status, 100.1);
+  const device::DeviceReport report = ptu_report({}, status, 100.1);
   EXPECT_EQ(report.name, "ptu");
-  EXPECT_EQ(report.state, station::DeviceState::kOk);
+  EXPECT_EQ(report.state, device::DeviceState::kOk);
   EXPECT_EQ(report.text, "PTU-D46 v2.12.1d1(C14/E), 38400 baud");
   EXPECT_THAT(report.alarms, IsEmpty());
   EXPECT_EQ(report.readings.at("ptu_supply_V"), 24.0);

@@ -129,7 +129,7 @@ TEST(PtuThread, OpensThePortAgainWhenItVanished) {
   EXPECT_EQ(ptu.status().state, PtuState::kFault);
   EXPECT_FALSE(ptu.status().port.open);
   EXPECT_NE(ptu.status().last_error.find(link), std::string::npos);
-  // It is another one, as after a power cycle: nobody saw it home.
+  // It is another unit, as after a power cycle: the thread has not seen it home.
   line = std::make_unique<PtuLine>(unit(), 2, link);
   EXPECT_TRUE(eventually([&] { return ptu.reference() == PtuReference::kDoubted; }));
   EXPECT_EQ(ptu.status().doubt, PtuDoubtCause::kPowerCycle);
@@ -220,8 +220,8 @@ TEST(PtuThread, OpensThePortAgainWhenTheUnitFallsSilent) {
   line.set_faults(faults);
   ASSERT_TRUE(eventually([&] { return ptu.status().port.reopens > 0; }));
   EXPECT_TRUE(eventually([&] {
-    const station::DeviceReport report = ptu.report();
-    return report.state == station::DeviceState::kFault && !report.alarms.empty() &&
+    const device::DeviceReport report = ptu.report();
+    return report.state == device::DeviceState::kFault && !report.alarms.empty() &&
            report.counters.at("ptu_reopens") > 0;
   }));
   line.set_faults({});

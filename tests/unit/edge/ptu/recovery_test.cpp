@@ -219,7 +219,7 @@ TEST(Emergency, HaltsAtOnceAndKeepsItUntilCleared) {
   EXPECT_TRUE(loop.driver.standing());
   EXPECT_EQ(loop.driver.counters().emergencies, 1u);
   EXPECT_EQ(loop.driver.counters().restarts, 0u);
-  // Released: still nothing before somebody gives a goal.
+  // Released: the unit still does not move before it is given a goal.
   loop.driver.clear_emergency();
   loop.run(1.0);
   EXPECT_EQ(loop.truth().pan_rad, last_rad);

@@ -150,7 +150,7 @@ TEST_F(Reference, HomesOnlyAUnitThatStands) {
   EXPECT_LT(loop_->sent.find("H "), loop_->sent.find(" R "));
 }
 
-// A homing that comes long after it was asked for is one that nobody expects.
+// A homing long after its command would be unexpected.
 TEST_F(Reference, ForgetsToHomeAUnitThatDoesNotAnswer) {
   make(false);
   loop_->cut = true;

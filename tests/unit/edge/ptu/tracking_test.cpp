@@ -189,7 +189,7 @@ TEST(Tracking, StopsByItselfOnALongWayToARestingGoal) {
 }
 
 // A host that looks at the line every 80 ms cannot tell when a reply came: the link is up, but the
-// angles grow old, and nobody drives by old ones.
+// angles grow old, and the servo does not steer by old ones.
 TEST(Tracking, AHostThatReadsLateLetsTheUnitStand) {
   ClosedLoop loop(brisk(), quick_unit());
   ASSERT_TRUE(loop.start());

@@ -146,7 +146,7 @@ TEST_F(EventRoom, WhatIsYoungerThanADayStays) {
   EXPECT_EQ(store.removed(), 1U);
 }
 
-// When an event last made room nobody knows: it counts as now.
+// The time of the last removal is unknown: it counts as now.
 TEST_F(EventRoom, AStoreWithoutThatMemoryKeepsEverythingForADay) {
   make_event(folder, kOld, 1000);
   EventStore store = surveyed(1500.0);

@@ -154,7 +154,7 @@ TEST_F(RecorderTest, AnEventWithoutAFrameLeavesNothingAndIsCounted) {
 TEST_F(RecorderTest, RecordingsDoNotPushOutWhatIsThere) {
   config.quota_bytes = 4096.0 * 25;  // two events of ten frames of 4 kB and a little
   Recorder recorder(config);
-  ASSERT_TRUE(eventually([&] { return recorder.report().state == station::DeviceState::kOk; }));
+  ASSERT_TRUE(eventually([&] { return recorder.report().state == device::DeviceState::kOk; }));
   film(recorder, 100);
   int accepted = 0;
   for (int i = 0; i < 6; ++i) {
@@ -203,8 +203,8 @@ TEST_F(RecorderTest, AFullDiskIsReportedAndNothingIsWritten) {
   Recorder recorder(config);
   film(recorder, 50);
   ASSERT_TRUE(eventually([&] { return !recorder.report().alarms.empty(); }));
-  const station::DeviceReport report = recorder.report();
-  EXPECT_EQ(report.state, station::DeviceState::kFault);
+  const device::DeviceReport report = recorder.report();
+  EXPECT_EQ(report.state, device::DeviceState::kFault);
   EXPECT_THAT(report.alarms[0], testing::MatchesRegex("recorder: disk full \\(.* GB free\\)"));
   EXPECT_THAT(report.last_error, HasSubstr("disk full"));
   EXPECT_THAT(recorder.record({time_of(40), 1.0, 1.0, ""}), HasSubstr("disk full"));
@@ -248,7 +248,7 @@ TEST_F(RecorderTest, EventsAtTheSameTimeDoNotTakeEachOthersRoom) {
   config.quota_bytes = 4096.0 * 400;  // one event of 310 frames of 4 kB
   config.memory_s = 100.0;
   Recorder recorder(config);
-  ASSERT_TRUE(eventually([&] { return recorder.report().state == station::DeviceState::kOk; }));
+  ASSERT_TRUE(eventually([&] { return recorder.report().state == device::DeviceState::kOk; }));
   film(recorder, 150);
   EXPECT_EQ(recorder.record({time_of(145), 0.95, 30.0, "a"}), "");
   EXPECT_THAT(recorder.record({time_of(145), 0.95, 30.0, "b"}), HasSubstr("no space"));
@@ -342,7 +342,7 @@ TEST_F(RecorderTest, WhatIsRecordedWhenTheStationStopsIsKept) {
 
 TEST_F(RecorderTest, OfABayerCameraTheMosaicIsKept) {
   Recorder recorder(config);
-  ASSERT_TRUE(eventually([&] { return recorder.report().state == station::DeviceState::kOk; }));
+  ASSERT_TRUE(eventually([&] { return recorder.report().state == device::DeviceState::kOk; }));
   const RecordedFrame mosaic = noisy_frame(1, start_s);
   camera::Frame frame;
   frame.gray = cv::Mat::zeros(mosaic.picture.size(), CV_8UC1);
@@ -391,7 +391,7 @@ TEST_F(RecorderTest, APriorityThatCannotBeLoweredIsTold) {
 
 TEST_F(RecorderTest, ItsThreadStandsBackWhereItMay) {
   const Recorder recorder(config);
-  ASSERT_TRUE(eventually([&] { return recorder.report().state == station::DeviceState::kOk; }));
+  ASSERT_TRUE(eventually([&] { return recorder.report().state == device::DeviceState::kOk; }));
   EXPECT_THAT(recorder.report().text, Not(HasSubstr("priority")));
 }
 

@@ -52,9 +52,9 @@ class GnssOnGpsd : public testing::Test {
       return last_ && condition(*last_);
     });
   }
-  static bool reports(const Gnss& gnss, station::DeviceState state, const std::string& text) {
+  static bool reports(const Gnss& gnss, device::DeviceState state, const std::string& text) {
     return eventually([&] {
-      const station::DeviceReport r = gnss.report();
+      const device::DeviceReport r = gnss.report();
       return r.state == state && has(r.text, text);
     });
   }
@@ -76,8 +76,8 @@ TEST_F(GnssOnGpsd, GivesTheAntennaWithTheReceiversOwnErrors) {
   EXPECT_LT(error_enu_m.norm(), 0.1);
   EXPECT_NEAR(last_->sd_enu_m.x(), 0.010, 1e-6);
   EXPECT_NEAR(last_->sd_enu_m.z(), 0.015, 1e-6);
-  const station::DeviceReport report = gnss.report();
-  EXPECT_EQ(report.state, station::DeviceState::kOk);
+  const device::DeviceReport report = gnss.report();
+  EXPECT_EQ(report.state, device::DeviceState::kOk);
   EXPECT_EQ(report.text, "RTK fixed, 14 satellites, 0.015 m");
   EXPECT_EQ(report.readings.at("gnss_satellites"), 14.0);
   EXPECT_NEAR(report.readings.at("gnss_sd_m"), 0.015, 1e-6);
@@ -88,20 +88,20 @@ TEST_F(GnssOnGpsd, GivesTheAntennaWithTheReceiversOwnErrors) {
 TEST_F(GnssOnGpsd, ALostFixAndASilentReceiverAreToldAndHeal) {
   const GpsdProcess gpsd(line_.device(), port_);
   Gnss gnss(config(port_));
-  ASSERT_TRUE(reports(gnss, station::DeviceState::kOk, "RTK fixed"));
+  ASSERT_TRUE(reports(gnss, device::DeviceState::kOk, "RTK fixed"));
   sim::GnssFaults faults;
   faults.no_fix = true;
   line_.set_faults(faults);
-  ASSERT_TRUE(reports(gnss, station::DeviceState::kFault, "no fix"));
+  ASSERT_TRUE(reports(gnss, device::DeviceState::kFault, "no fix"));
   EXPECT_GE(gnss.report().errors, 1U);
   line_.set_faults({});
-  ASSERT_TRUE(reports(gnss, station::DeviceState::kOk, "RTK fixed"));
+  ASSERT_TRUE(reports(gnss, device::DeviceState::kOk, "RTK fixed"));
   faults = {};
   faults.silent = true;
   line_.set_faults(faults);
-  ASSERT_TRUE(reports(gnss, station::DeviceState::kFault, "the receiver sends nothing"));
+  ASSERT_TRUE(reports(gnss, device::DeviceState::kFault, "the receiver sends nothing"));
   line_.set_faults({});
-  ASSERT_TRUE(reports(gnss, station::DeviceState::kOk, "RTK fixed"));
+  ASSERT_TRUE(reports(gnss, device::DeviceState::kOk, "RTK fixed"));
 }
 
 TEST_F(GnssOnGpsd, AJumpComesThrough) {
@@ -137,22 +137,22 @@ TEST_F(GnssOnGpsd, GarbledSentencesAreLeftOut) {
 
 TEST_F(GnssOnGpsd, AGpsdThatIsNotThereOrGoesIsToldAndFoundAgain) {
   Gnss gnss(config(port_));
-  ASSERT_TRUE(reports(gnss, station::DeviceState::kAbsent, "no gpsd at 127.0.0.1:" + port_));
+  ASSERT_TRUE(reports(gnss, device::DeviceState::kAbsent, "no gpsd at 127.0.0.1:" + port_));
   EXPECT_FALSE(gnss.report().alarms.empty());
   {
     const GpsdProcess gpsd(line_.device(), port_);
-    ASSERT_TRUE(reports(gnss, station::DeviceState::kOk, "RTK fixed"));
+    ASSERT_TRUE(reports(gnss, device::DeviceState::kOk, "RTK fixed"));
   }
-  ASSERT_TRUE(reports(gnss, station::DeviceState::kAbsent, "gpsd"));
+  ASSERT_TRUE(reports(gnss, device::DeviceState::kAbsent, "gpsd"));
   const GpsdProcess gpsd(line_.device(), port_);
-  ASSERT_TRUE(reports(gnss, station::DeviceState::kOk, "RTK fixed"));
+  ASSERT_TRUE(reports(gnss, device::DeviceState::kOk, "RTK fixed"));
   EXPECT_GE(gnss.report().counters.at("gnss_reconnects"), 1U);
 }
 
 TEST_F(GnssOnGpsd, AGpsdWithoutReceiverIsToldFromOneThatIsNotThere) {
   const GpsdProcess gpsd("", port_);
   Gnss gnss(config(port_));
-  ASSERT_TRUE(reports(gnss, station::DeviceState::kAbsent, "gpsd has no receiver"));
+  ASSERT_TRUE(reports(gnss, device::DeviceState::kAbsent, "gpsd has no receiver"));
   EXPECT_EQ(gnss.report().alarms.size(), 1U);
 }
 
@@ -161,18 +161,18 @@ TEST_F(GnssOnGpsd, AReceiverThatIsPulledOutIsToldAndGpsdIsLeftAlone) {
   auto line = std::make_unique<sim::GnssLine>(receiver(), clock_utime_us, 6, link);
   const GpsdProcess gpsd(link, port_);
   Gnss gnss(config(port_));
-  ASSERT_TRUE(reports(gnss, station::DeviceState::kOk, "RTK fixed"));
+  ASSERT_TRUE(reports(gnss, device::DeviceState::kOk, "RTK fixed"));
   line.reset();
   // Longer than it would wait for a receiver that is there and says nothing.
   ASSERT_TRUE(
-      reports(gnss, station::DeviceState::kAbsent, "the receiver's device is missing for 7 s"));
+      reports(gnss, device::DeviceState::kAbsent, "the receiver's device is missing for 7 s"));
   EXPECT_EQ(gnss.report().counters.at("gnss_reconnects"), 0U);
 }
 
 TEST(Gnss, WithoutAHostThereIsNone) {
   Gnss gnss(GnssConfig{});
   EXPECT_TRUE(gnss.take_readings().empty());
-  EXPECT_EQ(gnss.report().state, station::DeviceState::kAbsent);
+  EXPECT_EQ(gnss.report().state, device::DeviceState::kAbsent);
   EXPECT_EQ(gnss.report().text, "not configured");
   EXPECT_TRUE(gnss.report().alarms.empty());
 }

@@ -31,10 +31,9 @@ InclinometerConfig config(const std::string& device) {
   return c;
 }
 
-bool reports(const Inclinometer& inclinometer, station::DeviceState state,
-             const std::string& text) {
+bool reports(const Inclinometer& inclinometer, device::DeviceState state, const std::string& text) {
   return eventually([&] {
-    const station::DeviceReport r = inclinometer.report();
+    const device::DeviceReport r = inclinometer.report();
     return r.state == state && r.text.find(text) != std::string::npos;
   });
 }
@@ -52,8 +51,8 @@ TEST(Inclinometer, GivesTheTiltAndTheVersion) {
     EXPECT_NEAR(degrees(readings[i].tilt_y_rad), -0.084, 0.02);
     EXPECT_GE(readings[i].time_s, readings[i == 0 ? 0 : i - 1].time_s);
   }
-  EXPECT_TRUE(reports(inclinometer, station::DeviceState::kOk, "DPG2 V1.4, x +0.4"));
-  const station::DeviceReport report = inclinometer.report();
+  EXPECT_TRUE(reports(inclinometer, device::DeviceState::kOk, "DPG2 V1.4, x +0.4"));
+  const device::DeviceReport report = inclinometer.report();
   EXPECT_NEAR(report.readings.at("inclinometer_x_deg"), 0.43, 0.02);
   EXPECT_NEAR(report.readings.at("inclinometer_y_deg"), -0.084, 0.02);
   EXPECT_GE(report.counters.at("inclinometer_readings"), 20U);
@@ -76,20 +75,20 @@ TEST(Inclinometer, GarbledLinesAreCountedAndTheRestIsRead) {
 TEST(Inclinometer, SilenceAndAStuckSensorAreToldAndHeal) {
   sim::InclinometerLine line(sensor(), 3);
   Inclinometer inclinometer(config(line.device()));
-  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
+  ASSERT_TRUE(reports(inclinometer, device::DeviceState::kOk, "x +0.4"));
   sim::InclinometerFaults faults;
   faults.silent = true;
   line.set_faults(faults);
-  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kFault, "no reading for"));
+  ASSERT_TRUE(reports(inclinometer, device::DeviceState::kFault, "no reading for"));
   EXPECT_GE(inclinometer.report().errors, 1U);
   line.set_faults({});
-  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
+  ASSERT_TRUE(reports(inclinometer, device::DeviceState::kOk, "x +0.4"));
   faults = {};
   faults.stuck = true;
   line.set_faults(faults);
-  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kFault, "stuck at"));
+  ASSERT_TRUE(reports(inclinometer, device::DeviceState::kFault, "stuck at"));
   line.set_faults({});
-  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
+  ASSERT_TRUE(reports(inclinometer, device::DeviceState::kOk, "x +0.4"));
 }
 
 TEST(Inclinometer, ASensorThatWasStoppedIsStartedAgain) {
@@ -100,20 +99,20 @@ TEST(Inclinometer, ASensorThatWasStoppedIsStartedAgain) {
     port.drain(1.0);
   }
   Inclinometer inclinometer(config(line.device()));
-  EXPECT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
+  EXPECT_TRUE(reports(inclinometer, device::DeviceState::kOk, "x +0.4"));
 }
 
 TEST(Inclinometer, ADeviceThatIsNotThereYetOrVanishesIsOpenedAgain) {
   const std::string link = testing::TempDir() + "ols_inclinometer_" + std::to_string(::getpid());
   Inclinometer inclinometer(config(link));
-  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kAbsent, link + ": cannot be opened"));
+  ASSERT_TRUE(reports(inclinometer, device::DeviceState::kAbsent, link + ": cannot be opened"));
   EXPECT_EQ(inclinometer.report().alarms.size(), 1U);
   auto line = std::make_unique<sim::InclinometerLine>(sensor(), 5, link);
-  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
+  ASSERT_TRUE(reports(inclinometer, device::DeviceState::kOk, "x +0.4"));
   line.reset();
-  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kAbsent, link));
+  ASSERT_TRUE(reports(inclinometer, device::DeviceState::kAbsent, link));
   line = std::make_unique<sim::InclinometerLine>(sensor(), 6, link);
-  ASSERT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
+  ASSERT_TRUE(reports(inclinometer, device::DeviceState::kOk, "x +0.4"));
   EXPECT_EQ(inclinometer.report().counters.at("inclinometer_reopened"), 1U);
 }
 
@@ -122,12 +121,12 @@ TEST(Inclinometer, EvenParityIsAccepted) {
   InclinometerConfig even = config(line.device());
   even.even_parity = true;
   Inclinometer inclinometer(even);
-  EXPECT_TRUE(reports(inclinometer, station::DeviceState::kOk, "x +0.4"));
+  EXPECT_TRUE(reports(inclinometer, device::DeviceState::kOk, "x +0.4"));
 }
 
 TEST(Inclinometer, WithoutADeviceThereIsNone) {
   Inclinometer inclinometer(InclinometerConfig{});
-  EXPECT_EQ(inclinometer.report().state, station::DeviceState::kAbsent);
+  EXPECT_EQ(inclinometer.report().state, device::DeviceState::kAbsent);
   EXPECT_EQ(inclinometer.report().text, "not configured");
   EXPECT_TRUE(inclinometer.report().alarms.empty());
 }

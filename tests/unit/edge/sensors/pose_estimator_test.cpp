@@ -7,75 +7,24 @@
 #include <limits>
 #include <random>
 
-#include "geometry/angles.h"
+#include "still_tripod.h"
 
 namespace ols::sensors {
 namespace {
 
 using Eigen::Vector3d;
+using test::distance_m;
+using test::feed;
+using test::fix;
+using test::kGround;
+using test::kSd_m;
+using test::no_fix;
+using test::sensors_only;
+using test::surveyed;
+using test::tilt;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-const Geodetic kGround{radians(49.2266), radians(16.5969), 310.0};
-const Vector3d kAntenna_enu_m{0.1, -0.2, 1.9};
-constexpr double kSd_m = 0.02;
-
-Geodetic moved(const Geodetic& from, const Vector3d& by_enu_m) {
-  return geodetic_from_ecef(LocalFrame(from).to_ecef(by_enu_m));
-}
-
-double distance_m(const Geodetic& a, const Geodetic& b) {
-  return (ecef_from_geodetic(a) - ecef_from_geodetic(b)).norm();
-}
-
-GnssReading fix(double time_s, const Vector3d& error_enu_m = Vector3d::Zero(),
-                double sd_m = kSd_m) {
-  GnssReading r;
-  r.time_s = time_s;
-  r.fix = GnssFix::kRtkFixed;
-  r.antenna = moved(kGround, kAntenna_enu_m + error_enu_m);
-  r.sd_enu_m.setConstant(sd_m);
-  r.satellites_used = 14;
-  return r;
-}
-
-GnssReading no_fix(double time_s) {
-  GnssReading r;
-  r.time_s = time_s;
-  return r;
-}
-
-// A tilt whose last digits move, as they do.
-TiltReading tilt(double time_s, double x_deg = 0.12, double y_deg = -0.08) {
-  const double flicker_deg = 0.0005 * std::sin(7.3 * time_s);
-  return {time_s, radians(x_deg + flicker_deg), radians(y_deg)};
-}
-
-PoseEstimator::Config sensors_only() {
-  PoseEstimator::Config c;
-  c.ground_to_antenna_enu_m = kAntenna_enu_m;
-  return c;
-}
-
-PoseEstimator::Config surveyed() {
-  PoseEstimator::Config c = sensors_only();
-  c.surveyed_position = kGround;
-  c.surveyed_position_sd_m = 0.015;
-  c.surveyed_tilt_rad = Eigen::Vector2d(radians(0.12), radians(-0.08));
-  c.surveyed_tilt_sd_rad = 1e-4;
-  return c;
-}
-
-// Feeds both sensors from..to, ten tilts and one fix a second.
-void feed(PoseEstimator& estimator, double from_s, double to_s,
-          const Vector3d& error_enu_m = Vector3d::Zero()) {
-  for (int i = 0; from_s + 0.1 * i < to_s; ++i) {
-    const double now_s = from_s + 0.1 * i;
-    estimator.add(tilt(now_s));
-    if (i % 10 == 0) estimator.add(fix(now_s, error_enu_m));
-  }
-}
 
 TEST(PoseEstimator, KnowsNothingBeforeAnythingWasMeasured) {
   const PoseEstimator estimator(sensors_only());
@@ -134,21 +83,6 @@ TEST(PoseEstimator, AnAverageIsNeverBetterThanItsReadingsSay) {
   EXPECT_NEAR(pose.position_sd_enu_m.z(), kSd_m, 1e-9);
   EXPECT_LT(distance_m(pose.position, kGround), 0.25 * kSd_m);  // and yet it was averaged
   EXPECT_NEAR(pose.tilt_sd_rad, sensors_only().inclinometer_sd_rad, 1e-12);
-}
-
-TEST(PoseEstimator, NoStatedSdIsBelievedBelowTheFloor) {
-  PoseEstimator estimator(sensors_only());
-  for (int i = 0; i < 10; ++i) estimator.add(fix(i, Vector3d::Zero(), 1e-6));
-  EXPECT_NEAR(estimator.pose(10.0).position_sd_enu_m.x(), 0.01, 1e-9);
-}
-
-TEST(PoseEstimator, BetterFixesTakeOver) {
-  PoseEstimator estimator(sensors_only());
-  for (int i = 0; i < 60; ++i) estimator.add(fix(i, {1.5, -1.0, 2.0}, 2.0));
-  EXPECT_NEAR(estimator.pose(60.0).position_sd_enu_m.x(), 2.0, 1e-6);
-  for (int i = 60; i < 120; ++i) estimator.add(fix(i));
-  EXPECT_LT(distance_m(estimator.pose(120.0).position, kGround), 0.02);
-  EXPECT_LT(estimator.pose(120.0).position_sd_enu_m.x(), 0.03);
 }
 
 class PoseEstimatorFaults : public testing::TestWithParam<bool> {
@@ -254,40 +188,6 @@ TEST(PoseEstimator, AWrongSurveyIsAnAlarmFromTheStart) {
   EXPECT_GT(estimator.pose(10.0).position_sd_enu_m.x(), 0.03);
 }
 
-TEST(PoseEstimator, ANewPlaceIsTakenOnlyWhereThatIsConfigured) {
-  PoseEstimator::Config config = sensors_only();
-  config.accept_move_s = 600.0;
-  PoseEstimator estimator(config);
-  feed(estimator, 0.0, 60.0);
-  feed(estimator, 60.0, 600.0, {8.0, 0.0, 0.0});
-  EXPECT_LT(distance_m(estimator.pose(600.0).position, kGround), 1e-3);
-  feed(estimator, 600.0, 700.0, {8.0, 0.0, 0.0});
-  EXPECT_LT(distance_m(estimator.pose(700.0).position, moved(kGround, {8.0, 0.0, 0.0})), 1e-3);
-  EXPECT_THAT(
-      estimator.alarms(700.0),
-      ElementsAre("gnss: new position adopted, 8.00 m from the old one: check the heading"));
-}
-
-TEST(PoseEstimator, ASlowSettlingOfTheTripodIsFollowed) {
-  PoseEstimator estimator(sensors_only());
-  for (int i = 0; i < 36000; ++i) estimator.add(tilt(0.1 * i, 0.12 + 0.3 * i / 36000.0));
-  EXPECT_NEAR(degrees(estimator.pose(3600.0).tilt_x_rad), 0.42, 0.01);
-  EXPECT_THAT(estimator.alarms(3600.0), IsEmpty());
-}
-
-TEST(PoseEstimator, FixesWorseThanAskedForAreNotUsed) {
-  PoseEstimator::Config config = sensors_only();
-  config.least_fix = GnssFix::kRtkFloat;
-  PoseEstimator estimator(config);
-  for (int i = 0; i < 10; ++i) {
-    GnssReading r = fix(i);
-    r.fix = GnssFix::kDifferential;
-    estimator.add(r);
-  }
-  EXPECT_EQ(estimator.pose(10.0).position_source, PoseSource::kNone);
-  EXPECT_THAT(estimator.alarms(10.0), ElementsAre("gnss: no fix yet, no position yet"));
-}
-
 // Whatever comes, the pose is finite, the survey is never given up, and no sd is below what it was
 // at the start.
 TEST(PoseEstimator, HoldsWhateverComes) {
@@ -325,95 +225,6 @@ TEST(PoseEstimator, HoldsWhateverComes) {
       estimator.alarms(now_s);
     }
   }
-}
-
-// --- over a restart
-
-constexpr std::int64_t kUtime_us = 1'700'000'000'000'000;
-
-PersistedPose remembered() {
-  PoseEstimator before(sensors_only());
-  for (int i = 0; i < 20; ++i) {
-    before.add(fix(i));
-    before.add(tilt(i));
-  }
-  return before.to_persist(20.0, kUtime_us);
-}
-
-TEST(PoseEstimatorResumed, ARestartWithoutAFixStillKnowsWhereItIs) {
-  PoseEstimator estimator(sensors_only());
-  estimator.resume(remembered(), 1000.0, kUtime_us + 120'000'000);
-  const StationPose pose = estimator.pose(1000.0);
-  EXPECT_EQ(pose.position_source, PoseSource::kSensor);
-  EXPECT_EQ(pose.tilt_source, PoseSource::kSensor);
-  EXPECT_LT(distance_m(pose.position, kGround), 1e-3);
-  EXPECT_NEAR(pose.tilt_x_rad, radians(0.12), radians(0.001));
-  // The age of two minutes counts, and so does what comes on top of it.
-  EXPECT_NEAR(pose.position_sd_enu_m.x(), std::hypot(kSd_m, 0.01 * std::sqrt(120.0)), 1e-3);
-  EXPECT_NEAR(estimator.pose(1900.0).position_sd_enu_m.x(),
-              std::hypot(kSd_m, 0.01 * std::sqrt(1020.0)), 1e-3);
-  EXPECT_GT(estimator.pose(1900.0).tilt_sd_rad, pose.tilt_sd_rad);
-  EXPECT_THAT(estimator.alarms(1000.0),
-              ElementsAre("pose: position restored from before the restart, 2 min old",
-                          "pose: tilt restored from before the restart, 2 min old"));
-}
-
-TEST(PoseEstimatorResumed, ASensorConfirmsIt) {
-  PoseEstimator estimator(sensors_only());
-  estimator.resume(remembered(), 1000.0, kUtime_us + 120'000'000);
-  estimator.add(fix(1001.0));
-  estimator.add(tilt(1001.0));
-  EXPECT_THAT(estimator.alarms(1001.0), IsEmpty());
-  EXPECT_LT(estimator.pose(1001.0).position_sd_enu_m.x(), 0.06);
-}
-
-TEST(PoseEstimatorResumed, UntilThenItIsNotKeptAnew) {
-  PoseEstimator estimator(sensors_only());
-  estimator.resume(remembered(), 1000.0, kUtime_us);
-  EXPECT_FALSE(estimator.to_persist(1001.0, kUtime_us).position) << "its age would be forgotten";
-  estimator.add(no_fix(1001.0));
-  EXPECT_FALSE(estimator.to_persist(1001.0, kUtime_us).position);
-  estimator.add(fix(1002.0));
-  EXPECT_TRUE(estimator.to_persist(1002.0, kUtime_us).position);
-  EXPECT_FALSE(estimator.to_persist(1002.0, kUtime_us).tilt);
-}
-
-TEST(PoseEstimatorResumed, SensorsThatSayOtherwiseForAMinuteAreRight) {
-  PoseEstimator estimator(sensors_only());
-  estimator.resume(remembered(), 1000.0, kUtime_us);
-  const Vector3d carried{100.0, 0.0, 0.0};
-  double now_s = 1000.0;
-  for (; now_s < 1050.0; now_s += 1.0) estimator.add(fix(now_s, carried));
-  EXPECT_LT(distance_m(estimator.pose(now_s).position, kGround), 1e-3) << "a jump alone is none";
-  EXPECT_THAT(estimator.alarms(now_s), testing::Contains(HasSubstr("from the kept position")));
-  for (; now_s < 1070.0; now_s += 1.0) estimator.add(fix(now_s, carried));
-  EXPECT_NEAR(distance_m(estimator.pose(now_s).position, kGround), 100.0, 0.1);
-  EXPECT_THAT(estimator.alarms(now_s), testing::Contains(HasSubstr("check the heading")));
-  EXPECT_TRUE(estimator.to_persist(now_s, kUtime_us).position);
-}
-
-TEST(PoseEstimatorResumed, AClockThatWentBackTellsNoAge) {
-  PoseEstimator estimator(sensors_only());
-  estimator.resume(remembered(), 1000.0, kUtime_us - 3'600'000'000);
-  EXPECT_GT(estimator.pose(1000.0).position_sd_enu_m.x(), 4.0);
-  EXPECT_EQ(estimator.pose(1000.0).position_source, PoseSource::kSensor);
-}
-
-TEST(PoseEstimatorResumed, WhatIsOldOrSurveyedIsNotTakenUp) {
-  PoseEstimator old(sensors_only());
-  old.resume(remembered(), 1000.0, kUtime_us + 8LL * 86400 * 1'000'000);
-  EXPECT_EQ(old.pose(1000.0).position_source, PoseSource::kNone);
-  EXPECT_THAT(old.alarms(1000.0), IsEmpty());
-  PoseEstimator::Config c = sensors_only();
-  c.surveyed_position = moved(kGround, {5.0, 0.0, 0.0});
-  c.surveyed_tilt_rad = Eigen::Vector2d(0.01, 0.02);
-  PoseEstimator surveyed(c);
-  surveyed.resume(remembered(), 1000.0, kUtime_us);
-  EXPECT_EQ(surveyed.pose(1000.0).position_source, PoseSource::kSurveyed);
-  EXPECT_NEAR(distance_m(surveyed.pose(1000.0).position, kGround), 5.0, 1e-3);
-  EXPECT_EQ(surveyed.pose(1000.0).tilt_x_rad, 0.01);
-  EXPECT_THAT(surveyed.alarms(1000.0), IsEmpty());
-  EXPECT_FALSE(surveyed.to_persist(1000.0, kUtime_us).position);
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+// Bearings of a recording that is in memory once, and is looked at in several orders.
+#pragma once
+
+#include <vector>
+
+#include "central/measurement/bearing_measurement.h"
+
+namespace ols::fusion {
+
+using BearingPointers = std::vector<const BearingMeasurement*>;
+using MutableBearings = std::vector<BearingMeasurement*>;
+
+inline BearingPointers pointers_to(const std::vector<BearingMeasurement>& measurements) {
+  BearingPointers pointers;
+  pointers.reserve(measurements.size());
+  for (const BearingMeasurement& measurement : measurements) pointers.push_back(&measurement);
+  return pointers;
+}
+
+}  // namespace ols::fusion

@@ -1,0 +1,114 @@
+#include "central/offline/object_separation.h"
+
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+#include <vector>
+
+#include "central/fusion/association.h"
+#include "central/tracking/live_tracks.h"
+
+namespace ols::fusion {
+namespace {
+
+auto exposure_and_direction(const BearingMeasurement* m) {
+  return std::tie(m->utime_us, m->station, m->sight.direction.azimuth_rad,
+                  m->sight.direction.elevation_rad);
+}
+
+MutableBearings in_order(const MutableBearings& measurements) {
+  MutableBearings ordered = measurements;
+  std::ranges::stable_sort(ordered, {}, exposure_and_direction);
+  return ordered;
+}
+
+class Separation {
+ public:
+  Separation(const FusionConfig& config, const MutableBearings& ordered)
+      : tracks_(config.keeper),
+        pointing_(config.pointing),
+        ordered_(ordered),
+        labels_(ordered.size(), 0) {}
+
+  void add(std::size_t index) {
+    const BearingMeasurement& measurement = *ordered_[index];
+    tracks_.advance(measurement.utime_us);
+    const Association result = associate(measurement, tracks_, pointing_).result;
+    labels_[index] = result.track_id;
+    if (tracks_.counts().confirmed == confirmed_) return;
+    confirmed_ = tracks_.counts().confirmed;
+    for (const Track& track : tracks_.tracks()) {
+      if (is_established(track)) label_all_of(track, index);
+    }
+  }
+
+  // The identity of the object of a bearing; 0: none.
+  std::int64_t object_of(std::size_t index) const {
+    std::int64_t label = labels_[index];
+    for (const auto& [stays, other] : tracks_.merged()) label = label == other ? stays : label;
+    return label;
+  }
+
+ private:
+  // When it is confirmed, a track has bearings that were given to it, or kept, while it had no
+  // identity.
+  void label_all_of(const Track& track, std::size_t newest) {
+    for (const auto& [station, bearings] : track.bearings) {
+      auto own = bearings.rbegin();
+      for (std::size_t i = newest + 1; i-- > 0 && own != bearings.rend();) {
+        const BearingMeasurement& candidate = *ordered_[i];
+        while (own != bearings.rend() && own->utime_us > candidate.utime_us) ++own;
+        if (own == bearings.rend() || candidate.station != station ||
+            exposure_and_direction(&candidate) != exposure_and_direction(&*own))
+          continue;
+        labels_[i] = track.id;
+        ++own;
+      }
+    }
+  }
+
+  LiveTracks tracks_;
+  PointingMonitor pointing_;
+  const MutableBearings& ordered_;
+  std::vector<std::int64_t> labels_;
+  std::int64_t confirmed_ = 0;
+};
+
+}  // namespace
+
+bool shows_several_objects(const MutableBearings& measurements) {
+  const MutableBearings ordered = in_order(measurements);
+  const auto differ = [](const BearingMeasurement* a, const BearingMeasurement* b) {
+    return a->utime_us == b->utime_us && a->station == b->station &&
+           exposure_and_direction(a) != exposure_and_direction(b);
+  };
+  return std::ranges::adjacent_find(ordered, differ) != ordered.end();
+}
+
+SeparatedBearings separate_objects(const MutableBearings& measurements, const FusionConfig& config,
+                                   const std::function<void()>& tell) {
+  SeparatedBearings separated;
+  MutableBearings ordered = in_order(measurements);
+  separated.low_belief = std::erase_if(ordered, [&](const BearingMeasurement* m) {
+    return m->belief < config.admission.min_belief;
+  });
+  const auto doubled = std::ranges::unique(ordered, {}, exposure_and_direction);
+  separated.duplicate = doubled.size();
+  ordered.erase(doubled.begin(), doubled.end());
+  Separation separation(config, ordered);
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    if (tell) tell();
+    separation.add(i);
+  }
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    const std::int64_t object = separation.object_of(i);
+    if (object == 0) {
+      ++separated.unexplained;
+    } else {
+      separated.objects[object].push_back(ordered[i]);
+    }
+  }
+  return separated;
+}
+
+}  // namespace ols::fusion

@@ -1,0 +1,20 @@
+// Work in shares that do not depend on each other. Who has threads runs them at the same time; by
+// default they run one after the other.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace ols::fusion {
+
+using Tasks = std::vector<std::function<void()>>;
+
+struct Workers {
+  std::size_t count = 1;  // shares into which work is divided
+  std::function<void(const Tasks&)> run = [](const Tasks& tasks) {
+    for (const auto& task : tasks) task();
+  };
+};
+
+}  // namespace ols::fusion

@@ -1,0 +1,35 @@
+// The state of one device, in the same form for all devices, for the status message and ols-doctor.
+// Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ols::device {
+
+enum class DeviceState {
+  kAbsent,    // configured, but not found
+  kStarting,  // found, not usable yet
+  kOk,
+  kFault,  // found, but faulty
+};
+const char* to_string(DeviceState state);
+
+struct DeviceReport {
+  std::string name;  // "camera", "ptu", "gnss", "inclinometer", "gpio", "recorder"
+  DeviceState state = DeviceState::kAbsent;
+  std::string text;                   // what the device is, or what is wrong with it
+  std::optional<double> last_good_s;  // CLOCK_MONOTONIC of the last good datum
+
+  std::string last_error;    // the last error as text; empty: none yet
+  std::uint64_t errors = 0;  // so far; a new error may have the text of an old one
+
+  std::vector<std::string> alarms;         // conditions that hold now, as text
+  std::map<std::string, double> readings;  // may fall; the name ends with the unit: ptu_supply_V
+  std::map<std::string, std::uint64_t> counters;  // only rise; the name begins with the device
+};
+
+}  // namespace ols::device

@@ -1,0 +1,82 @@
+#include "edge/kept_pose.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/clocks.h"
+#include "geometry/angles.h"
+
+namespace ols::station {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+class KeptPoseTest : public testing::Test {
+ protected:
+  KeptPoseTest() {
+    std::filesystem::create_directories(folder_);
+    settings_.id = "alfa";
+    settings_.state_folder = folder_;
+    settings_.gnss.host = "localhost";
+    settings_.inclinometer.device = "/dev/dpg2";
+  }
+  ~KeptPoseTest() override { std::filesystem::remove_all(folder_); }
+
+  void persist() const {
+    sensors::PersistedPose pose;
+    const Geodetic ground{radians(49.2), radians(16.6), 250.0};
+    pose.position = {ground, Eigen::Vector3d::Constant(0.02), clock_utime_us()};
+    pose.tilt = {Eigen::Vector2d(1e-3, 2e-3), 2e-4, clock_utime_us()};
+    std::ofstream(folder_ + "/alfa.pose") << to_text(pose);
+  }
+
+  const std::string folder_ = testing::TempDir() + "kept_pose_" +
+                              testing::UnitTest::GetInstance()->current_test_info()->name();
+  StationSettings settings_;
+};
+
+TEST_F(KeptPoseTest, WithoutAFileThereIsNoPositionAndAnAlarm) {
+  const KeptPose kept(settings_, 10.0);
+  EXPECT_EQ(kept.pose(10.0).position_source, sensors::PoseSource::kNone);
+  EXPECT_THAT(kept.alarms(10.0), Contains("pose: no position yet, no bearings"));
+}
+
+TEST_F(KeptPoseTest, ResumesThePoseOfTheLastRun) {
+  persist();
+  const KeptPose kept(settings_, 10.0);
+  EXPECT_NEAR(kept.pose(10.0).position.height_m, 250.0, 1e-3);
+  EXPECT_NEAR(kept.pose(10.0).tilt_y_rad, 2e-3, 1e-6);
+  EXPECT_THAT(kept.alarms(10.0), Contains(HasSubstr("restored from before the restart")));
+  EXPECT_THAT(kept.alarms(10.0), Not(Contains(HasSubstr("no position yet"))));
+}
+
+// The sensor would never confirm it.
+TEST_F(KeptPoseTest, WhatAMissingSensorMeasuredIsNotResumed) {
+  persist();
+  settings_.gnss.host.clear();
+  EXPECT_EQ(KeptPose(settings_, 10.0).pose(10.0).position_source, sensors::PoseSource::kNone);
+  EXPECT_EQ(KeptPose(settings_, 10.0).pose(10.0).tilt_source, sensors::PoseSource::kSensor);
+  settings_.gnss.host = "localhost";
+  settings_.inclinometer.device.clear();
+  EXPECT_EQ(KeptPose(settings_, 10.0).pose(10.0).position_source, sensors::PoseSource::kSensor);
+  EXPECT_EQ(KeptPose(settings_, 10.0).pose(10.0).tilt_source, sensors::PoseSource::kNone);
+}
+
+TEST_F(KeptPoseTest, AStationIsKnownByItsId) {
+  persist();
+  settings_.id = "bravo";
+  EXPECT_EQ(KeptPose(settings_, 10.0).pose(10.0).position_source, sensors::PoseSource::kNone);
+}
+
+TEST_F(KeptPoseTest, ADamagedFileIsAnAlarm) {
+  std::ofstream(folder_ + "/alfa.pose") << "ols-pose 1\nposition";
+  EXPECT_THAT(KeptPose(settings_, 10.0).alarms(10.0), Contains(HasSubstr("saved pose refused")));
+}
+
+}  // namespace
+}  // namespace ols::station

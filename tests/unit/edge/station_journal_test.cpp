@@ -1,0 +1,64 @@
+#include "edge/station_journal.h"
+
+#include <gtest/gtest.h>
+
+namespace ols::station {
+namespace {
+
+constexpr clock::ClockPair at(std::int64_t utime_us) {
+  clock::ClockPair now{};
+  now.monotonic_s = 1e-6 * static_cast<double>(utime_us);
+  now.utime_us = utime_us;
+  return now;
+}
+
+device::DeviceReport failed(const char* name, const char* error, std::uint64_t errors) {
+  device::DeviceReport report;
+  report.name = name;
+  report.last_error = error;
+  report.errors = errors;
+  return report;
+}
+
+class StationJournalTest : public testing::Test {
+ protected:
+  // The report's last error after this turn.
+  std::string noted(std::int64_t utime_us) {
+    StationReport report = report_;
+    journal_.note(at(utime_us), bus_, report);
+    last_utime_us_ = report.last_error_utime_us;
+    return report.last_error;
+  }
+  StationJournal journal_;
+  StationJournal::Bus bus_{"udpm://", "", "", 0};
+  StationReport report_;
+  std::int64_t last_utime_us_ = 0;
+};
+
+TEST_F(StationJournalTest, NothingWrongIsNoError) { EXPECT_EQ(noted(1'000'000), ""); }
+
+TEST_F(StationJournalTest, TheNewestErrorOfADeviceIsTheStations) {
+  report_.devices = {failed("gnss", "", 0), failed("ptu", "no answer", 1)};
+  EXPECT_EQ(noted(1'000'000), "no answer");
+  EXPECT_EQ(last_utime_us_, 1'000'000);
+  report_.devices[0].last_error = "gpsd has closed the connection";
+  report_.devices[0].errors = 1;
+  EXPECT_EQ(noted(2'000'000), "gpsd has closed the connection");
+  EXPECT_EQ(last_utime_us_, 2'000'000);
+}
+
+TEST_F(StationJournalTest, AnErrorIsOfTheTimeWhenItHappened) {
+  report_.devices = {failed("ptu", "no answer", 1)};
+  noted(1'000'000);
+  noted(2'000'000);
+  EXPECT_EQ(last_utime_us_, 1'000'000) << "still the same one";
+  report_.devices[0].errors = 2;
+  noted(3'000'000);
+  EXPECT_EQ(last_utime_us_, 1'000'000) << "a storm of one error is one error";
+  report_.devices[0].errors = 3;
+  noted(70'000'000);
+  EXPECT_EQ(last_utime_us_, 70'000'000) << "the same after a quiet minute";
+}
+
+}  // namespace
+}  // namespace ols::station

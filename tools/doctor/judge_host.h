@@ -1,0 +1,22 @@
+// Is it well, and if not, what to do: clock, disk, processor and services of this host. Pure.
+#pragma once
+
+#include "edge/host_monitor.h"
+#include "tools/doctor/facts.h"
+#include "tools/doctor/finding.h"
+
+namespace ols::doctor {
+
+Finding judge(const clock::ClockQuality& clock);
+Finding judge(const FolderFacts& folder);
+Findings judge(const station::HostReport& host);
+// Nothing when there is no such unit on this host.
+std::optional<Finding> judge(const UnitFacts& unit);
+
+// The blocks that `systemctl show -p Id,LoadState,ActiveState,SubState,Result,NRestarts,StatusText`
+// prints, one a unit.
+std::vector<UnitFacts> parse_units(const std::string& text);
+// The interface in the words of `ip -o route get ADDRESS`; empty: none.
+std::string parse_route(const std::string& text);
+
+}  // namespace ols::doctor
