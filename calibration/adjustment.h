@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "calibration/network.h"
+#include "calibration/groups.h"
 
 namespace ols::calibration {
 

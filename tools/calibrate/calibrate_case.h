@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/network.h"
+#include "calibration/groups.h"
 #include "tools/calibrate/instrument_file.h"
 
 namespace ols::calibration {

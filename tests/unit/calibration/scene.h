@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/network.h"
+#include "calibration/calibrate.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration::test {
@@ -71,6 +71,32 @@ inline Problem landmarks_around(const StationModel& truth, const StationModel& r
     }
   }
   return problem;
+}
+
+// The configuration of a tripod that was just put up: its heading is anybody's guess.
+inline StationModel just_put_up() {
+  StationModel rough = hill();
+  rough.geometry.chain.heading_rad = radians(220.0);
+  return rough;
+}
+
+inline StationModel crooked() {
+  StationModel truth = hill();
+  truth.geometry.chain.tilt_x_rad = radians(0.3);
+  truth.geometry.chain.tilt_y_rad = radians(-0.2);
+  truth.geometry.chain.mount_z_rad = 200.0 * kArcsec;
+  truth.geometry.camera.fx_px *= 1.001;
+  truth.pan.sin1_rad = 30.0 * kArcsec;
+  truth.tilt.backlash_rad = 15.0 * kArcsec;
+  return truth;
+}
+
+inline std::vector<std::string> rejected(const Adjustment& adjustment, const Calibration& found) {
+  std::vector<std::string> names;
+  for (std::size_t g = 0; g < found.tests.size(); ++g) {
+    if (found.tests[g].rejected) names.push_back(adjustment.groups()[g].name);
+  }
+  return names;
 }
 
 }  // namespace ols::calibration::test

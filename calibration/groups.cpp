@@ -1,4 +1,4 @@
-#include "calibration/network.h"
+#include "calibration/groups.h"
 
 #include <algorithm>
 #include <cmath>
