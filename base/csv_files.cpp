@@ -1,166 +1,18 @@
 #include "base/csv_files.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <memory>
 #include <set>
-#include <sstream>
-#include <string_view>
-#include <tuple>
 
+#include "base/csv_rows.h"
 #include "base/fix_writer.h"
-
-// Rows are few enough for one thread.
-#define CSV_IO_NO_THREAD
-#include <libfccp/csv.h>
 
 namespace ols {
 namespace {
 
-// The column names of a file: required ones first.
-template <std::size_t kColumns>
-struct Header {
-  std::array<const char*, kColumns> names;
-  std::size_t required;
-};
-
-// One row: its place, for errors, and its cells by column; null where the file has no such column.
-template <std::size_t kColumns>
-class Row {
- public:
-  Row(const std::string& path, unsigned line, const Header<kColumns>& header,
-      const std::array<const char*, kColumns>& cells)
-      : path_(path), line_(line), header_(header), cells_(cells) {}
-
-  [[noreturn]] void fail(std::size_t column, const std::string& what) const {
-    throw CsvError(path_ + ":" + std::to_string(line_) + ": " + header_.names[column] + ": " +
-                   what);
-  }
-  unsigned line() const { return line_; }
-  bool has_column(std::size_t column) const { return cells_[column] != nullptr; }
-  bool has(std::size_t column) const {
-    return cells_[column] != nullptr && *cells_[column] != '\0';
-  }
-  std::string text(std::size_t column) const {
-    if (!has(column)) fail(column, "is empty");
-    return cells_[column];
-  }
-  // Ids are written to other files as they are.
-  std::string id(std::size_t column) const {
-    const std::string cell = text(column);
-    const bool plain = std::ranges::none_of(
-        cell, [](unsigned char c) { return c == ',' || c == '"' || c < 0x20 || c == 0x7f; });
-    if (!plain) fail(column, "has a comma, a quote or a control character");
-    return cell;
-  }
-  template <class Number>
-  Number number(std::size_t column, Number least, Number greatest) const {
-    const std::string cell = text(column);
-    const char* end = cell.data() + cell.size();
-    Number value{};
-    const auto [rest, error] = std::from_chars(cell.data(), end, value);
-    if (error != std::errc() || rest != end) fail(column, "'" + cell + "' is not a number");
-    if (!(value >= least && value <= greatest)) {
-      std::ostringstream range;
-      range << cell << " is outside " << least << " .. " << greatest;
-      fail(column, range.str());
-    }
-    return value;
-  }
-  std::optional<double> optional_number(std::size_t column, double least, double greatest) const {
-    if (!has(column)) return std::nullopt;
-    return number<double>(column, least, greatest);
-  }
-
- private:
-  const std::string& path_;
-  unsigned line_;
-  const Header<kColumns>& header_;
-  const std::array<const char*, kColumns>& cells_;
-};
-
-template <std::size_t kColumns>
-using Reader = io::CSVReader<kColumns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
-                             io::throw_on_overflow, io::empty_line_comment>;
-
-// The column separator that a spreadsheet has used instead of a comma.
-std::string other_separator(const std::string& path) {
-  std::string header;
-  std::getline(std::ifstream(path, std::ios::binary), header);
-  if (header.find(',') != std::string::npos) return "";
-  if (header.find(';') != std::string::npos) return "semicolons";
-  return header.find('\t') != std::string::npos ? "tabs" : "";
-}
-
-template <std::size_t kColumns>
-void read_header(Reader<kColumns>& reader, const std::string& path,
-                 const Header<kColumns>& header) {
-  std::apply(
-      [&](auto... names) {
-        reader.read_header(io::ignore_extra_column | io::ignore_missing_column, names...);
-      },
-      header.names);
-  for (std::size_t i = 0; i < header.required; ++i) {
-    if (reader.has_column(header.names[i])) continue;
-    const std::string separator = other_separator(path);
-    if (!separator.empty()) {
-      throw CsvError(path + ":1: header: columns are separated by " + separator +
-                     ", commas are needed");
-    }
-    throw CsvError(path + ":1: " + header.names[i] + ": the column is missing");
-  }
-}
-
-// A file, its last line ended: the library reads past the end of one that is not.
-class EndedLines : public io::ByteSourceBase {
- public:
-  explicit EndedLines(const std::string& path) : path_(path), file_(path, std::ios::binary) {
-    file_.peek();  // opening a folder succeeds; reading fails here
-    if (!file_.is_open() || file_.bad()) throw CsvError(path + ": cannot be read");
-    file_.clear();
-  }
-  int read(char* buffer, int size) override {
-    file_.read(buffer, size);
-    if (file_.bad()) throw CsvError(path_ + ": cannot be read");
-    auto count = static_cast<int>(file_.gcount());
-    if (count > 0) {
-      last_ = buffer[count - 1];
-    } else if (last_ != '\n' && size > 0) {
-      buffer[count++] = last_ = '\n';
-    }
-    return count;
-  }
-
- private:
-  std::string path_;
-  std::ifstream file_;
-  char last_ = '\n';
-};
-
-// Passes each row to `take`; translates the library's errors.
-template <std::size_t kColumns, class Take>
-void for_each_row(const std::string& path, const Header<kColumns>& header, Take take) {
-  try {
-    Reader<kColumns> reader(path, std::make_unique<EndedLines>(path));
-    read_header<kColumns>(reader, path, header);
-    std::array<const char*, kColumns> cells{};
-    const auto next = [&](auto&... cell) { return reader.read_row(cell...); };
-    while (std::apply(next, cells)) {
-      take(Row<kColumns>(path, reader.get_file_line(), header, cells));
-    }
-  } catch (const io::error::header_missing&) {
-    throw CsvError(path + ":1: header: is missing");
-  } catch (const io::error::with_file_line& error) {
-    throw CsvError(path + ":" + std::to_string(error.file_line) +
-                   ": row: too few or too many columns, or a quote that stays open");
-  } catch (const io::error::base& error) {
-    throw CsvError(path + ":1: header: " + error.what());
-  }
-}
+using csv::for_each_row;
+using csv::Header;
+using csv::Row;
 
 constexpr std::int64_t kGreatestUtime = 9'000'000'000'000'000;  // differences do not overflow
 
@@ -190,37 +42,13 @@ StationRow station_row(const Row<6>& row) {
   return station;
 }
 
-// "33N": the zone and its hemisphere, not a band of latitude.
-UtmCells utm_of(const Row<8>& row) {
-  UtmCells utm;
-  const std::string zone = row.text(5);
-  const auto [rest, error] = std::from_chars(zone.data(), zone.data() + zone.size(), utm.zone);
-  const std::string hemisphere(rest, zone.data() + zone.size());
-  if (error != std::errc() || utm.zone < 1 || utm.zone > 60 ||
-      (hemisphere != "N" && hemisphere != "S")) {
-    row.fail(5, "'" + zone + "' is not a zone 1 .. 60 and its hemisphere N or S, as 33N");
-  }
-  utm.northern = hemisphere == "N";
-  utm.easting_m = row.number<double>(6, 0.0, 1e6);
-  utm.northing_m = row.number<double>(7, 0.0, 1e7);
-  return utm;
-}
-
 SurveyRow survey_row(const Row<8>& row) {
   SurveyRow point;
   point.landmark = row.id(0);
   point.height_m = row.number<double>(1, -1e3, 100e3);
   point.sd_m = row.number<double>(2, 0.0, 1e4);
   point.line = row.line();
-  const bool utm = row.has(5) || row.has(6) || row.has(7);
-  if (utm && (row.has(3) || row.has(4)))
-    row.fail(5, "must be empty: latitude and longitude are given");
-  if (utm) {
-    point.place = utm_of(row);
-  } else {
-    point.place =
-        GeodeticCells{row.number<double>(3, -90.0, 90.0), row.number<double>(4, -180.0, 360.0)};
-  }
+  point.place = csv::place_of(row, 3, 5);
   return point;
 }
 

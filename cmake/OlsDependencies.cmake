@@ -4,6 +4,7 @@
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc calib3d videoio imgcodecs features2d)
 find_package(PkgConfig REQUIRED)
+pkg_check_modules(erfa REQUIRED IMPORTED_TARGET erfa)
 pkg_check_modules(lcm REQUIRED IMPORTED_TARGET lcm)
 pkg_check_modules(glib REQUIRED IMPORTED_TARGET glib-2.0)
 pkg_check_modules(aravis REQUIRED IMPORTED_TARGET aravis-0.8)

@@ -6,7 +6,7 @@ include(GNUInstallDirs)
 set(OLS_SYSTEM_LIBDIR lib)
 
 foreach(program IN ITEMS ols-station ols-fusion ols-ctl ols-doctor ols-logger ols-track ols-fuse
-                         ols-precision ols-stationing)
+                         ols-precision ols-stationing ols-calibrate)
   install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endforeach()
 # The simulator is not installed by default: cmake --install BUILD --component simulator.

@@ -140,6 +140,14 @@ Section calibration_section(StationSettings& settings) {
                             "Of the position, each of east, north, up.")}}}};
 }
 
+Section serials_section(InstrumentSerials& serials) {
+  return {"serials",
+          "Serial numbers of the parts; a calibration of others is refused.",
+          {config::text("camera", serials.camera, "Of the camera."),
+           config::text("lens", serials.lens, "Of the lens."),
+           config::text("ptu", serials.ptu, "Of the pan-tilt unit.")}};
+}
+
 Section clock_section(clock::ClockWatch::Config& clock) {
   return {"clock",
           "The clock of the station's computer.",
@@ -252,8 +260,8 @@ Section station_section(StationSettings& s) {
        config::integer("tracker_seed", s.tracker_seed, 0, INT64_MAX, "",
                        "Seed of the tracker's random numbers.")},
       {pose_section(s), chain_section(s.station.geometry.chain), calibration_section(s),
-       camera::camera_section(s.camera), lens_section(s), ptu::ptu_section(s.ptu),
-       tracker::tracker_section(s.tracker), logic_section(s.station),
+       serials_section(s.serials), camera::camera_section(s.camera), lens_section(s),
+       ptu::ptu_section(s.ptu), tracker::tracker_section(s.tracker), logic_section(s.station),
        sensors::inclinometer_section(s.inclinometer), sensors::gnss_section(s.gnss),
        gpio::gpio_section(s.gpio), recorder::recorder_section(s.recorder), clock_section(s.clock),
        watchdog_section(s)},

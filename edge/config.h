@@ -23,11 +23,17 @@ struct Section;
 }
 namespace ols::station {
 
+// Of the parts that a calibration belongs to; empty: not stated.
+struct InstrumentSerials {
+  std::string camera, lens, ptu;
+};
+
 struct StationSettings {
   std::string id;  // letters, digits, - and _; at most 32, because it is part of the channel names
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string state_folder;  // for the state that survives a restart; empty: none is saved
   std::int64_t calibration_id = 0;
+  InstrumentSerials serials;
   std::uint64_t tracker_seed = 1;
   double status_interval_s = 0.5;
   double preview_interval_s = 1.0;  // 0: none

@@ -30,18 +30,23 @@ PanTilt reported_from_shaft(const ChainParameters& chain, double pan_rad, double
           chain.tilt_sign * (tilt_rad - chain.tilt_zero_rad)};
 }
 
-// Shaft tilt t, in -pi/2..pi/2, with which RY(-t) lifts m to the height of d (both unit). RY(-t)
-// turns m in the plane X-Z and leaves its Y; of the two angles at that height the first one leaves
-// m in front of the tilt axis.
-std::optional<double> tilt_to_height_of(const Eigen::Vector3d& d, const Eigen::Vector3d& m) {
+// Shaft tilt t, in -pi/2..pi/2, with which RX(trunnion) RY(-t) lifts m to the height of d (both
+// unit). RY(-t) turns m in the plane X-Z and leaves its Y, so the height that it must give m before
+// the trunnion error is known; of the two angles at that height the first one leaves m in front of
+// the tilt axis.
+std::optional<double> tilt_to_height_of(const Eigen::Vector3d& d, const Eigen::Vector3d& m,
+                                        double trunnion_rad) {
   const double d_level = d.head<2>().norm();
   const double m_across = std::abs(m.y());
+  const double height = (d.z() - std::sin(trunnion_rad) * m.y()) / std::cos(trunnion_rad);
+  const double reach =
+      (d_level - m_across) * (d_level + m_across) + (d.z() - height) * (d.z() + height);
   const bool on_tilt_axis = std::hypot(m.x(), m.z()) <= kAimTolerance;
-  if (!(m_across <= d_level + kAimTolerance) || on_tilt_axis) return std::nullopt;
-  const double forward = std::sqrt(std::max(0.0, (d_level - m_across) * (d_level + m_across)));
+  if (!(reach >= -kAimTolerance * (d_level + m_across)) || on_tilt_axis) return std::nullopt;
+  const double forward = std::sqrt(std::max(0.0, reach));
   const double own_angle = std::atan2(m.z(), m.x());
   for (const double x : {forward, -forward}) {
-    const double tilt = wrap_pi(std::atan2(d.z(), x) - own_angle);
+    const double tilt = wrap_pi(std::atan2(height, x) - own_angle);
     if (std::abs(tilt) <= kPi / 2.0 + kAimTolerance) return tilt;
   }
   return std::nullopt;
@@ -62,7 +67,7 @@ std::array<Link, kJoints - 1> links(const ChainParameters& chain, const PanTilt&
       {chain.ground_to_origin_m, kPi / 2.0 - chain.heading_rad, chain.tilt_x_rad, chain.tilt_y_rad},
       {chain.origin_to_azi_m, shaft_pan_rad, 0.0, 0.0},
       // A positive tilt looks up, a positive RY down.
-      {chain.azi_to_ele_m, 0.0, 0.0, -shaft_tilt_rad},
+      {chain.azi_to_ele_m, 0.0, chain.trunnion_rad, -shaft_tilt_rad},
       {chain.ele_to_focus_m, chain.mount_z_rad, chain.mount_x_rad, chain.mount_y_rad},
       {chain.focus_to_camera_m, 0.0, 0.0, 0.0},
   }};
@@ -89,12 +94,12 @@ std::optional<PanTilt> aim(const ChainParameters& chain, const Eigen::Vector3d& 
                            const Eigen::Vector3d& direction_cam) {
   if (!(direction_enu.norm() > 0.0 && direction_cam.norm() > 0.0)) return std::nullopt;
   const auto link = links(chain, {});
-  // Wanted: RZ(pan) RY(-tilt) m = d, d in ORIGIN and m in the frame that tilts.
+  // Wanted: RZ(pan) RX(trunnion) RY(-tilt) m = d, d in ORIGIN and m in the frame that tilts.
   const Eigen::Vector3d d = link_rotation(link[0]).transpose() * direction_enu.normalized();
   const Eigen::Vector3d m = link_rotation(link[3]) * R_chain_cam() * direction_cam.normalized();
-  const std::optional<double> tilt_rad = tilt_to_height_of(d, m);
+  const std::optional<double> tilt_rad = tilt_to_height_of(d, m, chain.trunnion_rad);
   if (!tilt_rad) return std::nullopt;
-  const Eigen::Vector3d tilted = RY(-*tilt_rad) * m;
+  const Eigen::Vector3d tilted = RX(chain.trunnion_rad) * (RY(-*tilt_rad) * m).eval();
   // Straight up or down every pan is right: zero.
   const bool on_pan_axis = d.head<2>().norm() <= kAimTolerance;
   const double pan_rad =

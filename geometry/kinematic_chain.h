@@ -39,6 +39,9 @@ struct ChainParameters {
   Eigen::Vector3d azi_to_ele_m{0.0, 0.0, 0.0};        // paper: AZI and ELE share one position
   Eigen::Vector3d ele_to_focus_m{0.0, 0.0, 0.06};     // in the frame that tilts
   Eigen::Vector3d focus_to_camera_m{0.05, 0.0, 0.0};  // paper: further along X
+  // The tilt axis' error of squareness to the pan axis, about X of AZI: a positive trunnion error
+  // turns the left end of the tilt axis up.
+  double trunnion_rad = 0.0;
   // Mounting rotation of the camera on the manipulator (paper section 4.2), at FOCUS.
   double mount_z_rad = 0.0;
   double mount_x_rad = 0.0;

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ("geometry", "base", "edge", "central", "sim", "tools", "dev")
+FOLDERS = ("geometry", "calibration", "base", "edge", "central", "sim", "tools", "dev")
 
 
 @dataclass

@@ -17,7 +17,7 @@ WITHOUT: dict[str, str] = {
         *main.cpp tools/offline/precision_advice.cpp tools/offline/precision_map.cpp
         tools/offline/precision_paper_files.cpp tools/offline/recorded_bearings.cpp
         tools/offline/stationing_files.cpp tools/offline/stationing_report.cpp
-        tools/doctor/examination.cpp""",
+        tools/doctor/examination.cpp tools/calibrate/*.cpp""",
     "they own devices, sockets or threads of a process; the end-to-end tests run them": """
         base/lcm_bus.cpp base/multicast_socket.cpp edge/device_set.cpp edge/station_process.cpp
         central/app/fusion_bus.cpp central/app/fusion_process.cpp tools/ctl/operator.cpp
@@ -29,7 +29,8 @@ WITHOUT: dict[str, str] = {
         edge/sensors/gpsd_link.cpp sim/gnss_line.cpp sim/gpio_socket.cpp""",
     "the kernel's clock, which a test cannot set": """
         edge/camera/tai_reference.cpp sim/stepped_clock.cpp""",
-    "Python bindings: tested from Python (tests/oracle)": "tools/python/*.cpp",
+    "Python bindings, and the sky: tested from Python (tests/oracle)": """
+        tools/python/*.cpp calibration/sky.cpp""",
     "parts of the fusion, tested through it (tests/unit/central/fusion and /tracking)": """
         central/estimators/estimator.cpp
         central/fusion/association.cpp central/fusion/bearing_lines.cpp

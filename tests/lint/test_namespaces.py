@@ -7,6 +7,7 @@ import pytest
 
 NAMESPACES = {
     "geometry": "ols",
+    "calibration": "ols::calibration",
     "base": "ols",
     "edge/camera": "ols::camera",
     "edge/clock": "ols::clock",
@@ -19,6 +20,7 @@ NAMESPACES = {
     "edge": "ols::station",
     "central": "ols::fusion",
     "sim": "ols::sim",
+    "tools/calibrate": "ols::calibration",
     "tools/ctl": "ols::ctl",
     "tools/doctor": "ols::doctor",
     "tools/logger": "ols::logger",

@@ -145,6 +145,7 @@ void bind_chain_types(py::module_& m) {
       .def_readwrite("mount_z_rad", &Chain::mount_z_rad)
       .def_readwrite("mount_x_rad", &Chain::mount_x_rad)
       .def_readwrite("mount_y_rad", &Chain::mount_y_rad)
+      .def_readwrite("trunnion_rad", &Chain::trunnion_rad)
       .def_readwrite("pan_sign", &Chain::pan_sign, "shaft = sign * reported + zero; left > 0.")
       .def_readwrite("tilt_sign", &Chain::tilt_sign, "shaft = sign * reported + zero; up > 0.")
       .def_readwrite("pan_zero_rad", &Chain::pan_zero_rad)

@@ -1,0 +1,52 @@
+// The least-squares adjustment of a network: damped normal equations (Levenberg and Marquardt) on
+// the globals, each block's nuisance eliminated.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calibration/groups.h"
+
+namespace ols::calibration {
+
+struct Fit {
+  std::vector<bool> kept;  // by group
+  State state;
+  std::vector<BlockEquations> equations;  // of all blocks at the state, also of rejected groups
+  Eigen::MatrixXd covariance;             // of the globals; 0 for what is known exactly
+  double misfit = 0.0;                    // of the kept groups and the priors
+  bool converged = false;
+};
+
+class Adjustment {
+ public:
+  explicit Adjustment(Network network);
+
+  const Network& network() const { return network_; }
+  const std::vector<Group>& groups() const { return network_.groups; }
+  // As the priors have it, but for the headings.
+  State start(const std::vector<double>& headings_rad) const;
+  Fit fit(State start, const std::vector<bool>& kept) const;
+  // A group's equations, its blocks' summed, over the columns of all of them.
+  BlockEquations equations(const Fit& fit, std::size_t group) const;
+
+ private:
+  // Normal equations in units of `scale_`.
+  struct Normal {
+    std::vector<BlockEquations> equations;
+    Eigen::MatrixXd N;
+    Eigen::VectorXd b;
+    double misfit = 0.0;
+    bool valid = true;
+  };
+  std::vector<bool> used_blocks(const std::vector<bool>& kept) const;
+  Normal normal(const State& state, const std::vector<bool>& used, double damping) const;
+  State stepped(const State& state, const Normal& normal, const std::vector<bool>& used,
+                const Eigen::VectorXd& step) const;
+  void fit_rejected(Fit& fit, const std::vector<bool>& used) const;
+
+  Network network_;
+  Eigen::VectorXd scale_;  // of the globals; 0: known exactly
+};
+
+}  // namespace ols::calibration

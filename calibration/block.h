@@ -1,0 +1,67 @@
+// A block of an adjustment: observations that share a nuisance of their own, or a prior. It
+// eliminates the nuisance and hands in its information, gradient and squares (Schur complement), so
+// that a block can be added, left out and tested as one.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "calibration/target.h"
+
+namespace ols::calibration {
+
+// At a state, in the natural units of the globals.
+struct BlockEquations {
+  std::vector<int> columns;     // of the globals; the rows below are theirs
+  Eigen::MatrixXd information;  // J' W J, nuisance eliminated
+  Eigen::VectorXd gradient;     // J' W v
+  double squares = 0.0;         // v' W v, with the nuisance that suits the state best
+  double misfit = 0.0;          // v' W v with the nuisance of the state
+  // What the nuisance does when the globals change by dx: -(nuisance_step + nuisance_by dx).
+  Eigen::VectorXd nuisance_step;
+  Eigen::MatrixXd nuisance_by;
+  // For a shift of the target by one radian as seen from the station, across and up.
+  Eigen::Matrix2d shift_information = Eigen::Matrix2d::Zero();
+  Eigen::Matrix<double, Eigen::Dynamic, 2> shift_by;
+  // By sighting [px], in the order of the block's.
+  std::vector<Eigen::Vector2d> residuals;
+  std::vector<double> weights;  // below 1: a scene point that a robust weight holds back
+  bool valid = true;            // false: a target is behind the camera or outside of the lens model
+};
+
+class Block {
+ public:
+  virtual ~Block() = default;
+  virtual int degrees_of_freedom() const = 0;  // a nuisance without a prior costs its own
+  virtual Eigen::VectorXd initial(const State&) const { return Eigen::VectorXd(0); }
+  // `damping`: of Levenberg and Marquardt, for the nuisance.
+  virtual BlockEquations equations(const State& state, std::size_t block, double damping) const = 0;
+  // The heading of its station with which the block's first sighting is where its target is.
+  virtual std::optional<double> heading(const State&, std::size_t) const { return std::nullopt; }
+};
+using BlockPtr = std::shared_ptr<const Block>;
+
+struct PixelBlockConfig {
+  Layout layout;
+  std::vector<double> pose_sd_rad;  // by station: of a pose that only one sighting has
+  bool robust = false;
+  bool absolute = true;  // its target is where somebody has said
+};
+BlockPtr pixel_block(TargetPtr target, std::vector<Sighting> sightings,
+                     const PixelBlockConfig& config);
+// The readings of one station's inclinometer; its zero is the nuisance.
+BlockPtr level_block(const Layout& layout, std::vector<Observation> readings);
+// The prior of a station's parameters; of UT1; of a shared pose's angles.
+BlockPtr station_prior_block(const Layout& layout, std::size_t station,
+                             const StationMatrix& covariance);
+BlockPtr ut1_prior_block(const Layout& layout, double sd_s);
+BlockPtr pose_prior_block(const Layout& layout, std::size_t pose, double sd_rad);
+
+// N, b and the squares of a block's normal equations over (columns, shift, nuisance): the nuisance,
+// the last `nuisance` rows, is eliminated. `shift` is 2 or 0.
+BlockEquations eliminated(const Eigen::MatrixXd& N, const Eigen::VectorXd& b, double squares,
+                          Eigen::Index columns, Eigen::Index shift, double damping);
+
+}  // namespace ols::calibration

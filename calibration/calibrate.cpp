@@ -1,0 +1,263 @@
+#include "calibration/calibrate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "calibration/snooping.h"
+#include "geometry/angles.h"
+#include "geometry/chi_square.h"
+
+namespace ols::calibration {
+namespace {
+
+constexpr double kPower = 0.8;
+
+// The groups of the tests' kinds whose statistic is worst over their critical value; none above 1.
+class Snooping {
+ public:
+  Snooping(const Adjustment& adjustment, const Levels& levels)
+      : adjustment_(adjustment), levels_(levels) {}
+
+  Fit run() {
+    const Start start = find_start(adjustment_, levels_.mistaken);
+    Fit fit = adjustment_.fit(start.state, start.kept);
+    // Each round rejects one group or takes one back; a set that was tried before ends it.
+    while (tried_.insert(fit.kept).second) {
+      const auto change = next_change(fit);
+      if (!change) break;
+      std::vector<bool> kept = fit.kept;
+      kept[*change].flip();
+      fit = adjustment_.fit(fit.state, kept);
+    }
+    return fit;
+  }
+
+ private:
+  double over_critical(const Fit& fit, std::size_t g) const {
+    const auto& groups = adjustment_.groups();
+    return test_statistic(adjustment_, fit, g) /
+           critical_value(groups[g], groups.size(), levels_.mistaken);
+  }
+  // First what passes is taken back, the best first: the heading may rest on one group yet.
+  std::optional<std::size_t> next_change(const Fit& fit) const {
+    std::optional<std::size_t> best, worst;
+    double least = 1.0, most = 1.0;
+    for (std::size_t g = 0; g < fit.kept.size(); ++g) {
+      if (!adjustment_.groups()[g].is_tested()) continue;
+      const double over = over_critical(fit, g);
+      if (!fit.kept[g] && over < least) {
+        best = g;
+        least = over;
+      } else if (fit.kept[g] && over > most) {
+        worst = g;
+        most = over;
+      }
+    }
+    if (best && !after(fit.kept, *best)) return best;
+    return worst;
+  }
+  bool after(std::vector<bool> kept, std::size_t g) const {
+    kept[g].flip();
+    return tried_.contains(kept);
+  }
+
+  const Adjustment& adjustment_;
+  Levels levels_;
+  std::set<std::vector<bool>> tried_;
+};
+
+std::string label(const Group& group) {
+  return std::string(name(group.kind)) + (group.name.empty() ? "" : " '" + group.name + "'");
+}
+
+std::string listed(const std::vector<Group>& groups, const std::vector<std::size_t>& which) {
+  std::string text;
+  for (const std::size_t g : which) text += (text.empty() ? "" : ", ") + label(groups[g]);
+  return text;
+}
+
+void check_heading(const Adjustment& adjustment, const Fit& fit) {
+  constexpr double kKnown_rad = 0.17;  // ten degrees
+  const Layout& layout = adjustment.network().layout;
+  for (std::size_t s = 0; s < layout.stations; ++s) {
+    const int heading = layout.station(s) + kHeading;
+    if (std::sqrt(fit.covariance(heading, heading)) < kKnown_rad) continue;
+    throw std::invalid_argument("station '" + adjustment.network().names[s] +
+                                "': the observations leave its heading unknown");
+  }
+}
+
+void check_majority(const Adjustment& adjustment, const Fit& fit) {
+  const auto& groups = adjustment.groups();
+  std::vector<std::size_t> rejected, kept;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (groups[g].is_tested()) (fit.kept[g] ? kept : rejected).push_back(g);
+  }
+  if (rejected.empty() || kept.size() > rejected.size()) return;
+  throw Contradiction(
+      "the observations contradict each other: no more of them agree than do not: " +
+      listed(groups, kept) + "; against " + listed(groups, rejected));
+}
+
+// Another group whose rejection explains the observations as well.
+void check_ambiguity(const Adjustment& adjustment, const Fit& fit, const Levels& levels) {
+  const double kNoDoubt = 2.0 * std::log(1000.0);
+  const auto& groups = adjustment.groups();
+  std::vector<std::size_t> rejected;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (groups[g].is_tested() && !fit.kept[g]) rejected.push_back(g);
+  }
+  if (rejected.size() != 1 || groups.size() > 40) return;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (!groups[g].is_tested() || g == rejected[0]) continue;
+    std::vector<bool> other = fit.kept;
+    other[rejected[0]] = true;
+    other[g] = false;
+    const Fit instead = adjustment.fit(fit.state, other);
+    if (instead.misfit > fit.misfit + kNoDoubt) continue;
+    const double worst = test_statistic(adjustment, instead, rejected[0]);
+    if (worst > critical_value(groups[rejected[0]], groups.size(), levels.mistaken)) continue;
+    throw Contradiction("the observations contradict each other: all others agree without " +
+                        label(groups[rejected[0]]) + ", or without " + label(groups[g]));
+  }
+}
+
+// What a block's squares are expected to be: its degrees of freedom less the share of the
+// parameters that it determines itself (its partial redundancy, W. Foerstner 1979).
+double redundancy_of(const Fit& fit, const BlockEquations& one, int degrees_of_freedom) {
+  double share = 0.0;
+  for (std::size_t k = 0; k < one.columns.size(); ++k) {
+    for (std::size_t l = 0; l < one.columns.size(); ++l) {
+      share += one.information(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) *
+               fit.covariance(one.columns[l], one.columns[k]);
+    }
+  }
+  return degrees_of_freedom - share;
+}
+
+// Without the scenery: robust weights have no chi-square, and its points are thousands.
+ModelTest global_test(const Adjustment& adjustment, const Fit& fit, double level) {
+  const Network& network = adjustment.network();
+  std::vector<bool> counts(network.blocks.size(), true);
+  for (std::size_t g = 0; g < network.groups.size(); ++g) {
+    for (const std::size_t b : network.groups[g].blocks) {
+      counts[b] = network.groups[g].is_tested() && fit.kept[g];
+    }
+  }
+  double squares = 0.0, redundancy = 0.0;
+  for (std::size_t b = 0; b < counts.size(); ++b) {
+    if (!counts[b]) continue;
+    squares += fit.equations[b].squares;
+    redundancy += redundancy_of(fit, fit.equations[b], network.blocks[b]->degrees_of_freedom());
+  }
+  ModelTest test;
+  test.redundancy = static_cast<int>(std::lround(redundancy));
+  if (test.redundancy <= 0) return test;
+  test.variance_factor = std::max(0.0, squares) / redundancy;
+  test.critical = chi_square_critical(level, test.redundancy) / test.redundancy;
+  return test;
+}
+
+std::vector<GroupTest> tests_of(const Adjustment& adjustment, const Fit& fit,
+                                const Levels& levels) {
+  std::vector<GroupTest> tests(adjustment.groups().size());
+  for (std::size_t g = 0; g < tests.size(); ++g) {
+    const Group& group = adjustment.groups()[g];
+    if (!group.is_tested()) continue;
+    const double critical = critical_value(group, tests.size(), levels.mistaken);
+    tests[g].rejected = !fit.kept[g];
+    tests[g].w = std::sqrt(std::max(0.0, test_statistic(adjustment, fit, g)));
+    tests[g].critical = std::sqrt(critical);
+    tests[g].detectable_rad = detectable_rad(
+        adjustment, fit, g,
+        least_noncentrality(critical, std::max(1, group.degrees_of_freedom), kPower));
+  }
+  return tests;
+}
+
+void add_residuals(const Adjustment& adjustment, Calibration& result) {
+  std::size_t most = 0;
+  for (const Group& group : adjustment.groups()) {
+    for (const std::size_t i : group.observations) most = std::max(most, i + 1);
+  }
+  result.residuals.resize(most);
+  for (std::size_t g = 0; g < adjustment.groups().size(); ++g) {
+    const Group& group = adjustment.groups()[g];
+    std::size_t k = 0;
+    for (const std::size_t b : group.blocks) {
+      for (const Eigen::Vector2d& residual : result.fit.equations[b].residuals) {
+        result.residuals[group.observations[k++]] = residual;
+      }
+    }
+  }
+}
+
+// Scene points that a robust weight holds back: many of them, and the scene moves.
+void remark_scene(const Adjustment& adjustment, Calibration& result) {
+  constexpr double kMany = 0.2;
+  for (const Group& group : adjustment.groups()) {
+    if (group.is_tested()) continue;
+    double all = 0.0, held = 0.0;
+    for (const std::size_t b : group.blocks) {
+      for (const double weight : result.fit.equations[b].weights) {
+        all += 1.0;
+        held += weight < 1.0 ? 1.0 : 0.0;
+      }
+    }
+    if (held < kMany * all) continue;
+    result.remarks.push_back(label(group) + ": " + std::to_string(std::lround(100.0 * held / all)) +
+                             " % of its points do not stay where they are: does it move?");
+  }
+}
+
+void remark_single(const Adjustment& adjustment, Calibration& result) {
+  std::vector<std::size_t> kept;
+  for (std::size_t g = 0; g < result.tests.size(); ++g) {
+    if (adjustment.groups()[g].is_absolute() && result.fit.kept[g]) kept.push_back(g);
+  }
+  if (kept.size() != 1) return;
+  result.remarks.push_back(label(adjustment.groups()[kept[0]]) +
+                           " is the only reference: nothing checks it");
+}
+
+void remark_rejected(const Adjustment& adjustment, Calibration& result) {
+  for (std::size_t g = 0; g < result.tests.size(); ++g) {
+    if (!result.tests[g].rejected) continue;
+    result.remarks.push_back(label(adjustment.groups()[g]) + " is rejected as mistaken");
+  }
+}
+
+}  // namespace
+
+StationMatrix Calibration::covariance(const Network& network, std::size_t station) const {
+  const int first = network.layout.station(station);
+  return scaled_by * scaled_by *
+         fit.covariance.block<kStationParameters, kStationParameters>(first, first);
+}
+
+Calibration calibrate(const Adjustment& adjustment, const Levels& levels) {
+  Calibration result;
+  result.fit = Snooping(adjustment, levels).run();
+  check_heading(adjustment, result.fit);
+  check_majority(adjustment, result.fit);
+  check_ambiguity(adjustment, result.fit, levels);
+  if (!std::isfinite(result.fit.misfit) || !result.fit.converged) {
+    throw std::invalid_argument("the adjustment does not converge");
+  }
+  result.tests = tests_of(adjustment, result.fit, levels);
+  result.global = global_test(adjustment, result.fit, levels.misfit);
+  if (result.global.variance_factor > result.global.critical) {
+    result.scaled_by = std::sqrt(result.global.variance_factor);
+    result.remarks.emplace_back(
+        "the observations disagree by more than was stated: all deviations are scaled up");
+  }
+  remark_rejected(adjustment, result);
+  remark_single(adjustment, result);
+  remark_scene(adjustment, result);
+  add_residuals(adjustment, result);
+  return result;
+}
+
+}  // namespace ols::calibration

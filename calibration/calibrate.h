@@ -1,0 +1,58 @@
+// A whole calibration: the headings to begin with, the adjustment, and its tests by data snooping
+// (W. Baarda, A Testing Procedure for Use in Geodetic Networks, 1968).
+//
+// Each group of observations is tested against all others at once, with both components of all its
+// sightings. Starting from the headings on which most groups agree, groups that fail are rejected
+// one by one, the worst first, and rejected ones that pass are taken back. Scene points are not
+// tested; a robust weight holds back those that do not fit.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/adjustment.h"
+
+namespace ols::calibration {
+
+struct Levels {
+  double mistaken = 1e-3;  // of the tests of all groups together
+  double misfit = 0.05;    // of the global test
+};
+
+struct GroupTest {
+  bool rejected = false;
+  double w = 0.0;  // root of a chi-square with the group's degrees of freedom
+  double critical = 0.0;
+  // Minimal detectable bias (power 80 %) of the direction to the target: across, up; infinite where
+  // the others do not check it.
+  Eigen::Vector2d detectable_rad = Eigen::Vector2d::Zero();
+};
+
+// The global test (overall model test) of the groups that are not rejected.
+struct ModelTest {
+  double variance_factor = 1.0;
+  double critical = 1.0;
+  int redundancy = 0;
+};
+
+struct Calibration {
+  Fit fit;
+  std::vector<GroupTest> tests;  // by group
+  ModelTest global;
+  // [px] by observation: measured less adjusted; nothing for what was not used.
+  std::vector<std::optional<Eigen::Vector2d>> residuals;
+  std::vector<std::string> remarks;  // what a person should look at, as sentences
+  // Of one station's parameters, enlarged by the variance factor if the global test fails.
+  StationMatrix covariance(const Network& network, std::size_t station) const;
+  double scaled_by = 1.0;  // the deviations
+};
+
+// The observations contradict each other, and not so that a minority can be named.
+class Contradiction : public std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+// Contradiction; std::invalid_argument where a heading stays unknown.
+Calibration calibrate(const Adjustment& adjustment, const Levels& levels = {});
+
+}  // namespace ols::calibration

@@ -1,0 +1,16 @@
+// Two references that were taken for each other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/calibrate.h"
+
+namespace ols::calibration {
+
+// A sentence for each two rejected landmarks that agree with all others once their places are
+// exchanged.
+std::vector<std::string> exchanged_landmarks(const Problem& problem, const Adjustment& adjustment,
+                                             const Calibration& found, const Levels& levels = {});
+
+}  // namespace ols::calibration

@@ -1,0 +1,270 @@
+#include "calibration/groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "geometry/angles.h"
+
+namespace ols::calibration {
+namespace {
+
+[[noreturn]] void refuse(const Observation& one, const std::string& key, const std::string& why) {
+  throw ObservationRefused(one.line, key, why);
+}
+
+template <class T>
+const T& reference_as(const Problem& problem, const Observation& one, const char* what) {
+  const auto found = problem.references.find(one.reference);
+  if (found == problem.references.end()) {
+    refuse(one, "reference", "'" + one.reference + "' is not one of the references");
+  }
+  const T* reference = std::get_if<T>(&found->second);
+  if (!reference) refuse(one, "reference", "'" + one.reference + "' is not " + what);
+  return *reference;
+}
+
+const Trajectory& trajectory_of(const Problem& problem, const Observation& one) {
+  const auto& trajectory =
+      reference_as<Trajectory>(problem, one, "a trajectory: two rows with utime_us are needed");
+  // An aircraft's stamps may be off by its latency.
+  const std::int64_t slack_us = one.kind == Kind::kAircraft ? 5'000'000 : 0;
+  if (one.utime_us < trajectory.points.front().utime_us - slack_us ||
+      one.utime_us > trajectory.points.back().utime_us + slack_us) {
+    refuse(one, "utime_us", "is outside of the trajectory of '" + one.reference + "'");
+  }
+  return trajectory;
+}
+
+SkyDirection sky_of(const Problem& problem, const Observation& one) {
+  const Geodetic& place = problem.stations[one.station].model.geometry.position;
+  const Air air = problem.air.value_or(standard_air(place.height_m));
+  if (one.kind == Kind::kSun) return sun_direction(one.utime_us, place, air, problem.earth);
+  if (one.reference.empty()) {
+    refuse(one, "reference",
+           "a star without a name cannot be used: identify the stars first, and give each its row "
+           "in the references");
+  }
+  return star_direction(reference_as<Star>(problem, one, "a star"), one.utime_us, place, air,
+                        problem.earth);
+}
+
+class Builder {
+ public:
+  explicit Builder(const Problem& problem) : problem_(problem) {
+    network_.stations = problem.stations;
+    network_.names = problem.names;
+    find_shared_poses();
+    network_.layout = {problem.stations.size(), poses_.size()};
+    for (std::size_t i = 0; i < problem.observations.size(); ++i) {
+      const Observation& one = problem.observations[i];
+      members_[key_of(one, i)].push_back(i);
+    }
+  }
+
+  Network build() {
+    for (const auto& [key, members] : members_) add(members);
+    network_.priors_from = network_.blocks.size();
+    for (std::size_t i = 0; i < problem_.stations.size(); ++i) {
+      network_.blocks.push_back(
+          station_prior_block(network_.layout, i, problem_.stations[i].covariance));
+    }
+    network_.blocks.push_back(ut1_prior_block(network_.layout, problem_.ut1_sd_s));
+    for (const auto& [key, index] : poses_) {
+      network_.blocks.push_back(
+          pose_prior_block(network_.layout, index, problem_.stations[key.first].pose_sd_rad));
+    }
+    return std::move(network_);
+  }
+
+ private:
+  // What belongs to one group: kind, station (of what each station has for itself), name.
+  using Key = std::tuple<Kind, std::size_t, std::string>;
+
+  Key key_of(const Observation& one, std::size_t i) const {
+    switch (one.kind) {
+      case Kind::kStar:
+      case Kind::kSun:
+        return {one.kind, i, one.reference};
+      case Kind::kScene:
+        return {one.kind, one.station, ""};
+      case Kind::kInclinometer:
+        return {one.kind, one.station, ""};
+      default:
+        return {one.kind, 0, one.reference};
+    }
+  }
+
+  void find_shared_poses() {
+    std::map<std::pair<std::size_t, std::int64_t>, int> sightings;
+    for (const Observation& one : problem_.observations) {
+      if (one.pose && one.kind != Kind::kInclinometer) ++sightings[{one.station, *one.pose}];
+    }
+    for (const auto& [key, count] : sightings) {
+      if (count > 1) poses_.emplace(key, poses_.size());
+    }
+  }
+
+  Sighting sighting_of(std::size_t i) const {
+    const Observation& one = problem_.observations[i];
+    Sighting sighting{i, one.station, one.utime_us, one.reading, one.pixel, one.sd_px, {}};
+    if (!one.pose) return sighting;
+    const auto shared = poses_.find({one.station, *one.pose});
+    if (shared != poses_.end()) sighting.pose = shared->second;
+    return sighting;
+  }
+
+  TargetPtr target_of(const Observation& one) const {
+    switch (one.kind) {
+      case Kind::kStation:
+        for (std::size_t i = 0; i < problem_.names.size(); ++i) {
+          if (problem_.names[i] != one.reference) continue;
+          if (i == one.station) refuse(one, "reference", "the station sights itself");
+          return station_target(i);
+        }
+        [[fallthrough]];
+      case Kind::kLandmark:
+        return fixed_target(reference_as<FixedPoint>(problem_, one, "a surveyed point"));
+      case Kind::kStar:
+      case Kind::kSun:
+        return sky_target(high_enough(one));
+      case Kind::kAircraft:
+        return aircraft_target(trajectory_of(problem_, one));
+      case Kind::kDrone:
+        return drone_target(trajectory_of(problem_, one));
+      case Kind::kScene:
+        return scene_target();
+      default:
+        return unknown_target();
+    }
+  }
+
+  SkyDirection high_enough(const Observation& one) const {
+    const SkyDirection direction = sky_of(problem_, one);
+    if (degrees(direction.elevation_rad) < kLeastElevation_deg) {
+      refuse(one, "reference",
+             (one.kind == Kind::kSun ? "the sun" : "'" + one.reference + "'") + " stands " +
+                 std::to_string(std::lround(degrees(direction.elevation_rad))) +
+                 " degrees high: below 10 the refraction is not known well enough");
+    }
+    return direction;
+  }
+
+  // Another zone or hemisphere, or latitude and longitude exchanged, are farther; no sight is.
+  void check_distance(const Observation& one) const {
+    constexpr double kLeast_m = 1.0, kGreatest_m = 500e3;
+    const auto found = problem_.references.find(one.reference);
+    if (found == problem_.references.end()) return;
+    const auto* point = std::get_if<FixedPoint>(&found->second);
+    const auto* trajectory = std::get_if<Trajectory>(&found->second);
+    if (!point && !trajectory) return;
+    const Geodetic& place = problem_.stations[one.station].model.geometry.position;
+    const Eigen::Vector3d& there = point ? point->ecef : trajectory->points.front().ecef;
+    const double distance_m = (there - ecef_from_geodetic(place)).norm();
+    if (distance_m < kLeast_m)
+      refuse(one, "reference", "'" + one.reference + "' is at the station");
+    if (distance_m < kGreatest_m) return;
+    refuse(one, "reference",
+           "'" + one.reference + "' is " + std::to_string(std::lround(1e-3 * distance_m)) +
+               " km from the station, more than can be sighted");
+  }
+
+  void check_pixel(const Observation& one) const {
+    const StationModel& model = problem_.stations[one.station].model;
+    if (!unproject(model.geometry.camera, one.pixel)) {
+      refuse(one, "x_px", "the pixel is outside of the lens model");
+    }
+  }
+
+  void add(const std::vector<std::size_t>& members) {
+    const Observation& first = problem_.observations[members.front()];
+    Group group;
+    group.kind = first.kind;
+    group.name = first.reference;
+    group.station = first.station;
+    if (first.kind == Kind::kScene) group.name = problem_.names[first.station];
+    if (first.kind == Kind::kInclinometer) {
+      add_level(group, members);
+    } else if (first.kind == Kind::kScene) {
+      add_parts(group, parts(members, [](const Observation& one) { return one.reference; }));
+    } else if (first.kind == Kind::kTrack) {
+      add_parts(group, parts(members, [](const Observation& one) { return one.utime_us; }));
+      if (group.blocks.empty()) {
+        refuse(first, "utime_us", "no instant of the track is seen by two stations");
+      }
+    } else {
+      add_block(group, members);
+    }
+    if (!group.blocks.empty()) network_.groups.push_back(std::move(group));
+  }
+
+  template <class KeyOf>
+  std::vector<std::vector<std::size_t>> parts(const std::vector<std::size_t>& members,
+                                              const KeyOf& key_of_part) const {
+    std::map<decltype(key_of_part(problem_.observations[0])), std::vector<std::size_t>> parts;
+    for (const std::size_t i : members) {
+      parts[key_of_part(problem_.observations[i])].push_back(i);
+    }
+    std::vector<std::vector<std::size_t>> result;
+    for (auto& [key, part] : parts) result.push_back(std::move(part));
+    return result;
+  }
+
+  // A scene point seen once, or an instant of a track that one station alone sees, tells nothing.
+  void add_parts(Group& group, const std::vector<std::vector<std::size_t>>& all) {
+    for (const auto& part : all) {
+      std::set<std::size_t> stations;
+      for (const std::size_t i : part) stations.insert(problem_.observations[i].station);
+      const bool tells = group.kind == Kind::kScene ? part.size() > 1 : stations.size() > 1;
+      if (tells) add_block(group, part);
+    }
+  }
+
+  void add_block(Group& group, const std::vector<std::size_t>& members) {
+    PixelBlockConfig config;
+    config.layout = network_.layout;
+    for (const StationPrior& station : problem_.stations) {
+      config.pose_sd_rad.push_back(station.pose_sd_rad);
+    }
+    config.robust = group.kind == Kind::kScene;
+    config.absolute = group.is_absolute();
+    std::vector<Sighting> sightings;
+    for (const std::size_t i : members) {
+      const Observation& one = problem_.observations[i];
+      if (one.kind == Kind::kAircraft || one.kind == Kind::kDrone) trajectory_of(problem_, one);
+      check_distance(one);
+      check_pixel(one);
+      sightings.push_back(sighting_of(i));
+    }
+    take(group, members,
+         pixel_block(target_of(problem_.observations[members.front()]), std::move(sightings),
+                     config));
+  }
+
+  void add_level(Group& group, const std::vector<std::size_t>& members) {
+    group.name = problem_.names[group.station];
+    std::vector<Observation> readings;
+    for (const std::size_t i : members) readings.push_back(problem_.observations[i]);
+    take(group, members, level_block(network_.layout, std::move(readings)));
+  }
+
+  void take(Group& group, const std::vector<std::size_t>& members, BlockPtr block) {
+    group.degrees_of_freedom += block->degrees_of_freedom();
+    group.blocks.push_back(network_.blocks.size());
+    group.observations.insert(group.observations.end(), members.begin(), members.end());
+    network_.blocks.push_back(std::move(block));
+  }
+
+  const Problem& problem_;
+  Network network_;
+  std::map<std::pair<std::size_t, std::int64_t>, std::size_t> poses_;
+  std::map<Key, std::vector<std::size_t>> members_;
+};
+
+}  // namespace
+
+Network network_of(const Problem& problem) { return Builder(problem).build(); }
+
+}  // namespace ols::calibration

@@ -1,0 +1,36 @@
+// The parameters of an adjustment: those of geometry/station_model.h, and what the air adds.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "geometry/station_model.h"
+
+namespace ols::calibration {
+
+inline constexpr int kRefraction = kModelParameters;  // coefficient k of terrestrial refraction
+inline constexpr int kAir = kRefraction + 1;          // factor of the astronomical refraction
+inline constexpr int kStationParameters = kAir + 1;
+
+using StationVector = Eigen::Matrix<double, kStationParameters, 1>;
+using StationMatrix = Eigen::Matrix<double, kStationParameters, kStationParameters>;
+using InstrumentVector = Eigen::Matrix<double, kInstrumentParameters, 1>;
+using InstrumentMatrix = Eigen::Matrix<double, kInstrumentParameters, kInstrumentParameters>;
+
+struct ParameterText {
+  const char* key;       // in every file, with its unit: "mount_z_deg"
+  bool is_angle;         // degrees in the file, radians here
+  double new_unit_sd;    // 1-sigma of a unit that no workshop has measured; focal: of fx
+  const char* sentence;  // what it is
+};
+// In the order of Parameter.
+const std::array<ParameterText, kStationParameters>& parameter_texts();
+
+// From the unit of the file to that inside.
+double from_file(int parameter, double value);
+double to_file(int parameter, double value);
+
+// The instrument's parameters as they stand in a model.
+InstrumentVector instrument_of(const StationModel& model);
+
+}  // namespace ols::calibration

@@ -1,0 +1,192 @@
+#include "calibration/snooping.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "geometry/angles.h"
+#include "geometry/chi_square.h"
+
+namespace ols::calibration {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+MatrixXd part_of(const MatrixXd& all, const std::vector<int>& columns) {
+  const auto size = static_cast<Index>(columns.size());
+  MatrixXd part(size, size);
+  for (Index k = 0; k < size; ++k) {
+    for (Index l = 0; l < size; ++l) {
+      part(k, l) = all(columns[static_cast<std::size_t>(k)], columns[static_cast<std::size_t>(l)]);
+    }
+  }
+  return part;
+}
+
+// The square roots of the variances, 1 for what is known: the numbers below differ by many orders.
+VectorXd scale_of(const MatrixXd& C) {
+  return C.diagonal().unaryExpr([](double v) { return v > 0.0 ? std::sqrt(v) : 1.0; });
+}
+
+// squares - sign g' (N + sign N_g)^-1 g with the covariance C of N; sign -1 leaves the group out.
+double change_of_misfit(const MatrixXd& C, const BlockEquations& group, double sign) {
+  const VectorXd scale = scale_of(C);
+  const MatrixXd Cs = scale.cwiseInverse().asDiagonal() * C * scale.cwiseInverse().asDiagonal();
+  const MatrixXd A = scale.asDiagonal() * group.information * scale.asDiagonal();
+  const VectorXd g = scale.asDiagonal() * group.gradient;
+  const MatrixXd M = MatrixXd::Identity(C.rows(), C.rows()) + sign * A * Cs;
+  return group.squares - sign * g.dot(Cs * M.partialPivLu().solve(g));
+}
+
+// The prior covariance with the heading known to some degrees: for the agreement of groups with a
+// heading that is being tried.
+MatrixXd prior_covariance(const Adjustment& adjustment) {
+  const Network& network = adjustment.network();
+  const Layout& layout = network.layout;
+  MatrixXd C = MatrixXd::Zero(layout.size(), layout.size());
+  for (std::size_t s = 0; s < layout.stations; ++s) {
+    StationMatrix prior = network.stations[s].covariance;
+    constexpr double kTried_rad = 0.01;
+    prior.row(kHeading).setZero();
+    prior.col(kHeading).setZero();
+    prior(kHeading, kHeading) =
+        kTried_rad * kTried_rad + prior(kTiltX, kTiltX) + prior(kTiltY, kTiltY);
+    C.block<kStationParameters, kStationParameters>(layout.station(s), layout.station(s)) = prior;
+    C(layout.ut1(), layout.ut1()) = 1.0;
+  }
+  for (std::size_t p = 0; p < layout.poses; ++p) {
+    constexpr double kPose_rad = 1e-4;
+    C(layout.pose(p), layout.pose(p)) = kPose_rad * kPose_rad;
+    C(layout.pose(p) + 1, layout.pose(p) + 1) = kPose_rad * kPose_rad;
+  }
+  return C;
+}
+
+// Which of the groups agree with a state, by the priors.
+class Agreement {
+ public:
+  Agreement(const Adjustment& adjustment, double level)
+      : adjustment_(adjustment), level_(level), prior_(prior_covariance(adjustment)) {}
+
+  struct Vote {
+    int agree = 0;
+    double misfit = 0.0;
+    bool operator<(const Vote& other) const {
+      return agree != other.agree ? agree > other.agree : misfit < other.misfit;
+    }
+  };
+  bool agrees(const State& state, std::size_t group, double& misfit) const {
+    Fit at;
+    at.state = state;
+    at.equations.resize(adjustment_.network().blocks.size());
+    for (const std::size_t b : adjustment_.groups()[group].blocks) {
+      at.equations[b] = adjustment_.network().blocks[b]->equations(state, b, 0.0);
+      if (!at.equations[b].valid) return false;
+    }
+    const BlockEquations equations = adjustment_.equations(at, group);
+    misfit = change_of_misfit(part_of(prior_, equations.columns), equations, 1.0);
+    const Group& one = adjustment_.groups()[group];
+    // Linearised far from the solution: generous.
+    return misfit < 4.0 * critical_value(one, adjustment_.groups().size(), level_);
+  }
+  Vote vote(const State& state, const std::vector<std::size_t>& groups) const {
+    Vote vote;
+    for (const std::size_t g : groups) {
+      double misfit = 0.0;
+      if (!agrees(state, g, misfit)) continue;
+      ++vote.agree;
+      vote.misfit += misfit;
+    }
+    return vote;
+  }
+
+ private:
+  const Adjustment& adjustment_;
+  double level_;
+  MatrixXd prior_;
+};
+
+std::vector<double> headings_tried(const Adjustment& adjustment, const State& state,
+                                   const std::vector<std::size_t>& groups) {
+  constexpr std::size_t kMost = 40;
+  std::vector<double> headings;
+  for (const std::size_t g : groups) {
+    const std::size_t block = adjustment.groups()[g].blocks.front();
+    const auto heading = adjustment.network().blocks[block]->heading(state, block);
+    if (heading && headings.size() < kMost) headings.push_back(*heading);
+  }
+  return headings;
+}
+
+}  // namespace
+
+double critical_value(const Group& group, std::size_t groups, double level) {
+  return chi_square_critical(level / static_cast<double>(groups),
+                             std::max(1, group.degrees_of_freedom));
+}
+
+double test_statistic(const Adjustment& adjustment, const Fit& fit, std::size_t group) {
+  const BlockEquations equations = adjustment.equations(fit, group);
+  if (!equations.valid) return std::numeric_limits<double>::infinity();
+  const double sign = fit.kept[group] ? -1.0 : 1.0;
+  return change_of_misfit(part_of(fit.covariance, equations.columns), equations, sign);
+}
+
+Vector2d detectable_rad(const Adjustment& adjustment, const Fit& fit, std::size_t group,
+                        double noncentrality) {
+  constexpr double kUnchecked = 1e-6;  // of the group's own information
+  const BlockEquations equations = adjustment.equations(fit, group);
+  Vector2d result = Vector2d::Constant(std::numeric_limits<double>::infinity());
+  if (!equations.valid || equations.shift_by.rows() == 0) return result;
+  const MatrixXd C = part_of(fit.covariance, equations.columns);
+  const Eigen::Matrix2d own = equations.shift_information;
+  const Eigen::Matrix2d lost = equations.shift_by.transpose() * C * equations.shift_by;
+  for (Index k = 0; k < 2; ++k) {
+    const double left =
+        fit.kept[group] ? own(k, k) - lost(k, k) : own(k, k) * own(k, k) / (own(k, k) + lost(k, k));
+    if (left > kUnchecked * own(k, k)) result[k] = std::sqrt(noncentrality / left);
+  }
+  return result;
+}
+
+Start find_start(const Adjustment& adjustment, double level) {
+  const Network& network = adjustment.network();
+  const Agreement agreement(adjustment, level);
+  std::vector<double> headings;
+  for (const StationPrior& station : network.stations) {
+    headings.push_back(station.model.geometry.chain.heading_rad);
+  }
+  const State stated = adjustment.start(headings);
+  for (std::size_t s = 0; s < network.stations.size(); ++s) {
+    std::vector<std::size_t> groups;
+    for (std::size_t g = 0; g < adjustment.groups().size(); ++g) {
+      const Group& group = adjustment.groups()[g];
+      if (group.is_absolute() && group.station == s) groups.push_back(g);
+    }
+    Agreement::Vote best{-1, 0.0};
+    for (const double heading : headings_tried(adjustment, stated, groups)) {
+      std::vector<double> tried = headings;
+      tried[s] = heading;
+      const Agreement::Vote vote = agreement.vote(adjustment.start(tried), groups);
+      if (vote < best) {
+        best = vote;
+        headings[s] = heading;
+      }
+    }
+  }
+  Start start{adjustment.start(headings), std::vector<bool>(adjustment.groups().size(), true)};
+  for (std::size_t g = 0; g < start.kept.size(); ++g) {
+    double misfit = 0.0;
+    const Group& group = adjustment.groups()[g];
+    if (group.is_absolute()) start.kept[g] = agreement.agrees(start.state, g, misfit);
+  }
+  return start;
+}
+
+}  // namespace ols::calibration

@@ -1,0 +1,28 @@
+// The tests of an adjustment's groups, from its equations alone.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "calibration/adjustment.h"
+
+namespace ols::calibration {
+
+// By how much the misfit falls when a kept group is left out, or grows when a rejected one is
+// added: chi-square with the group's degrees of freedom.
+double test_statistic(const Adjustment& adjustment, const Fit& fit, std::size_t group);
+
+// The direction's bias across and up that the group's test finds with this noncentrality.
+Eigen::Vector2d detectable_rad(const Adjustment& adjustment, const Fit& fit, std::size_t group,
+                               double noncentrality);
+
+// The headings on which most groups agree with the priors, and which groups these are.
+struct Start {
+  State state;
+  std::vector<bool> kept;
+};
+Start find_start(const Adjustment& adjustment, double level);
+
+// The critical value of a group's test.
+double critical_value(const Group& group, std::size_t groups, double level);
+
+}  // namespace ols::calibration

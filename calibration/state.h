@@ -1,0 +1,55 @@
+// The unknowns of an adjustment: of every station, of every shared pose, and the nuisance of every
+// block.
+//
+// The globals are one vector: kStationParameters for each station, then UT1 - UTC, then pan and
+// tilt of each shared pose.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calibration/parameters.h"
+
+namespace ols::calibration {
+
+// A station as it is taken to be before the adjustment.
+struct StationPrior {
+  StationModel model;
+  double refraction = 0.13;
+  double air = 1.0;
+  // Of the parameters in their own units; 0 where one is known. The heading's does not count.
+  StationMatrix covariance = StationMatrix::Zero();
+  double pose_sd_rad = 0.0;  // of each angle of a pose, new with every pose
+};
+
+struct StationState {
+  StationModel model;
+  double refraction = 0.0;
+  double air = 1.0;
+  StationVector change = StationVector::Zero();  // from the prior
+};
+
+struct State {
+  std::vector<StationState> stations;
+  double ut1_s = 0.0;  // correction of UT1 - UTC
+  std::vector<Eigen::Vector2d> poses;
+  std::vector<Eigen::VectorXd> nuisances;  // by block
+};
+
+// Where a station's parameters, UT1 and a pose's angles stand among the globals.
+struct Layout {
+  std::size_t stations = 0, poses = 0;
+  int station(std::size_t i) const { return static_cast<int>(i) * kStationParameters; }
+  int ut1() const { return station(stations); }
+  int pose(std::size_t i) const { return ut1() + 1 + 2 * static_cast<int>(i); }
+  int size() const { return pose(poses); }
+};
+
+StationState station_at(const StationPrior& prior, const StationVector& change);
+
+// The horizon's axes at the station, as components in ECEF, and its GROUND.
+inline LocalFrame frame_of(const StationState& station) {
+  return LocalFrame(station.model.geometry.position);
+}
+
+}  // namespace ols::calibration

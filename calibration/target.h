@@ -1,0 +1,77 @@
+// What a pixel shows: where it is for a station, and what that depends on besides the station.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "calibration/observation.h"
+#include "calibration/state.h"
+#include "geometry/pixel_prediction.h"
+
+namespace ols::calibration {
+
+// One sighting of a target.
+struct Sighting {
+  std::size_t observation = 0;
+  std::size_t station = 0;
+  std::int64_t utime_us = 0;
+  UnitReading reading;
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  double sd_px = 0.0;
+  std::optional<std::size_t> pose;  // shared with other sightings; else it has one of its own
+};
+
+struct TargetView {
+  HomogeneousPoint point;  // in GROUND of the station that sees it
+  // Of (x, w), by the target's nuisance, the station's refraction and air, and UT1.
+  Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4> by_nuisance =
+      Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4>::Zero(4, 0);
+  Eigen::Vector3d by_refraction = Eigen::Vector3d::Zero();
+  Eigen::Vector3d by_air = Eigen::Vector3d::Zero();
+  Eigen::Vector3d by_ut1 = Eigen::Vector3d::Zero();
+  // Of a target that stands on another station: of x, by that one's east, north and up.
+  Eigen::Matrix3d by_position = Eigen::Matrix3d::Zero();
+  double white_sd_m = 0.0;     // of the position, new with every sighting
+  bool moves_with_us = false;  // its place is given in the station's own frame
+};
+
+class Target {
+ public:
+  virtual ~Target() = default;
+  virtual int unknowns() const { return 0; }
+  // Of the nuisance: 1-sigma of each. A prior of infinite width has no weight.
+  virtual Eigen::VectorXd prior_sd() const { return Eigen::VectorXd(0); }
+  // At which an adjustment begins.
+  virtual Eigen::VectorXd initial(const State&, const std::vector<Sighting>&) const {
+    return Eigen::VectorXd::Zero(unknowns());
+  }
+  virtual std::optional<std::size_t> on_station() const { return std::nullopt; }
+  virtual TargetView view(const State& state, const Sighting& sighting,
+                          const Eigen::VectorXd& nuisance) const = 0;
+};
+using TargetPtr = std::shared_ptr<const Target>;
+
+// A surveyed place: its three coordinates are wrong by a constant.
+TargetPtr fixed_target(const FixedPoint& point);
+// A direction in ECEF with the astronomical refraction in it, sighted once.
+struct SkyDirection {
+  Eigen::Vector3d ecef = Eigen::Vector3d::UnitX();   // unit, as it appears
+  Eigen::Vector3d by_air = Eigen::Vector3d::Zero();  // by the factor of the refraction
+  Eigen::Vector3d by_ut1 = Eigen::Vector3d::Zero();  // [1/s]
+  double elevation_rad = 0.0;                        // as it appears
+};
+TargetPtr sky_target(const SkyDirection& direction);
+// A direction and an inverse distance from GROUND, unknown both.
+TargetPtr scene_target();
+// A place that is unknown.
+TargetPtr unknown_target();
+// Along, across, up and latency of an aircraft that announces itself.
+TargetPtr aircraft_target(const Trajectory& trajectory);
+// The antenna's offset of a drone: its visible centre from it, east, north, up.
+TargetPtr drone_target(const Trajectory& trajectory);
+// The crossing of another station's axes.
+TargetPtr station_target(std::size_t station);
+
+}  // namespace ols::calibration

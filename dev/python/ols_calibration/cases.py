@@ -1,0 +1,206 @@
+"""The cases of the measure table: what is observed in each."""
+
+import numpy as np
+
+from .model import Place, from_azimuth_elevation, refracted
+from .site import UTIME_US, Site, anywhere, icrs_of, station
+
+PLACE = (49.2266, 16.5969, 310.0)
+
+
+def one_station(rng, is_new, position_sd=0.02):
+    site = Site(rng, [station(rng, "alfa", Place(*PLACE), is_new)], position_sd)
+    one = site.stations[0]
+    one.level()
+    # The tripod's place is surveyed as well as it is stated.
+    one.surveyed = one.place
+    off = rng.normal(0, position_sd, 3)
+    one.true_place = Place(*PLACE)
+    one.true_place.origin = one.place.to_ecef(off)
+    return site, one
+
+
+def landmark_points(rng, one, count, distance_m=(300, 2000), elevation_deg=(-2, 8)):
+    return [anywhere(rng, one.unit, elevation_deg) * rng.uniform(*distance_m) for _ in range(count)]
+
+
+def sight_landmarks(site, one, points, sd_m, times):
+    """Each landmark's place is wrong by its own error, and its air differs a little."""
+    for k, point in enumerate(points):
+        name = f"landmark{k}"
+        place = one.true_place.to_ecef(point)
+        site.refer(name, place + site.rng.normal(0, sd_m, 3), sd_m)
+    k_mean = one.unit.refraction
+    for _ in range(times):
+        for k, point in enumerate(points):
+            one.unit.refraction = k_mean + 0.05 * np.sin(k)
+            one.sight("landmark", point, f"landmark{k}")
+    one.unit.refraction = k_mean
+
+
+def stars(rng):
+    site, one = one_station(rng, is_new=True)
+    tilts = rng.permutation([*np.linspace(13, 17.5, 10), *np.linspace(26, 30.5, 10)])
+    approaches = rng.permutation(5 * [(1, 1), (1, -1), (-1, 1), (-1, -1)])
+    for frame, pan_deg in enumerate(np.linspace(-150, 150, 20)):
+        # All around, low and high, each over a turn of the worm, and in unequal steps: at equal
+        # ones the worm looks like an eccentricity.
+        pan_deg += rng.uniform(-7, 7)
+        tilt_deg, approach = tilts[frame], approaches[frame]
+        counts = np.round(np.array([pan_deg, tilt_deg]) / 360 * 112000)
+        shafts = one.unit.posed(rng, *counts, approach)
+        utime_us = UTIME_US + 3_000_000 * frame
+        for k in range(12):
+            pixel = rng.uniform([20, 20], [1260, 940])
+            name = f"star{frame}-{k}"
+            site.refer_star(name, *icrs_of(one.place, one.unit.look(shafts, pixel), utime_us))
+            one.add(
+                *("star", counts, approach, pixel),
+                **{"sd_px": 0.3, "pose": frame, "reference": name, "utime_us": utime_us},
+            )
+    return site
+
+
+def rtk_landmarks(rng):
+    site, one = one_station(rng, is_new=False)
+    sight_landmarks(site, one, landmark_points(rng, one, 5), 0.02, 4)
+    return site
+
+
+def cadastral_landmarks(rng):
+    site, one = one_station(rng, is_new=False)
+    sight_landmarks(site, one, landmark_points(rng, one, 8, (500, 3000)), 0.14, 2)
+    return site
+
+
+def wrong_landmark(rng):
+    """The first of five stands 1 m beside where the survey has it, 1 km away."""
+    site, one = one_station(rng, is_new=False)
+    points = landmark_points(rng, one, 5)
+    points[0] *= 1000 / np.linalg.norm(points[0])
+    sight_landmarks(site, one, points, 0.02, 4)
+    across = np.cross(points[0], [0, 0, 1])
+    moved = one.true_place.to_ecef(points[0] + across / np.linalg.norm(across))
+    site.references = [r for r in site.references if not r.startswith("landmark0,")]
+    site.refer("landmark0", moved, 0.02)
+    return site
+
+
+def drone(rng):
+    site, one = one_station(rng, is_new=False)
+    antenna = rng.normal(0, 0.1, 3)
+    for k in range(40):
+        point = anywhere(rng, one.unit, (3, 29)) * rng.uniform(100, 300)
+        utime_us = UTIME_US + 10_000_000 * k
+        if not one.sight("drone", point + antenna, "drone", utime_us=utime_us):
+            continue
+        measured = one.true_place.to_ecef(point) + rng.normal(0, 0.02, 3)
+        for at in (utime_us - 1_000_000, utime_us + 1_000_000):
+            site.refer("drone", measured, 0.02, at)
+    return site
+
+
+def sweep(rng):
+    """A ring over the scenery and a block, then five landmarks by RTK."""
+    site, one = one_station(rng, is_new=True)
+    scenery = [
+        refracted(
+            from_azimuth_elevation(rng.uniform(0, 2 * np.pi), np.radians(rng.uniform(-3, 6)))
+            * np.exp(rng.uniform(np.log(200), np.log(8000))),
+            one.unit.refraction,
+        )
+        for _ in range(1500)
+    ]
+    directions = np.array([point / np.linalg.norm(point) for point in scenery])
+    degree = 112000 / 360
+    ring = [(pan, 1.0 if i % 2 else 0.0) for i, pan in enumerate(np.linspace(-150, 150, 70))]
+    block = [(rng.uniform(-2, 2), rng.uniform(-1.5, 3.5)) for _ in range(22)]
+    for pose, (pan, tilt) in enumerate(ring + block):
+        counts = np.round(np.array([pan, tilt]) * degree)
+        approach = rng.choice([-1, 1], 2)
+        shafts = one.unit.posed(rng, *counts, approach)
+        inside = 0
+        axis = one.unit.look(shafts, (640, 480))
+        near = np.flatnonzero(directions @ axis > np.cos(np.radians(4.5)))
+        for k in near:
+            point = scenery[k]
+            pixel = one.unit.image(shafts, point)
+            seen = one.add(
+                *("scene", counts, approach, pixel),
+                **{"sd_px": 0.2, "pose": 1000 + pose, "reference": str(k)},
+            )
+            inside += seen
+            if inside == 25:
+                break
+    sight_landmarks(site, one, landmark_points(rng, one, 5), 0.02, 4)
+    return site
+
+
+def aircraft(rng):
+    site, one = one_station(rng, is_new=False)
+    for k in range(20):
+        course, closest = rng.uniform(0, 2 * np.pi), rng.uniform(16e3, 35e3)
+        along = np.array([np.sin(course), np.cos(course), 0])
+        across = np.array([np.cos(course), -np.sin(course), 0]) * rng.choice([-1, 1])
+        latency_s, off = rng.uniform(0.1, 0.9), rng.normal(0, 10, 3)
+        start_us = UTIME_US + 1_000_000_000 * k
+
+        def at(seconds, along=along, across=across, closest=closest):
+            level = closest * across + 230 * seconds * along + [0, 0, 10000]
+            return level - [0, 0, (level[0] ** 2 + level[1] ** 2) / (2 * 6.38e6)]
+
+        for s in range(-70, 71, 2):
+            place = one.true_place.to_ecef(at(s) + off)
+            site.refer(f"flight{k}", place, 10.0, start_us + int(1e6 * (s + latency_s)))
+        for s in np.linspace(-50, 50, 12):
+            pan = one.unit.counts_to(at(s))[0] / 112000 * 360
+            if abs(pan) < 158:
+                one.sight(
+                    *("aircraft", at(s), f"flight{k}"), utime_us=start_us + int(round(1e6 * s))
+                )
+    return site
+
+
+def joint_track(rng):
+    """Two stations 2.2 km apart follow what flies across the line through both of them."""
+    places = [Place(*PLACE), Place(PLACE[0], PLACE[1] + 0.03, PLACE[2] + 4)]
+    units = [
+        station(rng, name, p, False) for name, p in zip(("alfa", "bravo"), places, strict=True)
+    ]
+    site = Site(rng, units)
+    for one in units:
+        # Either sees east and west: neither is behind its limits.
+        one.unit.heading = rng.choice([0, np.pi]) + rng.uniform(-0.7, 0.7)
+        one.level()
+        one.true_place = Place(*PLACE)
+        one.true_place.axes = one.place.axes
+        one.true_place.origin = one.place.to_ecef(rng.normal(0, 0.02, 3))
+        point = anywhere(rng, one.unit, (-1, 3)) * 500
+        name = f"mark-{one.name}"
+        site.refer(name, one.true_place.to_ecef(point) + rng.normal(0, 0.14, 3), 0.14)
+        for _ in range(2):
+            one.sight("landmark", point, name)
+    for k, share in enumerate(np.linspace(-1, 1, 60)):
+        # To and fro over the line through both, between them and beyond.
+        target = np.array([5000.0 if k % 2 else 1100.0, 250 * share, 500 + 100 * share])
+        where = units[0].place.to_ecef(target)
+        for one in units:
+            point = one.true_place.to_enu(where)
+            pan = one.unit.counts_to(point)[0] / 112000 * 360
+            if abs(pan) < 158:
+                utime_us = UTIME_US + 1_000_000 * k
+                one.sight("track", point, "target", utime_us=utime_us, sd_px=0.3)
+    return site
+
+
+# name -> (what is observed, the most its figure may be [arc seconds], which figure)
+CASES = {
+    "stars, 20 frames of 12, new unit": (stars, 6.0, "systematic"),
+    "5 landmarks by RTK, four times, workshop": (rtk_landmarks, 9.0, "systematic"),
+    "8 cadastral landmarks, twice, workshop": (cadastral_landmarks, 16.0, "systematic"),
+    "RTK drone, 40 points, workshop": (drone, 12.0, "systematic"),
+    "sweep + 5 by RTK, new unit": (sweep, 20.0, "systematic"),
+    "joint track across both stations' line": (joint_track, 4.0, "difference"),
+    "20 passes of aircraft: heading, workshop": (aircraft, 10.0, "heading"),
+    "a landmark wrong by 1 m at 1 km": (wrong_landmark, None, "named"),
+}

@@ -1,0 +1,75 @@
+#include "calibration/calibrate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "calibration/systematic.h"
+#include "tests/unit/calibration/scene.h"
+
+namespace ols::calibration {
+namespace {
+
+using test::crooked;
+using test::hill;
+using test::just_put_up;
+using test::kArcsec;
+using test::landmarks_around;
+using test::rejected;
+
+double direction_error(const StationModel& truth, const StationModel& found, double pan_deg) {
+  UnitReading reading;
+  reading.pan.counts = pan_deg / 360.0 * 112000.0;
+  reading.tilt.approach = -1;  // as all were sighted
+  const auto a = predict_direction(truth, reading, {640.0, 480.0});
+  const auto b = predict_direction(found, reading, {640.0, 480.0});
+  return angle_between(enu_from_azimuth_elevation(a->direction),
+                       enu_from_azimuth_elevation(b->direction));
+}
+
+TEST(Calibrate, FindsAStationThatLooksTheOtherWay) {
+  const StationModel truth = crooked();
+  const Adjustment adjustment(network_of(landmarks_around(truth, just_put_up(), 8)));
+  const Calibration found = calibrate(adjustment);
+  EXPECT_TRUE(found.remarks.empty());
+  EXPECT_LT(found.global.variance_factor, 0.5);
+  const StationModel& model = found.fit.state.stations[0].model;
+  const StationMatrix C = found.covariance(adjustment.network(), 0);
+  for (const double pan_deg : {-140.0, -60.0, 0.0, 100.0}) {
+    EXPECT_LT(direction_error(truth, model, pan_deg), 12.0 * kArcsec) << pan_deg;
+  }
+  const VolumePrecision volume = volume_precision(model, C);
+  EXPECT_GT(volume.rms_rad, 3.0 * kArcsec);
+  EXPECT_LT(volume.rms_rad, 60.0 * kArcsec);
+  EXPECT_GE(volume.worst_rad, volume.rms_rad);
+}
+
+TEST(Calibrate, NamesALandmarkThatIsOffByAMetre) {
+  const StationModel truth = crooked();
+  Problem problem = landmarks_around(truth, just_put_up(), 7);
+  auto& place = std::get<FixedPoint>(problem.references["landmark2"]);
+  place.ecef += R_ecef_enu(place.ecef) * Eigen::Vector3d(0.7, 0.7, 0.0);
+  const Adjustment adjustment(network_of(problem));
+  const Calibration found = calibrate(adjustment);
+  EXPECT_EQ(rejected(adjustment, found), std::vector<std::string>{"landmark2"});
+  EXPECT_EQ(found.remarks.size(), 1U);
+}
+
+TEST(Calibrate, SaysSoWhereNoMajorityAgrees) {
+  Problem problem = landmarks_around(crooked(), just_put_up(), 4);
+  for (const char* name : {"landmark0", "landmark2"}) {
+    auto& place = std::get<FixedPoint>(problem.references[name]);
+    place.ecef += R_ecef_enu(place.ecef) * Eigen::Vector3d(90.0, name[8] * 3.0 - 150.0, 0.0);
+  }
+  const Adjustment adjustment(network_of(problem));
+  EXPECT_THROW(calibrate(adjustment), Contradiction);
+}
+
+TEST(Calibrate, WithoutAReferenceTheHeadingIsUnknown) {
+  Problem problem = landmarks_around(hill(), hill(), 3);
+  for (Observation& one : problem.observations) one.kind = Kind::kScene;
+  EXPECT_THROW(calibrate(Adjustment(network_of(problem))), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ols::calibration

@@ -1,0 +1,36 @@
+// The files of ols-calibrate: inputs of an adjustment, read and checked.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/groups.h"
+#include "tools/calibrate/instrument_file.h"
+
+namespace ols::calibration {
+
+struct CaseOptions {
+  std::vector<std::string> stations;     // configurations, as ols-station reads them
+  std::vector<std::string> instruments;  // none, or one for each station
+  std::vector<std::string> observations;
+  std::string references, predict, output;
+  std::optional<double> ut1_minus_utc_s;
+  std::optional<double> pressure_hPa, temperature_degC;
+};
+
+struct Case {
+  CaseOptions options;
+  std::vector<Instrument> instruments;  // as they were before
+  Problem problem;
+  std::vector<std::string> warnings;
+  std::vector<std::string> files;  // of the observations, by their index
+};
+
+// ConfigError, CsvError or std::runtime_error naming file, line and key; std::invalid_argument.
+Case read_case(const CaseOptions& options);
+
+// The network of the case; an observation that is refused is named with its file and line.
+Network network_of(const Case& what);
+
+}  // namespace ols::calibration

@@ -1,0 +1,37 @@
+// What an adjustment leaves on disk: instrument, setup, covariance, reports, predictions.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "calibration/calibrate.h"
+#include "tools/calibrate/calibrate_case.h"
+
+namespace ols::calibration {
+
+struct OutputFile {
+  std::string name;  // within the output's folder; a network's stations have a folder each
+  std::string text;
+};
+
+// The result of one station, as its files have it.
+struct StationResult {
+  std::string id;
+  std::int64_t calibration_id = 0;  // by the content of the files
+  StationState state;
+  StationMatrix prior_covariance, covariance;
+  std::string instrument, setup, covariance_csv;  // the files
+};
+std::vector<StationResult> station_results(const Case& what, const Adjustment& adjustment,
+                                           const Calibration& found);
+
+// CsvError for a row that cannot be predicted.
+std::string predictions(const Case& what, const std::vector<StationResult>& results);
+
+std::string report_json(const Case& what, const Adjustment& adjustment, const Calibration& found,
+                        const std::vector<StationResult>& results);
+std::string report_html(const Case& what, const Adjustment& adjustment, const Calibration& found,
+                        const std::vector<StationResult>& results);
+
+}  // namespace ols::calibration
