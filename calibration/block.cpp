@@ -14,6 +14,7 @@ using Eigen::VectorXd;
 
 std::vector<int> run(int first, int count) {
   std::vector<int> columns;
+  columns.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) columns.push_back(first + i);
   return columns;
 }

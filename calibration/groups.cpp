@@ -89,7 +89,6 @@ class Builder {
       case Kind::kSun:
         return {one.kind, i, one.reference};
       case Kind::kScene:
-        return {one.kind, one.station, ""};
       case Kind::kInclinometer:
         return {one.kind, one.station, ""};
       default:
@@ -142,7 +141,7 @@ class Builder {
   }
 
   SkyDirection high_enough(const Observation& one) const {
-    const SkyDirection direction = sky_of(problem_, one);
+    SkyDirection direction = sky_of(problem_, one);
     if (degrees(direction.elevation_rad) < kLeastElevation_deg) {
       refuse(one, "reference",
              (one.kind == Kind::kSun ? "the sun" : "'" + one.reference + "'") + " stands " +
@@ -208,6 +207,7 @@ class Builder {
       parts[key_of_part(problem_.observations[i])].push_back(i);
     }
     std::vector<std::vector<std::size_t>> result;
+    result.reserve(parts.size());
     for (auto& [key, part] : parts) result.push_back(std::move(part));
     return result;
   }
@@ -246,6 +246,7 @@ class Builder {
   void add_level(Group& group, const std::vector<std::size_t>& members) {
     group.name = problem_.names[group.station];
     std::vector<Observation> readings;
+    readings.reserve(members.size());
     for (const std::size_t i : members) readings.push_back(problem_.observations[i]);
     take(group, members, level_block(network_.layout, std::move(readings)));
   }
