@@ -15,7 +15,7 @@ struct TrackerInput {
   // angles. Empty: unknown. An impossible one (mirror image, zoom, most of the image gone) is not
   // used: see the output's `ego_motion`.
   std::optional<Eigen::Matrix3d> predicted_homography;
-  // The same picture in colour, 8-bit, blue, green, red: helps to recognise the target. May be empty.
+  // The same picture in colour, if there is one (8-bit BGR): it helps to recognise the target.
   cv::Mat colour = {};
 };
 

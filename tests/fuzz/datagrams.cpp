@@ -47,7 +47,8 @@ class Recorder {
 
 void to_fusion(ols::fusion::Fusion& fusion, const ols::BusMessage& message) {
   const int size = static_cast<int>(message.payload.size());
-  const auto measurement = ols::fusion::measurement_from(message.channel, message.payload.data(), size);
+  const auto measurement =
+      ols::fusion::measurement_from(message.channel, message.payload.data(), size);
   if (const auto* seen = std::get_if<ols::fusion::BearingMeasurement>(&measurement)) {
     static_cast<void>(fusion.add(*seen));
   }

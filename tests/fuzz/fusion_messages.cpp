@@ -45,7 +45,8 @@ void receive(ols::fusion::Fusion& fusion, bool is_status, const std::string& sta
     }
     return;
   }
-  const auto measurement = ols::fusion::measurement_from("OLS_BEARING_" + station, bytes.data(), size);
+  const auto measurement =
+      ols::fusion::measurement_from("OLS_BEARING_" + station, bytes.data(), size);
   if (const auto* seen = std::get_if<ols::fusion::BearingMeasurement>(&measurement)) {
     const ols::fusion::FusionOutput output = fusion.add(*seen);
     for (const auto& target : output.targets) check_target(target);

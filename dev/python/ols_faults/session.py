@@ -298,7 +298,7 @@ class Session:
     # Back to normal.
 
     def restore(self) -> None:
-        """Restarts what ended and waits until all stations track and targets arrive; or SiteError."""
+        """Restarts what ended; waits until all stations track and targets arrive, or SiteError."""
         self.fault_ends()
         if "ols-fusion" not in self.site.processes:
             self.start_fusion()
