@@ -28,7 +28,7 @@ struct ModelInnovation {
   double depth_m = 0.0;
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the residual, without noise
-  Eigen::Matrix<double, 2, 3> J;
+  Eigen::Matrix<double, 2, 3> J = Eigen::Matrix<double, 2, 3>::Zero();
   double ahead_s = 0.0, curved_s2 = 0.0;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // by which a clock error counts
   Eigen::Matrix<double, 2, kPoseStates> by_pose;

@@ -250,6 +250,7 @@ void TrackFilter::take_without_states(const BearingMeasurement& measurement, Fil
   const auto judged = judge(seen, models_.size(), white + bias, config_.gate_nis);
   if (!judged) return;
   update.nis = judged->nis;
+  update.shown.observe_residual(measurement.station, judged->noise);
   update.use = BearingUse::kRejected;
   if (!(judged->nis <= config_.gate_nis)) return;
   ++state_;

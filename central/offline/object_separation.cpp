@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -34,18 +35,19 @@ class Separation {
     const BearingMeasurement& measurement = *ordered_[index];
     tracks_.advance(measurement.utime_us);
     const Association result = associate(measurement, tracks_, pointing_).result;
-    labels_[index] = result.track_id;
+    labels_[index] = result.kind == Association::Kind::kTrack ? result.track_id : 0;
+    for (const auto& merged : tracks_.take_merged()) merged_.push_back(merged);
     if (tracks_.counts().confirmed == confirmed_) return;
     confirmed_ = tracks_.counts().confirmed;
     for (const Track& track : tracks_.tracks()) {
-      if (is_established(track)) label_all_of(track, index);
+      if (is_established(track) && labelled_.insert(track.id).second) label_all_of(track, index);
     }
   }
 
   // The identity of the object of a bearing; 0: none.
   std::int64_t object_of(std::size_t index) const {
     std::int64_t label = labels_[index];
-    for (const auto& [stays, other] : tracks_.merged()) label = label == other ? stays : label;
+    for (const auto& [stays, other] : merged_) label = label == other ? stays : label;
     return label;
   }
 
@@ -72,6 +74,8 @@ class Separation {
   const MutableBearings& ordered_;
   std::vector<std::int64_t> labels_;
   std::int64_t confirmed_ = 0;
+  std::set<std::int64_t> labelled_;
+  LiveTracks::Merged merged_;
 };
 
 }  // namespace

@@ -25,7 +25,7 @@ constexpr std::size_t kBlock = 128, kParts = 96;
 
 using Order = std::map<std::string, Eigen::Index>;  // station -> first of its states
 
-// The state extended to all stations' states; those that it does not hold get their prior.
+// The state extended to these stations' states; those that it does not hold get their prior.
 Whole spread(const TrackFilter& filter, const FilterGaussian& mixed, const Order& order,
              const Eigen::VectorXd& prior, double clock_sign) {
   const auto& [mean, covariance] = mixed;
@@ -118,18 +118,19 @@ struct Side {
 
   explicit Side(const TrackFilter& at) : filter(&at), mixed(at.mixed()) {}
   SystematicPart systematic() const { return systematic_part(mixed.covariance, filter->priors()); }
+  bool holds(const std::string& station) const {
+    return std::ranges::find(filter->stations(), station, &FilterStation::station) !=
+           filter->stations().end();
+  }
 };
 
-// The systematic part of the covariance is taken from the better of the two filters: how fast
-// biases change is the least known of all, and a bias that is constant over some seconds is the
-// same before and after.
-SystematicPart told_biases(const std::optional<Side>& from_past,
-                           const std::optional<Side>& from_future) {
-  if (!from_past) return from_future->systematic();
-  const SystematicPart before = from_past->systematic();
-  if (!from_future) return before;
-  const SystematicPart after = from_future->systematic();
-  return after.all_m2.trace() < before.all_m2.trace() ? after : before;
+// The filter that knows more of the stations' errors. How fast biases change is the least known of
+// all, and a bias that is constant over some seconds is the same before and after.
+const Side& surer(const std::optional<Side>& from_past, const std::optional<Side>& from_future) {
+  if (!from_past) return *from_future;
+  if (!from_future) return *from_past;
+  const double before = from_past->systematic().all_m2.trace();
+  return from_future->systematic().all_m2.trace() < before ? *from_future : *from_past;
 }
 
 // Processes the bearings up to an instant, forwards, or backwards in mirrored time.
@@ -179,8 +180,7 @@ class Smoother {
       return !measurement->sight.origin_sd_enu_m.isZero(0.0);
     });
     for (const BearingMeasurement* measurement : bearings) {
-      const Eigen::Index first = 9 + states() * std::ssize(sights_);
-      if (order_.try_emplace(measurement->station, first).second) sights_.push_back(*measurement);
+      sights_.try_emplace(measurement->station, *measurement);
     }
   }
 
@@ -195,10 +195,10 @@ class Smoother {
     return config;
   }
   Eigen::Index states() const { return has_places_ ? kStationStates : kPoseStates; }
-  std::vector<BiasPrior> priors(const Eigen::Vector3d& p_ecef) const;
-  Eigen::VectorXd prior(const std::vector<BiasPrior>& biases) const;
+  Order held_by(const std::optional<Side>& from_past, const std::optional<Side>& from_future) const;
+  Eigen::VectorXd prior(const Order& held, const Eigen::Vector3d& p_ecef) const;
   Whole both(const std::optional<Side>& from_past, const std::optional<Side>& from_future,
-             const Eigen::VectorXd& variance) const;
+             const Eigen::Vector3d& p_ecef) const;
   Smoothed at(std::int64_t epoch_us, Passed& past, Passed& future) const;
   std::vector<Runner> ends_of(std::span<const std::int64_t> epochs, std::size_t part,
                               Runner end) const;
@@ -211,31 +211,32 @@ class Smoother {
   std::set<std::string> beside_;
   RecordedTrack learnt_;     // empty, with the learnt errors of the stations
   bool has_places_ = false;  // some station states an error of its position
-  Order order_;
-  std::vector<BearingMeasurement> sights_;  // one of each station, in that order
+  std::map<std::string, BearingMeasurement> sights_;  // the first of each station
 };
 
-std::vector<BiasPrior> Smoother::priors(const Eigen::Vector3d& p_ecef) const {
-  std::vector<BiasPrior> biases;
-  for (const BearingMeasurement& measurement : sights_) {
-    const double range_m = (p_ecef - measurement.sight.origin_ecef).norm();
-    biases.push_back(
-        learnt_.errors().prior(measurement.station, measurement.sight, range_m, has_places_));
+// The stations that either filter holds: the others say nothing at this instant.
+Order Smoother::held_by(const std::optional<Side>& from_past,
+                        const std::optional<Side>& from_future) const {
+  Order held;
+  for (const auto* side : {&from_past, &from_future}) {
+    if (!*side) continue;
+    for (const FilterStation& station : (*side)->filter->stations())
+      held.try_emplace(station.station, 9 + states() * std::ssize(held));
   }
-  return biases;
+  return held;
 }
 
-// Variances of the stations' states before any bearing.
-Eigen::VectorXd Smoother::prior(const std::vector<BiasPrior>& biases) const {
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(9 + states() * std::ssize(sights_));
-  for (std::size_t i = 0; i < sights_.size(); ++i) {
-    const auto at = 9 + states() * static_cast<Eigen::Index>(i);
-    variance.segment<3>(at) = biases[i].rotation.max(kLeast);
-    const double clock_scale = learnt_.errors().clock_scale(sights_[i].station);
-    variance(at + 3) =
-        std::max(kLeast, clock_scale * sights_[i].clock_sd_s * sights_[i].clock_sd_s);
-    if (has_places_)
-      variance.segment<kPlaceStates>(at + kPoseStates) = biases[i].place_m2.max(kLeast);
+// Variances of these stations' states before any bearing, for a target at this place.
+Eigen::VectorXd Smoother::prior(const Order& held, const Eigen::Vector3d& p_ecef) const {
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(9 + states() * std::ssize(held));
+  for (const auto& [station, at] : held) {
+    const BearingMeasurement& own = sights_.at(station);
+    const double range_m = (p_ecef - own.sight.origin_ecef).norm();
+    const BiasPrior bias = learnt_.errors().prior(station, own.sight, range_m, has_places_);
+    variance.segment<3>(at) = bias.rotation.max(kLeast);
+    const double clock_scale = learnt_.errors().clock_scale(station);
+    variance(at + 3) = std::max(kLeast, clock_scale * own.clock_sd_s * own.clock_sd_s);
+    if (has_places_) variance.segment<kPlaceStates>(at + kPoseStates) = bias.place_m2.max(kLeast);
   }
   return variance;
 }
@@ -243,21 +244,30 @@ Eigen::VectorXd Smoother::prior(const std::vector<BiasPrior>& biases) const {
 // The target's states at the instant for the biases of the surer filter, which both have in common:
 // how the other's differ shows how biases change, not what they are.
 Whole Smoother::both(const std::optional<Side>& from_past, const std::optional<Side>& from_future,
-                     const Eigen::VectorXd& variance) const {
+                     const Eigen::Vector3d& p_ecef) const {
+  const Order held = held_by(from_past, from_future);
+  const Eigen::VectorXd variance = prior(held, p_ecef);
   const auto whole = [&](const Side& side, double clock_sign) {
-    return spread(*side.filter, side.mixed, order_, variance, clock_sign);
+    return spread(*side.filter, side.mixed, held, variance, clock_sign);
   };
-  std::optional<Whole> before, after;
-  if (from_past) before = whole(*from_past, 1.0);
-  if (from_future) after = whole(*from_future, -1.0);
-  if (!after) return given(before->mean.tail(variance.size() - 9), *before);
-  if (!before) return given(after->mean.tail(variance.size() - 9), *after);
-  forget_acceleration(*after);
-  const bool past_is_surer =
-      from_past->systematic().all_m2.trace() <= from_future->systematic().all_m2.trace();
-  const Eigen::VectorXd biases = (past_is_surer ? before : after)->mean.tail(variance.size() - 9);
-  const Whole first = given(biases, *before);
-  return join(first, given(biases, *after)).value_or(first);
+  const Eigen::Index n = variance.size() - 9;
+  if (!from_future) {
+    const Whole before = whole(*from_past, 1.0);
+    return given(before.mean.tail(n), before);
+  }
+  Whole after = whole(*from_future, -1.0);
+  if (!from_past) return given(after.mean.tail(n), after);
+  const Whole before = whole(*from_past, 1.0);
+  const bool past_is_surer = &surer(from_past, from_future) == &*from_past;
+  Eigen::VectorXd biases = (past_is_surer ? before : after).mean.tail(n);
+  const Eigen::VectorXd others = (past_is_surer ? after : before).mean.tail(n);
+  for (const auto& [station, at] : held) {
+    if (!surer(from_past, from_future).holds(station))
+      biases.segment(at - 9, states()) = others.segment(at - 9, states());
+  }
+  forget_acceleration(after);
+  const Whole first = given(biases, before);
+  return join(first, given(biases, after)).value_or(first);
 }
 
 Smoothed Smoother::at(std::int64_t epoch_us, Passed& past, Passed& future) const {
@@ -278,11 +288,13 @@ Smoothed Smoother::at(std::int64_t epoch_us, Passed& past, Passed& future) const
     from_future.emplace(*future.filter);
   }
   const TrackFilter& any = past.filter ? *past.filter : *future.filter;
-  const std::vector<BiasPrior> biases = priors(any.position());
-  const Whole joint = both(from_past, from_future, prior(biases));
+  const Whole joint = both(from_past, from_future, any.position());
   KinematicState state{any.utime_us(), joint.mean.head<9>(), joint.covariance};
-  const SystematicPart part = told_biases(from_past, from_future);
+  // What the biases are uncertain by, and clocks the velocity.
+  const Side& side = surer(from_past, from_future);
+  const SystematicPart part = side.systematic();
   state.covariance.topLeftCorner<3, 3>() += part.all_m2;
+  state.covariance.block<3, 3>(3, 3) = side.mixed.covariance.block<3, 3>(3, 3);
   fix.located.estimate = estimate_of(any, state, part);
   fix.located.stations = contributing(any, any.utime_us());
   return fix;

@@ -2,7 +2,7 @@
 //
 // Two filters run forwards and backwards in time (Fraser and Potter, 1969). At each instant the
 // forward state, with the bearings up to it, is combined with the backward prediction, with those
-// after it. Both contain the biases' prior; one copy is subtracted. The undeclared errors of the
+// after it, both for the biases of the surer one. The undeclared errors of the
 // stations are learnt in a run before; a station that pointed away from the target in that run
 // takes part in no track initiation.
 #pragma once

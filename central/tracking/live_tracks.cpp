@@ -124,6 +124,8 @@ void LiveTracks::merge(std::int64_t older, std::int64_t younger) {
   other->id = 0;
   other->state = TrackState::kDropped;
   identities_.merge(older, younger);
+  constexpr std::size_t kKeptMerged = 64;  // live, nobody takes them
+  if (merged_.size() == kKeptMerged) merged_.erase(merged_.begin());
   merged_.emplace_back(older, younger);
   ++counts_.merged;
 }
@@ -131,6 +133,7 @@ void LiveTracks::merge(std::int64_t older, std::int64_t younger) {
 void LiveTracks::clear() {
   clear_tracks();
   duplicates_ = DuplicateTracks(config_.rivals);
+  merged_.clear();
 }
 
 }  // namespace ols::fusion

@@ -28,14 +28,17 @@ namespace ols::fusion {
 
 class LiveTracks : public TrackManager {
  public:
+  using Merged = std::vector<std::pair<std::int64_t, std::int64_t>>;
+
   explicit LiveTracks(const TrackManagerConfig& config);
 
   using TrackManager::add;
   Association add(const BearingMeasurement& measurement, bool may_begin) override;
   // Message time was reset: identities are not assigned again.
   void clear();
-  // The identities of duplicates, the one that stays first, in the order of their merging.
-  const std::vector<std::pair<std::int64_t, std::int64_t>>& merged() const { return merged_; }
+  // The identities of duplicates merged since the last call (of the newest 64), the one that stays
+  // first, in the order of their merging.
+  Merged take_merged() { return std::exchange(merged_, {}); }
 
  private:
   struct Candidate {
@@ -54,7 +57,7 @@ class LiveTracks : public TrackManager {
   void merge_duplicates() override;
 
   DuplicateTracks duplicates_;
-  std::vector<std::pair<std::int64_t, std::int64_t>> merged_;
+  Merged merged_;
 };
 
 }  // namespace ols::fusion
