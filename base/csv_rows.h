@@ -129,11 +129,9 @@ class EndedLines : public io::ByteSourceBase {
     file_.read(buffer, size);
     if (file_.bad()) throw CsvError(path_ + ": cannot be read");
     auto count = static_cast<int>(file_.gcount());
-    if (count > 0) {
-      last_ = buffer[count - 1];
-    } else if (last_ != '\n' && size > 0) {
-      buffer[count++] = last_ = '\n';
-    }
+    if (count > 0) last_ = buffer[count - 1];
+    // With the file's end, not after it: of a file that fits into the buffer nothing more is read.
+    if (count < size && last_ != '\n') buffer[count++] = last_ = '\n';
     return count;
   }
 

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/csv_rows.h"
+
 namespace ols {
 namespace {
 
@@ -189,6 +191,19 @@ TEST_F(CsvFilesTest, NamesTheBadRowOfAFlight) {
             "f.csv:3: utime_us: is not later than in the row before");
   EXPECT_EQ(error_of(head + "2,149,16,350\n"), "f.csv:3: lat: 149 is outside -90 .. 90");
   EXPECT_EQ(error_of(head), "f.csv: at least two rows are needed");
+}
+
+// Otherwise the library looks for the line's end in what the buffer held before.
+TEST_F(CsvFilesTest, EndsTheLastLineInTheReadThatReachesTheFilesEnd) {
+  csv::EndedLines short_file(write("open.csv", "a,b"));
+  std::string buffer(8, 'x');
+  EXPECT_EQ(short_file.read(buffer.data(), 8), 4);
+  EXPECT_EQ(buffer, "a,b\nxxxx");
+  EXPECT_EQ(short_file.read(buffer.data(), 8), 0);
+  csv::EndedLines full(write("full.csv", "a,b"));
+  EXPECT_EQ(full.read(buffer.data(), 3), 3);
+  EXPECT_EQ(full.read(buffer.data(), 3), 1);
+  EXPECT_EQ(buffer[0], '\n');
 }
 
 TEST_F(CsvFilesTest, NamesAnotherSeparator) {
