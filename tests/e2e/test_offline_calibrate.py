@@ -192,6 +192,95 @@ def test_without_an_instrument_the_unit_is_a_new_one(run):
     assert run.report()["stations"][0]["systematic_rms_arcsec"] > 1.5 * known
 
 
+def without_line(lines, start):
+    return [line for line in lines if not line.startswith(start)]
+
+
+def with_cell(lines, row, column, value):
+    """One cell of a covariance, by the names of its row and column."""
+    at = lines[0].split(",").index(column)
+    cells = next(line for line in lines if line.startswith(row + ",")).split(",")
+    cells[at] = value
+    return [",".join(cells) if line.startswith(row + ",") else line for line in lines]
+
+
+def without_column(lines, column):
+    at = lines[0].split(",").index(column)
+    return [",".join(line.split(",")[:at] + line.split(",")[at + 1 :]) for line in lines]
+
+
+BAD_COVARIANCES = [
+    ("empty", lambda lines: ["", ""], ":1: header: is missing"),
+    (
+        "column",
+        lambda lines: without_column(lines, "focal_px"),
+        ":1: focal_px: the column is missing",
+    ),
+    ("row", lambda lines: without_line(lines, "focal_px"), ":32: focal_px: the row is missing"),
+    ("twice", lambda lines: [*lines, lines[1]], ":33: focal_px: the row appears twice"),
+    ("short", lambda lines: [*lines, "aspect,1"], "row: too few or too many columns"),
+    (
+        "number",
+        lambda lines: with_cell(lines, "focal_px", "focal_px", "1.5abc"),
+        "focal_px: '1.5abc' is not a number",
+    ),
+    (
+        "negative",
+        lambda lines: with_cell(lines, "focal_px", "focal_px", "-1"),
+        "focal_px: the variance is negative",
+    ),
+    (
+        "zero",
+        lambda lines: with_cell(lines, "focal_px", "focal_px", "0"),
+        "focal_px: the variance is 0, and its covariances are not",
+    ),
+    (
+        "asymmetric",
+        lambda lines: with_cell(lines, "focal_px", "mount_z_deg", "1e-3"),
+        ":8: focal_px: is not symmetric",
+    ),
+    (
+        "indefinite",
+        lambda lines: with_cell(
+            with_cell(lines, "focal_px", "mount_z_deg", "1"), "mount_z_deg", "focal_px", "1"
+        ),
+        ":1: header: the matrix is not positive definite",
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [case[1:] for case in BAD_COVARIANCES],
+    ids=[case[0] for case in BAD_COVARIANCES],
+)
+def test_a_bad_covariance_is_named_with_its_line(run, change, said):
+    assert run.adjust().returncode == 0
+    lines = change(run.lines("out/covariance.csv"))
+    (run.output / "covariance.csv").write_text("\n".join(lines) + "\n")
+    run.arguments[run.arguments.index("--instrument") + 1] = run.output / "instrument.toml"
+    run.output = run.folder / "again"
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "covariance.csv:" in done.stderr
+    assert said in done.stderr
+    assert not run.output.exists()
+
+
+def test_a_covariance_of_another_system_is_the_same(run):
+    assert run.adjust().returncode == 0
+    ids = []
+    for ending in ("\n", "\r\n"):
+        text = ending.join(run.lines("out/covariance.csv")) + ending
+        (run.folder / "out/covariance.csv").write_bytes(text.encode())
+        run.arguments[run.arguments.index("--instrument") + 1] = run.folder / "out/instrument.toml"
+        run.output = run.folder / f"again{len(ids)}"
+        done = run.adjust()
+        assert done.returncode == 0, done.stderr
+        ids.append(run.report()["stations"][0]["calibration_id"])
+    assert ids[0] == ids[1]
+
+
 def test_serial_numbers_that_differ_are_refused(run):
     for name, serial in (("alfa.toml", "L-1"), ("alfa-instrument.toml", "L-2")):
         with (run.folder / name).open("a") as file:
