@@ -1,6 +1,7 @@
 """ols-calibrate as a surveyor meets it."""
 
 import json
+import resource
 import subprocess
 import tomllib
 
@@ -300,6 +301,48 @@ def test_a_calibration_is_never_overwritten(run):
     assert before == {path.name: path.read_bytes() for path in run.output.iterdir()}
     run.output = run.folder / "references.csv"
     assert "--output" in run.adjust().stderr
+
+
+def test_an_output_without_a_name_is_refused(run):
+    before = sorted(run.folder.iterdir())
+    run.output = ""
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "--output: is empty" in done.stderr
+    assert before == sorted(run.folder.iterdir())
+
+
+def test_a_slash_at_the_end_of_the_output_says_nothing(run):
+    run.output.mkdir()
+    output, run.output = run.output, f"{run.output}/"
+    done = run.adjust()
+    assert done.returncode == 0, done.stderr
+    assert (output / "report.html").exists()
+    assert not output.with_name("out.partial").exists()
+
+
+def test_what_an_interrupted_run_has_left_is_not_overwritten(run):
+    (run.folder / "out.partial").mkdir()
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "out.partial exists" in done.stderr
+
+
+def test_a_disk_that_is_full_leaves_nothing(run):
+    """The instrument still fits below the limit, the covariance does not."""
+    before = sorted(run.folder.iterdir())
+    command = [BIN / "ols-calibrate", "adjust", *run.arguments, "--output", run.output]
+    done = subprocess.run(
+        [str(part) for part in command],
+        capture_output=True,
+        text=True,
+        check=False,
+        restore_signals=False,  # of a file that grows too large: an error, not the end
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000)),
+    )
+    assert done.returncode == 2
+    assert "covariance.csv" in done.stderr
+    assert before == sorted(run.folder.iterdir())
 
 
 def test_without_ut1_its_uncertainty_is_in_the_result(tmp_path):
