@@ -1,6 +1,7 @@
 """ols-calibrate as a surveyor meets it."""
 
 import json
+import resource
 import subprocess
 import tomllib
 
@@ -192,6 +193,95 @@ def test_without_an_instrument_the_unit_is_a_new_one(run):
     assert run.report()["stations"][0]["systematic_rms_arcsec"] > 1.5 * known
 
 
+def without_line(lines, start):
+    return [line for line in lines if not line.startswith(start)]
+
+
+def with_cell(lines, row, column, value):
+    """One cell of a covariance, by the names of its row and column."""
+    at = lines[0].split(",").index(column)
+    cells = next(line for line in lines if line.startswith(row + ",")).split(",")
+    cells[at] = value
+    return [",".join(cells) if line.startswith(row + ",") else line for line in lines]
+
+
+def without_column(lines, column):
+    at = lines[0].split(",").index(column)
+    return [",".join(line.split(",")[:at] + line.split(",")[at + 1 :]) for line in lines]
+
+
+BAD_COVARIANCES = [
+    ("empty", lambda lines: ["", ""], ":1: header: is missing"),
+    (
+        "column",
+        lambda lines: without_column(lines, "focal_px"),
+        ":1: focal_px: the column is missing",
+    ),
+    ("row", lambda lines: without_line(lines, "focal_px"), ":32: focal_px: the row is missing"),
+    ("twice", lambda lines: [*lines, lines[1]], ":33: focal_px: the row appears twice"),
+    ("short", lambda lines: [*lines, "aspect,1"], "row: too few or too many columns"),
+    (
+        "number",
+        lambda lines: with_cell(lines, "focal_px", "focal_px", "1.5abc"),
+        "focal_px: '1.5abc' is not a number",
+    ),
+    (
+        "negative",
+        lambda lines: with_cell(lines, "focal_px", "focal_px", "-1"),
+        "focal_px: the variance is negative",
+    ),
+    (
+        "zero",
+        lambda lines: with_cell(lines, "focal_px", "focal_px", "0"),
+        "focal_px: the variance is 0, and its covariances are not",
+    ),
+    (
+        "asymmetric",
+        lambda lines: with_cell(lines, "focal_px", "mount_z_deg", "1e-3"),
+        ":8: focal_px: is not symmetric",
+    ),
+    (
+        "indefinite",
+        lambda lines: with_cell(
+            with_cell(lines, "focal_px", "mount_z_deg", "1"), "mount_z_deg", "focal_px", "1"
+        ),
+        ":1: header: the matrix is not positive definite",
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [case[1:] for case in BAD_COVARIANCES],
+    ids=[case[0] for case in BAD_COVARIANCES],
+)
+def test_a_bad_covariance_is_named_with_its_line(run, change, said):
+    assert run.adjust().returncode == 0
+    lines = change(run.lines("out/covariance.csv"))
+    (run.output / "covariance.csv").write_text("\n".join(lines) + "\n")
+    run.arguments[run.arguments.index("--instrument") + 1] = run.output / "instrument.toml"
+    run.output = run.folder / "again"
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "covariance.csv:" in done.stderr
+    assert said in done.stderr
+    assert not run.output.exists()
+
+
+def test_a_covariance_of_another_system_is_the_same(run):
+    assert run.adjust().returncode == 0
+    ids = []
+    for ending in ("\n", "\r\n"):
+        text = ending.join(run.lines("out/covariance.csv")) + ending
+        (run.folder / "out/covariance.csv").write_bytes(text.encode())
+        run.arguments[run.arguments.index("--instrument") + 1] = run.folder / "out/instrument.toml"
+        run.output = run.folder / f"again{len(ids)}"
+        done = run.adjust()
+        assert done.returncode == 0, done.stderr
+        ids.append(run.report()["stations"][0]["calibration_id"])
+    assert ids[0] == ids[1]
+
+
 def test_serial_numbers_that_differ_are_refused(run):
     for name, serial in (("alfa.toml", "L-1"), ("alfa-instrument.toml", "L-2")):
         with (run.folder / name).open("a") as file:
@@ -211,6 +301,48 @@ def test_a_calibration_is_never_overwritten(run):
     assert before == {path.name: path.read_bytes() for path in run.output.iterdir()}
     run.output = run.folder / "references.csv"
     assert "--output" in run.adjust().stderr
+
+
+def test_an_output_without_a_name_is_refused(run):
+    before = sorted(run.folder.iterdir())
+    run.output = ""
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "--output: is empty" in done.stderr
+    assert before == sorted(run.folder.iterdir())
+
+
+def test_a_slash_at_the_end_of_the_output_says_nothing(run):
+    run.output.mkdir()
+    output, run.output = run.output, f"{run.output}/"
+    done = run.adjust()
+    assert done.returncode == 0, done.stderr
+    assert (output / "report.html").exists()
+    assert not output.with_name("out.partial").exists()
+
+
+def test_what_an_interrupted_run_has_left_is_not_overwritten(run):
+    (run.folder / "out.partial").mkdir()
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "out.partial exists" in done.stderr
+
+
+def test_a_disk_that_is_full_leaves_nothing(run):
+    """The instrument still fits below the limit, the covariance does not."""
+    before = sorted(run.folder.iterdir())
+    command = [BIN / "ols-calibrate", "adjust", *run.arguments, "--output", run.output]
+    done = subprocess.run(
+        [str(part) for part in command],
+        capture_output=True,
+        text=True,
+        check=False,
+        restore_signals=False,  # of a file that grows too large: an error, not the end
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000)),
+    )
+    assert done.returncode == 2
+    assert "covariance.csv" in done.stderr
+    assert before == sorted(run.folder.iterdir())
 
 
 def test_without_ut1_its_uncertainty_is_in_the_result(tmp_path):

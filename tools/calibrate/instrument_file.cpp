@@ -4,14 +4,13 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <sstream>
 
 #include "base/config_section.h"
-#include "base/csv_files.h"
 #include "edge/config_units.h"
 #include "geometry/angles.h"
+#include "tools/calibrate/covariance_file.h"
 
 namespace ols::calibration {
 namespace {
@@ -75,52 +74,6 @@ Numbers numbers_of(const Instrument& instrument) {
     numbers.sds[k] = to_file(i, std::sqrt(instrument.covariance(i, i)));
   }
   return numbers;
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  std::string cell;
-  while (std::getline(stream, cell, ',')) cells.push_back(cell);
-  return cells;
-}
-
-// The instrument's part of a covariance file: names in the first row and column.
-InstrumentMatrix read_covariance(const std::string& path) {
-  std::ifstream file(path);
-  std::string line;
-  if (!std::getline(file, line)) throw CsvError(path + ": cannot be read");
-  const std::vector<std::string> names = cells_of(line);
-  const auto index_of = [](const std::string& key) -> int {
-    for (int i = 0; i < kInstrumentParameters; ++i) {
-      if (key == parameter_texts()[static_cast<std::size_t>(i)].key) return i;
-    }
-    return -1;
-  };
-  InstrumentMatrix covariance = InstrumentMatrix::Zero();
-  int rows = 0;
-  for (unsigned number = 2; std::getline(file, line); ++number) {
-    const std::vector<std::string> cells = cells_of(line);
-    const std::string place = path + ":" + std::to_string(number) + ": ";
-    if (cells.size() != names.size()) throw CsvError(place + "row: too few or too many columns");
-    const int row = index_of(cells[0]);
-    if (row < 0) continue;
-    ++rows;
-    for (std::size_t k = 1; k < cells.size(); ++k) {
-      const int column = index_of(names[k]);
-      if (column < 0) continue;
-      try {
-        covariance(row, column) = from_file(row, from_file(column, std::stod(cells[k])));
-      } catch (const std::exception&) {
-        throw CsvError(place + names[k] + ": '" + cells[k] + "' is not a number");
-      }
-    }
-  }
-  if (rows != kInstrumentParameters) throw CsvError(path + ": a parameter is missing");
-  if (!covariance.allFinite() || !covariance.isApprox(covariance.transpose(), 1e-6)) {
-    throw CsvError(path + ": is not a covariance");
-  }
-  return covariance;
 }
 
 }  // namespace

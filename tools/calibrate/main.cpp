@@ -1,4 +1,5 @@
 // ols-calibrate: a station's calibration from whatever it has observed.
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 
@@ -35,32 +36,75 @@ void add_options(CLI::App& app, calibration::CaseOptions& o) {
       ->check(CLI::Range(-60.0, 60.0));
 }
 
+fs::path partial_of(const fs::path& folder) { return folder.string() + ".partial"; }
+
 // Nothing that stands there is overwritten: another calibration, an input.
-void check_output(const calibration::CaseOptions& o) {
+fs::path output_folder(const calibration::CaseOptions& o) {
+  if (o.output.empty()) throw std::invalid_argument("--output: is empty");
   std::vector<ols::NamedFile> inputs{{"--references", o.references}, {"--predict", o.predict}};
   for (const std::string& path : o.stations) inputs.push_back({"--station", path});
   for (const std::string& path : o.instruments) inputs.push_back({"--instrument", path});
   for (const std::string& path : o.observations) inputs.push_back({"--observations", path});
   ols::check_outputs(inputs, {{"--output", o.output}});
-  if (!fs::exists(o.output)) return;
-  if (!fs::is_directory(o.output)) {
+  // Without links and a slash at the end: the name that a rename needs.
+  fs::path folder = fs::weakly_canonical(o.output);
+  if (!folder.has_filename()) folder = folder.parent_path();
+  if (fs::exists(partial_of(folder))) {
+    throw std::invalid_argument("--output: " + partial_of(folder).string() +
+                                " exists: remove what an interrupted run has left");
+  }
+  if (!fs::exists(folder)) return folder;
+  if (!fs::is_directory(folder)) {
     throw std::invalid_argument("--output: " + o.output + " is not a folder");
   }
-  if (!fs::is_empty(o.output)) {
+  if (!fs::is_empty(folder)) {
     throw std::invalid_argument("--output: " + o.output +
                                 " is not empty: a calibration is never overwritten");
   }
+  return folder;
 }
 
-void write(const fs::path& path, const std::string& text) {
-  fs::create_directories(path.parent_path());
-  ols::AtomicFile file(path.string());
-  file.stream() << text;
-  file.commit();
+// The results are of a few kilobytes: a signal waits until they are there.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+    ::pthread_sigmask(SIG_BLOCK, &signals, &before_);
+  }
+  ~SignalsWait() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+// All of them or none: they get their name when all are written.
+void write(const fs::path& folder, const std::vector<calibration::OutputFile>& files) {
+  const SignalsWait wait;
+  const fs::path partial = partial_of(folder);
+  if (folder.has_parent_path()) fs::create_directories(folder.parent_path());
+  if (!fs::create_directory(partial)) throw std::runtime_error(partial.string() + ": exists");
+  try {
+    for (const calibration::OutputFile& one : files) {
+      const fs::path path = partial / one.name;
+      fs::create_directories(path.parent_path());
+      ols::AtomicFile file(path.string());
+      file.stream() << one.text;
+      file.commit();
+    }
+    fs::rename(partial, folder);
+  } catch (const std::exception&) {
+    std::error_code ignored;
+    fs::remove_all(partial, ignored);
+    throw;
+  }
 }
 
 void adjust(const calibration::CaseOptions& options) {
-  check_output(options);
+  const fs::path folder = output_folder(options);
   const calibration::Case what = calibration::read_case(options);
   const calibration::Adjustment adjustment(calibration::network_of(what));
   calibration::Calibration found = calibration::calibrate(adjustment);
@@ -68,20 +112,7 @@ void adjust(const calibration::CaseOptions& options) {
        calibration::exchanged_landmarks(what.problem, adjustment, found)) {
     found.remarks.push_back(line);
   }
-  const auto results = calibration::station_results(what, adjustment, found);
-  // All is computed before anything is written.
-  const std::string predicted =
-      options.predict.empty() ? std::string() : calibration::predictions(what, results);
-  const fs::path folder(options.output);
-  for (const calibration::StationResult& result : results) {
-    const fs::path own = results.size() == 1 ? folder : folder / result.id;
-    write(own / "instrument.toml", result.instrument);
-    write(own / "setup.toml", result.setup);
-    write(own / "covariance.csv", result.covariance_csv);
-  }
-  if (!predicted.empty()) write(folder / "predictions.csv", predicted);
-  write(folder / "report.json", calibration::report_json(what, adjustment, found, results));
-  write(folder / "report.html", calibration::report_html(what, adjustment, found, results));
+  write(folder, calibration::output_files(what, adjustment, found));
   for (const auto& lines : {found.remarks, what.warnings}) {
     for (const std::string& line : lines) std::cerr << "ols-calibrate: " << line << '\n';
   }

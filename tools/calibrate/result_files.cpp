@@ -120,4 +120,22 @@ std::string predictions(const Case& what, const std::vector<StationResult>& resu
   return out.str();
 }
 
+std::vector<OutputFile> output_files(const Case& what, const Adjustment& adjustment,
+                                     const Calibration& found) {
+  const auto results = station_results(what, adjustment, found);
+  std::vector<OutputFile> files;
+  for (const StationResult& result : results) {
+    const std::string folder = results.size() == 1 ? "" : result.id + "/";
+    files.push_back({folder + "instrument.toml", result.instrument});
+    files.push_back({folder + "setup.toml", result.setup});
+    files.push_back({folder + "covariance.csv", result.covariance_csv});
+  }
+  if (!what.options.predict.empty()) {
+    files.push_back({"predictions.csv", predictions(what, results)});
+  }
+  files.push_back({"report.json", report_json(what, adjustment, found, results)});
+  files.push_back({"report.html", report_html(what, adjustment, found, results)});
+  return files;
+}
+
 }  // namespace ols::calibration

@@ -34,4 +34,8 @@ std::string report_json(const Case& what, const Adjustment& adjustment, const Ca
 std::string report_html(const Case& what, const Adjustment& adjustment, const Calibration& found,
                         const std::vector<StationResult>& results);
 
+// All files of an adjustment. CsvError for a row that cannot be predicted.
+std::vector<OutputFile> output_files(const Case& what, const Adjustment& adjustment,
+                                     const Calibration& found);
+
 }  // namespace ols::calibration
