@@ -1,0 +1,26 @@
+// Where an output goes to, as the configuration writes it. Pure.
+#pragma once
+
+#include <string>
+
+namespace ols::exports {
+
+enum class Scheme { kUdp, kTcp, kTls, kMqtt, kMqtts, kFile };
+
+struct Address {
+  Scheme scheme = Scheme::kUdp;
+  std::string host;  // udp: an IP address; else a name or an address
+  int port = 0;
+  std::string path;  // file
+  int ttl = 1;       // udp, multicast: hops
+  std::string
+      interface;  // udp, multicast: the address of the interface to send by; empty: by route
+};
+
+// "udp://239.2.3.1:6969?ttl=1&interface=10.0.0.5", "tcp://HOST:PORT", "tls://HOST:PORT",
+// "mqtt://HOST[:1883]", "mqtts://HOST[:8883]", "file:///PATH"; an IPv6 address in brackets. Throws
+// std::invalid_argument.
+Address parse_address(const std::string& text);
+const char* to_string(Scheme scheme);
+
+}  // namespace ols::exports

@@ -1,0 +1,28 @@
+// The records of the categories that are sent, items as in EUROCONTROL's specifications: CAT062
+// (edition 1.20) system tracks, CAT063 (1.6) sensor status, CAT065 (1.5) service status, CAT015
+// (1.2) bearings. Pure.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "export/records.h"
+
+namespace ols::exports {
+
+struct AsterixSettings {
+  int sac = 0;  // system area code, from EUROCONTROL's list
+  int sic = 1;  // our own system identification code
+  // Their identification codes follow ours, in this order; other stations are not sent.
+  std::vector<std::string> stations;
+};
+
+// Heights above the ellipsoid (I062/130); accuracies as I062/500, source "triangulation".
+std::string cat062(const Target& target, std::uint16_t number, const AsterixSettings& settings);
+// `sensor`: the station's identification code.
+std::string cat063(const Station& station, int sensor, const AsterixSettings& settings);
+std::string cat065(std::int64_t utime_us, const AsterixSettings& settings);
+std::string cat015(const Line& line, int sensor, const AsterixSettings& settings);
+
+}  // namespace ols::exports

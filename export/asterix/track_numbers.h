@@ -1,0 +1,25 @@
+// ASTERIX has 16 bits for a track. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+
+namespace ols::exports {
+
+class TrackNumbers {
+ public:
+  // The number of this target as long as it is there: the fusion's own, unless another target that
+  // is there has it; then the next that is free. So a restart gives the same numbers again.
+  std::uint16_t of(const std::string& uid, std::int64_t target_id);
+  void release(const std::string& uid);
+
+  static constexpr std::size_t kMost = 60'000;
+
+ private:
+  std::map<std::string, std::uint16_t> numbers_;
+  std::set<std::uint16_t> taken_;
+};
+
+}  // namespace ols::exports

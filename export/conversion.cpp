@@ -1,0 +1,114 @@
+#include "export/conversion.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "base/atomic_file.h"
+#include "base/log_reader.h"
+#include "base/output_check.h"
+#include "export/factory.h"
+#include "export/fixes.h"
+#include "export/readiness.h"
+#include "export/tak/cot.h"
+#include "export/target_book.h"
+
+namespace ols::exports {
+namespace {
+
+// Events of Cursor on Target, one behind the other, are a file too.
+class EventFile : public Encoder {
+ public:
+  explicit EventFile(const CotSettings& settings) : events_(settings, std::nullopt) {}
+  Packets encode(const Target& target) override { return keep(events_.encode(target)); }
+  Packets encode(const Station& station) override { return keep(events_.encode(station)); }
+  Packets encode(const Line& line) override { return keep(events_.encode(line)); }
+  Packets turn(std::int64_t) override { return {{"document", text_}}; }
+
+ private:
+  Packets keep(const Packets& packets) {
+    for (const Packet& packet : packets) text_ += packet.bytes;
+    return {};
+  }
+
+  CotEncoder events_;
+  std::string text_;
+};
+
+std::unique_ptr<Encoder> encoder_of(Format format, const ExportConfig& config) {
+  if (format == Format::kCot) return std::make_unique<EventFile>(config.cot);
+  return make_file_encoder(format, config);
+}
+
+class Recording {
+ public:
+  Recording(const GateConfig& gate, Encoder& encoder) : gate_(gate), encoder_(encoder) {}
+
+  void take(const Target& target) {
+    for (const Target& told : book_.take(target)) give(told);
+  }
+  void take(const Station& station) {
+    if (!gate_.passes(station)) return;
+    ++report_.stations;
+    encoder_.encode(station);
+  }
+  void take(const Line& line) {
+    if (!gate_.passes(line)) return;
+    ++report_.lines;
+    encoder_.encode(line);
+  }
+  void end_silent(std::int64_t utime_us) {
+    for (const Target& end : book_.end_silent(utime_us)) give(end);
+  }
+  const ConversionReport& report() const { return report_; }
+
+ private:
+  void give(const Target& target) {
+    const auto told = gate_.pass(target);
+    if (!told) return;
+    ++report_.targets;
+    encoder_.encode(*told);
+  }
+
+  Gate gate_;
+  Encoder& encoder_;
+  TargetBook book_;
+  ConversionReport report_;
+};
+
+void read_log(const std::string& path, const SiteContext& site, Recording& recording) {
+  LogReader log(path);
+  while (const auto message = log.next()) {
+    recording.end_silent(message->received_utime_us);
+    if (const auto target = target_from(*message, site)) {
+      recording.take(*target);
+    } else if (const auto station = station_from(*message, site)) {
+      recording.take(*station);
+    } else if (const auto line = line_from(*message, site)) {
+      recording.take(*line);
+    }
+  }
+}
+
+}  // namespace
+
+ConversionReport convert(const Conversion& conversion, const ExportConfig& config,
+                         const GateConfig& gate) {
+  check_outputs({{"--log", conversion.log}, {"--fixes", conversion.fixes}},
+                {{"--output", conversion.output}});
+  const SiteContext site = site_context(config, {conversion.format});
+  const auto encoder = encoder_of(conversion.format, config);
+  Recording recording(gate, *encoder);
+  if (!conversion.log.empty()) {
+    read_log(conversion.log, site, recording);
+  } else {
+    for (const Target& target : read_fixes(conversion.fixes, site)) recording.take(target);
+  }
+  const Packets document = encoder->turn(0);
+  if (document.empty()) throw std::runtime_error("nothing in the recording is of this format");
+  AtomicFile file(conversion.output);
+  file.stream() << document.back().bytes;
+  file.commit();
+  return recording.report();
+}
+
+}  // namespace ols::exports

@@ -1,0 +1,26 @@
+// A recording, or positions from ols-fuse, as one file of a format.
+#pragma once
+
+#include <string>
+
+#include "export/export_config.h"
+
+namespace ols::exports {
+
+struct Conversion {
+  std::string log;    // an LCM log; or
+  std::string fixes;  // the CSV that ols-fuse writes
+  Format format = Format::kGeoJson;
+  std::string output;
+};
+
+struct ConversionReport {
+  std::size_t targets = 0, stations = 0, lines = 0;  // records
+};
+
+// Everything in the recording, whatever its rate; tentative targets only where the gate lets them.
+// Throws std::exception with the file's name.
+ConversionReport convert(const Conversion& conversion, const ExportConfig& config,
+                         const GateConfig& gate);
+
+}  // namespace ols::exports

@@ -1,0 +1,240 @@
+#include "export/export_config.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+#include <span>
+#include <stdexcept>
+
+#include "base/config_section.h"
+#include "base/lcm_url.h"
+
+namespace ols::exports {
+namespace {
+
+struct FormatRow {
+  Format format;
+  const char* name;
+  bool needs_geoid;
+  std::vector<Scheme> schemes;
+};
+
+const std::vector<FormatRow>& formats() {
+  static const std::vector<FormatRow> kFormats{
+      {Format::kCot, "cot", false, {Scheme::kUdp, Scheme::kTcp, Scheme::kTls}},
+      {Format::kCotProtobuf, "cot-protobuf", false, {Scheme::kUdp, Scheme::kTcp, Scheme::kTls}},
+      {Format::kGeoJson, "geojson", false, {Scheme::kFile}},
+      {Format::kKml, "kml", true, {Scheme::kFile}},
+      {Format::kGpx, "gpx", true, {Scheme::kFile}},
+      {Format::kCourageous, "courageous", true, {Scheme::kFile}},
+      {Format::kMqtt, "mqtt", false, {Scheme::kMqtt, Scheme::kMqtts}},
+      {Format::kAsterix, "asterix", false, {Scheme::kUdp}}};
+  return kFormats;
+}
+
+const FormatRow& row_of(Format format) {
+  return *std::ranges::find(formats(), format, &FormatRow::format);
+}
+
+config::Words<Format> format_words() {
+  config::Words<Format> words;
+  for (const FormatRow& row : formats()) words.emplace_back(row.name, row.format);
+  return words;
+}
+
+// It stands in topics, in names of files and in XML.
+void check_word(const std::string& word) {
+  const bool is_good =
+      !word.empty() && word.size() <= 40 && std::ranges::all_of(word, [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '_';
+      });
+  if (!is_good) throw std::invalid_argument("must be 1 to 40 letters, digits, - or _");
+}
+
+void check_topic(const std::string& topic) {
+  const bool is_good = !topic.empty() && topic.size() <= 200 && !topic.ends_with('/') &&
+                       topic.find_first_of("+#\"\\ ") == std::string::npos;
+  if (!is_good) throw std::invalid_argument("is no beginning of MQTT topics");
+}
+
+// Of an event's type: it goes into XML as it is.
+void check_cot_type(const std::string& type) {
+  const bool is_good =
+      !type.empty() && type.size() <= 60 &&
+      std::ranges::all_of(type, [](unsigned char c) { return std::isalnum(c) != 0 || c == '-'; });
+  if (!is_good) throw std::invalid_argument("is no type of an event, as a-u-A");
+}
+
+void check_area(const OutputConfig& output, ConfigTable& table) {
+  const auto& [south, west, north, east] = output.gate.area_deg;
+  if (south > north || std::abs(south) > 90.0 || std::abs(north) > 90.0 || std::abs(west) > 180.0 ||
+      std::abs(east) > 180.0) {
+    throw table.error("area_deg", "must be south, west, north, east within 90 and 180 degrees");
+  }
+}
+
+void check_output(const OutputConfig& output, ConfigTable& table) {
+  try {
+    const Address address = parse_address(output.to);
+    const FormatRow& format = row_of(output.format);
+    if (std::ranges::find(format.schemes, address.scheme) == format.schemes.end()) {
+      throw std::invalid_argument(std::string("the format ") + format.name + " does not go to " +
+                                  to_string(address.scheme) + "://");
+    }
+  } catch (const std::invalid_argument& bad) {
+    throw table.error("to", bad.what());
+  }
+  check_area(output, table);
+  if (output.certificate.empty() != output.key.empty()) {
+    throw table.error(output.key.empty() ? "certificate" : "key",
+                      "certificate and key belong together");
+  }
+  if (output.user.empty() && !output.password_file.empty()) {
+    throw table.error("user", "a password belongs to a user");
+  }
+}
+
+config::Section outputs_section(ExportConfig& config) {
+  config::Section section;
+  section.name = "output";
+  section.sentence = "One receiver each; none is there by default.";
+  section.append = [&config] { return output_section(config); };
+  return section;
+}
+
+config::Section cot_section(CotSettings& c) {
+  return {
+      "cot",
+      "Cursor on Target.",
+      {config::text("target_type", c.target_type, "Type of a target's events.", check_cot_type),
+       config::text("station_type", c.station_type, "Type of a station's events.", check_cot_type),
+       config::number("stale_s", c.stale_s, {1.0, 3600.0}, "s",
+                      "After this long without news clients fade an object."),
+       config::number("line_m", c.line_m, {10.0, 1e6}, "m", "How far lines and cones are drawn.")}};
+}
+
+config::Section mqtt_section(HomeSettings& h) {
+  return {"mqtt",
+          "MQTT with Home Assistant's discovery.",
+          {config::text("prefix", h.prefix, "Topics begin with it.", check_topic),
+           config::text("discovery_prefix", h.discovery_prefix,
+                        "Home Assistant's own prefix of discovery.", check_topic),
+           config::integer("slots", h.slots, 1, 64, "",
+                           "Targets that have entities at the same time.")}};
+}
+
+config::Section asterix_section(AsterixSettings& a) {
+  return {"asterix",
+          "ASTERIX: CAT062, 063, 065 and 015.",
+          {config::integer("sac", a.sac, 0, 255, "", "System area code, from EUROCONTROL's list."),
+           config::integer("sic", a.sic, 0, 255, "", "Our own system identification code."),
+           config::texts("stations", a.stations,
+                         "Stations whose state and lines are sent; their identification codes "
+                         "follow ours in this order.")},
+          {},
+          [&a](ConfigTable& table) {
+            if (a.sic + static_cast<int>(a.stations.size()) > 255) {
+              throw table.error("stations", "more than there are identification codes after sic");
+            }
+          }};
+}
+
+void check_names(const ExportConfig& config, ConfigTable& root) {
+  std::set<std::string> names;
+  for (const OutputConfig& output : config.outputs) {
+    if (!names.insert(output.name).second) {
+      throw root.error("output", "two have the name \"" + output.name + "\"");
+    }
+  }
+}
+
+ExportConfig read(ConfigFile& file) {
+  ExportConfig config;
+  config::read(export_section(config), file.root());
+  return config;
+}
+
+}  // namespace
+
+config::Section output_section(ExportConfig& config) {
+  OutputConfig& o = config.outputs.emplace_back();
+  return {"",
+          "",
+          {config::text("name", o.name, "Of the output, in status and log.", check_word)
+               .required_with_section(),
+           config::word("format", o.format, format_words(), "docs/exports.md says what is in each.")
+               .required_with_section(),
+           config::text("to", o.to,
+                        "udp://ADDRESS:PORT?ttl=1&interface=ADDRESS, tcp://HOST:PORT, "
+                        "tls://HOST:PORT, mqtt://HOST, mqtts://HOST or file:///PATH.",
+                        config::not_empty)
+               .required_with_section(),
+           config::number("rate_hz", o.gate.rate_hz, {0.01, 100.0}, "Hz",
+                          "Of each object, at most; of a file, how often it is written."),
+           config::flag("targets", o.gate.targets, "Sends targets."),
+           config::flag("tentative", o.gate.tentative, "Targets that are not confirmed yet, too."),
+           config::flag("stations", o.gate.stations, "Sends stations."),
+           config::flag("lines", o.gate.lines,
+                        "Sends the lines on which stations see what they follow."),
+           config::numbers("area_deg", std::span<double>(o.gate.area_deg), {-180.0, 180.0}, "deg",
+                           "South, west, north, east: what is outside is not sent."),
+           config::text("ca", o.ca,
+                        "PEM file with the authority of the receiver's certificate; empty: the "
+                        "system's authorities."),
+           config::text("certificate", o.certificate,
+                        "PEM file with our own certificate for the receiver; empty: none."),
+           config::text("key", o.key, "PEM file with its private key."),
+           config::text("user", o.user, "By which an MQTT broker knows us; empty: by none."),
+           config::text("password_file", o.password_file,
+                        "File whose first line is that user's password.")},
+          {},
+          [&o](ConfigTable& table) { check_output(o, table); }};
+}
+
+config::Section export_section(ExportConfig& c) {
+  return {"",
+          "",
+          {config::text("lcm_url", c.lcm_url,
+                        "The bus; ttl=0: only this host, ttl=1: also the other hosts of the site.",
+                        [](const std::string& url) { parse_lcm_url(url); }),
+           config::text("site", c.site, "Names of objects begin with it.", check_word),
+           config::text("geoid", c.geoid,
+                        "Grid of the geoid, by its name in PROJ's folders or by its path; formats "
+                        "whose heights count from the sea need it.",
+                        config::not_empty),
+           config::text("status_file", c.status_file,
+                        "JSON file that is rewritten every second; empty: none."),
+           config::number("max_age_s", c.max_age_s, {0.1, 3600.0}, "s",
+                          "What is older by this host's clock is not sent."),
+           config::number("history_min", c.history_min, {0.0, 1440.0}, "min",
+                          "How much of the tracks stands in a file.")},
+          {outputs_section(c), cot_section(c.cot), mqtt_section(c.home), asterix_section(c.asterix),
+           trust::trust_section(c.trust)},
+          [&c](ConfigTable& root) { check_names(c, root); }};
+}
+
+ExportConfig load_export_config(const std::string& path) {
+  ConfigFile file(path);
+  return read(file);
+}
+
+ExportConfig parse_export_config(const std::string& text, const std::string& name) {
+  ConfigFile file(text, name);
+  return read(file);
+}
+
+bool needs_geoid(Format format) { return row_of(format).needs_geoid; }
+const char* to_string(Format format) { return row_of(format).name; }
+
+Format format_from(const std::string& name) {
+  const auto row = std::ranges::find(formats(), name, &FormatRow::name);
+  if (row != formats().end()) return row->format;
+  std::string all;
+  for (const FormatRow& known : formats()) {
+    all.append(all.empty() ? "" : ", ").append(known.name);
+  }
+  throw std::invalid_argument("\"" + name + "\" is no format: " + all);
+}
+
+}  // namespace ols::exports

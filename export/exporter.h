@@ -1,0 +1,43 @@
+// What is heard goes to every output: of the bus, or of a recording. Counts what is not used.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/bus_inbox.h"
+#include "export/messages.h"
+#include "export/output.h"
+#include "export/target_book.h"
+
+namespace ols::exports {
+
+class Exporter {
+ public:
+  // Records further than this from the present are not sent.
+  Exporter(SiteContext site, std::vector<std::unique_ptr<Output>> outputs, double max_age_s);
+
+  void hear(const BusMessage& message, std::int64_t now_utime_us);
+  // Ends what is silent, writes files. `now_s`: monotonic.
+  void turn(double now_s, std::int64_t utime_us);
+
+  const std::vector<std::unique_ptr<Output>>& outputs() const { return outputs_; }
+  // records_sent_on, messages_refused, messages_unused (no position, for instance), records_old.
+  const std::map<std::string, double>& counters() const { return counters_; }
+  std::size_t targets() const { return book_.size(); }
+
+ private:
+  template <class Record>
+  void give(const Record& record);
+  bool is_present(std::int64_t utime_us, std::int64_t now_utime_us);
+
+  SiteContext site_;
+  std::vector<std::unique_ptr<Output>> outputs_;
+  std::int64_t max_age_us_;
+  TargetBook book_;
+  std::map<std::string, double> counters_;
+};
+
+}  // namespace ols::exports

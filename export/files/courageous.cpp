@@ -1,0 +1,94 @@
+#include "export/files/courageous.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "export/text.h"
+
+namespace ols::exports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json position(const Place& place) {
+  return {{"lat", place.latitude_deg},
+          {"lon", place.longitude_deg},
+          {"height_amsl", std::round(100.0 * place.above_sea_m()) / 100.0}};
+}
+
+Json location(const Place& place) {
+  Json result = position(place);
+  result["$type"] = "Position3d";
+  return result;
+}
+
+std::uint64_t milliseconds(std::int64_t utime_us) {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(utime_us, 0) / 1000);
+}
+
+// The format asks for a number that the fusion does not have; what is confirmed is certain.
+Json alarm(TrackState state) {
+  const bool is_confirmed = state == TrackState::kConfirmed || state == TrackState::kEnded;
+  return {{"active", state != TrackState::kTentative}, {"certainty", is_confirmed ? 1.0 : 0.5}};
+}
+
+Json track_record(const Target& target, std::uint64_t number) {
+  Json record{{"alarm", alarm(target.state)},
+              {"classification", "Unknown"},
+              {"location", location(target.place)},
+              {"record_number", number},
+              {"time", milliseconds(target.utime_us)}};
+  const auto& [east, north, up] = target.velocity_enu_m_s;
+  if (std::isfinite(east + north + up)) {
+    record["velocity"] = {{"east", east}, {"north", north}, {"up", up}};
+  }
+  return record;
+}
+
+Json detection_record(const Line& line, std::uint64_t number) {
+  return {{"alarm", {{"active", true}, {"certainty", std::clamp(line.belief, 0.0, 1.0)}}},
+          {"classification", "Unknown"},
+          {"cuas_location", position(line.camera)},
+          {"location",
+           {{"$type", "BearingElevation"},
+            {"bearing", line.azimuth_deg},
+            {"elevation", line.elevation_deg}}},
+          {"record_number", number},
+          {"time", milliseconds(line.utime_us)}};
+}
+
+const Place* place_of_system(const Picture& picture) {
+  if (!picture.stations().empty()) return &picture.stations().begin()->second.place;
+  if (!picture.lines().empty()) return &picture.lines().begin()->second.points.front().camera;
+  if (!picture.tracks().empty()) return &picture.tracks().begin()->second.last.place;
+  return nullptr;
+}
+
+}  // namespace
+
+std::string courageous(const Picture& picture, const std::string& site) {
+  const Place* const place = place_of_system(picture);
+  if (place == nullptr) return {};
+  std::uint64_t number = 0;
+  Json tracks = Json::array(), detections = Json::array();
+  for (const auto& [uid, track] : picture.tracks()) {
+    Json records = Json::array();
+    for (const Target& point : track.points) records.push_back(track_record(point, number++));
+    tracks.push_back(
+        {{"uas_id", static_cast<std::uint64_t>(std::max<std::int64_t>(track.last.id, 0))},
+         {"name", uid},
+         {"records", std::move(records)}});
+  }
+  for (const auto& [uid, seen] : picture.lines()) {
+    Json records = Json::array();
+    for (const Line& line : seen.points) records.push_back(detection_record(line, number++));
+    detections.push_back({{"name", seen.points.front().station}, {"records", std::move(records)}});
+  }
+  const Json document{{"version", "0.4.1"},      {"vendor_name", "OLS"},
+                      {"system_name", site},     {"static_cuas_location", position(*place)},
+                      {"detection", detections}, {"tracks", tracks}};
+  return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace ols::exports

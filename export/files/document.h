@@ -1,0 +1,40 @@
+// A file that is written anew at each turn, from everything that was told. Pure.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "export/encoder.h"
+#include "export/files/picture.h"
+
+namespace ols::exports {
+
+class DocumentEncoder : public Encoder {
+ public:
+  // The document of a picture; empty: none yet.
+  using Writer = std::function<std::string(const Picture&)>;
+  // `where`: as Packet::where. `companions`: files beside it, sent once.
+  DocumentEncoder(PictureLimits limits, Writer writer, std::string where = {},
+                  Packets companions = {});
+
+  Packets encode(const Target& target) override { return take(target); }
+  Packets encode(const Station& station) override { return take(station); }
+  Packets encode(const Line& line) override { return take(line); }
+  Packets turn(std::int64_t utime_us) override;
+  void begin_again() override { is_new_ = true; }
+
+ private:
+  template <class Record>
+  Packets take(const Record& record) {
+    picture_.take(record);
+    return {};
+  }
+
+  Picture picture_;
+  Writer writer_;
+  std::string where_;
+  Packets companions_;
+  bool is_new_ = true;
+};
+
+}  // namespace ols::exports

@@ -1,0 +1,60 @@
+// What is in a file: tracks with their points, stations, and what stations saw. Pure.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "export/records.h"
+
+namespace ols::exports {
+
+struct PictureLimits {
+  double history_s = std::numeric_limits<double>::infinity();
+  // Of a track or of a station's lines; a longer one is thinned evenly in time.
+  std::size_t most_points = std::numeric_limits<std::size_t>::max();
+  // What has no height above the sea is left out: the format has no other height.
+  bool needs_sea = false;
+};
+
+struct Track {
+  Target last;
+  std::deque<Target> points;  // in the order of time
+};
+struct SeenLines {
+  std::deque<Line> points;
+};
+
+class Picture {
+ public:
+  explicit Picture(PictureLimits limits = {}) : limits_(limits) {}
+
+  void take(const Target& target);
+  void take(const Station& station);
+  void take(const Line& line);
+  // Removes points older than the history but for the newest of what is live, tracks that ended
+  // before it, and stations that have said nothing for five minutes. `utime_us`: now.
+  void forget(std::int64_t utime_us);
+
+  bool is_empty() const { return tracks_.empty() && stations_.empty() && lines_.empty(); }
+  const std::map<std::string, Track>& tracks() const { return tracks_; }
+  const std::map<std::string, Station>& stations() const { return stations_; }
+  const std::map<std::string, SeenLines>& lines() const { return lines_; }
+
+ private:
+  bool fits(const Place& place) const;
+  std::int64_t history_us() const;
+  std::int64_t spacing_us() const;
+
+  PictureLimits limits_;
+  std::map<std::string, Track> tracks_;
+  std::map<std::string, Station> stations_;
+  std::map<std::string, SeenLines> lines_;
+};
+
+// Where a line is, this far from its camera.
+Place end_of(const Line& line, double distance_m);
+
+}  // namespace ols::exports

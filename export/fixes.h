@@ -1,0 +1,15 @@
+// Positions that ols-fuse has written, as targets.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "export/messages.h"
+
+namespace ols::exports {
+
+// The columns of base/fix_writer.h, of which standard deviations may be missing; covariances
+// between axes are not in the file and are taken as 0. Throws CsvError (FILE:LINE: COLUMN: what).
+std::vector<Target> read_fixes(const std::string& path, const SiteContext& site);
+
+}  // namespace ols::exports

@@ -1,0 +1,27 @@
+// How high the geoid, the level of the sea, is above the WGS84 ellipsoid: from a grid file that
+// PROJ reads. Without one no height above the sea is ever written.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace ols::exports {
+
+class Geoid {
+ public:
+  // `grid`: a name in PROJ's folders (egm96_15.gtx of Debian's proj-data) or a path. Throws
+  // std::invalid_argument.
+  explicit Geoid(const std::string& grid);
+  ~Geoid();
+  Geoid(const Geoid&) = delete;
+  Geoid& operator=(const Geoid&) = delete;
+
+  // [m]; not finite where the grid does not reach.
+  double height_m(double latitude_deg, double longitude_deg) const;
+
+ private:
+  struct Grid;
+  std::unique_ptr<Grid> grid_;
+};
+
+}  // namespace ols::exports

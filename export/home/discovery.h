@@ -1,0 +1,20 @@
+// What Home Assistant must be told once to show an entity: its MQTT discovery. Pure.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "export/encoder.h"
+#include "export/home/home_settings.h"
+
+namespace ols::exports {
+
+std::string slot_topic(const HomeSettings& settings, std::size_t slot);
+
+// A place on the map, and height, speed and state as sensors.
+Packets discover_slot(const HomeSettings& settings, const std::string& site, std::size_t slot);
+// State and direction as sensors, and whether it has an alarm. `word`: its name in topics.
+Packets discover_station(const HomeSettings& settings, const std::string& site,
+                         const std::string& word, const std::string& name);
+
+}  // namespace ols::exports

@@ -1,0 +1,43 @@
+// MQTT: flat JSON of targets, stations and lines, and what Home Assistant needs to find them by
+// itself (its MQTT discovery). Pure.
+//
+//   PREFIX/status           "online" or "offline" (the last will)
+//   PREFIX/targets          every target
+//   PREFIX/target/SLOT      the target in this slot, retained; {"state": "none"} while it is free
+//   PREFIX/station/NAME     retained
+//   PREFIX/line/NAME        what this station sees
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "export/encoder.h"
+#include "export/home/home_settings.h"
+#include "export/home/target_slots.h"
+
+namespace ols::exports {
+
+class HomeEncoder : public Encoder {
+ public:
+  HomeEncoder(HomeSettings settings, std::string site);
+
+  Packets encode(const Target& target) override;
+  Packets encode(const Station& station) override;
+  Packets encode(const Line& line) override;
+  Packets turn(std::int64_t utime_us) override;
+  void begin_again() override;
+
+ private:
+  HomeSettings settings_;
+  std::string site_;
+  TargetSlots slots_;
+  bool slots_are_told_ = false;
+  std::set<std::string> told_stations_;
+};
+
+// The topic of its availability: that of the last will.
+std::string status_topic(const HomeSettings& settings);
+// A name as a level of a topic: what is no letter, digit, - or _ becomes "_".
+std::string topic_word(const std::string& name);
+
+}  // namespace ols::exports

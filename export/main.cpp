@@ -1,0 +1,212 @@
+// ols-export: parses the command line, loads the configuration, wires the parts and loops.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/clocks.h"
+#include "base/command_line.h"
+#include "base/service_notifier.h"
+#include "base/shutdown.h"
+#include "base/toml_config.h"
+#include "export/conversion.h"
+#include "export/export_bus.h"
+#include "export/export_config.h"
+#include "export/exporter.h"
+#include "export/factory.h"
+#include "export/readiness.h"
+#include "export/status.h"
+
+namespace {
+
+namespace exports = ols::exports;
+
+constexpr int kTurn_ms = 20;
+constexpr double kStatus_s = 1.0;
+
+struct Arguments {
+  std::string config, lcm_url, format;
+  exports::Conversion conversion;
+  double rate_hz = 100.0;
+  bool check_config = false, stations = true, lines = false, tentative = false;
+};
+
+exports::ExportConfig configuration(const Arguments& arguments) {
+  exports::ExportConfig config;
+  if (!arguments.config.empty()) config = exports::load_export_config(arguments.config);
+  if (!arguments.lcm_url.empty()) config.lcm_url = arguments.lcm_url;
+  return config;
+}
+
+// A failure to write the status must not end the export.
+void write_status(const std::string& path, const exports::ExportStatus& status) {
+  if (path.empty()) return;
+  static bool is_reported = false;
+  try {
+    ols::AtomicFile file(path);
+    file.stream() << to_json(status) << '\n';
+    file.commit();
+    is_reported = false;
+  } catch (const std::exception& failure) {
+    if (!is_reported) spdlog::warn("status: {}", failure.what());
+    is_reported = true;
+  }
+}
+
+// Logs what begins and what ends.
+class Journal {
+ public:
+  void look(const exports::ExportStatus& status) {
+    for (const auto& [name, report] : status.outputs) {
+      std::string& last = trouble_[name];
+      if (report.trouble == last) continue;
+      if (report.trouble.empty()) {
+        spdlog::info("output {}: works again", name);
+      } else {
+        spdlog::warn("output {}: {}", name, report.trouble);
+      }
+      last = report.trouble;
+    }
+  }
+
+ private:
+  std::map<std::string, std::string> trouble_;
+};
+
+exports::ExportStatus status_of(const exports::Exporter& exporter, const exports::ExportBus& bus) {
+  exports::ExportStatus status;
+  status.utime_us = ols::clock_utime_us();
+  status.targets = exporter.targets();
+  status.counters = exporter.counters();
+  bus.count(status.counters);
+  status.alarms = bus.alarms(ols::clock_monotonic_s());
+  if (const std::string trouble = bus.trouble(); !trouble.empty()) {
+    status.alarms.insert(status.alarms.begin(), trouble);
+  }
+  for (const auto& output : exporter.outputs()) {
+    status.outputs.emplace_back(output->name(), output->report());
+  }
+  return status;
+}
+
+int run(const exports::ExportConfig& config) {
+  const exports::SiteContext site = site_context(config, formats_of(config));
+  std::vector<std::unique_ptr<exports::Output>> outputs;
+  for (const exports::OutputConfig& output : config.outputs) {
+    outputs.push_back(make_output(output, config));
+  }
+  if (outputs.empty()) spdlog::warn("no [[output]] is configured: nothing goes out");
+  exports::Exporter exporter(site, std::move(outputs), config.max_age_s);
+  exports::ExportBus bus(config.lcm_url, config.trust, [&](const ols::BusMessage& message) {
+    exporter.hear(message, ols::clock_utime_us());
+  });
+  bus.connect(ols::clock_monotonic_s(), ols::BusConnector::kLongest_s);
+  ols::ServiceNotifier service_manager;
+  service_manager.ready("exports");
+  spdlog::info("ready: {} outputs", exporter.outputs().size());
+  Journal journal;
+  double status_due_s = 0.0;
+  while (!ols::shutdown_requested()) {
+    const double now_s = ols::clock_monotonic_s();
+    bus.turn(now_s, kTurn_ms);
+    exporter.turn(now_s, ols::clock_utime_us());
+    service_manager.alive(now_s);
+    if (now_s < status_due_s) continue;
+    status_due_s = now_s + kStatus_s;
+    const exports::ExportStatus status = status_of(exporter, bus);
+    journal.look(status);
+    service_manager.status(in_one_line(status));
+    write_status(config.status_file, status);
+  }
+  service_manager.stopping();
+  spdlog::info("stops");
+  return 0;
+}
+
+int convert(const Arguments& arguments, const exports::ExportConfig& config) {
+  exports::GateConfig gate;
+  gate.rate_hz = arguments.rate_hz;
+  gate.stations = arguments.stations;
+  gate.lines = arguments.lines;
+  gate.tentative = arguments.tentative;
+  try {
+    const exports::ConversionReport report = exports::convert(arguments.conversion, config, gate);
+    std::fprintf(stderr, "ols-export: %zu positions, %zu places of stations, %zu lines\n",
+                 report.targets, report.stations, report.lines);
+    return 0;
+  } catch (const std::exception& error) {
+    throw std::invalid_argument(error.what());
+  }
+}
+
+void add_conversion(CLI::App& app, Arguments& arguments) {
+  auto* output = app.add_option("--output", arguments.conversion.output, "File to write");
+  auto* format = app.add_option("--format", arguments.format,
+                                "geojson, kml, gpx, courageous, or cot: events as XML");
+  auto* log =
+      app.add_option("--log", arguments.conversion.log,
+                     "Write this recorded LCM log into a file, in place of serving the bus");
+  auto* fixes = app.add_option("--fixes", arguments.conversion.fixes,
+                               "Write these positions, the output of ols-fuse, into a file");
+  log->needs(format)->needs(output)->excludes(fixes);
+  fixes->needs(format)->needs(output);
+  output->needs(format);
+  app.add_option("--rate", arguments.rate_hz, "[Hz] with --log or --fixes: of each object, at most")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
+  app.add_flag("--lines", arguments.lines, "with --log: what stations saw, too");
+  app.add_flag("--tentative", arguments.tentative, "with --log: unconfirmed targets, too");
+  app.add_flag("!--no-stations", arguments.stations, "with --log: no stations");
+}
+
+int act(Arguments& arguments) {
+  const exports::ExportConfig config = configuration(arguments);
+  if (!arguments.format.empty()) {
+    arguments.conversion.format = exports::format_from(arguments.format);
+    if (arguments.conversion.log.empty() && arguments.conversion.fixes.empty()) {
+      throw std::invalid_argument("--format: needs --log or --fixes");
+    }
+    return convert(arguments, config);
+  }
+  check_files(config);
+  if (!arguments.check_config) return run(config);
+  static_cast<void>(site_context(config, formats_of(config)));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Targets and stations for others' programs: TAK, ASTERIX, MQTT, GeoJSON, KML, GPX and more"};
+  app.set_version_flag("--version", OLS_VERSION);
+  Arguments arguments;
+  app.add_option("--config", arguments.config, "Configuration file (TOML); all keys have defaults");
+  app.add_option("--lcm-url", arguments.lcm_url, "Bus, in place of the configuration's");
+  app.add_flag("--check-config", arguments.check_config, "Only read and check the configuration");
+  add_conversion(app, arguments);
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-export")) return *status;
+  spdlog::set_default_logger(spdlog::stderr_color_mt("ols-export"));
+  ols::install_shutdown_handler();
+  std::signal(SIGPIPE, SIG_IGN);  // a receiver that has gone is an error of its own connection
+  try {
+    return act(arguments);
+  } catch (const ols::ConfigError& error) {
+    std::fprintf(stderr, "ols-export: %s\n", error.what());
+    return ols::kExitBadInput;
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "ols-export: %s\n", error.what());
+    return ols::kExitBadInput;
+  } catch (const std::exception& error) {
+    spdlog::critical("{}", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,173 @@
+#include "export/messages.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/channel_names.h"
+#include "base/lcm_bus.h"
+#include "base/plain_text.h"
+#include "export/identity.h"
+#include "geometry/angles.h"
+#include "geometry/wgs84.h"
+#include "ols_msg/bearing_t.hpp"
+#include "ols_msg/station_status_t.hpp"
+#include "ols_msg/target_t.hpp"
+
+namespace ols::exports {
+namespace {
+
+using Bearing = ols_msg::bearing_t;
+using Status = ols_msg::station_status_t;
+using TargetMessage = ols_msg::target_t;
+
+constexpr std::size_t kMostStations = 64;  // named with a target
+constexpr double kMostHeight_m = 1e6;
+constexpr double kMostEarth_m = 1e8;  // of an ECEF component
+
+template <class Message>
+std::optional<Message> decoded(const BusMessage& message) {
+  Message content{};
+  if (!decode_exactly(message, content) || content.schema_version != Message::SCHEMA_VERSION) {
+    return std::nullopt;
+  }
+  return content;
+}
+
+bool is_place(double latitude_deg, double longitude_deg, double height_m) {
+  return std::abs(latitude_deg) <= 90.0 && std::abs(longitude_deg) <= 360.0 &&
+         std::abs(height_m) <= kMostHeight_m;
+}
+
+Place place_of(double latitude_deg, double longitude_deg, double height_m,
+               const SiteContext& site) {
+  const double longitude = degrees(wrap_pi(radians(longitude_deg)));
+  return {latitude_deg, longitude, height_m, site.geoid_m(latitude_deg, longitude)};
+}
+
+std::array<double, 3> velocity_of(const TargetMessage& t) {
+  const Eigen::Vector3d enu =
+      R_ecef_enu(Geodetic{radians(t.latitude_deg), radians(t.longitude_deg), t.height_m})
+          .transpose() *
+      Eigen::Vector3d(t.velocity_ecef_m_s[0], t.velocity_ecef_m_s[1], t.velocity_ecef_m_s[2]);
+  return {enu.x(), enu.y(), enu.z()};
+}
+
+TrackState state_of(const TargetMessage& t) {
+  switch (t.track_state) {
+    case TargetMessage::TRACK_BORN:
+      return TrackState::kTentative;
+    case TargetMessage::TRACK_COASTED:
+      return TrackState::kCoasted;
+    case TargetMessage::TRACK_DROPPED:
+      return TrackState::kEnded;
+    default:
+      return TrackState::kConfirmed;
+  }
+}
+
+std::vector<std::string> used_stations(const TargetMessage& t) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(t.station.size(), kMostStations); ++i) {
+    if (t.used[i] != 0) names.push_back(plain_text(t.station[i]));
+  }
+  return names;
+}
+
+const char* state_name(std::int8_t state) {
+  static constexpr std::array kNames{"idle", "manual", "tracking", "coasting",
+                                     "lost", "slewed", "stopped",  "emergency"};
+  const auto index = static_cast<std::size_t>(state);
+  return state >= 0 && index < kNames.size() ? kNames[index] : "unknown";
+}
+
+}  // namespace
+
+std::optional<Target> target_from(const BusMessage& message, const SiteContext& site) {
+  if (message.channel != kTargetChannel) return std::nullopt;
+  const auto content = decoded<TargetMessage>(message);
+  if (!content || content->target_id == 0) return std::nullopt;
+  const TargetMessage& t = *content;
+  Target target;
+  target.utime_us = t.utime;
+  target.id = t.target_id;
+  target.uid = target_uid(site.site, t.boot_id, t.target_id);
+  target.state = state_of(t);
+  if (target.state == TrackState::kEnded) {
+    target.place = {kUnknown, kUnknown, kUnknown, kUnknown};
+    target.velocity_enu_m_s.fill(kUnknown);
+    return target;
+  }
+  if (t.solution != TargetMessage::SOLUTION_OK ||
+      !is_place(t.latitude_deg, t.longitude_deg, t.height_m)) {
+    return std::nullopt;
+  }
+  target.place = place_of(t.latitude_deg, t.longitude_deg, t.height_m, site);
+  std::ranges::copy(t.position_covariance_enu_m2, target.covariance_m2.begin());
+  std::ranges::copy(t.velocity_covariance_enu_m2_s2, target.velocity_covariance_m2_s2.begin());
+  target.velocity_enu_m_s = velocity_of(t);
+  target.stations = used_stations(t);
+  return target;
+}
+
+std::optional<Station> station_from(const BusMessage& message, const SiteContext& site) {
+  const auto content = decoded<Status>(message);
+  if (!content || message.channel != station_channel(kStatusChannel, content->station) ||
+      !is_place(content->latitude_deg, content->longitude_deg, content->height_m)) {
+    return std::nullopt;
+  }
+  const Status& s = *content;
+  Station station;
+  station.utime_us = s.utime;
+  station.name = plain_text(s.station);
+  station.uid = station_uid(site.site, station.name);
+  station.place = place_of(s.latitude_deg, s.longitude_deg, s.height_m, site);
+  std::ranges::copy(s.position_sd_m, station.position_sd_m.begin());
+  station.azimuth_deg = degrees(s.azimuth_rad);
+  station.elevation_deg = degrees(s.elevation_rad);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double field_deg = degrees(s.field_of_view_rad[i]);
+    station.field_of_view_deg[i] = field_deg > 0.0 && field_deg < 360.0 ? field_deg : 0.0;
+  }
+  station.state = state_name(s.state);
+  station.alarms = s.alarm.size();
+  station.is_well = s.alarm.empty();
+  station.clock_is_good = s.clock_state == Bearing::CLOCK_SYNCHRONISED;
+  return station;
+}
+
+std::optional<Line> line_from(const BusMessage& message, const SiteContext& site) {
+  const auto content = decoded<Bearing>(message);
+  if (!content || message.channel != station_channel(kBearingChannel, content->station)) {
+    return std::nullopt;
+  }
+  const Bearing& b = *content;
+  const Eigen::Vector3d camera(b.camera_ecef_m[0], b.camera_ecef_m[1], b.camera_ecef_m[2]);
+  if (!(camera.cwiseAbs().maxCoeff() < kMostEarth_m) || !std::isfinite(b.azimuth_rad) ||
+      !(std::abs(b.elevation_rad) <= kPi / 2.0)) {
+    return std::nullopt;
+  }
+  const Geodetic at = geodetic_from_ecef(camera);
+  Line line;
+  line.utime_us = b.utime;
+  line.station = plain_text(b.station);
+  line.uid = line_uid(site.site, line.station);
+  line.camera = place_of(degrees(at.latitude_rad), degrees(at.longitude_rad), at.height_m, site);
+  line.azimuth_deg = degrees(wrap_two_pi(b.azimuth_rad));
+  line.elevation_deg = degrees(b.elevation_rad);
+  const auto sd_deg = [&b](int i) {
+    return degrees(std::sqrt(b.covariance_white_rad2[i] + b.covariance_systematic_rad2[i]));
+  };
+  line.cross_sd_deg = sd_deg(0);
+  line.elevation_sd_deg = sd_deg(2);
+  line.belief = b.belief;
+  line.track_id = b.track_id;
+  return line;
+}
+
+bool is_understood(const BusMessage& message) {
+  if (message.channel == kTargetChannel) return decoded<TargetMessage>(message).has_value();
+  if (message.channel.starts_with(kStatusChannel)) return decoded<Status>(message).has_value();
+  return message.channel.starts_with(kBearingChannel) && decoded<Bearing>(message).has_value();
+}
+
+}  // namespace ols::exports

@@ -1,0 +1,28 @@
+// Files that appear whole: each packet is one file, its topic what is put before the end of its
+// name.
+#pragma once
+
+#include <string>
+
+#include "export/outlet/link.h"
+
+namespace ols::exports {
+
+class FileLink : public Link {
+ public:
+  explicit FileLink(std::string path) : path_(std::move(path)) {}
+
+  void open() override {}
+  void send(const Packet& packet) override;
+  void wait(int wake_fd, double seconds) override;
+  void close() override {}
+  bool forgets() const override { return false; }
+
+ private:
+  std::string path_;
+};
+
+// "site.kml" and "-live": "site-live.kml".
+std::string file_name(const std::string& path, const std::string& where);
+
+}  // namespace ols::exports

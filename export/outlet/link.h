@@ -1,0 +1,34 @@
+// A connection that may make its caller wait, for a thread of its own (queued_outlet.h).
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "export/encoder.h"
+
+namespace ols::exports {
+
+// In words for a person: "10.0.0.9:8089: its certificate is not that of the authority in ca".
+class LinkError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class Link {
+ public:
+  virtual ~Link() = default;
+  // These throw LinkError, after kPatience_s at the latest; the link is then closed.
+  virtual void open() = 0;
+  virtual void send(const Packet& packet) = 0;
+  // Until there is something to do: `wake_fd` is readable, or the time is over. Takes what the
+  // receiver says.
+  virtual void wait(int wake_fd, double seconds) = 0;
+  virtual void close() = 0;
+  // Whether what waited while it was closed is old news.
+  virtual bool forgets() const { return true; }
+
+  static constexpr double kPatience_s = 3.0;
+};
+
+}  // namespace ols::exports

@@ -1,0 +1,133 @@
+#include "export/outlet/mqtt_link.h"
+
+#include <mosquitto.h>
+#include <poll.h>
+
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "base/clocks.h"
+#include "base/small_file.h"
+#include "export/outlet/tcp_socket.h"
+
+namespace ols::exports {
+namespace {
+
+constexpr int kKeepAlive_s = 10;
+constexpr std::size_t kLongestPassword = 4096;
+
+std::string first_line(const std::string& path) {
+  try {
+    const std::string text = read_small_file(path, kLongestPassword);
+    return text.substr(0, text.find_first_of("\r\n"));
+  } catch (const std::exception& failure) {
+    throw LinkError(failure.what());
+  }
+}
+
+const char* or_null(const std::string& text) { return text.empty() ? nullptr : text.c_str(); }
+
+struct Library {
+  Library() { mosquitto_lib_init(); }
+  ~Library() { mosquitto_lib_cleanup(); }
+};
+
+}  // namespace
+
+struct MqttLink::Client {
+  explicit Client(const std::string& name) : session(mosquitto_new(name.c_str(), true, this)) {
+    if (session == nullptr) throw LinkError("no memory for an MQTT client");
+    mosquitto_connect_callback_set(session, [](mosquitto*, void* self, int code) {
+      static_cast<Client*>(self)->answer = code;
+    });
+  }
+  ~Client() { mosquitto_destroy(session); }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  mosquitto* session;
+  std::optional<int> answer;  // of the broker to our log-in
+};
+
+MqttLink::MqttLink(const Address& address, TlsFiles files, MqttLogin login)
+    : address_(address), files_(std::move(files)), login_(std::move(login)) {
+  static const Library library;
+}
+
+MqttLink::~MqttLink() { close(); }
+
+void MqttLink::check(int result, const std::string& doing) const {
+  if (result == MOSQ_ERR_SUCCESS) return;
+  throw LinkError(address_.host + ":" + std::to_string(address_.port) + ": " + doing + ": " +
+                  mosquitto_strerror(result));
+}
+
+void MqttLink::open() {
+  close();
+  // The library's own connection would wait for minutes for a host that does not answer.
+  static_cast<void>(TcpSocket(address_.host, address_.port, kPatience_s));
+  client_ = std::make_unique<Client>(login_.client);
+  mosquitto* const session = client_->session;
+  mosquitto_int_option(session, MOSQ_OPT_TCP_NODELAY, 1);
+  check(mosquitto_will_set(session, login_.status_topic.c_str(), 7, "offline", 0, true), "will");
+  if (!login_.user.empty()) {
+    const std::string password =
+        login_.password_file.empty() ? "" : first_line(login_.password_file);
+    check(mosquitto_username_pw_set(session, login_.user.c_str(), or_null(password)), "user");
+  }
+  if (address_.scheme == Scheme::kMqtts) {
+    const char* const folder = files_.ca.empty() ? "/etc/ssl/certs" : nullptr;
+    check(mosquitto_tls_set(session, or_null(files_.ca), folder, or_null(files_.certificate),
+                            or_null(files_.key), nullptr),
+          "TLS");
+  }
+  check(mosquitto_connect(session, address_.host.c_str(), address_.port, kKeepAlive_s), "connect");
+  log_in();
+}
+
+void MqttLink::log_in() {
+  const double end_s = clock_monotonic_s() + kPatience_s;
+  while (!client_->answer && clock_monotonic_s() < end_s) {
+    const int result = mosquitto_loop(client_->session, 100, 1);
+    if (!client_->answer) check(result, "log-in");
+  }
+  if (!client_->answer) check(MOSQ_ERR_CONN_PENDING, "does not answer");
+  if (*client_->answer != 0) {
+    throw LinkError(address_.host + ": " + mosquitto_connack_string(*client_->answer));
+  }
+  send({"", "online", login_.status_topic, true});
+}
+
+void MqttLink::send(const Packet& packet) {
+  check(mosquitto_publish(client_->session, nullptr, packet.where.c_str(),
+                          static_cast<int>(packet.bytes.size()), packet.bytes.data(), 0,
+                          packet.is_retained),
+        "publish");
+  write_all();
+}
+
+// The library would keep in memory what the broker does not read.
+void MqttLink::write_all() {
+  while (mosquitto_want_write(client_->session)) {
+    pollfd ready{mosquitto_socket(client_->session), POLLOUT, 0};
+    if (::poll(&ready, 1, static_cast<int>(1e3 * kPatience_s)) == 0) {
+      throw LinkError(address_.host + ": does not read");
+    }
+    check(mosquitto_loop_write(client_->session, 1), "write");
+  }
+}
+
+void MqttLink::wait(int wake_fd, double seconds) {
+  std::array<pollfd, 2> ready{
+      {{mosquitto_socket(client_->session), POLLIN, 0}, {wake_fd, POLLIN, 0}}};
+  ::poll(ready.data(), ready.size(), static_cast<int>(1e3 * seconds));
+  if (ready[0].revents != 0) check(mosquitto_loop_read(client_->session, 1), "read");
+  check(mosquitto_loop_misc(client_->session), "keep alive");
+}
+
+// Without a farewell that would keep the last will from being sent: "offline" is said by the
+// broker.
+void MqttLink::close() { client_.reset(); }
+
+}  // namespace ols::exports

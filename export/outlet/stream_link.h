@@ -1,0 +1,47 @@
+// A stream over TCP, or over TLS: packets one behind the other. What the receiver says is read and
+// dropped, so that it need not wait for us.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "export/address.h"
+#include "export/outlet/link.h"
+#include "export/outlet/tcp_socket.h"
+
+namespace ols::exports {
+
+// PEM files. Empty: no client certificate; the system's authorities.
+struct TlsFiles {
+  std::string ca, certificate, key;
+};
+
+class StreamLink : public Link {
+ public:
+  // With the scheme tls, the receiver's certificate must be of an authority in `ca` and of its
+  // host.
+  StreamLink(const Address& address, TlsFiles files);
+  ~StreamLink() override;
+
+  void open() override;
+  void send(const Packet& packet) override;
+  void wait(int wake_fd, double seconds) override;
+  void close() override;
+
+ private:
+  struct Tls;
+  void shake_hands();
+  bool wait_until(double end_s, bool to_write) const;
+  long write_some(const std::string& bytes, std::size_t from);
+  // Drops what there is; throws if the receiver has ended.
+  void drain();
+  LinkError error(const std::string& what) const;
+
+  Address address_;
+  TlsFiles files_;
+  std::optional<TcpSocket> socket_;
+  std::unique_ptr<Tls> tls_;
+};
+
+}  // namespace ols::exports

@@ -1,0 +1,41 @@
+// One output: what passes its gate goes through its encoder to its outlet.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "export/encoder.h"
+#include "export/gate.h"
+#include "export/outlet/outlet.h"
+
+namespace ols::exports {
+
+class Output {
+ public:
+  // `period_s`: between two turns of the encoder.
+  Output(std::string name, const GateConfig& gate, double period_s,
+         std::unique_ptr<Encoder> encoder, std::unique_ptr<Outlet> outlet);
+
+  void take(const Target& target);
+  void take(const Station& station);
+  void take(const Line& line);
+  // `now_s`: monotonic; `utime_us`: UTC.
+  void turn(double now_s, std::int64_t utime_us);
+
+  const std::string& name() const { return name_; }
+  OutletReport report() const { return outlet_->report(); }
+
+ private:
+  void put(Packets packets);
+
+  std::string name_;
+  Gate gate_;
+  double period_s_;
+  std::unique_ptr<Encoder> encoder_;
+  std::unique_ptr<Outlet> outlet_;
+  double due_s_ = 0.0;
+  std::uint64_t openings_ = 0;
+};
+
+}  // namespace ols::exports

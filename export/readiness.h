@@ -1,0 +1,20 @@
+// Whether the outputs of a configuration can work on this computer: their files and the geoid.
+#pragma once
+
+#include <vector>
+
+#include "export/export_config.h"
+#include "export/messages.h"
+
+namespace ols::exports {
+
+// The site with its geoid; without one, where none is there and none of the formats needs it.
+// Throws std::invalid_argument that names the format and what to do.
+SiteContext site_context(const ExportConfig& config, const std::vector<Format>& formats);
+std::vector<Format> formats_of(const ExportConfig& config);
+
+// Throws std::invalid_argument that names the output whose certificate, key or password cannot be
+// read: it would only fail again and again.
+void check_files(const ExportConfig& config);
+
+}  // namespace ols::exports

@@ -1,0 +1,73 @@
+// What is exported, in no format yet. Angles in degrees, as every format has them; heights above
+// the WGS84 ellipsoid, and beside them how high the geoid is there, for formats that count from the
+// sea.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace ols::exports {
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+struct Place {
+  double latitude_deg = 0.0;   // WGS84
+  double longitude_deg = 0.0;  // WGS84
+  double height_m = 0.0;       // above the ellipsoid
+  double geoid_m = kUnknown;   // the geoid's height above the ellipsoid here; unknown without one
+
+  double above_sea_m() const { return height_m - geoid_m; }
+};
+
+// Symmetric, at the place's own east, north, up: ee, en, eu, nn, nu, uu.
+using Covariance = std::array<double, 6>;
+
+enum class TrackState { kTentative, kConfirmed, kCoasted, kEnded };
+
+struct Target {
+  std::int64_t utime_us = 0;
+  std::string uid;      // of this object in all formats; identity.h
+  std::int64_t id = 0;  // the fusion's number of it
+  TrackState state = TrackState::kConfirmed;
+  Place place;  // where it was last, when it has ended
+  Covariance covariance_m2{};
+  std::array<double, 3> velocity_enu_m_s{};  // unknown where not estimated
+  Covariance velocity_covariance_m2_s2{};
+  std::vector<std::string> stations;  // whose bearings are used
+};
+
+struct Station {
+  std::int64_t utime_us = 0;
+  std::string uid;
+  std::string name;
+  Place place;
+  std::array<double, 3> position_sd_m{};      // east, north, up
+  double azimuth_deg = kUnknown;              // of the optical axis, clockwise from true north
+  double elevation_deg = kUnknown;            // above the horizon
+  std::array<double, 2> field_of_view_deg{};  // horizontal, vertical; 0: unknown
+  std::string state;                          // "tracking"
+  bool is_well = true;                        // without an alarm
+  bool clock_is_good = true;
+  std::size_t alarms = 0;
+};
+
+// On which a station sees what it follows.
+struct Line {
+  std::int64_t utime_us = 0;  // at mid-exposure
+  std::string uid;
+  std::string station;
+  Place camera;
+  double azimuth_deg = 0.0;
+  double elevation_deg = 0.0;
+  // 1-sigma; along the horizon it is that of the direction itself, which the azimuth's is at 0
+  // elevation.
+  double cross_sd_deg = 0.0;
+  double elevation_sd_deg = 0.0;
+  double belief = 1.0;        // 0..1
+  std::int64_t track_id = 0;  // grows with each designation
+};
+
+}  // namespace ols::exports

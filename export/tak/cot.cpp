@@ -1,0 +1,9 @@
+#include "export/tak/cot.h"
+
+namespace ols::exports {
+
+Packets CotEncoder::packet(const CotEvent& event) const {
+  return {{event.uid, framing_ ? cot_protobuf(event, *framing_) : cot_xml(event)}};
+}
+
+}  // namespace ols::exports

@@ -1,0 +1,17 @@
+// An event of Cursor on Target as bytes. Pure.
+#pragma once
+
+#include <string>
+
+#include "export/tak/cot_event.h"
+
+namespace ols::exports {
+
+std::string cot_xml(const CotEvent& event);
+
+// The TAK protocol, version 1: protobuf behind a header, which is `bf 01 bf` in a datagram of the
+// mesh and `bf` with the length as a varint in a stream.
+enum class TakFraming { kMesh, kStream };
+std::string cot_protobuf(const CotEvent& event, TakFraming framing);
+
+}  // namespace ols::exports

@@ -1,0 +1,33 @@
+// The targets that there are: an end is told once and where, even if it is not said (the fusion has
+// stopped) or said without a place. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "export/records.h"
+
+namespace ols::exports {
+
+class TargetBook {
+ public:
+  // The record to export; nothing for the end of what was never there.
+  std::vector<Target> take(const Target& target);
+  // Ends of those that have not been heard for kSilent_s. `utime_us`: now, in the time of the
+  // records.
+  std::vector<Target> end_silent(std::int64_t utime_us);
+  std::size_t size() const { return live_.size(); }
+
+  static constexpr double kSilent_s = 10.0;
+  // Of forged messages with invented numbers; the oldest are ended.
+  static constexpr std::size_t kMost = 2000;
+
+ private:
+  static Target ended(Target target, std::int64_t utime_us);
+
+  std::map<std::string, Target> live_;
+};
+
+}  // namespace ols::exports

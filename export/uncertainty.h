@@ -1,0 +1,23 @@
+// A covariance in the few numbers for which most formats have room. Pure.
+#pragma once
+
+#include "export/records.h"
+
+namespace ols::exports {
+
+struct Ellipse {
+  double semi_major_m = kUnknown, semi_minor_m = kUnknown;  // 1-sigma
+  double azimuth_deg = 0.0;  // of the major axis, clockwise from north, 0..180
+};
+// Of the horizontal part; all unknown for what is no covariance.
+Ellipse ellipse_of(const Covariance& enu);
+// 1-sigma of one axis; unknown for what is negative or not finite.
+double sd(double variance);
+
+// Horizontal speed and course of a velocity; unknown where it is.
+struct Motion {
+  double speed_m_s = kUnknown, course_deg = kUnknown, climb_m_s = kUnknown;
+};
+Motion motion_of(const Target& target);
+
+}  // namespace ols::exports
