@@ -1,0 +1,159 @@
+#include "cue/cue_config.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+#include <span>
+#include <stdexcept>
+
+#include "base/config_section.h"
+#include "base/lcm_url.h"
+#include "cue/source.h"
+
+namespace ols::cues {
+namespace {
+
+struct FormatRow {
+  Format format;
+  const char* name;
+  std::vector<Carrier> carriers;
+};
+
+const std::vector<FormatRow>& formats() {
+  static const std::vector<FormatRow> kFormats{
+      {Format::kCot, "cot", {Carrier::kUdp, Carrier::kTcp}},
+      {Format::kAircraftJson, "aircraft-json", {Carrier::kFile, Carrier::kHttp}},
+      {Format::kSbs, "sbs", {Carrier::kTcp}},
+      {Format::kJson, "json", {Carrier::kUdp, Carrier::kTcp}}};
+  return kFormats;
+}
+
+const FormatRow& row_of(Format format) {
+  return *std::ranges::find(formats(), format, &FormatRow::format);
+}
+
+config::Words<Format> format_words() {
+  config::Words<Format> words;
+  for (const FormatRow& row : formats()) words.emplace_back(row.name, row.format);
+  return words;
+}
+
+// Cues' names begin with it.
+void check_word(const std::string& word) {
+  const bool is_good =
+      !word.empty() && word.size() <= 30 && std::ranges::all_of(word, [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '_';
+      });
+  if (!is_good) throw std::invalid_argument("must be 1 to 30 letters, digits, - or _");
+}
+
+void check_input(const InputConfig& input, ConfigTable& table) {
+  const FormatRow& format = row_of(input.format);
+  try {
+    const Source source = parse_source(input.from);
+    if (std::ranges::find(format.carriers, source.carrier) == format.carriers.end()) {
+      throw std::invalid_argument(std::string("the format ") + format.name +
+                                  " does not come that way");
+    }
+  } catch (const std::invalid_argument& bad) {
+    throw table.error("from", bad.what());
+  }
+  const auto& [south, west, north, east] = input.rules.area_deg;
+  if (south > north || std::abs(south) > 90.0 || std::abs(north) > 90.0) {
+    throw table.error("area_deg", "must be south, west, north, east within 90 and 180 degrees");
+  }
+  if (input.format == Format::kCot && input.types.empty()) {
+    throw table.error("types", "without any, nothing is wanted");
+  }
+}
+
+config::Section inputs_section(CueConfig& config) {
+  config::Section section;
+  section.name = "input";
+  section.sentence = "One source each; none is there by default.";
+  section.append = [&config] { return input_section(config); };
+  return section;
+}
+
+void check_names(const CueConfig& config, ConfigTable& root) {
+  std::set<std::string> names;
+  for (const InputConfig& input : config.inputs) {
+    if (!names.insert(input.rules.name).second) {
+      throw root.error("input", "two have the name \"" + input.rules.name + "\"");
+    }
+  }
+}
+
+CueConfig read(ConfigFile& file) {
+  CueConfig config;
+  config::read(cue_section(config), file.root());
+  return config;
+}
+
+}  // namespace
+
+config::Section input_section(CueConfig& config) {
+  InputConfig& i = config.inputs.emplace_back();
+  InputRules& r = i.rules;
+  return {
+      "",
+      "",
+      {config::text("name", r.name, "Of the input; its cues' names begin with it.", check_word)
+           .required_with_section(),
+       config::word("format", i.format, format_words(), "docs/cues.md says what is read of each.")
+           .required_with_section(),
+       config::text("from", i.from,
+                    "udp://ADDRESS:PORT?interface=ADDRESS, tcp://HOST:PORT, file:///PATH or "
+                    "http://HOST/PATH.",
+                    config::not_empty)
+           .required_with_section(),
+       config::number("poll_s", i.poll_s, {0.1, 60.0}, "s", "Between two looks at a file."),
+       config::texts("types", i.types, "Events of CoT whose type begins with one of these."),
+       config::numbers("area_deg", std::span<double>(r.area_deg), {-180.0, 180.0}, "deg",
+                       "South, west, north, east: what is outside is refused."),
+       config::number("max_age_s", r.max_age_s, {0.5, 60.0}, "s",
+                      "What is older by this host's clock is refused."),
+       config::number("horizontal_sd_m", r.horizontal_sd_m, {0.1, 1e4}, "m",
+                      "1-sigma of a place, east and north each, where its source says none."),
+       config::number("vertical_sd_m", r.vertical_sd_m, {0.1, 1e4}, "m",
+                      "1-sigma of a height where its source says none."),
+       config::number("pressure_height_sd_m", r.pressure_height_sd_m, {0.1, 1e4}, "m",
+                      "1-sigma of a height by pressure, taken as above the ellipsoid."),
+       config::number("velocity_sd_m_s", r.velocity_sd_m_s, {0.1, 1e3}, "m/s",
+                      "1-sigma of a velocity where its source says none."),
+       config::number("speed_sd_m_s", r.speed_sd_m_s, {0.1, 1e3}, "m/s",
+                      "1-sigma of the motion where its source says no velocity.")},
+      {},
+      [&i](ConfigTable& table) { check_input(i, table); }};
+}
+
+config::Section cue_section(CueConfig& c) {
+  return {"",
+          "",
+          {config::text("lcm_url", c.lcm_url,
+                        "The bus; ttl=0: only this host, ttl=1: also the other hosts of the site.",
+                        [](const std::string& url) { parse_lcm_url(url); }),
+           config::text("status_file", c.status_file,
+                        "JSON file that is rewritten every second; empty: none."),
+           config::number("rate_hz", c.rate_hz, {2.0, 20.0}, "Hz",
+                          "How often each cue is sent to the fusion."),
+           config::integer("most", c.most, 1, 64, "",
+                           "Cues at the same time, an equal share of them for each input.")},
+          {inputs_section(c), trust::trust_section(c.trust)},
+          [&c](ConfigTable& root) { check_names(c, root); }};
+}
+
+CueConfig load_cue_config(const std::string& path) {
+  ConfigFile file(path);
+  return read(file);
+}
+
+CueConfig parse_cue_config(const std::string& text, const std::string& name) {
+  ConfigFile file(text, name);
+  return read(file);
+}
+
+const char* to_string(Format format) { return row_of(format).name; }
+
+}  // namespace ols::cues

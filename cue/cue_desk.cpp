@@ -1,0 +1,177 @@
+#include "cue/cue_desk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace ols::cues {
+namespace {
+
+constexpr std::size_t kLongestName = 60;
+constexpr double kFuture_s = 1.0;  // by which clocks may differ
+
+// It goes into messages, tables and terminals.
+std::string plain(const std::string& text) {
+  std::string result = text.substr(0, kLongestName);
+  for (char& c : result) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return result;
+}
+
+// As plain() does, but what differs stays different: FNV-1a of the whole is put behind it.
+std::string plain_name(const std::string& name) {
+  std::string result = plain(name);
+  if (result == name) return result;
+  std::uint32_t hash = 2'166'136'261U;
+  for (const unsigned char c : name) hash = (hash ^ c) * 16'777'619U;
+  static constexpr char kDigits[] = "0123456789abcdef";
+  result += '~';
+  for (int shift = 28; shift >= 0; shift -= 4) result += kDigits[(hash >> shift) & 0xFU];
+  return result;
+}
+
+bool is_finite(const std::optional<double>& value) { return !value || std::isfinite(*value); }
+
+bool is_finite(const Report& report) {
+  const auto& velocity = report.velocity_enu_m_s;
+  return std::isfinite(report.latitude_deg) && std::isfinite(report.longitude_deg) &&
+         std::isfinite(report.height_m) && is_finite(report.horizontal_sd_m) &&
+         is_finite(report.vertical_sd_m) && is_finite(report.velocity_sd_m_s) &&
+         (!velocity || std::ranges::all_of(*velocity, [](double v) { return std::isfinite(v); }));
+}
+
+bool is_possible(const Report& report) {
+  constexpr double kLowest_m = -1000.0, kHighest_m = 100e3, kFastest_m_s = 3000.0, kMost_m = 1e6;
+  const auto is_sd = [](const std::optional<double>& sd, double most) {
+    return !sd || (*sd > 0.0 && *sd <= most);
+  };
+  const auto& velocity = report.velocity_enu_m_s;
+  const bool is_slow = !velocity || std::ranges::all_of(*velocity, [](double v) {
+    return std::abs(v) <= kFastest_m_s / 2.0;
+  });
+  return std::abs(report.latitude_deg) <= 90.0 && std::abs(report.longitude_deg) <= 180.0 &&
+         report.height_m >= kLowest_m && report.height_m <= kHighest_m &&
+         is_sd(report.horizontal_sd_m, kMost_m) && is_sd(report.vertical_sd_m, kMost_m) &&
+         is_sd(report.velocity_sd_m_s, kFastest_m_s) && is_slow;
+}
+
+bool is_inside(const Report& report, const std::array<double, 4>& area_deg) {
+  const auto& [south, west, north, east] = area_deg;
+  const double longitude = report.longitude_deg;
+  const bool in_longitude = west <= east ? longitude >= west && longitude <= east
+                                         : longitude >= west || longitude <= east;
+  return report.latitude_deg >= south && report.latitude_deg <= north && in_longitude;
+}
+
+// In floating point: the difference from an absurd stamp must not overflow.
+double since_s(std::int64_t now_us, std::int64_t utime_us) {
+  return 1e-6 * (static_cast<double>(now_us) - static_cast<double>(utime_us));
+}
+
+std::optional<Refusal> refusal_of(const Report& report, const InputRules& rules,
+                                  std::int64_t now_us) {
+  constexpr double kPole_deg = 89.9;
+  if (report.name.size() > kLongestName) return Refusal::kMalformed;
+  if (!is_finite(report)) return Refusal::kNotFinite;
+  if (!is_possible(report)) return Refusal::kOutOfRange;
+  if (std::abs(report.latitude_deg) > kPole_deg) return Refusal::kPole;
+  const double age_s = since_s(now_us, report.utime_us);
+  const bool is_over = report.stale_us != 0 && since_s(now_us, report.stale_us) > 0.0;
+  if (age_s > rules.max_age_s || is_over) return Refusal::kStale;
+  if (age_s < -kFuture_s) return Refusal::kFuture;
+  if (!is_inside(report, rules.area_deg)) return Refusal::kOutOfArea;
+  return std::nullopt;
+}
+
+LiveCue cue_of(const Report& report, const InputRules& rules) {
+  LiveCue cue;
+  cue.id = rules.name + "." + plain_name(report.name);
+  cue.label = plain(report.label);
+  cue.utime_us = report.utime_us;
+  cue.latitude_deg = report.latitude_deg;
+  cue.longitude_deg = report.longitude_deg;
+  cue.height_m = report.height_m;
+  cue.horizontal_sd_m = report.horizontal_sd_m.value_or(rules.horizontal_sd_m);
+  cue.vertical_sd_m = report.vertical_sd_m.value_or(
+      report.is_pressure_height ? rules.pressure_height_sd_m : rules.vertical_sd_m);
+  const bool has_velocity = report.velocity_enu_m_s.has_value();
+  if (has_velocity) cue.velocity_enu_m_s = *report.velocity_enu_m_s;
+  cue.velocity_sd_m_s =
+      has_velocity ? report.velocity_sd_m_s.value_or(rules.velocity_sd_m_s) : rules.speed_sd_m_s;
+  return cue;
+}
+
+}  // namespace
+
+CueDesk::CueDesk(std::vector<InputRules> inputs, int most)
+    : inputs_(std::move(inputs)),
+      counts_(inputs_.size()),
+      most_(std::max<std::size_t>(
+          1, static_cast<std::size_t>(most) / std::max<std::size_t>(1, inputs_.size()))) {
+  for (InputCounts& counts : counts_) {
+    for (int i = 0; i < static_cast<int>(Refusal::kCount); ++i) {
+      counts.refused[to_string(static_cast<Refusal>(i))] = 0;
+    }
+  }
+}
+
+void CueDesk::refuse(std::size_t input, const Refused& refused) {
+  InputCounts& counts = counts_[input];
+  ++counts.refused[to_string(refused.why)];
+  counts.last_refusal = plain(refused.what) + ": " + to_string(refused.why);
+}
+
+void CueDesk::take(std::size_t input, const Readings& readings, std::int64_t now_us) {
+  for (const Reading& reading : readings) {
+    if (const auto* refused = std::get_if<Refused>(&reading)) {
+      refuse(input, *refused);
+    } else {
+      judge(input, std::get<Report>(reading), now_us);
+    }
+  }
+}
+
+void CueDesk::judge(std::size_t input, const Report& report, std::int64_t now_us) {
+  const InputRules& rules = inputs_[input];
+  if (const auto why = refusal_of(report, rules, now_us)) {
+    return refuse(input, {*why, report.name});
+  }
+  forget(now_us);
+  LiveCue cue = cue_of(report, rules);
+  const auto known = kept_.find(cue.id);
+  if (known != kept_.end() && cue.utime_us < known->second.cue.utime_us) {
+    return refuse(input, {Refusal::kStale, report.name});
+  }
+  if (known == kept_.end() && is_full(input)) {
+    return refuse(input, {Refusal::kTooMany, report.name});
+  }
+  ++counts_[input].taken;
+  std::int64_t until_us = cue.utime_us + std::llround(1e6 * rules.max_age_s);
+  if (report.stale_us != 0) until_us = std::min(until_us, report.stale_us);
+  Kept& kept = kept_[cue.id];
+  kept = {std::move(cue), input, until_us};
+}
+
+bool CueDesk::is_full(std::size_t input) const {
+  const auto taken =
+      std::ranges::count_if(kept_, [&](const auto& one) { return one.second.input == input; });
+  return static_cast<std::size_t>(taken) >= most_;
+}
+
+void CueDesk::forget(std::int64_t now_us) {
+  std::erase_if(kept_, [&](const auto& one) {
+    const Kept& kept = one.second;
+    return now_us > kept.until_us || since_s(now_us, kept.cue.utime_us) < -kFuture_s;
+  });
+}
+
+std::vector<LiveCue> CueDesk::live(std::int64_t now_us) {
+  forget(now_us);
+  std::vector<LiveCue> all;
+  for (const auto& [id, kept] : kept_) all.push_back(kept.cue);
+  return all;
+}
+
+}  // namespace ols::cues

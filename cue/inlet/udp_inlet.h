@@ -1,0 +1,30 @@
+// Datagrams, to this host or to a group.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/udp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <vector>
+
+#include "cue/inlet/inlet.h"
+
+namespace ols::cues {
+
+class UdpInlet : public Inlet {
+ public:
+  UdpInlet(boost::asio::io_context& context, Source source, InletSink sink);
+
+ private:
+  void open();
+  void listen();
+  void fail(const std::string& why);
+  boost::system::error_code bind();
+
+  Source source_;
+  InletSink sink_;
+  boost::asio::ip::udp::socket socket_;
+  boost::asio::steady_timer timer_;
+  std::vector<char> buffer_;
+};
+
+}  // namespace ols::cues

@@ -1,0 +1,33 @@
+// Bytes of one input in, what they say out. Pure.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "cue/aircraft_reader.h"
+#include "cue/cot_reader.h"
+#include "cue/cue_config.h"
+#include "cue/framing.h"
+
+namespace ols::cues {
+
+class InputReader {
+ public:
+  // `is_stream`: messages come in any pieces; else each piece is whole.
+  InputReader(Format format, CotTypes types, bool is_stream);
+
+  Readings take(std::string_view bytes, std::int64_t now_us);
+  // The connection begins anew.
+  void clear() { framer_.clear(); }
+
+ private:
+  void read(const std::string& message, std::int64_t now_us, Readings& readings);
+
+  Format format_;
+  CotTypes types_;
+  Framer framer_;
+  SbsReader sbs_;
+  int overlong_ = 0;  // of the framer's, told
+};
+
+}  // namespace ols::cues

@@ -1,0 +1,14 @@
+// A cue as a line of JSON, for everything that has no format of its own: docs/cues.md. Pure.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "cue/reading.h"
+
+namespace ols::cues {
+
+// `now_us`: the time of a line that states none.
+Reading json_reading(const std::string& line, std::int64_t now_us);
+
+}  // namespace ols::cues

@@ -1,0 +1,17 @@
+// Cues as messages of the bus.
+#pragma once
+
+#include <cstdint>
+
+#include "cue/cue_desk.h"
+#include "ols_msg/cue_t.hpp"
+
+namespace ols::cues {
+
+struct Stamp {
+  std::int64_t utime_us = 0, boot_id = 0, sequence = 0;
+};
+
+ols_msg::cue_t to_message(const LiveCue& cue, const Stamp& stamp);
+
+}  // namespace ols::cues
