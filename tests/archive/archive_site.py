@@ -1,0 +1,81 @@
+"""What the tests of archive and batch have in common: logs of simulated flights, and an archive."""
+
+import random
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import lcm
+import numpy as np
+import ols_msg
+from ols_archive.__main__ import main as ols_archive
+from ols_bench import flights
+
+ROOT = Path(__file__).resolve().parents[2]
+SEED = 23
+REGION = "brno"
+HOURS, FLIGHT_S, RATE_HZ = 5, 12.0, 5.0
+
+
+print(f"archive: seed {SEED}")
+
+
+def filled(message: Any, chance: random.Random, utime: int) -> Any:
+    """A value in every field, and as many in a list as its message's own count says."""
+    for name in message.__slots__:
+        value = getattr(message, name)
+        if isinstance(value, bool):
+            setattr(message, name, chance.random() < 0.5)
+        elif isinstance(value, int):
+            setattr(message, name, chance.randrange(100))
+        elif isinstance(value, float):
+            setattr(message, name, chance.gauss(0.0, 1.0))
+        elif isinstance(value, str):
+            setattr(message, name, "é" * (name != "station") + str(chance.randrange(1000)))
+        elif value:  # of a fixed size
+            setattr(message, name, [chance.gauss(0.0, 1.0) for _ in value])
+        else:
+            continue
+    for name in ("stations", "borders", "border_points", "devices", "alarms", "readings", "cues"):
+        if name in message.__slots__:
+            setattr(message, name, 0)
+    if "counters" in message.__slots__:
+        message.counters = 2
+        message.counter_name, message.counter_value = ["a", "b"], [1.5, float("nan")]
+    if isinstance(message, ols_msg.target_t):
+        message.stations, message.station, message.used = 2, ["a", "b"], [True, False]
+        message.weight, message.age_s = [1.0, 0.0], [0.0, -0.1]
+    message.utime = utime
+    return message
+
+
+def write_log(path: Path, events: Iterable[tuple[int, str, bytes]]) -> Path:
+    log = lcm.EventLog(str(path), "w", overwrite=True)
+    for utime, channel, data in events:
+        log.write_event(utime, channel, data)
+    log.close()
+    return path
+
+
+def flown(hours: int = HOURS) -> list["ols_msg.bearing_t"]:
+    chance = np.random.default_rng(SEED)
+    planned = flights.schedule(hours, FLIGHT_S, chance)
+    return list(flights.bearings(planned, RATE_HZ, chance))
+
+
+def event(message: "ols_msg.bearing_t") -> tuple[int, str, bytes]:
+    return message.utime + 5000, f"OLS_BEARING_{message.station}", message.encode()
+
+
+def archived(folder: Path, messages: Iterable["ols_msg.bearing_t"], name: str = "a.lcmlog") -> Path:
+    """An archive with these, beside what is there already."""
+    log = write_log(folder / name, map(event, messages))
+    assert ols_archive([str(folder / "archive"), "--region", REGION, str(log)]) == 0
+    return folder / "archive"
+
+
+def flip_a_byte(path: Path, at: float = 0.4) -> None:
+    """Of the data pages, which make most of a file."""
+    data = bytearray(path.read_bytes())
+    data[int(at * len(data))] ^= 0x40
+    path.write_bytes(bytes(data))

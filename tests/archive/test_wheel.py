@@ -1,0 +1,75 @@
+"""The wheel, installed into an environment in which nothing of the tree is."""
+
+import os
+import site
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import ols
+import ols_msg
+import pytest
+from archive_site import REGION, ROOT, event, flown, write_log
+
+BUILT = Path(ols.__file__).parents[1]
+
+
+def run(*command, **options) -> subprocess.CompletedProcess:
+    clean = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    return subprocess.run(
+        list(map(str, command)), env=clean | options, capture_output=True, text=True, check=False
+    )
+
+
+@pytest.fixture(scope="module", name="wheel")
+def fixture_wheel(tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("wheel")
+    done = run(ROOT / "tools/build-wheel", "--only", folder, OLS_PYTHON=str(BUILT))
+    assert done.returncode == 0, done.stderr
+    (path,) = folder.glob("ols-*.whl")
+    return path
+
+
+@pytest.fixture(scope="module", name="installed")
+def fixture_installed(wheel, tmp_path_factory) -> Path:
+    """Its programs. Packages of others come from the tests' environment: there is no network."""
+    folder = tmp_path_factory.mktemp("clean")
+    assert run(sys.executable, "-m", "venv", folder).returncode == 0
+    python = folder / "bin/python"
+    pip = ("-m", "pip", "install", "--no-index", "--no-deps", "--disable-pip-version-check")
+    done = run(python, *pip, wheel)
+    assert done.returncode == 0, done.stderr
+    (packages,) = folder.glob("lib/python*/site-packages")
+    (packages / "others.pth").write_text("\n".join(site.getsitepackages()))
+    return folder / "bin"
+
+
+def test_the_module_computes_and_is_the_wheels(installed):
+    code = "import ols, ols.frames, ols_msg; print(ols.__file__, ols.__version__, ols.REFUSALS[-1])"
+    done = run(installed / "python", "-I", "-c", code)
+    assert done.returncode == 0, done.stderr
+    path, version, refusal = done.stdout.split()
+    assert path.startswith(str(installed.parent))
+    assert (version, refusal) == (ols.__version__, "refused_not_finite")
+
+
+def test_its_programs_work(installed, tmp_path):
+    log = write_log(tmp_path / "a.lcmlog", map(event, flown(1)))
+    done = run(installed / "ols-archive", tmp_path / "archive", "--region", REGION, log)
+    assert done.returncode == 0, done.stderr
+    assert f"{len(flown(1))} added" in done.stderr
+    done = run(installed / "ols-batch", "--help")
+    assert done.returncode == 0 and "--warm-up-s" in done.stdout
+
+
+def test_it_says_what_it_is_and_needs(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        (name,) = (name for name in archive.namelist() if name.endswith("/METADATA"))
+        told = archive.read(name).decode()
+        listed = archive.namelist()
+    assert f"Version: {ols.__version__}" in told
+    for line in (ROOT / "requirements-archive.txt").read_text().split():
+        assert f"Requires-Dist: {line}; extra == 'archive'" in told.replace('"', "'")
+    assert f"ols_lcmtypes/{ols_msg.bearing_t.__name__}.lcm" in listed
+    assert "-cp3" in wheel.name and "linux" in wheel.name

@@ -1,0 +1,1 @@
+"""The estimators over an archive, hour by hour, on many processors (docs/archive.md)."""
