@@ -1,0 +1,269 @@
+#include "console/client_message.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "geometry/angles.h"
+#include "geometry/slew_limits.h"
+
+namespace ols::console {
+namespace {
+
+using Json = nlohmann::json;
+using command::Kind;
+
+constexpr std::size_t kMostNameBytes = 64;
+constexpr double kMostPixels = 1e5;
+constexpr double kMostRecord_s = 3600.0;
+
+// What is wrong with a message, in words; the parser's own.
+class Wrong : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+double number_of(const Json& value, const std::string& what, double least, double greatest) {
+  if (!value.is_number()) throw Wrong(what + " must be a number");
+  const double number = value.get<double>();
+  if (!(number >= least && number <= greatest)) {
+    throw Wrong(what + " must be within " + Json(least).dump() + " and " + Json(greatest).dump());
+  }
+  return number;
+}
+
+const Json& field(const Json& message, const char* key) {
+  const auto found = message.find(key);
+  if (found == message.end()) throw Wrong(std::string(key) + " is missing");
+  return *found;
+}
+
+double number(const Json& message, const char* key, double least, double greatest) {
+  return number_of(field(message, key), key, least, greatest);
+}
+
+std::string name_of(const Json& value, const std::string& what) {
+  if (!value.is_string()) throw Wrong(what + " must be a text");
+  const auto name = value.get<std::string>();
+  const bool printable = std::ranges::all_of(name, [](char c) { return c > ' ' && c < 127; });
+  if (name.empty() || name.size() > kMostNameBytes || !printable) {
+    throw Wrong(what + " must be 1 to 64 printable characters without spaces");
+  }
+  return name;
+}
+
+std::string text(const Json& message, const char* key) { return name_of(field(message, key), key); }
+
+void refuse_unknown(const Json& message, std::initializer_list<std::string_view> known) {
+  for (const auto& [key, value] : message.items()) {
+    if (std::ranges::find(known, key) == known.end())
+      throw Wrong("unknown key " + Json(key).dump());
+  }
+}
+
+std::int64_t utime(const Json& message, const char* key) {
+  const Json& value = field(message, key);
+  if (!value.is_number_integer()) throw Wrong(std::string(key) + " must be a whole number");
+  return static_cast<std::int64_t>(number_of(value, key, 0.0, 9e15));
+}
+
+void read_box(const Json& message, command::Order& order) {
+  refuse_unknown(message, {"do", "number", "station", "command", "frame_utime_us", "box_px"});
+  const Json& box = field(message, "box_px");
+  if (!box.is_array() || box.size() != 4) throw Wrong("box_px must be [x, y, width, height]");
+  order.x_px = number_of(box[0], "box_px", -kMostPixels, kMostPixels);
+  order.y_px = number_of(box[1], "box_px", -kMostPixels, kMostPixels);
+  order.width_px = number_of(box[2], "box_px", 0.5, kMostPixels);
+  order.height_px = number_of(box[3], "box_px", 0.5, kMostPixels);
+  if (!message.contains("frame_utime_us")) return;
+  order.frame_utime_us = utime(message, "frame_utime_us");
+}
+
+void read_point(const Json& message, command::Order& order) {
+  refuse_unknown(message, {"do", "number", "station", "command", "frame_utime_us", "point_px"});
+  const Json& point = field(message, "point_px");
+  if (!point.is_array() || point.size() != 2) throw Wrong("point_px must be [x, y]");
+  order.x_px = number_of(point[0], "point_px", -kMostPixels, kMostPixels);
+  order.y_px = number_of(point[1], "point_px", -kMostPixels, kMostPixels);
+  if (message.contains("frame_utime_us")) order.frame_utime_us = utime(message, "frame_utime_us");
+}
+
+void read_angles(const Json& message, command::Order& order) {
+  refuse_unknown(message, {"do", "number", "station", "command", "pan_deg", "tilt_deg"});
+  const double pan = degrees(kPointPanLimit_rad), tilt = degrees(kPointTiltLimit_rad);
+  order.pan_rad = radians(number(message, "pan_deg", -pan, pan));
+  order.tilt_rad = radians(number(message, "tilt_deg", -tilt, tilt));
+}
+
+void read_rate(const Json& message, CommandRequest& request) {
+  refuse_unknown(message,
+                 {"do", "number", "station", "command", "pan_deg_s", "tilt_deg_s", "heard_us"});
+  const double most = degrees(kRateLimit_rad_s);
+  request.order.pan_rate_rad_s = radians(number(message, "pan_deg_s", -most, most));
+  request.order.tilt_rate_rad_s = radians(number(message, "tilt_deg_s", -most, most));
+  request.heard_utime_us = utime(message, "heard_us");
+}
+
+double axis(const Json& message, const char* key, bool is_rate) {
+  if (!message.contains(key)) return command::kNaN;
+  return number(message, key, is_rate ? -1.0 : 0.0, 1.0);
+}
+
+void read_lens(const Json& message, CommandRequest& request) {
+  refuse_unknown(message, {"do", "number", "station", "command", "is_rate", "zoom", "focus", "iris",
+                           "heard_us"});
+  const Json& is_rate = field(message, "is_rate");
+  if (!is_rate.is_boolean()) throw Wrong("is_rate must be true or false");
+  command::Order& order = request.order;
+  order.lens_rates = is_rate.get<bool>();
+  order.zoom = axis(message, "zoom", order.lens_rates);
+  order.focus = axis(message, "focus", order.lens_rates);
+  order.iris = axis(message, "iris", order.lens_rates);
+  if (order.lens_rates) request.heard_utime_us = utime(message, "heard_us");
+}
+
+void read_record(const Json& message, command::Order& order) {
+  refuse_unknown(message, {"do", "number", "station", "command", "before_s", "after_s", "label"});
+  order.before_s = number(message, "before_s", 0.0, kMostRecord_s);
+  order.after_s = number(message, "after_s", 0.0, kMostRecord_s);
+  order.label = text(message, "label");
+}
+
+CommandRequest read_command(const Json& message, std::int64_t number) {
+  CommandRequest request{number, {}, 0};
+  request.order.station = text(message, "station");
+  const auto kind = command::kind_named(text(message, "command"));
+  if (!kind) throw Wrong("unknown command");
+  request.order.kind = *kind;
+  switch (*kind) {
+    case Kind::kDesignate:
+      read_box(message, request.order);
+      break;
+    case Kind::kPoint:
+      read_angles(message, request.order);
+      break;
+    case Kind::kCentre:
+    case Kind::kLook:
+      read_point(message, request.order);
+      break;
+    case Kind::kLens:
+      read_lens(message, request);
+      break;
+    case Kind::kRate:
+      read_rate(message, request);
+      break;
+    case Kind::kRecord:
+      read_record(message, request.order);
+      break;
+    default:
+      refuse_unknown(message, {"do", "number", "station", "command"});
+  }
+  return request;
+}
+
+WatchRequest read_watch(const Json& message) {
+  refuse_unknown(message, {"do", "number", "pictures"});
+  const Json& pictures = field(message, "pictures");
+  if (!pictures.is_array() || pictures.size() > kMostWatched) {
+    throw Wrong("pictures must be a list of at most 64 stations");
+  }
+  WatchRequest request;
+  for (const Json& station : pictures) request.stations.push_back(name_of(station, "pictures"));
+  return request;
+}
+
+ReplayRequest read_replay(const Json& message, std::int64_t of_browser) {
+  refuse_unknown(message, {"do", "number", "at_us", "playing", "speed"});
+  ReplayRequest request{of_browser, {}, {}, {}};
+  if (message.contains("at_us")) {
+    request.at_us = static_cast<std::int64_t>(number(message, "at_us", 0.0, 9e15));
+  }
+  if (message.contains("playing")) {
+    if (!message.at("playing").is_boolean()) throw Wrong("playing must be true or false");
+    request.playing = message.at("playing").get<bool>();
+  }
+  if (message.contains("speed")) request.speed = number(message, "speed", 0.1, 100.0);
+  return request;
+}
+
+// Two numbers, where they are given.
+std::optional<std::array<double, 2>> pair(const Json& message, const char* key, double most) {
+  if (!message.contains(key)) return std::nullopt;
+  const Json& value = message.at(key);
+  if (!value.is_array() || value.size() != 2)
+    throw Wrong(std::string(key) + " must be two numbers");
+  return std::array{number_of(value[0], key, -most, most), number_of(value[1], key, -most, most)};
+}
+
+AnswerRequest read_answer(const Json& message, std::int64_t of_browser) {
+  constexpr double kMostTurn_deg = 360.0;
+  refuse_unknown(message,
+                 {"do", "number", "station", "question", "choice", "pixel_px", "turn_deg"});
+  AnswerRequest request{of_browser, {}};
+  ProcedureAnswer& answer = request.answer;
+  answer.station = text(message, "station");
+  answer.question = utime(message, "question");
+  answer.choice = text(message, "choice");
+  answer.pixel_px = pair(message, "pixel_px", kMostPixels);
+  answer.turn_deg = pair(message, "turn_deg", kMostTurn_deg).value_or(answer.turn_deg);
+  return request;
+}
+
+// Cues have the names that others give them: any text without control characters.
+CueRequest read_cue(const Json& message, std::int64_t number) {
+  refuse_unknown(message, {"do", "number", "cue", "allow"});
+  const Json& cue = field(message, "cue");
+  constexpr std::size_t kMostCueBytes = 100;
+  if (!cue.is_string() || cue.get_ref<const std::string&>().size() > kMostCueBytes) {
+    throw Wrong("cue must be a text of at most 100 characters");
+  }
+  const Json& allow = field(message, "allow");
+  if (!allow.is_boolean()) throw Wrong("allow must be true or false");
+  return {number, {cue.get<std::string>(), allow.get<bool>()}};
+}
+
+ClientMessage read(const Json& message, std::int64_t number) {
+  const std::string what = text(message, "do");
+  if (what == "command") return read_command(message, number);
+  if (what == "watch") return read_watch(message);
+  if (what == "replay") return read_replay(message, number);
+  if (what == "answer") return read_answer(message, number);
+  if (what == "cue") return read_cue(message, number);
+  if (what == "stop_all") {
+    refuse_unknown(message, {"do", "number"});
+    return StopAllRequest{number};
+  }
+  if (what == "take" || what == "give_up") {
+    refuse_unknown(message, {"do", "number", "station"});
+    return ControlRequest{number, text(message, "station"), what == "take"};
+  }
+  throw Wrong("do must be command, stop_all, take, give_up, watch, answer, cue or replay");
+}
+
+}  // namespace
+
+ClientMessage parse_client_message(std::string_view text) {
+  if (text.size() > kMostMessageBytes) return Refused{0, "the message is too long"};
+  // Nesting is bounded by the size; the parser does not recurse.
+  const Json message = Json::parse(text, nullptr, false);
+  if (message.is_discarded()) return Refused{0, "not JSON"};
+  if (!message.is_object()) return Refused{0, "not a JSON object"};
+  std::int64_t number = 0;
+  const auto given = message.find("number");
+  if (given != message.end()) {
+    if (!given->is_number_unsigned() || *given > 9'000'000'000'000'000U) {
+      return Refused{0, "number must be a whole number"};
+    }
+    number = given->get<std::int64_t>();
+  }
+  try {
+    return read(message, number);
+  } catch (const Wrong& wrong) {
+    return Refused{number, wrong.what()};
+  }
+}
+
+}  // namespace ols::console

@@ -1,0 +1,160 @@
+// The console without its sockets: the site's state, the viewers and what each is to be sent next,
+// and the commands. Pure: time, messages and texts come in, orders and texts go out.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "console/client_message.h"
+#include "console/command_desk.h"
+#include "console/control_desk.h"
+#include "console/procedures.h"
+#include "console/site_state.h"
+#include "console/users.h"
+
+namespace ols::console {
+
+// A WebSocket message to a browser.
+struct Outgoing {
+  bool is_binary = false;
+  std::string bytes;
+};
+
+// What a replay keeps of an instant.
+struct Moment {
+  SiteState site;
+  CommandDesk desk;
+  std::map<std::string, Picture> pictures;
+};
+
+class Console {
+ public:
+  explicit Console(double control_timeout_s) : control_(control_timeout_s) {}
+
+  void hear(const StationHeard& station, const Now& now);
+  void hear(const TargetHeard& target, const Now& now) { site_.hear(target, now); }
+  void hear(const FusionHeard& fusion, const Now& now) { site_.hear(fusion, now); }
+  void hear_bearing(const std::string& station, const Json& bearing);
+  void hear(Picture picture);
+  void hear(ProcedureHeard procedure);
+
+  // An order that somebody gave, in a recording: a replay's history, and what came of it.
+  void hear(const command::Order& order, const Now& now);
+
+  // The newest picture (JPEG) of a station's guided procedure; null: there is none.
+  const std::string* procedure_picture(const std::string& station) const {
+    return procedures_.picture(station);
+  }
+  // What people have answered to procedures since the last call.
+  std::vector<ProcedureAnswer> take_answers() { return procedures_.take(); }
+
+  // Operators' words on cues since the last call.
+  std::vector<CueOrder> take_cue_orders() { return cues_.take(); }
+
+  // Where the pictures are to be had that somebody looks at: "10.0.0.11:7790", by station.
+  std::map<std::string, std::string> watched_video() const;
+
+  // A browser that has opened its WebSocket; its number.
+  std::uint64_t open(const std::string& name, Role role);
+  void close(std::uint64_t viewer);
+  void take(std::uint64_t viewer, std::string_view text, const Now& now);
+  // What this viewer is to be sent next, now that the last message is through; nothing: nothing
+  // new. The newest state, never a queue.
+  std::optional<Outgoing> next(std::uint64_t viewer, const Now& now);
+
+  // Why no order can go out; empty: it can.
+  void bus_is(const std::string& trouble) { bus_trouble_ = trouble; }
+  const std::string& bus_trouble() const { return bus_trouble_; }
+
+  // Stops every station; those that are first heard within the next seconds too. Their ids. All
+  // viewers are told which do not confirm it.
+  std::vector<std::string> stop_all(const std::string& name, const Ticket& ticket, const Now& now);
+
+  // Call often: outcomes, control, ages. Returns the orders to be sent now.
+  std::vector<command::Order> turn(const Now& now);
+
+  // Of a replay. From now on no order goes out, and every message says so: its state, what its
+  // timeline shows, and whether viewers are to hear of it at once.
+  void replay_is(const Json& state, bool is_urgent);
+  void timeline_is(const Json& timeline) { replay_.timeline = timeline; }
+  bool is_replay() const { return !replay_.state.is_null(); }
+  const Json& timeline() const { return replay_.timeline; }
+  // What viewers have asked of the replay since the last call.
+  std::vector<ReplayRequest> take_replay_requests() { return std::exchange(replay_.requests, {}); }
+  Moment moment() const;
+  // Every viewer is sent all of it.
+  void show(const Moment& moment);
+  Json events_since(Revision revision) const { return site_.events_since(revision); }
+  Revision revision() const { return site_.revision(); }
+
+  Json state(const Now& now) const;
+  Json health(const Now& now) const;
+  void note(const std::string& kind, const std::string& who, const std::string& text,
+            const Now& now);
+  std::size_t viewers() const { return viewers_.size(); }
+
+  // 20 Hz, with a turn's jitter: at 10 Hz a new position would wait for up to 0.1 s.
+  static constexpr double kDeltaPeriod_s = 0.045;
+
+ private:
+  struct Viewer {
+    std::string name;
+    Role role = Role::kViewer;
+    bool is_greeted = false;
+    Revision sent = 0;
+    double sent_s = -1e9;
+    std::set<std::string> watched;
+    std::map<std::string, std::uint64_t> pictures_sent;
+    std::deque<std::string> answers;
+  };
+  struct Kept {
+    Picture picture;
+    std::uint64_t number = 0;
+  };
+  struct ReplayDesk {
+    Json state, timeline;  // null: what is shown is now
+    std::vector<ReplayRequest> requests;
+  };
+
+  void act(std::uint64_t id, const CommandRequest& request, const Now& now);
+  void act(std::uint64_t id, const StopAllRequest& request, const Now& now);
+  void act(std::uint64_t id, const ControlRequest& request, const Now& now);
+  void act(std::uint64_t id, const WatchRequest& request, const Now& now);
+  void act(std::uint64_t id, const ReplayRequest& request, const Now& now);
+  void act(std::uint64_t id, const AnswerRequest& request, const Now& now);
+  void act(std::uint64_t id, const CueRequest& request, const Now& now);
+  void act(std::uint64_t id, const Refused& refused, const Now& now);
+  void answer(std::uint64_t id, std::int64_t number, const std::string& station,
+              const std::string& refusal);
+  void tell_all(const Json& message);
+  void tell_outcomes(const Now& now);
+  void begin_stop(const std::string& station, const std::string& name, Ticket ticket,
+                  const Now& now);
+  void forget_gone();
+  void add_time(Json& message, const Now& now) const;
+  std::optional<Outgoing> next_picture(Viewer& viewer) const;
+  Outgoing greeting(std::uint64_t id, Viewer& viewer, const Now& now) const;
+
+  SiteState site_;
+  CommandDesk desk_;
+  ControlDesk control_;
+  Procedures procedures_;
+  CueOrders cues_;
+  std::map<std::uint64_t, Viewer> viewers_;
+  std::map<std::string, Kept> pictures_;
+  std::map<std::string, std::string> video_addresses_;
+  std::uint64_t viewer_numbers_ = 0, picture_numbers_ = 0;
+  std::uint64_t messages_refused_ = 0;
+  double stop_until_s_ = -1e9;
+  std::string stopped_by_, bus_trouble_;
+  ReplayDesk replay_;
+};
+
+}  // namespace ols::console

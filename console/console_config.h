@@ -1,0 +1,45 @@
+// What ols-console's configuration file holds: docs/configuration.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/trust/trust_config.h"
+
+namespace ols::config {
+struct Section;
+}
+namespace ols::console {
+
+struct ConsoleConfig {
+  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string address = "127.0.0.1";
+  int port = 8080;
+  std::vector<std::string> host_names;  // beside the address, by which browsers may call it
+  std::string certificate, key;         // PEM files; both empty: no TLS
+  std::string users = "/var/lib/ols/console-users";
+  std::string maps_folder = "/var/lib/ols/maps";  // users' own maps; need not be there
+  double session_s = 12.0 * 3600.0;
+  double control_timeout_s = 60.0;
+  // Of stations' video sockets: addresses come over the bus, where anybody may write.
+  std::vector<std::string> video_networks = {"127.0.0.0/8",    "10.0.0.0/8", "172.16.0.0/12",
+                                             "192.168.0.0/16", "::1/128",    "fc00::/7"};
+  trust::TrustConfig trust;
+};
+
+config::Section console_section(ConsoleConfig& config);  // the whole file
+// Throws ConfigError.
+ConsoleConfig load_console_config(const std::string& path);
+// The same from text, `name` standing for the path in errors.
+ConsoleConfig parse_console_config(const std::string& text, const std::string& name);
+
+std::string address_problem(const std::string& address);  // empty: none
+bool is_loopback(const std::string& address);
+// What forbids serving on this address; empty: nothing. Away from loopback there must be TLS and
+// users.
+std::string serving_problem(const ConsoleConfig& config, bool has_users);
+// Whether a browser may call this console by this Host header: else any page in the world could by
+// a name that it makes point here.
+bool is_own_host(const ConsoleConfig& config, const std::string& host);
+
+}  // namespace ols::console

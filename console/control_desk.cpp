@@ -1,0 +1,63 @@
+#include "console/control_desk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ols::console {
+
+void ControlDesk::set(const std::string& station, std::uint64_t viewer, const std::string& name,
+                      double now_s) {
+  Holder& holder = holders_[station];
+  if (holder.viewer != viewer) changed_.push_back(station);
+  holder = {viewer, name, now_s + timeout_s_};
+}
+
+std::optional<std::string> ControlDesk::use(const std::string& station, std::uint64_t viewer,
+                                            const std::string& name, double now_s) {
+  const auto held = holders_.find(station);
+  if (held != holders_.end() && held->second.viewer != viewer && now_s < held->second.until_s) {
+    const int left_s = static_cast<int>(std::ceil(held->second.until_s - now_s));
+    return "refused: " + held->second.name + " has control for " + std::to_string(left_s) +
+           " s more; take over first";
+  }
+  set(station, viewer, name, now_s);
+  return std::nullopt;
+}
+
+void ControlDesk::take(const std::string& station, std::uint64_t viewer, const std::string& name,
+                       double now_s) {
+  set(station, viewer, name, now_s);
+}
+
+void ControlDesk::give_up(const std::string& station, std::uint64_t viewer) {
+  const auto held = holders_.find(station);
+  if (held == holders_.end() || held->second.viewer != viewer) return;
+  holders_.erase(held);
+  changed_.push_back(station);
+}
+
+void ControlDesk::leave(std::uint64_t viewer) {
+  std::erase_if(holders_, [&](const auto& held) {
+    if (held.second.viewer != viewer) return false;
+    changed_.push_back(held.first);
+    return true;
+  });
+}
+
+std::vector<std::pair<std::string, std::optional<Holder>>> ControlDesk::changes(double now_s) {
+  std::erase_if(holders_, [&](const auto& held) {
+    if (now_s < held.second.until_s) return false;
+    changed_.push_back(held.first);
+    return true;
+  });
+  std::vector<std::pair<std::string, std::optional<Holder>>> result;
+  for (const std::string& station : changed_) {
+    const auto held = holders_.find(station);
+    result.emplace_back(station,
+                        held == holders_.end() ? std::nullopt : std::optional(held->second));
+  }
+  changed_.clear();
+  return result;
+}
+
+}  // namespace ols::console

@@ -1,0 +1,43 @@
+// Who holds control of which station: one viewer a station, until it gives up, another takes over,
+// or it has given no command for a while. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ols::console {
+
+struct Holder {
+  std::uint64_t viewer = 0;
+  std::string name;
+  double until_s = 0.0;  // monotonic
+};
+
+class ControlDesk {
+ public:
+  explicit ControlDesk(double timeout_s) : timeout_s_(timeout_s) {}
+
+  // A command of this viewer: takes control if nobody has it, and prolongs it. Why it may not:
+  // somebody else holds it.
+  std::optional<std::string> use(const std::string& station, std::uint64_t viewer,
+                                 const std::string& name, double now_s);
+  void take(const std::string& station, std::uint64_t viewer, const std::string& name,
+            double now_s);
+  void give_up(const std::string& station, std::uint64_t viewer);
+  void leave(std::uint64_t viewer);  // of all stations
+
+  // Stations whose holder has changed since the last call, with the holder of now.
+  std::vector<std::pair<std::string, std::optional<Holder>>> changes(double now_s);
+
+ private:
+  void set(const std::string& station, std::uint64_t viewer, const std::string& name, double now_s);
+
+  double timeout_s_;
+  std::map<std::string, Holder> holders_;
+  std::vector<std::string> changed_;
+};
+
+}  // namespace ols::console

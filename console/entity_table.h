@@ -1,0 +1,62 @@
+// Things of one kind that are known by an id, as JSON objects, each field with the revision at
+// which it last changed: what a viewer has not seen yet is found without a queue for each viewer.
+// Pure.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ols::console {
+
+using Json = nlohmann::json;
+// Of the whole site's state: grows by one with each change.
+using Revision = std::uint64_t;
+
+class EntityTable {
+ public:
+  explicit EntityTable(std::size_t most) : most_(most) {}
+
+  // Sets these fields; those that are not named stay. Touches no revision where nothing differs.
+  // False if the table is full and nothing in it is stale.
+  bool set(const std::string& id, const Json& fields, double now_s, Revision& revision);
+  // The same without counting as a sign of life.
+  void mark(const std::string& id, const std::string& field, const Json& value, Revision& revision);
+  void remove(const std::string& id, Revision& revision);
+  void clear(Revision& revision);
+
+  // Marks what was not heard for stale_s ("stale": true), removes what was not for forget_s.
+  // Returns those that have just become stale.
+  std::vector<std::string> age(double now_s, double stale_s, double forget_s, Revision& revision);
+
+  const Json* find(const std::string& id) const;
+  std::size_t size() const { return entities_.size(); }
+  std::size_t stale() const;
+  std::vector<std::string> ids() const;
+  Json all() const;                    // an array of whole objects, each with its "id"
+  Json changed(Revision since) const;  // an array of objects: "id" and the changed fields
+  // Ids removed since; nothing when that is too long ago to be known.
+  std::optional<Json> gone(Revision since) const;
+
+ private:
+  struct Entity {
+    Json fields = Json::object();
+    std::map<std::string, Revision> changed;
+    double heard_s = 0.0;
+  };
+  void put(Entity& entity, const std::string& field, const Json& value, Revision& revision);
+  bool make_room(Revision& revision);
+
+  static constexpr std::size_t kMostGone = 1000;
+  std::size_t most_;
+  std::map<std::string, Entity> entities_;
+  std::deque<std::pair<Revision, std::string>> gone_;
+  Revision forgotten_ = 0;  // revision of the newest removal that is no longer in gone_
+};
+
+}  // namespace ols::console

@@ -1,0 +1,20 @@
+// A listening socket that the service manager, or the demo, has opened and handed over (systemd's
+// socket activation): the console then needs no right to the port, nor to the network it is on.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace ols::console {
+
+struct HandedOverSocket {
+  int descriptor = -1;
+  bool is_v6 = false;
+  std::string address;
+  int port = 0;
+};
+
+// Nothing if none was. Throws std::runtime_error for one that is no listening TCP socket.
+std::optional<HandedOverSocket> handed_over_socket();
+
+}  // namespace ols::console

@@ -1,0 +1,31 @@
+// How often a password may be tried: a few times at once from one address, then slowly; and slowly
+// for all addresses together. Pure.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+namespace ols::console {
+
+class LoginLimit {
+ public:
+  // Whether this address may try now; counts as a try.
+  bool admit(const std::string& address, double now_s);
+
+  static constexpr double kTries = 5.0;        // at once
+  static constexpr double kRegained_s = 10.0;  // one more try after this long
+  static constexpr double kAllTries = 50.0;    // of all addresses together
+  static constexpr double kAllRegained_s = 1.0;
+  static constexpr std::size_t kMostAddresses = 1000;
+
+ private:
+  struct Bucket {
+    double tries = 0.0, at_s = 0.0;
+    bool take(double most, double regained_s, double now_s);
+  };
+  std::map<std::string, Bucket> addresses_;
+  Bucket all_{kAllTries, 0.0};
+};
+
+}  // namespace ols::console

@@ -1,0 +1,235 @@
+// ols-console: parses the command line, loads the configuration, wires the parts and loops.
+#include <sodium.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/clocks.h"
+#include "base/command_line.h"
+#include "base/service_notifier.h"
+#include "base/shutdown.h"
+#include "base/toml_config.h"
+#include "console/add_user.h"
+#include "console/console.h"
+#include "console/console_bus.h"
+#include "console/console_config.h"
+#include "console/handed_over_socket.h"
+#include "console/replay/replay.h"
+#include "console/video_puller.h"
+#include "console/web_api.h"
+#include "console/web_server.h"
+
+namespace {
+
+constexpr double kTurn_s = 0.01;
+constexpr double kStatus_s = 1.0;
+
+struct Arguments {
+  std::string config, lcm_url, address, users, add_user, role = "operator", replay;
+  std::vector<std::string> frames;  // "STATION=FOLDER"
+  int port = -1;
+  bool check_config = false;
+};
+
+std::string draw_token() {
+  std::array<unsigned char, 32> bytes{};
+  randombytes_buf(bytes.data(), bytes.size());
+  std::array<char, 2 * bytes.size() + 1> text{};
+  sodium_bin2hex(text.data(), text.size(), bytes.data(), bytes.size());
+  return text.data();
+}
+
+// As a person types it into a browser.
+std::string web_address(const ols::console::ConsoleConfig& config, int port) {
+  const bool is_v6 = config.address.find(':') != std::string::npos;
+  return (config.certificate.empty() ? "http://" : "https://") +
+         (is_v6 ? "[" + config.address + "]" : config.address) + ":" + std::to_string(port) + "/";
+}
+
+ols::console::ConsoleConfig configuration(const Arguments& arguments) {
+  ols::console::ConsoleConfig config;
+  if (!arguments.config.empty()) config = ols::console::load_console_config(arguments.config);
+  if (!arguments.lcm_url.empty()) config.lcm_url = arguments.lcm_url;
+  if (!arguments.address.empty()) config.address = arguments.address;
+  if (!arguments.users.empty()) config.users = arguments.users;
+  if (arguments.port >= 0) config.port = arguments.port;
+  return config;
+}
+
+// A configuration that cannot be read or written is not helped by a restart, as other failures of
+// the system may be.
+template <class Action>
+auto as_bad_input(Action action) {
+  try {
+    return action();
+  } catch (const std::system_error& error) {
+    throw std::invalid_argument(error.what());
+  }
+}
+
+ols::console::RecordedFrames recorded_frames(const std::vector<std::string>& folders) {
+  ols::console::RecordedFrames frames;
+  for (const std::string& folder : folders) {
+    const auto equals = folder.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+      throw std::invalid_argument("--frames " + folder + ": must be STATION=FOLDER");
+    }
+    frames.add(folder.substr(0, equals), folder.substr(equals + 1));
+  }
+  return frames;
+}
+
+// Writes the users down, unless somebody else has changed the file since.
+ols::console::WebApi::SaveUsers user_keeper(const std::string& file, ols::console::Users known) {
+  return [file, known](const ols::console::Users& users) mutable {
+    if (ols::console::read_users(file) != known) {
+      throw std::runtime_error(file + " was changed meanwhile: restart the console");
+    }
+    ols::console::write_users(file, users);
+    known = users;
+  };
+}
+
+// What the console shows: a site on the bus, or a recording of one.
+class Shown {
+ public:
+  virtual ~Shown() = default;
+  virtual void turn(const ols::console::Now& now) = 0;
+  virtual std::string in_one_line() const = 0;
+};
+
+class LiveSite : public Shown {
+ public:
+  LiveSite(const ols::console::ConsoleConfig& config, ols::console::Console& console)
+      : console_(console),
+        bus_(config.lcm_url, config.trust, console),
+        video_(config.video_networks, {}) {}
+
+  void turn(const ols::console::Now& now) override {
+    bus_.turn(now);
+    console_.bus_is(bus_.trouble());
+    video_.watch(console_.watched_video());
+    for (ols::console::Picture& picture : video_.take()) console_.hear(std::move(picture));
+    bus_.send(console_.turn(now), now);
+    bus_.send(console_.take_answers(), now);
+    bus_.send(console_.take_cue_orders(), now);
+  }
+  std::string in_one_line() const override { return bus_.in_one_line(); }
+
+ private:
+  ols::console::Console& console_;
+  ols::console::ConsoleBus bus_;
+  ols::console::VideoPuller video_;
+};
+
+// It has no bus: nothing that is said in a browser can reach a station.
+class RecordedSite : public Shown {
+ public:
+  RecordedSite(const Arguments& arguments, ols::console::Console& console)
+      : replay_(arguments.replay, recorded_frames(arguments.frames), console) {}
+
+  void turn(const ols::console::Now& now) override { replay_.turn(now.monotonic_s); }
+  std::string in_one_line() const override { return replay_.in_one_line(); }
+
+ private:
+  ols::console::Replay replay_;
+};
+
+std::unique_ptr<Shown> shown(const Arguments& arguments, const ols::console::ConsoleConfig& config,
+                             ols::console::Console& console) {
+  if (arguments.replay.empty()) return std::make_unique<LiveSite>(config, console);
+  return std::make_unique<RecordedSite>(arguments, console);
+}
+
+int run(const Arguments& arguments, ols::console::ConsoleConfig config) {
+  if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be initialised");
+  const auto socket = ols::console::handed_over_socket();
+  if (socket) config.address = socket->address;
+  const auto users = as_bad_input([&] { return ols::console::read_users(config.users); });
+  if (const auto problem = serving_problem(config, !users.empty()); !problem.empty()) {
+    throw std::invalid_argument(problem);
+  }
+  ols::console::Console console(config.control_timeout_s);
+  ols::console::WebApi api(config, users, console, draw_token, user_keeper(config.users, users));
+  ols::console::WebServer server(config, socket, api, console);
+  const std::unique_ptr<Shown> site = shown(arguments, config, console);
+  const std::string address = web_address(config, server.port());
+  ols::ServiceNotifier service_manager;
+  service_manager.ready(address);
+  if (api.is_open()) {
+    spdlog::info("{} names no user: everybody on this host is an operator, without log-in",
+                 config.users);
+  }
+  spdlog::info("ready: {}", address);
+  double status_due_s = 0.0;
+  while (!ols::shutdown_requested()) {
+    server.serve_for(kTurn_s);
+    const ols::console::Now now{ols::clock_monotonic_s(), ols::clock_utime_us()};
+    site->turn(now);
+    server.pump();
+    service_manager.alive(now.monotonic_s);
+    if (now.monotonic_s < status_due_s) continue;
+    status_due_s = now.monotonic_s + kStatus_s;
+    service_manager.status(address + ", " + std::to_string(console.viewers()) + " browsers; " +
+                           site->in_one_line());
+  }
+  service_manager.stopping();
+  spdlog::info("stops");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"The console: a live map of the site and the operator's hand, in a browser"};
+  app.set_version_flag("--version", OLS_VERSION);
+  Arguments arguments;
+  app.add_option("--config", arguments.config, "Configuration file (TOML); all keys have defaults");
+  app.add_option("--lcm-url", arguments.lcm_url, "Bus, in place of the configuration's");
+  app.add_option("--address", arguments.address, "IP address, in place of the configuration's")
+      ->check(ols::console::address_problem);
+  app.add_option("--port", arguments.port, "TCP port, in place of the configuration's; 0: any")
+      ->check(CLI::Range(0, 65535));
+  app.add_option("--users", arguments.users, "File of users, in place of the configuration's");
+  auto* replay =
+      app.add_option("--replay", arguments.replay,
+                     "Show this recorded LCM log instead of the bus; no command goes out");
+  app.add_option("--frames", arguments.frames,
+                 "STATION=FOLDER: show the frames that this station's recorder kept there; may be "
+                 "repeated")
+      ->needs(replay);
+  app.add_flag("--check-config", arguments.check_config, "Only read and check the configuration");
+  auto* add = app.add_option("--add-user", arguments.add_user,
+                             "Enter this user into the file of users, with a password from the "
+                             "terminal or from standard input, and end");
+  app.add_option("--role", arguments.role, "Of that user: viewer, operator or admin")->needs(add);
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-console")) return *status;
+  spdlog::set_default_logger(spdlog::stderr_color_mt("ols-console"));
+  ols::install_shutdown_handler();
+  try {
+    const ols::console::ConsoleConfig config = configuration(arguments);
+    if (arguments.check_config) return 0;
+    if (arguments.add_user.empty()) return run(arguments, config);
+    as_bad_input([&] { ols::console::add_user(config.users, arguments.add_user, arguments.role); });
+    std::fprintf(stderr, "ols-console: %s may log in; restart the console\n",
+                 arguments.add_user.c_str());
+    return 0;
+  } catch (const ols::ConfigError& error) {
+    std::fprintf(stderr, "ols-console: %s\n", error.what());
+    return ols::kExitBadInput;
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "ols-console: %s\n", error.what());
+    return ols::kExitBadInput;
+  } catch (const std::exception& error) {
+    spdlog::critical("{}", error.what());
+    return 1;
+  }
+}

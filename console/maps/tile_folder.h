@@ -1,0 +1,23 @@
+// A map in a folder of pictures ZOOM/COLUMN/ROW.png (or .jpg, .jpeg, .webp), rows counted from the
+// north.
+#pragma once
+
+#include <string>
+
+#include "console/maps/tile_store.h"
+
+namespace ols::console {
+
+class TileFolder : public TileStore {
+ public:
+  // Throws std::runtime_error if there is no zoom level in it.
+  explicit TileFolder(const std::string& path);
+  const MapInfo& info() const override { return info_; }
+  std::optional<std::string> tile(const TileAddress& address) override;
+
+ private:
+  std::string path_, suffix_;  // the one found last
+  MapInfo info_;
+};
+
+}  // namespace ols::console

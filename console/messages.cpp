@@ -1,0 +1,400 @@
+#include "console/messages.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/channel_names.h"
+#include "base/lcm_bus.h"
+#include "base/plain_text.h"
+#include "command/messages.h"
+#include "console/map_geometry.h"
+#include "console/messages_cues.h"
+#include "geometry/angles.h"
+#include "geometry/wgs84.h"
+#include "ols_msg/bearing_t.hpp"
+#include "ols_msg/fusion_status_t.hpp"
+#include "ols_msg/preview_t.hpp"
+#include "ols_msg/target_t.hpp"
+#include "ols_msg/video_frame_t.hpp"
+#include "ols_msg/video_request_t.hpp"
+
+namespace ols::console {
+namespace {
+
+using Status = ols_msg::station_status_t;
+using Target = ols_msg::target_t;
+
+constexpr std::size_t kMostBorders = 16;  // of a station, and points of each
+constexpr std::size_t kMostListed = 300;  // of counters and the like; a forged message has more
+
+// Null where it is unknown. Rounded: a browser needs no 17 digits, ten times a second.
+Json rounded(double value, int decimals) {
+  if (!std::isfinite(value) || std::abs(value) > 1e15) return nullptr;
+  const double scale = std::pow(10.0, decimals);
+  return std::round(value * scale) / scale;
+}
+Json angle_deg(double rad) { return rounded(degrees(rad), 4); }
+
+template <std::size_t count>
+Json rounded_all(const double (&values)[count], int decimals) {
+  Json result = Json::array();
+  for (const double value : values) result.push_back(rounded(value, decimals));
+  return result;
+}
+
+std::string number_text(std::int64_t number) { return std::to_string(number); }
+
+Json named(const std::vector<std::string>& names, const std::vector<double>& values) {
+  Json result = Json::object();
+  for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i) {
+    result[plain_text(names[i])] = rounded(values[i], 6);
+  }
+  return result;
+}
+
+Json devices_of(const Status& s) {
+  Json devices = Json::array();
+  for (std::size_t i = 0; i < std::min(s.device_name.size(), kMostListed); ++i) {
+    devices.push_back({{"name", s.device_name[i]},
+                       {"state", command::device_name(s.device_state[i])},
+                       {"text", s.device_text[i]},
+                       {"age_s", rounded(s.device_age_s[i], 1)}});
+  }
+  return devices;
+}
+
+// Null where there is none.
+Json lens_of(const Status& s) {
+  if (s.kind != Status::KIND_OVERVIEW) return nullptr;
+  return {{"zoom", rounded(s.lens_position[0], 4)},
+          {"focus", rounded(s.lens_position[1], 4)},
+          {"iris", rounded(s.lens_position[2], 4)},
+          {"focal_length_px", rounded(s.focal_length_px, 1)},
+          {"focal_length_sd_px", rounded(s.focal_length_sd_px, 2)}};
+}
+
+const char* source_name(std::int8_t source) {
+  return source == Status::POSE_SURVEYED ? "surveyed"
+         : source == Status::POSE_SENSOR ? "sensor"
+                                         : "unknown";
+}
+
+const char* clock_name(std::int8_t state) {
+  using M = ols_msg::bearing_t;
+  return state == M::CLOCK_SYNCHRONISED     ? "synchronised"
+         : state == M::CLOCK_UNSYNCHRONISED ? "unsynchronised"
+                                            : "unknown";
+}
+
+std::vector<std::string> plain(std::vector<std::string> texts) {
+  if (texts.size() > kMostListed) texts.resize(kMostListed);
+  for (std::string& text : texts) text = plain_text(text);
+  return texts;
+}
+
+void add_pose(const Status& s, Json& fields) {
+  fields["latitude_deg"] = rounded(s.latitude_deg, 8);
+  fields["longitude_deg"] = rounded(s.longitude_deg, 8);
+  fields["height_m"] = rounded(s.height_m, 2);
+  fields["position_sd_m"] = {rounded(s.position_sd_m[0], 3), rounded(s.position_sd_m[1], 3),
+                             rounded(s.position_sd_m[2], 3)};
+  fields["position_source"] = source_name(s.position_source);
+  fields["heading_deg"] = angle_deg(s.heading_rad);
+  fields["heading_sd_deg"] = angle_deg(s.heading_sd_rad);
+  fields["tilt_x_deg"] = angle_deg(s.tilt_x_rad);
+  fields["tilt_y_deg"] = angle_deg(s.tilt_y_rad);
+  fields["tilt_sd_deg"] = angle_deg(s.tilt_sd_rad);
+  fields["tilt_source"] = source_name(s.tilt_source);
+}
+
+// [{keep_out, outline: [[azimuth_deg, elevation_deg], ...]}]
+Json borders_of(const Status& s) {
+  Json borders = Json::array();
+  const std::size_t points =
+      s.border_kind.empty() ? 0 : s.border_azimuth_rad.size() / s.border_kind.size();
+  for (std::size_t i = 0; points > 2 && i < std::min(s.border_kind.size(), kMostBorders); ++i) {
+    Json outline = Json::array();
+    for (std::size_t k = i * points; k < i * points + std::min(points, kMostBorders); ++k) {
+      outline.push_back({rounded(degrees(s.border_azimuth_rad[k]), 3),
+                         rounded(degrees(s.border_elevation_rad[k]), 3)});
+    }
+    borders.push_back({{"keep_out", s.border_kind[i] == Status::BORDER_KEEP_OUT},
+                       {"outline", std::move(outline)}});
+  }
+  return borders;
+}
+
+void add_pointing(const Status& s, Json& fields) {
+  fields["pan_deg"] = angle_deg(s.pan_rad);
+  fields["tilt_deg"] = angle_deg(s.tilt_rad);
+  fields["pan_limits_deg"] = {angle_deg(s.pan_limits_rad[0]), angle_deg(s.pan_limits_rad[1])};
+  fields["tilt_limits_deg"] = {angle_deg(s.tilt_limits_rad[0]), angle_deg(s.tilt_limits_rad[1])};
+  fields["borders"] = borders_of(s);
+  fields["azimuth_deg"] = angle_deg(s.azimuth_rad);
+  fields["elevation_deg"] = angle_deg(s.elevation_rad);
+  fields["target_offset_px"] = {rounded(s.target_offset_px[0], 1),
+                                rounded(s.target_offset_px[1], 1)};
+  fields["image_px"] = {s.image_width_px, s.image_height_px};
+  fields["pan_sign"] = s.pan_sign;
+  fields["tilt_sign"] = s.tilt_sign;
+  fields["kind"] = s.kind == Status::KIND_OVERVIEW ? "overview" : "tracking";
+  fields["lens"] = lens_of(s);
+  fields["field_of_view_deg"] = {angle_deg(s.field_of_view_rad[0]),
+                                 angle_deg(s.field_of_view_rad[1])};
+}
+
+const char* track_name(std::int8_t state) {
+  return state == Target::TRACK_BORN        ? "born"
+         : state == Target::TRACK_CONFIRMED ? "confirmed"
+         : state == Target::TRACK_COASTED   ? "coasted"
+                                            : "dropped";
+}
+
+const char* solution_name(std::int8_t solution) {
+  switch (solution) {
+    case Target::SOLUTION_OK:
+      return "ok";
+    case Target::SOLUTION_TOO_FEW_RAYS:
+      return "too-few-rays";
+    case Target::SOLUTION_PARALLEL_RAYS:
+      return "parallel-rays";
+    case Target::SOLUTION_BEHIND_CAMERA:
+      return "behind-camera";
+    case Target::SOLUTION_TOO_FAR:
+      return "too-far";
+    case Target::SOLUTION_NOT_CONVERGED:
+      return "not-converged";
+    case Target::SOLUTION_BEARING_ONLY:
+      return "bearing-only";
+    case Target::SOLUTION_RAYS_MISS:
+      return "rays-miss";
+    default:
+      return "unknown";
+  }
+}
+
+Json stations_of(const Target& t) {
+  Json stations = Json::array();
+  for (std::size_t i = 0; i < std::min(t.station.size(), kMostListed); ++i) {
+    stations.push_back({{"id", plain_text(t.station[i])},
+                        {"used", t.used[i] != 0},
+                        {"weight", rounded(t.weight[i], 2)},
+                        {"age_s", rounded(t.age_s[i], 2)}});
+  }
+  return stations;
+}
+
+void add_motion(const Target& t, Json& fields) {
+  const Eigen::Vector3d velocity =
+      R_ecef_enu(Geodetic{radians(t.latitude_deg), radians(t.longitude_deg), t.height_m})
+          .transpose() *
+      Eigen::Vector3d(t.velocity_ecef_m_s[0], t.velocity_ecef_m_s[1], t.velocity_ecef_m_s[2]);
+  fields["velocity_enu_m_s"] = {rounded(velocity.x(), 2), rounded(velocity.y(), 2),
+                                rounded(velocity.z(), 2)};
+  fields["speed_m_s"] = rounded(velocity.norm(), 2);
+  fields["course_deg"] = rounded(degrees(wrap_two_pi(std::atan2(velocity.x(), velocity.y()))), 1);
+}
+
+void add_position(const Target& t, Json& fields) {
+  const auto* covariance = t.position_covariance_enu_m2;
+  fields["latitude_deg"] = rounded(t.latitude_deg, 8);
+  fields["longitude_deg"] = rounded(t.longitude_deg, 8);
+  fields["height_m"] = rounded(t.height_m, 2);
+  fields["sd_enu_m"] = {rounded(std::sqrt(covariance[0]), 3), rounded(std::sqrt(covariance[3]), 3),
+                        rounded(std::sqrt(covariance[5]), 3)};
+  fields["covariance_enu_m2"] = rounded_all(t.position_covariance_enu_m2, 4);
+  fields["ellipse95"] = ellipse95(covariance[0], covariance[1], covariance[3]);
+  fields["crossing_angle_deg"] = rounded(degrees(t.crossing_angle_rad), 1);
+  fields["residual"] = rounded(t.residual, 2);
+  fields["stations"] = stations_of(t);
+  add_motion(t, fields);
+}
+
+bool has_position(const Target& t) {
+  return std::abs(t.latitude_deg) <= 90.0 && std::abs(t.longitude_deg) <= 360.0 &&
+         std::isfinite(t.height_m);
+}
+
+Json fusion_stations(const ols_msg::fusion_status_t& f) {
+  Json stations = Json::array();
+  for (std::size_t i = 0; i < std::min(f.station.size(), kMostListed); ++i) {
+    stations.push_back({{"id", plain_text(f.station[i])},
+                        {"bearings", f.bearings[i]},
+                        {"rate_hz", rounded(f.rate_hz[i], 1)},
+                        {"age_s", rounded(f.age_s[i], 2)},
+                        {"residual", rounded(f.residual[i], 2)},
+                        {"clock_offset_s", rounded(f.clock_offset_s[i], 4)},
+                        {"quarantine", plain_text(f.quarantine[i])}});
+  }
+  return stations;
+}
+
+// What a preview and a frame of the video have in common.
+template <class Message>
+Json header_of(const Message& m) {
+  Json box = nullptr;
+  if (m.has_box) {
+    box = {rounded(m.box_px[0], 1), rounded(m.box_px[1], 1), rounded(m.box_px[2], 1),
+           rounded(m.box_px[3], 1)};
+  }
+  return {{"station", m.station},
+          {"utime_us", m.utime},
+          {"boot", number_text(m.boot_id)},
+          {"sequence", m.sequence},
+          {"full_px", {m.full_width_px, m.full_height_px}},
+          {"scale", rounded(m.scale, 6)},
+          {"box_px", box}};
+}
+
+// Null while the unit's angles are unknown.
+Json camera_of(const ols_msg::video_frame_t& f) {
+  if (!std::isfinite(f.camera_from_ecef[0])) return nullptr;
+  return {{"ecef_m", rounded_all(f.camera_ecef_m, 3)},
+          {"from_ecef", rounded_all(f.camera_from_ecef, 9)},
+          {"matrix_px", rounded_all(f.camera_matrix_px, 4)},
+          {"distortion", rounded_all(f.distortion, 6)}};
+}
+
+// The address of a station's video socket; empty without one that works.
+std::string video_address_of(const Status& s) {
+  for (std::size_t i = 0; i < s.device_name.size(); ++i) {
+    if (s.device_name[i] == "video" && s.device_state[i] == Status::DEVICE_OK) {
+      return s.device_text[i];
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<StationHeard> station_from(const BusMessage& message) {
+  const auto status = command::heard_status(message);
+  if (!status) return std::nullopt;
+  const Status& s = *status;
+  Json fields{
+      {"boot", number_text(s.boot_id)},
+      {"utime_us", s.utime},
+      {"state", command::state_name(s.state)},
+      {"track_id", number_text(s.track_id)},
+      {"belief", rounded(s.belief, 3)},
+      {"devices", devices_of(s)},
+      {"clock", {{"state", clock_name(s.clock_state)}, {"error_s", rounded(s.clock_error_s, 6)}}},
+      {"frame_latency_s", rounded(s.frame_latency_s, 3)},
+      {"alarms", plain(s.alarm)},
+      {"readings", named(s.reading_name, s.reading_value)},
+      {"counters", named(s.counter_name, s.counter_value)},
+      {"last_error", s.last_error},
+      {"last_error_utime_us", s.last_error_utime}};
+  add_pose(s, fields);
+  add_pointing(s, fields);
+  return StationHeard{s.station,      std::move(fields), command::reply_of(s), video_address_of(s),
+                      plain(s.alarm), s.last_error,      s.last_error_utime};
+}
+
+std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& message) {
+  ols_msg::bearing_t b;
+  if (!decode_exactly(message, b) || b.schema_version != ols_msg::bearing_t::SCHEMA_VERSION ||
+      message.channel != station_channel(kBearingChannel, b.station)) {
+    return std::nullopt;
+  }
+  const double variance = (b.covariance_white_rad2[0] + b.covariance_systematic_rad2[0] +
+                           b.covariance_white_rad2[2] + b.covariance_systematic_rad2[2]) /
+                          2;
+  return std::pair{b.station, Json{{"utime_us", b.utime},
+                                   {"azimuth_deg", angle_deg(b.azimuth_rad)},
+                                   {"elevation_deg", angle_deg(b.elevation_rad)},
+                                   {"sd_deg", angle_deg(std::sqrt(variance))},
+                                   {"belief", rounded(b.belief, 2)}}};
+}
+
+std::optional<TargetHeard> target_from(const BusMessage& message) {
+  using What = TargetHeard::What;
+  Target t;
+  if (!decode_exactly(message, t) || t.schema_version != Target::SCHEMA_VERSION) {
+    return std::nullopt;
+  }
+  TargetHeard heard{.what = What::kNothing,
+                    .boot_id = t.boot_id,
+                    .id = number_text(t.target_id),
+                    .fields = Json::object()};
+  heard.fields["utime_us"] = t.utime;
+  heard.fields["solution"] = solution_name(t.solution);
+  if (t.solution == Target::SOLUTION_BEARING_ONLY) {
+    if (t.station.empty()) return std::nullopt;
+    heard.what = What::kLine;
+    heard.id = plain_text(t.station.front());
+    heard.fields["target"] = number_text(t.target_id);
+    heard.fields["azimuth_deg"] = angle_deg(t.azimuth_rad);
+    heard.fields["elevation_deg"] = angle_deg(t.elevation_rad);
+    heard.fields["sd_deg"] = angle_deg(t.direction_sd_rad);
+    return heard;
+  }
+  if (t.target_id == 0) return heard;
+  heard.fields["state"] = track_name(t.track_state);
+  if (t.track_state == Target::TRACK_DROPPED) {
+    heard.what = What::kDropped;
+  } else if (t.solution == Target::SOLUTION_OK && has_position(t)) {
+    heard.what = What::kPosition;
+    heard.fields["estimator"] = plain_text(t.estimator);
+    heard.latitude_deg = t.latitude_deg;
+    heard.longitude_deg = t.longitude_deg;
+    heard.height_m = t.height_m;
+    add_position(t, heard.fields);
+  } else {
+    heard.what = What::kNoPosition;
+  }
+  return heard;
+}
+
+std::optional<FusionHeard> fusion_from(const BusMessage& message) {
+  ols_msg::fusion_status_t f;
+  if (!decode_exactly(message, f) || f.schema_version != ols_msg::fusion_status_t::SCHEMA_VERSION) {
+    return std::nullopt;
+  }
+  Json fields{{"boot", number_text(f.boot_id)},
+              {"utime_us", f.utime},
+              {"stations", fusion_stations(f)},
+              {"cues", cues_of(message)},
+              {"latency_s", rounded(f.latency_s, 4)},
+              {"counters", named(f.counter_name, f.counter_value)},
+              {"alarms", plain(f.alarm)},
+              {"last_error", plain_text(f.last_error)}};
+  return FusionHeard{f.boot_id, std::move(fields), plain(f.alarm), plain_text(f.last_error)};
+}
+
+std::optional<Picture> picture_from(const BusMessage& message) {
+  ols_msg::preview_t p;
+  if (!decode_exactly(message, p) || p.schema_version != ols_msg::preview_t::SCHEMA_VERSION ||
+      message.channel != station_channel(kPreviewChannel, p.station)) {
+    return std::nullopt;
+  }
+  return Picture{p.station, header_of(p), std::string(p.jpeg.begin(), p.jpeg.end())};
+}
+
+std::vector<std::uint8_t> video_request(std::int64_t after_utime_us, int max_width_px,
+                                        int quality) {
+  ols_msg::video_request_t request{};
+  request.schema_version = ols_msg::video_request_t::SCHEMA_VERSION;
+  request.after_utime = after_utime_us;
+  request.max_width_px = max_width_px;
+  request.quality = quality;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(request.getEncodedSize()));
+  request.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+std::optional<Picture> video_picture_from(std::span<const std::uint8_t> bytes) {
+  ols_msg::video_frame_t f;
+  const auto size = static_cast<int>(bytes.size());
+  if (f.decode(bytes.data(), 0, size) != size ||
+      f.schema_version != ols_msg::video_frame_t::SCHEMA_VERSION) {
+    return std::nullopt;
+  }
+  Json header = header_of(f);
+  header["belief"] = rounded(f.belief, 3);
+  header["track"] = f.track_id;
+  header["camera"] = camera_of(f);
+  return Picture{f.station, std::move(header), std::string(f.jpeg.begin(), f.jpeg.end()), true};
+}
+
+}  // namespace ols::console

@@ -1,0 +1,28 @@
+// The messages of guided procedures (lcmtypes/procedure_t.lcm) as the console's own values.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/lcm_bus.h"
+#include "console/procedures.h"
+
+namespace ols::console {
+
+// Nothing for what cannot be decoded, is of another schema, or not of the station of its channel.
+// Texts are made safe to show (base/plain_text.h).
+std::optional<ProcedureHeard> procedure_from(const BusMessage& message);
+
+// Sends answers under one boot id, each with a sequence of its own.
+class AnswerSender {
+ public:
+  explicit AnswerSender(std::int64_t boot_id) : boot_id_(boot_id) {}
+  // `utime_us`: this host's UTC. False if the network is down.
+  bool send(LcmBus& bus, const ProcedureAnswer& answer, std::int64_t utime_us);
+
+ private:
+  std::int64_t boot_id_;
+  std::int64_t sequence_ = 0;
+};
+
+}  // namespace ols::console

@@ -1,0 +1,27 @@
+// Numbers as people read them.
+
+export const DASH = "–";
+
+export function fixed(value: number | null | undefined, decimals: number, unit = ""): string {
+  return value == null || !isFinite(value) ? DASH : value.toFixed(decimals) + unit;
+}
+
+export function distance(m: number): string {
+  return m < 1000 ? `${m.toFixed(m < 10 ? 1 : 0)} m` : `${(m / 1000).toFixed(m < 10_000 ? 2 : 1)} km`;
+}
+
+export function bearing(deg: number | null | undefined, decimals = 1): string {
+  if (deg == null) return DASH;
+  return `${deg.toFixed(decimals).padStart(decimals ? 4 + decimals : 3, "0")}°`;
+}
+
+export function utc(utime_us: number, withDate = false): string {
+  const iso = new Date(utime_us / 1000).toISOString();
+  return withDate ? iso.slice(0, 19).replace("T", " ") : iso.slice(11, 19);
+}
+
+export function clockError(s: number | null): string {
+  if (s == null) return DASH;
+  if (s < 1e-3) return `±${(s * 1e6).toFixed(0)} µs`;
+  return s < 1 ? `±${(s * 1e3).toFixed(1)} ms` : `±${s.toFixed(1)} s`;
+}

@@ -1,0 +1,141 @@
+// The operator's hand on a picture: a joystick while it holds, the lens, and the part of the picture
+// that is shown where the lens does not zoom. Sends what it wants; the station decides.
+
+import type { Link } from "./link";
+import type { Station } from "./site";
+
+export type Region = [number, number, number, number]; // x, y, width, height in the full frame [px]
+
+const AGAIN_MS = 100; // two may get lost within the 0.3 s for which a station obeys one
+const PICTURES_A_SECOND = 0.8; // at full deflection: slower the longer the lens
+const FASTEST_DEG_S = 60;
+const LARGEST_ZOOM = 16;
+export const HOLD_MS = 500; // pressed for so long before it moves: a joystick, not a box or a click
+export const STILL_PX = 6;
+
+// Fine in the middle, fast at the edge.
+const felt = (deflection: number) => {
+  const d = Math.max(-1, Math.min(1, deflection));
+  return Math.sign(d) * d * d;
+};
+
+export class Hand {
+  private timer = 0;
+  private push_: [number, number] = [0, 0]; // to the right, upwards; -1..1
+  private zoom_ = 0;
+  private wanted: number | null = null; // of the zoom, until the lens has been told
+  private tellTimer = 0;
+
+  constructor(
+    private link: Link,
+    private station: () => Station,
+  ) {}
+
+  get holds(): boolean {
+    return this.timer !== 0;
+  }
+
+  push(right: number, up: number) {
+    this.push_ = [felt(right), felt(up)];
+    this.begin();
+  }
+
+  // Towards longer (1) or wider (-1).
+  zoom(rate: number) {
+    this.zoom_ = rate;
+    this.begin();
+  }
+
+  // Whatever held it: nothing is wanted any more, and the station is told at once.
+  release() {
+    if (!this.timer) return;
+    clearInterval(this.timer);
+    this.timer = 0;
+    const [moved, zoomed] = [this.push_[0] !== 0 || this.push_[1] !== 0, this.zoom_ !== 0];
+    this.push_ = [0, 0];
+    this.zoom_ = 0;
+    if (moved) this.tellRates();
+    if (zoomed) this.tellZoom();
+  }
+
+  // By a wheel or a pinch; false: this lens does not zoom.
+  zoomBy(share: number): boolean {
+    const now = this.wanted ?? this.station().lens?.zoom ?? null;
+    if (now === null) return false;
+    this.wanted = Math.max(0, Math.min(1, now + share));
+    this.tellTimer ||= window.setTimeout(() => {
+      this.say("lens", { is_rate: false, zoom: this.wanted });
+      this.tellTimer = 0;
+      this.wanted = null;
+    }, AGAIN_MS);
+    return true;
+  }
+
+  private begin() {
+    this.tell();
+    this.timer ||= window.setInterval(() => this.tell(), AGAIN_MS);
+  }
+
+  private tell() {
+    if (!document.hasFocus()) return this.release();
+    if (this.push_[0] || this.push_[1]) this.tellRates();
+    if (this.zoom_) this.tellZoom();
+  }
+
+  private tellRates() {
+    const { field_of_view_deg, pan_sign, tilt_sign } = this.station();
+    const speed = Math.min(FASTEST_DEG_S, PICTURES_A_SECOND * (field_of_view_deg?.[0] ?? 5));
+    const [right, up] = this.push_;
+    // `|| 0`: no minus zero
+    this.say("rate", { pan_deg_s: -(pan_sign || 1) * right * speed || 0, tilt_deg_s: (tilt_sign || 1) * up * speed || 0 });
+  }
+
+  private tellZoom() {
+    this.say("lens", { is_rate: true, zoom: this.zoom_ });
+  }
+
+  private say(command: string, more: Record<string, unknown>) {
+    const heard = command === "rate" || more.is_rate ? { heard_us: this.link.time_us } : {};
+    this.link.sendQuietly({ do: "command", command, station: this.station().id, ...more, ...heard });
+  }
+}
+
+// The part of the frame that is shown, `factor` times larger (or smaller) about a point; null: all of it.
+export function magnified(region: Region | null, full: [number, number], at: [number, number], factor: number): Region | null {
+  const [x, y, width, height] = region ?? [0, 0, full[0], full[1]];
+  const wide = Math.max(full[0] / LARGEST_ZOOM, width / factor);
+  if (wide >= full[0]) return null;
+  const by = wide / width;
+  const within = (value: number, most: number) => Math.max(0, Math.min(most, value));
+  const high = height * by;
+  return [within(at[0] - (at[0] - x) * by, full[0] - wide), within(at[1] - (at[1] - y) * by, full[1] - high), wide, high];
+}
+
+// Two fingers: by how much their distance has grown since the last move.
+export class Pinch {
+  private fingers = new Map<number, [number, number]>();
+
+  get isTwo(): boolean {
+    return this.fingers.size === 2;
+  }
+
+  down(event: PointerEvent) {
+    if (event.pointerType === "touch") this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
+  }
+
+  up(event: PointerEvent) {
+    this.fingers.delete(event.pointerId);
+  }
+
+  move(event: PointerEvent): number {
+    if (!this.isTwo || !this.fingers.has(event.pointerId)) return 1;
+    const before = this.apart();
+    this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    return before > 0 ? this.apart() / before : 1;
+  }
+
+  private apart(): number {
+    const [a, b] = [...this.fingers.values()];
+    return Math.hypot(a[0] - b[0], a[1] - b[1]);
+  }
+}

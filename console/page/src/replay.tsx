@@ -1,0 +1,133 @@
+// A replay's timeline: where it is, how fast it goes, and what happened when. Everybody who looks at the
+// same replay sees the same instant of it.
+
+import { h, Fragment } from "preact";
+import { useEffect, useState } from "preact/hooks";
+import type { Link } from "./link";
+import { utc } from "./format";
+import { named, t } from "./words";
+
+// Of the server, with each message.
+export type ReplayState = {
+  file: string;
+  at_us: number;
+  first_us: number;
+  last_us: number; // as far as the recording was read
+  read: number; // 0..1
+  playing: boolean;
+  speed: number;
+  marks: number; // grows with the timeline
+  problem: string;
+};
+
+export type TimelineMark = { utime_us: number; kind: string; station: string; who: string; text: string; outcome: string };
+type Recorded = { station: string; name: string; first_us: number; last_us: number; frames: number };
+type Timeline = { marks: TimelineMark[]; marks_left_out: number; recorded: Recorded[] };
+
+const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 30];
+const STEP_MS = 1000;
+const KINDS = ["alarm", "error", "command", "birth", "end"];
+
+function describe(mark: TimelineMark): string {
+  const outcome = mark.outcome && mark.outcome !== "done" ? ` → ${mark.outcome}` : "";
+  return [utc(mark.utime_us), named("k", mark.kind), mark.station, mark.text + outcome].filter(Boolean).join(" · ");
+}
+
+function useTimeline(changes: number): Timeline {
+  const [timeline, setTimeline] = useState<Timeline>({ marks: [], marks_left_out: 0, recorded: [] });
+  useEffect(() => {
+    let isOver = false;
+    void fetch("/api/replay")
+      .then((response) => (response.ok ? response.json() : null))
+      .then((got) => got && !isOver && setTimeline(got))
+      .catch(() => null);
+    return () => void (isOver = true);
+  }, [changes]);
+  return timeline;
+}
+
+function Marks({ marks, place }: { marks: TimelineMark[]; place: (utime_us: number) => number }) {
+  return (
+    <div class="marks" aria-hidden="true">
+      {marks.map((mark) => (
+        <i class={mark.kind} style={{ left: `${100 * place(mark.utime_us)}%` }} title={describe(mark)} />
+      ))}
+    </div>
+  );
+}
+
+export function ReplayBar({ link }: { link: Link }) {
+  const state = link.replay!;
+  const timeline = useTimeline(state.marks);
+  const [dragged, setDragged] = useState<number | null>(null);
+  const at_us = dragged ?? Math.min(link.now_us(), Math.max(state.last_us, state.at_us));
+  const length_us = Math.max(1, state.last_us - state.first_us);
+  const place = (utime_us: number) => Math.max(0, Math.min(1, (utime_us - state.first_us) / length_us));
+  const say = (what: object) => link.send({ do: "replay", ...what });
+  const go = (utime_us: number) => say({ at_us: Math.round(utime_us) });
+  const marks = timeline.marks.filter((mark) => KINDS.includes(mark.kind));
+  const toMark = (step: 1 | -1) => {
+    const others = marks.filter((mark) => (step > 0 ? mark.utime_us > at_us + 1e4 : mark.utime_us < at_us - 5e5));
+    const next = step > 0 ? others[0] : others[others.length - 1];
+    if (next) go(next.utime_us);
+  };
+  const isAtEnd = state.read >= 1 && state.at_us >= state.last_us;
+  const play = () => say(state.playing ? { playing: false } : isAtEnd ? { playing: true, at_us: state.first_us } : { playing: true });
+  return (
+    <section class="replay" aria-label={t("replay")}>
+      <p class="replay-of">
+        <b>{t("replay")}</b> {state.file} <span>{t("replay_hint")}</span>
+        {state.read < 1 && <span> · {t("being_read")} {Math.floor(100 * state.read)} %</span>}
+        {timeline.marks_left_out > 0 && <span> · {timeline.marks_left_out} {t("marks_left_out")}</span>}
+      </p>
+      {state.problem && <p class="replay-problem" role="alert">{state.problem}</p>}
+      <div class="replay-tools">
+        <button type="button" class="play" onClick={play}>
+          {state.playing ? t("pause") : t("play")}
+        </button>
+        <button type="button" onClick={() => toMark(-1)} aria-label={t("mark_before")} title={t("mark_before")}>
+          ◂
+        </button>
+        <button type="button" onClick={() => toMark(1)} aria-label={t("mark_after")} title={t("mark_after")}>
+          ▸
+        </button>
+        <label>
+          {t("rate")}
+          <select value={String(state.speed)} onChange={(e) => say({ speed: Number(e.currentTarget.value) })}>
+            {SPEEDS.map((speed) => (
+              <option value={String(speed)}>{speed}×</option>
+            ))}
+          </select>
+        </label>
+        <time>{utc(at_us, true)}</time>
+        <div class="scrub">
+          <Marks marks={marks} place={place} />
+          <input
+            type="range"
+            aria-label={t("instant")}
+            aria-valuetext={utc(at_us, true)}
+            min={state.first_us / 1000}
+            max={Math.max(state.last_us, state.first_us + 1) / 1000}
+            step={STEP_MS / 10}
+            value={at_us / 1000}
+            onInput={(e) => {
+              setDragged(Number(e.currentTarget.value) * 1000);
+              go(Number(e.currentTarget.value) * 1000);
+            }}
+            onChange={() => setDragged(null)}
+            onBlur={() => setDragged(null)}
+          />
+        </div>
+        <select aria-label={t("go_to")} value="" onChange={(e) => e.currentTarget.value && go(Number(e.currentTarget.value))}>
+          <option value="">{t("go_to")} …</option>
+          {timeline.recorded?.map((one) => (
+            <option value={String(one.first_us)}>{`${utc(one.first_us)} · ${t("frames")} ${one.station} ${one.name} (${one.frames})`}</option>
+          ))}
+          {marks.map((mark) => (
+            <option value={String(mark.utime_us)}>{describe(mark)}</option>
+          ))}
+        </select>
+      </div>
+    </section>
+  );
+}

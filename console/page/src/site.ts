@@ -1,0 +1,186 @@
+// The site's state as the server sends it (docs/console.md): a snapshot, then the fields that changed.
+
+export type Device = { name: string; state: string; text: string; age_s: number | null };
+// Where a unit may not point: directions of the optical axis, once round; the first at its least pan and tilt.
+export type Border = { keep_out: boolean; outline: [number, number][] }; // azimuth, elevation [deg]
+export type Bearing = { utime_us: number; azimuth_deg: number; elevation_deg: number; sd_deg: number; belief: number };
+// A guided procedure: a calibration.
+export type Procedure = {
+  procedure: string;
+  utime_us: number;
+  state: string; // running, asking, accepted, kept_old, aborted, failed
+  step: string;
+  progress: number | null;
+  elapsed_s: number | null;
+  question: number; // 0: none stands
+  lines: string[];
+  choices: string[];
+  crosshair_px: [number, number] | null; // in the full frame
+  full_px: [number, number];
+  picture: number; // new with each picture; 0: none
+};
+export type Station = {
+  id: string;
+  stale: boolean;
+  utime_us: number;
+  state: string;
+  belief: number | null;
+  latitude_deg: number | null;
+  longitude_deg: number | null;
+  height_m: number | null;
+  position_sd_m: (number | null)[];
+  position_source: string;
+  heading_deg: number | null;
+  heading_sd_deg: number | null;
+  tilt_x_deg: number | null;
+  tilt_y_deg: number | null;
+  tilt_sd_deg: number | null;
+  tilt_source: string;
+  pan_deg: number | null;
+  tilt_deg: number | null;
+  pan_limits_deg: (number | null)[];
+  tilt_limits_deg: (number | null)[];
+  borders?: Border[];
+  azimuth_deg: number | null;
+  elevation_deg: number | null;
+  field_of_view_deg: (number | null)[];
+  image_px: number[];
+  kind?: string; // tracking, overview
+  pan_sign?: number;
+  tilt_sign?: number;
+  lens?: { zoom: number | null; focus: number | null; iris: number | null; focal_length_px: number | null; focal_length_sd_px: number | null } | null;
+  devices: Device[];
+  clock: { state: string; error_s: number | null };
+  frame_latency_s: number | null;
+  alarms: string[];
+  readings: Record<string, number | null>;
+  counters: Record<string, number | null>;
+  last_error: string;
+  last_error_utime_us: number;
+  bearing?: Bearing;
+  control?: { by: string; viewer: number } | null;
+  procedure?: Procedure;
+};
+export type Ellipse = { semi_major_m: number; semi_minor_m: number; azimuth_deg: number };
+export type Target = {
+  id: string;
+  stale: boolean;
+  utime_us: number;
+  state: string;
+  solution: string;
+  estimator: string;
+  latitude_deg: number;
+  longitude_deg: number;
+  height_m: number;
+  sd_enu_m: (number | null)[];
+  covariance_enu_m2?: (number | null)[]; // ee, en, eu, nn, nu, uu
+  ellipse95: Ellipse | null;
+  velocity_enu_m_s: (number | null)[];
+  speed_m_s: number | null;
+  course_deg: number | null;
+  crossing_angle_deg: number | null;
+  residual: number | null;
+  stations: { id: string; used: boolean; weight: number | null; age_s: number | null }[];
+  trail: [number, number, number][]; // longitude, latitude [deg], height [m]
+};
+export type Line = { id: string; stale: boolean; target: string; azimuth_deg: number; elevation_deg: number; sd_deg: number };
+// What others know of a target; stations are led there when an operator allows it.
+export type Cue = {
+  id: string;
+  label: string;
+  state: "waiting" | "searched" | "found" | "forbidden";
+  target: string;
+  age_s: number | null;
+  latitude_deg: number | null;
+  longitude_deg: number | null;
+  height_m: number | null;
+  horizontal_sd_m: number | null;
+  vertical_sd_m: number | null;
+};
+export type Fusion = {
+  stale: boolean;
+  utime_us: number;
+  latency_s: number | null;
+  alarms: string[];
+  last_error: string;
+  counters: Record<string, number | null>;
+  cues: Cue[];
+  stations: { id: string; rate_hz: number | null; quarantine: string; residual: number | null; clock_offset_s: number | null }[];
+};
+export type SiteEvent = {
+  number: number;
+  utime_us: number;
+  kind: string;
+  station: string;
+  who: string;
+  text: string;
+  outcome: string;
+  times: number;
+};
+
+export type Site = {
+  stations: Map<string, Station>;
+  targets: Map<string, Target>;
+  lines: Map<string, Line>;
+  fusion: Fusion | null;
+  events: SiteEvent[]; // newest first
+};
+
+const MOST_EVENTS = 500;
+const MOST_TRAIL_POINTS = 600;
+const TRAIL_PERIOD_US = 400_000;
+
+export function emptySite(): Site {
+  return { stations: new Map(), targets: new Map(), lines: new Map(), fusion: null, events: [] };
+}
+
+type Entity = { id: string };
+
+function merge<T extends Entity>(known: Map<string, T>, changed: Partial<T>[] | undefined, gone: string[] | undefined) {
+  for (const id of gone ?? []) known.delete(id);
+  for (const fields of changed ?? []) {
+    const id = fields.id!;
+    known.set(id, { ...known.get(id), ...fields } as T);
+  }
+}
+
+// The server sends the trail with a snapshot; from then on it grows here.
+function extendTrails(site: Site, changed: Partial<Target>[] | undefined, before: Map<string, number>) {
+  for (const { id } of changed ?? []) {
+    const target = site.targets.get(id!);
+    if (!target || target.latitude_deg == null) continue;
+    target.trail = target.trail ?? [];
+    const last = before.get(id!) ?? 0;
+    if (target.utime_us - last < TRAIL_PERIOD_US) continue;
+    before.set(id!, target.utime_us);
+    target.trail.push([target.longitude_deg, target.latitude_deg, target.height_m]);
+    if (target.trail.length > MOST_TRAIL_POINTS) target.trail.shift();
+  }
+}
+
+function addEvents(site: Site, events: SiteEvent[] | undefined) {
+  for (const event of events ?? []) {
+    const known = site.events.findIndex((one) => one.number === event.number);
+    if (known >= 0) site.events[known] = event;
+    else site.events.unshift(event);
+  }
+  site.events.length = Math.min(site.events.length, MOST_EVENTS);
+}
+
+const trailTimes = new Map<string, number>();
+
+// Applies a message of the kind "snapshot" or "delta" in place.
+export function apply(site: Site, message: any): void {
+  if (message.kind === "snapshot") {
+    Object.assign(site, emptySite());
+    trailTimes.clear();
+  }
+  const gone = message.gone ?? {};
+  merge(site.stations, message.stations, gone.stations);
+  merge(site.targets, message.targets, gone.targets);
+  merge(site.lines, message.lines, gone.lines);
+  for (const id of gone.targets ?? []) trailTimes.delete(id);
+  if (message.kind === "delta") extendTrails(site, message.targets, trailTimes);
+  if (message.fusion) site.fusion = { ...(site.fusion ?? {}), ...message.fusion };
+  addEvents(site, message.events);
+}

@@ -1,0 +1,371 @@
+// The stations' pictures. Picture and overlay are drawn in the same call, from the same message: they
+// always belong together. A box that is dragged belongs to the picture it was dragged on.
+
+import { h } from "preact";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { Hand, HOLD_MS, magnified, Pinch, STILL_PX, type Region } from "./hand";
+import type { Link, Picture } from "./link";
+import { bordersOf, marksOf, type BorderLine, type Mark } from "./marks";
+import type { Station } from "./site";
+import { fixed } from "./format";
+import { named, t } from "./words";
+
+type Box = [number, number, number, number]; // x, y, width, height in the full frame [px]
+const LEAST_DRAG_PX = 4;
+const OLD_S = 5;
+const MOST_WATCHED = 64; // kMostWatched of console/client_message.h
+
+export type Designate = (station: string, frame_utime_us: number, box: Box) => void;
+export type Point = (station: string, command: "centre" | "look", frame_utime_us: number, point: [number, number]) => void;
+
+// Pictures under a person's box: their pixels stay until it is done.
+const drawnOn = new Set<Picture>();
+
+// Pixels of a decoded picture lie outside of what the collector counts.
+function free(picture: Picture) {
+  if (!drawnOn.has(picture)) picture.image.close();
+}
+
+function colour(name: string): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}
+
+function drawCorners(g: CanvasRenderingContext2D, [x, y, w, h]: Box, unit: number, stroke: string) {
+  const arm = Math.max(6 * unit, Math.min(w, h) * 0.28);
+  const pad = 3 * unit;
+  const [l, r, o, u] = [x - pad, x + w + pad, y - pad, y + h + pad];
+  g.beginPath();
+  for (const [cx, cy, dx, dy] of [[l, o, 1, 1], [r, o, -1, 1], [l, u, 1, -1], [r, u, -1, -1]]) {
+    g.moveTo(cx + dx * arm, cy);
+    g.lineTo(cx, cy);
+    g.lineTo(cx, cy + dy * arm);
+  }
+  g.lineWidth = 4 * unit;
+  g.strokeStyle = "rgba(0,0,0,.55)";
+  g.stroke();
+  g.lineWidth = 2 * unit;
+  g.strokeStyle = stroke;
+  g.stroke();
+}
+
+function drawCross(g: CanvasRenderingContext2D, width: number, height: number, unit: number) {
+  const [x, y, inner, outer] = [width / 2, height / 2, 6 * unit, 15 * unit];
+  g.beginPath();
+  for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+    g.moveTo(x + dx * inner, y + dy * inner);
+    g.lineTo(x + dx * outer, y + dy * outer);
+  }
+  g.lineWidth = 1.5 * unit;
+  g.strokeStyle = "rgba(255,255,255,.55)";
+  g.stroke();
+}
+
+function drawMark(g: CanvasRenderingContext2D, { kind, name, at: [x, y] }: Mark, unit: number) {
+  const r = (kind === "target" ? 9 : 6) * unit;
+  g.beginPath();
+  if (kind === "target") {
+    for (const [dx, dy] of [[0, -1], [1, 0], [0, 1], [-1, 0]]) g.lineTo(x + dx * r, y + dy * r);
+    g.closePath();
+  } else {
+    g.rect(x - r, y - r, 2 * r, 2 * r);
+  }
+  g.lineWidth = 3.5 * unit;
+  g.strokeStyle = "rgba(0,0,0,.55)";
+  g.stroke();
+  g.lineWidth = 1.5 * unit;
+  g.strokeStyle = colour(kind === "target" ? "--mark-target" : "--mark-station");
+  g.stroke();
+  g.font = `${12 * unit}px sans-serif`;
+  g.lineWidth = 3 * unit;
+  g.strokeStyle = "rgba(0,0,0,.7)";
+  g.strokeText(name, x + 1.3 * r, y - 0.6 * r);
+  g.fillStyle = "#fff";
+  g.fillText(name, x + 1.3 * r, y - 0.6 * r);
+}
+
+function drawBorder(g: CanvasRenderingContext2D, { keepOut, points }: BorderLine, unit: number) {
+  g.save();
+  g.beginPath();
+  for (const [x, y] of points) g.lineTo(x, y);
+  g.lineWidth = 2 * unit;
+  g.strokeStyle = colour(keepOut ? "--mark-keep-out" : "--mark-travel");
+  g.setLineDash(keepOut ? [10 * unit, 5 * unit] : [3 * unit, 6 * unit]);
+  g.stroke();
+  g.restore();
+}
+
+// Everything in the coordinates of the full frame.
+function draw(canvas: HTMLCanvasElement, picture: Picture, region: Region | null, drawn: Box | null, isTracking: boolean, marks: Mark[], borders: BorderLine[]) {
+  if (!picture.image.width) return; // replaced, and freed: the next one is about to be drawn
+  const [width, height] = picture.full_px;
+  const across = Math.min(1600, Math.max(320, Math.round(canvas.clientWidth * devicePixelRatio)));
+  canvas.width = across;
+  canvas.height = Math.round((across * height) / width);
+  const g = canvas.getContext("2d")!;
+  const [left, top, wide] = region ?? [0, 0, width];
+  const scale = across / wide;
+  g.setTransform(scale, 0, 0, scale, -left * scale, -top * scale);
+  g.drawImage(picture.image, 0, 0, width, height);
+  const unit = devicePixelRatio / scale;
+  drawCross(g, width, height, unit);
+  for (const border of borders) drawBorder(g, border, unit);
+  for (const mark of marks) drawMark(g, mark, unit);
+  if (picture.box_px) drawCorners(g, picture.box_px, unit, colour(isTracking ? "--tracking" : "--warn"));
+  if (!drawn) return;
+  g.lineWidth = 2 * unit;
+  g.strokeStyle = colour("--accent");
+  g.setLineDash([6 * unit, 4 * unit]);
+  g.strokeRect(...drawn);
+}
+
+type Held = { picture: Picture; from: [number, number]; size: string };
+type EyeProps = {
+  link: Link;
+  station: Station;
+  picture: Picture | undefined;
+  large: boolean;
+  mayCommand: boolean;
+  onSelect: () => void;
+  onDesignate: Designate;
+  onPoint: Point;
+};
+
+function Eye({ link, station, picture, large, mayCommand, onSelect, onDesignate, onPoint }: EyeProps) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const held = useRef<Held | null>(null);
+  const [box, setBox] = useState<Box | null>(null);
+  const [region, setRegion] = useState<Region | null>(null);
+  const [looks, setLooks] = useState(false);
+  const now = useRef(station);
+  now.current = station;
+  const hand = useRef<Hand>();
+  hand.current ??= new Hand(link, () => now.current);
+  const pinch = useRef(new Pinch());
+  const pressed = useRef<{ at: [number, number]; stamp: number; what: "" | "box" | "joystick" } | null>(null);
+  const shown = held.current?.picture ?? picture;
+  useEffect(() => {
+    if (canvas.current && shown) draw(canvas.current, shown, region, box, station.state === "tracking", marksOf(link.site, shown), bordersOf(link.site, shown));
+  }, [shown, region, box, station.state === "tracking", large]);
+  const place = (event: MouseEvent): [number, number] => {
+    const rect = canvas.current!.getBoundingClientRect();
+    const [width, height] = shown!.full_px;
+    const clamp = (value: number, most: number) => Math.max(0, Math.min(most, value));
+    const [left, top, wide, high] = region ?? [0, 0, width, height];
+    return [clamp(left + ((event.clientX - rect.left) / rect.width) * wide, width), clamp(top + ((event.clientY - rect.top) / rect.height) * high, height)];
+  };
+  const size = () => [canvas.current!.clientWidth, canvas.current!.clientHeight].join();
+  const hold = (what: Held | null) => {
+    const before = held.current?.picture;
+    held.current = what;
+    if (what) drawnOn.add(what.picture);
+    if (!before || before === what?.picture) return;
+    drawnOn.delete(before);
+    if (before !== picture) before.image.close(); // it was replaced meanwhile
+  };
+  // A press on a small picture makes it large, and no more: a drag would begin in one layout and end in
+  // another, with a box that nobody has drawn.
+  const begin = (event: PointerEvent) => {
+    if (!large) return onSelect();
+    if (!picture || !mayCommand || event.button !== 0) return;
+    canvas.current!.setPointerCapture(event.pointerId);
+    pinch.current.down(event);
+    if (pinch.current.isTwo) return let_go();
+    const from = place(event);
+    hold({ picture, from, size: size() });
+    setBox([...from, 0, 0]);
+    pressed.current = { at: [event.clientX, event.clientY], stamp: event.timeStamp, what: "" };
+  };
+  // By the events' own times: a busy page delays them and does not change what the hand meant.
+  const meant = (press: NonNullable<typeof pressed.current>, event: PointerEvent) => {
+    if (press.what || Math.hypot(event.clientX - press.at[0], event.clientY - press.at[1]) <= STILL_PX) return press.what;
+    press.what = event.timeStamp - press.stamp >= HOLD_MS ? "joystick" : "box";
+    if (press.what === "joystick") send(null);
+    return press.what;
+  };
+  const let_go = () => {
+    pressed.current = null;
+    hand.current!.release();
+    send(null);
+  };
+  const magnify = (event: MouseEvent, factor: number) => {
+    if (!shown || hand.current!.zoomBy(Math.log(factor) / 4)) return;
+    setRegion(magnified(region, shown.full_px, place(event), factor));
+  };
+  const wheel = (event: WheelEvent) => {
+    if (!large || !mayCommand) return;
+    event.preventDefault();
+    magnify(event, Math.exp(-event.deltaY / 400));
+  };
+  const move = (event: PointerEvent) => {
+    if (pinch.current.isTwo) return magnify(event, pinch.current.move(event));
+    const press = pressed.current;
+    if (press) {
+      const [dx, dy] = [event.clientX - press.at[0], event.clientY - press.at[1]];
+      const full = canvas.current!.clientWidth / 3;
+      if (meant(press, event) === "joystick") return hand.current!.push(dx / full, -dy / full);
+    }
+    if (!held.current || !box) return;
+    if (size() !== held.current.size) return send(null); // the layout has changed under the hand
+    const [x0, y0] = held.current.from;
+    const [x, y] = place(event);
+    setBox([Math.min(x0, x), Math.min(y0, y), Math.abs(x - x0), Math.abs(y - y0)]);
+  };
+  const send = (wanted: Box | null) => {
+    const on = held.current?.picture;
+    hold(null);
+    setBox(null);
+    if (!on || !wanted || wanted[2] < LEAST_DRAG_PX || wanted[3] < LEAST_DRAG_PX) return;
+    onDesignate(station.id, on.utime_us, wanted.map((v) => Math.round(v * 10) / 10) as Box);
+  };
+  const end = (event: PointerEvent) => {
+    const press = pressed.current;
+    pinch.current.up(event);
+    pressed.current = null;
+    if (press?.what === "joystick") return hand.current!.release();
+    if (!held.current) return;
+    const { picture: on, from, size: then } = held.current;
+    const still = press && press.what === "" && event.timeStamp - press.stamp < HOLD_MS;
+    send(size() === then && !still ? box : null);
+    if (!still) return;
+    const point = from.map((v) => Math.round(v * 10) / 10) as [number, number];
+    onPoint(station.id, looks || event.shiftKey ? "look" : "centre", on.utime_us, point);
+    setLooks(false);
+  };
+  const steerByKey = (event: KeyboardEvent): boolean => {
+    const arrows: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const zooms: Record<string, number> = { "+": 1, "=": 1, "-": -1 };
+    const slow = event.shiftKey ? 0.4 : 0.8;
+    if (arrows[event.key]) {
+      if (!event.repeat) hand.current!.push(arrows[event.key][0] * slow, arrows[event.key][1] * slow);
+    } else if (event.key in zooms) {
+      const [width, height] = picture!.full_px;
+      if (station.lens?.zoom != null) hand.current!.zoom(zooms[event.key]);
+      else setRegion(magnified(region, [width, height], [width / 2, height / 2], zooms[event.key] > 0 ? 1.3 : 1 / 1.3));
+    } else if (event.key === "l" || event.key === "L") {
+      onPoint(station.id, "look", picture!.utime_us, [picture!.full_px[0] / 2, picture!.full_px[1] / 2]);
+    } else {
+      return false;
+    }
+    return true;
+  };
+  const key = (event: KeyboardEvent) => {
+    if (!picture || !mayCommand) return;
+    if (event.key === "Enter") {
+      event.preventDefault();
+      if (held.current) return send(box);
+      const [width, height] = picture.full_px;
+      hold({ picture, from: [0, 0], size: size() });
+      return setBox([width * 0.47, height * 0.47, width * 0.06, height * 0.06]);
+    }
+    if (!held.current && steerByKey(event)) return event.preventDefault();
+    if (!held.current || !box) return;
+    if (event.key === "Backspace" || event.key === "Delete") return send(null);
+    const steps: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+    const step = steps[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const by = picture.full_px[0] / 100;
+    const [x, y, w, hgt] = box;
+    if (event.shiftKey) setBox([x, y, Math.max(by, w + step[0] * by), Math.max(by, hgt + step[1] * by)]);
+    else setBox([x + step[0] * by, y + step[1] * by, w, hgt]);
+  };
+  useEffect(() => () => let_go(), []);
+  const age_s = shown ? (link.now_us() - shown.utime_us) / 1e6 : NaN;
+  const state = station.stale ? "silent" : station.state;
+  return (
+    <figure class={`eye ${large ? "large" : ""} ${held.current ? "held" : ""}`}>
+      <canvas
+        ref={canvas}
+        role="img"
+        aria-label={station.id}
+        data-utime-us={shown?.utime_us}
+        tabIndex={0}
+        width={640}
+        height={512}
+        onPointerDown={begin}
+        onPointerMove={move}
+        onPointerUp={end}
+        onPointerCancel={(event: PointerEvent) => (pinch.current.up(event), let_go())}
+        onWheel={wheel}
+        onKeyUp={() => hand.current!.release()}
+        onBlur={() => hand.current!.release()}
+        onFocus={(event: FocusEvent) => (event.currentTarget as Element).matches(":focus-visible") && onSelect()}
+        onKeyDown={key}
+      />
+      <figcaption>
+        <b>{station.id}</b>
+        <span class={`state ${state}`}>{named("s", state)}</span>
+        {large && mayCommand && station.kind === "overview" && (
+          <button type="button" aria-pressed={looks} onClick={() => setLooks(!looks)}>
+            {t("look_here")}
+          </button>
+        )}
+        {station.lens?.zoom != null && <span class="age">{`${Math.round(station.lens.zoom * 100)} %`}</span>}
+        <span class={age_s > OLD_S ? "age old" : "age"}>{shown ? `${fixed(Math.max(0, age_s), 1)} s` : t("no_picture")}</span>
+      </figcaption>
+    </figure>
+  );
+}
+
+// The server refuses more: the selected one first, those that are heard before the silent.
+function mostWanted(stations: Station[], selected: string): string[] {
+  const rank = (station: Station) => (station.id === selected ? 0 : station.stale ? 2 : 1);
+  const first = [...stations].sort((a, b) => rank(a) - rank(b)).slice(0, MOST_WATCHED);
+  return first.map((station) => station.id).sort();
+}
+
+type Props = {
+  link: Link;
+  version: number;
+  selected: string;
+  mayCommand: boolean;
+  onSelect: (station: string) => void;
+  onDesignate: Designate;
+  onPoint: Point;
+};
+
+export function VideoView({ link, selected, mayCommand, onSelect, onDesignate, onPoint }: Props) {
+  const pictures = useRef(new Map<string, Picture>());
+  const [, redraw] = useState(0);
+  useEffect(() => {
+    link.onPicture = (picture) => {
+      const replaced = pictures.current.get(picture.station);
+      pictures.current.set(picture.station, picture);
+      if (replaced) free(replaced);
+      redraw((n) => n + 1);
+    };
+  }, []);
+  const stations = [...link.site.stations.values()].sort((a, b) => a.id.localeCompare(b.id));
+  const ids = stations.map((s) => s.id);
+  const wanted = mostWanted(stations, selected);
+  useEffect(() => link.watch(wanted), [wanted.join()]);
+  useEffect(() => {
+    for (const [id, picture] of pictures.current) {
+      if (ids.includes(id)) continue;
+      pictures.current.delete(id);
+      free(picture);
+    }
+  }, [ids.join()]);
+  const large = ids.includes(selected) ? selected : ids[0];
+  return (
+    <section class="video" aria-label={t("video")}>
+      {stations.length === 0 && <p class="nothing">{t("no_station")}</p>}
+      <div class={`eyes ${ids.length === 1 ? "one" : ids.length > 6 ? "many" : ""}`} style={{ "--across": `${Math.max(2, ids.length - 1)}fr`, "--rows": Math.max(1, ids.length - 1) }}>
+        {stations.map((station) => (
+          <Eye
+            key={station.id}
+            link={link}
+            station={station}
+            picture={pictures.current.get(station.id)}
+            large={station.id === large}
+            mayCommand={mayCommand}
+            onSelect={() => onSelect(station.id)}
+            onDesignate={onDesignate}
+            onPoint={onPoint}
+          />
+        ))}
+      </div>
+      {mayCommand && stations.length > 0 && <p class="hint">{`${t("designate_hint")} ${t("hand_hint")}`}</p>}
+    </section>
+  );
+}

@@ -1,0 +1,17 @@
+// The page's files, embedded in the program: made by console/page/build from its sources.
+#pragma once
+
+#include <string_view>
+
+namespace ols::console {
+
+struct PageFile {
+  std::string_view path;  // "/page.js"
+  std::string_view content_type;
+  std::string_view gzipped;
+};
+
+// Nothing if there is no such file; "/" is "/index.html".
+const PageFile* page_file_at(std::string_view path);
+
+}  // namespace ols::console

@@ -1,0 +1,62 @@
+// The guided procedures of the stations (calibrations), as a browser shows and answers them: the
+// state of each goes into the site's, its picture is fetched by itself, an answer is judged by the
+// question that stands. Pure.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "console/entity_table.h"
+
+namespace ols::console {
+
+struct ProcedureHeard {
+  std::string station;
+  Json fields;                       // docs/console.md lists them
+  std::int64_t question = 0;         // 0: none stands
+  std::vector<std::string> choices;  // of the question
+  std::string jpeg;                  // empty: without a picture
+};
+
+struct ProcedureAnswer {
+  std::string station;
+  std::int64_t question = 0;
+  std::string choice;
+  std::optional<std::array<double, 2>> pixel_px;  // in the full frame
+  std::array<double, 2> turn_deg{};               // of "turn": pan, tilt
+};
+
+class Procedures {
+ public:
+  // What the site's state says of it: the fields, and `picture`, a number that is new with each
+  // picture; 0: there is none.
+  Json hear(ProcedureHeard heard);
+  // The newest picture (JPEG) of a station's procedure; null: there is none.
+  const std::string* picture(const std::string& station) const;
+
+  bool has(const std::string& station) const { return kept_.contains(station); }
+  // Why this answer cannot be given; empty: it is on its way. One that ends the procedure ("abort")
+  // is taken whatever stands.
+  std::string answer(const ProcedureAnswer& answer);
+  // Answers to be sent now.
+  std::vector<ProcedureAnswer> take() { return std::exchange(answers_, {}); }
+
+  void keep_only(const std::function<bool(const std::string&)>& is_known);
+
+ private:
+  struct Kept {
+    ProcedureHeard heard;
+    std::uint64_t picture = 0;
+  };
+  std::map<std::string, Kept> kept_;
+  std::uint64_t pictures_ = 0;
+  std::vector<ProcedureAnswer> answers_;
+};
+
+}  // namespace ols::console

@@ -1,0 +1,66 @@
+// Shows a recorded log on the console as if it were now: plays, pauses, jumps. Reads the whole log
+// once beside that, a little in each turn, for the timeline and for snapshots; a jump rebuilds the
+// state from the nearest snapshot before, out of sight, and shows it when it is complete. No clock:
+// time comes in.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "base/log_reader.h"
+#include "console/console.h"
+#include "console/replay/recorded_frames.h"
+#include "console/replay/timeline.h"
+
+namespace ols::console {
+
+class Replay {
+ public:
+  // Throws std::invalid_argument that names the file if there is no message of a site in it.
+  Replay(const std::string& log, RecordedFrames frames, Console& console);
+
+  // Call often: reads, plays, does what viewers have asked.
+  void turn(double monotonic_s);
+  std::string in_one_line() const;
+
+  static constexpr int kScannedAtOnce = 1500;  // messages a turn, of which each takes some 20 us
+  static constexpr int kPlayedAtOnce = 1500;
+
+ private:
+  struct Playback {
+    bool is_playing = true;
+    double speed = 1.0, at_us = 0.0;
+  };
+  struct Told {
+    bool is_urgent = true;  // there is something that viewers are to hear at once
+    std::uint64_t changes = ~std::uint64_t{0};  // of the timeline
+    double timeline_s = -1e9;
+  };
+  void obey();
+  void scan();
+  void seek(std::int64_t at_us);
+  void play(double elapsed_s);
+  void show_frames();
+  void tell();
+  void tell_timeline();
+  std::string problem() const;
+  // Hears what the log has up to an instant; false when there is more than for one turn.
+  bool catch_up(Console& console, std::int64_t until_us);
+
+  const std::string log_;
+  Console& console_;
+  LogReader scanner_, player_;
+  RecordedFrames frames_;
+  Timeline timeline_;
+  std::unique_ptr<Console> scanned_;   // what the scanner has heard
+  std::unique_ptr<Console> ahead_;     // the state that a jump rebuilds; null: none is under way
+  std::optional<BusMessage> waiting_;  // the player's next
+  bool is_scanned_ = false;
+  std::uint64_t not_understood_ = 0;  // of the scanner's messages
+  double turned_s_ = -1.0;
+  Playback playback_;
+  Told told_;
+};
+
+}  // namespace ols::console

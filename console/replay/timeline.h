@@ -1,0 +1,64 @@
+// What a replay knows of a whole recording: snapshots from which the state at any instant is
+// rebuilt, and the events for its timeline. Bounded: when the snapshots are too large together,
+// every second one goes. Pure.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "console/console.h"
+
+namespace ols::console {
+
+struct Snapshot {
+  std::int64_t utime_us = 0;
+  std::uint64_t offset = 0;  // in the log, of what follows
+  std::size_t bytes = 0;     // as text
+  Moment moment;
+};
+
+class Timeline {
+ public:
+  // Everything up to this instant and offset has been heard by this console.
+  void reach(std::int64_t utime_us, std::uint64_t offset, const Console& console);
+  // There is no more.
+  void end(const Console& console) { add_marks(console); }
+  // A target's beginning or end is an event too.
+  void hear(const TargetHeard& target, std::int64_t utime_us);
+
+  // The last one at or before the instant; null before the first.
+  const Snapshot* before(std::int64_t utime_us) const;
+  std::int64_t first_us() const { return first_us_; }
+  std::int64_t last_us() const { return last_us_; }
+  std::size_t snapshots() const { return snapshots_.size(); }
+  // first_us, last_us, marks (utime_us, kind, station, who, text, outcome; in order),
+  // marks_left_out.
+  Json json() const;
+  std::uint64_t changes() const { return changes_; }  // grows with each mark, or change of one
+
+  static constexpr std::size_t kMostMarks = 5000;
+  static constexpr std::size_t kMostTargets = 10'000;  // alive at once; a forged log has more
+  static constexpr std::size_t kMostSnapshotBytes = 8'000'000;  // of all together, as text
+  static constexpr std::int64_t kLook_us = 500'000;
+
+ private:
+  void add_marks(const Console& console);
+  void add_mark(Json mark);
+  void add_snapshot(std::uint64_t offset, const Console& console);
+  void thin_out();
+
+  std::vector<Snapshot> snapshots_;
+  std::size_t snapshot_bytes_ = 0;
+  std::int64_t interval_us_ = 5'000'000;
+  std::int64_t first_us_ = 0, last_us_ = 0, looked_us_ = 0;
+  Revision seen_ = 0;
+  std::vector<Json> marks_;
+  std::map<std::uint64_t, std::size_t> of_event_;  // the mark of an event, by its number
+  std::uint64_t left_out_ = 0, changes_ = 0;
+  std::set<std::string> alive_;
+  std::int64_t fusion_boot_ = 0;
+};
+
+}  // namespace ols::console

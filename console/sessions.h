@@ -1,0 +1,41 @@
+// Who is logged in, by the token in the cookie. Pure: tokens come in.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "console/users.h"
+
+namespace ols::console {
+
+struct Session {
+  std::string name;
+  Role role = Role::kViewer;
+  double until_s = 0.0;  // monotonic
+};
+
+class Sessions {
+ public:
+  explicit Sessions(double length_s) : length_s_(length_s) {}
+  // Beyond kMost, that which ends first makes room.
+  void begin(const std::string& token, const std::string& name, Role role, double now_s);
+  std::optional<Session> find(const std::string& token, double now_s) const;
+  void end(const std::string& token) { sessions_.erase(token); }
+  // Of a person, all of them.
+  void end_of(const std::string& name);
+  // Names with their numbers of sessions.
+  std::map<std::string, int> counts(double now_s) const;
+  static constexpr std::size_t kMost = 200;
+
+ private:
+  double length_s_;
+  std::map<std::string, Session> sessions_;
+};
+
+inline constexpr const char* kCookie = "ols_session";
+// The token in a Cookie header; empty: none.
+std::string token_in(const std::string& cookies);
+
+}  // namespace ols::console

@@ -1,0 +1,177 @@
+#include "console/site_state.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "console/alarm_changes.h"
+
+namespace ols::console {
+namespace {
+
+constexpr double kForgetStation_s = 900.0;
+constexpr double kForgetTarget_s = 20.0;
+constexpr double kLineStale_s = 1.5, kForgetLine_s = 5.0;
+constexpr double kFusionStale_s = 5.0;  // it reports each second, or as often as configured
+constexpr double kTrailPeriod_s = 0.4;
+constexpr const char* kFusion = "fusion";
+
+}  // namespace
+
+void SiteState::note_alarms(const std::string& station, const std::vector<std::string>& alarms,
+                            std::int64_t utime_us) {
+  Kept& kept = kept_[station];
+  const std::vector<std::string> first(
+      alarms.begin(), alarms.begin() + std::min(alarms.size(), std::size_t{kMostAlarms}));
+  const AlarmChanges changes = alarm_changes(kept.alarms, first);
+  for (const auto& text : changes.begun) note({utime_us, "alarm", station, "", text, ""});
+  for (const auto& text : changes.ended) note({utime_us, "alarm_over", station, "", text, ""});
+  kept.alarms = first;
+}
+
+void SiteState::note_error(const std::string& station, const std::string& error,
+                           std::int64_t error_utime_us, std::int64_t utime_us) {
+  Kept& kept = kept_[station];
+  if (kept.last_error == error && kept.last_error_utime_us == error_utime_us) return;
+  kept.last_error = error;
+  kept.last_error_utime_us = error_utime_us;
+  if (!error.empty()) note({utime_us, "error", station, "", error, ""});
+}
+
+void SiteState::hear(const StationHeard& station, const Now& now) {
+  if (!stations_.set(station.id, station.fields, now.monotonic_s, revision_)) {
+    ++refused_;
+    return;
+  }
+  note_alarms(station.id, station.alarms, now.utime_us);
+  note_error(station.id, station.last_error, station.last_error_utime_us, now.utime_us);
+}
+
+void SiteState::hear_bearing(const std::string& station, const Json& bearing) {
+  stations_.mark(station, "bearing", bearing, revision_);
+}
+
+void SiteState::set_holder(const std::string& station, const Json& holder) {
+  stations_.mark(station, "control", holder, revision_);
+}
+
+void SiteState::set_procedure(const std::string& station, const Json& procedure) {
+  stations_.mark(station, "procedure", procedure, revision_);
+}
+
+// Ids of another process mean other objects. One that speaks while the fusion is still heard is no
+// restarted one: a second, or a forged one.
+bool SiteState::is_of_fusion(std::int64_t boot_id, const Now& now) {
+  const bool is_heard = now.monotonic_s < fusion_heard_s_ + kFusionGone_s;
+  if (boot_id != fusion_boot_ && fusion_boot_ != 0 && is_heard) return false;
+  fusion_heard_s_ = now.monotonic_s;
+  if (boot_id == fusion_boot_) return true;
+  if (fusion_boot_ != 0) note({now.utime_us, "site", "", "", "the fusion was restarted", ""});
+  fusion_boot_ = boot_id;
+  targets_.clear(revision_);
+  lines_.clear(revision_);
+  trails_.clear();
+  return true;
+}
+
+void SiteState::add_to_trail(const TargetHeard& target, double now_s) {
+  Trail& trail = trails_[target.id];
+  if (now_s < trail.added_s + kTrailPeriod_s) return;
+  trail.added_s = now_s;
+  trail.points.push_back({target.longitude_deg, target.latitude_deg, target.height_m});
+  if (trail.points.size() > kMostTrailPoints) trail.points.pop_front();
+}
+
+void SiteState::hear(const TargetHeard& target, const Now& now) {
+  using What = TargetHeard::What;
+  if (!is_of_fusion(target.boot_id, now)) return;
+  switch (target.what) {
+    case What::kPosition:
+      if (!targets_.set(target.id, target.fields, now.monotonic_s, revision_)) {
+        ++refused_;
+        return;
+      }
+      add_to_trail(target, now.monotonic_s);
+      return;
+    case What::kLine:
+      if (!lines_.set(target.id, target.fields, now.monotonic_s, revision_)) ++refused_;
+      return;
+    case What::kNoPosition:
+      if (!targets_.find(target.id)) return;
+      for (const auto& [field, value] : target.fields.items()) {
+        targets_.mark(target.id, field, value, revision_);
+      }
+      return;
+    case What::kDropped:
+      targets_.remove(target.id, revision_);
+      trails_.erase(target.id);
+      return;
+    case What::kNothing:
+      return;
+  }
+}
+
+void SiteState::hear(const FusionHeard& fusion, const Now& now) {
+  if (!is_of_fusion(fusion.boot_id, now)) return;
+  fusion_.set(kFusion, fusion.fields, now.monotonic_s, revision_);
+  note_alarms("", fusion.alarms, now.utime_us);
+  note_error("", fusion.last_error, 0, now.utime_us);
+}
+
+void SiteState::look(const Now& now) {
+  const double now_s = now.monotonic_s;
+  for (const auto& id : stations_.age(now_s, kStationStale_s, kForgetStation_s, revision_)) {
+    note({now.utime_us, "site", id, "", "no status any more", ""});
+  }
+  for (const auto& id : fusion_.age(now_s, kFusionStale_s, kForgetStation_s, revision_)) {
+    note({now.utime_us, "site", "", "", "the " + id + " has fallen silent", ""});
+  }
+  targets_.age(now_s, kTargetStale_s, kForgetTarget_s, revision_);
+  lines_.age(now_s, kLineStale_s, kForgetLine_s, revision_);
+  std::erase_if(trails_, [this](const auto& t) { return targets_.find(t.first) == nullptr; });
+  std::erase_if(kept_, [this](const auto& k) {
+    return !k.first.empty() && stations_.find(k.first) == nullptr;
+  });
+}
+
+Json SiteState::counts() const {
+  return {{"stations", stations_.size()},
+          {"stations_silent", stations_.stale()},
+          {"targets", targets_.size()},
+          {"fusion", fusion_.size() > fusion_.stale()}};
+}
+
+Json SiteState::snapshot() const {
+  Json targets = targets_.all();
+  for (Json& target : targets) {
+    const auto trail = trails_.find(target.at("id").get<std::string>());
+    target["trail"] = trail == trails_.end() ? Json::array() : Json(trail->second.points);
+  }
+  const Json* fusion = fusion_.find(kFusion);
+  return {{"kind", "snapshot"},          {"revision", revision_},
+          {"stations", stations_.all()}, {"targets", std::move(targets)},
+          {"lines", lines_.all()},       {"fusion", fusion ? *fusion : Json(nullptr)},
+          {"events", events_.since(0)}};
+}
+
+Json SiteState::changes(Revision since) const {
+  auto stations = stations_.gone(since), targets = targets_.gone(since), lines = lines_.gone(since);
+  if (!stations || !targets || !lines) return snapshot();
+  Json result{{"kind", "delta"}, {"revision", revision_}};
+  const auto add = [&result](const char* name, Json part) {
+    if (!part.empty()) result[name] = std::move(part);
+  };
+  add("stations", stations_.changed(since));
+  add("targets", targets_.changed(since));
+  add("lines", lines_.changed(since));
+  add("events", events_.since(since));
+  const Json fusion = fusion_.changed(since);
+  if (!fusion.empty()) result["fusion"] = fusion.front();
+  Json gone = Json::object();
+  if (!stations->empty()) gone["stations"] = *stations;
+  if (!targets->empty()) gone["targets"] = *targets;
+  if (!lines->empty()) gone["lines"] = *lines;
+  add("gone", std::move(gone));
+  return result;
+}
+
+}  // namespace ols::console

@@ -1,0 +1,94 @@
+// The console's model of the site: stations, targets with their trails, lines of single stations,
+// the fusion, and what happened. Bounded in everything that comes in; what falls silent is marked.
+// Pure.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "console/entity_table.h"
+#include "console/event_list.h"
+#include "console/heard.h"
+
+namespace ols::console {
+
+// `monotonic_s`: of this host, for ages; `utime_us`: its UTC, for people.
+struct Now {
+  double monotonic_s = 0.0;
+  std::int64_t utime_us = 0;
+};
+
+class SiteState {
+ public:
+  void hear(const StationHeard& station, const Now& now);
+  void hear(const TargetHeard& target, const Now& now);
+  void hear(const FusionHeard& fusion, const Now& now);
+  // The newest bearing of a station that has sent a status; others are ignored.
+  void hear_bearing(const std::string& station, const Json& bearing);
+  // The state of a guided procedure of a station.
+  void set_procedure(const std::string& station, const Json& procedure);
+  // Call often.
+  void look(const Now& now);
+
+  std::uint64_t note(Event event) { return events_.add(std::move(event), revision_); }
+  void conclude(std::uint64_t event, const std::string& outcome) {
+    events_.conclude(event, outcome, revision_);
+  }
+  // Who holds control of a station: {"by": NAME, "viewer": N}, or null.
+  void set_holder(const std::string& station, const Json& holder);
+
+  Revision revision() const { return revision_; }
+  // stations, targets (with trails), lines, fusion, events; for GET /api/state and a new viewer.
+  Json snapshot() const;
+  // The same since a revision: changed fields only, and "gone". A snapshot when that is too long
+  // ago to be known.
+  Json changes(Revision since) const;
+  Json events_since(Revision since) const { return events_.since(since); }
+  // Numbers of stations, silent ones, targets; whether there is a fusion.
+  Json counts() const;
+  std::vector<std::string> station_ids() const { return stations_.ids(); }
+  bool knows(const std::string& station) const { return stations_.find(station) != nullptr; }
+  std::uint64_t refused() const { return refused_; }  // names for which there was no room
+
+  static constexpr double kStationStale_s = 2.5;  // five status intervals
+  static constexpr double kTargetStale_s = 1.5;
+  static constexpr double kFusionGone_s = 1.5;
+  static constexpr std::size_t kMostAlarms = 32;  // of a station
+  static constexpr std::size_t kMostStations = 200, kMostTargets = 500, kMostTrailPoints = 600;
+
+ private:
+  struct Kept {  // of a station or, by the empty name, of the fusion
+    std::vector<std::string> alarms;
+    std::string last_error;
+    std::int64_t last_error_utime_us = -1;
+  };
+  struct Trail {
+    std::deque<Json> points;  // [longitude_deg, latitude_deg, height_m, utime_us]
+    double added_s = -1e9;
+  };
+
+  void note_alarms(const std::string& station, const std::vector<std::string>& alarms,
+                   std::int64_t utime_us);
+  void note_error(const std::string& station, const std::string& error, std::int64_t error_utime_us,
+                  std::int64_t utime_us);
+  void add_to_trail(const TargetHeard& target, double now_s);
+  // Whether this is the fusion that counts; another one does once the old one is silent.
+  bool is_of_fusion(std::int64_t boot_id, const Now& now);
+
+  Revision revision_ = 0;
+  EntityTable stations_{kMostStations};
+  EntityTable targets_{kMostTargets};
+  EntityTable lines_{kMostStations};
+  EntityTable fusion_{1};
+  EventList events_;
+  std::map<std::string, Kept> kept_;
+  std::map<std::string, Trail> trails_;
+  std::int64_t fusion_boot_ = 0;
+  double fusion_heard_s_ = -1e9;
+  std::uint64_t refused_ = 0;
+};
+
+}  // namespace ols::console

@@ -1,0 +1,63 @@
+// The console's connection to one station's video socket (docs/video.md): asks for the newest
+// picture, again and again, and connects again after a failure. Of one thread, with the
+// io_context's.
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/length_prefix.h"
+
+namespace ols::console {
+
+// What is asked of every station.
+struct VideoWish {
+  int max_width_px = 960;
+  int quality = 65;
+  double interval_s = 0.0;  // from one picture to the next request
+};
+
+class VideoLink : public std::enable_shared_from_this<VideoLink> {
+ public:
+  // A whole video_frame_t, still encoded; its utime, so that the next request asks for a later one.
+  // Empty: it is none, and the connection ends.
+  using Take = std::function<std::optional<std::int64_t>(std::vector<std::uint8_t>)>;
+
+  VideoLink(boost::asio::io_context& io, const boost::asio::ip::tcp::endpoint& endpoint,
+            const VideoWish& wish, Take take);
+
+  void begin() { connect(); }
+  // Nothing is called after this.
+  void end();
+
+ private:
+  using Error = boost::system::error_code;
+  template <class Next>
+  auto unless_it_fails(Next next);
+  void connect();
+  void ask();
+  void receive();
+  void receive_body(std::uint32_t length);
+  void taken();
+  void fail();
+  // Gives up the connection unless the next step begins in time.
+  void expect_within(double seconds);
+
+  const boost::asio::ip::tcp::endpoint endpoint_;
+  const VideoWish wish_;
+  const Take take_;
+  boost::asio::ip::tcp::socket socket_;
+  boost::asio::steady_timer timer_;
+  LengthPrefix prefix_{};
+  std::vector<std::uint8_t> request_, answer_;
+  std::int64_t last_utime_us_ = 0;
+  bool has_ended_ = false;
+};
+
+}  // namespace ols::console

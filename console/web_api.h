@@ -1,0 +1,105 @@
+// The console's HTTP interface without HTTP: what is answered to which request, who is logged in,
+// and who may open a WebSocket. Pure but for drawing session tokens.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "console/console.h"
+#include "console/console_config.h"
+#include "console/login_limit.h"
+#include "console/maps/tile_store.h"
+#include "console/page_files.h"
+#include "console/sessions.h"
+
+namespace ols::console {
+
+struct WebRequest {
+  std::string method = {}, path = {};
+  std::string host = {}, origin = {}, cookies = {}, content_type = {};
+  std::string body = {};
+  std::string remote = {};  // address of the client
+};
+
+struct WebResponse {
+  int status = 200;
+  std::string content_type = "application/json";
+  std::string body;
+  std::vector<std::pair<std::string, std::string>> headers;
+};
+
+// A log-in whose password has still to be verified: that takes long, and is done elsewhere.
+struct LoginTask {
+  std::string name, password, hash;
+};
+
+// A user to be entered, or given another role or password: the hash takes long, too.
+struct UserTask {
+  std::string by, name, password;
+  Role role = Role::kViewer;
+};
+
+// A question to the users' own maps, which takes a disk's time, and is answered elsewhere.
+struct MapTask {
+  std::string map = {};  // empty: the list of all
+  TileAddress tile = {};
+  bool accuracy = false;  // instead of a tile
+};
+
+using WebAnswer = std::variant<WebResponse, LoginTask, UserTask, MapTask>;
+
+class WebApi {
+ public:
+  using DrawToken = std::function<std::string()>;  // 64 hexadecimal digits that nobody can guess
+  // Keeps the users where they come from; throws std::exception when that fails.
+  using SaveUsers = std::function<void(const Users&)>;
+  WebApi(const ConsoleConfig& config, Users users, Console& console, DrawToken draw_token,
+         SaveUsers save_users);
+
+  WebAnswer answer(const WebRequest& request, const Now& now);
+  WebResponse finish(const LoginTask& task, bool is_verified, const Now& now);
+  WebResponse finish(const UserTask& task, const std::string& hash, const Now& now);
+
+  // Who may open a WebSocket with this request, or the response that refuses it.
+  std::variant<Session, WebResponse> admit(const WebRequest& request, const Now& now) const;
+
+  // Whether the session of a WebSocket lasts: it ends by itself, and with the log-out.
+  bool lasts(const std::string& token, const Now& now) const {
+    return is_open() || sessions_.find(token, now.monotonic_s).has_value();
+  }
+
+  bool is_open() const { return is_open_; }  // without log-in: on loopback, without users
+  // For every response: what a browser must not do with it.
+  static std::vector<std::pair<std::string, std::string>> security_headers(bool is_tls);
+
+ private:
+  std::optional<Session> who(const WebRequest& request, const Now& now) const;
+  std::optional<WebResponse> foreign(const WebRequest& request) const;
+  WebAnswer post(const WebRequest& request, const Now& now);
+  WebAnswer log_in(const WebRequest& request, const Now& now);
+  WebAnswer get(const WebRequest& request, const Now& now) const;
+  WebResponse session(const WebRequest& request, const Now& now) const;
+  std::string admin_problem(const WebRequest& request, const Now& now) const;
+  WebResponse list_users(const WebRequest& request, const Now& now) const;
+  WebAnswer enter_user(const WebRequest& request, const Now& now);
+  WebAnswer remove(const WebRequest& request, const Now& now);
+  WebResponse change_users(Users users, const std::string& by, const std::string& of,
+                           const std::string& what, const Now& now);
+
+  ConsoleConfig config_;
+  Users users_;
+  Console& console_;
+  DrawToken draw_token_;
+  SaveUsers save_users_;
+  bool is_open_;
+  Sessions sessions_;
+  LoginLimit limit_;
+};
+
+inline constexpr std::size_t kMostBodyBytes = 4096;
+
+}  // namespace ols::console
