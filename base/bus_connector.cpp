@@ -7,12 +7,13 @@
 
 namespace ols {
 
-BusConnector::BusConnector(std::string url) : url_(std::move(url)) {}
+BusConnector::BusConnector(std::string url, std::shared_ptr<trust::BusTrust> trust)
+    : url_(std::move(url)), trust_(std::move(trust)) {}
 
 // A detached thread: the destructor of std::async's future would block the program's end.
 void BusConnector::begin() {
-  std::packaged_task<std::unique_ptr<LcmBus>()> attempt([url = url_] {
-    auto bus = std::make_unique<LcmBus>(url);
+  std::packaged_task<std::unique_ptr<LcmBus>()> attempt([url = url_, trust = trust_] {
+    auto bus = std::make_unique<LcmBus>(url, trust);
     bus->listen();
     return bus;
   });

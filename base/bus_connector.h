@@ -12,7 +12,7 @@ namespace ols {
 
 class BusConnector {
  public:
-  explicit BusConnector(std::string url);
+  explicit BusConnector(std::string url, std::shared_ptr<trust::BusTrust> trust = {});
 
   // A bus that passed its self test; nothing until then, with an attempt every second. `now_s`:
   // monotonic. Waits at most wait_s; an attempt ends within kLongest_s.
@@ -26,6 +26,7 @@ class BusConnector {
   void begin();
 
   std::string url_;
+  std::shared_ptr<trust::BusTrust> trust_;
   std::future<std::unique_ptr<LcmBus>> attempt_;
   double due_s_ = 0.0;
   std::string trouble_;

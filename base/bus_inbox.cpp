@@ -1,8 +1,11 @@
 #include "base/bus_inbox.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 #include <variant>
+
+#include "base/clocks.h"
 
 namespace ols {
 namespace {
@@ -10,7 +13,7 @@ namespace {
 // Memory used by a queued message.
 std::size_t cost(const BusMessage& message) {
   constexpr std::size_t kKeeping = 160;  // [byte] overhead besides names and payload
-  return kKeeping + message.channel.size() + message.payload.size();
+  return kKeeping + message.channel.size() + message.payload.size() + message.trailer.size();
 }
 
 }  // namespace
@@ -25,22 +28,55 @@ void BusInbox::subscribe(const std::string& channel_regex, Handler handler, Queu
 
 void BusInbox::put(std::span<const std::uint8_t> datagram, std::int64_t utime_us) {
   const auto parsed = parse_datagram(datagram);
-  const std::lock_guard lock(mutex_);
   if (const auto* fault = std::get_if<DatagramFault>(&parsed)) {
+    const std::lock_guard lock(mutex_);
     ++(*fault == DatagramFault::kFragment ? traffic_.fragments : traffic_.malformed);
     return;
   }
-  ++traffic_.received;
-  deliver(std::get<BusDatagram>(parsed), utime_us);
+  const auto& whole = std::get<BusDatagram>(parsed);
+  // A station would else verify the bearings of all others.
+  if (!is_wanted(whole.channel)) return;
+  // Not under the lock: to verify takes longer than to queue, and the owner must not wait for it.
+  const trust::Judgement judgement = judge(whole, utime_us);
+  const std::lock_guard lock(mutex_);
+  count(whole, judgement);
+  if (judgement.passes) deliver({whole, judgement, utime_us});
 }
 
-void BusInbox::deliver(const BusDatagram& datagram, std::int64_t utime_us) {
-  if (datagram.channel == kSelfTestChannel) return;
+bool BusInbox::is_wanted(std::string_view channel) {
+  const std::lock_guard lock(mutex_);
+  ++traffic_.received;
+  if (channel == kSelfTestChannel) return false;
+  if (trust_ != nullptr && trust_->wants(channel)) return true;
+  return std::ranges::any_of(subscriptions_, [channel](const auto& subscription) {
+    return subscription->pattern.matches(channel);
+  });
+}
+
+trust::Judgement BusInbox::judge(const BusDatagram& datagram, std::int64_t utime_us) {
+  if (trust_ == nullptr) return {trust::without_trailer(datagram.payload)};
+  return trust_->judge(datagram.channel, datagram.payload, utime_us, clock_monotonic_s());
+}
+
+void BusInbox::count(const BusDatagram& datagram, const trust::Judgement& judgement) {
+  if (!judgement.distrust) return;
+  ++traffic_.distrusted.at(static_cast<std::size_t>(*judgement.distrust));
+  traffic_.distrusted_last = std::string(datagram.channel) + ": " +
+                             trust::to_string(*judgement.distrust) +
+                             (judgement.sender.empty() ? "" : ", by " + judgement.sender);
+}
+
+void BusInbox::deliver(const Admitted& admitted) {
+  const BusDatagram& datagram = admitted.datagram;
+  const auto& payload = admitted.judgement.payload;
+  const auto trailer = datagram.payload.subspan(payload.size());
   for (const auto& subscription : subscriptions_) {
     if (!subscription->pattern.matches(datagram.channel)) continue;
     BusMessage message{std::string(datagram.channel),
-                       {datagram.payload.begin(), datagram.payload.end()},
-                       utime_us};
+                       {payload.begin(), payload.end()},
+                       admitted.utime_us,
+                       {trailer.begin(), trailer.end()},
+                       admitted.judgement.addressed};
     if (subscription->express && subscription->express(message)) continue;
     enqueue(*subscription, std::move(message));
   }

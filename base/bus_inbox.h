@@ -17,6 +17,7 @@
 
 #include "base/bus_datagram.h"
 #include "base/channel_pattern.h"
+#include "base/trust/bus_trust.h"
 
 namespace ols {
 
@@ -26,7 +27,11 @@ inline constexpr const char* kSelfTestChannel = "LCM_SELF_TEST";
 struct BusMessage {
   std::string channel;
   std::vector<std::uint8_t> payload;
-  std::int64_t received_utime_us = 0;  // this host's clock
+  std::int64_t received_utime_us = 0;   // this host's clock
+  std::vector<std::uint8_t> trailer{};  // the signature, as received (base/trust/trailer.h)
+  // A command that names this process's boot; of others only a stop may be obeyed. Always true
+  // where signatures are not required.
+  bool addressed = true;
 };
 
 // The limit of one subscription's queue. The oldest messages are displaced.
@@ -42,6 +47,10 @@ struct BusTraffic {
   std::uint64_t malformed = 0;   // refused: foreign, or with a damaged channel name
   std::uint64_t overflowed = 0;  // displaced by newer ones before they were handled
   std::uint64_t unsendable = 0;  // own messages that fit into no datagram
+  // Not believed, by reason (trust::Distrust); refused where signatures are required.
+  std::array<std::uint64_t, static_cast<std::size_t>(trust::Distrust::kCount)> distrusted{};
+  std::string distrusted_last{};  // the last such message, for a person
+  std::string trust_trouble{};    // what a person should put right in keys and trust list
 };
 
 class BusInbox {
@@ -50,6 +59,9 @@ class BusInbox {
   // Called in the receiving thread before queueing: true if the message is completely handled. It
   // is then not queued, so that no flood can displace it.
   using Express = std::function<bool(const BusMessage&)>;
+
+  // Null: signatures are ignored.
+  explicit BusInbox(std::shared_ptr<trust::BusTrust> trust = {}) : trust_(std::move(trust)) {}
 
   // Throws std::invalid_argument if it is not a regular expression.
   void subscribe(const std::string& channel_regex, Handler handler, QueueLimits limits = {},
@@ -77,7 +89,15 @@ class BusInbox {
     std::size_t bytes = 0;  // of what waits
   };
 
-  void deliver(const BusDatagram& datagram, std::int64_t utime_us);
+  struct Admitted {
+    const BusDatagram& datagram;
+    trust::Judgement judgement;
+    std::int64_t utime_us;
+  };
+  bool is_wanted(std::string_view channel);
+  trust::Judgement judge(const BusDatagram& datagram, std::int64_t utime_us);
+  void count(const BusDatagram& datagram, const trust::Judgement& judgement);
+  void deliver(const Admitted& admitted);
   void enqueue(Subscription& subscription, BusMessage message);
   Subscription* first_waiting();
   struct Taken {
@@ -86,6 +106,7 @@ class BusInbox {
   };
   std::optional<Taken> take(int timeout_ms);
 
+  const std::shared_ptr<trust::BusTrust> trust_;
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;  // none is ever removed

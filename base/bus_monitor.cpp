@@ -4,8 +4,26 @@ namespace ols {
 namespace {
 
 BusTraffic operator+(const BusTraffic& a, const BusTraffic& b) {
-  return {a.received + b.received, a.fragments + b.fragments, a.malformed + b.malformed,
-          a.overflowed + b.overflowed, a.unsendable + b.unsendable};
+  BusTraffic sum{a.received + b.received, a.fragments + b.fragments, a.malformed + b.malformed,
+                 a.overflowed + b.overflowed, a.unsendable + b.unsendable};
+  for (std::size_t i = 0; i < sum.distrusted.size(); ++i) {
+    sum.distrusted[i] = a.distrusted[i] + b.distrusted[i];
+  }
+  sum.distrusted_last = b.distrusted_last.empty() ? a.distrusted_last : b.distrusted_last;
+  sum.trust_trouble = b.trust_trouble;
+  return sum;
+}
+
+// "2 unsigned, 1 replayed": what came since.
+std::string reasons(const BusTraffic& now, const BusTraffic& before) {
+  std::string text;
+  for (std::size_t i = 0; i < now.distrusted.size(); ++i) {
+    const std::uint64_t more = now.distrusted[i] - before.distrusted[i];
+    if (more == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(more) + " " +
+            trust::to_string(static_cast<trust::Distrust>(i));
+  }
+  return text;
 }
 
 }  // namespace
@@ -18,6 +36,8 @@ void BusMonitor::look(const BusTraffic& connection, double now_s) {
                     connection.malformed > current_.malformed ||
                     connection.overflowed > current_.overflowed;
   if (more) refused_s_ = now_s;
+  if (!distrusted_s_ || now_s - *distrusted_s_ > kAlarm_s) trusting_ = total();
+  if (connection.distrusted != current_.distrusted) distrusted_s_ = now_s;
   current_ = connection;
 }
 
@@ -32,6 +52,12 @@ void BusMonitor::count(std::map<std::string, double>& counters) const {
   counters["bus_datagrams_malformed"] = static_cast<double>(all.malformed);
   counters["bus_messages_overflowed"] = static_cast<double>(all.overflowed);
   counters["bus_messages_unsendable"] = static_cast<double>(all.unsendable);
+  for (std::size_t i = 0; i < all.distrusted.size(); ++i) {
+    const std::string reason = trust::to_string(static_cast<trust::Distrust>(i));
+    if (all.distrusted[i] > 0) {
+      counters["bus_distrusted_" + reason] = static_cast<double>(all.distrusted[i]);
+    }
+  }
 }
 
 std::string BusMonitor::alarm(double now_s) const {
@@ -41,6 +67,22 @@ std::string BusMonitor::alarm(double now_s) const {
          std::to_string(all.malformed - calm_.malformed) + " malformed datagrams refused, " +
          std::to_string(all.overflowed - calm_.overflowed) +
          " messages displaced by newer ones: a flood, or a foreign program on the bus";
+}
+
+std::string BusMonitor::trust_alarm(double now_s) const {
+  if (!current_.trust_trouble.empty()) return current_.trust_trouble;
+  if (!distrusted_s_ || now_s - *distrusted_s_ > kAlarm_s) return {};
+  const BusTraffic all = total();
+  return "trust: messages not believed: " + reasons(all, trusting_) +
+         "; the last: " + all.distrusted_last;
+}
+
+std::vector<std::string> BusMonitor::alarms(double now_s) const {
+  std::vector<std::string> alarms;
+  for (const std::string& one : {alarm(now_s), trust_alarm(now_s)}) {
+    if (!one.empty()) alarms.push_back(one);
+  }
+  return alarms;
 }
 
 }  // namespace ols

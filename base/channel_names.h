@@ -12,13 +12,20 @@ inline constexpr std::string_view kStatusChannel = "OLS_STATUS_";
 inline constexpr std::string_view kPreviewChannel = "OLS_PREVIEW_";
 inline constexpr std::string_view kSlewChannel = "OLS_SLEW_";
 inline constexpr std::string_view kPtuChannel = "OLS_PTU_";
+inline constexpr std::string_view kLensChannel = "OLS_LENS_";
 inline constexpr std::string_view kDesignateChannel = "OLS_DESIGNATE_";
 inline constexpr std::string_view kRecordChannel = "OLS_RECORD_";
+inline constexpr std::string_view kFrameRequestChannel = "OLS_FRAME_REQUEST_";
+inline constexpr std::string_view kFrameChannel = "OLS_FRAME_";
+inline constexpr std::string_view kProcedureChannel = "OLS_PROCEDURE_";
+inline constexpr std::string_view kProcedureAnswerChannel = "OLS_PROCEDURE_ANSWER_";
 
 // One for the site.
 inline constexpr std::string_view kTargetChannel = "OLS_TARGET";
 inline constexpr std::string_view kPaperTargetChannel = "OLS_TARGET_PAPER";
 inline constexpr std::string_view kFusionStatusChannel = "OLS_FUSION_STATUS";
+inline constexpr std::string_view kCueChannel = "OLS_CUE";
+inline constexpr std::string_view kCueOrderChannel = "OLS_CUE_ORDER";
 
 inline std::string station_channel(std::string_view channel, std::string_view station) {
   return std::string(channel).append(station);

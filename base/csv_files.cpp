@@ -5,7 +5,6 @@
 #include <set>
 
 #include "base/csv_rows.h"
-#include "base/fix_writer.h"
 
 namespace ols {
 namespace {
@@ -188,12 +187,6 @@ std::vector<FlightRow> read_flight(const std::string& path) {
   });
   if (flight.size() < 2) throw CsvError(path + ": at least two rows are needed");
   return flight;
-}
-
-void write_fixes(const std::string& path, const std::vector<FixRow>& fixes) {
-  FixWriter writer(path);
-  for (const FixRow& fix : fixes) writer.add(fix);
-  writer.commit();
 }
 
 }  // namespace ols

@@ -1,6 +1,6 @@
-// The offline formats: stations.csv and bearings.csv in, fixes.csv out; a surveyor's landmarks and
-// their sightings in; a flight for the simulator. Degrees, as
-// in the files.
+// The files that the offline programs read: stations.csv, bearings.csv; a surveyor's landmarks and
+// their sightings; a flight for the simulator. Degrees, as in the files. What they write is in
+// fix_writer.h.
 //
 // Columns are found by the header's names, in any order; unknown ones are ignored. Numbers must be
 // plain decimal, finite and in range, ids without commas, quotes and control characters. Any bad
@@ -88,21 +88,6 @@ struct FlightRow {
   double height_m = 0.0;  // above the WGS84 ellipsoid
 };
 
-struct FixRow {
-  std::int64_t utime_us = 0;
-  std::string target;
-  double latitude_deg = 0.0;
-  double longitude_deg = 0.0;
-  double height_m = 0.0;
-  double east_sd_m = 0.0;
-  double north_sd_m = 0.0;
-  double up_sd_m = 0.0;
-  int stations_used = 0;
-  int stations_set_aside = 0;
-  double crossing_angle_deg = 0.0;
-  double residual = 0.0;  // RMS of the normalised residuals; NaN: empty cell
-};
-
 // At least one row; station ids are unique.
 std::vector<StationRow> read_stations(const std::string& path);
 // At least one row, in the order of the file; every row's station is one of `stations`. The first
@@ -119,7 +104,5 @@ std::vector<SurveyRow> read_survey(const std::string& path);
 std::vector<SightedRow> read_sighted(const std::string& path, const std::vector<SurveyRow>& survey);
 // At least two rows; utime_us grows.
 std::vector<FlightRow> read_flight(const std::string& path);
-// Writes the whole file; on an error (std::system_error) the old one is left unchanged.
-void write_fixes(const std::string& path, const std::vector<FixRow>& fixes);
 
 }  // namespace ols

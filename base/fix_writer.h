@@ -1,12 +1,27 @@
-// Writes fixes.csv (csv_files.h), row by row: a million of them need not be in memory.
+// Writes fixes.csv row by row: a million of them need not be in memory.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "base/atomic_file.h"
-#include "base/csv_files.h"
 
 namespace ols {
+
+struct FixRow {
+  std::int64_t utime_us = 0;
+  std::string target;
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+  double height_m = 0.0;
+  double east_sd_m = 0.0;
+  double north_sd_m = 0.0;
+  double up_sd_m = 0.0;
+  int stations_used = 0;
+  int stations_set_aside = 0;
+  double crossing_angle_deg = 0.0;
+  double residual = 0.0;  // RMS of the normalised residuals; NaN: empty cell
+};
 
 class FixWriter {
  public:

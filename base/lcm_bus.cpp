@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/clocks.h"
+#include "base/trust/messages_trust.h"
 
 namespace ols {
 namespace {
@@ -26,7 +27,8 @@ std::unique_ptr<MulticastSocket> open_socket(const std::string& url) {
 
 }  // namespace
 
-LcmBus::LcmBus(const std::string& url) : url_(url), socket_(open_socket(url)) {}
+LcmBus::LcmBus(const std::string& url, std::shared_ptr<trust::BusTrust> trust)
+    : url_(url), trust_(std::move(trust)), socket_(open_socket(url)), inbox_(trust_) {}
 
 LcmBus::~LcmBus() { stop_listening(); }
 
@@ -87,6 +89,11 @@ void LcmBus::subscribe(const std::string& channel_regex, Handler handler, QueueL
 }
 
 bool LcmBus::send(const std::string& channel, std::span<const std::uint8_t> payload) {
+  std::vector<std::uint8_t> with_signature;
+  if (trust_ != nullptr && channel != kSelfTestChannel) {
+    with_signature = trust_->sign(channel, payload);
+    payload = with_signature;
+  }
   const auto datagram = make_datagram(sequence_++, channel, payload);
   if (datagram.empty()) {
     ++unsendable_;
@@ -119,14 +126,26 @@ void LcmBus::check_hearing() {
 int LcmBus::handle(int timeout_ms) {
   constexpr int kMost = 256;
   check_hearing();
+  tell_trust_list();
   int handled = 0;
   while (handled < kMost && inbox_.handle_one(handled == 0 ? timeout_ms : 0)) ++handled;
   return handled;
 }
 
+// The sequence must grow within the boot, also over a new connection.
+void LcmBus::tell_trust_list() {
+  if (trust_ == nullptr) return;
+  const std::int64_t utime_us = clock_utime_us();
+  if (const auto list = trust_->list_to_tell(clock_monotonic_s())) {
+    publish(std::string(trust::kTrustChannel),
+            trust::to_message(*list, trust_->boot_id(), utime_us, utime_us));
+  }
+}
+
 BusTraffic LcmBus::traffic() const {
   BusTraffic traffic = inbox_.traffic();
   traffic.unsendable = unsendable_;
+  if (trust_ != nullptr) traffic.trust_trouble = trust_->trouble();
   return traffic;
 }
 

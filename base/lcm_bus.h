@@ -1,6 +1,6 @@
 // A connection to the bus: LCM messages over UDP multicast, or within one process. Datagrams are
 // parsed by this project's own code (bus_datagram.h says why); LCM provides the types, the wire
-// format and the logs.
+// format and the logs. The one place where a process signs and verifies (base/trust/bus_trust.h).
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,8 @@ class LcmBus {
   using Express = BusInbox::Express;
 
   // Throws BusError, with advice, if the URL is malformed or there is no multicast route.
-  explicit LcmBus(const std::string& url);
+  // `trust`: of the process, for all of its connections; null: nothing is signed or verified.
+  explicit LcmBus(const std::string& url, std::shared_ptr<trust::BusTrust> trust = {});
   ~LcmBus();
 
   // Starts to receive, as the first subscription does. Throws BusError if the self-test message
@@ -72,8 +73,10 @@ class LcmBus {
   void hear_oneself();
   void send_self_test();
   void check_hearing();
+  void tell_trust_list();
 
   std::string url_;
+  std::shared_ptr<trust::BusTrust> trust_;
   std::unique_ptr<MulticastSocket> socket_;  // nothing: within this process
   BusInbox inbox_;
   std::uint32_t sequence_ = 0;

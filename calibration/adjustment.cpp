@@ -163,6 +163,22 @@ Fit Adjustment::fit(State start, const std::vector<bool>& kept) const {
   return result;
 }
 
+StationMatrix Adjustment::planned_covariance(std::size_t station) const {
+  std::vector<double> headings_rad;
+  for (const StationPrior& prior : network_.stations) {
+    headings_rad.push_back(prior.model.geometry.chain.heading_rad);
+  }
+  const std::vector<bool> used(network_.blocks.size(), true);
+  const Normal there = normal(start(headings_rad), used, 0.0);
+  if (!there.valid) return StationMatrix::Constant(std::numeric_limits<double>::infinity());
+  const Index first = network_.layout.station(station);
+  const MatrixXd unit =
+      MatrixXd::Identity(there.N.rows(), there.N.cols()).middleCols(first, kStationParameters);
+  const VectorXd scale = scale_.segment(first, kStationParameters);
+  return scale.asDiagonal() * there.N.ldlt().solve(unit).middleRows(first, kStationParameters) *
+         scale.asDiagonal();
+}
+
 // A rejected group's nuisance follows the kept ones: a few steps of its own.
 void Adjustment::fit_rejected(Fit& fit, const std::vector<bool>& used) const {
   constexpr int kSteps = 5;
@@ -197,6 +213,7 @@ BlockEquations Adjustment::equations(const Fit& fit, std::size_t group) const {
     sum.squares += one.squares;
     sum.misfit += one.misfit;
     sum.shift_information += one.shift_information;
+    sum.shift_gradient += one.shift_gradient;
     sum.residuals.insert(sum.residuals.end(), one.residuals.begin(), one.residuals.end());
     sum.weights.insert(sum.weights.end(), one.weights.begin(), one.weights.end());
     std::vector<Index> at;

@@ -27,6 +27,9 @@ class Adjustment {
   // As the priors have it, but for the headings.
   State start(const std::vector<double>& headings_rad) const;
   Fit fit(State start, const std::vector<bool>& kept) const;
+  // What all groups together would leave of a station's parameters, if everything were as the
+  // priors have it: no pixel counts. Infinite where a target could not be seen.
+  StationMatrix planned_covariance(std::size_t station) const;
   // A group's equations, its blocks' summed, over the columns of all of them.
   BlockEquations equations(const Fit& fit, std::size_t group) const;
 

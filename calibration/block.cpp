@@ -167,6 +167,7 @@ BlockEquations eliminated(const MatrixXd& N, const VectorXd& b, double squares, 
   if (shift > 0) {
     result.shift_information = reduced.bottomRightCorner<2, 2>();
     result.shift_by = reduced.topRightCorner(columns, 2);
+    result.shift_gradient = gradient.tail<2>();
   }
   return result;
 }

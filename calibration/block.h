@@ -25,11 +25,15 @@ struct BlockEquations {
   // For a shift of the target by one radian as seen from the station, across and up.
   Eigen::Matrix2d shift_information = Eigen::Matrix2d::Zero();
   Eigen::Matrix<double, Eigen::Dynamic, 2> shift_by;
+  Eigen::Vector2d shift_gradient = Eigen::Vector2d::Zero();
   // By sighting [px], in the order of the block's.
   std::vector<Eigen::Vector2d> residuals;
   std::vector<double> weights;  // below 1: a scene point that a robust weight holds back
   bool valid = true;            // false: a target is behind the camera or outside of the lens model
 };
+
+class Block;
+using BlockPtr = std::shared_ptr<const Block>;
 
 class Block {
  public:
@@ -40,8 +44,9 @@ class Block {
   virtual BlockEquations equations(const State& state, std::size_t block, double damping) const = 0;
   // The heading of its station with which the block's first sighting is where its target is.
   virtual std::optional<double> heading(const State&, std::size_t) const { return std::nullopt; }
+  // The block with what one station has sighted of its target; none, if that is nothing.
+  virtual BlockPtr of_station(std::size_t) const { return nullptr; }
 };
-using BlockPtr = std::shared_ptr<const Block>;
 
 struct PixelBlockConfig {
   Layout layout;

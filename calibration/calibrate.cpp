@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <set>
 
@@ -14,6 +15,14 @@ namespace {
 
 constexpr double kPower = 0.8;
 
+bool is_finite(const Fit& fit) {
+  return std::isfinite(fit.misfit) && fit.covariance.allFinite() &&
+         (fit.covariance.diagonal().array() >= 0.0).all();
+}
+
+// Nothing of a fit is accepted before this.
+bool is_settled(const Fit& fit) { return fit.converged && is_finite(fit); }
+
 // The groups of the tests' kinds whose statistic is worst over their critical value; none above 1.
 class Snooping {
  public:
@@ -24,7 +33,8 @@ class Snooping {
     const Start start = find_start(adjustment_, levels_.mistaken);
     Fit fit = adjustment_.fit(start.state, start.kept);
     // Each round rejects one group or takes one back; a set that was tried before ends it.
-    while (tried_.insert(fit.kept).second) {
+    // Observations that contradict each other may not converge before some are rejected.
+    while (is_finite(fit) && tried_.insert(fit.kept).second) {
       const auto change = next_change(fit);
       if (!change) break;
       std::vector<bool> kept = fit.kept;
@@ -78,6 +88,17 @@ std::string listed(const std::vector<Group>& groups, const std::vector<std::size
   return text;
 }
 
+// Rectification targets alone: they are for the instrument.
+bool is_rectification(const Adjustment& adjustment) {
+  const auto& groups = adjustment.groups();
+  const auto tells_heading = [](const Group& group) {
+    return group.is_absolute() || group.kind == Kind::kTrack;
+  };
+  return std::ranges::none_of(groups, tells_heading) &&
+         std::ranges::any_of(
+             groups, [](const Group& group) { return is_rectification_target(group.kind); });
+}
+
 void check_heading(const Adjustment& adjustment, const Fit& fit) {
   constexpr double kKnown_rad = 0.17;  // ten degrees
   const Layout& layout = adjustment.network().layout;
@@ -116,7 +137,7 @@ void check_ambiguity(const Adjustment& adjustment, const Fit& fit, const Levels&
     other[rejected[0]] = true;
     other[g] = false;
     const Fit instead = adjustment.fit(fit.state, other);
-    if (instead.misfit > fit.misfit + kNoDoubt) continue;
+    if (!is_settled(instead) || instead.misfit > fit.misfit + kNoDoubt) continue;
     const double worst = test_statistic(adjustment, instead, rejected[0]);
     if (worst > critical_value(groups[rejected[0]], groups.size(), levels.mistaken)) continue;
     throw Contradiction("the observations contradict each other: all others agree without " +
@@ -222,6 +243,31 @@ void remark_single(const Adjustment& adjustment, Calibration& result) {
                            " is the only reference: nothing checks it");
 }
 
+// A lens that was refocused: its focal length changes by half a thousandth and more, and the
+// instrument says that it is known better. The change of a parameter from its prior has the
+// variance that the adjustment has taken off.
+void remark_focal(const Adjustment& adjustment, Calibration& result) {
+  constexpr double kCritical = 3.29;  // one in a thousand
+  const Network& network = adjustment.network();
+  for (std::size_t s = 0; s < network.stations.size(); ++s) {
+    const int focal = network.layout.station(s) + kFocal;
+    const double prior = network.stations[s].covariance(kFocal, kFocal);
+    const double taken_off = prior - result.fit.covariance(focal, focal);
+    const double change_px = result.fit.state.stations[s].change[kFocal];
+    constexpr double kTold = 0.05;  // of the prior: else the observations say nothing of it
+    if (taken_off < kTold * prior || std::abs(change_px) < kCritical * std::sqrt(taken_off)) {
+      continue;
+    }
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "': its focal length is off by %.2f thousandths, %.1f sigma: was the lens refocused?",
+        1e3 * change_px / network.stations[s].model.geometry.camera.fx_px,
+        std::abs(change_px) / std::sqrt(taken_off));
+    result.remarks.push_back("station '" + network.names[s] + text);
+  }
+}
+
 void remark_rejected(const Adjustment& adjustment, Calibration& result) {
   for (std::size_t g = 0; g < result.tests.size(); ++g) {
     if (!result.tests[g].rejected) continue;
@@ -240,12 +286,16 @@ StationMatrix Calibration::covariance(const Network& network, std::size_t statio
 Calibration calibrate(const Adjustment& adjustment, const Levels& levels) {
   Calibration result;
   result.fit = Snooping(adjustment, levels).run();
-  check_heading(adjustment, result.fit);
+  if (!is_settled(result.fit)) throw std::invalid_argument("the adjustment does not converge");
+  result.headings_known = !is_rectification(adjustment);
+  if (result.headings_known) {
+    check_heading(adjustment, result.fit);
+  } else {
+    result.remarks.emplace_back(
+        "nothing that was observed tells a heading: the result is an instrument without a setup");
+  }
   check_majority(adjustment, result.fit);
   check_ambiguity(adjustment, result.fit, levels);
-  if (!std::isfinite(result.fit.misfit) || !result.fit.converged) {
-    throw std::invalid_argument("the adjustment does not converge");
-  }
   result.tests = tests_of(adjustment, result.fit, levels);
   result.global = global_test(adjustment, result.fit, levels.misfit);
   if (result.global.variance_factor > result.global.critical) {
@@ -255,6 +305,7 @@ Calibration calibrate(const Adjustment& adjustment, const Levels& levels) {
   }
   remark_rejected(adjustment, result);
   remark_single(adjustment, result);
+  remark_focal(adjustment, result);
   remark_scene(adjustment, result);
   add_residuals(adjustment, result);
   return result;

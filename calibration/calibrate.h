@@ -45,6 +45,9 @@ struct Calibration {
   // Of one station's parameters, enlarged by the variance factor if the global test fails.
   StationMatrix covariance(const Network& network, std::size_t station) const;
   double scaled_by = 1.0;  // the deviations
+  // Not where rectification targets were sighted and nothing that tells where the stations look:
+  // then only the instruments are a result.
+  bool headings_known = true;
 };
 
 // The observations contradict each other, and not so that a minority can be named.

@@ -2,27 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
 
+#include "calibration/rectification_block.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
 namespace {
 
-[[noreturn]] void refuse(const Observation& one, const std::string& key, const std::string& why) {
-  throw ObservationRefused(one.line, key, why);
+// `one` is an element of the problem's observations.
+[[noreturn]] void refuse(const Problem& problem, const Observation& one, const std::string& key,
+                         const std::string& why, const Observation* other = nullptr) {
+  const auto index = [&problem](const Observation& of) {
+    return static_cast<std::size_t>(&of - problem.observations.data());
+  };
+  throw ObservationRefused(index(one), key, why,
+                           other ? std::optional(index(*other)) : std::nullopt);
 }
 
 template <class T>
 const T& reference_as(const Problem& problem, const Observation& one, const char* what) {
   const auto found = problem.references.find(one.reference);
   if (found == problem.references.end()) {
-    refuse(one, "reference", "'" + one.reference + "' is not one of the references");
+    refuse(problem, one, "reference", "'" + one.reference + "' is not one of the references");
   }
   const T* reference = std::get_if<T>(&found->second);
-  if (!reference) refuse(one, "reference", "'" + one.reference + "' is not " + what);
+  if (!reference) refuse(problem, one, "reference", "'" + one.reference + "' is not " + what);
   return *reference;
 }
 
@@ -33,17 +41,30 @@ const Trajectory& trajectory_of(const Problem& problem, const Observation& one) 
   const std::int64_t slack_us = one.kind == Kind::kAircraft ? 5'000'000 : 0;
   if (one.utime_us < trajectory.points.front().utime_us - slack_us ||
       one.utime_us > trajectory.points.back().utime_us + slack_us) {
-    refuse(one, "utime_us", "is outside of the trajectory of '" + one.reference + "'");
+    refuse(problem, one, "utime_us", "is outside of the trajectory of '" + one.reference + "'");
   }
   return trajectory;
+}
+
+bool is_sun(const Observation& one) {
+  return one.kind == Kind::kSun || (one.kind == Kind::kStar && one.reference == "sun");
+}
+
+// A name that the references do not give to something else.
+std::optional<Planet> planet_seen(const Problem& problem, const Observation& one) {
+  if (one.kind != Kind::kStar || problem.references.contains(one.reference)) return std::nullopt;
+  return planet_of(one.reference);
 }
 
 SkyDirection sky_of(const Problem& problem, const Observation& one) {
   const Geodetic& place = problem.stations[one.station].model.geometry.position;
   const Air air = problem.air.value_or(standard_air(place.height_m));
-  if (one.kind == Kind::kSun) return sun_direction(one.utime_us, place, air, problem.earth);
+  if (is_sun(one)) return sun_direction(one.utime_us, place, air, problem.earth);
+  if (const auto planet = planet_seen(problem, one)) {
+    return planet_direction(*planet, one.utime_us, place, air, problem.earth);
+  }
   if (one.reference.empty()) {
-    refuse(one, "reference",
+    refuse(problem, one, "reference",
            "a star without a name cannot be used: identify the stars first, and give each its row "
            "in the references");
   }
@@ -87,28 +108,49 @@ class Builder {
     switch (one.kind) {
       case Kind::kStar:
       case Kind::kSun:
+        // All sightings of a planet have the error of its theory in common.
+        if (planet_seen(problem_, one)) return {one.kind, 0, one.reference};
         return {one.kind, i, one.reference};
       case Kind::kScene:
       case Kind::kInclinometer:
+      case Kind::kRuler:  // they tell something together
         return {one.kind, one.station, ""};
+      case Kind::kLevelLine:
+      case Kind::kCross:
+        return {one.kind, one.station, one.reference};
       default:
         return {one.kind, 0, one.reference};
     }
   }
 
   void find_shared_poses() {
-    std::map<std::pair<std::size_t, std::int64_t>, int> sightings;
+    std::map<std::pair<std::size_t, std::int64_t>, std::vector<const Observation*>> sightings;
     for (const Observation& one : problem_.observations) {
-      if (one.pose && one.kind != Kind::kInclinometer) ++sightings[{one.station, *one.pose}];
+      if (!one.pose || one.kind == Kind::kInclinometer) continue;
+      auto& same = sightings[{one.station, *one.pose}];
+      if (!same.empty()) check_same_stop(one, *same.front());
+      same.push_back(&one);
     }
-    for (const auto& [key, count] : sightings) {
-      if (count > 1) poses_.emplace(key, poses_.size());
+    for (const auto& [key, same] : sightings) {
+      if (same.size() > 1) poses_.emplace(key, poses_.size());
     }
+  }
+
+  // A pose is one stop: the errors of its two angles are the same for all that is seen from it.
+  void check_same_stop(const Observation& one, const Observation& first) const {
+    const auto same = [](const AxisReading& a, const AxisReading& b) {
+      return a.counts == b.counts && a.approach == b.approach;
+    };
+    if (same(one.reading.pan, first.reading.pan) && same(one.reading.tilt, first.reading.tilt)) {
+      return;
+    }
+    refuse(problem_, one, "pose",
+           std::to_string(*one.pose) + " is another stop already, at other counts", &first);
   }
 
   Sighting sighting_of(std::size_t i) const {
     const Observation& one = problem_.observations[i];
-    Sighting sighting{i, one.station, one.utime_us, one.reading, one.pixel, one.sd_px, {}};
+    Sighting sighting{one.station, one.utime_us, one.reading, one.pixel, one.sd_px, {}};
     if (!one.pose) return sighting;
     const auto shared = poses_.find({one.station, *one.pose});
     if (shared != poses_.end()) sighting.pose = shared->second;
@@ -120,7 +162,7 @@ class Builder {
       case Kind::kStation:
         for (std::size_t i = 0; i < problem_.names.size(); ++i) {
           if (problem_.names[i] != one.reference) continue;
-          if (i == one.station) refuse(one, "reference", "the station sights itself");
+          if (i == one.station) refuse(problem_, one, "reference", "the station sights itself");
           return station_target(i);
         }
         [[fallthrough]];
@@ -140,11 +182,21 @@ class Builder {
     }
   }
 
+  TargetPtr planet_target(Planet planet, const std::vector<std::size_t>& members) const {
+    std::vector<SkyPosition> positions;
+    positions.reserve(members.size());
+    for (const std::size_t i : members) {
+      const Observation& one = problem_.observations[i];
+      positions.push_back({one.station, one.utime_us, high_enough(one)});
+    }
+    return body_target(std::move(positions), planet_sd_rad(planet));
+  }
+
   SkyDirection high_enough(const Observation& one) const {
     SkyDirection direction = sky_of(problem_, one);
     if (degrees(direction.elevation_rad) < kLeastElevation_deg) {
-      refuse(one, "reference",
-             (one.kind == Kind::kSun ? "the sun" : "'" + one.reference + "'") + " stands " +
+      refuse(problem_, one, "reference",
+             (is_sun(one) ? "the sun" : "'" + one.reference + "'") + " stands " +
                  std::to_string(std::lround(degrees(direction.elevation_rad))) +
                  " degrees high: below 10 the refraction is not known well enough");
     }
@@ -163,9 +215,9 @@ class Builder {
     const Eigen::Vector3d& there = point ? point->ecef : trajectory->points.front().ecef;
     const double distance_m = (there - ecef_from_geodetic(place)).norm();
     if (distance_m < kLeast_m)
-      refuse(one, "reference", "'" + one.reference + "' is at the station");
+      refuse(problem_, one, "reference", "'" + one.reference + "' is at the station");
     if (distance_m < kGreatest_m) return;
-    refuse(one, "reference",
+    refuse(problem_, one, "reference",
            "'" + one.reference + "' is " + std::to_string(std::lround(1e-3 * distance_m)) +
                " km from the station, more than can be sighted");
   }
@@ -173,7 +225,7 @@ class Builder {
   void check_pixel(const Observation& one) const {
     const StationModel& model = problem_.stations[one.station].model;
     if (!unproject(model.geometry.camera, one.pixel)) {
-      refuse(one, "x_px", "the pixel is outside of the lens model");
+      refuse(problem_, one, "x_px", "the pixel is outside of the lens model");
     }
   }
 
@@ -186,12 +238,14 @@ class Builder {
     if (first.kind == Kind::kScene) group.name = problem_.names[first.station];
     if (first.kind == Kind::kInclinometer) {
       add_level(group, members);
+    } else if (is_rectification_target(first.kind)) {
+      add_rectification(group, members);
     } else if (first.kind == Kind::kScene) {
       add_parts(group, parts(members, [](const Observation& one) { return one.reference; }));
     } else if (first.kind == Kind::kTrack) {
       add_parts(group, parts(members, [](const Observation& one) { return one.utime_us; }));
       if (group.blocks.empty()) {
-        refuse(first, "utime_us", "no instant of the track is seen by two stations");
+        refuse(problem_, first, "utime_us", "no instant of the track is seen by two stations");
       }
     } else {
       add_block(group, members);
@@ -225,9 +279,7 @@ class Builder {
   void add_block(Group& group, const std::vector<std::size_t>& members) {
     PixelBlockConfig config;
     config.layout = network_.layout;
-    for (const StationPrior& station : problem_.stations) {
-      config.pose_sd_rad.push_back(station.pose_sd_rad);
-    }
+    config.pose_sd_rad = pose_sds();
     config.robust = group.kind == Kind::kScene;
     config.absolute = group.is_absolute();
     std::vector<Sighting> sightings;
@@ -238,9 +290,11 @@ class Builder {
       check_pixel(one);
       sightings.push_back(sighting_of(i));
     }
+    const Observation& first = problem_.observations[members.front()];
+    const auto planet = planet_seen(problem_, first);
     take(group, members,
-         pixel_block(target_of(problem_.observations[members.front()]), std::move(sightings),
-                     config));
+         pixel_block(planet ? planet_target(*planet, members) : target_of(first),
+                     std::move(sightings), config));
   }
 
   void add_level(Group& group, const std::vector<std::size_t>& members) {
@@ -249,6 +303,51 @@ class Builder {
     readings.reserve(members.size());
     for (const std::size_t i : members) readings.push_back(problem_.observations[i]);
     take(group, members, level_block(network_.layout, std::move(readings)));
+  }
+
+  void add_rectification(Group& group, const std::vector<std::size_t>& members) {
+    std::vector<TargetSighting> sightings;
+    for (const std::size_t i : members) {
+      const Observation& one = problem_.observations[i];
+      check_pixel(one);
+      sightings.push_back({sighting_of(i), one.target, one.reference});
+    }
+    const PixelBlockConfig config{network_.layout, pose_sds(), false, false};
+    if (group.kind == Kind::kLevelLine) {
+      take(group, members, level_line_block(config, std::move(sightings)));
+    } else if (group.kind == Kind::kCross) {
+      take(group, members, cross_block(config, std::move(sightings)));
+    } else {
+      group.name = "rulers";
+      check_rulers(members);
+      take(group, members, ruler_block(config, std::move(sightings)));
+    }
+  }
+
+  // The height of the zeros is not known: only the difference of two rulers tells a slope.
+  void check_rulers(const std::vector<std::size_t>& members) const {
+    constexpr double kApart = 1.2;
+    std::map<std::string, const Observation*> rulers;
+    double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
+    for (const std::size_t i : members) {
+      const Observation& one = problem_.observations[i];
+      const Observation& first = *rulers.try_emplace(one.reference, &one).first->second;
+      if (first.target.distance_m != one.target.distance_m) {
+        refuse(problem_, one, "distance_m", "'" + one.reference + "' has another distance already",
+               &first);
+      }
+      nearest = std::min(nearest, one.target.distance_m);
+      farthest = std::max(farthest, one.target.distance_m);
+    }
+    if (farthest >= kApart * nearest) return;
+    refuse(problem_, problem_.observations[members.front()], "distance_m",
+           "two rulers are needed, the second at least a fifth farther away than the first");
+  }
+
+  std::vector<double> pose_sds() const {
+    std::vector<double> sds;
+    for (const StationPrior& station : problem_.stations) sds.push_back(station.pose_sd_rad);
+    return sds;
   }
 
   void take(Group& group, const std::vector<std::size_t>& members, BlockPtr block) {
@@ -267,5 +366,31 @@ class Builder {
 }  // namespace
 
 Network network_of(const Problem& problem) { return Builder(problem).build(); }
+
+Network alone(const Network& network, std::size_t station) {
+  Network result = network;
+  result.blocks.clear();
+  result.groups.clear();
+  for (const Group& group : network.groups) {
+    Group own = group;
+    own.station = station;
+    own.blocks.clear();
+    own.observations.clear();
+    own.degrees_of_freedom = 0;
+    for (const std::size_t b : group.blocks) {
+      const BlockPtr block = network.blocks[b]->of_station(station);
+      if (!block) continue;
+      own.degrees_of_freedom += block->degrees_of_freedom();
+      own.blocks.push_back(result.blocks.size());
+      result.blocks.push_back(block);
+    }
+    if (!own.blocks.empty()) result.groups.push_back(std::move(own));
+  }
+  result.priors_from = result.blocks.size();
+  result.blocks.insert(result.blocks.end(),
+                       network.blocks.begin() + static_cast<std::ptrdiff_t>(network.priors_from),
+                       network.blocks.end());
+  return result;
+}
 
 }  // namespace ols::calibration

@@ -31,7 +31,8 @@ struct Group {
   bool is_tested() const { return kind != Kind::kScene; }
   // Whether it tells where a station looks: somebody has said where its target is.
   bool is_absolute() const {
-    return is_tested() && kind != Kind::kTrack && kind != Kind::kInclinometer;
+    return is_tested() && kind != Kind::kTrack && kind != Kind::kInclinometer &&
+           !is_rectification_target(kind);
   }
 };
 
@@ -44,9 +45,13 @@ struct Network {
   std::size_t priors_from = 0;  // the first block that is a prior
 };
 
-// ObservationRefused, naming the line: a reference that is missing or of the wrong sort, a star
-// without reference, a star or the sun too low, a track that one station alone sees, an instant
-// outside of a trajectory.
+// ObservationRefused: a reference that is missing or of the wrong sort, a star
+// without reference, a star or the sun too low, a track that one station alone sees, an
+// instant outside of a trajectory, a pose that stands at two places.
 Network network_of(const Problem& problem);
+
+// Of a network what one station has sighted, as if there were no other: the same globals, fewer
+// groups.
+Network alone(const Network& network, std::size_t station);
 
 }  // namespace ols::calibration

@@ -24,10 +24,27 @@ enum class Kind {
   kDrone,
   kTrack,  // an unknown target that several stations see at the same instants
   kInclinometer,
+  // The paper's rectification targets (section 4.2).
+  kLevelLine,
+  kCross,
+  kRuler,
 };
+inline bool is_rectification_target(Kind kind) {
+  return kind == Kind::kLevelLine || kind == Kind::kCross || kind == Kind::kRuler;
+}
 // As in the files: "landmark".
 const char* name(Kind kind);
 std::optional<Kind> kind_of(const std::string& name);
+
+// What a person states of a rectification target.
+struct TargetFacts {
+  Eigen::Vector2d second_px = Eigen::Vector2d::Zero();  // of a level line: another pixel of it
+  double distance_m = 0.0;                              // from the pan axis; of a cross, a ruler
+  // Of a cross: to the right of the plane that is square to the tilt axis and contains the pan
+  // axis. Of a ruler: the reading at the pixel, growing upwards; all have their zeros level.
+  double offset_m = 0.0;
+  double sd = 0.0;  // of a line's level [rad]; of a cross's place, of a ruler's zero [m]
+};
 
 struct Observation {
   Kind kind = Kind::kLandmark;
@@ -42,6 +59,7 @@ struct Observation {
   Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();
   double tilt_sd_rad = 0.0;
   double zero_sd_rad = 0.0;
+  TargetFacts target;
   unsigned line = 0;  // of the file
 };
 
@@ -72,15 +90,19 @@ struct Trajectory {
 using Reference = std::variant<FixedPoint, Star, Trajectory>;
 using References = std::map<std::string, Reference>;
 
-// An observation that cannot be used.
+// An observation that cannot be used: by its index among all of them.
 class ObservationRefused : public std::invalid_argument {
  public:
-  ObservationRefused(unsigned line, const std::string& key, const std::string& why)
-      : std::invalid_argument(key + ": " + why), line_(line) {}
-  unsigned line() const { return line_; }
+  ObservationRefused(std::size_t index, const std::string& key, const std::string& why,
+                     std::optional<std::size_t> other = std::nullopt)
+      : std::invalid_argument(key + ": " + why), index_(index), other_(other) {}
+  std::size_t index() const { return index_; }
+  // With which it is at odds.
+  std::optional<std::size_t> other() const { return other_; }
 
  private:
-  unsigned line_;
+  std::size_t index_;
+  std::optional<std::size_t> other_;
 };
 
 }  // namespace ols::calibration

@@ -8,8 +8,9 @@ namespace {
 
 constexpr double kArcsec = kPi / 648000.0;
 
-constexpr std::array<const char*, 9> kKinds{"landmark", "star",  "sun",   "scene",       "station",
-                                            "aircraft", "drone", "track", "inclinometer"};
+constexpr std::array<const char*, 12> kKinds{"landmark",     "star",       "sun",   "scene",
+                                             "station",      "aircraft",   "drone", "track",
+                                             "inclinometer", "level_line", "cross", "ruler"};
 
 }  // namespace
 

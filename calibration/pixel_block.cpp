@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "calibration/block.h"
@@ -55,6 +56,13 @@ class PixelBlock : public Block {
     return target_->initial(state, sightings_);
   }
   std::optional<double> heading(const State& state, std::size_t block) const override;
+  BlockPtr of_station(std::size_t station) const override {
+    std::vector<Sighting> own;
+    std::ranges::copy_if(sightings_, std::back_inserter(own),
+                         [station](const Sighting& one) { return one.station == station; });
+    if (own.empty()) return nullptr;
+    return std::make_shared<PixelBlock>(target_, std::move(own), config_);
+  }
   BlockEquations equations(const State& state, std::size_t block, double damping) const override;
 
  private:

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -41,24 +42,32 @@ Sky sky_at(std::int64_t utime_us, const Geodetic& place, const EarthRotation& ea
 }
 
 // Refraction by A tan z + B tan^3 z of the apparent zenith distance.
-double refraction_rad(double true_zenith_rad, const Air& air) {
+struct Refraction {
   double A = 0.0, B = 0.0;
-  eraRefco(air.pressure_hPa, air.temperature_degC, air.humidity, kWavelength_um, &A, &B);
+};
+Refraction refraction_of(const Air& air) {
+  Refraction of;
+  eraRefco(air.pressure_hPa, air.temperature_degC, air.humidity, kWavelength_um, &of.A, &of.B);
+  return of;
+}
+
+double refraction_rad(double true_zenith_rad, const Refraction& of) {
   double lift = 0.0;
   constexpr double kSafe_rad = 1.5;  // the tangent is not used near the horizon
   for (int i = 0; i < 10; ++i) {
     const double t = std::tan(std::min(true_zenith_rad - lift, kSafe_rad));
-    lift = A * t + B * t * t * t;
+    lift = of.A * t + of.B * t * t * t;
   }
   return lift;
 }
 
-SkyDirection appears(double ri, double di, Sky& sky, const Geodetic& place, const Air& air) {
+SkyDirection appears(double ri, double di, Sky& sky, const Geodetic& place,
+                     const Refraction& refraction) {
   double azimuth = 0.0, zenith = 0.0, hour_angle = 0.0, declination = 0.0, right_ascension = 0.0;
   eraAtioq(ri, di, &sky.astrom, &azimuth, &zenith, &hour_angle, &declination, &right_ascension);
   const Eigen::Matrix3d R = R_ecef_enu(place);
   const AzimuthElevation airless{azimuth, kPi / 2.0 - zenith};
-  const double lift = refraction_rad(zenith, air);
+  const double lift = refraction_rad(zenith, refraction);
   SkyDirection result;
   result.elevation_rad = airless.elevation_rad + lift;
   const AzimuthElevation seen{azimuth, result.elevation_rad};
@@ -67,6 +76,52 @@ SkyDirection appears(double ri, double di, Sky& sky, const Geodetic& place, cons
   // The sky turns westward about the Earth's axis.
   result.by_ut1 = -kEarthRate_rad_s * Vector3d::UnitZ().cross(result.ecef);
   return result;
+}
+
+SkyDirection star_in(Sky& sky, const Star& star, const Geodetic& place,
+                     const Refraction& refraction) {
+  double ri = 0.0, di = 0.0;
+  // ERFA takes the motion of the right ascension itself.
+  const double pm_ra = star.pm_ra_rad_yr / std::cos(star.dec_rad);
+  eraAtciq(star.ra_rad, star.dec_rad, pm_ra, star.pm_dec_rad_yr, star.parallax_arcsec, 0.0,
+           &sky.astrom, &ri, &di);
+  return appears(ri, di, sky, place, refraction);
+}
+
+// [au] from the barycentre of the solar system.
+Vector3d sun_barycentric(const Sky& sky) {
+  double heliocentric[2][3], barycentric[2][3];
+  eraEpv00(sky.tdb1, sky.tdb2, heliocentric, barycentric);
+  return {barycentric[0][0] - heliocentric[0][0], barycentric[0][1] - heliocentric[0][1],
+          barycentric[0][2] - heliocentric[0][2]};
+}
+
+// A body of the solar system: `barycentric(later)` is its place [au] so many days later. ERFA's
+// place of the observer has that of the station in it, so that there is no parallax left to add.
+template <class Barycentric>
+SkyDirection body_direction(Sky& sky, const Geodetic& place, const Air& air,
+                            const Barycentric& barycentric) {
+  constexpr double kLight_d_per_au = 499.004784 / 86400.0;
+  constexpr int kSteps = 4;  // of the light time
+  const Vector3d observer(sky.astrom.eb[0], sky.astrom.eb[1], sky.astrom.eb[2]);
+  Vector3d from = barycentric(0.0) - observer;
+  for (int i = 0; i < kSteps; ++i) from = barycentric(-kLight_d_per_au * from.norm()) - observer;
+  double towards[3] = {from.x(), from.y(), from.z()}, ra = 0.0, dec = 0.0, ri = 0.0, di = 0.0;
+  eraC2s(towards, &ra, &dec);
+  eraAtciqz(ra, dec, &sky.astrom, &ri, &di);
+  return appears(ri, di, sky, place, refraction_of(air));
+}
+
+// The zenith among the stars, without aberration.
+Vector3d zenith_icrs(Sky& sky, const Geodetic& place) {
+  // Of the Earth-fixed frame: its longitude is the local sidereal angle.
+  const double angle = sky.astrom.eral;
+  const double latitude = place.latitude_rad;
+  double intermediate[3] = {std::cos(latitude) * std::cos(angle),
+                            std::cos(latitude) * std::sin(angle), std::sin(latitude)};
+  double icrs[3];
+  eraTrxp(sky.astrom.bpn, intermediate, icrs);
+  return {icrs[0], icrs[1], icrs[2]};
 }
 
 }  // namespace
@@ -84,32 +139,73 @@ Air standard_air(double height_m) {
 SkyDirection star_direction(const Star& star, std::int64_t utime_us, const Geodetic& place,
                             const Air& air, const EarthRotation& earth) {
   Sky sky = sky_at(utime_us, place, earth);
-  double ri = 0.0, di = 0.0;
-  // ERFA takes the motion of the right ascension itself.
-  const double pm_ra = star.pm_ra_rad_yr / std::cos(star.dec_rad);
-  eraAtciq(star.ra_rad, star.dec_rad, pm_ra, star.pm_dec_rad_yr, star.parallax_arcsec, 0.0,
-           &sky.astrom, &ri, &di);
-  return appears(ri, di, sky, place, air);
+  return star_in(sky, star, place, refraction_of(air));
+}
+
+std::vector<std::pair<std::size_t, SkyDirection>> stars_between(
+    const std::vector<Star>& stars, double least_deg, double most_deg, std::int64_t utime_us,
+    const Geodetic& place, const Air& air, const EarthRotation& earth) {
+  constexpr double kAberrationAndMotion_rad = 0.002;
+  Sky sky = sky_at(utime_us, place, earth);
+  const Refraction refraction = refraction_of(air);
+  const Vector3d up = zenith_icrs(sky, place);
+  const double least = std::sin(radians(least_deg) - kAberrationAndMotion_rad);
+  const double most = std::sin(std::min(radians(most_deg) + kAberrationAndMotion_rad, kPi / 2.0));
+  std::vector<std::pair<std::size_t, SkyDirection>> result;
+  for (std::size_t i = 0; i < stars.size(); ++i) {
+    const Star& star = stars[i];
+    const Vector3d there(std::cos(star.ra_rad) * std::cos(star.dec_rad),
+                         std::sin(star.ra_rad) * std::cos(star.dec_rad), std::sin(star.dec_rad));
+    const double height = there.dot(up);
+    if (height < least || height > most) continue;
+    result.emplace_back(i, star_in(sky, star, place, refraction));
+  }
+  return result;
+}
+
+std::optional<Planet> planet_of(const std::string& name) {
+  constexpr std::array<std::pair<const char*, Planet>, 4> kNames{{{"venus", Planet::kVenus},
+                                                                  {"mars", Planet::kMars},
+                                                                  {"jupiter", Planet::kJupiter},
+                                                                  {"saturn", Planet::kSaturn}}};
+  for (const auto& [known, planet] : kNames) {
+    if (name == known) return planet;
+  }
+  return std::nullopt;
+}
+
+double planet_sd_rad(Planet planet) {
+  // Half of the greatest error, as seen at the least distance.
+  constexpr double kArcsec = kPi / 648000.0;
+  switch (planet) {
+    case Planet::kVenus:
+      return 0.5 * 5.0 * 0.72 / 0.28 * kArcsec;
+    case Planet::kMars:
+      return 0.5 * 17.0 * 1.52 / 0.52 * kArcsec;
+    case Planet::kJupiter:
+      return 0.5 * 71.0 * 5.2 / 4.2 * kArcsec;
+    case Planet::kSaturn:
+      return 0.5 * 81.0 * 9.5 / 8.5 * kArcsec;
+  }
+  return 0.0;
+}
+
+SkyDirection planet_direction(Planet planet, std::int64_t utime_us, const Geodetic& place,
+                              const Air& air, const EarthRotation& earth) {
+  Sky sky = sky_at(utime_us, place, earth);
+  return body_direction(sky, place, air, [&](double later_d) {
+    double heliocentric[2][3];
+    eraPlan94(sky.tdb1, sky.tdb2 + later_d, static_cast<int>(planet), heliocentric);
+    const Vector3d there(heliocentric[0][0], heliocentric[0][1], heliocentric[0][2]);
+    return Vector3d(sun_barycentric(sky) + there);
+  });
 }
 
 SkyDirection sun_direction(std::int64_t utime_us, const Geodetic& place, const Air& air,
                            const EarthRotation& earth) {
   Sky sky = sky_at(utime_us, place, earth);
-  double heliocentric[2][3], barycentric[2][3];
-  eraEpv00(sky.tdb1, sky.tdb2, heliocentric, barycentric);
-  double towards_sun[3], ra = 0.0, dec = 0.0, ri = 0.0, di = 0.0;
-  for (int i = 0; i < 3; ++i) towards_sun[i] = -heliocentric[0][i];
-  eraC2s(towards_sun, &ra, &dec);
-  // Of infinite distance: the parallax of 8 arc seconds is taken off below by the elevation.
-  eraAtciqz(ra, dec, &sky.astrom, &ri, &di);
-  SkyDirection sun = appears(ri, di, sky, place, air);
-  constexpr double kParallax_rad = 8.794 * kPi / 648000.0;
-  const double drop = kParallax_rad * std::cos(sun.elevation_rad);
-  const Vector3d up = R_ecef_enu(place).col(2);
-  const Vector3d along_up = (up - up.dot(sun.ecef) * sun.ecef).normalized();
-  sun.ecef = (sun.ecef - drop * along_up).normalized();
-  sun.elevation_rad -= drop;
-  return sun;
+  // The sun moves by 10 km while its light travels: 0.01 arc seconds.
+  return body_direction(sky, place, air, [&](double) { return sun_barycentric(sky); });
 }
 
 }  // namespace ols::calibration

@@ -114,14 +114,50 @@ class Agreement {
 
 std::vector<double> headings_tried(const Adjustment& adjustment, const State& state,
                                    const std::vector<std::size_t>& groups) {
+  // Each try asks all groups. So many, from all of them evenly, cannot all be mistaken: of a round
+  // in which half are, one in a million millions.
   constexpr std::size_t kMost = 40;
+  const std::size_t tries = std::min(kMost, groups.size());
   std::vector<double> headings;
-  for (const std::size_t g : groups) {
+  for (std::size_t i = 0; i < tries; ++i) {
+    const std::size_t g = groups[i * groups.size() / tries];
     const std::size_t block = adjustment.groups()[g].blocks.front();
     const auto heading = adjustment.network().blocks[block]->heading(state, block);
-    if (heading && headings.size() < kMost) headings.push_back(*heading);
+    if (heading) headings.push_back(*heading);
   }
   return headings;
+}
+
+constexpr double kUnchecked = 1e-6;  // of the group's own information
+
+std::vector<double> stated_headings(const Adjustment& adjustment) {
+  std::vector<double> headings;
+  for (const StationPrior& station : adjustment.network().stations) {
+    headings.push_back(station.model.geometry.chain.heading_rad);
+  }
+  return headings;
+}
+
+// From the station's own sightings alone: those of others cannot be judged before their headings
+// are known.
+double heading_of(const Adjustment& adjustment, std::size_t station, double level) {
+  const Adjustment own(alone(adjustment.network(), station));
+  const Agreement agreement(own, level);
+  std::vector<std::size_t> groups;
+  for (std::size_t g = 0; g < own.groups().size(); ++g) {
+    if (own.groups()[g].is_absolute()) groups.push_back(g);
+  }
+  std::vector<double> headings = stated_headings(own);
+  double heading = headings[station];
+  Agreement::Vote best{-1, 0.0};
+  for (const double tried : headings_tried(own, own.start(headings), groups)) {
+    headings[station] = tried;
+    const Agreement::Vote vote = agreement.vote(own.start(headings), groups);
+    if (!(vote < best)) continue;
+    best = vote;
+    heading = tried;
+  }
+  return heading;
 }
 
 }  // namespace
@@ -135,12 +171,14 @@ double test_statistic(const Adjustment& adjustment, const Fit& fit, std::size_t 
   const BlockEquations equations = adjustment.equations(fit, group);
   if (!equations.valid) return std::numeric_limits<double>::infinity();
   const double sign = fit.kept[group] ? -1.0 : 1.0;
-  return change_of_misfit(part_of(fit.covariance, equations.columns), equations, sign);
+  const double change =
+      change_of_misfit(part_of(fit.covariance, equations.columns), equations, sign);
+  // What cannot be computed does not pass.
+  return std::isnan(change) ? std::numeric_limits<double>::infinity() : change;
 }
 
 Vector2d detectable_rad(const Adjustment& adjustment, const Fit& fit, std::size_t group,
                         double noncentrality) {
-  constexpr double kUnchecked = 1e-6;  // of the group's own information
   const BlockEquations equations = adjustment.equations(fit, group);
   Vector2d result = Vector2d::Constant(std::numeric_limits<double>::infinity());
   if (!equations.valid || equations.shift_by.rows() == 0) return result;
@@ -155,30 +193,28 @@ Vector2d detectable_rad(const Adjustment& adjustment, const Fit& fit, std::size_
   return result;
 }
 
-Start find_start(const Adjustment& adjustment, double level) {
-  const Network& network = adjustment.network();
-  const Agreement agreement(adjustment, level);
-  std::vector<double> headings;
-  for (const StationPrior& station : network.stations) {
-    headings.push_back(station.model.geometry.chain.heading_rad);
+std::optional<Bias> bias_without(const Adjustment& adjustment, const Fit& fit, std::size_t group) {
+  const BlockEquations equations = adjustment.equations(fit, group);
+  if (!fit.kept[group] || !equations.valid || equations.shift_by.rows() == 0) return std::nullopt;
+  const MatrixXd C = part_of(fit.covariance, equations.columns);
+  const Eigen::Matrix2d own = equations.shift_information;
+  const Eigen::Matrix2d left = own - equations.shift_by.transpose() * C * equations.shift_by;
+  if ((left.diagonal().array() < kUnchecked * own.diagonal().array()).any() ||
+      !(left.determinant() > 0.0)) {
+    return std::nullopt;
   }
-  const State stated = adjustment.start(headings);
-  for (std::size_t s = 0; s < network.stations.size(); ++s) {
-    std::vector<std::size_t> groups;
-    for (std::size_t g = 0; g < adjustment.groups().size(); ++g) {
-      const Group& group = adjustment.groups()[g];
-      if (group.is_absolute() && group.station == s) groups.push_back(g);
-    }
-    Agreement::Vote best{-1, 0.0};
-    for (const double heading : headings_tried(adjustment, stated, groups)) {
-      std::vector<double> tried = headings;
-      tried[s] = heading;
-      const Agreement::Vote vote = agreement.vote(adjustment.start(tried), groups);
-      if (vote < best) {
-        best = vote;
-        headings[s] = heading;
-      }
-    }
+  const Eigen::Matrix2d covariance = left.inverse();
+  Bias bias;
+  bias.rad = -covariance * equations.shift_gradient;
+  bias.sigmas = (bias.rad.array() / covariance.diagonal().array().sqrt()).abs().maxCoeff();
+  return bias;
+}
+
+Start find_start(const Adjustment& adjustment, double level) {
+  const Agreement agreement(adjustment, level);
+  std::vector<double> headings = stated_headings(adjustment);
+  for (std::size_t s = 0; s < headings.size(); ++s) {
+    headings[s] = heading_of(adjustment, s, level);
   }
   Start start{adjustment.start(headings), std::vector<bool>(adjustment.groups().size(), true)};
   for (std::size_t g = 0; g < start.kept.size(); ++g) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "calibration/adjustment.h"
 
@@ -14,6 +15,14 @@ double test_statistic(const Adjustment& adjustment, const Fit& fit, std::size_t 
 // The direction's bias across and up that the group's test finds with this noncentrality.
 Eigen::Vector2d detectable_rad(const Adjustment& adjustment, const Fit& fit, std::size_t group,
                                double noncentrality);
+
+// By how much the target of a kept group stands beside where all others have it, as seen from the
+// station: the group predicted without itself. Nothing where no other checks it.
+struct Bias {
+  Eigen::Vector2d rad = Eigen::Vector2d::Zero();  // across, up
+  double sigmas = 0.0;                            // of the worse of the two
+};
+std::optional<Bias> bias_without(const Adjustment& adjustment, const Fit& fit, std::size_t group);
 
 // The headings on which most groups agree with the priors, and which groups these are.
 struct Start {

@@ -84,6 +84,35 @@ class Sky : public Target {
   SkyDirection direction_;
 };
 
+// The nuisance: along the equator and towards the pole, the same for all sightings.
+class Body : public Target {
+ public:
+  Body(std::vector<SkyPosition> positions, double sd_rad)
+      : positions_(std::move(positions)), sd_rad_(sd_rad) {}
+  int unknowns() const override { return 2; }
+  VectorXd prior_sd() const override { return VectorXd::Constant(2, sd_rad_); }
+  TargetView view(const State& state, const Sighting& sighting,
+                  const VectorXd& off_rad) const override {
+    const auto at = std::ranges::find_if(positions_, [&sighting](const SkyPosition& one) {
+      return one.station == sighting.station && one.utime_us == sighting.utime_us;
+    });
+    const Vector3d& ecef = at->direction.ecef;
+    Eigen::Matrix<double, 3, 2> axes;
+    axes.col(0) = Vector3d::UnitZ().cross(ecef).normalized();
+    axes.col(1) = ecef.cross(axes.col(0));
+    TargetView view = Sky(at->direction).view(state, sighting, VectorXd(0));
+    const Matrix3d R = R_enu_ecef(state, sighting);
+    view.point.x += R * axes * off_rad;
+    view.by_nuisance.setZero(4, 2);
+    view.by_nuisance.topRows<3>() = R * axes;
+    return view;
+  }
+
+ private:
+  std::vector<SkyPosition> positions_;  // of all sightings
+  double sd_rad_;
+};
+
 // The nuisance: azimuth, elevation and inverse distance [1/m].
 class Scene : public Target {
  public:
@@ -245,6 +274,9 @@ class OtherStation : public Target {
 
 TargetPtr fixed_target(const FixedPoint& point) { return std::make_shared<Fixed>(point); }
 TargetPtr sky_target(const SkyDirection& direction) { return std::make_shared<Sky>(direction); }
+TargetPtr body_target(std::vector<SkyPosition> positions, double sd_rad) {
+  return std::make_shared<Body>(std::move(positions), sd_rad);
+}
 TargetPtr scene_target() { return std::make_shared<Scene>(); }
 TargetPtr unknown_target() { return std::make_shared<Unknown>(); }
 TargetPtr aircraft_target(const Trajectory& trajectory) {

@@ -14,7 +14,6 @@ namespace ols::calibration {
 
 // One sighting of a target.
 struct Sighting {
-  std::size_t observation = 0;
   std::size_t station = 0;
   std::int64_t utime_us = 0;
   UnitReading reading;
@@ -63,6 +62,13 @@ struct SkyDirection {
   double elevation_rad = 0.0;                        // as it appears
 };
 TargetPtr sky_target(const SkyDirection& direction);
+// A body whose directions at the sightings' instants are off alike, to `sd_rad` of each axis.
+struct SkyPosition {
+  std::size_t station = 0;
+  std::int64_t utime_us = 0;
+  SkyDirection direction;
+};
+TargetPtr body_target(std::vector<SkyPosition> positions, double sd_rad);
 // A direction and an inverse distance from GROUND, unknown both.
 TargetPtr scene_target();
 // A place that is unknown.

@@ -11,8 +11,10 @@ pkg_check_modules(aravis REQUIRED IMPORTED_TARGET aravis-0.8)
 pkg_check_modules(libgpiod REQUIRED IMPORTED_TARGET libgpiod)
 pkg_check_modules(libgps REQUIRED IMPORTED_TARGET libgps)
 pkg_check_modules(libsystemd REQUIRED IMPORTED_TARGET libsystemd)
+pkg_check_modules(sodium REQUIRED IMPORTED_TARGET libsodium)
+pkg_check_modules(prometheus REQUIRED IMPORTED_TARGET prometheus-cpp-pull)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
-find_package(Boost 1.74 REQUIRED) # the headers of Boost.Math
+find_package(Boost 1.74 REQUIRED) # the headers of Boost.Math and Boost.Beast
 find_package(benchmark REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)

@@ -17,12 +17,14 @@ std::optional<ptu::ServoGoal> ActiveSlew::goal(const PointingModel& pointing, do
   if (!command_ || is_over(now_s)) return std::nullopt;
   constexpr double kStep_s = 0.05;
   const double effect_s = command_->effect_s;
-  const auto here = pointing.aim(command_->direction);
+  const auto goal = pointing.aim(command_->direction);
+  // The rate is the chain's: a unit's errors change it by thousandths, its backlash is no motion.
+  const auto here = aim_along(pointing.geometry(), command_->direction);
   const auto later = aim_along(pointing.geometry(), direction_at(*command_, effect_s + kStep_s));
-  if (!here || !later) return std::nullopt;
+  if (!goal || !here || !later) return std::nullopt;
   const PanTilt rate{wrap_pi(later->pan_rad - here->pan_rad) / kStep_s,
                      (later->tilt_rad - here->tilt_rad) / kStep_s};
-  return ptu::ServoGoal{effect_s, *here, rate, command_->received_s + command_->lease_s};
+  return ptu::ServoGoal{effect_s, *goal, rate, command_->received_s + command_->lease_s};
 }
 
 }  // namespace ols::station

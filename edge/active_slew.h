@@ -17,6 +17,8 @@ class ActiveSlew {
 
   // Empty: no slew is active.
   const std::optional<SlewCommand>& command() const { return command_; }
+  // Such a slew goes on without what the station has found: that is looked at standing.
+  bool searches_line() const { return command_ && command_->searches_line(); }
   // Also empty where the unit cannot point.
   std::optional<ptu::ServoGoal> goal(const PointingModel& pointing, double now_s) const;
   // More than one fusion slews this station.

@@ -32,12 +32,11 @@ std::optional<MadeBearing> BearingQueue::make(const PixelMeasurement& measured,
   pixel.covariance_px2 = measured.output.covariance_px2;
   const double sd = measured.designation_sd_px;
   pixel.covariance_systematic_px2 = Eigen::Matrix2d::Identity() * (sd * sd);
-  pixel.angles = angles->angles;
   // The frame's own stamp adds to the time jitter of the angles.
   const Eigen::Vector2d rate(angles->rate.pan_rad, angles->rate.tilt_rad);
   pixel.angles_covariance_rad2 =
       angles->covariance + rate * rate.transpose() * std::pow(measured.stamp_sd_s, 2);
-  const auto line = sight(pointing.geometry(), pixel);
+  const auto line = pointing.sight(pixel, *angles);
   if (!line) {
     counters_["pixels_outside_lens_model"] += 1;
     return std::nullopt;
@@ -47,7 +46,7 @@ std::optional<MadeBearing> BearingQueue::make(const PixelMeasurement& measured,
                   measured.stamp_sd_s,     measured.stamp_source};
   bearing.pose_revision = pointing.pose_revision();
   bearing.sight.origin_sd_enu_m = pointing.pose().position_sd_enu_m;
-  return MadeBearing{bearing, pixel.angles};
+  return MadeBearing{bearing, angles->reported};
 }
 
 bool BearingQueue::worth_sending(const Bearing& bearing, const PointingModel& pointing,

@@ -27,7 +27,7 @@ struct PixelMeasurement {
 
 struct MadeBearing {
   Bearing bearing;
-  PanTilt angles;       // of the unit at the exposure
+  PanTilt reported;     // of the unit at the exposure
   bool to_send = true;  // false: no position, or too old: only for following the target
 };
 

@@ -1,10 +1,10 @@
 // Accepts each command once, and only while it is fresh. Pure.
 //
-// LCM has neither authentication nor replay protection. The gate remembers a command by its
-// sender's boot id, its sequence and its stamp for longer than it can stay fresh. A command is
-// fresh while its stamp, by the station's UTC, is not older than its lease plus a margin for the
-// difference of the two clocks. Sequences are never compared, and the stamps of one sender never
-// block another: senders cannot be authenticated, so none may affect the others. If the station's
+// The bus may be without signatures (base/trust/), and LCM has no replay protection. The gate
+// remembers a command by its sender's boot id, its sequence and its stamp for longer than it can
+// stay fresh. A command is fresh while its stamp, by the station's UTC, is not older than its lease
+// plus a margin for the difference of the two clocks. Sequences are never compared, and the stamps
+// of one sender never block another: without signatures anybody may use any name. If the station's
 // clock is set back by more than a lease, forgotten commands may pass again, as after a restart.
 #pragma once
 

@@ -16,7 +16,7 @@ bool finite(const SlewCommand& slew) {
   for (const double value :
        {slew.effect_s, slew.received_s, slew.lease_s, slew.direction.azimuth_rad,
         slew.direction.elevation_rad, slew.azimuth_rate_rad_s, slew.elevation_rate_rad_s,
-        slew.direction_sd_rad}) {
+        slew.direction_sd_rad, slew.line.x(), slew.line.y()}) {
     if (!std::isfinite(value)) return false;
   }
   return true;
@@ -35,6 +35,37 @@ bool in_range(const PanTilt& angles) {
          std::abs(angles.tilt_rad) <= kPointTiltLimit_rad;
 }
 
+bool finite(const RateCommand& command) {
+  return finite(command.rate) && std::isfinite(command.lease_s) &&
+         std::isfinite(command.received_s);
+}
+
+Refusal judge_values(const LensCommand& command) {
+  if (!std::isfinite(command.lease_s)) return Refusal::kNotFinite;
+  if (command.is_rate && !(command.lease_s > 0.0 && command.lease_s <= kRateLease_s)) {
+    return Refusal::kOutOfRange;
+  }
+  for (const lens::Axis axis : lens::kAxes) {
+    const auto& value = command.values[axis];
+    if (!value) continue;
+    if (!std::isfinite(*value)) return Refusal::kNotFinite;
+    if (*value > 1.0 || *value < (command.is_rate ? -1.0 : 0.0)) return Refusal::kOutOfRange;
+  }
+  return Refusal::kNone;
+}
+
+bool in_range(const RateCommand& command) {
+  return std::abs(command.rate.pan_rad) <= kRateLimit_rad_s &&
+         std::abs(command.rate.tilt_rad) <= kRateLimit_rad_s && command.lease_s > 0.0 &&
+         command.lease_s <= kRateLease_s;
+}
+
+// Also of a unit that appears later: it would move unexpectedly.
+Refusal refuses_motion(const StationMode& mode) {
+  if (mode.reference() == ptu::PtuReference::kUnknown) return Refusal::kNoUnit;
+  return mode.has_doubtful_angles() ? Refusal::kNoReference : Refusal::kNone;
+}
+
 bool in_range(const SlewCommand& command, double now_s, double lease_max_s) {
   return command.lease_s > 0.0 && command.lease_s <= lease_max_s &&
          std::abs(command.effect_s - now_s) <= kSlewLead_s &&
@@ -42,7 +73,8 @@ bool in_range(const SlewCommand& command, double now_s, double lease_max_s) {
          std::abs(command.direction.elevation_rad) <= kPi / 2.0 &&
          std::abs(command.azimuth_rate_rad_s) <= kSlewRateLimit_rad_s &&
          std::abs(command.elevation_rate_rad_s) <= kSlewRateLimit_rad_s &&
-         command.direction_sd_rad >= 0.0 && command.direction_sd_rad <= kPi;
+         command.direction_sd_rad >= 0.0 && command.direction_sd_rad <= kPi &&
+         (!command.searches_line() || std::abs(command.line.norm() - 1.0) < 0.01);
 }
 
 }  // namespace
@@ -55,6 +87,7 @@ Refusal judge(const DesignateCommand& command, const Situation& situation) {
 
 Refusal judge(const SlewCommand& command, const Situation& situation) {
   const StationMode& mode = situation.mode;
+  if (situation.config.overview) return Refusal::kOverview;
   if (mode.is(StationState::kEmergency)) return Refusal::kEmergency;
   if (!finite(command)) return Refusal::kNotFinite;
   if (!in_range(command, situation.now_s, situation.config.slew_lease_max_s)) {
@@ -78,10 +111,28 @@ Refusal judge(const PointCommand& command, const Situation& situation) {
   if (refusal != Refusal::kNone) return refusal;
   if (!finite(command.angles)) return Refusal::kNotFinite;
   if (!in_range(command.angles)) return Refusal::kOutOfRange;
-  // A unit that appears later would move unexpectedly.
-  if (mode.reference() == ptu::PtuReference::kUnknown) return Refusal::kNoUnit;
-  if (mode.has_doubtful_angles()) return Refusal::kNoReference;
-  return Refusal::kNone;
+  return refuses_motion(mode);
+}
+
+Refusal judge_motion(const Situation& situation) {
+  const Refusal refusal = situation.mode.refuses_operator(situation.now_s);
+  return refusal != Refusal::kNone ? refusal : refuses_motion(situation.mode);
+}
+
+Refusal judge(const RateCommand& command, const Situation& situation) {
+  const StationMode& mode = situation.mode;
+  const Refusal refusal = mode.refuses_operator(situation.now_s);
+  if (refusal != Refusal::kNone) return refusal;
+  // A joystick that is still held when somebody else stops the unit must not start it again.
+  if (mode.is(StationState::kStopped)) return Refusal::kStopped;
+  if (!finite(command)) return Refusal::kNotFinite;
+  if (!in_range(command)) return Refusal::kOutOfRange;
+  return refuses_motion(mode);
+}
+
+// Also when stopped, and in an emergency: a lens is in nobody's way.
+Refusal judge(const LensCommand& command, const Situation& situation) {
+  return situation.config.zoom ? judge_values(command) : Refusal::kNoLens;
 }
 
 Refusal judge_home(const Situation& situation) {

@@ -20,6 +20,10 @@ struct Situation {
 Refusal judge(const DesignateCommand& command, const Situation& situation);
 Refusal judge(const SlewCommand& command, const Situation& situation);
 Refusal judge(const PointCommand& command, const Situation& situation);
+Refusal judge(const RateCommand& command, const Situation& situation);
+Refusal judge(const LensCommand& command, const Situation& situation);
+// A command that the operator may give now, and that moves the unit.
+Refusal judge_motion(const Situation& situation);
 Refusal judge_home(const Situation& situation);
 Refusal judge_reference_ok(const Situation& situation);
 Refusal judge_rearm(const Situation& situation);  // by a person at the station

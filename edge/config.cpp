@@ -124,7 +124,13 @@ Section calibration_section(StationSettings& settings) {
   return {"calibration",
           "Which calibration this is.",
           {config::integer("id", settings.calibration_id, 0, INT64_MAX, "",
-                           "Its number, stated in every bearing.")},
+                           "Its number, stated in every bearing."),
+           config::number("view_check_s", settings.view_check_s, {0.0, 1e6}, "s",
+                          "A station with `folder` that is idle for so long looks at its reference "
+                          "views; 0: never."),
+           config::text("folder", settings.calibration_folder,
+                        "Folder of `ols-calibrate adjust`: instrument and setup from there, not "
+                        "from [pose], [chain], [lens] and id; empty: none.")},
           {{"sd",
             "1-sigma of the errors that the calibration left; they stay from frame to frame.",
             {angle_sd("heading_deg", sd.heading_rad,
@@ -208,7 +214,7 @@ void use_survey(ConfigTable& root, StationSettings& settings) {
   ConfigTable& pose = root.table("pose");
   const StationGeometry& geometry = settings.station.geometry;
   sensors::PoseEstimator::Config& estimator = settings.pose;
-  bool any_place = settings.gnss.host.empty();
+  bool any_place = !settings.gnss.has_receiver();
   for (const char* key : {"latitude_deg", "longitude_deg", "height_m"})
     any_place = any_place || pose.has(key);
   if (any_place) {
@@ -226,11 +232,28 @@ void use_survey(ConfigTable& root, StationSettings& settings) {
   }
 }
 
+// The tracker of a station that follows by itself, and its calibration, are for one focal length.
+void use_lens(ConfigTable& root, StationSettings& settings) {
+  lens::LensMotorConfig& lens = settings.lens;
+  if (lens.device.empty()) return;
+  ConfigTable& section = root.table("lens_motor");
+  if (!settings.station.overview) throw section.error("device", "needs kind = \"overview\"");
+  if (!settings.calibration_folder.empty()) {
+    throw section.error("device", "[calibration] folder is of a lens that does not zoom");
+  }
+  for (ZoomPoint& point : lens.points) {
+    point.camera.width_px = settings.camera.width_px;
+    point.camera.height_px = settings.camera.height_px;
+  }
+  settings.station.zoom.emplace(ZoomTable(lens.points), lens.position_sd);
+}
+
 // A setting of one part that is also an input of another.
 void pass_on(StationSettings& settings) {
   StationConfig& station = settings.station;
   sensors::set_sensors(settings.pose, settings.inclinometer, settings.gnss);
-  settings.camera.keep_raw = !settings.recorder.folder.empty();
+  const bool sees_colour = settings.tracker.mode == tracker::TrackerMode::kFull;
+  settings.camera.keep_raw = sees_colour || !settings.recorder.folder.empty();
   station.search_sd_px = std::min(station.search_sd_px, max_search_sd_px(station));
   station.angles = settings.ptu.history;
   station.limits = settings.ptu.limits;
@@ -247,6 +270,9 @@ Section station_section(StationSettings& s) {
       "",
       {config::text("id", s.id, "Name of the station, part of the names of its channels.", check_id)
            .required(),
+       config::word("kind", s.station.overview, {{"tracking", false}, {"overview", true}},
+                    "tracking: follows by itself and by slews; overview: driven by a person, with "
+                    "a zoom lens."),
        config::text("lcm_url", s.lcm_url,
                     "The bus; ttl=0: only this host, ttl=1: also the other hosts of the site.",
                     [](const std::string& url) { parse_lcm_url(url); }),
@@ -261,12 +287,15 @@ Section station_section(StationSettings& s) {
                        "Seed of the tracker's random numbers.")},
       {pose_section(s), chain_section(s.station.geometry.chain), calibration_section(s),
        serials_section(s.serials), camera::camera_section(s.camera), lens_section(s),
-       ptu::ptu_section(s.ptu), tracker::tracker_section(s.tracker), logic_section(s.station),
+       ptu::ptu_section(s.ptu), lens::lens_motor_section(s.lens),
+       tracker::tracker_section(s.tracker), logic_section(s.station),
        sensors::inclinometer_section(s.inclinometer), sensors::gnss_section(s.gnss),
-       gpio::gpio_section(s.gpio), recorder::recorder_section(s.recorder), clock_section(s.clock),
-       watchdog_section(s)},
+       gpio::gpio_section(s.gpio), recorder::recorder_section(s.recorder),
+       video::video_section(s.video), clock_section(s.clock), watchdog_section(s),
+       trust::trust_section(s.trust)},
       [&s](ConfigTable& root) {
         use_survey(root, s);
+        use_lens(root, s);
         pass_on(s);
       }};
 }

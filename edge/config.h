@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/trust/trust_config.h"
 #include "edge/camera/camera_config.h"
 #include "edge/clock/clock_watch.h"
 #include "edge/command_gate.h"
 #include "edge/gpio/gpio.h"
 #include "edge/host_monitor.h"
+#include "edge/lens/lens_motor.h"
 #include "edge/ptu/ptu_config.h"
 #include "edge/recorder/recorder.h"
 #include "edge/sensors/gnss.h"
@@ -17,6 +19,7 @@
 #include "edge/sensors/pose_estimator.h"
 #include "edge/station.h"
 #include "edge/tracker/tracker_config.h"
+#include "edge/video/video_server.h"
 
 namespace ols::config {
 struct Section;
@@ -33,6 +36,8 @@ struct StationSettings {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string state_folder;  // for the state that survives a restart; empty: none is saved
   std::int64_t calibration_id = 0;
+  double view_check_s = 600.0;     // of idleness between two checks of the reference views; 0: none
+  std::string calibration_folder;  // of `ols-calibrate adjust`; empty: none
   InstrumentSerials serials;
   std::uint64_t tracker_seed = 1;
   double status_interval_s = 0.5;
@@ -41,14 +46,17 @@ struct StationSettings {
   sensors::PoseEstimator::Config pose;
   camera::CameraConfig camera;
   ptu::PtuConfig ptu;
+  lens::LensMotorConfig lens;
   sensors::InclinometerConfig inclinometer;
   sensors::GnssConfig gnss;
   gpio::GpioConfig gpio;
   recorder::RecorderConfig recorder;
+  video::VideoConfig video;
   clock::ClockWatch::Config clock;
   HostConfig host;
   tracker::TrackerConfig tracker;
   CommandGate::Config gate;
+  trust::TrustConfig trust;
 };
 
 config::Section station_section(StationSettings& settings);  // the whole file

@@ -15,7 +15,7 @@ std::string words(const char* format, Values... values) {
 
 std::string position_words(const StationSettings& settings) {
   const auto& surveyed = settings.pose.surveyed_position;
-  const bool checked = !settings.gnss.host.empty();
+  const bool checked = settings.gnss.has_receiver();
   if (!surveyed) return "position from GNSS";
   return words("position %.7f %.7f %.2f m surveyed%s", degrees(surveyed->latitude_rad),
                degrees(surveyed->longitude_rad), surveyed->height_m,
@@ -48,12 +48,13 @@ std::vector<std::string> describe(const StationSettings& s) {
     lines.push_back("inclinometer: " + s.inclinometer.device +
                     words(" at %d baud", s.inclinometer.baud));
   }
-  if (!s.gnss.host.empty()) lines.push_back("gnss: gpsd at " + s.gnss.host + ":" + s.gnss.port);
+  if (s.gnss.has_receiver()) lines.push_back("gnss: gpsd at " + s.gnss.host + ":" + s.gnss.port);
   if (!s.gpio.chip.empty()) {
     lines.push_back("gpio: " + s.gpio.chip +
-                    (s.gpio.stop_line >= 0 ? words(", emergency stop on line %d", s.gpio.stop_line)
-                                           : std::string(", no emergency stop")));
+                    (s.gpio.has_stop() ? words(", emergency stop on line %d", s.gpio.stop_line)
+                                       : std::string(", no emergency stop")));
   }
+  if (!s.video.address.empty()) lines.push_back("video: on " + s.video.address);
   if (!s.recorder.folder.empty()) lines.push_back("recorder: " + s.recorder.folder);
   return lines;
 }

@@ -2,14 +2,16 @@
 
 namespace ols::station {
 
-DeviceSet::DeviceSet(const StationSettings& settings)
-    : stop_(!settings.gpio.chip.empty() && settings.gpio.stop_line >= 0),
-      camera_(settings.camera),
-      ptu_(settings.ptu) {
+DeviceSet::DeviceSet(const StationSettings& settings, std::int64_t boot_id)
+    : stop_(settings.gpio.has_stop()), camera_(settings.camera), ptu_(settings.ptu) {
   if (!stop_.known()) ptu_.emergency_halt();
   if (!settings.recorder.folder.empty()) recorder_.emplace(settings.recorder);
+  if (!settings.video.address.empty()) {
+    video_.emplace(settings.video, video::VideoSender{settings.id, boot_id});
+  }
+  if (!settings.lens.device.empty()) lens_.emplace(settings.lens);
   if (!settings.inclinometer.device.empty()) inclinometer_.emplace(settings.inclinometer);
-  if (!settings.gnss.host.empty()) gnss_.emplace(settings.gnss);
+  if (settings.gnss.has_receiver()) gnss_.emplace(settings.gnss);
   if (!settings.gpio.chip.empty()) {
     gpio_.emplace(
         settings.gpio, [this](bool pressed) { on_stop(pressed); }, [this] { stop_.rearm(); });
@@ -22,7 +24,7 @@ void DeviceSet::on_stop(bool pressed) {
   if (pressed) ptu_.emergency_halt();
 }
 
-// A press after the release is either seen here, or halts the unit after its release.
+// A press after clear_emergency() is seen by the next line, or on_stop() halts the unit.
 void DeviceSet::rearm() {
   ptu_.clear_emergency();
   if (stop_.pressed()) ptu_.emergency_halt();
@@ -40,10 +42,12 @@ void DeviceSet::feed(sensors::PoseEstimator& estimator) {
 
 std::vector<device::DeviceReport> DeviceSet::reports() const {
   std::vector<device::DeviceReport> reports{camera_.report(), ptu_.report()};
+  if (lens_) reports.push_back(lens_->report());
   if (inclinometer_) reports.push_back(inclinometer_->report());
   if (gnss_) reports.push_back(gnss_->report());
   if (gpio_) reports.push_back(gpio_->report());
   if (recorder_) reports.push_back(recorder_->report());
+  if (video_) reports.push_back(video_->report());
   return reports;
 }
 

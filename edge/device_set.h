@@ -8,18 +8,20 @@
 #include "edge/config.h"
 #include "edge/device/device_report.h"
 #include "edge/gpio/gpio.h"
+#include "edge/lens/lens_motor.h"
 #include "edge/ptu/ptu_thread.h"
 #include "edge/recorder/recorder.h"
 #include "edge/sensors/gnss.h"
 #include "edge/sensors/inclinometer.h"
 #include "edge/sensors/pose_estimator.h"
 #include "edge/stop_latch.h"
+#include "edge/video/video_server.h"
 
 namespace ols::station {
 
 class DeviceSet {
  public:
-  explicit DeviceSet(const StationSettings& settings);
+  DeviceSet(const StationSettings& settings, std::int64_t boot_id);
   DeviceSet(const DeviceSet&) = delete;
   DeviceSet& operator=(const DeviceSet&) = delete;
 
@@ -27,7 +29,9 @@ class DeviceSet {
   ptu::PtuThread& ptu() { return ptu_; }
   // Null if not configured.
   std::optional<gpio::Gpio>& gpio() { return gpio_; }
+  std::optional<lens::LensMotor>& lens() { return lens_; }
   std::optional<recorder::Recorder>& recorder() { return recorder_; }
+  std::optional<video::VideoServer>& video() { return video_; }
   StopLatch& stop() { return stop_; }
   const StopLatch& stop() const { return stop_; }
 
@@ -45,6 +49,8 @@ class DeviceSet {
 
   StopLatch stop_;
   std::optional<recorder::Recorder> recorder_;
+  std::optional<video::VideoServer> video_;
+  std::optional<lens::LensMotor> lens_;
   std::optional<sensors::Inclinometer> inclinometer_;
   std::optional<sensors::Gnss> gnss_;
   camera::AravisCamera camera_;

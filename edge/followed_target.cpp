@@ -1,6 +1,27 @@
 #include "edge/followed_target.h"
 
+#include <map>
+#include <string>
+
 namespace ols::station {
+namespace {
+
+tracker::ColourPicture colour_of(const camera::Frame& frame) {
+  using tracker::ColourLayout;
+  static const std::map<std::string, ColourLayout> layouts{
+      {"BGR8", ColourLayout::kBgr},         {"RGB8", ColourLayout::kRgb},
+      {"BayerRG8", ColourLayout::kBayerRg}, {"BayerGR8", ColourLayout::kBayerGr},
+      {"BayerGB8", ColourLayout::kBayerGb}, {"BayerBG8", ColourLayout::kBayerBg}};
+  const auto layout = layouts.find(frame.pixel_format);
+  if (frame.raw.empty() || layout == layouts.end()) return {};
+  return {frame.raw, layout->second};
+}
+
+tracker::TrackerInput input_of(const camera::Frame& frame) {
+  return {frame.gray, frame.mid_exposure_s, std::nullopt, colour_of(frame)};
+}
+
+}  // namespace
 
 void FollowedTarget::begin(Kind kind, double time_s) {
   kind_ = kind;
@@ -11,7 +32,7 @@ void FollowedTarget::begin(Kind kind, double time_s) {
 
 std::optional<tracker::TrackerError> FollowedTarget::designate(const camera::Frame& frame,
                                                                const cv::Rect2d& box) {
-  const auto error = tracker_->initialise({frame.gray, frame.mid_exposure_s, std::nullopt}, box);
+  const auto error = tracker_->initialise(input_of(frame), box);
   if (error) return error;
   begin(Kind::kDesignated, frame.mid_exposure_s);
   own_.reset();
@@ -21,7 +42,7 @@ std::optional<tracker::TrackerError> FollowedTarget::designate(const camera::Fra
 bool FollowedTarget::try_found(const camera::Frame& frame, const cv::Rect2d& box) {
   const bool has_own = exists();
   if (has_own) tracker_->set_aside();
-  if (tracker_->initialise({frame.gray, frame.mid_exposure_s, std::nullopt}, box)) {
+  if (tracker_->initialise(input_of(frame), box)) {
     if (has_own) tracker_->take_back();
     return false;
   }
@@ -56,7 +77,7 @@ FollowedTarget::Dropped FollowedTarget::drop_unproven(double time_s) {
 
 std::optional<tracker::TrackerOutput> FollowedTarget::track(const camera::Frame& frame,
                                                             const PointingModel& pointing) {
-  tracker::TrackerInput input{frame.gray, frame.mid_exposure_s, std::nullopt};
+  tracker::TrackerInput input = input_of(frame);
   if (tracked_s_) {
     input.predicted_homography = pointing.homography(*tracked_s_, frame.mid_exposure_s);
   }

@@ -45,6 +45,10 @@ class FollowedTarget {
   std::int64_t track_id() const { return track_id_; }
   double centring_sd_px() const;  // of the box on the target
   const std::optional<tracker::TrackerOutput>& last_output() const { return last_output_; }
+  // Of this very frame; null: the tracker has not had it.
+  const tracker::TrackerOutput* output_of(double mid_exposure_s) const {
+    return last_output_ && tracked_s_ == mid_exposure_s ? &*last_output_ : nullptr;
+  }
   // In consecutive frames the image motion has contradicted the PTU's angles.
   bool motion_disagrees() const { return disagreeing_in_a_row_ >= config_.disagreeing_frames; }
   const std::map<std::string, double>& counters() const { return counters_; }

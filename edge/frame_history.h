@@ -1,5 +1,6 @@
 // The frames of the last second: an operator designates in an image that is not the newest, and
-// acquisition compares images. Pure.
+// acquisition compares images. Bounded by its span: of 1280 x 960 at 30 Hz a second is 37 MB in
+// grey, as much again with a Bayer mosaic beside it. Pure.
 #pragma once
 
 #include <deque>

@@ -10,10 +10,13 @@
 
 #include "base/boot_id.h"
 #include "base/command_line.h"
+#include "base/csv_files.h"
 #include "base/shutdown.h"
 #include "base/toml_config.h"
+#include "edge/calibration_folder.h"
 #include "edge/rearm_signal.h"
 #include "edge/station_process.h"
+#include "geometry/angles.h"
 
 namespace {
 
@@ -31,6 +34,7 @@ int run(const ols::station::StationSettings& settings) {
 
 int main(int argc, char** argv) {
   CLI::App app{"One camera station: captures, tracks, servoes and sends bearings over LCM"};
+  app.set_version_flag("--version", OLS_VERSION);
   std::string config;
   bool check = false;
   app.add_option("--config", config, "Configuration file (TOML)")->required();
@@ -46,11 +50,22 @@ int main(int argc, char** argv) {
     if (settings.state_folder.empty() && folder != nullptr) settings.state_folder = folder;
     if (check) {
       for (const auto& line : describe(settings)) std::printf("ok %s\n", line.c_str());
+      if (!settings.calibration_folder.empty()) {
+        const auto files = ols::station::read_calibration(settings.calibration_folder, settings);
+        std::printf("ok calibration: %lld, 1-sigma %.1f arc seconds\n",
+                    static_cast<long long>(files.id), files.rms_rad * 648000.0 / ols::kPi);
+      }
       ols::flush_output();
       return 0;
     }
     return run(settings);
   } catch (const ols::ConfigError& error) {
+    std::fprintf(stderr, "ols-station: %s\n", error.what());
+    return ols::kExitBadInput;
+  } catch (const ols::CsvError& error) {
+    std::fprintf(stderr, "ols-station: %s\n", error.what());
+    return ols::kExitBadInput;
+  } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "ols-station: %s\n", error.what());
     return ols::kExitBadInput;
   } catch (const std::exception& error) {

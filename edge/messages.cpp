@@ -7,6 +7,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "edge/messages_borders.h"
+#include "edge/messages_lens.h"
 #include "geometry/angles.h"
 
 namespace ols::station {
@@ -75,11 +77,13 @@ void fill_pose(const StationSnapshot& snapshot, const StationGeometry& geometry,
   message.heading_rad = geometry.chain.heading_rad;
   message.tilt_x_rad = pose.tilt_x_rad;
   message.tilt_y_rad = pose.tilt_y_rad;
+  message.pan_sign = static_cast<std::int8_t>(geometry.chain.pan_sign);
+  message.tilt_sign = static_cast<std::int8_t>(geometry.chain.tilt_sign);
   message.heading_sd_rad = geometry.sd.heading_rad;
   message.tilt_sd_rad = pose.tilt_sd_rad;
   message.position_source = pose_code(pose.position_source);
   message.tilt_source = pose_code(pose.tilt_source);
-  const Eigen::Vector2d field = field_of_view(geometry.camera);
+  const Eigen::Vector2d field = field_of_view(snapshot.camera.value_or(geometry.camera));
   message.field_of_view_rad[0] = field.x();
   message.field_of_view_rad[1] = field.y();
   message.image_width_px = geometry.camera.width_px;
@@ -123,6 +127,28 @@ std::int8_t state_code(StationState state) {
       return M::STATE_EMERGENCY;
   }
   return M::STATE_IDLE;
+}
+
+std::int8_t calibration_code(CalibrationState state) {
+  using M = ols_msg::station_status_t;
+  switch (state) {
+    case CalibrationState::kNone:
+      return M::CALIBRATION_NONE;
+    case CalibrationState::kInUse:
+      return M::CALIBRATION_IN_USE;
+    case CalibrationState::kRefused:
+      return M::CALIBRATION_REFUSED;
+    case CalibrationState::kDoubted:
+      return M::CALIBRATION_DOUBTED;
+  }
+  return M::CALIBRATION_NONE;
+}
+
+void fill_calibration(const CalibrationStatus& calibration, ols_msg::station_status_t& message) {
+  message.calibration_state = calibration_code(calibration.state);
+  message.calibration_id = calibration.id;
+  message.calibration_utime = calibration.observed_utime_us;
+  message.calibration_sd_rad = calibration.rms_rad > 0.0 ? calibration.rms_rad : kNaN;
 }
 
 std::int8_t device_code(device::DeviceState state) {
@@ -227,7 +253,10 @@ ols_msg::station_status_t to_message(const StationReport& report, const Sender& 
   message.track_id = snapshot.track_id;
   message.belief = snapshot.belief;
   fill_pose(snapshot, settings.station.geometry, message);
+  fill_lens(snapshot, message);
   fill_pointing(report, message);
+  fill_borders(settings.station.geometry.chain, report, message);
+  fill_calibration(report.calibration, message);
   fill_devices(report, now_s, message);
   message.clock_state = clock_code(sender.clock.state);
   message.clock_error_s = sender.clock.error_s;
@@ -266,6 +295,52 @@ std::optional<ols_msg::preview_t> to_preview(const camera::Frame& frame,
   return std::nullopt;
 }
 
+ols_msg::frame_part_t to_message(const FramePart& part, const Sender& sender,
+                                 std::int64_t sequence) {
+  const RequestedFrame& of = part.frame->frame;
+  ols_msg::frame_part_t message;
+  message.utime = sender.utime_us(of.frame.mid_exposure_s);
+  message.schema_version = ols_msg::frame_part_t::SCHEMA_VERSION;
+  message.station = sender.station;
+  message.boot_id = sender.boot_id;
+  message.sequence = sequence;
+  message.request_boot_id = of.request.boot_id;
+  message.request_sequence = of.request.sequence;
+  message.utime_sd_s = of.frame.stamp_sd_s;
+  message.clock_state = clock_code(sender.clock.state);
+  message.clock_error_s = sender.clock.error_s;
+  message.pan_counts = of.counts.pan;
+  message.tilt_counts = of.counts.tilt;
+  message.pan_counts_s = of.counts.pan_s;
+  message.tilt_counts_s = of.counts.tilt_s;
+  message.approach_pan = static_cast<std::int8_t>(of.counts.approach.pan);
+  message.approach_tilt = static_cast<std::int8_t>(of.counts.approach.tilt);
+  message.pan_count_rad = of.counts.count.pan_rad;
+  message.tilt_count_rad = of.counts.count.tilt_rad;
+  message.width_px = of.frame.gray.cols;
+  message.height_px = of.frame.gray.rows;
+  message.encoding = of.request.lossless ? ols_msg::frame_request_t::ENCODING_PNG
+                                         : ols_msg::frame_request_t::ENCODING_JPEG;
+  message.part = static_cast<std::int16_t>(part.part);
+  message.parts = static_cast<std::int16_t>(part.parts);
+  const auto first = part.frame->file.begin() + static_cast<std::ptrdiff_t>(part.first_byte);
+  message.data.assign(first, first + static_cast<std::ptrdiff_t>(part.bytes));
+  message.bytes = static_cast<std::int32_t>(part.bytes);
+  return message;
+}
+
+FrameRequest from_message(const ols_msg::frame_request_t& message, double now_s) {
+  FrameRequest request;
+  request.boot_id = message.boot_id;
+  request.sequence = message.sequence;
+  if (message.at_angles) request.at = PanTilt{message.pan_rad, message.tilt_rad};
+  request.tolerance_rad = message.tolerance_rad;
+  request.still_s = message.still_s;
+  request.lossless = message.encoding != ols_msg::frame_request_t::ENCODING_JPEG;
+  request.expires_s = now_s + message.lease_s;
+  return request;
+}
+
 DesignateCommand from_message(const ols_msg::designate_t& message, const Sender& sender) {
   DesignateCommand command;
   command.box = {message.x_px, message.y_px, message.width_px, message.height_px};
@@ -284,11 +359,27 @@ SlewCommand from_message(const ols_msg::slew_t& message, const Sender& sender, d
   command.azimuth_rate_rad_s = message.azimuth_rate_rad_s;
   command.elevation_rate_rad_s = message.elevation_rate_rad_s;
   command.direction_sd_rad = message.direction_sd_rad;
+  command.line = Eigen::Vector2d(message.line);
   return command;
 }
 
 PointCommand from_message(const ols_msg::ptu_command_t& message) {
   return {{message.pan_rad, message.tilt_rad}};
+}
+
+CentreCommand centre_from_message(const ols_msg::ptu_command_t& message, const Sender& sender) {
+  CentreCommand command;
+  if (message.frame_utime != 0) command.frame_time_s = sender.monotonic_s(message.frame_utime);
+  command.pixel = {message.x_px, message.y_px};
+  return command;
+}
+
+RateCommand rate_from_message(const ols_msg::ptu_command_t& message, double now_s) {
+  return {{message.pan_rate_rad_s, message.tilt_rate_rad_s},
+          now_s,
+          message.lease_s,
+          message.boot_id,
+          message.sequence};
 }
 
 std::optional<recorder::RecordCommand> from_message(const ols_msg::record_t& message,

@@ -7,10 +7,13 @@
 
 #include "edge/clock/clock_watch.h"
 #include "edge/config.h"
+#include "edge/frame_desk.h"
 #include "edge/station.h"
 #include "edge/station_report.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/designate_t.hpp"
+#include "ols_msg/frame_part_t.hpp"
+#include "ols_msg/frame_request_t.hpp"
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/record_t.hpp"
@@ -42,12 +45,19 @@ std::optional<ols_msg::preview_t> to_preview(const camera::Frame& frame,
                                              const std::optional<cv::Rect2d>& box,
                                              const Sender& sender, std::int64_t sequence);
 
+ols_msg::frame_part_t to_message(const FramePart& part, const Sender& sender,
+                                 std::int64_t sequence);
+
 DesignateCommand from_message(const ols_msg::designate_t& message, const Sender& sender);
 SlewCommand from_message(const ols_msg::slew_t& message, const Sender& sender, double now_s);
 PointCommand from_message(const ols_msg::ptu_command_t& message);
+CentreCommand centre_from_message(const ols_msg::ptu_command_t& message, const Sender& sender);
+RateCommand rate_from_message(const ols_msg::ptu_command_t& message, double now_s);
 // Empty when its times are not valid: not finite, negative, or too large.
 std::optional<recorder::RecordCommand> from_message(const ols_msg::record_t& message,
                                                     const Sender& sender, double now_s);
+
+FrameRequest from_message(const ols_msg::frame_request_t& message, double now_s);
 
 template <class Message>
 CommandStamp stamp_of(const Message& message) {

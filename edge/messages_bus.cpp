@@ -10,15 +10,25 @@ namespace {
 
 constexpr QueueLimits kQueue{.messages = 400, .bytes = 1'000'000};  // commands of one kind
 
+std::shared_ptr<trust::BusTrust> open_trust(const StationSettings& settings, std::int64_t boot_id) {
+  trust::Environment environment = trust::process_environment();
+  if (!settings.state_folder.empty()) environment.state = settings.state_folder;
+  trust::Self self;
+  self.name = settings.id;
+  self.boot_id = boot_id;
+  self.is_station = true;
+  return trust::BusTrust::open(settings.trust, environment, self);
+}
+
 }  // namespace
 
 StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
-                       CommandTurn& turn, Record recorder)
+                       CommandTurn& turn, Record recorder, FrameWanted frame_wanted)
     : settings_(settings),
       station_(station),
       turn_(turn),
-      record_(std::move(recorder)),
-      connector_(settings.lcm_url) {
+      handlers_{std::move(recorder), std::move(frame_wanted)},
+      connector_(settings.lcm_url, open_trust(settings, boot_id)) {
   sender_.station = settings.id;
   sender_.boot_id = boot_id;
   on_command<ols_msg::designate_t>("DESIGNATE", [this](const ols_msg::designate_t& message) {
@@ -30,10 +40,17 @@ StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, St
   });
   on_command<ols_msg::ptu_command_t>(
       "PTU", [this](const ols_msg::ptu_command_t& message) { return command_ptu(message); });
+  on_command<ols_msg::lens_command_t>(
+      "LENS", [this](const ols_msg::lens_command_t& message) { return command_lens(message); });
   on_command<ols_msg::record_t>("RECORD", [this](const ols_msg::record_t& message) {
     record(message);
     return Refusal::kNone;
   });
+  on_command<ols_msg::frame_request_t>("FRAME_REQUEST",
+                                       [this](const ols_msg::frame_request_t& message) {
+                                         want_frame(message);
+                                         return Refusal::kNone;
+                                       });
 }
 
 void StationBus::connect(double wait_s) {
@@ -48,15 +65,11 @@ void StationBus::connect(double wait_s) {
 }
 
 void StationBus::subscribe() {
-  const LcmBus::Express stop = [this](const BusMessage& message) {
-    return take_stop(message.payload.data(), static_cast<int>(message.payload.size()));
-  };
+  const LcmBus::Express stop = [this](const BusMessage& message) { return take_stop(message); };
   for (const auto& subscription : subscriptions_) {
-    const auto handle = [&receive = subscription.second](const BusMessage& message) {
-      receive(message.payload.data(), static_cast<int>(message.payload.size()));
-    };
     const bool may_stop = subscription.first == ptu_channel();
-    bus_->subscribe(subscription.first, handle, kQueue, may_stop ? stop : LcmBus::Express());
+    bus_->subscribe(subscription.first, subscription.second, kQueue,
+                    may_stop ? stop : LcmBus::Express());
   }
 }
 
@@ -64,13 +77,22 @@ std::string StationBus::ptu_channel() const { return station_channel(kPtuChannel
 
 // In the bus's own thread: a stop overtakes all waiting messages and no flood displaces it. It is
 // accepted at any age, from any clock, sender and schema that can be read: only commands that cause
-// motion must be fresh, and a stop on this station's channel means this station.
-bool StationBus::take_stop(const void* data, int bytes) {
+// motion must be fresh, and a stop on this station's channel means this station. Where signatures
+// are required, one that does not name this boot is good for its lease only: it may be a recording.
+bool StationBus::take_stop(const BusMessage& message) {
   ols_msg::ptu_command_t command{};
-  const bool is_stop = decode_exactly(data, bytes, command) &&
-                       command.command == ols_msg::ptu_command_t::COMMAND_STOP;
+  const bool is_stop = decode_exactly(message, command) &&
+                       command.command == ols_msg::ptu_command_t::COMMAND_STOP &&
+                       (message.addressed || is_leased(command, message.received_utime_us));
   if (is_stop) turn_.stop();
   return is_stop;
+}
+
+// Of constants only: it runs in the bus's thread.
+bool StationBus::is_leased(const ols_msg::ptu_command_t& stop, std::int64_t utime_us) const {
+  const double age_s = static_cast<double>(utime_us - stop.utime) * 1e-6;
+  return stop.lease_s > 0.0 && stop.lease_s <= settings_.gate.lease_max_s &&
+         std::abs(age_s) <= stop.lease_s + settings_.gate.clock_margin_s;
 }
 
 void StationBus::disconnect(const std::string& why) {
@@ -94,6 +116,10 @@ Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
   switch (message.command) {
     case ols_msg::ptu_command_t::COMMAND_POINT:
       return station_.point(from_message(message), now_s_);
+    case ols_msg::ptu_command_t::COMMAND_CENTRE:
+      return station_.centre(centre_from_message(message, sender_), now_s_);
+    case ols_msg::ptu_command_t::COMMAND_RATE:
+      return station_.rate(rate_from_message(message, now_s_), now_s_);
     case ols_msg::ptu_command_t::COMMAND_RELEASE:
       return station_.release(now_s_);
     case ols_msg::ptu_command_t::COMMAND_REARM:
@@ -108,10 +134,19 @@ Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
   }
 }
 
-void StationBus::take(const std::string& channel, const void* data, int bytes) {
-  if (channel == ptu_channel() && take_stop(data, bytes)) return;
+Refusal StationBus::command_lens(const ols_msg::lens_command_t& message) {
+  using M = ols_msg::lens_command_t;
+  if (message.command == M::COMMAND_POSITION || message.command == M::COMMAND_RATE) {
+    return station_.lens(from_message(message, now_s_), now_s_);
+  }
+  refused_.refuse("LENS", "unknown_command");
+  return Refusal::kNone;
+}
+
+void StationBus::take(const BusMessage& message) {
+  if (message.channel == ptu_channel() && take_stop(message)) return;
   for (const auto& [name, receive] : subscriptions_) {
-    if (name == channel) receive(data, bytes);
+    if (name == message.channel) receive(message);
   }
 }
 
@@ -119,9 +154,10 @@ template <class Message>
 void StationBus::on_command(const std::string& kind,
                             const std::function<Refusal(const Message&)>& execute) {
   gates_.emplace(kind, CommandGate(settings_.gate, clock_utime_us()));
-  const auto receive = [this, kind, execute](const void* data, int bytes) {
+  const auto receive = [this, kind, execute](const BusMessage& received) {
     Message message;
-    if (!decode_exactly(data, bytes, message)) return refused_.refuse(kind, "malformed");
+    if (!decode_exactly(received, message)) return refused_.refuse(kind, "malformed");
+    if (!received.addressed) return refused_.refuse(kind, "other_boot");
     if (message.schema_version != Message::SCHEMA_VERSION) return refused_.refuse(kind, "schema");
     if (message.station != settings_.id) return refused_.refuse(kind, "other_station");
     const auto refusal = gates_.at(kind).admit(stamp_of(message), sender_.utime_us(now_s_));
@@ -133,12 +169,24 @@ void StationBus::on_command(const std::string& kind,
 
 void StationBus::record(const ols_msg::record_t& message) {
   const auto command = from_message(message, sender_, now_s_);
-  const std::string refusal = command ? record_(*command) : "not a span of time";
+  const std::string refusal = command ? handlers_.record(*command) : "not a span of time";
   if (refusal.empty()) {
     counters_["record_accepted"] += 1;
   } else {
     refused_.refuse("RECORD", "recorder");
     refused_.note("RECORD refused: " + refusal);
+  }
+}
+
+void StationBus::want_frame(const ols_msg::frame_request_t& message) {
+  const std::string refusal = handlers_.frame_wanted
+                                  ? handlers_.frame_wanted(from_message(message, now_s_))
+                                  : "this station sends no frames";
+  if (refusal.empty()) {
+    counters_["frame_requests_accepted"] += 1;
+  } else {
+    refused_.refuse("FRAME_REQUEST", "frame_service");
+    refused_.note("FRAME_REQUEST refused: " + refusal);
   }
 }
 
@@ -165,7 +213,7 @@ void StationBus::receive() {
 
 std::vector<std::string> StationBus::alarms() const {
   auto alarms = refused_.alarms(now_s_);
-  if (auto alarm = monitor_.alarm(now_s_); !alarm.empty()) alarms.push_back(std::move(alarm));
+  for (std::string& alarm : monitor_.alarms(now_s_)) alarms.push_back(std::move(alarm));
   return alarms;
 }
 
@@ -188,6 +236,11 @@ void StationBus::send(StationReport report) {
   report.counters.merge(counters());
   publish(station_channel(kStatusChannel, settings_.id),
           to_message(report, sender_, settings_, now_s_, ++sequences_["status"]));
+}
+
+void StationBus::send(const FramePart& part) {
+  publish(station_channel(kFrameChannel, settings_.id),
+          to_message(part, sender_, ++sequences_["frame_part"]));
 }
 
 void StationBus::send_preview(const camera::Frame& frame, const std::optional<cv::Rect2d>& box) {

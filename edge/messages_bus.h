@@ -18,6 +18,7 @@
 #include "edge/command_turn.h"
 #include "edge/config.h"
 #include "edge/messages.h"
+#include "edge/messages_lens.h"
 #include "edge/refusal_log.h"
 
 namespace ols::station {
@@ -26,10 +27,11 @@ class StationBus {
  public:
   // Empty: accepted; otherwise the reason for the refusal.
   using Record = std::function<std::string(const recorder::RecordCommand&)>;
+  using FrameWanted = std::function<std::string(const FrameRequest&)>;
 
   // The references must outlive the bus.
   StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
-             CommandTurn& turn, Record recorder);
+             CommandTurn& turn, Record recorder, FrameWanted frame_wanted = {});
 
   // The present clocks, for everything until the next call.
   void set_time(const clock::ClockPair& now, const clock::ClockQuality& quality);
@@ -39,10 +41,9 @@ class StationBus {
   // Passes the waiting commands to the station. Without a connection it starts an attempt and does
   // not wait for it.
   void receive();
-  // One datagram as received.
-  void take(const std::string& channel, const void* data, int bytes);
-  // True: the datagram is a stop, from any thread; end_turn() carries it out.
-  bool take_stop(const void* data, int bytes);
+  void take(const BusMessage& message);
+  // True: the message is a stop, from any thread; end_turn() carries it out.
+  bool take_stop(const BusMessage& message);
   // After the datagrams of a turn.
   void end_turn();
 
@@ -59,6 +60,7 @@ class StationBus {
 
   void send(const Bearing& bearing);
   void send(StationReport report);
+  void send(const FramePart& part);
   void send_preview(const camera::Frame& frame, const std::optional<cv::Rect2d>& box);
 
  private:
@@ -69,18 +71,24 @@ class StationBus {
   void subscribe();
   void disconnect(const std::string& why);
   std::string ptu_channel() const;
+  bool is_leased(const ols_msg::ptu_command_t& stop, std::int64_t utime_us) const;
   Refusal command_ptu(const ols_msg::ptu_command_t& message);
+  Refusal command_lens(const ols_msg::lens_command_t& message);
   void record(const ols_msg::record_t& message);
+  void want_frame(const ols_msg::frame_request_t& message);
   void note(const std::string& kind, Refusal refusal);
 
   const StationSettings& settings_;
   Station& station_;
   CommandTurn& turn_;
-  Record record_;
+  struct Handlers {
+    Record record;
+    FrameWanted frame_wanted;
+  };
+  Handlers handlers_;
   Sender sender_;
   double now_s_ = 0.0;
-  // One datagram of a channel.
-  using Receive = std::function<void(const void* data, int bytes)>;
+  using Receive = std::function<void(const BusMessage& message)>;
   std::vector<std::pair<std::string, Receive>> subscriptions_;
   BusConnector connector_;
   std::unique_ptr<LcmBus> bus_;

@@ -1,29 +1,55 @@
 // From directions to PTU angles and back: the station's position and tilt, the reported angles of
-// the PTU, and its travel. Pure.
+// the PTU, its errors where a calibration knows them, and its travel. Pure.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 
+#include "edge/calibrated_unit.h"
 #include "edge/ptu/angle_history.h"
 #include "edge/ptu/servo.h"
 #include "edge/station_config.h"
 #include "edge/station_types.h"
+#include "edge/video/video_frame.h"
 
 namespace ols::station {
 
+// The unit at one instant.
+struct UnitAngles {
+  PanTilt angles;  // for the chain; of a calibrated unit corrected for its errors
+  PanTilt reported;
+  PanTilt rate;                // [rad/s]
+  Eigen::Matrix2d covariance;  // [rad^2] (pan, tilt), white
+  bool interpolated = false;   // false: the instant lies after the newest sample
+  UnitReading reading;         // of a calibrated unit
+  double time_s = 0.0;
+};
+
+// "Reported" angles are the unit's own, of its samples, goals and limits. Where nothing else is
+// said, angles are the chain's; without a calibration they are the same.
 class PointingModel {
  public:
   // The pose is the configured one until set_pose().
   explicit PointingModel(const StationConfig& config);
 
   void set_pose(const sensors::StationPose& pose);
-  void set_limits(const ptu::PtuLimits& limits) { limits_ = limits; }
+  void set_limits(const ptu::PtuLimits& limits);
   // In time order.
-  void add(const ptu::AngleSample& sample) { history_.add(sample); }
+  void add(const ptu::AngleSample& sample);
+  // Of a motorised lens. geometry() has the camera at the newest.
+  void add(const lens::ZoomSample& sample);
+  void set_lens(const lens::ByAxis<std::optional<double>>& positions) { lens_ = positions; }
+  const lens::ByAxis<std::optional<double>>& lens() const { return lens_; }
   // Earlier and later angles are not in the same frame of reference.
-  void forget_angles() { history_.clear(); }
+  void forget_angles();
+
+  // Another geometry from now on, with a calibration or without one. The pose is the geometry's.
+  void use(const StationGeometry& geometry, const std::optional<StationCalibration>& calibration);
+  // More is unknown of the setup than the calibration says, by so much. Nothing without one.
+  void doubt_setup(double heading_sd_rad, double tilt_sd_rad);
+  // A calibration is in use. It is not while the unit has other counts than it says.
+  bool calibrated() const { return unit_ && unit_->fits(); }
 
   // With the present pose.
   const StationGeometry& geometry() const { return geometry_; }
@@ -31,21 +57,38 @@ class PointingModel {
   // Incremented when the pose has changed by more than its sigmas; 0: as configured.
   std::int64_t pose_revision() const { return pose_revision_; }
 
-  std::optional<ptu::AngleAt> angles_at(double time_s) const { return history_.at(time_s); }
+  std::optional<UnitAngles> angles_at(double time_s) const;
+  // Of the newest sample; zero before the first.
+  PanTilt angles_now() const;
   std::optional<ptu::AngleSample> newest_angles() const { return history_.newest(); }
+  std::optional<PanTilt> reported_angles() const {
+    const auto newest = history_.newest();
+    return newest ? std::optional(newest->angles) : std::nullopt;
+  }
+  // Where the camera is and looks at an instant; empty: the unit's angles are not known.
+  std::optional<video::CameraView> camera_at(double time_s) const;
+  // The camera with its deviations at an instant; empty: the zoom is not known.
+  std::optional<ZoomPoint> zoom_at(double time_s) const;
+  // Reported angles that bring a pixel of this instant to the middle of the picture; the travel is
+  // not looked at.
+  std::optional<PanTilt> centring(const Eigen::Vector2d& pixel, double time_s) const;
   // Maps pixels at one instant to pixels at another, for a scene at infinity.
   std::optional<Eigen::Matrix3d> homography(double from_s, double to_s) const;
+  // The line of sight of a pixel, whose angles and their covariance are those of the unit.
+  std::optional<LineOfSight> sight(PixelSight pixel, const UnitAngles& unit) const;
   // The pixel of a direction at infinity.
   std::optional<Eigen::Vector2d> pixel_of(const PanTilt& angles,
                                           const AzimuthElevation& direction) const;
   bool in_picture(const Eigen::Vector2d& pixel) const;
 
-  // The same direction as the counts that the unit reaches on the shortest way, from its position
-  // or from `here`; empty: it cannot point there.
+  // Reported angles: the same direction as the counts that the unit reaches on the shortest way,
+  // from its position or from `here`; empty: it cannot point there.
   std::optional<PanTilt> reachable(const PanTilt& angles) const;
   std::optional<PanTilt> reachable_from(const PanTilt& here, PanTilt angles) const;
-  // The angles that put a direction on the optical axis; empty: the unit cannot point there.
+  // The reported angles that put a direction on the optical axis; empty: the unit cannot point
+  // there. The second one knows no travel and comes from the reported angles `here`.
   std::optional<PanTilt> aim(const AzimuthElevation& direction) const;
+  std::optional<PanTilt> aim_from(const PanTilt& here, const AzimuthElevation& direction) const;
 
  private:
   StationGeometry geometry_;
@@ -54,6 +97,9 @@ class PointingModel {
   std::int64_t pose_revision_ = 0;
   ptu::PtuLimits limits_;
   ptu::AngleHistory history_;
+  std::optional<CalibratedUnit> unit_;
+  std::optional<lens::ZoomLens> zoom_;
+  lens::ByAxis<std::optional<double>> lens_;  // positions of all axes
 };
 
 }  // namespace ols::station

@@ -11,14 +11,37 @@ void SlewSearch::restart(bool found) {
   searched_s_ = kNever;  // at the first frame of a search the tracker is sent a hint
 }
 
+namespace {
+
+// Of a line through a pixel, where it passes nearest to the middle of the picture.
+Eigen::Vector2d nearest_to_middle(const Eigen::Vector2d& pixel, const Eigen::Vector2d& line,
+                                  const CameraIntrinsics& camera) {
+  const Eigen::Vector2d middle(camera.cx_px, camera.cy_px);
+  return pixel + (middle - pixel).dot(line) * line;
+}
+
+}  // namespace
+
+// Straight lines are straight in the picture, but for its distortion, which is small where the lens
+// is long.
 std::optional<SlewSearch::Expected> SlewSearch::expected(const camera::Frame& frame,
                                                          const PointingModel& pointing,
                                                          const Slew& slew) {
   const auto angles = pointing.angles_at(frame.mid_exposure_s);
   if (!slew || !angles) return std::nullopt;
-  const auto pixel = pointing.pixel_of(angles->angles, direction_at(*slew, frame.mid_exposure_s));
+  const AzimuthElevation direction = direction_at(*slew, frame.mid_exposure_s);
+  const auto pixel = pointing.pixel_of(angles->angles, direction);
   if (!pixel) return std::nullopt;
-  return Expected{*pixel, angles->angles};
+  if (!slew->searches_line()) return Expected{*pixel, angles->angles};
+  constexpr double kStep_rad = 0.01;
+  const auto further = pointing.pixel_of(
+      angles->angles,
+      {direction.azimuth_rad + kStep_rad * slew->line.x() / std::cos(direction.elevation_rad),
+       direction.elevation_rad + kStep_rad * slew->line.y()});
+  if (!further) return std::nullopt;
+  const Eigen::Vector2d line = (*further - *pixel).normalized();
+  return Expected{nearest_to_middle(*pixel, line, pointing.geometry().camera), angles->angles,
+                  line};
 }
 
 std::optional<SlewSearch::Expected> SlewSearch::expected_in_picture(const camera::Frame& frame,
@@ -41,7 +64,10 @@ bool SlewSearch::is_where_slewed(const camera::Frame& frame, const tracker::Trac
                                  const PointingModel& pointing, const Slew& slew) const {
   constexpr double kSigmas = 4.0;
   const auto where = expected(frame, pointing, slew);
-  return where && (output.pixel - where->pixel).norm() <= kSigmas * search_sd_px(pointing, *slew);
+  if (!where) return false;
+  const Eigen::Vector2d off = output.pixel - where->pixel;
+  const Eigen::Vector2d beside = off - off.dot(where->line) * where->line;
+  return beside.norm() <= kSigmas * search_sd_px(pointing, *slew);
 }
 
 std::optional<SlewSearch::Place> SlewSearch::send_tracker(const camera::Frame& frame,
@@ -51,7 +77,8 @@ std::optional<SlewSearch::Place> SlewSearch::send_tracker(const camera::Frame& f
   const auto where = expected_in_picture(frame, pointing, slew);
   if (!where) return std::nullopt;
   searched_s_ = frame.mid_exposure_s;
-  return Place{where->pixel, search_sd_px(pointing, *slew)};
+  const bool anywhere = slew->searches_line();
+  return Place{where->pixel, anywhere ? max_search_sd_px(config_) : search_sd_px(pointing, *slew)};
 }
 
 // Gaps are bridged: a lost frame, a late slew, a search step that leads out of the image.
@@ -78,7 +105,17 @@ std::optional<cv::Rect2d> SlewSearch::acquire(const std::deque<camera::Frame>& f
     acquisition_.clear();
     return std::nullopt;
   }
-  tracker::AcquisitionView view{frame.gray, now->pixel, search_sd_px(pointing, *slew), {}};
+  tracker::AcquisitionView view;
+  view.gray = frame.gray;
+  view.expected_px = now->pixel;
+  view.expected_sd_px = search_sd_px(pointing, *slew);
+  view.line = now->line;
+  // Along another station's line of sight nobody knows how the target moves: 15 m/s at 250 m.
+  constexpr double kUnknownRate_rad_s = 0.06;
+  if (slew->searches_line() && frames.size() > 1) {
+    const double since_s = frame.mid_exposure_s - frames[frames.size() - 2].mid_exposure_s;
+    view.drift_px = kUnknownRate_rad_s * pointing.geometry().camera.fx_px * since_s;
+  }
   for (auto earlier = frames.rbegin() + 1; earlier != frames.rend(); ++earlier) {
     const auto then = expected(*earlier, pointing, slew);
     if (!then) continue;
@@ -100,7 +137,7 @@ void SlewSearch::end_trial(double time_s) {
 
 std::string SlewSearch::unacquired_alarm(const Slew& slew) const {
   const double waited_s = in_view_.to_s - in_view_.from_s;
-  if (!slew || waited_s < config_.unacquired_alarm_s) return {};
+  if (!slew || slew->searches_line() || waited_s < config_.unacquired_alarm_s) return {};
   const double sd_px = slew->direction_sd_rad * config_.geometry.camera.fx_px;
   if (sd_px > max_search_sd_px(config_)) return {};
   char text[120];

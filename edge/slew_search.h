@@ -65,6 +65,9 @@ class SlewSearch {
   struct Expected {  // the slew's target in a frame
     Eigen::Vector2d pixel;
     PanTilt angles;
+    // Of a search along a line: its direction, a unit vector; the pixel is its nearest to the
+    // middle.
+    Eigen::Vector2d line = Eigen::Vector2d::Zero();
   };
   static std::optional<Expected> expected(const camera::Frame& frame, const PointingModel& pointing,
                                           const Slew& slew);

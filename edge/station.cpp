@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge/station_snapshot.h"
+#include "edge/tracker/object_at.h"
+
 namespace ols::station {
 
 Station::Station(const StationConfig& config, std::unique_ptr<tracker::TargetTracker> tracker)
@@ -13,8 +16,6 @@ Station::Station(const StationConfig& config, std::unique_ptr<tracker::TargetTra
       search_(config),
       bearings_(config),
       motion_(config.motion) {}
-
-// --- Inputs
 
 void Station::on_angles(const ptu::AngleSample& sample) { pointing_.add(sample); }
 
@@ -32,6 +33,13 @@ void Station::on_frame(const camera::Frame& frame, double now_s) {
     drop_unproven(frame.mid_exposure_s);
   }
   if (mode_.is(StationState::kSlewed)) look_along_slew(frame);
+}
+
+void Station::use(const StationGeometry& geometry,
+                  const std::optional<StationCalibration>& calibration) {
+  bearings_.clear();
+  motion_.clear();
+  pointing_.use(geometry, calibration);
 }
 
 void Station::track(const camera::Frame& frame) {
@@ -103,7 +111,7 @@ void Station::look_along_slew(const camera::Frame& frame) {
 void Station::set_reference(ptu::PtuReference reference) {
   const bool had_angles = !mode_.has_doubtful_angles();
   mode_.set_reference(reference);
-  if (reference == ptu::PtuReference::kUnknown) point_.reset();
+  if (reference == ptu::PtuReference::kUnknown) manual_.clear();
   if (had_angles && mode_.has_doubtful_angles()) forget_angles();
 }
 
@@ -115,7 +123,7 @@ void Station::forget_angles() {
   bearings_.clear();
   target_.forget_angles();
   slew_.clear();
-  point_.reset();
+  manual_.clear();
   if (mode_.is(StationState::kTracking) || mode_.is(StationState::kCoasting)) {
     enter(StationState::kLost);
   }
@@ -126,8 +134,6 @@ void Station::enter(StationState state) {
   search_.restart(state == StationState::kTracking);
   believed_in_a_row_ = 0;
 }
-
-// --- Commands
 
 void Station::pass_time(double now_s) { now_s_ = std::max(now_s_, now_s); }
 
@@ -144,7 +150,11 @@ Refusal Station::designate(const DesignateCommand& command, double now_s) {
   if (refusal != Refusal::kNone) return count(refusal, "designate");
   const camera::Frame* start = frames_.find(command.frame_time_s);
   if (start == nullptr) return count(Refusal::kNoFrame, "designate");
-  if (const auto error = target_.designate(*start, command.box)) {
+  const bool by_point = command.box.width == 0.0 && command.box.height == 0.0;
+  const auto box = by_point ? tracker::object_at(start->gray, {command.box.x, command.box.y})
+                            : std::optional(command.box);
+  if (!box) return count(Refusal::kNothingThere, "designate");
+  if (const auto error = target_.designate(*start, *box)) {
     const bool no_box = *error == tracker::TrackerError::kBox;
     return count(no_box ? Refusal::kBox : Refusal::kTracker, "designate");
   }
@@ -174,11 +184,44 @@ Refusal Station::point(const PointCommand& command, double now_s) {
   pass_time(now_s);
   const Refusal refusal = judge(command, situation(now_s));
   if (refusal != Refusal::kNone) return count(refusal, "point");
-  const auto angles = pointing_.reachable(command.angles);
-  if (!angles) return count(Refusal::kUnreachable, "point");
-  point_ = ptu::ServoGoal{now_s, *angles, {}, now_s + config_.point_time_s};
+  return stand_at(command.angles, "point", now_s);
+}
+
+Refusal Station::stand_at(const PanTilt& angles, const char* command, double now_s) {
+  const auto there = pointing_.reachable(angles);
+  if (!there) return count(Refusal::kUnreachable, command);
+  manual_.point(*there, now_s, now_s + config_.point_time_s);
   enter(StationState::kManual);
-  return count(Refusal::kNone, "point");
+  return count(Refusal::kNone, command);
+}
+
+Refusal Station::centre(const CentreCommand& command, double now_s) {
+  pass_time(now_s);
+  const Refusal refusal = judge_motion(situation(now_s));
+  if (refusal != Refusal::kNone) return count(refusal, "centre");
+  if (!command.pixel.allFinite()) return count(Refusal::kNotFinite, "centre");
+  const camera::Frame* frame = frames_.find(command.frame_time_s);
+  if (frame == nullptr) return count(Refusal::kNoFrame, "centre");
+  const auto angles = pointing_.centring(command.pixel, frame->mid_exposure_s);
+  return angles ? stand_at(*angles, "centre", now_s) : count(Refusal::kUnreachable, "centre");
+}
+
+Refusal Station::rate(const RateCommand& command, double now_s) {
+  pass_time(now_s);
+  const bool late = manual_.overtakes(command, now_s);
+  const Refusal refusal = late ? Refusal::kOvertaken : judge(command, situation(now_s));
+  if (refusal != Refusal::kNone) return count(refusal, "rate");
+  manual_.turn(command);
+  enter(StationState::kManual);
+  return count(Refusal::kNone, "rate");
+}
+
+Refusal Station::lens(const LensCommand& command, double now_s) {
+  pass_time(now_s);
+  const Refusal refusal = judge(command, situation(now_s));
+  if (refusal != Refusal::kNone) return count(refusal, "lens");
+  add(command, actions_.lens);
+  return count(Refusal::kNone, "lens");
 }
 
 void Station::begin_stopped() {
@@ -189,7 +232,7 @@ void Station::begin_stopped() {
 // Cancels the goal of any command, and homing that has not begun.
 void Station::give_up_unit() {
   slew_.clear();
-  point_.reset();
+  manual_.clear();
   actions_.home = false;
 }
 
@@ -207,7 +250,7 @@ Refusal Station::release(double now_s) {
   const Refusal refusal = mode_.refuses_operator(now_s);
   if (refusal != Refusal::kNone) return count(refusal, "release");
   if (mode_.is(StationState::kManual) || mode_.is(StationState::kStopped)) {
-    point_.reset();
+    manual_.clear();
     enter(target_.exists() ? StationState::kLost : StationState::kIdle);
   }
   return count(Refusal::kNone, "release");
@@ -256,8 +299,6 @@ Refusal Station::reference_ok(double now_s) {
   return count(refusal, "reference_ok");
 }
 
-// --- Outputs
-
 StationOutput Station::step(double now_s) {
   if (now_s_ > 0.0 && now_s > now_s_) mode_.count_seconds(now_s - now_s_);
   pass_time(now_s);
@@ -286,9 +327,9 @@ void Station::expire(double now_s) {
 
 void Station::follow(const MadeBearing& made) {
   const LineOfSight& sight = made.bearing.sight;
-  const auto centred = aim_along(pointing_.geometry(), sight.direction);
+  const auto centred = pointing_.aim_from(made.reported, sight.direction);
   if (!centred) return;
-  const auto within = pointing_.reachable_from(made.angles, *centred);
+  const auto within = pointing_.reachable_from(made.reported, *centred);
   if (!within) counters_["target_beyond_travel"] += 1;  // the servo goes as far as it may
   motion_.update(made.bearing.mid_exposure_s, within.value_or(*centred),
                  std::sqrt(sight.covariance_white.trace() / 2.0));
@@ -297,12 +338,7 @@ void Station::follow(const MadeBearing& made) {
 std::optional<ptu::ServoGoal> Station::goal(double now_s) const {
   switch (mode_.state()) {
     case StationState::kManual:
-      if (point_) {
-        ptu::ServoGoal here = *point_;  // stationary: still valid
-        here.time_s = now_s;
-        return here;
-      }
-      return std::nullopt;
+      return manual_.goal(now_s);
     case StationState::kTracking:
     case StationState::kCoasting:
       if (const auto angles = motion_.at(now_s)) {
@@ -310,6 +346,7 @@ std::optional<ptu::ServoGoal> Station::goal(double now_s) const {
       }
       return std::nullopt;
     case StationState::kSlewed:
+      if (target_.on_trial() && slew_.searches_line()) return std::nullopt;
       return slew_.goal(pointing_, now_s);
     default:
       return std::nullopt;
@@ -321,26 +358,16 @@ std::optional<cv::Rect2d> Station::target_box() const {
   return target_.last_output()->box;
 }
 
+std::optional<video::VideoFrame> Station::video_frame(double mid_exposure_s) const {
+  const camera::Frame* newest = frames_.find(std::nullopt);
+  if (newest == nullptr || newest->mid_exposure_s != mid_exposure_s) return std::nullopt;
+  return seen_in(*newest, parts());
+}
+
 StationSnapshot Station::snapshot() const {
-  StationSnapshot snapshot;
-  snapshot.state = mode_.state();
-  snapshot.track_id = target_.track_id();
-  snapshot.angles = pointing_.newest_angles();
-  if (snapshot.angles) {
-    snapshot.optical_axis = optical_axis(pointing_.geometry(), snapshot.angles->angles);
-  }
-  const PanTilt angles = snapshot.angles ? snapshot.angles->angles : PanTilt{};
-  snapshot.camera_ecef = camera_centre_ecef(pointing_.geometry(), angles);
-  if (target_.last_output() && follows_target()) {
-    const auto& camera = config_.geometry.camera;
-    snapshot.belief = target_.last_output()->belief;
-    snapshot.target_offset_px =
-        target_.last_output()->pixel - Eigen::Vector2d(camera.cx_px, camera.cy_px);
-  }
+  StationSnapshot snapshot = snapshot_of(parts());
   snapshot.box = target_box();
   snapshot.frame_latency_s = bearings_.frame_latency_s();
-  snapshot.motion_disagrees = follows_target() && target_.motion_disagrees();
-  snapshot.pose = pointing_.pose();
   snapshot.alarms = alarms();
   snapshot.counters = counters();
   return snapshot;
@@ -348,11 +375,9 @@ StationSnapshot Station::snapshot() const {
 
 std::vector<std::string> Station::alarms() const {
   std::vector<std::string> alarms;
-  if (mode_.is(StationState::kSlewed)) {
-    if (auto alarm = search_.unacquired_alarm(slew_.command()); !alarm.empty()) {
-      alarms.push_back(std::move(alarm));
-    }
-  }
+  const bool slewed = mode_.is(StationState::kSlewed);
+  const auto unacquired = slewed ? search_.unacquired_alarm(slew_.command()) : std::string();
+  if (!unacquired.empty()) alarms.push_back(unacquired);
   if (slew_.has_several_senders(now_s_)) {
     alarms.emplace_back("commands: slews from two fusions: stop one of them");
   }

@@ -16,21 +16,25 @@
 #include "edge/command_judgement.h"
 #include "edge/followed_target.h"
 #include "edge/frame_history.h"
+#include "edge/manual_motion.h"
 #include "edge/pointing_model.h"
 #include "edge/slew_search.h"
 #include "edge/station_config.h"
 #include "edge/station_mode.h"
+#include "edge/station_snapshot.h"
 #include "edge/station_types.h"
 #include "edge/tracker/acquisition.h"
 #include "edge/tracker/target_tracker.h"
+#include "edge/video/video_frame.h"
 
 namespace ols::station {
 
-// Commands to the PTU in addition to its goal.
+// Commands to the PTU in addition to its goal, and to the lens.
 struct UnitActions {
   bool stop = false;  // what the PTU does on its own: homing
   bool home = false;
   bool reference_ok = false;  // a person confirms it
+  lens::LensOrder lens;       // to the lens' motors
 };
 
 struct StationOutput {
@@ -45,10 +49,22 @@ class Station {
   // Inputs. Samples and frames each come in time order.
   void on_angles(const ptu::AngleSample& sample);
   void on_frame(const camera::Frame& frame) { on_frame(frame, now_s_); }
+  // Of a motorised lens: each zoom position that it says, and where all axes are now.
+  void on_zoom(const lens::ZoomSample& sample) { pointing_.add(sample); }
+  void set_lens(const lens::ByAxis<std::optional<double>>& positions) {
+    pointing_.set_lens(positions);
+  }
   // A frame older than max_age_s at now_s is dropped: the tracker gets no backlog.
   void on_frame(const camera::Frame& frame, double now_s);
   // The PTU's travel, once it is known.
   void set_limits(const ptu::PtuLimits& limits) { pointing_.set_limits(limits); }
+  // Another geometry, with a calibration or without one, while the station runs. What was measured
+  // with the other one is forgotten.
+  void use(const StationGeometry& geometry, const std::optional<StationCalibration>& calibration);
+  // The reference views have moved by so much: bearings state it from now on.
+  void doubt_setup(double heading_sd_rad, double tilt_sd_rad) {
+    pointing_.doubt_setup(heading_sd_rad, tilt_sd_rad);
+  }
   // Whether the PTU's reference is valid. In doubt, the station neither points nor follows slews,
   // and discards its angles; it keeps its target, and slews lead back to it later.
   void set_reference(ptu::PtuReference reference);
@@ -63,6 +79,12 @@ class Station {
   Refusal designate(const DesignateCommand& command, double now_s);
   Refusal slew(const SlewCommand& command, double now_s);
   Refusal point(const PointCommand& command, double now_s);
+  // Like point(), by what is seen.
+  Refusal centre(const CentreCommand& command, double now_s);
+  // Moves the lens; at any time, a stop notwithstanding.
+  Refusal lens(const LensCommand& command, double now_s);
+  // Turns the unit for the command's lease; rates of zero halt it.
+  Refusal rate(const RateCommand& command, double now_s);
   // Also ends homing (see UnitActions). For kStopHold_s only re-arming is accepted: a command sent
   // before the stop, or crossing it on the wire, must not undo it.
   void stop(double now_s);
@@ -91,10 +113,18 @@ class Station {
   std::optional<ptu::ServoGoal> goal(double now_s) const;
 
   StationState state() const { return mode_.state(); }
+  // Reported by the unit last.
+  std::optional<PanTilt> reported_angles() const { return pointing_.reported_angles(); }
   std::optional<cv::Rect2d> target_box() const;  // in the newest frame
   StationSnapshot snapshot() const;
+  // The newest frame for a viewer, but for its utime; empty if it is not of this mid-exposure: it
+  // was refused.
+  std::optional<video::VideoFrame> video_frame(double mid_exposure_s) const;
 
  private:
+  StationParts parts() const {
+    return {config_, mode_, pointing_, target_, follows_target(), now_s_};
+  }
   Situation situation(double now_s) const { return {config_, mode_, pointing_, now_s}; }
   // Counts the result of a command.
   Refusal count(Refusal refusal, const char* command);
@@ -103,6 +133,7 @@ class Station {
   void enter(StationState state);
   void give_up_unit();
   void forget_angles();
+  Refusal stand_at(const PanTilt& angles, const char* command, double now_s);
   bool follows_target() const { return target_.exists() && mode_.may_track(); }
   void track(const camera::Frame& frame);
   void judge_belief(bool believed, double time_s);
@@ -121,7 +152,7 @@ class Station {
   ActiveSlew slew_;
   BearingQueue bearings_;
   AngularTrack motion_;
-  std::optional<ptu::ServoGoal> point_;
+  ManualMotion manual_;
   UnitActions actions_;
   double believed_s_ = 0.0;  // mid-exposure of the last frame that was believed
   int believed_in_a_row_ = 0;

@@ -1,16 +1,24 @@
 // The parameters of a station's decisions. Constant while the station runs.
 #pragma once
 
+#include <optional>
+
 #include "edge/angular_track.h"
+#include "edge/lens/zoom_lens.h"
 #include "edge/ptu/angle_history.h"
 #include "edge/ptu/servo.h"
 #include "edge/tracker/acquisition.h"
 #include "geometry/sight.h"
+#include "geometry/station_calibration.h"
 
 namespace ols::station {
 
 struct StationConfig {
   StationGeometry geometry;
+  // What an adjustment found; `geometry` is its model's then.
+  std::optional<StationCalibration> calibration;
+  bool overview = false;               // driven by a person; the fusion's slews are refused
+  std::optional<lens::ZoomLens> zoom;  // of a motorised lens; else `geometry` is the camera
   ptu::AngleHistory::Config angles;
   ptu::PtuLimits limits;
   AngularTrack::Config motion;

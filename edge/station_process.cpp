@@ -39,21 +39,23 @@ gpio::LedPattern led_pattern(const StationReport& report) {
 
 }  // namespace
 
-StationProcess::StationProcess(const StationSettings& settings, std::int64_t boot_id)
-    : settings_(settings),
-      clock_(settings_.clock),
-      pose_(settings_, clock_monotonic_s()),
-      station_(settings_.station,
-               std::make_unique<tracker::Tracker>(settings_.tracker, settings_.tracker_seed)),
+StationProcess::StationProcess(const StationSettings& configured, std::int64_t boot_id)
+    : calibration_(configured),
+      clock_(settings().clock),
+      pose_(std::in_place, settings(), clock_monotonic_s()),
+      station_(settings().station,
+               std::make_unique<tracker::Tracker>(settings().tracker, settings().tracker_seed)),
       command_turn_(station_),
-      bus_(settings_, boot_id, station_, command_turn_,
-           [this](const recorder::RecordCommand& command) { return record(command); }),
-      host_(settings_.host),
-      persisted_(settings_.state_folder, settings_.id,
-                 !settings_.gpio.chip.empty() && settings_.gpio.stop_line >= 0),
-      devices_(settings_) {
+      bus_(
+          settings(), boot_id, station_, command_turn_,
+          [this](const recorder::RecordCommand& command) { return record(command); },
+          [this](const FrameRequest& wanted) { return frames_.service().request(wanted); }),
+      host_(settings().host),
+      persisted_(settings().state_folder, settings().id, settings().gpio.has_stop()),
+      devices_(settings(), boot_id),
+      frames_(settings().ptu.history) {
   const double now_s = clock_monotonic_s();
-  station_.set_pose(pose_.pose(now_s));
+  station_.set_pose(pose_->pose(now_s));
   resume_hold(now_s);
   // Ready means that subscriptions are active: a message sent after it is received.
   bus_.connect(BusConnector::kLongest_s);
@@ -63,7 +65,7 @@ void StationProcess::run(const std::function<bool()>& ends) {
   bool ready = false;
   while (!ends()) {
     turn();
-    if (!ready) service_.ready("station " + settings_.id + " begins");
+    if (!ready) service_.ready("station " + settings().id + " begins");
     ready = true;
   }
   service_.stopping();
@@ -76,15 +78,17 @@ void StationProcess::turn() {
   receive_commands();
   persisted_.remember(station_.state(), devices_.ptu().doubt_to_persist(),
                       devices_.ptu().reference());
-  if (const auto pose = pose_.look(devices_, start.monotonic_s)) station_.set_pose(*pose);
+  if (const auto pose = pose_->look(devices_, start.monotonic_s)) station_.set_pose(*pose);
+  take_zoom();
   take_frame();
   take_angles();
   // Again, because the tracker takes time: publications carry the present time.
   const clock::ClockPair now = look_at_clocks();
   const StationOutput output = station_.step(now.monotonic_s);
   for (const Bearing& bearing : output.bearings) bus_.send(bearing);
-  devices_.ptu().set_goal(output.goal);
+  devices_.ptu().set_goal(goal(output, now.monotonic_s));
   trigger_camera(now.monotonic_s);
+  send_requested_frames(now.monotonic_s);
   send_reports(now);
   host_.note_turn(now.monotonic_s - start.monotonic_s);
   service_.alive(now.monotonic_s);
@@ -137,6 +141,7 @@ void StationProcess::receive_commands() {
   if (actions.stop) devices_.ptu().stop_homing();
   if (actions.home) devices_.ptu().home();
   if (actions.reference_ok) devices_.ptu().reference_ok();
+  if (auto& lens = devices_.lens()) lens->order(actions.lens);
   const bool may_move = devices_.stop().known() && station_.state() != StationState::kEmergency;
   if (halted_ && may_move) {
     halted_ = false;
@@ -151,36 +156,87 @@ void StationProcess::take_frame() {
     recorder->add(*frame, clock_.utime_us(frame->mid_exposure_s));
   }
   take_angles();  // first: they predict the frame's homography
+  frames_.service().on_frame(*frame);
   station_.on_frame(*frame, clock_monotonic_s());
+  calibration_.see(*frame);
   devices_.camera().set_region(station_.target_box());
+  show_frame(*frame);
   newest_ = std::move(frame);
 }
 
+void StationProcess::show_frame(const camera::Frame& frame) {
+  auto& video = devices_.video();
+  if (!video || !video->has_viewers()) return;
+  auto shown = station_.video_frame(frame.mid_exposure_s);
+  if (!shown) return;
+  shown->utime_us = clock_.utime_us(frame.mid_exposure_s);
+  video->offer(std::move(*shown));
+}
+
+void StationProcess::take_zoom() {
+  auto& lens = devices_.lens();
+  if (!lens) return;
+  for (const lens::ZoomSample& sample : lens->take_samples()) station_.on_zoom(sample);
+  station_.set_lens(lens->positions());
+}
+
 void StationProcess::take_angles() {
-  station_.set_reference(devices_.ptu().reference());
-  for (const ptu::AngleSample& sample : devices_.ptu().take_samples()) station_.on_angles(sample);
+  const ptu::PtuReference before = devices_.ptu().reference();
+  station_.set_reference(before);
+  const auto samples = devices_.ptu().take_samples();
+  // A homing that begins or ends meanwhile: whose the samples are is unknown.
+  const bool trusted =
+      before == ptu::PtuReference::kTrusted && devices_.ptu().reference() == before;
+  frames_.service().set_trusted(trusted);
+  for (const ptu::AngleSample& sample : samples) {
+    station_.on_angles(sample);
+    frames_.service().on_angles(sample);
+  }
+}
+
+// A check of the reference views has the unit only while nobody else wants it.
+std::optional<ptu::ServoGoal> StationProcess::goal(const StationOutput& output, double now_s) {
+  const auto newest = station_.reported_angles();
+  const bool free = station_.state() == StationState::kIdle && !output.goal && !halted_ &&
+                    devices_.ptu().reference() == ptu::PtuReference::kTrusted;
+  const auto check = calibration_.step({now_s, free, newest});
+  if (const auto doubt = calibration_.take_doubt()) {
+    station_.doubt_setup(doubt->heading_rad, doubt->tilt_rad);
+  }
+  return output.goal ? output.goal : check;
 }
 
 void StationProcess::trigger_camera(double now_s) {
-  const bool by_line = settings_.gpio.trigger_line >= 0;
-  const bool by_software = settings_.camera.trigger == camera::TriggerMode::kSoftware;
+  const bool by_line = settings().gpio.trigger_line >= 0;
+  const bool by_software = settings().camera.trigger == camera::TriggerMode::kSoftware;
   if (now_s < due_.trigger_s || (!by_line && !by_software)) return;
-  const double period_s = 1.0 / settings_.camera.frame_rate_hz;
+  const double period_s = 1.0 / settings().camera.frame_rate_hz;
   // At the configured rate, without a burst after a pause.
   due_.trigger_s = std::max(due_.trigger_s + period_s, now_s);
   if (by_software) devices_.camera().trigger();
   if (by_line) devices_.gpio()->trigger();
 }
 
+// A few parts in a turn: a frame of a megabyte is on its way for some tens of milliseconds.
+void StationProcess::send_requested_frames(double now_s) {
+  constexpr int kParts = 2;
+  frames_.look(now_s);
+  for (int i = 0; i < kParts; ++i) {
+    const auto part = frames_.next();
+    if (!part) return;
+    bus_.send(*part);
+  }
+}
+
 void StationProcess::send_reports(const clock::ClockPair& now) {
   if (now.monotonic_s >= due_.status_s) {
-    due_.status_s = now.monotonic_s + settings_.status_interval_s;
+    due_.status_s = now.monotonic_s + settings().status_interval_s;
     StationReport status = report(now);
     show(status);
     bus_.send(std::move(status));
   }
-  if (settings_.preview_interval_s > 0.0 && now.monotonic_s >= due_.preview_s && newest_) {
-    due_.preview_s = now.monotonic_s + settings_.preview_interval_s;
+  if (settings().preview_interval_s > 0.0 && now.monotonic_s >= due_.preview_s && newest_) {
+    due_.preview_s = now.monotonic_s + settings().preview_interval_s;
     bus_.send_preview(*newest_, station_.target_box());
   }
 }
@@ -188,11 +244,19 @@ void StationProcess::send_reports(const clock::ClockPair& now) {
 StationReport StationProcess::report(const clock::ClockPair& now) {
   StationReport report;
   const ptu::PtuStatus ptu = devices_.ptu().status();
-  if (ptu.state == ptu::PtuState::kReady) station_.set_limits(ptu.limits);
+  if (ptu.state == ptu::PtuState::kReady) {
+    station_.set_limits(ptu.limits);
+    calibration_.set_limits(ptu.limits);
+    frames_.service().set_count(ptu.limits.count);
+  }
   report.limits = ptu.limits;
   report.limits_known = ptu.port.open && ptu.state == ptu::PtuState::kReady;
   report.snapshot = station_.snapshot();
   report.devices = devices_.reports();
+  check_calibration(report, now.monotonic_s);
+  calibration_.note_homings(ptu.counters.homings);
+  report.calibration = calibration_.status();
+  report.counters.merge(calibration_.counters());
   report.alarms = report.snapshot.alarms;
   if (report.snapshot.state == StationState::kEmergency) {
     report.alarms.push_back(emergency_alarm());
@@ -200,27 +264,41 @@ StationReport StationProcess::report(const clock::ClockPair& now) {
   if (report.snapshot.motion_disagrees) {
     report.alarms.emplace_back("ptu: the image motion contradicts the reported angles");
   }
+  for (const std::string& alarm : calibration_.alarms()) report.alarms.push_back(alarm);
   for (const std::string& alarm : persisted_.alarms()) report.alarms.push_back(alarm);
   for (const std::string& alarm : bus_.alarms()) report.alarms.push_back(alarm);
   add_pose_and_clock(now.monotonic_s, report);
   add_host(now.monotonic_s, report);
-  journal_.note(now, {settings_.lcm_url, bus_.trouble(), bus_.last_refusal(), bus_.refusals()},
+  journal_.note(now, {settings().lcm_url, bus_.trouble(), bus_.last_refusal(), bus_.refusals()},
                 report);
   return report;
+}
+
+// Devices that are open say whose calibration is not their own. One that was accepted meanwhile is
+// taken up while the station is idle.
+void StationProcess::check_calibration(const StationReport& report, double now_s) {
+  const PanTilt count = report.limits_known ? report.limits.count : PanTilt{};
+  const bool idle = report.snapshot.state == StationState::kIdle;
+  const bool other = calibration_.adopts(now_s, idle, report.devices, count) ||
+                     calibration_.refuses(count) || calibration_.refuses(report.devices);
+  if (!other) return;
+  station_.use(settings().station.geometry, settings().station.calibration);
+  pose_.emplace(settings(), now_s);
+  station_.set_pose(pose_->pose(now_s));
 }
 
 std::string StationProcess::emergency_alarm() const {
   if (devices_.stop().pressed()) return "emergency stop: pressed";
   const std::string what = "emergency stop: not rearmed yet: ";
-  const gpio::GpioConfig& gpio = settings_.gpio;
-  if (gpio.rearm_over_bus) return what + "ols-ctl " + settings_.id + " rearm";
+  const gpio::GpioConfig& gpio = settings().gpio;
+  if (gpio.rearm_over_bus) return what + "ols-ctl " + settings().id + " rearm";
   if (!gpio.chip.empty() && gpio.rearm_line >= 0) return what + "hold its re-arm button";
   return what + "on its computer, systemctl kill --kill-who=main -s USR1 ols-station@" +
-         settings_.id;
+         settings().id;
 }
 
 void StationProcess::add_pose_and_clock(double now_s, StationReport& report) const {
-  for (const std::string& alarm : pose_.alarms(now_s)) report.alarms.push_back(alarm);
+  for (const std::string& alarm : pose_->alarms(now_s)) report.alarms.push_back(alarm);
   const clock::ClockQuality clock = clock_.quality(now_s);
   if (!clock.alarm.empty()) report.alarms.push_back(clock.alarm);
   report.counters["clock_steps"] = static_cast<double>(clock.steps);

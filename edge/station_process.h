@@ -8,6 +8,8 @@
 
 #include "base/service_notifier.h"
 #include "edge/device_set.h"
+#include "edge/drift/kept_calibration.h"
+#include "edge/frame_desk.h"
 #include "edge/host_monitor.h"
 #include "edge/kept_pose.h"
 #include "edge/messages_bus.h"
@@ -20,7 +22,7 @@ namespace ols::station {
 class StationProcess {
  public:
   // Does not need a network or devices: retries those that are absent.
-  StationProcess(const StationSettings& settings, std::int64_t boot_id);
+  StationProcess(const StationSettings& configured, std::int64_t boot_id);
 
   // Runs until `ends` returns true; notifies systemd. Ready after the first turn, whatever devices
   // are present.
@@ -37,8 +39,13 @@ class StationProcess {
   void heed_rearming(double now_s);
   void receive_commands();
   void take_frame();
+  void show_frame(const camera::Frame& frame);
+  void take_zoom();
   void take_angles();
+  std::optional<ptu::ServoGoal> goal(const StationOutput& output, double now_s);
   void trigger_camera(double now_s);
+  void check_calibration(const StationReport& report, double now_s);
+  void send_requested_frames(double now_s);
   void send_reports(const clock::ClockPair& now);
   StationReport report(const clock::ClockPair& now);
   std::string emergency_alarm() const;
@@ -47,15 +54,17 @@ class StationProcess {
   void show(const StationReport& report);
   std::string record(const recorder::RecordCommand& command);
 
+  const StationSettings& settings() const { return calibration_.settings(); }
+
   // The monotonic instants of the next periodic actions.
   struct Due {
     double trigger_s = 0.0, status_s = 0.0, preview_s = 0.0;
   };
 
-  const StationSettings settings_;
+  KeptCalibration calibration_;  // and the settings with it
   ServiceNotifier service_;
   StationClock clock_;
-  KeptPose pose_;
+  std::optional<KeptPose> pose_;  // always there; another one with another calibration
   Station station_;
   CommandTurn command_turn_;
   StationBus bus_;
@@ -63,6 +72,7 @@ class StationProcess {
   PersistedStationState persisted_;
   StationJournal journal_;
   DeviceSet devices_;
+  FrameDesk frames_;
   std::optional<camera::Frame> newest_;
   bool halted_ = false;  // the PTU refuses to move until it is re-armed
   Due due_;

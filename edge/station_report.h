@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "edge/calibration_status.h"
 #include "edge/device/device_report.h"
 #include "edge/ptu/servo.h"
 #include "edge/station_types.h"
@@ -16,6 +17,7 @@ struct StationReport {
   StationSnapshot snapshot;
   ptu::PtuLimits limits;
   bool limits_known = false;
+  CalibrationStatus calibration;
   std::vector<device::DeviceReport> devices;
   // In addition to those of the devices.
   std::vector<std::string> alarms;

@@ -41,6 +41,8 @@ const char* to_string(Refusal refusal) {
       return "unreachable";
     case Refusal::kNoFrame:
       return "no_frame";
+    case Refusal::kNothingThere:
+      return "nothing_there";
     case Refusal::kBox:
       return "box_outside_or_too_small";
     case Refusal::kTracker:
@@ -55,6 +57,14 @@ const char* to_string(Refusal refusal) {
       return "no_unit";
     case Refusal::kKeepOut:
       return "keep_out";
+    case Refusal::kNoLens:
+      return "no_lens";
+    case Refusal::kOverview:
+      return "overview";
+    case Refusal::kOvertaken:
+      return "overtaken";
+    case Refusal::kStopped:
+      return "stopped";
     case Refusal::kJustStopped:
       return "just_stopped";
     case Refusal::kNoDoubt:

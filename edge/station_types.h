@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "edge/camera/frame.h"
+#include "edge/lens/lens_types.h"
 #include "edge/ptu/angle_history.h"
 #include "edge/sensors/pose_estimator.h"
 #include "geometry/sight.h"
@@ -43,7 +44,7 @@ struct Bearing {
 
 struct DesignateCommand {
   std::optional<double> frame_time_s;  // mid-exposure of the frame meant; empty: the newest
-  cv::Rect2d box;                      // [px]
+  cv::Rect2d box;                      // [px]; without a size: the object at that point
 };
 
 struct SlewCommand {
@@ -56,11 +57,37 @@ struct SlewCommand {
   double azimuth_rate_rad_s = 0.0;
   double elevation_rate_rad_s = 0.0;
   double direction_sd_rad = 0.0;
+  // Of a search along another station's line of sight: which way it runs here (cross-elevation,
+  // elevation), a unit vector. The target is anywhere on it; the deviation is that beside it.
+  Eigen::Vector2d line = Eigen::Vector2d::Zero();
+  bool searches_line() const { return !line.isZero(); }
 };
 AzimuthElevation direction_at(const SlewCommand& slew, double time_s);
 
 struct PointCommand {
   PanTilt angles;
+};
+
+// What was at this pixel of a frame comes to the middle of the picture.
+struct CentreCommand {
+  std::optional<double> frame_time_s;  // mid-exposure of the frame meant; empty: the newest
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+};
+
+struct RateCommand {
+  PanTilt rate;  // [rad/s]
+  double received_s = 0.0;
+  double lease_s = 0.0;
+  std::int64_t sender = 0;  // boot id
+  std::int64_t sequence = 0;
+};
+
+// Positions or rates of the lens' axes; the others go on.
+struct LensCommand {
+  bool is_rate = false;
+  lens::ByAxis<std::optional<double>> values;
+  double received_s = 0.0;
+  double lease_s = 0.0;
 };
 
 // Why a command was refused; also the name of its counter.
@@ -70,6 +97,7 @@ enum class Refusal {
   kOutOfRange,       // invalid angle, lease not positive or too long, instant too far from now
   kUnreachable,      // outside the unit's travel
   kNoFrame,          // designation without a frame at that time
+  kNothingThere,     // a designation by a point where nothing stands out
   kBox,              // designation of a box outside the image, or too small
   kTracker,          // the tracker refused the image
   kPrecedence,       // a slew while the operator has the PTU (manual or stopped)
@@ -78,6 +106,10 @@ enum class Refusal {
   kNoUnit,           // no unit to home
   kKeepOut,          // homing would sweep across a keep-out region
   kNoDoubt,          // no doubt about the reference that a person could end
+  kNoLens,           // no motorised lens
+  kOverview,         // a slew: an overview station is driven by a person
+  kOvertaken,        // a later rate of the same sender is in force
+  kStopped,          // a rate while stopped: it does not end a stop
   kJustStopped,      // a stop overrides, for a moment, commands sent before it or crossing it
   kRearmNeedsAHand,  // after an emergency stop; not over the bus
 };
@@ -86,6 +118,11 @@ const char* to_string(Refusal refusal);
 // A summary of a station for a person.
 struct StationSnapshot {
   StationState state = StationState::kIdle;
+  bool overview = false;
+  lens::ByAxis<std::optional<double>> lens;  // positions of its axes
+  std::optional<double> focal_length_px;     // empty while the zoom is not known
+  std::optional<CameraIntrinsics> camera;    // at that focal length
+  double focal_length_sd_px = 0.0;
   std::int64_t track_id = 0;
   double belief = 0.0;
   std::optional<ptu::AngleSample> angles;

@@ -14,4 +14,8 @@ inline constexpr double kSlewLead_s = 1.0;           // between "now" and the ef
 inline constexpr double kPointPanLimit_rad = radians(360.0);
 inline constexpr double kPointTiltLimit_rad = radians(180.0);
 
+// Pan and tilt rates by hand: about each axis, and for how long one command keeps the unit moving.
+inline constexpr double kRateLimit_rad_s = 1.5;
+inline constexpr double kRateLease_s = 0.3;
+
 }  // namespace ols

@@ -50,6 +50,10 @@ const std::array kKinds = {
          [](F& f, double v) { f.inclinometer.garble_share = v; }},
     flag("emergency-stop", [](F& f, double) { f.stop_pressed = true; }),
     flag("rearm-button", [](F& f, double) { f.rearm_held = true; }),
+    flag("target-level-line", [](F& f, double) { f.by_hand.level_line = true; }),
+    flag("target-cross", [](F& f, double) { f.by_hand.cross = true; }),
+    flag("target-rulers", [](F& f, double) { f.by_hand.rulers = true; }),
+    flag("sun-filter", [](F& f, double) { f.by_hand.sun_filter = true; }),
 };
 
 const Kind* find(std::string_view name) {

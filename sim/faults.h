@@ -42,6 +42,13 @@ struct InclinometerFaults {
   bool operator==(const InclinometerFaults&) const = default;
 };
 
+// Not faults: what a person has put up before the camera, or on its lens.
+struct ByHand {
+  bool level_line = false, cross = false, rulers = false;  // rectification targets: sim/boards.h
+  bool sun_filter = false;
+  bool operator==(const ByHand&) const = default;
+};
+
 struct StationFaults {
   PtuFaults ptu;
   CameraFaults camera;
@@ -49,6 +56,7 @@ struct StationFaults {
   InclinometerFaults inclinometer;
   bool stop_pressed = false;  // emergency stop
   bool rearm_held = false;    // not a fault: a person holds the re-arm button
+  ByHand by_hand;
   bool operator==(const StationFaults&) const = default;
 };
 

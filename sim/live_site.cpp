@@ -11,9 +11,11 @@
 #include "ols_msg/truth_ptu_t.hpp"
 #include "ols_msg/truth_target_t.hpp"
 #include "ols_msg/truth_view_t.hpp"
+#include "sim/exposed_unit.h"
 #include "sim/gnss_line.h"
 #include "sim/gpio_socket.h"
 #include "sim/inclinometer_line.h"
+#include "sim/lens_line.h"
 #include "sim/ptu_line.h"
 #include "sim/ptu_tap.h"
 
@@ -30,11 +32,14 @@ struct LiveSite::Device {
   std::size_t station = 0;
   std::unique_ptr<Renderer> renderer;
   std::unique_ptr<PtuDevice> ptu;
+  std::unique_ptr<ExposedUnit> exposed;
+  std::unique_ptr<LensLine> lens;  // null: a fixed one
   std::unique_ptr<CameraServer> camera;
   std::unique_ptr<GpioServer> gpio;
   std::unique_ptr<InclinometerLine> inclinometer;  // null: not in the scenario
   std::unique_ptr<GnssLine> gnss;
   StationFaults faults;              // as applied
+  std::atomic<ByHand> by_hand;       // the same, for the camera's thread
   std::int64_t stop_edge_utime = 0;  // true UTC
   std::int64_t ptu_samples = 0;      // published, since the scenario's start
 };
@@ -51,10 +56,17 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
     device->station = i;
     device->renderer = std::move(renderers[i]);
     device->ptu = connect_ptu(i, line_folder + "/" + s.stations[i].ptu_line);
+    device->exposed =
+        std::make_unique<ExposedUnit>(world.stations()[i].unit, world.ptu_unit_config());
     GpioServerConfig gpio;
     gpio.path = line_folder + "/" + s.stations[i].id + ".gpio";
     device->gpio = std::make_unique<GpioServer>(gpio);
     connect_sensors(*device, line_folder + "/" + s.stations[i].id);
+    if (!s.stations[i].zoom.is_fixed()) {
+      device->lens =
+          std::make_unique<LensLine>(LensUnitConfig{.zoom_travel_s = s.stations[i].zoom.travel_s},
+                                     line_folder + "/" + s.stations[i].id + ".lens");
+    }
     CameraServerConfig camera;
     camera.address = s.stations[i].camera_address;
     camera.serial = s.stations[i].id;
@@ -129,13 +141,18 @@ void LiveSite::draw(Device& device, const Exposure& exposure, cv::Mat& gray) {
   ExposureTruth truth;
   truth.mid_s = scenario_s(mid_monotonic_ns) - offset_s;
   truth.exposure_s = exposure.exposure_s;
-  device.ptu->await(mid_monotonic_s + half_s);
-  truth.start = device.ptu->angles_at(mid_monotonic_s - half_s);
-  truth.mid = device.ptu->angles_at(mid_monotonic_s);
-  truth.end = device.ptu->angles_at(mid_monotonic_s + half_s);
+  device.ptu->await(mid_monotonic_s + half_s + device.exposed->longest_wait_s());
+  device.exposed->expose([&device](double at_s) { return device.ptu->angles_at(at_s); },
+                         mid_monotonic_s, truth);
+  if (device.lens) truth.zoom = device.lens->zoom_at(mid_monotonic_s);
   truth.frame = exposure.frame;
   truth.light =
       exposure.exposure_s / world_.scenario().exposure_s * std::pow(10.0, exposure.gain_dB / 20.0);
+  truth.by_hand = device.by_hand;
+  if (world_.scenario().landscape.sun) {
+    truth.sun =
+        sun_over(world_.stations()[device.station].truth.position, true_utime_us(truth.mid_s));
+  }
   const ViewTruth view = device.renderer->draw(truth, gray);
   const std::int64_t mid_utc_ns = clock_utc_ns() - (clock_monotonic_ns() - mid_monotonic_ns);
   publish_view(device, truth, view, mid_utc_ns / 1000);
@@ -231,6 +248,7 @@ void LiveSite::apply_faults() {
       device->stop_edge_utime = true_utime_us(scenario_s(clock_monotonic_ns()));
     }
     if (device->gpio) device->gpio->hold_rearm(now.rearm_held);
+    device->by_hand = now.by_hand;
     device->faults = now;
   }
 }

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/pinhole.h"
+
 namespace ols::sim {
 namespace {
 
 constexpr double kTick_s = 1e-3;
+constexpr std::int64_t kStatusTicks = 500;
 constexpr std::uint64_t kBearingTag = 8000, kSlewTag = 9000;
 
 std::int64_t utime_us(double time_s) {
@@ -19,7 +22,8 @@ double time_of(std::int64_t utime_us) {
 
 }  // namespace
 
-Lockstep::Lockstep(const World& world, const Fidelity& fidelity)
+Lockstep::Lockstep(const World& world, const Fidelity& fidelity,
+                   const std::vector<std::optional<StationCalibration>>& calibrations)
     : world_(world),
       bearings_(world.scenario().errors.messages, derived_seed(world.seed(), kBearingTag)),
       slews_(world.scenario().errors.messages, derived_seed(world.seed(), kSlewTag)),
@@ -29,11 +33,25 @@ Lockstep::Lockstep(const World& world, const Fidelity& fidelity)
                        ? make_renderers(world)
                        : std::vector<std::unique_ptr<Renderer>>(world.stations().size());
   for (std::size_t i = 0; i < world.stations().size(); ++i) {
-    stations_.push_back(
-        std::make_unique<LockstepStation>(world, i, fidelity, std::move(renderers[i])));
-    const StationTruth& station = world.stations()[i];
-    fusion_.know_station(station.id, {.camera_ecef = camera_centre_ecef(station.nominal, {})});
+    stations_.push_back(std::make_unique<LockstepStation>(
+        world, i, fidelity, std::move(renderers[i]),
+        i < calibrations.size() ? calibrations[i] : std::nullopt));
+    know_station(i);
   }
+}
+
+// A station that sends bearings says with them where it is.
+void Lockstep::know_station(std::size_t index) {
+  const StationTruth& station = world_.stations()[index];
+  const auto snapshot = stations_[index]->station().snapshot();
+  const bool waits = snapshot.state == station::StationState::kIdle ||
+                     snapshot.state == station::StationState::kSlewed;
+  if (tick_ > 0 && !waits) return;
+  fusion_.know_station(station.id,
+                       {.camera_ecef = camera_centre_ecef(station.nominal, {}),
+                        .field_of_view_rad = field_of_view(station.nominal.camera).minCoeff(),
+                        .axis = snapshot.optical_axis,
+                        .commandable = !world_.scenario().stations[index].overview});
 }
 
 void Lockstep::run(double duration_s) {
@@ -43,6 +61,9 @@ void Lockstep::run(double duration_s) {
 
 void Lockstep::advance(double time_s) {
   for (const AddressedSlew& slew : slews_.receive(time_s)) deliver(slew, time_s);
+  if (tick_ > 0 && tick_ % kStatusTicks == 0) {
+    for (std::size_t i = 0; i < stations_.size(); ++i) know_station(i);
+  }
   bool all_designated = true;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     for (const station::Bearing& bearing : stations_[i]->advance(time_s)) send(i, bearing, time_s);
@@ -64,26 +85,38 @@ void Lockstep::send(std::size_t station, const station::Bearing& bearing, double
   sighting.belief = bearing.belief;
   sighting.clock_sd_s = std::hypot(truth.clock_sd_s, bearing.stamp_sd_s);
   sighting.track_id = bearing.track_id;
+  sighting.calibration_id = bearing.pose_revision;
   bearings_.send(sighting, time_s);
 }
 
 void Lockstep::fuse(const fusion::BearingMeasurement& sighting, double time_s) {
   const fusion::FusionOutput output = fusion_.add(sighting);
   if (result_.designated_s >= 0.0) {
-    for (const fusion::FusedTarget& target : output.targets) record(target, result_.joint);
-    for (const fusion::FusedTarget& target : output.targets_paper) record(target, result_.paper);
+    for (const fusion::FusedTarget& target : output.targets) record(target, time_s, result_.joint);
+    for (const fusion::FusedTarget& target : output.targets_paper)
+      record(target, time_s, result_.paper);
   }
-  for (const fusion::Slew& slew : output.slews) {
+  send(output.slews, time_s);
+}
+
+void Lockstep::hear(const fusion::Cue& cue, double time_s) {
+  send(fusion_.add(cue, utime_us(time_s)), time_s);
+}
+
+void Lockstep::send(const std::vector<fusion::Slew>& slews, double time_s) {
+  for (const fusion::Slew& slew : slews) {
     result_.slews.push_back(slew);
     slews_.send({index_of(slew.station), slew}, time_s);
   }
 }
 
-void Lockstep::record(const fusion::FusedTarget& target, std::vector<Fix>& fixes) const {
+void Lockstep::record(const fusion::FusedTarget& target, double time_s,
+                      std::vector<Fix>& fixes) const {
   if (target.estimate.solution != fusion::Solution::kOk) return;
   Fix fix;
   fix.utime_us = target.utime_us;
   fix.time_s = time_of(target.utime_us);
+  fix.published_s = time_s;
   fix.position = geodetic_from_ecef(target.estimate.position_ecef);
   const Eigen::Matrix3d R_enu_ecef = world_.site().R_ecef_enu().transpose();
   fix.error_enu_m =
@@ -109,6 +142,7 @@ void Lockstep::deliver(const AddressedSlew& addressed, double time_s) {
   command.azimuth_rate_rad_s = slew.azimuth_rate_rad_s;
   command.elevation_rate_rad_s = slew.elevation_rate_rad_s;
   command.direction_sd_rad = slew.direction_sd_rad;
+  command.line = slew.line;
   stations_[addressed.station]->slew(command, time_s);
 }
 

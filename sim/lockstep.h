@@ -18,7 +18,8 @@ namespace ols::sim {
 // One published target and the truth, in the site's east, north, up.
 struct Fix {
   std::int64_t utime_us = 0;
-  double time_s = 0.0;  // of the scenario
+  double time_s = 0.0;       // of the scenario
+  double published_s = 0.0;  // likewise
   Geodetic position;
   Eigen::Vector3d error_enu_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_enu_m2 = Eigen::Matrix3d::Zero();
@@ -36,10 +37,17 @@ struct LockstepResult {
 
 class Lockstep {
  public:
-  // `world` must outlive it.
-  Lockstep(const World& world, const Fidelity& fidelity);
+  // `world` must outlive it. `calibrations`: by station; empty: all work as configured.
+  Lockstep(const World& world, const Fidelity& fidelity,
+           const std::vector<std::optional<StationCalibration>>& calibrations = {});
 
   void run(double duration_s);
+  // By name; there must be one.
+  LockstepStation& station(const std::string& id) { return *stations_.at(index_of(id)); }
+  // Of a target that others know of; an operator's word on it.
+  void hear(const fusion::Cue& cue, double time_s);
+  bool allow_cue(const std::string& id) { return fusion_.allow_cue(id, true); }
+  const fusion::Fusion& fusion() const { return fusion_; }
   LockstepResult result() const;
 
   // UTC of the scenario's start.
@@ -51,9 +59,11 @@ class Lockstep {
     fusion::Slew slew;
   };
   void advance(double time_s);
+  void know_station(std::size_t index);
   void send(std::size_t station, const station::Bearing& bearing, double time_s);
   void fuse(const fusion::BearingMeasurement& sighting, double time_s);
-  void record(const fusion::FusedTarget& target, std::vector<Fix>& fixes) const;
+  void send(const std::vector<fusion::Slew>& slews, double time_s);
+  void record(const fusion::FusedTarget& target, double time_s, std::vector<Fix>& fixes) const;
   void deliver(const AddressedSlew& addressed, double time_s);
   std::size_t index_of(const std::string& station) const;
 

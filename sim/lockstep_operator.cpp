@@ -23,7 +23,9 @@ LockstepOperator::LockstepOperator(const World& world, std::size_t index, const 
                                    station::Station& station)
     : world_(world), index_(index), noise_(noise), unit_(unit), station_(station) {
   const std::string& id = world.stations()[index].id;
-  leaves_alone_ = std::ranges::count(fidelity.not_designated, id) > 0;
+  // An overview station is driven from outside.
+  leaves_alone_ = std::ranges::count(fidelity.not_designated, id) > 0 ||
+                  world.scenario().stations[index].overview;
   const auto wrong = std::ranges::find(fidelity.misdesignated, id, &Misdesignation::station);
   if (wrong != fidelity.misdesignated.end()) wrong_ = *wrong;
   constexpr double kRoughly_rad = 0.3 * kPi / 180.0;

@@ -8,6 +8,7 @@
 namespace ols::sim {
 namespace {
 
+constexpr double kZoomSd = 0.001, kZoomPoll_s = 0.05;
 constexpr double kStampSd_s = 20e-6;    // of the camera's time stamps
 constexpr double kTransport_s = 0.004;  // of a frame over the wire
 constexpr std::uint64_t kStationTag = 5000, kUnitTag = 6000, kTrackerTag = 7000;
@@ -19,9 +20,14 @@ ptu::PtuConfig driver_config(const World& world) {
   return config;
 }
 
-station::StationConfig station_config(const World& world, std::size_t index) {
+station::StationConfig station_config(const World& world, std::size_t index,
+                                      const std::optional<StationCalibration>& calibration) {
   station::StationConfig config;
-  config.geometry = world.stations()[index].nominal;
+  config.geometry = calibration ? calibration->model.geometry : world.stations()[index].nominal;
+  config.calibration = calibration;
+  config.overview = world.scenario().stations[index].overview;
+  const auto& points = world.stations()[index].zoom_points;
+  if (!points.empty()) config.zoom.emplace(ZoomTable(points), kZoomSd);
   config.angles.step_rad = radians(world.ptu_unit_config().resolution_arcsec / 3600.0);
   return config;
 }
@@ -40,7 +46,8 @@ bool inside_third(const CameraIntrinsics& camera, const ViewTruth& view) {
 }  // namespace
 
 LockstepStation::LockstepStation(const World& world, std::size_t index, const Fidelity& fidelity,
-                                 std::unique_ptr<Renderer> renderer)
+                                 std::unique_ptr<Renderer> renderer,
+                                 const std::optional<StationCalibration>& calibration)
     : world_(world),
       index_(index),
       renderer_(std::move(renderer)),
@@ -48,15 +55,22 @@ LockstepStation::LockstepStation(const World& world, std::size_t index, const Fi
       phase_s_(noise_.uniform() / world.scenario().frame_rate_hz),
       unit_(world.ptu_unit_config(), derived_seed(world.seed(), kUnitTag + index),
             monotonic_s(0.0)),
+      exposed_(world.stations()[index].unit, world.ptu_unit_config()),
       driver_(driver_config(world)),
-      config_(station_config(world, index)),
+      config_(station_config(world, index, calibration)),
       station_(config_,
                make_tracker(fidelity, views_, derived_seed(world.seed(), kTrackerTag + index))),
-      operator_(world, index, fidelity, noise_, unit_, station_) {}
+      operator_(world, index, fidelity, noise_, unit_, station_) {
+  const ZoomScenario& zoom = world.scenario().stations[index].zoom;
+  if (zoom.is_fixed()) return;
+  lens_.emplace(Lens{LensUnit({.zoom_travel_s = zoom.travel_s}, monotonic_s(0.0)),
+                     lens::LensDriver(kZoomPoll_s)});
+}
 
 std::vector<station::Bearing> LockstepStation::advance(double time_s) {
   exchange_bytes(time_s);
   for (const ptu::AngleSample& sample : driver_.take_samples()) station_.on_angles(sample);
+  move_lens(time_s);
   expose(time_s);
   operate(time_s);
   const double now_s = monotonic_s(time_s);
@@ -74,6 +88,17 @@ void LockstepStation::exchange_bytes(double time_s) {
   if (!request.empty()) unit_.receive(request, now_s);
 }
 
+void LockstepStation::move_lens(double time_s) {
+  const station::UnitActions actions = station_.take_actions();
+  if (!lens_) return;
+  const double now_s = monotonic_s(time_s);
+  lens_->driver.order(actions.lens);
+  lens_->unit.receive(lens_->driver.step(now_s), now_s);
+  lens_->driver.receive(lens_->unit.transmit(now_s), now_s);
+  for (const lens::ZoomSample& sample : lens_->driver.take_samples()) station_.on_zoom(sample);
+  station_.set_lens(lens_->driver.state().positions);
+}
+
 void LockstepStation::expose(double time_s) {
   const Scenario& s = world_.scenario();
   const double mid_s = phase_s_ + static_cast<double>(next_frame_) / s.frame_rate_hz;
@@ -85,9 +110,9 @@ void LockstepStation::expose(double time_s) {
   exposure.mid_s = mid_s;
   exposure.exposure_s = s.exposure_s;
   exposure.frame = static_cast<std::uint64_t>(number);
-  exposure.start = unit_.angles_at(monotonic_s(mid_s - 0.5 * s.exposure_s));
-  exposure.mid = unit_.angles_at(monotonic_s(mid_s));
-  exposure.end = unit_.angles_at(monotonic_s(mid_s + 0.5 * s.exposure_s));
+  const auto counted = [this](double at_s) { return unit_.angles_at(at_s); };
+  if (lens_) exposure.zoom = lens_->unit.zoom_at(monotonic_s(mid_s));
+  exposed_.expose(counted, monotonic_s(mid_s), exposure);
   if (s.errors.frames.on && lost) {
     record_.frames_lost += 1;
     return;
@@ -119,8 +144,7 @@ void LockstepStation::take_note(double mid_s, const ViewTruth& view) {
 void LockstepStation::operate(double time_s) {
   station_.set_reference(driver_.reference());
   if (designated() || driver_.state() != ptu::PtuState::kReady) return;
-  if (!limits_known_) station_.set_limits(driver_.limits());
-  limits_known_ = true;
+  station_.set_limits(driver_.limits());
   operator_.act(time_s);
 }
 

@@ -9,9 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "edge/lens/lens_driver.h"
 #include "edge/ptu/driver.h"
 #include "edge/station.h"
 #include "edge/tracker/tracker_config.h"
+#include "sim/exposed_unit.h"
+#include "sim/lens_unit.h"
 #include "sim/lockstep_operator.h"
 #include "sim/ptu_unit.h"
 #include "sim/renderer.h"
@@ -42,19 +45,30 @@ class LockstepStation {
  public:
   // `renderer` is null without images; `world` must outlive the station.
   LockstepStation(const World& world, std::size_t index, const Fidelity& fidelity,
-                  std::unique_ptr<Renderer> renderer);
+                  std::unique_ptr<Renderer> renderer,
+                  const std::optional<StationCalibration>& calibration = std::nullopt);
 
   // Advances to this instant of true time (in steps of about a millisecond); returns the bearings.
   std::vector<station::Bearing> advance(double time_s);
 
   station::Refusal slew(station::SlewCommand command, double time_s);
   const station::Station& station() const { return station_; }
+  // For whoever drives it by hand, between two advances; times are monotonic_s() of now.
+  station::Station& station() { return station_; }
+  // The truth about the newest picture.
+  const ViewTruth& view() const { return views_.newest(); }
   StationRecord record() const;
   bool designated() const { return operator_.designated(); }
   bool left_alone() const { return operator_.leaves_alone(); }
 
  private:
+  // A zoom lens on its line.
+  struct Lens {
+    sim::LensUnit unit;
+    lens::LensDriver driver;
+  };
   void exchange_bytes(double time_s);
+  void move_lens(double time_s);
   void expose(double time_s);
   void take_note(double mid_s, const ViewTruth& view);
   void operate(double time_s);
@@ -65,14 +79,15 @@ class LockstepStation {
   LockstepNoise noise_;
   double phase_s_;  // of the exposures
   PtuUnit unit_;
+  ExposedUnit exposed_;
   ptu::PtuDriver driver_;
+  std::optional<Lens> lens_;
   ViewMemory views_;
   station::StationConfig config_;
   station::Station station_;
   LockstepOperator operator_;
   StationRecord record_;
   std::int64_t next_frame_ = 0;
-  bool limits_known_ = false;  // sent to the station
 };
 
 }  // namespace ols::sim

@@ -12,6 +12,7 @@
 #include "sim/lockstep.h"
 #include "sim/report.h"
 #include "sim/station_files.h"
+#include "sim/station_truth_file.h"
 #include "sim/world.h"
 
 namespace {
@@ -32,6 +33,9 @@ struct Options {
   std::string target;
   std::vector<std::string> without;
   std::string stationing;
+  std::string round_folder;
+  std::string truth_folder;
+  std::string calibrations;
 };
 
 void define(CLI::App& app, Options& o) {
@@ -57,6 +61,12 @@ void define(CLI::App& app, Options& o) {
   app.add_option("--stationing", o.stationing,
                  "how the stations find their headings, in place of the scenario's method: drawn, "
                  "each-other, landmarks");
+  app.add_option(
+      "--write-observations", o.round_folder,
+      "write what each station observes to be calibrated (stars, landmarks), as files of "
+      "ols-calibrate, into this folder and exit");
+  app.add_option("--write-truth", o.truth_folder,
+                 "write what is true of each station (JSON) into this folder and exit");
   const auto lockstep =
       app.add_flag("--lockstep", o.lockstep, "simulated time, stations and fusion in this process");
   app.add_option("--seconds", o.seconds, "[s] length of the lockstep run")
@@ -66,6 +76,10 @@ void define(CLI::App& app, Options& o) {
   lockstep->needs("--output");
   app.add_flag("--pixels", o.pixels, "lockstep without images: the pixel is the truth plus noise")
       ->needs(lockstep);
+  app.add_option("--calibrations", o.calibrations,
+                 "folder with a calibration of ols-calibrate for each station, by its id")
+      ->needs(lockstep)
+      ->check(CLI::ExistingDirectory);
   app.add_option("--pixel-sd", o.pixel_sd_px, "[px] deviation of that noise, each coordinate")
       ->capture_default_str()
       ->check(CLI::Range(0.001, 100.0));
@@ -82,7 +96,10 @@ void run_live(const ols::sim::World& world, const Options& options) {
   constexpr auto kTruthInterval = std::chrono::milliseconds(33);
   constexpr int kTurn_ms = 5;
   cv::setNumThreads(1);  // the cameras' threads are the parallelism
-  ols::LcmBus bus(options.lcm_url);
+  ols::trust::Self self;
+  self.name = "simulator";
+  ols::LcmBus bus(options.lcm_url,
+                  ols::trust::BusTrust::open({}, ols::trust::process_environment(), self));
   ols::sim::LiveSite site(world, options.line_folder, bus);
   std::cout << "ready" << std::endl;
   auto truth_due = std::chrono::steady_clock::now();
@@ -98,7 +115,11 @@ void run_live(const ols::sim::World& world, const Options& options) {
 
 void run_lockstep(const ols::sim::World& world, const Options& options) {
   cv::setNumThreads(1);
-  ols::sim::Lockstep lockstep(world, {!options.pixels, options.pixel_sd_px});
+  std::vector<std::optional<ols::StationCalibration>> calibrations;
+  if (!options.calibrations.empty()) {
+    calibrations = ols::sim::read_calibrations(world, options.calibrations);
+  }
+  ols::sim::Lockstep lockstep(world, {!options.pixels, options.pixel_sd_px}, calibrations);
   lockstep.run(options.seconds);
   ols::sim::write_report(world, lockstep.result(), options.seconds, options.output);
 }
@@ -116,6 +137,11 @@ void run(const Options& options) {
   } else if (!options.config_folder.empty()) {
     ols::sim::write_station_files(
         world, {options.lcm_url, options.line_folder, options.state_folder}, options.config_folder);
+  } else if (!options.round_folder.empty()) {
+    ols::sim::write_calibration_rounds(
+        world, {options.lcm_url, options.line_folder, options.state_folder}, options.round_folder);
+  } else if (!options.truth_folder.empty()) {
+    ols::sim::write_station_truths(world, options.truth_folder);
   } else if (options.lockstep) {
     run_lockstep(world, options);
   } else {
@@ -130,6 +156,7 @@ int main(int argc, char** argv) {
   CLI::App app(
       "The simulated site: cameras, PTUs, targets and their truth. Angles in files are in "
       "degrees, lengths in metres.");
+  app.set_version_flag("--version", OLS_VERSION);
   Options options;
   define(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-sim")) return *status;

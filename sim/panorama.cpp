@@ -70,7 +70,7 @@ cv::Mat slopes_texture(const Landscape& landscape, const CameraIntrinsics& camer
 
 Panorama::Panorama(const Landscape& landscape, const CameraIntrinsics& camera,
                    const cv::Mat& slopes, std::uint64_t seed)
-    : camera_(camera), slopes_(slopes) {
+    : camera_(camera), made_for_px_(camera.fx_px), slopes_(slopes) {
   std::mt19937_64 generator(seed);
   const double periods = std::max(4.0, std::round(2.0 * kPi * camera.fx_px / kPeriod));
   const int around = static_cast<int>(periods) * kPeriod;
@@ -84,13 +84,25 @@ Panorama::Panorama(const Landscape& landscape, const CameraIntrinsics& camera,
   }
   columns_ = (camera.width_px + kCell - 1) / kCell + 1;
   rows_ = (camera.height_px + kCell - 1) / kCell + 1;
-  for (int j = 0; j < rows_; ++j) {
-    for (int i = 0; i < columns_; ++i) {
-      rays_cam_.push_back(unproject(camera, Eigen::Vector2d(i * kCell, j * kCell)).value());
-    }
-  }
+  compute_rays();
   nodes_.resize(rays_cam_.size());
   ridge_row_.resize(static_cast<std::size_t>(camera.width_px));
+}
+
+void Panorama::compute_rays() {
+  rays_cam_.clear();
+  for (int j = 0; j < rows_; ++j) {
+    for (int i = 0; i < columns_; ++i) {
+      rays_cam_.push_back(unproject(camera_, Eigen::Vector2d(i * kCell, j * kCell)).value());
+    }
+  }
+}
+
+void Panorama::set_camera(const CameraIntrinsics& camera) {
+  if (camera.fx_px == camera_.fx_px) return;
+  camera_ = camera;
+  px_per_texel_ = static_cast<float>(camera.fx_px / made_for_px_);
+  compute_rays();
 }
 
 double Panorama::ridge_rad(double azimuth_rad) const {
@@ -180,8 +192,9 @@ void Panorama::find_ridge_rows() {
     for (int iteration = 0; iteration < 4; ++iteration) {
       const Node n = node_at(static_cast<float>(x), y);
       const auto u = (origin + static_cast<std::int64_t>(n.u) + 2 * around) % around;
-      // Elevation grows upwards, rows downwards, both by nearly one texel per pixel.
-      y += -ridge_[static_cast<std::size_t>(u)] - static_cast<float>(n.v + v_origin_);
+      // Elevation grows upwards, rows downwards.
+      y += px_per_texel_ *
+           (-ridge_[static_cast<std::size_t>(u)] - static_cast<float>(n.v + v_origin_));
       y = std::clamp(y, -4000.0F, 4000.0F);
     }
     ridge_row_[x] = y;

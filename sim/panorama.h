@@ -22,6 +22,8 @@ class Panorama {
   Panorama(const Landscape& landscape, const CameraIntrinsics& camera, const cv::Mat& slopes,
            std::uint64_t seed);
 
+  // Another focal length than the one that it was made for, from now on: coarser when longer.
+  void set_camera(const CameraIntrinsics& camera);
   // Draws the background of an image taken with this rotation (camera to east-north-up).
   void draw(const Eigen::Matrix3d& R_enu_cam, cv::Mat& gray);
 
@@ -42,7 +44,11 @@ class Panorama {
   void sample_row(int y, std::uint8_t* out) const;
   void blend_row(int y, const std::uint8_t* in, std::uint8_t* out) const;
 
+  void compute_rays();
+
   CameraIntrinsics camera_;
+  float px_per_texel_ = 1.0F;
+  double made_for_px_ = 0.0;  // focal length
   double texels_per_rad_ = 0.0;
   cv::Mat slopes_;            // 8-bit, its period repeated once in both directions
   cv::Mat sky_;               // float, whole panorama, coarse

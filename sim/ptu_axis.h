@@ -1,6 +1,6 @@
 // One axis of the simulated PTU: a stepper motor with trapezoidal speed profiles, in encoder
-// counts. Motion is kept as closed-form segments, so that any instant can be evaluated without
-// stepping.
+// counts. It never loses steps by itself: PtuMotion::slip() does that to it. Motion is kept as
+// closed-form segments, so that any instant can be evaluated without stepping.
 #pragma once
 
 #include <deque>

@@ -124,6 +124,7 @@ int main(int argc, char** argv) {
   CLI::App app(
       "A simulated PTU on a pseudo terminal, until SIGTERM or SIGINT. Standard input takes "
       "lines: fault KIND [SECONDS [VALUE]], end KIND, end all, angles [MONOTONIC_S].");
+  app.set_version_flag("--version", OLS_VERSION);
   Options options;
   define(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-sim-ptu")) return *status;

@@ -58,7 +58,10 @@ void receive(ols::LcmBus& bus, const std::string& channels, const std::string& b
                 [&queue, excluded, exclude = !but_not.empty()](const ols::BusMessage& message) {
                   // The relay receives its own messages on this bus.
                   if (exclude && std::regex_match(message.channel, excluded)) return;
-                  queue.offer({message.channel, message.payload}, ols::clock_monotonic_s());
+                  // A bridge holds no keys: signatures pass as they are.
+                  auto data = message.payload;
+                  data.insert(data.end(), message.trailer.begin(), message.trailer.end());
+                  queue.offer({message.channel, std::move(data)}, ols::clock_monotonic_s());
                 });
 }
 

@@ -24,7 +24,8 @@ Matrix3d level_body(const Vector3d& v_enu) {
 }
 
 Eigen::Isometry3d camera_pose(const StationTruth& station, const PanTilt& angles) {
-  return enu_from_camera(station.truth.chain, angles);
+  if (station.unit.exact) return enu_from_camera(station.truth.chain, angles);
+  return camera_on(station.truth.chain, station.unit.trunnion_rad, angles);
 }
 
 // A target's position in the camera frame at an instant.
@@ -37,7 +38,7 @@ Vector3d in_camera(const World& world, const StationTruth& station, std::size_t 
 
 std::optional<DroneView> drone_view(const World& world, const StationTruth& station,
                                     std::size_t target, const ExposureTruth& exposure) {
-  const CameraIntrinsics& camera = station.truth.camera;
+  const CameraIntrinsics camera = camera_of(station, exposure);
   const Vector3d p_cam = in_camera(world, station, target, exposure.mid_s, exposure.mid);
   const auto centre = project(camera, p_cam);
   if (!centre) return std::nullopt;
@@ -87,12 +88,16 @@ void develop_row(const std::vector<std::uint16_t>& column_gain, std::uint16_t fa
 
 }  // namespace
 
+CameraIntrinsics camera_of(const StationTruth& station, const ExposureTruth& exposure) {
+  return station.zoom ? station.zoom->camera_at(exposure.zoom) : station.truth.camera;
+}
+
 ViewTruth view_truth(const World& world, std::size_t station, const ExposureTruth& exposure,
                      std::size_t target) {
   const StationTruth& truth = world.stations()[station];
   const auto view = drone_view(world, truth, target, exposure);
   if (!view) return {};
-  const CameraIntrinsics& camera = truth.truth.camera;
+  const CameraIntrinsics camera = camera_of(truth, exposure);
   const Eigen::Vector2d& c = view->centre_px;
   const bool inside = c.x() >= -0.5 && c.y() >= -0.5 && c.x() < camera.width_px - 0.5 &&
                       c.y() < camera.height_px - 0.5;
@@ -114,7 +119,9 @@ Renderer::Renderer(const World& world, std::size_t station, const cv::Mat& slope
       panorama_(world.scenario().landscape, world.stations()[station].truth.camera, slopes,
                 // The landscape belongs to the scenario, not to the run.
                 derived_seed(static_cast<std::uint64_t>(world.scenario().landscape.seed),
-                             kPanoramaTag + station)) {
+                             kPanoramaTag + station)),
+      boards_(world.scenario().boards, world.stations()[station].truth.chain,
+              world.stations()[station].unit.trunnion_rad) {
   const Errors& e = world.scenario().errors;
   const CameraIntrinsics& camera = world.stations()[station].truth.camera;
   noise_.resize(kNoiseStrip, 0);
@@ -141,18 +148,54 @@ Renderer::Renderer(const World& world, std::size_t station, const cv::Mat& slope
 }
 
 ViewTruth Renderer::draw(const ExposureTruth& exposure, cv::Mat& gray) {
-  const StationTruth& truth = world_.stations()[station_];
-  panorama_.draw(camera_pose(truth, exposure.mid).linear(), gray);
-  if (world_.scenario().errors.motion_blur.on) smear(exposure, gray);
-  for (std::size_t target = 0; target < world_.scenario().targets.size(); ++target) {
-    if (const auto view = drone_view(world_, truth, target, exposure)) draw_drone(*view, gray);
-  }
+  draw_scene(exposure, gray);
+  draw_sky_light(exposure, gray);
   develop(exposure, gray);
   return view_truth(world_, station_, exposure);
 }
 
+void Renderer::draw_scene(const ExposureTruth& exposure, cv::Mat& gray) {
+  const StationTruth& truth = world_.stations()[station_];
+  const Eigen::Isometry3d pose = camera_pose(truth, exposure.mid);
+  const CameraIntrinsics camera = camera_of(truth, exposure);
+  if (truth.zoom) panorama_.set_camera(camera);
+  panorama_.draw(pose.linear(), gray);
+  draw_marks(exposure, gray);
+  boards_.put_up(exposure.by_hand, camera, exposure.mid);
+  boards_.draw(camera, pose, gray);
+  if (world_.scenario().errors.motion_blur.on) smear(exposure, gray);
+  for (std::size_t target = 0; target < world_.scenario().targets.size(); ++target) {
+    if (const auto view = drone_view(world_, truth, target, exposure)) draw_drone(*view, gray);
+  }
+}
+
+// The sun, and the filter that a person has put on because of it.
+void Renderer::draw_sky_light(const ExposureTruth& exposure, cv::Mat& gray) const {
+  const bool filtered = exposure.by_hand.sun_filter;
+  if (filtered) draw_filter(gray);
+  if (!exposure.sun) return;
+  const StationTruth& truth = world_.stations()[station_];
+  const CameraIntrinsics camera = camera_of(truth, exposure);
+  const Eigen::Matrix3d R_cam_enu = camera_pose(truth, exposure.mid).linear().transpose();
+  const auto seen = project(camera, R_cam_enu * exposure.sun->enu);
+  if (seen) draw_sun(*seen, exposure.sun->radius_rad * camera.fx_px, filtered, gray);
+}
+
+void Renderer::draw_marks(const ExposureTruth& exposure, cv::Mat& gray) const {
+  const StationTruth& truth = world_.stations()[station_];
+  const CameraIntrinsics camera = camera_of(truth, exposure);
+  for (const Mark& mark : world_.scenario().marks) {
+    const Vector3d p_cam =
+        camera_pose(truth, exposure.mid).inverse() *
+        LocalFrame(truth.truth.position).to_enu(world_.site().to_ecef(mark.p_enu));
+    const auto seen = project(camera, p_cam);
+    if (seen) draw_mark(*seen, 0.5 * mark.size_m / p_cam.z() * camera.fx_px, gray);
+  }
+}
+
 void Renderer::smear(const ExposureTruth& exposure, cv::Mat& gray) const {
-  const StationGeometry& truth = world_.stations()[station_].truth;
+  StationGeometry truth = world_.stations()[station_].truth;
+  truth.camera = camera_of(world_.stations()[station_], exposure);
   const Matrix3d H = rotation_homography(truth, exposure.start, exposure.end);
   const Vector3d centre(truth.camera.cx_px, truth.camera.cy_px, 1.0);
   const Eigen::Vector2d motion = (H * centre).hnormalized() - centre.head<2>();

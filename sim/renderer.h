@@ -7,8 +7,11 @@
 #include <optional>
 #include <vector>
 
+#include "sim/boards.h"
 #include "sim/drone.h"
+#include "sim/faults.h"
 #include "sim/panorama.h"
+#include "sim/sun.h"
 #include "sim/world.h"
 
 namespace ols::sim {
@@ -16,9 +19,12 @@ namespace ols::sim {
 struct ExposureTruth {
   double mid_s = 0.0;  // true time since the scenario's start
   double exposure_s = 0.0;
-  PanTilt start, mid, end;  // PTU angles [rad] at those instants, continuous
+  PanTilt start, mid, end;  // shaft angles [rad] at those instants, continuous
   std::uint64_t frame = 0;
+  double zoom = 0.0;   // position of a zoom lens, 0 widest .. 1 longest
   double light = 1.0;  // of exposure and gain, against the scenario's exposure without gain
+  ByHand by_hand;
+  std::optional<SunTruth> sun;  // nothing: it does not show
 };
 
 struct ViewTruth {
@@ -26,6 +32,9 @@ struct ViewTruth {
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
   cv::Rect2d box;
 };
+
+// The camera of a station during an exposure.
+CameraIntrinsics camera_of(const StationTruth& station, const ExposureTruth& exposure);
 
 // The truth about one image without drawing it; of the scenario's first target, or another one.
 ViewTruth view_truth(const World& world, std::size_t station, const ExposureTruth& exposure,
@@ -40,18 +49,23 @@ class Renderer {
   // `world` must outlive the renderer; `slopes` as for Panorama.
   Renderer(const World& world, std::size_t station, const cv::Mat& slopes);
 
-  // Draws the image; the same exposure gives the same image.
+  // Draws the image; the same exposure gives the same image, but for the boards that a person has
+  // put up: they stand where the exposure looked in which they came.
   ViewTruth draw(const ExposureTruth& exposure, cv::Mat& gray);
 
   const Panorama& panorama() const { return panorama_; }
 
  private:
+  void draw_scene(const ExposureTruth& exposure, cv::Mat& gray);
+  void draw_marks(const ExposureTruth& exposure, cv::Mat& gray) const;
+  void draw_sky_light(const ExposureTruth& exposure, cv::Mat& gray) const;
   void smear(const ExposureTruth& exposure, cv::Mat& gray) const;
   void develop(const ExposureTruth& exposure, cv::Mat& gray) const;
 
   const World& world_;
   std::size_t station_;
   Panorama panorama_;
+  Boards boards_;
   std::vector<std::int16_t> noise_;         // a long strip, read at random positions
   std::vector<std::uint16_t> column_gain_;  // of a row through the image's centre
   std::vector<std::uint16_t> row_falloff_;

@@ -58,7 +58,9 @@ nlohmann::ordered_json estimator_json(const EstimatorSummary& s) {
           {"rmse_m", s.rmse_m},
           {"predicted_rmse_m", s.predicted_rmse_m},
           {"nees_axis", {s.nees_axis.x(), s.nees_axis.y(), s.nees_axis.z()}},
-          {"nees", s.nees}};
+          {"nees", s.nees},
+          {"latency_median_s", s.latency_median_s},
+          {"latency_p95_s", s.latency_p95_s}};
 }
 
 double share(const StationRecord& record, const std::function<bool(const FrameNote&)>& of) {
@@ -164,12 +166,22 @@ void write_summary(const World& world, const LockstepResult& result, double dura
   file.commit();
 }
 
+double percentile(std::vector<double>& values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
 }  // namespace
 
 EstimatorSummary summarise(const std::vector<Fix>& fixes) {
   EstimatorSummary s;
   double squared = 0.0, trace = 0.0;
+  std::vector<double> latencies_s;
   for (const Fix& fix : fixes) {
+    latencies_s.push_back(fix.published_s - fix.time_s);
     const Eigen::Matrix3d& C = fix.covariance_enu_m2;
     const Eigen::Vector3d& e = fix.error_enu_m;
     if (!C.allFinite()) continue;
@@ -183,6 +195,8 @@ EstimatorSummary summarise(const std::vector<Fix>& fixes) {
   s.predicted_rmse_m = std::sqrt(trace / s.fixes);
   s.nees_axis /= s.fixes;
   s.nees /= s.fixes;
+  s.latency_median_s = percentile(latencies_s, 0.5);
+  s.latency_p95_s = percentile(latencies_s, 0.95);
   return s;
 }
 

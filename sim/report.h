@@ -14,6 +14,7 @@ struct EstimatorSummary {
   double predicted_rmse_m = 0.0;  // root of the mean trace of the published covariances
   Eigen::Vector3d nees_axis = Eigen::Vector3d::Zero();  // mean error^2 / variance: east, north, up
   double nees = 0.0;                                    // mean of e' C^-1 e / 3
+  double latency_median_s = 0.0, latency_p95_s = 0.0;   // from the epoch to its publication
 };
 
 struct BoundSummary {

@@ -71,7 +71,10 @@ Section camera_section(Scenario& s) {
        config::number("readout_ms", s.readout_s, {0, 100}, config::kMilliseconds,
                       "From the end of the exposure to the first packet.")},
       {},
-      [&c, optics](ConfigTable& table) { use_optics(table, *optics, c); }};
+      [&s, optics](ConfigTable& table) {
+        s.px_per_mm = 1e3 / optics->pixel_um;
+        use_optics(table, *optics, s.camera);
+      }};
 }
 
 Section ptu_section(PtuScenario& p) {
@@ -112,7 +115,8 @@ Section landscape_section(Landscape& l) {
        angle("ridge_relief_deg", l.ridge_relief_rad, {0, 30}, "Its maximum deviation from that."),
        config::number("cloudiness", l.cloudiness, {0, 2}, "", "0: clear sky."),
        config::number("haze", l.haze, {0, 1}, "", "Share of air light before the slopes."),
-       config::integer("seed", l.seed, 0, 1 << 30, "", "Seed of its shapes.")}};
+       config::integer("seed", l.seed, 0, 1 << 30, "", "Seed of its shapes."),
+       config::flag("sun", l.sun, "Whether the sun shows, where it really stands.")}};
 }
 
 Section error_section(const char* name, const char* sentence, Errors::Switch& error,
@@ -186,6 +190,23 @@ Section errors_section(Errors& e) {
   return section;
 }
 
+Section unit_errors_section(UnitErrorsScenario& u) {
+  return {"unit_errors",
+          "What is wrong with every station's pan-tilt unit and camera, drawn from the seed.",
+          {config::word("size", u.size,
+                        {{"none", UnitErrors::kNone},
+                         {"workshop", UnitErrors::kWorkshop},
+                         {"new", UnitErrors::kNew}},
+                        "none, left by a workshop's calibration, or of a unit that nobody has "
+                        "measured."),
+           config::number("wave_arcsec", u.wave_arcsec, {0, 1000}, "arcsec",
+                          "Amplitude of the waves of the microsteps."),
+           config::number("second_worm_arcsec", u.second_worm_arcsec, {0, 1000}, "arcsec",
+                          "Amplitude of the worms' second harmonic."),
+           config::number("jitter_arcsec", u.jitter_arcsec, {0, 1000}, "arcsec",
+                          "1-sigma of each angle, new at each count.")}};
+}
+
 template <class T>
 void check_id(ConfigTable& table, const std::vector<T>& all, const char* what) {
   const std::string& id = all.back().id;
@@ -205,6 +226,8 @@ std::vector<Row> station_rows(StationScenario& station) {
                           "GROUND in the site's frame: east, north, up."),
           angle("heading_deg", c.heading_rad, {-360, 360},
                 "Direction of the PTU's zero pan, clockwise from true north."),
+          config::word("kind", station.overview, {{"tracking", false}, {"overview", true}},
+                       "tracking, or overview: driven by a person."),
           config::text("camera_address", station.camera_address, "IPv4 address of its camera.")
               .required(),
           config::text("ptu_line", station.ptu_line, "Name of the PTU's serial line.")
@@ -228,8 +251,11 @@ Section station_section(std::vector<StationScenario>& stations) {
     rows.push_back(config::numbers("mount_zxy_deg", keys->mount_zxy_rad, {-45, 45},
                                    station::in_degrees(),
                                    "Rotation of the camera on the PTU about Z, X, Y."));
+    std::ranges::move(zoom_rows(keys->station.zoom), std::back_inserter(rows));
     return Section{"", "", rows, {}, [keys, &stations](ConfigTable& table) {
                      StationScenario& s = keys->station;
+                     const std::string problem = zoom_problem(s.zoom, s.overview);
+                     if (!problem.empty()) throw table.error("zoom_mm", problem);
                      ChainParameters& c = s.chain;
                      c.tilt_x_rad = keys->tilt_xy_rad[0], c.tilt_y_rad = keys->tilt_xy_rad[1];
                      c.mount_z_rad = keys->mount_zxy_rad[0];
@@ -315,9 +341,12 @@ Section scenario_section(Scenario& s, const std::string& folder) {
             {config::flag("on", s.gpio.on, "Whether there is one.")}},
            landscape_section(s.landscape),
            errors_section(s.errors),
+           unit_errors_section(s.unit_errors),
            stationing_section(s.stationing),
            station_section(s.stations),
            target_section(s, folder),
+           mark_section(s.marks),
+           boards_section(s.boards),
            fault_section(s)},
           [&s](ConfigTable& root) {
             if (s.stations.empty()) throw root.error("station", "at least one is needed");

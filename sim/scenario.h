@@ -9,8 +9,12 @@
 
 #include "geometry/angles.h"
 #include "geometry/sight.h"
+#include "sim/boards.h"
 #include "sim/fault_plan.h"
+#include "sim/marks.h"
 #include "sim/trajectory.h"
+#include "sim/unit_truth.h"
+#include "sim/zoom_truth.h"
 
 namespace ols::config {
 struct Section;
@@ -73,7 +77,9 @@ struct StationScenario {
       Eigen::Vector3d::Zero();  // [m] of GROUND in the site's frame, as surveyed
   ChainParameters chain;        // as calibrated
   std::string camera_address;
-  std::string ptu_line;    // file name of the pty's link
+  std::string ptu_line;   // file name of the pty's link
+  bool overview = false;  // driven by a person, with a zoom lens
+  ZoomScenario zoom;
   std::string ptu_device;  // of a real unit that replaces the simulated one; empty: none
 };
 
@@ -136,12 +142,14 @@ struct Landscape {
   double cloudiness = 1.0;                 // 0: clear sky
   double haze = 0.4;                       // share of air light before the slopes
   int seed = 7;
+  bool sun = false;  // it shows, where it really stands; live only
 };
 
 struct Scenario {
   std::string name;
   Geodetic origin;
-  CameraIntrinsics camera;  // as calibrated, the same for all stations
+  CameraIntrinsics camera;        // as calibrated, the same for all stations
+  double px_per_mm = 1e3 / 3.75;  // of its sensor
   double frame_rate_hz = 15.0;
   double exposure_s = 0.002;
   double readout_s = 0.010;
@@ -150,10 +158,13 @@ struct Scenario {
   GnssScenario gnss;
   GpioScenario gpio;
   Errors errors;
+  UnitErrorsScenario unit_errors;
   StationingScenario stationing;
   Landscape landscape;
   std::vector<StationScenario> stations;
   std::vector<TargetScenario> targets;
+  std::vector<Mark> marks;
+  BoardsScenario boards;
   std::vector<Fault> faults;
 };
 

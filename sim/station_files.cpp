@@ -6,7 +6,9 @@
 #include <sstream>
 
 #include "base/atomic_file.h"
+#include "edge/calibration_folder.h"
 #include "edge/persisted_station_state.h"
+#include "sim/calibration_round.h"
 #include "sim/gpio_socket.h"
 
 namespace ols::sim {
@@ -36,6 +38,19 @@ void write_lens(std::ostream& out, const CameraIntrinsics& c) {
       << "\np2 = " << c.p2 << "\nk3 = " << c.k3 << "\n";
 }
 
+void write_lens_motor(std::ostream& out, const StationTruth& station,
+                      const std::string& line_stem) {
+  if (!station.zoom) return;
+  out << "\n[lens_motor]"
+      << "\ndevice = \"" << line_stem << ".lens\"\n";
+  for (const ZoomPoint& point : station.zoom_points) {
+    out << "\n[[lens_motor.point]]"
+        << "\nposition = " << point.position << "\nfocal_px = " << point.camera.fx_px
+        << "\nfocal_sd_px = " << point.focal_sd_px << "\ncx_px = " << point.camera.cx_px
+        << "\ncy_px = " << point.camera.cy_px << "\ncentre_sd_px = " << point.centre_sd_px << "\n";
+  }
+}
+
 void write_sd(std::ostream& out, const World& world, const CalibrationSd& sd) {
   out << "\n[calibration]"
       << "\nid = " << world.seed() % 1'000'000'007 << "\n\n[calibration.sd]"
@@ -54,6 +69,13 @@ void write_devices(std::ostream& out, const Scenario& s, const StationScenario& 
       << "\nreadout_s = " << s.readout_s << "\n\n[ptu]"
       << "\ndevice = \"" << line_folder << "/" << station.ptu_line << "\""
       << "\nbaud = " << s.ptu.baud << "\npoll_interval_s = " << s.ptu.poll_interval_s << "\n";
+}
+
+// Each station on a loopback address of its own, that of its camera.
+void write_video(std::ostream& out, const StationScenario& station) {
+  constexpr int kPort = 7790;
+  out << "\n[video]"
+      << "\naddress = \"" << station.camera_address << ':' << kPort << "\"\n";
 }
 
 void write_sensors(std::ostream& out, const Scenario& s, std::size_t station,
@@ -103,6 +125,7 @@ std::string station_file(const World& world, std::size_t station,
   out << "# Station " << truth.id << " of the simulated site \"" << world.scenario().name << "\".\n"
       << "id = \"" << truth.id << "\"\nlcm_url = \"" << options.lcm_url << "\"\n"
       << (options.state_folder.empty() ? "" : "state_folder = \"" + options.state_folder + "\"\n")
+      << (world.scenario().stations[station].overview ? "kind = \"overview\"\n" : "")
       << "tracker_seed = " << (derived_seed(world.seed(), 3000 + station) >> 1) << "\n";
   write_pose(out, truth.nominal);
   write_chain(out, truth.nominal.chain);
@@ -112,6 +135,8 @@ std::string station_file(const World& world, std::size_t station,
   write_devices(out, world.scenario(), world.scenario().stations[station], options.line_folder);
   write_sensors(out, world.scenario(), station, options.line_folder + "/" + truth.id);
   write_gpio(out, world.scenario(), options.line_folder + "/" + truth.id);
+  write_lens_motor(out, truth, options.line_folder + "/" + truth.id);
+  write_video(out, world.scenario().stations[station]);
   return out.str();
 }
 
@@ -124,6 +149,36 @@ void write_station_files(const World& world, const StationFileOptions& options,
     file.commit();
     leave_in_order(options.state_folder, world.stations()[i].id);
   }
+}
+
+void write_calibration_rounds(const World& world, const StationFileOptions& options,
+                              const std::string& folder) {
+  write_station_files(world, options, folder);
+  for (std::size_t i = 0; i < world.stations().size(); ++i) {
+    const CalibrationRound round = calibration_round(world, i);
+    const std::string stem = folder + "/" + world.stations()[i].id;
+    for (const auto& [name, text] : {std::pair{".observations.jsonl", &round.observations},
+                                     {".references.csv", &round.references}}) {
+      AtomicFile file(stem + name);
+      file.stream() << *text;
+      file.commit();
+    }
+  }
+}
+
+std::vector<std::optional<StationCalibration>> read_calibrations(const World& world,
+                                                                 const std::string& folder) {
+  std::vector<std::optional<StationCalibration>> calibrations;
+  for (const StationTruth& station : world.stations()) {
+    calibrations.emplace_back();
+    const std::string own = folder + "/" + station.id;
+    if (!std::filesystem::exists(own)) continue;
+    station::StationSettings settings;
+    settings.id = station.id;
+    settings.station.geometry = station.nominal;
+    calibrations.back() = station::read_calibration(own, settings).calibration;
+  }
+  return calibrations;
 }
 
 }  // namespace ols::sim

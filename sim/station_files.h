@@ -2,8 +2,11 @@
 // surveyed and calibrated (not the true one) and the sigmas of its errors.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "geometry/station_calibration.h"
 #include "sim/world.h"
 
 namespace ols::sim {
@@ -22,5 +25,15 @@ std::string station_file(const World& world, std::size_t station,
 // FOLDER/<station>.toml for every station; creates the folder. Throws std::system_error.
 void write_station_files(const World& world, const StationFileOptions& options,
                          const std::string& folder);
+
+// The files of `ols-calibrate adjust` for every station (sim/calibration_round.h): FOLDER/ID.toml,
+// FOLDER/ID.observations.jsonl, FOLDER/ID.references.csv.
+void write_calibration_rounds(const World& world, const StationFileOptions& options,
+                              const std::string& folder);
+
+// The calibrations FOLDER/ID of `ols-calibrate adjust`, by station; nothing where there is none.
+// Throws as edge/calibration_folder.h.
+std::vector<std::optional<StationCalibration>> read_calibrations(const World& world,
+                                                                 const std::string& folder);
 
 }  // namespace ols::sim

@@ -17,6 +17,7 @@ class ViewMemory {
   void add(double time_s, const ViewTruth& view);
   // Nullopt without a frame of exactly this stamp.
   const ViewTruth* at(double time_s) const;
+  const ViewTruth& newest() const { return views_.back().second; }  // there must be one
 
  private:
   std::deque<std::pair<double, ViewTruth>> views_;

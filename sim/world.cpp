@@ -32,6 +32,30 @@ CalibrationSd stated_sd(const Errors& e) {
   return sd;
 }
 
+constexpr std::uint64_t kUnitErrorsTag = 11000, kZoomTag = 12000;
+
+// At the wide end; what the calibration leaves of the lens is drawn apart from all else.
+void mount_zoom(const StationScenario& scenario, double px_per_mm, std::uint64_t seed,
+                StationTruth& station) {
+  const ZoomScenario& zoom = scenario.zoom;
+  if (zoom.is_fixed()) return;
+  CameraIntrinsics widest = station.truth.camera;
+  widest.fx_px = widest.fy_px = zoom.range_mm[0] * px_per_mm;
+  widest.k1 = widest.k2 = widest.p1 = widest.p2 = widest.k3 = 0.0;
+  station.zoom.emplace(widest, zoom.range_mm[1] / zoom.range_mm[0]);
+  station.zoom_points = station.zoom->calibrated(zoom.focal_sd, seed);
+  station.truth.camera = widest;
+  station.nominal.camera = station.zoom_points.front().camera;
+}
+
+// A configuration without a calibration knows the unit as its data sheet does.
+void state_unit(const UnitErrorsScenario& errors, StationGeometry& nominal) {
+  if (errors.size == UnitErrors::kNone) return;
+  const MountSize size = stated_mount(errors, nominal.camera);
+  nominal.sd.mount_rad = std::hypot(nominal.sd.mount_rad, size.across_rad);
+  nominal.sd.mount_roll_rad = std::hypot(nominal.sd.mount_roll_rad, size.roll_rad);
+}
+
 StationGeometry nominal_geometry(const Scenario& s, const StationScenario& station,
                                  const LocalFrame& site) {
   StationGeometry g;
@@ -63,14 +87,6 @@ StationGeometry true_geometry(const StationGeometry& nominal, const Errors& e, E
 
 }  // namespace
 
-std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t tag) {
-  // SplitMix64, so that neighbouring seeds give unrelated streams.
-  std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (tag + 1);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
-
 World::World(const Scenario& scenario, std::uint64_t seed)
     : scenario_(scenario), seed_(seed), site_(scenario.origin) {
   const Errors& e = scenario_.errors;
@@ -80,6 +96,11 @@ World::World(const Scenario& scenario, std::uint64_t seed)
     station.id = scenario_.stations[i].id;
     station.nominal = nominal_geometry(scenario_, scenario_.stations[i], site_);
     station.truth = true_geometry(station.nominal, e, draw);
+    station.unit = draw_unit(scenario_.unit_errors, derived_seed(seed, kUnitErrorsTag + i),
+                             station.truth.chain, station.truth.camera);
+    state_unit(scenario_.unit_errors, station.nominal);
+    mount_zoom(scenario_.stations[i], scenario_.px_per_mm, derived_seed(seed, kZoomTag + i),
+               station);
     station.clock_offset_s = draw(e.clock, e.clock.sd_s);
     station.clock_sd_s = e.clock.on ? e.clock.sd_s : 0.0;
     station.brightness_gain = 1.0 + draw(e.brightness, e.brightness.gain_sd);

@@ -3,12 +3,14 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/sight.h"
 #include "sim/ptu_unit.h"
 #include "sim/scenario.h"
+#include "sim/seeds.h"
 
 namespace ols::sim {
 
@@ -17,7 +19,11 @@ struct StationTruth {
   // The geometry in the station's configuration, with its sigmas. After a stationing: the result of
   // that.
   StationGeometry nominal;
-  StationGeometry truth;
+  StationGeometry truth;  // but for what `unit` adds
+  UnitTruth unit;
+  // Of a zoom lens: the truth, and what its calibration says.
+  std::optional<ZoomTruth> zoom;
+  std::vector<ZoomPoint> zoom_points;
   double clock_offset_s = 0.0;  // the station's UTC minus true UTC
   double clock_sd_s = 0.0;
   double brightness_gain = 1.0;
@@ -27,9 +33,6 @@ struct TargetTruth {
   Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d v_ecef = Eigen::Vector3d::Zero();
 };
-
-// A seed for one purpose of one run: different tags give unrelated streams.
-std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t tag);
 
 class World {
  public:

@@ -2,6 +2,7 @@
 
 import os
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -11,14 +12,48 @@ BIN = Path(os.environ.get("OLS_BIN", ROOT / "build/release/bin"))
 SCENARIO = ROOT / "sim/scenarios/fig7.toml"
 
 
+# Every station that a test runs or plays.
+STATIONS = [
+    "alfa",
+    "bravo",
+    "charlie",
+    "delta",
+    "overview",
+    "a",
+    "b",
+    "c",
+    "lone",
+    "kept",
+    "tool",
+    "late",
+]
+
+
 @pytest.fixture(scope="session")
-def network() -> None:
-    """Multicast on the loopback of a network namespace of our own, which tools/test makes."""
+def network(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Multicast on the loopback of a network namespace of our own, which tools/test makes. On it
+    all programs require signatures, by throw-away keys."""
     if os.environ.get("OLS_NAMESPACE") != "1":
         pytest.skip("needs a network namespace of its own: run tools/test")
+    from ols_demo.keys import make_keys
     from ols_demo.site import bring_up_loopback
 
     bring_up_loopback([f"127.0.0.{n}" for n in range(11, 15)])
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in make_keys(
+            BIN, tmp_path_factory.mktemp("keys") / "site", STATIONS
+        ).items():
+            patch.setenv(name, value)
+        yield
+
+
+@pytest.fixture(scope="module")
+def unsigned(network: None) -> Iterator[None]:
+    """Signatures off, for a module that tests what stands behind them: a message that no member
+    would sign must reach it."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("OLS_TRUST", "off")
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "central/admission/calibration_monitor.h"
 #include "central/admission/message_time.h"
 #include "central/admission/recent_exposures.h"
 #include "central/measurement/activity.h"
@@ -19,9 +20,11 @@ namespace ols::fusion {
 struct StationTraits {
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d camera_sd_enu_m = Eigen::Vector3d::Zero();
-  double latency_s = 0.05;          // mid-exposure to bearing
-  double field_of_view_rad = 0.05;  // the narrower of the two
-  bool commandable = true;          // not under operator control, and not stopped
+  double latency_s = 0.05;                 // mid-exposure to bearing
+  double field_of_view_rad = 0.05;         // the narrower of the two
+  std::optional<AzimuthElevation> axis{};  // where it looked when it last said so
+  bool commandable = true;                 // not under operator control, and not stopped
+  StatedCalibration calibration{};
 };
 
 struct KnownStation {

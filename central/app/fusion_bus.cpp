@@ -17,27 +17,27 @@ constexpr std::size_t kChannels = 1000;  // with their own sequence
 
 }  // namespace
 
-FusionBus::FusionBus(const std::string& url, const std::string& slew_url, std::int64_t boot_id,
+FusionBus::FusionBus(Urls urls, std::int64_t boot_id, std::shared_ptr<trust::BusTrust> trust,
                      Subscribe subscribe)
-    : url_(url),
-      slew_url_(slew_url),
+    : urls_(std::move(urls)),
       boot_id_(boot_id),
+      trust_(std::move(trust)),
       subscribe_(std::move(subscribe)),
-      connector_(url) {}
+      connector_(urls_.bus, trust_) {}
 
 void FusionBus::connect(double wait_s) {
   if (bus_) return;
   bus_ = connector_.take(clock_monotonic_s(), wait_s);
   std::string why = connector_.trouble();
   try {
-    if (bus_ && slew_url_ != url_) slew_bus_ = std::make_unique<LcmBus>(slew_url_);
+    if (bus_ && urls_.slews != urls_.bus) slew_bus_ = std::make_unique<LcmBus>(urls_.slews, trust_);
   } catch (const BusError& error) {
     bus_.reset();
     why = error.what();
   }
   if (bus_) {
     subscribe_(*bus_);
-    if (!trouble_.empty()) spdlog::info("connected to {}", url_);
+    if (!trouble_.empty()) spdlog::info("connected to {}", urls_.bus);
     trouble_.clear();
   } else if (!why.empty() && why != trouble_) {
     spdlog::warn("no bus, retrying every second: {}", why);
@@ -53,9 +53,9 @@ void FusionBus::handle() {
   bus_->handle(kWaitMs);
   const double now_s = clock_monotonic_s();
   monitor_.look(bus_->traffic(), now_s);
-  const std::string alarm = monitor_.alarm(now_s);
-  if (!alarm.empty() && alarm_.empty()) spdlog::warn("{}", alarm);
-  alarm_ = alarm;
+  const std::vector<std::string> alarms = monitor_.alarms(now_s);
+  if (alarms.size() > alarms_.size()) spdlog::warn("{}", alarms.back());
+  alarms_ = alarms;
 }
 
 void FusionBus::end_if_broken() {
@@ -91,7 +91,7 @@ void FusionBus::forget_sequences() {
   sequences_.clear();
 }
 
-std::string FusionBus::alarm() const { return monitor_.alarm(clock_monotonic_s()); }
+std::vector<std::string> FusionBus::alarms() const { return monitor_.alarms(clock_monotonic_s()); }
 
 void FusionBus::count(std::map<std::string, double>& counters) const {
   counters["messages_not_sent"] = static_cast<double>(not_sent_);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/bus_connector.h"
 #include "base/bus_monitor.h"
@@ -18,8 +19,11 @@ namespace ols::fusion {
 class FusionBus {
  public:
   using Subscribe = std::function<void(LcmBus&)>;
-  // subscribe: called on each new connection. slew_url: may equal the bus's.
-  FusionBus(const std::string& url, const std::string& slew_url, std::int64_t boot_id,
+  struct Urls {
+    std::string bus, slews;  // may be equal
+  };
+  // subscribe: called on each new connection. trust: null: nothing is signed or verified.
+  FusionBus(Urls urls, std::int64_t boot_id, std::shared_ptr<trust::BusTrust> trust,
             Subscribe subscribe);
 
   // If there is no network, waits this long for one.
@@ -41,23 +45,24 @@ class FusionBus {
 
   bool is_connected() const { return bus_ != nullptr; }
   const std::string& trouble() const { return trouble_; }
-  // What is wrong with the traffic, as text; empty: nothing.
-  std::string alarm() const;
+  // What is wrong with the traffic.
+  std::vector<std::string> alarms() const;
   void count(std::map<std::string, double>& counters) const;
 
  private:
   void note_not_sent();
   void forget_sequences();
 
-  std::string url_, slew_url_;
+  Urls urls_;
   std::int64_t boot_id_;
+  std::shared_ptr<trust::BusTrust> trust_;
   Subscribe subscribe_;
   BusConnector connector_;
   std::unique_ptr<LcmBus> bus_;       // null: no network
   std::unique_ptr<LcmBus> slew_bus_;  // null: slews go on the same bus
   BusMonitor monitor_;
-  std::string alarm_;    // the last one
-  std::string trouble_;  // of the network
+  std::vector<std::string> alarms_;  // the last ones
+  std::string trouble_;              // of the network
   bool send_failed_ = false;
   std::int64_t not_sent_ = 0;
   std::map<std::string, std::int64_t, std::less<>> sequences_;

@@ -10,11 +10,26 @@
 #include "base/clocks.h"
 
 namespace ols::fusion {
+namespace {
+
+// A recording is verified by `ols-key verify`: its time is not the present.
+std::shared_ptr<trust::BusTrust> open_trust(const FusionSettings& settings,
+                                            const FusionProcessOptions& options) {
+  if (options.replay) return nullptr;
+  trust::Self self;
+  self.name = "fusion";
+  self.boot_id = options.boot_id;
+  self.tells_list = self.keeps_marks = true;
+  return trust::BusTrust::open(settings.trust, trust::process_environment(), self);
+}
+
+}  // namespace
+
 FusionProcess::FusionProcess(const FusionSettings& settings, const FusionProcessOptions& options)
     : settings_(settings),
       options_(options),
       fusion_(settings.fusion),
-      bus_(settings.lcm_url, options.slew_url, options.boot_id,
+      bus_({settings.lcm_url, options.slew_url}, options.boot_id, open_trust(settings, options),
            [this](LcmBus& bus) { subscribe(bus); }),
       present_(settings.slew_clock_tolerance_s),
       others_(options.boot_id),
@@ -34,6 +49,9 @@ void FusionProcess::subscribe(LcmBus& bus) {
                 [this](const BusMessage& message) { on_bearing(message); });
   bus.subscribe(std::string(kStatusChannel) + ".*",
                 [this](const BusMessage& message) { on_status(message); });
+  bus.subscribe(std::string(kCueChannel), [this](const BusMessage& message) { on_cue(message); });
+  bus.subscribe(std::string(kCueOrderChannel),
+                [this](const BusMessage& message) { on_cue_order(message); });
   // A recording contains the status messages of the fusion that ran then.
   if (options_.replay) return;
   bus.subscribe(std::string(kFusionStatusChannel),
@@ -95,6 +113,45 @@ void FusionProcess::on_fusion_status(const BusMessage& message) {
   spdlog::warn("{}", errors_.last);
 }
 
+// A recording's is that of its messages.
+std::int64_t FusionProcess::present_us() const {
+  return options_.replay ? std::max(cue_message_us_, fusion_.now_us()) : clock_utime_us();
+}
+
+void FusionProcess::on_cue(const BusMessage& message) {
+  const auto decoded = cue_from(message.payload.data(), static_cast<int>(message.payload.size()));
+  if (const auto* refusal = std::get_if<MessageRefusal>(&decoded)) {
+    return refuse(*refusal, message.channel);
+  }
+  const Cue& cue = std::get<Cue>(decoded);
+  cue_message_us_ = std::clamp(cue.utime_us, std::int64_t{0}, kGreatestUtime);
+  waited_s_ = static_cast<double>(clock_utime_us() - message.received_utime_us) * 1e-6;
+  publish(fusion_.add(cue, options_.replay ? cue.utime_us : clock_utime_us()));
+}
+
+// Once, and only while it is fresh: what was recorded on the wire allows nothing later.
+void FusionProcess::on_cue_order(const BusMessage& message) {
+  const auto decoded =
+      cue_order_from(message.payload.data(), static_cast<int>(message.payload.size()));
+  if (const auto* refusal = std::get_if<MessageRefusal>(&decoded)) {
+    return refuse(*refusal, message.channel);
+  }
+  const auto& order = std::get<CueOrder>(decoded);
+  constexpr double kLongestLease_s = 5.0;
+  const double age_s =
+      1e-6 * (static_cast<double>(clock_utime_us()) - static_cast<double>(order.utime_us));
+  const bool is_fresh =
+      options_.replay || std::abs(age_s) <= std::min(order.lease_s, kLongestLease_s);
+  const auto last = cue_orders_.find(order.boot_id);
+  const bool is_new = last == cue_orders_.end() || order.sequence > last->second;
+  if (!is_fresh || !is_new) return refuse(MessageRefusal::kOutOfRange, message.channel);
+  constexpr std::size_t kSenders = 1000;  // forged ones bring any number
+  if (cue_orders_.size() >= kSenders) cue_orders_.clear();
+  cue_orders_[order.boot_id] = order.sequence;
+  spdlog::info("cue {}: an operator {} it", order.cue, order.allow ? "allows" : "forbids");
+  fusion_.allow_cue(order.cue, order.allow);
+}
+
 void FusionProcess::refuse(MessageRefusal refusal, const std::string& channel) {
   ++counters_[to_string(refusal)];
   if (refusal == MessageRefusal::kNoPosition)
@@ -126,7 +183,11 @@ void FusionProcess::publish(const FusionOutput& output) {
     if (!is_present(target.utime_us, "targets_withheld")) continue;
     bus_.send(kPaperTargetChannel, to_message(target, bus_.next_stamp(kPaperTargetChannel)));
   }
-  for (const Slew& slew : output.slews) {
+  publish(output.slews);
+}
+
+void FusionProcess::publish(const std::vector<Slew>& slews) {
+  for (const Slew& slew : slews) {
     if (!is_present(slew.utime_us, "slews_withheld")) continue;
     const std::string channel = std::string(kSlewChannel) + slew.station;
     bus_.send_slew(channel, to_message(slew, bus_.next_stamp(channel)));
@@ -140,10 +201,14 @@ void FusionProcess::publish_status_when_due() {
   const double now_s = clock_monotonic_s();
   const double by_messages_s = static_cast<double>(fusion_.now_us() - status_message_us_) * 1e-6;
   if (std::abs(by_messages_s) < interval_s && now_s - status_s_ < interval_s) return;
+  const bool is_silent = fusion_.now_us() == status_message_us_;
   status_message_us_ = fusion_.now_us();
   status_s_ = now_s;
+  fusion_.end_silent_cues(present_us());
   FusionHealth health = watched_health();
   health.last_error = errors_.newest(health.last_error);
+  // Without bearings "now" stands still, and what is old is not believed where messages are signed.
+  if (is_silent) health.now_us = present_us();
   bus_.send(kFusionStatusChannel,
             to_message(health, latency_.median_s(), bus_.next_stamp(kFusionStatusChannel)));
 }
@@ -151,10 +216,12 @@ void FusionProcess::publish_status_when_due() {
 // The fusion's own alarms, and those of this process.
 FusionHealth FusionProcess::watched_health() const {
   const double now_s = clock_monotonic_s();
-  FusionHealth health = fusion_.health();
+  FusionHealth health = fusion_.health(present_us());
   health.counters.insert(counters_.begin(), counters_.end());
   bus_.count(health.counters);
-  for (const std::string& alarm : {present_.alarm(now_s), others_.alarm(now_s), bus_.alarm()}) {
+  std::vector<std::string> alarms{present_.alarm(now_s), others_.alarm(now_s)};
+  std::ranges::move(bus_.alarms(), std::back_inserter(alarms));
+  for (const std::string& alarm : alarms) {
     if (!alarm.empty()) health.alarms.insert(health.alarms.begin(), alarm);
   }
   return health;

@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "central/app/fusion_bus.h"
 #include "central/app/fusion_conflict_monitor.h"
@@ -35,10 +36,14 @@ class FusionProcess {
   void on_bearing(const BusMessage& message);
   void on_status(const BusMessage& message);
   void on_fusion_status(const BusMessage& message);
+  void on_cue(const BusMessage& message);
+  void on_cue_order(const BusMessage& message);
+  std::int64_t present_us() const;
   void refuse(MessageRefusal refusal, const std::string& channel);
   bool is_present(std::int64_t utime_us, const char* counter);
   FusionHealth watched_health() const;
   void publish(const FusionOutput& output);
+  void publish(const std::vector<Slew>& slews);
   void publish_status_when_due();
 
   // The last error of the fusion or of this process.
@@ -65,6 +70,9 @@ class FusionProcess {
   FusionConflictMonitor others_;
   Errors errors_;
   Latency latency_;
+  std::map<std::int64_t, std::int64_t>
+      cue_orders_;                      // the last one's sequence, by its sender's boot
+  std::int64_t cue_message_us_ = 0;     // the newest cue's time
   double waited_s_ = 0.0;               // the bearing that is processed, before
   std::int64_t status_message_us_ = 0;  // "now" of the last status
   double status_s_ = 0.0;               // this host's monotonic clock at the last status

@@ -93,6 +93,26 @@ Section clocks_section(ClockMonitorConfig& c) {
                           "Offset that frame phases and network delays explain.")}};
 }
 
+Section cues_section(CueConfig& c) {
+  return {"cues",
+          "What others know of targets (docs/cues.md): stations may be led to it.",
+          {config::word("allow", c.allow,
+                        {{"never", CueAllowance::kNever},
+                         {"ask", CueAllowance::kAsk},
+                         {"all", CueAllowance::kAll}},
+                        "never: cues are only shown; ask: stations are led to those that an "
+                        "operator allows; all: to every one that no operator forbids."),
+           config::number("range_m", c.range_m, {100.0, 1e6}, "m",
+                          "Of the nearest station: cues further away are refused."),
+           config::number("max_age_s", c.max_age_s, {0.5, 60.0}, "s",
+                          "Since its source knew its place: older cues are refused."),
+           config::number("most_sd_m", c.most_sd_m, {1.0, 1e5}, "m",
+                          "1-sigma of a cue: less certain ones are refused."),
+           config::number("acceleration_sd_m_s2", c.acceleration_sd_m_s2, {0.0, 100.0}, "m/s^2",
+                          "1-sigma: how fast a cue becomes less certain."),
+           config::integer("most", c.most, 1, 64, "", "Cues at the same time.")}};
+}
+
 std::vector<config::Row> admission_rows(FusionConfig& c) {
   return {
       config::choice("estimator", c.estimator, {"filter", "least-squares", "paper"},
@@ -132,9 +152,10 @@ Section fusion_section(FusionSettings& s) {
        config::number("slew_clock_tolerance_s", s.slew_clock_tolerance_s, {0.1, 60.0}, "s",
                       "Targets and slews further from this host's clock are withheld.")},
       {alignment_section(fusion.estimators.alignment), paper_section(fusion.estimators.paper),
-       motion_section(fusion.keeper.filter.motion), station_errors_section(fusion.keeper.errors),
-       tracks_section(fusion.keeper), slew_section(fusion.slew),
-       clocks_section(fusion.admission.clocks)}};
+       motion_section(fusion.tracks.filter.motion), station_errors_section(fusion.tracks.errors),
+       tracks_section(fusion.tracks), slew_section(fusion.slew),
+       clocks_section(fusion.admission.clocks), cues_section(fusion.cues),
+       trust::trust_section(s.trust)}};
   std::ranges::move(admission_rows(fusion), std::back_inserter(root.rows));
   return root;
 }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/trust/trust_config.h"
 #include "central/fusion/fusion.h"
 
 namespace ols::config {
@@ -15,6 +16,7 @@ struct FusionSettings {
   double status_interval_s = 1.0;
   double slew_clock_tolerance_s = 2.0;  // what is further from this host's clock is withheld
   FusionConfig fusion{};
+  trust::TrustConfig trust{};
 };
 
 config::Section fusion_section(FusionSettings& settings);  // the whole file

@@ -73,6 +73,7 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Fusion of the stations' bearings: targets and slew commands over LCM"};
+  app.set_version_flag("--version", OLS_VERSION);
   Arguments arguments;
   app.add_option("--config", arguments.config, "Configuration file (TOML); all keys have defaults");
   app.add_option("--lcm-url", arguments.lcm_url, "Bus, in place of the configuration's")

@@ -7,16 +7,21 @@
 #include <span>
 
 #include "base/lcm_bus.h"
+#include "base/plain_text.h"
 #include "central/admission/bearing_check.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
+#include "ols_msg/cue_order_t.hpp"
+#include "ols_msg/cue_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 
 namespace ols::fusion {
 namespace {
 
-constexpr std::size_t kAlarms = 16;  // max number in a status
+constexpr std::size_t kAlarms = 16;         // max number in a status
+constexpr std::size_t kLongestError = 500;  // in a status
+constexpr std::size_t kLongestId = 100;     // of a cue
 
 // Checks that apply to every message of a station.
 template <class Message>
@@ -94,6 +99,35 @@ void fill_bearing(const std::optional<BearingOnly>& only, ols_msg::target_t& mes
   for (int axis = 0; axis < 2; ++axis) message.direction_rate_rad_s[axis] = only->rate_rad_s(axis);
 }
 
+CalibrationState calibration_state(std::int8_t code) {
+  using M = ols_msg::station_status_t;
+  switch (code) {
+    case M::CALIBRATION_IN_USE:
+      return CalibrationState::kInUse;
+    case M::CALIBRATION_REFUSED:
+      return CalibrationState::kRefused;
+    case M::CALIBRATION_DOUBTED:
+      return CalibrationState::kDoubted;
+    default:
+      return CalibrationState::kNone;
+  }
+}
+
+std::int8_t calibration_code(CalibrationState state) {
+  using M = ols_msg::station_status_t;
+  switch (state) {
+    case CalibrationState::kInUse:
+      return M::CALIBRATION_IN_USE;
+    case CalibrationState::kRefused:
+      return M::CALIBRATION_REFUSED;
+    case CalibrationState::kDoubted:
+      return M::CALIBRATION_DOUBTED;
+    case CalibrationState::kNone:
+      break;
+  }
+  return M::CALIBRATION_NONE;
+}
+
 // As many as fit into a datagram with texts of maximum length. The next message carries the next
 // ones.
 std::span<const StationHealth> in_turn(const std::vector<StationHealth>& all,
@@ -150,7 +184,11 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
   const auto refusal = decode_from_station(kStatusChannel, channel, data, bytes, message);
   if (refusal) return *refusal;
   StationPlace place{message.station, {}};
-  place.traits.commandable = commandable(message.state);
+  place.traits.calibration = {calibration_state(message.calibration_state),
+                              message.calibration_utime, message.calibration_sd_rad};
+  // An overview station is driven by a person.
+  place.traits.commandable =
+      commandable(message.state) && message.kind != ols_msg::station_status_t::KIND_OVERVIEW;
   if (message.position_source == ols_msg::station_status_t::POSE_NONE) {
     place.no_place = MessageRefusal::kNoPosition;
     return place;
@@ -164,6 +202,9 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
   }
   const double view_rad = std::min(message.field_of_view_rad[0], message.field_of_view_rad[1]);
   if (view_rad > 1e-4 && view_rad < kPi) place.traits.field_of_view_rad = view_rad;
+  if (std::isfinite(message.azimuth_rad) && std::abs(message.elevation_rad) <= kPi / 2.0) {
+    place.traits.axis = AzimuthElevation{message.azimuth_rad, message.elevation_rad};
+  }
   constexpr double kLatestS = 2.0;
   if (message.frame_latency_s > 0.0 && message.frame_latency_s < kLatestS) {
     place.traits.latency_s = message.frame_latency_s;
@@ -178,6 +219,37 @@ std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, in
     return MessageRefusal::kSchema;
   }
   return message.boot_id;
+}
+
+std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes) {
+  ols_msg::cue_t message;
+  if (!decode_exactly(data, bytes, message)) return MessageRefusal::kMalformed;
+  if (message.schema_version != ols_msg::cue_t::SCHEMA_VERSION) return MessageRefusal::kSchema;
+  if (message.id.size() > kLongestId) return MessageRefusal::kMalformed;
+  Cue cue;
+  cue.id = plain_text(message.id);
+  cue.label = plain_text(message.label.substr(0, kLongestId));
+  cue.utime_us = message.utime;
+  cue.state_us = message.state_utime;
+  cue.place = {radians(message.latitude_deg), radians(message.longitude_deg), message.height_m};
+  cue.horizontal_sd_m = message.horizontal_sd_m;
+  cue.vertical_sd_m = message.vertical_sd_m;
+  cue.velocity_enu_m_s = Eigen::Vector3d(message.velocity_enu_m_s);
+  cue.velocity_sd_m_s = message.velocity_sd_m_s;
+  return cue;
+}
+
+std::variant<CueOrder, MessageRefusal> cue_order_from(const void* data, int bytes) {
+  ols_msg::cue_order_t message;
+  if (!decode_exactly(data, bytes, message)) return MessageRefusal::kMalformed;
+  if (message.schema_version != ols_msg::cue_order_t::SCHEMA_VERSION) {
+    return MessageRefusal::kSchema;
+  }
+  if (!(message.lease_s > 0.0) || message.cue.size() > kLongestId) {
+    return MessageRefusal::kOutOfRange;
+  }
+  return CueOrder{plain_text(message.cue), message.allow != 0, message.utime,
+                  message.lease_s,         message.boot_id,    message.sequence};
 }
 
 ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stamp) {
@@ -219,12 +291,49 @@ ols_msg::slew_t to_message(const Slew& slew, const MessageStamp& stamp) {
   message.azimuth_rate_rad_s = slew.azimuth_rate_rad_s;
   message.elevation_rate_rad_s = slew.elevation_rate_rad_s;
   message.direction_sd_rad = slew.direction_sd_rad;
+  std::ranges::copy(slew.line, message.line);
   return message;
 }
+
+namespace {
+
+std::int8_t cue_state(CueState state) {
+  using M = ols_msg::fusion_status_t;
+  switch (state) {
+    case CueState::kWaiting:
+      return M::CUE_WAITING;
+    case CueState::kSearched:
+      return M::CUE_SEARCHED;
+    case CueState::kFound:
+      return M::CUE_FOUND;
+    case CueState::kForbidden:
+      break;
+  }
+  return M::CUE_FORBIDDEN;
+}
+
+void fill_cues(const std::vector<CueHealth>& cues, ols_msg::fusion_status_t& message) {
+  message.cues = static_cast<std::int16_t>(cues.size());
+  for (const CueHealth& cue : cues) {
+    message.cue_id.push_back(cue.id);
+    message.cue_label.push_back(cue.label);
+    message.cue_state.push_back(cue_state(cue.state));
+    message.cue_target_id.push_back(cue.target_id);
+    message.cue_age_s.push_back(cue.age_s);
+    message.cue_latitude_deg.push_back(degrees(cue.place.latitude_rad));
+    message.cue_longitude_deg.push_back(degrees(cue.place.longitude_rad));
+    message.cue_height_m.push_back(cue.place.height_m);
+    message.cue_horizontal_sd_m.push_back(cue.horizontal_sd_m);
+    message.cue_vertical_sd_m.push_back(cue.vertical_sd_m);
+  }
+}
+
+}  // namespace
 
 ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s,
                                     const MessageStamp& stamp) {
   ols_msg::fusion_status_t message;
+  fill_cues(health.cues, message);
   message.utime = health.now_us;
   message.schema_version = ols_msg::fusion_status_t::SCHEMA_VERSION;
   message.boot_id = stamp.boot_id;
@@ -245,6 +354,9 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
     message.bias_sd_rad.push_back({found.bias_sd_rad.x(), found.bias_sd_rad.y()});
     message.clock_found_s.push_back(found.clock_s);
     message.clock_found_sd_s.push_back(found.clock_sd_s);
+    message.calibration_state.push_back(calibration_code(station.calibration.state));
+    message.calibration_utime.push_back(station.calibration.observed_utime_us);
+    message.calibration_sd_rad.push_back(station.calibration.sd_rad);
   }
   message.latency_s = latency_s;
   message.counters = static_cast<std::int16_t>(health.counters.size());
@@ -260,7 +372,7 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
                             " more alarms");
   }
   message.alarms = static_cast<std::int16_t>(message.alarm.size());
-  message.last_error = health.last_error;
+  message.last_error = health.last_error.substr(0, kLongestError);
   return message;
 }
 

@@ -38,6 +38,18 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
 // The boot id of the fusion that sent the status.
 std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, int bytes);
 
+// An operator's word on a cue.
+struct CueOrder {
+  std::string cue;
+  bool allow = false;
+  std::int64_t utime_us = 0;
+  double lease_s = 0.0;
+  std::int64_t boot_id = 0, sequence = 0;
+};
+// The values of a cue are judged by check() of central/cues/cue_check.h.
+std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes);
+std::variant<CueOrder, MessageRefusal> cue_order_from(const void* data, int bytes);
+
 // The sender, and the message's sequence on its channel in this boot.
 struct MessageStamp {
   std::int64_t boot_id = 0;

@@ -144,11 +144,11 @@ void tell_geometry(const TrackFilter& filter, std::int64_t utime_us, Estimate& e
 
 std::vector<ContributingStation> contributing(const TrackFilter& filter, std::int64_t epoch_us) {
   std::vector<ContributingStation> stations;
-  for (const FilterStation& station : filter.stations()) {
-    if (!station.last_offered.within(Activity::kContributesS, epoch_us)) continue;
+  filter.each_station([&](const FilterStation& station) {
+    if (!station.last_offered.within(Activity::kContributesS, epoch_us)) return;
     const double age_s = station.last_offered.age_s(epoch_us);
     stations.push_back({station.station, station.weight > 0.0, station.weight, age_s});
-  }
+  });
   std::ranges::sort(stations, {}, &ContributingStation::station);
   return stations;
 }

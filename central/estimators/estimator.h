@@ -61,6 +61,10 @@ class Estimator {
 
 inline constexpr const char* kEstimators[] = {"filter", "least-squares", "paper"};
 
+// Whether an estimator predicts: an instant after a station's last bearing costs it little. The
+// others extrapolate that station's bearings.
+inline bool predicts(std::string_view name) { return name == "filter"; }
+
 // Null for an unknown name.
 std::unique_ptr<Estimator> make_estimator(std::string_view name, const EstimatorConfig& config);
 

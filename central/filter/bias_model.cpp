@@ -8,8 +8,11 @@
 namespace ols::fusion {
 namespace {
 
-// The share of the stated noise that does not show as noise.
-double not_white(double noise_scale) { return std::max(0.0, 1.0 - noise_scale); }
+// What the white share of so many second differences may be off by chance, 1-sigma. That much is
+// taken as white: what a few images show would count tenfold at a hundred images a second.
+double by_chance(double weight, double differences) {
+  return 1.0 / std::sqrt(weight + differences);
+}
 
 bool states_anything(const Eigen::Array2d& stated_rad2) { return stated_rad2.maxCoeff() > 0.0; }
 
@@ -53,16 +56,32 @@ BiasModel::Seen& BiasModel::at(const std::string& station) {
 
 void BiasModel::observe_noise(const std::string& station, double squared_ratio) {
   constexpr double kMost = 9.0;  // an outlier says nothing about the noise
-  double& share = at(station).white_share;
-  share += (std::min(squared_ratio, kMost) - share) / config_.colour_memory;
+  Seen& seen = at(station);
+  const double decay = 1.0 - 1.0 / config_.colour_memory;
+  seen.differences = seen.differences * decay + 1.0;
+  seen.white = seen.white * decay + std::min(squared_ratio, kMost);
+}
+
+double BiasModel::white_share(const std::string& station) const {
+  constexpr double kLeast = 1e-3;
+  const Seen* const seen = find(station);
+  if (seen == nullptr) return 1.0;
+  const double share =
+      (config_.noise_weight + seen->white) / (config_.noise_weight + seen->differences);
+  return std::clamp(share, kLeast, 1.0);
+}
+
+double BiasModel::greatest_white_share(const std::string& station) const {
+  const Seen* const seen = find(station);
+  const double off = by_chance(config_.noise_weight, seen == nullptr ? 0.0 : seen->differences);
+  return std::min(1.0, white_share(station) + off);
 }
 
 // A noise with the correlation time T, sampled every dt, averages like that many times fewer white
 // samples: 1 + 2 T / dt.
 double BiasModel::inflation(const std::string& station, bool told, double interval_s) const {
-  const Seen* const seen = find(station);
-  if (seen == nullptr || !(interval_s > 0.0)) return 1.0;
-  const double coloured = std::clamp(1.0 - seen->white_share, 0.0, 1.0);
+  if (!(interval_s > 0.0)) return 1.0;
+  const double coloured = 1.0 - greatest_white_share(station);
   const double time_s = told ? config_.colour_time_s : config_.untold_colour_time_s;
   return 1.0 + coloured * 2.0 * time_s / interval_s;
 }
@@ -103,9 +122,11 @@ Eigen::Array2d BiasModel::learnt(const std::string& station, const Eigen::Array2
   const double least = config_.least_over_noise * config_.least_over_noise;
   const Eigen::Array2d common = (config_.untold_weight * least + common_ratio_).max(0.0) /
                                 (config_.untold_weight + common_weight_);
-  const Eigen::Array2d prior =
-      told ? stated_rad2 : Eigen::Array2d((common + not_white(noise_scale(station))) * noise_rad2);
   const Seen* const seen = find(station);
+  // What is stated, or shown beyond it, is either white or slow.
+  const double scale = noise_scale(station);
+  const double slow = std::max(1.0, scale) - scale * greatest_white_share(station);
+  const Eigen::Array2d prior = told ? stated_rad2 : Eigen::Array2d((common + slow) * noise_rad2);
   if (seen == nullptr) return prior;
   const Eigen::Array2d squared = weight * prior + seen->squared_rad2 + seen->squared_now_rad2;
   return (squared / (weight + seen->weight + seen->weight_now)).max(least * noise_rad2);

@@ -39,7 +39,7 @@ struct BiasModelConfig {
   double untold_weight = 1.0;     // and of the assumed one where none is declared
   // Min sd of any bias, over sd of the noise: assumed where nothing is declared or shown.
   double least_over_noise = 0.2;
-  double noise_weight = 20.0;   // weight of a stated noise, in bearings
+  double noise_weight = 20.0;   // weight of a stated noise, and that it is white, in bearings
   double noise_memory = 500.0;  // over which the noise is averaged [bearings]
   double least_noise = 0.1;     // bounds of the noise over the stated one [variances]
   double greatest_noise = 100.0;
@@ -98,6 +98,10 @@ class BiasModel {
   // The squared second difference of a station's bearings, over its expectation for white noise of
   // noise_scale().
   void observe_noise(const std::string& station, double squared_ratio);
+  // The share of a station's noise variance that is new in each bearing, above 0 and at most 1.
+  double white_share(const std::string& station) const;
+  // The most that it may be, as far as chance goes: what is taken as white.
+  double greatest_white_share(const std::string& station) const;
   // By which factor to multiply a bearing's stated variance when bearings come at this interval: 1
   // if the noise is white. told: the station declares a bias.
   double inflation(const std::string& station, bool told, double interval_s) const;
@@ -120,7 +124,7 @@ class BiasModel {
     double residuals = 0.0, noise = 0.0;                  // bearings; sum of noise over stated
     double clock_weight = 0.0, clock_now = 0.0;           // as above, of clock offsets
     double clock_squared = 0.0, clock_squared_now = 0.0;  // over the stated variance
-    double white_share = 1.0;                             // of the variance of its noise
+    double differences = 0.0, white = 0.0;                // second differences; sum of their ratios
   };
   const Seen* find(const std::string& station) const;
   Seen& at(const std::string& station);

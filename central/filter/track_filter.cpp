@@ -16,11 +16,6 @@ TrackFilter::TrackFilter(const FilterConfig& config, std::int64_t utime_us,
   refresh();
 }
 
-int TrackFilter::index_of(const std::string& station) const {
-  const auto found = std::ranges::find(stations_, station, &FilterStation::station);
-  return found == stations_.end() ? -1 : static_cast<int>(found - stations_.begin());
-}
-
 // A station seldom moves, and computing its axes costs as much as a good part of the filter.
 RayFrame TrackFilter::frame_of(const BearingMeasurement& measurement, int station) const {
   if (station < 0) return ray_frame(measurement.sight);
@@ -62,6 +57,7 @@ int TrackFilter::claim_station_states(const BearingMeasurement& measurement) {
       stations_, {}, [](const FilterStation& s) { return s.last_offered.last_us; });
   if (silent->last_offered.age_s(measurement.utime_us) < Activity::kFollowsS) return -1;
   const int station = static_cast<int>(silent - stations_.begin());
+  without_states_.erase(measurement.station);
   silent->sight = measurement.sight;
   if (place_matters(measurement.sight)) add_position_states(station);
   return station;
@@ -143,13 +139,6 @@ FilterUpdate TrackFilter::update(const BearingMeasurement& measurement, const Bi
   return update;
 }
 
-BiasModel TrackFilter::advance(std::int64_t utime_us, const BiasModel& priors) {
-  BiasModel shown = BiasModel::evidence_on(priors);
-  predict(utime_us, shown);
-  refresh();
-  return shown;
-}
-
 // The target was designated again at the station, which now follows another point of it: its bias
 // variance returns to the prior, but the correlation with the other states stays. Otherwise a
 // station that changes the point with each frame would seem to have a new bias each time, and it
@@ -223,11 +212,16 @@ void TrackFilter::take(const BearingMeasurement& measurement, const Innovation* 
   entry.note_use(measurement, judged->nis, weight_of(judged->nis));
   // What turns two lines of sight to meet is what shows an inconsistent pair: it is estimated.
   const bool judges_pairs = std::isfinite(config_.two_stations_nis);
+  const bool redundant = is_redundant(stations_, entry);
   const bool may_learn =
-      (judges_pairs || is_redundant(stations_, entry)) &&
+      (judges_pairs || redundant) &&
       is_linear(*seen.part, seen.frame, seen.models[0].depth_m,
                 summary_.covariance.topLeftCorner<3, 3>(), models_[0].covariance, white);
-  const double inflation = entry.noise.observe(measurement, seen.frame, update.shown);
+  // Without redundancy, coloured noise looks like motion: what is not new in each bearing counts as
+  // bias, and does not smooth the track.
+  const double coloured = entry.noise.observe(measurement, seen.frame, update.shown);
+  const double inflation =
+      redundant ? coloured : update.shown.greatest_white_share(measurement.station);
   correct(seen, white * (inflation / entry.weight), may_learn ? &seen.frame.direction : nullptr);
 }
 
@@ -235,9 +229,16 @@ void TrackFilter::take(const BearingMeasurement& measurement, const Innovation* 
 // same.
 void TrackFilter::take_without_states(const BearingMeasurement& measurement, FilterUpdate& update) {
   constexpr double kMemoryS = 0.3;
-  std::int64_t& last_us = without_states_[measurement.station];
-  const double interval_s = std::clamp(seconds(measurement.utime_us - last_us), 1e-3, kMemoryS);
-  last_us = std::max(last_us, measurement.utime_us);
+  const auto [own, is_new] = without_states_.try_emplace(measurement.station);
+  FilterStation& entry = own->second;
+  if (is_new) {
+    entry.station = measurement.station;
+    entry.sight = measurement.sight;
+  }
+  const double interval_s =
+      std::clamp(entry.last_offered.age_s(measurement.utime_us), 1e-3, kMemoryS);
+  entry.last_offered.note(measurement.utime_us);
+  entry.weight = 0.0;
   const Innovation seen = compare(measurement, -1);
   const double range_m = (position() - measurement.sight.origin_ecef).norm();
   Eigen::Matrix2d bias =
@@ -252,9 +253,13 @@ void TrackFilter::take_without_states(const BearingMeasurement& measurement, Fil
   update.nis = judged->nis;
   update.shown.observe_residual(measurement.station, judged->noise);
   update.use = BearingUse::kRejected;
-  if (!(judged->nis <= config_.gate_nis)) return;
+  if (!(judged->nis <= config_.gate_nis)) {
+    ++entry.rejected;
+    return;
+  }
   ++state_;
   update.use = BearingUse::kUsed;
+  entry.note_use(measurement, judged->nis, weight_of(judged->nis));
   const Eigen::Matrix2d noise = white + bias * (1.0 + 2.0 * kMemoryS / interval_s);
   correct(seen, noise / weight_of(judged->nis), nullptr);
 }
@@ -292,12 +297,6 @@ void TrackFilter::reject(FilterStation& entry) {
   } else if (entry.rejected % ConsecutiveRejections::kMany == 0) {
     inflate_unseen_by_other(entry);
   }
-}
-
-std::ptrdiff_t TrackFilter::agreed_since(const FilterStation& station) const {
-  return std::ranges::count_if(stations_, [&](const FilterStation& other) {
-    return other.last_used.last_us > station.last_used.last_us;
-  });
 }
 
 // One station alone never disagrees: its bearings move the target along its line of sight. Where

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -79,7 +80,12 @@ class TrackFilter {
   [[nodiscard]] FilterUpdate update(const BearingMeasurement& measurement, const BiasModel& priors,
                                     const Innovation* known = nullptr);
   // Propagates the state without a bearing; returns the evidence on the biases.
-  [[nodiscard]] BiasModel advance(std::int64_t utime_us, const BiasModel& priors);
+  [[nodiscard]] BiasModel advance(std::int64_t utime_us, const BiasModel& priors) {
+    BiasModel shown = BiasModel::evidence_on(priors);
+    predict(utime_us, shown);
+    refresh();
+    return shown;
+  }
   // Linearises the bearings' equations about this motion, not about the current estimate: for
   // another iteration over the same bearings while the estimate is vague.
   void linearise_about(const KinematicState& motion) { about_ = motion; }
@@ -93,10 +99,23 @@ class TrackFilter {
   const KinematicState& summary() const { return summary_; }
   Eigen::Vector3d position() const { return summary_.mean.head<3>(); }
   Eigen::Vector3d velocity() const { return summary_.mean.segment<3>(3); }
+  // Those with states of their own, in the order of priors().
   const std::vector<FilterStation>& stations() const { return stations_; }
+  // All that contribute: those, then the ones for which no states are left.
+  template <class Visitor>
+  void each_station(const Visitor& visit) const {
+    for (const FilterStation& station : stations_) visit(station);
+    for (const auto& [name, station] : without_states_) visit(station);
+  }
   const std::vector<BiasPrior>& priors() const { return priors_; }  // of each station
   // How many other stations had a bearing used since this one's last.
-  std::ptrdiff_t agreed_since(const FilterStation& station) const;
+  std::ptrdiff_t agreed_since(const FilterStation& station) const {
+    std::ptrdiff_t count = 0;
+    each_station([&](const FilterStation& other) {
+      count += other.last_used.last_us > station.last_used.last_us ? 1 : 0;
+    });
+    return count;
+  }
   StationBias bias(std::size_t station) const;
   const std::vector<double>& probabilities() const { return models_.probabilities(); }
   // The whole mixed state, for the smoother: kinematics, then the stations' states.
@@ -107,7 +126,10 @@ class TrackFilter {
   RayFrame frame_of(const BearingMeasurement& measurement, int station) const;
   Eigen::Index first_of(int station) const;
   StationPart part_of(int station, const RayFrame& frame) const;
-  int index_of(const std::string& station) const;
+  int index_of(const std::string& station) const {
+    const auto found = std::ranges::find(stations_, station, &FilterStation::station);
+    return found == stations_.end() ? -1 : static_cast<int>(found - stations_.begin());
+  }
   bool place_matters(const LineOfSight& sight) const;
   int claim_station_states(const BearingMeasurement& measurement);
   void enter(int station, const BearingMeasurement& measurement, const BiasModel& priors);
@@ -136,9 +158,8 @@ class TrackFilter {
   std::int64_t state_ = 1;  // version of the state; an innovation belongs to one
   std::vector<FilterStation> stations_;
   std::vector<BiasPrior> priors_;
-  // The newest bearing of each station for which no states are left.
-  std::map<std::string, std::int64_t> without_states_;
-  KinematicState summary_;  // mixed over the models
+  std::map<std::string, FilterStation> without_states_;  // stations for which none are left
+  KinematicState summary_;                               // mixed over the models
   std::optional<KinematicState> about_;
   ConsecutiveRejections rejections_;
 };

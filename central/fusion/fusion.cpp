@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "central/fusion/association.h"
@@ -16,7 +17,7 @@ TargetScheduleConfig schedule_of(const FusionConfig& config) {
   return {.estimator = config.estimator,
           .rate_hz = config.rate_hz,
           .paper_targets = config.paper_targets,
-          .give_up_s = config.keeper.drop_s,
+          .give_up_s = config.tracks.drop_s,
           .estimators = config.estimators};
 }
 
@@ -27,20 +28,24 @@ Fusion::Fusion(const FusionConfig& config)
       admission_(config.admission),
       pointing_(config.pointing),
       unassociated_(config.unassociated),
-      tracks_(config.keeper),
+      tracks_(config.tracks),
       targets_(schedule_of(config)),
-      slews_(config.slew, config.keeper.drop_s) {
+      slews_(config.slew, config.tracks.drop_s),
+      cues_(config.cues) {
   if (!make_estimator(config.estimator, config.estimators)) {
     throw std::invalid_argument("unknown estimator " + config.estimator);
   }
-  for (const char* name :
-       {"bearings", "targets", "targets_without_position", "slews", "clock_stepped_back",
-        "time_stepped_back", "stations_evicted", "stations_quarantined", "calibrations_changed",
-        "stations_restarted", "paper_targets_thinned"}) {
+  for (const char* name : {"bearings", "targets", "targets_without_position", "slews",
+                           "clock_stepped_back", "time_stepped_back", "stations_evicted",
+                           "stations_quarantined", "calibrations_changed", "stations_restarted",
+                           "paper_targets_thinned", "cues", "cue_orders", "cue_orders_refused"}) {
     log_.counters[name] = 0.0;
   }
   for (int i = 1; i < static_cast<int>(BearingRefusal::kCount); ++i) {
     log_.counters[to_string(static_cast<BearingRefusal>(i))] = 0.0;
+  }
+  for (int i = 1; i < static_cast<int>(CueRefusal::kCount); ++i) {
+    log_.counters[to_string(static_cast<CueRefusal>(i))] = 0.0;
   }
 }
 
@@ -66,11 +71,44 @@ FusionOutput Fusion::add(const BearingMeasurement& measurement) {
   // After a silence "now" is old until most stations have sent again: nothing is published by it.
   if (now == 0 || admission_.is_future(measurement.utime_us)) return output;
   if (targets_.epoch_us() && seconds(*targets_.epoch_us() - now) > kStepBackS) begin_time_line();
+  if (output.refusal == BearingRefusal::kNone) targets_.hear(measurement, now);
   targets_.tell(now, tracks_, admission_.clocks(), pointing_, output, log_);
-  const BearingLines lines(tracks_, pointing_, config_.estimators.alignment);
-  output.slews = slews_.plan(now, admission_.stations(), lines, tracks_.tracks());
-  log_.count("slews", static_cast<double>(output.slews.size()));
+  output.slews = slews_at(now);
   return output;
+}
+
+std::vector<Slew> Fusion::slews_at(std::int64_t now_us) {
+  if (!cues_.empty()) cues_.settle(now_us, tracks_.tracks());
+  const BearingLines lines(tracks_, pointing_, config_.estimators.alignment);
+  auto slews = slews_.plan(now_us, admission_.stations(), lines, tracks_.tracks(), cues_);
+  log_.count("slews", static_cast<double>(slews.size()));
+  return slews;
+}
+
+// Without bearings nothing else would slew a station, and "now" is the present of this host. With
+// bearings it is theirs: two clocks in turn would begin rounds and searches again.
+std::vector<Slew> Fusion::add(const Cue& cue, std::int64_t present_us) {
+  constexpr double kTogether_s = 0.5;
+  const CueRefusal refusal = cues_.take(cue, present_us, admission_.stations());
+  log_.count(refusal == CueRefusal::kNone ? "cues" : to_string(refusal));
+  if (refusal != CueRefusal::kNone) {
+    log_.last_error = "cue " + cue.id + ": " + to_string(refusal);
+    return {};
+  }
+  const bool has_bearings = std::abs(seconds(now_us() - present_us)) < kTogether_s;
+  const std::int64_t now = has_bearings ? now_us() : present_us;
+  std::vector<Slew> slews;
+  do {
+    std::ranges::move(slews_at(now), std::back_inserter(slews));
+  } while (slews_.is_in_round());
+  return slews;
+}
+
+bool Fusion::allow_cue(const std::string& id, bool allow) {
+  const bool taken = cues_.order(id, allow);
+  log_.count(taken ? "cue_orders" : "cue_orders_refused");
+  if (!taken) log_.last_error = "cue " + id + ": there is none, or cues are not to be searched";
+  return taken;
 }
 
 // An offset from the others' clocks adds to the stated clock error.
@@ -109,6 +147,7 @@ void Fusion::forget(const std::string& station) {
   pointing_.forget(station);
   unassociated_.forget(station);
   tracks_.forget_station(station);
+  targets_.forget(station);
   slews_.forget(station);
 }
 
@@ -143,8 +182,10 @@ void Fusion::begin_time_line() {
   admission_.begin_time_line();
 }
 
-FusionHealth Fusion::health() const {
-  return health_of(admission_, pointing_, unassociated_, tracks_, log_);
+FusionHealth Fusion::health(std::int64_t present_us) const {
+  FusionHealth health = health_of(admission_, pointing_, unassociated_, tracks_, log_);
+  health.cues = cues_.health(present_us == 0 ? now_us() : present_us);
+  return health;
 }
 
 }  // namespace ols::fusion

@@ -1,7 +1,8 @@
 // The fusion: bearings in, targets and slews out. Pure: its time is that of the messages, so the
-// same bearings in the same order give the same targets to the last digit. It never waits: targets
-// are computed as soon as "now" has advanced by a period, from what each station has delivered.
-// With many targets or stations, the work of a period is spread over several bearings.
+// same bearings in the same order give the same targets to the last digit. It never waits for a
+// slow station: targets are computed once a period has passed and most stations that are due have
+// delivered (epoch_rule.h). With many targets or stations, the work of a period is spread over
+// several bearings.
 //
 // Admission decides which bearings are used, the tracks which target each belongs to, the schedules
 // what is published when.
@@ -28,10 +29,11 @@ struct FusionConfig {
   int paper_targets = 8;  // of this many targets the paper's estimate is made as well; 0: of none
   AdmissionConfig admission{};
   EstimatorConfig estimators{};
-  TrackManagerConfig keeper{};
+  TrackManagerConfig tracks{};
   SlewConfig slew{};
   PointingConfig pointing{};
   UnassociatedConfig unassociated{};
+  CueConfig cues{};
 };
 
 class Fusion {
@@ -46,7 +48,15 @@ class Fusion {
   // Processes one bearing, in order of arrival.
   FusionOutput add(const BearingMeasurement& measurement);
 
-  FusionHealth health() const;
+  // Takes what others say of a target: slews may come of it, nothing else. `present_us`: this
+  // host's UTC, or of a recording the message's time.
+  std::vector<Slew> add(const Cue& cue, std::int64_t present_us);
+  // An operator's word on a cue; false: there is none of this name, or the site wants none.
+  bool allow_cue(const std::string& id, bool allow);
+  void end_silent_cues(std::int64_t present_us) { cues_.end_silent(present_us); }
+
+  // `present_us`: for where cues are now.
+  FusionHealth health(std::int64_t present_us = 0) const;
   std::int64_t now_us() const { return admission_.time().now_us(); }
   const TrackManager& tracks() const { return tracks_; }
 
@@ -56,6 +66,7 @@ class Fusion {
   void forget(const std::string& station);
   void forget_what_changed(const BearingMeasurement& measurement, const Admitted& admitted);
   void begin_time_line();
+  std::vector<Slew> slews_at(std::int64_t now_us);
   void note_refusal(BearingRefusal refusal, const BearingMeasurement& measurement);
 
   FusionConfig config_;
@@ -65,6 +76,7 @@ class Fusion {
   LiveTracks tracks_;
   TargetSchedule targets_;
   SlewSchedule slews_;
+  CueBook cues_;
   FusionLog log_;
 };
 

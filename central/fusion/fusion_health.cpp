@@ -13,12 +13,12 @@ constexpr double kSeen = 0.5;
 std::map<std::string, double> all_counters(const FusionLog& log, const TrackManager& tracks) {
   auto counters = log.counters;
   const TrackManager::Counts& counts = tracks.counts();
-  counters["tracks_born"] = static_cast<double>(counts.born);
+  counters["tracks_born"] = static_cast<double>(counts.initiated);
   counters["tracks_confirmed"] = static_cast<double>(counts.confirmed);
   counters["tracks_dropped"] = static_cast<double>(counts.dropped);
   counters["tracks_merged"] = static_cast<double>(counts.merged);
   counters["bearings_ambiguous"] = static_cast<double>(counts.ambiguous);
-  counters["bearings_set_aside"] = static_cast<double>(counts.set_aside);
+  counters["bearings_set_aside"] = static_cast<double>(counts.rejected);
   counters["bearings_unexplained"] = static_cast<double>(counts.unexplained);
   return counters;
 }
@@ -30,6 +30,7 @@ StationBiasReport finding_of(const StationBias& bias) {
     if (!(variance < kSeen * kSeen * bias.prior_rad2(axis, axis))) continue;
     finding.bias_rad(axis) = bias.bias_rad(axis);
     finding.bias_sd_rad(axis) = std::sqrt(variance);
+    finding.stated_sd_rad(axis) = std::sqrt(bias.prior_rad2(axis, axis));
   }
   if (bias.clock_sd_s < kSeen * bias.clock_prior_sd_s) {
     finding.clock_s = bias.clock_s;
@@ -66,7 +67,8 @@ FusionHealth health_of(const Admission& admission, const PointingMonitor& pointi
                       .stations = {},
                       .counters = all_counters(log, tracks),
                       .alarms = {},
-                      .last_error = log.last_error};
+                      .last_error = log.last_error,
+                      .cues = {}};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Findings findings = findings_of(tracks.tracks());
   for (const auto& [name, station] : admission.stations().all()) {
@@ -83,6 +85,10 @@ FusionHealth health_of(const Admission& admission, const PointingMonitor& pointi
     if (one.quarantine.empty()) one.quarantine = pointing.quarantine(name);
     const auto found = findings.by_station.find(name);
     if (found != findings.by_station.end()) one.finding = found->second;
+    one.calibration = station.traits.calibration;
+    const std::string doubt =
+        calibration_alarm(name, one.calibration, {one.finding.bias_rad, one.finding.stated_sd_rad});
+    if (!doubt.empty()) health.alarms.push_back(doubt);
     const std::string alarm = one.quarantine.empty()
                                   ? unassociated.alarm(name, health.now_us)
                                   : "station " + name + ": not used, " + one.quarantine;

@@ -11,6 +11,7 @@
 #include "central/admission/admission.h"
 #include "central/admission/pointing_monitor.h"
 #include "central/admission/unassociated_monitor.h"
+#include "central/cues/cue_book.h"
 #include "central/tracking/track_manager.h"
 
 namespace ols::fusion {
@@ -19,6 +20,7 @@ namespace ols::fusion {
 struct StationBiasReport {
   Eigen::Vector2d bias_rad = nan_vector().head<2>();  // cross-elevation, elevation
   Eigen::Vector2d bias_sd_rad = nan_vector().head<2>();
+  Eigen::Vector2d stated_sd_rad = nan_vector().head<2>();  // of the bias, by the station
   double clock_s = std::numeric_limits<double>::quiet_NaN();
   double clock_sd_s = std::numeric_limits<double>::quiet_NaN();
 };
@@ -32,6 +34,7 @@ struct StationHealth {
   double clock_offset_s = 0.0;  // of its stamps from the median; NaN if none
   std::string quarantine{};     // why it is not used; empty: it is used
   StationBiasReport finding{};
+  StatedCalibration calibration{};
 };
 
 struct FusionHealth {
@@ -40,6 +43,7 @@ struct FusionHealth {
   std::map<std::string, double> counters;  // they only increase
   std::vector<std::string> alarms;         // current ones, as text
   std::string last_error;
+  std::vector<CueHealth> cues{};  // in the order of their ids
 };
 
 FusionHealth health_of(const Admission& admission, const PointingMonitor& pointing,

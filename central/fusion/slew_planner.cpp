@@ -22,6 +22,10 @@ void turn(Slew& slew, const Eigen::Vector2d& offset_rad) {
   d.elevation_rad = elevation;
 }
 
+std::string cue_key(const CueAim& aim) { return "cue/" + aim.cue.id; }
+std::string line_key(const CueAim& aim) { return cue_key(aim) + "/line"; }
+std::string line_key(const CueRay& ray) { return ray.station + "/" + std::to_string(ray.track_id); }
+
 }  // namespace
 
 // The arc length of the spiral is the square of the angle over 4 pi; its turns are a unit apart.
@@ -53,13 +57,18 @@ Slew slew_to(const KinematicState& target, const StationTraits& station, const S
   return slew;
 }
 
-double SlewPlanner::searched_s(const std::string& station, std::int64_t target_id,
-                               const std::string& ray, std::int64_t now_us) {
+// "Now" may fall back a little.
+double SlewPlanner::Search::searched_s(std::int64_t now_us) const {
+  return std::max(0.0, seconds(now_us - begun_us));
+}
+
+SlewPlanner::Search& SlewPlanner::search_of(const std::string& station, std::int64_t target_id,
+                                            const std::string& ray, std::int64_t now_us) {
   Search& search = searches_[station];
   if (search.begun_us == 0 || search.target_id != target_id || search.ray != ray) {
     search = {target_id, ray, now_us};
   }
-  return std::max(0.0, seconds(now_us - search.begun_us));  // "now" may fall back a little
+  return search;
 }
 
 // The target that it sees, else the one that it is being led to, else the one that the fewest see.
@@ -85,6 +94,42 @@ const Track* SlewPlanner::target_for(const SlewStation& station,
   return fewest;
 }
 
+// The one that it is being led to, else the one to which the fewest are; instead of a target only
+// where others see that.
+const CueAim* SlewPlanner::cue_for(const SlewRound& round, const SlewStation& station,
+                                   const Track* target) {
+  if (round.cues.empty() || round.bearing_only_stations.contains(station.station)) return nullptr;
+  if (target != nullptr && target->id == station.follows) return nullptr;
+  const auto led_to = [&](const CueAim& aim) {
+    const auto found = round.led_to.find(aim.cue.id);
+    return found == round.led_to.end() ? 0 : found->second;
+  };
+  const auto own = searches_.find(station.station);
+  const CueAim* fewest = nullptr;
+  for (const CueAim& aim : round.cues) {
+    if (own != searches_.end() && own->second.cue == aim.cue.id) return &aim;
+    if (fewest == nullptr || led_to(aim) < led_to(*fewest)) fewest = &aim;
+  }
+  if (target == nullptr) return fewest;
+  const auto seen = round.seen_by.find(target->id);
+  const int others = seen == round.seen_by.end() ? 0 : seen->second;
+  return led_to(*fewest) < 2 && others >= 2 ? fewest : nullptr;
+}
+
+// A search ends with its cue: should that come back, it begins anew.
+void SlewPlanner::count_searches(SlewRound& round) {
+  round.led_to.clear();
+  for (const CueAim& aim : round.cues) round.led_to[aim.cue.id] = 0;
+  std::erase_if(searches_, [&](const auto& search) {
+    const std::string& cue = search.second.cue;
+    if (cue.empty()) return false;
+    const auto led_to = round.led_to.find(cue);
+    if (led_to == round.led_to.end()) return true;
+    ++led_to->second;
+    return false;
+  });
+}
+
 std::int64_t SlewPlanner::effect_of(const StationTraits& station, std::int64_t now_us) const {
   const double lead_s = std::min(kLongestLead_s, station.latency_s + config_.act_s);
   return now_us + std::llround(lead_s * 1e6);
@@ -96,42 +141,102 @@ Slew SlewPlanner::towards(const Track& track, const SlewStation& station, std::i
   slew.effect_utime_us = effect_us;
   slew.target_id = track.id;
   if (station.follows == track.id) return slew;
-  const double searched = searched_s(station.station, track.id, "", now_us);
-  const double step_rad = config_.view_share * station.traits.field_of_view_rad;
-  const double reach_rad = config_.search_sigma * slew.direction_sd_rad;
-  if (reach_rad <= step_rad) return slew;
-  const double points = std::min(1e4, 1.0 + kPi * std::pow(reach_rad / step_rad, 2));
-  const int k = static_cast<int>(std::fmod(searched / config_.dwell_s, std::floor(points)));
-  turn(slew, step_rad * spiral_point(k));
+  const Search& search = search_of(station.station, track.id, "", now_us);
+  search_around(slew, station, search.searched_s(now_us));
   return slew;
 }
 
-// Steps along the ray at equal angles as seen from this station, to the far end and back.
-Slew SlewPlanner::along(const CueRay& ray, const SlewStation& station, std::int64_t now_us) {
-  const Eigen::Vector3d& camera = station.traits.camera_ecef;
-  const auto point = [&](double range_m) {
-    return Eigen::Vector3d(ray.origin_ecef + range_m * ray.direction_ecef);
-  };
+void SlewPlanner::search_around(Slew& slew, const SlewStation& station, double searched_s) const {
   const double step_rad = config_.view_share * station.traits.field_of_view_rad;
-  const Eigen::Vector3d near = point(config_.search_near_m) - camera;
-  const Eigen::Vector3d far = point(config_.search_far_m) - camera;
-  const double sweep_rad = angle_between(near, far);
-  const int steps = std::max(1, static_cast<int>(std::ceil(sweep_rad / std::max(1e-4, step_rad))));
-  const double searched = searched_s(station.station, 0, ray.station, now_us);
-  const int k = static_cast<int>(searched / config_.dwell_s) % (2 * steps);
-  const double share = static_cast<double>(k <= steps ? k : 2 * steps - k) / steps;
-  // In the plane of the two directions, the direction at this share of the angle between them.
-  const Eigen::Vector3d u = near.normalized();
-  const Eigen::Vector3d v = (far - far.dot(u) * u).normalized();
-  const double angle = share * sweep_rad;
-  Eigen::Vector3d line = std::cos(angle) * u;
-  if (v.allFinite()) line += std::sin(angle) * v;
+  const double reach_rad = config_.search_sigma * slew.direction_sd_rad;
+  if (reach_rad <= step_rad) return;
+  const double points = std::min(1e4, 1.0 + kPi * std::pow(reach_rad / step_rad, 2));
+  const int k = static_cast<int>(std::fmod(searched_s / config_.dwell_s, std::floor(points)));
+  turn(slew, step_rad * spiral_point(k));
+}
+
+// Whether whatever moves evenly counts (slew_t.line): where the cue's motion is not known, and
+// where its places are so uncertain that they jump, other than the target's own. What stands is
+// never found that way: of a cue that stands the direction is all there is.
+bool SlewPlanner::is_by_motion(const CueAim& aim, const SlewStation& station,
+                               std::int64_t now_us) const {
+  constexpr double kKnown_rad_s = 0.03;  // a station's acquisition bears so much
+  const KinematicState state = aim.at(now_us);
+  const double range_m = (state.mean.head<3>() - station.traits.camera_ecef).norm();
+  if (aim.cue.velocity_sd_m_s > kKnown_rad_s * range_m) return true;
+  const bool moves = aim.cue.velocity_enu_m_s.norm() > 3.0 * aim.cue.velocity_sd_m_s;
+  return moves && is_wide(aim, station, now_us);
+}
+
+// Other than to a target of ours, a station comes from anywhere: the search begins when it is
+// there.
+Slew SlewPlanner::towards(const CueAim& aim, const SlewStation& station, std::int64_t now_us) {
+  const std::int64_t effect_us = effect_of(station.traits, now_us);
+  Slew slew = slew_to(aim.at(effect_us), station.traits, config_);
+  slew.effect_utime_us = effect_us;
+  if (is_by_motion(aim, station, now_us)) slew.line = Eigen::Vector2d::UnitX();
+  Search& search = search_of(station.station, 0, cue_key(aim), now_us);
+  if (!search.turn_s) {
+    const auto& axis = station.traits.axis;
+    const double angle_rad = axis ? angle_between(enu_from_azimuth_elevation(*axis),
+                                                  enu_from_azimuth_elevation(slew.direction))
+                                  : kPi / 4.0;
+    search.turn_s = turning_s(angle_rad, config_.line);
+  }
+  search_around(slew, station, std::max(0.0, search.searched_s(now_us) - *search.turn_s));
+  return slew;
+}
+
+// Whether it takes more than one look.
+bool SlewPlanner::is_wide(const CueAim& cue, const SlewStation& station,
+                          std::int64_t now_us) const {
+  const KinematicState state = cue.at(now_us);
+  const double range_m = (state.mean.head<3>() - station.traits.camera_ecef).norm();
+  const double sd_m = std::sqrt(state.covariance.topLeftCorner<3, 3>().trace() / 3.0);
+  return config_.search_sigma * sd_m >
+         config_.view_share * station.traits.field_of_view_rad * range_m;
+}
+
+Slew SlewPlanner::along(const SlewRound& round, const SlewStation& station,
+                        const std::string& search_key) {
   Slew slew;
   slew.lease_s = config_.lease_s;
-  slew.effect_utime_us = effect_of(station.traits, now_us);
-  slew.direction = azimuth_elevation_from_enu(R_ecef_enu(camera).transpose() * line);
-  slew.direction_sd_rad = sweep_rad / 4.0;
+  slew.effect_utime_us = effect_of(station.traits, round.now_us);
+  const CueRay ray = round.ray->at(slew.effect_utime_us);
+  Search& search = search_of(station.station, 0, search_key, round.now_us);
+  if (!search.sweep) {
+    const auto share = round.shares.find(station.station);
+    const SweepStart start = sweep_start(
+        round.prior, share == round.shares.end() ? LineShare{} : share->second, config_.line);
+    search.sweep.emplace(ray, station.traits, start, config_.line);
+  }
+  const LineLook look = search.sweep->look(ray, station.traits, search.searched_s(round.now_us));
+  slew.direction = look.direction;
+  slew.direction_sd_rad = look.sd_rad;
+  slew.line = look.line;
+  const double limit = config_.rate_limit_rad_s;
+  slew.azimuth_rate_rad_s = std::clamp(
+      look.rate_rad_s.x() / std::max(0.01, std::cos(look.direction.elevation_rad)), -limit, limit);
+  slew.elevation_rate_rad_s = std::clamp(look.rate_rad_s.y(), -limit, limit);
   return slew;
+}
+
+std::optional<Slew> SlewPlanner::slew_of(SlewRound& round, const SlewStation& station,
+                                         const std::vector<const Track*>& targets) {
+  const Track* target = target_for(station, targets, round.seen_by);
+  if (const CueAim* cue = cue_for(round, station, target)) {
+    const bool by_line = round.cue_on_ray == cue->cue.id && is_wide(*cue, station, round.now_us);
+    const bool is_new = searches_[station.station].cue != cue->cue.id;
+    const Slew slew =
+        by_line ? along(round, station, line_key(*cue)) : towards(*cue, station, round.now_us);
+    searches_[station.station].cue = cue->cue.id;
+    if (is_new) ++round.led_to[cue->cue.id];
+    return slew;
+  }
+  if (target != nullptr) return towards(*target, station, round.now_us);
+  const bool searches = round.ray && !round.bearing_only_stations.contains(station.station);
+  if (!searches) return std::nullopt;
+  return along(round, station, line_key(*round.ray));
 }
 
 std::vector<Slew> SlewPlanner::plan(SlewRound& round, std::span<const SlewStation> stations,
@@ -144,16 +249,18 @@ std::vector<Slew> SlewPlanner::plan(SlewRound& round, std::span<const SlewStatio
       targets.push_back(&track);
     }
   }
+  count_searches(round);
   std::vector<Slew> slews;
   for (const SlewStation& station : stations) {
-    if (!station.traits.commandable) continue;
-    const Track* target = target_for(station, targets, round.seen_by);
-    const bool searches = round.ray && !round.bearing_only_stations.contains(station.station);
-    if (target == nullptr && !searches) continue;
-    slews.push_back(target != nullptr ? towards(*target, station, now_us)
-                                      : along(*round.ray, station, now_us));
-    slews.back().station = station.station;
-    slews.back().utime_us = now_us;
+    if (!station.traits.commandable) {
+      searches_.erase(station.station);
+      continue;
+    }
+    auto slew = slew_of(round, station, targets);
+    if (!slew) continue;
+    slew->station = station.station;
+    slew->utime_us = now_us;
+    slews.push_back(std::move(*slew));
   }
   return slews;
 }

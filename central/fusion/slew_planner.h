@@ -5,7 +5,9 @@
 //    less certain than its field of view, it searches along a spiral that covers the uncertainty,
 //    nearest first.
 //  - Where no position is known but one station has a target in view, the others search along that
-//    station's ray, from near to far and back, in steps that overlap in their views.
+//    station's ray (line_search.h).
+//  - A cue from outside that is allowed (central/cues/) is one more place for stations that see
+//    nothing: to it goes who would otherwise help where more are already.
 //  - A station that cannot be commanded (operator control, or stopped) gets no slew: the operator
 //    has precedence over the fusion. The station itself refuses, too.
 // Commanded rates stay within the rate limit (a new direction may be anywhere: the station turns to
@@ -22,6 +24,8 @@
 #include <vector>
 
 #include "central/admission/station_registry.h"
+#include "central/cues/cue.h"
+#include "central/fusion/line_search.h"
 #include "central/tracking/track.h"
 #include "geometry/direction.h"
 #include "geometry/slew_limits.h"
@@ -34,11 +38,10 @@ struct SlewConfig {
   double lease_s = 0.5;  // without a newer command the station halts
   double coast_s = 2.0;  // a target is predicted for this long after its last bearings
   double rate_limit_rad_s = kSlewRateLimit_rad_s;
-  double view_share = 0.5;      // step of a search, over the field of view
-  double dwell_s = 0.4;         // at each step
-  double search_sigma = 2.5;    // radius of the spiral
-  double search_near_m = 30.0;  // start of a search along a ray
-  double search_far_m = 20e3;   // its end
+  double view_share = 0.5;    // step of a search, over the field of view
+  double dwell_s = 0.4;       // at each step
+  double search_sigma = 2.5;  // radius of the spiral
+  LineSearchConfig line{};    // a search along a ray
 };
 
 struct Slew {
@@ -50,6 +53,7 @@ struct Slew {
   double azimuth_rate_rad_s = 0.0;
   double elevation_rate_rad_s = 0.0;
   double direction_sd_rad = 0.0;
+  Eigen::Vector2d line = Eigen::Vector2d::Zero();  // of a search: which way the ray runs there
   double lease_s = 0.0;
 };
 
@@ -67,19 +71,17 @@ struct SlewStation {
   std::int64_t follows = 0;  // the target that it sees; 0: none
 };
 
-// A ray with a target somewhere on it.
-struct CueRay {
-  std::string station;
-  Eigen::Vector3d origin_ecef = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction_ecef = Eigen::Vector3d::UnitX();
-};
-
 // The state common to all stations at one instant.
 struct SlewRound {
   std::int64_t now_us = 0;
   std::map<std::int64_t, int> seen_by{};          // number of stations that see each target
   std::set<std::string> bearing_only_stations{};  // stations with a bearing-only track
-  std::optional<CueRay> ray{};                    // one of their rays
+  std::optional<CueRay> ray{};                    // one of their rays,
+  LinePrior prior{};                              // where on it the target may be
+  std::map<std::string, LineShare> shares{};      // of the stations that search along it
+  std::vector<CueAim> cues{};                     // to which stations may be led
+  std::string cue_on_ray{};                       // the id of one that the ray passes
+  std::map<std::string, int> led_to{};            // number of stations led to each
 };
 
 class SlewPlanner {
@@ -96,15 +98,29 @@ class SlewPlanner {
  private:
   struct Search {
     std::int64_t target_id = 0;  // to which it is led, or
-    std::string ray;             // the station whose ray it searches
+    std::string ray;             // the station whose ray it searches, or the cue
     std::int64_t begun_us = 0;
+    std::optional<LineSweep> sweep{};  // along that ray
+    std::optional<double> turn_s{};    // until its unit has come to a cue
+    std::string cue{};                 // the id of that
+    double searched_s(std::int64_t now_us) const;
   };
   const Track* target_for(const SlewStation& station, const std::vector<const Track*>& targets,
                           std::map<std::int64_t, int>& seen_by);
+  // Null: none that this station is to look at.
+  const CueAim* cue_for(const SlewRound& round, const SlewStation& station, const Track* target);
+  void count_searches(SlewRound& round);
   std::int64_t effect_of(const StationTraits& station, std::int64_t now_us) const;
   Slew towards(const Track& track, const SlewStation& station, std::int64_t now_us);
-  Slew along(const CueRay& ray, const SlewStation& station, std::int64_t now_us);
-  double searched_s(const std::string& station, std::int64_t target_id, const std::string& ray,
+  Slew towards(const CueAim& cue, const SlewStation& station, std::int64_t now_us);
+  Slew along(const SlewRound& round, const SlewStation& station, const std::string& search_key);
+  bool is_by_motion(const CueAim& cue, const SlewStation& station, std::int64_t now_us) const;
+  bool is_wide(const CueAim& cue, const SlewStation& station, std::int64_t now_us) const;
+  std::optional<Slew> slew_of(SlewRound& round, const SlewStation& station,
+                              const std::vector<const Track*>& targets);
+  // Turns the slew to where its search has come.
+  void search_around(Slew& slew, const SlewStation& station, double searched_s) const;
+  Search& search_of(const std::string& station, std::int64_t target_id, const std::string& ray,
                     std::int64_t now_us);
 
   SlewConfig config_;

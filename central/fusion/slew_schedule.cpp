@@ -1,17 +1,35 @@
 #include "central/fusion/slew_schedule.h"
 
+#include <cmath>
+#include <map>
+#include <numeric>
+
 #include "central/fusion/output_period.h"
+#include "central/measurement/ray.h"
 #include "central/measurement/time_span.h"
 
 namespace ols::fusion {
 namespace {
 
 constexpr int kStationsABearing = 16;
+constexpr double kStepBack_s = 0.5;
+
+CueRay cue_ray(const BearingOnly& line, std::int64_t now_us) {
+  const RayFrame frame = ray_frame(line.sight);
+  const Eigen::Matrix2d covariance = line.sight.covariance_white + line.sight.covariance_systematic;
+  return {line.station,
+          line.track_id,
+          now_us,
+          line.sight.origin_ecef,
+          frame.direction,
+          frame.tangent * line.rate_rad_s,
+          std::sqrt(covariance.trace() / 2.0)};
+}
 
 }  // namespace
 
 void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
-                         const BearingLines& lines) {
+                         const BearingLines& lines, const CueBook& cues) {
   begun_us_ = now_us;
   next_ = "";
   round_ = {.now_us = now_us};
@@ -19,21 +37,82 @@ void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
     const std::int64_t target = station.follows(now_us);
     if (target != 0) ++round_.seen_by[target];
   }
+  round_.cues = cues.aims(now_us);
+  cue(now_us, lines);
+  if (!round_.ray) return;
+  share_out(now_us, stations);
+  narrow_by_cue();
+}
+
+// The ray of the round before, while it lasts: another one would begin all searches anew.
+void SlewSchedule::cue(std::int64_t now_us, const BearingLines& lines) {
+  std::map<std::string, CueRay> rays;
   for (const std::string& station : lines.stations(now_us)) {
     const auto own = lines.of(station, now_us);
     if (own.empty()) continue;  // many detections, not an object that it follows
     round_.bearing_only_stations.insert(station);
-    if (round_.ray) continue;
-    const auto line = lines.at(*own.front(), now_us);
-    if (!line) continue;
-    round_.ray = CueRay{station, line->sight.origin_ecef, direction_ecef(line->sight)};
+    if (!rays.empty() && station != cued_by_) continue;
+    if (const auto line = lines.at(*own.front(), now_us)) rays[station] = cue_ray(*line, now_us);
+  }
+  if (rays.empty()) return;
+  const auto before = rays.find(cued_by_);
+  round_.ray = before != rays.end() ? before->second : rays.begin()->second;
+  cued_by_ = round_.ray->station;
+}
+
+// Where the stations that search stand to see a target: over the circle that they make.
+void SlewSchedule::share_out(std::int64_t now_us, const StationRegistry& stations) {
+  std::vector<Eigen::Vector3d> places;
+  for (const auto& [name, station] : stations.all()) {
+    if (!station.traits.commandable || station.traits.camera_ecef.isZero()) continue;
+    places.push_back(station.traits.camera_ecef);
+    const bool searches =
+        station.follows(now_us) == 0 && !round_.bearing_only_stations.contains(name);
+    const auto rank = static_cast<int>(round_.shares.size());
+    if (searches) round_.shares.emplace(name, LineShare{rank, 0});
+  }
+  for (auto& [name, share] : round_.shares) share.of = static_cast<int>(round_.shares.size());
+  if (places.empty()) return;
+  const auto count = static_cast<double>(places.size());
+  const Eigen::Vector3d middle =
+      std::accumulate(places.begin(), places.end(), Eigen::Vector3d(0.0, 0.0, 0.0)) / count;
+  double squared_m2 = 0.0;
+  for (const Eigen::Vector3d& place : places) squared_m2 += (place - middle).squaredNorm() / count;
+  const CueRay& ray = *round_.ray;
+  constexpr double kLeastSd_m = 50.0;
+  round_.prior = {(middle - ray.origin_ecef).dot(ray.direction_ecef),
+                  std::max(kLeastSd_m, std::sqrt(squared_m2) / 2.0)};
+}
+
+// Of a ray that passes a cue, the cue says how far out the target is.
+void SlewSchedule::narrow_by_cue() {
+  constexpr double kSigmas = 3.0, kLeastSd_m = 10.0;
+  const CueRay& ray = *round_.ray;
+  for (const CueAim& aim : round_.cues) {
+    const KinematicState cue = aim.at(round_.now_us);
+    const Eigen::Vector3d line = cue.mean.head<3>() - ray.origin_ecef;
+    const double range_m = line.dot(ray.direction_ecef);
+    const double sd_m = std::sqrt(cue.covariance.topLeftCorner<3, 3>().trace() / 3.0);
+    const double off_m = (line - range_m * ray.direction_ecef).norm();
+    if (range_m <= 0.0 || off_m > kSigmas * std::hypot(sd_m, ray.sd_rad * range_m)) continue;
+    round_.prior = {range_m, std::max(kLeastSd_m, sd_m)};
+    round_.cue_on_ray = aim.cue.id;
+    return;
   }
 }
 
 std::vector<Slew> SlewSchedule::plan(std::int64_t now_us, const StationRegistry& stations,
-                                     const BearingLines& lines, const std::vector<Track>& tracks) {
+                                     const BearingLines& lines, const std::vector<Track>& tracks,
+                                     const CueBook& cues) {
+  // Cues come with another clock than bearings.
+  if (begun_us_ && seconds(*begun_us_ - now_us) > kStepBack_s) {
+    begun_us_.reset();
+    next_.reset();
+  }
   if (next_ && seconds(now_us - *begun_us_) > give_up_s_) next_.reset();
-  if (!next_ && is_due(begun_us_, now_us, config_.rate_hz)) begin(now_us, stations, lines);
+  if (!next_ && is_due(begun_us_, now_us, config_.rate_hz)) {
+    begin(now_us, stations, lines, cues);
+  }
   if (!next_) return {};
   round_.now_us = now_us;  // a round may take a while; each slew is for the time of its creation
   std::vector<SlewStation> some;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "central/admission/station_registry.h"
+#include "central/cues/cue_book.h"
 #include "central/fusion/bearing_lines.h"
 #include "central/fusion/slew_planner.h"
 
@@ -19,19 +20,27 @@ class SlewSchedule {
   SlewSchedule(const SlewConfig& config, double give_up_s)
       : config_(config), give_up_s_(give_up_s), planner_(config) {}
 
-  // The slews due with one bearing, at the time "now".
+  // The slews due with one bearing, or one cue, at the time "now".
   std::vector<Slew> plan(std::int64_t now_us, const StationRegistry& stations,
-                         const BearingLines& lines, const std::vector<Track>& tracks);
+                         const BearingLines& lines, const std::vector<Track>& tracks,
+                         const CueBook& cues);
+  // Whether a round has not come to its end: more is due at once.
+  bool is_in_round() const { return next_.has_value(); }
   void forget(const std::string& station) { planner_.forget(station); }
   void clear() { *this = SlewSchedule(config_, give_up_s_); }
 
  private:
-  void begin(std::int64_t now_us, const StationRegistry& stations, const BearingLines& lines);
+  void begin(std::int64_t now_us, const StationRegistry& stations, const BearingLines& lines,
+             const CueBook& cues);
+  void cue(std::int64_t now_us, const BearingLines& lines);
+  void share_out(std::int64_t now_us, const StationRegistry& stations);
+  void narrow_by_cue();
 
   SlewConfig config_;
   double give_up_s_;
   SlewPlanner planner_;
   SlewRound round_;
+  std::string cued_by_;                   // the station whose ray the others search along
   std::optional<std::int64_t> begun_us_;  // the last round
   std::optional<std::string> next_;       // the next station of the round; nullopt: it is over
 };

@@ -44,12 +44,25 @@ const Track* next_of(std::deque<std::int64_t>& waiting, const TrackManager& trac
 }  // namespace
 
 void TargetSchedule::clear() {
+  rule_.clear();
   epoch_ = {};
   objects_.clear();
 }
 
-void TargetSchedule::begin(std::int64_t now_us, TrackManager& tracks) {
-  epoch_ = {.utime_us = now_us, .bearing_only_reported = false};
+void TargetSchedule::hear(const BearingMeasurement& measurement, std::int64_t now_us) {
+  rule_.hear(measurement.station, measurement.utime_us, now_us);
+}
+
+// The estimators without memory would extrapolate to the newest stamp: theirs is "now", which half
+// of the stations have passed.
+std::optional<std::int64_t> TargetSchedule::next_epoch(std::int64_t now_us) {
+  if (predicts(config_.estimator)) return rule_.after(epoch_.utime_us, config_.rate_hz);
+  return is_due(epoch_.utime_us, now_us, config_.rate_hz) ? std::optional(now_us) : std::nullopt;
+}
+
+void TargetSchedule::begin(std::int64_t epoch_us, std::int64_t now_us, TrackManager& tracks) {
+  const std::int64_t last_paper_us = epoch_.paper_us;
+  epoch_ = {.utime_us = epoch_us, .paper_us = now_us, .bearing_only_reported = false};
   tracks.advance(now_us);
   for (const Track& track : tracks.tracks()) {
     if (is_established(track)) epoch_.targets.push_back(track.id);
@@ -58,6 +71,7 @@ void TargetSchedule::begin(std::int64_t now_us, TrackManager& tracks) {
   std::erase_if(objects_, [this](const auto& object) {
     return !std::ranges::binary_search(epoch_.targets, object.first);
   });
+  if (now_us <= last_paper_us) return;  // they are made in order of time
   const auto papers =
       std::min(epoch_.targets.size(), static_cast<std::size_t>(config_.paper_targets));
   epoch_.papers.assign(epoch_.targets.begin(),
@@ -68,8 +82,11 @@ void TargetSchedule::tell(std::int64_t now_us, TrackManager& tracks, const Clock
                           const PointingMonitor& pointing, FusionOutput& output, FusionLog& log) {
   // After a silence, pending outputs are discarded: their tracks may be deleted by now.
   const bool is_old = epoch_.utime_us && seconds(now_us - *epoch_.utime_us) > config_.give_up_s;
-  if (!epoch_.is_over() && is_old) epoch_ = {.utime_us = epoch_.utime_us};
-  if (epoch_.is_over() && is_due(epoch_.utime_us, now_us, config_.rate_hz)) begin(now_us, tracks);
+  if (!epoch_.is_over() && is_old)
+    epoch_ = {.utime_us = epoch_.utime_us, .paper_us = epoch_.paper_us};
+  if (epoch_.is_over()) {
+    if (const auto next_us = next_epoch(now_us)) begin(*next_us, now_us, tracks);
+  }
   if (epoch_.is_over()) return;
   int work = 0;
   for (; work < kTargetsABearing && !epoch_.targets.empty(); ++work) {
@@ -99,7 +116,7 @@ FusedTarget TargetSchedule::locate(const Track& track, bool by_paper, const Trac
     object.paper = make_estimator("paper", beside(config_.estimators));
   }
   Estimator& estimator = by_paper ? *object.paper : *object.main;
-  const std::int64_t epoch_us = *epoch_.utime_us;
+  const std::int64_t epoch_us = by_paper ? epoch_.paper_us : *epoch_.utime_us;
   Located located = estimator.locate({track.bearings, tracks.errors(), &track.filter}, epoch_us);
   if (!by_paper) {
     std::erase_if(located.stations, [&](const ContributingStation& station) {

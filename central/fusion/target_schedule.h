@@ -13,6 +13,7 @@
 #include "central/admission/clock_monitor.h"
 #include "central/admission/fusion_log.h"
 #include "central/fusion/bearing_lines.h"
+#include "central/fusion/epoch_rule.h"
 #include "central/fusion/fused_target.h"
 #include "central/tracking/track_manager.h"
 
@@ -30,9 +31,12 @@ class TargetSchedule {
  public:
   explicit TargetSchedule(const TargetScheduleConfig& config) : config_(config) {}
 
+  // An admitted bearing, at the time "now".
+  void hear(const BearingMeasurement& measurement, std::int64_t now_us);
   // The outputs due with one bearing, at the time "now".
   void tell(std::int64_t now_us, TrackManager& tracks, const ClockMonitor& clocks,
             const PointingMonitor& pointing, FusionOutput& output, FusionLog& log);
+  void forget(const std::string& station) { rule_.forget(station); }
   // The last epoch; nullopt before the first.
   std::optional<std::int64_t> epoch_us() const { return epoch_.utime_us; }
   void clear();
@@ -40,6 +44,7 @@ class TargetSchedule {
  private:
   struct Epoch {
     std::optional<std::int64_t> utime_us{};
+    std::int64_t paper_us = 0;           // of the paper's estimates
     std::deque<std::int64_t> targets{};  // pending; then the bearing-only tracks,
     bool bearing_only_reported = true;
     std::deque<std::int64_t> papers{};  // then the paper's estimates
@@ -49,13 +54,15 @@ class TargetSchedule {
   struct Object {
     std::unique_ptr<Estimator> main, paper;
   };
-  void begin(std::int64_t now_us, TrackManager& tracks);
+  std::optional<std::int64_t> next_epoch(std::int64_t now_us);
+  void begin(std::int64_t epoch_us, std::int64_t now_us, TrackManager& tracks);
   FusedTarget locate(const Track& track, bool by_paper, const TrackManager& tracks,
                      const ClockMonitor& clocks);
   void report_bearing_only(TrackManager& tracks, const PointingMonitor& pointing,
                            FusionOutput& output);
 
   TargetScheduleConfig config_;
+  EpochRule rule_;
   Epoch epoch_;
   std::map<std::int64_t, Object> objects_;  // by target id
 };

@@ -26,7 +26,7 @@ MutableBearings in_order(const MutableBearings& measurements) {
 class Separation {
  public:
   Separation(const FusionConfig& config, const MutableBearings& ordered)
-      : tracks_(config.keeper),
+      : tracks_(config.tracks),
         pointing_(config.pointing),
         ordered_(ordered),
         labels_(ordered.size(), 0) {}

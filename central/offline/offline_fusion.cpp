@@ -91,7 +91,7 @@ double mean_square_speed(const std::vector<const BearingMeasurement*>& bearings)
 class Recording {
  public:
   explicit Recording(const OfflineConfig& config)
-      : track_(config.fusion.keeper), pointing_(config.fusion.pointing), tell_(config.tell) {}
+      : track_(config.fusion.tracks), pointing_(config.fusion.pointing), tell_(config.tell) {}
 
   void add(const BearingMeasurement& measurement) {
     if (tell_) tell_();
@@ -188,7 +188,7 @@ Beside smoothed(const BearingPointers& bearings, const std::vector<std::int64_t>
   const SmootherOutput output{
       [&](Smoothed fix) { fixes.add(fix.utime_us, "filter", std::move(fix.located)); }, config.tell,
       config.workers};
-  smooth(bearings, epochs, config.fusion.keeper, known, output);
+  smooth(bearings, epochs, config.fusion.tracks, known, output);
   return beside;
 }
 

@@ -9,7 +9,7 @@
 namespace ols::fusion {
 
 LiveTracks::LiveTracks(const TrackManagerConfig& config)
-    : TrackManager(config, config.filter, true), duplicates_(config.rivals) {}
+    : TrackManager(config, config.filter, true), duplicates_(config.duplicates) {}
 
 std::vector<LiveTracks::Candidate> LiveTracks::candidates(const BearingMeasurement& measurement,
                                                           bool confirmed) const {
@@ -90,7 +90,7 @@ bool LiveTracks::is_worth_confirming(const Track& track) const {
          seconds(track.filter.utime_us() - track.initiated_us) >= config_.confirm_s;
 }
 
-bool LiveTracks::is_lost_when_born(double unseen_s) const {
+bool LiveTracks::is_tentative_lost(double unseen_s) const {
   return unseen_s > config_.tentative_delete_s || unseen_s > config_.drop_s;
 }
 
@@ -132,7 +132,7 @@ void LiveTracks::merge(std::int64_t older, std::int64_t younger) {
 
 void LiveTracks::clear() {
   clear_tracks();
-  duplicates_ = DuplicateTracks(config_.rivals);
+  duplicates_ = DuplicateTracks(config_.duplicates);
   merged_.clear();
 }
 

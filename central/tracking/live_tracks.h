@@ -52,7 +52,7 @@ class LiveTracks : public TrackManager {
 
   bool is_worth_confirming(const Track& track) const override;
   void on_confirmed(const Track& track) override { initiation_.give(track, errors_); }
-  bool is_lost_when_born(double unseen_s) const override;
+  bool is_tentative_lost(double unseen_s) const override;
   bool is_lost(const Track& track, double unseen_s, std::int64_t now_us) const override;
   void merge_duplicates() override;
 

@@ -26,13 +26,13 @@ std::vector<const FilterStation*> that_count(const TrackFilter& filter) {
   constexpr int kTwice = 2;
   std::vector<const FilterStation*> found;
   int most = 0;
-  for (const FilterStation& station : filter.stations()) most = std::max(most, station.used);
-  for (const FilterStation& station : filter.stations()) {
+  filter.each_station([&](const FilterStation& s) { most = std::max(most, s.used); });
+  filter.each_station([&](const FilterStation& station) {
     const bool is_told = may_be_off(filter, station) == 0.0;
     const bool enough = station.used >= std::min(most, kTwice);
     const bool may_hold = enough && heard_lately(filter, station, Activity::kTeachesS);
     if (is_told || may_hold) found.push_back(&station);
-  }
+  });
   return found;
 }
 
@@ -55,9 +55,9 @@ bool crosses_widely(const TrackFilter& filter, const Eigen::Vector3d& p_ecef) {
 
 double nearest_m(const TrackFilter& filter, const KinematicState& state) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const FilterStation& station : filter.stations()) {
+  filter.each_station([&](const FilterStation& station) {
     nearest = std::min(nearest, (state.mean.head<3>() - station.sight.origin_ecef).norm());
-  }
+  });
   return nearest;
 }
 
@@ -80,10 +80,11 @@ bool is_inconsistent_pair(const TrackFilter& filter) {
 
 int consecutive_rejections(const TrackFilter& filter, std::int64_t now_us) {
   int most = 0;
-  for (const FilterStation& station : filter.stations()) {
+  filter.each_station([&](const FilterStation& station) {
     const bool delivers = station.last_offered.within(Activity::kContributesS, now_us);
-    if (delivers && filter.agreed_since(station) < 2) most = std::max(most, station.rejected);
-  }
+    const bool counts = delivers && station.rejected > most;
+    if (counts && filter.agreed_since(station) < 2) most = station.rejected;
+  });
   return most;
 }
 
@@ -108,9 +109,10 @@ Solution judge_position(const TrackFilter& filter, const KinematicState& state) 
 }
 
 int stations_lately(const TrackFilter& filter, double within_s) {
-  return static_cast<int>(std::ranges::count_if(filter.stations(), [&](const FilterStation& s) {
-    return heard_lately(filter, s, within_s);
-  }));
+  int count = 0;
+  filter.each_station(
+      [&](const FilterStation& s) { count += heard_lately(filter, s, within_s) ? 1 : 0; });
+  return count;
 }
 
 }  // namespace ols::fusion

@@ -109,13 +109,10 @@ bool RecordedTrack::is_better(const Track& start) const {
   return !proved_ || static_cast<int>(start.hits.size()) > stations(true);
 }
 
-// One station alone gives a position as long as its covariance permits.
-bool RecordedTrack::is_lost(const Track& track, double unseen_s, std::int64_t now_us) const {
-  if (unseen_s <= config_.drop_s) return false;
-  const bool silent = stations_lately(track.filter, config_.drop_s) == 0 ||
-                      seconds(now_us - track.filter.utime_us()) > config_.drop_s;
-  return silent || most_stations_disagree() ||
-         judge_position(track.filter, track.filter.at(now_us)) != Solution::kOk;
+// What one station alone sees has no range: the motion models would make one up, with false
+// certainty, and a wrong one would reject the second station when that returns.
+bool RecordedTrack::is_lost(const Track&, double unseen_s, std::int64_t) const {
+  return unseen_s > config_.drop_s;
 }
 
 }  // namespace ols::fusion

@@ -6,8 +6,7 @@
 //    initiation begins one.
 //  - When at least two stations, and half of all, are rejected most of the time, an initiation on
 //    which more stations agree replaces it under the same identity.
-//  - coasted -> dropped: no two stations for drop_s, and half of the stations are rejected, or it
-//    has no position any more, or there are no bearings at all.
+//  - coasted -> dropped: no two stations for drop_s. Two rays then begin it again.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +43,7 @@ class RecordedTrack : public TrackManager {
   bool most_stations_disagree() const;
 
   bool is_worth_confirming(const Track&) const override { return true; }
-  bool is_lost_when_born(double unseen_s) const override { return unseen_s > config_.drop_s; }
+  bool is_tentative_lost(double unseen_s) const override { return unseen_s > config_.drop_s; }
   bool is_lost(const Track& track, double unseen_s, std::int64_t now_us) const override;
 
   std::map<std::string, Explains> explains_;

@@ -11,12 +11,12 @@ namespace ols::fusion {
 TrackManager::TrackManager(const TrackManagerConfig& config, const FilterConfig& filter,
                            bool same_place)
     : config_(config),
-      initiation_(config.birth, filter),
+      initiation_(config.initiation, filter),
       errors_(config.errors),
       identities_(same_place) {}
 
 Track& TrackManager::begin(Track track) {
-  ++counts_.born;
+  ++counts_.initiated;
   tracks_.push_back(std::move(track));
   glances_.push_back(summarise_track(tracks_.back()));
   return tracks_.back();
@@ -36,7 +36,7 @@ Association TrackManager::give_to(Track& track, const BearingMeasurement& measur
   glances_[static_cast<std::size_t>(&track - tracks_.data())] = summarise_track(track);
   if (update.use != BearingUse::kUsed) {
     ++track.misses;
-    ++counts_.set_aside;
+    ++counts_.rejected;
     return {Association::Kind::kRejected, track.id};
   }
   ++track.hits[measurement.station];
@@ -111,7 +111,7 @@ void TrackManager::age(Track& track, std::int64_t now_us) {
   }
   const double unseen_s = seconds(now_us - track.last_two_station_us);
   if (track.state == TrackState::kTentative) {
-    if (is_lost_when_born(unseen_s)) track.state = TrackState::kDropped;
+    if (is_tentative_lost(unseen_s)) track.state = TrackState::kDropped;
   } else if (unseen_s > config_.coast_s || unseen_s > config_.drop_s) {
     if (unseen_s > config_.coast_s) track.state = TrackState::kCoasted;
     if (is_lost(track, unseen_s, now_us)) track.state = TrackState::kDropped;

@@ -36,10 +36,10 @@ struct TrackManagerConfig {
   double remember_s = 5.0;     // how long the identity of a dropped track is kept
   double ambiguous_nis = 9.0;  // min difference of two tracks' normalised residuals
   double memory_s = 1.0;       // of the bearings kept for the estimators without memory
-  InitiationConfig birth{};
+  InitiationConfig initiation{};
   FilterConfig filter{};
   BiasModelConfig errors{};
-  DuplicatesConfig rivals{};
+  DuplicatesConfig duplicates{};
 };
 
 // The fate of a bearing.
@@ -81,7 +81,7 @@ class TrackManager {
   bool takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s) const;
   const LocalTracks& followed() const { return identities_.local(); }
   struct Counts {
-    std::int64_t born = 0, confirmed = 0, dropped = 0, merged = 0, ambiguous = 0, set_aside = 0,
+    std::int64_t initiated = 0, confirmed = 0, dropped = 0, merged = 0, ambiguous = 0, rejected = 0,
                  unexplained = 0;
   };
   const Counts& counts() const { return counts_; }
@@ -99,7 +99,7 @@ class TrackManager {
   virtual void on_confirmed(const Track&) {}
   // Whether a tentative track is lost that no two stations have seen for unseen_s; an older one
   // likewise, for longer than coast_s.
-  virtual bool is_lost_when_born(double unseen_s) const = 0;
+  virtual bool is_tentative_lost(double unseen_s) const = 0;
   virtual bool is_lost(const Track& track, double unseen_s, std::int64_t now_us) const = 0;
   // Called before the dropped tracks are removed.
   virtual void merge_duplicates() {}

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,12 @@
 #include "base/config_section.h"
 #include "base/small_file.h"
 #include "central/app/fusion_settings.h"
+#include "console/console_config.h"
+#include "cue/cue_config.h"
 #include "edge/config.h"
+#include "export/export_config.h"
 #include "sim/scenario.h"
+#include "tools/exporter/exporter_config.h"
 #include "tools/logger/logger_config.h"
 
 namespace {
@@ -43,6 +48,10 @@ std::string reference() {
          chapter("Station: `ols-station --config`", ols::station::station_section) +
          chapter("Fusion: `ols-fusion --config`", ols::fusion::fusion_section) +
          chapter("Logger: `ols-logger --config`", ols::logger::logger_section) +
+         chapter("Console: `ols-console --config`", ols::console::console_section) +
+         chapter("Exports: `ols-export --config`", ols::exports::export_section) +
+         chapter("Cues: `ols-cue --config`", ols::cues::cue_section) +
+         chapter("Exporter: `ols-exporter --config`", ols::exporter::exporter_section) +
          chapter("Scenario: `ols-sim --scenario`", scenario_section);
 }
 
@@ -97,21 +106,96 @@ std::string station_example() {
                             {"gpio.rearm_line", "18"}}));
 }
 
+config::Section one_output(ols::exports::ExportConfig& exports) {
+  config::Section output = ols::exports::output_section(exports);
+  output.name = "output";
+  output.sentence = "One receiver each.";
+  return {"", "", {}, {output}};
+}
+
+// An array of tables has its brackets twice.
+std::string as_array(std::string text, const std::string& name) {
+  const std::string single = "[" + name + "]";
+  const auto at = text.find(single);
+  if (at == std::string::npos) throw std::invalid_argument("no " + single + " in the example");
+  return text.replace(at, single.size(), "[" + single + "]");
+}
+
+config::Section one_input(ols::cues::CueConfig& cues) {
+  config::Section input = ols::cues::input_section(cues);
+  input.name = "input";
+  input.sentence = "One source each.";
+  return {"", "", {}, {input}};
+}
+
+std::string cue_example() {
+  ols::cues::CueConfig cues;
+  const std::string head =
+      "# Cues from outside: copy to /etc/ols/cue.toml. docs/configuration.md lists every key, "
+      "docs/cues.md every\n# format. Nothing comes in before there is an [[input]].\n";
+  const std::string text =
+      example(head, ols::cues::cue_section,
+              {{"lcm_url", kSiteBus}, {"status_file", "\"/run/ols/cue.json\""}}) +
+      "\n# Tablets with TAK on this network:\n" +
+      commented(
+          as_array(config::example(one_input(cues), {{"input.name", "\"tak\""},
+                                                     {"input.format", "\"cot\""},
+                                                     {"input.from", "\"udp://239.2.3.1:6969\""}}),
+                   "input"));
+  static_cast<void>(ols::cues::parse_cue_config(text, "example"));
+  return text;
+}
+
+std::string export_example() {
+  ols::exports::ExportConfig exports;
+  const std::string head =
+      "# Exports: copy to /etc/ols/export.toml. docs/configuration.md lists every key, "
+      "docs/exports.md "
+      "every\n# format. Nothing goes out before there is an [[output]].\n";
+  const std::string text =
+      example(head, ols::exports::export_section,
+              {{"lcm_url", kSiteBus},
+               {"site", "\"ols\""},
+               {"status_file", "\"/run/ols/export.json\""}}) +
+      "\n# Tablets with TAK on this network:\n" +
+      commented(as_array(
+          config::example(one_output(exports), {{"output.name", "\"tak\""},
+                                                {"output.format", "\"cot\""},
+                                                {"output.to", "\"udp://239.2.3.1:6969?ttl=1\""}}),
+          "output"));
+  static_cast<void>(ols::exports::parse_export_config(text, "example"));
+  return text;
+}
+
 std::vector<Generated> generated() {
   const std::string folder = "systemd/examples/";
-  return {{"docs/configuration.md", reference()},
-          {folder + "station.toml", station_example()},
-          {folder + "fusion.toml",
-           example("# The fusion: copy to /etc/ols/fusion.toml. All keys have defaults: "
-                   "docs/configuration.md.\n",
-                   ols::fusion::fusion_section, {{"lcm_url", kSiteBus}})},
-          {folder + "logger.toml",
-           example("# The logger of the bus: copy to /etc/ols/logger.toml. All keys have defaults: "
-                   "docs/configuration.md.\n",
-                   ols::logger::logger_section,
-                   {{"lcm_url", kSiteBus},
-                    {"quota_gb", "20.0"},
-                    {"status_file", "\"/run/ols/logger.json\""}})}};
+  return {
+      {"docs/configuration.md", reference()},
+      {folder + "station.toml", station_example()},
+      {folder + "fusion.toml",
+       example("# The fusion: copy to /etc/ols/fusion.toml. All keys have defaults: "
+               "docs/configuration.md.\n",
+               ols::fusion::fusion_section, {{"lcm_url", kSiteBus}})},
+      {folder + "logger.toml",
+       example("# The logger of the bus: copy to /etc/ols/logger.toml. All keys have defaults: "
+               "docs/configuration.md.\n",
+               ols::logger::logger_section,
+               {{"lcm_url", kSiteBus},
+                {"quota_gb", "20.0"},
+                {"status_file", "\"/run/ols/logger.json\""}})},
+      {folder + "console.toml",
+       example("# The console: copy to /etc/ols/console.toml. All keys have defaults: "
+               "docs/configuration.md.\n# For browsers of other hosts: ols-console-certificate, "
+               "ols-console --add-user (docs/console.md), then\n# address, certificate and key.\n",
+               ols::console::console_section,
+               {{"lcm_url", kSiteBus}, {"address", "\"127.0.0.1\""}, {"port", "8080"}})},
+      {folder + "cue.toml", cue_example()},
+      {folder + "export.toml", export_example()},
+      {folder + "exporter.toml",
+       example("# The exporter: copy to /etc/ols/exporter.toml. All keys have defaults: "
+               "docs/configuration.md.\n",
+               ols::exporter::exporter_section,
+               {{"lcm_url", kSiteBus}, {"address", "\"127.0.0.1:9316\""}})}};
 }
 
 int run(const std::string& folder, bool write) {

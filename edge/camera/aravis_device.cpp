@@ -85,6 +85,12 @@ std::string AravisDevice::identity() const {
   return words;
 }
 
+std::string AravisDevice::serial() const {
+  AravisError error;
+  const char* word = arv_camera_get_device_serial_number(camera_.get(), error.out());
+  return error || word == nullptr ? std::string() : word;
+}
+
 void AravisDevice::start(const CameraConfig& config) {
   AravisError error;
   tick_hz_ = arv_gv_device_get_timestamp_tick_frequency(ARV_GV_DEVICE(device()), error.out());

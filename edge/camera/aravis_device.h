@@ -55,6 +55,7 @@ class AravisDevice {
   }
 
   std::string identity() const;  // "AVT GT1290C 1234"
+  std::string serial() const;    // empty: it does not say
 
   // Latches the camera's clock; empty: the camera cannot.
   std::optional<LatchSample> latch();

@@ -44,12 +44,13 @@ AravisSession::AravisSession(const CameraConfig& config, AravisDevice& device,
   if (config.auto_exposure)
     automatic_.emplace(config.auto_levels, device.limits(), device.exposure());
   numbers.restart();
-  const std::string identity = device.identity();
+  const std::string identity = device.identity(), serial = device.serial();
   handover.change_facts([&](CameraFacts& facts) {
     if (facts.opened_s) ++facts.counters.reconnects;
     facts.state = CameraState::kStarting;
     facts.fault.clear();
     facts.identity = identity;
+    facts.serial = serial;
     facts.exposure = device.exposure();
     facts.missing_light = 1.0;
     facts.opened_s = clock_monotonic_s();

@@ -70,7 +70,8 @@ struct CameraConfig {
   double packet_spread = 0.6;
   bool packet_resend = true;  // request lost packets again where the camera can
 
-  bool keep_raw = false;  // also keep the camera's raw image, for a recorder
+  bool keep_raw =
+      false;  // also keep the camera's raw image, for a recorder and the tracker's colours
 };
 
 // Whether the camera itself sets the pace.

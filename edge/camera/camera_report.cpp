@@ -109,6 +109,7 @@ device::DeviceReport make_camera_report(const CameraConfig& config, const Camera
                  std::to_string(config.height_px) + words(", %.1f Hz", facts.frame_rate_hz);
   if (facts.state != CameraState::kStreaming && !facts.last_error.empty())
     report.text = facts.last_error;
+  report.serial = facts.serial;
   report.last_good_s = facts.last_frame_s;
   report.last_error = facts.last_error;
   report.errors = facts.errors;

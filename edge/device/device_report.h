@@ -19,9 +19,10 @@ enum class DeviceState {
 const char* to_string(DeviceState state);
 
 struct DeviceReport {
-  std::string name;  // "camera", "ptu", "gnss", "inclinometer", "gpio", "recorder"
+  std::string name;  // "camera", "ptu", "gnss", "inclinometer", "gpio", "recorder", "video"
   DeviceState state = DeviceState::kAbsent;
   std::string text;                   // what the device is, or what is wrong with it
+  std::string serial;                 // as the device itself says; empty: it does not, or not yet
   std::optional<double> last_good_s;  // CLOCK_MONOTONIC of the last good datum
 
   std::string last_error;    // the last error as text; empty: none yet

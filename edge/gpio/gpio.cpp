@@ -18,6 +18,7 @@
 #include "base/wakeup.h"
 #include "edge/gpio/gpio_lines.h"
 #include "edge/gpio/gpio_report.h"
+#include "edge/gpio/line_use.h"
 #include "edge/gpio/rearm_input.h"
 #include "edge/gpio/stop_input.h"
 
@@ -27,20 +28,6 @@ namespace {
 constexpr double kRefresh_s = 0.1;  // maximum interval between readings of the stop level
 constexpr double kReopen_s = 0.5;
 constexpr double kNever_s = std::numeric_limits<double>::infinity();
-
-LineUse line_use(const GpioConfig& config) {
-  LineUse use;
-  // Towards "pressed": a broken wire then reads as an open contact.
-  const LineBias to_pressed = config.stop_active_low ? LineBias::kPullDown : LineBias::kPullUp;
-  // Towards "open": a broken wire re-arms nothing.
-  const LineBias to_open = config.rearm_active_low ? LineBias::kPullUp : LineBias::kPullDown;
-  if (config.stop_line >= 0) use.inputs.push_back({config.stop_line, to_pressed});
-  if (config.rearm_line >= 0) use.inputs.push_back({config.rearm_line, to_open});
-  for (const int line : {config.led_line, config.trigger_line}) {
-    if (line >= 0) use.outputs.push_back(line);
-  }
-  return use;
-}
 
 }  // namespace
 
@@ -103,13 +90,14 @@ struct Gpio::Impl {
         rearm.level(level.high != config.rearm_active_low, level.time_s);
         continue;
       }
+      if (level.line != config.stop_line) continue;
       const bool pressed = level.high != config.stop_active_low;
       stop.level(pressed, level.time_s);
       // At each edge: a press that ended before this thread woke still counts.
       if (pressed) tell_stop();
     }
     const std::lock_guard lock(mutex);
-    if (!levels.empty() || (config.stop_line < 0 && config.rearm_line < 0)) {
+    if (!levels.empty() || (!config.has_stop() && config.rearm_line < 0)) {
       facts.last_good_s = clock_monotonic_s();
       facts.readable = true;
     }
@@ -117,7 +105,7 @@ struct Gpio::Impl {
 
   // Calls back when the answer has changed.
   void tell_stop() {
-    if (config.stop_line < 0) return;
+    if (!config.has_stop()) return;
     if (const auto pressed = stop.pressed(clock_monotonic_s())) tell(*pressed);
   }
 
@@ -137,7 +125,7 @@ struct Gpio::Impl {
     if (config.rearm_line < 0 || !rearm.take(clock_monotonic_s())) return;
     {
       const std::lock_guard lock(mutex);
-      if (config.stop_line >= 0 && facts.pressed != false) return;
+      if (config.has_stop() && facts.pressed != false) return;
       ++facts.rearms;
     }
     if (on_rearm) on_rearm();
@@ -209,7 +197,7 @@ struct Gpio::Impl {
       ++facts.failures;
       facts.error = what;
     }
-    if (config.stop_line >= 0) tell(true);
+    if (config.has_stop()) tell(true);
   }
 
   const GpioConfig config;

@@ -33,6 +33,8 @@ struct GpioConfig {
   bool rearm_over_bus = false;    // any program on the bus may re-arm it, too
   int trigger_line = -1;          // camera trigger, one pulse a frame
   double trigger_pulse_s = 1e-3;  // its length
+
+  bool has_stop() const { return !chip.empty() && stop_line >= 0; }
 };
 
 config::Section gpio_section(GpioConfig& config);  // [gpio]

@@ -3,7 +3,7 @@
 namespace ols::gpio {
 
 bool stop_pressed(const GpioConfig& config, const GpioFacts& facts) {
-  return config.stop_line >= 0 && facts.pressed.value_or(true);
+  return config.has_stop() && facts.pressed.value_or(true);
 }
 
 device::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts) {
@@ -20,17 +20,15 @@ device::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts&
   if (facts.open && facts.readable) {
     report.state = device::DeviceState::kOk;
     report.text = config.chip;
-    if (config.stop_line >= 0) report.text += pressed ? ", stop pressed" : ", stop released";
-    if (config.stop_line >= 0 && pressed) {
-      report.alarms.push_back("gpio: emergency stop pressed");
-    }
+    if (config.has_stop()) report.text += pressed ? ", stop pressed" : ", stop released";
+    if (pressed) report.alarms.push_back("gpio: emergency stop pressed");
   } else if (facts.open || facts.failures == 0) {
     report.state = device::DeviceState::kStarting;
     report.text = config.chip + ": waiting for the first level";
   } else {
     report.state = device::DeviceState::kAbsent;
     report.text = facts.error;
-    report.alarms.push_back(config.stop_line >= 0
+    report.alarms.push_back(config.has_stop()
                                 ? "gpio: stop unreadable, taken as pressed: " + facts.error
                                 : "gpio: " + facts.error);
   }

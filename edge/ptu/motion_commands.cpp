@@ -30,6 +30,7 @@ PtuLimits narrowed(const PtuLimits& configured, const PtuFacts& facts) {
   both.pan_max_rad = std::min(both.pan_max_rad, facts.pan.max * facts.pan.resolution_rad);
   both.tilt_min_rad = std::max(both.tilt_min_rad, facts.tilt.min * facts.tilt.resolution_rad);
   both.tilt_max_rad = std::min(both.tilt_max_rad, facts.tilt.max * facts.tilt.resolution_rad);
+  both.count = {facts.pan.resolution_rad, facts.tilt.resolution_rad};
   return both;
 }
 

@@ -62,6 +62,27 @@ AxisCommand axis_step(const ServoConfig& config, const AxisGoal& goal, double no
   return {now_rad + way_rad, std::max(std::abs(speed), config.min_speed_rad_s)};
 }
 
+// With its reaction time, how far a unit at this speed still comes.
+double stopping_way(const ServoConfig& config, double speed_rad_s) {
+  constexpr double kReaction_s = 0.03;
+  const double way = std::abs(speed_rad_s) * kReaction_s +
+                     speed_rad_s * speed_rad_s / (2.0 * config.max_acceleration_rad_s2);
+  return std::copysign(way, speed_rad_s);
+}
+
+// A rate without a goal. An axis that is to stand stands where it can, not where it was when the
+// command came: it would come back.
+AxisCommand rate_step(const ServoConfig& config, double wanted_rad_s, double now_rad,
+                      double now_rad_s) {
+  const double rate = std::clamp(wanted_rad_s, -config.max_speed_rad_s, config.max_speed_rad_s);
+  if (rate == 0.0) {
+    return {now_rad + stopping_way(config, now_rad_s),
+            std::max(std::abs(now_rad_s), config.min_speed_rad_s)};
+  }
+  const double speed = std::max(std::abs(rate), config.min_speed_rad_s);
+  return {now_rad + std::copysign(reach_ahead(config, speed, config.look_ahead_s), rate), speed};
+}
+
 // False for limits that contradict each other.
 bool room_within(const PtuLimits& limits) {
   return limits.pan_min_rad <= limits.pan_max_rad && limits.tilt_min_rad <= limits.tilt_max_rad;
@@ -84,13 +105,8 @@ bool usable(const ServoGoal& goal) {
 
 // Where a unit that brakes now comes to rest, including its reaction time.
 PanTilt stopping_place(const ServoConfig& config, const PanTilt& now, const PanTilt& rate) {
-  constexpr double kReaction_s = 0.03;
-  const auto stop = [&config](double at, double speed) {
-    const double way =
-        std::abs(speed) * kReaction_s + speed * speed / (2.0 * config.max_acceleration_rad_s2);
-    return at + std::copysign(way, speed);
-  };
-  return {stop(now.pan_rad, rate.pan_rad), stop(now.tilt_rad, rate.tilt_rad)};
+  return {now.pan_rad + stopping_way(config, rate.pan_rad),
+          now.tilt_rad + stopping_way(config, rate.tilt_rad)};
 }
 
 // The next corner of the path around the keep-out regions; nothing if the direct path is free or no
@@ -99,6 +115,19 @@ std::optional<PanTilt> corner(const PtuLimits& limits, const PanTilt& now, const
   if (limits.keep_out.empty()) return std::nullopt;
   const auto way = way_round(travel(limits), limits.keep_out, now, to);
   return way && way->size() > 1 ? std::optional(way->front()) : std::nullopt;
+}
+
+// From inside a region no rate is obeyed: which way leads out of it, only a goal can say.
+std::optional<ServoCommand> rates_step(const ServoConfig& config, const PtuLimits& limits,
+                                       const PanTilt& rate, const PanTilt& now,
+                                       const PanTilt& now_rate) {
+  if (blocked(limits.keep_out, now)) return std::nullopt;
+  const AxisCommand pan = rate_step(config, rate.pan_rad, now.pan_rad, now_rate.pan_rad);
+  const AxisCommand tilt = rate_step(config, rate.tilt_rad, now.tilt_rad, now_rate.tilt_rad);
+  const PanTilt wanted = clamped(limits, {pan.position_rad, tilt.position_rad});
+  const PanTilt stops_at = stopping_place(config, now, now_rate);
+  return ServoCommand{cut_short(limits.keep_out, now, stops_at, wanted),
+                      {pan.speed_rad_s, tilt.speed_rad_s}};
 }
 
 }  // namespace
@@ -110,6 +139,7 @@ std::optional<ServoCommand> servo_step(const ServoConfig& config, const PtuLimit
   const double dt_s = time_s - goal->time_s;
   if (!(dt_s <= config.goal_timeout_s)) return std::nullopt;
   if (!usable(*goal) || !std::isfinite(dt_s) || !room_within(limits)) return std::nullopt;
+  if (goal->rate_only) return rates_step(config, limits, goal->rate, now, now_rate);
   AxisGoal pan_goal = goal_at(goal->angles.pan_rad, goal->rate.pan_rad, dt_s, limits.pan_min_rad,
                               limits.pan_max_rad);
   AxisGoal tilt_goal = goal_at(goal->angles.tilt_rad, goal->rate.tilt_rad, dt_s,

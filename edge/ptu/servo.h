@@ -30,6 +30,7 @@ struct ServoGoal {
   PanTilt angles;
   PanTilt rate;                // [rad/s] feed-forward; 0 for a fixed goal
   double valid_until_s = 0.0;  // the servo halts after this
+  bool rate_only = false;      // only the rates are wanted, from wherever the unit is
 };
 
 // Target position and speed of each axis.
@@ -42,11 +43,14 @@ struct PtuLimits {  // [rad], as reported by the unit, narrowed by the configura
   double pan_min_rad = -2.7, pan_max_rad = 2.7;
   double tilt_min_rad = -0.8, tilt_max_rad = 0.5;
   std::vector<KeepOut> keep_out = {};  // never entered, never swept across
+  // What the unit says that a count is; 0: not known yet.
+  PanTilt count = {};
 };
 
 // The command of one cycle from the goal and the current angles and rates. Nothing: halt (no goal,
-// stale goal, contradictory limits). A goal behind a keep-out region is approached around it,
-// corner by corner; a goal inside a region is approached up to its border.
+// stale goal, contradictory limits). Rates alone end at the limits and at the regions' borders. A
+// goal behind a keep-out region is approached around it, corner by corner; a goal inside a region
+// is approached up to its border.
 std::optional<ServoCommand> servo_step(const ServoConfig& config, const PtuLimits& limits,
                                        const std::optional<ServoGoal>& goal, const PanTilt& now,
                                        double time_s, const PanTilt& now_rate = {});

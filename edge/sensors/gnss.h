@@ -17,6 +17,7 @@ namespace ols::sensors {
 
 struct GnssConfig {
   std::string host;  // of gpsd; empty: the station has no receiver
+  bool has_receiver() const { return !host.empty(); }
   std::string port = "2947";
   double stale_s = 5.0;              // without a report for this long: a fault
   GnssFix least_fix = GnssFix::k3D;  // a worse one is not used for the position

@@ -1,8 +1,10 @@
 #include "edge/tracker/acquisition.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 
 #include "edge/tracker/alignment.h"
@@ -14,9 +16,25 @@ namespace {
 struct Scope {
   cv::Rect area;
   cv::Mat raw, gray;  // original and smoothed
-  Eigen::Vector2d expected_px;
+  Eigen::Vector2d expected_px, line;
   double gate_px;
+
+  double off_px(const Eigen::Vector2d& pixel) const {
+    const Eigen::Vector2d off = pixel - expected_px;
+    return (off - off.dot(line) * line).norm();
+  }
 };
+
+// The part of the picture in which to look: around the expected pixel, or along its line.
+cv::Rect looked_at(const AcquisitionView& view, double half_px) {
+  const cv::Rect picture(0, 0, view.gray.cols, view.gray.rows);
+  const double reach_px = view.line.isZero() ? 0.0 : std::hypot(picture.width, picture.height);
+  const Eigen::Vector2d half = (reach_px * view.line).cwiseAbs().array() + half_px;
+  const Eigen::Vector2d corner = view.expected_px - half;
+  return cv::Rect(static_cast<int>(corner.x()), static_cast<int>(corner.y()),
+                  static_cast<int>(2.0 * half.x()), static_cast<int>(2.0 * half.y())) &
+         picture;
+}
 
 cv::Mat smoothed(const cv::Mat& image) {
   cv::Mat smooth;
@@ -89,6 +107,10 @@ Eigen::Vector2d centre_px(const cv::Rect2d& box) {
   return {box.x + 0.5 * box.width - 0.5, box.y + 0.5 * box.height - 0.5};
 }
 
+Eigen::Vector2d moved_by(const Eigen::Matrix3d& homography, const Eigen::Vector2d& pixel) {
+  return (homography * pixel.homogeneous()).hnormalized();
+}
+
 double longer_side(const cv::Rect2d& box) { return std::max(box.width, box.height); }
 
 // Compact parts of `cue` above its own fluctuations.
@@ -113,7 +135,7 @@ std::vector<AcquisitionCandidate> compact(const Scope& scope, const cv::Mat& cue
     if (!inside(scope, box) || area_px2 < kLeastFill * box.area() ||
         longer_side(box) < config.least_side_px || longer_side(box) > config.most_side_px ||
         longer_side(box) > kMostAspect * std::min(box.width, box.height) ||
-        (centre_px(in_frame) - scope.expected_px).norm() > scope.gate_px) {
+        scope.off_px(centre_px(in_frame)) > scope.gate_px) {
       continue;
     }
     found.push_back({in_frame, cv::mean(cue(box), mask(box))[0] * area_px2});
@@ -128,16 +150,13 @@ bool overlap(const cv::Rect2d& a, const cv::Rect2d& b) { return (a & b).area() >
 std::optional<cv::Rect2d> Acquisition::look(const AcquisitionView& view) {
   candidates_.clear();
   const double gate_px = std::min(config_.gate_sigma * view.expected_sd_px, config_.gate_most_px);
-  const double half_px = gate_px + config_.most_side_px;
-  const Eigen::Vector2d corner = view.expected_px.array() - half_px;
-  const cv::Rect wanted(static_cast<int>(corner.x()), static_cast<int>(corner.y()),
-                        static_cast<int>(2.0 * half_px), static_cast<int>(2.0 * half_px));
-  const cv::Rect area = wanted & cv::Rect(0, 0, view.gray.cols, view.gray.rows);
+  const cv::Rect area = looked_at(view, gate_px + config_.most_side_px);
   if (view.gray.type() != CV_8UC1 || std::min(area.width, area.height) < config_.most_side_px) {
     clear();
     return std::nullopt;
   }
-  const Scope scope{area, view.gray(area), smoothed(view.gray(area)), view.expected_px, gate_px};
+  const Scope scope{area,      view.gray(area), smoothed(view.gray(area)), view.expected_px,
+                    view.line, gate_px};
   candidates_ = compact(scope, standing_out(scope, config_.most_side_px), config_);
   const cv::Mat motion = moving(scope, view.references, config_.most_side_px);
   // A target in front of a smooth background is complete already.
@@ -147,39 +166,57 @@ std::optional<cv::Rect2d> Acquisition::look(const AcquisitionView& view) {
     if (std::none_of(candidates_.begin(), candidates_.end(), same)) candidates_.push_back(mover);
   }
   std::vector<Track> now;
-  for (const auto& candidate : candidates_) now.push_back(continued(candidate, view.expected_px));
+  for (const auto& candidate : candidates_) now.push_back(continued(candidate, view));
   tracks_ = std::move(now);
-  return sole();
+  return sole(!view.line.isZero());
 }
 
+// Where the expected motion is right, it stays at the expected place; along a line it moves evenly
+// against the background.
 Acquisition::Track Acquisition::continued(const AcquisitionCandidate& candidate,
-                                          const Eigen::Vector2d& expected_px) const {
-  const Eigen::Vector2d offset_px = centre_px(candidate.box) - expected_px;
-  Track track{candidate, offset_px};
+                                          const AcquisitionView& view) const {
+  const bool on_line = !view.line.isZero();
+  const Eigen::Vector2d centre = centre_px(candidate.box);
+  const Eigen::Vector2d offset_px = centre - view.expected_px;
+  Track track{candidate, on_line ? centre : offset_px};
   const double size_px = longer_side(candidate.box);
   const double reach_px = config_.place_px + config_.place_fraction * size_px;
+  if (on_line && view.references.empty()) return track;
   for (const Track& before : tracks_) {
-    const double ratio = size_px / longer_side(before.candidate.box);
-    if ((offset_px - before.first_offset_px).norm() <= reach_px && ratio < config_.size_ratio &&
-        1.0 / ratio < config_.size_ratio) {
-      if (before.seen < track.seen) continue;
-      track.seen = before.seen + 1;
-      track.first_offset_px = before.first_offset_px;
+    Eigen::Vector2d first_px = before.first_px, step_px = Eigen::Vector2d::Zero();
+    if (on_line) {
+      const Eigen::Matrix3d& carried = view.references.front().homography;
+      step_px = centre - moved_by(carried, centre_px(before.candidate.box));
+      first_px = moved_by(carried, first_px);
     }
+    const bool goes_on = !on_line           ? (offset_px - first_px).norm() <= reach_px
+                         : before.seen == 1 ? step_px.norm() <= view.drift_px + reach_px
+                                            : (step_px - before.step_px).norm() <= reach_px;
+    const double ratio = size_px / longer_side(before.candidate.box);
+    if (!goes_on || ratio >= config_.size_ratio || 1.0 / ratio >= config_.size_ratio) continue;
+    if (before.seen < track.seen) continue;
+    track.seen = before.seen + 1;
+    track.first_px = first_px;
+    track.step_px = step_px;
   }
   return track;
 }
 
 // An object that was also in the previous frame, at the right place, is no fluctuation: it
-// competes.
-std::optional<cv::Rect2d> Acquisition::sole() const {
+// competes. On a line, whatever stands there may be part of the scenery.
+std::optional<cv::Rect2d> Acquisition::sole(bool movers_only) const {
+  std::vector<Track> tracks;
+  std::ranges::copy_if(tracks_, std::back_inserter(tracks), [&](const Track& track) {
+    const double moved_px = (centre_px(track.candidate.box) - track.first_px).norm();
+    return !movers_only || moved_px >= config_.place_px;
+  });
   const auto best =
-      std::max_element(tracks_.begin(), tracks_.end(), [](const auto& a, const auto& b) {
+      std::max_element(tracks.begin(), tracks.end(), [](const auto& a, const auto& b) {
         return std::pair(a.seen > 1, a.candidate.strength) <
                std::pair(b.seen > 1, b.candidate.strength);
       });
-  if (best == tracks_.end() || best->seen < config_.frames) return std::nullopt;
-  const auto rivals = std::count_if(tracks_.begin(), tracks_.end(), [&](const Track& other) {
+  if (best == tracks.end() || best->seen < config_.frames) return std::nullopt;
+  const auto rivals = std::count_if(tracks.begin(), tracks.end(), [&](const Track& other) {
     return other.seen > 1 &&
            other.candidate.strength > config_.rival_fraction * best->candidate.strength;
   });

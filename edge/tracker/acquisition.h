@@ -35,6 +35,11 @@ struct AcquisitionView {
   cv::Mat gray;                 // 8-bit, one channel
   Eigen::Vector2d expected_px;  // of the target
   double expected_sd_px = 0.0;
+  // Where only a line is known on which the target is: the line's direction, a unit vector; the
+  // expected pixel is any on it, and the deviation that beside it. Its motion is not known then,
+  // but for how far it may move against the background from frame to frame: it must move evenly.
+  Eigen::Vector2d line = Eigen::Vector2d::Zero();
+  double drift_px = 0.0;
   std::vector<AcquisitionReference> references;  // newest first
 };
 
@@ -56,11 +61,16 @@ class Acquisition {
  private:
   struct Track {  // a candidate over several frames
     AcquisitionCandidate candidate;
-    Eigen::Vector2d first_offset_px;  // of its centre from the expected pixel, in the first frame
-    int seen = 1;                     // consecutive frames
+    // Of its centre in the first frame: the offset from the expected pixel; on a line the place, as
+    // the background has carried it into this frame.
+    Eigen::Vector2d first_px;
+    // Against the background, since the frame before.
+    Eigen::Vector2d step_px = Eigen::Vector2d::Zero();
+    int seen = 1;  // consecutive frames
   };
-  Track continued(const AcquisitionCandidate& candidate, const Eigen::Vector2d& expected_px) const;
-  std::optional<cv::Rect2d> sole() const;
+  Track continued(const AcquisitionCandidate& candidate, const AcquisitionView& view) const;
+  // Without those that stand, if only what moves counts.
+  std::optional<cv::Rect2d> sole(bool movers_only) const;
 
   AcquisitionConfig config_;
   std::vector<AcquisitionCandidate> candidates_;

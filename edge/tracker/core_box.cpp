@@ -14,6 +14,7 @@ constexpr double kShare = 0.35;      // of the maximum difference: still the tar
 constexpr double kLeastNoise = 0.7;  // [grey levels]
 constexpr double kMostFill = 0.6;    // of the box's area: beyond it the box is the core
 constexpr double kLeastSide = 8.0;   // [px]
+constexpr double kElsewhere = 0.15;  // of what stands out in the box, at most, beside the core
 
 struct Ground {
   Eigen::Vector3d plane;  // grey level = plane . (x, y, 1)
@@ -65,19 +66,28 @@ cv::Mat difference_from(const cv::Mat& gray, const Ground& ground, cv::Mat& weig
   return difference;
 }
 
-// The bounds of the parts above the threshold that lie inside and belong to the largest one.
-cv::Rect bounds_of(const cv::Mat& difference, double threshold, const cv::Point& peak) {
+// The bounds of what stands out at the peak, with what all but touches it.
+cv::Rect bounds_of(const cv::Mat& standing_out, const cv::Point& peak) {
   cv::Mat mask, labels, statistics, centroids;
-  cv::threshold(difference, mask, threshold, 255.0, cv::THRESH_BINARY);
-  mask.convertTo(mask, CV_8U);
   const int side = std::max(3, std::min(mask.cols, mask.rows) / 6) | 1;
-  cv::morphologyEx(mask, mask, cv::MORPH_CLOSE,
+  cv::morphologyEx(standing_out, mask, cv::MORPH_CLOSE,
                    cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
   cv::connectedComponentsWithStats(mask, labels, statistics, centroids);
   const int part = labels.at<int>(peak);
   return {statistics.at<int>(part, cv::CC_STAT_LEFT), statistics.at<int>(part, cv::CC_STAT_TOP),
           statistics.at<int>(part, cv::CC_STAT_WIDTH),
           statistics.at<int>(part, cv::CC_STAT_HEIGHT)};
+}
+
+// Whether what stands out is one thing in a generous box: it leaves the box's border free, and
+// hardly anything else stands out. The head of a walker does too, and so do his feet.
+bool is_alone(const cv::Mat& standing_out, const cv::Rect& part) {
+  if (part.x == 0 || part.y == 0 || part.br().x == standing_out.cols ||
+      part.br().y == standing_out.rows) {
+    return false;
+  }
+  const int own = cv::countNonZero(standing_out(part));
+  return own >= (1.0 - kElsewhere) * cv::countNonZero(standing_out);
 }
 
 }  // namespace
@@ -98,10 +108,9 @@ cv::Rect2d find_core(const cv::Mat& gray, const cv::Rect2d& box) {
   const double most = static_cast<double>(difference.at<float>(peak));
   if (most < kCertain * ground.sd) return box;
   const double threshold = std::max(0.6 * kCertain * ground.sd, kShare * most);
-  const cv::Rect part = bounds_of(difference, threshold, peak);
-  if (part.x == 0 || part.y == 0 || part.br().x == area.width || part.br().y == area.height) {
-    return box;
-  }
+  const cv::Mat standing_out = difference > threshold;
+  const cv::Rect part = bounds_of(standing_out, peak);
+  if (!is_alone(standing_out, part)) return box;
   const double width = std::max(kLeastSide, 1.3 * part.width + 2.0);
   const double height = std::max(kLeastSide, 1.3 * part.height + 2.0);
   const cv::Rect2d core(area.x + part.x + 0.5 * (part.width - width),

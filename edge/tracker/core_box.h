@@ -7,8 +7,9 @@
 namespace ols::tracker {
 
 // The part of `box` that differs from the box's surroundings, with a margin; `box` itself if this
-// is most of it, if nothing stands out clearly, or if what stands out crosses its border. `gray` is
-// 8-bit with one channel.
+// is most of it, if nothing stands out clearly, if what stands out crosses its border, or if other
+// parts of the box stand out too: then the box shows a target with parts. `gray` is 8-bit with one
+// channel.
 cv::Rect2d find_core(const cv::Mat& gray, const cv::Rect2d& box);
 
 }  // namespace ols::tracker

@@ -78,6 +78,25 @@ Response::Peak Response::peak() const {
   return {window.pixel + shift * window.cell_px, static_cast<double>(*most)};
 }
 
+double Response::prominence(const Eigen::Vector2d& pixel) const {
+  constexpr double kPeak = 5.0;  // [cells] not further from the target: its own response
+  const Eigen::Vector2d centre =
+      (pixel - window.pixel) / window.cell_px + Eigen::Vector2d::Constant(kMiddle);
+  double sum = 0.0, squares = 0.0;
+  int count = 0;
+  for (int i = 0; i < kMapArea; ++i) {
+    const Eigen::Vector2d cell(i % kMapSide, i / kMapSide);
+    if ((cell - centre).cwiseAbs().maxCoeff() <= kPeak) continue;
+    const auto value = static_cast<double>(values[static_cast<std::size_t>(i)]);
+    sum += value;
+    squares += value * value;
+    ++count;
+  }
+  const double mean = sum / count;
+  const double sd = std::sqrt(std::max(0.0, squares / count - mean * mean));
+  return sd > 0.0 ? (at(pixel) - mean) / sd : 0.0;
+}
+
 CorrelationFilter::CorrelationFilter(const TrackerInput& frame, const Eigen::Vector2d& pixel,
                                      const Eigen::Vector2d& size_px) {
   const FeatureWindow window = window_of(pixel, size_px);

@@ -21,6 +21,10 @@ struct Response {
   // At a pixel of the full frame; bilinear, 0 outside the window.
   double at(const Eigen::Vector2d& pixel) const;
   Peak peak() const;
+  // The response there, from the mean of the response elsewhere, over its standard deviation
+  // (peak-to-sidelobe ratio: D. S. Bolme et al., "Visual object tracking using adaptive correlation
+  // filters", CVPR 2010).
+  double prominence(const Eigen::Vector2d& pixel) const;
 };
 
 class CorrelationFilter {

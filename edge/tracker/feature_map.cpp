@@ -12,13 +12,12 @@ namespace ols::tracker {
 namespace {
 
 constexpr auto kSide = static_cast<std::size_t>(kMapSide);
-constexpr int kCell = 4;        // [px] side of a cell of the resampled window
+constexpr int kCell = kCellSide;
 constexpr int kColourCell = 2;  // the same for colours
 constexpr std::size_t kUnsigned = 6, kSigned = 2 * kUnsigned;
 constexpr std::size_t kEnergy = kSigned + kUnsigned, kLevel = kEnergy + 1, kRed = kEnergy + 2,
                       kYellow = kEnergy + 3;
 static_assert(kYellow + 1 == kChannels);
-constexpr std::size_t kBordered = kSide + 2;  // cells with a border of one
 
 // The window, resampled to `cell` pixels a cell, with a border of one pixel.
 cv::Mat resample(const cv::Mat& image, const FeatureWindow& window, int cell) {
@@ -36,6 +35,16 @@ cv::Mat resample(const cv::Mat& image, const FeatureWindow& window, int cell) {
   cv::warpAffine(view.image, sampled, to_view, {across, across},
                  cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
   return sampled;
+}
+
+// Converts no more of the picture than the window.
+cv::Mat resample_colours(const ColourPicture& picture, const FeatureWindow& window) {
+  const double side = (kMapSide + 2) * window.cell_px + 4.0;
+  const ColourPicture::Part part =
+      picture.part(enclosing(box_of(window.pixel, Eigen::Vector2d::Constant(side))));
+  FeatureWindow within = window;
+  within.pixel -= Eigen::Vector2d(part.origin.x, part.origin.y);
+  return resample(part.bgr, within, kColourCell);
 }
 
 // The means of the cells of a resampled window.
@@ -75,20 +84,23 @@ class Gradients {
 };
 
 using Histogram = std::array<float, kSigned>;
+constexpr float kMost = 0.4F;  // of a normalised histogram's bin
 
-// Each pixel's gradient is shared by the four cells around it.
-std::vector<Histogram> histograms(const cv::Mat& sampled) {
+// Of side x side cells with a border of one. Each pixel's gradient is shared by the four cells
+// around it.
+std::vector<Histogram> histograms(const cv::Mat& sampled, int side) {
   static const Gradients gradients;
-  std::vector<Histogram> cells(kBordered * kBordered, Histogram{});
-  for (int y = 0; y < kMapSide * kCell; ++y) {
+  const auto bordered = static_cast<std::size_t>(side + 2);
+  std::vector<Histogram> cells(bordered * bordered, Histogram{});
+  for (int y = 0; y < side * kCell; ++y) {
     const auto* above = sampled.ptr<std::uint8_t>(y) + 1;
     const auto* here = sampled.ptr<std::uint8_t>(y + 1) + 1;
     const auto* below = sampled.ptr<std::uint8_t>(y + 2) + 1;
     const int down = y + kCell / 2;
     const float wy = (static_cast<float>(down % kCell) + 0.5F) / kCell;
-    Histogram* upper = &cells[static_cast<std::size_t>(down / kCell) * kBordered];
-    Histogram* lower = upper + kBordered;
-    for (int x = 0; x < kMapSide * kCell; ++x) {
+    Histogram* upper = &cells[static_cast<std::size_t>(down / kCell) * bordered];
+    Histogram* lower = upper + bordered;
+    for (int x = 0; x < side * kCell; ++x) {
       const auto [length, bin] =
           gradients((here[x + 1] - here[x - 1]) / 4, (below[x] - above[x]) / 4);
       const int right = x + kCell / 2;
@@ -115,19 +127,24 @@ std::vector<float> energies(const std::vector<Histogram>& cells) {
   return made;
 }
 
-// The histograms, relative to the gradients of the three by three cells around each.
-void add_gradients(const cv::Mat& sampled, FeatureMap& features) {
+// What a cell's histogram is divided by: the gradients of the three by three cells around it.
+float normaliser(const std::vector<float>& energy, std::size_t at, std::size_t bordered) {
   constexpr float kNoise = 16.0F;  // [grey levels] of a cell's gradients: not amplified
-  constexpr float kMost = 0.4F, kMostEnergy = 2.0F;
-  const std::vector<Histogram> cells = histograms(sampled);
+  float around = 0.0F;
+  for (const std::size_t line : {at - bordered, at, at + bordered}) {
+    around += energy[line - 1] + energy[line] + energy[line + 1];
+  }
+  return 1.0F / std::sqrt(around / 4.0F + kNoise * kNoise);
+}
+
+void add_gradients(const cv::Mat& sampled, FeatureMap& features) {
+  constexpr float kMostEnergy = 2.0F;
+  constexpr std::size_t kBordered = kSide + 2;
+  const std::vector<Histogram> cells = histograms(sampled, kMapSide);
   const std::vector<float> energy = energies(cells);
   for (std::size_t i = 0; i < kMapArea; ++i) {
     const std::size_t at = (i / kSide + 1) * kBordered + i % kSide + 1;
-    float around = 0.0F;
-    for (const std::size_t line : {at - kBordered, at, at + kBordered}) {
-      around += energy[line - 1] + energy[line] + energy[line + 1];
-    }
-    const float scale = 1.0F / std::sqrt(around / 4.0F + kNoise * kNoise);
+    const float scale = normaliser(energy, at, kBordered);
     float all = 0.0F;
     for (std::size_t b = 0; b < kUnsigned; ++b) {
       const float one = scale * cells[at][b], other = scale * cells[at][b + kUnsigned];
@@ -191,13 +208,26 @@ void taper(FeatureMap& features) {
 
 }  // namespace
 
+void add_shape(const cv::Mat& sampled, int side, float* features) {
+  const std::vector<Histogram> cells = histograms(sampled, side);
+  const std::vector<float> energy = energies(cells);
+  const auto across = static_cast<std::size_t>(side), bordered = across + 2;
+  for (std::size_t i = 0; i < across * across; ++i) {
+    const std::size_t at = (i / across + 1) * bordered + i % across + 1;
+    const float scale = normaliser(energy, at, bordered);
+    for (std::size_t b = 0; b < kUnsigned; ++b) {
+      *features++ = std::min(kMost, scale * (cells[at][b] + cells[at][b + kUnsigned]));
+    }
+  }
+}
+
 FeatureMap extract_features(const TrackerInput& frame, const FeatureWindow& window) {
   FeatureMap features{};
   const cv::Mat sampled = resample(frame.gray, window, kCell);
   add_gradients(sampled, features);
   add_levels(cell_means(sampled), features[kLevel]);
   if (!frame.colour.empty()) {
-    const cv::Mat colours = resample(frame.colour, window, kColourCell);
+    const cv::Mat colours = resample_colours(frame.colour, window);
     add_colours(cell_means(colours), features[kRed], features[kYellow]);
   }
   taper(features);

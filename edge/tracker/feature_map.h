@@ -23,4 +23,10 @@ struct FeatureWindow {
 // border is continued outside; colours are zero without a colour image.
 FeatureMap extract_features(const TrackerInput& frame, const FeatureWindow& window);
 
+inline constexpr int kCellSide = 4;       // [px] of a resampled image
+inline constexpr int kShapeChannels = 6;  // the unsigned orientations
+// The unsigned orientations alone, cell by cell, kShapeChannels for each of side x side cells of an
+// 8-bit image that has a border of one pixel more.
+void add_shape(const cv::Mat& sampled, int side, float* features);
+
 }  // namespace ols::tracker

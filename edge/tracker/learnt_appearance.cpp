@@ -31,10 +31,28 @@ std::optional<Eigen::Vector2d> LearntAppearance::find(const TrackerInput& frame,
   return best.pixel;
 }
 
+void LearntAppearance::look_at(const TrackerInput& frame, const Eigen::Vector2d& pixel,
+                               const Eigen::Vector2d& size_px) {
+  constexpr double kInside = 0.125 * kMapSide;  // [cells] half a box
+  for (const Response& response : responses_) {
+    const Eigen::Vector2d off_px = pixel - response.window.pixel;
+    if (off_px.cwiseAbs().maxCoeff() <= kInside * response.window.cell_px) return;
+  }
+  responses_.push_back(filter_.respond(frame, pixel, size_px));
+}
+
 double LearntAppearance::recognised(const Eigen::Vector2d& pixel) const {
   double most = 0.0;
   for (const Response& response : responses_) most = std::max(most, response.at(pixel));
   return most / usual_;
+}
+
+double LearntAppearance::prominence(const Eigen::Vector2d& pixel) const {
+  const Response* best = nullptr;
+  for (const Response& response : responses_) {
+    if (!best || response.at(pixel) > best->at(pixel)) best = &response;
+  }
+  return best ? best->prominence(pixel) : 0.0;
 }
 
 void LearntAppearance::learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,

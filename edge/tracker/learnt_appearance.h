@@ -19,8 +19,14 @@ class LearntAppearance {
   std::optional<Eigen::Vector2d> find(const TrackerInput& frame,
                                       const std::vector<Eigen::Vector2d>& places,
                                       const Eigen::Vector2d& size_px, double least);
+  // Looks around this place too, unless it is well inside what has been looked at: a window fades
+  // towards its edge.
+  void look_at(const TrackerInput& frame, const Eigen::Vector2d& pixel,
+               const Eigen::Vector2d& size_px);
   // The response there in the newest frame, relative to the usual one; 0 where nobody looked.
   double recognised(const Eigen::Vector2d& pixel) const;
+  // The same response over the deviation of the response elsewhere; 0 where nobody looked.
+  double prominence(const Eigen::Vector2d& pixel) const;
   // The target is there in the newest frame.
   void learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,
              const Eigen::Vector2d& size_px, double interval_s);

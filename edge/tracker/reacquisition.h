@@ -1,4 +1,5 @@
-// How a lost target is searched for, and which candidates are accepted.
+// Where a lost target is searched for, and which candidates are accepted. The order of the search
+// is TrackerCore::propose().
 #pragma once
 
 #include <optional>

@@ -147,6 +147,23 @@ void TargetModel::learn_size(const Eigen::Vector2d& size_px, double share) {
   usual_size_px_ += share * (size_px - usual_size_px_);
 }
 
+Eigen::Vector2d TargetModel::follow_size(const cv::Mat& gray, const Particle& target,
+                                         const std::optional<Eigen::Vector2d>& measured,
+                                         double interval_s) {
+  const auto seen = ScaleFilter::look_at(gray, target.pixel, target.size_px);
+  if (!seen) return target.size_px;
+  const double growth = measured ? 0.0 : scale_.growth(*seen);
+  scale_.learn(*seen, growth, interval_s);
+  if (measured) return target.size_px;
+  usual_size_px_ *= std::exp(growth);
+  return usual_size_px_;
+}
+
+void TargetModel::restart_size(const Eigen::Vector2d& size_px) {
+  scale_ = {};
+  usual_size_px_ *= std::sqrt(size_px.prod() / usual_size_px_.prod());
+}
+
 double TargetModel::log_likelihood(const Similarity& likeness, double background,
                                    double standing_out, const Eigen::Vector2d& size_px) const {
   const double room = std::max(0.02, 1.0 - background);

@@ -9,6 +9,7 @@
 #include "edge/tracker/local_contrast.h"
 #include "edge/tracker/objective.h"
 #include "edge/tracker/refinement.h"
+#include "edge/tracker/scale_filter.h"
 #include "edge/tracker/tracker_config.h"
 
 namespace ols::tracker {
@@ -58,6 +59,13 @@ class TargetModel {
   // The target's present size, as a sharp image showed it.
   void learn_size(const Eigen::Vector2d& size_px, double share);
 
+  // The size of the target that is there in the frame: that of `target`, unless the first image has
+  // not `measured` it; then it has grown as its present look has.
+  Eigen::Vector2d follow_size(const cv::Mat& gray, const Particle& target,
+                              const std::optional<Eigen::Vector2d>& measured, double interval_s);
+  // What has been followed since the target had this size was something else.
+  void restart_size(const Eigen::Vector2d& size_px);
+
   // M_t, once: the candidate's foreground while it is certainly the target.
   void learn_mask(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
 
@@ -81,6 +89,7 @@ class TargetModel {
   TrackerConfig config_;
   Eigen::Vector2d first_size_px_;
   Eigen::Vector2d usual_size_px_;  // recent
+  ScaleFilter scale_;
   Template template_;
   Objective objective_;
   PositionRefiner refiner_;

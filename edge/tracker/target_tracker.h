@@ -6,6 +6,8 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
+#include "edge/tracker/colour_picture.h"
+
 namespace ols::tracker {
 
 struct TrackerInput {
@@ -15,8 +17,8 @@ struct TrackerInput {
   // angles. Empty: unknown. An impossible one (mirror image, zoom, most of the image gone) is not
   // used: see the output's `ego_motion`.
   std::optional<Eigen::Matrix3d> predicted_homography;
-  // The same picture in colour, if there is one (8-bit BGR): it helps to recognise the target.
-  cv::Mat colour = {};
+  // The same picture in colour, if there is one: it helps to recognise the target.
+  ColourPicture colour = {};
 };
 
 enum class EgoMotion { kNone, kImage, kPredicted };  // source of this frame's homography

@@ -17,8 +17,7 @@ constexpr double kLeastBoxSide = 3.0;  // [px] smaller ones contain no pattern
 std::optional<TrackerError> check_image(const TrackerInput& frame) {
   if (frame.gray.empty()) return TrackerError::kEmptyFrame;
   if (frame.gray.type() != CV_8UC1) return TrackerError::kFrameFormat;
-  const bool coloured = !frame.colour.empty();
-  if (coloured && (frame.colour.type() != CV_8UC3 || frame.colour.size() != frame.gray.size())) {
+  if (!frame.colour.empty() && !frame.colour.valid(frame.gray.size())) {
     return TrackerError::kFrameFormat;
   }
   if (!std::isfinite(frame.time_s)) return TrackerError::kTime;

@@ -11,13 +11,9 @@ namespace {
 
 constexpr double kNotPlaced = 0.1;  // of its size: 1-sigma of a place that is not measured
 constexpr double kAgree = 2.0;      // sigmas of a step
-// Of the usual response of the learnt appearance: the target is followed by it, is found again by
-// it, teaches it.
-constexpr double kFollowed = 0.35;
-constexpr double kFoundAgain = 0.5;
-constexpr double kLearnt = 0.6;
-constexpr double kSureEnoughToLearn = 0.7;
-constexpr double kSureEnoughForMask = 0.8;
+// Of the usual response of the learnt appearance, which follows, finds again, learns.
+constexpr double kFollowed = 0.35, kFoundAgain = 0.5, kLearnt = 0.6;
+constexpr double kSureEnoughToLearn = 0.7, kSureEnoughForMask = 0.8;
 
 // A target in a generous box moves in proportion to the box, however small it is.
 TrackerConfig with_reach_of(const cv::Rect2d& box, const cv::Rect2d& core, TrackerConfig config) {
@@ -42,7 +38,7 @@ TrackerCore::TrackerCore(const TrackerConfig& config, std::uint64_t seed, const 
       scene_motion_(config, HomographyFit::kLeastSquares, frame, core),
       motion_(with_reach_of(box, core, config)),
       target_(config, frame.gray, core),
-      appearance_(frame, centre_of(core), size_of(core)),
+      recognition_(frame, centre_of(core), size_of(core)),
       designation_(box, core),
       last_(at_rest_in(core)),
       reacquisition_(config, last_, frame.time_s) {
@@ -54,12 +50,24 @@ TrackerOutput TrackerCore::step(const TrackerInput& frame, StageTimer& timer) {
   const EgoMotion ego_motion = move_camera(frame, timer);
   if (target_.empty()) designate_late(frame);
   reacquisition_.predict(motion_, scene_motion_, placed_);
+  recognition_.advance(motion_, scene_motion_.frame_size());
   const bool recognised = recognise(frame);
   timer.lap(Stage::kRecognition);
   if (!recognised) predict(ego_motion, timer);
   TrackerOutput output = recognised ? follow(frame, timer) : update(frame, timer);
   output.ego_motion = ego_motion;
   after_update(output);
+  if (!target_.empty()) {
+    recognition_.judge(frame, scene_motion_.references(), last_, motion_.interval_s());
+  }
+  output.belief *= recognition_.belief();
+  if (recognised) recognition_.remember(last_, scene_motion_.time_s());
+  if (const auto sure = recognition_.return_to_sure(frame, last_)) {
+    last_ = *sure;
+    target_.restart_size(last_.size_px);
+    filter_.restart(last_);
+    reacquisition_.see(last_);
+  }
   scene_motion_.remember(frame.gray, box_of(last_.pixel, last_.size_px));
   filter_.resample(random_);
   filter_.propose_size(last_.size_px, target_.usual_size_px());
@@ -78,6 +86,7 @@ void TrackerCore::search_near(const Eigen::Vector2d& designated, double sd_px) {
   last_.pixel = pixel;
   last_.size_px = size_px;
   belief_.doubt();
+  recognition_.restart();
   measurement_.restart();
   placed_ = true;
 }
@@ -104,7 +113,7 @@ void TrackerCore::designate_late(const TrackerInput& frame) {
   const auto core = designation_.find_late(frame.gray, motion_);
   if (!core) return;
   target_ = TargetModel(config_, frame.gray, *core);
-  appearance_ = LearntAppearance(frame, centre_of(*core), size_of(*core));
+  recognition_ = Recognition(frame, centre_of(*core), size_of(*core));
   measurement_.restart();
   last_ = at_rest_in(*core);
   reacquisition_.restart(last_);
@@ -123,8 +132,8 @@ bool TrackerCore::recognise(const TrackerInput& frame) {
   if (other_step_px_) places.push_back(expected + *other_step_px_);
   const Particle& believed = reacquisition_.believed();
   if (searching) places.push_back(believed.pixel);
-  const auto found =
-      appearance_.find(frame, places, target_.usual_size_px(), searching ? kFoundAgain : kFollowed);
+  const auto found = recognition_.appearance().find(frame, places, target_.usual_size_px(),
+                                                    searching ? kFoundAgain : kFollowed);
   if (!found || !reacquisition_.may_be_it({*found, {0.0, 0.0}, last_.size_px})) return false;
   constexpr double kGain = 0.5;  // of an alpha-beta filter for the velocity
   Eigen::Vector2d moved_px = *found - unmoved_px();
@@ -138,8 +147,8 @@ bool TrackerCore::recognise(const TrackerInput& frame) {
     if (!known) last_.velocity_px_s.setZero();
     last_.velocity_px_s += kGain * (velocity_px_s - last_.velocity_px_s);
   }
-  last_.pixel = *found;
-  last_.size_px = target_.usual_size_px();
+  last_ =
+      bounded({*found, last_.velocity_px_s, target_.usual_size_px()}, scene_motion_.frame_size());
   return true;
 }
 
@@ -238,10 +247,10 @@ TrackerOutput TrackerCore::follow(const TrackerInput& frame, StageTimer& timer) 
   const Scene scene =
       target_.make_scene(frame.gray, filter_.particles(), box, scene_motion_.references());
   timer.lap(Stage::kMasks);
-  const double recognised = appearance_.recognised(last_.pixel);
+  const double recognised = recognition_.appearance().recognised(last_.pixel);
   auto placed = target_.place(scene, last_.pixel, last_.size_px);
   const bool same = placed && placed->correlation > kSameImage &&
-                    appearance_.recognised(placed->centre) >= kSamePlace * recognised;
+                    recognition_.appearance().recognised(placed->centre) >= kSamePlace * recognised;
   if (!same) placed.reset();
   TrackerOutput output = locate(scene, placed);
   timer.lap(Stage::kPosition);
@@ -249,9 +258,11 @@ TrackerOutput TrackerCore::follow(const TrackerInput& frame, StageTimer& timer) 
   evidence.recognised = recognised;
   belief_.update(evidence, motion_.interval_s());
   reacquisition_.identify(last_, scene, target_, belief_);
-  if (recognised > kLearnt) {
+  if (recognised > kLearnt && !recognition_.doubts()) {
     learn(scene);
-    appearance_.learn(frame, last_.pixel, target_.usual_size_px(), motion_.interval_s());
+    const double interval_s = motion_.interval_s();
+    last_.size_px = target_.follow_size(frame.gray, last_, measurement_.size_px(), interval_s);
+    recognition_.appearance().learn(frame, last_.pixel, target_.usual_size_px(), interval_s);
   }
   output.box = designation_.box(last_);
   output.belief = reacquisition_.identity() * belief_.value();
@@ -269,7 +280,6 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, StageTimer& timer) 
   last_ = filter_.particles()[best];
   last_.size_px = filter_.mean_size_px();
   timer.lap(Stage::kWeighting);
-
   auto placed = target_.place(scene, last_.pixel, last_.size_px);
   if (placed && placed->correlation <= kSamePattern) placed.reset();
   TrackerOutput output = locate(scene, placed);

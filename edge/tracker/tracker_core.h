@@ -7,10 +7,10 @@
 
 #include "edge/tracker/belief.h"
 #include "edge/tracker/designation.h"
-#include "edge/tracker/learnt_appearance.h"
 #include "edge/tracker/particle_filter.h"
 #include "edge/tracker/point_measurement.h"
 #include "edge/tracker/reacquisition.h"
+#include "edge/tracker/recognition.h"
 #include "edge/tracker/scene_motion.h"
 #include "edge/tracker/target_model.h"
 
@@ -62,8 +62,8 @@ class TrackerCore {
   MotionModel motion_;
   ParticleFilter filter_;
   TargetModel target_;
-  LearntAppearance appearance_;
-  Belief belief_;
+  Recognition recognition_;
+  Belief belief_;  // decides whether the target is searched for
   Designation designation_;
   PointMeasurement measurement_;
   Particle last_;  // best estimate in the newest frame

@@ -153,6 +153,27 @@ def test_every_second_frame_has_half_the_rate(tmp_path):
     assert frames_per_second(made) == RATE / 2
 
 
+def test_backward_the_last_frame_is_the_first(tmp_path):
+    clip = a_clip(tmp_path)
+    clip.truth.xywh[3] = np.nan
+    [made] = variant("backward", [clip], tmp_path / "made")
+    assert np.array_equal(made.truth.xywh, clip.truth.xywh[::-1], equal_nan=True)
+    shown = zip(pictures(made), made.truth.xywh, made.truth.there, strict=True)
+    light = [brightness(picture, box) for picture, box, there in shown if there]
+    assert light == [240.0] * (FRAMES - 1)
+
+
+def test_grey_pictures_have_no_colours(tmp_path):
+    clip = a_clip(tmp_path)
+    red = (np.dstack([picture[..., 0] // 2, picture[..., 1:]]) for picture in pictures(clip))
+    write_clip(tmp_path / "red.avi", red, RATE)
+    write_boxes(tmp_path / "red.csv", clip.truth.xywh)
+    [made] = variant("grey", [Clip(tmp_path / "red.avi", clip.truth)], tmp_path / "made")
+    picture = next(pictures(made))
+    assert np.array_equal(picture[..., 0], picture[..., 2])
+    assert np.array_equal(made.truth.xywh, clip.truth.xywh)
+
+
 def test_first_boxes_are_off_by_what_is_stated(tmp_path):
     clip = a_clip(tmp_path)
     x, y, w, h = clip.first_box

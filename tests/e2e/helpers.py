@@ -1,16 +1,41 @@
 """Talks to running processes as another member of the site's bus would."""
 
 import socket
+import struct
 import threading
 import time
 from typing import Any
 
 import ols_msg
 from ols_demo.bus import LIVE_URL, Bus, counters
+from ols_demo.keys import members_of_environment
 from ols_demo.observer import Observer
 
 DEADLINE_S = 20.0
 STOP_LINE, REARM_LINE = 17, 18
+
+
+def station_without_devices(name: str) -> str:
+    """A configuration: no camera and no PTU answers."""
+    return f"""\
+id = "{name}"
+[pose]
+latitude_deg = 49.2
+longitude_deg = 16.6
+height_m = 250.0
+heading_deg = 0.0
+[calibration.sd]
+heading_deg = 0.1
+mount_deg = 0.1
+[camera]
+device = "127.0.0.99"
+[ptu]
+device = "/nonexistent/ptu"
+[chain]
+[lens]
+fx_px = 13333.3
+fy_px = 13333.3
+"""
 
 
 class StopSwitch:
@@ -67,7 +92,7 @@ class Listener:
 
     def __init__(self, url: str = LIVE_URL):
         self.observer = Observer()
-        self.bus = Bus(url, self.observer.receive)
+        self.bus = Bus(url, self.observer.receive, members_of_environment())
 
     def wait(self, condition: Any, what: str, deadline_s: float = DEADLINE_S) -> None:
         end = time.monotonic() + deadline_s
@@ -91,8 +116,45 @@ class Listener:
     def wait_for_counter(self, station: str, name: str, value: float) -> None:
         self.wait(lambda: self.counter(station, name) >= value, f"{name} of {station} >= {value}")
 
+    def device(self, station: str, name: str) -> tuple[int | None, str]:
+        """State and text of a station's device, as its newest status has them."""
+        status = self.observer.status.get(station)
+        if status is None or name not in status.device_name:
+            return None, ""
+        at = list(status.device_name).index(name)
+        return status.device_state[at], status.device_text[at]
+
     def publish(self, channel: str, data: bytes) -> None:
-        self.bus.lcm.publish(channel, data)
+        self.bus.publish(channel, data)
+
+
+class VideoViewer:
+    """Asks a station for pictures, as docs/video.md has it."""
+
+    def __init__(self, address):
+        host, port = address.rsplit(":", 1)
+        self._socket = socket.create_connection((host, int(port)), timeout=DEADLINE_S)
+
+    def picture(self, after_utime=0, width=640, region=(0.0, 0.0, 0.0, 0.0)):
+        request = ols_msg.video_request_t()
+        request.schema_version = ols_msg.video_request_t.SCHEMA_VERSION
+        request.after_utime, request.max_width_px, request.quality = after_utime, width, 70
+        request.region_px = list(region)
+        data = request.encode()
+        self._socket.sendall(struct.pack(">I", len(data)) + data)
+        (length,) = struct.unpack(">I", self._read(4))
+        return ols_msg.video_frame_t.decode(self._read(length))
+
+    def _read(self, count):
+        data = b""
+        while len(data) < count:
+            more = self._socket.recv(count - len(data))
+            assert more, "the station has closed the connection"
+            data += more
+        return data
+
+    def close(self):
+        self._socket.close()
 
 
 def addressed(message: Any, station: str, sequence: int, boot_id: int = 77) -> Any:

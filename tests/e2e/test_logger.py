@@ -13,7 +13,9 @@ import lcm
 import pytest
 from conftest import BIN
 from ols_demo.bus import LIVE_URL
+from ols_demo.keys import members_of_environment
 
+FLOOD = "OLS_SIM_FLOOD"  # of the simulator, which may send much and anything
 DEADLINE_S = 30.0
 SPLIT_BYTES = 50_000
 QUOTA_BYTES = 300_000
@@ -24,6 +26,17 @@ def wait(condition, what):
     while not condition():
         assert time.monotonic() < end, f"not within {DEADLINE_S:.0f} s: {what}"
         time.sleep(0.01)
+
+
+class Flood:
+    """Sends messages of some length, signed by the simulator."""
+
+    def __init__(self):
+        self._lcm, self._members = lcm.LCM(LIVE_URL), members_of_environment()
+
+    def publish(self, length, start=b""):
+        head = struct.pack(">QQ", 0, time.time_ns() // 1000)
+        self._lcm.publish(FLOOD, self._members.sign(FLOOD, head + start.ljust(length, b"x")))
 
 
 class Shell:
@@ -50,7 +63,7 @@ class Shell:
 class Logger:
     """One ols-logger; on a small tmpfs when a size is given."""
 
-    def __init__(self, folder, disk_bytes=None, reserve_bytes=0, mount="rw", **keys):
+    def __init__(self, folder, disk_bytes=None, reserve_bytes=0, mount="rw", signed=True, **keys):
         self.logs, self.status_file = folder / "logs", folder / "status.json"
         self.errors, self.ended = folder / "errors", False
         self.logs.mkdir()
@@ -60,13 +73,14 @@ class Logger:
             f'folder = "{self.logs}"\nstatus_file = "{self.status_file}"\nlcm_url = "{LIVE_URL}"\n'
             f"disk_reserve_gb = {reserve_bytes * 1e-9:.9f}\n"
             + "".join(f"{key} = {value:.9f}\n" for key, value in keys.items())
+            + ("" if signed else '[trust]\nmode = "off"\n')
         )
         self.shell = Shell()
         if disk_bytes is not None:
             self.shell.run(f"mount -t tmpfs -o size={disk_bytes},{mount} tmpfs {self.logs}")
         program = f"{BIN / 'ols-logger'} --config {config}"
         self.pid = int(self.shell.run(f"{program} </dev/null >/dev/null 2>{self.errors} & echo $!"))
-        self.bus = lcm.LCM(LIVE_URL)
+        self.bus = Flood()
 
     def status(self):
         try:
@@ -81,7 +95,7 @@ class Logger:
         """It records indeed: what is published now is in a log soon."""
 
         def grows():
-            self.bus.publish("FLOOD", b"x" * 2000)
+            self.bus.publish(2000)
             sizes = self.sizes()
             return sizes and (sum(sizes.values()) > before or sizes.keys() != names)
 
@@ -129,7 +143,7 @@ def test_a_flood_stays_within_the_quota_and_the_oldest_go_first(start):
     order, greatest = [], 0
     while logger.status().get("files_removed", 0) < 8:
         for _ in range(5):
-            logger.bus.publish("FLOOD", b"x" * 2000)
+            logger.bus.publish(2000)
         sizes = logger.sizes()
         greatest = max(greatest, sum(sizes.values()))
         order += sorted(set(sizes) - set(order))
@@ -142,7 +156,7 @@ def test_a_flood_stays_within_the_quota_and_the_oldest_go_first(start):
     assert left == sorted(order[-len(left) :])
     # What is left can be read to its end.
     events = [event for name in left for event in lcm.EventLog(str(logger.logs / name))]
-    assert {event.channel for event in events} == {"FLOOD"}
+    assert {event.channel for event in events} == {FLOOD}
 
 
 def test_waits_while_the_disk_is_full_of_other_things_and_records_again(start):
@@ -165,7 +179,7 @@ def test_its_own_logs_never_fill_the_disk(start):
     least = 1e9
     while logger.status().get("files_removed", 0) < 5:
         for _ in range(5):
-            logger.bus.publish("FLOOD", b"x" * 2000)
+            logger.bus.publish(2000)
         least = min(least, logger.free_bytes())
         time.sleep(0.01)
     assert least >= 100_000
@@ -179,7 +193,7 @@ def test_a_disk_without_any_room_is_waited_for(start):
     filler = logger.logs / "filler"
     logger.shell.run(f"head -c 1000000 /dev/zero > {filler} 2>/dev/null")
     wait(
-        lambda: logger.bus.publish("FLOOD", b"x" * 2000) or logger.status().get("failures"),
+        lambda: logger.bus.publish(2000) or logger.status().get("failures"),
         "trouble",
     )
     logger.shell.run(f"rm {filler}")
@@ -209,7 +223,7 @@ def test_a_file_that_is_taken_away_is_said_and_another_begun(start, how):
     assert code == 0
     assert "was deleted, renamed or replaced while it was written" in error
     begun = Path(logger.status()["text"])
-    assert {event.channel for event in lcm.EventLog(str(begun))} == {"FLOOD"}
+    assert {event.channel for event in lcm.EventLog(str(begun))} == {FLOOD}
 
 
 def send_raw(datagrams):
@@ -250,14 +264,16 @@ def flight(tmp_path, network):
 
 def test_records_a_flight_into_one_file(flight):
     process, log, program = flight
-    bus = lcm.LCM(LIVE_URL)
+    bus = Flood()
     for number in range(100):
-        bus.publish("FLIGHT", bytes([number]))
+        bus.publish(1, bytes([number]))
     # What was sent before the end was asked for may still be on its way.
-    wait(lambda: log.exists() and log.stat().st_size >= 100 * (28 + 7), "100 messages")
+    signed = 28 + len(FLOOD) + 16 + 1 + 96
+    wait(lambda: log.exists() and log.stat().st_size >= 100 * signed, "100 messages")
     process.send_signal(signal.SIGTERM)
     assert process.wait(DEADLINE_S) == 0
-    assert [event.data for event in lcm.EventLog(str(log))] == [bytes([n]) for n in range(100)]
+    recorded = [event.data[16] for event in lcm.EventLog(str(log))]
+    assert recorded == list(range(100))
     again = subprocess.run(program, capture_output=True, text=True, timeout=DEADLINE_S)
     assert again.returncode == 2
     assert str(log) in again.stderr
@@ -265,7 +281,8 @@ def test_records_a_flight_into_one_file(flight):
 
 
 def test_ends_though_messages_do_not(start):
-    logger = start(split_mb=1.0, quota_gb=0.02, max_unwritten_mb=50.0)
+    # Signatures off: what nobody has signed would end before it is written.
+    logger = start(split_mb=1.0, quota_gb=0.02, max_unwritten_mb=50.0, signed=False)
     logger.wait_recording()
     flood = [str(BIN / "ols-sim-flood"), "--lcm-url", LIVE_URL, "--rate", "20000"]
     with subprocess.Popen(flood, stdout=subprocess.PIPE, text=True) as flooding:

@@ -3,6 +3,7 @@
 import os
 import shutil
 import signal
+import time
 
 import ols_msg
 import pytest
@@ -58,7 +59,7 @@ class Kept(Listener):
         return any(a.startswith(beginning) for a in self.observer.status["kept"].alarm)
 
     def command(self, kind):
-        message = addressed(PTU(), "kept", 1)
+        message = addressed(PTU(), "kept", time.time_ns())
         message.command = kind
         self.publish("OLS_PTU_kept", message.encode())
 
@@ -72,8 +73,8 @@ class Kept(Listener):
     def refuses_slews(self):
         reason = "refused_emergency" if self.emergency() else "refused_precedence"
         before = self.counter("kept", reason)
-        for sequence in range(3):
-            self.publish("OLS_SLEW_kept", slew("kept", sequence, 0.1).encode())
+        for _ in range(3):
+            self.publish("OLS_SLEW_kept", slew("kept", time.time_ns(), 0.1).encode())
         self.wait_for_counter("kept", reason, before + 3)
         assert self.observer.status["kept"].state in (STATUS.STATE_STOPPED, STATUS.STATE_EMERGENCY)
 

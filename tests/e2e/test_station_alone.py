@@ -1,4 +1,8 @@
-"""A station without camera and PTU: it comes up, says so, and refuses what it must refuse."""
+"""A station without camera and PTU: it comes up, says so, and refuses what it must refuse.
+
+Without signatures, so that every message reaches the station's own judgement; test_attacked_station
+has what ends before that.
+"""
 
 import math
 import subprocess
@@ -7,28 +11,8 @@ import time
 import ols_msg
 import pytest
 from conftest import BIN
-from helpers import Listener, addressed, point, slew
+from helpers import Listener, addressed, point, slew, station_without_devices
 from ols_demo.site import Site
-
-CONFIG = """\
-id = "lone"
-[pose]
-latitude_deg = 49.2
-longitude_deg = 16.6
-height_m = 250.0
-heading_deg = 0.0
-[calibration.sd]
-heading_deg = 0.1
-mount_deg = 0.1
-[camera]
-device = "127.0.0.99"
-[ptu]
-device = "/nonexistent/ptu"
-[chain]
-[lens]
-fx_px = 13333.3
-fy_px = 13333.3
-"""
 
 LONG_LEASE_S = 9.0  # of what is played again some statuses later
 
@@ -51,10 +35,10 @@ def alarms(station):
 
 
 @pytest.fixture(scope="module")
-def station(network, tmp_path_factory):
+def station(unsigned, tmp_path_factory):
     folder = tmp_path_factory.mktemp("station")
     config = folder / "lone.toml"
-    config.write_text(CONFIG)
+    config.write_text(station_without_devices("lone"))
     listener = Listener()
     with Site(folder / "logs") as site:
         command = [str(BIN / "ols-station"), "--config", str(config)]

@@ -242,20 +242,21 @@ def resident_kb(config):
 def test_a_flood_neither_fills_nor_stops_it(station):
     rubbish = point("tool", 1, 0.1).encode()[:-1]
     before_kb = resident_kb(station.config)
-    before = station.counter("tool", "messages_refused_malformed")
+    unsigned = "bus_distrusted_unsigned"
+    before = station.counter("tool", unsigned)
     accepted = station.counter("tool", "release_accepted")
     start = time.monotonic()
     sent = 0
     while time.monotonic() < start + 3.0:
         for _ in range(100):
-            station.publish("OLS_SLEW_tool", rubbish)
-            station.publish("OLS_PTU_other", rubbish)
+            station.bus.lcm.publish("OLS_SLEW_tool", rubbish)
+            station.bus.lcm.publish("OLS_PTU_other", rubbish)
         sent += 200
         time.sleep(max(0.0, start + sent / 10_000 - time.monotonic()))  # 10 000 a second
         if sent % 2000 == 0:
             station.command(ols_msg.ptu_command_t.COMMAND_RELEASE)
             station.bus.handle(0.0)
-    station.wait_for_counter("tool", "messages_refused_malformed", before + 1000)
+    station.wait_for_counter("tool", unsigned, before + 1000)
     station.wait_for_counter("tool", "release_accepted", accepted + 1)
     assert resident_kb(station.config) < before_kb + 50_000
     station.site.check()

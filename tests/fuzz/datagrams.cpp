@@ -9,10 +9,10 @@
 #include "base/plain_text.h"
 #include "central/app/messages.h"
 #include "central/fusion/fusion.h"
+#include "command/messages.h"
 #include "edge/messages_bus.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/no_tracker.h"
-#include "tools/ctl/heard_status.h"
 #include "tools/logger/log_writer.h"
 
 namespace {
@@ -55,7 +55,7 @@ void to_fusion(ols::fusion::Fusion& fusion, const ols::BusMessage& message) {
 }
 
 void to_person(const ols::BusMessage& message) {
-  const auto status = ols::ctl::heard_status(message);
+  const auto status = ols::command::heard_status(message);
   if (!status) return;
   for (const auto* texts : {&status->device_name, &status->device_text, &status->alarm,
                             &status->reading_name, &status->counter_name}) {
@@ -89,13 +89,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   station_bus.set_time({kNow_s, kNow_us}, {});
   ols::fusion::Fusion fusion({});
   ols::BusInbox inbox;
-  const auto to_station = [&](const ols::BusMessage& message) {
-    station_bus.take(message.channel, message.payload.data(),
-                     static_cast<int>(message.payload.size()));
-  };
-  const auto stop = [&](const ols::BusMessage& message) {
-    return station_bus.take_stop(message.payload.data(), static_cast<int>(message.payload.size()));
-  };
+  const auto to_station = [&](const ols::BusMessage& message) { station_bus.take(message); };
+  const auto stop = [&](const ols::BusMessage& message) { return station_bus.take_stop(message); };
   inbox.subscribe("OLS_PTU_a", to_station, kLimits, stop);
   inbox.subscribe("OLS_(SLEW|DESIGNATE|RECORD)_a", to_station, kLimits);
   inbox.subscribe(

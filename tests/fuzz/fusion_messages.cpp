@@ -58,6 +58,21 @@ void receive(ols::fusion::Fusion& fusion, bool is_status, const std::string& sta
   }
 }
 
+void receive_cue(ols::fusion::Fusion& fusion, bool is_order, std::string_view bytes) {
+  const int size = static_cast<int>(bytes.size());
+  if (is_order) {
+    const auto order = ols::fusion::cue_order_from(bytes.data(), size);
+    if (const auto* given = std::get_if<ols::fusion::CueOrder>(&order)) {
+      fusion.allow_cue(given->cue, given->allow);
+    }
+    return;
+  }
+  const auto decoded = ols::fusion::cue_from(bytes.data(), size);
+  if (const auto* cue = std::get_if<ols::fusion::Cue>(&decoded)) {
+    for (const auto& slew : fusion.add(*cue, cue->utime_us)) check_slew(slew);
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -70,7 +85,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::uint8_t kind = input.byte();
     const std::size_t length = input.byte();
     const char station[] = {"abcdefgh"[(kind >> 1) & 7], '\0'};
-    receive(fusion, (kind & 1) != 0, station, input.take(length));
+    if ((kind & 0x30) != 0) {
+      receive_cue(fusion, (kind & 0x20) != 0, input.take(length));
+    } else {
+      receive(fusion, (kind & 1) != 0, station, input.take(length));
+    }
   }
   static_cast<void>(fusion.health());
   return 0;

@@ -4,8 +4,11 @@
 
 #include "base/lcm_bus.h"
 #include "ols_msg/bearing_t.hpp"
+#include "ols_msg/cue_order_t.hpp"
+#include "ols_msg/cue_t.hpp"
 #include "ols_msg/designate_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
+#include "ols_msg/lens_command_t.hpp"
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/record_t.hpp"
@@ -37,7 +40,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       decode<ols_msg::fusion_status_t>,  decode<ols_msg::preview_t>,
       decode<ols_msg::ptu_command_t>,    decode<ols_msg::record_t>,
       decode<ols_msg::sim_fault_t>,      decode<ols_msg::slew_t>,
-      decode<ols_msg::station_status_t>, decode<ols_msg::target_t>};
+      decode<ols_msg::station_status_t>, decode<ols_msg::target_t>,
+      decode<ols_msg::lens_command_t>,   decode<ols_msg::cue_t>,
+      decode<ols_msg::cue_order_t>};
   ols::fuzz::Input input(data, size);
   const std::size_t kind = input.byte();
   kDecoders[kind % kDecoders.size()](input.rest());

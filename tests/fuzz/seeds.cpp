@@ -1,5 +1,5 @@
 // Writes valid LCM messages as seeds: fuzz_seeds FOLDER makes FOLDER/messages, FOLDER/fault_plan,
-// FOLDER/fusion_messages and FOLDER/station_commands.
+// FOLDER/fusion_messages, FOLDER/station_commands and FOLDER/video_request.
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "ols_msg/bearing_t.hpp"
+#include "ols_msg/cue_order_t.hpp"
+#include "ols_msg/cue_t.hpp"
 #include "ols_msg/designate_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
+#include "ols_msg/lens_command_t.hpp"
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/record_t.hpp"
@@ -17,6 +20,7 @@
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
+#include "ols_msg/video_request_t.hpp"
 
 namespace {
 
@@ -104,6 +108,25 @@ ols_msg::fusion_status_t fusion_status() {
   return message;
 }
 
+ols_msg::cue_t cue() {
+  ols_msg::cue_t message{};
+  message.schema_version = ols_msg::cue_t::SCHEMA_VERSION;
+  message.utime = message.state_utime = kUtime;
+  message.id = "a";
+  message.horizontal_sd_m = message.vertical_sd_m = 5.0;
+  message.velocity_sd_m_s = 1.0;
+  return message;
+}
+
+ols_msg::cue_order_t cue_order() {
+  ols_msg::cue_order_t message{};
+  message.schema_version = ols_msg::cue_order_t::SCHEMA_VERSION;
+  message.cue = "a";
+  message.allow = 1;
+  message.lease_s = 2.0;
+  return message;
+}
+
 ols_msg::target_t target() {
   ols_msg::target_t message{};
   message.schema_version = ols_msg::target_t::SCHEMA_VERSION;
@@ -167,7 +190,10 @@ int main(int argc, char** argv) {
                                         encoded(ols_msg::sim_fault_t{}),
                                         encoded(slew()),
                                         encoded(status()),
-                                        encoded(target())};
+                                        encoded(target()),
+                                        encoded(command<ols_msg::lens_command_t>()),
+                                        encoded(cue()),
+                                        encoded(cue_order())};
   for (std::size_t kind = 0; kind < all.size(); ++kind) {
     write(folder / "messages" / std::to_string(kind), static_cast<char>(kind) + all[kind]);
   }
@@ -175,6 +201,9 @@ int main(int argc, char** argv) {
   const std::string from_b = encoded(bearing("b", 2.0, 500.0));
   write(folder / "fusion_messages" / "two", framed('\0', from_a) + framed('\2', from_b));
   write(folder / "fusion_messages" / "status", framed('\1', encoded(status())));
+  write(folder / "fusion_messages" / "cue",
+        framed('\1', encoded(status())) + framed('\20', encoded(cue())) +
+            framed('\40', encoded(cue_order())) + framed('\20', encoded(cue())));
   write(folder / "fault_plan" / "two", framed('\12', encoded(fault("ptu-garbled", 5.0, 0.01))) +
                                            framed('\12', encoded(fault("all", 0.0, 0.0))));
   // Of the two datagrams that end a program with liblcm 1.3.1, and of a message cut in the middle.
@@ -194,5 +223,10 @@ int main(int argc, char** argv) {
           framed(static_cast<char>(kind), bytes));
     ++kind;
   }
+  ols_msg::video_request_t request{};
+  request.schema_version = ols_msg::video_request_t::SCHEMA_VERSION;
+  request.max_width_px = 32;
+  request.quality = 60;
+  write(folder / "video_request" / "whole", encoded(request));
   return 0;
 }

@@ -50,7 +50,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view bytes = input.take(input.byte());
     now_s += 0.01;
     bus.set_time({now_s, kNow_us + static_cast<std::int64_t>((now_s - kNow_s) * 1e6)}, {});
-    bus.take(channel, bytes.data(), static_cast<int>(bytes.size()));
+    bus.take({channel, {bytes.begin(), bytes.end()}, kNow_us, {}, input.byte() % 2 == 0});
     if (bytes.size() % 2 == 0) bus.end_turn();
     static_cast<void>(station.step(now_s));
     check_goal(station, kSettings.station.limits, now_s);

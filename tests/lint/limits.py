@@ -7,7 +7,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ("geometry", "calibration", "base", "edge", "central", "sim", "tools", "dev")
+FOLDERS = (
+    *("geometry", "calibration", "base", "command", "edge", "central", "console", "export", "cue"),
+    *("sim", "tools", "dev"),
+)
 
 
 @dataclass

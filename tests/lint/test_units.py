@@ -12,7 +12,10 @@ ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "systemd"
 UNITS = sorted((FOLDER / "units").iterdir())
 SERVICES = [unit for unit in UNITS if unit.suffix == ".service"]
-EXPOSURE_LIMIT = 2.0
+EXPOSURE_LIMIT = 1.9
+# Those that cannot be confined, and why.
+UNCONFINED = {"ols-station-restart.service": "installs packages"}
+CONFINED = [service for service in SERVICES if service.name not in UNCONFINED]
 needs_analyze = pytest.mark.skipif(
     shutil.which("systemd-analyze") is None, reason="systemd-analyze is not installed"
 )
@@ -32,7 +35,9 @@ def instance(name: str) -> str:
 def fixture_units(tmp_path):
     """The units as installed, but for the programs, which need not be on this machine."""
     for unit in UNITS:
-        text = re.sub(r"^(Exec\w+=)(ols-\S+|chronyc)", r"\1/bin/true", unit.read_text(), flags=re.M)
+        text = re.sub(
+            r"^(Exec\w+=)(ols-\S+|chronyc|ptp4l)", r"\1/bin/true", unit.read_text(), flags=re.M
+        )
         (tmp_path / unit.name).write_text(text)
     return tmp_path
 
@@ -57,7 +62,7 @@ def test_a_wrong_unit_is_found(units):
 
 
 @needs_analyze
-@pytest.mark.parametrize("service", SERVICES, ids=lambda path: path.name)
+@pytest.mark.parametrize("service", CONFINED, ids=lambda path: path.name)
 def test_a_service_exposes_little(service):
     done = run("systemd-analyze", "security", "--offline=yes", "--json=short", service)
     assert json.loads(done.stdout), done.stderr
@@ -66,7 +71,7 @@ def test_a_service_exposes_little(service):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("service", SERVICES, ids=lambda path: path.name)
+@pytest.mark.parametrize("service", CONFINED, ids=lambda path: path.name)
 def test_a_service_never_opens_packet_sockets(service):
     text = service.read_text()
     families = re.findall(r"^RestrictAddressFamilies=(.*)$", text, flags=re.M)
@@ -77,7 +82,15 @@ def test_a_service_never_opens_packet_sockets(service):
 
 @pytest.mark.parametrize(
     ("name", "watchdog_s"),
-    [("ols-station@.service", 5), ("ols-fusion.service", 5), ("ols-logger.service", 30)],
+    [
+        ("ols-station@.service", 5),
+        ("ols-fusion.service", 5),
+        ("ols-console.service", 10),
+        ("ols-cue.service", 10),
+        ("ols-export.service", 10),
+        ("ols-exporter.service", 10),
+        ("ols-logger.service", 30),
+    ],
 )
 def test_a_program_is_watched_and_comes_back(name, watchdog_s):
     text = (FOLDER / "units" / name).read_text()
@@ -170,7 +183,7 @@ def test_the_installed_tree_is_complete(tmp_path):
     ):
         assert (usr / path).exists(), path
     assert sorted(path.name for path in (usr / "bin").glob("ols-sim*")) == []
-    for program in ("station", "fusion", "logger"):
+    for program in ("station", "fusion", "logger", "console", "export", "exporter"):
         config = usr / "share/ols/examples" / f"{program}.toml"
         done = run(usr / "bin" / f"ols-{program}", "--config", config, "--check-config")
         assert done.returncode == 0, done.stderr

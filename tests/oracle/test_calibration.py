@@ -145,9 +145,9 @@ def test_estimate_and_covariance_are_scipys(tmp_path, build):
     assert np.abs((matrix - expected) / np.outer(sds, sds)).max() < 2e-3
 
 
-def sun_enu(place, utime_us):
-    """The sun's centre as it appears: from the Earth's place and speed, the observer's own place,
-    the Earth's orientation, and the air."""
+def sun_enu(place, utime_us, planet=None):
+    """The sun's centre, or a planet's, as it appears: from the Earth's place and speed, the
+    observer's own place, the light's time, the Earth's orientation, and the air."""
     tt = (2440587.5, utime_us / 86400e6 + (37 + 32.184) / 86400)
     ut1 = (2440587.5, utime_us / 86400e6 + UT1_UTC_S / 86400)
     heliocentric, barycentric = erfa.epv00(*tt)
@@ -155,6 +155,9 @@ def sun_enu(place, utime_us):
     au_m, light_au_day = 149597870700.0, 173.1446326742
     observer = to_terrestrial.T @ place.origin / au_m
     direction = -heliocentric["p"] - observer
+    for _ in range(5 if planet else 0):
+        earlier = (tt[0], tt[1] - np.linalg.norm(direction) / light_au_day)
+        direction = erfa.plan94(*earlier, planet)["p"] - heliocentric["p"] - observer
     direction /= np.linalg.norm(direction)
     direction = direction + barycentric["v"] / light_au_day
     azimuth, elevation = azimuth_elevation(place.axes @ (to_terrestrial @ direction))
@@ -213,6 +216,24 @@ def test_the_sun_stands_where_the_earths_motion_has_it(tmp_path):
         pixel = one.unit.image(one.unit.shafts(*counts), direction, at_infinity=True)
         one.lines.append(sky_line(one, "sun", counts, pixel, utime_us))
     site.refer("unused", one.place.to_ecef(np.array([0, 100.0, 0])), 1.0)
+    assert worst_direction_arcsec(tmp_path, site) < LEAST_ARCSEC
+
+
+@pytest.mark.parametrize(("name", "planet"), [("venus", 2), ("mars", 4), ("saturn", 6)])
+def test_a_planet_stands_where_its_light_comes_from(tmp_path, name, planet):
+    site, one = perfect_station(SEED + 3)
+    one.unit.heading = np.pi
+    for hour in np.linspace(0, 24, 60):
+        utime_us = UTIME_US + int(3.6e9 * hour)
+        direction = sun_enu(one.place, utime_us, planet)
+        counts = one.unit.counts_to(direction)
+        low, high = np.sin(np.radians([11, 70]))
+        if not low < direction[2] < high or abs(counts[0]) > 49000:
+            continue
+        pixel = one.unit.image(one.unit.shafts(*counts), direction, at_infinity=True)
+        one.lines.append(sky_line(one, "star", counts, pixel, utime_us, name))
+    site.refer("unused", one.place.to_ecef(np.array([0, 100.0, 0])), 1.0)
+    assert len(one.lines) > 5
     assert worst_direction_arcsec(tmp_path, site) < LEAST_ARCSEC
 
 

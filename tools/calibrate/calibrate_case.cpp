@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/calibration_csv.h"
+#include "calibration/name_stars.h"
 #include "geometry/angles.h"
 #include "geometry/utm.h"
 #include "tools/calibrate/observation_file.h"
@@ -11,25 +12,25 @@
 namespace ols::calibration {
 namespace {
 
-StationPrior prior_of(const station::StationSettings& settings, const Instrument& instrument,
-                      const std::string& path) {
-  if (!settings.pose.surveyed_position) {
-    throw std::invalid_argument(path + ": pose.latitude_deg: is needed");
+// A stepper of 0.9 degrees behind a worm: a step is a whole fraction of a turn of the worm, so that
+// the rounded resolution that a unit prints tells the exact one.
+void set_resolution(Instrument& instrument, double resolution_arcsec) {
+  constexpr double kTurn_arcsec = 1296000.0;
+  constexpr int kStepsOfMotor = 400;
+  for (AxisModel* axis : {&instrument.pan, &instrument.tilt}) {
+    const std::int64_t full_steps = std::int64_t{axis->worm_teeth} * kStepsOfMotor;
+    const double exact = kTurn_arcsec / resolution_arcsec;
+    const auto counts =
+        std::llround(exact * 16.0 / static_cast<double>(full_steps)) * full_steps / 16;
+    constexpr double kPrinted = 1e-4;  // six digits
+    if (counts <= 0 || std::abs(exact / static_cast<double>(counts) - 1.0) > kPrinted) {
+      throw std::invalid_argument(
+          "--resolution: is no whole fraction of a motor's step of 0.9 degrees behind a worm of " +
+          std::to_string(axis->worm_teeth) +
+          " teeth: state the counts of a turn in the instrument ([unit])");
+    }
+    axis->counts_per_turn = counts;
   }
-  StationPrior prior;
-  prior.model = with_instrument(settings.station.geometry, instrument);
-  prior.pose_sd_rad = instrument.angle_sd_rad;
-  StationMatrix& C = prior.covariance;
-  C.topLeftCorner<kInstrumentParameters, kInstrumentParameters>() = instrument.covariance;
-  const CalibrationSd& sd = settings.station.geometry.sd;
-  const double tilt_sd_rad =
-      settings.pose.surveyed_tilt_rad ? sd.tilt_rad : settings.pose.level_sd_rad;
-  for (const int k : {kTiltX, kTiltY}) C(k, k) = tilt_sd_rad * tilt_sd_rad;
-  for (const int k : {kEast, kNorth, kUp}) C(k, k) = sd.position_m * sd.position_m;
-  for (const int k : {kRefraction, kAir}) {
-    C(k, k) = std::pow(parameter_texts()[static_cast<std::size_t>(k)].new_unit_sd, 2);
-  }
-  return prior;
 }
 
 Eigen::Vector3d place_of(const ReferenceRow& row, const std::string& path) {
@@ -52,30 +53,6 @@ Star star_of(const StarCells& cells) {
           cells.pm_dec_mas_yr * kMas_rad, 1e-3 * cells.parallax_mas};
 }
 
-References references_of(const std::string& path) {
-  References references;
-  if (path.empty()) return references;
-  for (const ReferenceRow& row : read_references(path)) {
-    if (row.star) {
-      references[row.name] = star_of(*row.star);
-    } else if (!row.utime_us) {
-      references[row.name] = FixedPoint{place_of(row, path), row.sd_m};
-    } else {
-      auto& entry = references.try_emplace(row.name, Trajectory{}).first->second;
-      auto& trajectory = std::get<Trajectory>(entry);
-      trajectory.points.push_back({*row.utime_us, place_of(row, path)});
-      trajectory.sd_m = std::max(trajectory.sd_m, row.sd_m);
-    }
-  }
-  for (const auto& [name, reference] : references) {
-    const auto* trajectory = std::get_if<Trajectory>(&reference);
-    if (trajectory && trajectory->points.size() < 2) {
-      throw CsvError(path + ": '" + name + "' has a single position in time");
-    }
-  }
-  return references;
-}
-
 void read_stations(const CaseOptions& options, Case& what) {
   for (std::size_t i = 0; i < options.stations.size(); ++i) {
     const auto settings = station::load_station_settings(options.stations[i]);
@@ -83,7 +60,9 @@ void read_stations(const CaseOptions& options, Case& what) {
     if (std::ranges::find(problem.names, settings.id) != problem.names.end()) {
       throw std::invalid_argument("--station: '" + settings.id + "' is given twice");
     }
+    check_plain(settings.serials, options.stations[i]);
     Instrument instrument = new_instrument(settings);
+    if (options.resolution_arcsec) set_resolution(instrument, *options.resolution_arcsec);
     if (!options.instruments.empty()) {
       instrument = read_instrument(options.instruments[i], instrument);
       check_serials(settings.serials, instrument.serials, options.instruments[i]);
@@ -122,7 +101,63 @@ void read_sky(const CaseOptions& options, Case& what) {
   }
 }
 
+// False detections go: they are observations of nothing.
+void identify(Case& what) {
+  const NamedStars named = name_stars(what.problem);
+  what.warnings.insert(what.warnings.end(), named.remarks.begin(), named.remarks.end());
+  for (auto i = named.false_ones.rbegin(); i != named.false_ones.rend(); ++i) {
+    const auto at = static_cast<std::ptrdiff_t>(*i);
+    what.problem.observations.erase(what.problem.observations.begin() + at);
+    what.files.erase(what.files.begin() + at);
+  }
+}
+
 }  // namespace
+
+StationPrior prior_of(const station::StationSettings& settings, const Instrument& instrument,
+                      const std::string& path) {
+  if (!settings.pose.surveyed_position) {
+    throw std::invalid_argument(path + ": pose.latitude_deg: is needed");
+  }
+  StationPrior prior;
+  prior.model = with_instrument(settings.station.geometry, instrument);
+  prior.pose_sd_rad = instrument.angle_sd_rad;
+  StationMatrix& C = prior.covariance;
+  C.topLeftCorner<kInstrumentParameters, kInstrumentParameters>() = instrument.covariance;
+  const CalibrationSd& sd = settings.station.geometry.sd;
+  const double tilt_sd_rad =
+      settings.pose.surveyed_tilt_rad ? sd.tilt_rad : settings.pose.level_sd_rad;
+  for (const int k : {kTiltX, kTiltY}) C(k, k) = tilt_sd_rad * tilt_sd_rad;
+  for (const int k : {kEast, kNorth, kUp}) C(k, k) = sd.position_m * sd.position_m;
+  for (const int k : {kRefraction, kAir}) {
+    C(k, k) = std::pow(parameter_texts()[static_cast<std::size_t>(k)].new_unit_sd, 2);
+  }
+  return prior;
+}
+
+References references_in(const std::string& path) {
+  References references;
+  if (path.empty()) return references;
+  for (const ReferenceRow& row : read_references(path)) {
+    if (row.star) {
+      references[row.name] = star_of(*row.star);
+    } else if (!row.utime_us) {
+      references[row.name] = FixedPoint{place_of(row, path), row.sd_m};
+    } else {
+      auto& entry = references.try_emplace(row.name, Trajectory{}).first->second;
+      auto& trajectory = std::get<Trajectory>(entry);
+      trajectory.points.push_back({*row.utime_us, place_of(row, path)});
+      trajectory.sd_m = std::max(trajectory.sd_m, row.sd_m);
+    }
+  }
+  for (const auto& [name, reference] : references) {
+    const auto* trajectory = std::get_if<Trajectory>(&reference);
+    if (trajectory && trajectory->points.size() < 2) {
+      throw CsvError(path + ": '" + name + "' has a single position in time");
+    }
+  }
+  return references;
+}
 
 Case read_case(const CaseOptions& options) {
   if (!options.instruments.empty() && options.instruments.size() != options.stations.size()) {
@@ -137,8 +172,9 @@ Case read_case(const CaseOptions& options) {
       what.files.push_back(path);
     }
   }
-  what.problem.references = references_of(options.references);
+  what.problem.references = references_in(options.references);
   read_sky(options, what);
+  identify(what);
   return what;
 }
 
@@ -146,11 +182,11 @@ Network network_of(const Case& what) {
   try {
     return network_of(what.problem);
   } catch (const ObservationRefused& refused) {
-    const auto& all = what.problem.observations;
-    std::size_t i = 0;
-    while (i + 1 < all.size() && all[i].line != refused.line()) ++i;
-    throw std::runtime_error(what.files[i] + ":" + std::to_string(refused.line()) + ": " +
-                             refused.what());
+    const auto place = [&what](std::size_t i) {
+      return what.files[i] + ":" + std::to_string(what.problem.observations[i].line);
+    };
+    throw std::runtime_error(place(refused.index()) + ": " + refused.what() +
+                             (refused.other() ? " (" + place(*refused.other()) + ")" : ""));
   }
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibration/groups.h"
-#include "tools/calibrate/instrument_file.h"
+#include "edge/calibration/instrument_file.h"
 
 namespace ols::calibration {
 
@@ -16,6 +16,7 @@ struct CaseOptions {
   std::vector<std::string> observations;
   std::string references, predict, output;
   std::optional<double> ut1_minus_utc_s;
+  std::optional<double> resolution_arcsec;  // a count, as the units print it
   std::optional<double> pressure_hPa, temperature_degC;
 };
 
@@ -26,6 +27,12 @@ struct Case {
   std::vector<std::string> warnings;
   std::vector<std::string> files;  // of the observations, by their index
 };
+
+// The station before an adjustment. std::invalid_argument if its position is not surveyed.
+StationPrior prior_of(const station::StationSettings& settings, const Instrument& instrument,
+                      const std::string& path);
+// Landmarks, stars and trajectories of a file; an empty path has none. CsvError.
+References references_in(const std::string& path);
 
 // ConfigError, CsvError or std::runtime_error naming file, line and key; std::invalid_argument.
 Case read_case(const CaseOptions& options);

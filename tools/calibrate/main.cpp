@@ -1,13 +1,15 @@
 // ols-calibrate: a station's calibration from whatever it has observed.
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 
 #include "base/atomic_file.h"
 #include "base/command_line.h"
 #include "base/output_check.h"
-#include "calibration/exchange.h"
-#include "tools/calibrate/result_files.h"
+#include "tools/calibrate/adjust_command.h"
+#include "tools/calibrate/aircraft.h"
+#include "tools/calibrate/camera.h"
+#include "tools/calibrate/output_folder.h"
+#include "tools/calibrate/procedure_commands.h"
 
 namespace {
 
@@ -28,6 +30,10 @@ void add_options(CLI::App& app, calibration::CaseOptions& o) {
       ->required();
   app.add_option("--predict", o.predict,
                  "CSV: pan_counts,tilt_counts,approach_pan,approach_tilt,x_px,y_px,utime_us");
+  app.add_option("--resolution", o.resolution_arcsec,
+                 "[arcsec] of a count, as the unit prints it (PR, TR); 11.5714 if not stated; an "
+                 "instrument's own counts of a turn come first")
+      ->check(CLI::Range(0.1, 1000.0));
   app.add_option("--ut1-utc", o.ut1_minus_utc_s, "[s] UT1 - UTC, for stars and the sun")
       ->check(CLI::Range(-1.0, 1.0));
   app.add_option("--pressure", o.pressure_hPa, "[hPa] at the station, for stars and the sun")
@@ -36,85 +42,53 @@ void add_options(CLI::App& app, calibration::CaseOptions& o) {
       ->check(CLI::Range(-60.0, 60.0));
 }
 
-fs::path partial_of(const fs::path& folder) { return folder.string() + ".partial"; }
+void add_aircraft_options(CLI::App& app, calibration::AircraftOptions& o) {
+  app.add_option("--input", o.inputs, "files, or HOST:PORT of a receiver; several are read in turn")
+      ->required();
+  app.add_option("--format", o.format, "beast (30005), sbs (30003) or json (aircraft.json)")
+      ->check(CLI::IsMember({"beast", "sbs", "json"}))
+      ->required();
+  app.add_option("--output", o.output, "CSV for --references; it must be new")->required();
+  app.add_option("--sd", o.sd_m, "[m] of each coordinate of a position")
+      ->check(CLI::Range(1.0, 1000.0));
+  app.add_option("--duration", o.duration_s, "[s] for which a receiver is listened to")
+      ->check(CLI::Range(1.0, 86400.0));
+  app.add_option("--start-utime", o.start_utime_us,
+                 "[us] UTC of the first frame of a Beast file, which has no time of day");
+  app.add_flag("--geometric", o.heights_are_geometric,
+               "the receiver is set up to write heights above the ellipsoid to SBS");
+}
+
+void add_camera_options(CLI::App& app, calibration::CameraOptions& o) {
+  app.add_option("--pictures", o.pictures, "of one board, ten and more, from all sides")
+      ->required();
+  app.add_option("--board", o.shape.kind, "chessboard, charuco or apriltag")
+      ->check(CLI::IsMember({"chessboard", "charuco", "apriltag"}));
+  app.add_option("--columns", o.shape.columns,
+                 "corners in a row of a chessboard, squares of a ChArUco, tags")
+      ->required();
+  app.add_option("--rows", o.shape.rows, "rows of corners, of squares, of tags")->required();
+  app.add_option("--square", o.shape.square_m, "[m] edge of a square; from one tag to the next")
+      ->check(CLI::Range(1e-4, 10.0));
+  app.add_option("--marker", o.shape.marker_m, "[m] edge of a ChArUco's marker, of a tag");
+  app.add_option("--output", o.output, "folder for the results; it must be new or empty")
+      ->required();
+}
 
 // Nothing that stands there is overwritten: another calibration, an input.
 fs::path output_folder(const calibration::CaseOptions& o) {
-  if (o.output.empty()) throw std::invalid_argument("--output: is empty");
+  if (o.output.empty()) return calibration::checked_folder(o.output);
   std::vector<ols::NamedFile> inputs{{"--references", o.references}, {"--predict", o.predict}};
   for (const std::string& path : o.stations) inputs.push_back({"--station", path});
   for (const std::string& path : o.instruments) inputs.push_back({"--instrument", path});
   for (const std::string& path : o.observations) inputs.push_back({"--observations", path});
   ols::check_outputs(inputs, {{"--output", o.output}});
-  // Without links and a slash at the end: the name that a rename needs.
-  fs::path folder = fs::weakly_canonical(o.output);
-  if (!folder.has_filename()) folder = folder.parent_path();
-  if (fs::exists(partial_of(folder))) {
-    throw std::invalid_argument("--output: " + partial_of(folder).string() +
-                                " exists: remove what an interrupted run has left");
-  }
-  if (!fs::exists(folder)) return folder;
-  if (!fs::is_directory(folder)) {
-    throw std::invalid_argument("--output: " + o.output + " is not a folder");
-  }
-  if (!fs::is_empty(folder)) {
-    throw std::invalid_argument("--output: " + o.output +
-                                " is not empty: a calibration is never overwritten");
-  }
-  return folder;
-}
-
-// The results are of a few kilobytes: a signal waits until they are there.
-class SignalsWait {
- public:
-  SignalsWait() {
-    sigset_t signals;
-    sigemptyset(&signals);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
-    ::pthread_sigmask(SIG_BLOCK, &signals, &before_);
-  }
-  ~SignalsWait() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsWait(const SignalsWait&) = delete;
-  SignalsWait& operator=(const SignalsWait&) = delete;
-
- private:
-  sigset_t before_{};
-};
-
-// All of them or none: they get their name when all are written.
-void write(const fs::path& folder, const std::vector<calibration::OutputFile>& files) {
-  const SignalsWait wait;
-  const fs::path partial = partial_of(folder);
-  if (folder.has_parent_path()) fs::create_directories(folder.parent_path());
-  if (!fs::create_directory(partial)) throw std::runtime_error(partial.string() + ": exists");
-  try {
-    for (const calibration::OutputFile& one : files) {
-      const fs::path path = partial / one.name;
-      fs::create_directories(path.parent_path());
-      ols::AtomicFile file(path.string());
-      file.stream() << one.text;
-      file.commit();
-    }
-    fs::rename(partial, folder);
-  } catch (const std::exception&) {
-    std::error_code ignored;
-    fs::remove_all(partial, ignored);
-    throw;
-  }
+  return calibration::checked_folder(o.output);
 }
 
 void adjust(const calibration::CaseOptions& options) {
-  const fs::path folder = output_folder(options);
-  const calibration::Case what = calibration::read_case(options);
-  const calibration::Adjustment adjustment(calibration::network_of(what));
-  calibration::Calibration found = calibration::calibrate(adjustment);
-  for (const std::string& line :
-       calibration::exchanged_landmarks(what.problem, adjustment, found)) {
-    found.remarks.push_back(line);
-  }
-  write(folder, calibration::output_files(what, adjustment, found));
-  for (const auto& lines : {found.remarks, what.warnings}) {
-    for (const std::string& line : lines) std::cerr << "ols-calibrate: " << line << '\n';
+  for (const std::string& line : calibration::adjust_into(options, output_folder(options)).notes) {
+    std::cerr << "ols-calibrate: " << line << '\n';
   }
 }
 
@@ -123,14 +97,34 @@ void adjust(const calibration::CaseOptions& options) {
 int main(int argc, char** argv) {
   ols::remove_temporary_files_on_signals();
   CLI::App app{"A station's calibration: what its instrument is, and how it stands."};
+  app.set_version_flag("--version", OLS_VERSION);
   app.require_subcommand(1);
   calibration::CaseOptions options;
   add_options(*app.add_subcommand("adjust", "One adjustment of all observations."), options);
+  calibration::ProcedureOptions procedure;
+  calibration::add_procedures(app, procedure);
+  calibration::AircraftOptions aircraft;
+  const CLI::App* heard =
+      app.add_subcommand("aircraft", "What a receiver has heard, as references.");
+  add_aircraft_options(*app.get_subcommand("aircraft"), aircraft);
+  calibration::CameraOptions camera;
+  const CLI::App* boards =
+      app.add_subcommand("camera", "A camera that focuses near, from pictures of a board.");
+  add_camera_options(*app.get_subcommand("camera"), camera);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-calibrate")) {
     return *status;
   }
   try {
-    adjust(options);
+    if (!procedure.name.empty()) return calibration::run_procedure(procedure);
+    std::vector<std::string> remarks;
+    if (heard->parsed()) {
+      remarks = calibration::write_aircraft(aircraft);
+    } else if (boards->parsed()) {
+      remarks = calibration::write_camera(camera);
+    } else {
+      adjust(options);
+    }
+    for (const std::string& line : remarks) std::cerr << "ols-calibrate: " << line << '\n';
   } catch (const std::exception& error) {
     std::cerr << "ols-calibrate: " << error.what() << '\n';
     return ols::kExitBadInput;

@@ -18,18 +18,29 @@ using Json = nlohmann::json;
 const std::set<std::string> kKeys{
     "kind",         "station",       "pose",         "utime_us",      "pan_counts", "tilt_counts",
     "pan_counts_s", "tilt_counts_s", "approach_pan", "approach_tilt", "x_px",       "y_px",
-    "sd_px",        "reference",     "x_deg",        "y_deg",         "sd_deg",     "zero_sd_deg"};
+    "sd_px",        "reference",     "x_deg",        "y_deg",         "sd_deg",     "zero_sd_deg",
+    "x2_px",        "y2_px",         "level_sd_deg", "distance_m",    "offset_m",   "offset_sd_m",
+    "height_m",     "height_sd_m"};
 
 // One line's object; every error names its place.
 class Line {
  public:
   Line(const std::string& path, unsigned number, const std::string& text)
       : place_(path + ":" + std::to_string(number) + ": ") {
+    // The parser keeps the last of two values of one key, and says nothing.
+    std::set<std::string> seen;
+    std::string twice;
+    const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
+      if (event != Json::parse_event_t::key || depth != 1) return true;
+      if (!seen.insert(parsed.get<std::string>()).second) twice = parsed.get<std::string>();
+      return true;
+    };
     try {
-      object_ = Json::parse(text);
+      object_ = Json::parse(text, watch);
     } catch (const Json::exception&) {
       fail("line", "is not JSON");
     }
+    if (!twice.empty()) fail(twice, "appears twice");
     if (!object_.is_object()) fail("line", "is not a JSON object");
     for (const auto& [key, value] : object_.items()) {
       if (!kKeys.contains(key)) fail(key, "is not known");
@@ -111,6 +122,26 @@ void read_level(const Line& line, Observation& one) {
   one.zero_sd_rad = radians(line.number_or("zero_sd_deg", kNewZero_deg, 1e-6, 45.0));
 }
 
+// Of a rectification target, what a person has stated of it.
+void read_target(const Line& line, Observation& one) {
+  constexpr double kLevel_deg = 30.0 / 3600.0, kCross_m = 0.003, kRuler_m = 0.001;
+  TargetFacts& target = one.target;
+  if (one.kind == Kind::kLevelLine) {
+    constexpr double kLeastLine_px = 10.0;
+    target.second_px = {line.number("x2_px", -1e5, 1e5), line.number("y2_px", -1e5, 1e5)};
+    if ((target.second_px - one.pixel).norm() < kLeastLine_px) {
+      line.fail("x2_px", "is nearer than 10 px to the first point of the line");
+    }
+    target.sd = radians(line.number_or("level_sd_deg", kLevel_deg, 1e-6, 45.0));
+    return;
+  }
+  target.distance_m = line.number("distance_m", 0.5, 1e4);
+  const bool is_cross = one.kind == Kind::kCross;
+  target.offset_m = line.number(is_cross ? "offset_m" : "height_m", -1e3, 1e3);
+  target.sd = is_cross ? line.number_or("offset_sd_m", kCross_m, 1e-6, 10.0)
+                       : line.number_or("height_sd_m", kRuler_m, 1e-6, 10.0);
+}
+
 bool needs_time(Kind kind) {
   return kind == Kind::kStar || kind == Kind::kSun || kind == Kind::kAircraft ||
          kind == Kind::kDrone || kind == Kind::kTrack;
@@ -143,6 +174,7 @@ Observation observation_of(const Line& line, const std::vector<std::string>& sta
                               : "is missing");
   }
   one.kind == Kind::kInclinometer ? read_level(line, one) : read_pixel(line, one);
+  if (is_rectification_target(one.kind)) read_target(line, one);
   return one;
 }
 
@@ -153,6 +185,11 @@ std::vector<Observation> read_observations(const std::string& path,
   std::ifstream file(path);
   file.peek();
   if (!file.is_open() || file.bad()) throw std::runtime_error(path + ": cannot be read");
+  return read_observations(file, path, stations);
+}
+
+std::vector<Observation> read_observations(std::istream& file, const std::string& path,
+                                           const std::vector<std::string>& stations) {
   std::vector<Observation> observations;
   std::string text;
   for (unsigned number = 1; std::getline(file, text); ++number) {
@@ -160,6 +197,8 @@ std::vector<Observation> read_observations(const std::string& path,
     observations.push_back(observation_of(Line(path, number, text), stations));
     observations.back().line = number;
   }
+  // A line that was cut off by an error could still be read as a shorter file.
+  if (file.bad()) throw std::runtime_error(path + ": cannot be read to its end");
   if (observations.empty()) throw std::runtime_error(path + ": has no observation");
   return observations;
 }

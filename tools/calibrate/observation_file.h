@@ -1,6 +1,7 @@
 // Observations as any program can write them: one JSON object a line.
 #pragma once
 
+#include <istream>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace ols::calibration {
 // only one. std::runtime_error "FILE:LINE: key: what" for the first bad line, or for a file without
 // any.
 std::vector<Observation> read_observations(const std::string& path,
+                                           const std::vector<std::string>& stations);
+// The same of a stream; `path` is what errors name.
+std::vector<Observation> read_observations(std::istream& file, const std::string& path,
                                            const std::vector<std::string>& stations);
 
 }  // namespace ols::calibration

@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "calibration/rectification.h"
 #include "calibration/systematic.h"
 #include "geometry/angles.h"
 #include "tools/calibrate/result_files.h"
@@ -40,6 +41,16 @@ std::string escaped(const std::string& text) {
       result += c;
   }
   return result;
+}
+
+// The first characters of a name, none of them cut.
+std::string shortened(const std::string& text, std::size_t most) {
+  std::size_t end = std::min(most, text.size());
+  const auto continues = [&text](std::size_t i) {
+    return (static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80U;
+  };
+  while (end > 0 && end < text.size() && continues(end)) --end;
+  return text.substr(0, end);
 }
 
 // White to dark blue, 0..1.
@@ -114,7 +125,7 @@ void write_residuals(std::ostream& out, const Adjustment& adjustment, const Cali
     const double y = 12.0 + 18.0 * static_cast<double>(row);
     const bool rejected = found.tests[shown[row]].rejected;
     out << "<text x=\"0\" y=\"" << y + 4 << "\"" << (rejected ? " fill=\"#b42318\"" : "") << ">"
-        << name(group.kind) << ' ' << escaped(group.name.substr(0, 16)) << "</text>";
+        << name(group.kind) << ' ' << escaped(shortened(group.name, 16)) << "</text>";
     each(group, [&](const Eigen::Vector2d& v) {
       for (const int k : {0, 1}) {
         const double x = kMiddle + kHalf * std::clamp(v[k] / most, -1.05, 1.05);
@@ -132,7 +143,7 @@ void write_residuals(std::ostream& out, const Adjustment& adjustment, const Cali
 }
 
 std::string detectable(const Group& group, double rad) {
-  if (group.kind == Kind::kInclinometer) return "–";
+  if (group.kind == Kind::kInclinometer || is_rectification_target(group.kind)) return "–";
   if (!std::isfinite(rad)) return "unchecked";
   std::ostringstream out;
   out << std::fixed << std::setprecision(0) << arcsec(rad) << "″";
@@ -187,6 +198,25 @@ void write_parameters(std::ostream& out, const StationResult& result) {
   out << "</table>\n";
 }
 
+void write_rectification(std::ostream& out, const Case& what, const Adjustment& adjustment,
+                         const Calibration& found, std::size_t station) {
+  const auto angles = rectified_angles(what.problem, adjustment, found, station);
+  if (angles.empty()) return;
+  out << "<h2>Rectification</h2>\n<p class=\"note\">The camera on its unit, as the paper's targets "
+         "tell it.</p>\n<table><tr><th>angle</th><th>value</th><th>1-sigma</th></tr>\n";
+  for (const RectifiedAngle& one : angles) {
+    out << "<tr><td>" << to_string(one.kind) << "</td><td>" << std::setprecision(4)
+        << degrees(one.rad) << "°</td><td>" << std::setprecision(0) << arcsec(one.sd_rad)
+        << "″</td></tr>\n";
+  }
+  out << "</table>\n";
+}
+
+void write_instrument_summary(std::ostream& out, const StationResult& result) {
+  out << "<h1>Instrument of station " << escaped(result.id) << "</h1>\n<p class=\"note\">Without a "
+      << "setup: nothing that was observed tells where it looks.</p>\n";
+}
+
 void write_summary(std::ostream& out, const StationResult& result, const Calibration& found) {
   const VolumePrecision volume = volume_precision(result.state.model, result.covariance);
   out << "<h1>Station " << escaped(result.id) << "</h1>\n<p class=\"note\">Calibration "
@@ -207,7 +237,11 @@ std::string report_html(const Case& what, const Adjustment& adjustment, const Ca
   std::ostringstream out;
   out << kHead << std::fixed << std::setprecision(1);
   for (const StationResult& result : results) {
-    write_summary(out, result, found);
+    if (found.headings_known) {
+      write_summary(out, result, found);
+    } else {
+      write_instrument_summary(out, result);
+    }
     if (&result == &results.front()) {
       out << "<ul>";
       for (const std::string& remark : found.remarks) {
@@ -217,7 +251,9 @@ std::string report_html(const Case& what, const Adjustment& adjustment, const Ca
       out << "</ul>\n" << std::setprecision(1);
     }
     out << std::setprecision(1);
-    write_volume(out, result);
+    if (found.headings_known) write_volume(out, result);
+    const auto station = static_cast<std::size_t>(&result - results.data());
+    write_rectification(out, what, adjustment, found, station);
   }
   write_residuals(out, adjustment, found);
   out << std::setprecision(1);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "calibration/rectification.h"
 #include "calibration/systematic.h"
 #include "geometry/angles.h"
 #include "tools/calibrate/result_files.h"
@@ -50,17 +51,21 @@ AzimuthRow mean_azimuth(const StationModel& model) {
   return J;
 }
 
-Json stations_of(const std::vector<StationResult>& results) {
+// Without a heading a direction is not known at all.
+Json stations_of(const std::vector<StationResult>& results, bool headings_known) {
+  const auto known = [headings_known](double rad) {
+    return headings_known ? Json(arcsec(rad)) : Json(nullptr);
+  };
   Json all = Json::array();
   for (const StationResult& result : results) {
     const VolumePrecision volume = volume_precision(result.state.model, result.covariance);
     const AzimuthRow azimuth = mean_azimuth(result.state.model);
     all.push_back({{"station", result.id},
                    {"calibration_id", result.calibration_id},
-                   {"systematic_rms_arcsec", arcsec(volume.rms_rad)},
-                   {"systematic_worst_arcsec", arcsec(volume.worst_rad)},
+                   {"systematic_rms_arcsec", known(volume.rms_rad)},
+                   {"systematic_worst_arcsec", known(volume.worst_rad)},
                    {"mean_azimuth_sd_arcsec",
-                    arcsec(std::sqrt((azimuth * result.covariance * azimuth.transpose())(0, 0)))},
+                    known(std::sqrt((azimuth * result.covariance * azimuth.transpose())(0, 0)))},
                    {"parameters", parameters_of(result)}});
   }
   return all;
@@ -103,6 +108,19 @@ Json residuals_of(const Case& what, const Calibration& found) {
   return all;
 }
 
+Json rectification_of(const Case& what, const Adjustment& adjustment, const Calibration& found) {
+  Json all = Json::array();
+  for (std::size_t s = 0; s < adjustment.network().stations.size(); ++s) {
+    for (const RectifiedAngle& one : rectified_angles(what.problem, adjustment, found, s)) {
+      all.push_back({{"station", adjustment.network().names[s]},
+                     {"angle", to_string(one.kind)},
+                     {"value_deg", degrees(one.rad)},
+                     {"sd_arcsec", arcsec(one.sd_rad)}});
+    }
+  }
+  return all;
+}
+
 Json differences_of(const Adjustment& adjustment, const Calibration& found) {
   Json all = Json::array();
   const Network& network = adjustment.network();
@@ -126,12 +144,13 @@ std::string report_json(const Case& what, const Adjustment& adjustment, const Ca
                         const std::vector<StationResult>& results) {
   Json remarks = found.remarks;
   for (const std::string& warning : what.warnings) remarks.push_back(warning);
-  const Json report{{"stations", stations_of(results)},
+  const Json report{{"stations", stations_of(results, found.headings_known)},
                     {"remarks", remarks},
                     {"variance_factor", found.global.variance_factor},
                     {"variance_factor_critical", found.global.critical},
                     {"redundancy", found.global.redundancy},
                     {"deviations_scaled_by", found.scaled_by},
+                    {"rectification", rectification_of(what, adjustment, found)},
                     {"heading_differences", differences_of(adjustment, found)},
                     {"groups", groups_of(adjustment, found)},
                     {"residuals", residuals_of(what, found)}};

@@ -7,17 +7,11 @@
 
 #include "base/calibration_csv.h"
 #include "calibration/systematic.h"
+#include "edge/calibration_folder.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
 namespace {
-
-// FNV-1a, without the sign: a calibration's id is a positive number of the configuration.
-std::int64_t id_of(const std::string& content) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const unsigned char byte : content) hash = (hash ^ byte) * 0x100000001b3;
-  return static_cast<std::int64_t>(hash >> 1);
-}
 
 std::string covariance_text(const StationMatrix& covariance) {
   std::ostringstream out;
@@ -34,7 +28,16 @@ std::string covariance_text(const StationMatrix& covariance) {
   return out.str();
 }
 
-std::string setup_text(const std::string& id, const StationState& state) {
+// UTC of the last observation; 0 where none has a time.
+std::int64_t observed_utime_us(const Case& what, std::size_t station) {
+  std::int64_t last_us = 0;
+  for (const Observation& one : what.problem.observations) {
+    if (one.station == station) last_us = std::max(last_us, one.utime_us);
+  }
+  return last_us;
+}
+
+std::string setup_text(const std::string& id, std::int64_t utime_us, const StationState& state) {
   const StationGeometry& geometry = state.model.geometry;
   std::ostringstream out;
   out << std::fixed << std::setprecision(9)
@@ -45,7 +48,9 @@ std::string setup_text(const std::string& id, const StationState& state) {
       << "\ntilt_x_deg = " << degrees(geometry.chain.tilt_x_rad)
       << "\ntilt_y_deg = " << degrees(geometry.chain.tilt_y_rad)
       << "\n\n[air]\nrefraction_k = " << state.refraction << "\nair = " << state.air << "\n";
-  return "station = \"" + id + "\"\n" + out.str();
+  const std::string observed =
+      utime_us > 0 ? "observed_utime_us = " + std::to_string(utime_us) + "\n" : "";
+  return "station = \"" + id + "\"\n" + observed + out.str();
 }
 
 const StationResult& result_of(const std::vector<StationResult>& results, const PredictRow& row,
@@ -81,8 +86,9 @@ std::vector<StationResult> station_results(const Case& what, const Adjustment& a
     instrument.covariance_file = "covariance.csv";
     result.instrument = instrument_text(instrument);
     result.covariance_csv = covariance_text(result.covariance);
-    const std::string setup = setup_text(result.id, result.state);
-    result.calibration_id = id_of(result.instrument + setup + result.covariance_csv);
+    const std::string setup = setup_text(result.id, observed_utime_us(what, i), result.state);
+    result.calibration_id =
+        station::calibration_id_of(result.instrument, setup, result.covariance_csv);
     result.setup =
         "# A setup of a station (docs/calibration.md); the instrument is beside it.\n"
         "calibration_id = " +
@@ -122,12 +128,15 @@ std::string predictions(const Case& what, const std::vector<StationResult>& resu
 
 std::vector<OutputFile> output_files(const Case& what, const Adjustment& adjustment,
                                      const Calibration& found) {
+  if (!found.headings_known && !what.options.predict.empty()) {
+    throw std::invalid_argument("--predict: nothing that was observed tells a heading");
+  }
   const auto results = station_results(what, adjustment, found);
   std::vector<OutputFile> files;
   for (const StationResult& result : results) {
     const std::string folder = results.size() == 1 ? "" : result.id + "/";
     files.push_back({folder + "instrument.toml", result.instrument});
-    files.push_back({folder + "setup.toml", result.setup});
+    if (found.headings_known) files.push_back({folder + "setup.toml", result.setup});
     files.push_back({folder + "covariance.csv", result.covariance_csv});
   }
   if (!what.options.predict.empty()) {

@@ -7,13 +7,9 @@
 
 #include "calibration/calibrate.h"
 #include "tools/calibrate/calibrate_case.h"
+#include "tools/calibrate/output_folder.h"
 
 namespace ols::calibration {
-
-struct OutputFile {
-  std::string name;  // within the output's folder; a network's stations have a folder each
-  std::string text;
-};
 
 // The result of one station, as its files have it.
 struct StationResult {

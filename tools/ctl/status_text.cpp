@@ -10,6 +10,11 @@
 namespace ols::ctl {
 namespace {
 
+using command::counter;
+using command::device_name;
+using command::device_state;
+using command::state_name;
+
 template <class... Values>
 std::string line(const char* format, Values... values) {
   char text[400];
@@ -55,6 +60,14 @@ std::string pose_text(const ols_msg::station_status_t& s) {
                shown_deg(s.azimuth_rad, 3).c_str(), shown_deg(s.elevation_rad, 3).c_str(),
                shown_deg(s.pan_rad, 2).c_str(), shown_deg(s.tilt_rad, 2).c_str());
   return text;
+}
+
+std::string lens_text(const ols_msg::station_status_t& s) {
+  if (s.kind != ols_msg::station_status_t::KIND_OVERVIEW) return "";
+  return line("lens       zoom %s, focus %s, iris %s; focal length %s +- %s px",
+              shown(s.lens_position[0], 3).c_str(), shown(s.lens_position[1], 3).c_str(),
+              shown(s.lens_position[2], 3).c_str(), shown(s.focal_length_px, 1).c_str(),
+              shown(s.focal_length_sd_px, 1).c_str());
 }
 
 std::string device_text(const ols_msg::station_status_t& s) {
@@ -104,6 +117,7 @@ std::string full_status(const ols_msg::station_status_t& s, std::int64_t now_uti
   text += line("state      %s, track %lld, belief %s", state_name(s.state),
                static_cast<long long>(s.track_id), shown(s.belief, 2).c_str());
   text += pose_text(s);
+  text += lens_text(s);
   text += line("clock      %s, +- %.3g s; frame to bearing %s s", clock_name(s.clock_state),
                s.clock_error_s, shown(s.frame_latency_s, 3).c_str());
   text += device_text(s);

@@ -8,17 +8,6 @@
 namespace ols::doctor {
 namespace {
 
-std::vector<std::string> cameras_that_answer() {
-  std::vector<std::string> names;
-  arv_update_device_list();
-  for (unsigned i = 0; i < arv_get_n_devices(); ++i) {
-    std::string name = arv_get_device_id(i);
-    if (const char* address = arv_get_device_address(i)) name += std::string(" at ") + address;
-    names.push_back(name);
-  }
-  return names;
-}
-
 std::string identity_of(ArvCamera* camera) {
   std::string words;
   camera::AravisError error;
@@ -61,6 +50,16 @@ void examine(ArvCamera* camera, CameraAnswers& answers) {
 
 }  // namespace
 
+std::vector<CameraSeen> cameras_that_answer() {
+  std::vector<CameraSeen> seen;
+  arv_update_device_list();
+  for (unsigned i = 0; i < arv_get_n_devices(); ++i) {
+    const char* address = arv_get_device_address(i);
+    seen.push_back({arv_get_device_id(i), address == nullptr ? "" : address});
+  }
+  return seen;
+}
+
 CameraAnswers ask_camera(const camera::CameraConfig& config) {
   CameraAnswers answers;
   answers.device = config.device;
@@ -69,7 +68,9 @@ CameraAnswers ask_camera(const camera::CameraConfig& config) {
   const camera::Owned<ArvCamera> camera(arv_camera_new(config.device.c_str(), error.out()));
   if (camera == nullptr) {
     answers.trouble = config.device + " does not answer: " + error.text();
-    answers.others = cameras_that_answer();
+    for (const auto& [id, address] : cameras_that_answer()) {
+      answers.others.push_back(address.empty() ? id : id + " at " + address);
+    }
     return answers;
   }
   examine(camera.get(), answers);

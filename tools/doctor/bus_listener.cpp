@@ -10,12 +10,11 @@
 #include "base/clocks.h"
 #include "base/lcm_bus.h"
 #include "base/lcm_url.h"
+#include "command/messages.h"
 #include "edge/clock/command_output.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/station_status_t.hpp"
-#include "tools/ctl/heard_status.h"
-#include "tools/ctl/operator.h"
 #include "tools/doctor/judge_host.h"
 
 namespace ols::doctor {
@@ -46,10 +45,19 @@ clock::ClockState clock_state_of(std::int8_t code) {
   return clock::ClockState::kUnknown;
 }
 
+// By the examined process's own key, as root: it only listens.
+std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config,
+                                            const std::string& name) {
+  trust::Self self;
+  self.name = name;
+  self.commands = true;
+  return trust::BusTrust::open(config, trust::process_environment(), self);
+}
+
 StationHeard station_from(const ols_msg::station_status_t& status) {
   StationHeard station;
   station.id = status.station;
-  station.state = ctl::state_name(status.state);
+  station.state = command::state_name(status.state);
   for (std::size_t i = 0; i < status.device_name.size(); ++i) {
     device::DeviceReport device;
     device.name = status.device_name[i];
@@ -60,6 +68,14 @@ StationHeard station_from(const ols_msg::station_status_t& status) {
   station.clock = clock_state_of(status.clock_state);
   station.clock_error_s = status.clock_error_s;
   station.position_known = status.position_source != ols_msg::station_status_t::POSE_NONE;
+  using M = ols_msg::station_status_t;
+  StationHeard::Calibration& calibration = station.calibration;
+  calibration.doubted = status.calibration_state == M::CALIBRATION_DOUBTED;
+  calibration.in_use = calibration.doubted || status.calibration_state == M::CALIBRATION_IN_USE;
+  calibration.sd_rad = status.calibration_sd_rad;
+  if (status.calibration_utime > 0) {
+    calibration.age_s = 1e-6 * static_cast<double>(status.utime - status.calibration_utime);
+  }
   station.alarms = status.alarm;
   for (std::size_t i = 0; i < status.counter_name.size(); ++i) {
     station.counters[status.counter_name[i]] = status.counter_value[i];
@@ -84,19 +100,22 @@ void look_at_network(BusHeard& bus) {
 
 }  // namespace
 
-BusHeard listen(const std::string& lcm_url, double seconds, const std::string& own) {
+BusHeard listen(const std::string& lcm_url, const trust::TrustConfig& trust, double seconds,
+                const std::string& own) {
   BusHeard heard;
   heard.url = lcm_url;
   std::map<std::string, std::set<std::int64_t>> boots;
   std::set<std::int64_t> fusions;
   try {
     look_at_network(heard);
-    LcmBus bus(lcm_url);
+    const auto signatures = open_trust(trust, own.empty() ? "fusion" : own);
+    heard.is_verified = signatures != nullptr;
+    LcmBus bus(lcm_url, signatures);
     bus.subscribe(station_channel(kStatusChannel, ".*"), [&](const BusMessage& message) {
-      const auto status = ctl::heard_status(message);
+      const auto status = command::heard_status(message);
       if (!status) return;
       const bool known = heard.stations.contains(status->station) || status->station == own;
-      if (!known && heard.stations.size() >= ctl::kMostStationsHeard) return;
+      if (!known && heard.stations.size() >= command::kMostStationsHeard) return;
       std::set<std::int64_t>& of_station = boots[status->station];
       if (of_station.size() < kMostBoots) of_station.insert(status->boot_id);
       heard.stations[status->station] = station_from(*status);
@@ -109,6 +128,12 @@ BusHeard listen(const std::string& lcm_url, double seconds, const std::string& o
     });
     const double end_s = clock_monotonic_s() + seconds;
     while (clock_monotonic_s() < end_s) bus.handle(kPoll_ms);
+    const BusTraffic traffic = bus.traffic();
+    heard.trust_trouble = traffic.trust_trouble;
+    for (std::size_t i = 0; i < traffic.distrusted.size(); ++i) {
+      const std::string reason = trust::to_string(static_cast<trust::Distrust>(i));
+      heard.distrusted["bus_distrusted_" + reason] = static_cast<double>(traffic.distrusted[i]);
+    }
   } catch (const std::exception& trouble) {
     heard.trouble = trouble.what();
   }

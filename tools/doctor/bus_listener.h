@@ -3,12 +3,14 @@
 
 #include <string>
 
+#include "base/trust/trust_config.h"
 #include "tools/doctor/facts.h"
 
 namespace ols::doctor {
 
 // Never throws: the result holds the error. `own` is reported if it is heard, however many forged
 // stations there are.
-BusHeard listen(const std::string& lcm_url, double seconds, const std::string& own = "");
+BusHeard listen(const std::string& lcm_url, const trust::TrustConfig& trust, double seconds,
+                const std::string& own = "");
 
 }  // namespace ols::doctor

@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/small_file.h"
 #include "base/toml_config.h"
 #include "central/app/fusion_settings.h"
+#include "console/add_user.h"
+#include "console/console_config.h"
+#include "cue/cue_config.h"
 #include "edge/config.h"
+#include "export/export_config.h"
+#include "export/readiness.h"
 #include "tools/doctor/bus_listener.h"
 #include "tools/doctor/judge_devices.h"
 #include "tools/doctor/judge_host.h"
@@ -33,6 +39,17 @@ Findings examine_inclinometer(const sensors::InclinometerConfig& config, double 
   return findings;
 }
 
+// It asks the lens for its version and positions; nothing moves.
+Findings examine_lens(const lens::LensMotorConfig& config, double patience_s) {
+  Findings findings;
+  const auto line = judge_line("lens", look_at_line(config.device, config.baud));
+  if (line) findings.push_back(*line);
+  if (!line || line->verdict != Verdict::kFail) {
+    findings.push_back(judge(ask_lens(config, patience_s)));
+  }
+  return findings;
+}
+
 // Devices that only the station may use while it runs, and the clock, which it reports itself.
 Findings examine_devices(const station::StationSettings& settings, double patience_s) {
   Findings findings = judge(ask_camera(settings.camera));
@@ -40,8 +57,9 @@ Findings examine_devices(const station::StationSettings& settings, double patien
   if (!settings.inclinometer.device.empty()) {
     append(findings, examine_inclinometer(settings.inclinometer, patience_s));
   }
+  if (!settings.lens.device.empty()) append(findings, examine_lens(settings.lens, patience_s));
   if (!settings.gpio.chip.empty()) findings.push_back(judge(ask_gpio(settings.gpio)));
-  if (!settings.gnss.host.empty()) findings.push_back(judge(ask_gnss(settings.gnss, patience_s)));
+  if (settings.gnss.has_receiver()) findings.push_back(judge(ask_gnss(settings.gnss, patience_s)));
   findings.push_back(judge(ask_clock(settings.clock, patience_s)));
   return findings;
 }
@@ -97,7 +115,7 @@ Findings examine_station(const std::string& path, const Request& request) {
     return {refused(error)};
   }
   Findings findings{ok("configuration: " + path + ", station " + settings.id)};
-  const BusHeard bus = listen(settings.lcm_url, request.listen_s, settings.id);
+  const BusHeard bus = listen(settings.lcm_url, settings.trust, request.listen_s, settings.id);
   append(findings, judge(bus));
   append(findings, examine_own(settings, path, bus, request.patience_s));
   append(findings, examine_host(settings));
@@ -109,7 +127,7 @@ Findings examine_fusion(const std::string& path, const Request& request) {
   try {
     const fusion::FusionSettings settings = fusion::load_fusion_settings(path);
     Findings findings{ok("configuration: " + path)};
-    const BusHeard bus = listen(settings.lcm_url, request.listen_s);
+    const BusHeard bus = listen(settings.lcm_url, settings.trust, request.listen_s);
     append(findings, judge(bus));
     if (bus.trouble.empty()) append(findings, judge_company(bus, ""));
     return findings;
@@ -128,6 +146,56 @@ Findings examine_logger(const std::string& path) {
   }
 }
 
+Findings examine_console(const std::string& path) {
+  try {
+    const console::ConsoleConfig config = console::load_console_config(path);
+    const auto users = console::read_users(config.users);
+    for (const std::string& file : {config.certificate, config.key}) {
+      if (!file.empty()) read_small_file(file, 1 << 20);
+    }
+    const std::string problem = serving_problem(config, !users.empty());
+    if (!problem.empty()) return {fail("console: " + problem, "see docs/console.md")};
+    return {ok("configuration: " + path),
+            ok("console: " + (users.empty() ? "for this host alone, without log-in"
+                                            : std::to_string(users.size()) + " users may log in"))};
+  } catch (const ConfigError& error) {
+    return {refused(error)};
+  } catch (const std::exception& error) {
+    return {fail(std::string("console: ") + error.what(),
+                 "correct that file, or let the user ols read it; docs/console.md")};
+  }
+}
+
+Findings examine_export(const std::string& path) {
+  try {
+    const exports::ExportConfig config = exports::load_export_config(path);
+    exports::check_files(config);
+    static_cast<void>(exports::site_context(config, exports::formats_of(config)));
+    const std::size_t outputs = config.outputs.size();
+    return {ok("configuration: " + path),
+            outputs > 0 ? ok("export: " + std::to_string(outputs) + " outputs")
+                        : warn("export: no output", "add an [[output]]; docs/exports.md")};
+  } catch (const ConfigError& error) {
+    return {refused(error)};
+  } catch (const std::exception& error) {
+    return {fail(std::string("export: ") + error.what(), "see docs/exports.md")};
+  }
+}
+
+Findings examine_cue(const std::string& path) {
+  try {
+    const cues::CueConfig config = cues::load_cue_config(path);
+    const std::size_t inputs = config.inputs.size();
+    return {ok("configuration: " + path),
+            inputs > 0 ? ok("cues: " + std::to_string(inputs) + " inputs")
+                       : warn("cues: no input", "add an [[input]]; docs/cues.md")};
+  } catch (const ConfigError& error) {
+    return {refused(error)};
+  } catch (const std::exception& error) {
+    return {fail(std::string("cues: ") + error.what(), "see docs/cues.md")};
+  }
+}
+
 }  // namespace
 
 Request find_configurations(const std::string& folder) {
@@ -140,7 +208,15 @@ Request find_configurations(const std::string& folder) {
       request.fusion = entry.path();
     } else if (name == "logger") {
       request.logger = entry.path();
-    } else {
+    } else if (name == "console") {
+      request.console = entry.path();
+    } else if (name == "export") {
+      request.exports = entry.path();
+    } else if (name == "cue") {
+      request.cue = entry.path();
+    } else if (name == "exporter") {
+      request.exporter = entry.path();
+    } else if (name != "trust") {  // that is the site's list of members
       request.stations.push_back(entry.path());
     }
   }
@@ -165,6 +241,19 @@ Findings examine(const Request& request) {
     units.emplace_back("ols-fusion.service");
   }
   if (!request.logger.empty()) append(findings, examine_logger(request.logger));
+  if (!request.console.empty()) {
+    append(findings, examine_console(request.console));
+    units.emplace_back("ols-console.service");
+  }
+  if (!request.exports.empty()) {
+    append(findings, examine_export(request.exports));
+    units.emplace_back("ols-export.service");
+  }
+  if (!request.cue.empty()) {
+    append(findings, examine_cue(request.cue));
+    units.emplace_back("ols-cue.service");
+  }
+  if (!request.exporter.empty()) units.emplace_back("ols-exporter.service");
   append(findings, examine_units(units));
   return findings;
 }

@@ -9,11 +9,12 @@
 namespace ols::doctor {
 
 struct Request {
-  std::vector<std::string> stations;  // configuration files
-  std::string fusion;                 // configuration file; empty: this host has none
-  std::string logger;                 // likewise
-  double listen_s = 2.2;              // two intervals of the slowest sender
-  double patience_s = 4.0;            // for a sensor to become ready
+  std::vector<std::string> stations;          // configuration files
+  std::string fusion;                         // configuration file; empty: this host has none
+  std::string logger, console, exports, cue;  // likewise
+  std::string exporter;                       // of whose service alone the state is examined
+  double listen_s = 2.2;                      // two intervals of the slowest sender
+  double patience_s = 4.0;                    // for a sensor to become ready
 };
 
 // The configuration files of this host: `folder`/*.toml.

@@ -21,6 +21,11 @@ struct StationHeard {
   clock::ClockState clock = clock::ClockState::kUnknown;
   double clock_error_s = 0.0;
   bool position_known = true;
+  struct Calibration {
+    bool in_use = false, doubted = false;
+    double sd_rad = 0.0;  // of an axis of a direction
+    double age_s = 0.0;   // since its last observation; 0: not stated
+  } calibration;
   std::vector<std::string> alarms;
   std::map<std::string, double> counters;
   std::string last_error;
@@ -37,6 +42,9 @@ struct BusHeard {
   std::map<std::string, StationHeard> stations;
   int fusions = 0;
   std::vector<std::string> fusion_alarms;
+  bool is_verified = false;   // the doctor believes only what is signed, or counts what is not
+  std::string trust_trouble;  // what is wrong with keys and trust list; empty: nothing
+  std::map<std::string, double> distrusted;  // while it listened, by "bus_distrusted_<reason>"
 };
 
 struct SerialFacts {

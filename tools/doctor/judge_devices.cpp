@@ -32,6 +32,8 @@ const char* advice_for(const std::string& device) {
        "check its 12-30 V supply and the serial cable; then stop the station and run "
        "ols-doctor again: it asks the unit itself"},
       {"inclinometer", "check its cable; it streams at 9600 baud, some variants with even parity"},
+      {"lens",
+       "check its supply, its cable and [lens_motor] baud; it must speak VISCA at address 1"},
       {"gnss", "check gpsd (systemctl status gpsd, cgps) and that the antenna sees the sky"},
       {"gpio", "check that the chip is there (gpiodetect) and that user ols is in group gpio"},
       {"recorder", "check the recorder's folder and the free space on its disk"}};

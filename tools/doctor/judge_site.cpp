@@ -46,6 +46,45 @@ std::optional<Finding> judge_frames(const StationHeard& station) {
               "60-ols.conf");
 }
 
+// Without one nothing is wrong: the configuration says how little is known. What its checks found
+// is an alarm of the station.
+std::optional<Finding> judge_calibration(const StationHeard::Calibration& calibration) {
+  constexpr double kArcsecondsPerRad = 648000.0 / 3.14159265358979323846, kDay_s = 86400.0;
+  if (!calibration.in_use) return std::nullopt;
+  std::string words =
+      "calibration: in use, " + number(kArcsecondsPerRad * calibration.sd_rad, "%.0f arc seconds");
+  if (calibration.age_s > 0.0) words += number(calibration.age_s / kDay_s, ", %.1f days old");
+  if (!calibration.doubted) return ok(words);
+  return warn(words + ", and its reference views have moved",
+              "the alarm says what moved; calibrate the setup again");
+}
+
+// "3 unsigned, 1 replayed"; empty: none.
+std::string distrusted(const std::map<std::string, double>& counters) {
+  const std::string prefix = "bus_distrusted_";
+  std::string text;
+  for (const auto& [name, value] : counters) {
+    if (!name.starts_with(prefix) || value <= 0.0) continue;
+    text += (text.empty() ? "" : ", ") + number(value, "%.0f ") + name.substr(prefix.size());
+  }
+  return text;
+}
+
+Finding judge_signatures(const BusHeard& bus) {
+  if (!bus.trust_trouble.empty()) {
+    return fail("signatures: " + bus.trust_trouble, "docs/troubleshooting.md lists the alarms");
+  }
+  if (bus.is_verified) {
+    const std::string refused = distrusted(bus.distrusted);
+    if (refused.empty()) return ok("signatures: all that was heard is signed by the site");
+    return warn("signatures: not believed just now: " + refused,
+                "docs/troubleshooting.md lists the reasons");
+  }
+  if (bus.ttl == 0) return ok("signatures: off, on this host only");
+  return warn("signatures: off: anybody on this network can command the site",
+              "docs/security.md says how to make keys");
+}
+
 // Limited: a forged status may have thousands, which would hide the other findings.
 Findings judge_alarms(const std::string& whose, const std::vector<std::string>& alarms) {
   constexpr std::size_t kMost = 16;
@@ -85,6 +124,7 @@ Findings judge(const BusHeard& bus) {
                                 ": large messages and frames get lost",
                             "sysctl --system, with 60-ols.conf in place"));
   }
+  findings.push_back(judge_signatures(bus));
   return findings;
 }
 
@@ -128,7 +168,13 @@ Findings judge(const StationHeard& station) {
     findings.push_back(fail("pose: no position, and so no bearings",
                             "survey the place into [pose], or wait for the GNSS receiver's fix"));
   }
+  if (const auto calibrated = judge_calibration(station.calibration)) {
+    findings.push_back(*calibrated);
+  }
   if (const auto frames = judge_frames(station)) findings.push_back(*frames);
+  if (const std::string refused = distrusted(station.counters); !refused.empty()) {
+    findings.push_back(ok("signatures: not believed since its start: " + refused));
+  }
   append(findings, judge_alarms("alarm: ", station.alarms));
   if (!station.last_error.empty() && station.last_error_age_s < kRecent_s) {
     findings.push_back(

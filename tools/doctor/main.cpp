@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "base/command_line.h"
+#include "tools/doctor/bundle.h"
 #include "tools/doctor/examination.h"
 
 namespace {
 
 constexpr int kExitDefect = 3;
+constexpr const char* kConfiguration = "/etc/ols";
 
 }  // namespace
 
@@ -20,18 +22,27 @@ int main(int argc, char** argv) {
       "Checks a station or the centre and says what to do about each fault. Disturbs nothing that "
       "runs: it opens a station's devices only if the station does not run, and moves no PTU. "
       "Exit status: 0 ok, 1 warnings, 2 failures"};
+  app.set_version_flag("--version", OLS_VERSION);
   std::vector<std::string> configs;
+  std::string bundle;
   bool json = false;
   app.add_option("--config", configs, "Station's configuration; default: all of /etc/ols");
   app.add_flag("--json", json, "For programs");
+  app.add_option("--bundle", bundle,
+                 "Also write what a helper from afar needs into this file (.tar.gz): findings, "
+                 "journal, configuration, versions, clock; without secrets");
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-doctor")) return *status;
   spdlog::set_level(spdlog::level::off);  // the drivers' messages are judged, not shown
   try {
-    ols::doctor::Request request = ols::doctor::find_configurations("/etc/ols");
+    ols::doctor::Request request = ols::doctor::find_configurations(kConfiguration);
     if (!configs.empty()) {
       request.stations = configs;
       request.fusion.clear();
       request.logger.clear();
+      request.console.clear();
+      request.exports.clear();
+      request.cue.clear();
+      request.exporter.clear();
     }
     const ols::doctor::Findings findings = ols::doctor::examine(request);
     if (json) {
@@ -40,6 +51,7 @@ int main(int argc, char** argv) {
       for (const auto& finding : findings) std::printf("%s\n", ols::doctor::line(finding).c_str());
     }
     ols::flush_output();
+    if (!bundle.empty()) ols::doctor::write_bundle(bundle, {OLS_VERSION, findings, kConfiguration});
     return ols::doctor::exit_status(findings);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "ols-doctor: %s\n", error.what());

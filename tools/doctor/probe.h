@@ -15,12 +15,19 @@ SerialFacts look_at_line(const std::string& device, int baud);
 // others. A unit in its scan mode (which no program of ours uses) ends that at any byte.
 PtuAnswers ask_ptu(const ptu::PtuConfig& config);
 
+// All cameras that answer a broadcast.
+struct CameraSeen {
+  std::string id, address;  // the id as Aravis has it; no address: not on the network
+};
+std::vector<CameraSeen> cameras_that_answer();
+
 // Opens the camera's control channel for a moment; no frame is taken.
 CameraAnswers ask_camera(const camera::CameraConfig& config);
 
 // The sensors by their own drivers, for as long as each takes to be well, at most `seconds`.
 device::DeviceReport ask_gnss(const sensors::GnssConfig& config, double seconds);
 device::DeviceReport ask_inclinometer(const sensors::InclinometerConfig& config, double seconds);
+device::DeviceReport ask_lens(const lens::LensMotorConfig& config, double seconds);
 // Reads the emergency stop; outputs stay untouched.
 device::DeviceReport ask_gpio(const gpio::GpioConfig& config);
 

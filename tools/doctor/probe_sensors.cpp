@@ -6,6 +6,7 @@
 #include "edge/clock/clock_pair.h"
 #include "edge/clock/clock_source.h"
 #include "edge/gpio/gpio_lines.h"
+#include "edge/gpio/line_use.h"
 #include "tools/doctor/probe.h"
 
 namespace ols::doctor {
@@ -37,17 +38,21 @@ device::DeviceReport ask_inclinometer(const sensors::InclinometerConfig& config,
   return ask_sensor<sensors::Inclinometer>(config, seconds);
 }
 
+device::DeviceReport ask_lens(const lens::LensMotorConfig& config, double seconds) {
+  return ask_sensor<lens::LensMotor>(config, seconds);
+}
+
 device::DeviceReport ask_gpio(const gpio::GpioConfig& config) {
   constexpr double kLevel_s = 0.5;
   device::DeviceReport report;
   report.name = "gpio";
   try {
     gpio::LineUse use;
-    if (config.stop_line >= 0) use.inputs.push_back({config.stop_line, gpio::LineBias::kPullUp});
+    if (config.has_stop()) use.inputs.push_back(gpio::stop_input_line(config));
     const auto lines = gpio::open_gpio_lines(config.chip, use);
     report.state = device::DeviceState::kOk;
     report.text = config.chip;
-    if (config.stop_line < 0) return report;
+    if (!config.has_stop()) return report;
     std::vector<gpio::LineLevel> levels;
     lines->refresh();
     wait_until([&] { return !(levels = lines->receive()).empty(); }, kLevel_s);

@@ -3,9 +3,11 @@
 #include <spdlog/spdlog.h>
 
 #include <exception>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 
+#include "base/atomic_file.h"
 #include "base/clocks.h"
 
 namespace ols::logger {
@@ -20,6 +22,13 @@ QueueLimits limits_of(const LoggerConfig& config) {
           .bytes = static_cast<std::size_t>(config.max_unwritten_mb * 1e6)};
 }
 
+std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config) {
+  trust::Self self;
+  self.name = "logger";
+  self.commands = true;  // statuses of a station whose clock is wrong are recorded too
+  return trust::BusTrust::open(config, trust::process_environment(), self);
+}
+
 // With invert: a negative lookahead, all channels that do not match the expression.
 std::string wanted(const LoggerConfig& config) {
   return config.invert ? "(?!(?:" + config.channels + ")\\z).*" : config.channels;
@@ -31,7 +40,8 @@ BusRecorder::BusRecorder(const LoggerConfig& config, const std::string& file)
     : config_(config),
       single_file_(file),
       names_(config.folder, config.name),
-      bus_(config.lcm_url) {
+      trust_(open_trust(config.trust)),
+      bus_(config.lcm_url, trust_) {
   // Before the file: a failed connection must not leave an empty file.
   bus_.subscribe(
       wanted(config_), [this](const BusMessage& message) { write(message); }, limits_of(config_));
@@ -69,6 +79,7 @@ void BusRecorder::record() {
     if (now_s >= look_due_s_) {
       look_due_s_ = now_s + kLook_s;
       look_after_file();
+      keep_trust_list();
     }
     look_at_bus(now_s);
   }
@@ -105,6 +116,17 @@ void BusRecorder::look_after_file() {
   ++report_.files_lost;
 }
 
+// Beside the logs, each under its number: `ols-key verify` reads them years later.
+void BusRecorder::keep_trust_list() {
+  if (trust_ == nullptr || trust_->list_number() == list_kept_) return;
+  const std::int64_t number = trust_->list_number();
+  const auto folder = std::filesystem::absolute(writer_->path()).parent_path();
+  AtomicFile file((folder / ("trust-" + std::to_string(number) + ".toml")).string());
+  file.stream() << trust_->list_text();
+  file.commit();
+  list_kept_ = number;
+}
+
 void BusRecorder::begin_file() {
   const std::string path = single_file_.empty() ? names_.next(clock_utime_us()) : single_file_;
   writer_.emplace(path);
@@ -115,7 +137,8 @@ void BusRecorder::begin_file() {
 void BusRecorder::look_at_bus(double now_s) {
   const BusTraffic traffic = bus_.traffic();
   watch_.look(traffic, now_s);
-  const std::string alarm = watch_.alarm(now_s);
+  std::string alarm = watch_.alarm(now_s);
+  if (alarm.empty()) alarm = watch_.trust_alarm(now_s);
   {
     const std::lock_guard lock(mutex_);
     if (!alarm.empty() && report_.bus_alarm.empty()) spdlog::warn("{}", alarm);

@@ -49,6 +49,7 @@ class BusRecorder {
   void look_after_file();
   void begin_file();
   void look_at_bus(double now_s);
+  void keep_trust_list();
 
   const LoggerConfig config_;
   const std::string single_file_;
@@ -60,6 +61,8 @@ class BusRecorder {
   mutable std::mutex mutex_;
   RecorderReport report_;
   std::atomic<bool> end_ = false, discard_ = false;
+  std::shared_ptr<trust::BusTrust> trust_;
+  std::int64_t list_kept_ = 0;  // its number; used by the thread only
   LcmBus bus_;
   std::thread thread_;
 };

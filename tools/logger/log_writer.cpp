@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
+#include <vector>
 
 namespace ols::logger {
 namespace {
@@ -36,13 +37,16 @@ void LogWriter::write(const BusMessage& message) {
   lcm_eventlog_event_t event{};
   event.timestamp = message.received_utime_us;
   event.channellen = static_cast<std::int32_t>(message.channel.size());
-  event.datalen = static_cast<std::int32_t>(message.payload.size());
-  // It only reads them.
+  // With the signature, so that the log can be verified later.
+  std::vector<std::uint8_t> bytes = message.payload;
+  bytes.insert(bytes.end(), message.trailer.begin(), message.trailer.end());
+  event.datalen = static_cast<std::int32_t>(bytes.size());
+  // It only reads it.
   event.channel = const_cast<char*>(message.channel.c_str());
-  event.data = const_cast<std::uint8_t*>(message.payload.data());
+  event.data = bytes.data();
   errno = 0;
   if (lcm_eventlog_write_event(log_.get(), &event) != 0) throw file_error(path_);
-  bytes_ += kEventHeader + message.channel.size() + message.payload.size();
+  bytes_ += kEventHeader + message.channel.size() + bytes.size();
 }
 
 void LogWriter::flush() {

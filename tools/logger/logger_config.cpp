@@ -56,7 +56,7 @@ config::Section logger_section(LoggerConfig& c) {
                       "counted."),
        config::text("status_file", c.status_file,
                     "JSON file that is rewritten every second; empty: none.")},
-      {},
+      {trust::trust_section(c.trust)},
       [&c](ConfigTable& root) {
         if (c.quota_bytes < kLeastSplits * c.split_bytes)
           throw root.error("quota_gb", "must be at least four times split_mb");

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "base/trust/trust_config.h"
+
 namespace ols::config {
 struct Section;
 }
@@ -19,6 +21,7 @@ struct LoggerConfig {
   double disk_reserve_bytes = 2e9;
   double max_unwritten_mb = 50.0;  // in memory, when the disk is slow; more is lost
   std::string status_file;         // JSON, written again and again; empty: none
+  trust::TrustConfig trust{};
 };
 
 config::Section logger_section(LoggerConfig& config);  // the whole file

@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
   CLI::App app{
       "Records the bus: the oldest files are removed when the quota is used up or the disk's free "
       "space falls below the reserve"};
+  app.set_version_flag("--version", OLS_VERSION);
   std::string config_path, folder, lcm_url, output;
   bool check = false;
   app.add_option("--config", config_path, "Configuration file (TOML); all keys have defaults");

@@ -109,7 +109,7 @@ ols::fusion::OfflineConfig config_of(const Options& options) {
   config.estimator = options.estimator;
   config.smooth = options.smooth;
   config.rate_hz = options.rate_hz;
-  if (!options.clock_sd_s) config.fusion.keeper.errors.clock_weight = 1.0;  // guesses are learnt
+  if (!options.clock_sd_s) config.fusion.tracks.errors.clock_weight = 1.0;  // guesses are learnt
   config.fusion.estimators.paper = options.paper;
   config.fusion.estimators.paper.pairs = kPaperPairs.at(options.paper_pairs);
   config.fusion.estimators.paper.by_belief = !options.paper_halves;
@@ -280,6 +280,7 @@ void add_choices(CLI::App& app, Options& options) {
 int main(int argc, char** argv) {
   ols::remove_temporary_files_on_signals();
   CLI::App app{"Positions (WGS84, metres above the ellipsoid, 1-sigma) from recorded bearings."};
+  app.set_version_flag("--version", OLS_VERSION);
   Options options;
   add_files(app, options);
   add_choices(app, options);

@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   CLI::App app{
       "How good positions can be: the paper's precision theory, and the Cramer-Rao bound of any "
       "site. Lengths in metres, angles in degrees but where a column says rad."};
+  app.set_version_flag("--version", OLS_VERSION);
   app.require_subcommand(1);
   ols::offline::add_figure3(app);
   ols::offline::add_figure4(app);

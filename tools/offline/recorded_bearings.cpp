@@ -64,7 +64,9 @@ RecordedBearings recorded(const std::string& path, const std::vector<StationRow>
   return recording;
 }
 
-std::size_t instants_with_position(RecordedBearings recording) {
+// Guesses the recording's clocks, which whoever uses it sets anyway: a copy would double its
+// memory.
+std::size_t instants_with_position(RecordedBearings& recording) {
   std::size_t count = 0;
   for (const RecordedTarget& target : targets_of(recording)) {
     fusion::guess_clocks(target.bearings);
@@ -77,12 +79,12 @@ std::size_t instants_with_position(RecordedBearings recording) {
 // Radians read as degrees form a bundle of a few degrees about north, which may meet by chance.
 // Small angles prove nothing: the unit in which more lines of sight meet decides.
 void require_degrees(const std::string& path, const std::vector<StationRow>& stations,
-                     const RecordedBearings& as_degrees) {
+                     RecordedBearings& as_degrees) {
   constexpr std::size_t kClearly = 2;
   bool can_be_radians = true;
   const std::size_t by_degrees = instants_with_position(as_degrees);
-  const std::size_t by_radians =
-      instants_with_position(recorded(path, stations, 1.0, can_be_radians));
+  RecordedBearings as_radians = recorded(path, stations, 1.0, can_be_radians);
+  const std::size_t by_radians = instants_with_position(as_radians);
   if (by_radians <= kClearly * by_degrees) return;
   throw CsvError(path +
                  ": azimuth_deg, elevation_deg: these seem to be radians: as such the lines "

@@ -101,6 +101,7 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   ols::remove_temporary_files_on_signals();
   CLI::App app{"A station's heading, tilt and mounting from sightings of surveyed landmarks."};
+  app.set_version_flag("--version", OLS_VERSION);
   Options options;
   add_options(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-stationing")) {

@@ -188,7 +188,7 @@ void run(const Arguments& arguments) {
   long frame = 0;
   for (auto picture = source.next(); picture; picture = source.next(), ++frame) {
     const double time_s = static_cast<double>(frame) / source.frames_per_second();
-    following.take(frame, {*picture, time_s, std::nullopt, source.colour()});
+    following.take(frame, {*picture, time_s, std::nullopt, {source.colour()}});
     progress(static_cast<std::size_t>(frame) + 1, source.announced());
   }
   if (frame <= arguments.start_frame) {
@@ -203,6 +203,7 @@ void run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   ols::remove_temporary_files_on_signals();
   CLI::App app("Follows one target through a clip with the particle filter tracker.", "ols-track");
+  app.set_version_flag("--version", OLS_VERSION);
   Arguments arguments;
   declare(app, arguments);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-track")) return *status;

@@ -13,6 +13,9 @@ void bind_geometry(py::module_& m);
 void bind_central(py::module_& m);
 void bind_precision(py::module_& m);
 void bind_stationing(py::module_& m);
+void bind_trust(py::module_& m);
+void bind_offline(py::module_& m);
+void bind_recording(py::module_& m);
 
 // Name(field=value, ...) in the order of the definition.
 inline std::string fields_repr(const py::object& self, const char* name) {

@@ -7,4 +7,7 @@ PYBIND11_MODULE(_core, m) {
   ols::python::bind_precision(m);
   ols::python::bind_stationing(m);
   ols::python::bind_central(m);
+  ols::python::bind_trust(m);
+  ols::python::bind_offline(m);
+  ols::python::bind_recording(m);
 }

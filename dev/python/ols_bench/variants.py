@@ -38,6 +38,21 @@ def alternate(clip: Clip) -> Made:
     return clip.truth.xywh[::2], islice(pictures(clip), 0, None, 2)
 
 
+def backward(clip: Clip) -> Made:
+    """From the last frame to the first: other first images, growth for shrinking."""
+    shown = list(pictures(clip))
+    return clip.truth.xywh[len(shown) - 1 :: -1], iter(shown[::-1])
+
+
+def grey(clip: Clip) -> Made:
+    """Without colours, as a thermal camera has it."""
+    without_colours = (
+        cv2.cvtColor(cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY), cv2.COLOR_GRAY2BGR)
+        for picture in pictures(clip)
+    )
+    return clip.truth.xywh, without_colours
+
+
 def shifted(clip: Clip) -> np.ndarray:
     """The first box by a part of its size, to one of its corners."""
     x, y, w, h = clip.first_box
@@ -57,6 +72,8 @@ PICTURES: dict[str, Callable[[Clip], Made | None]] = {
     "mirrored": mirrored,
     "half": half,
     "alternate": alternate,
+    "backward": backward,
+    "grey": grey,
 }
 FIRST_BOXES: dict[str, Callable[[Clip], np.ndarray]] = {
     "shifted": shifted,

@@ -1,15 +1,31 @@
 """The cases of the measure table: what is observed in each."""
 
+from functools import partial
+from pathlib import Path
+
+import erfa
 import numpy as np
 
-from .model import Place, from_azimuth_elevation, refracted
-from .site import UTIME_US, Site, anywhere, icrs_of, station
+from .model import PAIRS, WORK, Place, from_azimuth_elevation, refracted
+from .rectification import put_up
+from .site import (
+    PRESSURE_HPA,
+    TEMPERATURE_DEGC,
+    UT1_UTC_S,
+    UTIME_US,
+    Site,
+    anywhere,
+    icrs_of,
+    station,
+)
+
+ROOT = Path(__file__).resolve().parents[3]
 
 PLACE = (49.2266, 16.5969, 310.0)
 
 
-def one_station(rng, is_new, position_sd=0.02):
-    site = Site(rng, [station(rng, "alfa", Place(*PLACE), is_new)], position_sd)
+def one_station(rng, is_new, position_sd=0.02, work=WORK):
+    site = Site(rng, [station(rng, "alfa", Place(*PLACE), is_new, work)], position_sd)
     one = site.stations[0]
     one.level()
     # The tripod's place is surveyed as well as it is stated.
@@ -61,8 +77,8 @@ def stars(rng):
     return site
 
 
-def rtk_landmarks(rng):
-    site, one = one_station(rng, is_new=False)
+def rtk_landmarks(rng, work=WORK):
+    site, one = one_station(rng, is_new=False, work=work)
     sight_landmarks(site, one, landmark_points(rng, one, 5), 0.02, 4)
     return site
 
@@ -161,11 +177,12 @@ def aircraft(rng):
     return site
 
 
-def joint_track(rng):
+def joint_track(rng, work=WORK):
     """Two stations 2.2 km apart follow what flies across the line through both of them."""
     places = [Place(*PLACE), Place(PLACE[0], PLACE[1] + 0.03, PLACE[2] + 4)]
     units = [
-        station(rng, name, p, False) for name, p in zip(("alfa", "bravo"), places, strict=True)
+        station(rng, name, p, False, work)
+        for name, p in zip(("alfa", "bravo"), places, strict=True)
     ]
     site = Site(rng, units)
     for one in units:
@@ -184,6 +201,7 @@ def joint_track(rng):
         # To and fro over the line through both, between them and beyond.
         target = np.array([5000.0 if k % 2 else 1100.0, 250 * share, 500 + 100 * share])
         where = units[0].place.to_ecef(target)
+        site.tracked[UTIME_US + 1_000_000 * k] = where
         for one in units:
             point = one.true_place.to_enu(where)
             pan = one.unit.counts_to(point)[0] / 112000 * 360
@@ -193,7 +211,83 @@ def joint_track(rng):
     return site
 
 
+def moving_scene(rng):
+    """Scenery seen while pan moves to both sides, slowly and fast: at one speed the offset of the
+    exposure would look like backlash."""
+    site, one = one_station(rng, is_new=True)
+    degree = 112000 / 360
+    for k, point in enumerate(landmark_points(rng, one, 12)):
+        for speed in (5, 20, -5, -20):
+            one.sight_moving("scene", point, str(k), speed * degree)
+    sight_landmarks(site, one, landmark_points(rng, one, 3), 0.02, 2)
+    return site
+
+
+def table_stars():
+    """Numbers, right ascensions and declinations [rad] of the product's table of stars."""
+    rows = (ROOT / "calibration/star_table.inc").read_text().splitlines()
+    stars = [row[1:].split(",")[:3] for row in rows if row.startswith("{")]
+    table = np.array(stars, dtype=float)
+    return table[:, 0].astype(int), *np.radians(table[:, 1:].T / 1e5)
+
+
+def stars_around(table, place, axis, utime_us):
+    """Numbers and apparent directions, east-north-up, of stars within some degrees of one."""
+    numbers, ra, dec = table
+    ra_there, dec_there = icrs_of(place, axis, utime_us)
+    there = from_azimuth_elevation(ra_there, dec_there)
+    near = from_azimuth_elevation(ra, dec).T @ there > np.cos(np.radians(4))
+    azimuth, zenith, *_ = erfa.atco13(
+        *(ra[near], dec[near], 0, 0, 0, 0, 2440587.5, utime_us / 86400e6, UT1_UTC_S),
+        *(place.longitude, place.latitude, place.height, 0, 0),
+        *(PRESSURE_HPA, TEMPERATURE_DEGC, 0.5, 0.55),
+    )
+    up = zenith < np.radians(79.5)
+    return numbers[near][up], from_azimuth_elevation(azimuth[up], np.pi / 2 - zenith[up]).T
+
+
+def nameless_stars(rng, stars=10, false=5, frames=3, is_new=True):
+    """Frames of stars without names, with false detections among them."""
+    site, one = one_station(rng, is_new)
+    one.lines.clear()  # no inclinometer either: level to half a degree
+    one.numbers = set()
+    table = table_stars()
+    start_us = UTIME_US + int(rng.integers(0, 31_000_000)) * 1_000_000
+    for frame in range(frames):
+        utime_us = start_us + 3_000_000 * frame
+        counts = np.round(np.array([rng.uniform(-150, 150), rng.uniform(15, 30)]) / 360 * 112000)
+        approach = rng.choice([-1, 1], 2)
+        shafts = one.unit.posed(rng, *counts, approach)
+        axis = one.unit.look(shafts, (640, 480))
+        numbers, directions = stars_around(table, one.place, axis, utime_us)
+        found = rng.permutation(
+            [
+                (number, *pixel)
+                for number, direction in zip(numbers, directions, strict=True)
+                if (pixel := one.unit.image(shafts, direction, at_infinity=True)) is not None
+                and (pixel >= 0).all()
+                and (pixel < (1280, 960)).all()
+            ]
+        )[:stars]
+        one.numbers |= {f"HIP {int(row[0])}" for row in found}
+        pixels = [*(row[1:] for row in found), *rng.uniform([0, 0], [1279, 959], (false, 2))]
+        for pixel in rng.permutation(pixels):
+            one.add(
+                *("star", counts, approach, pixel),
+                **{"sd_px": 0.3, "pose": frame, "reference": None, "utime_us": utime_us},
+            )
+    site.refer("unused", one.place.to_ecef(np.array([0, 100.0, 0])), 1.0)
+    return site
+
+
 # name -> (what is observed, the most its figure may be [arc seconds], which figure)
+def rectification(rng):
+    """The paper's three targets, and an inclinometer."""
+    site, one = one_station(rng, is_new=True)
+    put_up(rng, one)
+    return site
+
+
 CASES = {
     "stars, 20 frames of 12, new unit": (stars, 6.0, "systematic"),
     "5 landmarks by RTK, four times, workshop": (rtk_landmarks, 9.0, "systematic"),
@@ -202,5 +296,15 @@ CASES = {
     "sweep + 5 by RTK, new unit": (sweep, 20.0, "systematic"),
     "joint track across both stations' line": (joint_track, 4.0, "difference"),
     "20 passes of aircraft: heading, workshop": (aircraft, 10.0, "heading"),
+    "5 landmarks by RTK, gears 5″ in amplitude": (
+        partial(rtk_landmarks, work=PAIRS),
+        *(9.0, "systematic"),
+    ),
+    "joint track, gears 5″ in amplitude": (partial(joint_track, work=PAIRS), 4.0, "difference"),
+    "exposure offset, scenery at 5 and 20°/s [ms]": (moving_scene, 0.1, "offset"),
+    "stars without names, 10 a frame, 5 false": (nameless_stars, None, "identified"),
+    "the paper's level line: roll, new unit": (rectification, 40.0, "roll"),
+    "the paper's cross: azimuth, new unit": (rectification, 40.0, "azimuth"),
+    "the paper's rulers: elevation, new unit": (rectification, 40.0, "elevation"),
     "a landmark wrong by 1 m at 1 km": (wrong_landmark, None, "named"),
 }

@@ -51,6 +51,12 @@ WORK = {
     "trunnion": 4.0,
     "exposure_offset_s": 2e-4,
 }
+# The same where 5 arc seconds are the amplitude of each pair of coefficients, of each harmonic.
+PAIRS = {
+    **WORK,
+    **{name: 5.0 / np.sqrt(2) for name in WORK if name.startswith(("pan_", "tilt_"))},
+    **{"pan_backlash": 5.0, "tilt_backlash": 5.0},
+}
 PLAIN = ("focal_px", "aspect", "cx_px", "cy_px", "k1", "k2", "exposure_offset_s")
 ANGLE_SD = 5.0 * ARCSEC  # of each angle of a pose: jitter and microstep waves together
 

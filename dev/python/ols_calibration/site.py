@@ -59,6 +59,16 @@ class Station:
     rng: np.random.Generator
     lines: list = field(default_factory=list)
     poses: int = 0
+    angles: dict = field(default_factory=dict)  # that its rectification targets should tell
+
+    def sight_moving(self, kind, point, reference, counts_s):
+        """Sights a point [m] while pan moves; the exposure is later than its counts."""
+        counts = self.unit.counts_to(point) + self.rng.integers(-200, 200, 2)
+        moved = counts + np.array([counts_s * self.unit.values["exposure_offset_s"], 0])
+        approach = (int(np.sign(counts_s)), self.rng.choice([-1, 1]))
+        pixel = self.unit.image(self.unit.posed(self.rng, *moved, approach), point)
+        self.poses += 1
+        self.add(kind, counts, approach, pixel, reference=reference, pan_counts_s=float(counts_s))
 
     def observe(self, kind, counts, seen, **more):
         """Appends a sighting; `seen(shafts)` gives the pixel, or None if it is not in the image."""
@@ -116,12 +126,12 @@ class Station:
         return text
 
 
-def station(rng, name, place, is_new):
+def station(rng, name, place, is_new, work=WORK):
     """A unit drawn as new, or as after a workshop's calibration and transport."""
     known = nominal()
     if not is_new:
         known = drawn(rng, NEW, known)
-    sizes = NEW if is_new else WORK
+    sizes = NEW if is_new else work
     unit = Unit(
         drawn(rng, sizes, known),
         heading=rng.uniform(0, 2 * np.pi),
@@ -138,6 +148,7 @@ class Site:
     stations: list
     position_sd: float = 0.02  # of each station, each axis: by RTK
     references: list = field(default_factory=list)
+    tracked: dict = field(default_factory=dict)  # where a track's target was, by utime_us
 
     def refer(self, name, point_ecef, sd_m, utime_us=None):
         latitude, longitude, height = geodetic(point_ecef)
@@ -151,7 +162,10 @@ class Site:
         self.references.append(f"{name},,,,,,{degrees[0]:.9f},{degrees[1]:.9f}")
 
     def write(self, folder, predict):
-        """Writes all files; returns the arguments of `ols-calibrate adjust`."""
+        """Writes all files; returns the arguments of `ols-calibrate adjust`.
+
+        Rectification targets tell no heading, so that no direction can be predicted.
+        """
         arguments = []
         lines = [line for one in self.stations for line in one.lines]
         for one in self.stations:
@@ -166,8 +180,10 @@ class Site:
         (folder / "references.csv").write_text("\n".join([header, *self.references]) + "\n")
         (folder / "predict.csv").write_text(predict)
         arguments += ["--observations", folder / "observations.jsonl"]
-        arguments += ["--references", folder / "references.csv"]
-        arguments += ["--predict", folder / "predict.csv"]
+        if self.references:
+            arguments += ["--references", folder / "references.csv"]
+        if not any(one.angles for one in self.stations):
+            arguments += ["--predict", folder / "predict.csv"]
         arguments += ["--ut1-utc", UT1_UTC_S, "--pressure", PRESSURE_HPA]
         return [*arguments, "--temperature", TEMPERATURE_DEGC]
 

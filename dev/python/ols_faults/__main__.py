@@ -1,6 +1,7 @@
 """tools/fault-run: applies every fault of the table to a simulated site, and judges."""
 
 import argparse
+import os
 import signal
 import sys
 import time
@@ -95,6 +96,8 @@ def tell(outcome: Outcome) -> None:
 def run_cases(
     options: argparse.Namespace, names: list[str]
 ) -> tuple[dict[str, Outcome], dict[str, Evidence]]:
+    # The cases attack what stands behind the signatures: what a member of the site could do.
+    os.environ["OLS_TRUST"] = "off"
     wiring = Wiring(options.bin, options.scenario, options.seed, options.output)
     bring_up_loopback(wiring.prepare())
     disk = (options.output / "disk").resolve()

@@ -24,7 +24,7 @@ DRAIN_US = 50_000  # what has waited is handled for so long at most, then the ca
 
 WANTED = (b"OLS_BEARING_", b"OLS_STATUS_", b"OLS_TARGET", b"OLS_FUSION_STATUS", b"OLS_SIM_")
 PTU = b"OLS_PTU_"
-STOP_BYTES = 66  # of a ptu_command_t, beside its station's name
+STOP_BYTES = 106  # of a ptu_command_t, beside its station's name
 STOP_AT = 49  # its command byte, likewise
 
 

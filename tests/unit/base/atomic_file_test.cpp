@@ -8,6 +8,8 @@
 #include <sstream>
 #include <system_error>
 
+#include "tests/unit/temp_dir.h"
+
 namespace ols {
 namespace {
 
@@ -16,8 +18,7 @@ namespace fs = std::filesystem;
 class AtomicFileTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::path(temp_dir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::create_directories(folder_);
     std::ofstream(path()) << "old";
   }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/unit/eventually.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols {
 namespace {
@@ -27,9 +28,9 @@ class BackgroundFileTest : public testing::Test {
     text << std::ifstream(path_).rdbuf();
     return text.str();
   }
-  const fs::path folder_ = fs::path(testing::TempDir()) /
-                           (std::string("background_file_") +
-                            testing::UnitTest::GetInstance()->current_test_info()->name());
+  const fs::path folder_ =
+      fs::path(temp_dir()) / (std::string("background_file_") +
+                              testing::UnitTest::GetInstance()->current_test_info()->name());
   const fs::path path_ = folder_ / "state";
 };
 

@@ -109,5 +109,18 @@ TEST_F(Inbox, NobodyGetsLcmsSelfTest) {
   EXPECT_EQ(inbox_.traffic().received, 1U);
 }
 
+TEST_F(Inbox, ASignatureIsNoPartOfTheMessageAndIsKeptBesideIt) {
+  const trust::SigningKey key(trust::Seed{});
+  const std::vector<std::uint8_t> content{'x', 'y'};
+  const auto message = trust::with_trailer(key, {}, "A", content, 0);
+  BusMessage heard;
+  inbox_.subscribe("A", [&heard](const BusMessage& one) { heard = one; });
+  inbox_.put(make_datagram(0, "A", message), 7);
+  EXPECT_TRUE(inbox_.handle_one(0));
+  EXPECT_EQ(heard.payload, content);
+  EXPECT_EQ(heard.trailer, std::vector<std::uint8_t>(message.begin() + 2, message.end()));
+  EXPECT_TRUE(heard.addressed);
+}
+
 }  // namespace
 }  // namespace ols

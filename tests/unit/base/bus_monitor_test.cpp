@@ -40,5 +40,45 @@ TEST(BusMonitor, CountsOverAllConnections) {
   EXPECT_EQ(counters.at("bus_messages_unsendable"), 1.0);
 }
 
+TEST(BusMonitor, WhatIsNotBelievedIsCountedByReasonAndToldOnce) {
+  BusMonitor monitor;
+  BusTraffic traffic;
+  monitor.look(traffic, 0.0);
+  std::map<std::string, double> counters;
+  monitor.count(counters);
+  EXPECT_FALSE(counters.contains("bus_distrusted_unsigned"));
+  EXPECT_TRUE(monitor.alarms(0.0).empty());
+  traffic.distrusted[static_cast<std::size_t>(trust::Distrust::kUnsigned)] = 3;
+  traffic.distrusted[static_cast<std::size_t>(trust::Distrust::kReplayed)] = 1;
+  traffic.distrusted_last = "OLS_PTU_a: replayed, by anna";
+  monitor.look(traffic, 1.0);
+  monitor.count(counters);
+  EXPECT_EQ(counters.at("bus_distrusted_unsigned"), 3.0);
+  EXPECT_EQ(monitor.alarms(2.0),
+            std::vector<std::string>{"trust: messages not believed: 3 unsigned, 1 replayed; the "
+                                     "last: OLS_PTU_a: replayed, by anna"});
+  EXPECT_TRUE(monitor.alarms(12.0).empty());
+  monitor.look(traffic, 12.0);
+  traffic.distrusted[0] = 4;
+  monitor.look(traffic, 13.0);
+  EXPECT_EQ(monitor.alarms(13.0).front().substr(0, 43),
+            "trust: messages not believed: 1 unsigned; t")
+      << "the earlier ones are over";
+  monitor.connection_ended();
+  monitor.count(counters);
+  EXPECT_EQ(counters.at("bus_distrusted_unsigned"), 4.0);
+}
+
+TEST(BusMonitor, TroubleWithKeysStandsUntilItIsPutRight) {
+  BusMonitor monitor;
+  BusTraffic traffic;
+  traffic.trust_trouble = "trust: the own key, alfa, is not in trust list 1";
+  monitor.look(traffic, 1.0);
+  EXPECT_EQ(monitor.alarms(100.0), std::vector<std::string>{traffic.trust_trouble});
+  traffic.trust_trouble.clear();
+  monitor.look(traffic, 101.0);
+  EXPECT_TRUE(monitor.alarms(101.0).empty());
+}
+
 }  // namespace
 }  // namespace ols

@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/unit/temp_dir.h"
+
 namespace ols {
 namespace {
 
 std::string file_of(const std::string& text) {
-  const std::string path = testing::TempDir() + "calibration_csv_test.csv";
+  const std::string path = temp_dir() + "calibration_csv_test.csv";
   std::ofstream(path) << text;
   return path;
 }

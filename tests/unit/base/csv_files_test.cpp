@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/csv_rows.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols {
 namespace {
@@ -20,7 +21,7 @@ const char* const kBearings = "utime_us,station,azimuth_deg,elevation_deg,sigma_
 class CsvFilesTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
+    folder_ = fs::path(temp_dir()) /
               (std::string("csv_") + testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
   }

@@ -7,6 +7,8 @@
 #include <limits>
 #include <sstream>
 
+#include "tests/unit/temp_dir.h"
+
 namespace ols {
 namespace {
 
@@ -15,7 +17,7 @@ namespace fs = std::filesystem;
 class FixWriterTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
+    folder_ = fs::path(temp_dir()) /
               (std::string("fix_") + testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
     path_ = folder_ / "fixes.csv";

@@ -6,13 +6,15 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "tests/unit/temp_dir.h"
+
 namespace ols {
 namespace {
 
 namespace fs = std::filesystem;
 
 TEST(OutputCheck, RefusesAnInputByWhateverName) {
-  const fs::path folder = fs::path(testing::TempDir()) / "output_check";
+  const fs::path folder = fs::path(temp_dir()) / "output_check";
   fs::remove_all(folder);
   fs::create_directories(folder);
   const std::string input = folder / "in.csv", unborn = folder / "out.csv";

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/unit/eventually.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols {
 namespace {
@@ -17,7 +18,7 @@ const std::vector<std::string> kWords{"good", "bad", "worse"};
 class PersistedWordTest : public testing::Test {
  protected:
   PersistedWordTest() {
-    folder = testing::TempDir() + "ols_word_" + std::to_string(::getpid());
+    folder = temp_dir() + "ols_word_" + std::to_string(::getpid());
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     file = folder + "/word";

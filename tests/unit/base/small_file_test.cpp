@@ -8,12 +8,14 @@
 #include <fstream>
 #include <system_error>
 
+#include "tests/unit/temp_dir.h"
+
 namespace ols {
 namespace {
 
 class SmallFile : public testing::Test {
  protected:
-  SmallFile() : path_(testing::TempDir() + "ols_small_file_" + std::to_string(::getpid())) {
+  SmallFile() : path_(temp_dir() + "ols_small_file_" + std::to_string(::getpid())) {
     std::filesystem::remove_all(path_);
   }
   ~SmallFile() override { std::filesystem::remove_all(path_); }

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <string>
 
+#include "tests/unit/temp_dir.h"
+
 namespace ols {
 namespace {
 
@@ -108,12 +110,11 @@ TEST(ConfigFile, NamesAFileThatCannotBeRead) {
 }
 
 TEST(ConfigFile, AnEmptyFileIsAConfigurationAndAFolderIsNone) {
-  const std::string path =
-      testing::TempDir() + "empty_config_" + std::to_string(::getpid()) + ".toml";
+  const std::string path = temp_dir() + "empty_config_" + std::to_string(::getpid()) + ".toml";
   std::ofstream{path};
   EXPECT_NO_THROW(ConfigFile{path});
   std::remove(path.c_str());
-  EXPECT_THROW(ConfigFile{testing::TempDir()}, ConfigError);
+  EXPECT_THROW(ConfigFile{temp_dir()}, ConfigError);
 }
 
 TEST(ConfigFile, ReadsArraysOfTables) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "calibration/snooping.h"
 #include "calibration/systematic.h"
 #include "tests/unit/calibration/scene.h"
 
@@ -63,6 +64,36 @@ TEST(Calibrate, SaysSoWhereNoMajorityAgrees) {
   }
   const Adjustment adjustment(network_of(problem));
   EXPECT_THROW(calibrate(adjustment), Contradiction);
+}
+
+// Both look elsewhere than their configurations say, and differently, at the same landmarks.
+TEST(Calibrate, StationsThatShareTheirLandmarksNeedNoHeading) {
+  constexpr double kTurned_deg = 100.0;
+  Problem problem = landmarks_around(hill(), just_put_up(), 8);
+  problem.names.emplace_back("bravo");
+  problem.stations.push_back(problem.stations.front());
+  for (std::size_t i = 0; i < problem.observations.size(); i += 2) {
+    problem.observations[i].station = 1;
+    problem.observations[i].reading.pan.counts += std::round(kTurned_deg / 360.0 * 112000.0);
+  }
+  const Calibration found = calibrate(Adjustment(network_of(problem)));
+  const double heading_rad = hill().geometry.chain.heading_rad;
+  for (std::size_t s = 0; s < 2; ++s) {
+    const double turned_rad = s == 0 ? 0.0 : radians(kTurned_deg);
+    const ChainParameters& chain = found.fit.state.stations[s].model.geometry.chain;
+    EXPECT_NEAR(wrap_pi(chain.heading_rad - heading_rad - turned_rad), 0.0, 100.0 * kArcsec) << s;
+  }
+}
+
+TEST(Calibrate, WhatIsNoNumberIsNotAccepted) {
+  Problem problem = landmarks_around(crooked(), just_put_up(), 5);
+  problem.observations[2].pixel.x() = std::nan("");
+  const Adjustment adjustment(network_of(landmarks_around(crooked(), just_put_up(), 5)));
+  Fit fit = adjustment.fit(adjustment.start({crooked().geometry.chain.heading_rad}),
+                           std::vector<bool>(5, true));
+  fit.equations[0].gradient.setConstant(std::nan(""));
+  EXPECT_TRUE(std::isinf(test_statistic(adjustment, fit, 0)));
+  EXPECT_THROW(calibrate(Adjustment(network_of(problem))), std::invalid_argument);
 }
 
 TEST(Calibrate, WithoutAReferenceTheHeadingIsUnknown) {

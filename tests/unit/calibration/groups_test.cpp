@@ -17,12 +17,44 @@ TEST(Network, RefusesWhatItCannotUseByLine) {
     network_of(problem);
     FAIL();
   } catch (const ObservationRefused& refused) {
-    EXPECT_EQ(refused.line(), 5U);
+    EXPECT_EQ(refused.index(), 4U);
     EXPECT_STREQ(refused.what(), "reference: 'nowhere' is not one of the references");
   }
   problem.observations[4].kind = Kind::kStar;
   problem.observations[4].reference = "";
   EXPECT_THROW(network_of(problem), ObservationRefused);
+}
+
+TEST(Network, APoseIsOneStop) {
+  Problem problem = landmarks_around(hill(), hill(), 3);
+  problem.observations[1].pose = problem.observations[4].pose = 7;
+  try {
+    network_of(problem);
+    FAIL();
+  } catch (const ObservationRefused& refused) {
+    EXPECT_EQ(refused.index(), 4U);
+    EXPECT_EQ(refused.other(), 1U);
+    EXPECT_STREQ(refused.what(), "pose: 7 is another stop already, at other counts");
+  }
+  problem.observations[4].pose.reset();
+  problem.observations[0].pose = 7;  // the same stop: both sight landmark0
+  EXPECT_EQ(network_of(problem).layout.poses, 1U);
+}
+
+// Of landmarks that two stations share, each has its own half.
+TEST(Network, AStationAloneHasItsOwnSightings) {
+  Problem problem = landmarks_around(hill(), hill(), 3);
+  problem.names.emplace_back("bravo");
+  problem.stations.push_back(problem.stations.front());
+  problem.observations[1].station = problem.observations[5].station = 1;
+  const Network network = network_of(problem);
+  ASSERT_EQ(network.groups.size(), 3U);
+  const Network own = alone(network, 1);
+  ASSERT_EQ(own.groups.size(), 2U);
+  EXPECT_EQ(own.groups[1].name, "landmark2");
+  EXPECT_EQ(own.groups[1].station, 1U);
+  EXPECT_EQ(own.groups[1].degrees_of_freedom, 2);
+  EXPECT_EQ(own.layout.size(), network.layout.size());
 }
 
 }  // namespace

@@ -90,6 +90,7 @@ TEST(DoctorOnDevices, AReportedDeviceKeepsItsWordsAndGetsAdvice) {
   device::DeviceReport gnss{.name = "gnss",
                             .state = device::DeviceState::kOk,
                             .text = "3D, 9 satellites",
+                            .serial = {},
                             .last_good_s = {},
                             .last_error = {},
                             .alarms = {},

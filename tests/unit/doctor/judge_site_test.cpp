@@ -23,6 +23,7 @@ BusHeard good_bus() {
   bus.stations["alfa"].state = "idle";
   bus.stations["bravo"].state = "tracking";
   bus.fusions = 1;
+  bus.is_verified = true;
   return bus;
 }
 
@@ -43,6 +44,23 @@ TEST(DoctorOnSite, ABusThatReachesNobodyElseIsTold) {
   EXPECT_THAT(lines(judge(bus)), HasSubstr("write ttl=1"));
   bus.trouble = "no route";
   EXPECT_EQ(exit_status(judge(bus)), 2);
+}
+
+TEST(DoctorOnSite, WhatIsNotSignedIsTold) {
+  BusHeard bus = good_bus();
+  bus.distrusted = {{"bus_distrusted_replayed", 0.0}, {"bus_distrusted_unsigned", 3.0}};
+  EXPECT_THAT(lines(judge(bus)), HasSubstr("warn  signatures: not believed just now: 3 unsigned"));
+  bus.trust_trouble = "trust: the key of alfa is revoked";
+  EXPECT_EQ(exit_status(judge(bus)), 2);
+  bus = good_bus();
+  bus.is_verified = false;
+  EXPECT_THAT(lines(judge(bus)), HasSubstr("anybody on this network can command"));
+  bus.ttl = 0;
+  bus.interface = "lo";
+  EXPECT_EQ(exit_status(judge(bus)), 0) << "nobody else is on it";
+  StationHeard station;
+  station.counters = {{"bus_distrusted_stranger", 12.0}};
+  EXPECT_THAT(lines(judge(station)), HasSubstr("not believed since its start: 12 stranger"));
 }
 
 TEST(DoctorOnSite, SmallBuffersLonelinessAndRivalsAreTold) {
@@ -109,6 +127,15 @@ TEST(DoctorOnSite, AnOldErrorIsForgotten) {
   EXPECT_EQ(exit_status(judge(station)), 1);
   station.last_error_age_s = 600.0;
   EXPECT_EQ(exit_status(judge(station)), 0);
+}
+
+TEST(JudgeStation, SaysHowWellItIsCalibratedAndSinceWhen) {
+  StationHeard station = good_station();
+  EXPECT_THAT(lines(judge(station)), testing::Not(HasSubstr("calibration")));
+  station.calibration = {true, false, 8.0 * 3.14159265 / 648000.0, 2.5 * 86400.0};
+  EXPECT_THAT(lines(judge(station)), HasSubstr("calibration: in use, 8 arc seconds, 2.5 days old"));
+  station.calibration.doubted = true;
+  EXPECT_THAT(lines(judge(station)), HasSubstr("warn  calibration: in use, 8 arc seconds"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "base/toml_config.h"
 #include "geometry/angles.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::station {
 namespace {
@@ -45,8 +46,7 @@ class StationConfigFile : public testing::Test {
   }
   ~StationConfigFile() override { std::remove(path_.c_str()); }
 
-  const std::string path_ =
-      testing::TempDir() + "station_config_" + std::to_string(::getpid()) + ".toml";
+  const std::string path_ = temp_dir() + "station_config_" + std::to_string(::getpid()) + ".toml";
 };
 
 TEST_F(StationConfigFile, TheLensAndTheDoubtOfTheCalibrationAreAskedFor) {

@@ -127,5 +127,21 @@ TEST_F(FollowedTargetTest, AnglesPredictTheImageUntilTheyAreForgotten) {
   EXPECT_TRUE(script_.last->predicted_homography);
 }
 
+TEST_F(FollowedTargetTest, TheTrackerSeesTheColoursOfTheCamera) {
+  camera::Frame frame = frame_at(0.0);
+  frame.raw = cv::Mat(8, 8, CV_8UC1, cv::Scalar(7));
+  frame.pixel_format = "BayerGB8";
+  target_.designate(frame, box_);
+  frame.mid_exposure_s = 0.1;
+  target_.track(frame, pointing_);
+  ASSERT_TRUE(script_.last);
+  EXPECT_EQ(script_.last->colour.image.data, frame.raw.data) << "not a copy";
+  EXPECT_EQ(script_.last->colour.layout, tracker::ColourLayout::kBayerGb);
+  frame.mid_exposure_s = 0.2;
+  frame.pixel_format = "Mono12";  // deeper than 8 bit, and no colours
+  target_.track(frame, pointing_);
+  EXPECT_TRUE(script_.last->colour.empty());
+}
+
 }  // namespace
 }  // namespace ols::station

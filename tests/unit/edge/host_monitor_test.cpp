@@ -11,13 +11,13 @@
 
 #include "base/clocks.h"
 #include "tests/unit/eventually.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::station {
 namespace {
 
 TEST(HostMonitor, ReadsTheHottestZone) {
-  const std::filesystem::path folder =
-      testing::TempDir() + "host_watch_" + std::to_string(::getpid());
+  const std::filesystem::path folder = temp_dir() + "host_watch_" + std::to_string(::getpid());
   for (const auto& [zone, text] : {std::pair("thermal_zone0", "41000\n"),
                                    {"thermal_zone1", "90500\n"},
                                    {"thermal_zone2", "nonsense\n"},

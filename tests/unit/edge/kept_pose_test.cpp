@@ -8,6 +8,7 @@
 
 #include "base/clocks.h"
 #include "geometry/angles.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::station {
 namespace {
@@ -35,8 +36,8 @@ class KeptPoseTest : public testing::Test {
     std::ofstream(folder_ + "/alfa.pose") << to_text(pose);
   }
 
-  const std::string folder_ = testing::TempDir() + "kept_pose_" +
-                              testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string folder_ =
+      temp_dir() + "kept_pose_" + testing::UnitTest::GetInstance()->current_test_info()->name();
   StationSettings settings_;
 };
 

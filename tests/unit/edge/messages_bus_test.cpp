@@ -32,6 +32,7 @@ class StationBusTest : public testing::Test {
   StationBusTest() {
     settings.id = std::string("a");
     station = std::make_unique<Station>(settings.station, std::make_unique<CountingTracker>(boxes));
+    station->set_reference(ptu::PtuReference::kTrusted);
     turn = std::make_unique<CommandTurn>(*station);
     bus = std::make_unique<StationBus>(
         settings, 1, *station, *turn, [](const recorder::RecordCommand&) { return std::string(); });
@@ -56,7 +57,7 @@ class StationBusTest : public testing::Test {
   void publish(const std::string& channel, const Message& message) {
     std::vector<char> bytes(static_cast<std::size_t>(message.getEncodedSize()));
     message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-    bus->take(channel, bytes.data(), static_cast<int>(bytes.size()));
+    bus->take({channel, {bytes.begin(), bytes.end()}, kNow_us, {}, addressed});
   }
   void designate(double x_px) {
     ols_msg::designate_t message{};
@@ -77,6 +78,7 @@ class StationBusTest : public testing::Test {
   std::unique_ptr<CommandTurn> turn;
   std::unique_ptr<StationBus> bus;
   std::int64_t sequence = 0;
+  bool addressed = true;  // whether messages name the station's boot
 };
 
 using Ptu = ols_msg::ptu_command_t;
@@ -131,6 +133,35 @@ TEST_F(StationBusTest, AStopIsNeverRefused) {
   EXPECT_EQ(bus->refusals(), 0U);
 }
 
+// Where signatures are required: only a stop may do without the station's boot.
+TEST_F(StationBusTest, ACommandThatNamesNoBootIsRefusedUnlessItIsAFreshStop) {
+  addressed = false;
+  designate(3);
+  command(Ptu::COMMAND_POINT);
+  command(Ptu::COMMAND_RELEASE);
+  bus->end_turn();
+  EXPECT_EQ(bus->counters().at("messages_refused_other_boot"), 3.0);
+  EXPECT_TRUE(boxes.empty());
+  Ptu old{};
+  old.command = Ptu::COMMAND_STOP;
+  old.lease_s = 1.0;
+  for (const std::int64_t age_us : {2'000'000, -2'000'000}) {
+    old.utime = kNow_us - age_us;
+    publish("OLS_PTU_a", old);
+  }
+  old.utime = kNow_us;
+  for (const double lease_s : {0.0, -1.0, 1e6, std::numeric_limits<double>::quiet_NaN()}) {
+    old.lease_s = lease_s;
+    publish("OLS_PTU_a", old);
+  }
+  bus->end_turn();
+  EXPECT_NE(station->state(), StationState::kStopped);
+  EXPECT_EQ(bus->counters().at("messages_refused_other_boot"), 9.0);
+  command(Ptu::COMMAND_STOP);
+  bus->end_turn();
+  EXPECT_EQ(station->state(), StationState::kStopped);
+}
+
 TEST_F(StationBusTest, NothingThatCrossesAStopOnTheWireUndoesIt) {
   command(Ptu::COMMAND_STOP);
   command(Ptu::COMMAND_RELEASE);
@@ -178,6 +209,30 @@ TEST_F(StationBusTest, CommandsThatKeepBeingRefusedAreAnAlarm) {
             std::vector<std::string>{"commands: 12 PTU commands refused in 10 s: replayed"});
   bus->set_time({kNow_s + 11.0, kNow_us + 11'000'000}, {});
   EXPECT_EQ(bus->alarms(), std::vector<std::string>{});
+}
+
+// What a forger or a bad link does to a joystick, refused and counted before the station sees it.
+TEST_F(StationBusTest, StaleReplayedAndOverlongRatesAreRefused) {
+  Ptu message{};
+  message.command = Ptu::COMMAND_RATE;
+  message.schema_version = Ptu::SCHEMA_VERSION;
+  message.station = "a";
+  message.utime = kNow_us;
+  message.boot_id = 9;
+  message.lease_s = 0.3;
+  message.pan_rate_rad_s = 0.1;
+  publish("OLS_PTU_a", message);
+  EXPECT_EQ(station->state(), StationState::kManual);
+  publish("OLS_PTU_a", message);
+  message.utime = kNow_us - 900'000;
+  message.sequence = 2;
+  publish("OLS_PTU_a", message);
+  EXPECT_EQ(bus->counters().at("messages_refused_replayed"), 1.0);
+  EXPECT_EQ(bus->counters().at("messages_refused_stale"), 1.0);
+  message.utime = kNow_us;
+  message.lease_s = 2.0;
+  publish("OLS_PTU_a", message);
+  EXPECT_EQ(bus->last_refusal(), "PTU refused: out_of_range");
 }
 
 TEST_F(StationBusTest, ARearmOverTheBusNeedsTheSitesLeave) {

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "tests/unit/eventually.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::station {
 namespace {
@@ -27,7 +28,7 @@ namespace fs = std::filesystem;
 class PersistedStationStateTest : public testing::Test {
  protected:
   PersistedStationStateTest() {
-    root = testing::TempDir() + "ols_memory_" + std::to_string(::getpid());
+    root = temp_dir() + "ols_memory_" + std::to_string(::getpid());
     fs::remove_all(root);
     folder = root + "/state";
     fs::create_directories(folder);

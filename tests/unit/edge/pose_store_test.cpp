@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "tests/unit/eventually.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::station {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 class PoseStoreTest : public testing::Test {
  protected:
   PoseStoreTest() {
-    folder = testing::TempDir() + "pose_memory_" + std::to_string(::getpid());
+    folder = temp_dir() + "pose_memory_" + std::to_string(::getpid());
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     file = folder + "/a.pose";

@@ -86,6 +86,28 @@ TEST_F(SlewSearchTest, AnObjectElsewhereIsNotTheSlewsTarget) {
   EXPECT_FALSE(search_.is_where_slewed(now, output, pointing_, std::nullopt));
 }
 
+// The target is anywhere on the line, also where the slew's own direction is outside the picture.
+TEST_F(SlewSearchTest, AlongALineItLooksWhereTheLineCrossesThePicture) {
+  auto along = slew(20.0);
+  along->line = {1.0, 0.0};
+  search_.restart(false);
+  const camera::Frame now = frame(1.0);
+  const auto place = search_.send_tracker(now, pointing_, along);
+  ASSERT_TRUE(place);
+  const CameraIntrinsics& camera = config_.geometry.camera;
+  EXPECT_NEAR(place->pixel.x(), camera.cx_px, 1.0);
+  EXPECT_NEAR(place->pixel.y(), camera.cy_px, 40.0) << "a horizontal line from there";
+  EXPECT_EQ(place->sd_px, max_search_sd_px(config_));
+  tracker::TrackerOutput output;
+  output.pixel = {5.0, place->pixel.y() + 3.0 * config_.search_sd_px};
+  EXPECT_TRUE(search_.is_where_slewed(now, output, pointing_, along));
+  output.pixel.y() += 2.0 * config_.search_sd_px;
+  EXPECT_FALSE(search_.is_where_slewed(now, output, pointing_, along)) << "beside the line";
+  along->direction.elevation_rad = radians(20.0);
+  search_.restart(false);
+  EXPECT_FALSE(search_.send_tracker(now, pointing_, along)) << "it passes above the picture";
+}
+
 TEST_F(SlewSearchTest, ItsOwnTargetComesFirst) {
   test::ScriptedTracker::Script script;
   FollowedTarget target(config_, std::make_unique<test::ScriptedTracker>(script));
@@ -117,6 +139,9 @@ TEST_F(SlewSearchTest, AlarmsAfterALongSlewWithoutATarget) {
   EXPECT_NE(search_.unacquired_alarm(slew()).find("slewed for 10 s"), std::string::npos);
   EXPECT_EQ(search_.unacquired_alarm(std::nullopt), "") << "the slew has ended";
   EXPECT_EQ(search_.unacquired_alarm(slew(0.0, 1.0)), "") << "it may be outside of the picture";
+  auto along = slew();
+  along->line = {1.0, 0.0};
+  EXPECT_EQ(search_.unacquired_alarm(along), "") << "nobody knows where on the line it is";
   search_.restart(true);
   EXPECT_EQ(search_.unacquired_alarm(slew()), "") << "it tracks";
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "geometry/angles.h"
+#include "geometry/wgs84.h"
 #include "station_fixture.h"
 
 namespace ols::station {
@@ -34,6 +35,42 @@ TEST_F(StationTest, TracksAfterDesignationAndSendsBearingsAlongTheAxis) {
   EXPECT_NEAR(std::sqrt(bearing.sight.covariance_white(0, 0)), 37.5e-6, 30e-6);
   EXPECT_NEAR(std::sqrt(bearing.sight.covariance_systematic(0, 0)),
               std::hypot(radians(0.02), 75e-6), 1e-6);
+}
+
+TEST_F(StationTest, AViewerSeesTheBoxOfThisVeryFrameAndWhereTheCameraLooks) {
+  designated();
+  run_until(now_ + 0.5, true, cv::Mat(4, 4, CV_8U, cv::Scalar(9)));
+  ASSERT_TRUE(script_.last);
+  const double seen_s = script_.last->time_s;
+  const auto frame = station_.video_frame(seen_s);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->gray.at<std::uint8_t>(0, 0), 9);
+  EXPECT_EQ(frame->track_id, 1);
+  ASSERT_TRUE(frame->box);
+  EXPECT_EQ(frame->belief, script_.belief);
+  ASSERT_TRUE(frame->camera);
+  // A point 1 km away on the bearing lies on the optical axis.
+  const auto axis = enu_from_azimuth_elevation({radians(30.0), 0.0});
+  const Eigen::Vector3d point =
+      frame->camera->centre_ecef + 1000.0 * (R_ecef_enu(frame->camera->centre_ecef) * axis);
+  const Eigen::Vector3d in_camera =
+      frame->camera->R_camera_ecef * (point - frame->camera->centre_ecef);
+  EXPECT_TRUE(in_camera.isApprox(Eigen::Vector3d(0.0, 0.0, 1000.0), 1e-5)) << in_camera;
+}
+
+TEST_F(StationTest, AViewerGetsNoFrameThatTheStationRefused) {
+  designated();
+  EXPECT_FALSE(station_.video_frame(now_ + 1.0));
+}
+
+TEST_F(StationTest, WithoutATargetAViewerSeesNoBox) {
+  run_until(101.0);
+  camera::Frame frame;
+  frame.mid_exposure_s = now_;
+  station_.on_frame(frame, now_);
+  const auto shown = station_.video_frame(now_);
+  ASSERT_TRUE(shown);
+  EXPECT_FALSE(shown->box);
 }
 
 TEST_F(StationTest, ANewDesignationIsANewTrack) {
@@ -67,7 +104,7 @@ TEST_F(StationTest, DesignationOfAFrameLongGoneIsRefused) {
 TEST_F(StationTest, DesignationThatTheTrackerRefusesChangesNothing) {
   run_until(100.5);
   script_.accept = false;
-  EXPECT_EQ(station_.designate({std::nullopt, {0, 0, 0, 0}}, now_), Refusal::kBox);
+  EXPECT_EQ(station_.designate({std::nullopt, {0, 0, 1, 1}}, now_), Refusal::kBox);
   EXPECT_EQ(station_.state(), StationState::kIdle);
 }
 

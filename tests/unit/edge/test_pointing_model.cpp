@@ -2,6 +2,7 @@
 
 #include "edge/pointing_model.h"
 #include "geometry/angles.h"
+#include "tests/unit/edge/angle_sample.h"
 
 namespace ols::station {
 namespace {
@@ -13,13 +14,6 @@ StationConfig config() {
   config.geometry.sd.position_m = 0.3;
   config.limits = {-radians(159), radians(159), -radians(46), radians(31)};
   return config;
-}
-
-ptu::AngleSample sample(double time_s, const PanTilt& angles) {
-  ptu::AngleSample sample;
-  sample.time_s = time_s;
-  sample.angles = angles;
-  return sample;
 }
 
 TEST(PointingModel, BeginsWithTheConfiguredPose) {
@@ -57,7 +51,7 @@ TEST(PointingModel, AimsOnlyWithinTheTravel) {
 TEST(PointingModel, ReachesADirectionByTheCountsThatAreNear) {
   PointingModel pointing(config());
   pointing.set_limits({-radians(400), radians(400), -radians(46), radians(31)});
-  pointing.add(sample(10.0, {radians(350.0), 0.0}));
+  pointing.add(angle_sample(10.0, {radians(350.0), 0.0}));
   const auto there = pointing.reachable({radians(5.0), 0.0});
   ASSERT_TRUE(there);
   EXPECT_NEAR(degrees(there->pan_rad), 365.0, 1e-9);
@@ -79,8 +73,8 @@ TEST(PointingModel, APixelOnTheAxisIsThePrincipalPoint) {
 
 TEST(PointingModel, KnowsNoMotionAcrossForgottenAngles) {
   PointingModel pointing(config());
-  pointing.add(sample(10.0, {}));
-  pointing.add(sample(10.1, {radians(0.1), 0.0}));
+  pointing.add(angle_sample(10.0, {}));
+  pointing.add(angle_sample(10.1, {radians(0.1), 0.0}));
   const auto homography = pointing.homography(10.0, 10.1);
   ASSERT_TRUE(homography);
   EXPECT_GT((*homography / (*homography)(2, 2) - Eigen::Matrix3d::Identity()).norm(), 1.0);

@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "tests/unit/temp_dir.h"
+
 namespace ols::offline {
 namespace {
 
@@ -14,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr int kFrames = 60;
 
 fs::path clip_of(const std::string& name) {
-  const fs::path file = fs::path(testing::TempDir()) / ("frame_source_test_" + name);
+  const fs::path file = fs::path(temp_dir()) / ("frame_source_test_" + name);
   const int code = cv::VideoWriter::fourcc('m', 'p', '4', 'v');
   cv::VideoWriter writer(file.string(), cv::CAP_FFMPEG, code, 30.0, {320, 240});
   for (int frame = 0; writer.isOpened() && frame < kFrames; ++frame) {

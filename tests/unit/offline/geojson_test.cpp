@@ -9,6 +9,7 @@
 #include <string>
 
 #include "geometry/angles.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::offline {
 namespace {
@@ -29,7 +30,7 @@ class GeoJson : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove(path_); }
 
-  std::string path_ = testing::TempDir() + "geojson_test_" +
+  std::string path_ = temp_dir() + "geojson_test_" +
                       testing::UnitTest::GetInstance()->current_test_info()->name() + ".geojson";
 };
 

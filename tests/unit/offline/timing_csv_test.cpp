@@ -6,11 +6,13 @@
 #include <cstdio>
 #include <fstream>
 
+#include "tests/unit/temp_dir.h"
+
 namespace ols::offline {
 namespace {
 
 TEST(TimingCsv, ARowIsInMillisecondsWithAColumnForEachStage) {
-  const std::string path = testing::TempDir() + "timing_csv_test.csv";
+  const std::string path = temp_dir() + "timing_csv_test.csv";
   tracker::Tracker tracker({}, 1);
   TimingFile file(path, tracker);
   tracker::StageTimes stages;

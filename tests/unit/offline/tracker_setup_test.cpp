@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/toml_config.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::offline {
 namespace {
@@ -17,7 +18,7 @@ class TrackerSetupTest : public testing::Test {
   void file_has(const std::string& text) const { std::ofstream(path_) << text; }
   ~TrackerSetupTest() override { std::remove(path_.c_str()); }
   const std::string path_ =
-      testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
+      temp_dir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
 };
 
 TEST_F(TrackerSetupTest, TheCommandLineOverridesTheFile) {

@@ -11,6 +11,7 @@
 
 #include "edge/ptu/serial_port.h"
 #include "tests/unit/sim/ptu_master.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::sim {
 namespace {
@@ -37,7 +38,7 @@ bool answers(ptu::SerialPort& port, const std::string& request, const std::strin
 }
 
 TEST(PtuLine, VanishesAndComesBackUnderItsLink) {
-  const std::string link = testing::TempDir() + "ols_ptu_line_" + std::to_string(::getpid());
+  const std::string link = temp_dir() + "ols_ptu_line_" + std::to_string(::getpid());
   PtuLine line(ready_unit(), 1, link);
   ptu::SerialPort before(link, 9600);
   PtuFaults gone;

@@ -18,6 +18,7 @@
 #include "sim/ptu_line.h"
 #include "sim/ptu_tap_watch.h"
 #include "tests/unit/sim/ptu_master.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::sim {
 namespace {
@@ -38,7 +39,7 @@ bool soon(const auto& condition) {
 }
 
 std::string path(const std::string& name) {
-  return testing::TempDir() + "ols_tap_" + name + std::to_string(::getpid());
+  return temp_dir() + "ols_tap_" + name + std::to_string(::getpid());
 }
 
 bool exists(const std::string& link) {

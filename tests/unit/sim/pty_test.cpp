@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "tests/unit/temp_dir.h"
+
 namespace ols::sim {
 namespace {
 
@@ -41,7 +43,7 @@ std::string heard(Pty& pty) {
   return pty.read();
 }
 
-std::string link_path() { return testing::TempDir() + "ols_pty_" + std::to_string(::getpid()); }
+std::string link_path() { return temp_dir() + "ols_pty_" + std::to_string(::getpid()); }
 
 TEST(Pty, CarriesEveryByteBothWays) {
   Pty pty;

@@ -10,6 +10,7 @@
 #include "base/clocks.h"
 #include "ols_msg/truth_target_t.hpp"
 #include "sim/live_site.h"
+#include "tests/unit/temp_dir.h"
 
 namespace {
 std::atomic<std::int64_t> utc_step_s{0};
@@ -42,7 +43,7 @@ TEST(LiveSite, SteppedHostClockMovesNeitherTargetNorItsStamp) {
   ols_msg::truth_target_t received{};
   bus.subscribe("OLS_SIM_TRUTH",
                 [&](const BusMessage& message) { EXPECT_TRUE(decode_exactly(message, received)); });
-  LiveSite site(world, testing::TempDir() + "ols_live_site_" + std::to_string(::getpid()), bus);
+  LiveSite site(world, temp_dir() + "ols_live_site_" + std::to_string(::getpid()), bus);
 
   const std::int64_t utc_us = clock_utime_us();
   const auto before = published(site, bus, received);

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "sim/report.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::sim {
 namespace {
@@ -41,7 +42,7 @@ std::string contents(const std::filesystem::path& path) {
 std::string written(const Scenario& s, std::uint64_t seed, const Fidelity& fidelity,
                     double seconds) {
   const auto folder =
-      std::filesystem::path(::testing::TempDir()) / ("lockstep_" + std::to_string(::getpid()));
+      std::filesystem::path(temp_dir()) / ("lockstep_" + std::to_string(::getpid()));
   const World world(s, seed);
   Lockstep lockstep(world, fidelity);
   lockstep.run(seconds);

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <stdexcept>
 
 #include "base/toml_config.h"
@@ -35,10 +36,12 @@ std::string error_of(const std::string& text) {
 }
 
 TEST(Scenario, ShippedOnesLoad) {
-  for (const std::string name : {"fig7", "servo", "skyline", "faults", "small"}) {
+  const std::map<std::string, std::size_t> stations{{"fig7", 4},    {"overview", 5}, {"servo", 4},
+                                                    {"skyline", 4}, {"faults", 4},   {"small", 2}};
+  for (const auto& [name, count] : stations) {
     const Scenario s = load_scenario(std::string(OLS_SCENARIOS) + "/" + name + ".toml");
     EXPECT_EQ(s.name, name);
-    EXPECT_EQ(s.stations.size(), name == "small" ? 2U : 4U);
+    EXPECT_EQ(s.stations.size(), count);
     EXPECT_EQ(s.targets.size(), 1U);
   }
 }

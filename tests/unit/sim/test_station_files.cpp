@@ -5,14 +5,14 @@
 #include "edge/config.h"
 #include "edge/persisted_station_state.h"
 #include "sim/station_files.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::sim {
 namespace {
 
 TEST(StationFiles, AreReadByTheStationAsTheNominalGeometry) {
   const World world(load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml"), 5);
-  const auto folder =
-      std::filesystem::path(::testing::TempDir()) / ("files_" + std::to_string(::getpid()));
+  const auto folder = std::filesystem::path(temp_dir()) / ("files_" + std::to_string(::getpid()));
   const std::string state = folder / "state";
   write_station_files(world, {"udpm://239.255.76.67:7667?ttl=0", "/tmp/lines", state}, folder);
   for (const StationTruth& truth : world.stations()) {

@@ -6,6 +6,7 @@
 #include "base/toml_config.h"
 #include "geometry/angles.h"
 #include "sim/trajectory_file.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::sim {
 namespace {
@@ -22,13 +23,13 @@ class TrajectoryFile : public ::testing::Test {
     try {
       load(text);
     } catch (const ConfigError& error) {
-      return std::string(error.what()).substr(testing::TempDir().size());
+      return std::string(error.what()).substr(temp_dir().size());
     }
     return "";
   }
   LocalFrame site_{{radians(49.0), radians(16.0), 300.0}};
   const std::string path_ =
-      testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name();
+      temp_dir() + testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(TrajectoryFile, BeginsAtItsFirstRow) {

@@ -2,13 +2,17 @@
 
 import argparse
 import json
+import os
 import signal
 import sys
 import time
 from pathlib import Path
 
+import ols
+
 from ols_demo import evaluate, plot, recording
 from ols_demo.bus import LIVE_URL, Bus
+from ols_demo.doorway import VARIABLE
 from ols_demo.live import Screen
 from ols_demo.observer import Observer
 from ols_demo.operator import Operator
@@ -23,10 +27,12 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="tools/demo", description=__doc__)
     root = Path(__file__).resolve().parents[3]
     parser.add_argument("--seconds", type=float, default=60.0, help="to run after designation [s]")
-    parser.add_argument("--headless", action="store_true", help="no live picture in the terminal")
+    parser.add_argument(
+        "--headless", action="store_true", help="neither console nor live picture in the terminal"
+    )
     parser.add_argument("--report", type=Path, help="JSON file; a plot is written beside it")
     parser.add_argument(
-        "--scenario", type=Path, default=root / "sim/scenarios/fig7.toml", help="TOML file"
+        "--scenario", type=Path, default=root / "sim/scenarios/overview.toml", help="TOML file"
     )
     parser.add_argument("--seed", type=int, default=1, help="of the simulated errors")
     parser.add_argument(
@@ -38,17 +44,21 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "--patience", type=float, default=DESIGNATION_S, help="until all stations track [s]"
     )
+    parser.add_argument(
+        "--console-only", type=Path, metavar="LOG", help="only replay this log on the console"
+    )
     return parser.parse_args()
 
 
 class Run:
     """One run of the site, from start to the report."""
 
-    def __init__(self, options: argparse.Namespace):
+    def __init__(self, options: argparse.Namespace, keys: str):
+        """keys: the folder of the site's throw-away keys."""
         self.options = options
         self.observer = Observer()
-        self.bus = Bus(LIVE_URL, self.observer.receive)
-        self.operator = Operator(self.bus.lcm, self.observer, options.seed)
+        self.bus = Bus(LIVE_URL, self.observer.receive, ols.Trust(keys, "operator", 1))
+        self.operator = Operator(self.bus, self.observer, options.seed)
         self.screen = None if options.headless else Screen()
         self._draw_due = 0.0
 
@@ -79,6 +89,12 @@ class Run:
             left = end - time.monotonic()
             self.turn(site, f"tracking, {left:.0f} s left")
         return start_us, time.time_ns() // 1000
+
+
+def doorway() -> int | None:
+    """The socket that ols_demo.doorway has opened for browsers, if the demo was started by it."""
+    number = os.environ.get(VARIABLE)
+    return int(number) if number else None
 
 
 def write_report(options: argparse.Namespace, window: tuple[int, int], log: Path) -> dict:
@@ -123,16 +139,39 @@ def summary(result: dict) -> str:
     return "\n".join(lines)
 
 
+def replay(options: argparse.Namespace) -> int:
+    """Shows a recorded log on the console until it is interrupted."""
+    wiring = Wiring(options.bin, options.scenario, options.seed, options.output)
+    try:
+        bring_up_loopback([])
+        with Site(options.output / "replay-logs") as site:
+            address = wiring.start_console(site, doorway(), replay=options.console_only.resolve())
+            print(f"the console replays it in a browser: {address}", flush=True)
+            while True:
+                time.sleep(DRAW_S)
+                site.check()
+    except SiteError as error:
+        print(f"tools/demo: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 0
+
+
 def main() -> int:
     options = arguments()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
-    wiring = Wiring(options.bin, options.scenario, options.seed, options.output)
+    if options.console_only:
+        return replay(options)
+    wiring = Wiring(options.bin, options.scenario, options.seed, options.output, signed=True)
     try:
         bring_up_loopback(wiring.prepare())
         with Site(options.output / "logs") as site:
             wiring.start(site)
-            run = Run(options)
-            run.designate(site, wiring.stations)
+            if not options.headless:
+                address = wiring.start_console(site, doorway())
+                print(f"the console shows it in a browser: {address}", flush=True)
+            run = Run(options, wiring.keys["OLS_KEYS"])
+            run.designate(site, wiring.tracking_stations)
             window = run.watch(site)
             print("ending the processes")
         result = write_report(options, window, wiring.log)

@@ -15,6 +15,8 @@ TYPES: list[tuple[str, Any]] = [
     (r"OLS_STATUS_.+", ols_msg.station_status_t),
     (r"OLS_TARGET(_PAPER)?", ols_msg.target_t),
     (r"OLS_FUSION_STATUS", ols_msg.fusion_status_t),
+    (r"OLS_CUE", ols_msg.cue_t),
+    (r"OLS_CUE_ORDER", ols_msg.cue_order_t),
     (r"OLS_SIM_TRUTH", ols_msg.truth_target_t),
     (r"OLS_SIM_VIEW_.+", ols_msg.truth_view_t),
     (r"OLS_SIM_PTU_.+", ols_msg.truth_ptu_t),
@@ -41,14 +43,18 @@ def counters(status: Any) -> dict[str, float]:
 class Bus:
     """Calls `handler(channel, message)` for every message that is known."""
 
-    def __init__(self, url: str, handler: Callable[[str, Any], None]):
+    def __init__(self, url: str, handler: Callable[[str, Any], None], trust: Any = None):
+        """trust: an ols.Trust or keys.Members, by whose keys `publish` signs."""
         self.lcm = lcm.LCM(url)
-        self._handler = handler
+        self._handler, self._trust = handler, trust
         self.undecodable = 0
         for pattern, _ in TYPES:
             self.lcm.subscribe(pattern, self._receive).set_queue_capacity(1000)
 
     def _receive(self, channel: str, data: bytes) -> None:
+        # For the stations' boots, which commands must name. Whoever only looks believes everything.
+        if self._trust is not None and channel.startswith("OLS_STATUS_"):
+            self._trust.hear(channel, data)
         try:
             message = decode(channel, data)
         except (ValueError, struct.error):  # any program can send anything on any channel
@@ -56,6 +62,9 @@ class Bus:
             return
         if message is not None:
             self._handler(channel, message)
+
+    def publish(self, channel: str, data: bytes) -> None:
+        self.lcm.publish(channel, self._trust.sign(channel, data) if self._trust else data)
 
     def handle(self, timeout_s: float) -> None:
         """Handles what has arrived, waiting at most timeout_s for the first."""

@@ -42,10 +42,18 @@ class Operator:
         for station in list(self._observer.status):
             if stations is not None and station not in stations:
                 continue
-            if self._observer.state(station) == "tracking":
+            if self._observer.status[station].kind == ols_msg.station_status_t.KIND_OVERVIEW:
+                self._aim_once(station)
+            elif self._observer.state(station) == "tracking":
                 self.tracking.add(station)
             elif station not in self.tracking:
                 self._attend(station)
+
+    def _aim_once(self, station: str) -> None:
+        """Afterwards it belongs to whoever looks at the console."""
+        if station not in self._pointed and self._observer.truth is not None:
+            self._point(station)
+            self._pointed[station] = time.monotonic()
 
     def _attend(self, station: str) -> None:
         now = time.monotonic()

@@ -36,9 +36,13 @@ class Site:
     processes: dict[str, subprocess.Popen] = field(default_factory=dict)
 
     def start(
-        self, name: str, command: list[str], environment: dict[str, str] | None = None
+        self,
+        name: str,
+        command: list[str],
+        environment: dict[str, str] | None = None,
+        keep: tuple[int, ...] = (),
     ) -> int:
-        """Returns how long the log was before."""
+        """Returns how long the log was before. `keep`: descriptors that the process inherits."""
         self.logs.mkdir(parents=True, exist_ok=True)
         with open(self.logs / f"{name}.log", "ab") as out:
             before = out.tell()
@@ -48,6 +52,7 @@ class Site:
                 stdout=out,
                 stderr=subprocess.STDOUT,
                 env={**os.environ, **(environment or {})},
+                pass_fds=keep,
             )
         return before
 
@@ -57,9 +62,10 @@ class Site:
         command: list[str],
         ready: str,
         environment: dict[str, str] | None = None,
+        keep: tuple[int, ...] = (),
     ) -> None:
         """Waits until the process has said a line with `ready`."""
-        before = self.start(name, command, environment)
+        before = self.start(name, command, environment, keep)
         deadline = time.monotonic() + READY_S
         log = self.logs / f"{name}.log"
         while ready not in log.read_bytes()[before:].decode(errors="replace"):

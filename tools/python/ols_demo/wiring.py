@@ -1,12 +1,14 @@
 """Which processes make a site, and with which configuration."""
 
 import os
+import re
 import shutil
 import subprocess
 import tomllib
 from pathlib import Path
 
 from ols_demo.bus import LIVE_URL
+from ols_demo.keys import make_keys
 from ols_demo.site import Site, SiteError
 
 GPSD = shutil.which("gpsd", path=os.environ["PATH"] + ":/usr/sbin")
@@ -15,8 +17,13 @@ GPSD = shutil.which("gpsd", path=os.environ["PATH"] + ":/usr/sbin")
 class Wiring:
     """The processes of a scenario: simulator, stations, fusion, logger."""
 
-    def __init__(self, binaries: Path, scenario: Path, seed: int, output: Path):
-        self._bin, self._scenario, self._seed = binaries, scenario, seed
+    def __init__(
+        self, binaries: Path, scenario: Path, seed: int, output: Path, signed: bool = False
+    ):
+        """signed: all processes sign, by keys that are made for this run, and require it of the
+        others. Else as the environment says."""
+        self._bin, self._scenario, self._seed, self._signed = binaries, scenario, seed, signed
+        self.keys: dict[str, str] = {}  # the environment of all processes
         self._output = output.resolve()
         self.configs: dict[str, Path] = {}
         self.log = self._output / "run.lcmlog"
@@ -24,6 +31,12 @@ class Wiring:
     @property
     def stations(self) -> list[str]:
         return sorted(self.configs)
+
+    @property
+    def tracking_stations(self) -> list[str]:
+        """All but those that a person drives."""
+        kinds = {name: tomllib.loads(path.read_text()) for name, path in self.configs.items()}
+        return sorted(n for n, config in kinds.items() if config.get("kind") != "overview")
 
     def _sim(self, *options: str) -> list[str]:
         return [
@@ -50,6 +63,10 @@ class Wiring:
         if done.returncode != 0:
             raise SiteError(done.stderr.strip() or "ols-sim failed")
         self.configs = {path.stem: path for path in sorted(folder.glob("*.toml"))}
+        if self._signed:
+            keys = self._output / "keys"
+            shutil.rmtree(keys, ignore_errors=True)
+            self.keys = make_keys(self._bin, keys, self.stations)
         return [
             tomllib.loads(path.read_text())["camera"]["device"] for path in self.configs.values()
         ]
@@ -59,7 +76,7 @@ class Wiring:
         print(f"starting simulator, {len(self.configs)} stations, fusion and logger", flush=True)
         if log:
             self.start_log(site)
-        site.start_and_wait("ols-sim", self._sim(), "ready")
+        site.start_and_wait("ols-sim", self._sim(), "ready", self.keys)
         self._start_gpsds(site)
         self.start_fusion(site)
         for name in self.configs:
@@ -74,13 +91,33 @@ class Wiring:
 
     def start_fusion(self, site: Site, url: str = LIVE_URL, name: str = "ols-fusion") -> None:
         command = [str(self._bin / "ols-fusion"), "--lcm-url", url]
-        site.start_and_wait(name, command, "ready")
+        site.start_and_wait(name, command, "ready", self.keys)
 
     def start_station(
         self, site: Site, name: str, environment: dict[str, str] | None = None
     ) -> None:
         command = [str(self._bin / "ols-station"), "--config", str(self.configs[name])]
+        environment = {**self.keys, **(environment or {})}
         site.start_and_wait(f"ols-station-{name}", command, "ready", environment)
+
+    def start_console(
+        self, site: Site, socket: int | None = None, port: int = 0, replay: Path | None = None
+    ) -> str:
+        """The console's address. `socket`: a listening one that it is to serve (doorway.py).
+        `replay`: a log that it shows instead of the bus."""
+        command = [str(self._bin / "ols-console"), "--lcm-url", LIVE_URL]
+        command += ["--replay", str(replay)] if replay else []
+        command += ["--users", str(self._output / "console-users")]
+        if socket is None:
+            command += ["--port", str(port)]
+            site.start_and_wait("ols-console", command, "ready", self.keys)
+        else:
+            # As systemd hands a socket over: descriptor 3, for this very process.
+            hand_over = f'exec 3<&{socket} && LISTEN_PID=$$ LISTEN_FDS=1 exec "$@"'
+            command = ["/bin/sh", "-c", hand_over, "sh", *command]
+            site.start_and_wait("ols-console", command, "ready", self.keys, keep=(socket,))
+        said = (site.logs / "ols-console.log").read_text()
+        return re.findall(r"ready: (\S+)", said)[-1]
 
     def program(self, name: str) -> str:
         return str(self._bin / name)

@@ -6,6 +6,7 @@
 
 #include "base/toml_config.h"
 #include "central/app/fusion_settings.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::fusion {
 namespace {
@@ -30,12 +31,12 @@ class FusionSettingsTest : public testing::Test {
   }
 
  private:
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) /
+  std::filesystem::path folder_ = std::filesystem::path(temp_dir()) /
                                   testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 const std::vector<Motion>& models(const FusionSettings& settings) {
-  return settings.fusion.keeper.filter.motion.models;
+  return settings.fusion.tracks.filter.motion.models;
 }
 
 TEST_F(FusionSettingsTest, AllModelsAreMixedByDefault) {

@@ -50,6 +50,40 @@ TEST(BiasModel, KeepTheGuessWhereTheGeometryShowsNothing) {
   EXPECT_NEAR(learnt_sd(0.0, 1.0), guess, 0.01 * guess);
 }
 
+TEST(BiasModel, NoiseThatIsNotNewInEachBearingIsBias) {
+  BiasModel white, coloured;
+  for (int i = 0; i < 1000; ++i) {
+    white.observe_noise("a", 1.0);
+    coloured.observe_noise("a", 0.01);
+  }
+  EXPECT_DOUBLE_EQ(white.white_share("a"), 1.0);
+  EXPECT_LT(coloured.white_share("a"), 0.1);
+  const double guess = std::pow(BiasModelConfig{}.least_over_noise, 2);
+  const double share = coloured.prior("a", sight(), 500.0).covariance(0, 0) / (kNoise * kNoise);
+  EXPECT_NEAR(share, guess + 1.0 - coloured.greatest_white_share("a"), 0.05);
+  EXPECT_NEAR(white.prior("a", sight(), 500.0).covariance(0, 0), guess * kNoise * kNoise, 1e-12);
+}
+
+// What a bearing is taken with as white, and what is kept as bias, are together what is stated, or
+// what shows if that is more.
+TEST(BiasModel, NoVarianceIsLostBetweenNoiseAndBias) {
+  for (const double shown : {0.5, 1.0, 4.0}) {
+    for (const int bearings : {20, 2000}) {
+      BiasModel model;
+      for (int i = 0; i < bearings; ++i) {
+        model.observe_noise("a", 0.1);
+        model.observe_residual("a", shown / model.noise_scale("a"));
+      }
+      const double scale = model.noise_scale("a");
+      const double white = scale * model.greatest_white_share("a");
+      const double guess = std::pow(BiasModelConfig{}.least_over_noise, 2);
+      const double slow =
+          model.prior("a", sight(), 500.0).covariance(0, 0) / (kNoise * kNoise) - guess;
+      EXPECT_NEAR(white + slow, std::max(1.0, scale), 1e-6) << shown << ' ' << bearings;
+    }
+  }
+}
+
 TEST(BiasModel, ForgetAStation) {
   BiasModel errors;
   const double before = errors.prior("a", sight(), 500.0).covariance.trace();

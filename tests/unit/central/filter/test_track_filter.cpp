@@ -305,6 +305,16 @@ TEST(TrackFilter, TellsWhatErrorsThatNobodyStatedMakeOfItsCovariance) {
   EXPECT_GT(part.empirical_m2.trace(), 0.5 * part.all_m2.trace());
 }
 
+// The thirteenth station's bearings that a filter has used; and how many stations it counts.
+std::pair<int, int> used_and_stations(const TrackFilter& filter) {
+  int used = 0, stations = 0;
+  filter.each_station([&](const FilterStation& station) {
+    ++stations;
+    if (station.station == "m") used += station.used;
+  });
+  return {used, stations};
+}
+
 // Twelve have states; the bias of a thirteenth counts as noise until one of them is silent.
 TEST(TrackFilter, AThirteenthStationCountsWithoutStates) {
   const auto bearing = [](int station, double t_s) {
@@ -330,6 +340,7 @@ TEST(TrackFilter, AThirteenthStationCountsWithoutStates) {
     beside.sight.direction.elevation_rad += 0.05;
     EXPECT_EQ(feed(filter, beside, errors), BearingUse::kRejected);
   }
+  EXPECT_EQ(used_and_stations(filter), std::make_pair(20, 13));
   BearingUse last = BearingUse::kRejected;
   for (const double end_s = t_s + 1.2; t_s < end_s; t_s += 0.1) {
     for (int i = 1; i < 12; ++i) feed(filter, bearing(i, t_s), errors);
@@ -337,6 +348,7 @@ TEST(TrackFilter, AThirteenthStationCountsWithoutStates) {
   }
   EXPECT_EQ(last, BearingUse::kUsed);
   EXPECT_EQ(filter.stations().front().station, "m");
+  EXPECT_EQ(used_and_stations(filter).second, 12);
   EXPECT_LT(error(filter, filter.utime_us()).norm(), 0.1);
 }
 

@@ -223,7 +223,7 @@ TEST(Fusion, WhatARestartedStationFollowsIsNotWhatItFollowedBefore) {
       EXPECT_LT(error_m(target), 0.05);
     }
     EXPECT_EQ(fusion.health().counters.at("stations_restarted"), boot_after == 5 ? 0.0 : 1.0);
-    return fusion.tracks().counts().set_aside;
+    return fusion.tracks().counts().rejected;
   };
   EXPECT_GT(set_aside(5), 10);
   EXPECT_EQ(set_aside(6), 0);

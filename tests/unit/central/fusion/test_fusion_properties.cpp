@@ -23,7 +23,7 @@ std::vector<FusedTarget> fused(const std::vector<BearingMeasurement>& measuremen
   OfflineConfig config;
   config.estimator = estimator;
   config.rate_hz = 5.0;
-  MotionConfig& motion = config.fusion.keeper.filter.motion;
+  MotionConfig& motion = config.fusion.tracks.filter.motion;
   motion.acceleration_sd_m_s2 *= scale;
   motion.cruise_sd_m_s2 *= scale;
   AlignmentConfig& alignment = config.fusion.estimators.alignment;

@@ -95,7 +95,7 @@ TEST(PoseErrors, APlaceThatIsOffIsNotTakenForARotation) {
   EXPECT_GT(apart.nees, 0.4);
   EXPECT_LT(apart.nees, 1.6);
   OfflineConfig within;
-  within.fusion.keeper.filter.place_share = std::numeric_limits<double>::infinity();
+  within.fusion.tracks.filter.place_share = std::numeric_limits<double>::infinity();
   EXPECT_GT(fly(world, within).nees, 3.0 * apart.nees) << "and this is why";
 }
 

@@ -153,16 +153,63 @@ TEST(SlewPlanner, ASearchStaysADirectionWhenNowFallsBack) {
   EXPECT_TRUE(std::isfinite(slews[0].direction.elevation_rad));
 }
 
-// There is no position: the others search along the only ray, from near to far and back.
+CueRay ray_of_a(const Vector3d& from, const Vector3d& toward) {
+  return {"a", 1, kStart, site().to_ecef(from), (site().R_ecef_enu() * toward).normalized()};
+}
+
+// Another object on the same station's ray is searched for from the beginning.
+TEST(SlewPlanner, ASecondLookAlongARayBeginsAnew) {
+  SlewPlanner used, fresh;
+  const std::vector<SlewStation> stations = {station_at("b", {400, 0, 0})};
+  SlewRound round{.now_us = kStart,
+                  .ray = ray_of_a({0, -400, 0}, {0.1, 1.0, 0.0}),
+                  .prior = {400.0, 100.0},
+                  .shares = {{"b", {0, 1}}}};
+  static_cast<void>(used.plan(round, stations, {}));
+  round.now_us = kStart + 30'000'000;
+  round.ray = ray_of_a({0, -400, 0}, {-0.3, 1.0, 0.1});
+  round.ray->utime_us = round.now_us;
+  round.ray->track_id = 2;
+  const auto again = used.plan(round, stations, {}), first = fresh.plan(round, stations, {});
+  ASSERT_EQ(again.size(), 1U);
+  ASSERT_EQ(first.size(), 1U);
+  EXPECT_EQ(again[0].direction.azimuth_rad, first[0].direction.azimuth_rad);
+  EXPECT_EQ(again[0].direction.elevation_rad, first[0].direction.elevation_rad);
+}
+
+// A target is likeliest where the stations are placed to see it.
+TEST(SlewPlanner, ASearchAlongARayBeginsWhereItPassesTheStations) {
+  SlewPlanner planner;
+  const std::vector<SlewStation> stations = {station_at("b", {400, 0, 0}),
+                                             station_at("c", {-400, 0, 0})};
+  SlewRound round{.now_us = kStart,
+                  .ray = ray_of_a({0, -400, 0}, {0.1, 1.0, 0.0}),
+                  .prior = {400.0, 100.0},
+                  .shares = {{"b", {0, 2}}, {"c", {1, 2}}}};
+  const auto slews = planner.plan(round, stations, {});
+  ASSERT_EQ(slews.size(), 2U);
+  for (const Slew& slew : slews) {
+    const Vector3d camera(slew.station == "b" ? 400 : -400, 0, 0);
+    const Vector3d begin(40, 0, 0);
+    const Vector3d line = enu_from_azimuth_elevation(slew.direction);
+    EXPECT_LT(angle_between(line, begin - camera), 0.02) << slew.station;
+    EXPECT_EQ(slew.target_id, 0);
+    EXPECT_NEAR(slew.line.norm(), 1.0, 1e-9);
+    EXPECT_LE(std::abs(slew.azimuth_rate_rad_s), kSlewRateLimit_rad_s);
+  }
+}
+
+// There is no position: the others search along the only ray, from end to end.
 TEST(SlewPlanner, SearchesAlongARayWithinItsPlane) {
   SlewPlanner planner;
   const Vector3d from(0, 0, 0), camera(400, 0, 0);
   const Vector3d toward(0.0, 0.9, 0.2);
-  const CueRay ray{"a", site().to_ecef(from), (site().R_ecef_enu() * toward).normalized()};
   const std::vector<SlewStation> stations = {station_at("a", from), station_at("b", camera)};
   double nearest = 10.0, farthest = 0.0;
   for (int i = 0; i < 2000; ++i) {
-    SlewRound round{.now_us = kStart + i * 100'000, .bearing_only_stations = {"a"}, .ray = ray};
+    SlewRound round{.now_us = kStart + i * 100'000,
+                    .bearing_only_stations = {"a"},
+                    .ray = ray_of_a(from, toward)};
     const auto slews = planner.plan(round, stations, {});
     ASSERT_EQ(slews.size(), 1U);  // not for the one that sees it
     EXPECT_EQ(slews[0].station, "b");
@@ -176,6 +223,24 @@ TEST(SlewPlanner, SearchesAlongARayWithinItsPlane) {
   }
   EXPECT_LT(nearest, 0.1);
   EXPECT_GT(farthest, 1.3);
+}
+
+// Another ray is another search, from its own beginning.
+TEST(SlewPlanner, AnotherRayBeginsTheSearchAnew) {
+  SlewPlanner planner;
+  const SlewStation b = station_at("b", {400, 0, 0});
+  SlewRound round{.now_us = kStart, .ray = ray_of_a({0, -400, 0}, {0.0, 1.0, 0.1})};
+  const Slew first = planner.plan(round, std::vector{b}, {}).at(0);
+  round.now_us += 5'000'000;
+  EXPECT_GT(angle_between(
+                enu_from_azimuth_elevation(planner.plan(round, std::vector{b}, {})[0].direction),
+                enu_from_azimuth_elevation(first.direction)),
+            0.1);
+  round.ray->station = "c";
+  EXPECT_LT(angle_between(
+                enu_from_azimuth_elevation(planner.plan(round, std::vector{b}, {})[0].direction),
+                enu_from_azimuth_elevation(first.direction)),
+            1e-3);
 }
 
 TEST(SlewPlanner, IsNoSurerThanTheStationsPlaceIsKnown) {

@@ -183,11 +183,11 @@ TEST(TwoStations, OfWhichOneIsHeardOfLateAreNotLedAstrayAtTheStart) {
     std::ranges::stable_sort(seen, {}, [&](const BearingMeasurement& s) {
       return s.utime_us + (s.station == "s1" ? kLateUs : 0);
     });
-    TrackInitiation birth({}, {});
+    TrackInitiation initiation({}, {});
     BiasModel errors;
     std::optional<TrackStart> start;
     for (auto s = seen.begin(); s != seen.end() && !start; ++s)
-      start = birth.add(*s, errors, false);
+      start = initiation.add(*s, errors, false);
     ASSERT_TRUE(start) << seed;
     const KinematicState& state = start->track.filter.summary();
     const double time_s = 1e-6 * static_cast<double>(state.utime_us - kStartUs);

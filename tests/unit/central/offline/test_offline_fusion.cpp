@@ -99,7 +99,7 @@ TEST(OfflineFusion, LeavesRoomForWhatAllStationsHaveInCommon) {
     s.sight.direction.elevation_rad += (s.station == "a" || s.station == "c") ? 1e-3 : -1e-3;
   }
   OfflineConfig none, some;
-  none.fusion.keeper.filter.common_mode = 0.0;
+  none.fusion.tracks.filter.common_mode = 0.0;
   const Estimate before = fuse_offline(measurements, none).back().estimate;
   const Estimate after = fuse_offline(measurements, some).back().estimate;
   EXPECT_EQ(before.position_ecef, after.position_ecef);
@@ -307,6 +307,36 @@ TEST(OfflineFusion, NothingGivesNothing) {
   std::erase_if(alone,
                 [](const BearingMeasurement& measurement) { return measurement.station != "a"; });
   EXPECT_TRUE(fuse_offline(alone, {}).empty());
+}
+
+// Two cameras 15 m apart state slow errors as noise. The bearings themselves are smooth, and show a
+// motion that noise of the stated size would hide.
+TEST(OfflineFusion, TwoStationsFollowAManoeuvreThatTheStatedNoiseWouldHide) {
+  constexpr double kStated = 4e-3, kTrue = 2e-5, kSwingM = 12.0;
+  const auto range_m = [](double t_s) { return 150.0 + kSwingM * std::sin(0.5 * t_s); };
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<BearingMeasurement> measurements;
+  for (int i = 0; i < 15 * 60; ++i) {
+    const double t_s = i / 15.0;
+    for (const double east_m : {-7.5, 7.5}) {
+      Ray ray = ray_to(east_m < 0.0 ? "a" : "b", {east_m, 0.0, 0.0},
+                       {0.5 * t_s, range_m(t_s), 40.0}, kStated);
+      ray = test::turned(ray, kTrue * normal(random), kTrue * normal(random));
+      measurements.push_back(measurement_of(ray, kStart + std::llround(t_s * 1e6)));
+    }
+  }
+  double squared = 0.0;
+  int count = 0;
+  for (const FusedTarget& target : fuse_offline(measurements, OfflineConfig{})) {
+    const double t_s = static_cast<double>(target.utime_us - kStart) * 1e-6;
+    if (t_s < 20.0) continue;
+    const double north_m = site().to_enu(target.estimate.position_ecef).y();
+    squared += std::pow(north_m - range_m(t_s), 2);
+    ++count;
+  }
+  ASSERT_GT(count, 500);
+  EXPECT_LT(std::sqrt(squared / count), 0.3);
 }
 
 }  // namespace

@@ -1,5 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+
 #include "central/offline/smoother.h"
 #include "tests/unit/central/flight.h"
 
@@ -75,6 +80,82 @@ TEST(Smoother, CountsWhyThereIsNoPosition) {
   for (const auto& [why, count] : unlocated) sum += count;
   EXPECT_EQ(sum, 9U);
   EXPECT_TRUE(smooth({}, {}, {}, nothing_known(), unlocated).empty());
+}
+
+// Twenty stations around the flight, each ten times a second: more than have states of their own.
+// The forward filter gives those to the first twelve, the backward one to the last.
+constexpr int kTwenty = 20;
+
+// Their headings are off by what they state.
+std::vector<BearingMeasurement> of_twenty(double seconds, double heading_sd_rad) {
+  std::mt19937_64 random(6);
+  std::normal_distribution<double> normal;
+  std::array<double, kTwenty> heading{};
+  for (double& own : heading) own = heading_sd_rad * normal(random);
+  std::vector<BearingMeasurement> bearings;
+  for (int i = 0; i < static_cast<int>(seconds * 10.0) * kTwenty; ++i) {
+    const auto station = static_cast<std::size_t>(i % kTwenty);
+    const double t_s = i / (10.0 * kTwenty), angle = 2.0 * kPi * (i % kTwenty) / kTwenty;
+    const Eigen::Vector3d place(300.0 * std::cos(angle), 300.0 * std::sin(angle), 0.0);
+    Ray ray = ray_to(std::to_string(station), place, path(t_s), kNoise);
+    ray.sight.direction.azimuth_rad += heading[station];
+    ray = turned(ray, kNoise * normal(random), kNoise * normal(random));
+    const double cosine = std::cos(ray.sight.direction.elevation_rad);
+    ray.sight.covariance_systematic(0, 0) = std::pow(heading_sd_rad * cosine, 2);
+    bearings.push_back(measurement_of(ray, kStart + std::llround(t_s * 1e6)));
+  }
+  return bearings;
+}
+
+// Mean squared error, and its ratio to what is stated.
+struct Score {
+  double squared_m2 = 0.0, over_stated = 0.0;
+};
+
+Score score_of(const std::vector<Smoothed>& fixes) {
+  Score score;
+  for (const Smoothed& fix : fixes) {
+    const double t_s = static_cast<double>(fix.utime_us - kStart) * 1e-6;
+    const Eigen::Vector3d off = fix.located.estimate.position_ecef - site().to_ecef(path(t_s));
+    const double count = static_cast<double>(fixes.size());
+    score.squared_m2 += off.squaredNorm() / count;
+    score.over_stated += off.squaredNorm() / fix.located.estimate.covariance_ecef.trace() / count;
+  }
+  return score;
+}
+
+std::vector<Smoothed> smooth_twenty(double heading_sd_rad) {
+  const auto bearings = of_twenty(4.0, heading_sd_rad);
+  Unlocated unlocated;
+  auto fixes = smooth(bearings, every_tenth_of(4.0), {}, nothing_known(), unlocated);
+  EXPECT_GE(fixes.size(), 38U);
+  return fixes;
+}
+
+// What the surer filter has no states for is known from the other one.
+TEST(Smoother, OfTwentyStationsWithHeadingsOff) {
+  const Score score = score_of(smooth_twenty(5e-3));
+  EXPECT_LT(std::sqrt(score.squared_m2), 0.1);
+  EXPECT_LT(score.over_stated, 1.5);
+}
+
+// All are reported, whether a filter has states for them or not.
+TEST(Smoother, OfTwentyStations) {
+  const auto bearings = of_twenty(4.0, 0.0);
+  Unlocated unlocated;
+  const auto fixes = smooth(bearings, every_tenth_of(4.0), {}, nothing_known(), unlocated);
+  ASSERT_GE(fixes.size(), 38U);
+  double squared = 0.0;
+  for (const Smoothed& fix : fixes) {
+    const double t_s = static_cast<double>(fix.utime_us - kStart) * 1e-6;
+    const Eigen::Vector3d off = fix.located.estimate.position_ecef - site().to_ecef(path(t_s));
+    EXPECT_LT(off.norm(), 0.2) << t_s;
+    squared += off.squaredNorm() / fix.located.estimate.covariance_ecef.trace();
+    if (t_s > 1.0 && t_s < 3.0) {
+      EXPECT_EQ(fix.located.stations.size(), 20U) << t_s;
+    }
+  }
+  EXPECT_LT(squared / static_cast<double>(fixes.size()), 1.5);
 }
 
 }  // namespace

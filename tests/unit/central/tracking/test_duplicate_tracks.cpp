@@ -163,19 +163,19 @@ TEST(DuplicateTracks, AlsoWhenTheyAreNearToEachOther) {
 
 // Ten thousand unrelated pairs take no memory permanently.
 TEST(DuplicateTracks, PairsWithoutEvidenceAreForgotten) {
-  DuplicateTracks rivals;
+  DuplicateTracks duplicates;
   BearingMeasurement measurement;
   measurement.station = "a";
   for (std::int64_t i = 0; i < 10000; ++i) {
     measurement.utime_us = kStartUs + 10'000 * i;
     const std::int64_t both[] = {2 * i + 1, 2 * i + 2};
-    rivals.note(measurement, both);
+    duplicates.note(measurement, both);
   }
-  EXPECT_TRUE(rivals.same().empty());
+  EXPECT_TRUE(duplicates.same().empty());
   measurement.utime_us += 10'000'000;
   const std::int64_t one[] = {1};
-  rivals.note(measurement, one);
-  EXPECT_TRUE(rivals.empty());
+  duplicates.note(measurement, one);
+  EXPECT_TRUE(duplicates.empty());
 }
 
 }  // namespace

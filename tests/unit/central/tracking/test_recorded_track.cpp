@@ -131,6 +131,28 @@ TEST(RecordedTrack, ATrackThatMostStationsContradictIsBegunAnew) {
   EXPECT_GT(targets.back().utime_us, kStart + 5'500'000);
 }
 
+// One station alone has no range. A track that lived on would have a wrong one, and reject the
+// second station when that returns.
+TEST(RecordedTrack, ATrackThatOneStationAloneSeesIsBegunAnewByTwo) {
+  auto measurements = watch("ab", 10.0, kNoise, off_by('x', 0.0));
+  const auto after_s = [](std::int64_t utime_us) {
+    return static_cast<double>(utime_us - kStart) * 1e-6;
+  };
+  std::erase_if(measurements, [&](const BearingMeasurement& measurement) {
+    const double t_s = after_s(measurement.utime_us);
+    return measurement.station == "b" && t_s > 2.0 && t_s < 8.0;
+  });
+  std::size_t later = 0;
+  for (const FusedTarget& target : fuse_offline(measurements, ten_hertz())) {
+    const double t_s = after_s(target.utime_us);
+    EXPECT_FALSE(t_s > 4.1 && t_s < 7.8) << t_s;
+    if (t_s < 8.5) continue;
+    ++later;
+    EXPECT_LT(slow_error_m(target), 0.5) << t_s;
+  }
+  EXPECT_GE(later, 14U);
+}
+
 // A position from two rays on, until something contradicts it.
 TEST(RecordedTrack, ARecordingIsLocatedFromItsFirstRays) {
   OfflineConfig config;

@@ -88,11 +88,11 @@ TEST(TrackInitiation, SaysThatRaysMiss) {
 // The evidence of a hypothesis on the stations counts once it is a track; that of failed ones does
 // not.
 TEST(TrackInitiation, AStartThatIsRejectedTeachesNothing) {
-  TrackInitiation birth({}, {});
+  TrackInitiation initiation({}, {});
   BiasModel errors;
   bool begun = false;
   for (const BearingMeasurement& measurement : watch("abcd", 1.0, 5e-4, off_by('c', 0.0))) {
-    const auto start = birth.add(measurement, errors, false);
+    const auto start = initiation.add(measurement, errors, false);
     begun = start.has_value();
     if (begun) errors.learn(start->shown);
     if (begun) break;

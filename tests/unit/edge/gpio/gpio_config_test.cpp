@@ -1,37 +1,23 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/config_section.h"
 #include "edge/gpio/gpio.h"
+#include "tests/unit/base/section_text.h"
 
 namespace ols::gpio {
 namespace {
 
-GpioConfig read(const std::string& text) {
-  ConfigFile file(text.empty() ? "" : "[gpio]\n" + text, "station.toml");
-  GpioConfig config;
-  config::read(gpio_section(config), file.root().table("gpio"));
-  return config;
-}
-
-std::string error_of(const std::string& text) {
-  try {
-    read(text);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
+const test::SectionText<GpioConfig> kSection{"gpio", gpio_section};
 
 TEST(GpioConfig, IsEmptyWithoutKeys) {
-  const GpioConfig config = read("");
+  const GpioConfig config = kSection.read("");
   EXPECT_EQ(config.chip, "");
   EXPECT_EQ(config.stop_line, -1);
   EXPECT_FALSE(config.rearm_over_bus);
 }
 
 TEST(GpioConfig, ReadsEachKey) {
-  const GpioConfig config = read(
+  const GpioConfig config = kSection.read(
       "chip = '/dev/gpiochip0'\nled_line = 22\nstop_line = 17\nstop_active_low = true\n"
       "stop_release_s = 0.1\ntrigger_line = 27\ntrigger_pulse_s = 0.002\nrearm_line = 18\n"
       "rearm_active_low = false\nrearm_hold_s = 2.5\nrearm = 'bus'\n");
@@ -49,15 +35,15 @@ TEST(GpioConfig, ReadsEachKey) {
 }
 
 TEST(GpioConfig, RefusesALineWithoutAChipAndALineUsedTwice) {
-  EXPECT_THAT(error_of("chip = ''\nstop_line = 17\n"),
+  EXPECT_THAT(kSection.error_of("chip = ''\nstop_line = 17\n"),
               testing::HasSubstr("stop_line: is given, but no chip"));
-  EXPECT_THAT(error_of("chip = 'x'\nled_line = 17\nstop_line = 17\n"),
+  EXPECT_THAT(kSection.error_of("chip = 'x'\nled_line = 17\nstop_line = 17\n"),
               testing::HasSubstr("stop_line: is used twice"));
-  EXPECT_THAT(error_of("chip = 'x'\nrearm_line = 17\nstop_line = 17\n"),
+  EXPECT_THAT(kSection.error_of("chip = 'x'\nrearm_line = 17\nstop_line = 17\n"),
               testing::HasSubstr("rearm_line: is used twice"));
-  EXPECT_THAT(error_of("chip = 'x'\nrearm = 'anybody'\n"),
+  EXPECT_THAT(kSection.error_of("chip = 'x'\nrearm = 'anybody'\n"),
               testing::HasSubstr("station.toml:3: gpio.rearm: "));
-  EXPECT_NE(error_of("chip = 'x'\nled_line = -2\n"), "accepted");
+  EXPECT_NE(kSection.error_of("chip = 'x'\nled_line = -2\n"), "accepted");
 }
 
 }  // namespace

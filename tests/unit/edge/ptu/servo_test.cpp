@@ -99,6 +99,33 @@ TEST(Servo, CommandsNothingWithinLimitsThatContradictEachOther) {
   }
 }
 
+ServoGoal rates(const PanTilt& rate) {
+  ServoGoal goal{100.0, {}, rate, 100.4};
+  goal.rate_only = true;
+  return goal;
+}
+
+TEST(Servo, ARateGoesOnFromWhereverTheUnitIs) {
+  const auto command = servo_step(config(), kLimits, rates({-0.3, 0.0}), {1.7, 0.2}, 100.0);
+  ASSERT_TRUE(command);
+  EXPECT_DOUBLE_EQ(command->speed.pan_rad, 0.3);
+  EXPECT_NEAR(command->position.pan_rad, 1.7 - 0.3 * 0.3 - 0.09 / 2.1, 1e-12);
+  EXPECT_DOUBLE_EQ(command->position.tilt_rad, 0.2);
+}
+
+TEST(Servo, ARateEndsAtTheLimitsAndAtARegionsBorder) {
+  const auto at_limit = servo_step(config(), kLimits, rates({1.0, 1.0}), {2.6, 0.45}, 100.0);
+  ASSERT_TRUE(at_limit);
+  EXPECT_DOUBLE_EQ(at_limit->position.pan_rad, 2.7);
+  EXPECT_DOUBLE_EQ(at_limit->position.tilt_rad, 0.5);
+  PtuLimits limits = kLimits;
+  limits.keep_out = {{0.1, 0.5, -0.2, 0.2}};
+  const auto at_border = servo_step(config(), limits, rates({1.0, 0.0}), {0.0, 0.0}, 100.0);
+  ASSERT_TRUE(at_border);
+  EXPECT_LT(at_border->position.pan_rad, 0.1);
+  EXPECT_FALSE(servo_step(config(), limits, rates({1.0, 0.0}), {0.3, 0.0}, 100.0)) << "inside";
+}
+
 struct ReachCase {
   double now_deg, pan_deg, tilt_deg;
   Reach reach;

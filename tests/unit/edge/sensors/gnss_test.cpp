@@ -12,6 +12,7 @@
 #include "sim/gnss_line.h"
 #include "tests/unit/edge/sensors/gpsd_process.h"
 #include "tests/unit/eventually.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::sensors {
 namespace {
@@ -157,7 +158,7 @@ TEST_F(GnssOnGpsd, AGpsdWithoutReceiverIsToldFromOneThatIsNotThere) {
 }
 
 TEST_F(GnssOnGpsd, AReceiverThatIsPulledOutIsToldAndGpsdIsLeftAlone) {
-  const std::string link = testing::TempDir() + "ols_gnss_" + std::to_string(::getpid());
+  const std::string link = temp_dir() + "ols_gnss_" + std::to_string(::getpid());
   auto line = std::make_unique<sim::GnssLine>(receiver(), clock_utime_us, 6, link);
   const GpsdProcess gpsd(link, port_);
   Gnss gnss(config(port_));

@@ -10,6 +10,7 @@
 #include "geometry/angles.h"
 #include "sim/inclinometer_line.h"
 #include "tests/unit/eventually.h"
+#include "tests/unit/temp_dir.h"
 
 namespace ols::sensors {
 namespace {
@@ -103,7 +104,7 @@ TEST(Inclinometer, ASensorThatWasStoppedIsStartedAgain) {
 }
 
 TEST(Inclinometer, ADeviceThatIsNotThereYetOrVanishesIsOpenedAgain) {
-  const std::string link = testing::TempDir() + "ols_inclinometer_" + std::to_string(::getpid());
+  const std::string link = temp_dir() + "ols_inclinometer_" + std::to_string(::getpid());
   Inclinometer inclinometer(config(link));
   ASSERT_TRUE(reports(inclinometer, device::DeviceState::kAbsent, link + ": cannot be opened"));
   EXPECT_EQ(inclinometer.report().alarms.size(), 1U);

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <deque>
 #include <functional>
+#include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "edge/tracker/acquisition.h"
 #include "synthetic.h"
@@ -27,7 +29,7 @@ class AcquisitionTest : public ::testing::Test {
       const double x = 300.0 + camera_px * i;
       cv::Mat gray = scene.picture({x, 300.0}, target);
       if (paint) paint(gray, i);
-      AcquisitionView view{gray, kExpected, 25.0, {}};
+      AcquisitionView view{gray, kExpected, 25.0, line_, drift_px_, {}};
       for (const auto& [before, then] : seen) {
         const Eigen::Matrix3d H = testing::shift_homography(then - x, 0.0);
         view.references.push_back({before, H, (H * kExpected.homogeneous()).hnormalized()});
@@ -50,6 +52,8 @@ class AcquisitionTest : public ::testing::Test {
 
   static inline const Eigen::Vector2d kExpected{320.0, 240.0};
   static inline const cv::Point2d kTarget{345.0, 228.0};  // a little off, as a heading's error does
+  Eigen::Vector2d line_ = Eigen::Vector2d::Zero();
+  double drift_px_ = 0.0;
   Acquisition acquisition_{AcquisitionConfig{}};
 };
 
@@ -59,6 +63,32 @@ TEST_F(AcquisitionTest, FindsATargetThatMovesBeforeTexture) {
 
 TEST_F(AcquisitionTest, FindsATargetThatStandsInABlankSkyWithinThreeFrames) {
   expect_around(run(Backdrop::kSky, 3, 0.0, kTarget), kTarget);
+}
+
+// Only a line is known, and not how the target moves: it is what moves evenly, anywhere on the
+// line.
+TEST_F(AcquisitionTest, FindsATargetThatMovesEvenlyAnywhereOnALine) {
+  const auto moves_by = [](std::vector<int> places, int y = 232) {
+    return [places, y](cv::Mat& gray, int i) {
+      const int x = places[static_cast<std::size_t>(i) % places.size()];
+      cv::rectangle(gray, {x, y, 20, 10}, cv::Scalar(70), cv::FILLED);
+    };
+  };
+  const auto finds = [&](const Paint& paint, double camera_px = 0.0) {
+    acquisition_.clear();
+    return run(Backdrop::kSky, 4, camera_px, std::nullopt, paint).has_value();
+  };
+  const Paint even = moves_by({260, 290, 320, 350}), uneven = moves_by({300, 345, 290, 345});
+  EXPECT_FALSE(finds(even)) << "a place is expected";
+  line_ = {1.0, 0.0};
+  drift_px_ = 60.0;
+  EXPECT_TRUE(finds(even));
+  EXPECT_FALSE(finds(uneven)) << "several things, or none";
+  EXPECT_TRUE(finds(moves_by({40, 70, 100, 130}))) << "farther from the pixel than any gate";
+  EXPECT_FALSE(finds(moves_by({260, 290, 320, 350}, 430))) << "beside the line";
+  EXPECT_TRUE(finds(moves_by({560, 470, 380, 290}), 100.0)) << "the camera turns faster than it";
+  drift_px_ = 10.0;
+  EXPECT_FALSE(finds(even)) << "faster than a target may be";
 }
 
 TEST_F(AcquisitionTest, DoesNotTakeATargetInTwoFramesOnly) {
@@ -107,9 +137,11 @@ TEST_F(AcquisitionTest, NothingThereIsNothingFound) {
 
 TEST_F(AcquisitionTest, RefusesWhatIsNoGrayPicture) {
   for (int i = 0; i < 5; ++i) {
-    EXPECT_FALSE(acquisition_.look({cv::Mat(), kExpected, 25.0, {}}));
-    EXPECT_FALSE(acquisition_.look({cv::Mat(480, 640, CV_8UC3), kExpected, 25.0, {}}));
-    EXPECT_FALSE(acquisition_.look({cv::Mat(480, 640, CV_8U), {-1e4, 1e4}, 25.0, {}}));
+    EXPECT_FALSE(acquisition_.look({cv::Mat(), kExpected, 25.0, {0.0, 0.0}, 0.0, {}}));
+    EXPECT_FALSE(
+        acquisition_.look({cv::Mat(480, 640, CV_8UC3), kExpected, 25.0, {0.0, 0.0}, 0.0, {}}));
+    EXPECT_FALSE(
+        acquisition_.look({cv::Mat(480, 640, CV_8U), {-1e4, 1e4}, 25.0, {0.0, 0.0}, 0.0, {}}));
   }
 }
 

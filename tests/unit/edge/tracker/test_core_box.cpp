@@ -38,6 +38,16 @@ TEST(CoreBox, IsTheBoxWhereThatIsFilledOrEmpty) {
   EXPECT_EQ(find_core(gray, box), box);
 }
 
+// A walker's head and feet stand out from the street more than the rest of him.
+TEST(CoreBox, IsTheBoxWhereSeveralPartsStandOut) {
+  cv::Mat gray = sky();
+  const cv::Rect2d box(120.0, 60.0, 20.0, 50.0);
+  gray(cv::Rect(127, 64, 5, 5)).setTo(250);
+  EXPECT_LT(find_core(gray, box).area(), 0.3 * box.area());
+  gray(cv::Rect(128, 95, 4, 6)).setTo(50);
+  EXPECT_EQ(find_core(gray, box), box);
+}
+
 TEST(CoreBox, TakesBoxesAtAndOverTheBorder) {
   const cv::Mat gray = sky();
   for (const cv::Rect2d& box : {cv::Rect2d(-10.0, -10.0, 40.0, 40.0), cv::Rect2d(0, 0, 300, 200),

@@ -11,8 +11,9 @@ namespace {
 TrackerInput half_red() {
   TrackerInput frame;
   frame.gray = cv::Mat(200, 200, CV_8U, cv::Scalar(100));
-  frame.colour = cv::Mat(200, 200, CV_8UC3, cv::Scalar(100, 100, 100));
-  cv::rectangle(frame.colour, cv::Rect(100, 0, 100, 200), cv::Scalar(100, 20, 180), cv::FILLED);
+  frame.colour.image = cv::Mat(200, 200, CV_8UC3, cv::Scalar(100, 100, 100));
+  cv::rectangle(frame.colour.image, cv::Rect(100, 0, 100, 200), cv::Scalar(100, 20, 180),
+                cv::FILLED);
   return frame;
 }
 
@@ -28,7 +29,7 @@ TEST(FeatureMap, AColourShowsWhereGreyLevelsAreEqual) {
 
 TEST(FeatureMap, WithoutAColourImageItsChannelsAreZero) {
   TrackerInput frame = half_red();
-  frame.colour = cv::Mat();
+  frame.colour = {};
   const FeatureMap features = extract_features(frame, {{99.5, 99.5}, 3.0});
   EXPECT_EQ(greatest(features[kChannels - 2]), 0.0F);
   EXPECT_EQ(greatest(features[kChannels - 1]), 0.0F);

@@ -25,5 +25,20 @@ TEST(LearntAppearance, FindsItsTargetAndNotTheBackground) {
   EXPECT_FALSE(appearance.find(gone, {centre_of(box)}, size_of(box), 0.35));
 }
 
+TEST(LearntAppearance, ATargetIsProminentAndTheBackgroundIsNot) {
+  SyntheticScene scene(Backdrop::kTextured, 1);
+  const cv::Point2d at(300.0, 220.0);
+  const cv::Rect2d box = SyntheticScene::box_around(at);
+  LearntAppearance appearance(frame_at(0, scene.picture({400, 300}, at)), centre_of(box),
+                              size_of(box));
+  const auto prominence = [&](const std::optional<cv::Point2d>& target) {
+    appearance.find(frame_at(1, scene.picture({400, 300}, target)), {centre_of(box)}, size_of(box),
+                    0.0);
+    return appearance.prominence(centre_of(box));
+  };
+  EXPECT_GT(prominence(at), 24.0);
+  EXPECT_LT(prominence(std::nullopt), 8.0);
+}
+
 }  // namespace
 }  // namespace ols::tracker

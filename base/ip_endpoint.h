@@ -1,0 +1,13 @@
+// An IP address with a port, as text. Pure.
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <string>
+
+namespace ols {
+
+// "10.0.0.11:7790" or "[fd00::11]:7790". Throws std::invalid_argument for anything else, also for
+// an address that stands for all of a computer's: nobody could look for it there.
+boost::asio::ip::tcp::endpoint parse_endpoint(const std::string& text);
+
+}  // namespace ols

@@ -1,0 +1,289 @@
+#include "base/trust/bus_trust.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <stdexcept>
+#include <system_error>
+
+#include "base/atomic_file.h"
+#include "base/channel_names.h"
+#include "base/small_file.h"
+#include "base/toml_config.h"
+#include "base/trust/messages_trust.h"
+
+namespace ols::trust {
+namespace {
+
+constexpr auto kLook = std::chrono::seconds(1);
+constexpr int kKeepEvery = 5;  // looks
+constexpr std::size_t kLargestFile = 20'000'000;
+
+std::string from_environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+// Empty if it is not there or cannot be read.
+std::string text_if_any(const std::string& path) {
+  try {
+    return path.empty() ? "" : read_small_file(path, kLargestFile);
+  } catch (const std::system_error&) {
+    return "";
+  }
+}
+
+void replace_file(const std::string& path, const std::string& text) {
+  AtomicFile file(path);
+  file.stream() << text;
+  file.commit();
+}
+
+MemberKey key_of(const std::string& path) {
+  try {
+    return read_member_key(path);
+  } catch (const std::system_error& problem) {
+    throw ConfigError("trust.key: " + std::string(problem.what()) +
+                      "; ols-key enrol makes it (docs/security.md)");
+  }
+}
+
+}  // namespace
+
+Environment process_environment() {
+  return {from_environment("OLS_TRUST"), from_environment("OLS_KEYS"),
+          from_environment("CREDENTIALS_DIRECTORY"), from_environment("STATE_DIRECTORY")};
+}
+
+std::shared_ptr<BusTrust> BusTrust::open(const TrustConfig& config, const Environment& environment,
+                                         const Self& self) {
+  Mode mode = Mode::kOff;
+  try {
+    mode = mode_of(config, environment);
+  } catch (const std::invalid_argument& problem) {
+    throw ConfigError(problem.what());
+  }
+  if (mode == Mode::kOff) return nullptr;
+  std::shared_ptr<BusTrust> trust(new BusTrust(mode, config, environment, self));
+  trust->begin();
+  return trust;
+}
+
+BusTrust::BusTrust(Mode mode, const TrustConfig& config, const Environment& environment,
+                   const Self& self)
+    : mode_(mode),
+      self_(self),
+      key_(key_of(key_path(config, environment, self.name))),
+      tolerance_us_(static_cast<std::int64_t>(config.clock_tolerance_s * 1e6)) {
+  if (self.is_station && key_.file.name != self.name) {
+    throw ConfigError("trust.key: is that of " + key_.file.name + ", not of " + self.name);
+  }
+  files_.list = list_path(config, environment);
+  files_.must_be_there = !config.list.empty();
+  if (environment.state.empty()) return;
+  files_.kept_list = environment.state + "/trust-" + self.name + ".toml";
+  if (self.keeps_marks) files_.marks = environment.state + "/heard-" + self.name;
+}
+
+void BusTrust::begin() {
+  try {
+    files_.read = read_small_file(files_.list, kLargestFile);
+    offer(files_.read, files_.list);
+  } catch (const std::system_error& problem) {
+    const bool missing = problem.code() == std::errc::no_such_file_or_directory;
+    if (!missing || files_.must_be_there) {
+      throw ConfigError("trust.list: " + std::string(problem.what()));
+    }
+    TrustList nobody;
+    nobody.root = key_.file.root;
+    adopt(nobody, "");
+  }
+  try {
+    const std::string kept = text_if_any(files_.kept_list);
+    if (!kept.empty()) offer(kept, files_.kept_list);
+  } catch (const ConfigError&) {
+    // Of another site, or damaged: written again with the next list.
+  }
+  files_.number = list_.number;
+  verifier_->marks().read(text_if_any(files_.marks));
+  files_.revision = verifier_->marks().revision();
+  thread_ = std::thread([this] { watch(); });
+}
+
+BusTrust::~BusTrust() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  end_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+bool BusTrust::offer(const std::string& text, const std::string& name) {
+  return adopt(read_list(text, name, key_.file.root), text);
+}
+
+bool BusTrust::adopt(const TrustList& list, const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  if (verifier_ && list.number <= list_.number) return false;
+  list_ = list;
+  text_ = text;
+  if (verifier_) {
+    verifier_->adopt(list_);
+    return true;
+  }
+  Verifier::Config config;
+  if (self_.is_station) config.station = self_.name;
+  config.boot_id = self_.boot_id;
+  config.clock_tolerance_us = tolerance_us_;
+  config.takes_stale_statuses = self_.commands;
+  verifier_.emplace(config, key_.file.site_key, list_);
+  return true;
+}
+
+std::vector<std::uint8_t> BusTrust::sign(const std::string& channel, Bytes payload) {
+  std::int64_t audience = 0;
+  if (const auto rule = rule_of(channel); rule && rule->rule->is_command) {
+    const std::lock_guard lock(mutex_);
+    audience = book_.boot_of(rule->station);
+  }
+  return with_trailer(key_.signing, key_.file.site_key, channel, payload, audience);
+}
+
+bool BusTrust::wants(std::string_view channel) const {
+  return channel == kTrustChannel || (!self_.is_station && channel.starts_with(kStatusChannel));
+}
+
+Verifier::Verdict BusTrust::judge_and_learn(std::string_view channel, Bytes message,
+                                            const Arrival& arrival) {
+  const std::lock_guard lock(mutex_);
+  auto verdict = verifier_->judge(channel, message, arrival);
+  if (!verdict.distrust && verdict.rule->name == kStatusChannel) {
+    const bool fresh = verdict.head.utime_us > 0 &&
+                       std::abs(verdict.head.utime_us - arrival.utime_us) <= tolerance_us_;
+    book_.hear(verdict.head.station, verdict.head.boot_id, fresh, arrival.monotonic_s);
+  }
+  return verdict;
+}
+
+// Of a new member, which knows nobody yet: whoever has the site's secret may tell it the list,
+// because that is believed by the root's signature alone.
+bool BusTrust::is_first_list(std::string_view channel, Bytes message) const {
+  if (channel != kTrustChannel || list_number() != 0) return false;
+  const auto split = split_trailer(message);
+  return split && has_site_tag(key_.file.site_key, channel, *split);
+}
+
+Judgement BusTrust::judge(std::string_view channel, Bytes message, std::int64_t utime_us,
+                          double now_s) {
+  if (is_first_list(channel, message)) hear_list(without_trailer(message));
+  const auto verdict = judge_and_learn(channel, message, {utime_us, now_s});
+  if (!verdict.distrust && channel == kTrustChannel) hear_list(without_trailer(message));
+  Judgement judgement{without_trailer(message)};
+  judgement.distrust = verdict.distrust;
+  judgement.sender = verdict.sender;
+  if (mode_ != Mode::kRequire) return judgement;
+  judgement.passes = !verdict.distrust;
+  judgement.addressed = verdict.addressed;
+  return judgement;
+}
+
+// What no root has signed needs no answer: it has cost its sender a signature of its own.
+void BusTrust::hear_list(Bytes payload) {
+  const auto text = list_from(payload);
+  if (!text) return;
+  {
+    const std::lock_guard lock(mutex_);
+    if (*text == text_) return;
+  }
+  try {
+    offer(*text, "OLS_TRUST");
+  } catch (const ConfigError& problem) {
+    const std::lock_guard lock(mutex_);
+    file_trouble_ = problem.what();
+  }
+}
+
+std::optional<std::string> BusTrust::list_to_tell(double now_s) {
+  if (!self_.tells_list) return std::nullopt;
+  const std::lock_guard lock(mutex_);
+  if (now_s < tell_s_ || text_.empty() || text_.size() > kLargestList) return std::nullopt;
+  tell_s_ = now_s + kTell_s;
+  return text_;
+}
+
+std::string BusTrust::list_text() const {
+  const std::lock_guard lock(mutex_);
+  return text_;
+}
+
+std::int64_t BusTrust::list_number() const {
+  const std::lock_guard lock(mutex_);
+  return list_.number;
+}
+
+std::string BusTrust::trouble() const {
+  const std::lock_guard lock(mutex_);
+  if (!file_trouble_.empty()) return "trust: the list cannot be used: " + file_trouble_;
+  if (list_.number == 0) {
+    return "trust: no list yet: the centre tells it, once " + key_.file.name + " is enrolled there";
+  }
+  for (const Member& member : list_.members) {
+    if (member.key != key_.signing.public_key()) continue;
+    return member.revoked ? "trust: the key of " + member.name + " is revoked" : "";
+  }
+  return "trust: the own key, " + key_.file.name + ", is not in trust list " +
+         std::to_string(list_.number);
+}
+
+void BusTrust::watch() {
+  for (int look = 1;; ++look) {
+    bool ends = false;
+    {
+      std::unique_lock lock(mutex_);
+      ends = end_.wait_for(lock, kLook, [this] { return ends_; });
+    }
+    if (!ends) look_at_file();
+    if (ends || look % kKeepEvery == 0) keep();
+    if (ends) return;
+  }
+}
+
+void BusTrust::look_at_file() {
+  std::string trouble;
+  try {
+    const std::string text = read_small_file(files_.list, kLargestFile);
+    if (text != files_.read) offer(text, files_.list);
+    files_.read = text;
+  } catch (const std::system_error& problem) {
+    // One that never was there: the list is heard instead.
+    if (!files_.read.empty()) trouble = problem.what();
+  } catch (const std::exception& problem) {
+    trouble = problem.what();
+  }
+  const std::lock_guard lock(mutex_);
+  file_trouble_ = trouble;
+}
+
+void BusTrust::keep() {
+  std::string text, marks;
+  std::int64_t number = 0;
+  std::uint64_t revision = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    number = list_.number;
+    revision = verifier_->marks().revision();
+    if (number != files_.number) text = text_;
+    if (revision != files_.revision && !files_.marks.empty()) marks = verifier_->marks().text();
+  }
+  try {
+    if (!text.empty() && !files_.kept_list.empty()) replace_file(files_.kept_list, text);
+    files_.number = number;
+    if (!marks.empty()) replace_file(files_.marks, marks);
+    files_.revision = revision;
+  } catch (const std::exception& problem) {
+    const std::lock_guard lock(mutex_);
+    file_trouble_ = problem.what();
+  }
+}
+
+}  // namespace ols::trust

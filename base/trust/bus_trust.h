@@ -1,0 +1,117 @@
+// What a process knows of trust on the bus: its own key, the site's trust list, and what it has
+// heard. Signs what the process sends and judges what it receives; a thread of its own looks after
+// the files, so that no control loop waits for a disk.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "base/trust/audience_book.h"
+#include "base/trust/key_file.h"
+#include "base/trust/trust_config.h"
+#include "base/trust/verifier.h"
+
+namespace ols::trust {
+
+// The process as a member of the site.
+struct Self {
+  std::string name{};        // its key's, unless the configuration names a file
+  std::int64_t boot_id = 0;  // of what it sends
+  bool is_station = false;   // commands to `name` must name this boot
+  bool commands = false;     // shows and commands stations, even those whose clock is wrong
+  bool tells_list = false;   // passes the trust list on
+  bool keeps_marks = false;  // what it has heard outlasts a restart
+};
+
+// What becomes of a received message.
+struct Judgement {
+  Bytes payload;  // without its trailer
+  bool passes = true;
+  bool addressed = true;               // a command that names this boot, where that is required
+  std::optional<Distrust> distrust{};  // counted, in mode observe too
+  std::string sender{};                // its member, where its key is known
+};
+
+Environment process_environment();
+
+class BusTrust {
+ public:
+  // Null in mode off. Throws ConfigError if the key or the list cannot be used. Without a list, and
+  // none that the configuration names, the first is learned from the bus (a new member).
+  static std::shared_ptr<BusTrust> open(const TrustConfig& config, const Environment& environment,
+                                        const Self& self);
+  ~BusTrust();
+
+  // Payload and trailer. A command names the boot of its station, if that is known.
+  std::vector<std::uint8_t> sign(const std::string& channel, Bytes payload);
+  // Whether it learns from such messages, even if nobody has subscribed to them: the trust list,
+  // and the statuses by which the sender of commands knows the boots.
+  bool wants(std::string_view channel) const;
+  // From the receiving thread.
+  Judgement judge(std::string_view channel, Bytes message, std::int64_t utime_us, double now_s);
+
+  // The list, when it is time to tell it again.
+  std::optional<std::string> list_to_tell(double now_s);
+  static constexpr double kTell_s = 2.0;
+  // The list in force, and its number: for who keeps it beside the logs.
+  std::string list_text() const;
+  std::int64_t list_number() const;
+
+  std::int64_t boot_id() const { return self_.boot_id; }
+  // What a person should put right; empty: nothing.
+  std::string trouble() const;
+
+ private:
+  BusTrust(Mode mode, const TrustConfig& config, const Environment& environment, const Self& self);
+
+  void begin();
+  // Whether it is newer and is now in force. Throws ConfigError.
+  bool offer(const std::string& text, const std::string& name);
+  bool adopt(const TrustList& list, const std::string& text);
+  bool is_first_list(std::string_view channel, Bytes message) const;
+  void hear_list(Bytes payload);
+  void watch();
+  void look_at_file();
+  void keep();
+  Verifier::Verdict judge_and_learn(std::string_view channel, Bytes message,
+                                    const Arrival& arrival);
+
+  struct Key {
+    explicit Key(const MemberKey& member) : file(member), signing(member.seed) {}
+    MemberKey file;
+    SigningKey signing;
+  };
+  struct Files {
+    std::string list;            // as configured
+    bool must_be_there = false;  // the configuration names it
+    std::string kept_list;       // the newest heard; empty: not kept
+    std::string marks;           // empty: not kept
+    std::string read;            // the text that was last read from `list`
+    std::uint64_t revision = 0;  // of the marks that were last written
+    std::int64_t number = 0;     // of the list that was last kept
+  };
+
+  const Mode mode_;
+  const Self self_;
+  const Key key_;
+  const std::int64_t tolerance_us_;
+  Files files_;               // of the thread, once it runs
+  mutable std::mutex mutex_;  // of what follows
+  TrustList list_;
+  std::string text_, file_trouble_;
+  std::optional<Verifier> verifier_;
+  AudienceBook book_;
+  double tell_s_ = 0.0;
+  bool ends_ = false;
+  std::condition_variable end_;
+  std::thread thread_;
+};
+
+}  // namespace ols::trust

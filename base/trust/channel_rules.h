@@ -1,0 +1,50 @@
+// Which role may send on which channel, and what is known of each channel's messages. Pure.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/trust/message_head.h"
+
+namespace ols::trust {
+
+enum class Role {
+  kStation,    // its own channels only
+  kFusion,     // targets, slews, its status
+  kOperator,   // commands, procedures
+  kSimulator,  // what only the simulator says
+  kCue,        // cues from outside
+  kListener,   // nothing: a logger or a doctor, whose key file opens the site tag to it
+};
+const char* to_string(Role role);
+std::optional<Role> role_from(std::string_view word);
+
+struct ChannelRule {
+  std::string_view name;  // the whole channel; or its beginning, if a station's name follows
+  bool with_station = false;
+  Role sender = Role::kStation;
+  HeadForm head = HeadForm::kStationFirst;
+  bool is_command = false;  // names the boot of the station that it is meant for
+  bool must_be_fresh = true;
+  double rate_hz = 0.0;   // from one key; a second's worth at once
+  std::size_t index = 0;  // among rules()
+};
+
+std::span<const ChannelRule> rules();
+inline constexpr std::string_view kTrustChannel = "OLS_TRUST";
+
+struct Channel {
+  const ChannelRule* rule = nullptr;
+  std::string_view station;  // of the channel's name; empty for one of the site
+};
+// The rule with the longest name: OLS_FRAME_REQUEST_a is not the frames of a station REQUEST_a.
+// Nothing for a channel of nobody.
+std::optional<Channel> rule_of(std::string_view channel);
+
+// Whether a member of this role and name may send there.
+bool may_send(Role role, std::string_view name, const Channel& channel);
+
+}  // namespace ols::trust

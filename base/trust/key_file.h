@@ -1,0 +1,38 @@
+// The files of private keys, readable by root alone: a member's, with the secret of the site tag
+// and the root's public key; and the root's own.
+//
+//   name = "alfa"
+//   seed = "…64 hexadecimal digits…"   # never leaves this file
+//   site_key = "…"                     # a secret of all members
+//   root = "…"                         # public
+#pragma once
+
+#include <string>
+
+#include "base/trust/crypto.h"
+
+namespace ols::trust {
+
+struct MemberKey {
+  std::string name;
+  Seed seed{};
+  SiteKey site_key{};
+  PublicKey root{};
+};
+
+struct RootKey {
+  std::string site;
+  Seed seed{};
+  SiteKey site_key{};
+};
+
+// Throw ConfigError, or std::system_error naming the file. A file that others can read is refused:
+// it is not a secret any more.
+MemberKey read_member_key(const std::string& path);
+RootKey read_root_key(const std::string& path);
+
+// Made anew with mode 0600; throw std::system_error when the file is there already.
+void write_member_key(const std::string& path, const MemberKey& key);
+void write_root_key(const std::string& path, const RootKey& key);
+
+}  // namespace ols::trust

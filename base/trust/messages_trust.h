@@ -1,0 +1,18 @@
+// The trust list as a message of the bus.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/trust/crypto.h"
+#include "ols_msg/trust_list_t.hpp"
+
+namespace ols::trust {
+
+ols_msg::trust_list_t to_message(const std::string& list, std::int64_t boot_id,
+                                 std::int64_t sequence, std::int64_t utime_us);
+// The list's text, unchecked; nothing if it is no such message.
+std::optional<std::string> list_from(Bytes payload);
+
+}  // namespace ols::trust

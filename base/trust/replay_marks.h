@@ -1,0 +1,59 @@
+// What has been heard from each key on each channel, so that nothing is heard twice. Pure.
+//
+// A sender's sequence grows within its boot; datagrams may overtake each other by less than
+// kWindow. Each boot has a mark of its own, so that a recording of an earlier boot is refused
+// whatever the clocks say. Only the last kBoots boots are remembered; the messages of any other
+// must be stamped later than all that the forgotten ones have sent.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/trust/crypto.h"
+#include "base/trust/message_head.h"
+
+namespace ols::trust {
+
+class ReplayMarks {
+ public:
+  static constexpr std::uint64_t kWindow = 64;
+  static constexpr std::size_t kBoots = 32;
+
+  bool is_replayed(const KeyId& key, const std::string& channel, const MessageHead& head) const;
+  // Only for what is not replayed and has been verified: the number of streams is that of what
+  // enrolled keys may send.
+  void note(const KeyId& key, const std::string& channel, const MessageHead& head);
+
+  // For a restart: one line a boot. read() ignores lines that are not such, and returns their
+  // number.
+  std::string text() const;
+  std::size_t read(const std::string& text);
+  // Changes with each note.
+  std::uint64_t revision() const { return revision_; }
+
+ private:
+  struct Mark {
+    std::int64_t boot_id = 0;
+    std::int64_t newest = 0;    // sequence
+    std::uint64_t heard = 0;    // bit n: sequence newest - n
+    std::int64_t utime_us = 0;  // the latest
+    std::uint64_t used = 0;     // revision at the last note
+  };
+  struct Stream {
+    std::vector<Mark> boots;
+    std::int64_t forgotten_utime_us = 0;  // the latest of all forgotten boots
+  };
+  using Name = std::pair<KeyId, std::string>;
+
+  static void advance(Mark& mark, const MessageHead& head);
+  static void keep_few(Stream& stream);
+
+  std::map<Name, Stream> streams_;
+  std::uint64_t revision_ = 0;
+};
+
+}  // namespace ols::trust

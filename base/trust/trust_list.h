@@ -1,0 +1,57 @@
+// Who belongs to a site: the members, their roles and public keys, signed by the site's root. Each
+// change gives the list a higher number; a lower number never replaces a higher one.
+//
+//   site = "airfield"
+//   number = 3
+//   root = "…64 hexadecimal digits…"
+//   [[member]]
+//   name = "alfa"
+//   role = "station"
+//   key = "…64 hexadecimal digits…"
+//   revoked = true
+//   # signature …128 hexadecimal digits…
+//
+// The last line signs "OLS-trust-v1" and all lines before it, byte by byte. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/trust/channel_rules.h"
+#include "base/trust/crypto.h"
+#include "base/trust/trust_words.h"
+
+namespace ols::trust {
+
+struct Member {
+  std::string name;  // of a station: its id
+  Role role = Role::kListener;
+  PublicKey key{};
+  bool revoked = false;
+};
+
+// What may be told on the bus: it fits into a datagram. About 500 members.
+inline constexpr std::size_t kLargestList = 60'000;
+
+struct TrustList {
+  std::string site;
+  std::int64_t number = 0;
+  PublicKey root{};
+  std::vector<Member> members;  // no two with one name, and none with another's key
+
+  // The member that is not revoked; null if there is none.
+  const Member* find(std::string_view name) const;
+};
+
+// The text of the file.
+std::string sign_list(const TrustList& list, const SigningKey& root);
+// `name` stands for the file in errors. Throws ConfigError if it is not a list that this root has
+// signed.
+TrustList read_list(const std::string& text, const std::string& name, const PublicKey& root);
+// The same by the root that the list itself names: that is no proof of anything.
+TrustList read_list(const std::string& text, const std::string& name);
+
+}  // namespace ols::trust

@@ -1,0 +1,20 @@
+// The keys that the files of this folder share, read with errors that name file, line and key.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "base/toml_config.h"
+
+namespace ols::trust {
+
+// 64 hexadecimal digits: a private or public key, or the site's secret.
+std::array<std::uint8_t, 32> read_hex(ConfigTable& table, const char* key);
+// As require_member_name().
+std::string read_name(ConfigTable& table, const char* key);
+
+// Throws std::invalid_argument: 1 to 32 letters, digits, - and _.
+void require_member_name(const std::string& name);
+
+}  // namespace ols::trust

@@ -1,0 +1,90 @@
+// Whether a message of the bus may be believed: signed by a member of the site whose role may send
+// it, for this process, now, and for the first time. The order of the checks is that of their cost:
+// what no stranger can make ends before anything costs, and a member's flood before its signatures
+// are verified. Pure.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/trust/rate_limit.h"
+#include "base/trust/replay_marks.h"
+#include "base/trust/trailer.h"
+#include "base/trust/trust_list.h"
+
+namespace ols::trust {
+
+// Why a message is not believed; to_string() is part of its counter's name.
+enum class Distrust {
+  kUnsigned,
+  kStranger,  // a key of no member, or a wrong site tag
+  kRevoked,
+  kChannel,    // a channel that is not this member's, or of no enrolled station
+  kMalformed,  // signed, but no message
+  kOtherBoot,  // a command that names another boot of this station, or none
+  kStale,      // stamped too far from this host's clock
+  kReplayed,
+  kRate,  // more than a member may send on such channels
+  kSignature,
+  kCount,  // not a reason: how many there are
+};
+const char* to_string(Distrust reason);
+
+struct Arrival {
+  std::int64_t utime_us = 0;  // this host's UTC
+  double monotonic_s = 0.0;
+};
+
+class Verifier {
+ public:
+  struct Config {
+    std::string station{};     // whose commands must name this boot; empty: none
+    std::int64_t boot_id = 0;  // of this process
+    std::int64_t clock_tolerance_us = 30'000'000;
+    // For who shows and commands stations: one whose clock is wrong can still be seen, and stopped.
+    bool takes_stale_statuses = false;
+  };
+  struct Verdict {
+    std::optional<Distrust> distrust{};
+    std::string sender{};  // the member, if its key is known
+    // A command that names this boot. Of the others only a stop may be obeyed.
+    bool addressed = false;
+    const ChannelRule* rule = nullptr;  // of a message that may be believed
+    MessageHead head{};                 // of the same; views into it
+  };
+
+  // Without the site's secret the tags are not checked: for recordings, where no flood waits.
+  Verifier(Config config, const std::optional<SiteKey>& site, const TrustList& list);
+
+  // `message`: as received, with its trailer.
+  Verdict judge(std::string_view channel, Bytes message, const Arrival& arrival);
+
+  // Members keep their marks and rates.
+  void adopt(const TrustList& list);
+  ReplayMarks& marks() { return marks_; }
+
+ private:
+  struct Known {
+    Member member;
+    std::vector<RateLimit> rates;  // of each rule
+  };
+  struct Judged;
+
+  std::optional<Distrust> judge_origin(Judged& judged);
+  std::optional<Distrust> judge_address(Judged& judged) const;
+  std::optional<Distrust> judge_time(const Judged& judged) const;
+  bool has_tag(const Judged& judged) const;
+
+  Config config_;
+  std::optional<SiteKey> site_;
+  std::map<KeyId, Known> members_;
+  std::map<std::string, bool, std::less<>> stations_;  // enrolled
+  ReplayMarks marks_;
+};
+
+}  // namespace ols::trust

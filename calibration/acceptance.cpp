@@ -1,0 +1,222 @@
+#include "calibration/acceptance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "calibration/snooping.h"
+#include "geometry/angles.h"
+
+namespace ols::calibration {
+namespace {
+
+using Judgement = Finding::Judgement;
+
+double arcsec(double rad) { return 3600.0 * degrees(rad); }
+
+std::string shown(double value, const char* unit) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.2f%s", value, unit);
+  return text;
+}
+
+Finding at_most(const std::string& name, double value, double limit, const char* unit,
+                const std::string& what) {
+  Finding finding{name, Judgement::kGood, value, limit, what + ": "};
+  if (!std::isfinite(value)) {
+    finding.judgement = Judgement::kBad;  // what is not known is within no limit
+    finding.sentence += "not known";
+    return finding;
+  }
+  finding.judgement = value <= limit ? Judgement::kGood : Judgement::kBad;
+  finding.sentence += shown(value, unit) + ", at most " + shown(limit, unit);
+  return finding;
+}
+
+// What the sightings of a station tell of a calibration.
+class Judge {
+ public:
+  Judge(const Problem& problem, const Adjustment& adjustment, const Calibration& found,
+        std::size_t station, const AcceptanceLimits& limits)
+      : problem_(problem),
+        adjustment_(adjustment),
+        found_(found),
+        station_(station),
+        limits_(limits),
+        model_(found.fit.state.stations[station].model) {}
+
+  Acceptance run() {
+    coverage();
+    volume();
+    global();
+    for (std::size_t g = 0; g < found_.tests.size(); ++g) reference(g);
+    closing();
+    residuals("sweep", Kind::kScene, limits_.sweep_px);
+    residuals("stars", Kind::kStar, limits_.stars_px);
+    return std::move(result_);
+  }
+
+ private:
+  void add(Finding finding) { result_.findings.push_back(std::move(finding)); }
+  bool is_own(const Group& group) const {
+    return std::ranges::any_of(group.observations, [this](std::size_t i) {
+      return problem_.observations[i].station == station_;
+    });
+  }
+
+  void volume() {
+    const VolumePrecision precision = volume_precision(
+        model_, found_.covariance(adjustment_.network(), station_), result_.volume);
+    add(at_most("systematic_rms", arcsec(precision.rms_rad), limits_.rms_arcsec, "″",
+                "systematic error, RMS of an axis"));
+    add(at_most("systematic_worst", arcsec(precision.worst_rad), limits_.worst_arcsec, "″",
+                "systematic error, worst direction"));
+  }
+
+  void global() {
+    Finding finding = at_most("global_test", found_.global.variance_factor, found_.global.critical,
+                              "", "variance factor");
+    if (found_.global.redundancy <= 0) finding.judgement = Judgement::kUnchecked;
+    add(std::move(finding));
+  }
+
+  // Stars are hundreds, and each other's check: only what a person has pointed at.
+  void reference(std::size_t g) {
+    const Group& group = adjustment_.groups()[g];
+    if (!group.is_absolute() || group.kind == Kind::kStar || !is_own(group)) return;
+    const std::string label = std::string(name(group.kind)) + " '" + group.name + "'";
+    const GroupTest& test = found_.tests[g];
+    if (test.rejected) {
+      add({"rejected " + group.name, Judgement::kBad, test.w, test.critical,
+           label + " is rejected as mistaken"});
+      return;
+    }
+    const double bias_rad = test.detectable_rad.maxCoeff();
+    Finding checked =
+        at_most("detectable " + group.name, arcsec(bias_rad), limits_.detectable_arcsec, "″",
+                label + ": a mistake that would be found");
+    // A mistake that is not found is no fault of what was found.
+    if (checked.judgement == Judgement::kBad) {
+      checked.judgement = Judgement::kUnchecked;
+      checked.sentence = std::isfinite(checked.value)
+                             ? checked.sentence + ": unchecked"
+                             : label + ": a mistake that would be found: unchecked";
+    }
+    add(std::move(checked));
+    without_itself(g, label);
+  }
+
+  // Where the others see it: a group's own residual is drawn towards it.
+  void without_itself(std::size_t g, const std::string& label) {
+    const auto off = bias_without(adjustment_, found_.fit, g);
+    if (!off) return;
+    const std::string& name = adjustment_.groups()[g].name;
+    add(at_most("without_itself " + name, arcsec(off->rad.cwiseAbs().maxCoeff()),
+                limits_.without_itself_arcsec, "″", label + ", predicted without itself"));
+    add(at_most("without_itself_sigma " + name, off->sigmas, limits_.without_itself_sigma, " sigma",
+                label + ", predicted without itself"));
+  }
+
+  // First and last sighting of one reference: what has moved meanwhile.
+  void closing() {
+    double worst_rad = -1.0;
+    for (const Group& group : adjustment_.groups()) {
+      if (group.kind != Kind::kLandmark && group.kind != Kind::kStation) continue;
+      std::vector<std::size_t> own;
+      std::ranges::copy_if(group.observations, std::back_inserter(own), [this](std::size_t i) {
+        return problem_.observations[i].station == station_ && found_.residuals[i];
+      });
+      if (own.size() < 2) continue;
+      const Eigen::Vector2d apart = *found_.residuals[own.back()] - *found_.residuals[own.front()];
+      worst_rad = std::max(worst_rad, apart.norm() / model_.geometry.camera.fx_px);
+    }
+    if (worst_rad < 0.0) return;
+    add(at_most("closing", arcsec(worst_rad), limits_.closing_arcsec, "″",
+                "first and last sighting of a reference"));
+  }
+
+  void residuals(const std::string& name, Kind kind, double limit_px) {
+    double squares = 0.0;
+    int count = 0;
+    for (std::size_t i = 0; i < found_.residuals.size(); ++i) {
+      const Observation& one = problem_.observations[i];
+      if (one.kind != kind || one.station != station_ || !found_.residuals[i]) continue;
+      squares += found_.residuals[i]->squaredNorm();
+      count += 2;
+    }
+    if (count == 0) return;
+    add(at_most(name, std::sqrt(squares / count), limit_px, " px", name + ", residuals"));
+  }
+
+  // Three sectors of azimuth and some elevation, or the volume is cut to what was seen.
+  void coverage() {
+    constexpr int kSectors = 6;
+    constexpr double kAround_deg = 30.0, kAbove_deg = 5.0;
+    std::set<int> sectors;
+    double left = 1e9, right = -1e9, low = 1e9, high = -1e9;
+    for (const Group& group : adjustment_.groups()) {
+      if (!group.is_absolute()) continue;
+      for (const std::size_t i : group.observations) {
+        const Observation& one = problem_.observations[i];
+        if (one.station != station_) continue;
+        const PanTilt at = corrected_angles(model_, one.reading);
+        const double pan_deg = degrees(at.pan_rad), tilt_deg = degrees(at.tilt_rad);
+        sectors.insert(static_cast<int>(std::floor((pan_deg + 180.0) / 360.0 * kSectors)));
+        left = std::min(left, pan_deg);
+        right = std::max(right, pan_deg);
+        low = std::min(low, tilt_deg);
+        high = std::max(high, tilt_deg);
+      }
+    }
+    const auto count = static_cast<double>(sectors.size());
+    const bool wide = count >= limits_.sectors, tall = high - low >= limits_.elevation_deg;
+    add({"sectors", wide ? Judgement::kGood : Judgement::kUnchecked, count,
+         static_cast<double>(limits_.sectors),
+         "references stand in " + std::to_string(sectors.size()) + " sectors of 60 deg, " +
+             std::to_string(limits_.sectors) + " are needed"});
+    add({"elevations", tall ? Judgement::kGood : Judgement::kUnchecked, high - low,
+         limits_.elevation_deg,
+         "references span " + shown(std::max(0.0, high - low), " deg") + " of elevation, " +
+             shown(limits_.elevation_deg, " deg") + " are needed"});
+    cut(wide, tall, {left - kAround_deg, right + kAround_deg},
+        {low - kAbove_deg, high + kAbove_deg});
+  }
+
+  void cut(bool wide, bool tall, std::pair<double, double> pan, std::pair<double, double> tilt) {
+    WorkingVolume& volume = result_.volume;
+    result_.volume_is_cut = !wide || !tall;
+    if (!wide) {
+      volume.pan_deg =
+          std::min(volume.pan_deg, std::max(std::abs(pan.first), std::abs(pan.second)));
+    }
+    if (!tall) {
+      volume.lowest_deg = std::max(volume.lowest_deg, tilt.first);
+      volume.highest_deg = std::min(volume.highest_deg, tilt.second);
+    }
+  }
+
+  const Problem& problem_;
+  const Adjustment& adjustment_;
+  const Calibration& found_;
+  std::size_t station_;
+  const AcceptanceLimits& limits_;
+  const StationModel& model_;
+  Acceptance result_;
+};
+
+}  // namespace
+
+bool Acceptance::acceptable() const {
+  return std::ranges::none_of(findings,
+                              [](const Finding& one) { return one.judgement == Judgement::kBad; });
+}
+
+Acceptance judge_calibration(const Problem& problem, const Adjustment& adjustment,
+                             const Calibration& found, std::size_t station,
+                             const AcceptanceLimits& limits) {
+  return Judge(problem, adjustment, found, station, limits).run();
+}
+
+}  // namespace ols::calibration

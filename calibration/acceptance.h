@@ -1,0 +1,45 @@
+// Whether a calibration is good enough to be offered to a person: named findings, each with its
+// number and its limit. Nothing is accepted by itself.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/calibrate.h"
+#include "calibration/systematic.h"
+
+namespace ols::calibration {
+
+struct AcceptanceLimits {
+  double rms_arcsec = 15.0, worst_arcsec = 25.0;  // systematic, of an axis, over the volume
+  double detectable_arcsec = 30.0;                // of each reference
+  double without_itself_sigma = 3.0, without_itself_arcsec = 20.0;
+  double closing_arcsec = 12.0;
+  double sweep_px = 0.35, stars_px = 0.3;  // RMS of a coordinate's residual
+  int sectors = 3;                         // of azimuth, of 60 deg each, with a reference
+  double elevation_deg = 10.0;             // from the lowest reference to the highest
+};
+
+struct Finding {
+  enum class Judgement { kGood, kUnchecked, kBad };
+  std::string name;  // "systematic_rms", "reference spire detectable", ...
+  Judgement judgement = Judgement::kGood;
+  double value = 0.0;  // infinite: unchecked
+  double limit = 0.0;
+  std::string sentence;  // for a person
+};
+
+struct Acceptance {
+  std::vector<Finding> findings;
+  // Where the references allow the calibration to be used.
+  WorkingVolume volume;
+  bool volume_is_cut = false;
+  bool acceptable() const;  // no finding is bad
+};
+
+Acceptance judge_calibration(const Problem& problem, const Adjustment& adjustment,
+                             const Calibration& found, std::size_t station,
+                             const AcceptanceLimits& limits = {});
+
+}  // namespace ols::calibration

@@ -1,0 +1,37 @@
+// A rectification target's ruler: black and white bars of equal height on a vertical board, and one
+// black bar of three times the height, the zero. Pure.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+
+namespace ols::calibration {
+
+struct RulerReading {
+  enum class Refusal {
+    kNone,
+    kNothing,  // no bars there
+    kScale,    // bars of another height than the distance gives
+    kNoZero,   // the zero is hidden or outside of the picture
+    kShort,    // the ruler does not reach the wanted row
+    kUneven,   // the bars do not follow each other evenly: half hidden, blurred, or no ruler
+  };
+  Refusal refusal = Refusal::kNone;
+  double scale = 1.0;    // height of a bar over the expected one
+  double x_px = 0.0;     // of the ruler
+  double bars = 0.0;     // the reading at the wanted row: heights of a bar over the zero's middle
+  double sd_px = 0.0;    // 1-sigma of the reading's place
+  double zero_px = 0.0;  // row of the zero's middle
+  explicit operator bool() const { return refusal == Refusal::kNone; }
+};
+const char* to_string(RulerReading::Refusal refusal);
+
+// Where bars of this height stand, somewhere on the ruler; nothing: nowhere.
+std::optional<Eigen::Vector2d> find_ruler(const cv::Mat& gray, double bar_px);
+
+// Reads the ruler that stands at `at_px`, at this row. `bar_px`: expected height of a bar.
+RulerReading read_ruler(const cv::Mat& gray, const Eigen::Vector2d& at_px, double bar_px,
+                        double row_px);
+
+}  // namespace ols::calibration

@@ -1,0 +1,34 @@
+// Stars in a picture of the night sky: found above the background, centred, each with its
+// deviation. Hot pixels, streaks (aircraft, satellites) and lit surfaces are refused and counted.
+// Pure.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace ols::calibration {
+
+struct DetectedStar {
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
+  double sd_px = 0.0;  // 1-sigma of each coordinate, the larger one
+  double flux = 0.0;   // [gray px] above the background
+  bool saturated = false;
+};
+
+struct StarField {
+  std::vector<DetectedStar> stars;  // brightest first
+  int hot_pixels = 0, streaks = 0, surfaces = 0;
+  double noise = 0.0;  // [gray] of a pixel
+};
+
+struct StarDetectionOptions {
+  double threshold = 5.0;  // of the noise, of the smoothed picture
+  double widest_px = 4.0;  // 1-sigma of a star's image: more is a surface
+  double longest = 2.0;    // length over width: more is a streak
+};
+
+// 8-bit or 16-bit gray.
+StarField detect_stars(const cv::Mat& gray, const StarDetectionOptions& options = {});
+
+}  // namespace ols::calibration

@@ -1,0 +1,32 @@
+// The sun's centre in a picture through a filter: a circle fitted to its limb. Pure.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+namespace ols::calibration {
+
+struct SunDisc {
+  enum class Refusal {
+    kNone,
+    kNoDisc,     // nothing bright on dark, or several
+    kAtTheEdge,  // of the picture
+    kOtherSize,  // not the sun, or another focal length
+    kNotRound,   // clouds, or too long an exposure
+  };
+  Refusal refusal = Refusal::kNoDisc;
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
+  double radius_px = 0.0;
+  double sd_px = 0.0;  // 1-sigma of each coordinate of the centre
+  explicit operator bool() const { return refusal == Refusal::kNone; }
+};
+const char* to_string(SunDisc::Refusal refusal);
+
+// `focal_px`: the radius that is looked for follows from it, to 3 % (the sun's distance changes it
+// by 1.7 %).
+SunDisc find_sun(const cv::Mat& gray, double focal_px);
+
+// No sky and no scenery shows in it: a filter for the sun is on the lens.
+bool is_black(const cv::Mat& gray);
+
+}  // namespace ols::calibration

@@ -1,0 +1,61 @@
+// A whole procedure: its stages one after the other, then what a person decides about the result.
+// Whoever runs it carries out orders, adjusts when the stages are complete, and stores. Pure.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/procedure/stage.h"
+
+namespace ols::calibration {
+
+// The result of an adjustment, as a person sees it.
+struct AdjustedResult {
+  bool failed = false;  // nothing came of it: contradictions, no heading
+  bool good = false;    // it meets the limits for being accepted
+  std::string text;     // one screen
+  std::string worst;    // the reference that should be sighted again; empty: none
+};
+
+enum class Outcome { kRunning, kAccepted, kKeptOld, kAborted };
+
+class FieldProcedure {
+ public:
+  using Redo = std::function<void(const std::string& reference)>;
+  // `redo`: what sights one reference again, in the
+  // last stage.
+  FieldProcedure(std::vector<std::unique_ptr<Stage>> stages, Redo redo);
+
+  // Nothing: the stages are complete and adjusted() is waited for, or all is over.
+  std::optional<Order> next();
+  void taken(const Taken& picture) { stage().taken(picture); }
+  void seen(const Taken& picture) { stage().seen(picture); }
+  bool work() { return stage().work(); }
+  void not_taken(const std::string& why) { stage().not_taken(why); }
+  void answered(const Answer& answer);
+  void resumed() { stage().resumed(); }
+  bool wants_adjustment() const { return outcome_ == Outcome::kRunning && !result_; }
+  void adjusted(const AdjustedResult& result) { result_ = result; }
+  void abort() { outcome_ = Outcome::kAborted; }
+
+  Outcome outcome() const { return outcome_; }
+  double progress() const;
+  std::vector<Observation> observations() const;
+  std::vector<std::string> take_remarks();
+
+ private:
+  Stage& stage() { return *stages_[std::min(at_, stages_.size() - 1)]; }
+  Order decision() const;
+
+  std::vector<std::unique_ptr<Stage>> stages_;
+  Redo redo_;
+  std::size_t at_ = 0;
+  std::optional<AdjustedResult> result_;
+  Outcome outcome_ = Outcome::kRunning;
+};
+
+}  // namespace ols::calibration

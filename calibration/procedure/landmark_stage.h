@@ -1,0 +1,85 @@
+// Sighting landmarks with a person: the first one pointed at, then the unit drives to each, that
+// one first which helps most, and a crosshair snaps that the person confirms; a second round by
+// itself, from the other side of the gears; back to the first at the end, which closes the round.
+// Pure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/pictures/patch_matching.h"
+#include "calibration/procedure/pointing_dialog.h"
+#include "calibration/procedure/sighting_planner.h"
+#include "calibration/procedure/stage.h"
+#include "geometry/station_model.h"
+
+namespace ols::calibration {
+
+using Landmark = Place;
+
+class LandmarkStage : public Stage {
+ public:
+  // `model`: the station as far as it is known; its heading may be anything, the first sighting
+  // tells. `rounds`: how often each landmark is sighted. Landmarks that the unit cannot look at are
+  // remarked and left out. `adviser`: tells the order after the first; without one it is that
+  // given.
+  LandmarkStage(const StationModel& model, std::vector<Landmark> landmarks, int rounds,
+                Adviser adviser = nullptr);
+
+  std::optional<Order> next() override;
+  void taken(const Taken& picture) override;
+  void not_taken(const std::string& why) override;
+  void answered(const Answer& answer) override;
+  std::vector<Observation> observations() const override;
+  double progress() const override;
+
+  // By how much the first landmark had moved at the end [rad]; nothing before.
+  std::optional<double> closing_rad() const { return closing_rad_; }
+  // Sights this landmark again, with the person: its sightings so far stand until he confirms.
+  void redo(const std::string& name);
+  const StationModel& model() const { return model_; }
+
+ private:
+  // What a person has confirmed of a landmark.
+  struct Confirmed {
+    Taken picture;
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+    double sd_px = 0.0;
+    std::optional<Patch> patch;
+  };
+  struct Entry {
+    Landmark landmark;
+    std::optional<Confirmed> confirmed;
+    std::vector<Observation> sightings;
+    bool to_be_replaced = false;  // the sightings, by new ones
+  };
+  struct Visit {
+    std::size_t entry = 0;
+    int approach = 1;
+    bool by_person = true;  // else found again by its patch
+    bool closing = false;
+  };
+
+  const Visit& visit() const { return visits_[at_]; }
+  Entry& entry() { return entries_[visit().entry]; }
+  Shot shot() const;
+  std::optional<Eigen::Vector2d> predicted(const Taken& picture) const;
+  void confirm();
+  void find_again(const Taken& picture);
+  void learn_heading(const Taken& picture, const Eigen::Vector2d& pixel);
+  void next_visit();
+  void choose_next();
+
+  StationModel model_;
+  bool heading_known_ = false;
+  std::vector<Entry> entries_;
+  std::vector<Visit> visits_;
+  std::size_t at_ = 0;
+  PanTilt turned_;         // by the person, of this visit
+  PointingDialog dialog_;  // of this visit
+  Adviser adviser_;
+  std::string advice_;  // of this visit
+  std::optional<double> closing_rad_;
+};
+
+}  // namespace ols::calibration

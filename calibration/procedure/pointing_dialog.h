@@ -1,0 +1,40 @@
+// A person shows where something is in a picture: he points, a crosshair snaps to what is there, he
+// confirms; or he turns the unit first. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "calibration/procedure/stage.h"
+
+namespace ols::calibration {
+
+class PointingDialog {
+ public:
+  enum class Event { kAsksOn, kConfirmed, kTurn, kSkipped };
+
+  // About `what` in this picture, without a crosshair.
+  void begin(const std::string& what, const Taken& picture);
+  // Puts the crosshair on the structure near this pixel, or says why there is none. `as_is`: on the
+  // pixel itself.
+  void place(const Eigen::Vector2d& near_px, double radius_px, bool as_is = false);
+  Event answered(const Answer& answer);
+  void end() { question_.reset(); }
+
+  // What is asked; nothing before begin() and after end().
+  const std::optional<Order>& question() const { return question_; }
+  bool has_crosshair() const { return question_ && question_->question.crosshair_px.has_value(); }
+  // Of the crosshair.
+  const Taken& picture() const { return picture_; }
+  Eigen::Vector2d pixel() const { return *question_->question.crosshair_px; }
+  double sd_px() const { return question_->question.crosshair_sd_px; }
+
+ private:
+  void show(const std::string& trouble);
+
+  std::string what_;
+  Taken picture_;
+  std::optional<Order> question_;
+};
+
+}  // namespace ols::calibration

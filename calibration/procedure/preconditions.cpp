@@ -1,0 +1,67 @@
+#include "calibration/procedure/preconditions.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace ols::calibration {
+namespace {
+
+template <class... Values>
+std::string printed(const char* format, Values... values) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+Precondition clock_of(const StationFacts& facts, const Wanted& wanted) {
+  // A second is 15 arc seconds of a star, and a drone at 10 m/s flies 10 m.
+  constexpr double kOfSky_s = 0.05;
+  Precondition one{facts.clock_synchronised && facts.clock_error_s < kOfSky_s, wanted.absolute_time,
+                   ""};
+  one.sentence = one.met ? printed("clock synchronised to %.4f s", facts.clock_error_s)
+                         : "the clock is not synchronised: stars, sun and drones cannot be used; "
+                           "wait for GNSS or a time server";
+  return one;
+}
+
+}  // namespace
+
+std::vector<Precondition> preconditions(const StationFacts& facts, const Wanted& wanted) {
+  std::vector<Precondition> all;
+  const auto add = [&all](bool met, bool needed, std::string good, std::string bad) {
+    all.push_back({met, needed, met ? std::move(good) : std::move(bad)});
+  };
+  add(!facts.emergency, true, "no emergency stop",
+      "emergency stop: release it and re-arm the station");
+  add(!facts.stopped, true, "the station may move", "the station is stopped: release it");
+  add(facts.status_gap_s < wanted.status_gap_s, true, "a stop will be heard of in time",
+      printed("the station's status comes every %.1f s: a stop would be heard of too late, "
+              "%.1f s are needed: set status_interval_s to 0.5",
+              facts.status_gap_s, wanted.status_gap_s));
+  add(!facts.follows_target, true, "it follows nothing",
+      "the station follows a target: release it, or wait");
+  add(facts.unit_works, true, "the pan-tilt unit answers", "the pan-tilt unit does not work");
+  add(facts.limits_known, true, "the unit is homed", "the unit's reference is missing: home it");
+  add(facts.camera_works, true, "the camera delivers pictures", "the camera does not work");
+  add(facts.image_width_px == wanted.image_width_px &&
+          facts.image_height_px == wanted.image_height_px,
+      true, "the pictures have the configured size",
+      printed("the camera sends %d x %d px, the configuration says %d x %d", facts.image_width_px,
+              facts.image_height_px, wanted.image_width_px, wanted.image_height_px));
+  add(facts.has_position, true, printed("position known to %.2f m", facts.position_sd_m),
+      "the position is not known: wait for a GNSS fix, or survey it");
+  add(facts.has_tilt, false, printed("levelled, tilt known to %.3f deg", facts.tilt_sd_deg),
+      "no inclinometer: level the tripod by its bubble");
+  all.push_back(clock_of(facts, wanted));
+  add(facts.alarms.empty(), false, "no alarm",
+      facts.alarms.empty() ? "" : "alarm: " + facts.alarms.front());
+  return all;
+}
+
+std::string first_hindrance(const std::vector<Precondition>& all) {
+  const auto found =
+      std::ranges::find_if(all, [](const Precondition& one) { return one.needed && !one.met; });
+  return found == all.end() ? "" : found->sentence;
+}
+
+}  // namespace ols::calibration

@@ -1,0 +1,43 @@
+// What must be so before a calibration begins, and what a person should at least know. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ols::calibration {
+
+// Of a station's status.
+struct StationFacts {
+  std::string state;  // "idle", "manual", ...
+  bool camera_works = false, unit_works = false;
+  bool limits_known = false;  // the unit is homed and has said its travel
+  bool stopped = false, emergency = false;
+  bool follows_target = false;
+  double status_gap_s = 0.0;  // between two statuses
+  bool has_position = false, has_tilt = false;
+  double position_sd_m = 0.0, tilt_sd_deg = 0.0;  // 1-sigma
+  bool clock_synchronised = false;
+  double clock_error_s = 0.0;
+  int image_width_px = 0, image_height_px = 0;
+  std::vector<std::string> alarms;
+};
+
+struct Wanted {
+  double status_gap_s = 0.0;                    // less than this: a stop is heard of in time
+  bool absolute_time = false;                   // stars, the sun, aircraft, drones
+  int image_width_px = 0, image_height_px = 0;  // by the configuration
+};
+
+struct Precondition {
+  bool met = false;
+  bool needed = true;    // else it is only said
+  std::string sentence;  // for a person: what is, and what to do
+};
+
+// In the order in which a person puts them right.
+std::vector<Precondition> preconditions(const StationFacts& facts, const Wanted& wanted);
+// Why a calibration cannot begin; empty: it can.
+std::string first_hindrance(const std::vector<Precondition>& all);
+
+}  // namespace ols::calibration

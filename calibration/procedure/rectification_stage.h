@@ -1,0 +1,49 @@
+// One rectification target with a person: a live picture with its number until the target is put
+// up and the person confirms; then pictures from both sides of the gears, each read by itself. A
+// target whose place the unit itself has pointed out is measured without turning it. Pure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/procedure/target_reader.h"
+
+namespace ols::calibration {
+
+class RectificationStage : public Stage {
+ public:
+  // `start`: where the unit looks first. `rounds`: so many pictures from each side.
+  RectificationStage(TargetReaderPtr reader, const PanTilt& start, int rounds);
+
+  std::optional<Order> next() override;
+  void taken(const Taken& picture) override;
+  void seen(const Taken& picture) override;
+  void not_taken(const std::string& why) override;
+  void answered(const Answer& answer) override;
+  std::vector<Observation> observations() const override { return observations_; }
+  double progress() const override;
+
+ private:
+  enum class State { kPuttingUp, kMeasuring, kDone };
+
+  int pictures() const { return 2 * rounds_; }
+  Shot shot() const;
+  void look(const Taken& picture);
+  void ask(const std::string& trouble);
+  void measure(const Taken& picture);
+  void end_measuring();
+
+  TargetReaderPtr reader_;
+  PanTilt angles_;
+  int rounds_;
+  State state_ = State::kPuttingUp;
+  std::optional<Taken> picture_;  // the newest, while the target is put up
+  std::optional<Eigen::Vector2d> pointed_;
+  std::optional<TargetReading> reading_;  // of that picture
+  std::optional<Order> question_;
+  int taken_ = 0, read_ = 0;
+  std::string number_;  // of the last picture that was read
+  std::vector<Observation> observations_;
+};
+
+}  // namespace ols::calibration

@@ -1,0 +1,40 @@
+// Pictures of the night sky all around, and the stars that are in them: without names, which the
+// adjustment finds. Pure.
+#pragma once
+
+#include "calibration/procedure/stage.h"
+
+namespace ols::calibration {
+
+struct StarPlanOptions {
+  int pictures = 24;
+  double pan_min_rad = -2.6, pan_max_rad = 2.6;
+  double lowest_rad = 0.21;  // 12 degrees: refraction below 10 is not known well enough
+  double highest_rad = 0.5;
+};
+
+// Uneven steps of pan, over all elevations, alternately from both sides of the gears.
+// std::invalid_argument where the unit does not reach the lowest elevation.
+std::vector<Shot> plan_stars(const StarPlanOptions& options);
+
+class StarStage : public Stage {
+ public:
+  explicit StarStage(std::vector<Shot> shots) : shots_(std::move(shots)) {}
+
+  std::optional<Order> next() override;
+  void taken(const Taken& picture) override;
+  void not_taken(const std::string& why) override;
+  void answered(const Answer&) override {}
+  std::vector<Observation> observations() const override { return observations_; }
+  double progress() const override;
+
+ private:
+  void step();
+
+  std::vector<Shot> shots_;
+  std::size_t at_ = 0;
+  int empty_ = 0;  // pictures without a star
+  std::vector<Observation> observations_;
+};
+
+}  // namespace ols::calibration

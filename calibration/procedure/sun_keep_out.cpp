@@ -1,0 +1,31 @@
+#include "calibration/procedure/sun_keep_out.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "geometry/angles.h"
+
+namespace ols::calibration {
+
+Eigen::Vector3d SunKeepOut::sun_enu() const {
+  const Geodetic& place = model_.geometry.position;
+  const SkyDirection sun = sun_direction(now_(), place, standard_air(place.height_m), {});
+  return LocalFrame(place).R_ecef_enu().transpose() * sun.ecef;
+}
+
+std::string SunKeepOut::hindrance(const PanTilt& angles) const {
+  constexpr double kSet_deg = -2.0;  // nothing of it is seen below
+  if (lifted_) return {};
+  const Eigen::Vector3d sun = sun_enu();
+  if (sun.z() < std::sin(radians(kSet_deg))) return {};
+  const Eigen::Vector3d axis = enu_from_azimuth_elevation(optical_axis(model_.geometry, angles));
+  const double apart_deg = degrees(std::acos(std::clamp(axis.dot(sun), -1.0, 1.0)));
+  if (apart_deg >= kRadius_deg) return {};
+  char text[120];
+  std::snprintf(text, sizeof text, "the sun stands %.0f degrees beside it: %.0f are kept",
+                apart_deg, kRadius_deg);
+  return text;
+}
+
+}  // namespace ols::calibration

@@ -1,0 +1,39 @@
+// Where the unit must not look because the sun stands there: until a filter is on the lens. Pure.
+//
+// It goes by the heading that is known: a compass' error of some degrees is within the margin, a
+// heading that nobody has stated is not.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "calibration/sky.h"
+#include "geometry/station_model.h"
+
+namespace ols::calibration {
+
+class SunKeepOut {
+ public:
+  static constexpr double kRadius_deg = 8.0;  // half a picture's diagonal, and a compass' error
+
+  using UtcNow = std::function<std::int64_t()>;  // [us]
+  SunKeepOut(const StationModel& model, UtcNow now) : model_(model), now_(std::move(now)) {}
+
+  // In words why the unit must not look there (reported angles) now; empty: it may.
+  std::string hindrance(const PanTilt& angles) const;
+  // A filter is on the lens: a person has said so, and a picture beside the sun has proved it.
+  void lift() { lifted_ = true; }
+  void restore() { lifted_ = false; }
+
+  // Where the sun stands now, with the refraction in it, from GROUND: east, north, up.
+  Eigen::Vector3d sun_enu() const;
+  std::int64_t now_utime_us() const { return now_(); }
+
+ private:
+  StationModel model_;
+  UtcNow now_;
+  bool lifted_ = false;
+};
+
+}  // namespace ols::calibration

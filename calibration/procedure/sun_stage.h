@@ -1,0 +1,49 @@
+// The sun through a filter: a person puts the filter on, a picture beside the sun proves it, and
+// only then the unit looks at the sun, from both sides of its gears and at several places of the
+// picture. Pure.
+#pragma once
+
+#include <memory>
+
+#include "calibration/procedure/stage.h"
+#include "calibration/procedure/sun_keep_out.h"
+
+namespace ols::calibration {
+
+// Reported angles that the unit can be sent to.
+using MayGo = std::function<bool(const PanTilt&)>;
+
+class SunStage : public Stage {
+ public:
+  // `keep_out`: lifted while the filter is on. `may_go`: the unit's travel and keep-out regions.
+  SunStage(const StationModel& model, std::shared_ptr<SunKeepOut> keep_out, MayGo may_go);
+
+  std::optional<Order> next() override;
+  void taken(const Taken& picture) override;
+  void not_taken(const std::string& why) override;
+  void answered(const Answer& answer) override;
+  // The filter may be off by now.
+  void resumed() override;
+  std::vector<Observation> observations() const override { return observations_; }
+  double progress() const override;
+
+ private:
+  enum class Step { kAskFilter, kProve, kSight, kAskTurn, kLeave, kAskOff, kDone };
+
+  std::optional<Shot> beside() const;
+  std::optional<Shot> at_sun() const;
+  void ask_filter(const std::string& trouble);
+  void give_up(const std::string& why);
+  void next_sighting();
+
+  StationModel model_;
+  std::shared_ptr<SunKeepOut> keep_out_;
+  MayGo may_go_;
+  Step step_ = Step::kAskFilter;
+  Question question_;
+  PanTilt turned_;      // by the person
+  std::size_t at_ = 0;  // sighting
+  std::vector<Observation> observations_;
+};
+
+}  // namespace ols::calibration

@@ -1,0 +1,68 @@
+// The paper's rectification targets as a person puts them up, and what a picture says of each: what
+// to show, a number, observations. Pure.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/procedure/stage.h"
+#include "geometry/station_model.h"
+
+namespace ols::calibration {
+
+// Level, parallel lines, dark on light.
+struct LevelBoard {
+  double level_sd_rad = 30.0 * EIGEN_PI / 648000.0;
+};
+// A cross straight ahead of the unit's axes, and another one so far to the right of it as the
+// camera stands; where the camera stands above the axes they are one.
+struct CrossBoard {
+  double distance_m = 0.0;  // from the pan axis
+  double apart_m = 0.0;
+  double arm_m = 0.12, width_m = 0.03;  // from the centre to the end of an arm; of an arm
+  double sd_m = 0.003;                  // of the left cross: beside where the unit points
+};
+// Two rulers, the farther one seen beside the nearer one, their zeros at one height.
+struct RulerPair {
+  double near_m = 0.0, far_m = 0.0;  // from the pan axis
+  double bar_m = 0.05;               // height of a bar
+  double sd_m = 0.001;               // of each zero's height
+};
+struct RectificationTargets {
+  std::optional<LevelBoard> level;
+  std::optional<CrossBoard> cross;
+  std::optional<RulerPair> rulers;
+};
+
+struct TargetReading {
+  std::string trouble;  // why the target is not read, as a sentence; empty: it is
+  std::string number;   // what it says by itself, for a person
+  cv::Mat shown;
+  std::optional<Eigen::Vector2d> crosshair_px;
+  double crosshair_sd_px = 0.0;
+  std::vector<Observation> observations;  // none where there is trouble
+};
+
+class TargetReader {
+ public:
+  virtual ~TargetReader() = default;
+  virtual std::string name() const = 0;         // "level line"
+  virtual std::string instruction() const = 0;  // what a person has to put up, and where
+  // Its place is known from the unit as it stands: it must not turn until all pictures are taken.
+  virtual bool holds_unit() const { return false; }
+  // `pointed`: where a person says that the target is, or a part of it.
+  virtual TargetReading read(const Taken& picture,
+                             const std::optional<Eigen::Vector2d>& pointed) const = 0;
+};
+using TargetReaderPtr = std::unique_ptr<const TargetReader>;
+
+TargetReaderPtr level_line_reader(const LevelBoard& board);
+TargetReaderPtr cross_reader(const StationModel& model, const CrossBoard& board);
+TargetReaderPtr ruler_reader(const StationModel& model, const RulerPair& rulers);
+// In the paper's order.
+std::vector<TargetReaderPtr> target_readers(const StationModel& model,
+                                            const RectificationTargets& targets);
+
+}  // namespace ols::calibration

@@ -1,0 +1,81 @@
+// Votes of detections and stars for turns about the vertical: the first, rough half of
+// calibration/star_identification.h.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "calibration/star_identification.h"
+
+namespace ols::calibration {
+
+// A frame's detections as they would stand with the heading 0, and the stars that could be among
+// them at any heading.
+struct SeenFrame {
+  struct Detection {
+    std::size_t index = 0;  // in the frame
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+    AzimuthElevation at;
+  };
+  struct SkyStar {
+    std::size_t index = 0;  // in the table
+    Eigen::Vector3d enu = Eigen::Vector3d::UnitY();
+    AzimuthElevation at;
+  };
+  UnitReading reading;
+  std::vector<Detection> detections;
+  std::vector<SkyStar> sky;
+  AzimuthElevation axis;                        // of the middle of the image, with the heading 0
+  double across_sd_rad = 0.0, up_sd_rad = 0.0;  // how well the station's parameters tell it
+};
+
+// Indices into a frame's detections and stars.
+struct StarPair {
+  std::size_t frame = 0, seen = 0, star = 0;
+};
+
+struct StarHypothesis {
+  double heading_rad = 0.0;
+  int votes = 0;  // of all frames
+  std::vector<StarPair> pairs;
+};
+
+class StarVotes {
+ public:
+  StarVotes(const StationPrior& station, std::span<const StarFrame> frames,
+            const StarConditions& conditions, std::span<const TableStar> table);
+
+  const std::vector<SeenFrame>& frames() const { return frames_; }
+  // Those with most votes, the best first.
+  std::vector<StarHypothesis> hypotheses() const;
+
+ private:
+  // Cells of turn and lift, one row of turns after the other.
+  struct Cells {
+    int turns = 0, lifts = 0;
+    std::vector<int> votes;
+    int wrapped(int turn) const { return (turn % turns + turns) % turns; }
+    // Of 2 x 2 cells: what belongs together may lie on both sides of an edge.
+    int block(int turn, int lift) const;
+  };
+  struct Peak {
+    std::size_t frame = 0;
+    int turn = 0, lift = 0, votes = 0;
+  };
+  SeenFrame seen(const StationPrior& station, const StarFrame& frame,
+                 const StarConditions& conditions, const std::vector<Star>& stars) const;
+  Cells cells_of(const SeenFrame& frame) const;
+  std::pair<int, int> cell(const SeenFrame& frame, const Cells& cells, std::size_t seen,
+                           std::size_t star) const;
+  std::vector<Peak> peaks(std::size_t frame) const;
+  // The best cell of a frame with about this heading.
+  Peak nearby(std::size_t frame, double heading_rad, double slack_rad) const;
+  StarHypothesis hypothesis(const Peak& peak) const;
+  void add_pairs(const Peak& peak, StarHypothesis& to) const;
+
+  std::vector<SeenFrame> frames_;
+  std::vector<Cells> cells_;
+};
+
+}  // namespace ols::calibration

@@ -1,0 +1,34 @@
+#include "central/admission/calibration_monitor.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "geometry/angles.h"
+
+namespace ols::fusion {
+namespace {
+
+constexpr double kSigmas = 4.0;
+constexpr double kArcsec = kPi / 648000.0;
+
+}  // namespace
+
+std::string calibration_alarm(const std::string& station, const StatedCalibration& stated,
+                              const FoundBias& found) {
+  // One that doubts itself has stated that already.
+  if (stated.state != CalibrationState::kInUse) return {};
+  bool beyond = false;
+  for (int axis = 0; axis < 2; ++axis) {
+    beyond = beyond || std::abs(found.bias_rad[axis]) > kSigmas * found.stated_sd_rad[axis];
+  }
+  if (!beyond) return {};
+  const auto arcsec = [](double rad) { return std::isnan(rad) ? 0.0 : rad / kArcsec; };
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "bearings contradict its calibration: off by %.0f arc seconds across and %.0f in "
+                "elevation: check its reference views",
+                arcsec(found.bias_rad.x()), arcsec(found.bias_rad.y()));
+  return "station " + station + ": " + text;
+}
+
+}  // namespace ols::fusion

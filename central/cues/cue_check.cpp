@@ -1,0 +1,85 @@
+#include "central/cues/cue_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/angles.h"
+
+namespace ols::fusion {
+namespace {
+
+bool is_finite(const Cue& cue) {
+  return std::isfinite(cue.place.latitude_rad) && std::isfinite(cue.place.longitude_rad) &&
+         std::isfinite(cue.place.height_m) && std::isfinite(cue.horizontal_sd_m) &&
+         std::isfinite(cue.vertical_sd_m) && cue.velocity_enu_m_s.allFinite() &&
+         std::isfinite(cue.velocity_sd_m_s);
+}
+
+bool is_possible(const Cue& cue) {
+  constexpr double kLowest_m = -1000.0, kHighest_m = 100e3, kFastest_m_s = 3000.0;
+  return !cue.id.empty() && std::abs(cue.place.latitude_rad) <= kPi / 2.0 &&
+         std::abs(cue.place.longitude_rad) <= kPi && cue.place.height_m >= kLowest_m &&
+         cue.place.height_m <= kHighest_m && cue.horizontal_sd_m > 0.0 && cue.vertical_sd_m > 0.0 &&
+         cue.velocity_sd_m_s > 0.0 && cue.velocity_sd_m_s <= kFastest_m_s &&
+         cue.velocity_enu_m_s.norm() <= kFastest_m_s;
+}
+
+}  // namespace
+
+const char* to_string(CueRefusal refusal) {
+  switch (refusal) {
+    case CueRefusal::kNotFinite:
+      return "cues_not_finite";
+    case CueRefusal::kOutOfRange:
+      return "cues_out_of_range";
+    case CueRefusal::kPole:
+      return "cues_at_the_pole";
+    case CueRefusal::kStale:
+      return "cues_stale";
+    case CueRefusal::kFuture:
+      return "cues_future";
+    case CueRefusal::kVague:
+      return "cues_vague";
+    case CueRefusal::kOutOfArea:
+      return "cues_out_of_area";
+    case CueRefusal::kTooMany:
+      return "cues_too_many";
+    case CueRefusal::kNone:
+    case CueRefusal::kCount:
+      break;
+  }
+  return "unknown";
+}
+
+CueRefusal check(const Cue& cue, std::int64_t present_us, const CueConfig& config) {
+  constexpr double kPole_rad = radians(89.9), kFuture_s = 1.0, kLongestWay_s = 1.0;
+  if (!is_finite(cue)) return CueRefusal::kNotFinite;
+  if (std::min(cue.utime_us, cue.state_us) < 0 ||
+      std::max(cue.utime_us, cue.state_us) > kGreatestUtime) {
+    return CueRefusal::kOutOfRange;
+  }
+  if (!is_possible(cue)) return CueRefusal::kOutOfRange;
+  if (std::abs(cue.place.latitude_rad) > kPole_rad) return CueRefusal::kPole;
+  const auto age_s = [&](std::int64_t utime_us) {
+    return 1e-6 * (static_cast<double>(present_us) - static_cast<double>(utime_us));
+  };
+  // How old its source's knowledge may be is one thing; a message that is late itself another.
+  if (age_s(cue.state_us) > config.max_age_s || age_s(cue.utime_us) > kLongestWay_s) {
+    return CueRefusal::kStale;
+  }
+  if (std::min(age_s(cue.state_us), age_s(cue.utime_us)) < -kFuture_s) return CueRefusal::kFuture;
+  if (std::max(cue.horizontal_sd_m, cue.vertical_sd_m) > config.most_sd_m) {
+    return CueRefusal::kVague;
+  }
+  return CueRefusal::kNone;
+}
+
+bool is_in_area(const Cue& cue, const StationRegistry& stations, double range_m) {
+  const Eigen::Vector3d p_ecef = ecef_from_geodetic(cue.place);
+  return std::ranges::any_of(stations.all(), [&](const auto& station) {
+    const Eigen::Vector3d& camera_ecef = station.second.traits.camera_ecef;
+    return !camera_ecef.isZero() && (p_ecef - camera_ecef).norm() <= range_m;
+  });
+}
+
+}  // namespace ols::fusion

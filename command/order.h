@@ -1,0 +1,69 @@
+// An operator's command to one station, as plain values.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ols::command {
+
+enum class Kind {
+  kDesignate,
+  kPoint,
+  kStop,
+  kRelease,
+  kRearm,
+  kHome,
+  kReferenceOk,
+  kRecord,
+  kRate,
+  kLens,
+  kCentre,
+  kLook
+};
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+struct Order {
+  std::string station = {};
+  Kind kind = Kind::kStop;
+  // kDesignate, kCentre, kLook: the frame's mid-exposure [us UTC], 0 for the newest, and the box,
+  // or the point alone, [px] in the full-resolution frame. kLook designates what is at the point.
+  std::int64_t frame_utime_us = 0;
+  double x_px = 0.0, y_px = 0.0, width_px = 0.0, height_px = 0.0;
+  // kPoint: as the PTU counts them.
+  double pan_rad = 0.0, tilt_rad = 0.0;
+  // kRate: of the PTU's angles; in force for its lease.
+  double pan_rate_rad_s = 0.0, tilt_rate_rad_s = 0.0;
+  // kLens: positions, or rates for the lease; NaN: this axis goes on (lens_command_t).
+  bool lens_rates = false;
+  double zoom = kNaN, focus = kNaN, iris = kNaN;
+  // kRecord: around now.
+  double before_s = 0.0, after_s = 0.0;
+  std::string label = {};
+};
+
+// How long a station obeys an order after it was made, and hence how long its answer is awaited.
+inline constexpr double kLease_s = 2.0;
+// A station counts what it takes and refuses within this time at the latest: two status intervals.
+inline constexpr double kTwoIntervals_s = 1.2;
+// A rate is repeated this often while the hand holds: two may get lost within its lease.
+inline constexpr double kRateAgain_s = 0.1;
+// The most that a station accepts: kRateLease_s of geometry/slew_limits.h.
+inline constexpr double kJoystickLease_s = 0.3;
+// A stop is repeated this often until its station confirms it: a flooded network loses some.
+inline constexpr double kStopAgain_s = 0.02;
+
+// A joystick's order: how long it moves the unit or the lens.
+bool is_joystick(const Order& order);
+double lease_s(const Order& order);
+
+// "reference_ok".
+std::string_view name(Kind kind);
+// The first part of the names of the station's counters.
+std::string_view counted_as(Kind kind);
+std::optional<Kind> kind_named(std::string_view name);
+
+}  // namespace ols::command

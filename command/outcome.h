@@ -1,0 +1,36 @@
+// What came of an order, read from the counters that its station reports. Pure.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "command/order.h"
+
+namespace ols::command {
+
+// What a station's status says of the orders it got.
+struct Reply {
+  std::map<std::string, double> counters = {};  // only up within one boot
+  std::string last_error = {};
+  bool stopped = false;  // stopped, or in an emergency
+};
+
+double counter(const Reply& reply, const std::string& name);  // 0 if it is missing
+
+struct Outcome {
+  bool accepted = false;
+  std::string why;  // when refused: the station's reason
+};
+
+// Nothing while the station has not counted the order. `before`: its status before it was sent.
+std::optional<Outcome> outcome(const Reply& before, const Reply& now, Kind kind);
+
+// After the lease: the most probable reason. These counters also count others' messages, so that
+// they are looked at only when nothing else is known.
+Outcome without_answer(const Reply& before, const Reply& now);
+
+// `stops_before`: the count of accepted stops in the first status heard since the stop was sent.
+bool confirms_stop(const Reply& now, double stops_before);
+
+}  // namespace ols::command

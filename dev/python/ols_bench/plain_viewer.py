@@ -1,0 +1,53 @@
+"""A browser's WebSocket to the console without the browser: asks for pictures, reads everything."""
+
+import base64
+import json
+import os
+import socket
+import struct
+import threading
+from urllib.parse import urlparse
+
+
+class PlainViewer(threading.Thread):
+    def __init__(self, address: str, stations: list[str]):
+        super().__init__(daemon=True)
+        where = urlparse(address)
+        self.bytes = 0
+        self._socket = socket.create_connection((where.hostname, where.port))
+        key = base64.b64encode(os.urandom(16)).decode()
+        self._socket.sendall(
+            f"GET /api/live HTTP/1.1\r\nHost: {where.netloc}\r\nUpgrade: websocket\r\n"
+            f"Connection: Upgrade\r\nSec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n"
+            "".encode()
+        )
+        said = b""
+        while b"\r\n\r\n" not in said:
+            said += self._socket.recv(1)
+        if b" 101 " not in said:
+            raise ConnectionError(said.decode(errors="replace"))
+        self._say({"do": "watch", "pictures": stations})
+
+    def _say(self, message: dict) -> None:
+        text = json.dumps(message).encode()
+        mask = os.urandom(4)
+        masked = bytes(byte ^ mask[i % 4] for i, byte in enumerate(text))
+        # RFC 6455, section 5.2: the shortest form of the length.
+        length = (
+            struct.pack(">B", 0x80 | len(text))
+            if len(text) < 126
+            else struct.pack(">BH", 0x80 | 126, len(text))
+        )
+        self._socket.sendall(b"\x81" + length + mask + masked)
+
+    def run(self) -> None:
+        try:
+            while data := self._socket.recv(1 << 16):
+                self.bytes += len(data)
+        except OSError:
+            return
+
+    def end(self) -> None:
+        self._socket.shutdown(socket.SHUT_RDWR)
+        self.join()
+        self._socket.close()

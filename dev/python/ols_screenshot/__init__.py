@@ -1,0 +1,1 @@
+"""A picture of the console's page while the demo runs."""

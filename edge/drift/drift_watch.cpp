@@ -1,0 +1,164 @@
+#include "edge/drift/drift_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "geometry/angles.h"
+
+namespace ols::station {
+namespace {
+
+constexpr double kArcsec = kPi / 648000.0;
+constexpr double kSigmas = 3.0;
+constexpr const char* kFormat = "drift 1";
+
+template <class... Values>
+std::string words(const char* format, Values... values) {
+  char text[240];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+bool shown(double value_rad, double sd_rad) { return std::abs(value_rad) > kSigmas * sd_rad; }
+
+// Larger, beyond what two checks differ by.
+bool is_worse(const DriftFinding& now, const DriftFinding& before) {
+  const auto grown = [](double now_rad, double now_sd_rad, double before_rad,
+                        double before_sd_rad) {
+    return std::abs(now_rad) - std::abs(before_rad) >
+           kSigmas * std::hypot(now_sd_rad, before_sd_rad);
+  };
+  return grown(now.heading_rad, now.heading_sd_rad, before.heading_rad, before.heading_sd_rad) ||
+         grown(now.tilt_rad, now.tilt_sd_rad, before.tilt_rad, before.tilt_sd_rad);
+}
+
+}  // namespace
+
+// By how much a bearing is wrong, as far as that is certain.
+double DriftWatch::size_rad(const DriftFinding& finding) const {
+  if (finding.cause == DriftCause::kNone || finding.cause == DriftCause::kScene) return 0.0;
+  if (finding.cause == DriftCause::kLostSteps || finding.cause == DriftCause::kUnclear) {
+    return config_.red_rad;
+  }
+  double size = 0.0;
+  if (shown(finding.heading_rad, finding.heading_sd_rad)) size = std::abs(finding.heading_rad);
+  if (shown(finding.tilt_rad, finding.tilt_sd_rad)) size = std::max(size, finding.tilt_rad);
+  return size;
+}
+
+DriftLevel DriftWatch::judge(const DriftFinding& finding) const {
+  if (finding.cause == DriftCause::kScene) return DriftLevel::kAmber;
+  const double size = size_rad(finding);
+  if (size >= config_.red_rad) return DriftLevel::kRed;
+  return size >= config_.amber_rad ? DriftLevel::kAmber : DriftLevel::kNone;
+}
+
+// Ended by a new calibration only: somebody has touched the tripod. Lost steps end with homing.
+bool DriftWatch::stays() const {
+  return level_ == DriftLevel::kRed && finding_.cause != DriftCause::kLostSteps;
+}
+
+bool DriftWatch::add(const DriftFinding& finding) {
+  const DriftLevel level = judge(finding);
+  if (level == DriftLevel::kNone) {
+    suspected_ = false;
+    constexpr int kQuiet = 2;
+    if (++quiet_ >= kQuiet && level_ != DriftLevel::kNone && !stays()) {
+      take(DriftLevel::kNone, finding);
+    }
+    return false;
+  }
+  quiet_ = 0;
+  const bool known =
+      level == level_ && finding.cause == finding_.cause && !is_worse(finding, finding_);
+  if (known) {
+    suspected_ = false;
+    return false;
+  }
+  if (!suspected_) {
+    suspected_ = true;
+    return true;
+  }
+  suspected_ = false;
+  if (!stays() || level == DriftLevel::kRed) take(level, finding);
+  return false;
+}
+
+void DriftWatch::take(DriftLevel level, const DriftFinding& finding) {
+  level_ = level;
+  finding_ = finding;
+  quiet_ = 0;
+  ++revision_;
+}
+
+double DriftWatch::heading_doubt_rad() const {
+  if (level_ == DriftLevel::kNone || finding_.cause == DriftCause::kScene) return 0.0;
+  const double least = finding_.cause == DriftCause::kUnclear ? config_.red_rad : 0.0;
+  return std::max(least, std::hypot(finding_.heading_rad, finding_.heading_sd_rad));
+}
+
+double DriftWatch::tilt_doubt_rad() const {
+  if (level_ == DriftLevel::kNone || finding_.cause == DriftCause::kScene) return 0.0;
+  const double least = finding_.cause == DriftCause::kUnclear ? config_.red_rad : 0.0;
+  return std::max(least, std::hypot(finding_.tilt_rad, finding_.tilt_sd_rad));
+}
+
+std::string DriftWatch::alarm() const {
+  if (level_ == DriftLevel::kNone) return {};
+  switch (finding_.cause) {
+    case DriftCause::kTripod:
+      return words("calibration: the tripod has moved: heading %+.0f, tilt %.0f arc seconds: %s",
+                   finding_.heading_rad / kArcsec, finding_.tilt_rad / kArcsec,
+                   level_ == DriftLevel::kRed
+                       ? "calibrate its setup again"
+                       : "check its feet; calibrate its setup again if it stays");
+    case DriftCause::kScene:
+      return words(
+          "calibration: reference view %zu has changed: something moved there, not the "
+          "tripod: nothing, or calibrate again to store it anew",
+          finding_.view + 1);
+    case DriftCause::kLostSteps:
+      return words("calibration: %s is %d motor steps beside its counts: home the unit",
+                   finding_.pan ? "pan" : "tilt", finding_.steps);
+    case DriftCause::kUnclear:
+      return "calibration: the reference views agree on nothing: look at the camera and its mount, "
+             "then calibrate again";
+    case DriftCause::kNone:
+      break;
+  }
+  return {};
+}
+
+std::string DriftWatch::to_text() const {
+  std::ostringstream out;
+  out.precision(17);
+  out << kFormat << ' ' << calibration_id_ << ' ' << static_cast<int>(level_) << ' '
+      << static_cast<int>(finding_.cause) << ' ' << finding_.heading_rad << ' ' << finding_.tilt_rad
+      << ' ' << finding_.heading_sd_rad << ' ' << finding_.tilt_sd_rad << ' ' << finding_.view
+      << ' ' << finding_.pan << ' ' << finding_.steps << ' ' << suspected_ << '\n';
+  return out.str();
+}
+
+bool DriftWatch::restore(const std::string& text) {
+  std::istringstream in(text);
+  std::string word, version;
+  std::int64_t id = 0;
+  int level = 0, cause = 0;
+  bool suspected = false;
+  DriftFinding f;
+  in >> word >> version >> id >> level >> cause >> f.heading_rad >> f.tilt_rad >>
+      f.heading_sd_rad >> f.tilt_sd_rad >> f.view >> f.pan >> f.steps >> suspected;
+  const bool read = static_cast<bool>(in) && word + ' ' + version == kFormat && level >= 0 &&
+                    level <= static_cast<int>(DriftLevel::kRed) && cause >= 0 &&
+                    cause <= static_cast<int>(DriftCause::kUnclear);
+  if (!read) return false;
+  if (id != calibration_id_) return true;
+  f.cause = static_cast<DriftCause>(cause);
+  suspected_ = suspected;
+  if (level != 0) take(static_cast<DriftLevel>(level), f);
+  return true;
+}
+
+}  // namespace ols::station

@@ -1,0 +1,112 @@
+#include "edge/drift/kept_calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ols::station {
+
+KeptCalibration::KeptCalibration(const StationSettings& configured)
+    : next_(configured), in_use_(configured) {
+  begin();
+}
+
+void KeptCalibration::begin() {
+  views_.reset();
+  doubt_revision_ = 0;
+  const StationSettings& now = settings();
+  if (!now.station.calibration || now.view_check_s <= 0.0) return;
+  ReferenceViews::Config config;
+  config.folder = now.state_folder;
+  config.station = now.id;
+  config.calibration_id = now.calibration_id;
+  config.tour.interval_s = now.view_check_s;
+  views_ = std::make_unique<ReferenceViews>(config, *now.station.calibration);
+}
+
+bool KeptCalibration::refuses(const std::vector<device::DeviceReport>& devices) {
+  if (!in_use_.refuses(devices)) return false;
+  begin();
+  return true;
+}
+
+bool KeptCalibration::refuses(const PanTilt& count_rad) {
+  if (!in_use_.refuses(count_rad)) return false;
+  begin();
+  return true;
+}
+
+bool KeptCalibration::adopts(double now_s, bool idle,
+                             const std::vector<device::DeviceReport>& devices,
+                             const PanTilt& count_rad) {
+  next_.look(now_s);
+  const CalibrationFiles* files = next_.waiting();
+  if (!files) return false;
+  const std::string why = CalibrationInUse::conflict(*files, devices, count_rad);
+  if (!why.empty()) {
+    next_.refuse(why);
+    return false;
+  }
+  const bool known =
+      in_use_.status().state == CalibrationState::kInUse && in_use_.status().id == files->id;
+  if (!idle && !known) return false;
+  if (!known) in_use_.adopt(*files);
+  next_.forget();
+  if (!known) begin();
+  return !known;
+}
+
+void KeptCalibration::set_limits(const ptu::PtuLimits& limits) {
+  if (views_) views_->set_limits(limits);
+}
+
+std::optional<ptu::ServoGoal> KeptCalibration::step(const ViewTour::Situation& situation) {
+  return views_ ? views_->step(situation) : std::nullopt;
+}
+
+void KeptCalibration::see(const camera::Frame& frame) {
+  if (views_) views_->see(frame);
+}
+
+void KeptCalibration::note_homings(std::uint64_t homings) {
+  if (std::exchange(homings_, homings) != homings && views_) views_->request();
+}
+
+std::optional<KeptCalibration::Doubt> KeptCalibration::take_doubt() {
+  if (!views_) return std::nullopt;
+  const DriftWatch& watch = views_->watch();
+  if (std::exchange(doubt_revision_, watch.revision()) == watch.revision()) return std::nullopt;
+  return Doubt{watch.heading_doubt_rad(), watch.tilt_doubt_rad()};
+}
+
+CalibrationStatus KeptCalibration::status() const {
+  CalibrationStatus status = in_use_.status();
+  const bool doubted = views_ && views_->watch().level() != DriftLevel::kNone;
+  if (status.state == CalibrationState::kInUse && doubted) {
+    status.state = CalibrationState::kDoubted;
+    const DriftWatch& watch = views_->watch();
+    status.rms_rad =
+        std::hypot(status.rms_rad, std::max(watch.heading_doubt_rad(), watch.tilt_doubt_rad()));
+  }
+  return status;
+}
+
+std::vector<std::string> KeptCalibration::alarms() const {
+  std::vector<std::string> alarms = in_use_.alarms();
+  if (std::string alarm = next_.alarm(); !alarm.empty()) alarms.push_back(std::move(alarm));
+  if (views_) {
+    const auto more = views_->alarms();
+    alarms.insert(alarms.end(), more.begin(), more.end());
+  }
+  return alarms;
+}
+
+std::map<std::string, double> KeptCalibration::counters() const {
+  std::map<std::string, double> counters;
+  if (!views_) return counters;
+  counters["view_checks"] = static_cast<double>(views_->checks());
+  counters["views_unrecognised"] = static_cast<double>(views_->unrecognised());
+  return counters;
+}
+
+}  // namespace ols::station

@@ -1,0 +1,59 @@
+// The calibration of a running station, and whether the station still stands as it did then.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/calibration_in_use.h"
+#include "edge/drift/next_calibration.h"
+#include "edge/drift/reference_views.h"
+
+namespace ols::station {
+
+class KeptCalibration {
+ public:
+  explicit KeptCalibration(const StationSettings& configured);
+
+  const StationSettings& settings() const { return in_use_.settings(); }
+  // True if the calibration is of other devices and was dropped just now: settings() are others.
+  bool refuses(const std::vector<device::DeviceReport>& devices);
+  // The same for what the unit says that a count is [rad].
+  bool refuses(const PanTilt& count_rad);
+
+  // True if another calibration, accepted meanwhile, was taken up just now: settings() are others.
+  // `idle`: no target, operator or slew would feel the jump.
+  bool adopts(double now_s, bool idle, const std::vector<device::DeviceReport>& devices,
+              const PanTilt& count_rad);
+
+  void set_limits(const ptu::PtuLimits& limits);
+  // In every turn: the goal of a check of the reference views, while the station is free.
+  std::optional<ptu::ServoGoal> step(const ViewTour::Situation& situation);
+  void see(const camera::Frame& frame);
+  // A check soon: the unit has homed.
+  void note_homings(std::uint64_t homings);
+
+  // What bearings must allow for from now on; empty: as before.
+  struct Doubt {
+    double heading_rad = 0.0, tilt_rad = 0.0;
+  };
+  std::optional<Doubt> take_doubt();
+
+  CalibrationStatus status() const;
+  std::vector<std::string> alarms() const;
+  std::map<std::string, double> counters() const;
+
+ private:
+  void begin();
+
+  NextCalibration next_;  // first: what changes while the folder is read is another one
+  CalibrationInUse in_use_;
+  std::unique_ptr<ReferenceViews> views_;  // null: no calibration in use, or no checks configured
+  int doubt_revision_ = 0;
+  std::uint64_t homings_ = 0;
+};
+
+}  // namespace ols::station

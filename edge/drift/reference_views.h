@@ -1,0 +1,80 @@
+// The stored pictures of a calibrated station's reference views, and what checks against them
+// found. Files, and a thread for pictures: a turn of the control loop waits for neither.
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/background_file.h"
+#include "edge/camera/frame.h"
+#include "edge/drift/check_record.h"
+#include "edge/drift/drift_watch.h"
+#include "edge/drift/view_tour.h"
+#include "geometry/station_calibration.h"
+
+namespace ols::station {
+
+class ReferenceViews {
+ public:
+  struct Config {
+    std::string
+        folder;  // of the persisted state; empty: pictures and findings end with the process
+    std::string station;
+    std::int64_t calibration_id = 0;
+    ViewTour::Config tour;
+    DriftWatch::Config drift;
+  };
+  ReferenceViews(const Config& config, const StationCalibration& calibration);
+
+  // The unit's travel, once it is known. Begins to read the stored pictures.
+  void set_limits(const ptu::PtuLimits& limits);
+  void request() { tour_.request(); }
+  std::optional<ptu::ServoGoal> step(const ViewTour::Situation& situation);
+  void see(const camera::Frame& frame);
+
+  // The stored pictures are read; asked in every turn.
+  bool loaded();
+  const DriftWatch& watch() const { return watch_; }
+  bool stored() const { return stored_ == views(); }
+  std::uint64_t checks() const { return checks_; }
+  // Views in which the stored picture was not recognised: night, fog, another scene.
+  std::uint64_t unrecognised() const { return unrecognised_; }
+  std::vector<std::string> alarms() const;
+
+ private:
+  // What a picture gave: an offset, or where none was stored itself, if it can serve.
+  struct Seen {
+    std::optional<ViewOffset> offset;
+    cv::Mat picture;
+  };
+  struct Look {
+    std::size_t view = 0;
+    bool storing = false;
+    std::future<Seen> result;
+  };
+  std::size_t views() const { return tour_.views().size(); }
+  std::string picture(std::size_t view) const;
+  void finish();
+  std::vector<ViewOffset> take_looks();
+
+  Config config_;
+  StationCalibration calibration_;
+  ViewTour tour_;
+  DriftWatch watch_;
+  BackgroundFile file_;
+  std::vector<cv::Mat> pictures_;              // by view; empty: not stored yet
+  std::future<std::vector<cv::Mat>> loading_;  // the same, from files
+  std::size_t stored_ = 0;
+  CheckRecord record_;
+  std::vector<Look> looks_;
+  std::string unreadable_;
+  std::uint64_t checks_ = 0, unrecognised_ = 0;
+  bool judged_ = true;
+  std::optional<PanTilt> count_;  // once the views are planned
+};
+
+}  // namespace ols::station

@@ -1,0 +1,37 @@
+// Requested frames on their way: from the request to the parts that fit into datagrams.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "edge/frame_post.h"
+#include "edge/frame_service.h"
+
+namespace ols::station {
+
+struct FramePart {
+  std::shared_ptr<const EncodedFrame> frame;
+  std::size_t part = 0, parts = 0;
+  std::size_t first_byte = 0, bytes = 0;
+};
+
+class FrameDesk {
+ public:
+  static constexpr std::size_t kPart_bytes = 60000;  // leaves space for the header, below 65 000
+
+  explicit FrameDesk(const ptu::AngleHistory::Config& history) : service_(history) {}
+
+  FrameService& service() { return service_; }
+  // Passes on what is complete; never waits.
+  void look(double now_s);
+  std::optional<FramePart> next();
+
+ private:
+  FrameService service_;
+  FramePost post_;
+  std::deque<FramePart> parts_;  // of one frame
+};
+
+}  // namespace ols::station

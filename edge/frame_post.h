@@ -1,0 +1,44 @@
+// Makes picture files of requested frames in a thread of its own: an encoder takes tens of
+// milliseconds, for which the control loop must not wait.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include "edge/frame_service.h"
+
+namespace ols::station {
+
+struct EncodedFrame {
+  RequestedFrame frame;
+  std::vector<std::uint8_t> file;
+};
+
+class FramePost {
+ public:
+  FramePost();
+  ~FramePost() = default;  // waits for the frame at work
+  FramePost(const FramePost&) = delete;
+  FramePost& operator=(const FramePost&) = delete;
+
+  // False: too many wait; it is dropped, and asked for again by whoever wants it.
+  bool put(RequestedFrame frame);
+  std::optional<EncodedFrame> take();
+
+ private:
+  void work(const std::stop_token& stop);
+
+  std::mutex mutex_;
+  std::condition_variable_any arrived_;
+  std::deque<RequestedFrame> waiting_;
+  std::deque<EncodedFrame> done_;
+  std::jthread thread_;  // last: it uses the others
+};
+
+}  // namespace ols::station

@@ -1,0 +1,77 @@
+// Drives a lens over VISCA: one request at a time on the line, orders before questions. Pure: bytes
+// and time in, bytes and zoom samples out; edge/lens/lens_motor.* puts it on a serial port.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "edge/lens/lens_types.h"
+#include "edge/lens/visca.h"
+
+namespace ols::lens {
+
+class LensDriver {
+ public:
+  explicit LensDriver(double poll_interval_s) : poll_interval_s_(poll_interval_s) {}
+
+  // Bytes that had arrived at this instant of the monotonic clock.
+  void receive(std::string_view bytes, double time_s);
+  // Advances time: what to write now, often nothing. Call it every few milliseconds.
+  std::string step(double time_s);
+
+  // The newest order of an axis replaces the one before. A rate ends with its time, whatever
+  // happens to its sender; the position is then where it is.
+  void order(const LensOrder& order);
+
+  // The port was opened again: everything is asked anew, orders are forgotten.
+  void restart();
+  // True once after the lens left so many requests in a row unanswered: open the port again.
+  bool take_link_loss();
+
+  std::vector<ZoomSample> take_samples();
+  const LensState& state() const { return state_; }
+  LensCounters counters() const;
+
+  static constexpr double kReply_s = 0.3;  // an acknowledgement takes a picture's time at most
+  static constexpr int kSilent = 8;
+  static constexpr double kIrisStep_s = 0.15;  // between two steps, at the highest rate
+
+ private:
+  enum class Question { kSetup, kVersion, kPosition, kOrder };
+  struct Request {
+    Question question = Question::kSetup;
+    Axis axis = Axis::kZoom;
+    std::string bytes;
+    double sent_s = 0.0;
+  };
+  struct Pending {
+    AxisOrder order;
+    bool sent = false;
+    double step_s = 0.0;  // the next step of the iris
+  };
+
+  std::optional<Request> next(double time_s);
+  std::optional<Request> next_order(Axis axis, double time_s);
+  std::optional<Request> next_question(double time_s);
+  void take(const visca::Reply& reply, double time_s);
+  void take_value(const Request& request, const std::string& data, double time_s);
+  void give_up(double time_s);
+
+  double poll_interval_s_;
+  visca::Packets packets_;
+  std::size_t setup_ = 0;  // how many of its steps are done
+  std::optional<Request> waiting_;
+  ByAxis<std::optional<Pending>> orders_;
+  double polled_s_ = -1e9;
+  int polls_ = 0;
+  int silent_ = 0;
+  bool link_lost_ = false;
+  LensState state_;
+  LensCounters counters_;
+  std::vector<ZoomSample> samples_;
+};
+
+}  // namespace ols::lens

@@ -1,0 +1,63 @@
+// What a motorised lens is told and what it says. Positions are shares of the travel: zoom 0 widest
+// .. 1 longest, focus 0 far .. 1 near, iris 0 closed .. 1 open. Rates are shares of the motor's
+// highest speed, -1..1. Pure.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace ols::lens {
+
+enum class Axis { kZoom, kFocus, kIris };
+inline constexpr std::array kAxes{Axis::kZoom, Axis::kFocus, Axis::kIris};
+
+// One value for each axis.
+template <class T>
+struct ByAxis {
+  T zoom{}, focus{}, iris{};
+  T& operator[](Axis axis) {
+    return axis == Axis::kZoom ? zoom : axis == Axis::kFocus ? focus : iris;
+  }
+  const T& operator[](Axis axis) const {
+    return axis == Axis::kZoom ? zoom : axis == Axis::kFocus ? focus : iris;
+  }
+};
+
+// An order to an axis: to a position, or at a rate until an instant of the monotonic clock.
+struct AxisOrder {
+  std::optional<double> position;
+  double rate = 0.0;
+  double until_s = 0.0;
+};
+
+// Orders to the axes that it names; the others go on.
+struct LensOrder {
+  ByAxis<std::optional<AxisOrder>> axes;
+};
+
+// A zoom position, read between these two instants of the monotonic clock.
+struct ZoomSample {
+  double time_s = 0.0;     // the middle
+  double time_sd_s = 0.0;  // 1-sigma
+  double position = 0.0;
+};
+
+// Only go up.
+struct LensCounters {
+  std::uint64_t requests = 0, replies = 0;
+  std::uint64_t timeouts = 0;  // requests without an answer in time
+  std::uint64_t refusals = 0;  // errors that the lens has answered
+  std::uint64_t garbled = 0;   // bytes that are no message
+};
+
+struct LensState {
+  bool ready = false;  // it has said its version and its zoom position
+  ByAxis<std::optional<double>> positions;
+  std::string version;
+  std::string last_error;
+  std::optional<double> last_good_s;
+};
+
+}  // namespace ols::lens

@@ -1,0 +1,36 @@
+// What the operator's hand wants of the unit: angles to stand at, or rates while their lease lasts.
+// Pure.
+#pragma once
+
+#include <optional>
+
+#include "edge/ptu/servo.h"
+#include "edge/station_types.h"
+
+namespace ols::station {
+
+class ManualMotion {
+ public:
+  void point(const PanTilt& angles, double now_s, double until_s);
+  void turn(const RateCommand& command);
+  void clear();
+
+  // Whether a later rate of the same sender is in force: this one was overtaken on its way.
+  bool overtakes(const RateCommand& command, double now_s) const;
+
+  // Empty: halt. A unit that is told to halt brakes for v/a, so the halt comes before the lease is
+  // over: kInForce of it.
+  std::optional<ptu::ServoGoal> goal(double now_s) const;
+
+  static constexpr double kInForce = 0.8;
+
+ private:
+  static double ends_s(const RateCommand& rate) {
+    return rate.received_s + kInForce * rate.lease_s;
+  }
+
+  std::optional<ptu::ServoGoal> point_;
+  std::optional<RateCommand> rate_;
+};
+
+}  // namespace ols::station

@@ -1,0 +1,17 @@
+// Whether what a box holds is the background: then it differs from an earlier image that shows the
+// background there no more than what surrounds it does.
+#pragma once
+
+#include "edge/tracker/foreground_mask.h"
+
+namespace ols::tracker {
+
+// Natural logarithm of the mean difference from the reference inside `box` of the frame over that
+// of the boxes around it (their median): about 0 for a piece of background, however badly the two
+// images are aligned and however the light has changed, positive for an object that was not there.
+// The difference is the distance from the grey levels that the reference has within a sixteenth of
+// the box.
+double background_change(const cv::Mat& gray, const ReferenceFrames::Reference& reference,
+                         const cv::Rect2d& box);
+
+}  // namespace ols::tracker

@@ -1,0 +1,26 @@
+// A picture in colour as the camera gives it. Only the part that is looked at is converted.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace ols::tracker {
+
+// A mosaic is named by its first row's pixels, like GenICam's formats.
+enum class ColourLayout { kBgr, kRgb, kBayerRg, kBayerGr, kBayerGb, kBayerBg };
+
+struct ColourPicture {
+  cv::Mat image = {};  // 8-bit; three channels, or one of a mosaic
+  ColourLayout layout = ColourLayout::kBgr;
+
+  bool empty() const { return image.empty(); }
+  bool valid(const cv::Size& size) const;
+
+  // 8-bit blue, green, red; at least `area` as far as it lies in the picture.
+  struct Part {
+    cv::Mat bgr;
+    cv::Point origin;  // top-left pixel
+  };
+  Part part(const cv::Rect& area) const;
+};
+
+}  // namespace ols::tracker

@@ -1,0 +1,43 @@
+// The target's learnt appearance, the judgement on what is followed by it, and the way back.
+#pragma once
+
+#include "edge/tracker/follow_judge.h"
+#include "edge/tracker/foreground_mask.h"
+#include "edge/tracker/sure_memory.h"
+
+namespace ols::tracker {
+
+class Recognition {
+ public:
+  // The target is in this box of `frame`.
+  Recognition(const TrackerInput& frame, const Eigen::Vector2d& pixel,
+              const Eigen::Vector2d& size_px)
+      : appearance_(frame, pixel, size_px) {}
+
+  LearntAppearance& appearance() { return appearance_; }
+  // Probability that what is followed is the target.
+  double belief() const { return judge_.value(); }
+  // Nothing is learnt of what may be something else.
+  bool doubts() const { return judge_.wary(); }
+
+  // A caller says where the target is: earlier doubts and memories are of another place.
+  void restart();
+  // Memories, to the next frame.
+  void advance(const MotionModel& motion, const cv::Size& frame) { sure_.advance(motion, frame); }
+  // Judges `followed` in this frame, which was searched last.
+  void judge(const TrackerInput& frame, const ReferenceFrames& references, const Particle& followed,
+             double interval_s);
+  // Keeps what is followed for later if it is surely the target.
+  void remember(const Particle& followed, double time_s);
+  // In doubt: returns to what had been learnt while it surely was the target, if that finds it
+  // here, where the target was then, or where it would be had it gone on. After long doubt a weaker
+  // response is enough.
+  std::optional<Particle> return_to_sure(const TrackerInput& frame, const Particle& followed);
+
+ private:
+  LearntAppearance appearance_;
+  FollowJudge judge_;
+  SureMemory sure_;
+};
+
+}  // namespace ols::tracker

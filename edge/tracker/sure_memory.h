@@ -1,0 +1,32 @@
+// The target as it was when last it was surely followed: to return to, once what is followed turns
+// out to be something else. What was learnt meanwhile is of that other thing.
+#pragma once
+
+#include <optional>
+
+#include "edge/tracker/learnt_appearance.h"
+#include "edge/tracker/motion_model.h"
+
+namespace ols::tracker {
+
+class SureMemory {
+ public:
+  struct State {
+    LearntAppearance appearance;
+    // In the newest frame: had it gone on, and had it stopped in the scene.
+    Particle moving, still;
+    double time_s = 0.0;
+  };
+
+  void clear() { newer_.reset(), older_.reset(); }
+  // Every half second; the doubt comes later than the mistake, so the newest one is not trusted.
+  void offer(const LearntAppearance& appearance, const Particle& target, double time_s);
+  // To the next frame.
+  void advance(const MotionModel& motion, const cv::Size& frame);
+  const State* recall() const;
+
+ private:
+  std::optional<State> newer_, older_;
+};
+
+}  // namespace ols::tracker

@@ -1,0 +1,24 @@
+// The messages of a station's video socket.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "edge/video/video_frame.h"
+
+namespace ols::video {
+
+// A request has no variable part; anything longer is none.
+inline constexpr std::uint32_t kLargestRequest_bytes = 256;
+
+// Empty if it is no request, or one out of range.
+std::optional<VideoRequest> decode_request(std::span<const std::uint8_t> bytes);
+
+// The answer to a request: the picture is cut, scaled and compressed here, which takes
+// milliseconds.
+std::vector<std::uint8_t> encode_frame(const VideoFrame& frame, std::int64_t sequence,
+                                       const VideoSender& sender, const VideoRequest& request);
+
+}  // namespace ols::video

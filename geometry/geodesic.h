@@ -1,0 +1,16 @@
+// The shortest line between two places on the ellipsoid. The arithmetic is GeographicLib's
+// (C. Karney).
+#pragma once
+
+#include "geometry/wgs84.h"
+
+namespace ols {
+
+struct Geodesic {
+  double distance_m = 0.0;   // along the ellipsoid: heights do not matter
+  double azimuth_rad = 0.0;  // at the first place, clockwise from true north, 0..2 pi
+};
+
+Geodesic geodesic_between(const Geodetic& from, const Geodetic& to);
+
+}  // namespace ols

@@ -1,0 +1,70 @@
+// The paper's rectification targets in the simulated camera's picture: level lines, a cross, two
+// rulers. A person puts each up where the unit looks at that moment, with the small errors of his
+// level, his pointer and his tape; from then on it stands in the world. Written from
+// docs/calibration.md, never with what reads the targets.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "geometry/pinhole.h"
+#include "sim/faults.h"
+#include "sim/unit_truth.h"
+
+namespace ols::config {
+struct Section;
+}
+namespace ols::sim {
+
+// Where a person puts them, from the pan axis, and how wrong.
+struct BoardsScenario {
+  double level_line_m = 30.0;
+  double level_error_rad = 0.0;  // of the lines, right side down > 0
+  double cross_m = 25.0;
+  double cross_error_m = 0.0;  // to the right of the plane square to the tilt axis
+  double near_ruler_m = 20.0, far_ruler_m = 40.0;
+  double ruler_error_m = 0.0;  // of the farther zero over the nearer one
+  // The lens is focused at infinity: the width of a point's blur times its distance.
+  double blur_px_m = 0.0;
+};
+
+config::Section boards_section(BoardsScenario& boards);
+
+// A flat, upright rectangle.
+struct Board {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // [m] in GROUND: east, north, up
+  Eigen::Vector3d right = Eigen::Vector3d::UnitX(), up = Eigen::Vector3d::UnitZ();
+  cv::Mat1b gray;  // what is on it, its top row first; kTexel_m each
+  double blur_px = 0.0;
+  static constexpr double kTexel_m = 0.001;
+};
+
+// `enu_cam`: the camera's pose in GROUND, OpenCV's axes.
+void draw_board(const Board& board, const CameraIntrinsics& camera,
+                const Eigen::Isometry3d& enu_cam, cv::Mat& gray);
+
+// What stands before one station.
+class Boards {
+ public:
+  Boards(const BoardsScenario& scenario, const ChainParameters& chain, double trunnion_rad)
+      : scenario_(scenario), chain_(chain), trunnion_rad_(trunnion_rad) {}
+
+  // What was not there before is put up where the unit looks with its shafts at these angles; what
+  // is no longer there is taken away.
+  void put_up(const ByHand& by_hand, const CameraIntrinsics& camera, const PanTilt& shafts);
+
+  void draw(const CameraIntrinsics& camera, const Eigen::Isometry3d& enu_cam, cv::Mat& gray) const;
+
+ private:
+  std::vector<Board> level_line(const CameraIntrinsics& camera, const PanTilt& shafts) const;
+  std::vector<Board> cross(const CameraIntrinsics& camera, const PanTilt& shafts) const;
+  std::vector<Board> rulers(const CameraIntrinsics& camera, const PanTilt& shafts) const;
+
+  BoardsScenario scenario_;
+  ChainParameters chain_;
+  double trunnion_rad_;
+  std::vector<Board> level_line_, cross_, rulers_;
+};
+
+}  // namespace ols::sim

@@ -1,0 +1,34 @@
+// Where a unit's shafts stand during an exposure, by what the unit counts. Pure.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "sim/ptu_unit.h"
+#include "sim/renderer.h"
+#include "sim/unit_truth.h"
+
+namespace ols::sim {
+
+class ExposedUnit {
+ public:
+  ExposedUnit(const UnitTruth& truth, const PtuUnitConfig& unit)
+      : mechanics_(truth, unit.resolution_arcsec * EIGEN_PI / 648000.0),
+        exact_(truth.exact),
+        offset_s_(truth.exposure_offset_s) {}
+
+  // Sets the exposure's angles. `counted` gives the unit's angles at an instant of its clock, up to
+  // two seconds back; exposures come in time order. `mid_s`: of the exposure, on that clock.
+  void expose(const std::function<PanTilt(double)>& counted, double mid_s, ExposureTruth& exposure);
+
+  // The unit is asked for angles this much after the exposure's end.
+  double longest_wait_s() const { return offset_s_ > 0.0 ? offset_s_ : 0.0; }
+
+ private:
+  UnitMechanics mechanics_;
+  bool exact_;
+  double offset_s_;
+  std::optional<double> followed_s_;
+};
+
+}  // namespace ols::sim

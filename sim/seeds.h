@@ -1,0 +1,17 @@
+// Seeds of unrelated random streams from one seed. Pure.
+#pragma once
+
+#include <cstdint>
+
+namespace ols::sim {
+
+// A seed for one purpose of one run: different tags give unrelated streams. SplitMix64, so that
+// neighbouring seeds do, too.
+inline std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t tag) {
+  std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (tag + 1);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31);
+}
+
+}  // namespace ols::sim

@@ -1,0 +1,44 @@
+"""A simulated site's files, and ols-calibrate on them."""
+
+import json
+import subprocess
+
+import numpy as np
+from conftest import BIN
+from ols_calibration import cases
+
+SEED = 20260120
+PREDICT = "pan_counts,tilt_counts,approach_pan,approach_tilt,x_px,y_px,utime_us\n"
+
+
+class Run:
+    """A simulated site's files in a folder, and ols-calibrate on them."""
+
+    def __init__(self, folder, build=cases.rtk_landmarks):
+        self.folder = folder
+        self.site = build(np.random.default_rng(SEED))
+        self.one = self.site.stations[0]
+        self.output = folder / "out"
+        self.arguments = self.site.write(folder, PREDICT + "1000,2000,1,-1,600,500,0\n")
+
+    def lines(self, name):
+        return (self.folder / name).read_text().splitlines()
+
+    def change(self, name, line, old, new):
+        """In one line of a file, counted from 1."""
+        lines = self.lines(name)
+        assert old in lines[line - 1]
+        lines[line - 1] = lines[line - 1].replace(old, new, 1)
+        (self.folder / name).write_text("\n".join(lines) + "\n")
+
+    def adjust(self, *more):
+        command = [BIN / "ols-calibrate", "adjust", *self.arguments, "--output", self.output, *more]
+        return subprocess.run(
+            [str(part) for part in command], capture_output=True, text=True, check=False
+        )
+
+    def report(self):
+        return json.loads((self.output / "report.json").read_text())
+
+    def rejected(self):
+        return [group["name"] for group in self.report()["groups"] if group.get("rejected")]

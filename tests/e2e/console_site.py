@@ -1,0 +1,286 @@
+"""A site that exists only as messages, for tests of the console: stations that answer commands as
+real ones do, a target, a fusion, pictures. And the console's page in a real browser."""
+
+import contextlib
+import io
+import itertools
+import json
+import math
+import subprocess
+import threading
+import time
+import types
+import urllib.error
+import urllib.request
+from pathlib import Path
+from typing import Any
+
+import lcm
+import numpy as np
+import ols
+import ols_msg
+from conftest import BIN
+from ols_demo.bus import LIVE_URL
+from ols_demo.keys import members_of_environment
+from ols_demo.places import geodetic
+from PIL import Image
+from playwright.sync_api import sync_playwright
+
+CHROMIUM = "/usr/bin/chromium"
+PLACES = {"alfa": (49.225, 16.594), "bravo": (49.225, 16.600), "charlie": (49.229, 16.597)}
+TARGET = geodetic(49.2265, 16.597, 380.0)
+FULL_PX = (1280, 960)
+DEADLINE_S = 15.0
+STATUS, PTU = ols_msg.station_status_t, ols_msg.ptu_command_t
+COMMANDS = {
+    PTU.COMMAND_POINT: "point",
+    PTU.COMMAND_STOP: "stop",
+    PTU.COMMAND_RELEASE: "release",
+    PTU.COMMAND_HOME: "home",
+    PTU.COMMAND_RATE: "rate",
+    PTU.COMMAND_CENTRE: "centre",
+}
+
+
+def wait_for(condition, what: str):
+    """Its first true result; every wait has a deadline."""
+    end = time.monotonic() + DEADLINE_S
+    while True:
+        result = condition()
+        if result:
+            return result
+        assert time.monotonic() < end, f"not within {DEADLINE_S:.0f} s: {what}"
+        threading.Event().wait(0.05)
+
+
+def jpeg() -> bytes:
+    """A grey picture with a dark object in its middle."""
+    pixels = np.full((240, 320), 170, np.uint8)
+    pixels[112:128, 148:172] = 40
+    buffer = io.BytesIO()
+    Image.fromarray(pixels).save(buffer, "JPEG", quality=80)
+    return buffer.getvalue()
+
+
+class PaperSite(threading.Thread):
+    """Sends at the rates of a real site until it is ended."""
+
+    def __init__(self):
+        super().__init__(daemon=True)
+        self.lcm = lcm.LCM(LIVE_URL)
+        self._signing = members_of_environment()
+        self._sequences = itertools.count(1)
+        self.counters = {name: {} for name in PLACES}
+        self.states = dict.fromkeys(PLACES, STATUS.STATE_IDLE)
+        self.refusing: dict[str, str] = {}  # station -> reason of its refusals
+        self.alarms: dict[str, list[str]] = {}
+        self.devices: dict[str, dict[str, str]] = {}  # station -> more of them, with their texts
+        self.silent: set[str] = set()
+        self.deaf: set[str] = set()  # they hear no commands
+        self.designations: list[ols_msg.designate_t] = []
+        self.commands: list[tuple[str, str]] = []
+        self.ptu_commands: list[ols_msg.ptu_command_t] = []
+        self.pictures: dict[int, str] = {}  # utime -> station
+        self.utime_us = lambda: time.time_ns() // 1000
+        self.borders: dict[str, list[list[tuple[float, float]]]] = {}  # keep-outs [rad]
+        self._over = threading.Event()
+        self._jpeg = jpeg()
+        self.lcm.subscribe("OLS_DESIGNATE_.+", self._designated)
+        self.lcm.subscribe("OLS_PTU_.+", self._commanded)
+
+    def _publish(self, channel: str, message: Any) -> None:
+        message.sequence = next(self._sequences)
+        data = message.encode()
+        self.lcm.publish(channel, self._signing.sign(channel, data) if self._signing else data)
+
+    def _count(self, station: str, name: str) -> None:
+        counters = self.counters[station]
+        counters[name] = counters.get(name, 0) + 1
+
+    def _judge(self, station: str, name: str) -> bool:
+        reason = self.refusing.get(station)
+        if reason and name != "stop":
+            self._count(station, f"refused_{reason}")
+            return False
+        self._count(station, f"{name}_accepted")
+        return True
+
+    def _designated(self, _channel: str, data: bytes) -> None:
+        message = ols_msg.designate_t.decode(data)
+        self.designations.append(message)
+        if self._judge(message.station, "designate"):
+            self.states[message.station] = STATUS.STATE_TRACKING
+
+    def _commanded(self, _channel: str, data: bytes) -> None:
+        message = PTU.decode(data)
+        if message.station in self.deaf:
+            return
+        name = COMMANDS[message.command]
+        self.commands.append((message.station, name))
+        self.ptu_commands.append(message)
+        if self._judge(message.station, name):
+            stopped = name == "stop"
+            self.states[message.station] = STATUS.STATE_STOPPED if stopped else STATUS.STATE_IDLE
+
+    def _send_status(self, station: str) -> None:
+        m = STATUS()
+        m.utime = self.utime_us()
+        m.schema_version = m.SCHEMA_VERSION
+        m.station, m.boot_id, m.state, m.belief = station, 5, self.states[station], 0.9
+        m.latitude_deg, m.longitude_deg = PLACES[station]
+        m.height_m = 300.0
+        m.azimuth_rad, m.elevation_rad = 1.0, 0.2
+        m.field_of_view_rad = [0.1, 0.08]
+        m.image_width_px, m.image_height_px = FULL_PX
+        devices = {"camera": "made of paper", "ptu": "", **self.devices.get(station, {})}
+        m.devices, m.device_name, m.device_text = len(devices), list(devices), [*devices.values()]
+        m.device_state, m.device_age_s = [m.DEVICE_OK] * len(devices), [0.1] * len(devices)
+        m.alarm = self.alarms.get(station, [])
+        m.alarms = len(m.alarm)
+        outlines = self.borders.get(station, [])
+        m.borders, m.border_kind = len(outlines), [m.BORDER_KEEP_OUT] * len(outlines)
+        m.border_azimuth_rad = [azimuth for outline in outlines for azimuth, _ in outline]
+        m.border_elevation_rad = [elevation for outline in outlines for _, elevation in outline]
+        m.border_points = len(m.border_azimuth_rad)
+        m.counter_name = list(self.counters[station])
+        m.counter_value = [float(v) for v in self.counters[station].values()]
+        m.counters = len(m.counter_name)
+        self._publish(f"OLS_STATUS_{station}", m)
+
+    def _send_picture(self, station: str) -> None:
+        m = ols_msg.preview_t()
+        m.utime = self.utime_us()
+        self.pictures[m.utime] = station
+        m.schema_version, m.station, m.boot_id = m.SCHEMA_VERSION, station, 5
+        m.full_width_px, m.full_height_px = FULL_PX
+        m.scale = 0.25
+        m.jpeg_bytes, m.jpeg = len(self._jpeg), self._jpeg
+        self._publish(f"OLS_PREVIEW_{station}", m)
+
+    def _send_target(self) -> None:
+        m = ols_msg.target_t()
+        m.utime = self.utime_us()
+        m.schema_version, m.boot_id, m.target_id = m.SCHEMA_VERSION, 9, 7
+        m.track_state, m.estimator = m.TRACK_CONFIRMED, "filter"
+        m.position_ecef_m = list(ols.ecef_from_geodetic(TARGET))
+        m.latitude_deg, m.longitude_deg = map(
+            math.degrees, (TARGET.latitude_rad, TARGET.longitude_rad)
+        )
+        m.height_m = TARGET.height_m
+        m.velocity_ecef_m_s = list(ols.R_ecef_enu(ols.ecef_from_geodetic(TARGET)) @ [3.0, 4.0, 0.0])
+        m.position_covariance_enu_m2 = [4.0, 1.0, 0.0, 1.0, 0.0, 2.0]
+        m.stations, m.station = 2, ["alfa", "bravo"]
+        m.used, m.weight, m.age_s = [True, True], [1.0, 1.0], [0.0, 0.0]
+        self._publish("OLS_TARGET", m)
+
+    def _send_fusion(self) -> None:
+        m = ols_msg.fusion_status_t()
+        m.utime = self.utime_us()
+        m.schema_version, m.boot_id, m.last_error = m.SCHEMA_VERSION, 9, ""
+        self._publish("OLS_FUSION_STATUS", m)
+
+    def _send_all(self) -> None:
+        for station in PLACES.keys() - self.silent:
+            self._send_status(station)
+            self._send_picture(station)
+        self._send_target()
+        self._send_fusion()
+
+    def write_log(self, path: Path, seconds: float) -> int:
+        """Records itself instead of sending: in the middle an alarm and a stop. Its start [us]."""
+        log, start_us = lcm.EventLog(str(path), "w", overwrite=True), 1_700_000_000_000_000
+        now_us = start_us
+        self.utime_us = lambda: now_us
+        self.lcm = types.SimpleNamespace(publish=lambda c, data: log.write_event(now_us, c, data))
+        for tick in range(round(5 * seconds)):
+            now_us = start_us + 200_000 * tick
+            middle = tick == round(2.5 * seconds)
+            self.alarms["charlie"] = ["ptu: supply voltage low (11.2 V)"] if middle else []
+            if middle:
+                m = PTU()
+                m.schema_version, m.station, m.command = m.SCHEMA_VERSION, "alfa", PTU.COMMAND_STOP
+                self.lcm.publish("OLS_PTU_alfa", m.encode())
+                self._judge("alfa", "stop")
+                self.states["alfa"] = STATUS.STATE_STOPPED
+            self._send_all()
+        log.close()
+        return start_us
+
+    def run(self) -> None:
+        due = 0.0
+        while not self._over.is_set():
+            while self.lcm.handle_timeout(20) > 0:
+                pass
+            if time.monotonic() < due:
+                continue
+            due = time.monotonic() + 0.2
+            self._send_all()
+
+    def end(self) -> None:
+        self._over.set()
+        self.join()
+
+
+@contextlib.contextmanager
+def paper_site():
+    site = PaperSite()
+    site.start()
+    try:
+        yield site
+    finally:
+        site.end()
+
+
+def add_user(users: Path, name: str, password: str, role: str) -> None:
+    command = [str(BIN / "ols-console"), "--users", str(users), "--add-user", name, "--role", role]
+    subprocess.run(command, input=password + "\n", text=True, check=True, capture_output=True)
+
+
+def console_command(users: Path, *options: str) -> list[str]:
+    command = [str(BIN / "ols-console"), "--lcm-url", LIVE_URL, "--users", str(users)]
+    return [*command, *options]
+
+
+class Api:
+    """The console's HTTP interface as a program uses it."""
+
+    def __init__(self, address: str):
+        self.address = address.rstrip("/")
+
+    def ask(self, path: str, body=None, method: str | None = None, headers=None):
+        """(status, JSON or bytes, headers)."""
+        data = (
+            None
+            if body is None
+            else (body if isinstance(body, bytes) else json.dumps(body).encode())
+        )
+        sent = {"Content-Type": "application/json", **(headers or {})}
+        request = urllib.request.Request(self.address + path, data, sent, method=method)
+        direct = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+        try:
+            with direct.open(request, timeout=DEADLINE_S) as answer:
+                return answer.status, self._content(answer), answer.headers
+        except urllib.error.HTTPError as refusal:
+            return refusal.code, self._content(refusal), refusal.headers
+
+    @staticmethod
+    def _content(answer):
+        content = answer.read()
+        is_json = "json" in answer.headers["Content-Type"] and content[:1] in b"{["
+        return json.loads(content) if is_json else content
+
+    def state(self):
+        return self.ask("/api/state")[1]
+
+
+@contextlib.contextmanager
+def browser():
+    with sync_playwright() as playwright:
+        # No GPU here, and CI is root in a container, where Chromium's own sandbox cannot be.
+        started = playwright.chromium.launch(
+            executable_path=CHROMIUM, headless=True, args=["--no-sandbox", "--disable-gpu"]
+        )
+        try:
+            yield started
+        finally:
+            started.close()

@@ -1,0 +1,237 @@
+"""What `ols-calibrate adjust` refuses: named by file, line and key, with nothing written."""
+
+import json
+
+import numpy as np
+import pytest
+from calibrate_run import SEED, Run
+from ols_calibration import cases
+
+
+@pytest.fixture(name="run")
+def fixture_run(tmp_path):
+    print(f"seed {SEED}")
+    return Run(tmp_path)
+
+
+BAD_LINES = [
+    ("kind", '"landmark"', '"lighthouse"', "kind: 'lighthouse' is not known"),
+    ("reference", '"landmark0"', '"nowhere"', "reference: 'nowhere' is not one of the references"),
+    ("reference", '"landmark0"', "null", "reference: is missing"),
+    ("unknown", '"pose"', '"position"', "position: is not known"),
+    ("json", "{", "", "line: is not JSON"),
+    ("pixel", '"sd_px": 0.5', '"sd_px": "a"', "sd_px: is not a number"),
+    ("deviation", '"sd_px": 0.5', '"sd_px": 0', "sd_px: 0 is outside 0.0001 .. 1000"),
+    ("approach", '"approach_pan": 1', '"approach_pan": 0', "approach_pan: must be 1 or"),
+    ("twice", '"pose"', '"sd_px": 0.1, "pose"', "sd_px: appears twice"),
+    ("huge", '"sd_px": 0.5', '"sd_px": 1e999', "line: is not JSON"),
+]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"), [case[1:] for case in BAD_LINES], ids=[case[0] for case in BAD_LINES]
+)
+def test_a_bad_line_is_named_with_its_key(run, old, new, said):
+    run.change("observations.jsonl", 2, old, new)
+    done = run.adjust()
+    assert done.returncode == 2
+    assert f"observations.jsonl:2: {said}" in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+    assert not run.output.exists()
+
+
+def test_too_few_stars_without_a_name_are_refused(run):
+    line = json.loads(run.lines("observations.jsonl")[1])
+    line |= {"kind": "star", "reference": None, "utime_us": 1_780_000_000_000_000}
+    with (run.folder / "observations.jsonl").open("a") as file:
+        file.write(json.dumps(line) + "\n")
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "its stars cannot be identified: 1 detections are too few" in done.stderr
+    assert not run.output.exists()
+
+
+@pytest.mark.parametrize(("kind", "reference"), [("star", "HIP 11767"), ("sun", None)])
+def test_what_stands_too_low_for_its_refraction_is_refused(run, kind, reference):
+    """Polaris from 49 degrees south, the sun at midnight."""
+    text = (run.folder / "alfa.toml").read_text()
+    if kind == "star":
+        text = text.replace("latitude_deg = 49", "latitude_deg = -49")
+        (run.folder / "alfa.toml").write_text(text)
+    line = json.loads(run.lines("observations.jsonl")[1])
+    line |= {"kind": kind, "reference": reference, "utime_us": 1_780_009_200_000_000}
+    (run.folder / "observations.jsonl").write_text(json.dumps(line) + "\n")
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "observations.jsonl:1: reference: " in done.stderr
+    assert "degrees high: below 10 the refraction is not known well enough" in done.stderr
+    assert not run.output.exists()
+
+
+def test_a_refusal_names_the_file_of_its_own_observation(run):
+    lines = run.lines("observations.jsonl")
+    second = json.loads(lines[2]) | {"reference": "nowhere"}
+    (run.folder / "second.jsonl").write_text("\n" + "\n" + json.dumps(second) + "\n")
+    done = run.adjust("--observations", run.folder / "second.jsonl")
+    assert done.returncode == 2
+    assert "second.jsonl:3: reference: 'nowhere' is not one of the references" in done.stderr
+
+
+def test_a_pose_at_two_places_names_both_lines(run):
+    line = json.loads(run.lines("observations.jsonl")[4]) | {"pose": 77}
+    other = line | {"pan_counts": line["pan_counts"] + 3}
+    with (run.folder / "observations.jsonl").open("a") as file:
+        file.write(json.dumps(line) + "\n" + json.dumps(other) + "\n")
+    done = run.adjust()
+    assert done.returncode == 2
+    count = len(run.lines("observations.jsonl"))
+    assert f"observations.jsonl:{count}: pose: 77 is another stop already" in done.stderr
+    assert f"observations.jsonl:{count - 1})" in done.stderr
+
+
+@pytest.mark.parametrize("serial", ["a\\\\b", 'a\\"b', "a\\nb"])
+def test_a_serial_number_that_no_file_gives_back_is_refused(run, serial):
+    with (run.folder / "alfa-instrument.toml").open("a") as file:
+        file.write(f'[serials]\nptu = "{serial}"\n')
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "alfa-instrument.toml: serials.ptu: has a quote, a backslash or a control" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("section", "key"), [("unit", "angle_sd_deg"), ("values", "focal_px"), ("values", "aspect")]
+)
+def test_a_size_of_nothing_is_refused(run, section, key):
+    text = (run.folder / "alfa-instrument.toml").read_text()
+    lines = [line for line in text.splitlines() if not line.startswith(key + " ")]
+    sd = text.split("[sd]")[1]
+    lines.insert(lines.index(f"[{section}]") + 1, f"{key} = 0.0")
+    text = "\n".join(lines).split("[sd]")[0] + "[sd]" + sd
+    (run.folder / "alfa-instrument.toml").write_text(text)
+    done = run.adjust()
+    assert done.returncode == 2
+    assert f"{key}: 0" in done.stderr
+
+
+def test_a_landmark_of_another_zone_is_refused(run):
+    run.change("references.csv", 2, "landmark0,49.", "landmark0,39.")
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "observations.jsonl:2: reference: 'landmark0' is 111" in done.stderr
+    assert "km from the station" in done.stderr
+
+
+def without_line(lines, start):
+    return [line for line in lines if not line.startswith(start)]
+
+
+def with_cell(lines, row, column, value):
+    """One cell of a covariance, by the names of its row and column."""
+    at = lines[0].split(",").index(column)
+    cells = next(line for line in lines if line.startswith(row + ",")).split(",")
+    cells[at] = value
+    return [",".join(cells) if line.startswith(row + ",") else line for line in lines]
+
+
+def without_column(lines, column):
+    at = lines[0].split(",").index(column)
+    return [",".join(line.split(",")[:at] + line.split(",")[at + 1 :]) for line in lines]
+
+
+BAD_COVARIANCES = [
+    ("empty", lambda lines: ["", ""], ":1: header: is missing"),
+    (
+        "column",
+        lambda lines: without_column(lines, "focal_px"),
+        ":1: focal_px: the column is missing",
+    ),
+    ("row", lambda lines: without_line(lines, "focal_px"), ":32: focal_px: the row is missing"),
+    ("twice", lambda lines: [*lines, lines[1]], ":33: focal_px: the row appears twice"),
+    ("short", lambda lines: [*lines, "aspect,1"], "row: too few or too many columns"),
+    (
+        "number",
+        lambda lines: with_cell(lines, "focal_px", "focal_px", "1.5abc"),
+        "focal_px: '1.5abc' is not a number",
+    ),
+    (
+        "negative",
+        lambda lines: with_cell(lines, "focal_px", "focal_px", "-1"),
+        "focal_px: the variance is negative",
+    ),
+    (
+        "zero",
+        lambda lines: with_cell(lines, "focal_px", "focal_px", "0"),
+        "focal_px: the variance is 0, and its covariances are not",
+    ),
+    (
+        "asymmetric",
+        lambda lines: with_cell(lines, "focal_px", "mount_z_deg", "1e-3"),
+        ":8: focal_px: is not symmetric",
+    ),
+    (
+        "indefinite",
+        lambda lines: with_cell(
+            with_cell(lines, "focal_px", "mount_z_deg", "1"), "mount_z_deg", "focal_px", "1"
+        ),
+        ":1: header: the matrix is not positive definite",
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [case[1:] for case in BAD_COVARIANCES],
+    ids=[case[0] for case in BAD_COVARIANCES],
+)
+def test_a_bad_covariance_is_named_with_its_line(run, change, said):
+    assert run.adjust().returncode == 0
+    lines = change(run.lines("out/covariance.csv"))
+    (run.output / "covariance.csv").write_text("\n".join(lines) + "\n")
+    run.arguments[run.arguments.index("--instrument") + 1] = run.output / "instrument.toml"
+    run.output = run.folder / "again"
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "covariance.csv:" in done.stderr
+    assert said in done.stderr
+    assert not run.output.exists()
+
+
+def test_a_covariance_of_another_system_is_the_same(run):
+    assert run.adjust().returncode == 0
+    ids = []
+    for ending in ("\n", "\r\n"):
+        text = ending.join(run.lines("out/covariance.csv")) + ending
+        (run.folder / "out/covariance.csv").write_bytes(text.encode())
+        run.arguments[run.arguments.index("--instrument") + 1] = run.folder / "out/instrument.toml"
+        run.output = run.folder / f"again{len(ids)}"
+        done = run.adjust()
+        assert done.returncode == 0, done.stderr
+        ids.append(run.report()["stations"][0]["calibration_id"])
+    assert ids[0] == ids[1]
+
+
+def test_serial_numbers_that_differ_are_refused(run):
+    for name, serial in (("alfa.toml", "L-1"), ("alfa-instrument.toml", "L-2")):
+        with (run.folder / name).open("a") as file:
+            file.write(f'[serials]\nlens = "{serial}"\n')
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "serials.lens: is of lens 'L-2', the station has 'L-1'" in done.stderr
+    assert not run.output.exists()
+
+
+def test_a_board_that_is_not_level_is_named(tmp_path):
+    """Of two boards one leans by a tenth of a degree; nothing says which."""
+    run = Run(tmp_path, cases.rectification)
+    lines = [json.loads(line) for line in run.lines("observations.jsonl")]
+    for one in [line for line in lines if line["kind"] == "level_line"]:
+        leaning = one | {"reference": "leaning"}
+        leaning["y2_px"] += np.radians(0.1) * (one["x2_px"] - one["x_px"])
+        lines.append(leaning)
+    text = "\n".join(json.dumps(line) for line in lines)
+    (tmp_path / "observations.jsonl").write_text(text + "\n")
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "level_line 'leaning'" in done.stderr
+    assert "level_line 'board'" in done.stderr
+    assert not run.output.exists()

@@ -1,0 +1,317 @@
+"""`ols-calibrate field` on a simulated tripod: answered over the bus by someone who sees its
+pictures, answered by a script, aborted, and ended by a loss of power."""
+
+import io
+import json
+import os
+import signal
+import subprocess
+import tomllib
+
+import numpy as np
+import ols
+import ols_msg
+import pytest
+from conftest import BIN
+from helpers import VideoViewer
+from ols_demo.places import geodetic
+from ols_demo.site import Site
+from PIL import Image
+from tripod import SCENARIO, SIGNS, Tripod, references
+
+SWEEP_POSES = 10
+
+
+@pytest.fixture(scope="module")
+def site(network, tmp_path_factory):
+    with Site(tmp_path_factory.mktemp("site") / "logs") as site:
+        yield site
+
+
+@pytest.fixture(scope="module")
+def tripod(site, tmp_path_factory):
+    tripod = Tripod(tmp_path_factory.mktemp("tripod"), site)
+    tripod.ready()
+    return tripod
+
+
+@pytest.fixture(scope="module")
+def accepted(tripod):
+    """A calibration with a person at a console, accepted."""
+    path = references(tripod.folder / "references.csv")
+    options = ("--references", path, "--sweep-poses", SWEEP_POSES)
+    process = tripod.begin("field", *options)
+    seen = []
+
+    def decide(state):
+        seen.append(state)
+        return "accept"
+
+    status = tripod.operate(process, decide)
+    assert status == 0, tripod.log.read_text()
+    return seen[0]
+
+
+def test_a_new_unit_is_calibrated_from_the_console(tripod, accepted):
+    assert "What this calibration leaves" in accepted.text
+    assert accepted.elapsed_s < 300.0
+    current = tripod.store / "current"
+    for name in ("instrument.toml", "setup.toml", "covariance.csv", "report.json"):
+        assert (current / name).is_file(), name
+    frames = (current / "frames.jsonl").read_text().splitlines()
+    # In real time: a unit that arrives too late on a busy machine costs a pose or a sighting.
+    assert len(frames) >= SWEEP_POSES // 2 + len(SIGNS)
+    assert all((current / json.loads(line)["file"]).is_file() for line in frames)
+    kinds = [
+        json.loads(line)["kind"]
+        for line in (current / "observations.jsonl").read_text().splitlines()
+    ]
+    assert kinds.count("landmark") >= len(SIGNS) + 2
+    assert kinds.count("scene") > 20
+
+
+@pytest.mark.skipif(
+    os.environ.get("OLS_WHOLE_FIELD") != "1",
+    reason="takes five minutes: OLS_WHOLE_FIELD=1 runs it",
+)
+def test_all_of_it_takes_five_minutes(tripod, accepted):
+    """From a unit of which nothing is known: 60 pictures, and two rounds over eight signs."""
+    signs = [mark["id"] for mark in tomllib.loads(SCENARIO.read_text())["mark"]]
+    path = references(tripod.folder / "all.csv", signs)
+    process = tripod.begin("field", "--instrument", "new", "--references", path)
+    seen = []
+
+    def decide(state):
+        seen.append(state)
+        return "keep"
+
+    assert tripod.operate(process, decide, deadline_s=600.0) == 1, tripod.log.read_text()
+    [result] = seen
+    print(f"{result.elapsed_s:.0f} s", result.text, sep="\n")
+    assert result.elapsed_s < 300.0
+
+
+UNSEEN = "barn"  # a sign that no calibration here has used
+MOST_ARCSEC = 150.0  # of ten poses of a sweep and two rounds over four signs: 40 to 70 were seen
+
+
+def restart(tripod, site, config):
+    site.stop("ols-station-alfa")
+    tripod.listener.observer.status.pop("alfa", None)
+    site.start_and_wait(
+        "ols-station-alfa", [str(BIN / "ols-station"), "--config", str(config)], "ready"
+    )
+    tripod.ready()
+    ok = ols_msg.station_status_t.DEVICE_OK
+    tripod.listener.wait(lambda: tripod.listener.device("alfa", "video")[0] == ok, "video", 30.0)
+
+
+def point(tripod, pan_deg, tilt_deg):
+    command = [BIN / "ols-ctl", "alfa", "manual", f"{pan_deg:.4f}", f"{tilt_deg:.4f}"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=30, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+    def there():
+        status = tripod.listener.observer.status["alfa"]
+        off = np.degrees([status.pan_rad, status.tilt_rad]) - [pan_deg, tilt_deg]
+        return np.all(np.abs(off) < 0.01)
+
+    tripod.listener.wait(there, f"the unit at {pan_deg}, {tilt_deg} deg", 60.0)
+
+
+def place_of(name):
+    """In ECEF, as the simulator has it."""
+    scenario = tomllib.loads(SCENARIO.read_text())
+    site = scenario["site"]
+    origin = geodetic(site["latitude_deg"], site["longitude_deg"], site["height_m"])
+    mark = next(mark for mark in scenario["mark"] if mark["id"] == name)
+    return ols.LocalFrame(origin).to_ecef(np.array(mark["position_enu_m"]))
+
+
+def seen_and_expected(tripod, place):
+    """Where the sign is in a picture, where the calibration puts it [px]; pixels a radian."""
+    viewer = VideoViewer(tripod.listener.device("alfa", "video")[1])
+    first = viewer.picture(width=16)
+    frame = viewer.picture(after_utime=first.utime, width=4096)
+    viewer.close()
+    picture = np.asarray(Image.open(io.BytesIO(frame.jpeg)), dtype=float)
+    rows, columns = np.nonzero(picture > 0.93 * 255)
+    assert len(rows) >= 3, "the sign is not in the picture"
+    to_camera = np.reshape(frame.camera_from_ecef, (3, 3))
+    x, y, z = to_camera @ (place - np.array(frame.camera_ecef_m))
+    fx, fy, cx, cy, _ = frame.camera_matrix_px
+    expected = np.array([fx * x / z + cx, fy * y / z + cy])
+    return np.array([np.median(columns), np.median(rows)]), expected, fx
+
+
+def calibrated_config(tripod):
+    """The station's configuration, with the calibration in use."""
+    calibrated = tripod.folder / "calibrated.toml"
+    folder = f'[calibration]\nfolder = "{tripod.store}/current"'
+    calibrated.write_text(tripod.config.read_text().replace("[calibration]", folder, 1))
+    return calibrated
+
+
+def test_a_sign_that_was_not_used_is_where_the_calibrated_station_expects_it(
+    tripod, accepted, site
+):
+    calibrated = calibrated_config(tripod)
+    place = place_of(UNSEEN)
+    restart(tripod, site, calibrated)
+    status = tripod.listener.wait_for_status("alfa")
+    up = np.array(status.camera_ecef_m)
+    enu = ols.LocalFrame(ols.geodetic_from_ecef(up)).to_enu(place)
+    azimuth, elevation = np.arctan2(enu[0], enu[1]), np.arcsin(enu[2] / np.linalg.norm(enu))
+    pan = status.pan_rad + status.azimuth_rad - azimuth  # a positive pan turns left
+    tilt = status.tilt_rad + elevation - status.elevation_rad
+    angles = np.degrees([np.angle(np.exp(1j * pan)), tilt])
+    point(tripod, *angles)
+    seen, expected, px = seen_and_expected(tripod, place)
+    after = np.degrees(np.linalg.norm(seen - expected) / px) * 3600.0
+    restart(tripod, site, tripod.config)
+    point(tripod, *angles)
+    seen, expected, px = seen_and_expected(tripod, place)
+    before = np.degrees(np.linalg.norm(seen - expected) / px) * 3600.0
+    print(f"{UNSEEN} beside its expected place: {before:.0f} arcsec before, {after:.1f} after")
+    assert after < MOST_ARCSEC
+    assert before > 5.0 * after
+
+
+def test_the_station_takes_it(tripod, accepted):
+    """What was written is what a station reads."""
+    config = calibrated_config(tripod)
+    done = subprocess.run(
+        [str(BIN / "ols-station"), "--config", str(config), "--check-config"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_tripod_stands_as_it_was_calibrated(tripod, accepted):
+    done = tripod.run("check")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "The tripod stands" in done.stdout
+
+
+def test_a_script_that_aborts_leaves_the_old_one_and_what_was_observed(tripod, accepted):
+    script = tripod.folder / "script"
+    script.write_text("# one sign, then no more\nabort\n")
+    before = os.readlink(tripod.store / "current")
+    done = tripod.run(
+        "field",
+        *("--references", tripod.folder / "references.csv"),
+        *("--sweep-poses", 0, "--script", script),
+    )
+    assert done.returncode == 1, done.stdout + done.stderr
+    assert "The old calibration stands" in done.stdout
+    assert os.readlink(tripod.store / "current") == before
+    kept = [path for path in tripod.store.iterdir() if path.name.endswith(".interrupted")]
+    assert kept and (kept[0] / "frames.jsonl").read_text().count("\n") == 1
+
+
+def test_a_loss_of_power_leaves_the_old_one_and_is_named(tripod, accepted):
+    before = os.readlink(tripod.store / "current")
+    process = tripod.begin(
+        "field", *("--references", tripod.folder / "references.csv", "--sweep-poses", 12)
+    )
+
+    def at_work():
+        return any(
+            (path / "frames.jsonl").exists() for path in tripod.store.glob("*-field.running")
+        )
+
+    tripod.listener.wait(at_work, "the first picture", 30.0)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    assert os.readlink(tripod.store / "current") == before
+    script = tripod.folder / "script"
+    script.write_text("abort\n")
+    done = tripod.run("field", "--resume", "--script", script)
+    assert "a procedure was interrupted; what it had is kept in" in done.stdout
+    assert "This is where it was interrupted; it goes on." in done.stdout
+    assert "sweep, picture 12 of 12" in done.stdout, "as it was begun"
+
+
+def test_a_sweep_that_was_interrupted_goes_on(tripod, accepted):
+    before = os.readlink(tripod.store / "current")
+    process = tripod.begin("sweep", "--sweep-poses", 8)
+
+    def at_work():
+        return any(
+            (path / "frames.jsonl").exists() for path in tripod.store.glob("*-sweep.running")
+        )
+
+    tripod.listener.wait(lambda: at_work() or process.poll() is not None, "a picture", 60.0)
+    assert process.poll() is None, tripod.log.read_text()
+    process.send_signal(signal.SIGINT)
+    tripod.listener.wait(lambda: process.poll() is not None, "its end", 30.0)
+    assert "go on with it: the same command with --resume" in tripod.log.read_text()
+    script = tripod.folder / "script"
+    script.write_text("keep\n")
+    done = tripod.run("sweep", "--resume", "--script", script)
+    assert "This is where it was interrupted; it goes on." in done.stdout, done.stderr
+    assert "sweep, picture 8 of 8" in done.stdout, "as it was begun"
+    assert os.readlink(tripod.store / "current") == before
+
+
+def test_two_exchanged_signs_are_named(tripod, accepted):
+    path = references(tripod.folder / "exchanged.csv", exchanged=("spire", "mast"))
+    before = os.readlink(tripod.store / "current")
+    process = tripod.begin("field", "--references", path, "--sweep-poses", 0, "--rounds", 1)
+    texts = []
+
+    def decide(state):
+        texts.append(state.text)
+        return "keep"
+
+    # The unit looks where the list says; the person turns nothing, and points at what is there.
+    assert tripod.operate(process, decide) == 1, tripod.log.read_text()
+    assert "spire" in texts[0] and "mast" in texts[0]
+    assert os.readlink(tripod.store / "current") == before
+
+
+def test_wrong_serial_numbers_are_refused_before_anything_moves(tripod, accepted):
+    config = tripod.folder / "other.toml"
+    config.write_text(tripod.config.read_text() + '\n[serials]\nlens = "another"\n')
+    instrument = tripod.folder / "instrument.toml"
+    text = (tripod.store / "current" / "instrument.toml").read_text()
+    text = text.replace('lens = ""', 'lens = "one"').replace('covariance = "covariance.csv"\n', "")
+    instrument.write_text(text)
+    command = tripod.command(
+        "field",
+        *("--references", tripod.folder / "references.csv", "--instrument", instrument),
+    )
+    command[command.index(str(tripod.config))] = str(config)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=30, check=False)
+    assert done.returncode == 2
+    assert "serials.lens" in done.stderr
+
+
+def test_history_and_revert_which_the_running_station_follows(tripod, accepted, site):
+    calibrated = calibrated_config(tripod)
+    restart(tripod, site, calibrated)
+    # What the command compares with its own store, to know whether the station will follow.
+    uncalibrated, tripod.config = tripod.config, calibrated
+    first = os.readlink(tripod.store / "current")
+    path = references(tripod.folder / "references.csv")
+    process = tripod.begin("field", "--references", path, "--sweep-poses", 0, "--rounds", 1)
+    assert tripod.operate(process, lambda _state: "accept") == 0, tripod.log.read_text()
+    second = os.readlink(tripod.store / "current")
+    assert second != first
+    assert "The station works with it" in tripod.log.read_text()
+
+    def works_with(calibration):
+        status = tripod.listener.observer.status["alfa"]
+        return status.calibration_id == int(calibration)
+
+    tripod.listener.wait(lambda: works_with(second), "the new calibration in the status", 30.0)
+    done = tripod.run("revert")
+    assert done.returncode == 0, done.stderr
+    assert os.readlink(tripod.store / "current") == first
+    tripod.listener.wait(lambda: works_with(first), "the old one again", 30.0)
+    tripod.config = uncalibrated
+    history = tripod.run("history").stdout
+    assert f"{first}" in history and f"{second}" in history
+    assert "reverted" in history and "(in use)" in history

@@ -1,0 +1,101 @@
+"""The folder that `ols-calibrate adjust` writes: whole or not at all, never over another one."""
+
+import json
+import resource
+import subprocess
+import tomllib
+
+import numpy as np
+import pytest
+from calibrate_run import SEED, Run
+from conftest import BIN
+
+
+@pytest.fixture(name="run")
+def fixture_run(tmp_path):
+    print(f"seed {SEED}")
+    return Run(tmp_path)
+
+
+def test_the_folder_has_all_that_was_found(run):
+    done = run.adjust()
+    assert done.returncode == 0, done.stderr
+    assert sorted(path.name for path in run.output.iterdir()) == [
+        *("covariance.csv", "instrument.toml", "predictions.csv"),
+        *("report.html", "report.json", "setup.toml"),
+    ]
+    setup = tomllib.loads((run.output / "setup.toml").read_text())
+    assert setup["calibration_id"] == run.report()["stations"][0]["calibration_id"] > 0
+    heading = np.degrees(run.one.unit.heading)
+    assert abs((setup["pose"]["heading_deg"] - heading + 180) % 360 - 180) < 60 / 3600
+    assert run.rejected() == []
+    assert "<svg" in (run.output / "report.html").read_text()
+
+
+def test_the_same_input_has_the_same_id_and_another_one_another(run):
+    ids = []
+    for name in ("a", "b", "c"):
+        run.output = run.folder / name
+        if name == "c":
+            run.change("observations.jsonl", 2, '"x_px": ', '"x_px": 0')
+            line = json.loads(run.lines("observations.jsonl")[2])
+            line["x_px"] += 0.01
+            lines = run.lines("observations.jsonl")
+            lines[1] = json.dumps(line)
+            (run.folder / "observations.jsonl").write_text("\n".join(lines) + "\n")
+        assert run.adjust().returncode == 0
+        ids.append(run.report()["stations"][0]["calibration_id"])
+    assert ids[0] == ids[1] != ids[2]
+
+
+def test_a_calibration_is_never_overwritten(run):
+    assert run.adjust().returncode == 0
+    before = {path.name: path.read_bytes() for path in run.output.iterdir()}
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "is not empty: a calibration is never overwritten" in done.stderr
+    assert before == {path.name: path.read_bytes() for path in run.output.iterdir()}
+    run.output = run.folder / "references.csv"
+    assert "--output" in run.adjust().stderr
+
+
+def test_an_output_without_a_name_is_refused(run):
+    before = sorted(run.folder.iterdir())
+    run.output = ""
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "--output: is empty" in done.stderr
+    assert before == sorted(run.folder.iterdir())
+
+
+def test_a_slash_at_the_end_of_the_output_says_nothing(run):
+    run.output.mkdir()
+    output, run.output = run.output, f"{run.output}/"
+    done = run.adjust()
+    assert done.returncode == 0, done.stderr
+    assert (output / "report.html").exists()
+    assert not output.with_name("out.partial").exists()
+
+
+def test_what_an_interrupted_run_has_left_is_not_overwritten(run):
+    (run.folder / "out.partial").mkdir()
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "out.partial exists" in done.stderr
+
+
+def test_a_disk_that_is_full_leaves_nothing(run):
+    """The instrument still fits below the limit, the covariance does not."""
+    before = sorted(run.folder.iterdir())
+    command = [BIN / "ols-calibrate", "adjust", *run.arguments, "--output", run.output]
+    done = subprocess.run(
+        [str(part) for part in command],
+        capture_output=True,
+        text=True,
+        check=False,
+        restore_signals=False,  # of a file that grows too large: an error, not the end
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000)),
+    )
+    assert done.returncode == 2
+    assert "covariance.csv" in done.stderr
+    assert before == sorted(run.folder.iterdir())

@@ -1,0 +1,189 @@
+"""MQTT with mosquitto: what a broker, a subscriber and Home Assistant's discovery get."""
+
+import json
+import shutil
+import subprocess
+import threading
+
+import jsonschema
+import pytest
+from export_site import (
+    CE_M,
+    GEOID_M,
+    HEIGHT_M,
+    LATITUDE_DEG,
+    Exporter,
+    Publisher,
+    output,
+    target,
+    wait,
+)
+from ols_msg import target_t
+
+BROKER = shutil.which("mosquitto") or "/usr/sbin/mosquitto"
+pytestmark = pytest.mark.usefixtures("unsigned")
+PORT = 18830
+NUMBER = {"type": ["number", "null"]}
+TEXT = {"type": "string"}
+# Flat, and nothing in it that is not here.
+TARGET = {
+    "type": "object",
+    "additionalProperties": False,
+    "required": ["id", "number", "time", "state", "latitude", "longitude", "height_ellipsoid_m"],
+    "properties": {
+        **dict.fromkeys(("id", "time"), TEXT),
+        "state": {"enum": ["tentative", "confirmed", "coasted", "ended"]},
+        **dict.fromkeys(("number", "stations"), {"type": "integer"}),
+        **dict.fromkeys(("latitude", "longitude"), {"type": "number"}),
+        **dict.fromkeys(
+            (
+                *("height_ellipsoid_m", "height_above_sea_m", "gps_accuracy"),
+                *("ellipse_semi_major_m", "ellipse_semi_minor_m", "ellipse_azimuth_deg"),
+                *("height_sd_m", "speed_m_s", "course_deg", "climb_m_s"),
+            ),
+            NUMBER,
+        ),
+    },
+}
+DISCOVERY = {
+    "type": "object",
+    "required": ["name", "unique_id", "object_id", "state_topic", "availability_topic", "device"],
+    "properties": {"unique_id": {"type": "string", "pattern": "^[a-zA-Z0-9_-]+$"}},
+}
+
+
+class Broker:
+    """mosquitto without a disk: it forgets what was retained when it dies."""
+
+    def __init__(self, folder, users="allow_anonymous true\n"):
+        self._config = folder / "mosquitto.conf"
+        self._config.write_text(f"user root\nlistener {PORT} 127.0.0.1\npersistence false\n{users}")
+        self.start()
+
+    def start(self):
+        self.process = subprocess.Popen(
+            [BROKER, "-c", str(self._config)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+
+
+class Subscriber:
+    """mosquitto_sub: the newest payload of each topic."""
+
+    def __init__(self, *login):
+        command = ["mosquitto_sub", "-h", "127.0.0.1", "-p", str(PORT), "-t", "#", "-v", *login]
+        self.topics = {}
+
+        def connect():
+            self.process = subprocess.Popen(
+                command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+            )
+            try:
+                return self.process.wait(0.3) is None
+            except subprocess.TimeoutExpired:
+                return True
+
+        wait(connect, "the broker takes a subscriber")
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _read(self):
+        for line in self.process.stdout:
+            topic, _, payload = line.rstrip("\n").partition(" ")
+            self.topics[topic] = payload
+
+    def json(self, topic):
+        return json.loads(self.topics.get(topic) or "null")
+
+    def end(self):
+        self.process.kill()
+        self.process.wait()
+
+
+@pytest.fixture(name="broker")
+def fixture_broker(tmp_path):
+    broker = Broker(tmp_path)
+    yield broker
+    broker.kill()
+
+
+@pytest.fixture(name="subscriber")
+def fixture_subscriber(broker):
+    subscriber = Subscriber()
+    yield subscriber
+    subscriber.end()
+
+
+def mqtt(**keys):
+    return output("home", "mqtt", f"mqtt://127.0.0.1:{PORT}", **keys)
+
+
+def test_a_target_and_its_entities(tmp_path, subscriber):
+    publisher = Publisher()
+    with Exporter(tmp_path, mqtt()):
+        publisher.until(
+            lambda: (
+                (subscriber.json("ols/target/1") or {}).get("state") == "confirmed"
+                and subscriber.json("ols/station/alfa")
+                and subscriber.json("ols/targets")
+            ),
+            "target and station",
+        )
+        for topic in ("ols/target/1", "ols/targets"):
+            found = subscriber.json(topic)
+            jsonschema.validate(found, TARGET)
+            assert found["latitude"] == LATITUDE_DEG and found["gps_accuracy"] == CE_M
+            assert found["height_ellipsoid_m"] == HEIGHT_M
+            assert found["height_above_sea_m"] == pytest.approx(HEIGHT_M - GEOID_M, abs=0.02)
+        configs = [t for t in subscriber.topics if t.startswith("homeassistant/")]
+        assert len(configs) == 8 * 6 + 4
+        for topic in configs:
+            config = subscriber.json(topic)
+            jsonschema.validate(config, DISCOVERY)
+            assert config["state_topic"] in subscriber.topics, "an entity without a state"
+        assert subscriber.topics["ols/status"] == "online"
+        dropped = target(track_state=target_t.TRACK_DROPPED)
+        publisher.bus.publish("OLS_TARGET", dropped.encode())
+        wait(lambda: subscriber.json("ols/target/1") == {"state": "none"}, "a free slot")
+    wait(lambda: subscriber.topics["ols/status"] == "offline", "the last will")
+
+
+def test_a_broker_that_dies_and_returns_is_told_everything_again(tmp_path, broker, subscriber):
+    publisher = Publisher()
+    with Exporter(tmp_path, mqtt()) as exporter:
+        publisher.until(lambda: "ols/target/1" in subscriber.topics, "a target")
+        broker.kill()
+        publisher.until(lambda: exporter.output("home").get("trouble"), "the trouble is said")
+        broker.start()
+        again = Subscriber()
+        publisher.until(
+            lambda: (
+                (again.json("ols/target/1") or {}).get("state") == "confirmed"
+                and "homeassistant/sensor/brno_station_alfa_state/config" in again.topics
+            ),
+            "everything again",
+            5.0,
+        )
+        again.end()
+
+
+def test_a_wrong_password_is_refused_and_said(tmp_path):
+    users, password = tmp_path / "users", tmp_path / "password"
+    subprocess.run(["mosquitto_passwd", "-b", "-c", users, "ols", "right"], check=True)
+    users.chmod(0o644)
+    broker = Broker(tmp_path, f"allow_anonymous false\npassword_file {users}\n")
+    password.write_text("wrong\n")
+    publisher = Publisher()
+    try:
+        outputs = mqtt(user="ols", password_file=str(password))
+        with Exporter(tmp_path, outputs) as exporter:
+            publisher.until(
+                lambda: "not authorised" in exporter.output("home").get("trouble", "").lower(),
+                "the refusal",
+            )
+            password.write_text("right\n")
+            publisher.until(lambda: exporter.output("home").get("sent"), "a log-in", 5.0)
+    finally:
+        broker.kill()

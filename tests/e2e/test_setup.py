@@ -1,0 +1,163 @@
+"""ols-setup from answers: a centre and a station that joins it by one command on each side, with a
+simulated PTU on its line; what a person has changed outlasts the next run."""
+
+import subprocess
+import time
+
+import pytest
+from conftest import BIN
+from helpers import Listener
+from ols_demo.bus import LIVE_URL
+from ols_demo.site import Site
+
+CENTRE = """\
+role = "centre"
+site = "airfield"
+root = "{root}"
+"""
+STATION = """\
+role = "station"
+invitation = "{invitation}"
+serial = ["/nonexistent/line", "{line}"]
+[station]
+id = "alfa"
+lcm_url = "{url}"
+state_folder = "{state}"
+[station.pose]
+latitude_deg = 49.2266
+longitude_deg = 16.5969
+height_m = 310.0
+heading_deg = 45.0
+[station.calibration.sd]
+heading_deg = 0.5
+mount_deg = 0.1
+[station.camera]
+device = "127.0.0.99"
+[station.lens]
+fx_px = 13333.3
+fy_px = 13333.3
+"""
+
+
+def run(program, *words, status=0):
+    command = [str(BIN / program), *map(str, words)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert done.returncode == status, done.stdout + done.stderr
+    return done.stdout + done.stderr
+
+
+def set_up(folder, answers, status=0):
+    file = folder.parent / f"{folder.name}-answers.toml"
+    file.write_text(answers)
+    return run("ols-setup", "--root", folder, "--answers", file, status=status)
+
+
+@pytest.fixture
+def centre(tmp_path):
+    """Its folder, the root's file, and its invitation."""
+    folder, root = tmp_path / "centre", tmp_path / "root.key"
+    for program in ("fusion", "console"):
+        (folder / "usr/bin").mkdir(parents=True, exist_ok=True)
+        (folder / "usr/bin" / f"ols-{program}").touch()
+    said = set_up(folder, CENTRE.format(root=root))
+    return folder, root, said.split('invitation = "')[1].split('"')[0]
+
+
+@pytest.fixture
+def ptu(tmp_path):
+    """A unit on a line."""
+    line = tmp_path / "ptu"
+    with Site(tmp_path / "ptu-logs") as site:
+        site.start("ptu", [str(BIN / "ols-sim-ptu"), "--link", str(line), "--no-home"])
+        end = time.monotonic() + 20.0
+        while not line.exists():
+            site.check()
+            assert time.monotonic() < end, "no line"
+            time.sleep(0.01)
+        yield line
+
+
+def answers_of(tmp_path, centre, line):
+    (tmp_path / "state").mkdir(exist_ok=True)
+    return STATION.format(invitation=centre[2], line=line, url=LIVE_URL, state=tmp_path / "state")
+
+
+def test_a_station_joins_by_one_command_on_each_side(network, tmp_path, centre, ptu):
+    folder, root, _ = centre
+    tripod = tmp_path / "alfa"
+    said = set_up(tripod, answers_of(tmp_path, centre, ptu))
+    config = tripod / "etc/ols/alfa.toml"
+    assert f'device = "{ptu}"' in config.read_text()
+    assert 'mode = "require"' in config.read_text()
+    run("ols-station", "--config", config, "--check-config")
+
+    def credentials(host, name):
+        """As systemd hands a key over."""
+        where = tmp_path / f"credentials-{name}"
+        where.mkdir()
+        (where / "ols-key").write_bytes((host / f"etc/credstore/ols-{name}.key").read_bytes())
+        (where / "ols-key").chmod(0o400)
+        return {"CREDENTIALS_DIRECTORY": str(where), "OLS_TRUST": "", "STATE_DIRECTORY": ""}
+
+    # The tripod has no trust list: it learns it from the centre.
+    alone = {**credentials(tripod, "alfa"), "OLS_KEYS": ""}
+    listed = {**credentials(folder, "fusion"), "OLS_KEYS": str(folder / "etc/ols")}
+    listener = Listener()
+
+    def says(words):
+        status = listener.observer.status.get("alfa")
+        return status is not None and any(words in alarm for alarm in status.alarm)
+
+    with Site(tmp_path / "logs") as site:
+        station = [str(BIN / "ols-station"), "--config", str(config)]
+        site.start_and_wait("alfa", station, "ready", alone)
+        listener.wait(lambda: says("trust: no list yet"), "that it waits for the list")
+        fusion = [str(BIN / "ols-fusion"), "--config", str(folder / "etc/ols/fusion.toml")]
+        site.start_and_wait("fusion", [*fusion, "--lcm-url", LIVE_URL], "ready", listed)
+        listener.wait(lambda: says("trust: the own key, alfa, is not in"), "that it has the list")
+        public = said.split("--public ")[1].split()[0]
+        trust = folder / "etc/ols/trust.toml"
+        run("ols-key", "enrol", "alfa", "--root", root, "--list", trust, "--public", public)
+        listener.wait(lambda: not says("trust: "), "that it is enrolled")
+        site.check()
+
+
+def test_what_a_person_has_changed_is_kept(tmp_path, centre):
+    tripod, answers = tmp_path / "alfa", answers_of(tmp_path, centre, "/nonexistent")
+    answers += '[station.ptu]\ndevice = "/dev/ols/ptu"\n'
+    set_up(tripod, answers)
+    config = tripod / "etc/ols/alfa.toml"
+    config.write_text(config.read_text().replace("= 45.0", "= 47.5") + "# my note\n")
+    edited = config.read_text()
+    key = tripod / "etc/credstore/ols-alfa.key"
+    before = key.read_bytes()
+    set_up(tripod, answers)
+    assert config.read_text() == edited
+    set_up(tripod, answers.replace("height_m = 310.0", "height_m = 311.5"))
+    assert "height_m = 311.5" in config.read_text()
+    assert "= 47.5" in config.read_text() and "# my note" in config.read_text()
+    assert key.read_bytes() == before
+    assert key.stat().st_mode & 0o777 == 0o600
+
+
+def test_a_bad_answer_is_named_and_nothing_is_written(tmp_path, centre):
+    tripod = tmp_path / "alfa"
+    good = answers_of(tmp_path, centre, "/nonexistent")
+    said = set_up(tripod, good.replace("= 45.0", "= 450"), status=2)
+    assert "alfa-answers.toml:12: station.pose.heading_deg" in said
+    assert len(said.splitlines()) == 1
+    assert not tripod.exists()
+    # Nothing answers on these lines.
+    said = set_up(tripod, good, status=2)
+    assert "station.ptu.device" in said
+
+
+def test_a_station_comes_back_from_its_backup(tmp_path, centre):
+    tripod, other = tmp_path / "alfa", tmp_path / "new"
+    answers = answers_of(tmp_path, centre, "/nonexistent")
+    set_up(tripod, answers + '[station.ptu]\ndevice = "/dev/ols/ptu"\n')
+    other.mkdir()
+    run("ols-setup", "--root", tripod, "--backup", tmp_path / "alfa.backup")
+    run("ols-setup", "--root", other, "--restore", tmp_path / "alfa.backup")
+    for name in ("etc/ols/alfa.toml", "etc/credstore/ols-alfa.key"):
+        assert (other / name).read_bytes() == (tripod / name).read_bytes()

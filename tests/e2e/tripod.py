@@ -1,0 +1,257 @@
+"""A simulated tripod that is calibrated: its simulator, its station, the command, and a person at
+a console who sees the procedure's pictures and answers over the bus."""
+
+import io
+import json
+import math
+import os
+import subprocess
+import time
+import tomllib
+
+import numpy as np
+import ols
+import ols_msg
+from conftest import BIN, ROOT
+from helpers import Listener, addressed
+from ols_calibration.model import rx, ry, rz
+from ols_demo.places import geodetic
+from ols_demo.wiring import Wiring
+from PIL import Image
+
+SCENARIO = ROOT / "sim/scenarios/calibration.toml"
+DEADLINE_S = 150.0
+AGAIN_S = 3.0
+SIGNS = ("spire", "mast", "gable", "chimney")  # enough for a short test
+CHRONY = "50505300,PPS,1,{now:.9f},0.0,0.0,1e-7,-1.8,0.0,0.016,1e-9,1e-5,16.0,Normal"
+
+
+def references(path, names=SIGNS, exchanged=()):
+    """Where a surveyor has measured the signs."""
+    scenario = tomllib.loads(SCENARIO.read_text())
+    site = scenario["site"]
+    origin = geodetic(site["latitude_deg"], site["longitude_deg"], site["height_m"])
+    place_of = {
+        mark["id"]: ols.geodetic_from_ecef(
+            ols.LocalFrame(origin).to_ecef(np.array(mark["position_enu_m"]))
+        )
+        for mark in scenario["mark"]
+    }
+    if exchanged:
+        one, other = exchanged
+        place_of[one], place_of[other] = place_of[other], place_of[one]
+    rows = ["landmark,latitude_deg,longitude_deg,height_m,sd_m"]
+    rows += [
+        f"{name},{np.degrees(place_of[name].latitude_rad):.10f},"
+        f"{np.degrees(place_of[name].longitude_rad):.10f},{place_of[name].height_m:.4f},0.02"
+        for name in names
+    ]
+    path.write_text("\n".join(rows) + "\n")
+    return path
+
+
+class Tripod:
+    """Simulator and station, and the command that calibrates it."""
+
+    def __init__(self, folder, site, scenario=SCENARIO, seed=5, timed=False):
+        """`timed`: a time service says that the clock is right."""
+        self.folder = folder
+        self.wiring = Wiring(BIN, scenario, seed, folder)
+        self.wiring.prepare()
+        site.start_and_wait("ols-sim", self.wiring._sim(), "ready")
+        self.wiring.start_station(site, "alfa", self._time_service() if timed else None)
+        self.config = self.wiring.configs["alfa"]
+        self.store = folder / "calibrations"
+        self.listener = Listener()
+        self.listener.bus.lcm.subscribe("OLS_PROCEDURE_alfa", self._procedure)
+        self.views = {}  # what the simulator says of each picture, by its stamp
+        self.listener.bus.lcm.subscribe("OLS_SIM_VIEW_alfa", self._view)
+        self.state = None
+        self.answered = 0
+        self.sequence = int(time.time())
+
+    def _procedure(self, _channel, data):
+        self.state = ols_msg.procedure_t.decode(data)
+
+    def _view(self, _channel, data):
+        view = ols_msg.truth_view_t.decode(data)
+        self.views[view.stamp_utime] = view
+
+    def _time_service(self):
+        """An environment in which chronyc answers for a receiver's pulse."""
+        programs = self.folder / "programs"
+        programs.mkdir()
+        chronyc = programs / "chronyc"
+        line = CHRONY.replace("{now:.9f}", "$(date +%s.%N)")
+        chronyc.write_text(f"#!/bin/sh\necho {line}\n")
+        chronyc.chmod(0o755)
+        return {"PATH": f"{programs}:{os.environ['PATH']}"}
+
+    def truth(self):
+        """What the simulator knows of this station."""
+        folder = self.folder / "truth"
+        subprocess.run(self.wiring._sim("--write-truth", str(folder)), check=True)
+        return json.loads((folder / "alfa.json").read_text())
+
+    def fault(self, kind, is_on=True):
+        """What a person does beside the tripod: puts a target up, a filter on."""
+        message = ols_msg.sim_fault_t()
+        message.utime = time.time_ns() // 1000
+        message.kind, message.station = kind, "alfa"
+        message.duration_s, message.value = math.inf if is_on else 0.0, math.nan
+        self.listener.publish("OLS_SIM_FAULT", message.encode())
+
+    def view_of(self, frame):
+        """The truth of a line of frames.jsonl."""
+        stamp = min(self.views, key=lambda utime: abs(utime - frame["utime_us"]))
+        assert abs(stamp - frame["utime_us"]) < 20_000, "no such picture"
+        return self.views[stamp]
+
+    def frames(self, pattern):
+        """The pictures of the newest folder of the store that fits, oldest first."""
+        [*_, newest] = sorted(self.store.glob(pattern))
+        lines = (newest / "frames.jsonl").read_text().splitlines()
+        return [json.loads(line) for line in lines]
+
+    def ready(self):
+        """Camera and unit work, and a picture has come."""
+
+        def works():
+            status = self.listener.observer.status.get("alfa")
+            if status is None or status.image_width_px == 0 or not np.isfinite(status.pan_rad):
+                return False
+            state = dict(zip(status.device_name, status.device_state, strict=True))
+            return state["camera"] == state["ptu"] == ols_msg.station_status_t.DEVICE_OK
+
+        self.listener.wait(works, "camera and unit", 60.0)
+
+    def command(self, name, *options):
+        # Without a sun in the scenery it is overcast, whatever the time of day.
+        overcast = name in {"field", "check"} and "--sun" not in options
+        sun = ["--overcast"] if overcast else []
+        return [
+            *(str(BIN / "ols-calibrate"), name, "--station", str(self.config)),
+            *("--state", str(self.store), *sun, *map(str, options)),
+        ]
+
+    def run(self, name, *options):
+        return subprocess.run(
+            self.command(name, *options),
+            capture_output=True,
+            text=True,
+            timeout=DEADLINE_S,
+            stdin=subprocess.DEVNULL,
+            check=False,
+        )
+
+    def begin(self, name, *options):
+        self.state, self.answered = None, 0
+        self.log = self.folder / f"{name}.out"
+        with open(self.log, "ab") as out:
+            return subprocess.Popen(
+                self.command(name, *options),
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+            )
+
+    def answer(self, choice, pixel=None, turn=(0.0, 0.0)):
+        self.answered = self.state.question
+        self.given = {
+            "question": self.state.question,
+            "choice": choice,
+            "has_pixel": pixel is not None,
+            "pixel_px": list(pixel) if pixel is not None else [0.0, 0.0],
+            "turn_deg": list(turn),
+        }
+        self.send_answer()
+
+    def send_answer(self):
+        self.sequence += 1
+        message = addressed(ols_msg.procedure_answer_t(), "alfa", self.sequence)
+        for name, value in self.given.items():
+            setattr(message, name, value)
+        self.answered_s = time.monotonic()
+        self.listener.publish("OLS_PROCEDURE_ANSWER_alfa", message.encode())
+
+    def is_asking(self):
+        """Whether a question stands that was not answered yet. A datagram can be lost: a person
+        gives an answer again while its question stands."""
+        asking = ols_msg.procedure_t.STATE_ASKING
+        state = self.state
+        if state is None or state.state != asking:
+            return False
+        if state.question == self.answered and time.monotonic() > self.answered_s + AGAIN_S:
+            self.send_answer()
+        return state.question > self.answered
+
+    def see_sign(self):
+        """Where a person sees the sign in the picture: the whitest spot; None: it is not there."""
+        picture = np.asarray(Image.open(io.BytesIO(bytes(self.state.jpeg))), dtype=float)
+        white = picture > 0.93 * 255
+        if white.sum() < 3:
+            return None
+        rows, columns = np.nonzero(white)
+        return np.array([np.median(columns), np.median(rows)]) / self.state.scale
+
+    def point_and_confirm(self):
+        """Answers one question about a sign: points at it, then confirms the crosshair."""
+        sign = self.see_sign()
+        assert sign is not None, self.state.text
+        crosshair = np.array(self.state.crosshair_px)
+        right = self.state.has_crosshair and np.linalg.norm(crosshair - sign) < 3.0
+        self.answer("confirm" if right else "point", None if right else sign)
+
+    def operate(self, process, decide, react=None, deadline_s=DEADLINE_S):
+        """A person at a console, until the procedure ends; `decide` answers the result, `react`
+        does what else is asked for."""
+
+        def over():
+            if self.is_asking():
+                if "accept" in self.state.choice or "keep" in self.state.choice:
+                    self.answer(decide(self.state))
+                elif react:
+                    react()
+                else:
+                    self.point_and_confirm()
+            return process.poll() is not None
+
+        try:
+            self.listener.wait(over, "the end of the procedure", deadline_s)
+        except AssertionError:
+            print(f"{self.state.step}: {self.state.text!r}\n{self.log.read_text()}")
+            raise
+        return process.returncode
+
+
+def head_and_camera(truth, shafts):
+    """Axes of the unit's head (X ahead, Y left) and of the camera on it (X right, Y down, Z ahead)
+    in east, north, up."""
+    angle = {name: np.radians(truth[name]) for name in truth if name.endswith("_deg")}
+    head = (
+        rz(np.pi / 2 - angle["heading_deg"]) @ rx(angle["tilt_x_deg"]) @ ry(angle["tilt_y_deg"])
+    ) @ (rz(shafts[0]) @ rx(angle["trunnion_deg"]) @ ry(-shafts[1]))
+    mount = rz(angle["mount_z_deg"]) @ rx(angle["mount_x_deg"]) @ ry(angle["mount_y_deg"])
+    axes = head @ mount
+    return head, np.column_stack([-axes[:, 1], -axes[:, 2], axes[:, 0]])
+
+
+def middle_ray(truth):
+    """Of the picture, in the camera's axes; the lens bends it by nothing that counts there."""
+    x = (319.5 - truth["cx_px"]) / truth["focal_px"]
+    y = (239.5 - truth["cy_px"]) / (truth["focal_px"] * truth["aspect"])
+    ray = np.array([x, y, 1.0])
+    return ray / np.linalg.norm(ray)
+
+
+def heading_of_picture_deg(values):
+    """Azimuth of the picture's middle where the unit counts zero pan and stands level: heading,
+    mounting and principal point together."""
+    aside = np.arctan((319.5 - values["cx_px"]) / values["focal_px"])
+    return values["heading_deg"] - values["mount_z_deg"] + np.degrees(aside)
+
+
+def found_values(folder):
+    """What a calibration has found, by the names of the truth."""
+    instrument = tomllib.loads((folder / "instrument.toml").read_text())["values"]
+    return instrument | tomllib.loads((folder / "setup.toml").read_text())["pose"]

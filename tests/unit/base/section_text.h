@@ -1,0 +1,31 @@
+// Reads one section of a configuration from text, for tests of what it takes and what it refuses.
+#pragma once
+
+#include <string>
+
+#include "base/config_section.h"
+
+namespace ols::test {
+
+template <typename Config>
+struct SectionText {
+  std::string name;
+  config::Section (*section)(Config&);
+
+  Config read(const std::string& text) const {
+    ConfigFile file(text.empty() ? "" : "[" + name + "]\n" + text, "station.toml");
+    Config config;
+    config::read(section(config), file.root().table(name));
+    return config;
+  }
+  std::string error_of(const std::string& text) const {
+    try {
+      static_cast<void>(read(text));
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+};
+
+}  // namespace ols::test

@@ -1,0 +1,35 @@
+#include "base/trust/audience_book.h"
+
+#include <gtest/gtest.h>
+
+namespace ols::trust {
+namespace {
+
+TEST(AudienceBook, KnowsTheBootOfTheLastStatus) {
+  AudienceBook book;
+  EXPECT_EQ(book.boot_of("alfa"), 0);
+  book.hear("alfa", 7, true, 100.0);
+  book.hear("bravo", 8, true, 100.0);
+  EXPECT_EQ(book.boot_of("alfa"), 7);
+  book.hear("alfa", 9, true, 101.0);
+  EXPECT_EQ(book.boot_of("alfa"), 9) << "it was restarted";
+  EXPECT_EQ(book.boot_of("bravo"), 8);
+}
+
+TEST(AudienceBook, ARecordingDoesNotHideALiveStation) {
+  AudienceBook book;
+  book.hear("alfa", 7, true, 100.0);
+  book.hear("alfa", 3, false, 104.9);
+  EXPECT_EQ(book.boot_of("alfa"), 7);
+  book.hear("alfa", 3, false, 105.1);
+  EXPECT_EQ(book.boot_of("alfa"), 3) << "its clock may have become wrong";
+}
+
+TEST(AudienceBook, AStationThatNeverHadARightClockIsKnown) {
+  AudienceBook book;
+  book.hear("alfa", 3, false, 0.0);
+  EXPECT_EQ(book.boot_of("alfa"), 3);
+}
+
+}  // namespace
+}  // namespace ols::trust

@@ -1,0 +1,205 @@
+#include "base/trust/bus_trust.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/atomic_file.h"
+#include "base/toml_config.h"
+#include "base/trust/messages_trust.h"
+#include "tests/unit/base/trust/site_fixture.h"
+#include "tests/unit/eventually.h"
+#include "tests/unit/temp_dir.h"
+
+namespace ols::trust {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::int64_t kNow_us = 1'700'000'000'000'000;
+const Site kSite;
+
+// Station alfa and the fusion, with their files.
+class BusTrustTest : public testing::Test {
+ protected:
+  BusTrustTest() {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_ + "/state");
+    write_key("alfa", 2);
+    write_key("fusion", 4);
+    write_list(kSite.list());
+  }
+  ~BusTrustTest() override { std::filesystem::remove_all(folder_); }
+
+  void write_key(const std::string& name, std::uint8_t seed) const {
+    write_member_key(folder_ + "/" + name + ".key",
+                     {name, seed_of(seed), kSite.secret, kSite.root.public_key()});
+  }
+  void write_list(const TrustList& list) const {
+    AtomicFile file(folder_ + "/trust.toml");
+    file.stream() << sign_list(list, kSite.root);
+    file.commit();
+  }
+  std::shared_ptr<BusTrust> open(Self self, const std::string& mode = "require") const {
+    return BusTrust::open({}, {mode, folder_, "", folder_ + "/state"}, self);
+  }
+  std::shared_ptr<BusTrust> alfa() const {
+    return open({.name = "alfa", .boot_id = 11, .is_station = true});
+  }
+  std::shared_ptr<BusTrust> fusion() const {
+    return open({.name = "fusion", .boot_id = 12, .tells_list = true, .keeps_marks = true});
+  }
+  static Judgement hear(BusTrust& trust, const std::string& channel,
+                        const std::vector<std::uint8_t>& m) {
+    return trust.judge(channel, m, kNow_us, 5.0);
+  }
+
+  // `teller` passes the list on to `hearer`.
+  static void tell(BusTrust& hearer, BusTrust& teller, const std::string& list,
+                   std::int64_t sequence) {
+    const auto message = to_message(list, 12, sequence, kNow_us);
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    EXPECT_TRUE(hear(hearer, "OLS_TRUST", teller.sign("OLS_TRUST", bytes)).passes);
+  }
+
+  const std::string folder_ = temp_dir() + "bus_trust_test_" +
+                              testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST_F(BusTrustTest, OffIsNothingAndAWrongModeIsAnError) {
+  EXPECT_EQ(open({.name = "nobody"}, ""), nullptr);
+  EXPECT_EQ(open({.name = "nobody"}, "off"), nullptr);
+  EXPECT_THROW(open({.name = "alfa"}, "maybe"), ConfigError);
+  EXPECT_THROW(open({.name = "nobody"}), ConfigError) << "no key";
+  TrustConfig others;
+  others.key = folder_ + "/fusion.key";
+  EXPECT_THROW(BusTrust::open(others, {"require", folder_, "", ""},
+                              {.name = "alfa", .boot_id = 1, .is_station = true}),
+               ConfigError)
+      << "the key of another";
+}
+
+TEST_F(BusTrustTest, ASlewNamesTheBootThatTheStationsStatusSays) {
+  const auto station = alfa(), centre = fusion();
+  const auto early = centre->sign("OLS_SLEW_alfa", payload(kNow_us, 12, 1));
+  EXPECT_EQ(hear(*station, "OLS_SLEW_alfa", early).distrust, Distrust::kOtherBoot);
+  const auto status = station->sign("OLS_STATUS_alfa", payload(kNow_us, 11, 1, "alfa"));
+  EXPECT_TRUE(hear(*centre, "OLS_STATUS_alfa", status).passes);
+  const auto slew = centre->sign("OLS_SLEW_alfa", payload(kNow_us, 12, 2));
+  const Judgement judged = hear(*station, "OLS_SLEW_alfa", slew);
+  EXPECT_TRUE(judged.passes);
+  EXPECT_TRUE(judged.addressed);
+  EXPECT_EQ(judged.payload.size(), slew.size() - kTrailerBytes);
+}
+
+TEST_F(BusTrustTest, WhatNobodyAsksForIsNotVerifiedUnlessItTeachesSomething) {
+  const auto station = alfa(), centre = fusion();
+  EXPECT_TRUE(station->wants("OLS_TRUST"));
+  EXPECT_FALSE(station->wants("OLS_STATUS_bravo"));
+  EXPECT_FALSE(station->wants("OLS_BEARING_bravo"));
+  EXPECT_TRUE(centre->wants("OLS_STATUS_bravo"));
+  EXPECT_FALSE(centre->wants("OLS_BEARING_bravo"));
+}
+
+TEST_F(BusTrustTest, ObserveCountsAndLetsPass) {
+  const auto watching = open({.name = "alfa", .boot_id = 11, .is_station = true}, "observe");
+  const Judgement judged = hear(*watching, "OLS_PTU_alfa", payload(kNow_us, 1, 1));
+  EXPECT_EQ(judged.distrust, Distrust::kUnsigned);
+  EXPECT_TRUE(judged.passes);
+  EXPECT_TRUE(judged.addressed);
+  const auto requiring = alfa();
+  EXPECT_FALSE(hear(*requiring, "OLS_PTU_alfa", payload(kNow_us, 1, 1)).passes);
+}
+
+TEST_F(BusTrustTest, AListThatIsToldReplacesALowerOneAndOutlastsARestart) {
+  TrustList second = kSite.list(2);
+  second.members[0].revoked = true;  // alfa itself
+  {
+    const auto station = alfa(), centre = fusion();
+    EXPECT_EQ(station->trouble(), "");
+    write_list(second);
+    EXPECT_TRUE(eventually([&] { return centre->list_number() == 2; })) << "its file is watched";
+    const auto told = centre->list_to_tell(100.0);
+    ASSERT_TRUE(told);
+    EXPECT_FALSE(centre->list_to_tell(101.0)) << "told just now";
+    write_list(kSite.list(1));
+    tell(*station, *centre, *told, 1);
+    EXPECT_EQ(station->list_number(), 2);
+    tell(*station, *centre, sign_list(kSite.list(1), kSite.root), 2);
+    EXPECT_EQ(station->list_number(), 2) << "a lower one never replaces a higher one";
+    EXPECT_THAT(station->trouble(), HasSubstr("revoked"));
+    const auto bearing = station->sign("OLS_BEARING_alfa", payload(kNow_us, 11, 1, "alfa"));
+    EXPECT_EQ(hear(*centre, "OLS_BEARING_alfa", bearing).distrust, Distrust::kRevoked);
+    tell(*station, *centre, sign_list(kSite.list(9), kSite.stranger), 3);
+    EXPECT_EQ(station->list_number(), 2) << "nor one of another root";
+  }
+  EXPECT_EQ(alfa()->list_number(), 2) << "though the file in its place is older";
+}
+
+TEST_F(BusTrustTest, WhatTheFusionHasHeardOutlastsARestart) {
+  const auto station = alfa();
+  const auto bearing = station->sign("OLS_BEARING_alfa", payload(kNow_us, 11, 1, "alfa"));
+  EXPECT_TRUE(hear(*fusion(), "OLS_BEARING_alfa", bearing).passes);
+  EXPECT_EQ(hear(*fusion(), "OLS_BEARING_alfa", bearing).distrust, Distrust::kReplayed);
+}
+
+TEST_F(BusTrustTest, AListInItsPlaceThatIsNoneIsSaidAndTheOldOneStands) {
+  const auto centre = fusion();
+  std::ofstream(folder_ + "/trust.toml") << "nonsense\n";
+  EXPECT_TRUE(eventually([&] { return !centre->trouble().empty(); }));
+  EXPECT_THAT(centre->trouble(), HasSubstr("trust.toml"));
+  EXPECT_EQ(centre->list_number(), 1);
+  write_list(kSite.list(3));
+  EXPECT_TRUE(eventually([&] { return centre->list_number() == 3 && centre->trouble().empty(); }));
+}
+
+TEST_F(BusTrustTest, ANewMemberLearnsItsFirstListFromTheBus) {
+  const auto centre = fusion();
+  const std::string list = sign_list(kSite.list(3), kSite.root);
+  std::filesystem::remove(folder_ + "/trust.toml");
+  {
+    const auto station = alfa();
+    EXPECT_EQ(station->list_number(), 0);
+    EXPECT_THAT(station->trouble(), HasSubstr("no list yet"));
+    const auto slew = centre->sign("OLS_SLEW_alfa", payload(kNow_us, 12, 1));
+    EXPECT_EQ(hear(*station, "OLS_SLEW_alfa", slew).distrust, Distrust::kStranger)
+        << "it knows nobody yet";
+    tell(*station, *centre, list, 1);
+    EXPECT_EQ(station->list_number(), 3);
+    EXPECT_EQ(station->trouble(), "");
+  }
+  EXPECT_EQ(alfa()->list_number(), 3) << "and keeps it";
+}
+
+TEST_F(BusTrustTest, NobodyButTheSiteTellsANewMemberItsFirstList) {
+  std::filesystem::remove(folder_ + "/trust.toml");
+  const auto station = alfa();
+  const auto message = to_message(sign_list(kSite.list(3), kSite.root), 12, 1, kNow_us);
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  const auto other_site = with_trailer(kSite.fusion, seed_of(8), "OLS_TRUST", bytes, 0);
+  EXPECT_FALSE(hear(*station, "OLS_TRUST", other_site).passes) << "without the site's secret";
+  EXPECT_FALSE(hear(*station, "OLS_TRUST", bytes).passes) << "unsigned";
+  const auto elsewhere = with_trailer(kSite.fusion, kSite.secret, "OLS_STATUS_a", bytes, 0);
+  EXPECT_FALSE(hear(*station, "OLS_TRUST", elsewhere).passes) << "of another channel";
+  EXPECT_EQ(station->list_number(), 0);
+}
+
+TEST_F(BusTrustTest, AListThatTheConfigurationNamesMustBeThere) {
+  TrustConfig config;
+  config.list = folder_ + "/elsewhere.toml";
+  EXPECT_THROW(BusTrust::open(config, {"require", folder_, "", ""},
+                              {.name = "alfa", .boot_id = 1, .is_station = true}),
+               ConfigError);
+}
+
+TEST_F(BusTrustTest, AKeyThatIsNotEnrolledIsSaid) {
+  write_key("charlie", 6);
+  EXPECT_THAT(open({.name = "charlie"})->trouble(), HasSubstr("is not in trust list 1"));
+}
+
+}  // namespace
+}  // namespace ols::trust

@@ -1,0 +1,34 @@
+#include "base/trust/messages_trust.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace ols::trust {
+namespace {
+
+std::vector<std::uint8_t> encoded(const ols_msg::trust_list_t& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+TEST(MessagesTrust, TheTextIsReadBack) {
+  const auto bytes = encoded(to_message("a = 1\n", 2, 3, 4));
+  EXPECT_EQ(list_from(bytes), "a = 1\n");
+}
+
+TEST(MessagesTrust, AnythingElseIsNone) {
+  auto bytes = encoded(to_message("a = 1\n", 2, 3, 4));
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_FALSE(list_from(Bytes(bytes).first(size))) << size;
+  }
+  bytes.push_back(0);
+  EXPECT_FALSE(list_from(bytes));
+  auto other = to_message("", 2, 3, 4);
+  other.schema_version = 2;
+  EXPECT_FALSE(list_from(encoded(other)));
+}
+
+}  // namespace
+}  // namespace ols::trust

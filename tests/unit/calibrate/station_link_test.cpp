@@ -1,0 +1,44 @@
+#include "tools/calibrate/station_link.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/calibrate/bus_station.h"
+
+namespace ols::calibration {
+namespace {
+
+using Command = ols_msg::ptu_command_t;
+using Status = ols_msg::station_status_t;
+
+class StationLinkTest : public testing::Test {
+ protected:
+  void handle() {
+    while (station.bus.handle(0) > 0) {
+    }
+  }
+
+  test::BusStation station;
+  StationLink link{station.bus, "alfa"};
+};
+
+TEST_F(StationLinkTest, AStopIsNotReleased) {
+  station.say(Status::STATE_MANUAL);
+  handle();
+  station.say(Status::STATE_STOPPED);
+  EXPECT_FALSE(link.release());
+  EXPECT_FALSE(link.may_point());
+  handle();
+  EXPECT_TRUE(station.commands.empty());
+}
+
+TEST_F(StationLinkTest, ManualOperationIsReleased) {
+  station.say(Status::STATE_MANUAL);
+  EXPECT_TRUE(link.release());
+  handle();
+  EXPECT_EQ(station.commands, std::vector<std::int8_t>{Command::COMMAND_RELEASE});
+}
+
+TEST_F(StationLinkTest, WithoutAStatusNothingMoves) { EXPECT_FALSE(link.may_point()); }
+
+}  // namespace
+}  // namespace ols::calibration

@@ -1,0 +1,123 @@
+#include "tools/calibrate/view_stage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "geometry/angles.h"
+#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/moved_scene.h"
+
+namespace ols::calibration {
+namespace {
+
+constexpr double kSd_rad = 2.4e-5;
+
+// A calibration with pictures at these pans, and the station later.
+class ViewStageTest : public testing::Test {
+ protected:
+  explicit ViewStageTest(std::vector<double> pans_deg = {-120, -40, 40, 120})
+      : pans_deg_(std::move(pans_deg)) {
+    std::ofstream list(folder_.path() + "/frames.jsonl");
+    for (std::size_t i = 0; i < pans_deg_.size(); ++i) {
+      const std::string file = std::to_string(i) + ".png";
+      cv::imwrite(folder_.path() + "/" + file, moved_scene(static_cast<int>(i), 0.0));
+      list << R"({"file": ")" << file << R"(", "pan_rad": )" << radians(pans_deg_[i])
+           << R"(, "tilt_rad": 0.0, "approach_pan": 1, "approach_tilt": -1})" << '\n';
+    }
+  }
+  // Each view moved by so many pixels, in every round; how many pictures were wanted.
+  int look(ViewStage& stage, const std::vector<double>& right_px) {
+    int pictures = 0;
+    while (const auto order = stage.next()) {
+      ++pictures;
+      EXPECT_EQ(order->shot.approach_tilt, -1);
+      const auto at = std::ranges::min_element(pans_deg_, {}, [&](double pan_deg) {
+        return std::abs(radians(pan_deg) - order->shot.angles.pan_rad);
+      });
+      const auto i = static_cast<std::size_t>(at - pans_deg_.begin());
+      Taken picture;
+      picture.angles = order->shot.angles;
+      picture.gray = moved_scene(static_cast<int>(i), right_px[i]);
+      stage.taken(picture);
+    }
+    return pictures;
+  }
+  ViewStage stage() { return {views_of(folder_.path()), StationGeometry{}, kSd_rad}; }
+
+  logger::TemporaryFolder folder_;
+  std::vector<double> pans_deg_;
+};
+
+TEST_F(ViewStageTest, ATripodThatStandsIsLookedAtOnce) {
+  ViewStage quiet = stage();
+  EXPECT_EQ(look(quiet, {0.0, 0.0, 0.0, 0.0}), 4);
+  EXPECT_TRUE(quiet.stands());
+  EXPECT_NE(quiet.verdict().find("stands as it was calibrated"), std::string::npos);
+}
+
+TEST_F(ViewStageTest, AKnockIsSaidAfterASecondRound) {
+  ViewStage knocked = stage();
+  EXPECT_EQ(look(knocked, {4.3, 4.3, 4.3, 4.3}), 8);
+  EXPECT_TRUE(knocked.can_tell());
+  EXPECT_FALSE(knocked.stands());
+  EXPECT_EQ(knocked.verdict().find("RED: calibration: the tripod has moved"), 0U)
+      << knocked.verdict();
+}
+
+TEST_F(ViewStageTest, OneViewThatDiffersIsTheScene) {
+  ViewStage changed = stage();
+  look(changed, {0.0, 6.0, 0.0, 0.0});
+  EXPECT_TRUE(changed.stands());
+  EXPECT_NE(changed.verdict().find("something moved there, not the tripod"), std::string::npos)
+      << changed.verdict();
+}
+
+TEST_F(ViewStageTest, TwoViewsTellNothing) {
+  ViewStage few = stage();
+  int taken = 0;
+  while (few.next()) {
+    if (++taken <= 2) {
+      few.not_taken("the unit did not arrive");
+    } else {
+      Taken picture;
+      picture.angles = few.next()->shot.angles;
+      picture.gray = moved_scene(99, 0.0);
+      few.taken(picture);
+    }
+  }
+  EXPECT_FALSE(few.can_tell());
+  EXPECT_FALSE(few.stands());
+  EXPECT_NE(few.verdict().find("Cannot be told"), std::string::npos);
+}
+
+class CrowdedPanorama : public ViewStageTest {
+ protected:
+  CrowdedPanorama() : ViewStageTest({0, 3, 6, 9, -90, 95, 100, 30}) {}
+};
+
+TEST_F(CrowdedPanorama, ViewsAreAsFarApartAsThereAre) {
+  const auto views = views_of(folder_.path());
+  std::vector<int> pans;
+  for (const StoredView& one : views) {
+    pans.push_back(static_cast<int>(std::lround(degrees(one.angles.pan_rad))));
+  }
+  EXPECT_EQ(pans, (std::vector<int>{0, 100, -90, 30}));
+}
+
+TEST(ViewsOf, ADamagedListIsNamedWithItsLine) {
+  const logger::TemporaryFolder folder;
+  std::ofstream(folder.path() + "/frames.jsonl") << "{\"file\": \"a.png\"}\n";
+  try {
+    views_of(folder.path());
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("frames.jsonl:1:"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace ols::calibration

@@ -1,0 +1,94 @@
+#include "calibration/acceptance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/unit/calibration/scene.h"
+
+namespace ols::calibration {
+namespace {
+
+using Judgement = Finding::Judgement;
+using test::hill;
+using test::just_put_up;
+using test::landmarks_around;
+
+Acceptance judged(const Problem& problem) {
+  const Adjustment adjustment(network_of(problem));
+  const Calibration found = calibrate(adjustment);
+  return judge_calibration(problem, adjustment, found, 0);
+}
+
+const Finding& finding(const Acceptance& acceptance, const std::string& name) {
+  const auto found = std::ranges::find(acceptance.findings, name, &Finding::name);
+  EXPECT_NE(found, acceptance.findings.end()) << name;
+  return *found;
+}
+
+// Landmarks all around, a workshop's unit, none of them wrong.
+Problem good() {
+  Problem problem = landmarks_around(hill(), just_put_up(), 9);
+  problem.stations[0].covariance.topLeftCorner<kInstrumentParameters, kInstrumentParameters>() *=
+      0.01;
+  return problem;
+}
+
+TEST(Acceptance, NamesWhatIsGood) {
+  const Acceptance acceptance = judged(good());
+  for (const Finding& one : acceptance.findings) {
+    EXPECT_NE(one.judgement, Judgement::kBad) << one.sentence;
+  }
+  EXPECT_TRUE(acceptance.acceptable());
+  EXPECT_EQ(finding(acceptance, "systematic_rms").judgement, Judgement::kGood);
+  EXPECT_EQ(finding(acceptance, "sectors").judgement, Judgement::kGood);
+  EXPECT_EQ(finding(acceptance, "closing").judgement, Judgement::kGood);
+  // They stand within 8 degrees of elevation.
+  EXPECT_TRUE(acceptance.volume_is_cut);
+  EXPECT_LT(acceptance.volume.highest_deg, 15.0);
+  EXPECT_EQ(acceptance.volume.pan_deg, 150.0);
+}
+
+// What moved between the first and the last sighting of a landmark shows in the closing.
+TEST(Acceptance, FindsATripodThatMovedMeanwhile) {
+  Problem problem = good();
+  problem.observations[1].pixel.x() += 3.0;  // the second sighting of landmark0: 46 arc seconds
+  const Finding closing = finding(judged(problem), "closing");
+  EXPECT_EQ(closing.judgement, Judgement::kBad);
+  EXPECT_NEAR(closing.value, 46.4, 3.0);
+}
+
+// A landmark that is rejected, and one alone that nobody checks.
+TEST(Acceptance, NamesWhatIsBadOrUnchecked) {
+  Problem problem = good();
+  auto& place = std::get<FixedPoint>(problem.references["landmark4"]);
+  place.ecef += R_ecef_enu(place.ecef) * Eigen::Vector3d(0.0, 0.0, 3.0);
+  const Acceptance with_wrong = judged(problem);
+  EXPECT_FALSE(with_wrong.acceptable());
+  EXPECT_EQ(finding(with_wrong, "rejected landmark4").judgement, Judgement::kBad);
+
+  Problem alone = good();
+  alone.observations.resize(2);
+  const Acceptance single = judged(alone);
+  EXPECT_EQ(finding(single, "detectable landmark0").judgement, Judgement::kUnchecked);
+  EXPECT_EQ(finding(single, "sectors").judgement, Judgement::kUnchecked);
+  EXPECT_LT(single.volume.pan_deg, 175.0);
+}
+
+// Numbers that the computation could not give are no reason to say "good".
+TEST(Acceptance, WhatIsNotKnownIsBad) {
+  const Problem problem = good();
+  const Adjustment adjustment(network_of(problem));
+  for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Calibration found = calibrate(adjustment);
+    found.global.variance_factor = value;
+    const Acceptance acceptance = judge_calibration(problem, adjustment, found, 0);
+    EXPECT_EQ(finding(acceptance, "global_test").judgement, Judgement::kBad);
+    EXPECT_FALSE(acceptance.acceptable());
+  }
+}
+
+}  // namespace
+}  // namespace ols::calibration

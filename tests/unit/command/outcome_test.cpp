@@ -1,0 +1,45 @@
+#include "command/outcome.h"
+
+#include <gtest/gtest.h>
+
+namespace ols::command {
+namespace {
+
+TEST(Outcome, IsUnknownUntilTheStationCountsTheOrder) {
+  const Reply before{.counters = {{"designate_accepted", 2}, {"refused_stale", 1}}};
+  EXPECT_FALSE(outcome(before, before, Kind::kDesignate));
+}
+
+TEST(Outcome, AGrownCountOfItsKindIsAcceptance) {
+  const Reply before{.counters = {{"designate_accepted", 2}}};
+  const Reply now{.counters = {{"designate_accepted", 3}}};
+  EXPECT_TRUE(outcome(before, now, Kind::kDesignate)->accepted);
+  EXPECT_FALSE(outcome(before, now, Kind::kPoint));
+}
+
+TEST(Outcome, ARefusalIsInTheStationsWords) {
+  const Reply before{};
+  const Reply now{.counters = {{"refused_stale", 1}}, .last_error = "DESIGNATE refused: old"};
+  EXPECT_EQ(outcome(before, now, Kind::kDesignate)->why, "refused: stale (DESIGNATE refused: old)");
+  const Reply stopped{.counters = {{"refused_just_stopped", 1}}};
+  EXPECT_EQ(outcome(before, stopped, Kind::kPoint)->why,
+            "refused: it was stopped less than a second ago; try again");
+}
+
+TEST(Outcome, WithoutAnswerALostMessageIsTheReasonIfOneWasCounted) {
+  EXPECT_EQ(without_answer({}, {}).why, "no answer");
+  const Reply now{.counters = {{"messages_refused_schema", 1}}};
+  EXPECT_EQ(without_answer({}, now).why, "refused: schema");
+  EXPECT_FALSE(without_answer({}, now).accepted);
+}
+
+TEST(Outcome, AStopIsConfirmedByACountAndAStandingUnit) {
+  const Reply counted{.counters = {{"stop_accepted", 5}}};
+  EXPECT_FALSE(confirms_stop(counted, 4));
+  const Reply standing{.counters = {{"stop_accepted", 5}}, .stopped = true};
+  EXPECT_TRUE(confirms_stop(standing, 4));
+  EXPECT_FALSE(confirms_stop(standing, 5));
+}
+
+}  // namespace
+}  // namespace ols::command

@@ -1,0 +1,360 @@
+#include "console/console.h"
+
+#include <gtest/gtest.h>
+
+namespace ols::console {
+namespace {
+
+StationHeard station(const std::string& id, double stops = 0, bool stopped = false) {
+  StationHeard heard;
+  heard.id = id;
+  heard.fields = {{"state", "tracking"}};
+  heard.reply.counters["stop_accepted"] = stops;
+  heard.reply.stopped = stopped;
+  return heard;
+}
+
+// All that a viewer is sent now.
+std::vector<Json> received(Console& console, std::uint64_t viewer, const Now& now) {
+  std::vector<Json> messages;
+  while (auto next = console.next(viewer, now)) {
+    messages.push_back(next->is_binary ? Json(next->bytes.size()) : Json::parse(next->bytes));
+  }
+  return messages;
+}
+
+Json answer_in(const std::vector<Json>& messages) {
+  for (const Json& message : messages) {
+    if (message.is_object() && message.at("kind") == "answer") return message;
+  }
+  return nullptr;
+}
+
+TEST(Console, GreetsThenSendsASnapshotThenDeltasAtTwentyHertz) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  const auto viewer = console.open("ana", Role::kOperator);
+  const auto first = received(console, viewer, {1.0, 5});
+  ASSERT_EQ(first.size(), 2U);
+  EXPECT_EQ(first[0].at("kind"), "hello");
+  EXPECT_EQ(first[0].at("role"), "operator");
+  EXPECT_EQ(first[1].at("kind"), "snapshot");
+  console.hear_bearing("alfa", {{"azimuth_deg", 1.0}});
+  EXPECT_TRUE(received(console, viewer, {1.04, 5}).empty());
+  const auto second = received(console, viewer, {1.1, 5});
+  ASSERT_EQ(second.size(), 1U);
+  EXPECT_EQ(second[0].at("kind"), "delta");
+  EXPECT_TRUE(received(console, viewer, {1.5, 5}).empty()) << "nothing new";
+  EXPECT_EQ(received(console, viewer, {2.2, 5}).size(), 1U) << "a sign of life each second";
+}
+
+TEST(Console, ASlowViewerGetsTheNewestNotAQueue) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  const auto viewer = console.open("ana", Role::kViewer);
+  static_cast<void>(received(console, viewer, {0.0, 0}));
+  for (int i = 1; i <= 1000; ++i) console.hear_bearing("alfa", {{"azimuth_deg", i}});
+  const auto messages = received(console, viewer, {60.0, 0});
+  ASSERT_EQ(messages.size(), 1U);
+  EXPECT_EQ(messages[0].at("stations")[0].at("bearing").at("azimuth_deg"), 1000);
+}
+
+TEST(Console, OnlyTheNewestPictureThatIsWatchedIsSent) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  console.hear(station("bravo"), {0.0, 0});
+  const auto viewer = console.open("ana", Role::kViewer);
+  static_cast<void>(received(console, viewer, {0.0, 0}));
+  for (const char* id : {"alfa", "alfa", "bravo", "unknown"}) {
+    console.hear(Picture{id, {{"station", id}}, "JPEG"});
+  }
+  EXPECT_TRUE(received(console, viewer, {0.01, 0}).empty());
+  console.take(viewer, R"({"do":"watch","pictures":["alfa","unknown"]})", {0.02, 0});
+  const auto next = console.next(viewer, {0.03, 0});
+  ASSERT_TRUE(next && next->is_binary);
+  EXPECT_EQ(next->bytes.substr(0, 4), std::string("\0\0\0\x12", 4)) << "the header's length";
+  EXPECT_EQ(next->bytes.substr(4), "{\"station\":\"alfa\"}JPEG");
+  EXPECT_FALSE(console.next(viewer, {0.04, 0}));
+}
+
+TEST(Console, ACommandIsAnsweredWithTheStationsOwnWord) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  const auto viewer = console.open("ana", Role::kOperator);
+  console.take(viewer, R"({"do":"command","number":4,"station":"alfa","command":"home"})",
+               {1.0, 9});
+  ASSERT_EQ(console.turn({1.0, 9}).size(), 1U);
+  StationHeard refuses = station("alfa");
+  refuses.reply.counters["refused_keep_out"] = 1;
+  console.hear(refuses, {1.2, 9});
+  static_cast<void>(console.turn({1.2, 9}));
+  const Json answer = answer_in(received(console, viewer, {1.2, 9}));
+  EXPECT_EQ(answer.at("number"), 4);
+  EXPECT_EQ(answer.at("why"), "refused: keep_out");
+  const Json event = console.state({1.2, 9}).at("events").back();
+  EXPECT_EQ(event.at("who"), "ana");
+  EXPECT_EQ(event.at("outcome"), "refused: keep_out");
+}
+
+TEST(Console, AViewerMayLookAndStopOnly) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  const auto viewer = console.open("guest", Role::kViewer);
+  console.take(viewer, R"({"do":"command","number":1,"station":"alfa","command":"release"})",
+               {0.0, 0});
+  console.take(viewer, R"({"do":"take","number":2,"station":"alfa"})", {0.0, 0});
+  EXPECT_TRUE(console.turn({0.0, 0}).empty());
+  EXPECT_TRUE(console.state({0.0, 0}).at("events").empty()) << "it would push out what happened";
+  EXPECT_EQ(answer_in(received(console, viewer, {0.0, 0})).at("why"),
+            "refused: a viewer may only look and stop");
+  console.take(viewer, R"({"do":"command","number":3,"station":"alfa","command":"stop"})",
+               {0.0, 0});
+  EXPECT_EQ(console.turn({0.0, 0}).size(), 1U);
+}
+
+TEST(Console, OneHolderAStationUntilAnotherTakesOver) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  const auto ana = console.open("ana", Role::kOperator);
+  const auto ben = console.open("ben", Role::kOperator);
+  const std::string release = R"({"do":"command","number":1,"station":"alfa","command":"release"})";
+  console.take(ana, release, {0.0, 0});
+  static_cast<void>(console.turn({0.0, 0}));
+  EXPECT_EQ(console.state({0.0, 0}).at("stations")[0].at("control").at("by"), "ana");
+  console.take(ben, release, {0.1, 0});
+  EXPECT_TRUE(console.turn({0.1, 0}).empty());
+  EXPECT_EQ(answer_in(received(console, ben, {0.1, 0})).at("accepted"), false);
+  console.take(ben, R"({"do":"take","station":"alfa"})", {0.2, 0});
+  static_cast<void>(console.turn({0.2, 0}));
+  EXPECT_EQ(console.state({0.2, 0}).at("stations")[0].at("control").at("by"), "ben");
+  console.close(ben);
+  static_cast<void>(console.turn({0.3, 0}));
+  EXPECT_TRUE(console.state({0.3, 0}).at("stations")[0].at("control").is_null());
+}
+
+TEST(Console, StopAllStopsEachStationUntilItStandsAndThoseHeardSoonAfter) {
+  Console console(60.0);
+  console.hear(station("alfa", 2), {0.0, 0});
+  console.hear(station("bravo", 0), {0.0, 0});
+  EXPECT_EQ(console.stop_all("ana", {}, {1.0, 0}), (std::vector<std::string>{"alfa", "bravo"}));
+  EXPECT_EQ(console.turn({1.0, 0}).size(), 2U);
+  console.hear(station("alfa", 3, true), {1.1, 0});
+  console.hear(station("charlie", 0), {1.1, 0});
+  std::vector<std::string> again;
+  static_cast<void>(console.turn({1.1, 0}));
+  for (const auto& order : console.turn({1.2, 0})) again.push_back(order.station);
+  EXPECT_EQ(again, (std::vector<std::string>{"bravo", "charlie"}));
+}
+
+TEST(Console, AStopOfAllThatIsNotConfirmedIsToldToEverybody) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  console.hear(station("bravo"), {0.0, 0});
+  const auto ana = console.open("ana", Role::kOperator), ben = console.open("ben", Role::kViewer);
+  static_cast<void>(console.stop_all("ana", {}, {1.0, 0}));
+  console.take(ana, R"({"do":"stop_all","number":3})", {1.0, 0});
+  EXPECT_EQ(console.turn({1.0, 0}).size(), 2U);
+  EXPECT_EQ(console.state({1.0, 0}).at("events").size(), 2U) << "one person's stop is one event";
+  console.hear(station("alfa", 1, true), {2.0, 0});
+  static_cast<void>(console.turn({2.0, 0}));
+  static_cast<void>(console.turn({4.1, 0}));
+  for (const auto viewer : {ana, ben}) {
+    int told = 0;
+    for (const Json& message : received(console, viewer, {4.1, 0})) {
+      if (message.at("kind") != "stop_unconfirmed") continue;
+      EXPECT_EQ(message.at("stations"), Json::parse(R"(["bravo"])"));
+      ++told;
+    }
+    EXPECT_EQ(told, 1);
+  }
+}
+
+TEST(Console, AStopWithoutABusSaysSo) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  const auto viewer = console.open("ana", Role::kOperator);
+  console.bus_is("no bus: connecting");
+  console.take(viewer, R"({"do":"stop_all","number":3})", {1.0, 0});
+  EXPECT_EQ(answer_in(received(console, viewer, {1.0, 0})).at("why"), "no bus: connecting");
+}
+
+// A browser's link was cut during a hold: what it delivers afterwards moves nothing.
+TEST(Console, ARateThatWasHeldUpIsRefusedAndAHoldIsOneEvent) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  const auto viewer = console.open("ana", Role::kOperator);
+  const auto rate = [&](std::int64_t heard_us, const Now& now) {
+    console.take(viewer,
+                 R"({"do":"command","station":"alfa","command":"rate","pan_deg_s":5,)"
+                 R"("tilt_deg_s":0,"heard_us":)" +
+                     std::to_string(heard_us) + "}",
+                 now);
+    return console.turn(now).size();
+  };
+  EXPECT_EQ(rate(9'000'000, {1.0, 10'000'000}), 1U);
+  EXPECT_EQ(rate(9'200'000, {1.1, 10'100'000}), 1U);
+  EXPECT_EQ(rate(9'200'000, {2.0, 11'000'000}), 0U);
+  EXPECT_EQ(answer_in(received(console, viewer, {2.1, 11'100'000})).at("why"),
+            "refused: it came too late");
+  int rates = 0;
+  const Json state = console.state({2.1, 11'100'000});
+  for (const Json& event : state.at("events")) rates += event.at("text") == "rate" ? 1 : 0;
+  EXPECT_EQ(rates, 1);
+}
+
+TEST(Console, MalformedMessagesAreRefusedInWordsAndCounted) {
+  Console console(60.0);
+  const auto viewer = console.open("ana", Role::kOperator);
+  console.take(viewer, "nonsense", {0.0, 0});
+  EXPECT_EQ(answer_in(received(console, viewer, {0.0, 0})).at("why"), "refused: not JSON");
+  EXPECT_EQ(console.health({0.0, 0}).at("messages_refused"), 1);
+}
+
+TEST(Console, AnswersToAViewerThatDoesNotReadAreBounded) {
+  Console console(60.0);
+  const auto viewer = console.open("ana", Role::kOperator);
+  for (int i = 0; i < 10000; ++i) console.take(viewer, "x", {0.0, 0});
+  EXPECT_LE(received(console, viewer, {0.0, 0}).size(), 70U);
+}
+
+Picture picture(const std::string& id, std::int64_t utime_us, bool is_video) {
+  return {id, {{"station", id}, {"utime_us", utime_us}}, "jpeg", is_video};
+}
+
+void watch(Console& console, std::uint64_t viewer, const std::string& stations) {
+  console.take(viewer, R"({"do": "watch", "pictures": )" + stations + "}", {0.0, 0});
+}
+
+// The station and instant of the next picture that this viewer is sent; empty: none.
+std::string next_picture(Console& console, std::uint64_t viewer) {
+  while (const auto next = console.next(viewer, {0.0, 0})) {
+    if (!next->is_binary) continue;
+    const Json header = Json::parse(next->bytes.substr(4, next->bytes.find('}') - 3));
+    return header.at("station").get<std::string>() + header.at("utime_us").dump();
+  }
+  return "";
+}
+
+TEST(Console, PullsTheVideoOfStationsThatSomebodyLooksAt) {
+  Console console(60.0);
+  for (const char* id : {"alfa", "bravo", "charlie"}) {
+    StationHeard heard = station(id);
+    if (id != std::string("charlie")) heard.video_address = std::string("10.0.0.1:") + id;
+    console.hear(heard, {0.0, 0});
+  }
+  EXPECT_TRUE(console.watched_video().empty());
+  const auto viewer = console.open("ana", Role::kViewer);
+  watch(console, viewer, R"(["bravo", "charlie"])");
+  EXPECT_EQ(console.watched_video(),
+            (std::map<std::string, std::string>{{"bravo", "10.0.0.1:bravo"}}));
+  console.hear(station("bravo"), {0.0, 0});  // it serves none any more
+  EXPECT_TRUE(console.watched_video().empty());
+}
+
+TEST(Console, APreviewIsShownOnlyWhereNoVideoComes) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  const auto viewer = console.open("ana", Role::kViewer);
+  watch(console, viewer, R"(["alfa"])");
+  console.hear(picture("alfa", 1'000'000, true));
+  EXPECT_EQ(next_picture(console, viewer), "alfa1000000");
+  console.hear(picture("alfa", 2'000'000, false));
+  EXPECT_EQ(next_picture(console, viewer), "");
+  console.hear(picture("alfa", 5'000'000, false));
+  EXPECT_EQ(next_picture(console, viewer), "alfa5000000") << "the video has ended";
+}
+
+TEST(Console, EachStationGetsItsTurnOverASlowLink) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  console.hear(station("bravo"), {0.0, 0});
+  const auto viewer = console.open("ana", Role::kViewer);
+  watch(console, viewer, R"(["alfa", "bravo"])");
+  std::string seen;
+  for (int i = 1; i <= 4; ++i) {
+    console.hear(picture("alfa", i, true));
+    console.hear(picture("bravo", i, true));
+    seen += next_picture(console, viewer) + " ";  // one for each two that come
+  }
+  EXPECT_EQ(seen, "alfa1 bravo2 alfa3 bravo4 ");
+}
+
+ProcedureHeard asking(const std::string& station) {
+  return {station, {{"state", "asking"}, {"question", 3}}, 3, {"confirm"}, "JPEG"};
+}
+
+TEST(Console, AProcedureIsPartOfItsStation) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  console.hear(asking("alfa"));
+  console.hear(asking("unknown"));
+  const Json state = console.state({0.0, 0});
+  EXPECT_EQ(state.at("stations")[0].at("procedure").at("question"), 3);
+  EXPECT_EQ(state.at("stations")[0].at("procedure").at("picture"), 1);
+  ASSERT_TRUE(console.procedure_picture("alfa"));
+  EXPECT_EQ(*console.procedure_picture("alfa"), "JPEG");
+  EXPECT_FALSE(console.procedure_picture("unknown"));
+}
+
+TEST(Console, AnOperatorAnswersAProcedureAndAViewerDoesNot) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  console.hear(asking("alfa"));
+  const char* const confirm =
+      R"({"do":"answer","number":8,"station":"alfa","question":3,"choice":"confirm"})";
+  const auto viewer = console.open("vera", Role::kViewer);
+  console.take(viewer, confirm, {1.0, 5});
+  EXPECT_FALSE(answer_in(received(console, viewer, {1.0, 5})).at("accepted"));
+  EXPECT_TRUE(console.take_answers().empty());
+  const auto operating = console.open("ana", Role::kOperator);
+  console.take(operating, confirm, {1.0, 5});
+  const Json answer = answer_in(received(console, operating, {1.0, 5}));
+  EXPECT_TRUE(answer.at("accepted")) << answer;
+  EXPECT_EQ(answer.at("number"), 8);
+  const auto answers = console.take_answers();
+  ASSERT_EQ(answers.size(), 1U);
+  EXPECT_EQ(answers[0].choice, "confirm");
+  EXPECT_EQ(console.state({1.0, 5}).at("events")[0].at("text"), "answers confirm");
+}
+
+TEST(Console, AnOperatorsWordOnACueGoesOutAndAViewersDoesNot) {
+  Console console(60.0);
+  const char* const allow = R"({"do":"cue","number":8,"cue":"tak.a","allow":true})";
+  const auto viewer = console.open("vera", Role::kViewer);
+  console.take(viewer, allow, {1.0, 5});
+  EXPECT_FALSE(answer_in(received(console, viewer, {1.0, 5})).at("accepted"));
+  EXPECT_TRUE(console.take_cue_orders().empty());
+  const auto operating = console.open("ana", Role::kOperator);
+  console.take(operating, allow, {1.0, 5});
+  EXPECT_TRUE(answer_in(received(console, operating, {1.0, 5})).at("accepted"));
+  const auto orders = console.take_cue_orders();
+  ASSERT_EQ(orders.size(), 1U);
+  EXPECT_EQ(orders[0].cue, "tak.a");
+  EXPECT_EQ(console.state({1.0, 5}).at("events")[0].at("text"), "allows cue tak.a");
+  console.replay_is({{"name", "x"}}, true);
+  console.take(operating, allow, {2.0, 6});
+  EXPECT_TRUE(console.take_cue_orders().empty()) << "what was is not commanded";
+}
+
+TEST(Console, AnAnswerNeedsControlUnlessItEndsTheProcedure) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  console.hear(asking("alfa"));
+  const auto holder = console.open("ana", Role::kOperator);
+  console.take(holder, R"({"do":"take","station":"alfa"})", {1.0, 5});
+  const auto other = console.open("otto", Role::kOperator);
+  const auto answered = [&](const std::string& choice) {
+    console.take(
+        other,
+        R"({"do":"answer","number":8,"station":"alfa","question":3,"choice":")" + choice + "\"}",
+        {1.0, 5});
+    return answer_in(received(console, other, {1.0, 5}));
+  };
+  EXPECT_FALSE(answered("confirm").at("accepted"));
+  EXPECT_TRUE(console.take_answers().empty());
+  EXPECT_TRUE(answered("abort").at("accepted"));
+  EXPECT_EQ(console.take_answers().size(), 1U);
+}
+
+}  // namespace
+}  // namespace ols::console

@@ -1,0 +1,58 @@
+#include "console/messages_cues.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ols_msg/fusion_status_t.hpp"
+
+namespace ols::console {
+namespace {
+
+BusMessage encoded(const ols_msg::fusion_status_t& status) {
+  BusMessage message;
+  message.channel = "OLS_FUSION_STATUS";
+  message.payload.resize(static_cast<std::size_t>(status.getEncodedSize()));
+  status.encode(message.payload.data(), 0, static_cast<int>(message.payload.size()));
+  return message;
+}
+
+TEST(MessagesCues, AreWhatTheFusionSays) {
+  using M = ols_msg::fusion_status_t;
+  M status{};
+  status.schema_version = M::SCHEMA_VERSION;
+  status.cues = 2;
+  status.cue_id = {"adsb.3c6444", "tak.\x1b[2J"};
+  status.cue_label = {"DLH9LF", ""};
+  status.cue_state = {M::CUE_FOUND, M::CUE_WAITING};
+  status.cue_target_id = {7, 0};
+  status.cue_age_s = {0.54, 1.0};
+  status.cue_latitude_deg = {49.2, std::nan("")};
+  status.cue_longitude_deg = {16.6, 16.7};
+  status.cue_height_m = {400.04, 1.0};
+  status.cue_horizontal_sd_m = {5.0, 6.0};
+  status.cue_vertical_sd_m = {9.0, 6.0};
+  const Json cues = cues_of(encoded(status));
+  ASSERT_EQ(cues.size(), 2U);
+  EXPECT_EQ(cues[0]["id"], "adsb.3c6444");
+  EXPECT_EQ(cues[0]["label"], "DLH9LF");
+  EXPECT_EQ(cues[0]["state"], "found");
+  EXPECT_EQ(cues[0]["target"], "7");
+  EXPECT_EQ(cues[0]["age_s"], 0.5);
+  EXPECT_EQ(cues[0]["height_m"], 400.0);
+  EXPECT_EQ(cues[0]["vertical_sd_m"], 9.0);
+  EXPECT_EQ(cues[1]["state"], "waiting");
+  EXPECT_EQ(cues[1]["target"], "");
+  EXPECT_TRUE(cues[1]["latitude_deg"].is_null());
+  EXPECT_EQ(cues[1]["id"].get<std::string>().find('\x1b'), std::string::npos);
+}
+
+TEST(MessagesCues, OfSomethingElseThereAreNone) {
+  EXPECT_TRUE(cues_of({}).empty());
+  ols_msg::fusion_status_t status{};
+  status.schema_version = 1;
+  EXPECT_TRUE(cues_of(encoded(status)).empty());
+}
+
+}  // namespace
+}  // namespace ols::console

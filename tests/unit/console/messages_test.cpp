@@ -1,0 +1,182 @@
+#include "console/messages.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "base/lcm_bus.h"
+#include "ols_msg/bearing_t.hpp"
+#include "ols_msg/fusion_status_t.hpp"
+#include "ols_msg/preview_t.hpp"
+#include "ols_msg/station_status_t.hpp"
+#include "ols_msg/target_t.hpp"
+#include "ols_msg/video_frame_t.hpp"
+#include "ols_msg/video_request_t.hpp"
+
+namespace ols::console {
+namespace {
+
+template <class Message>
+BusMessage on(const std::string& channel, const Message& content) {
+  BusMessage message;
+  message.channel = channel;
+  message.payload.resize(static_cast<std::size_t>(content.getEncodedSize()));
+  content.encode(message.payload.data(), 0, static_cast<int>(message.payload.size()));
+  return message;
+}
+
+template <class Message>
+Message made() {
+  Message message{};
+  message.schema_version = Message::SCHEMA_VERSION;
+  return message;
+}
+
+TEST(ConsoleMessages, AStatusInDegreesWithNullForTheUnknown) {
+  auto status = made<ols_msg::station_status_t>();
+  status.station = "alfa";
+  status.state = ols_msg::station_status_t::STATE_TRACKING;
+  status.azimuth_rad = 1.0;
+  status.heading_rad = std::numeric_limits<double>::quiet_NaN();
+  status.alarms = 1;
+  status.alarm = {"camera: \x1b[2J"};
+  const auto heard = station_from(on("OLS_STATUS_alfa", status));
+  ASSERT_TRUE(heard);
+  EXPECT_EQ(heard->id, "alfa");
+  EXPECT_EQ(heard->fields.at("state"), "tracking");
+  EXPECT_NEAR(heard->fields.at("azimuth_deg"), 57.2958, 1e-9);
+  EXPECT_TRUE(heard->fields.at("heading_deg").is_null());
+  EXPECT_EQ(heard->alarms.at(0), "camera: ?[2J");
+  EXPECT_FALSE(station_from(on("OLS_STATUS_bravo", status)));
+}
+
+ols_msg::target_t target() {
+  auto message = made<ols_msg::target_t>();
+  message.target_id = 3;
+  message.track_state = ols_msg::target_t::TRACK_CONFIRMED;
+  message.latitude_deg = 0.0;
+  message.longitude_deg = 0.0;
+  message.velocity_ecef_m_s[1] = 5.0;  // east, at 0, 0
+  message.position_covariance_enu_m2[0] = 4.0;
+  message.position_covariance_enu_m2[3] = 1.0;
+  message.position_covariance_enu_m2[5] = 9.0;
+  return message;
+}
+
+TEST(ConsoleMessages, ATargetHasItsVelocityInTheHorizonAndItsEllipse) {
+  const auto heard = target_from(on("OLS_TARGET", target()));
+  ASSERT_TRUE(heard);
+  EXPECT_EQ(heard->what, TargetHeard::What::kPosition);
+  EXPECT_EQ(heard->id, "3");
+  EXPECT_NEAR(heard->fields.at("velocity_enu_m_s")[0], 5.0, 1e-9);
+  EXPECT_NEAR(heard->fields.at("course_deg"), 90.0, 1e-9);
+  EXPECT_NEAR(heard->fields.at("ellipse95").at("azimuth_deg"), 90.0, 1e-9);
+  EXPECT_EQ(heard->fields.at("sd_enu_m"), Json::parse("[2.0,1.0,3.0]"));
+}
+
+TEST(ConsoleMessages, WhatIsNoPositionIsNoPosition) {
+  auto message = target();
+  message.solution = ols_msg::target_t::SOLUTION_RAYS_MISS;
+  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, TargetHeard::What::kNoPosition);
+  message.solution = ols_msg::target_t::SOLUTION_OK;
+  message.latitude_deg = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, TargetHeard::What::kNoPosition);
+  message.track_state = ols_msg::target_t::TRACK_DROPPED;
+  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, TargetHeard::What::kDropped);
+  message.target_id = 0;
+  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, TargetHeard::What::kNothing);
+  message.solution = ols_msg::target_t::SOLUTION_BEARING_ONLY;
+  EXPECT_FALSE(target_from(on("OLS_TARGET", message))) << "of no station";
+  message.stations = 1;
+  message.station = {"alfa"};
+  message.used = {1};
+  message.weight = {1.0};
+  message.age_s = {0.0};
+  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, TargetHeard::What::kLine);
+  EXPECT_EQ(target_from(on("OLS_TARGET", message))->id, "alfa");
+}
+
+TEST(ConsoleMessages, ABearingIsOfTheStationOfItsChannel) {
+  auto bearing = made<ols_msg::bearing_t>();
+  bearing.station = "alfa";
+  bearing.azimuth_rad = 1.0;
+  EXPECT_EQ(bearing_from(on("OLS_BEARING_alfa", bearing))->first, "alfa");
+  EXPECT_FALSE(bearing_from(on("OLS_BEARING_bravo", bearing)));
+  ++bearing.schema_version;
+  EXPECT_FALSE(bearing_from(on("OLS_BEARING_alfa", bearing)));
+}
+
+TEST(ConsoleMessages, APictureKeepsItsFramesTimeAndBox) {
+  auto preview = made<ols_msg::preview_t>();
+  preview.station = "alfa";
+  preview.utime = 1'700'000'000'000'001;
+  preview.full_width_px = 1280;
+  preview.full_height_px = 960;
+  preview.scale = 0.25;
+  preview.has_box = 1;
+  preview.box_px[0] = 10.0;
+  preview.jpeg_bytes = 3;
+  preview.jpeg = {1, 2, 3};
+  const auto picture = picture_from(on("OLS_PREVIEW_alfa", preview));
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->header.at("utime_us"), preview.utime);
+  EXPECT_EQ(picture->header.at("box_px")[0], 10.0);
+  EXPECT_EQ(picture->jpeg.size(), 3U);
+}
+
+TEST(ConsoleMessages, TheFusionsStatus) {
+  auto status = made<ols_msg::fusion_status_t>();
+  status.boot_id = 9;
+  status.last_error = "x\ny";
+  const auto heard = fusion_from(on("OLS_FUSION_STATUS", status));
+  ASSERT_TRUE(heard);
+  EXPECT_EQ(heard->boot_id, 9);
+  EXPECT_EQ(heard->last_error, "x?y");
+}
+
+TEST(ConsoleMessages, WhereAStationsVideoIsToBeHad) {
+  auto status = made<ols_msg::station_status_t>();
+  status.station = "alfa";
+  status.devices = 1;
+  status.device_name = {"video"};
+  status.device_state = {ols_msg::station_status_t::DEVICE_OK};
+  status.device_text = {"10.0.0.11:7790"};
+  status.device_age_s = {0.0};
+  EXPECT_EQ(station_from(on("OLS_STATUS_alfa", status))->video_address, "10.0.0.11:7790");
+  status.device_state = {ols_msg::station_status_t::DEVICE_ABSENT};
+  EXPECT_EQ(station_from(on("OLS_STATUS_alfa", status))->video_address, "");
+}
+
+TEST(ConsoleMessages, ARequestForVideo) {
+  const auto bytes = video_request(7, 640, 60);
+  ols_msg::video_request_t request;
+  ASSERT_EQ(request.decode(bytes.data(), 0, static_cast<int>(bytes.size())),
+            static_cast<int>(bytes.size()));
+  EXPECT_EQ(request.after_utime, 7);
+  EXPECT_EQ(request.max_width_px, 640);
+  EXPECT_EQ(request.quality, 60);
+}
+
+TEST(ConsoleMessages, APictureOfTheVideoHasItsCameraUnlessThatIsUnknown) {
+  auto frame = made<ols_msg::video_frame_t>();
+  frame.station = "alfa";
+  frame.utime = 9;
+  frame.belief = 0.5;
+  frame.camera_from_ecef[0] = 1.0;
+  frame.jpeg = {1, 2, 3};
+  frame.jpeg_bytes = 3;
+  const auto picture = [&frame] { return video_picture_from(on("", frame).payload); };
+  ASSERT_TRUE(picture());
+  EXPECT_TRUE(picture()->is_video);
+  EXPECT_EQ(picture()->jpeg, "\1\2\3");
+  EXPECT_EQ(picture()->header.at("utime_us"), 9);
+  EXPECT_EQ(picture()->header.at("camera").at("from_ecef").at(0), 1.0);
+  frame.camera_from_ecef[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(picture()->header.at("camera").is_null());
+  frame.schema_version = 99;
+  EXPECT_FALSE(picture());
+  EXPECT_FALSE(video_picture_from({}));
+}
+
+}  // namespace
+}  // namespace ols::console

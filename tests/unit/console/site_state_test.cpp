@@ -1,0 +1,146 @@
+#include "console/site_state.h"
+
+#include <gtest/gtest.h>
+
+namespace ols::console {
+namespace {
+
+StationHeard station(const std::string& id, std::vector<std::string> alarms = {}) {
+  StationHeard heard;
+  heard.id = id;
+  heard.fields = {{"state", "tracking"}, {"alarms", alarms}};
+  heard.alarms = std::move(alarms);
+  return heard;
+}
+
+TargetHeard target(const std::string& id, double latitude_deg = 49.0) {
+  TargetHeard heard;
+  heard.what = TargetHeard::What::kPosition;
+  heard.boot_id = 1;
+  heard.id = id;
+  heard.fields = {{"latitude_deg", latitude_deg}};
+  heard.latitude_deg = latitude_deg;
+  return heard;
+}
+
+std::vector<std::string> texts(const Json& events) {
+  std::vector<std::string> result;
+  for (const Json& event : events) result.push_back(event.at("text"));
+  return result;
+}
+
+TEST(SiteState, AViewerGetsWhatChangedSinceItsLastMessage) {
+  SiteState site;
+  site.hear(station("alfa"), {0.0, 0});
+  const Revision seen = site.revision();
+  site.hear_bearing("alfa", {{"azimuth_deg", 12.0}});
+  const Json changes = site.changes(seen);
+  EXPECT_EQ(changes.at("kind"), "delta");
+  EXPECT_EQ(changes.at("stations"),
+            Json::parse(R"([{"id":"alfa","bearing":{"azimuth_deg":12.0}}])"));
+  EXPECT_FALSE(changes.contains("targets"));
+}
+
+TEST(SiteState, ABearingOfAnUnknownStationIsIgnored) {
+  SiteState site;
+  site.hear_bearing("forged", {{"azimuth_deg", 12.0}});
+  EXPECT_TRUE(site.snapshot().at("stations").empty());
+}
+
+TEST(SiteState, AlarmsAndErrorsBecomeEvents) {
+  SiteState site;
+  site.hear(station("alfa", {"ptu: homing"}), {0.0, 1});
+  site.hear(station("alfa"), {0.5, 2});
+  StationHeard failed = station("alfa");
+  failed.last_error = "camera lost";
+  failed.last_error_utime_us = 7;
+  site.hear(failed, {1.0, 3});
+  site.hear(failed, {1.5, 4});
+  const Json events = site.snapshot().at("events");
+  EXPECT_EQ(texts(events), (std::vector<std::string>{"ptu: homing", "ptu: homing", "camera lost"}));
+  EXPECT_EQ(events[2].at("times"), 1) << "the same status twice is one error";
+  EXPECT_EQ(events[0].at("kind"), "alarm");
+  EXPECT_EQ(events[1].at("kind"), "alarm_over");
+}
+
+TEST(SiteState, ASilentStationIsMarkedAndSaid) {
+  SiteState site;
+  site.hear(station("alfa"), {0.0, 1});
+  site.look({SiteState::kStationStale_s + 0.1, 2});
+  EXPECT_TRUE(site.snapshot().at("stations")[0].at("stale"));
+  EXPECT_EQ(texts(site.snapshot().at("events")).back(), "no status any more");
+}
+
+TEST(SiteState, ATargetHasATrailThatIsThinnedAndBounded) {
+  SiteState site;
+  for (int i = 0; i < 20000; ++i) {
+    site.hear(target("1", 49.0 + 1e-6 * i), {0.1 * i, 0});
+  }
+  const Json trail = site.snapshot().at("targets")[0].at("trail");
+  EXPECT_EQ(trail.size(), SiteState::kMostTrailPoints);
+  EXPECT_NEAR(trail.back()[1].get<double>() - trail[trail.size() - 2][1].get<double>(), 4e-6,
+              1.1e-6);
+}
+
+TEST(SiteState, ADroppedTargetIsGone) {
+  SiteState site;
+  site.hear(target("1"), {0.0, 0});
+  const Revision seen = site.revision();
+  TargetHeard dropped = target("1");
+  dropped.what = TargetHeard::What::kDropped;
+  site.hear(dropped, {0.1, 0});
+  EXPECT_EQ(site.changes(seen).at("gone").at("targets"), Json::parse(R"(["1"])"));
+  EXPECT_TRUE(site.snapshot().at("targets").empty());
+}
+
+TEST(SiteState, ARestartedFusionsIdsMeanOtherObjects) {
+  SiteState site;
+  site.hear(target("1"), {0.0, 0});
+  TargetHeard other = target("2");
+  other.boot_id = 2;
+  site.hear(other, {SiteState::kFusionGone_s + 0.1, 0});
+  const Json targets = site.snapshot().at("targets");
+  ASSERT_EQ(targets.size(), 1U);
+  EXPECT_EQ(targets[0].at("id"), "2");
+  EXPECT_EQ(texts(site.snapshot().at("events")).back(), "the fusion was restarted");
+}
+
+TEST(SiteState, AnotherFusionIsNotHeardWhileTheFirstIs) {
+  SiteState site;
+  TargetHeard forged = target("2");
+  forged.boot_id = 2;
+  FusionHeard status;
+  status.boot_id = 2;
+  for (int i = 0; i < 10; ++i) {
+    site.hear(target("1"), {1.0 * i, 0});
+    site.hear(forged, {1.0 * i + 0.5, 0});
+    site.hear(status, {1.0 * i + 0.5, 0});
+  }
+  const Json state = site.snapshot();
+  ASSERT_EQ(state.at("targets").size(), 1U);
+  EXPECT_EQ(state.at("targets")[0].at("id"), "1");
+  EXPECT_EQ(state.at("targets")[0].at("trail").size(), 10U);
+  EXPECT_TRUE(state.at("events").empty());
+}
+
+TEST(SiteState, TheAlarmsOfAStationAreBounded) {
+  SiteState site;
+  std::vector<std::string> alarms;
+  for (int i = 0; i < 300; ++i) alarms.emplace_back(1, static_cast<char>(' ' + i % 90));
+  for (int i = 0; i < 300; ++i) alarms[i] += std::string(1, static_cast<char>('a' + i / 90));
+  site.hear(station("alfa", alarms), {0.0, 1});
+  EXPECT_EQ(site.snapshot().at("events").size(), SiteState::kMostAlarms);
+}
+
+TEST(SiteState, ForgedNamesAreBoundedAndCounted) {
+  SiteState site;
+  for (std::size_t i = 0; i < SiteState::kMostStations + 5; ++i) {
+    site.hear(station(std::to_string(i)), {0.0, 0});
+  }
+  EXPECT_EQ(site.station_ids().size(), SiteState::kMostStations);
+  EXPECT_EQ(site.refused(), 5U);
+  EXPECT_EQ(site.counts().at("stations"), SiteState::kMostStations);
+}
+
+}  // namespace
+}  // namespace ols::console

@@ -1,0 +1,79 @@
+#include "cue/framing.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
+
+namespace ols::cues {
+namespace {
+
+using Messages = std::vector<std::string>;
+
+Messages in_pieces(Framer& framer, const std::string& stream, std::size_t most, unsigned seed) {
+  std::mt19937 generator(seed);
+  Messages all;
+  for (std::size_t at = 0; at < stream.size();) {
+    const std::size_t size = 1 + generator() % most;
+    for (auto& message : framer.take(stream.substr(at, size))) all.push_back(message);
+    at += size;
+  }
+  return all;
+}
+
+TEST(Framing, LinesComeInAnyPieces) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    Framer framer(Framing::kLines);
+    EXPECT_EQ(in_pieces(framer, "one\r\ntwo\n\nthree\nfo", 4, seed),
+              (Messages{"one", "two", "three"}))
+        << "seed " << seed;
+  }
+}
+
+TEST(Framing, EventsAndMessagesOfTheTakProtocolMayFollowEachOther) {
+  const std::string tak = std::string("\xbf\x83\x02", 3) + std::string(259, 'x');
+  const std::string stream = "<event>1</event>\n <event>2</event>" + tak + "<event>3</event>";
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    Framer framer(Framing::kCot);
+    const Messages found = in_pieces(framer, stream, 50, seed);
+    ASSERT_EQ(found.size(), 4U) << "seed " << seed;
+    EXPECT_EQ(found[1], "<event>2</event>");
+    EXPECT_EQ(found[2], "\xbf\x01\xbf" + std::string(259, 'x'));
+    EXPECT_EQ(found[3], "<event>3</event>");
+  }
+}
+
+TEST(Framing, AStreamWithoutAnEndIsDroppedAndCounted) {
+  Framer framer(Framing::kLines);
+  EXPECT_TRUE(framer.take(std::string(Framer::kLongest_bytes + 1, 'x')).empty());
+  EXPECT_EQ(framer.overlong(), 1);
+  EXPECT_EQ(framer.take("a\n"), Messages{"a"});
+  Framer cot(Framing::kCot);
+  EXPECT_TRUE(cot.take("\xbf\xff\xff\xff\xff\xff\xff\xff").empty());
+  EXPECT_EQ(cot.overlong(), 1);
+  EXPECT_TRUE(cot.take("\xbf" + std::string(12, '\x80')).empty()) << "a length without an end";
+  EXPECT_EQ(cot.overlong(), 2);
+}
+
+// One copy of the rest for each message would take 13 s.
+TEST(Framing, ManyMessagesAtOnceTakeNoLongerThanTheirBytes) {
+  constexpr std::size_t kLines = 700'000;
+  std::string stream;
+  for (std::size_t i = 0; i < kLines; ++i) stream += "{}\n";
+  Framer framer(Framing::kLines);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(framer.take(stream).size(), kLines);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+}
+
+TEST(Framing, ADatagramIsWholeAndAnotherConnectionBeginsAnew) {
+  Framer whole(Framing::kWhole);
+  EXPECT_EQ(whole.take("a\nb"), Messages{"a\nb"});
+  Framer lines(Framing::kLines);
+  EXPECT_TRUE(lines.take("half of").empty());
+  lines.clear();
+  EXPECT_EQ(lines.take("whole\n"), Messages{"whole"});
+}
+
+}  // namespace
+}  // namespace ols::cues

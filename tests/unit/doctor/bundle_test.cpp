@@ -1,0 +1,65 @@
+#include "tools/doctor/bundle.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "edge/clock/command_output.h"
+#include "tests/unit/temp_dir.h"
+
+namespace ols::doctor {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+class Bundle : public testing::Test {
+ protected:
+  Bundle() { fs::create_directories(folder_ / "etc"); }
+  ~Bundle() override { fs::remove_all(folder_); }
+
+  void plant(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / "etc" / name) << text;
+  }
+  // All that is in the archive, one file after the other.
+  static std::string unpacked(const std::string& file) {
+    return clock::command_output({"tar", "--extract", "--gzip", "--to-stdout", "--file", file},
+                                 20.0)
+        .value_or("");
+  }
+  BundleContents contents() const { return {"1.2.3", findings_, (folder_ / "etc").string()}; }
+
+  fs::path folder_ = fs::path(temp_dir()) / ("bundle" + std::to_string(::getpid()));
+  Findings findings_;
+};
+
+TEST_F(Bundle, HoldsTheConfigurationWithoutItsSecrets) {
+  plant("alfa.toml", "[site]\nname = \"alfa\"\nsite_key = \"Zebra-77\"\n");
+  plant("bus.env", "OLS_INTERFACE=eth0\nAPI_TOKEN=Zebra-77\n");
+  plant("key.pem", "Zebra-77");
+  const std::string file = (folder_ / "b.tar.gz").string();
+  write_bundle(file, contents());
+  const std::string all = unpacked(file);
+  EXPECT_THAT(all, HasSubstr("name = \"alfa\""));
+  EXPECT_THAT(all, HasSubstr("OLS_INTERFACE=eth0"));
+  EXPECT_THAT(all, HasSubstr("1.2.3"));
+  EXPECT_THAT(all, Not(HasSubstr("Zebra-77")));
+}
+
+TEST_F(Bundle, SaysWhereItCannotBeWritten) {
+  const std::string file = (folder_ / "none" / "b.tar.gz").string();
+  try {
+    write_bundle(file, contents());
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), file + ": cannot be written");
+  }
+}
+
+}  // namespace
+}  // namespace ols::doctor

@@ -1,0 +1,36 @@
+#include "edge/calibration/covariance_file.h"
+
+#include <gtest/gtest.h>
+
+#include "base/csv_files.h"
+#include "tests/unit/edge/calibration_files.h"
+
+namespace ols::calibration {
+namespace {
+
+TEST(CovarianceFile, OfTheInstrumentIsTheFirstPartOfTheStations) {
+  const station::test::CalibrationFolder files("covariance_file");
+  const StationMatrix all = read_station_covariance(files.path + "/covariance.csv");
+  const InstrumentMatrix part = read_covariance(files.path + "/covariance.csv");
+  EXPECT_EQ((all.topLeftCorner<kInstrumentParameters, kInstrumentParameters>()), part);
+  EXPECT_NEAR(to_file(kHeading, to_file(kHeading, all(kHeading, kHeading))), 1e-8 * (kHeading + 1),
+              1e-16);
+}
+
+TEST(CovarianceFile, AMatrixThatIsNoneIsNamed) {
+  const station::test::CalibrationFolder files("covariance_file_bad");
+  std::string text = station::test::covariance_text(1e-8);
+  text.replace(text.find("1e-08,"), 5, "-1e-8");
+  files.put("covariance.csv", text);
+  try {
+    read_station_covariance(files.path + "/covariance.csv");
+    FAIL();
+  } catch (const CsvError& error) {
+    EXPECT_NE(std::string(error.what()).find(":2: focal_px: the variance is negative"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace ols::calibration

@@ -1,0 +1,168 @@
+#include "edge/drift/kept_calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/edge/calibration_files.h"
+#include "tests/unit/eventually.h"
+
+namespace ols::station {
+namespace {
+
+class KeptCalibrationTest : public testing::Test {
+ protected:
+  StationSettings configured() const {
+    StationSettings settings = test::settings();
+    settings.calibration_folder = files_.path;
+    return settings;
+  }
+  // Whether the unit is moved within so many seconds.
+  static bool moves(KeptCalibration& kept, double seconds) {
+    ptu::PtuLimits limits;
+    limits.count = {5.61e-5, 5.61e-5};
+    kept.set_limits(limits);
+    for (double now_s = 0.0; now_s < seconds; now_s += 1.0) {
+      if (kept.step({now_s, true, PanTilt{}})) return true;
+    }
+    return false;
+  }
+  test::CalibrationFolder files_{"kept_calibration"};
+};
+
+TEST_F(KeptCalibrationTest, AStationWithoutOneNeverMovesByItself) {
+  KeptCalibration none(test::settings());
+  EXPECT_FALSE(moves(none, 5000.0));
+  EXPECT_TRUE(none.alarms().empty());
+  EXPECT_TRUE(none.counters().empty());
+  EXPECT_FALSE(none.take_doubt());
+}
+
+TEST_F(KeptCalibrationTest, OneWithAFolderStoresItsViewsFirst) {
+  KeptCalibration kept(configured());
+  EXPECT_EQ(kept.status().state, CalibrationState::kInUse);
+  EXPECT_TRUE(moves(kept, 60.0));
+  EXPECT_EQ(kept.counters().at("view_checks"), 0.0);
+}
+
+TEST_F(KeptCalibrationTest, ChecksCanBeSwitchedOff) {
+  StationSettings settings = configured();
+  settings.view_check_s = 0.0;
+  KeptCalibration kept(settings);
+  EXPECT_FALSE(moves(kept, 5000.0));
+  EXPECT_EQ(kept.status().state, CalibrationState::kInUse);
+}
+
+TEST_F(KeptCalibrationTest, ARefusedOneIsCheckedNoMore) {
+  KeptCalibration kept(configured());
+  device::DeviceReport camera;
+  camera.name = "camera";
+  camera.serial = "another";
+  EXPECT_TRUE(kept.refuses({camera}));
+  EXPECT_EQ(kept.status().state, CalibrationState::kRefused);
+  EXPECT_FALSE(moves(kept, 5000.0));
+}
+
+TEST_F(KeptCalibrationTest, OneOfAnotherStepModeIsCheckedNoMore) {
+  KeptCalibration kept(configured());
+  EXPECT_TRUE(kept.refuses(PanTilt{1e-4, 1e-4}));
+  EXPECT_EQ(kept.status().state, CalibrationState::kRefused);
+  EXPECT_FALSE(moves(kept, 5000.0));
+}
+
+TEST_F(KeptCalibrationTest, ADoubtedOneStatesTheDoubt) {
+  StationSettings settings = configured();
+  const CalibrationStatus before = KeptCalibration(settings).status();
+  settings.state_folder = files_.path;
+  const int red = static_cast<int>(DriftLevel::kRed),
+            tripod = static_cast<int>(DriftCause::kTripod);
+  files_.put("alfa.drift", "drift 1 " + std::to_string(before.id) + " " + std::to_string(red) +
+                               " " + std::to_string(tripod) + " 0.003 0.001 0 0 0 0 0 0\n");
+  const CalibrationStatus doubted = KeptCalibration(settings).status();
+  EXPECT_EQ(doubted.state, CalibrationState::kDoubted);
+  EXPECT_NEAR(doubted.rms_rad, std::hypot(before.rms_rad, 0.003), 1e-12);
+}
+
+class AcceptedMeanwhile : public KeptCalibrationTest {
+ protected:
+  AcceptedMeanwhile() {
+    second_.setup = std::string(test::kSetup) + "# another\n";
+    second_.write();
+    link(files_.path);
+    settings_ = test::settings();
+    settings_.calibration_folder = link_;
+    id_ = read_calibration(second_.path, settings_).id;
+  }
+  ~AcceptedMeanwhile() override { std::filesystem::remove(link_); }
+  void link(const std::string& folder) const {
+    std::filesystem::create_directory_symlink(folder, link_ + ".next");
+    std::filesystem::rename(link_ + ".next", link_);
+  }
+  static device::DeviceReport camera(const std::string& serial) {
+    device::DeviceReport report;
+    report.name = "camera";
+    report.serial = serial;
+    return report;
+  }
+  // A station at work, until its thread has read; true: it was taken up.
+  bool waits(KeptCalibration& kept, const std::string& serial) {
+    bool taken = false;
+    eventually([&] {
+      taken = kept.adopts(now_s_ += 1.5, false, {camera(serial)}, {}) || taken;
+      return !kept.alarms().empty();
+    });
+    return taken;
+  }
+
+  test::CalibrationFolder second_{"kept_calibration_2_"};
+  std::string link_ = (std::filesystem::temp_directory_path() /
+                       ("kept_calibration_link_" + std::to_string(::getpid())))
+                          .string();
+  StationSettings settings_;
+  std::int64_t id_ = 0;
+  double now_s_ = 100.0;
+};
+
+TEST_F(AcceptedMeanwhile, IsTakenUpOnceTheStationIsIdle) {
+  KeptCalibration kept(settings_);
+  const auto before = kept.status().id;
+  link(second_.path);
+  EXPECT_FALSE(waits(kept, "C7")) << "at work";
+  EXPECT_EQ(kept.status().id, before);
+  EXPECT_NE(kept.alarms().front().find("accepted, not yet in use"), std::string::npos);
+  EXPECT_TRUE(kept.adopts(now_s_ += 1.5, true, {camera("C7")}, {}));
+  EXPECT_EQ(kept.status().id, id_);
+  EXPECT_EQ(kept.settings().calibration_id, id_);
+  EXPECT_TRUE(kept.alarms().empty());
+  EXPECT_FALSE(kept.adopts(now_s_ += 1.5, true, {camera("C7")}, {})) << "once";
+}
+
+TEST_F(AcceptedMeanwhile, OneOfAnotherCameraIsNotAndTheOldOneStands) {
+  KeptCalibration kept(settings_);
+  const auto before = kept.status().id;
+  link(second_.path);
+  EXPECT_FALSE(waits(kept, "C8"));
+  EXPECT_FALSE(kept.adopts(now_s_ += 1.5, true, {camera("C8")}, {}));
+  EXPECT_EQ(kept.status().id, before);
+  EXPECT_NE(kept.alarms().front().find("the camera says 'C8'"), std::string::npos);
+}
+
+TEST_F(AcceptedMeanwhile, EndsARefusal) {
+  KeptCalibration kept(settings_);
+  ASSERT_TRUE(kept.refuses({camera("C8")}));
+  link(second_.path);
+  EXPECT_FALSE(waits(kept, "C7"));
+  EXPECT_TRUE([&] {
+    bool taken = false;
+    eventually([&] {
+      taken = taken || kept.adopts(now_s_ += 1.5, true, {camera("C7")}, {});
+      return taken;
+    });
+    return taken;
+  }());
+  EXPECT_EQ(kept.status().state, CalibrationState::kInUse);
+  EXPECT_TRUE(kept.alarms().empty());
+}
+
+}  // namespace
+}  // namespace ols::station

@@ -1,0 +1,66 @@
+#include "export/export_config.h"
+
+#include <gmock/gmock.h>
+
+#include "base/toml_config.h"
+
+namespace ols::exports {
+namespace {
+
+using testing::HasSubstr;
+
+ExportConfig parsed(const std::string& text) { return parse_export_config(text, "export.toml"); }
+
+std::string complaint(const std::string& text) {
+  try {
+    parsed(text);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+std::string output(const std::string& more) { return "[[output]]\nname = \"a\"\n" + more; }
+
+TEST(ExportConfig, NothingGoesOutByDefault) { EXPECT_TRUE(parsed("").outputs.empty()); }
+
+TEST(ExportConfig, OutputsKeepTheirOwnKeys) {
+  const ExportConfig config =
+      parsed(output("format = \"cot\"\nto = \"udp://239.2.3.1:6969\"\nrate_hz = 5.0\n") +
+             "[[output]]\nname = \"b\"\nformat = \"kml\"\nto = \"file:///srv/a.kml\"\n"
+             "area_deg = [47.0, 13.0, 48.0, 14.0]\n");
+  ASSERT_EQ(config.outputs.size(), 2U);
+  EXPECT_EQ(config.outputs[0].gate.rate_hz, 5.0);
+  EXPECT_EQ(config.outputs[1].gate.rate_hz, 2.0);
+  EXPECT_EQ(config.outputs[1].gate.area_deg[3], 14.0);
+  EXPECT_EQ(config.outputs[1].format, Format::kKml);
+  EXPECT_TRUE(needs_geoid(Format::kKml));
+  EXPECT_FALSE(needs_geoid(Format::kCot));
+}
+
+TEST(ExportConfig, SaysWhatIsWrongWhere) {
+  EXPECT_THAT(complaint(output("format = \"cot\"\nto = \"file:///a\"\n")),
+              HasSubstr("the format cot does not go to file://"));
+  EXPECT_THAT(complaint(output("format = \"cot\"\nto = \"udp://here:1\"\n")),
+              HasSubstr("export.toml:4: output"));
+  EXPECT_THAT(complaint(output("format = \"odt\"\nto = \"udp://1.1.1.1:1\"\n")),
+              HasSubstr("format"));
+  EXPECT_THAT(complaint(output("to = \"udp://1.1.1.1:1\"\n")), HasSubstr("is missing"));
+  const std::string good = output("format = \"cot\"\nto = \"udp://1.1.1.1:1\"\n");
+  EXPECT_EQ(complaint(good), "none");
+  EXPECT_THAT(complaint(good + good), HasSubstr("two have the name"));
+  EXPECT_THAT(complaint(good + "key = \"/a\"\n"), HasSubstr("belong together"));
+  EXPECT_THAT(complaint(good + "area_deg = [48.0, 13.0, 47.0, 14.0]\n"), HasSubstr("south"));
+  EXPECT_THAT(complaint(good + "password_file = \"/a\"\n"), HasSubstr("user"));
+  EXPECT_THAT(complaint("site = \"a b\"\n"), HasSubstr("site"));
+  EXPECT_THAT(complaint("[mqtt]\nprefix = \"a/#\"\n"), HasSubstr("prefix"));
+  EXPECT_THAT(complaint("[cot]\ntarget_type = \"a\\\"b\"\n"), HasSubstr("target_type"));
+}
+
+TEST(ExportConfig, FormatsByTheirNames) {
+  EXPECT_EQ(format_from("gpx"), Format::kGpx);
+  EXPECT_THROW(format_from("doc"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ols::exports

@@ -1,0 +1,72 @@
+// Messages of the bus as the tests need them.
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "base/bus_inbox.h"
+#include "geometry/angles.h"
+#include "geometry/wgs84.h"
+#include "ols_msg/bearing_t.hpp"
+#include "ols_msg/station_status_t.hpp"
+#include "ols_msg/target_t.hpp"
+#include "tests/unit/export/made_records.h"
+
+namespace ols::exports {
+
+template <class Message>
+BusMessage on(const std::string& channel, const Message& content) {
+  BusMessage message;
+  message.channel = channel;
+  message.payload.resize(static_cast<std::size_t>(content.getEncodedSize()));
+  content.encode(message.payload.data(), 0, static_cast<int>(message.payload.size()));
+  return message;
+}
+
+inline ols_msg::target_t target_message() {
+  ols_msg::target_t message{};
+  message.utime = kNow_us;
+  message.schema_version = ols_msg::target_t::SCHEMA_VERSION;
+  message.boot_id = 3;
+  message.target_id = 7;
+  message.track_state = ols_msg::target_t::TRACK_CONFIRMED;
+  message.latitude_deg = 47.5;
+  message.height_m = 100.0;
+  message.velocity_ecef_m_s[1] = 5.0;
+  message.stations = 2;
+  message.station = {"alfa", "bravo"};
+  message.used = {1, 0};
+  message.weight = message.age_s = {0.0, 0.0};
+  return message;
+}
+
+inline ols_msg::station_status_t status_message() {
+  ols_msg::station_status_t message{};
+  message.utime = kNow_us;
+  message.schema_version = ols_msg::station_status_t::SCHEMA_VERSION;
+  message.station = "alfa";
+  message.state = ols_msg::station_status_t::STATE_TRACKING;
+  message.latitude_deg = 47.4;
+  message.longitude_deg = 13.2;
+  message.height_m = 600.0;
+  message.azimuth_rad = 1.0;
+  message.alarms = 1;
+  message.alarm = {"camera: not there"};
+  return message;
+}
+
+inline ols_msg::bearing_t bearing_message() {
+  ols_msg::bearing_t message{};
+  message.utime = kNow_us;
+  message.schema_version = ols_msg::bearing_t::SCHEMA_VERSION;
+  message.station = "alfa";
+  message.belief = 0.9;
+  const Eigen::Vector3d camera = ecef_from_geodetic({radians(47.4), radians(13.2), 601.0});
+  std::copy(camera.data(), camera.data() + 3, message.camera_ecef_m);
+  message.azimuth_rad = 1.5;
+  message.covariance_white_rad2[0] = message.covariance_white_rad2[2] = 9e-8;
+  message.covariance_systematic_rad2[0] = message.covariance_systematic_rad2[2] = 16e-8;
+  return message;
+}
+
+}  // namespace ols::exports

@@ -1,0 +1,53 @@
+#include "export/tak/cot_event.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/export/made_records.h"
+
+namespace ols::exports {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(CotEvent, OfATarget) {
+  const CotEvent event = cot_event(made_target(), CotSettings{.stale_s = 7.5});
+  EXPECT_EQ(event.type, "a-u-A");
+  EXPECT_EQ(event.uid, "site.target.a.7");
+  EXPECT_EQ(event.stale_us - event.utime_us, 7'500'000);
+  EXPECT_DOUBLE_EQ(event.point.height_m, 100.0);
+  EXPECT_NEAR(event.ce_m, 3.0319, 1e-4);  // of the variances 4 and 9 with the covariance 1
+  EXPECT_DOUBLE_EQ(event.le_m, 5.0);
+  EXPECT_DOUBLE_EQ(event.speed_m_s, 5.0);
+  EXPECT_THAT(event.detail, HasSubstr("covariance_enu_m2=\"4.0000 1.0000 0.0000 9.0000"));
+  EXPECT_THAT(event.detail, HasSubstr("stations=\"alfa bravo\""));
+}
+
+TEST(CotEvent, AnEndIsStaleAtOnce) {
+  Target target = made_target();
+  target.state = TrackState::kEnded;
+  const CotEvent event = cot_event(target, {});
+  EXPECT_EQ(event.stale_us, event.utime_us);
+}
+
+TEST(CotEvent, AStationHasItsCone) {
+  const CotEvent event = cot_event(made_station(), {});
+  EXPECT_THAT(
+      event.detail,
+      HasSubstr("<sensor azimuth=\"123.50\" elevation=\"4.25\" fov=\"2.00\" vfov=\"1.50\""));
+  EXPECT_DOUBLE_EQ(event.ce_m, 0.75);
+  Station unaimed = made_station();
+  unaimed.azimuth_deg = kUnknown;
+  EXPECT_EQ(cot_event(unaimed, {}).detail.find("<sensor"), std::string::npos);
+}
+
+TEST(CotEvent, ALineIsARangeAndBearingLine) {
+  Line line = made_line();
+  line.station = "a<b";
+  const CotEvent event = cot_event(line, {});
+  EXPECT_EQ(event.type, "u-rb-a");
+  EXPECT_THAT(event.detail, HasSubstr("<bearing value=\"90.0000\"/>"));
+  EXPECT_THAT(event.detail, HasSubstr("station=\"a&lt;b\""));
+}
+
+}  // namespace
+}  // namespace ols::exports

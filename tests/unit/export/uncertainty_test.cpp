@@ -1,0 +1,43 @@
+#include "export/uncertainty.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/export/made_records.h"
+
+namespace ols::exports {
+namespace {
+
+TEST(ExportUncertainty, TheEllipseOfACovariance) {
+  const Ellipse north = ellipse_of({4.0, 0.0, 0.0, 9.0, 0.0, 1.0});
+  EXPECT_DOUBLE_EQ(north.semi_major_m, 3.0);
+  EXPECT_DOUBLE_EQ(north.semi_minor_m, 2.0);
+  EXPECT_DOUBLE_EQ(north.azimuth_deg, 0.0);
+  EXPECT_DOUBLE_EQ(ellipse_of({9.0, 0.0, 0.0, 4.0, 0.0, 1.0}).azimuth_deg, 90.0);
+  // Towards the north-east: variances 5 along, 1 across.
+  const Ellipse turned = ellipse_of({3.0, 2.0, 0.0, 3.0, 0.0, 1.0});
+  EXPECT_DOUBLE_EQ(turned.azimuth_deg, 45.0);
+  EXPECT_DOUBLE_EQ(turned.semi_major_m, std::sqrt(5.0));
+  EXPECT_DOUBLE_EQ(ellipse_of({3.0, -2.0, 0.0, 3.0, 0.0, 1.0}).azimuth_deg, 135.0);
+}
+
+TEST(ExportUncertainty, NoCovarianceHasNoEllipse) {
+  EXPECT_TRUE(std::isnan(ellipse_of({1.0, 2.0, 0.0, 1.0, 0.0, 1.0}).semi_major_m));
+  EXPECT_TRUE(std::isnan(ellipse_of({kUnknown, 0.0, 0.0, 1.0, 0.0, 1.0}).semi_major_m));
+  EXPECT_TRUE(std::isnan(sd(-1.0)));
+}
+
+TEST(ExportUncertainty, SpeedAndCourse) {
+  Target target = made_target();
+  const Motion motion = motion_of(target);
+  EXPECT_DOUBLE_EQ(motion.speed_m_s, 5.0);
+  EXPECT_NEAR(motion.course_deg, 36.8699, 1e-4);
+  target.velocity_enu_m_s = {-1.0, 0.0, 0.0};
+  EXPECT_DOUBLE_EQ(motion_of(target).course_deg, 270.0);
+  target.velocity_enu_m_s[0] = kUnknown;
+  EXPECT_TRUE(std::isnan(motion_of(target).speed_m_s));
+}
+
+}  // namespace
+}  // namespace ols::exports

@@ -1,0 +1,59 @@
+#include "tools/key/site_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+#include "base/toml_config.h"
+#include "tests/unit/temp_dir.h"
+
+namespace ols::key {
+namespace {
+
+namespace fs = std::filesystem;
+using trust::Role;
+
+class SiteFilesTest : public testing::Test {
+ protected:
+  SiteFilesTest() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~SiteFilesTest() override { fs::remove_all(folder_); }
+
+  const std::string folder_ = temp_dir() + "site_files_test_" +
+                              testing::UnitTest::GetInstance()->current_test_info()->name();
+  const SiteFiles files_{folder_ + "/root.key", folder_ + "/trust.toml"};
+};
+
+TEST_F(SiteFilesTest, AMemberIsEnrolledByItsOwnKeyOrGetsOne) {
+  make_site(files_, "airfield");
+  const std::string fusion = folder_ + "/ols-fusion.key", alfa = folder_ + "/ols-alfa.key";
+  enrol_with_key(files_, {"fusion", Role::kFusion}, fusion);
+  const auto root = trust::read_root_key(files_.root);
+  EXPECT_EQ(trust::read_member_key(fusion).root, invitation_of(root).root);
+  const auto key = make_member_key(alfa, "alfa", invitation_of(root));
+  const auto list = enrol_in(files_, {"alfa", Role::kStation, key});
+  EXPECT_EQ(list.number, 3);
+  EXPECT_EQ(read_site(files_, root).find("alfa")->key, key);
+  EXPECT_EQ(revoke_in(files_, "alfa").find("alfa"), nullptr);
+  EXPECT_EQ(read_site(files_, root).find("alfa"), nullptr);
+}
+
+TEST_F(SiteFilesTest, WhatIsRefusedLeavesNothingBehind) {
+  make_site(files_, "airfield");
+  EXPECT_THROW(make_site(files_, "airfield"), std::system_error);
+  const std::string key = folder_ + "/new.key";
+  EXPECT_THROW(enrol_with_key(files_, {"a b", Role::kStation}, key), std::invalid_argument);
+  EXPECT_FALSE(fs::exists(key));
+  enrol_with_key(files_, {"alfa", Role::kStation}, key);
+  EXPECT_THROW(make_member_key(key, "alfa", {}), std::system_error) << "a key is not overwritten";
+  EXPECT_THROW(make_site({folder_ + "/r", folder_ + "/t"}, ""), std::invalid_argument);
+  EXPECT_FALSE(fs::exists(folder_ + "/r"));
+}
+
+}  // namespace
+}  // namespace ols::key

@@ -1,0 +1,87 @@
+#include "tools/setup/backup.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "base/small_file.h"
+#include "tests/unit/temp_dir.h"
+
+namespace ols::setup {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+
+class BackupTest : public testing::Test {
+ protected:
+  BackupTest() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ + "/new");
+  }
+  ~BackupTest() override { fs::remove_all(folder_); }
+
+  void put(const std::string& path, const std::string& text) const {
+    const fs::path there = folder_ + "/old" + path;
+    fs::create_directories(there.parent_path());
+    std::ofstream(there) << text;
+  }
+
+  const std::string folder_ = temp_dir() + "setup_backup_test_" +
+                              testing::UnitTest::GetInstance()->current_test_info()->name();
+  const Host old_{folder_ + "/old"}, new_{folder_ + "/new"};
+  const std::string file_ = folder_ + "/alfa.backup";
+};
+
+TEST_F(BackupTest, AStationComesBackOnAnotherComputer) {
+  put("/etc/ols/alfa.toml", "id = \"alfa\"\n");
+  put("/etc/credstore/ols-alfa.key", "secret\n");
+  put("/etc/credstore/other.key", "not ours\n");
+  put("/etc/passwd", "not ours\n");
+  put("/var/lib/ols/calibrations/7/setup.toml", "x = 1\n");
+  back_up(old_, file_);
+  EXPECT_EQ(fs::status(file_).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_THROW(back_up(old_, file_), std::runtime_error) << "another backup is not overwritten";
+  restore(new_, file_);
+  EXPECT_EQ(read_small_file(folder_ + "/new/etc/ols/alfa.toml", 100), "id = \"alfa\"\n");
+  EXPECT_EQ(read_small_file(folder_ + "/new/etc/credstore/ols-alfa.key", 100), "secret\n");
+  EXPECT_TRUE(fs::exists(folder_ + "/new/var/lib/ols/calibrations/7/setup.toml"));
+  EXPECT_FALSE(fs::exists(folder_ + "/new/etc/credstore/other.key"));
+  EXPECT_FALSE(fs::exists(folder_ + "/new/etc/passwd"));
+}
+
+TEST_F(BackupTest, AnythingElseIsRefusedBeforeItIsWritten) {
+  put("/etc/ols/alfa.toml", "id = \"alfa\"\n");
+  put("/etc/passwd", "root\n");
+  ASSERT_EQ(run({"tar", "-czf", file_, "-C", folder_ + "/old", "etc"}), 0);
+  EXPECT_THROW(restore(new_, file_), std::runtime_error);
+  EXPECT_TRUE(fs::is_empty(folder_ + "/new"));
+  std::ofstream(folder_ + "/text") << "no archive\n";
+  EXPECT_THROW(restore(new_, folder_ + "/text"), std::runtime_error);
+  EXPECT_THROW(back_up(new_, folder_ + "/empty"), std::runtime_error) << "nothing is there";
+}
+
+TEST(Backup, HoldsNoPathThatLeavesIt) {
+  EXPECT_TRUE(is_of_backup("etc/ols/alfa.toml"));
+  for (const char* bad :
+       {"etc/ols/../passwd", "/etc/ols/alfa.toml", "etc/passwd", "etc/credstore/x"}) {
+    EXPECT_FALSE(is_of_backup(bad)) << bad;
+  }
+}
+
+TEST(Backup, TheConfigurationSaysWhichServicesThereWere) {
+  EXPECT_THAT(units_of({"etc/ols/", "etc/ols/alfa.toml", "etc/ols/trust.toml", "etc/ols/bus.env"}),
+              ElementsAre("ols-bus.service", "ols-time.service", "ols-station@alfa.service"));
+  EXPECT_THAT(units_of({"etc/ols/fusion.toml", "var/lib/ols/x.toml"}),
+              ElementsAre("ols-bus.service", "ols-time.service", "ols-fusion.service"));
+  EXPECT_THAT(units_of({"etc/ols/exporter.toml", "etc/ols/export.toml"}),
+              ElementsAre("ols-bus.service", "ols-time.service", "ols-exporter.service",
+                          "ols-export.service"));
+  EXPECT_TRUE(units_of({"etc/ols/bus.env"}).empty());
+}
+
+}  // namespace
+}  // namespace ols::setup

@@ -1,0 +1,29 @@
+#include "tools/setup/flat_toml.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace ols::setup {
+namespace {
+
+TEST(FlatToml, EachValueHasItsFullKeyAndIsWrittenAsItWasRead) {
+  const Values values = flat("a = \"x \\\"y\\\"\"\nb = [1, 2]\n[t]\nc = 0.5\n[t.u]\nd = true\n");
+  EXPECT_EQ(*find(values, "t.c"), "0.5");
+  EXPECT_EQ(*find(values, "t.u.d"), "true");
+  EXPECT_EQ(find(values, "t"), nullptr);
+  EXPECT_EQ(flat(as_toml(values)), values);
+  EXPECT_EQ(of_table(values, "t"), (Values{{"c", "0.5"}, {"u.d", "true"}}));
+}
+
+TEST(FlatToml, ATextIsQuoted) {
+  for (const std::string text : {"/dev/ols/ptu", "a \"b\" \\ c", ""}) {
+    const Values values = flat("k = " + quoted(text) + "\n");
+    EXPECT_EQ(*find(values, "k"), quoted(text));
+  }
+}
+
+TEST(FlatToml, NonsenseIsAnError) { EXPECT_THROW(flat("a = = 1"), std::runtime_error); }
+
+}  // namespace
+}  // namespace ols::setup

@@ -1,0 +1,75 @@
+#include "tools/setup/plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/setup/answers_fixture.h"
+
+namespace ols::setup {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kTime = "/etc/chrony/conf.d/ols-site.conf";
+
+std::vector<std::string> paths(const Plan& plan) {
+  std::vector<std::string> result;
+  for (const PlannedFile& file : plan.files) result.push_back(file.path);
+  return result;
+}
+
+TEST(Plan, AStationHasItsConfigurationTheRouteOfTheBusAndItsUnits) {
+  Answers answers = read_answers(station_answers(), "a");
+  add(answers.values, "station.camera.device", "Maker-1");
+  add(answers.values, "station.ptu.device", "/dev/ols/ptu");
+  add(answers.values, "station.ptu.device", "/dev/other");
+  const Plan plan = plan_station(answers);
+  EXPECT_THAT(paths(plan), ElementsAre("/etc/ols/alfa.toml", "/etc/ols/bus.env", kTime));
+  EXPECT_THAT(plan.files[0].text, HasSubstr("device = \"/dev/ols/ptu\""));
+  EXPECT_THAT(plan.files[1].text, HasSubstr("OLS_BUS_INTERFACE=eth0\n"));
+  EXPECT_THAT(plan.units,
+              ElementsAre("ols-bus.service", "ols-time.service", "ols-station@alfa.service"));
+}
+
+TEST(Plan, WithoutADeviceTheErrorNamesTheKey) {
+  const Answers answers = read_answers(station_answers(), "a");
+  try {
+    plan_station(answers);
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("camera.device: is missing"));
+  }
+}
+
+TEST(Plan, AReceiverGoesToGpsd) {
+  Answers answers = read_answers(station_answers(devices()), "a");
+  answers.gnss = "/dev/ols/gnss";
+  const Plan plan = plan_station(answers);
+  EXPECT_THAT(paths(plan),
+              ElementsAre("/etc/ols/alfa.toml", "/etc/ols/bus.env", kTime, "/etc/default/gpsd"));
+  EXPECT_THAT(plan.files[3].text, HasSubstr("DEVICES=\"/dev/ols/gnss\"\n"));
+  EXPECT_THAT(plan.units, testing::Contains("gpsd.service"));
+}
+
+TEST(Plan, TheCentreHasWhatIsInstalled) {
+  const Answers answers = read_answers(kCentreAnswers, "a");
+  const Plan both = plan_centre(answers, {true, true});
+  EXPECT_THAT(paths(both),
+              ElementsAre("/etc/ols/bus.env", kTime, "/etc/ols/fusion.toml", "/etc/ols/logger.toml",
+                          "/etc/ols/exporter.toml", "/etc/ols/console.toml"));
+  EXPECT_THAT(both.files[3].text, HasSubstr("quota_gb = 5.0"));
+  EXPECT_THAT(both.units, testing::Contains("ols-console.service"));
+  EXPECT_THAT(plan_centre(answers, {true, false}).units,
+              testing::Not(testing::Contains("ols-console.service")));
+  EXPECT_EQ(plan_centre(answers, {false, true}).files.size(), 3U);
+}
+
+TEST(Plan, WithoutAnInterfaceTheBusStaysOnTheHost) {
+  Answers answers = read_answers(kCentreAnswers, "a");
+  answers.interface.clear();
+  EXPECT_THAT(plan_centre(answers, {}).files[0].text, HasSubstr("OLS_BUS_INTERFACE=lo\n"));
+}
+
+}  // namespace
+}  // namespace ols::setup

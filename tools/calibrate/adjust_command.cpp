@@ -1,0 +1,159 @@
+#include "tools/calibrate/adjust_command.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <set>
+
+#include "calibration/exchange.h"
+#include "calibration/procedure/sighting_planner.h"
+#include "geometry/angles.h"
+#include "tools/calibrate/output_folder.h"
+
+namespace ols::calibration {
+namespace {
+
+constexpr const char* kDetectable = "detectable ";
+
+bool is_limit(const Finding& one) { return one.judgement == Finding::Judgement::kBad; }
+
+// The rejected landmark that is furthest beside the others; empty: none.
+std::string rejected_landmark(const Adjusted& adjusted) {
+  std::string worst;
+  double highest = 0.0;
+  for (const auto& [name, test] : adjusted.references) {
+    const bool is_landmark =
+        adjusted.what.problem.references.contains(name) &&
+        std::holds_alternative<FixedPoint>(adjusted.what.problem.references.at(name));
+    if (!is_landmark || !test.rejected || test.w / test.critical <= highest) continue;
+    highest = test.w / test.critical;
+    worst = name;
+  }
+  return worst;
+}
+
+// What has been sighted, and what has not been, but could be.
+std::vector<Place> landmarks(const Adjusted& adjusted) {
+  std::vector<Place> places;
+  for (const auto& [name, reference] : adjusted.what.problem.references) {
+    const auto* point = std::get_if<FixedPoint>(&reference);
+    if (point) places.push_back({name, point->ecef, point->sd_m});
+  }
+  return places;
+}
+
+// Which landmark's sighting, once more from both sides, would leave least, and how much.
+std::vector<Foretold> next_best(const Adjusted& adjusted) {
+  constexpr int kBothSides = 2;
+  const Problem& problem = adjusted.what.problem;
+  std::set<std::string> rejected;
+  for (const auto& [name, test] : adjusted.references) {
+    if (test.rejected) rejected.insert(name);
+  }
+  std::vector<Observation> kept;
+  std::ranges::copy_if(problem.observations, std::back_inserter(kept),
+                       [&](const Observation& one) { return !rejected.contains(one.reference); });
+  SightingPlanner planner(
+      problem, [kept] { return kept; }, kBothSides);
+  return planner.rank(adjusted.found.fit.state.stations[0].model, landmarks(adjusted));
+}
+
+constexpr double kArcsec = EIGEN_PI / 648000.0;
+
+// What the paper's targets are good for.
+constexpr double kMostOfAngle_arcsec = 40.0;
+
+std::string sentence_of(const RectifiedAngle& angle) {
+  const char* what =
+      angle.kind == RectifiedAngle::Kind::kRoll      ? "rolled against the horizon, clockwise"
+      : angle.kind == RectifiedAngle::Kind::kAzimuth ? "turned on the unit, to the right"
+                                                     : "tilted where the unit counts zero, up";
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: the camera is %s: %+.4f deg, 1-sigma %.0f\"",
+                to_string(angle.kind), what, degrees(angle.rad), angle.sd_rad / kArcsec);
+  return text;
+}
+
+// Nothing tells a heading: the instrument alone is the result.
+AdjustedResult instrument_for_person(const Adjusted& adjusted) {
+  AdjustedResult result;
+  result.text = "How the camera is mounted:\n";
+  for (const RectifiedAngle& angle : adjusted.angles) {
+    const bool is_known = angle.sd_rad <= kMostOfAngle_arcsec * kArcsec;
+    result.text += (is_known ? "       " : "  BAD  ") + sentence_of(angle) + "\n";
+  }
+  for (const std::string& note : adjusted.notes) result.text += "  note " + note + "\n";
+  result.good = !adjusted.angles.empty() && adjusted.found.scaled_by == 1.0 &&
+                std::ranges::all_of(adjusted.angles, [](const RectifiedAngle& angle) {
+                  return angle.sd_rad <= kMostOfAngle_arcsec * kArcsec;
+                });
+  result.text += result.good ? "Good." : "Not within the limits. Nothing is accepted by itself.";
+  return result;
+}
+
+}  // namespace
+
+Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& folder) {
+  Adjusted adjusted;
+  adjusted.what = read_case(options);
+  const Case& what = adjusted.what;
+  const Adjustment adjustment(network_of(what));
+  adjusted.found = calibrate(adjustment);
+  Calibration& found = adjusted.found;
+  for (const std::string& line : exchanged_landmarks(what.problem, adjustment, found)) {
+    found.remarks.push_back(line);
+  }
+  const Network& network = adjustment.network();
+  for (std::size_t g = 0; g < network.groups.size(); ++g) {
+    const Group& group = network.groups[g];
+    if (group.is_absolute() && group.kind != Kind::kStar) {
+      adjusted.references.emplace_back(group.name, found.tests[g]);
+    }
+  }
+  adjusted.angles = rectified_angles(what.problem, adjustment, found, 0);
+  adjusted.acceptance = judge_calibration(what.problem, adjustment, found, 0);
+  adjusted.results = station_results(what, adjustment, found);
+  write_folder(folder, output_files(what, adjustment, found));
+  adjusted.notes = found.remarks;
+  adjusted.notes.insert(adjusted.notes.end(), what.warnings.begin(), what.warnings.end());
+  return adjusted;
+}
+
+AdjustedResult result_for_person(const Adjusted& adjusted) {
+  if (!adjusted.found.headings_known) return instrument_for_person(adjusted);
+  AdjustedResult result;
+  result.good = adjusted.acceptance.acceptable();
+  result.worst = rejected_landmark(adjusted);
+  const std::vector<Foretold> next = next_best(adjusted);
+  if (result.worst.empty() && !next.empty()) result.worst = next.front().name;
+  std::string good, other;
+  for (const Finding& one : adjusted.acceptance.findings) {
+    // A reference that is good in itself is no news on one screen.
+    const bool is_minor = one.judgement == Finding::Judgement::kGood &&
+                          (one.name.starts_with(kDetectable) || one.name.starts_with("without_"));
+    if (is_minor) continue;
+    std::string& list = is_limit(one) ? other : good;
+    list += (is_limit(one) ? "  BAD  " : "       ") + one.sentence + "\n";
+  }
+  result.text = "What this calibration leaves:\n" + good + other;
+  for (const RectifiedAngle& angle : adjusted.angles) {
+    result.text += "       " + sentence_of(angle) + "\n";
+  }
+  for (const std::string& note : adjusted.notes) result.text += "  note " + note + "\n";
+  if (adjusted.acceptance.volume_is_cut) {
+    const WorkingVolume& volume = adjusted.acceptance.volume;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "  good for pan within %.0f deg and tilt from %.0f to %.0f deg only\n",
+                  volume.pan_deg, volume.lowest_deg, volume.highest_deg);
+    result.text += text;
+  }
+  if (!next.empty()) {
+    result.text += "  which sighting helps most, twice more: " + in_words(next) + "\n";
+  }
+  if (!result.worst.empty()) result.text += "  redo sights " + result.worst + " again\n";
+  result.text += result.good ? "Good." : "Not within the limits. Nothing is accepted by itself.";
+  return result;
+}
+
+}  // namespace ols::calibration

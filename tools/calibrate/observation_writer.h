@@ -1,0 +1,15 @@
+// observations.jsonl, as observation_file.h reads it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/observation.h"
+
+namespace ols::calibration {
+
+// One JSON object a line.
+std::string observation_lines(const std::vector<Observation>& observations,
+                              const std::string& station);
+
+}  // namespace ols::calibration

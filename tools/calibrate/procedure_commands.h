@@ -1,0 +1,31 @@
+// ols-calibrate field, workshop, rectify, sweep, check, history, revert: options and wiring.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "base/trust/trust_config.h"
+
+namespace ols::calibration {
+
+struct ProcedureOptions {
+  std::string name;  // of the procedure
+  std::string station, state_folder, lcm_url;
+  trust::TrustConfig trust{};
+  std::string references, instrument, script, to, targets;
+  int sweep_poses = 60, rounds = 2, stars = 0;
+  bool sun = false, overcast = false;
+  std::string drone;
+  int drone_points = 40;
+  std::optional<std::string> resume;  // a folder; empty: the newest one
+  std::optional<double> ut1_minus_utc_s, pressure_hPa, temperature_degC;
+};
+
+// Adds the subcommands; the one that was chosen has its name in `options` after parsing.
+void add_procedures(CLI::App& app, ProcedureOptions& options);
+
+// The exit status: 0 accepted or done, 1 kept the old or aborted. Throws what is bad input.
+int run_procedure(const ProcedureOptions& options);
+
+}  // namespace ols::calibration

@@ -1,0 +1,18 @@
+// How a procedure ends: what is kept, which calibration is in use, what the person is told.
+#pragma once
+
+#include <exception>
+
+#include "tools/calibrate/procedure_stages.h"
+
+namespace ols::calibration {
+
+// After an outcome; the exit status.
+int finish(const Procedure& procedure, Outcome outcome, const StationFiles& station,
+           StationLink& link, CalibrationStore& store, Person& person);
+// After an error: the old calibration stands, and what was observed is kept. What failed late may
+// have its final name already.
+[[noreturn]] void fail(const std::exception& error, const ProcedureSession& session,
+                       CalibrationStore& store);
+
+}  // namespace ols::calibration

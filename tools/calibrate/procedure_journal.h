@@ -1,0 +1,30 @@
+// What was reported to a procedure, in order: from it an interrupted one can be gone on with. Pure.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "calibration/procedure/stage.h"
+
+namespace ols::calibration {
+
+struct JournalEntry {
+  enum class Kind { kTaken, kNotTaken, kAnswered, kResumed };
+  Kind kind = Kind::kTaken;
+  std::string step;       // of the order
+  std::int64_t pose = 0;  // kTaken: number of the picture
+  std::string why;        // kNotTaken
+  Answer answer;          // kAnswered
+};
+
+// A line of JSON, without its end.
+std::string journal_line(const JournalEntry& entry);
+// All lines of a file's text. A last line without its end is a loss of power, and left out.
+// std::runtime_error naming `path` and line.
+std::vector<JournalEntry> journal_entries(const std::string& text, const std::string& path);
+
+// Whether an entry is what came of this order; figures in its words do not count.
+bool answers(const JournalEntry& entry, const Order& order);
+
+}  // namespace ols::calibration

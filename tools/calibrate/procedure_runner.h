@@ -1,0 +1,69 @@
+// Carries out the orders of a procedure: drives the unit, takes pictures, asks the person at the
+// terminal or at a console, has the result computed.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "calibration/procedure/field_procedure.h"
+#include "tools/calibrate/person.h"
+#include "tools/calibrate/procedure_session.h"
+#include "tools/calibrate/station_link.h"
+
+namespace ols::calibration {
+
+class ProcedureRunner {
+ public:
+  using Adjust = std::function<AdjustedResult()>;
+  // `session`: null where nothing is to be kept.
+  ProcedureRunner(std::string name, StationLink& station, Person& person, ProcedureSession* session)
+      : name_(std::move(name)), station_(station), person_(person), session_(session) {}
+
+  // Why the unit must not look there now (reported angles); empty: it may.
+  using KeepAway = std::function<std::string(const PanTilt&)>;
+  void keep_away(KeepAway why) { keep_away_ = std::move(why); }
+
+  // To its end. Of a session that was resumed, what was reported before the interruption is
+  // reported again first, and nothing moves. StationStopped when the station is stopped or taken
+  // away; std::runtime_error when it is gone. A SIGTERM or SIGINT aborts.
+  Outcome run(FieldProcedure& procedure, const Adjust& adjust);
+  // The last message: how it ended.
+  void announce(std::int8_t state, const std::string& text);
+
+ private:
+  void turn();  // messages, signals, and once a second the state
+  void publish();
+  bool still_replays(FieldProcedure& procedure);
+  void replay(FieldProcedure& procedure, const Order& order);
+  void shoot(FieldProcedure& procedure, const Order& order);
+  void miss(FieldProcedure& procedure, const Order& order, const std::string& why);
+  // From the wanted side. Empty: aborted, or it did not come.
+  std::optional<FrameFile> picture_of(FieldProcedure& procedure, const Shot& shot);
+  // Stands there with a picture; the same.
+  std::optional<FrameFile> picture_at(FieldProcedure& procedure, const PanTilt& angles,
+                                      Arrival arrival, bool lossless);
+  PanTilt before_approach(const Shot& shot) const;
+  // What stands in a live question, and when the next picture is due (monotonic).
+  struct LiveQuestion {
+    double due_s = 0.0;
+    std::string text;
+  };
+  void ask(FieldProcedure& procedure, const Order& order);
+  void show(const Question& question);
+  void keep_live(FieldProcedure& procedure, LiveQuestion& live);
+  void check_station() const;
+
+  std::string name_;
+  StationLink& station_;
+  Person& person_;
+  ProcedureSession* session_;
+  ols_msg::procedure_t state_{};
+  double began_s_ = 0.0, published_s_ = 0.0;
+  std::int64_t questions_ = 0;
+  std::optional<PanTilt> here_;  // of the last picture
+  bool sides_known_ = false;     // from which the unit came there
+  KeepAway keep_away_;
+  bool aborted_ = false;
+};
+
+}  // namespace ols::calibration

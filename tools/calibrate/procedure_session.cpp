@@ -1,0 +1,154 @@
+#include "tools/calibrate/procedure_session.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "base/atomic_file.h"
+#include "tools/calibrate/observation_writer.h"
+
+namespace ols::calibration {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kJournal = "journal.jsonl";
+
+// A file's lines. What a loss of power has cut is taken off it: the next line would go on with it.
+std::string whole_lines(const fs::path& path) {
+  if (!fs::exists(path)) return {};
+  std::ifstream file(path);
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  const std::size_t whole = text.rfind('\n') + 1;
+  if (whole == text.size()) return text;
+  text.resize(whole);
+  fs::resize_file(path, whole);
+  return text;
+}
+
+}  // namespace
+
+Taken ProcedureSession::add(FrameFile frame) {
+  frame.taken.pose = ++poses_;
+  const fs::path frames = folder_ / "frames";
+  fs::create_directories(frames);
+  char name[40];
+  std::snprintf(name, sizeof name, "%06lld.%s", static_cast<long long>(poses_),
+                frame.lossless ? "png" : "jpg");
+  AtomicFile picture((frames / name).string());
+  picture.stream().write(reinterpret_cast<const char*>(frame.file.data()),
+                         static_cast<std::streamsize>(frame.file.size()));
+  picture.commit();
+  const UnitReading& reading = frame.taken.reading;
+  const nlohmann::ordered_json line{{"pose", poses_},
+                                    {"file", std::string("frames/") + name},
+                                    {"utime_us", frame.taken.utime_us},
+                                    {"pan_counts", reading.pan.counts},
+                                    {"tilt_counts", reading.tilt.counts},
+                                    {"approach_pan", reading.pan.approach},
+                                    {"approach_tilt", reading.tilt.approach},
+                                    {"pan_rad", frame.taken.angles.pan_rad},
+                                    {"tilt_rad", frame.taken.angles.tilt_rad}};
+  std::ofstream list(folder_ / "frames.jsonl", std::ios::app);
+  list << line.dump() << std::endl;
+  if (!list) throw std::runtime_error((folder_ / "frames.jsonl").string() + ": cannot be written");
+  return std::move(frame.taken);
+}
+
+void ProcedureSession::write(const std::string& name, const std::string& text) const {
+  AtomicFile file((folder_ / name).string());
+  file.stream() << text;
+  file.commit();
+}
+
+void ProcedureSession::write_observations(const std::vector<Observation>& observations) const {
+  write(observations_path().filename().string(), observation_lines(observations, station_));
+}
+
+void ProcedureSession::note(const JournalEntry& entry) const {
+  const fs::path path = folder_ / kJournal;
+  std::ofstream journal(path, std::ios::app);
+  journal << journal_line(entry) << std::endl;
+  if (!journal) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+void ProcedureSession::read_frames() {
+  const fs::path path = folder_ / "frames.jsonl";
+  std::istringstream lines(whole_lines(path));
+  int number = 0;
+  for (std::string text; std::getline(lines, text);) {
+    ++number;
+    Frame frame;
+    Taken& taken = frame.taken;
+    try {
+      const auto line = nlohmann::json::parse(text);
+      taken.pose = line.at("pose");
+      taken.utime_us = line.at("utime_us");
+      taken.reading.pan = {line.at("pan_counts"), 0.0, line.at("approach_pan")};
+      taken.reading.tilt = {line.at("tilt_counts"), 0.0, line.at("approach_tilt")};
+      taken.angles = {line.at("pan_rad"), line.at("tilt_rad")};
+      frame.file = folder_ / line.at("file").get<std::string>();
+    } catch (const nlohmann::json::exception& error) {
+      throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": " + error.what());
+    }
+    poses_ = std::max(poses_, taken.pose);
+    frames_[taken.pose] = std::move(frame);
+  }
+}
+
+void ProcedureSession::resume() {
+  read_frames();
+  const fs::path journal = folder_ / kJournal;
+  for (JournalEntry& one : journal_entries(whole_lines(journal), journal.string())) {
+    replay_.push_back(std::move(one));
+  }
+  while (fs::exists(folder_ / ("result-" + std::to_string(results_ + 1)))) ++results_;
+}
+
+bool ProcedureSession::take_resumed() {
+  if (replay_.empty() || replay_.front().kind != JournalEntry::Kind::kResumed) return false;
+  replay_.pop_front();
+  return true;
+}
+
+JournalEntry ProcedureSession::replayed(const Order& order) {
+  const JournalEntry entry = replay_.front();
+  if (!answers(entry, order)) {
+    throw std::runtime_error("the interrupted procedure went on with '" + entry.step +
+                             "', this one with '" + order.step +
+                             "': the station or its references have changed; begin anew");
+  }
+  replay_.pop_front();
+  return entry;
+}
+
+Taken ProcedureSession::stored(std::int64_t pose) const {
+  const auto frame = frames_.find(pose);
+  if (frame == frames_.end()) {
+    throw std::runtime_error((folder_ / "frames.jsonl").string() + ": has no picture " +
+                             std::to_string(pose));
+  }
+  Taken taken = frame->second.taken;
+  taken.gray = cv::imread(frame->second.file.string(), cv::IMREAD_GRAYSCALE);
+  if (taken.gray.empty()) {
+    throw std::runtime_error(frame->second.file.string() + ": cannot be read");
+  }
+  return taken;
+}
+
+fs::path ProcedureSession::next_result() {
+  return folder_ / ("result-" + std::to_string(++results_));
+}
+
+void ProcedureSession::take_result() const {
+  const fs::path result = folder_ / ("result-" + std::to_string(results_));
+  for (const auto& entry : fs::directory_iterator(result)) {
+    fs::copy(entry.path(), folder_ / entry.path().filename(), fs::copy_options::recursive);
+  }
+}
+
+}  // namespace ols::calibration

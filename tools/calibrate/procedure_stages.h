@@ -1,0 +1,62 @@
+// What each procedure is made of: the station's files, its stages, its adjustment.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "calibration/procedure/landmark_stage.h"
+#include "calibration/procedure/sun_keep_out.h"
+#include "tools/calibrate/adjust_command.h"
+#include "tools/calibrate/calibration_store.h"
+#include "tools/calibrate/procedure_commands.h"
+#include "tools/calibrate/procedure_runner.h"
+#include "tools/calibrate/reference_feed.h"
+
+namespace ols::calibration {
+
+struct StationFiles {
+  std::string config;  // path
+  station::StationSettings settings;
+  std::filesystem::path store;
+  std::string instrument_file;  // empty: a new unit
+  Instrument instrument;
+};
+
+// ConfigError and others naming file and key; std::invalid_argument for serial numbers that differ.
+StationFiles read_station(const ProcedureOptions& options);
+
+// What must be so before anything moves; tells the person. std::runtime_error naming the hindrance.
+// `sky`: stars are to be used, so the clock must be right.
+void check_station(StationLink& link, const StationFiles& station, bool sky, Person& person);
+
+// In a procedure's folder: what goes on with it needs this file.
+inline constexpr const char* kSessionFile = "session.json";
+
+struct Procedure {
+  ProcedureOptions options;
+  ProcedureSession* session = nullptr;
+  std::shared_ptr<ReferenceFeed> references;  // null: none
+  std::shared_ptr<SunKeepOut> sun;            // null: it does not show
+  std::unique_ptr<FieldProcedure> field;
+  LandmarkStage* landmarks = nullptr;  // one of its stages; null: none
+  CaseOptions files;                   // of the adjustment
+  std::optional<Adjusted> adjusted;    // the last one
+
+  // Its stages; after this it must not be moved.
+  void plan(const StationFiles& station, StationLink& link, Person& person);
+  Outcome run(ProcedureRunner& runner, Person& person);
+  AdjustedResult adjust();
+};
+CaseOptions files_of(const ProcedureOptions& options, const StationFiles& station,
+                     const ProcedureSession& session);
+// Without stages. Of a session that was begun, what it holds is taken up.
+Procedure make_procedure(const ProcedureOptions& options, const StationFiles& station,
+                         ProcedureSession& session);
+
+// The exit status: 0 nothing has moved, 1 something has or nothing could be told.
+int run_check(const ProcedureOptions& options, const StationFiles& station,
+              CalibrationStore& store);
+
+}  // namespace ols::calibration

@@ -1,0 +1,219 @@
+#include "tools/calibrate/station_link.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+
+#include "base/boot_id.h"
+#include "base/channel_names.h"
+#include "base/clocks.h"
+#include "command/messages.h"
+#include "geometry/angles.h"
+#include "ols_msg/bearing_t.hpp"
+#include "ols_msg/frame_request_t.hpp"
+#include "ols_msg/ptu_command_t.hpp"
+#include "tools/calibrate/motion_leave.h"
+
+namespace ols::calibration {
+namespace {
+
+constexpr double kCommandLease_s = 2.0, kFrameLease_s = 4.0;
+constexpr double kTolerance_rad = 2e-4;  // some counts of a unit
+constexpr double kNear_rad = 2e-3;       // a quarter of the run-up before an approach
+constexpr double kStill_s = 0.1;         // no ringing of the tripod afterwards
+constexpr int kPoll_ms = 20;
+
+}  // namespace
+
+std::shared_ptr<trust::BusTrust> StationLink::open_trust(const trust::TrustConfig& config) {
+  trust::Self self;
+  self.name = "operator";
+  self.boot_id = draw_boot_id();
+  self.commands = self.tells_list = true;
+  return trust::BusTrust::open(config, trust::process_environment(), self);
+}
+
+StationLink::StationLink(LcmBus& bus, std::string station)
+    : station_(std::move(station)),
+      bus_(bus),
+      boot_id_(draw_boot_id()),
+      awaited_(boot_id_, {}, clock_monotonic_s()) {
+  bus_.subscribe(station_channel(kStatusChannel, station_),
+                 [this](const BusMessage& message) { hear_status(message); });
+  constexpr QueueLimits kFrames{.messages = 400, .bytes = 20'000'000};
+  bus_.subscribe(
+      station_channel(kFrameChannel, station_),
+      [this](const BusMessage& message) { hear_part(message); }, kFrames);
+  bus_.subscribe(station_channel(kProcedureAnswerChannel, station_),
+                 [this](const BusMessage& message) { hear_answer(message); });
+}
+
+template <class Message>
+void StationLink::address(Message& message, double lease_s) {
+  message.utime = clock_utime_us();
+  message.schema_version = Message::SCHEMA_VERSION;
+  message.boot_id = boot_id_;
+  message.sequence = ++sequence_;
+  message.station = station_;
+  message.lease_s = lease_s;
+}
+
+void StationLink::hear_status(const BusMessage& message) {
+  auto status = command::heard_status(message);
+  if (!status) return;
+  status_ = std::move(*status);
+  heard_s_ = clock_monotonic_s();
+  arrived_utime_us_ = message.received_utime_us;
+  awaited_.hear_angles({status_->pan_rad, status_->tilt_rad}, heard_s_);
+}
+
+std::optional<ols_msg::station_status_t> StationLink::status(double within_s) {
+  const double end_s = clock_monotonic_s() + within_s;
+  const auto before = status_ ? status_->sequence : std::int64_t{-1};
+  while (clock_monotonic_s() < end_s && (!status_ || status_->sequence == before)) {
+    bus_.handle(kPoll_ms);
+  }
+  return status_;
+}
+
+void StationLink::check_not_stopped() const {
+  using M = ols_msg::station_status_t;
+  if (!status_) return;
+  if (status_->state == M::STATE_EMERGENCY) throw StationStopped("emergency stop at the station");
+  if (status_->state == M::STATE_STOPPED) throw StationStopped("the station was stopped");
+  if (status_->state == M::STATE_TRACKING || status_->state == M::STATE_COASTING) {
+    throw StationStopped("somebody has given the station another task: it follows a target");
+  }
+}
+
+void StationLink::command(std::int8_t what, const PanTilt& angles) {
+  ols_msg::ptu_command_t message;
+  address(message, kCommandLease_s);
+  message.command = what;
+  message.pan_rad = angles.pan_rad;
+  message.tilt_rad = angles.tilt_rad;
+  bus_.publish(station_channel(kPtuChannel, station_), message);
+}
+
+// By when it arrived: it may have waited in the queue while something was computed.
+double StationLink::status_age_s() const {
+  return 1e-6 * static_cast<double>(clock_utime_us() - arrived_utime_us_);
+}
+
+bool StationLink::may_point() const {
+  return status_ && ols::calibration::may_point(*status_, status_age_s());
+}
+
+double StationLink::status_gap_s() {
+  constexpr int kPairs = 3;  // one may be lost
+  constexpr double kPatience_s = 5.0;
+  double least_s = std::numeric_limits<double>::infinity();
+  for (int pair = 0; pair < kPairs && least_s >= kReliedOn_s; ++pair) {
+    const auto first = status(kPatience_s);
+    const std::int64_t first_utime_us = arrived_utime_us_;
+    const auto second = status(kPatience_s);
+    if (!first || !second || second->sequence == first->sequence) break;
+    least_s = std::min(least_s, 1e-6 * static_cast<double>(arrived_utime_us_ - first_utime_us));
+  }
+  return least_s;
+}
+
+void StationLink::set_out(const PanTilt& angles) {
+  awaited_ = {boot_id_, angles, clock_monotonic_s()};
+  frame_.reset();
+}
+
+void StationLink::point() { command(ols_msg::ptu_command_t::COMMAND_POINT, awaited_.at()); }
+
+bool StationLink::release() {
+  status(kReliedOn_s);
+  const bool may = status_ && may_release(*status_, status_age_s());
+  if (may) command(ols_msg::ptu_command_t::COMMAND_RELEASE, {});
+  return may;
+}
+
+void StationLink::ask_frame(Arrival arrival, bool lossless) {
+  ols_msg::frame_request_t message;
+  address(message, kFrameLease_s);
+  const bool stands = arrival == Arrival::kStands;
+  message.at_angles = 1;
+  message.pan_rad = awaited_.at().pan_rad;
+  message.tilt_rad = awaited_.at().tilt_rad;
+  message.tolerance_rad = stands ? kTolerance_rad : kNear_rad;
+  message.still_s = stands ? kStill_s : 0.0;
+  message.encoding =
+      lossless ? ols_msg::frame_request_t::ENCODING_PNG : ols_msg::frame_request_t::ENCODING_JPEG;
+  awaited_.asked(message.sequence);
+  bus_.publish(station_channel(kFrameRequestChannel, station_), message);
+}
+
+void StationLink::hear_part(const BusMessage& message) {
+  ols_msg::frame_part_t part;
+  if (!decode_exactly(message, part)) return;
+  if (part.schema_version != ols_msg::frame_part_t::SCHEMA_VERSION) return;
+  auto file = awaited_.hear_part(part, clock_monotonic_s());
+  if (file) complete(std::move(*file), part);
+}
+
+void StationLink::complete(std::vector<std::uint8_t> file, const ols_msg::frame_part_t& any) {
+  FrameFile frame;
+  frame.file = std::move(file);
+  frame.lossless = any.encoding == ols_msg::frame_request_t::ENCODING_PNG;
+  frame.taken.gray = cv::imdecode(frame.file, cv::IMREAD_GRAYSCALE);
+  if (frame.taken.gray.empty()) return;  // it will be asked for again
+  frame.taken.utime_us = any.utime;
+  frame.taken.reading.pan = {any.pan_counts, any.pan_counts_s, any.approach_pan};
+  frame.taken.reading.tilt = {any.tilt_counts, any.tilt_counts_s, any.approach_tilt};
+  count_ = PanTilt{any.pan_count_rad, any.tilt_count_rad};
+  frame.taken.angles = {any.pan_counts * any.pan_count_rad, any.tilt_counts * any.tilt_count_rad};
+  frame_ = std::move(frame);
+}
+
+std::optional<FrameFile> StationLink::take_frame() { return std::exchange(frame_, std::nullopt); }
+
+void StationLink::publish(ols_msg::procedure_t message) {
+  answers_.ask(message.state == ols_msg::procedure_t::STATE_ASKING ? message.question : 0);
+  message.utime = clock_utime_us();
+  message.schema_version = ols_msg::procedure_t::SCHEMA_VERSION;
+  message.station = station_;
+  message.boot_id = boot_id_;
+  message.sequence = ++procedure_sequence_;
+  message.choices = static_cast<std::int16_t>(message.choice.size());
+  message.jpeg_bytes = static_cast<std::int32_t>(message.jpeg.size());
+  bus_.publish(station_channel(kProcedureChannel, station_), message);
+}
+
+void StationLink::hear_answer(const BusMessage& message) {
+  ols_msg::procedure_answer_t answer;
+  if (!decode_exactly(message, answer)) return;
+  if (answer.schema_version != ols_msg::procedure_answer_t::SCHEMA_VERSION ||
+      answer.station != station_) {
+    return;
+  }
+  answers_.hear(answer, clock_utime_us());
+}
+
+StationFacts facts_of(const ols_msg::station_status_t& status) {
+  using M = ols_msg::station_status_t;
+  StationFacts facts;
+  facts.state = command::state_name(status.state);
+  facts.camera_works = std::string(command::device_state(status, "camera")) == "ok";
+  facts.unit_works = std::string(command::device_state(status, "ptu")) == "ok";
+  facts.limits_known = std::isfinite(status.pan_limits_rad[0]) && std::isfinite(status.pan_rad);
+  facts.stopped = status.state == M::STATE_STOPPED;
+  facts.emergency = status.state == M::STATE_EMERGENCY;
+  facts.follows_target = status.state == M::STATE_TRACKING || status.state == M::STATE_COASTING;
+  facts.has_position = status.position_source != M::POSE_NONE;
+  facts.has_tilt = status.tilt_source != M::POSE_NONE;
+  facts.position_sd_m = std::max(status.position_sd_m[0], status.position_sd_m[1]);
+  facts.tilt_sd_deg = degrees(status.tilt_sd_rad);
+  facts.clock_synchronised = status.clock_state == ols_msg::bearing_t::CLOCK_SYNCHRONISED;
+  facts.clock_error_s = status.clock_error_s;
+  facts.image_width_px = status.image_width_px;
+  facts.image_height_px = status.image_height_px;
+  facts.alarms = status.alarm;
+  return facts;
+}
+
+}  // namespace ols::calibration

@@ -1,0 +1,13 @@
+// The file that describes a workshop's rectification targets.
+#pragma once
+
+#include <string>
+
+#include "calibration/procedure/target_reader.h"
+
+namespace ols::calibration {
+
+// ConfigError naming file, line and key.
+RectificationTargets read_targets(const std::string& path);
+
+}  // namespace ols::calibration

@@ -1,0 +1,68 @@
+// `ols-calibrate check`: views of the stored panorama, looked at again.
+#include <stdexcept>
+
+#include "base/clocks.h"
+#include "tools/calibrate/procedure_stages.h"
+#include "tools/calibrate/view_stage.h"
+
+namespace ols::calibration {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The last message of a check: what it found, or that it found nothing out.
+void announce(ProcedureRunner& runner, bool aborted, const ViewStage& looked) {
+  using M = ols_msg::procedure_t;
+  if (aborted) return runner.announce(M::STATE_ABORTED, "aborted: nothing is known");
+  runner.announce(looked.can_tell() ? M::STATE_ACCEPTED : M::STATE_FAILED, looked.verdict());
+}
+
+}  // namespace
+
+int run_check(const ProcedureOptions& options, const StationFiles& station,
+              CalibrationStore& store) {
+  const auto current = store.current();
+  if (!current) throw std::invalid_argument("no calibration is in use: there is nothing to check");
+  const fs::path calibration = store.folder() / *current;
+  Person person(options.script);
+  // Else two procedures would drive one unit.
+  for (const fs::path& dead : store.lock()) {
+    person.tell("! a procedure was interrupted; what it had is kept in " + dead.string());
+  }
+  auto views = views_of(calibration);
+  LcmBus bus(options.lcm_url.empty() ? station.settings.lcm_url : options.lcm_url,
+             StationLink::open_trust(options.trust));
+  StationLink link(bus, station.settings.id);
+  check_station(link, station, false, person);
+  auto stage = std::make_unique<ViewStage>(std::move(views), station.settings.station.geometry,
+                                           station.instrument.angle_sd_rad);
+  const ViewStage* looked = stage.get();
+  std::vector<std::unique_ptr<Stage>> stages;
+  stages.push_back(std::move(stage));
+  FieldProcedure procedure(std::move(stages), {});
+  ProcedureRunner runner(options.name, link, person, nullptr);
+  if (!options.overcast) {
+    const SunKeepOut sun(prior_of(station.settings, station.instrument, station.config).model,
+                         clock_utime_us);
+    runner.keep_away([sun](const PanTilt& at) { return sun.hindrance(at); });
+  }
+  bool complete = false;
+  try {
+    runner.run(procedure, [&] {
+      complete = true;
+      procedure.abort();  // there is nothing to adjust or to decide
+      return AdjustedResult{};
+    });
+  } catch (const std::exception& error) {
+    // Whoever has stopped it releases it.
+    if (dynamic_cast<const StationStopped*>(&error) == nullptr) link.release();
+    runner.announce(ols_msg::procedure_t::STATE_FAILED, error.what());
+    throw;
+  }
+  link.release();
+  person.tell(complete ? looked->verdict() : "Aborted: nothing is known of the tripod");
+  announce(runner, !complete, *looked);
+  return complete && looked->stands() ? 0 : 1;
+}
+
+}  // namespace ols::calibration

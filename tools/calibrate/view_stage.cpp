@@ -1,0 +1,137 @@
+#include "tools/calibrate/view_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "edge/drift/view_offset.h"
+#include "geometry/angles.h"
+
+namespace ols::calibration {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kFewest = 3;  // views
+constexpr double kArcsec = kPi / 648000.0;
+
+std::vector<StoredView> all_views(const fs::path& calibration) {
+  std::vector<StoredView> views;
+  const fs::path path = calibration / "frames.jsonl";
+  std::ifstream file(path);
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    const auto object = nlohmann::json::parse(line, nullptr, false);
+    StoredView view;
+    try {
+      view.file = (calibration / object.at("file").get<std::string>()).string();
+      view.angles = {object.at("pan_rad").get<double>(), object.at("tilt_rad").get<double>()};
+      view.approach_pan = object.at("approach_pan").get<int>();
+      view.approach_tilt = object.at("approach_tilt").get<int>();
+    } catch (const nlohmann::json::exception& error) {
+      throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": " + error.what());
+    }
+    views.push_back(std::move(view));
+  }
+  if (views.empty()) throw std::runtime_error(path.string() + ": has no views to compare with");
+  return views;
+}
+
+}  // namespace
+
+std::vector<StoredView> views_of(const fs::path& calibration) {
+  constexpr double kApart_rad = radians(20.0);
+  constexpr std::size_t kMost = 6;
+  const std::vector<StoredView> all = all_views(calibration);
+  std::vector<StoredView> views{all.front()};
+  const auto apart = [&views](const StoredView& one) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const StoredView& other : views) {
+      least = std::min(least, std::abs(one.angles.pan_rad - other.angles.pan_rad));
+    }
+    return least;
+  };
+  while (views.size() < kMost) {
+    const auto farthest = std::ranges::max_element(all, {}, apart);
+    if (apart(*farthest) < kApart_rad) break;
+    views.push_back(*farthest);
+  }
+  return views;
+}
+
+std::optional<Order> ViewStage::next() {
+  if (at_ >= views_.size()) return std::nullopt;
+  const StoredView& view = views_[at_];
+  Order order;
+  order.step = "view " + std::to_string(at_ + 1) + " of " + std::to_string(views_.size()) +
+               (again_ ? ", once more" : "");
+  order.shot.angles = view.angles;
+  order.shot.approach_pan = view.approach_pan;
+  order.shot.approach_tilt = view.approach_tilt;
+  return order;
+}
+
+void ViewStage::taken(const Taken& picture) {
+  const StoredView& view = views_[at_];
+  const cv::Mat stored = cv::imread(view.file, cv::IMREAD_GRAYSCALE);
+  const auto offset = station::offset_of({stored, view.angles}, {picture.gray, picture.angles},
+                                         geometry_, angle_sd_rad_);
+  char text[160];
+  if (offset) {
+    std::snprintf(text, sizeof text,
+                  "pan %7.2f deg: turned %6.1f\" left, %6.1f\" up (1-sigma %.1f\")",
+                  degrees(view.angles.pan_rad), offset->left_rad / kArcsec,
+                  offset->up_rad / kArcsec, offset->sd_rad / kArcsec);
+    offsets_.push_back(*offset);
+  } else {
+    std::snprintf(text, sizeof text, "pan %7.2f deg: the stored view is not recognised",
+                  degrees(view.angles.pan_rad));
+  }
+  remark(text);
+  step();
+}
+
+void ViewStage::not_taken(const std::string& why) {
+  remark("a view is missing: " + why);
+  step();
+}
+
+void ViewStage::step() {
+  if (++at_ == views_.size()) end_round();
+}
+
+// Nothing is said that a second round does not confirm.
+void ViewStage::end_round() {
+  can_tell_ = offsets_.size() >= kFewest;
+  const bool look_again =
+      can_tell_ && watch_.add(station::find_drift(offsets_, station::kMotorStep_rad));
+  if (!look_again || again_) return;
+  remark("something differs: all views once more, before anything is said");
+  again_ = true;
+  at_ = 0;
+  offsets_.clear();
+}
+
+double ViewStage::progress() const {
+  const double share = static_cast<double>(at_) / static_cast<double>(views_.size());
+  return again_ ? 0.5 + 0.5 * share : share;
+}
+
+bool ViewStage::stands() const {
+  return can_tell_ && watch_.heading_doubt_rad() == 0.0 && watch_.tilt_doubt_rad() == 0.0;
+}
+
+std::string ViewStage::verdict() const {
+  if (!can_tell_) return "Cannot be told: fewer than three views could be compared";
+  if (watch_.level() == station::DriftLevel::kNone) return "The tripod stands as it was calibrated";
+  const bool red = watch_.level() == station::DriftLevel::kRed;
+  return (red ? "RED: " : "AMBER: ") + watch_.alarm();
+}
+
+}  // namespace ols::calibration

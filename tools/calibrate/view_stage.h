@@ -1,0 +1,57 @@
+// Views of a stored panorama, looked at again, and what has happened since: by the rule of a
+// station that checks itself (edge/drift).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calibration/procedure/stage.h"
+#include "edge/drift/drift_watch.h"
+#include "geometry/station_model.h"
+
+namespace ols::calibration {
+
+struct StoredView {
+  std::string file;  // path of the picture
+  PanTilt angles;    // as the unit reported them
+  int approach_pan = 1, approach_tilt = 1;
+};
+
+// Of a calibration's folder (frames.jsonl): up to six pictures as far apart in pan as there are.
+// std::runtime_error naming file and line.
+std::vector<StoredView> views_of(const std::filesystem::path& calibration);
+
+class ViewStage : public Stage {
+ public:
+  // `angle_sd_rad`: of each angle at a stop.
+  ViewStage(std::vector<StoredView> views, const StationGeometry& geometry, double angle_sd_rad)
+      : views_(std::move(views)), geometry_(geometry), angle_sd_rad_(angle_sd_rad) {}
+
+  std::optional<Order> next() override;
+  void taken(const Taken& picture) override;
+  void not_taken(const std::string& why) override;
+  void answered(const Answer&) override {}
+  std::vector<Observation> observations() const override { return {}; }
+  double progress() const override;
+
+  // At the end: whether enough views could be compared to tell, and what they say.
+  bool can_tell() const { return can_tell_; }
+  bool stands() const;
+  std::string verdict() const;
+
+ private:
+  void step();
+  void end_round();
+
+  std::vector<StoredView> views_;
+  StationGeometry geometry_;
+  double angle_sd_rad_;
+  std::size_t at_ = 0;
+  bool again_ = false;  // a second round, which confirms the first or does not
+  bool can_tell_ = false;
+  std::vector<station::ViewOffset> offsets_;  // of this round
+  station::DriftWatch watch_{{}, 0};
+};
+
+}  // namespace ols::calibration

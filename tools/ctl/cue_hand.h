@@ -1,0 +1,31 @@
+// The operator's side of the bus for cues: what the fusion says of them, and an operator's word.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/lcm_bus.h"
+#include "base/trust/trust_config.h"
+#include "command/messages.h"
+
+namespace ols::ctl {
+
+class CueHand {
+ public:
+  // Throws BusError, or ConfigError if it cannot sign.
+  CueHand(const std::string& lcm_url, const trust::TrustConfig& trust);
+
+  // The fusion's next status; nothing within this time: there is no fusion.
+  std::optional<command::CuesSaid> listen(double timeout_s);
+  // Waits for the status that shows it. Nothing if it was taken, otherwise why not.
+  std::optional<std::string> give(const command::CueOrder& order, double timeout_s);
+
+ private:
+  const std::int64_t boot_id_;
+  LcmBus bus_;
+  command::OrderSender sender_;
+  std::optional<command::CuesSaid> said_;
+};
+
+}  // namespace ols::ctl

@@ -1,0 +1,12 @@
+// The cues from outside, for a person. Pure.
+#pragma once
+
+#include <string>
+
+#include "command/messages.h"
+
+namespace ols::ctl {
+
+std::string cue_table(const command::CuesSaid& said);
+
+}  // namespace ols::ctl

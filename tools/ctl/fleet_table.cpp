@@ -1,0 +1,84 @@
+#include "tools/ctl/fleet_table.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "command/messages.h"
+#include "ols_msg/bearing_t.hpp"
+
+namespace ols::ctl {
+namespace {
+
+using ols_msg::station_status_t;
+
+template <class... Values>
+std::string text(const char* format, Values... values) {
+  char room[200];
+  std::snprintf(room, sizeof room, format, values...);
+  return room;
+}
+
+// "3 d", "5 h", "12 min".
+std::string age(double seconds) {
+  constexpr double kMinute_s = 60.0, kHour_s = 3600.0, kDay_s = 86400.0;
+  if (seconds >= 2.0 * kDay_s) return text("%.0f d", seconds / kDay_s);
+  if (seconds >= 2.0 * kHour_s) return text("%.0f h", seconds / kHour_s);
+  return text("%.0f min", seconds / kMinute_s);
+}
+
+std::string calibration(const station_status_t& s) {
+  if (s.calibration_state == station_status_t::CALIBRATION_REFUSED) return "refused";
+  const bool doubted = s.calibration_state == station_status_t::CALIBRATION_DOUBTED;
+  if (!doubted && s.calibration_state != station_status_t::CALIBRATION_IN_USE) return "-";
+  std::string words = doubted ? "doubted" : "in use";
+  if (s.calibration_utime > 0) {
+    words += ", " + age(1e-6 * static_cast<double>(s.utime - s.calibration_utime));
+  }
+  return words;
+}
+
+std::string clock(const station_status_t& s) {
+  if (s.clock_state != ols_msg::bearing_t::CLOCK_SYNCHRONISED) return "not synchronised";
+  return std::isfinite(s.clock_error_s) ? text("%.2f ms", 1e3 * s.clock_error_s) : "-";
+}
+
+double reading(const station_status_t& s, const std::string& name) {
+  for (std::size_t i = 0; i < s.reading_name.size(); ++i) {
+    if (s.reading_name[i] == name) return s.reading_value[i];
+  }
+  return std::nan("");
+}
+
+std::string disk(const station_status_t& s) {
+  const double bytes = reading(s, "disk_free_bytes");
+  return std::isfinite(bytes) ? text("%.1f GB", 1e-9 * bytes) : "-";
+}
+
+std::string warmth(const station_status_t& s) {
+  const double degC = reading(s, "cpu_degC");
+  return std::isfinite(degC) ? text("%.0f degC", degC) : "-";
+}
+
+std::string alarm(const station_status_t& s) {
+  if (s.alarm.empty()) return "-";
+  const std::string more =
+      s.alarm.size() > 1 ? " (and " + std::to_string(s.alarm.size() - 1) + " more)" : "";
+  return s.alarm.back() + more;
+}
+
+constexpr const char* kLine = "%-12s %-10s %-16s %-17s %-9s %-8s ";
+
+}  // namespace
+
+std::string fleet_table(const std::map<std::string, station_status_t>& statuses) {
+  std::string table =
+      text(kLine, "station", "state", "calibration", "clock", "disk", "cpu") + "alarm\n";
+  for (const auto& [id, s] : statuses) {
+    table += text(kLine, id.c_str(), command::state_name(s.state), calibration(s).c_str(),
+                  clock(s).c_str(), disk(s).c_str(), warmth(s).c_str()) +
+             alarm(s) + "\n";
+  }
+  return table;
+}
+
+}  // namespace ols::ctl

@@ -1,0 +1,14 @@
+// All stations at a glance: calibration, clock, disk, temperature, newest alarm. Pure.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "ols_msg/station_status_t.hpp"
+
+namespace ols::ctl {
+
+// One line per station.
+std::string fleet_table(const std::map<std::string, ols_msg::station_status_t>& statuses);
+
+}  // namespace ols::ctl

@@ -1,0 +1,125 @@
+// ols-exporter: the site's statuses for Prometheus. Parses, loads, wires and loops.
+#include <prometheus/collectable.h>
+#include <prometheus/exposer.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "base/bus_connector.h"
+#include "base/channel_names.h"
+#include "base/clocks.h"
+#include "base/command_line.h"
+#include "base/service_notifier.h"
+#include "base/shutdown.h"
+#include "command/messages.h"
+#include "tools/exporter/exporter_config.h"
+#include "tools/exporter/site_metrics.h"
+
+namespace {
+
+constexpr int kTurn_ms = 200;
+
+// Heard by the main thread, told by those of the web server.
+class Told : public prometheus::Collectable {
+ public:
+  std::vector<prometheus::MetricFamily> Collect() const override {
+    const std::lock_guard lock(mutex_);
+    return metrics_.families(ols::clock_monotonic_s());
+  }
+  template <class Status>
+  void hear(const Status& status) {
+    const std::lock_guard lock(mutex_);
+    metrics_.hear(status, ols::clock_monotonic_s());
+  }
+  void hear_distrusted(const ols::BusTraffic& traffic) {
+    std::map<std::string, double> by_reason;
+    for (std::size_t i = 0; i < traffic.distrusted.size(); ++i) {
+      by_reason[to_string(static_cast<ols::trust::Distrust>(i))] =
+          static_cast<double>(traffic.distrusted[i]);
+    }
+    const std::lock_guard lock(mutex_);
+    metrics_.hear_distrusted(std::move(by_reason));
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  ols::exporter::SiteMetrics metrics_{OLS_VERSION};
+};
+
+std::shared_ptr<ols::trust::BusTrust> open_trust(const ols::trust::TrustConfig& config) {
+  ols::trust::Self self;
+  self.name = "exporter";
+  self.commands = true;  // statuses of a station whose clock is wrong count too
+  return ols::trust::BusTrust::open(config, ols::trust::process_environment(), self);
+}
+
+void listen(ols::LcmBus& bus, Told& told) {
+  bus.subscribe(ols::station_channel(ols::kStatusChannel, ".*"),
+                [&told](const ols::BusMessage& message) {
+                  if (const auto status = ols::command::heard_status(message)) told.hear(*status);
+                });
+  bus.subscribe(std::string(ols::kFusionStatusChannel), [&told](const ols::BusMessage& message) {
+    ols_msg::fusion_status_t status;
+    if (ols::decode_exactly(message, status)) told.hear(status);
+  });
+}
+
+void run(const ols::exporter::ExporterConfig& config) {
+  const auto told = std::make_shared<Told>();
+  prometheus::Exposer server(config.address, 1);
+  server.RegisterCollectable(told);
+  ols::BusConnector connector(config.lcm_url, open_trust(config.trust));
+  std::unique_ptr<ols::LcmBus> bus;
+  ols::ServiceNotifier service_manager;
+  service_manager.ready("serves http://" + config.address + "/metrics");
+  spdlog::info("ready: http://{}/metrics", config.address);
+  while (!ols::shutdown_requested()) {
+    const double now_s = ols::clock_monotonic_s();
+    if (bus && bus->is_deaf()) bus.reset();
+    if (!bus) {
+      bus = connector.take(now_s, 1e-3 * kTurn_ms);
+      if (bus) listen(*bus, *told);
+    } else {
+      bus->handle(kTurn_ms);
+      told->hear_distrusted(bus->traffic());
+    }
+    service_manager.alive(now_s);
+  }
+  service_manager.stopping();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Serves the statuses of the site's stations and fusion to Prometheus (docs/fleet.md)"};
+  app.set_version_flag("--version", OLS_VERSION);
+  std::string config_path, lcm_url, address;
+  bool check = false;
+  app.add_option("--config", config_path, "Configuration file (TOML); all keys have defaults");
+  app.add_option("--lcm-url", lcm_url, "Bus, in place of the configuration's");
+  app.add_option("--address", address, "ADDRESS:PORT, in place of the configuration's");
+  app.add_flag("--check-config", check, "Only read and check the configuration");
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-exporter")) return *status;
+  spdlog::set_default_logger(spdlog::stderr_color_mt("ols-exporter"));
+  ols::install_shutdown_handler();
+  try {
+    ols::exporter::ExporterConfig config;
+    if (!config_path.empty()) config = ols::exporter::load_exporter_config(config_path);
+    if (!lcm_url.empty()) config.lcm_url = lcm_url;
+    if (!address.empty()) config.address = address;
+    if (!check) run(config);
+    return 0;
+  } catch (const ols::ConfigError& error) {
+    std::fprintf(stderr, "ols-exporter: %s\n", error.what());
+    return ols::kExitBadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ols-exporter: %s\n", error.what());
+    return 1;
+  }
+}

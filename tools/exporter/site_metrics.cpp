@@ -1,0 +1,152 @@
+#include "tools/exporter/site_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "command/messages.h"
+#include "ols_msg/bearing_t.hpp"
+
+namespace ols::exporter {
+namespace {
+
+using ols_msg::fusion_status_t;
+using ols_msg::station_status_t;
+using prometheus::ClientMetric;
+using prometheus::MetricFamily;
+using prometheus::MetricType;
+using Labels = std::vector<std::pair<std::string, std::string>>;
+
+// Collects samples of one metric after another, in the order in which they are first named.
+class Collection {
+ public:
+  void gauge(const char* name, const char* help, const Labels& labels, double value) {
+    add(name, help, MetricType::Gauge, labels).gauge.value = value;
+  }
+  void counter(const char* name, const char* help, const Labels& labels, double value) {
+    add(name, help, MetricType::Counter, labels).counter.value = value;
+  }
+  std::vector<MetricFamily> take() { return std::move(families_); }
+
+ private:
+  ClientMetric& add(const char* name, const char* help, MetricType type, const Labels& labels) {
+    auto family = std::ranges::find(families_, name, &MetricFamily::name);
+    if (family == families_.end()) {
+      families_.push_back({name, help, type, {}});
+      family = families_.end() - 1;
+    }
+    ClientMetric& metric = family->metric.emplace_back();
+    for (const auto& [label, value] : labels) metric.label.push_back({label, value});
+    return metric;
+  }
+
+  std::vector<MetricFamily> families_;
+};
+
+double seconds_since(std::int64_t utime_us, std::int64_t now_us) {
+  return 1e-6 * static_cast<double>(now_us - utime_us);
+}
+
+void add_state(Collection& all, const std::string& id, const station_status_t& s, double age_s) {
+  all.gauge("ols_station_status_age_seconds", "Since its last status was heard.", {{"station", id}},
+            age_s);
+  all.gauge("ols_station_state", "1 for what the station does now.",
+            {{"station", id}, {"state", command::state_name(s.state)}}, 1.0);
+  all.gauge("ols_station_alarms", "Alarms that are active.", {{"station", id}},
+            static_cast<double>(s.alarm.size()));
+  all.gauge("ols_station_frame_latency_seconds", "Mid-exposure to bearing, smoothed.",
+            {{"station", id}}, s.frame_latency_s);
+  const bool synchronised = s.clock_state == ols_msg::bearing_t::CLOCK_SYNCHRONISED;
+  all.gauge("ols_station_clock_synchronised", "1 while its UTC is synchronised.", {{"station", id}},
+            synchronised ? 1.0 : 0.0);
+  all.gauge("ols_station_clock_error_seconds", "1-sigma of its UTC.", {{"station", id}},
+            s.clock_error_s);
+}
+
+void add_calibration(Collection& all, const std::string& id, const station_status_t& s) {
+  const bool doubted = s.calibration_state == station_status_t::CALIBRATION_DOUBTED;
+  const bool used = doubted || s.calibration_state == station_status_t::CALIBRATION_IN_USE;
+  all.gauge("ols_station_calibration_in_use", "1 while an adjusted calibration is in use.",
+            {{"station", id}}, used ? 1.0 : 0.0);
+  all.gauge("ols_station_calibration_doubted", "1 while the stored views contradict it.",
+            {{"station", id}}, doubted ? 1.0 : 0.0);
+  if (s.calibration_utime <= 0) return;
+  all.gauge("ols_station_calibration_age_seconds", "Since its last observation.", {{"station", id}},
+            seconds_since(s.calibration_utime, s.utime));
+}
+
+template <class Use>
+void first_names(const std::vector<std::string>& names, const Use& use) {
+  for (std::size_t i = 0; i < std::min(names.size(), SiteMetrics::kMostNames); ++i) use(i);
+}
+
+void add_named(Collection& all, const std::string& id, const station_status_t& s) {
+  first_names(s.device_name, [&](std::size_t i) {
+    const bool works = s.device_state[i] == station_status_t::DEVICE_OK;
+    all.gauge("ols_station_device_up", "1 while the device works.",
+              {{"station", id}, {"device", s.device_name[i]}}, works ? 1.0 : 0.0);
+  });
+  first_names(s.reading_name, [&](std::size_t i) {
+    all.gauge("ols_station_reading", "A reading, in the unit that ends its name.",
+              {{"station", id}, {"reading", s.reading_name[i]}}, s.reading_value[i]);
+  });
+  first_names(s.counter_name, [&](std::size_t i) {
+    all.counter("ols_station_events_total", "A counter of the station, since its start.",
+                {{"station", id}, {"event", s.counter_name[i]}}, s.counter_value[i]);
+  });
+}
+
+void add_fusion(Collection& all, const fusion_status_t& s, double age_s) {
+  all.gauge("ols_fusion_status_age_seconds", "Since its last status was heard.", {}, age_s);
+  all.gauge("ols_fusion_alarms", "Alarms that are active.", {},
+            static_cast<double>(s.alarm.size()));
+  all.gauge("ols_fusion_latency_seconds", "Mid-exposure to published target, median.", {},
+            s.latency_s);
+  all.gauge("ols_fusion_stations", "Stations that it has heard.", {},
+            static_cast<double>(s.stations_known));
+  for (std::size_t i = 0; i < s.station.size(); ++i) {
+    const Labels of{{"station", s.station[i]}};
+    all.counter("ols_bearings_total", "Bearings that the fusion has accepted.", of,
+                static_cast<double>(s.bearings[i]));
+    all.gauge("ols_bearing_rate_hertz", "Recent bearings of a station.", of, s.rate_hz[i]);
+    all.gauge("ols_bearing_residual", "Recent RMS of its normalised residuals.", of, s.residual[i]);
+    all.gauge("ols_station_quarantined", "1 while its bearings are not used.", of,
+              s.quarantine[i].empty() ? 0.0 : 1.0);
+  }
+  first_names(s.counter_name, [&](std::size_t i) {
+    all.counter("ols_fusion_events_total", "A counter of the fusion, since its start.",
+                {{"event", s.counter_name[i]}}, s.counter_value[i]);
+  });
+}
+
+}  // namespace
+
+void SiteMetrics::hear(const station_status_t& status, double now_s) {
+  std::erase_if(stations_, [&](const auto& one) { return now_s - one.second.at_s > kForget_s; });
+  const bool known = stations_.contains(status.station);
+  if (known || stations_.size() < kMostStations) stations_[status.station] = {status, now_s};
+}
+
+void SiteMetrics::hear(const fusion_status_t& status, double now_s) { fusion_ = {status, now_s}; }
+
+void SiteMetrics::hear_distrusted(std::map<std::string, double> by_reason) {
+  distrusted_ = std::move(by_reason);
+}
+
+std::vector<MetricFamily> SiteMetrics::families(double now_s) const {
+  Collection all;
+  all.gauge("ols_build_info", "1; the version of the exporter.", {{"version", version_}}, 1.0);
+  for (const auto& [reason, count] : distrusted_) {
+    all.counter("ols_bus_distrusted_total", "Messages that the exporter did not believe.",
+                {{"reason", reason}}, count);
+  }
+  for (const auto& [id, heard] : stations_) {
+    add_state(all, id, heard.status, now_s - heard.at_s);
+    add_calibration(all, id, heard.status);
+    add_named(all, id, heard.status);
+  }
+  if (fusion_) add_fusion(all, fusion_->status, now_s - fusion_->at_s);
+  return all.take();
+}
+
+}  // namespace ols::exporter

@@ -1,0 +1,49 @@
+// The site's statuses as metrics for Prometheus. Base units; names as its conventions have them; no
+// target's id anywhere, because labels live for ever. Pure.
+#pragma once
+
+#include <prometheus/metric_family.h>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ols_msg/fusion_status_t.hpp"
+#include "ols_msg/station_status_t.hpp"
+
+namespace ols::exporter {
+
+class SiteMetrics {
+ public:
+  // Of more stations nothing is kept, nor of a silent one after a day: alerts have told it by then.
+  static constexpr std::size_t kMostStations = 1000;
+  static constexpr double kForget_s = 86400.0;
+  // Of what one message names: readings, counters, devices.
+  static constexpr std::size_t kMostNames = 200;
+
+  explicit SiteMetrics(std::string version) : version_(std::move(version)) {}
+
+  // Statuses as verified. Times: monotonic.
+  void hear(const ols_msg::station_status_t& status, double now_s);
+  void hear(const ols_msg::fusion_status_t& status, double now_s);
+  // Messages that were not believed, by reason, since the start.
+  void hear_distrusted(std::map<std::string, double> by_reason);
+
+  std::vector<prometheus::MetricFamily> families(double now_s) const;
+
+ private:
+  template <class Message>
+  struct Heard {
+    Message status;
+    double at_s = 0.0;
+  };
+
+  std::string version_;
+  std::map<std::string, Heard<ols_msg::station_status_t>> stations_;
+  std::optional<Heard<ols_msg::fusion_status_t>> fusion_;
+  std::map<std::string, double> distrusted_;
+};
+
+}  // namespace ols::exporter

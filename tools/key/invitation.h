@@ -1,0 +1,20 @@
+// What a new member must know of its site: the secret of the site tag and the root's public key, as
+// 128 hexadecimal digits. Pure.
+#pragma once
+
+#include <string>
+
+#include "base/trust/crypto.h"
+
+namespace ols::key {
+
+struct Invitation {
+  trust::SiteKey site{};
+  trust::PublicKey root{};
+};
+
+std::string to_text(const Invitation& invitation);
+// Throws std::invalid_argument.
+Invitation invitation_from(const std::string& text);
+
+}  // namespace ols::key

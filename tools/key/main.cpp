@@ -1,0 +1,219 @@
+// ols-key: the keys and the trust list of a site. Parses, reads, writes.
+#include <lcm/eventlog.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "base/command_line.h"
+#include "base/small_file.h"
+#include "base/toml_config.h"
+#include "base/trust/key_file.h"
+#include "tools/key/log_check.h"
+#include "tools/key/site_book.h"
+#include "tools/key/site_files.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace trust = ols::trust;
+
+constexpr int kExitNotVerified = 1;
+constexpr std::size_t kLargestFile = 20'000'000;
+
+struct Words {
+  std::string site, name, role = "station", root = "root.key", list = "trust.toml", key, public_key;
+  std::string log, lists, root_public;
+};
+
+ols::key::SiteFiles files_of(const Words& words) { return {words.root, words.list}; }
+
+void say_list(const Words& words, const trust::TrustList& list) {
+  std::printf("%s: list %lld\n", words.list.c_str(), static_cast<long long>(list.number));
+  if (fs::file_size(words.list) <= trust::kLargestList) return;
+  std::fprintf(stderr, "ols-key: the list is too large to be told on the bus: copy it to %s\n",
+               "/etc/ols/trust.toml of every host");
+}
+
+trust::PublicKey public_from(const std::string& hex, const char* what) {
+  const auto key = trust::from_hex<32>(hex);
+  if (!key) throw std::invalid_argument(std::string(what) + ": must be 64 hexadecimal digits");
+  return *key;
+}
+
+void site_new(const Words& words) {
+  const trust::TrustList list = ols::key::make_site(files_of(words), words.site);
+  say_list(words, list);
+  std::printf("%s: the root of %s, public key %s\n  %s\n", words.root.c_str(), words.site.c_str(),
+              trust::to_hex(list.root).c_str(), trust::spoken(list.root).c_str());
+}
+
+// What a member needs to know of its site, for a key that is made elsewhere.
+void invite(const Words& words) {
+  const auto invitation = ols::key::invitation_of(trust::read_root_key(words.root));
+  std::printf("ols-key make NAME --invitation %s\n", ols::key::to_text(invitation).c_str());
+}
+
+std::string key_path(const Words& words) {
+  return words.key.empty() ? words.name + ".key" : words.key;
+}
+
+void say_key(const Words& words) {
+  std::printf("%s: the private key of %s\n", key_path(words).c_str(), words.name.c_str());
+}
+
+// On the member's own host: the key never leaves it.
+void make(const Words& words, const std::string& invitation) {
+  ols::key::Invitation known;
+  try {
+    known = ols::key::invitation_from(invitation);
+  } catch (const std::invalid_argument& problem) {
+    throw std::invalid_argument("--invitation: " + std::string(problem.what()));
+  }
+  const trust::PublicKey key = ols::key::make_member_key(key_path(words), words.name, known);
+  say_key(words);
+  std::printf(
+      "enrol it where the root is, and compare the six words:\n"
+      "  ols-key enrol %s --public %s\n  %s\n",
+      words.name.c_str(), trust::to_hex(key).c_str(), trust::spoken(key).c_str());
+}
+
+void enrol(const Words& words) {
+  trust::Member member{words.name, *trust::role_from(words.role)};
+  trust::TrustList list;
+  if (!words.public_key.empty()) {
+    member.key = public_from(words.public_key, "--public");
+    list = ols::key::enrol_in(files_of(words), member);
+  } else {
+    list = ols::key::enrol_with_key(files_of(words), member, key_path(words));
+    say_key(words);
+  }
+  say_list(words, list);
+  std::printf("%s, %s\n  %s\n", words.name.c_str(), words.role.c_str(),
+              trust::spoken(list.find(words.name)->key).c_str());
+}
+
+void revoke(const Words& words) {
+  say_list(words, ols::key::revoke_in(files_of(words), words.name));
+}
+
+void list(const Words& words) {
+  const std::string text = ols::read_small_file(words.list, kLargestFile);
+  const trust::TrustList list =
+      words.root_public.empty()
+          ? trust::read_list(text, words.list)
+          : trust::read_list(text, words.list, public_from(words.root_public, "--root-public"));
+  std::fputs(ols::key::describe(list).c_str(), stdout);
+}
+
+std::map<std::int64_t, trust::TrustList> lists_in(const fs::path& folder, const Words& words) {
+  std::map<std::int64_t, trust::TrustList> lists;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("trust") || entry.path().extension() != ".toml") continue;
+    const std::string text = ols::read_small_file(entry.path().string(), kLargestFile);
+    const auto root = words.root_public.empty() ? trust::read_list(text, name).root
+                                                : public_from(words.root_public, "--root-public");
+    trust::TrustList list = trust::read_list(text, name, root);
+    if (!lists.empty() && lists.begin()->second.root != list.root) {
+      throw std::invalid_argument(name + ": is of another site than the other lists in " +
+                                  folder.string() + "; say --root-public");
+    }
+    lists[list.number] = std::move(list);
+  }
+  if (lists.empty()) throw std::invalid_argument(folder.string() + ": no trust-*.toml in it");
+  return lists;
+}
+
+struct CloseLog {
+  void operator()(lcm_eventlog_t* log) const { lcm_eventlog_destroy(log); }
+};
+struct FreeEvent {
+  void operator()(lcm_eventlog_event_t* event) const { lcm_eventlog_free_event(event); }
+};
+
+int verify(const Words& words) {
+  const fs::path folder =
+      words.lists.empty() ? fs::absolute(words.log).parent_path() : fs::path(words.lists);
+  ols::key::LogCheck check(lists_in(folder, words));
+  errno = 0;
+  const std::unique_ptr<lcm_eventlog_t, CloseLog> log(lcm_eventlog_create(words.log.c_str(), "r"));
+  if (!log) throw std::system_error(errno, std::generic_category(), words.log);
+  while (const std::unique_ptr<lcm_eventlog_event_t, FreeEvent> event{
+      lcm_eventlog_read_next_event(log.get())}) {
+    check.add(
+        {event->channel, static_cast<std::size_t>(event->channellen)},
+        {static_cast<const std::uint8_t*>(event->data), static_cast<std::size_t>(event->datalen)},
+        event->timestamp);
+  }
+  std::fputs(check.text().c_str(), stdout);
+  if (words.root_public.empty()) {
+    std::printf("verified against the root that the lists name; --root-public KEY proves which\n");
+  }
+  return check.bad() == 0 ? 0 : kExitNotVerified;
+}
+
+void add_root_and_list(CLI::App& command, Words& words) {
+  command.add_option("--root", words.root, "File of the site's root key")->capture_default_str();
+  command.add_option("--list", words.list, "File of the trust list")->capture_default_str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"The keys and the trust list of a site (docs/security.md)"};
+  app.set_version_flag("--version", OLS_VERSION);
+  Words words;
+  std::string invitation;
+  app.require_subcommand(1);
+  auto* site = app.add_subcommand("site-new", "Make a site: its root key, its secret, its list");
+  site->add_option("site", words.site, "Name of the site")->required();
+  add_root_and_list(*site, words);
+  auto* invited = app.add_subcommand("invite", "Say what a member needs to make its own key");
+  invited->add_option("--root", words.root, "File of the site's root key")->capture_default_str();
+  auto* made = app.add_subcommand("make", "Make a member's key on its own host");
+  made->add_option("name", words.name, "Name of the member; of a station: its id")->required();
+  made->add_option("--invitation", invitation, "What ols-key invite says")->required();
+  made->add_option("--key", words.key, "File to write; else NAME.key");
+  auto* enrolled = app.add_subcommand("enrol", "Enter a member into the list; make its key too");
+  enrolled->add_option("name", words.name, "Name of the member; of a station: its id")->required();
+  enrolled->add_option("--role", words.role, "station, fusion, operator, simulator, cue, listener")
+      ->check(CLI::IsMember({"station", "fusion", "operator", "simulator", "cue", "listener"}))
+      ->capture_default_str();
+  auto* by_hex = enrolled->add_option("--public", words.public_key,
+                                      "Public key that ols-key make has printed");
+  enrolled->add_option("--key", words.key, "File for the new private key; else NAME.key")
+      ->excludes(by_hex);
+  add_root_and_list(*enrolled, words);
+  auto* revoked = app.add_subcommand("revoke", "Take a member's key out of use");
+  revoked->add_option("name", words.name, "Name of the member")->required();
+  add_root_and_list(*revoked, words);
+  auto* listed = app.add_subcommand("list", "Show the list");
+  listed->add_option("--list", words.list, "File of the trust list")->capture_default_str();
+  listed->add_option("--root-public", words.root_public, "The root's public key, to be sure");
+  auto* verified = app.add_subcommand("verify", "Verify every message of a recording");
+  verified->add_option("log", words.log, "Log of ols-logger or lcm-logger")->required();
+  verified->add_option("--lists", words.lists, "Folder of trust-*.toml; else the log's own");
+  verified->add_option("--root-public", words.root_public, "The root's public key, to be sure");
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-key")) return *status;
+  try {
+    int status = 0;
+    if (*site) site_new(words);
+    if (*invited) invite(words);
+    if (*made) make(words, invitation);
+    if (*enrolled) enrol(words);
+    if (*revoked) revoke(words);
+    if (*listed) list(words);
+    if (*verified) status = verify(words);
+    ols::flush_output();
+    return status;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ols-key: %s\n", error.what());
+    return ols::kExitBadInput;
+  }
+}

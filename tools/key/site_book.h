@@ -1,0 +1,23 @@
+// The changes that the holder of a site's root makes to its trust list. Pure.
+#pragma once
+
+#include <string>
+
+#include "base/trust/trust_list.h"
+
+namespace ols::key {
+
+// Number 1, without members. Throws std::invalid_argument for a bad name.
+trust::TrustList new_list(const std::string& site, const trust::PublicKey& root);
+
+// Under the next number. A member that has a key gets the new one, and the old one is revoked.
+// Throws std::invalid_argument if that name has another role, or the key is known.
+trust::TrustList enrol(const trust::TrustList& list, const trust::Member& member);
+
+// Under the next number. Throws std::invalid_argument if there is no such member.
+trust::TrustList revoke(const trust::TrustList& list, const std::string& name);
+
+// A table for a person.
+std::string describe(const trust::TrustList& list);
+
+}  // namespace ols::key

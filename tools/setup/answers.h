@@ -1,0 +1,51 @@
+// What ols-setup is told of a host: a file, or what a person has typed.
+//
+//   role = "station"                # or "centre"
+//   interface = "eth0"              # that leads to the other hosts; left out: the bus stays on
+//   this host invitation = "…"                # a station's: what ols-setup says at the centre
+//   neighbours = ["10.0.0.1"]       # other hosts of the site, for the time without GNSS
+//   serial = ["/dev/ttyUSB0"]       # where to look for devices; left out: all serial adapters
+//   [station]                       # keys of its configuration file (docs/configuration.md)
+//   id = "alfa"
+//   [station.pose]
+//   …
+//
+//   role = "centre"
+//   site = "airfield"
+//   root = "/media/stick/root.key"  # the site's root key; made there if there is none
+//   [fusion]                        # [logger], [exporter], [console] likewise
+//
+// Pure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/key/invitation.h"
+#include "tools/setup/flat_toml.h"
+
+namespace ols::setup {
+
+struct Answers {
+  bool is_station = true;
+  std::string interface {};  // empty: lo
+  std::vector<std::string> serial{}, neighbours{};
+  std::string gnss{};            // a receiver that gpsd is to read: its device
+  std::string station{};         // id
+  key::Invitation invitation{};  // of a station
+  std::string site{}, root{};    // of the centre
+  Values values{};               // all: "station.pose.heading_deg"
+};
+
+// Camera and PTU may be missing: they can be found. Throws ConfigError: `name`, line, key.
+Answers read_answers(const std::string& text, const std::string& name);
+
+// The text of a program's configuration file by the answers of this section, with the trust mode
+// `require`. Throws ConfigError naming `name` if something is still missing.
+std::string station_file(const Values& station, const std::string& name);
+std::string fusion_file(const Values& fusion, const std::string& name);
+std::string logger_file(const Values& logger, const std::string& name);
+std::string exporter_file(const Values& exporter, const std::string& name);
+std::string console_file(const Values& console, const std::string& name);
+
+}  // namespace ols::setup

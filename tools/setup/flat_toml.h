@@ -1,0 +1,24 @@
+// A TOML text as its values by full key. Pure.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ols::setup {
+
+// ("pose.latitude_deg", "49.2"): the value as TOML writes it.
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+// In the order of their keys. Throws std::runtime_error for a text that is no TOML.
+Values flat(const std::string& toml);
+// Of one table: what begins with `table` and a dot, without that.
+Values of_table(const Values& values, const std::string& table);
+// Null if it is not there.
+const std::string* find(const Values& values, const std::string& key);
+// One "key = value" a line.
+std::string as_toml(const Values& values);
+// A text as a TOML string.
+std::string quoted(const std::string& text);
+
+}  // namespace ols::setup

@@ -1,0 +1,91 @@
+#include "tools/setup/host.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "base/atomic_file.h"
+#include "base/small_file.h"
+#include "tools/setup/kept_file.h"
+
+namespace ols::setup {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLargestFile = 1'000'000;
+constexpr const char* kRecords = "/var/lib/ols-setup";  // what was written last
+
+std::optional<std::string> text_if_any(const std::string& path) {
+  if (!fs::exists(path)) return std::nullopt;
+  return read_small_file(path, kLargestFile);
+}
+
+void replace(const std::string& path, const std::string& text) {
+  AtomicFile file(path);
+  file.stream() << text;
+  file.commit();
+}
+
+std::string record_name(std::string path) {
+  std::ranges::replace(path, '/', '-');
+  return path.substr(1);
+}
+
+}  // namespace
+
+std::string Host::folder(const std::string& path, unsigned mode) const {
+  const std::string there = root_ + path;
+  if (fs::exists(there)) return there;
+  fs::create_directories(there);
+  fs::permissions(there, static_cast<fs::perms>(mode));
+  return there;
+}
+
+void Host::write(const std::vector<PlannedFile>& files) const {
+  const std::string records = folder(kRecords, 0700);
+  for (const PlannedFile& file : files) {
+    const std::string there = path(file.path);
+    const std::string record = records + "/" + record_name(file.path);
+    const auto present = text_if_any(there);
+    auto last = text_if_any(record);
+    const bool unchosen =
+        present && !file.unchosen.empty() && present->find(file.unchosen) != std::string::npos;
+    if (!last && unchosen) last = present;
+    const Rewrite now =
+        file.is_toml ? rewrite(present, last, file.text) : rewrite_whole(present, last, file.text);
+    if (now.text) {
+      folder(fs::path(file.path).parent_path(), 0755);
+      replace(there, *now.text);
+    }
+    // Only of what is in place by now: else the next run would find nothing to change.
+    if (now.text || last) replace(record, file.text);
+    std::printf("%s: %s\n", there.c_str(), now.note.c_str());
+  }
+}
+
+int run(const std::vector<std::string>& command) {
+  std::fflush(stdout);
+  std::vector<char*> words;
+  for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  pid_t process = 0;
+  if (::posix_spawnp(&process, words.front(), nullptr, nullptr, words.data(), environ) != 0) {
+    return -1;
+  }
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0) {
+    if (errno != EINTR) return -1;
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+void read_anew() { run({"systemctl", "try-restart", "chrony.service", "gpsd.service"}); }
+
+}  // namespace ols::setup

@@ -1,0 +1,34 @@
+// The host that ols-setup changes: files below a root, and commands.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/setup/plan.h"
+
+namespace ols::setup {
+
+class Host {
+ public:
+  // `root`: "" for this host; else a folder that holds another's files, where nothing is started.
+  explicit Host(std::string root) : root_(std::move(root)) {}
+
+  // A person's changes stay (kept_file.h). Says what became of each file. Throws std::system_error,
+  // std::runtime_error.
+  void write(const std::vector<PlannedFile>& files) const;
+  // Made with what is above it. `mode`: as of chmod.
+  std::string folder(const std::string& path, unsigned mode) const;
+  std::string path(const std::string& path) const { return root_ + path; }
+  bool is_this_host() const { return root_.empty(); }
+
+ private:
+  std::string root_;
+};
+
+// Lets the time services read what was written: they read their files at their start only.
+void read_anew();
+
+// Runs a program with this one's standard streams and returns its status; -1 if it cannot be run.
+int run(const std::vector<std::string>& command);
+
+}  // namespace ols::setup

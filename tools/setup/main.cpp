@@ -1,0 +1,180 @@
+// ols-setup: makes a fresh computer a station or the centre of a site.
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/command_line.h"
+#include "base/small_file.h"
+#include "base/toml_config.h"
+#include "tools/doctor/probe.h"
+#include "tools/setup/answers.h"
+#include "tools/setup/backup.h"
+#include "tools/setup/dialogue.h"
+#include "tools/setup/find_devices.h"
+#include "tools/setup/host.h"
+#include "tools/setup/membership.h"
+#include "tools/setup/plan.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace setup = ols::setup;
+
+constexpr std::size_t kLargestAnswers = 1'000'000;
+constexpr const char* kTyped = "/var/lib/ols-setup/answers.toml";
+
+struct Words {
+  std::string answers, root, backup, restore;
+  bool no_start = false;
+};
+
+// The only one; a person chooses among several.
+std::string one_of(const std::vector<std::string>& found, const std::string& what,
+                   const std::string& key, bool asks) {
+  if (found.empty()) throw std::runtime_error("no " + what + " answers: say " + key);
+  if (found.size() == 1) return found.front();
+  if (asks) return setup::ask_which(std::cin, std::cout, "Which " + what + "?", found);
+  std::string all;
+  for (const std::string& one : found) all += "\n  " + one;
+  throw std::runtime_error("several times " + what + ": say which one by " + key + all);
+}
+
+// A running station holds its devices: those of the last run are taken as they are.
+void take_known_devices(const setup::Host& host, setup::Answers& answers) {
+  const std::string path = host.path("/etc/ols/" + answers.station + ".toml");
+  if (!fs::exists(path)) return;
+  const setup::Values known = setup::flat(ols::read_small_file(path, kLargestAnswers));
+  for (const char* key : {"camera.device", "ptu.device"}) {
+    const std::string answer = std::string("station.") + key;
+    const std::string* device = setup::find(known, key);
+    if (device != nullptr && setup::find(answers.values, answer) == nullptr)
+      answers.values.emplace_back(answer, *device);
+  }
+}
+
+void find_devices(setup::Answers& answers, bool asks) {
+  if (setup::find(answers.values, "station.camera.device") == nullptr) {
+    std::vector<std::string> cameras;
+    for (const auto& camera : ols::doctor::cameras_that_answer()) cameras.push_back(camera.id);
+    const std::string camera = one_of(cameras, "camera", "station.camera.device", asks);
+    setup::add(answers.values, "station.camera.device", camera);
+    std::printf("camera: %s\n", camera.c_str());
+  }
+  std::vector<std::string> lines = answers.serial.empty() ? setup::serial_lines() : answers.serial;
+  if (setup::find(answers.values, "station.ptu.device") == nullptr) {
+    std::vector<std::string> units;
+    for (const auto& unit : setup::find_ptus(lines)) {
+      units.push_back(unit.device);
+      std::printf("PTU: %s on %s at %d baud\n", unit.version.c_str(), unit.device.c_str(),
+                  unit.baud);
+    }
+    setup::add(answers.values, "station.ptu.device",
+               one_of(units, "PTU", "station.ptu.device", asks));
+  }
+  std::erase_if(lines, [&](const std::string& line) {
+    return setup::quoted(line) == *setup::find(answers.values, "station.ptu.device");
+  });
+  if (!answers.gnss.empty()) return;
+  const auto receivers = setup::find_receivers(lines);
+  if (receivers.empty()) return;
+  answers.gnss = one_of(receivers, "GNSS receiver", "gnss", asks);
+  std::printf("GNSS receiver: %s\n", answers.gnss.c_str());
+}
+
+// Until what was typed can be used.
+setup::Answers ask_person(const setup::Host& host) {
+  const std::string kept = host.path(kTyped);
+  std::string text = fs::exists(kept) ? ols::read_small_file(kept, kLargestAnswers) : "";
+  for (;;) {
+    text = setup::ask_all(std::cin, std::cout, setup::flat(text), setup::not_fitting);
+    try {
+      const setup::Answers answers = setup::read_answers(text, "answers");
+      host.folder("/var/lib/ols-setup", 0700);
+      ols::AtomicFile file(kept);
+      file.stream() << text;
+      file.commit();
+      return answers;
+    } catch (const ols::ConfigError& error) {
+      std::printf("\n%s\n\n", error.what());
+    }
+  }
+}
+
+void start(const std::vector<std::string>& units) {
+  std::vector<std::string> enable{"systemctl", "enable", "--now"};
+  enable.insert(enable.end(), units.begin(), units.end());
+  if (setup::run(enable) != 0) std::fprintf(stderr, "ols-setup: not all services have started\n");
+  setup::read_anew();
+}
+
+void set_up(const Words& words, const setup::Host& host) {
+  const bool asks = words.answers.empty();
+  setup::Answers answers =
+      asks ? ask_person(host)
+           : setup::read_answers(ols::read_small_file(words.answers, kLargestAnswers),
+                                 words.answers);
+  setup::Plan plan;
+  if (answers.is_station) {
+    take_known_devices(host, answers);
+    find_devices(answers, asks);
+    plan = setup::plan_station(answers);
+    host.write(plan.files);
+    setup::join_site(host, answers.station, answers.invitation);
+  } else {
+    plan = setup::plan_centre(answers, {fs::exists(host.path("/usr/bin/ols-fusion")),
+                                        fs::exists(host.path("/usr/bin/ols-console"))});
+    host.write(plan.files);
+    setup::make_site(host, answers.site, answers.root);
+  }
+  if (!host.is_this_host() || words.no_start) {
+    std::printf("to be enabled:");
+    for (const std::string& unit : plan.units) std::printf(" %s", unit.c_str());
+    std::printf("\n");
+    return;
+  }
+  start(plan.units);
+  setup::run({"ols-doctor"});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Makes this computer a station or the centre of a site: finds its devices, writes its "
+      "configuration and keys, starts its services. Asks what it cannot find, or reads it from a "
+      "file. Run it again at any time: what a person has changed in /etc/ols is kept"};
+  app.set_version_flag("--version", OLS_VERSION);
+  Words words;
+  app.add_option("--answers", words.answers, "TOML file with the answers (docs/setup.md)");
+  app.add_option("--root", words.root,
+                 "Folder that holds another computer's files; nothing is started");
+  app.add_flag("--no-start", words.no_start, "Write everything, start nothing");
+  auto* backup = app.add_option("--backup", words.backup,
+                                "Write configuration, keys and calibrations to this file instead");
+  app.add_option("--restore", words.restore, "Restore such a file instead, and start the services")
+      ->excludes(backup);
+  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-setup")) return *status;
+  try {
+    if (words.root.empty() && ::geteuid() != 0) throw std::runtime_error("must run as root");
+    const setup::Host host(words.root);
+    if (!words.backup.empty()) {
+      setup::back_up(host, words.backup);
+    } else if (!words.restore.empty()) {
+      setup::restore(host, words.restore);
+    } else {
+      set_up(words, host);
+    }
+    ols::flush_output();
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ols-setup: %s\n", error.what());
+    return ols::kExitBadInput;
+  }
+}

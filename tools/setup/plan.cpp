@@ -1,0 +1,66 @@
+#include "tools/setup/plan.h"
+
+#include "tools/setup/site_time.h"
+
+namespace ols::setup {
+namespace {
+
+PlannedFile bus_file(const Answers& answers) {
+  return {"/etc/ols/bus.env",
+          "# The interface that leads to the other hosts of the site.\nOLS_BUS_INTERFACE=" +
+              (answers.interface.empty() ? "lo" : answers.interface) + "\n",
+          false};
+}
+
+// A fixed device: gpsd's search for one may not find the fix. -n: read it before anyone asks.
+PlannedFile gpsd_file(const std::string& device) {
+  return {"/etc/default/gpsd",
+          "DEVICES=\"" + device + "\"\nGPSD_OPTIONS=\"-n\"\nUSBAUTO=\"false\"\n", false,
+          "DEVICES=\"\"\n"};
+}
+
+PlannedFile time_file(const Answers& answers) {
+  return {"/etc/chrony/conf.d/ols-site.conf", chrony_file(answers.neighbours), false};
+}
+
+}  // namespace
+
+void add(Values& values, const std::string& key, const std::string& text) {
+  if (find(values, key) == nullptr) values.emplace_back(key, quoted(text));
+}
+
+Plan plan_station(const Answers& answers) {
+  Plan plan;
+  const std::string path = "/etc/ols/" + answers.station + ".toml";
+  plan.files.push_back({path, station_file(of_table(answers.values, "station"), path)});
+  plan.files.push_back(bus_file(answers));
+  plan.files.push_back(time_file(answers));
+  plan.units = {"ols-bus.service", "ols-time.service"};
+  if (!answers.gnss.empty()) {
+    plan.files.push_back(gpsd_file(answers.gnss));
+    plan.units.emplace_back("gpsd.service");
+  }
+  plan.units.push_back("ols-station@" + answers.station + ".service");
+  return plan;
+}
+
+Plan plan_centre(const Answers& answers, Installed installed) {
+  Plan plan;
+  plan.files.push_back(bus_file(answers));
+  plan.files.push_back(time_file(answers));
+  plan.units = {"ols-bus.service", "ols-time.service"};
+  const auto file = [&](const std::string& name, auto text_of) {
+    const std::string path = "/etc/ols/" + name + ".toml";
+    plan.files.push_back({path, text_of(of_table(answers.values, name), path)});
+    plan.units.push_back("ols-" + name + ".service");
+  };
+  if (installed.fusion) {
+    file("fusion", fusion_file);
+    file("logger", logger_file);
+    file("exporter", exporter_file);
+  }
+  if (installed.console) file("console", console_file);
+  return plan;
+}
+
+}  // namespace ols::setup
