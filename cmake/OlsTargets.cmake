@@ -24,8 +24,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   target_compile_options(ols_options INTERFACE -Wno-unknown-warning-option)
 endif()
 if(CMAKE_UNITY_BUILD)
-  # A local name may hide one of a source that happens to be compiled with it. The release build, of
-  # each source by itself, is the one that checks.
+  # A local name may hide one of a source that happens to be compiled with it. The debug preset and
+  # the packages compile each source by itself: they are the ones that check.
   target_compile_options(ols_options INTERFACE -Wno-shadow)
 endif()
 if(OLS_SANITIZE)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "calibration/pictures/landmark_snap.h"
 #include "calibration/procedure/learned_heading.h"
@@ -11,9 +12,10 @@
 namespace ols::calibration {
 namespace {
 
-constexpr std::int64_t kStale_us = 3'000'000;  // without a position it may be anywhere
-constexpr double kSnap_px = 8.0;               // around where the last sighting puts it
-constexpr double kFloor_px = 0.1;              // a drone is no point
+// Without a position for so long it may be anywhere.
+constexpr std::int64_t kStale_us = 3'000'000;
+constexpr double kSnap_px = 8.0;   // around where the last sighting puts it
+constexpr double kFloor_px = 0.1;  // a drone is no point
 
 std::string where(double azimuth_deg, double elevation_deg) {
   char text[64];
@@ -83,9 +85,15 @@ void DroneStage::ask(const std::string& trouble) {
 
 std::optional<Order> DroneStage::next() {
   if (done_) return std::nullopt;
+  if (picture_) judge();
+  if (done_) return std::nullopt;
   if (dialog_.question()) return dialog_.question();
   Order order;
   order.step = options_.name + ", point " + std::to_string(observations_.size() + 1);
+  if (picture_) {
+    order.kind = Order::Kind::kWait;
+    return order;
+  }
   if (shot_) {
     order.shot = *shot_;
     return order;
@@ -96,8 +104,7 @@ std::optional<Order> DroneStage::next() {
   return order;
 }
 
-void DroneStage::sight() {
-  const std::int64_t now_us = now_();
+void DroneStage::sight(std::int64_t now_us) {
   const Trajectory trajectory = positions_();
   const auto place = position_at(trajectory, now_us, kStale_us);
   if (!place) {
@@ -118,10 +125,18 @@ void DroneStage::sight() {
 
 void DroneStage::taken(const Taken& picture) {
   shot_.reset();
-  const auto place = position_at(positions_(), picture.utime_us, kStale_us);
-  const auto seen = place ? view(model_.geometry, corrected_angles(model_, picture.reading), *place)
-                          : std::nullopt;
-  if (!seen) return ask("It has left the picture, or its positions have ended");
+  picture_ = picture;
+}
+
+// A position comes later than the picture of its instant, and only one beyond it makes it known.
+void DroneStage::judge() {
+  const Trajectory trajectory = positions_();
+  const auto place = position_at(trajectory, picture_->utime_us, 0);
+  if (!place && now_() < picture_->utime_us + kStale_us) return;
+  const Taken picture = *std::exchange(picture_, std::nullopt);
+  if (!place) return ask("Its positions have ended before the picture");
+  const auto seen = view(model_.geometry, corrected_angles(model_, picture.reading), *place);
+  if (!seen) return ask("It has left the picture");
   if (beside_px_) {
     const Snap snap = snap_to_structure(picture.gray, seen->pixel + *beside_px_, kSnap_px);
     if (snap) return confirm(picture, snap.centre_px, std::max(kFloor_px, snap.sd_px));
@@ -131,7 +146,7 @@ void DroneStage::taken(const Taken& picture) {
 
 void DroneStage::confirm(const Taken& picture, const Eigen::Vector2d& pixel, double sd_px) {
   observations_.push_back(observation_of(Kind::kDrone, picture, pixel, sd_px, options_.name));
-  const auto place = position_at(positions_(), picture.utime_us, kStale_us);
+  const auto place = position_at(positions_(), picture.utime_us, 0);
   if (place && !beside_px_) {
     double& heading = model_.geometry.chain.heading_rad;
     heading = learned_heading(model_, picture.reading, pixel, *place).value_or(heading);
@@ -152,7 +167,7 @@ void DroneStage::not_taken(const std::string& why) {
 
 void DroneStage::answered(const Answer& answer) {
   if (!dialog_.question()) {
-    if (answer.choice == "sight") return sight();
+    if (answer.choice == "sight") return sight(answer.utime_us);
     if (answer.choice != "done") return;
     if (observations_.empty()) remark(options_.name + ": not sighted");
     done_ = true;
@@ -164,7 +179,7 @@ void DroneStage::answered(const Answer& answer) {
     case PointingDialog::Event::kTurn:
       turned_ = {turned_.pan_rad + answer.turn.pan_rad, turned_.tilt_rad + answer.turn.tilt_rad};
       dialog_.end();
-      return sight();
+      return sight(answer.utime_us);
     case PointingDialog::Event::kSkipped:
       dialog_.end();
       turned_ = {};

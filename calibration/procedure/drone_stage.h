@@ -1,5 +1,6 @@
 // A drone with RTK: it hovers at one point after the other, a person says when, the unit looks
-// there and the drone is found in the picture; where it flies next is what helps most. Pure.
+// there and, once its positions reach beyond the picture, the drone is found in it; where it flies
+// next is what helps most. Pure.
 #pragma once
 
 #include <functional>
@@ -36,7 +37,9 @@ class DroneStage : public Stage {
 
  private:
   void ask(const std::string& trouble);
-  void sight();
+  // `now_us`: of the answer, also when the procedure is gone on with later.
+  void sight(std::int64_t now_us);
+  void judge();
   void confirm(const Taken& picture, const Eigen::Vector2d& pixel, double sd_px);
   std::string advice() const;
   std::vector<Place> places() const;
@@ -48,9 +51,10 @@ class DroneStage : public Stage {
   MayGo may_go_;
   Adviser adviser_;
   bool done_ = false;
-  Question question_;         // where to fly
-  std::optional<Shot> shot_;  // to be taken
-  PanTilt turned_;            // by the person, of this point
+  Question question_;             // where to fly
+  std::optional<Shot> shot_;      // to be taken
+  std::optional<Taken> picture_;  // until the positions reach beyond it
+  PanTilt turned_;                // by the person, of this point
   PointingDialog dialog_;
   // The last sighting beside where the chain had it; nothing before the first.
   std::optional<Eigen::Vector2d> beside_px_;

@@ -1,5 +1,6 @@
-// A guided procedure as a sequence of orders: drive there and take a picture, ask a person. Whoever
-// carries an order out reports what came of it; clock, wires and files are his. Pure.
+// A guided procedure as a sequence of orders: drive there and take a picture, ask a person, or ask
+// the stage again in a moment, because what it needs is still to come. Whoever carries an order out
+// reports what came of it; clock, wires and files are his. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +33,7 @@ struct Question {
 };
 
 struct Order {
-  enum class Kind { kShoot, kAsk };
+  enum class Kind { kShoot, kAsk, kWait };
   Kind kind = Kind::kShoot;
   std::string step;  // for a person
   Shot shot;
@@ -52,6 +53,7 @@ struct Answer {
   std::string choice;                    // one of the question's
   std::optional<Eigen::Vector2d> pixel;  // of "point"
   PanTilt turn;                          // of "turn" [rad]
+  std::int64_t utime_us = 0;             // when it was given
 };
 
 class Stage {

@@ -28,6 +28,7 @@ JournalEntry entry_of(const Json& line) {
     }
     const auto& turn = line.at("turn_rad");
     entry.answer.turn = {turn.at(0).get<double>(), turn.at(1).get<double>()};
+    entry.answer.utime_us = line.at("utime_us").get<std::int64_t>();
   }
   return entry;
 }
@@ -54,6 +55,7 @@ std::string journal_line(const JournalEntry& entry) {
         line["pixel_px"] = {entry.answer.pixel->x(), entry.answer.pixel->y()};
       }
       line["turn_rad"] = {entry.answer.turn.pan_rad, entry.answer.turn.tilt_rad};
+      line["utime_us"] = entry.answer.utime_us;
       break;
   }
   return line.dump();

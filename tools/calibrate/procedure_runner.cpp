@@ -19,6 +19,7 @@ constexpr double kPublish_s = 1.0;
 constexpr double kPatience_s = 15.0;  // while nothing comes nearer
 constexpr double kAskAgain_s = 3.0;   // a part was lost
 constexpr double kSilent_s = 6.0;     // without a status the station is gone
+constexpr double kWait_s = 0.1;       // before a stage that waits is asked again
 constexpr double kLive_s = 0.7;       // from one picture of a live question to the next
 
 // Into one datagram.
@@ -80,6 +81,8 @@ Outcome ProcedureRunner::run(FieldProcedure& procedure, const Adjust& adjust) {
     publish();
     if (!order) {
       procedure.adjusted(adjust());
+    } else if (order->kind == Order::Kind::kWait) {
+      wait();
     } else if (replays) {
       replay(procedure, *order);
     } else if (order->kind == Order::Kind::kShoot) {
@@ -186,6 +189,11 @@ void ProcedureRunner::shoot(FieldProcedure& procedure, const Order& order) {
   procedure.taken(taken);
 }
 
+void ProcedureRunner::wait() {
+  const double until_s = clock_monotonic_s() + kWait_s;
+  while (!aborted_ && clock_monotonic_s() < until_s) turn();
+}
+
 void ProcedureRunner::miss(FieldProcedure& procedure, const Order& order, const std::string& why) {
   if (aborted_) return;
   if (session_) session_->note({JournalEntry::Kind::kNotTaken, order.step, 0, why, {}});
@@ -235,6 +243,7 @@ void ProcedureRunner::ask(FieldProcedure& procedure, const Order& order) {
       answer = Answer{"abort", {}, {}};
     }
     if (answer) {
+      answer->utime_us = clock_utime_us();
       aborted_ = answer->choice == "abort";
       if (session_ && !aborted_ && answer->choice != "accept" && answer->choice != "keep") {
         session_->note({JournalEntry::Kind::kAnswered, order.step, 0, "", *answer});

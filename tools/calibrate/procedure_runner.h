@@ -36,6 +36,7 @@ class ProcedureRunner {
   bool still_replays(FieldProcedure& procedure);
   void replay(FieldProcedure& procedure, const Order& order);
   void shoot(FieldProcedure& procedure, const Order& order);
+  void wait();
   void miss(FieldProcedure& procedure, const Order& order, const std::string& why);
   // From the wanted side. Empty: aborted, or it did not come.
   std::optional<FrameFile> picture_of(FieldProcedure& procedure, const Shot& shot);

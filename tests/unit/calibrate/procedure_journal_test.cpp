@@ -11,7 +11,7 @@ TEST(ProcedureJournal, WhatIsWrittenIsRead) {
   JournalEntry taken{Event::kTaken, "sweep, picture 3 of 60", 7, "", {}};
   JournalEntry missed{Event::kNotTaken, "mast: driving there", 0, "a \"reason\"\nof two lines", {}};
   JournalEntry pointed{Event::kAnswered, "mast: where is it?", 0, "", {}};
-  pointed.answer = {"point", Eigen::Vector2d(640.25, 1.0 / 3.0), {0.1, -0.2}};
+  pointed.answer = {"point", Eigen::Vector2d(640.25, 1.0 / 3.0), {0.1, -0.2}, 1790000000123456};
   JournalEntry plain{Event::kAnswered, "result", 0, "", {"redo", {}, {}}};
   const JournalEntry resumed{Event::kResumed, "", 0, "", {}};
   std::string text;
@@ -26,6 +26,7 @@ TEST(ProcedureJournal, WhatIsWrittenIsRead) {
   EXPECT_EQ(read[2].answer.choice, "point");
   EXPECT_EQ(*read[2].answer.pixel, *pointed.answer.pixel);
   EXPECT_EQ(read[2].answer.turn.tilt_rad, -0.2);
+  EXPECT_EQ(read[2].answer.utime_us, 1790000000123456);
   EXPECT_FALSE(read[3].answer.pixel);
   EXPECT_EQ(read[4].kind, Event::kResumed);
 }

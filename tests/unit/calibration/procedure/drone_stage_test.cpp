@@ -57,7 +57,7 @@ class DroneStageTest : public testing::Test {
   int sight(DroneStage& of) {
     int questions = 0;
     const std::size_t before = of.observations().size();
-    of.answered({"sight", {}, {}});
+    of.answered({"sight", {}, {}, now_us});
     while (of.observations().size() == before && questions < 8) {
       const auto order = of.next();
       if (order->kind == Order::Kind::kShoot) {
@@ -107,15 +107,15 @@ TEST_F(DroneStageTest, ThePersonPointsOnceAndTheUnitFindsItFromThenOn) {
 
 TEST_F(DroneStageTest, APositionThatIsOldOrMissingIsSaidAndNothingMoves) {
   DroneStage drone = stage(4);
-  drone.answered({"sight", {}, {}});
+  drone.answered({"sight", {}, {}, now_us});
   EXPECT_NE(drone.next()->question.text.find("No position"), std::string::npos);
   hover(40.0, 5.0);
   now_us += 12'000'000;
-  drone.answered({"sight", {}, {}});
+  drone.answered({"sight", {}, {}, now_us});
   ASSERT_EQ(drone.next()->kind, Order::Kind::kAsk);
   EXPECT_NE(drone.next()->question.text.find("12 s old"), std::string::npos);
   hover(40.0, 60.0);
-  drone.answered({"sight", {}, {}});
+  drone.answered({"sight", {}, {}, now_us});
   EXPECT_NE(drone.next()->question.text.find("cannot look there"), std::string::npos);
   drone.answered({"done", {}, {}});
   EXPECT_FALSE(drone.next());
@@ -127,7 +127,7 @@ TEST_F(DroneStageTest, WhereTheDroneIsNotThePersonIsAsked) {
   hover(40.0, 5.0);
   sight(drone);
   hover(90.0, 15.0);
-  drone.answered({"sight", {}, {}});
+  drone.answered({"sight", {}, {}, now_us});
   Taken empty = shoot(drone.next()->shot);
   empty.gray.setTo(170);
   drone.taken(empty);
@@ -137,6 +137,36 @@ TEST_F(DroneStageTest, WhereTheDroneIsNotThePersonIsAsked) {
   drone.answered({"skip", {}, {}});
   EXPECT_EQ(drone.observations().size(), 1U);
   EXPECT_NE(drone.next()->question.text.find("Skipped"), std::string::npos);
+}
+
+TEST_F(DroneStageTest, APictureWaitsForPositionsThatReachBeyondIt) {
+  DroneStage drone = stage(1);
+  hover(40.0, 5.0);
+  drone.answered({"sight", {}, {}, now_us});
+  const Taken picture = shoot(drone.next()->shot);
+  const Trajectory::Point later = flight.points.back();
+  ASSERT_GT(later.utime_us, picture.utime_us);
+  flight.points.pop_back();
+  drone.taken(picture);
+  EXPECT_EQ(drone.next()->kind, Order::Kind::kWait);
+  EXPECT_EQ(drone.next()->kind, Order::Kind::kWait);
+  flight.points.push_back(later);
+  EXPECT_EQ(drone.next()->kind, Order::Kind::kAsk);
+  EXPECT_NE(drone.next()->question.text.find("Point at drone"), std::string::npos);
+}
+
+TEST_F(DroneStageTest, APictureThatNoPositionReachesIsNone) {
+  DroneStage drone = stage(1);
+  hover(40.0, 5.0);
+  drone.answered({"sight", {}, {}, now_us});
+  const Taken picture = shoot(drone.next()->shot);
+  flight.points.pop_back();
+  drone.taken(picture);
+  EXPECT_EQ(drone.next()->kind, Order::Kind::kWait);
+  now_us += 4'000'000;
+  ASSERT_EQ(drone.next()->kind, Order::Kind::kAsk);
+  EXPECT_NE(drone.next()->question.text.find("positions have ended before"), std::string::npos);
+  EXPECT_TRUE(drone.observations().empty());
 }
 
 TEST_F(DroneStageTest, ItSaysWhereTheDroneHelpsMost) {
