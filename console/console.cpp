@@ -158,7 +158,7 @@ void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
   const std::string refusal =
       is_replay() ? kReplay : cues_.give(request.order, viewer.role, bus_trouble_);
   const std::string what = (allow ? "allows cue " : "forbids cue ") + cue;
-  if (refusal.empty()) site_.note({now.utime_us, "command", "", viewer.name, what, "done"});
+  if (refusal.empty()) site_.note({now.utime_us, "command", "", viewer.name, what, "sent"});
   answer(id, request.number, "", refusal);
 }
 

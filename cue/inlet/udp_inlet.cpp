@@ -10,6 +10,12 @@ namespace ols::cues {
 
 namespace ip = boost::asio::ip;
 
+namespace {
+
+constexpr std::chrono::seconds kOpenAgain{1}, kJoinAgain{10};
+
+}  // namespace
+
 UdpInlet::UdpInlet(boost::asio::io_context& context, Source source, InletSink sink)
     : source_(std::move(source)),
       sink_(std::move(sink)),
@@ -45,6 +51,24 @@ void UdpInlet::open() {
   opened();
   sink_.begins();
   listen();
+  join_again_when_silent();
+}
+
+// A group is left without a word when the network device goes by which it was joined.
+void UdpInlet::join_again_when_silent() {
+  if (!ip::make_address(source_.host).is_multicast()) return;
+  timer_.expires_after(kJoinAgain);
+  timer_.async_wait([this](const boost::system::error_code& bad) {
+    if (bad) return;
+    if (std::exchange(heard_, false)) return join_again_when_silent();
+    close();
+    open();
+  });
+}
+
+void UdpInlet::close() {
+  boost::system::error_code ignored;
+  static_cast<void>(socket_.close(ignored));
 }
 
 void UdpInlet::listen() {
@@ -52,16 +76,16 @@ void UdpInlet::listen() {
                         [this](const boost::system::error_code& bad, std::size_t bytes) {
                           if (bad == boost::asio::error::operation_aborted) return;
                           if (bad) return fail(bad.message());
+                          heard_ = true;
                           received(sink_, {buffer_.data(), bytes});
                           listen();
                         });
 }
 
 void UdpInlet::fail(const std::string& why) {
-  boost::system::error_code ignored;
-  static_cast<void>(socket_.close(ignored));
+  close();
   failed(why);
-  timer_.expires_after(std::chrono::seconds(1));
+  timer_.expires_after(kOpenAgain);
   timer_.async_wait([this](const boost::system::error_code& bad) {
     if (!bad) open();
   });

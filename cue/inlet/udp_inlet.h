@@ -1,4 +1,4 @@
-// Datagrams, to this host or to a group.
+// Datagrams, to this host or to a group. A group that is silent for ten seconds is joined anew.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -17,6 +17,8 @@ class UdpInlet : public Inlet {
  private:
   void open();
   void listen();
+  void join_again_when_silent();
+  void close();
   void fail(const std::string& why);
   boost::system::error_code bind();
 
@@ -25,6 +27,7 @@ class UdpInlet : public Inlet {
   boost::asio::ip::udp::socket socket_;
   boost::asio::steady_timer timer_;
   std::vector<char> buffer_;
+  bool heard_ = false;  // since it was looked at last
 };
 
 }  // namespace ols::cues

@@ -343,10 +343,13 @@ export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
 
 const KINDS = ["command", "alarm", "error", "site", "console"];
 
+// What was refused is a sentence of its own; of a word to the fusion only the sending is known.
+const inOrder = (outcome: string): outcome is "sent" | "done" => outcome === "sent" || outcome === "done";
+
 function EventRow({ event }: { event: SiteEvent }) {
   const kind = event.kind === "alarm_over" ? "alarm" : event.kind;
   return (
-    <tr class={`${event.kind} ${event.kind === "command" && event.outcome && event.outcome !== "done" ? "refused" : ""}`}>
+    <tr class={`${event.kind} ${event.kind === "command" && event.outcome && !inOrder(event.outcome) ? "refused" : ""}`}>
       <td>{utc(event.utime_us)}</td>
       <td>
         <span class={`kind ${kind}`}>{named("k", event.kind)}</span>
@@ -356,7 +359,7 @@ function EventRow({ event }: { event: SiteEvent }) {
         {event.who && <b>{event.who} </b>}
         {event.text}
         {event.times > 1 && <span class="times"> ×{event.times}</span>}
-        {event.kind === "command" && <span class="outcome"> → {event.outcome === "done" ? t("done") : event.outcome || "…"}</span>}
+        {event.kind === "command" && <span class="outcome"> → {inOrder(event.outcome) ? t(event.outcome) : event.outcome || "…"}</span>}
       </td>
     </tr>
   );

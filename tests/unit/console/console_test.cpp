@@ -330,7 +330,9 @@ TEST(Console, AnOperatorsWordOnACueGoesOutAndAViewersDoesNot) {
   const auto orders = console.take_cue_orders();
   ASSERT_EQ(orders.size(), 1U);
   EXPECT_EQ(orders[0].cue, "tak.a");
-  EXPECT_EQ(console.state({1.0, 5}).at("events")[0].at("text"), "allows cue tak.a");
+  const Json noted = console.state({1.0, 5}).at("events")[0];
+  EXPECT_EQ(noted.at("text"), "allows cue tak.a");
+  EXPECT_EQ(noted.at("outcome"), "sent") << "the fusion has not said anything yet";
   console.replay_is({{"name", "x"}}, true);
   console.take(operating, allow, {2.0, 6});
   EXPECT_TRUE(console.take_cue_orders().empty()) << "what was is not commanded";

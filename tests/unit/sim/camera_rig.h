@@ -61,7 +61,7 @@ struct Serve {
 inline std::unique_ptr<sim::CameraServer> serve(const Serve& how = {}) {
   sim::CameraServerConfig config;
   config.address = "127.0.0.1";
-  config.serial = "T1";
+  config.serial = std::string("T1");
   config.width_px = how.width_px;
   config.height_px = how.height_px;
   config.names = how.names;
