@@ -27,7 +27,7 @@ StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, St
     : settings_(settings),
       station_(station),
       turn_(turn),
-      handlers_{std::move(recorder), std::move(frame_wanted)},
+      given_{settings.gate, std::move(recorder), std::move(frame_wanted)},
       connector_(settings.lcm_url, open_trust(settings, boot_id)) {
   sender_.station = settings.id;
   sender_.boot_id = boot_id;
@@ -88,11 +88,11 @@ bool StationBus::take_stop(const BusMessage& message) {
   return is_stop;
 }
 
-// Of constants only: it runs in the bus's thread.
+// In the bus's thread.
 bool StationBus::is_leased(const ols_msg::ptu_command_t& stop, std::int64_t utime_us) const {
   const double age_s = static_cast<double>(utime_us - stop.utime) * 1e-6;
-  return stop.lease_s > 0.0 && stop.lease_s <= settings_.gate.lease_max_s &&
-         std::abs(age_s) <= stop.lease_s + settings_.gate.clock_margin_s;
+  return stop.lease_s > 0.0 && stop.lease_s <= given_.gate.lease_max_s &&
+         std::abs(age_s) <= stop.lease_s + given_.gate.clock_margin_s;
 }
 
 void StationBus::disconnect(const std::string& why) {
@@ -153,7 +153,7 @@ void StationBus::take(const BusMessage& message) {
 template <class Message>
 void StationBus::on_command(const std::string& kind,
                             const std::function<Refusal(const Message&)>& execute) {
-  gates_.emplace(kind, CommandGate(settings_.gate, clock_utime_us()));
+  gates_.emplace(kind, CommandGate(given_.gate, clock_utime_us()));
   const auto receive = [this, kind, execute](const BusMessage& received) {
     Message message;
     if (!decode_exactly(received, message)) return refused_.refuse(kind, "malformed");
@@ -169,7 +169,7 @@ void StationBus::on_command(const std::string& kind,
 
 void StationBus::record(const ols_msg::record_t& message) {
   const auto command = from_message(message, sender_, now_s_);
-  const std::string refusal = command ? handlers_.record(*command) : "not a span of time";
+  const std::string refusal = command ? given_.record(*command) : "not a span of time";
   if (refusal.empty()) {
     counters_["record_accepted"] += 1;
   } else {
@@ -179,8 +179,8 @@ void StationBus::record(const ols_msg::record_t& message) {
 }
 
 void StationBus::want_frame(const ols_msg::frame_request_t& message) {
-  const std::string refusal = handlers_.frame_wanted
-                                  ? handlers_.frame_wanted(from_message(message, now_s_))
+  const std::string refusal = given_.frame_wanted
+                                  ? given_.frame_wanted(from_message(message, now_s_))
                                   : "this station sends no frames";
   if (refusal.empty()) {
     counters_["frame_requests_accepted"] += 1;

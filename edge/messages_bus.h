@@ -81,11 +81,13 @@ class StationBus {
   const StationSettings& settings_;
   Station& station_;
   CommandTurn& turn_;
-  struct Handlers {
+  // What never changes: the bus's thread reads it, where the settings may be at a change.
+  struct Given {
+    CommandGate::Config gate;
     Record record;
     FrameWanted frame_wanted;
   };
-  Handlers handlers_;
+  const Given given_;
   Sender sender_;
   double now_s_ = 0.0;
   using Receive = std::function<void(const BusMessage& message)>;
