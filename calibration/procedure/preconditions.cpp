@@ -24,6 +24,22 @@ Precondition clock_of(const StationFacts& facts, const Wanted& wanted) {
   return one;
 }
 
+// Where the sun stands in the unit's angles is known as well as the heading; SunKeepOut's margin
+// allows for a compass.
+Precondition heading_of(const StationFacts& facts) {
+  constexpr double kCompass_deg = 3.0;
+  Precondition one{facts.heading_sd_deg <= kCompass_deg, true, ""};
+  one.sentence =
+      one.met ? printed("heading known to %.2f deg: the sun is kept out of the picture",
+                        facts.heading_sd_deg)
+              : printed(
+                    "the heading is known to %.0f deg only, and the sun is up: the unit might "
+                    "look at it; take a compass to it (heading_deg), or give --overcast when "
+                    "no sun is to be seen",
+                    facts.heading_sd_deg);
+  return one;
+}
+
 }  // namespace
 
 std::vector<Precondition> preconditions(const StationFacts& facts, const Wanted& wanted) {
@@ -53,6 +69,7 @@ std::vector<Precondition> preconditions(const StationFacts& facts, const Wanted&
   add(facts.has_tilt, false, printed("levelled, tilt known to %.3f deg", facts.tilt_sd_deg),
       "no inclinometer: level the tripod by its bubble");
   all.push_back(clock_of(facts, wanted));
+  if (wanted.sun_kept_out) all.push_back(heading_of(facts));
   add(facts.alarms.empty(), false, "no alarm",
       facts.alarms.empty() ? "" : "alarm: " + facts.alarms.front());
   return all;

@@ -16,7 +16,7 @@ struct StationFacts {
   bool follows_target = false;
   double status_gap_s = 0.0;  // between two statuses
   bool has_position = false, has_tilt = false;
-  double position_sd_m = 0.0, tilt_sd_deg = 0.0;  // 1-sigma
+  double position_sd_m = 0.0, tilt_sd_deg = 0.0, heading_sd_deg = 0.0;  // 1-sigma
   bool clock_synchronised = false;
   double clock_error_s = 0.0;
   int image_width_px = 0, image_height_px = 0;
@@ -26,6 +26,7 @@ struct StationFacts {
 struct Wanted {
   double status_gap_s = 0.0;                    // less than this: a stop is heard of in time
   bool absolute_time = false;                   // stars, the sun, aircraft, drones
+  bool sun_kept_out = false;                    // it is up, and must not come into the picture
   int image_width_px = 0, image_height_px = 0;  // by the configuration
 };
 

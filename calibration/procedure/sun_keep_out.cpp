@@ -7,6 +7,16 @@
 #include "geometry/angles.h"
 
 namespace ols::calibration {
+namespace {
+
+bool is_up(const Eigen::Vector3d& sun_enu) {
+  constexpr double kSet_deg = -2.0;  // nothing of it is seen below
+  return sun_enu.z() >= std::sin(radians(kSet_deg));
+}
+
+}  // namespace
+
+bool SunKeepOut::is_up() const { return calibration::is_up(sun_enu()); }
 
 Eigen::Vector3d SunKeepOut::sun_enu() const {
   const Geodetic& place = model_.geometry.position;
@@ -15,10 +25,9 @@ Eigen::Vector3d SunKeepOut::sun_enu() const {
 }
 
 std::string SunKeepOut::hindrance(const PanTilt& angles) const {
-  constexpr double kSet_deg = -2.0;  // nothing of it is seen below
   if (lifted_) return {};
   const Eigen::Vector3d sun = sun_enu();
-  if (sun.z() < std::sin(radians(kSet_deg))) return {};
+  if (!calibration::is_up(sun)) return {};
   const Eigen::Vector3d axis = enu_from_azimuth_elevation(optical_axis(model_.geometry, angles));
   const double apart_deg = degrees(std::acos(std::clamp(axis.dot(sun), -1.0, 1.0)));
   if (apart_deg >= kRadius_deg) return {};

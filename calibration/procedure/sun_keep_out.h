@@ -22,6 +22,8 @@ class SunKeepOut {
 
   // In words why the unit must not look there (reported angles) now; empty: it may.
   std::string hindrance(const PanTilt& angles) const;
+  // Some of it may be seen: it is not far below the horizon.
+  bool is_up() const;
   // A filter is on the lens: a person has said so, and a picture beside the sun has proved it.
   void lift() { lifted_ = true; }
   void restore() { lifted_ = false; }

@@ -27,7 +27,7 @@ WITHOUT: dict[str, str] = {
         base/lcm_bus.cpp base/multicast_socket.cpp edge/device_set.cpp edge/station_process.cpp
         central/app/fusion_bus.cpp central/app/fusion_process.cpp console/add_user.cpp
         console/console_bus.cpp console/handed_over_socket.cpp console/web_server.cpp
-        tools/ctl/operator.cpp tools/calibrate/procedure_session.cpp
+        tools/ctl/operator.cpp
         tools/doctor/bus_listener.cpp tools/doctor/probe_*.cpp tools/logger/bus_recorder.cpp
         export/export_bus.cpp export/outlet/mqtt_link.cpp export/outlet/stream_link.cpp
         export/outlet/tcp_socket.cpp export/outlet/udp_outlet.cpp

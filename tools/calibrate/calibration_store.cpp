@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "base/append_line.h"
+
 namespace ols::calibration {
 namespace {
 
@@ -185,14 +187,7 @@ void CalibrationStore::note(const HistoryLine& line) {
                                 {"id", line.id},
                                 {"procedure", line.procedure},
                                 {"previous", line.previous}};
-  const std::string text = object.dump() + "\n";
-  const fs::path path = folder_ / "history.jsonl";
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (file < 0) fail(path);
-  const bool written = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  const bool synced = ::fsync(file) == 0;
-  ::close(file);
-  if (!written || !synced) fail(path);
+  append_line(folder_ / "history.jsonl", object.dump());
 }
 
 std::vector<HistoryLine> CalibrationStore::history() const {

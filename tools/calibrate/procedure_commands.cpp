@@ -196,7 +196,7 @@ int run_live(const ProcedureOptions& asked, CalibrationStore& store) {
   LcmBus bus(options.lcm_url.empty() ? station.settings.lcm_url : options.lcm_url,
              StationLink::open_trust(options.trust));
   StationLink link(bus, station.settings.id);
-  check_station(link, station, options.stars > 0 || options.sun || !options.drone.empty(), person);
+  check_station(link, station, options, person);
   ProcedureSession session(
       asked.resume ? store.resume(interrupted) : store.begin(options.name, clock_utime_us()),
       station.settings.id);

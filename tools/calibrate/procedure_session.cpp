@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/append_line.h"
 #include "base/atomic_file.h"
 #include "tools/calibrate/observation_writer.h"
 
@@ -53,9 +54,7 @@ Taken ProcedureSession::add(FrameFile frame) {
                                     {"approach_tilt", reading.tilt.approach},
                                     {"pan_rad", frame.taken.angles.pan_rad},
                                     {"tilt_rad", frame.taken.angles.tilt_rad}};
-  std::ofstream list(folder_ / "frames.jsonl", std::ios::app);
-  list << line.dump() << std::endl;
-  if (!list) throw std::runtime_error((folder_ / "frames.jsonl").string() + ": cannot be written");
+  append_line(folder_ / "frames.jsonl", line.dump());
   return std::move(frame.taken);
 }
 
@@ -70,10 +69,7 @@ void ProcedureSession::write_observations(const std::vector<Observation>& observ
 }
 
 void ProcedureSession::note(const JournalEntry& entry) const {
-  const fs::path path = folder_ / kJournal;
-  std::ofstream journal(path, std::ios::app);
-  journal << journal_line(entry) << std::endl;
-  if (!journal) throw std::runtime_error(path.string() + ": cannot be written");
+  append_line(folder_ / kJournal, journal_line(entry));
 }
 
 void ProcedureSession::read_frames() {
@@ -146,8 +142,10 @@ fs::path ProcedureSession::next_result() {
 
 void ProcedureSession::take_result() const {
   const fs::path result = folder_ / ("result-" + std::to_string(results_));
+  // Over an earlier result, of a procedure that was interrupted between its end and its storing.
+  constexpr auto kHow = fs::copy_options::recursive | fs::copy_options::overwrite_existing;
   for (const auto& entry : fs::directory_iterator(result)) {
-    fs::copy(entry.path(), folder_ / entry.path().filename(), fs::copy_options::recursive);
+    fs::copy(entry.path(), folder_ / entry.path().filename(), kHow);
   }
 }
 

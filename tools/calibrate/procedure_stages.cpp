@@ -62,12 +62,15 @@ SweepPlanOptions sweep_options(const ProcedureOptions& options, const StationFil
   return plan;
 }
 
-// The reference that a message is about, so that it can be sighted again.
+// The reference that a message is about, so that it can be sighted again. The longest name that is
+// in it: "sign 10" is not "sign 1".
 std::string named_in(const std::string& text, const ReferenceFeed& references) {
+  std::string named;
   for (const Landmark& one : references.landmarks()) {
-    if (text.find(one.name) != std::string::npos) return one.name;
+    const bool longer = one.name.size() > named.size();
+    if (longer && text.find(one.name) != std::string::npos) named = one.name;
   }
-  return "";
+  return named;
 }
 
 // Puts the stages together.
@@ -194,7 +197,8 @@ StationFiles read_station(const ProcedureOptions& options) {
   return station;
 }
 
-void check_station(StationLink& link, const StationFiles& station, bool sky, Person& person) {
+void check_station(StationLink& link, const StationFiles& station, const ProcedureOptions& options,
+                   Person& person) {
   constexpr double kPatience_s = 5.0;
   if (!link.status(kPatience_s)) {
     throw std::runtime_error("no status of " + station.settings.id + " on the bus");
@@ -205,7 +209,9 @@ void check_station(StationLink& link, const StationFiles& station, bool sky, Per
   const CameraIntrinsics& camera = station.settings.station.geometry.camera;
   Wanted wanted;
   wanted.status_gap_s = kReliedOn_s;
-  wanted.absolute_time = sky;
+  wanted.absolute_time = options.stars > 0 || options.sun || !options.drone.empty();
+  const StationModel model = prior_of(station.settings, station.instrument, station.config).model;
+  wanted.sun_kept_out = !options.overcast && SunKeepOut(model, clock_utime_us).is_up();
   wanted.image_width_px = camera.width_px;
   wanted.image_height_px = camera.height_px;
   const auto all = preconditions(facts, wanted);

@@ -28,8 +28,8 @@ struct StationFiles {
 StationFiles read_station(const ProcedureOptions& options);
 
 // What must be so before anything moves; tells the person. std::runtime_error naming the hindrance.
-// `sky`: stars are to be used, so the clock must be right.
-void check_station(StationLink& link, const StationFiles& station, bool sky, Person& person);
+void check_station(StationLink& link, const StationFiles& station, const ProcedureOptions& options,
+                   Person& person);
 
 // In a procedure's folder: what goes on with it needs this file.
 inline constexpr const char* kSessionFile = "session.json";

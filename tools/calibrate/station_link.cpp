@@ -66,6 +66,7 @@ void StationLink::hear_status(const BusMessage& message) {
   heard_s_ = clock_monotonic_s();
   arrived_utime_us_ = message.received_utime_us;
   awaited_.hear_angles({status_->pan_rad, status_->tilt_rad}, heard_s_);
+  hold_.hear(status_->state);
 }
 
 std::optional<ols_msg::station_status_t> StationLink::status(double within_s) {
@@ -84,6 +85,9 @@ void StationLink::check_not_stopped() const {
   if (status_->state == M::STATE_STOPPED) throw StationStopped("the station was stopped");
   if (status_->state == M::STATE_TRACKING || status_->state == M::STATE_COASTING) {
     throw StationStopped("somebody has given the station another task: it follows a target");
+  }
+  if (hold_.is_lost()) {
+    throw StationStopped("somebody has released the station, or it has restarted");
   }
 }
 
@@ -124,11 +128,15 @@ void StationLink::set_out(const PanTilt& angles) {
   frame_.reset();
 }
 
-void StationLink::point() { command(ols_msg::ptu_command_t::COMMAND_POINT, awaited_.at()); }
+void StationLink::point() {
+  hold_.point();
+  command(ols_msg::ptu_command_t::COMMAND_POINT, awaited_.at());
+}
 
 bool StationLink::release() {
   status(kReliedOn_s);
   const bool may = status_ && may_release(*status_, status_age_s());
+  hold_ = {};
   if (may) command(ols_msg::ptu_command_t::COMMAND_RELEASE, {});
   return may;
 }
@@ -208,6 +216,7 @@ StationFacts facts_of(const ols_msg::station_status_t& status) {
   facts.has_tilt = status.tilt_source != M::POSE_NONE;
   facts.position_sd_m = std::max(status.position_sd_m[0], status.position_sd_m[1]);
   facts.tilt_sd_deg = degrees(status.tilt_sd_rad);
+  facts.heading_sd_deg = degrees(status.heading_sd_rad);
   facts.clock_synchronised = status.clock_state == ols_msg::bearing_t::CLOCK_SYNCHRONISED;
   facts.clock_error_s = status.clock_error_s;
   facts.image_width_px = status.image_width_px;

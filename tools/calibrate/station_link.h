@@ -16,6 +16,7 @@
 #include "ols_msg/station_status_t.hpp"
 #include "tools/calibrate/answer_box.h"
 #include "tools/calibrate/awaited_picture.h"
+#include "tools/calibrate/manual_hold.h"
 
 namespace ols::calibration {
 
@@ -93,6 +94,7 @@ class StationLink {
   double heard_s_ = 0.0;
   std::int64_t arrived_utime_us_ = 0;  // of the newest status
   AwaitedPicture awaited_;
+  ManualHold hold_;
   std::optional<FrameFile> frame_;
   AnswerBox answers_;
   std::optional<PanTilt> count_;

@@ -33,7 +33,7 @@ int run_check(const ProcedureOptions& options, const StationFiles& station,
   LcmBus bus(options.lcm_url.empty() ? station.settings.lcm_url : options.lcm_url,
              StationLink::open_trust(options.trust));
   StationLink link(bus, station.settings.id);
-  check_station(link, station, false, person);
+  check_station(link, station, options, person);
   auto stage = std::make_unique<ViewStage>(std::move(views), station.settings.station.geometry,
                                            station.instrument.angle_sd_rad);
   const ViewStage* looked = stage.get();

@@ -16,7 +16,7 @@ StationFacts good() {
   facts.image_height_px = 960;
   return facts;
 }
-const Wanted kWanted{0.8, false, 1280, 960};
+const Wanted kWanted{0.8, false, false, 1280, 960};
 
 TEST(Preconditions, AStationInOrderMayBegin) {
   EXPECT_EQ(first_hindrance(preconditions(good(), kWanted)), "");
@@ -51,6 +51,18 @@ TEST(Preconditions, TheClockMattersForTheSkyOnly) {
   facts = good();
   facts.clock_error_s = 0.3;
   EXPECT_NE(first_hindrance(preconditions(facts, stars)), "");
+}
+
+TEST(Preconditions, WhereTheSunIsUpTheHeadingMustBeKnown) {
+  StationFacts facts = good();
+  facts.heading_sd_deg = 10.0;
+  EXPECT_EQ(first_hindrance(preconditions(facts, kWanted)), "") << "at night";
+  Wanted by_day = kWanted;
+  by_day.sun_kept_out = true;
+  EXPECT_NE(first_hindrance(preconditions(facts, by_day)).find("known to 10 deg only"),
+            std::string::npos);
+  facts.heading_sd_deg = 0.5;
+  EXPECT_EQ(first_hindrance(preconditions(facts, by_day)), "") << "a compass will do";
 }
 
 TEST(Preconditions, AnAlarmAndABubbleAreOnlySaid) {

@@ -32,6 +32,7 @@ class SunKeepOutTest : public testing::Test {
 
 TEST_F(SunKeepOutTest, TheUnitKeepsAwayFromTheSunAndSaysWhy) {
   EXPECT_GT(keep_out.sun_enu().z(), std::sin(radians(15.0)));
+  EXPECT_TRUE(keep_out.is_up());
   EXPECT_NE(keep_out.hindrance(beside(0.0)).find("the sun stands 0 degrees"), std::string::npos);
   EXPECT_FALSE(keep_out.hindrance(beside(7.5)).empty());
   EXPECT_FALSE(keep_out.hindrance(beside(-7.5)).empty());
@@ -46,6 +47,7 @@ TEST_F(SunKeepOutTest, ItMovesWithTheSunAndEndsAtNight) {
   EXPECT_FALSE(keep_out.hindrance(beside(0.0)).empty());
   now_us = kMorning_us + 12LL * 3600 * 1'000'000;
   EXPECT_LT(keep_out.sun_enu().z(), 0.0);
+  EXPECT_FALSE(keep_out.is_up());
   EXPECT_TRUE(keep_out.hindrance(beside(0.0)).empty());
 }
 
