@@ -2,6 +2,7 @@
 // than the filter takes for it.
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <stdexcept>
@@ -9,11 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/csv_files.h"
 #include "central/admission/bearing_check.h"
 #include "central/offline/object_separation.h"
 #include "central/offline/offline_fusion.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
+#include "tools/offline/recorded_bearings.h"
 #include "tools/python/bindings.h"
 #include "tools/python/eigen_caster.h"
 
@@ -99,6 +102,73 @@ Bearings bearings_from(const std::vector<std::string>& stations, const py::kwarg
   take_identities(columns, bearings);
   take_sights(columns, bearings);
   return bearings;
+}
+
+Reals rows_of(const std::vector<double>& values, std::size_t rows) {
+  const auto n = static_cast<py::ssize_t>(rows);
+  const auto width = static_cast<py::ssize_t>(values.size()) / std::max<py::ssize_t>(1, n);
+  const auto shape = width == 1 ? std::vector<py::ssize_t>{n} : std::vector<py::ssize_t>{n, width};
+  return Reals(shape, values.data());
+}
+
+// One of the columns: what `take` appends for each row.
+template <typename Take>
+Reals reals_of(const Bearings& bearings, Take take) {
+  std::vector<double> values;
+  for (const auto& row : bearings.rows) {
+    for (const double value : take(row)) values.push_back(value);
+  }
+  return rows_of(values, bearings.rows.size());
+}
+
+std::array<double, 3> triangle(const Eigen::Matrix2d& m) { return {m(0, 0), m(0, 1), m(1, 1)}; }
+std::array<double, 3> triple(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+py::dict columns_of(const Bearings& bearings) {
+  using Row = fusion::BearingMeasurement;
+  py::list stations;
+  std::vector<std::int64_t> utime, boot, track, calibration;
+  for (const Row& row : bearings.rows) {
+    stations.append(row.station);
+    utime.push_back(row.utime_us);
+    boot.push_back(static_cast<std::int64_t>(row.boot_id));
+    track.push_back(static_cast<std::int64_t>(row.track_id));
+    calibration.push_back(static_cast<std::int64_t>(row.calibration_id));
+  }
+  const auto put = [&](py::dict& to, const char* name, auto take) {
+    to[name] = reals_of(bearings, take);
+  };
+  py::dict columns;
+  columns["station"] = stations;
+  columns["utime"] = integers(utime);
+  columns["boot_id"] = integers(boot);
+  columns["track_id"] = integers(track);
+  columns["calibration_id"] = integers(calibration);
+  put(columns, "azimuth_rad",
+      [](const Row& r) { return std::array{r.sight.direction.azimuth_rad}; });
+  put(columns, "elevation_rad",
+      [](const Row& r) { return std::array{r.sight.direction.elevation_rad}; });
+  put(columns, "belief", [](const Row& r) { return std::array{r.belief}; });
+  put(columns, "clock_error_s", [](const Row& r) { return std::array{r.clock_sd_s}; });
+  put(columns, "camera_ecef_m", [](const Row& r) { return triple(r.sight.origin_ecef); });
+  put(columns, "camera_position_sd_m",
+      [](const Row& r) { return triple(r.sight.origin_sd_enu_m); });
+  put(columns, "covariance_white_rad2",
+      [](const Row& r) { return triangle(r.sight.covariance_white); });
+  put(columns, "covariance_systematic_rad2",
+      [](const Row& r) { return triangle(r.sight.covariance_systematic); });
+  return columns;
+}
+
+// The names in the file's column `target`, one for each bearing; empty without it.
+py::tuple read_bearings(const std::string& stations, const std::string& path) {
+  offline::RecordedBearings recording = offline::read_recorded_bearings(stations, path);
+  for (const auto& target : offline::targets_of(recording)) fusion::guess_clocks(target.bearings);
+  py::list targets;
+  for (const std::uint32_t number : recording.target_of) {
+    targets.append(recording.targets.at(number));
+  }
+  return py::make_tuple(Bearings{std::move(recording.bearings)}, targets);
 }
 
 // Why the fusion would refuse a bearing by itself alone.
@@ -222,13 +292,19 @@ py::tuple fuse(Bearings& bearings, const Integers& chosen, const fusion::Offline
 }  // namespace
 
 void bind_offline(py::module_& m) {
+  py::register_exception<CsvError>(m, "CsvError", PyExc_ValueError);
   py::class_<Bearings>(m, "Bearings", "Many bearings, given as the columns of bearing_t.")
       .def(py::init(&bearings_from), arg("station"),
            "station: list of n names. By keyword, with bearing_t's names and units: utime, "
            "boot_id, track_id, calibration_id, azimuth_rad, elevation_rad, belief, clock_error_s, "
            "each (n,); camera_ecef_m, camera_position_sd_m, (n, 3); covariance_white_rad2, "
            "covariance_systematic_rad2, (n, 3): xx, xy, yy of (cross-elevation, elevation).")
+      .def("columns", &columns_of, "{name: (n,) or (n, 3) array}, as they were given.")
       .def("__len__", [](const Bearings& bearings) { return bearings.rows.size(); });
+  m.def("read_bearings", &read_bearings, arg("stations"), arg("bearings"),
+        "Two files as ols-fuse reads them -> (Bearings, the names in the column `target`, one a "
+        "bearing, or none). What the stations' clocks are off by is guessed from the noise. "
+        "CsvError, a ValueError, names file, line and column.");
   m.def("separate_objects", &separate, arg("bearings"), arg("config") = fusion::FusionConfig{},
         "Bearings -> (n,) int64: the object that each belongs to, by the live tracks' association "
         "looked at afterwards; 0: none; below 0: refused, see REFUSALS.");

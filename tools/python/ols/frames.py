@@ -46,6 +46,17 @@ def read_log(path: str | Path, kind: str = "bearing") -> pd.DataFrame:
     return _with_time(frame)
 
 
+def read_csv(stations: str | Path, bearings: str | Path) -> pd.DataFrame:
+    """The rows of two CSV files as ols-fuse reads them, with the columns that bearing_t gives them
+    and a column `target`, empty where the file has none. What the clocks are off by is guessed from
+    the noise. ols.CsvError, a ValueError, names file, line and column."""
+    read, targets = ols.read_bearings(str(stations), str(bearings))
+    columns = read.columns()
+    frame = pd.DataFrame({name: _cells(values) for name, values in columns.items()})
+    frame["target"] = targets or [""] * len(frame)
+    return _with_time(frame)
+
+
 def read_archive(
     archive: str | Path,
     region: str,
@@ -131,6 +142,10 @@ def _fixes(
             "stations_set_aside": columns["stations_set_aside"],
         }
     )
+
+
+def _cells(values: "list | np.ndarray") -> "list | np.ndarray":
+    return list(values) if np.ndim(values) == 2 else values
 
 
 def _kind(name: str):
