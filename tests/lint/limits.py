@@ -36,6 +36,11 @@ def python_sources(folders=FOLDERS) -> list[Path]:
     return sorted(path for folder in folders for path in (ROOT / folder).rglob("*.py"))
 
 
+def page_sources() -> list[Path]:
+    """Of the console's page."""
+    return sorted((ROOT / "console/page/src").glob("*.ts*"))
+
+
 def relative(path: Path) -> str:
     return path.relative_to(ROOT).as_posix()
 
