@@ -36,13 +36,18 @@ def python_sources(folders=FOLDERS) -> list[Path]:
     return sorted(path for folder in folders for path in (ROOT / folder).rglob("*.py"))
 
 
+def page_sources() -> list[Path]:
+    """Of the console's page."""
+    return sorted((ROOT / "console/page/src").glob("*.ts*"))
+
+
 def relative(path: Path) -> str:
     return path.relative_to(ROOT).as_posix()
 
 
 def declared(paths: list[Path]) -> list[dict]:
     """ctags' entries, one each declaration."""
-    command = ["ctags", "--output-format=json", "--fields=+nKS", "--kinds-C++=+p", "-f", "-"]
+    command = ["ctags", "--output-format=json", "--fields=+nKSe", "--kinds-C++=+p", "-f", "-"]
     done = subprocess.run(
         [*command, *map(str, paths)], capture_output=True, text=True, check=True, timeout=120
     )
@@ -56,6 +61,15 @@ def definitions(tags: list[dict]) -> dict[str, set[str]]:
         if tag["kind"] in ("class", "struct", "enum", "union"):
             found[f"{tag.get('scope', '')}::{tag['name']}"].add(tag["path"])
     return found
+
+
+def function_lines(tags: list[dict]) -> list[tuple[str, int]]:
+    """Where each function is defined, and its lines from its name to its end."""
+    return [
+        (f"{tag['path']}:{tag['line']} {tag['name']}", tag["end"] - tag["line"] + 1)
+        for tag in tags
+        if tag["kind"] in ("function", "member") and "end" in tag
+    ]
 
 
 def classes(tags: list[dict]) -> dict[str, Class]:

@@ -1,12 +1,23 @@
-"""Sizes at which a class or a file has more than one subject."""
+"""Sizes at which a class, a function or a file has more than one subject.
+
+A class has functions besides its constructors. A struct without any is a record: its members are
+values that belong together, such as a message or a configuration, and they are not counted.
+"""
 
 import limits
 import pytest
 
 MOST_MEMBERS = 15
 MOST_LINES = 400
+MOST_FUNCTION_LINES = 60
 # Name of a class or a file -> why it may be larger.
 EXCEPTIONS: dict[str, str] = {}
+EVERYWHERE = (*limits.FOLDERS, "tests")
+WRITTEN = [
+    *limits.sources(EVERYWHERE),
+    *limits.python_sources(EVERYWHERE),
+    *limits.page_sources(),
+]
 TAGS = limits.declared(limits.sources())
 CLASSES = limits.classes(TAGS)
 
@@ -66,13 +77,40 @@ def test_the_counts_are_those_of_the_sources(tmp_path):
     assert len(too_large(found)) == 1
 
 
-@pytest.mark.parametrize("path", [*limits.sources(), *limits.python_sources()], ids=limits.relative)
+@pytest.mark.parametrize("path", WRITTEN, ids=limits.relative)
 def test_no_file_is_too_long(path):
     lines = path.read_text().count("\n")
     assert lines <= MOST_LINES or limits.relative(path) in EXCEPTIONS, f"{lines} lines"
 
 
+def too_long(tags: list[dict]) -> list[str]:
+    return [
+        f"{place} has {lines} lines"
+        for place, lines in limits.function_lines(tags)
+        if lines > MOST_FUNCTION_LINES
+    ]
+
+
+def test_no_function_is_too_long():
+    assert too_long(limits.declared([path for path in WRITTEN if ".ts" not in path.suffix])) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "head", "line", "tail"),
+    [("a.cpp", "void f() {", "  g();", "}"), ("a.py", "def f():", "    g()", "")],
+)
+def test_a_long_function_is_found(tmp_path, name, head, line, tail):
+    path = tmp_path / name
+    most = MOST_FUNCTION_LINES - 1 - bool(tail)
+    for lines, found in (
+        (most, []),
+        (most + 1, [f"{path}:1 f has {MOST_FUNCTION_LINES + 1} lines"]),
+    ):
+        path.write_text("\n".join([head, *[line] * lines, *[tail] * bool(tail)]) + "\n")
+        assert too_long(limits.declared([path])) == found
+
+
 def test_exceptions_are_few_and_needed():
     assert len(EXCEPTIONS) <= 5
-    names = {*CLASSES, *map(limits.relative, limits.sources())}
+    names = {*CLASSES, *map(limits.relative, WRITTEN)}
     assert set(EXCEPTIONS) <= names

@@ -1,10 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <random>
-#include <set>
 #include <string>
 
 #include "central/app/messages.h"
@@ -12,21 +9,14 @@
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
-#include "ols_msg/cue_order_t.hpp"
-#include "ols_msg/cue_t.hpp"
 #include "ols_msg/station_status_t.hpp"
+#include "tests/unit/central/app/encoded.h"
 
 namespace ols::fusion {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
-template <class Message>
-Bytes encoded(const Message& message) {
-  Bytes bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
+using test::Bytes;
+using test::encoded;
 
 ols_msg::bearing_t bearing() {
   ols_msg::bearing_t message{};
@@ -292,97 +282,6 @@ TEST(Messages, TargetCarriesGeodeticPositionAndEnuCovariance) {
   EXPECT_TRUE(std::isnan(without.position_ecef_m[0]));
 }
 
-TEST(Messages, TheFusionsStatusNamesWhoIsQuarantined) {
-  FusionHealth health;
-  health.stations = {{"a", 10, 15.0, 0.05, 1.0, 0.0, "", {}},
-                     {"b", 20, 15.0, -2.0, 1.0, 2.0, "its stamps are ahead", {}}};
-  health.stations[1].finding.bias_rad = {1e-3, -2e-3};
-  const auto message = to_message(health, 0.1, MessageStamp{1, 2});
-  ASSERT_EQ(message.stations, 2);
-  EXPECT_EQ(message.quarantine, (std::vector<std::string>{"", "its stamps are ahead"}));
-  EXPECT_EQ(message.clock_offset_s, (std::vector<double>{0.0, 2.0}));
-  EXPECT_TRUE(std::isnan(message.bias_rad[0][0]));
-  EXPECT_EQ(message.bias_rad[1], (std::vector<double>{1e-3, -2e-3}));
-  EXPECT_EQ(encoded(message).size(), static_cast<std::size_t>(message.getEncodedSize()));
-}
-
-TEST(Messages, TheFusionsStatusHasTheCues) {
-  using M = ols_msg::fusion_status_t;
-  FusionHealth health;
-  health.cues = {
-      {"tak.a", "Anna", CueState::kFound, 7, 1.5, {radians(49.0), radians(16.0), 400.0}, 5.0, 9.0},
-      {"tak.b", "", CueState::kWaiting, 0, 2.5, {}, 1.0, 1.0},
-      {"tak.c", "", CueState::kSearched, 0, 2.5, {}, 1.0, 1.0},
-      {"tak.d", "", CueState::kForbidden, 0, 2.5, {}, 1.0, 1.0}};
-  const auto message = to_message(health, 0.1, MessageStamp{1, 2});
-  ASSERT_EQ(message.cues, 4);
-  EXPECT_EQ(message.cue_id.front(), "tak.a");
-  EXPECT_EQ(message.cue_label.front(), "Anna");
-  EXPECT_EQ(message.cue_state, (std::vector<std::int8_t>{M::CUE_FOUND, M::CUE_WAITING,
-                                                         M::CUE_SEARCHED, M::CUE_FORBIDDEN}));
-  EXPECT_EQ(message.cue_target_id.front(), 7);
-  EXPECT_EQ(message.cue_age_s.front(), 1.5);
-  EXPECT_NEAR(message.cue_latitude_deg.front(), 49.0, 1e-9);
-  EXPECT_NEAR(message.cue_longitude_deg.front(), 16.0, 1e-9);
-  EXPECT_EQ(message.cue_height_m.front(), 400.0);
-  EXPECT_EQ(message.cue_horizontal_sd_m.front(), 5.0);
-  EXPECT_EQ(message.cue_vertical_sd_m.front(), 9.0);
-  EXPECT_EQ(encoded(message).size(), static_cast<std::size_t>(message.getEncodedSize()));
-}
-
-TEST(Messages, ACueAndAnOperatorsWordAreRead) {
-  ols_msg::cue_t cue{};
-  cue.schema_version = ols_msg::cue_t::SCHEMA_VERSION;
-  cue.utime = 5;
-  cue.state_utime = 4;
-  cue.id = "tak.a\n";
-  cue.latitude_deg = 49.0;
-  cue.longitude_deg = 16.0;
-  cue.height_m = 400.0;
-  cue.horizontal_sd_m = 3.0;
-  cue.vertical_sd_m = 4.0;
-  cue.velocity_enu_m_s[1] = 2.0;
-  cue.velocity_sd_m_s = 0.5;
-  const auto read = [](const Bytes& bytes) {
-    return cue_from(bytes.data(), static_cast<int>(bytes.size()));
-  };
-  const auto decoded = read(encoded(cue));
-  ASSERT_TRUE(std::holds_alternative<Cue>(decoded));
-  const Cue& heard = std::get<Cue>(decoded);
-  EXPECT_EQ(heard.id.find('\n'), std::string::npos) << "nothing that a terminal obeys";
-  EXPECT_EQ(heard.utime_us, 5);
-  EXPECT_EQ(heard.state_us, 4);
-  EXPECT_NEAR(degrees(heard.place.latitude_rad), 49.0, 1e-9);
-  EXPECT_EQ(heard.horizontal_sd_m, 3.0);
-  EXPECT_EQ(heard.vertical_sd_m, 4.0);
-  EXPECT_EQ(heard.velocity_enu_m_s.y(), 2.0);
-  EXPECT_EQ(heard.velocity_sd_m_s, 0.5);
-  cue.id.assign(101, 'x');
-  EXPECT_EQ(std::get<MessageRefusal>(read(encoded(cue))), MessageRefusal::kMalformed);
-  ++cue.schema_version;
-  EXPECT_EQ(std::get<MessageRefusal>(read(encoded(cue))), MessageRefusal::kSchema);
-  EXPECT_EQ(std::get<MessageRefusal>(read({})), MessageRefusal::kMalformed);
-
-  ols_msg::cue_order_t order{};
-  order.schema_version = ols_msg::cue_order_t::SCHEMA_VERSION;
-  order.cue = "tak.a";
-  order.allow = 1;
-  order.utime = 9;
-  order.lease_s = 2.0;
-  order.sequence = 3;
-  const auto word = [](const Bytes& bytes) {
-    return cue_order_from(bytes.data(), static_cast<int>(bytes.size()));
-  };
-  const auto said = word(encoded(order));
-  ASSERT_TRUE(std::holds_alternative<CueOrder>(said));
-  EXPECT_EQ(std::get<CueOrder>(said).cue, "tak.a");
-  EXPECT_TRUE(std::get<CueOrder>(said).allow);
-  EXPECT_EQ(std::get<CueOrder>(said).utime_us, 9);
-  EXPECT_EQ(std::get<CueOrder>(said).sequence, 3);
-  order.lease_s = std::nan("");
-  EXPECT_EQ(std::get<MessageRefusal>(word(encoded(order))), MessageRefusal::kOutOfRange);
-}
-
 TEST(Messages, SolutionsHaveTheNumbersOfTheMessage) {
   using M = ols_msg::target_t;
   EXPECT_EQ(static_cast<int>(Solution::kOk), int{M::SOLUTION_OK});
@@ -393,29 +292,6 @@ TEST(Messages, SolutionsHaveTheNumbersOfTheMessage) {
   EXPECT_EQ(static_cast<int>(Solution::kNotConverged), int{M::SOLUTION_NOT_CONVERGED});
   EXPECT_EQ(static_cast<int>(Solution::kBearingOnly), int{M::SOLUTION_BEARING_ONLY});
   EXPECT_EQ(static_cast<int>(Solution::kRaysMiss), int{M::SOLUTION_RAYS_MISS});
-}
-
-TEST(Messages, AThousandStationsAreToldInTurnsThatADatagramHolds) {
-  FusionHealth health;
-  for (int i = 0; i < 1001; ++i) {
-    char name[8];
-    std::snprintf(name, sizeof name, "s%04d", i);
-    health.stations.push_back({.station = name, .quarantine = std::string(60, 'q')});
-  }
-  for (int i = 0; i < 64; ++i) {  // the most that the configuration allows
-    CueHealth& cue = health.cues.emplace_back();
-    cue.id = cue.label = std::string(100, 'c');
-  }
-  constexpr std::size_t kDatagramBytes = 65'000;
-  std::set<std::string> told;
-  for (std::int64_t sequence = 7; sequence < 12; ++sequence) {
-    const auto message = to_message(health, 0.1, MessageStamp{1, sequence});
-    EXPECT_EQ(message.stations_known, 1001);
-    EXPECT_LE(encoded(message).size(), kDatagramBytes);
-    told.insert(message.station.begin(), message.station.end());
-  }
-  EXPECT_EQ(told.size(), 1001U);
-  EXPECT_EQ(to_message(FusionHealth{}, 0.1, MessageStamp{1, 2}).stations, 0);
 }
 
 }  // namespace

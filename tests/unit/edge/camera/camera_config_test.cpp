@@ -32,8 +32,7 @@ TEST(CameraConfig, OnlyTheDeviceIsNeeded) {
   EXPECT_EQ(config.stamp_at, StampAt::kExposureStart);
 }
 
-TEST(CameraConfig, ReadsEveryKey) {
-  const CameraConfig config = read(R"(
+constexpr const char* kEveryKey = R"(
 device = "Prosilica-1234"
 width_px = 640
 height_px = 480
@@ -64,7 +63,10 @@ packet_spread = 0.5
 packet_socket = true
 socket_buffer = 1000000
 packet_resend = false
-)");
+)";
+
+TEST(CameraConfig, ReadsEveryKeyOfPicturesAndTriggers) {
+  const CameraConfig config = read(kEveryKey);
   EXPECT_EQ(config.width_px, 640);
   EXPECT_EQ(config.height_px, 480);
   EXPECT_EQ(config.pixel_format, "BayerRG8");
@@ -77,6 +79,10 @@ packet_resend = false
   EXPECT_EQ(config.trigger, TriggerMode::kLine3);
   EXPECT_EQ(config.trigger_activation, "falling-edge");
   EXPECT_DOUBLE_EQ(config.trigger_delay_us, 20.0);
+}
+
+TEST(CameraConfig, ReadsEveryKeyOfBrightnessClockAndTransport) {
+  const CameraConfig config = read(kEveryKey);
   EXPECT_DOUBLE_EQ(config.gain_dB, 3.0);
   EXPECT_TRUE(config.auto_exposure);
   EXPECT_DOUBLE_EQ(config.limits.exposure_min_us, 60.0);

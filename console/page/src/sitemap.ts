@@ -1,0 +1,213 @@
+// The map itself: OpenLayers on its Canvas renderer. Everything on it is drawn from the site's state.
+
+import type Feature from "ol/Feature";
+import OlMap from "ol/Map";
+import View from "ol/View";
+import Graticule from "ol/layer/Graticule";
+import VectorLayer from "ol/layer/Vector";
+import VectorSource from "ol/source/Vector";
+import TopoJSON from "ol/format/TopoJSON";
+import LineString from "ol/geom/LineString";
+import Point from "ol/geom/Point";
+import ScaleLine from "ol/control/ScaleLine";
+import { defaults as defaultInteractions } from "ol/interaction/defaults";
+import { createEmpty, extend, intersects, isEmpty, getCenter } from "ol/extent";
+import { fromLonLat, toLonLat, transformExtent } from "ol/proj";
+import { Circle, Fill, Stroke, Style, Text } from "ol/style";
+import type { Coordinate } from "ol/coordinate";
+import { bearing, distance } from "./format";
+import { Grid, gridShapes, ringShapes } from "./gridshapes";
+import type { Link } from "./link";
+import { Colours, readColours, shape, SMALL_FONT, stretch } from "./mapfeatures";
+import { AccuracyChoice, AccuracyLayer, UserMap, UserMapLayers } from "./maplayers";
+import { lineShapes, stationShapes } from "./stationshapes";
+import { cueShapes, targetShapes } from "./targetshapes";
+
+const BORDER_PART = 0.17; // of the view: how far borders are drawn from their station
+
+// How fast the page may redraw its map.
+const FRAME_MS = 40;
+
+export class SiteMap {
+  readonly map: OlMap;
+  private moving = new VectorSource();
+  private still = new VectorSource();
+  private measured = new VectorSource();
+  private land: VectorLayer<any>;
+  private graticule: Graticule | null = null;
+  private grid: Grid | null = null;
+  private colours: Colours = readColours();
+  private drawn_ms = 0;
+  private newest_us = 0; // of the targets that are drawn
+  private stationsFitted = 0;
+  private hasMoved = false;
+  private from: Coordinate | null = null;
+  private accuracy: AccuracyLayer;
+  private userLayers: UserMapLayers;
+  private accuracyShown: AccuracyChoice | null = null;
+  options = { rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false };
+  selected = "";
+  onPick: (pick: string) => void = () => {};
+  onMeasured: (text: string) => void = () => {};
+  onMapTrouble: () => void = () => {};
+
+  constructor(
+    private link: Link,
+    element: HTMLElement,
+  ) {
+    this.land = new VectorLayer({ source: new VectorSource(), declutter: false });
+    this.map = new OlMap({
+      target: element,
+      layers: [this.land, new VectorLayer({ source: this.still }), new VectorLayer({ source: this.moving, updateWhileInteracting: true, updateWhileAnimating: true }), new VectorLayer({ source: this.measured })],
+      controls: [new ScaleLine({ minWidth: 90 })],
+      interactions: defaultInteractions({ altShiftDragRotate: false, pinchRotate: false }),
+      view: new View({ center: fromLonLat([15, 50]), zoom: 4, maxZoom: 24, enableRotation: false }),
+    });
+    this.userLayers = new UserMapLayers(this.map, () => this.onMapTrouble());
+    this.accuracy = new AccuracyLayer(this.map);
+    this.map.on("moveend", () => this.settled());
+    // What is on the screen now, for whoever measures.
+    this.map.on("postrender", () => (element.dataset.newestUs = String(this.newest_us)));
+    this.map.on("pointerdrag", () => (this.hasMoved = true));
+    element.addEventListener("wheel", () => (this.hasMoved = true), { passive: true });
+    this.map.on("click", (event) => (this.options.measuring ? this.measure(event.coordinate) : this.pick(event.pixel)));
+    this.restyle();
+    void this.loadLand();
+  }
+
+  // Large, and decoration: after the first paint.
+  private async loadLand() {
+    const response = await fetch("/land.json").catch(() => null);
+    if (!response?.ok) return;
+    const features = new TopoJSON().readFeatures(await response.json(), { featureProjection: "EPSG:3857" });
+    this.land.getSource()!.addFeatures(features as any);
+  }
+
+  restyle() {
+    const c = (this.colours = readColours());
+    this.land.setStyle(new Style({ fill: new Fill({ color: c.land }), stroke: new Stroke({ color: c.rule, width: 1 }) }));
+    if (this.graticule) this.map.removeLayer(this.graticule);
+    const text = () => new Text({ font: SMALL_FONT, fill: new Fill({ color: c["rule-text"] }), stroke: new Stroke({ color: c.halo, width: 3 }) });
+    this.graticule = new Graticule({ strokeStyle: new Stroke({ color: c.rule, width: 1 }), showLabels: true, wrapX: false, maxLines: 40, targetSize: 160, lonLabelStyle: text(), latLabelStyle: text() });
+    this.map.getLayers().insertAt(1, this.graticule);
+    this.drawStill();
+    this.draw(true);
+  }
+
+  private pick(pixel: number[]) {
+    const picks: string[] = [];
+    this.map.forEachFeatureAtPixel(pixel, (feature) => void (feature.get("pick") && picks.push(feature.get("pick"))), { hitTolerance: 8 });
+    const best = picks.find((one) => one.startsWith("target:")) ?? picks[0];
+    if (best) this.onPick(best);
+  }
+
+  private async measure(at: Coordinate) {
+    const dot = (where: Coordinate) => shape(new Point(where), new Style({ image: new Circle({ radius: 4, fill: new Fill({ color: this.colours.accent }) }) }));
+    if (!this.from) {
+      this.from = at;
+      this.measured.clear();
+      this.measured.addFeature(dot(at));
+      return;
+    }
+    const [a, b] = [toLonLat(this.from), toLonLat(at)];
+    this.measured.addFeatures([dot(at), shape(new LineString([this.from, at]), new Style({ stroke: new Stroke({ color: this.colours.accent, width: 2, lineDash: [6, 4] }) }))]);
+    this.from = null;
+    const response = await fetch(`/api/measure?from=${a[1]},${a[0]}&to=${b[1]},${b[0]}`).catch(() => null);
+    if (!response?.ok) return;
+    const { distance_m, azimuth_deg } = await response.json();
+    this.onMeasured(`${distance(distance_m)}   ${bearing(azimuth_deg)}`);
+  }
+
+  endMeasuring() {
+    this.from = null;
+    this.measured.clear();
+  }
+
+  fit() {
+    const extent = createEmpty();
+    for (const s of this.link.site.stations.values()) {
+      if (s.latitude_deg != null && s.longitude_deg != null) extend(extent, new Point(fromLonLat([s.longitude_deg, s.latitude_deg])).getExtent());
+    }
+    for (const target of this.link.site.targets.values()) {
+      if (target.latitude_deg != null && !target.stale) extend(extent, new Point(fromLonLat([target.longitude_deg, target.latitude_deg])).getExtent());
+    }
+    if (isEmpty(extent)) return;
+    this.map.getView().fit(extent, { padding: [70, 90, 60, 70], maxZoom: 19 });
+  }
+
+  private view_m(): number {
+    const size = this.map.getSize() ?? [600, 400];
+    const latitude = toLonLat(this.map.getView().getCenter()!)[1];
+    return ((this.map.getView().getResolution() ?? 1) * Math.min(...size)) / stretch(latitude);
+  }
+
+  showMaps(chosen: UserMap[]) {
+    this.userLayers.show(chosen);
+  }
+
+  // A plan may be of another place than the one that is shown. False: it could not be had.
+  async showAccuracy(choice: AccuracyChoice | null): Promise<boolean> {
+    this.accuracyShown = choice;
+    const shown = await this.accuracy.show(choice);
+    const extent = this.accuracy.planExtent();
+    if (extent && !intersects(extent, this.map.getView().calculateExtent())) this.map.getView().fit(extent, { padding: [40, 40, 40, 40] });
+    return shown;
+  }
+
+  private async settled() {
+    this.drawStill();
+    this.draw(true); // what is drawn at the size of the view
+    if (this.accuracyShown && this.accuracyShown.plan === undefined) void this.accuracy.show(this.accuracyShown);
+    const box = transformExtent(this.map.getView().calculateExtent(), "EPSG:3857", "EPSG:4326");
+    const isSmall = box[2] - box[0] < 3 && box[3] - box[1] < 3;
+    this.graticule?.setVisible(!isSmall || !this.options.grid);
+    const response = isSmall && this.options.grid ? await fetch(`/api/grid?box=${box.map((v) => v.toFixed(7)).join()}`).catch(() => null) : null;
+    this.grid = response?.ok ? await response.json() : null;
+    this.drawStill();
+  }
+
+  drawStill() {
+    this.still.clear(true);
+    if (this.options.grid) this.still.addFeatures(gridShapes(this.grid, this.colours));
+    if (this.options.rings) this.still.addFeatures(ringShapes(this.link, this.colours, this.view_m()));
+  }
+
+  setOption(name: keyof SiteMap["options"], value: boolean) {
+    this.options[name] = value;
+    if (name === "measuring" && !value) this.endMeasuring();
+    void this.settled();
+    this.draw(true);
+  }
+
+  draw(now = false) {
+    const time = performance.now();
+    if (!now && time - this.drawn_ms < FRAME_MS) return;
+    this.drawn_ms = time;
+    const { site } = this.link;
+    const features: Feature[] = [];
+    const border_m = this.options.limits ? BORDER_PART * this.view_m() : null;
+    for (const s of site.stations.values()) features.push(...stationShapes(s, this.colours, this.selected === `station:${s.id}`, this.options.views, border_m));
+    features.push(...lineShapes(this.link, this.colours));
+    features.push(...cueShapes(this.link, this.colours));
+    for (const target of site.targets.values()) features.push(...targetShapes(target, this.colours, this.selected === `target:${target.id}`, this.options.trails));
+    this.moving.clear(true);
+    this.moving.addFeatures(features);
+    this.newest_us = Math.max(0, ...[...site.targets.values()].map((target) => target.utime_us));
+    this.keepInView();
+  }
+
+  private keepInView() {
+    const placed = [...this.link.site.stations.values()].filter((s) => s.latitude_deg != null).length;
+    if (placed > this.stationsFitted && !this.hasMoved) {
+      this.stationsFitted = placed;
+      this.fit();
+    }
+    if (!this.options.follow || !this.selected.startsWith("target:")) return;
+    const target = this.link.site.targets.get(this.selected.slice(7));
+    if (target?.latitude_deg != null) this.map.getView().setCenter(fromLonLat([target.longitude_deg, target.latitude_deg]));
+  }
+
+  middle(): Coordinate {
+    return getCenter(this.map.getView().calculateExtent());
+  }
+}

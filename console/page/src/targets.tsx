@@ -1,0 +1,120 @@
+// The table of targets, lines of sight and cues beside the map.
+
+import { h } from "preact";
+import { useState } from "preact/hooks";
+import { bearing, DASH, fixed } from "./format";
+import type { Link } from "./link";
+import type { Cue, Target } from "./site";
+import { named, t, Word } from "./words";
+
+type Column = { word: Word; of: (target: Target) => string | number | null; text: (target: Target, link: Link) => string };
+
+const age_s = (utime_us: number, link: Link) => Math.max(0, (link.now_us() - utime_us) / 1e6);
+const used = (target: Target) => target.stations?.filter((s) => s.used).length ?? 0;
+
+const COLUMNS: Column[] = [
+  { word: "name", of: (x) => Number(x.id), text: (x) => x.id },
+  { word: "state", of: (x) => x.state, text: (x) => named("s", x.state) },
+  { word: "height", of: (x) => x.height_m, text: (x) => fixed(x.height_m, 1, " m") },
+  { word: "speed", of: (x) => x.speed_m_s, text: (x) => fixed(x.speed_m_s, 1, " m/s") },
+  { word: "course", of: (x) => x.course_deg, text: (x) => bearing(x.course_deg, 0) },
+  { word: "sigma", of: (x) => x.sd_enu_m?.[0] ?? null, text: (x) => (x.sd_enu_m ?? []).map((v) => fixed(v, 2)).join("  ") + " m" },
+  { word: "seen_by", of: used, text: (x) => `${used(x)} ${t("of")} ${x.stations?.length ?? 0}` },
+  { word: "age", of: (x) => -x.utime_us, text: (x, link) => fixed(age_s(x.utime_us, link), 1, " s") },
+  { word: "position", of: (x) => x.latitude_deg, text: (x) => `${fixed(x.latitude_deg, 6)}° ${fixed(x.longitude_deg, 6)}°` },
+];
+const STATES = ["confirmed", "born", "coasted"];
+
+type TargetsProps = { link: Link; selected: string; mayCommand: boolean; onSelect: (pick: string) => void; onCue: (cue: string, allow: boolean) => void };
+
+// What others know of targets, and the operator's word on it.
+function CueRow({ cue, mayCommand, onCue }: { cue: Cue; mayCommand: boolean; onCue: TargetsProps["onCue"] }) {
+  const isAllowed = cue.state === "searched" || cue.state === "found";
+  return (
+    <tr class="line">
+      <td>{cue.target || DASH}</td>
+      <td colSpan={COLUMNS.length - 1}>
+        {t("cue")} {cue.id} {cue.label}: {named("s", cue.state)}, {fixed(cue.height_m, 0, " m")} ±{fixed(cue.horizontal_sd_m, 0, " m")}{" "}
+        <button type="button" disabled={!mayCommand} onClick={() => onCue(cue.id, !isAllowed)}>
+          {t(isAllowed ? "cue_forbid" : "cue_allow")}
+        </button>
+      </td>
+    </tr>
+  );
+}
+
+export function Targets({ link, selected, mayCommand, onSelect, onCue }: TargetsProps) {
+  const [sort, setSort] = useState({ column: 0, down: false });
+  const [state, setState] = useState("");
+  const targets = [...link.site.targets.values()].filter((one) => !state || one.state === state);
+  const key = COLUMNS[sort.column].of;
+  targets.sort((a, b) => {
+    const [x, y] = [key(a), key(b)];
+    const order = x == null ? 1 : y == null ? -1 : x < y ? -1 : x > y ? 1 : 0;
+    return sort.down ? -order : order;
+  });
+  const lines = [...link.site.lines.values()].filter((line) => !line.stale);
+  const cues = link.site.fusion?.stale ? [] : (link.site.fusion?.cues ?? []);
+  return (
+    <section class="targets" aria-label={t("targets")}>
+      <header>
+        <h2>{t("targets")}</h2>
+        <label>
+          {t("filter")}
+          <select value={state} onChange={(e) => setState(e.currentTarget.value)}>
+            <option value="">{t("all")}</option>
+            {STATES.map((one) => (
+              <option value={one}>{named("s", one)}</option>
+            ))}
+          </select>
+        </label>
+      </header>
+      <div class="scroll" tabIndex={0} role="group" aria-label={t("targets")}>
+        <table>
+          <thead>
+            <tr>
+              {COLUMNS.map((column, i) => (
+                <th aria-sort={sort.column !== i ? "none" : sort.down ? "descending" : "ascending"}>
+                  <button type="button" onClick={() => setSort({ column: i, down: sort.column === i && !sort.down })}>
+                    {t(column.word)}
+                    <span aria-hidden="true">{sort.column === i ? (sort.down ? " ▾" : " ▴") : ""}</span>
+                  </button>
+                </th>
+              ))}
+            </tr>
+          </thead>
+          <tbody>
+            {targets.map((target) => {
+              const pick = `target:${target.id}`;
+              const name = COLUMNS[0].text(target, link);
+              return (
+                <tr key={target.id} aria-selected={selected === pick} class={target.stale ? "stale" : ""} onClick={() => onSelect(pick)}>
+                  <td>
+                    <button type="button" class={`tag ${target.state}`} aria-pressed={selected === pick}>
+                      {name}
+                    </button>
+                  </td>
+                  {COLUMNS.slice(1).map((column) => (
+                    <td>{column.text(target, link)}</td>
+                  ))}
+                </tr>
+              );
+            })}
+            {lines.map((line) => (
+              <tr key={`line:${line.id}`} class="line">
+                <td>{DASH}</td>
+                <td colSpan={COLUMNS.length - 1}>
+                  {line.id}: {t("line_only")}, {t("azimuth")} {bearing(line.azimuth_deg, 2)} {t("elevation")} {fixed(line.elevation_deg, 2)}°
+                </td>
+              </tr>
+            ))}
+            {cues.map((cue) => (
+              <CueRow key={`cue:${cue.id}`} cue={cue} mayCommand={mayCommand} onCue={onCue} />
+            ))}
+          </tbody>
+        </table>
+        {targets.length + lines.length + cues.length === 0 && <p class="nothing">{t("no_target")}</p>}
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,52 @@
+"""The console's page in a browser: two consoles, a page that is watched, what is where on it."""
+
+import contextlib
+import re
+
+from console_site import DEADLINE_S, add_user, console_command
+from ols_demo.site import Site
+from playwright.sync_api import expect
+
+PASSWORD = "correct horse"  # of ana, an operator
+expect.set_options(timeout=DEADLINE_S * 1000)
+
+
+@contextlib.contextmanager
+def two_consoles(folder):
+    """Addresses: of one that is open, of one with users."""
+    add_user(folder / "users", "ana", PASSWORD, "operator")
+    addresses = []
+    with Site(folder / "logs") as site:
+        for name, users in (("open", "nobody"), ("closed", "users")):
+            command = console_command(folder / users, "--port", "0")
+            site.start_and_wait(name, command, "ready")
+            log = (site.logs / f"{name}.log").read_text()
+            addresses.append(re.findall(r"ready: (\S+)", log)[-1])
+        yield addresses
+        site.check()
+
+
+@contextlib.contextmanager
+def watched_page(chromium, address):
+    """A page of its own, which must have no errors; `troubles` has those so far."""
+    context = chromium.new_context(viewport={"width": 1280, "height": 800}, color_scheme="dark")
+    opened = context.new_page()
+    opened.set_default_timeout(DEADLINE_S * 1000)
+    opened.troubles = []
+    opened.on("console", lambda m: opened.troubles.append(m.text) if m.type == "error" else None)
+    opened.on("pageerror", lambda error: opened.troubles.append(str(error)))
+    opened.goto(address)
+    yield opened
+    assert opened.troubles == []
+    context.close()
+
+
+def region(page, name):
+    return page.get_by_role("region", name=name, exact=True)
+
+
+def picture(page, station):
+    """The station's video, once it shows something."""
+    canvas = region(page, "Video").get_by_role("img", name=station, exact=True)
+    expect(canvas.locator("xpath=..")).to_contain_text(re.compile(r"\d\.\d s"))
+    return canvas
