@@ -47,6 +47,10 @@ class StationBus {
   // After the datagrams of a turn.
   void end_turn();
 
+  // Of the site, as they were heard last.
+  trust::SiteSettings site_settings() const { return connector_.site_settings(); }
+  std::int64_t site_settings_number() const { return connector_.site_settings_number(); }
+
   // Why there is no connection; empty: connected.
   const std::string& trouble() const { return trouble_; }
   // The last refused command as text, and the number of refused commands.

@@ -1,5 +1,6 @@
 #include "base/trust/trust_config.h"
 
+#include <filesystem>
 #include <stdexcept>
 
 #include "base/config_section.h"
@@ -53,6 +54,15 @@ std::string list_path(const TrustConfig& config, const Environment& environment)
   if (!config.list.empty()) return config.list;
   if (!environment.keys.empty()) return environment.keys + "/trust.toml";
   return "/etc/ols/trust.toml";
+}
+
+std::string settings_path(const TrustConfig& config, const Environment& environment) {
+  return std::filesystem::path(list_path(config, environment)).replace_filename("site.toml");
+}
+
+std::string kept_path(const Environment& environment, const std::string& what,
+                      const std::string& name) {
+  return environment.state.empty() ? "" : environment.state + "/" + what + "-" + name + ".toml";
 }
 
 }  // namespace ols::trust
