@@ -79,8 +79,6 @@ config::Section site_section(StationSettings& settings);
 
 // What the site's settings must be for the station with this configuration file. Empty: anything.
 trust::SettingsCheck site_check(const std::string& path);
-// Where the station's key and what it keeps are.
-trust::Environment trust_environment(const StationSettings& settings);
 
 // What is configured, one line a subject, for --check-config.
 std::vector<std::string> describe(const StationSettings& settings);

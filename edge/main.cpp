@@ -17,6 +17,7 @@
 #include "base/toml_config.h"
 #include "base/trust/bus_trust.h"
 #include "edge/calibration_folder.h"
+#include "edge/messages_bus.h"
 #include "edge/rearm_signal.h"
 #include "edge/station_process.h"
 #include "geometry/angles.h"

@@ -22,6 +22,12 @@ std::shared_ptr<trust::BusTrust> open_trust(const StationSettings& settings, std
 
 }  // namespace
 
+trust::Environment trust_environment(const StationSettings& settings) {
+  trust::Environment environment = trust::process_environment();
+  if (!settings.state_folder.empty()) environment.state = settings.state_folder;
+  return environment;
+}
+
 StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
                        CommandTurn& turn, Record recorder, FrameWanted frame_wanted)
     : settings_(settings),

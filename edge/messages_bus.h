@@ -23,6 +23,9 @@
 
 namespace ols::station {
 
+// Where the station's key and what it keeps are.
+trust::Environment trust_environment(const StationSettings& settings);
+
 class StationBus {
  public:
   // Empty: accepted; otherwise the reason for the refusal.

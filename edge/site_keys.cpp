@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "base/config_section.h"
-#include "base/trust/bus_trust.h"
 #include "edge/config.h"
 
 namespace ols::station {
@@ -43,12 +42,6 @@ trust::SettingsCheck site_check(const std::string& path) {
   return [path](const trust::SiteSettings& site, const std::string&) {
     static_cast<void>(load_station_settings(path, site));
   };
-}
-
-trust::Environment trust_environment(const StationSettings& settings) {
-  trust::Environment environment = trust::process_environment();
-  if (!settings.state_folder.empty()) environment.state = settings.state_folder;
-  return environment;
 }
 
 }  // namespace ols::station

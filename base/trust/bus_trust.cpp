@@ -123,16 +123,16 @@ void BusTrust::begin() {
   files_.number = list_.number;
   verifier_->marks().read(text_if_any(files_.marks));
   files_.revision = verifier_->marks().revision();
-  thread_ = std::thread([this] { watch(); });
+  watcher_.thread = std::thread([this] { watch(); });
 }
 
 BusTrust::~BusTrust() {
   {
     const std::lock_guard lock(mutex_);
-    ends_ = true;
+    watcher_.ends = true;
   }
-  end_.notify_all();
-  if (thread_.joinable()) thread_.join();
+  watcher_.end.notify_all();
+  if (watcher_.thread.joinable()) watcher_.thread.join();
 }
 
 bool BusTrust::offer(const std::string& text, const std::string& name) {
@@ -273,7 +273,7 @@ void BusTrust::watch() {
     bool ends = false;
     {
       std::unique_lock lock(mutex_);
-      ends = end_.wait_for(lock, kLook, [this] { return ends_; });
+      ends = watcher_.end.wait_for(lock, kLook, [this] { return watcher_.ends; });
     }
     if (!ends) look_at_file();
     site_.look();

@@ -121,9 +121,12 @@ class BusTrust {
   std::optional<Verifier> verifier_;
   AudienceBook book_;
   double tell_s_ = 0.0;
-  bool ends_ = false;
-  std::condition_variable end_;
-  std::thread thread_;
+  struct Watcher {
+    bool ends = false;
+    std::condition_variable end;
+    std::thread thread;
+  };
+  Watcher watcher_;
 };
 
 }  // namespace ols::trust

@@ -1,6 +1,5 @@
 #include "base/trust/trust_config.h"
 
-#include <filesystem>
 #include <stdexcept>
 
 #include "base/config_section.h"
@@ -57,7 +56,8 @@ std::string list_path(const TrustConfig& config, const Environment& environment)
 }
 
 std::string settings_path(const TrustConfig& config, const Environment& environment) {
-  return std::filesystem::path(list_path(config, environment)).replace_filename("site.toml");
+  const std::string list = list_path(config, environment);
+  return list.substr(0, list.rfind('/') + 1) + "site.toml";
 }
 
 std::string kept_path(const Environment& environment, const std::string& what,
