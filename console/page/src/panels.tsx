@@ -5,6 +5,7 @@ import { useState } from "preact/hooks";
 import type { Link } from "./link";
 import type { Cue, SiteEvent, Station, Target } from "./site";
 import { adviceFor } from "./advice";
+import { Fleet } from "./fleet";
 import { bearing, clockError, DASH, fixed, utc } from "./format";
 import { named, t, Word } from "./words";
 
@@ -334,6 +335,7 @@ export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
             </article>
           );
         })}
+        <Fleet stations={stations} />
       </div>
     </section>
   );
