@@ -10,6 +10,14 @@ namespace ols {
 BusConnector::BusConnector(std::string url, std::shared_ptr<trust::BusTrust> trust)
     : url_(std::move(url)), trust_(std::move(trust)) {}
 
+trust::SiteSettings BusConnector::site_settings() const {
+  return trust_ == nullptr ? trust::SiteSettings{} : trust_->site_settings();
+}
+
+std::int64_t BusConnector::site_settings_number() const {
+  return trust_ == nullptr ? 0 : trust_->site_settings_number();
+}
+
 // A detached thread: the destructor of std::async's future would block the program's end.
 void BusConnector::begin() {
   std::packaged_task<std::unique_ptr<LcmBus>()> attempt([url = url_, trust = trust_] {

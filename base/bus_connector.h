@@ -19,6 +19,10 @@ class BusConnector {
   std::unique_ptr<LcmBus> take(double now_s, double wait_s = 0.0);
   static constexpr double kLongest_s = 12.0;
 
+  // The site's settings that the process has; number 0: none.
+  trust::SiteSettings site_settings() const;
+  std::int64_t site_settings_number() const;
+
   // Why the last attempt failed; empty after a success or before the first.
   const std::string& trouble() const { return trouble_; }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -83,6 +84,18 @@ void rows_as_example(std::ostream& out, const Section& section, const std::strin
     rows_as_example(out, inner, full_path(path, inner.name), values);
 }
 
+Section pick(const Section& from, const std::string& path, std::set<std::string>& left) {
+  Section section{from.name, from.sentence};
+  for (const Row& row : from.rows) {
+    if (left.erase(full_path(path, row.key)) > 0) section.rows.push_back(row);
+  }
+  for (const Section& inner : from.sections) {
+    Section rows = pick(inner, full_path(path, inner.name), left);
+    if (!rows.rows.empty() || !rows.sections.empty()) section.sections.push_back(std::move(rows));
+  }
+  return section;
+}
+
 }  // namespace
 
 void read(const Section& section, ConfigTable& table) {
@@ -121,6 +134,26 @@ std::string example(const Section& root,
   rows_as_example(out, root, "", left);
   if (!left.empty()) throw std::invalid_argument("no row for the key " + left.begin()->first);
   return out.str();
+}
+
+Section picked(const Section& root, const std::vector<std::string>& keys) {
+  std::set<std::string> left(keys.begin(), keys.end());
+  Section rows = pick(root, "", left);
+  if (!left.empty()) throw std::invalid_argument("no row for the key " + *left.begin());
+  return rows;
+}
+
+std::vector<std::string> stated(const Section& section, ConfigTable& table) {
+  std::vector<std::string> keys;
+  for (const Row& row : section.rows) {
+    if (table.has(row.key)) keys.push_back(row.key);
+  }
+  for (const Section& inner : section.sections) {
+    for (const std::string& key : stated(inner, table.table(inner.name))) {
+      keys.push_back(full_path(inner.name, key));
+    }
+  }
+  return keys;
 }
 
 void not_empty(const std::string& text) {

@@ -91,6 +91,12 @@ std::string markdown(const Section& section, const std::string& path = "");
 std::string example(const Section& root,
                     const std::vector<std::pair<std::string, std::string>>& values);
 
+// Only the rows of these keys ("ptu.baud"), without the checks across rows. Throws
+// std::invalid_argument for a key that has no row.
+Section picked(const Section& root, const std::vector<std::string>& keys);
+// Of the section's rows, those whose keys the table states.
+std::vector<std::string> stated(const Section& section, ConfigTable& table);
+
 using Check = std::function<void(const std::string&)>;  // throws std::invalid_argument
 void not_empty(const std::string& text);
 

@@ -126,19 +126,23 @@ void LcmBus::check_hearing() {
 int LcmBus::handle(int timeout_ms) {
   constexpr int kMost = 256;
   check_hearing();
-  tell_trust_list();
+  tell_what_is_signed();
   int handled = 0;
   while (handled < kMost && inbox_.handle_one(handled == 0 ? timeout_ms : 0)) ++handled;
   return handled;
 }
 
 // The sequence must grow within the boot, also over a new connection.
-void LcmBus::tell_trust_list() {
+void LcmBus::tell_what_is_signed() {
   if (trust_ == nullptr) return;
   const std::int64_t utime_us = clock_utime_us();
   if (const auto list = trust_->list_to_tell(clock_monotonic_s())) {
     publish(std::string(trust::kTrustChannel),
             trust::to_message(*list, trust_->boot_id(), utime_us, utime_us));
+  }
+  if (const auto settings = trust_->settings_to_tell(clock_monotonic_s())) {
+    publish(std::string(trust::kSiteChannel),
+            trust::to_settings_message(*settings, trust_->boot_id(), utime_us, utime_us));
   }
 }
 

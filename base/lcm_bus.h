@@ -73,7 +73,7 @@ class LcmBus {
   void hear_oneself();
   void send_self_test();
   void check_hearing();
-  void tell_trust_list();
+  void tell_what_is_signed();
 
   std::string url_;
   std::shared_ptr<trust::BusTrust> trust_;

@@ -1,7 +1,10 @@
 #include "command/messages.h"
 
+#include <algorithm>
+
 #include "base/channel_names.h"
 #include "base/plain_text.h"
+#include "ols_msg/bearing_t.hpp"
 #include "ols_msg/cue_order_t.hpp"
 #include "ols_msg/designate_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
@@ -164,6 +167,35 @@ const char* device_state(const ols_msg::station_status_t& status, const std::str
     if (status.device_name[i] == name) return device_name(status.device_state[i]);
   }
   return "-";
+}
+
+std::string software(const ols_msg::station_status_t& status) {
+  constexpr std::size_t kLongest = 40;
+  const auto named = std::ranges::find(status.device_name, "software");
+  if (named == status.device_name.end()) return "-";
+  const auto at = static_cast<std::size_t>(named - status.device_name.begin());
+  return plain_text(status.device_text[at].substr(0, kLongest));
+}
+
+const char* clock_name(std::int8_t state) {
+  using M = ols_msg::bearing_t;
+  return state == M::CLOCK_SYNCHRONISED     ? "synchronised"
+         : state == M::CLOCK_UNSYNCHRONISED ? "unsynchronised"
+                                            : "unknown";
+}
+
+const char* calibration_name(std::int8_t state) {
+  using M = ols_msg::station_status_t;
+  switch (state) {
+    case M::CALIBRATION_IN_USE:
+      return "in use";
+    case M::CALIBRATION_REFUSED:
+      return "refused";
+    case M::CALIBRATION_DOUBTED:
+      return "doubted";
+    default:
+      return "none";
+  }
 }
 
 std::optional<CuesSaid> heard_cues(const BusMessage& message) {

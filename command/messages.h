@@ -33,6 +33,12 @@ const char* state_name(std::int8_t state);
 const char* device_name(std::int8_t device);
 // The state of a device by its name; "-" when the station has no such device.
 const char* device_state(const ols_msg::station_status_t& status, const std::string& name);
+// The version of the station's program, cut to a line; "-" if it does not say it.
+std::string software(const ols_msg::station_status_t& status);
+// "synchronised", "unsynchronised", "unknown".
+const char* clock_name(std::int8_t state);
+// "none", "in use", "refused", "doubted".
+const char* calibration_name(std::int8_t state);
 
 // A cue as the fusion's status has it.
 struct CueSaid {

@@ -79,13 +79,6 @@ const char* source_name(std::int8_t source) {
                                          : "unknown";
 }
 
-const char* clock_name(std::int8_t state) {
-  using M = ols_msg::bearing_t;
-  return state == M::CLOCK_SYNCHRONISED     ? "synchronised"
-         : state == M::CLOCK_UNSYNCHRONISED ? "unsynchronised"
-                                            : "unknown";
-}
-
 std::vector<std::string> plain(std::vector<std::string> texts) {
   if (texts.size() > kMostListed) texts.resize(kMostListed);
   for (std::string& text : texts) text = plain_text(text);
@@ -278,7 +271,11 @@ std::optional<StationHeard> station_from(const BusMessage& message) {
       {"track_id", number_text(s.track_id)},
       {"belief", rounded(s.belief, 3)},
       {"devices", devices_of(s)},
-      {"clock", {{"state", clock_name(s.clock_state)}, {"error_s", rounded(s.clock_error_s, 6)}}},
+      {"clock",
+       {{"state", command::clock_name(s.clock_state)}, {"error_s", rounded(s.clock_error_s, 6)}}},
+      {"calibration",
+       {{"state", command::calibration_name(s.calibration_state)},
+        {"utime_us", s.calibration_utime}}},
       {"frame_latency_s", rounded(s.frame_latency_s, 3)},
       {"alarms", plain(s.alarm)},
       {"readings", named(s.reading_name, s.reading_value)},

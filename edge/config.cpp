@@ -301,10 +301,7 @@ Section station_section(StationSettings& s) {
 }
 
 StationSettings load_station_settings(const std::string& path) {
-  ConfigFile file(path);
-  StationSettings settings;
-  config::read(station_section(settings), file.root());
-  return settings;
+  return load_station_settings(path, {});
 }
 
 }  // namespace ols::station

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/trust/site_settings.h"
 #include "base/trust/trust_config.h"
 #include "edge/camera/camera_config.h"
 #include "edge/clock/clock_watch.h"
@@ -29,6 +30,13 @@ namespace ols::station {
 // Of the parts that a calibration belongs to; empty: not stated.
 struct InstrumentSerials {
   std::string camera, lens, ptu;
+};
+
+// What a station has of its site's settings.
+struct SiteChoice {
+  std::string file;              // of the station's own configuration; empty: none was read
+  std::int64_t number = 0;       // of the settings that are in use; 0: none
+  std::vector<std::string> own;  // the site's keys that the station's file states otherwise
 };
 
 struct StationSettings {
@@ -57,11 +65,20 @@ struct StationSettings {
   tracker::TrackerConfig tracker;
   CommandGate::Config gate;
   trust::TrustConfig trust;
+  SiteChoice site;
+  std::string software;  // version of this program, for the status
 };
 
 config::Section station_section(StationSettings& settings);  // the whole file
 // Throws ConfigError ("file:line: key: what").
 StationSettings load_station_settings(const std::string& path);
+// The same where the site has settings: they stand in for what the file does not state.
+StationSettings load_station_settings(const std::string& path, const trust::SiteSettings& site);
+// The keys that a site's settings may have in [station]: those that are the same on all stations.
+config::Section site_section(StationSettings& settings);
+
+// What the site's settings must be for the station with this configuration file. Empty: anything.
+trust::SettingsCheck site_check(const std::string& path);
 
 // What is configured, one line a subject, for --check-config.
 std::vector<std::string> describe(const StationSettings& settings);

@@ -7,26 +7,69 @@
 #include <cstdlib>
 #include <exception>
 #include <opencv2/core/utility.hpp>
+#include <optional>
+#include <string>
 
 #include "base/boot_id.h"
 #include "base/command_line.h"
 #include "base/csv_files.h"
 #include "base/shutdown.h"
 #include "base/toml_config.h"
+#include "base/trust/bus_trust.h"
 #include "edge/calibration_folder.h"
+#include "edge/messages_bus.h"
 #include "edge/rearm_signal.h"
 #include "edge/station_process.h"
 #include "geometry/angles.h"
 
 namespace {
 
-int run(const ols::station::StationSettings& settings) {
+using ols::station::StationSettings;
+
+StationSettings load(const std::string& config, const ols::trust::SiteSettings& site) {
+  StationSettings settings = ols::station::load_station_settings(config, site);
+  // systemd's StateDirectory=.
+  const char* folder = std::getenv("STATE_DIRECTORY");
+  if (settings.state_folder.empty() && folder != nullptr) settings.state_folder = folder;
+  settings.software = OLS_VERSION;
+  return settings;
+}
+
+// A file that a person is just editing must not end a station that runs.
+StationSettings loaded_again(const std::string& config, const ols::trust::SiteSettings& site,
+                             const StationSettings& before) {
+  try {
+    return load(config, site);
+  } catch (const ols::ConfigError& error) {
+    spdlog::warn("site settings {} are not taken: {}", site.number, error.what());
+    StationSettings settings = before;
+    settings.site.number = site.number;
+    return settings;
+  }
+}
+
+void say_site(const StationSettings& settings) {
+  if (settings.site.number == 0) return;
+  std::string own;
+  for (const std::string& key : settings.site.own) own += (own.empty() ? "" : ", ") + key;
+  spdlog::info("site settings {} in use{}{}", settings.site.number,
+               own.empty() ? "" : "; this station's file says otherwise for ", own);
+}
+
+int run(const std::string& config, const StationSettings& own) {
   cv::setNumThreads(1);  // a frame is small; the other core is for the camera's stream
-  ols::station::StationProcess process(settings, ols::draw_boot_id());
-  spdlog::info("station {} ready: camera {}, PTU {}, bus {}", settings.id, settings.camera.device,
-               settings.ptu.device, settings.lcm_url);
-  process.run(ols::shutdown_requested);
-  spdlog::info("station {} stops", settings.id);
+  StationSettings settings =
+      load(config, ols::trust::settings_at_start(own.trust, trust_environment(own), own.id,
+                                                 ols::station::site_check(config)));
+  for (std::optional<ols::trust::SiteSettings> newer = ols::trust::SiteSettings{}; newer;) {
+    ols::station::StationProcess process(settings, ols::draw_boot_id());
+    spdlog::info("station {} ready: camera {}, PTU {}, bus {}", settings.id, settings.camera.device,
+                 settings.ptu.device, settings.lcm_url);
+    say_site(settings);
+    newer = process.run(ols::shutdown_requested);
+    if (newer) settings = loaded_again(config, *newer, settings);
+  }
+  spdlog::info("station {} stops", own.id);
   return 0;
 }
 
@@ -44,10 +87,7 @@ int main(int argc, char** argv) {
   ols::install_shutdown_handler();
   ols::station::install_rearm_handler();
   try {
-    ols::station::StationSettings settings = ols::station::load_station_settings(config);
-    // systemd's StateDirectory=.
-    const char* folder = std::getenv("STATE_DIRECTORY");
-    if (settings.state_folder.empty() && folder != nullptr) settings.state_folder = folder;
+    const StationSettings settings = load(config, {});
     if (check) {
       for (const auto& line : describe(settings)) std::printf("ok %s\n", line.c_str());
       if (!settings.calibration_folder.empty()) {
@@ -58,7 +98,7 @@ int main(int argc, char** argv) {
       ols::flush_output();
       return 0;
     }
-    return run(settings);
+    return run(config, settings);
   } catch (const ols::ConfigError& error) {
     std::fprintf(stderr, "ols-station: %s\n", error.what());
     return ols::kExitBadInput;

@@ -11,16 +11,22 @@ namespace {
 constexpr QueueLimits kQueue{.messages = 400, .bytes = 1'000'000};  // commands of one kind
 
 std::shared_ptr<trust::BusTrust> open_trust(const StationSettings& settings, std::int64_t boot_id) {
-  trust::Environment environment = trust::process_environment();
-  if (!settings.state_folder.empty()) environment.state = settings.state_folder;
+  const trust::Environment environment = trust_environment(settings);
   trust::Self self;
   self.name = settings.id;
   self.boot_id = boot_id;
   self.is_station = true;
+  self.settings = site_check(settings.site.file);
   return trust::BusTrust::open(settings.trust, environment, self);
 }
 
 }  // namespace
+
+trust::Environment trust_environment(const StationSettings& settings) {
+  trust::Environment environment = trust::process_environment();
+  if (!settings.state_folder.empty()) environment.state = settings.state_folder;
+  return environment;
+}
 
 StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
                        CommandTurn& turn, Record recorder, FrameWanted frame_wanted)

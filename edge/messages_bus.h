@@ -23,6 +23,9 @@
 
 namespace ols::station {
 
+// Where the station's key and what it keeps are.
+trust::Environment trust_environment(const StationSettings& settings);
+
 class StationBus {
  public:
   // Empty: accepted; otherwise the reason for the refusal.
@@ -46,6 +49,10 @@ class StationBus {
   bool take_stop(const BusMessage& message);
   // After the datagrams of a turn.
   void end_turn();
+
+  // Of the site, as they were heard last.
+  trust::SiteSettings site_settings() const { return connector_.site_settings(); }
+  std::int64_t site_settings_number() const { return connector_.site_settings_number(); }
 
   // Why there is no connection; empty: connected.
   const std::string& trouble() const { return trouble_; }

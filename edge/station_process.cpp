@@ -61,14 +61,23 @@ StationProcess::StationProcess(const StationSettings& configured, std::int64_t b
   bus_.connect(BusConnector::kLongest_s);
 }
 
-void StationProcess::run(const std::function<bool()>& ends) {
+std::optional<trust::SiteSettings> StationProcess::run(const std::function<bool()>& ends) {
   bool ready = false;
   while (!ends()) {
+    if (has_newer_settings()) return bus_.site_settings();
     turn();
     if (!ready) service_.ready("station " + settings().id + " begins");
     ready = true;
   }
   service_.stopping();
+  return std::nullopt;
+}
+
+bool StationProcess::has_newer_settings() const {
+  // To begin anew permits no motion: a station that was stopped stays so.
+  const bool rests =
+      station_.state() == StationState::kIdle || station_.state() == StationState::kStopped;
+  return rests && bus_.site_settings_number() > settings().site.number;
 }
 
 void StationProcess::turn() {
@@ -253,6 +262,7 @@ StationReport StationProcess::report(const clock::ClockPair& now) {
   report.limits_known = ptu.port.open && ptu.state == ptu::PtuState::kReady;
   report.snapshot = station_.snapshot();
   report.devices = devices_.reports();
+  if (!settings().software.empty()) report.devices.push_back(software());
   check_calibration(report, now.monotonic_s);
   calibration_.note_homings(ptu.counters.homings);
   report.calibration = calibration_.status();
@@ -287,6 +297,16 @@ void StationProcess::check_calibration(const StationReport& report, double now_s
   station_.set_pose(pose_->pose(now_s));
 }
 
+// Told as a device, not by a field of its own: logs and programs of before would not know the
+// message any more.
+device::DeviceReport StationProcess::software() const {
+  device::DeviceReport report;
+  report.name = "software";
+  report.state = device::DeviceState::kOk;
+  report.text = settings().software;
+  return report;
+}
+
 std::string StationProcess::emergency_alarm() const {
   if (devices_.stop().pressed()) return "emergency stop: pressed";
   const std::string what = "emergency stop: not rearmed yet: ";
@@ -303,6 +323,9 @@ void StationProcess::add_pose_and_clock(double now_s, StationReport& report) con
   if (!clock.alarm.empty()) report.alarms.push_back(clock.alarm);
   report.counters["clock_steps"] = static_cast<double>(clock.steps);
   if (clock.offset_s) report.readings["clock_offset_s"] = *clock.offset_s;
+  if (settings().site.number > 0) {
+    report.readings["site_settings_number"] = static_cast<double>(settings().site.number);
+  }
 }
 
 void StationProcess::add_host(double now_s, StationReport& report) {

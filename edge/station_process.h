@@ -25,14 +25,16 @@ class StationProcess {
   StationProcess(const StationSettings& configured, std::int64_t boot_id);
 
   // Runs until `ends` returns true; notifies systemd. Ready after the first turn, whatever devices
-  // are present.
-  void run(const std::function<bool()>& ends);
+  // are present. Or until the site has newer settings and the station is idle: returns those, and
+  // is to be begun anew with them.
+  std::optional<trust::SiteSettings> run(const std::function<bool()>& ends);
 
  private:
   // One turn of the control loop: commands, PTU angles, the newest frame, bearings, the PTU's goal,
   // and at intervals a status and a preview. Takes a few milliseconds, or as long as the tracker
   // needs for a frame.
   void turn();
+  bool has_newer_settings() const;
   clock::ClockPair look_at_clocks();
   void resume_hold(double now_s);
   void heed_emergency_stop(double now_s);
@@ -48,6 +50,7 @@ class StationProcess {
   void send_requested_frames(double now_s);
   void send_reports(const clock::ClockPair& now);
   StationReport report(const clock::ClockPair& now);
+  device::DeviceReport software() const;
   std::string emergency_alarm() const;
   void add_pose_and_clock(double now_s, StationReport& report) const;
   void add_host(double now_s, StationReport& report);

@@ -17,7 +17,7 @@ constexpr QueueLimits kTargetLimits{.messages = 10'000, .bytes = 16'000'000};
 
 std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config) {
   trust::Self self;
-  self.name = "export";
+  self.name = kMemberName;
   self.boot_id = draw_boot_id();
   return trust::BusTrust::open(config, trust::process_environment(), self);
 }

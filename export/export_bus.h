@@ -13,6 +13,8 @@
 
 namespace ols::exports {
 
+inline constexpr const char* kMemberName = "export";  // of the site
+
 class ExportBus {
  public:
   using Handler = std::function<void(const BusMessage&)>;

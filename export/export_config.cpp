@@ -211,7 +211,10 @@ config::Section export_section(ExportConfig& c) {
                           "How much of the tracks stands in a file.")},
           {outputs_section(c), cot_section(c.cot), mqtt_section(c.home), asterix_section(c.asterix),
            trust::trust_section(c.trust)},
-          [&c](ConfigTable& root) { check_names(c, root); }};
+          [&c](ConfigTable& root) {
+            c.has_own_geoid = root.has("geoid");
+            check_names(c, root);
+          }};
 }
 
 ExportConfig load_export_config(const std::string& path) {

@@ -31,6 +31,7 @@ struct ExportConfig {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string site = "ols";
   std::string geoid = "egm96_15.gtx";
+  bool has_own_geoid = false;  // the file states it; else the site's settings may
   std::string status_file;
   double max_age_s = 5.0;
   double history_min = 10.0;  // of tracks in a file

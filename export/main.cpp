@@ -17,6 +17,7 @@
 #include "base/service_notifier.h"
 #include "base/shutdown.h"
 #include "base/toml_config.h"
+#include "base/trust/bus_trust.h"
 #include "export/conversion.h"
 #include "export/export_bus.h"
 #include "export/export_config.h"
@@ -43,6 +44,9 @@ exports::ExportConfig configuration(const Arguments& arguments) {
   exports::ExportConfig config;
   if (!arguments.config.empty()) config = exports::load_export_config(arguments.config);
   if (!arguments.lcm_url.empty()) config.lcm_url = arguments.lcm_url;
+  const ols::trust::SiteSettings site = ols::trust::settings_at_start(
+      config.trust, ols::trust::process_environment(), exports::kMemberName, {});
+  if (!config.has_own_geoid && !site.geoid.empty()) config.geoid = site.geoid;
   return config;
 }
 

@@ -47,11 +47,27 @@ MemberKey key_of(const std::string& path) {
   }
 }
 
+SiteFiles site_files(const TrustConfig& config, const Environment& environment,
+                     const std::string& name) {
+  return {settings_path(config, environment), kept_path(environment, "site", name)};
+}
+
 }  // namespace
 
 Environment process_environment() {
   return {from_environment("OLS_TRUST"), from_environment("OLS_KEYS"),
           from_environment("CREDENTIALS_DIRECTORY"), from_environment("STATE_DIRECTORY")};
+}
+
+SiteSettings settings_at_start(const TrustConfig& config, const Environment& environment,
+                               const std::string& name, const SettingsCheck& check) {
+  try {
+    if (mode_of(config, environment) == Mode::kOff) return {};
+    const MemberKey key = read_member_key(key_path(config, environment, name));
+    return SiteKeeper(key.root, site_files(config, environment, name), check).settings();
+  } catch (const std::exception&) {
+    return {};  // BusTrust::open() says it
+  }
 }
 
 std::shared_ptr<BusTrust> BusTrust::open(const TrustConfig& config, const Environment& environment,
@@ -73,14 +89,15 @@ BusTrust::BusTrust(Mode mode, const TrustConfig& config, const Environment& envi
     : mode_(mode),
       self_(self),
       key_(key_of(key_path(config, environment, self.name))),
-      tolerance_us_(static_cast<std::int64_t>(config.clock_tolerance_s * 1e6)) {
+      tolerance_us_(static_cast<std::int64_t>(config.clock_tolerance_s * 1e6)),
+      site_(key_.file.root, site_files(config, environment, self.name), self.settings) {
   if (self.is_station && key_.file.name != self.name) {
     throw ConfigError("trust.key: is that of " + key_.file.name + ", not of " + self.name);
   }
   files_.list = list_path(config, environment);
   files_.must_be_there = !config.list.empty();
+  files_.kept_list = kept_path(environment, "trust", self.name);
   if (environment.state.empty()) return;
-  files_.kept_list = environment.state + "/trust-" + self.name + ".toml";
   if (self.keeps_marks) files_.marks = environment.state + "/heard-" + self.name;
 }
 
@@ -106,16 +123,16 @@ void BusTrust::begin() {
   files_.number = list_.number;
   verifier_->marks().read(text_if_any(files_.marks));
   files_.revision = verifier_->marks().revision();
-  thread_ = std::thread([this] { watch(); });
+  watcher_.thread = std::thread([this] { watch(); });
 }
 
 BusTrust::~BusTrust() {
   {
     const std::lock_guard lock(mutex_);
-    ends_ = true;
+    watcher_.ends = true;
   }
-  end_.notify_all();
-  if (thread_.joinable()) thread_.join();
+  watcher_.end.notify_all();
+  if (watcher_.thread.joinable()) watcher_.thread.join();
 }
 
 bool BusTrust::offer(const std::string& text, const std::string& name) {
@@ -150,7 +167,8 @@ std::vector<std::uint8_t> BusTrust::sign(const std::string& channel, Bytes paylo
 }
 
 bool BusTrust::wants(std::string_view channel) const {
-  return channel == kTrustChannel || (!self_.is_station && channel.starts_with(kStatusChannel));
+  return channel == kTrustChannel || channel == kSiteChannel ||
+         (!self_.is_station && channel.starts_with(kStatusChannel));
 }
 
 Verifier::Verdict BusTrust::judge_and_learn(std::string_view channel, Bytes message,
@@ -178,6 +196,9 @@ Judgement BusTrust::judge(std::string_view channel, Bytes message, std::int64_t 
   if (is_first_list(channel, message)) hear_list(without_trailer(message));
   const auto verdict = judge_and_learn(channel, message, {utime_us, now_s});
   if (!verdict.distrust && channel == kTrustChannel) hear_list(without_trailer(message));
+  if (!verdict.distrust && channel == kSiteChannel) {
+    if (const auto text = settings_from(without_trailer(message))) site_.hear(*text);
+  }
   Judgement judgement{without_trailer(message)};
   judgement.distrust = verdict.distrust;
   judgement.sender = verdict.sender;
@@ -211,6 +232,10 @@ std::optional<std::string> BusTrust::list_to_tell(double now_s) {
   return text_;
 }
 
+std::optional<std::string> BusTrust::settings_to_tell(double now_s) {
+  return self_.tells_list ? site_.to_tell(now_s) : std::nullopt;
+}
+
 std::string BusTrust::list_text() const {
   const std::lock_guard lock(mutex_);
   return text_;
@@ -222,6 +247,11 @@ std::int64_t BusTrust::list_number() const {
 }
 
 std::string BusTrust::trouble() const {
+  const std::string own = membership_trouble();
+  return own.empty() ? site_.trouble() : own;
+}
+
+std::string BusTrust::membership_trouble() const {
   const std::lock_guard lock(mutex_);
   if (!file_trouble_.empty()) return "trust: the list cannot be used: " + file_trouble_;
   if (list_.number == 0) {
@@ -229,7 +259,10 @@ std::string BusTrust::trouble() const {
   }
   for (const Member& member : list_.members) {
     if (member.key != key_.signing.public_key()) continue;
-    return member.revoked ? "trust: the key of " + member.name + " is revoked" : "";
+    if (member.revoked) return "trust: the key of " + member.name + " is revoked";
+    const std::string strange = list_.strange_members();
+    return strange.empty() ? ""
+                           : "trust: members of roles that this version does not know: " + strange;
   }
   return "trust: the own key, " + key_.file.name + ", is not in trust list " +
          std::to_string(list_.number);
@@ -240,9 +273,10 @@ void BusTrust::watch() {
     bool ends = false;
     {
       std::unique_lock lock(mutex_);
-      ends = end_.wait_for(lock, kLook, [this] { return ends_; });
+      ends = watcher_.end.wait_for(lock, kLook, [this] { return watcher_.ends; });
     }
     if (!ends) look_at_file();
+    site_.look();
     if (ends || look % kKeepEvery == 0) keep();
     if (ends) return;
   }

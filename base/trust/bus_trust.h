@@ -1,6 +1,6 @@
-// What a process knows of trust on the bus: its own key, the site's trust list, and what it has
-// heard. Signs what the process sends and judges what it receives; a thread of its own looks after
-// the files, so that no control loop waits for a disk.
+// What a process knows of trust on the bus: its own key, the site's trust list and settings, and
+// what it has heard. Signs what the process sends and judges what it receives; a thread of its own
+// looks after the files, so that no control loop waits for a disk.
 #pragma once
 
 #include <condition_variable>
@@ -15,6 +15,7 @@
 
 #include "base/trust/audience_book.h"
 #include "base/trust/key_file.h"
+#include "base/trust/site_keeper.h"
 #include "base/trust/trust_config.h"
 #include "base/trust/verifier.h"
 
@@ -28,6 +29,7 @@ struct Self {
   bool commands = false;     // shows and commands stations, even those whose clock is wrong
   bool tells_list = false;   // passes the trust list on
   bool keeps_marks = false;  // what it has heard outlasts a restart
+  SettingsCheck settings{};  // of the site, as this program reads them; none: it passes them on
 };
 
 // What becomes of a received message.
@@ -40,6 +42,11 @@ struct Judgement {
 };
 
 Environment process_environment();
+
+// The site's settings of this process as it starts, before it has heard any; number 0: none, or no
+// key to know the site by.
+SiteSettings settings_at_start(const TrustConfig& config, const Environment& environment,
+                               const std::string& name, const SettingsCheck& check);
 
 class BusTrust {
  public:
@@ -57,12 +64,15 @@ class BusTrust {
   // From the receiving thread.
   Judgement judge(std::string_view channel, Bytes message, std::int64_t utime_us, double now_s);
 
-  // The list, when it is time to tell it again.
+  // The list, and the settings, when it is time to tell them again.
   std::optional<std::string> list_to_tell(double now_s);
+  std::optional<std::string> settings_to_tell(double now_s);
   static constexpr double kTell_s = 2.0;
   // The list in force, and its number: for who keeps it beside the logs.
   std::string list_text() const;
   std::int64_t list_number() const;
+  SiteSettings site_settings() const { return site_.settings(); }
+  std::int64_t site_settings_number() const { return site_.number(); }
 
   std::int64_t boot_id() const { return self_.boot_id; }
   // What a person should put right; empty: nothing.
@@ -80,6 +90,7 @@ class BusTrust {
   void watch();
   void look_at_file();
   void keep();
+  std::string membership_trouble() const;
   Verifier::Verdict judge_and_learn(std::string_view channel, Bytes message,
                                     const Arrival& arrival);
 
@@ -102,6 +113,7 @@ class BusTrust {
   const Self self_;
   const Key key_;
   const std::int64_t tolerance_us_;
+  SiteKeeper site_;
   Files files_;               // of the thread, once it runs
   mutable std::mutex mutex_;  // of what follows
   TrustList list_;
@@ -109,9 +121,12 @@ class BusTrust {
   std::optional<Verifier> verifier_;
   AudienceBook book_;
   double tell_s_ = 0.0;
-  bool ends_ = false;
-  std::condition_variable end_;
-  std::thread thread_;
+  struct Watcher {
+    bool ends = false;
+    std::condition_variable end;
+    std::thread thread;
+  };
+  Watcher watcher_;
 };
 
 }  // namespace ols::trust

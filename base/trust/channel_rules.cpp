@@ -55,8 +55,10 @@ constexpr auto kRules = numbered(std::array{
     // To the fusion, which needs no boot named: an allowance ends with its cue.
     ChannelRule{kCueOrderChannel, false, Role::kOperator, HeadForm::kBootFirst, false, true,
                 kHand_Hz},
-    // Anybody may pass the trust list on: the root has signed it.
+    // Anybody may pass the trust list and the site's settings on: the root has signed them.
     ChannelRule{kTrustChannel, false, Role::kListener, HeadForm::kBootFirst, false, false,
+                kStatus_Hz},
+    ChannelRule{kSiteChannel, false, Role::kListener, HeadForm::kBootFirst, false, false,
                 kStatus_Hz},
     ChannelRule{"OLS_SIM_", true, Role::kSimulator, HeadForm::kUtimeOnly, false, false,
                 kSimulator_Hz},
@@ -77,6 +79,7 @@ bool matches(const ChannelRule& rule, std::string_view channel) {
 }  // namespace
 
 const char* to_string(Role role) {
+  if (role == Role::kUnknown) return "unknown";
   return std::ranges::find(kRoles, role, &std::pair<Role, const char*>::first)->second;
 }
 
@@ -100,7 +103,8 @@ std::optional<Channel> rule_of(std::string_view channel) {
 }
 
 bool may_send(Role role, std::string_view name, const Channel& channel) {
-  if (channel.rule->name == kTrustChannel) return true;
+  if (role == Role::kUnknown) return false;
+  if (channel.rule->name == kTrustChannel || channel.rule->name == kSiteChannel) return true;
   if (role != channel.rule->sender) return false;
   return role != Role::kStation || channel.station == name;
 }

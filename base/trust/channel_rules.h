@@ -18,8 +18,10 @@ enum class Role {
   kSimulator,  // what only the simulator says
   kCue,        // cues from outside
   kListener,   // nothing: a logger or a doctor, whose key file opens the site tag to it
+  kUnknown,    // of a list that is newer than this program: nothing at all
 };
 const char* to_string(Role role);
+// Nothing for a word that is none of them.
 std::optional<Role> role_from(std::string_view word);
 
 struct ChannelRule {
@@ -35,6 +37,7 @@ struct ChannelRule {
 
 std::span<const ChannelRule> rules();
 inline constexpr std::string_view kTrustChannel = "OLS_TRUST";
+inline constexpr std::string_view kSiteChannel = "OLS_SITE";
 
 struct Channel {
   const ChannelRule* rule = nullptr;

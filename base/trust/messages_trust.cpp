@@ -3,29 +3,52 @@
 #include <exception>
 
 namespace ols::trust {
+namespace {
 
-ols_msg::trust_list_t to_message(const std::string& list, std::int64_t boot_id,
-                                 std::int64_t sequence, std::int64_t utime_us) {
-  ols_msg::trust_list_t message;
+template <class Message>
+Message telling(const std::string& text, std::int64_t boot_id, std::int64_t sequence,
+                std::int64_t utime_us) {
+  Message message;
   message.utime = utime_us;
-  message.schema_version = ols_msg::trust_list_t::SCHEMA_VERSION;
+  message.schema_version = Message::SCHEMA_VERSION;
   message.boot_id = boot_id;
   message.sequence = sequence;
-  message.text = list;
+  message.text = text;
   return message;
 }
 
 // As decode_exactly() of base/lcm_bus.h, which stands above this.
-std::optional<std::string> list_from(Bytes payload) {
-  ols_msg::trust_list_t message;
+template <class Message>
+std::optional<std::string> text_from(Bytes payload) {
+  Message message;
   const int size = static_cast<int>(payload.size());
   try {
     if (message.decode(payload.data(), 0, size) != size) return std::nullopt;
   } catch (const std::exception&) {
     return std::nullopt;
   }
-  if (message.schema_version != ols_msg::trust_list_t::SCHEMA_VERSION) return std::nullopt;
+  if (message.schema_version != Message::SCHEMA_VERSION) return std::nullopt;
   return message.text;
+}
+
+}  // namespace
+
+ols_msg::trust_list_t to_message(const std::string& list, std::int64_t boot_id,
+                                 std::int64_t sequence, std::int64_t utime_us) {
+  return telling<ols_msg::trust_list_t>(list, boot_id, sequence, utime_us);
+}
+
+ols_msg::site_settings_t to_settings_message(const std::string& settings, std::int64_t boot_id,
+                                             std::int64_t sequence, std::int64_t utime_us) {
+  return telling<ols_msg::site_settings_t>(settings, boot_id, sequence, utime_us);
+}
+
+std::optional<std::string> list_from(Bytes payload) {
+  return text_from<ols_msg::trust_list_t>(payload);
+}
+
+std::optional<std::string> settings_from(Bytes payload) {
+  return text_from<ols_msg::site_settings_t>(payload);
 }
 
 }  // namespace ols::trust

@@ -1,4 +1,4 @@
-// The trust list as a message of the bus.
+// The texts that the site's root has signed, as messages of the bus.
 #pragma once
 
 #include <cstdint>
@@ -6,13 +6,17 @@
 #include <string>
 
 #include "base/trust/crypto.h"
+#include "ols_msg/site_settings_t.hpp"
 #include "ols_msg/trust_list_t.hpp"
 
 namespace ols::trust {
 
 ols_msg::trust_list_t to_message(const std::string& list, std::int64_t boot_id,
                                  std::int64_t sequence, std::int64_t utime_us);
-// The list's text, unchecked; nothing if it is no such message.
+ols_msg::site_settings_t to_settings_message(const std::string& settings, std::int64_t boot_id,
+                                             std::int64_t sequence, std::int64_t utime_us);
+// The text, unchecked; nothing if it is no such message.
 std::optional<std::string> list_from(Bytes payload);
+std::optional<std::string> settings_from(Bytes payload);
 
 }  // namespace ols::trust

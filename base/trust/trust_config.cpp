@@ -55,4 +55,14 @@ std::string list_path(const TrustConfig& config, const Environment& environment)
   return "/etc/ols/trust.toml";
 }
 
+std::string settings_path(const TrustConfig& config, const Environment& environment) {
+  const std::string list = list_path(config, environment);
+  return list.substr(0, list.rfind('/') + 1) + "site.toml";
+}
+
+std::string kept_path(const Environment& environment, const std::string& what,
+                      const std::string& name) {
+  return environment.state.empty() ? "" : environment.state + "/" + what + "-" + name + ".toml";
+}
+
 }  // namespace ols::trust

@@ -24,7 +24,7 @@ config::Section trust_section(TrustConfig& config);
 // those of systemd, are passed in.
 struct Environment {
   std::string mode{};         // OLS_TRUST
-  std::string keys{};         // OLS_KEYS: a folder of NAME.key files and trust.toml
+  std::string keys{};         // OLS_KEYS: a folder of NAME.key files, trust.toml, site.toml
   std::string credentials{};  // CREDENTIALS_DIRECTORY: of systemd
   std::string state{};        // STATE_DIRECTORY: of systemd
 };
@@ -34,5 +34,10 @@ Mode mode_of(const TrustConfig& config, const Environment& environment);
 std::string key_path(const TrustConfig& config, const Environment& environment,
                      const std::string& name);
 std::string list_path(const TrustConfig& config, const Environment& environment);
+// Of the site's settings: beside the list.
+std::string settings_path(const TrustConfig& config, const Environment& environment);
+// What is kept of what was heard; empty: nothing, without a folder of state.
+std::string kept_path(const Environment& environment, const std::string& what,
+                      const std::string& name);
 
 }  // namespace ols::trust

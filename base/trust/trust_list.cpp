@@ -3,57 +3,37 @@
 #include <set>
 
 #include "base/toml_config.h"
+#include "base/trust/signed_text.h"
 
 namespace ols::trust {
 namespace {
 
 constexpr std::string_view kDomain = "OLS-trust-v1";
-constexpr std::string_view kSignatureLine = "# signature ";
 constexpr std::int64_t kGreatestNumber = 1'000'000'000;
+
+std::string word_of(const Member& member) {
+  return member.role == Role::kUnknown ? member.unknown_role : to_string(member.role);
+}
 
 std::string body_of(const TrustList& list) {
   std::string text = "site = \"" + list.site + "\"\nnumber = " + std::to_string(list.number) +
                      "\nroot = \"" + to_hex(list.root) + "\"\n";
   for (const Member& member : list.members) {
-    text += "\n[[member]]\nname = \"" + member.name + "\"\nrole = \"" + to_string(member.role) +
+    text += "\n[[member]]\nname = \"" + member.name + "\"\nrole = \"" + word_of(member) +
             "\"\nkey = \"" + to_hex(member.key) + "\"\n";
     if (member.revoked) text += "revoked = true\n";
   }
   return text;
 }
 
-std::vector<std::uint8_t> signed_bytes(std::string_view body) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(kDomain.size() + body.size());
-  for (const char c : kDomain) bytes.push_back(static_cast<std::uint8_t>(c));
-  for (const char c : body) bytes.push_back(static_cast<std::uint8_t>(c));
-  return bytes;
-}
-
-struct SignedText {
-  std::string body;
-  Signature signature{};
-};
-
-// The line of the signature is the last one.
-SignedText split(const std::string& text, const std::string& name) {
-  const std::size_t line = text.rfind(std::string(kSignatureLine));
-  const bool begins = line != std::string::npos && (line == 0 || text[line - 1] == '\n');
-  if (!begins) throw ConfigError(name + ": there is no line \"# signature …\" at its end");
-  std::string_view rest = std::string_view(text).substr(line + kSignatureLine.size());
-  while (!rest.empty() && (rest.back() == '\n' || rest.back() == '\r')) rest.remove_suffix(1);
-  const auto signature = from_hex<64>(rest);
-  if (!signature) throw ConfigError(name + ": its signature is not 128 hexadecimal digits");
-  return {text.substr(0, line), *signature};
-}
-
 Member read_member(ConfigTable& table) {
   table.refuse_unknown({"name", "role", "key", "revoked"});
   Member member;
   member.name = read_name(table, "name");
-  const auto role = role_from(table.text("role", ""));
-  if (!role) throw table.error("role", "is none of the roles in docs/security.md");
-  member.role = *role;
+  const std::string word = read_name(table, "role");
+  member.role = role_from(word).value_or(Role::kUnknown);
+  // A newer list must stay readable: who is revoked in it matters more than who is new.
+  if (member.role == Role::kUnknown) member.unknown_role = word;
   member.key = read_hex(table, "key");
   member.revoked = table.boolean("revoked", false);
   return member;
@@ -93,24 +73,30 @@ const Member* TrustList::find(std::string_view name) const {
   return nullptr;
 }
 
+std::string TrustList::strange_members() const {
+  std::string text;
+  for (const Member& member : members) {
+    if (member.role != Role::kUnknown || member.revoked) continue;
+    text += (text.empty() ? "" : ", ") + member.name + " (" + member.unknown_role + ")";
+  }
+  return text;
+}
+
 std::string sign_list(const TrustList& list, const SigningKey& root) {
-  const std::string body = body_of(list);
-  return body + std::string(kSignatureLine) + to_hex(root.sign(signed_bytes(body))) + "\n";
+  return sign_text(body_of(list), kDomain, root);
 }
 
 // The signature first: what it does not cover is not even parsed.
 TrustList read_list(const std::string& text, const std::string& name, const PublicKey& root) {
-  const SignedText parts = split(text, name);
-  if (!is_signed_by(root, signed_bytes(parts.body), parts.signature)) {
-    throw ConfigError(name + ": is not signed by this site's root, or was changed since");
-  }
+  const SignedText parts = split_signed(text, name);
+  require_signed(parts, kDomain, root, name);
   TrustList list = read_body(parts.body, name);
   if (list.root != root) throw ConfigError(name + ": root: is not this site's");
   return list;
 }
 
 TrustList read_list(const std::string& text, const std::string& name) {
-  return read_list(text, name, read_body(split(text, name).body, name).root);
+  return read_list(text, name, read_body(split_signed(text, name).body, name).root);
 }
 
 }  // namespace ols::trust

@@ -31,6 +31,7 @@ struct Member {
   Role role = Role::kListener;
   PublicKey key{};
   bool revoked = false;
+  std::string unknown_role{};  // its word, where this program does not know it
 };
 
 // What may be told on the bus: it fits into a datagram. About 500 members.
@@ -44,6 +45,8 @@ struct TrustList {
 
   // The member that is not revoked; null if there is none.
   const Member* find(std::string_view name) const;
+  // "name (role), …" of those whose role this program does not know.
+  std::string strange_members() const;
 };
 
 // The text of the file.

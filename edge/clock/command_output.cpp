@@ -17,8 +17,6 @@
 namespace ols::clock {
 namespace {
 
-constexpr std::size_t kMaxOutput = 65536;
-
 // Nothing if the program cannot be started.
 std::optional<pid_t> start(const std::vector<std::string>& command, int output) {
   std::vector<char*> arguments;
@@ -39,9 +37,9 @@ std::optional<pid_t> start(const std::vector<std::string>& command, int output) 
 }
 
 // Reads until the program closes its output; false on timeout or too much output.
-bool read_all(int fd, double end_s, std::string& text) {
+bool read_all(int fd, double end_s, std::size_t most_bytes, std::string& text) {
   std::array<char, 4096> buffer;
-  while (text.size() <= kMaxOutput) {
+  while (text.size() <= most_bytes) {
     pollfd entry{fd, POLLIN, 0};
     const double left_s = end_s - clock_monotonic_s();
     if (left_s <= 0.0) return false;
@@ -57,7 +55,7 @@ bool read_all(int fd, double end_s, std::string& text) {
 }  // namespace
 
 std::optional<std::string> command_output(const std::vector<std::string>& command,
-                                          double deadline_s) {
+                                          double deadline_s, std::size_t most_bytes) {
   if (command.empty()) return std::nullopt;
   const double end_s = clock_monotonic_s() + deadline_s;
   std::array<int, 2> ends;
@@ -65,7 +63,7 @@ std::optional<std::string> command_output(const std::vector<std::string>& comman
   const std::optional<pid_t> child = start(command, ends[1]);
   ::close(ends[1]);
   std::string text;
-  const bool complete = child && read_all(ends[0], end_s, text);
+  const bool complete = child && read_all(ends[0], end_s, most_bytes, text);
   ::close(ends[0]);
   if (!child) return std::nullopt;
   // A program that has closed its output may still run, so the timeout applies here, too.

@@ -26,15 +26,15 @@ std::string age(double seconds) {
   return text("%.0f min", seconds / kMinute_s);
 }
 
+std::string age_at(const station_status_t& s, std::int64_t utime_us) {
+  return age(1e-6 * static_cast<double>(s.utime - utime_us));
+}
+
 std::string calibration(const station_status_t& s) {
-  if (s.calibration_state == station_status_t::CALIBRATION_REFUSED) return "refused";
-  const bool doubted = s.calibration_state == station_status_t::CALIBRATION_DOUBTED;
-  if (!doubted && s.calibration_state != station_status_t::CALIBRATION_IN_USE) return "-";
-  std::string words = doubted ? "doubted" : "in use";
-  if (s.calibration_utime > 0) {
-    words += ", " + age(1e-6 * static_cast<double>(s.utime - s.calibration_utime));
-  }
-  return words;
+  if (s.calibration_state == station_status_t::CALIBRATION_NONE) return "-";
+  const std::string words = command::calibration_name(s.calibration_state);
+  const bool is_used = s.calibration_state != station_status_t::CALIBRATION_REFUSED;
+  return is_used && s.calibration_utime > 0 ? words + ", " + age_at(s, s.calibration_utime) : words;
 }
 
 std::string clock(const station_status_t& s) {
@@ -60,22 +60,25 @@ std::string warmth(const station_status_t& s) {
 }
 
 std::string alarm(const station_status_t& s) {
-  if (s.alarm.empty()) return "-";
+  if (s.alarm.empty()) {
+    if (s.last_error.empty()) return "-";
+    return s.last_error + " (" + age_at(s, s.last_error_utime) + " ago, over)";
+  }
   const std::string more =
       s.alarm.size() > 1 ? " (and " + std::to_string(s.alarm.size() - 1) + " more)" : "";
   return s.alarm.back() + more;
 }
 
-constexpr const char* kLine = "%-12s %-10s %-16s %-17s %-9s %-8s ";
+constexpr const char* kLine = "%-12s %-10s %-10s %-16s %-17s %-9s %-8s ";
 
 }  // namespace
 
 std::string fleet_table(const std::map<std::string, station_status_t>& statuses) {
   std::string table =
-      text(kLine, "station", "state", "calibration", "clock", "disk", "cpu") + "alarm\n";
+      text(kLine, "station", "state", "version", "calibration", "clock", "disk", "cpu") + "alarm\n";
   for (const auto& [id, s] : statuses) {
-    table += text(kLine, id.c_str(), command::state_name(s.state), calibration(s).c_str(),
-                  clock(s).c_str(), disk(s).c_str(), warmth(s).c_str()) +
+    table += text(kLine, id.c_str(), command::state_name(s.state), command::software(s).c_str(),
+                  calibration(s).c_str(), clock(s).c_str(), disk(s).c_str(), warmth(s).c_str()) +
              alarm(s) + "\n";
   }
   return table;

@@ -10,6 +10,7 @@
 namespace ols::ctl {
 namespace {
 
+using command::clock_name;
 using command::counter;
 using command::device_name;
 using command::device_state;
@@ -35,13 +36,6 @@ std::string shown_deg(double rad, int decimals) { return shown(degrees(rad), dec
 const char* source_name(std::int8_t source) {
   using M = ols_msg::station_status_t;
   return source == M::POSE_SURVEYED ? "surveyed" : source == M::POSE_SENSOR ? "sensor" : "unknown";
-}
-
-const char* clock_name(std::int8_t state) {
-  using M = ols_msg::bearing_t;
-  return state == M::CLOCK_SYNCHRONISED     ? "synchronised"
-         : state == M::CLOCK_UNSYNCHRONISED ? "unsynchronised"
-                                            : "unknown";
 }
 
 std::string pose_text(const ols_msg::station_status_t& s) {

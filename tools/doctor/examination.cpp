@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/configuration_files.h"
 #include "base/small_file.h"
 #include "base/toml_config.h"
 #include "central/app/fusion_settings.h"
@@ -196,6 +197,16 @@ Findings examine_cue(const std::string& path) {
   }
 }
 
+// Of the exporter the state of its service alone is examined.
+Findings examine_program(const std::string& name, const std::string& path, const Request& request) {
+  if (name == "fusion") return examine_fusion(path, request);
+  if (name == "logger") return examine_logger(path);
+  if (name == "console") return examine_console(path);
+  if (name == "export") return examine_export(path);
+  if (name == "cue") return examine_cue(path);
+  return {};
+}
+
 }  // namespace
 
 Request find_configurations(const std::string& folder) {
@@ -204,28 +215,15 @@ Request find_configurations(const std::string& folder) {
   for (const auto& entry : fs::directory_iterator(folder, absent)) {
     if (entry.path().extension() != ".toml") continue;
     const std::string name = entry.path().stem();
-    if (name == "fusion") {
-      request.fusion = entry.path();
-    } else if (name == "logger") {
-      request.logger = entry.path();
-    } else if (name == "console") {
-      request.console = entry.path();
-    } else if (name == "export") {
-      request.exports = entry.path();
-    } else if (name == "cue") {
-      request.cue = entry.path();
-    } else if (name == "exporter") {
-      request.exporter = entry.path();
-    } else if (name != "trust") {  // that is the site's list of members
-      request.stations.push_back(entry.path());
-    }
+    if (is_station_file(name)) request.stations.push_back(entry.path());
+    if (is_program_file(name)) request.programs[name] = entry.path();
   }
   std::sort(request.stations.begin(), request.stations.end());
   return request;
 }
 
 Findings examine(const Request& request) {
-  if (request.stations.empty() && request.fusion.empty()) {
+  if (request.stations.empty() && !request.programs.contains("fusion")) {
     return {fail("configuration: none found",
                  "copy station.toml of /usr/share/ols/examples to /etc/ols, or name a file: "
                  "ols-doctor --config FILE")};
@@ -236,24 +234,12 @@ Findings examine(const Request& request) {
     append(findings, examine_station(path, request));
     units.push_back(unit_of(path));
   }
-  if (!request.fusion.empty()) {
-    append(findings, examine_fusion(request.fusion, request));
-    units.emplace_back("ols-fusion.service");
+  for (const std::string_view name : kProgramFiles) {
+    const auto path = request.programs.find(std::string(name));
+    if (path == request.programs.end()) continue;
+    append(findings, examine_program(path->first, path->second, request));
+    if (name != "logger") units.push_back(std::string("ols-").append(name).append(".service"));
   }
-  if (!request.logger.empty()) append(findings, examine_logger(request.logger));
-  if (!request.console.empty()) {
-    append(findings, examine_console(request.console));
-    units.emplace_back("ols-console.service");
-  }
-  if (!request.exports.empty()) {
-    append(findings, examine_export(request.exports));
-    units.emplace_back("ols-export.service");
-  }
-  if (!request.cue.empty()) {
-    append(findings, examine_cue(request.cue));
-    units.emplace_back("ols-cue.service");
-  }
-  if (!request.exporter.empty()) units.emplace_back("ols-exporter.service");
   append(findings, examine_units(units));
   return findings;
 }

@@ -1,6 +1,7 @@
 // One examination: runs the probes in order and judges the results.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,12 +10,10 @@
 namespace ols::doctor {
 
 struct Request {
-  std::vector<std::string> stations;          // configuration files
-  std::string fusion;                         // configuration file; empty: this host has none
-  std::string logger, console, exports, cue;  // likewise
-  std::string exporter;                       // of whose service alone the state is examined
-  double listen_s = 2.2;                      // two intervals of the slowest sender
-  double patience_s = 4.0;                    // for a sensor to become ready
+  std::vector<std::string> stations;            // configuration files
+  std::map<std::string, std::string> programs;  // of the centre's, by name: likewise
+  double listen_s = 2.2;                        // two intervals of the slowest sender
+  double patience_s = 4.0;                      // for a sensor to become ready
 };
 
 // The configuration files of this host: `folder`/*.toml.

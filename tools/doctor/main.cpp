@@ -37,12 +37,7 @@ int main(int argc, char** argv) {
     ols::doctor::Request request = ols::doctor::find_configurations(kConfiguration);
     if (!configs.empty()) {
       request.stations = configs;
-      request.fusion.clear();
-      request.logger.clear();
-      request.console.clear();
-      request.exports.clear();
-      request.cue.clear();
-      request.exporter.clear();
+      request.programs.clear();
     }
     const ols::doctor::Findings findings = ols::doctor::examine(request);
     if (json) {

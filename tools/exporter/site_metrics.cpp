@@ -63,6 +63,15 @@ void add_state(Collection& all, const std::string& id, const station_status_t& s
             s.clock_error_s);
 }
 
+// One at a time for each station: after an update the former is not told any more.
+void add_version(Collection& all, const std::string& id, const station_status_t& s) {
+  all.gauge("ols_station_build_info", "1; the version of the station's program.",
+            {{"station", id}, {"version", command::software(s)}}, 1.0);
+  if (s.last_error.empty()) return;
+  all.gauge("ols_station_last_error_age_seconds", "Since the newest error in its status.",
+            {{"station", id}}, seconds_since(s.last_error_utime, s.utime));
+}
+
 void add_calibration(Collection& all, const std::string& id, const station_status_t& s) {
   const bool doubted = s.calibration_state == station_status_t::CALIBRATION_DOUBTED;
   const bool used = doubted || s.calibration_state == station_status_t::CALIBRATION_IN_USE;
@@ -82,6 +91,7 @@ void first_names(const std::vector<std::string>& names, const Use& use) {
 
 void add_named(Collection& all, const std::string& id, const station_status_t& s) {
   first_names(s.device_name, [&](std::size_t i) {
+    if (s.device_name[i] == "software") return;  // no device
     const bool works = s.device_state[i] == station_status_t::DEVICE_OK;
     all.gauge("ols_station_device_up", "1 while the device works.",
               {{"station", id}, {"device", s.device_name[i]}}, works ? 1.0 : 0.0);
@@ -142,6 +152,7 @@ std::vector<MetricFamily> SiteMetrics::families(double now_s) const {
   }
   for (const auto& [id, heard] : stations_) {
     add_state(all, id, heard.status, now_s - heard.at_s);
+    add_version(all, id, heard.status);
     add_calibration(all, id, heard.status);
     add_named(all, id, heard.status);
   }

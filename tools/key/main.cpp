@@ -11,9 +11,11 @@
 #include <system_error>
 
 #include "base/command_line.h"
+#include "base/config_section.h"
 #include "base/small_file.h"
 #include "base/toml_config.h"
 #include "base/trust/key_file.h"
+#include "edge/config.h"
 #include "tools/key/log_check.h"
 #include "tools/key/site_book.h"
 #include "tools/key/site_files.h"
@@ -28,7 +30,7 @@ constexpr std::size_t kLargestFile = 20'000'000;
 
 struct Words {
   std::string site, name, role = "station", root = "root.key", list = "trust.toml", key, public_key;
-  std::string log, lists, root_public;
+  std::string log, lists, root_public, settings, output = "site.toml";
 };
 
 ols::key::SiteFiles files_of(const Words& words) { return {words.root, words.list}; }
@@ -100,6 +102,19 @@ void enrol(const Words& words) {
 
 void revoke(const Words& words) {
   say_list(words, ols::key::revoke_in(files_of(words), words.name));
+}
+
+// As every station will read them.
+void check_settings(const trust::SiteSettings& site, const std::string& name) {
+  ols::ConfigFile file(site.body, name);
+  ols::station::StationSettings station;
+  ols::config::read(ols::station::site_section(station), file.root().table("station"));
+}
+
+void settings(const Words& words, std::int64_t above) {
+  const std::int64_t number = ols::key::sign_settings_in(files_of(words), words.settings,
+                                                         words.output, above, check_settings);
+  std::printf("%s: site settings %lld\n", words.output.c_str(), static_cast<long long>(number));
 }
 
 void list(const Words& words) {
@@ -193,6 +208,14 @@ int main(int argc, char** argv) {
   auto* revoked = app.add_subcommand("revoke", "Take a member's key out of use");
   revoked->add_option("name", words.name, "Name of the member")->required();
   add_root_and_list(*revoked, words);
+  auto* set = app.add_subcommand("settings", "Sign what is the same on all hosts of the site");
+  set->add_option("file", words.settings, "TOML file with geoid and [station]")->required();
+  set->add_option("--root", words.root, "File of the site's root key")->capture_default_str();
+  set->add_option("--output", words.output, "File of the signed settings")->capture_default_str();
+  std::int64_t above = 0;
+  set->add_option("--above", above,
+                  "Number that the stations have, if the file of the last ones is lost")
+      ->check(CLI::Range(0, 999'999'999));
   auto* listed = app.add_subcommand("list", "Show the list");
   listed->add_option("--list", words.list, "File of the trust list")->capture_default_str();
   listed->add_option("--root-public", words.root_public, "The root's public key, to be sure");
@@ -208,6 +231,7 @@ int main(int argc, char** argv) {
     if (*made) make(words, invitation);
     if (*enrolled) enrol(words);
     if (*revoked) revoke(words);
+    if (*set) settings(words, above);
     if (*listed) list(words);
     if (*verified) status = verify(words);
     ols::flush_output();

@@ -59,9 +59,10 @@ std::string describe(const TrustList& list) {
                      trust::spoken(list.root) + "\n";
   for (const Member& member : list.members) {
     char line[160];
-    std::snprintf(line, sizeof line, "%-32s %-10s %-8s %s\n", member.name.c_str(),
-                  to_string(member.role), member.revoked ? "revoked" : "",
-                  trust::spoken(member.key).c_str());
+    std::snprintf(
+        line, sizeof line, "%-32s %-10s %-8s %s\n", member.name.c_str(),
+        member.role == trust::Role::kUnknown ? member.unknown_role.c_str() : to_string(member.role),
+        member.revoked ? "revoked" : "", trust::spoken(member.key).c_str());
     text += line;
   }
   return text;

@@ -1,5 +1,6 @@
 #include "tools/key/site_files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
@@ -69,6 +70,28 @@ trust::TrustList enrol_with_key(const SiteFiles& files, trust::Member member,
 trust::TrustList revoke_in(const SiteFiles& files, const std::string& name) {
   const trust::RootKey root = trust::read_root_key(files.root);
   return write_list(files, revoke(read_site(files, root), name), root);
+}
+
+std::int64_t sign_settings_in(const SiteFiles& files, const std::string& wanted,
+                              const std::string& path, std::int64_t above,
+                              const trust::SettingsCheck& check) {
+  const trust::RootKey root = trust::read_root_key(files.root);
+  const trust::SigningKey key(root.seed);
+  const std::string text = read_small_file(wanted, trust::kLargestSettings);
+  check(trust::read_wanted_settings(text, wanted), wanted);
+  trust::SiteSettings head;
+  head.site = root.site;
+  head.number = above + 1;
+  if (std::filesystem::exists(path)) {
+    const auto present = trust::read_settings(read_small_file(path, trust::kLargestSettings), path,
+                                              key.public_key());
+    head.number = std::max(head.number, present.number + 1);
+  }
+  const std::string made = trust::sign_settings(head, text, wanted, key);
+  AtomicFile file(path);
+  file.stream() << made;
+  file.commit();
+  return head.number;
 }
 
 }  // namespace ols::key

@@ -1,9 +1,11 @@
 // A site's root, trust list and members' keys as files: what ols-key and ols-setup do with them.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "base/trust/key_file.h"
+#include "base/trust/site_settings.h"
 #include "base/trust/trust_list.h"
 #include "tools/key/invitation.h"
 
@@ -30,5 +32,11 @@ trust::TrustList enrol_in(const SiteFiles& files, const trust::Member& member);
 trust::TrustList enrol_with_key(const SiteFiles& files, trust::Member member,
                                 const std::string& key_path);
 trust::TrustList revoke_in(const SiteFiles& files, const std::string& name);
+
+// The site's settings as `wanted`, a person's file, has them, signed, at `path`. Under the next
+// number after those that are there, or after `above`. Returns the number.
+std::int64_t sign_settings_in(const SiteFiles& files, const std::string& wanted,
+                              const std::string& path, std::int64_t above,
+                              const trust::SettingsCheck& check);
 
 }  // namespace ols::key

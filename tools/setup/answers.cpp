@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/config_section.h"
+#include "base/configuration_files.h"
 #include "base/ip_endpoint.h"
 #include "base/trust/trust_words.h"
 #include "central/app/fusion_settings.h"
@@ -64,6 +65,9 @@ void read_station(ConfigTable& root, Answers& answers) {
   make_optional(section, "camera", "device");
   make_optional(section, "ptu", "device");
   config::read(section, root.table("station"));
+  if (!is_station_file(settings.id)) {
+    throw root.table("station").error("id", "is the name of another file in /etc/ols");
+  }
   answers.station = settings.id;
   answers.serial = root.texts("serial", {});
   answers.gnss = root.text("gnss", "");

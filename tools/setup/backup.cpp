@@ -9,7 +9,10 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "base/configuration_files.h"
+#include "base/trust/key_file.h"
 #include "edge/clock/command_output.h"
+#include "tools/setup/membership.h"
 
 namespace ols::setup {
 namespace {
@@ -25,10 +28,6 @@ constexpr std::array<std::string_view, 7> kParts{"etc/ols/",
                                                  "etc/udev/rules.d/61-ols-site.rules",
                                                  "var/lib/ols/",
                                                  "var/lib/ols-setup/"};
-
-// Configurations that are no station's.
-constexpr std::array<std::string_view, 6> kCentre{"fusion",   "logger", "console",
-                                                  "exporter", "export", "cue"};
 
 std::vector<std::string> present(const std::string& root) {
   std::vector<std::string> paths;
@@ -50,13 +49,24 @@ std::vector<std::string> present(const std::string& root) {
 }
 
 std::vector<std::string> members_of(const std::string& file) {
+  constexpr std::size_t kMostNames = 100'000'000;  // [byte]: of a million files
   const auto listed =
-      clock::command_output({"tar", "--list", "--gzip", "--file", file}, kPatience_s);
+      clock::command_output({"tar", "--list", "--gzip", "--file", file}, kPatience_s, kMostNames);
   if (!listed) throw std::runtime_error(file + ": cannot be read as a backup");
   std::istringstream lines(*listed);
   std::vector<std::string> members;
   for (std::string line; std::getline(lines, line);) members.push_back(line);
   return members;
+}
+
+// The file with the time's keys is not the site's alone, so it is in no backup: the site's is made
+// again, from a member's key.
+void restore_time_key(const Host& host, const std::vector<std::string>& members) {
+  for (const std::string& member : members) {
+    if (!member.starts_with("etc/credstore/") || !member.ends_with(".key")) continue;
+    keep_time(host, trust::read_member_key(host.path("/" + member)).site_key);
+    return;
+  }
 }
 
 }  // namespace
@@ -93,9 +103,8 @@ std::vector<std::string> units_of(const std::vector<std::string>& members) {
     const fs::path path(member);
     if (path.parent_path() != "etc/ols" || path.extension() != ".toml") continue;
     const std::string name = path.stem();
-    if (name == "trust") continue;
-    const bool is_station = std::ranges::find(kCentre, name) == kCentre.end();
-    units.push_back((is_station ? "ols-station@" : "ols-") + name + ".service");
+    if (is_station_file(name)) units.push_back("ols-station@" + name + ".service");
+    if (is_program_file(name)) units.push_back("ols-" + name + ".service");
   }
   if (!units.empty()) units.insert(units.begin(), {"ols-bus.service", "ols-time.service"});
   return units;
@@ -110,6 +119,7 @@ void restore(const Host& host, const std::string& file) {
                                            "--file", file, "--directory", host.path("/")},
                                           kPatience_s);
   if (!done) throw std::runtime_error(file + ": not all could be restored");
+  restore_time_key(host, members);
   const std::vector<std::string> units = units_of(members);
   if (!host.is_this_host() || units.empty()) return;
   std::vector<std::string> enable{"systemctl", "enable", "--now"};

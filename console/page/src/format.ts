@@ -20,6 +20,12 @@ export function utc(utime_us: number, withDate = false): string {
   return withDate ? iso.slice(0, 19).replace("T", " ") : iso.slice(11, 19);
 }
 
+// "3 d", "5 h", "12 min".
+export function age(s: number): string {
+  if (s >= 2 * 86400) return `${(s / 86400).toFixed(0)} d`;
+  return s >= 2 * 3600 ? `${(s / 3600).toFixed(0)} h` : `${(s / 60).toFixed(0)} min`;
+}
+
 export function clockError(s: number | null): string {
   if (s == null) return DASH;
   if (s < 1e-3) return `±${(s * 1e6).toFixed(0)} µs`;

@@ -51,6 +51,7 @@ export type Station = {
   lens?: { zoom: number | null; focus: number | null; iris: number | null; focal_length_px: number | null; focal_length_sd_px: number | null } | null;
   devices: Device[];
   clock: { state: string; error_s: number | null };
+  calibration?: { state: string; utime_us: number }; // 0: not stated
   frame_latency_s: number | null;
   alarms: string[];
   readings: Record<string, number | null>;

@@ -3,6 +3,7 @@
 import { h, Fragment } from "preact";
 import { useState } from "preact/hooks";
 import { adviceFor } from "./advice";
+import { Fleet } from "./fleet";
 import { bearing, clockError, DASH, fixed, utc } from "./format";
 import type { Link } from "./link";
 import type { Station } from "./site";
@@ -218,6 +219,7 @@ export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
             </article>
           );
         })}
+        <Fleet stations={stations} />
       </div>
     </section>
   );

@@ -141,5 +141,19 @@ TEST(ConfigSection, AnExampleHasTheValuesAndTheSentences) {
   EXPECT_THROW(example(section, {{"saets", "2"}}), std::invalid_argument);
 }
 
+TEST(ConfigSection, SomeRowsCanBePicked) {
+  Cart cart;
+  const Section all = cart_section(cart);
+  const Section some = picked(all, {"length_m"});
+  ASSERT_EQ(some.rows.size(), 1U);
+  EXPECT_TRUE(some.sections.empty());
+  ConfigFile good("length_m = 3.0\n", "t"), bad("length_m = 3.0\nseats = 2\n", "t");
+  read(some, good.root());
+  EXPECT_EQ(cart.length_m, 3.0);
+  EXPECT_THAT(stated(all, bad.root()), ElementsAre("length_m", "seats"));
+  EXPECT_THROW(read(some, bad.root()), ConfigError);
+  EXPECT_THROW(picked(all, {"length_m", "nothing"}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace ols::config

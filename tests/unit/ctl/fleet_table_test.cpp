@@ -23,6 +23,8 @@ station_status_t well() {
   s.clock_error_s = 2.5e-4;
   s.calibration_state = station_status_t::CALIBRATION_IN_USE;
   s.calibration_utime = s.utime - std::int64_t{5} * 86'400'000'000;
+  s.device_name = {"camera", "software"};
+  s.device_text = {"Mako", "0.1.0"};
   s.reading_name = {"cpu_degC", "disk_free_bytes"};
   s.reading_value = {51.2, 12.34e9};
   return s;
@@ -39,7 +41,7 @@ TEST(FleetTable, AStationThatIsWell) {
   const auto table = lines(fleet_table({{"alfa", well()}}));
   ASSERT_EQ(table.size(), 2U);
   EXPECT_THAT(table[1], testing::StartsWith("alfa "));
-  for (const char* part : {"tracking", "in use, 5 d", "0.25 ms", "12.3 GB", "51 degC"}) {
+  for (const char* part : {"tracking", " 0.1.0 ", "in use, 5 d", "0.25 ms", "12.3 GB", "51 degC"}) {
     EXPECT_THAT(table[1], HasSubstr(part));
   }
   EXPECT_THAT(table[1], EndsWith(" -"));
@@ -56,6 +58,10 @@ TEST(FleetTable, WhatIsWrongIsSaid) {
   EXPECT_THAT(table[2], HasSubstr("doubted, 10 min"));
   EXPECT_THAT(table[2], HasSubstr("not synchronised"));
   EXPECT_THAT(table[2], EndsWith("clock: no source (and 1 more)"));
+  s.alarm.clear();
+  s.last_error = "ptu: no reply";
+  s.last_error_utime = s.utime - 180'000'000;
+  EXPECT_THAT(fleet_table({{"bravo", s}}), HasSubstr("ptu: no reply (3 min ago, over)"));
   s.calibration_state = station_status_t::CALIBRATION_REFUSED;
   EXPECT_THAT(fleet_table({{"bravo", s}}), HasSubstr("refused"));
 }

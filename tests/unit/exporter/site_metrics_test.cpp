@@ -24,8 +24,11 @@ Station status_of(const std::string& id) {
   s.frame_latency_s = 0.03;
   s.calibration_state = Station::CALIBRATION_IN_USE;
   s.calibration_utime = s.utime - 60'000'000;
-  s.device_name = {"camera", "ptu"};
-  s.device_state = {Station::DEVICE_OK, Station::DEVICE_FAULT};
+  s.device_name = {"camera", "ptu", "software"};
+  s.device_state = {Station::DEVICE_OK, Station::DEVICE_FAULT, Station::DEVICE_OK};
+  s.device_text = {"Mako", "no reply", "0.1.0"};
+  s.last_error = "ptu: no reply";
+  s.last_error_utime = s.utime - 30'000'000;
   s.reading_name = {"disk_free_bytes"};
   s.reading_value = {5e9};
   s.counter_name = {"bearings"};
@@ -54,9 +57,12 @@ TEST(SiteMetrics, AStationIsToldInBaseUnits) {
         "ols_station_calibration_age_seconds{station=\"alfa\"} 60",
         "ols_station_device_up{station=\"alfa\",device=\"camera\"} 1",
         "ols_station_device_up{station=\"alfa\",device=\"ptu\"} 0",
+        "ols_station_build_info{station=\"alfa\",version=\"0.1.0\"} 1",
+        "ols_station_last_error_age_seconds{station=\"alfa\"} 30",
         "ols_station_events_total{station=\"alfa\",event=\"bearings\"} 1234"}) {
     EXPECT_TRUE(has_line(told, line)) << line << "\n" << told;
   }
+  EXPECT_EQ(told.find("device=\"software\""), std::string::npos);
   EXPECT_NE(told.find("reading=\"disk_free_bytes\"} 5000000000"), std::string::npos) << told;
 }
 

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <system_error>
 
+#include "base/small_file.h"
 #include "base/toml_config.h"
 #include "tests/unit/temp_dir.h"
 
@@ -28,6 +30,27 @@ class SiteFilesTest : public testing::Test {
                               testing::UnitTest::GetInstance()->current_test_info()->name();
   const SiteFiles files_{folder_ + "/root.key", folder_ + "/trust.toml"};
 };
+
+TEST_F(SiteFilesTest, SettingsAreSignedUnderTheNextNumber) {
+  make_site(files_, "airfield");
+  const std::string wanted = folder_ + "/wanted.toml", made = folder_ + "/site.toml";
+  std::ofstream(wanted) << "geoid = \"g\"\n";
+  int checked = 0;
+  const auto check = [&](const trust::SiteSettings& site, const std::string& name) {
+    ++checked;
+    if (site.geoid == "bad") throw ConfigError(name + ":1: geoid: is bad");
+  };
+  EXPECT_EQ(sign_settings_in(files_, wanted, made, 0, check), 1);
+  EXPECT_EQ(sign_settings_in(files_, wanted, made, 0, check), 2);
+  EXPECT_EQ(sign_settings_in(files_, wanted, made, 40, check), 41) << "the last ones are lost";
+  EXPECT_EQ(checked, 3);
+  std::ofstream(wanted) << "geoid = \"bad\"\n";
+  EXPECT_THROW(sign_settings_in(files_, wanted, made, 0, check), ConfigError);
+  const auto root = trust::SigningKey(trust::read_root_key(files_.root).seed).public_key();
+  const auto read = trust::read_settings(read_small_file(made, 10'000), made, root);
+  EXPECT_EQ(read.number, 41) << "nothing is written when it is refused";
+  EXPECT_EQ(read.site, "airfield");
+}
 
 TEST_F(SiteFilesTest, AMemberIsEnrolledByItsOwnKeyOrGetsOne) {
   make_site(files_, "airfield");

@@ -8,7 +8,9 @@
 #include <stdexcept>
 
 #include "base/small_file.h"
+#include "base/trust/key_file.h"
 #include "tests/unit/temp_dir.h"
+#include "tools/setup/site_time.h"
 
 namespace ols::setup {
 namespace {
@@ -38,7 +40,7 @@ class BackupTest : public testing::Test {
 
 TEST_F(BackupTest, AStationComesBackOnAnotherComputer) {
   put("/etc/ols/alfa.toml", "id = \"alfa\"\n");
-  put("/etc/credstore/ols-alfa.key", "secret\n");
+  put("/etc/credstore/ols-alfa.key.old", "secret\n");
   put("/etc/credstore/other.key", "not ours\n");
   put("/etc/passwd", "not ours\n");
   put("/var/lib/ols/calibrations/7/setup.toml", "x = 1\n");
@@ -47,10 +49,32 @@ TEST_F(BackupTest, AStationComesBackOnAnotherComputer) {
   EXPECT_THROW(back_up(old_, file_), std::runtime_error) << "another backup is not overwritten";
   restore(new_, file_);
   EXPECT_EQ(read_small_file(folder_ + "/new/etc/ols/alfa.toml", 100), "id = \"alfa\"\n");
-  EXPECT_EQ(read_small_file(folder_ + "/new/etc/credstore/ols-alfa.key", 100), "secret\n");
+  EXPECT_EQ(read_small_file(folder_ + "/new/etc/credstore/ols-alfa.key.old", 100), "secret\n");
   EXPECT_TRUE(fs::exists(folder_ + "/new/var/lib/ols/calibrations/7/setup.toml"));
   EXPECT_FALSE(fs::exists(folder_ + "/new/etc/credstore/other.key"));
   EXPECT_FALSE(fs::exists(folder_ + "/new/etc/passwd"));
+}
+
+TEST_F(BackupTest, AnyNumberOfFilesComesBack) {
+  put("/etc/ols/alfa.toml", "id = \"alfa\"\n");
+  const std::string deep = "/var/lib/ols/calibrations/" + std::string(150, 'x') + "/";
+  for (int i = 0; i < 600; ++i) put(deep + std::to_string(i), "");  // 100 kB of names
+  back_up(old_, file_);
+  restore(new_, file_);
+  EXPECT_TRUE(fs::exists(folder_ + "/new" + deep + "599"));
+}
+
+TEST_F(BackupTest, TheTimesKeyIsMadeAgain) {
+  const trust::MemberKey key{"alfa", trust::draw_secret(), trust::draw_secret(), {}};
+  fs::create_directories(folder_ + "/old/etc/credstore");
+  trust::write_member_key(folder_ + "/old/etc/credstore/ols-alfa.key", key);
+  put("/etc/ols/alfa.toml", "id = \"alfa\"\n");
+  back_up(old_, file_);
+  const std::string keys = folder_ + "/new/etc/chrony/chrony.keys";
+  fs::create_directories(folder_ + "/new/etc/chrony");
+  std::ofstream(keys) << "1 SHA256 HEX:00\n";
+  restore(new_, file_);
+  EXPECT_EQ(read_small_file(keys, 1000), with_time_key("1 SHA256 HEX:00\n", key.site_key));
 }
 
 TEST_F(BackupTest, AnythingElseIsRefusedBeforeItIsWritten) {
@@ -80,6 +104,8 @@ TEST(Backup, TheConfigurationSaysWhichServicesThereWere) {
   EXPECT_THAT(units_of({"etc/ols/exporter.toml", "etc/ols/export.toml"}),
               ElementsAre("ols-bus.service", "ols-time.service", "ols-exporter.service",
                           "ols-export.service"));
+  EXPECT_THAT(units_of({"etc/ols/cue.toml", "etc/ols/site.toml"}),
+              ElementsAre("ols-bus.service", "ols-time.service", "ols-cue.service"));
   EXPECT_TRUE(units_of({"etc/ols/bus.env"}).empty());
 }
 

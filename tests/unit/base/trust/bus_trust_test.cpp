@@ -188,6 +188,38 @@ TEST_F(BusTrustTest, NobodyButTheSiteTellsANewMemberItsFirstList) {
   EXPECT_EQ(station->list_number(), 0);
 }
 
+TEST_F(BusTrustTest, SettingsThatTheCentreTellsAreTakenByAStation) {
+  const auto station = alfa(), centre = fusion();
+  SiteSettings head;
+  head.site = "airfield";
+  head.number = 7;
+  const std::string signed_text = sign_settings(head, "geoid = \"g\"\n", "wanted", kSite.root);
+  AtomicFile file(folder_ + "/site.toml");
+  file.stream() << signed_text;
+  file.commit();
+  std::optional<std::string> told;
+  EXPECT_TRUE(eventually([&] { return (told = centre->settings_to_tell(100.0)).has_value(); }));
+  EXPECT_FALSE(station->settings_to_tell(100.0)) << "a station tells nobody";
+  const auto message = to_settings_message(*told, 12, 1, kNow_us);
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  EXPECT_FALSE(hear(*station, "OLS_SITE", bytes).passes) << "unsigned";
+  EXPECT_TRUE(hear(*station, "OLS_SITE", centre->sign("OLS_SITE", bytes)).passes);
+  EXPECT_EQ(station->site_settings().geoid, "g");
+  EXPECT_EQ(station->site_settings_number(), 7);
+}
+
+TEST_F(BusTrustTest, SettingsAreThereAtTheStartOfWhoHasAKey) {
+  SiteSettings head;
+  head.site = "airfield";
+  head.number = 2;
+  std::ofstream(folder_ + "/site.toml") << sign_settings(head, "", "wanted", kSite.root);
+  const Environment all{"require", folder_, "", folder_ + "/state"};
+  EXPECT_EQ(settings_at_start({}, all, "alfa", {}).number, 2);
+  EXPECT_EQ(settings_at_start({}, all, "nobody", {}).number, 0) << "no key";
+  EXPECT_EQ(settings_at_start({}, {"off", folder_, "", ""}, "alfa", {}).number, 0);
+}
+
 TEST_F(BusTrustTest, AListThatTheConfigurationNamesMustBeThere) {
   TrustConfig config;
   config.list = folder_ + "/elsewhere.toml";

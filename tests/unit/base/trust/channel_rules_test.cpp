@@ -61,6 +61,7 @@ TEST(ChannelRules, CuesComeFromTheirOwnRoleAndAreAllowedByOperators) {
 TEST(ChannelRules, AnybodyPassesTheTrustListOnAndNobodyOwnsOtherChannels) {
   for (const Role role : {Role::kStation, Role::kFusion, Role::kListener}) {
     EXPECT_TRUE(may(role, "x", "OLS_TRUST"));
+    EXPECT_TRUE(may(role, "x", "OLS_SITE"));
     EXPECT_FALSE(may(role, "x", "OLS_TRUST_alfa"));
     EXPECT_FALSE(may(role, "x", "CHAT"));
     EXPECT_FALSE(may(role, "x", "OLS_SIM_TRUTH"));

@@ -12,6 +12,7 @@
 #include "ols_msg/procedure_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/record_t.hpp"
+#include "ols_msg/site_settings_t.hpp"
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
@@ -55,6 +56,7 @@ TEST(MessageHead, IsThatOfEachType) {
   expect_head<ols_msg::cue_t>(HeadForm::kBootFirst);
   expect_head<ols_msg::cue_order_t>(HeadForm::kBootFirst);
   expect_head<ols_msg::trust_list_t>(HeadForm::kBootFirst);
+  expect_head<ols_msg::site_settings_t>(HeadForm::kBootFirst);
 }
 
 TEST(MessageHead, AnythingTooShortHasNone) {

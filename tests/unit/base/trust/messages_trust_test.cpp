@@ -7,7 +7,8 @@
 namespace ols::trust {
 namespace {
 
-std::vector<std::uint8_t> encoded(const ols_msg::trust_list_t& message) {
+template <class Message>
+std::vector<std::uint8_t> encoded(const Message& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   return bytes;
@@ -16,6 +17,8 @@ std::vector<std::uint8_t> encoded(const ols_msg::trust_list_t& message) {
 TEST(MessagesTrust, TheTextIsReadBack) {
   const auto bytes = encoded(to_message("a = 1\n", 2, 3, 4));
   EXPECT_EQ(list_from(bytes), "a = 1\n");
+  const auto settings = encoded(to_settings_message("b = 1\n", 2, 3, 4));
+  EXPECT_EQ(settings_from(settings), "b = 1\n");
 }
 
 TEST(MessagesTrust, AnythingElseIsNone) {

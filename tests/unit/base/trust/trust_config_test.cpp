@@ -32,6 +32,12 @@ TEST(TrustConfig, KeysAreSoughtWhereUnitsAndTestsHaveThem) {
   EXPECT_EQ(key_path({}, {.keys = "/keys", .credentials = "/c"}, "alfa"), "/c/ols-key");
   EXPECT_EQ(list_path({}, {}), "/etc/ols/trust.toml");
   EXPECT_EQ(list_path({}, {.keys = "/keys"}), "/keys/trust.toml");
+  EXPECT_EQ(settings_path({}, {}), "/etc/ols/site.toml");
+  TrustConfig elsewhere;
+  elsewhere.list = "/l/list.toml";
+  EXPECT_EQ(settings_path(elsewhere, {}), "/l/site.toml");
+  EXPECT_EQ(kept_path({}, "site", "alfa"), "");
+  EXPECT_EQ(kept_path({.state = "/s"}, "site", "alfa"), "/s/site-alfa.toml");
 }
 
 }  // namespace

@@ -76,9 +76,9 @@ TEST(TrustList, AnotherRootsListIsRefused) {
 
 TEST(TrustList, WhatIsWrongIsSaidByFileLineAndKey) {
   EXPECT_EQ(error_of(signed_body(head() + member("a", kSite.alfa))), "");
-  const std::string bad_role = signed_body(head() + member("a", kSite.alfa, "king"));
+  const std::string bad_role = signed_body(head() + member("a", kSite.alfa, "a king"));
   EXPECT_THAT(error_of(bad_role), HasSubstr("trust.toml:6: "));
-  EXPECT_THAT(error_of(bad_role), HasSubstr("role: is none of"));
+  EXPECT_THAT(error_of(bad_role), HasSubstr("role: must be"));
   EXPECT_THAT(error_of(signed_body(head() + member("a b", kSite.alfa))),
               HasSubstr("name: must be"));
   EXPECT_THAT(error_of(signed_body(head() + member("a", kSite.alfa) + member("a", kSite.bravo))),
@@ -89,6 +89,21 @@ TEST(TrustList, WhatIsWrongIsSaidByFileLineAndKey) {
   EXPECT_THAT(error_of(signed_body("site = \"s\"\n")), HasSubstr("root"));
   EXPECT_THAT(error_of("site = \"s\"\n"), HasSubstr("there is no line"));
   EXPECT_THAT(error_of("# signature 12\n"), HasSubstr("128 hexadecimal digits"));
+}
+
+TEST(TrustList, AMemberOfANewerRoleIsKeptButMaySendNothing) {
+  const std::string text =
+      signed_body(head() + member("a", kSite.alfa, "king") + member("b", kSite.bravo));
+  const TrustList list = read_list(text, "t");
+  ASSERT_NE(list.find("a"), nullptr);
+  EXPECT_EQ(list.find("a")->role, Role::kUnknown);
+  EXPECT_EQ(list.strange_members(), "a (king)");
+  for (const char* channel : {"OLS_BEARING_a", "OLS_STATUS_a", "OLS_TARGET", "OLS_TRUST"}) {
+    EXPECT_FALSE(may_send(Role::kUnknown, "a", *rule_of(channel))) << channel;
+  }
+  const TrustList again = read_list(sign_list(list, kSite.root), "t");
+  EXPECT_EQ(again.strange_members(), "a (king)") << "whoever signs it again keeps its word";
+  EXPECT_EQ(kSite.list().strange_members(), "");
 }
 
 TEST(TrustList, AKeyThatWasExchangedStandsTwiceUnderItsName) {

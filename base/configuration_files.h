@@ -1,0 +1,22 @@
+// The files NAME.toml in /etc/ols: those of the centre's programs, those that the site's root has
+// signed, and one for each station, whose name is any other. Pure.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace ols {
+
+inline constexpr std::array<std::string_view, 6> kProgramFiles{"fusion",   "logger", "console",
+                                                               "exporter", "export", "cue"};
+inline constexpr std::array<std::string_view, 2> kSignedFiles{"trust", "site"};
+
+inline bool is_program_file(std::string_view name) {
+  return std::ranges::find(kProgramFiles, name) != kProgramFiles.end();
+}
+inline bool is_station_file(std::string_view name) {
+  return !is_program_file(name) && std::ranges::find(kSignedFiles, name) == kSignedFiles.end();
+}
+
+}  // namespace ols

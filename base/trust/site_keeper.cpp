@@ -1,0 +1,119 @@
+#include "base/trust/site_keeper.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "base/atomic_file.h"
+#include "base/small_file.h"
+#include "base/toml_config.h"
+
+namespace ols::trust {
+
+SiteKeeper::SiteKeeper(const PublicKey& root, SiteFiles files, SettingsCheck check)
+    : root_(root), files_(std::move(files)), check_(std::move(check)) {
+  try {
+    if (!files_.kept.empty()) offer(read_small_file(files_.kept, kLargestSettings), files_.kept);
+  } catch (const std::system_error&) {
+    // None was heard yet.
+  } catch (const ConfigError& problem) {
+    file_trouble_ = problem.what();
+  }
+  written_ = settings_.number;
+  read_given();
+}
+
+SiteSettings SiteKeeper::settings() const {
+  const std::lock_guard lock(mutex_);
+  return settings_;
+}
+
+std::int64_t SiteKeeper::number() const {
+  const std::lock_guard lock(mutex_);
+  return settings_.number;
+}
+
+// Throws ConfigError with the reason for which the settings in force stay.
+void SiteKeeper::offer(const std::string& text, const std::string& name) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (text == text_) return;
+  }
+  const SiteSettings offered = read_settings(text, name, root_);
+  if (check_) check_(offered, name);
+  const std::lock_guard lock(mutex_);
+  if (offered.number <= settings_.number) {
+    throw ConfigError(name + ": number " + std::to_string(offered.number) + " does not replace " +
+                      std::to_string(settings_.number) + ", which is in force");
+  }
+  settings_ = offered;
+  text_ = text;
+}
+
+// Those in force are told every two seconds: a refusal must outlast a few of them to be seen.
+void SiteKeeper::hear(const std::string& text) {
+  constexpr int kCalm = 5;
+  std::string trouble;
+  try {
+    offer(text, "OLS_SITE");
+  } catch (const ConfigError& problem) {
+    trouble = problem.what();
+  }
+  const std::lock_guard lock(mutex_);
+  calm_ = trouble.empty() ? std::min(calm_ + 1, kCalm) : 0;
+  if (!trouble.empty()) heard_trouble_ = trouble;
+  if (calm_ == kCalm) heard_trouble_.clear();
+}
+
+void SiteKeeper::read_given() {
+  std::string trouble;
+  try {
+    const std::string text = read_small_file(files_.given, kLargestSettings);
+    if (text == read_) return;
+    read_ = text;
+    offer(text, files_.given);
+  } catch (const std::system_error& problem) {
+    // One that never was there: the settings are heard instead.
+    if (!read_.empty()) trouble = problem.what();
+  } catch (const ConfigError& problem) {
+    trouble = problem.what();
+  }
+  const std::lock_guard lock(mutex_);
+  file_trouble_ = trouble;
+}
+
+void SiteKeeper::look() {
+  read_given();
+  std::string text;
+  std::int64_t number = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    text = text_;
+    number = settings_.number;
+  }
+  if (files_.kept.empty() || number == written_) return;
+  try {
+    AtomicFile file(files_.kept);
+    file.stream() << text;
+    file.commit();
+    written_ = number;
+  } catch (const std::exception& problem) {
+    const std::lock_guard lock(mutex_);
+    file_trouble_ = problem.what();
+  }
+}
+
+std::optional<std::string> SiteKeeper::to_tell(double now_s) {
+  const std::lock_guard lock(mutex_);
+  if (now_s < tell_s_ || text_.empty()) return std::nullopt;
+  tell_s_ = now_s + kTell_s;
+  return text_;
+}
+
+std::string SiteKeeper::trouble() const {
+  const std::lock_guard lock(mutex_);
+  const std::string& why = file_trouble_.empty() ? heard_trouble_ : file_trouble_;
+  return why.empty() ? "" : "trust: the site's settings are not taken: " + why;
+}
+
+}  // namespace ols::trust

@@ -1,0 +1,48 @@
+// What is the same on all hosts of a site, made at the centre by `ols-key settings` and signed by
+// the site's root. Each change has a higher number; a lower one never replaces a higher one.
+//
+//   site = "airfield"
+//   number = 3
+//   root = "…64 hexadecimal digits…"
+//   geoid = "egm96_15.gtx"          # of ols-export
+//   [station]                       # some keys of a station's file: edge/site_keys.h
+//   logic.slew_lease_max_s = 1.5
+//   # signature …128 hexadecimal digits…
+//
+// Members are no settings: the trust list has them. Pure.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "base/trust/crypto.h"
+
+namespace ols::trust {
+
+// What may be told on the bus: it fits into a datagram.
+inline constexpr std::size_t kLargestSettings = 60'000;
+
+struct SiteSettings {
+  std::string site;
+  std::int64_t number = 0;  // 0: there are none
+  PublicKey root{};
+  std::string geoid;  // empty: not stated
+  std::string body;   // all lines but the signature's; its table [station] is the station's to read
+};
+
+// Of settings whose origin is known: throws ConfigError for a value that cannot be used. `name`
+// stands for the file.
+using SettingsCheck = std::function<void(const SiteSettings&, const std::string& name)>;
+
+// `wanted`: what a person has written, without site, number and root. Throws ConfigError for keys
+// that are no settings.
+std::string sign_settings(const SiteSettings& head, const std::string& wanted,
+                          const std::string& name, const SigningKey& root);
+// Throws ConfigError if they are not settings that this root has signed.
+SiteSettings read_settings(const std::string& text, const std::string& name, const PublicKey& root);
+// Of a person's text: geoid and [station] only. Throws ConfigError.
+SiteSettings read_wanted_settings(const std::string& wanted, const std::string& name);
+
+}  // namespace ols::trust

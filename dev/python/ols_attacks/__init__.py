@@ -1,0 +1,1 @@
+"""Attacks on a live site that requires signatures (tools/bench-attacks)."""

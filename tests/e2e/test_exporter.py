@@ -1,0 +1,68 @@
+"""ols-exporter tells what the stations and the fusion have signed, and nothing of strangers."""
+
+import re
+import urllib.request
+
+import lcm
+import ols_msg
+import pytest
+from conftest import BIN
+from helpers import Listener, station_without_devices
+from ols_demo.bus import LIVE_URL
+from ols_demo.site import Site
+
+TOLD = re.compile(r"^(\w+)(?:\{(.*)\})? (\S+)$", re.MULTILINE)
+
+
+@pytest.fixture
+def exporter(network, tmp_path):
+    """The address of its page, and the site that it runs in."""
+    with Site(tmp_path / "logs") as site:
+        command = [str(BIN / "ols-exporter"), "--lcm-url", LIVE_URL, "--address", "127.0.0.1:19316"]
+        site.start_and_wait("exporter", command, "ready")
+        yield "http://127.0.0.1:19316/metrics", site
+        site.check()
+
+
+def samples(address):
+    with urllib.request.urlopen(address, timeout=10) as page:
+        text = page.read().decode()
+    return {(name, labels): float(value) for name, labels, value in TOLD.findall(text)}
+
+
+def test_the_statuses_of_the_site_are_told(exporter, tmp_path):
+    address, site = exporter
+    config = tmp_path / "alfa.toml"
+    config.write_text(station_without_devices("alfa"))
+    site.start_and_wait("alfa", [str(BIN / "ols-station"), "--config", str(config)], "ready")
+    site.start_and_wait("fusion", [str(BIN / "ols-fusion"), "--lcm-url", LIVE_URL], "ready")
+    listener = Listener()
+    listener.wait_for_status("alfa")
+    told = {}
+
+    def is_told():
+        told.update(samples(address))
+        return ("ols_station_status_age_seconds", 'station="alfa"') in told and (
+            "ols_fusion_status_age_seconds",
+            "",
+        ) in told
+
+    listener.wait(is_told, "the station and the fusion")
+    assert told["ols_station_device_up", 'station="alfa",device="camera"'] == 0.0
+    versions = [labels for name, labels in told if name == "ols_station_build_info"]
+    assert len(versions) == 1 and re.fullmatch(r'station="alfa",version="\d+\.\d+.*"', versions[0])
+    assert 0.0 <= told["ols_station_status_age_seconds", 'station="alfa"'] < 20.0
+    assert told["ols_station_reading", 'station="alfa",reading="disk_free_bytes"'] > 0.0
+
+
+def test_strangers_are_counted_and_not_told(exporter):
+    address, _ = exporter
+    status = ols_msg.station_status_t()
+    status.schema_version = status.SCHEMA_VERSION
+    status.station = "bravo"
+    wire, listener = lcm.LCM(LIVE_URL), Listener()
+    for _ in range(20):
+        wire.publish("OLS_STATUS_bravo", status.encode())
+    reason = ("ols_bus_distrusted_total", 'reason="unsigned"')
+    listener.wait(lambda: samples(address).get(reason, 0.0) >= 20.0, "that they are counted")
+    assert not [labels for _, labels in samples(address) if "bravo" in labels]
