@@ -30,9 +30,10 @@ def stamped(node_id):
     return message
 
 
-def detection(latitude_deg, longitude_deg, height_m, **fields):
+def detection(latitude_deg, longitude_deg, height_m, age_s=0, **fields):
     """Of a radar's target; 1e-4 degrees of error each, 12 m in height."""
     message = stamped(RADAR)
+    message.timestamp.seconds -= age_s
     report = message.detection_report
     report.report_id = report.object_id = OBJECT
     place = report.location
@@ -42,6 +43,11 @@ def detection(latitude_deg, longitude_deg, height_m, **fields):
     place.coordinate_system, place.datum = DEGREES_AND_METRES, ELLIPSOID
     for name, value in fields.items():
         setattr(place, name, value)
+    return message
+
+
+def as_our_own(message):
+    message.detection_report.track_info.add(type="ols.state", value="confirmed")
     return message
 
 
