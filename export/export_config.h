@@ -9,7 +9,7 @@
 #include "export/asterix/categories.h"
 #include "export/gate.h"
 #include "export/home/home_settings.h"
-#include "export/sapient/sapient_messages.h"
+#include "export/sapient/sapient_node.h"
 #include "export/tak/cot_event.h"
 
 namespace ols::config {

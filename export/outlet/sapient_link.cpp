@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/clocks.h"
+#include "export/sapient/registration.h"
 
 namespace ols::exports {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "export/outlet/stream_link.h"
 #include "export/sapient/sapient_dialogue.h"
+#include "export/sapient/sapient_node.h"
 
 namespace ols::exports {
 

@@ -1,4 +1,5 @@
-// The registration, which says at length what may be expected of the node.
+#include "export/sapient/registration.h"
+
 #include "export/sapient/frame.h"
 #include "export/sapient/sapient_messages.h"
 #include "sapient/sapient.pb.h"
@@ -91,10 +92,7 @@ void describe_mode(Registration& registration) {
 }  // namespace
 
 std::string sapient_registration(const SapientSettings& settings, std::int64_t utime_us) {
-  sapient::SapientMessage message;
-  message.mutable_timestamp()->set_seconds(utime_us / 1'000'000);
-  message.mutable_timestamp()->set_nanos(static_cast<std::int32_t>(utime_us % 1'000'000) * 1000);
-  message.set_node_id(node_id(settings));
+  sapient::SapientMessage message = message_of(settings, utime_us);
   Registration& registration = *message.mutable_registration();
   describe_node(registration, settings);
   describe_status(registration, settings.status_s);

@@ -4,6 +4,7 @@
 
 #include "base/plain_text.h"
 #include "export/sapient/frame.h"
+#include "export/sapient/sapient_messages.h"
 #include "sapient/sapient.pb.h"
 
 namespace ols::exports {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "export/sapient/sapient_messages.h"
+#include "export/sapient/sapient_node.h"
 
 namespace ols::exports {
 

@@ -20,14 +20,6 @@ using sapient::StatusReport;
 
 constexpr double kSecond_us = 1e6;
 
-SapientMessage message_of(const SapientSettings& settings, std::int64_t utime_us) {
-  SapientMessage message;
-  message.mutable_timestamp()->set_seconds(utime_us / 1'000'000);
-  message.mutable_timestamp()->set_nanos(static_cast<std::int32_t>(utime_us % 1'000'000) * 1000);
-  message.set_node_id(node_id(settings));
-  return message;
-}
-
 std::string report_id(std::int64_t utime_us, const std::string& what) {
   return ulid_of(utime_us / 1000, what + " " + std::to_string(utime_us));
 }
@@ -149,10 +141,6 @@ void add_station(StatusReport& report, const Station& station) {
 }
 
 }  // namespace
-
-std::string node_id(const SapientSettings& settings) {
-  return settings.node_id.empty() ? uuid_of(settings.site + ".fusion") : settings.node_id;
-}
 
 // It is new each time: a heartbeat that says everything fits whatever its receiver knows.
 std::string sapient_status(const SapientSettings& settings, const std::vector<Station>& stations,

@@ -6,20 +6,9 @@
 #include <vector>
 
 #include "export/records.h"
+#include "export/sapient/sapient_node.h"
 
 namespace ols::exports {
-
-struct SapientSettings {
-  std::string site = "ols";
-  std::string node_id{};  // UUID; empty: computed from the site
-  double status_s = 5.0;  // between two status reports
-};
-
-// By which the site is known as a node.
-std::string node_id(const SapientSettings& settings);
-
-// What the site is and can do; receivers answer it with an acknowledgement.
-std::string sapient_registration(const SapientSettings& settings, std::int64_t utime_us);
 
 std::string sapient_status(const SapientSettings& settings, const std::vector<Station>& stations,
                            std::int64_t utime_us);

@@ -1,5 +1,5 @@
 """SAPIENT through Apex, the middleware that most know, where OLS_APEX names its command (4.2.0; it
-is on no package registry): our site registers there and reports, and hears another node's detections.
+is on no package registry): our site registers there and reports, and another node is heard there.
 """
 
 import json
