@@ -53,22 +53,24 @@ std::optional<double> positive(double value) {
   return std::isfinite(value) && value > 0.0 ? std::optional(value) : std::nullopt;
 }
 
-// "33U": its number, and its latitude band, of which N is the first in the north.
-std::optional<Utm> grid_place(const Location& location) {
-  const std::string& zone = location.utm_zone();
+// "33N", "33S": its number and the hemisphere, as in the standard's examples; or "33U" with the
+// latitude's band, of which N is the first in the north.
+std::optional<Utm> grid_place(const Location& location, const std::string& zone) {
   Utm utm;
   const auto [end, bad] = std::from_chars(zone.data(), zone.data() + zone.size(), utm.zone);
   if (bad != std::errc{} || zone.data() + zone.size() - end != 1) return std::nullopt;
   const char band = *end >= 'a' ? static_cast<char>(*end - 'a' + 'A') : *end;
   if (band < 'C' || band > 'X') return std::nullopt;
-  utm.northern = band >= 'N';
+  utm.northern = band >= 'N' && band != 'S';
   utm.easting_m = location.x();
   utm.northing_m = location.y();
   return utm;
 }
 
-std::optional<Refusal> set_on_grid(Report& report, const Location& location) {
-  const auto utm = grid_place(location);
+std::optional<Refusal> set_on_grid(Report& report, const Location& location,
+                                   const std::string& usual_zone) {
+  const auto utm =
+      grid_place(location, location.utm_zone().empty() ? usual_zone : location.utm_zone());
   if (!utm) return Refusal::kMalformed;
   try {
     const Geodetic there = geodetic_from_utm(*utm, 0.0);
@@ -82,11 +84,13 @@ std::optional<Refusal> set_on_grid(Report& report, const Location& location) {
 }
 
 // Latitude, longitude and their deviation; else why not.
-std::optional<Refusal> set_on_map(Report& report, const Location& location) {
+std::optional<Refusal> set_on_map(Report& report, const Location& location,
+                                  const std::string& usual_zone) {
   if (!location.has_x() || !location.has_y()) return Refusal::kMalformed;
   if (!std::isfinite(location.x() + location.y())) return Refusal::kNotFinite;
   const auto system = location.coordinate_system();
-  if (system == sapient::LOCATION_COORDINATE_SYSTEM_UTM_M) return set_on_grid(report, location);
+  if (system == sapient::LOCATION_COORDINATE_SYSTEM_UTM_M)
+    return set_on_grid(report, location, usual_zone);
   const bool is_deg = system == sapient::LOCATION_COORDINATE_SYSTEM_LAT_LNG_DEG_M;
   if (!is_deg && system != sapient::LOCATION_COORDINATE_SYSTEM_LAT_LNG_RAD_M) {
     return Refusal::kMalformed;
@@ -122,6 +126,11 @@ std::optional<Units> units_of(const RangeBearing& sight) {
   }
 }
 
+// "lost", "lostInView": it says where its target was, not where it is.
+bool is_lost(const DetectionReport& report) {
+  return report.state().starts_with("lost") || report.state().starts_with("Lost");
+}
+
 std::string label_of(const DetectionReport& report) {
   if (!report.id().empty()) return report.id();
   return report.classification_size() > 0 ? report.classification(0).type() : "";
@@ -141,8 +150,9 @@ std::optional<Refusal> SapientReader::set_height(Report& report, const Location&
   return std::nullopt;
 }
 
-std::optional<Refusal> SapientReader::place(Report& report, const Location& location) const {
-  const auto refusal = set_on_map(report, location);
+std::optional<Refusal> SapientReader::place(Report& report, const Location& location,
+                                            const Node& from) const {
+  const auto refusal = set_on_map(report, location, from.utm_zone);
   return refusal ? refusal : set_height(report, location);
 }
 
@@ -187,7 +197,7 @@ Reading SapientReader::reading_of(const DetectionReport& detection, const std::s
   const auto found = nodes_.find(node);
   const Node from = found == nodes_.end() ? Node{} : found->second;
   std::optional<Refusal> refusal = Refusal::kMalformed;
-  if (detection.has_location()) refusal = place(report, detection.location());
+  if (detection.has_location()) refusal = place(report, detection.location(), from);
   if (detection.has_range_bearing()) refusal = place(report, detection.range_bearing(), from);
   if (refusal) return Refused{*refusal, report.name};
   if (detection.has_enu_velocity()) {
@@ -201,13 +211,15 @@ Reading SapientReader::reading_of(const DetectionReport& detection, const std::s
   return report;
 }
 
-void SapientReader::note_units(Node& node, const sapient::Registration& registration) {
+void SapientReader::note_registration(Node& node, const sapient::Registration& registration) {
   constexpr double kKilometreAnHour_m_s = 1.0 / 3.6;
+  constexpr std::size_t kLongestZone = 3;
   for (const auto& mode : registration.mode_definition()) {
     for (const auto& detections : mode.detection_definition()) {
       const auto& units = detections.velocity_type().enu_velocity_units();
       const bool is_kph = units.east_north_rate_units() == sapient::SPEED_UNITS_KPH;
       node.speed_unit_m_s = is_kph ? kKilometreAnHour_m_s : 1.0;
+      node.utm_zone = detections.location_type().zone().substr(0, kLongestZone);
     }
   }
 }
@@ -220,16 +232,22 @@ SapientReader::Node& SapientReader::node(const std::string& id) {
 Readings SapientReader::take(const std::string& message) {
   sapient::SapientMessage said;
   if (!said.ParseFromString(message)) return {Refused{Refusal::kMalformed, "no SAPIENT"}};
+  // What is kept of nodes must stay small, whatever they call themselves.
+  constexpr std::size_t kLongestName = 64;
+  if (said.node_id().size() > kLongestName) return {Refused{Refusal::kMalformed, "a node's name"}};
   if (said.has_registration()) {
-    note_units(node(said.node_id()), said.registration());
+    note_registration(node(said.node_id()), said.registration());
   } else if (said.has_status_report() && said.status_report().has_node_location()) {
+    Node& sender = node(said.node_id());
     Report at;
-    if (place(at, said.status_report().node_location()) || !std::isfinite(at.height_m)) return {};
-    node(said.node_id()).place =
-        Geodetic{radians(at.latitude_deg), radians(at.longitude_deg), at.height_m};
+    if (place(at, said.status_report().node_location(), sender) || !std::isfinite(at.height_m)) {
+      return {};
+    }
+    sender.place = Geodetic{radians(at.latitude_deg), radians(at.longitude_deg), at.height_m};
   } else if (said.has_detection_report()) {
     const auto utime_us = utime_of(said);
     if (!utime_us) return {Refused{Refusal::kMalformed, "a message without a time"}};
+    if (is_lost(said.detection_report())) return {};
     return {reading_of(said.detection_report(), said.node_id(), *utime_us)};
   }
   return {};

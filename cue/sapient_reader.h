@@ -33,12 +33,14 @@ class SapientReader {
   struct Node {
     std::optional<Geodetic> place;
     double speed_unit_m_s = 1.0;
+    std::string utm_zone;  // of places that name none
   };
   Reading reading_of(const exports::sapient::DetectionReport& report, const std::string& node,
                      std::int64_t utime_us) const;
-  static void note_units(Node& node, const exports::sapient::Registration& registration);
+  static void note_registration(Node& node, const exports::sapient::Registration& registration);
   // Puts where it is into the report; else why that is not known.
-  std::optional<Refusal> place(Report& report, const exports::sapient::Location& location) const;
+  std::optional<Refusal> place(Report& report, const exports::sapient::Location& location,
+                               const Node& from) const;
   std::optional<Refusal> set_height(Report& report,
                                     const exports::sapient::Location& location) const;
   static std::optional<Refusal> place(Report& report, const exports::sapient::RangeBearing& sight,

@@ -120,6 +120,10 @@ TEST(SapientReader, PlacesInRadiansAndOnTheGridAreTheSame) {
   const Report found = report_of(read(message));
   EXPECT_NEAR(found.latitude_deg, 49.2, 1e-9);
   EXPECT_EQ(found.horizontal_sd_m, 9.0);
+  place_in(message).set_utm_zone("33N");
+  EXPECT_NEAR(report_of(read(message)).latitude_deg, 49.2, 1e-9);
+  place_in(message).set_utm_zone("33S");
+  EXPECT_LT(report_of(read(message)).latitude_deg, 0.0);
   for (const char* zone : {"", "33", "33-", "U", "333U"}) {
     place_in(message).set_utm_zone(zone);
     EXPECT_NE(refusal(read(message)), Refusal::kCount) << zone;
@@ -162,6 +166,34 @@ TEST(SapientReader, ABearingWithARangeCountsFromItsNode) {
   EXPECT_EQ(refusal(reader.take(blind.SerializeAsString()).at(0)), Refusal::kOtherType);
 }
 
+TEST(SapientReader, AGridsZoneIsThatOfTheRegistrationUnlessSaid) {
+  SapientReader reader(kGeoid);
+  auto registration = message_of_node();
+  registration.mutable_registration()
+      ->add_mode_definition()
+      ->add_detection_definition()
+      ->mutable_location_type()
+      ->set_zone("33N");
+  EXPECT_TRUE(reader.take(registration.SerializeAsString()).empty());
+  auto message = detection();
+  const UtmPoint grid = utm_from_geodetic({radians(49.2), radians(16.6), 0.0});
+  place_in(message).set_x(grid.position.easting_m);
+  place_in(message).set_y(grid.position.northing_m);
+  place_in(message).set_coordinate_system(sapient::LOCATION_COORDINATE_SYSTEM_UTM_M);
+  const Report found = report_of(reader.take(message.SerializeAsString()).at(0));
+  EXPECT_NEAR(found.longitude_deg, 16.6, 1e-9);
+  place_in(message).set_utm_zone("34N");
+  const Report next = report_of(reader.take(message.SerializeAsString()).at(0));
+  EXPECT_NEAR(next.longitude_deg, 22.6, 1e-9);
+}
+
+TEST(SapientReader, WhereATargetWasLostIsNoCue) {
+  auto message = detection();
+  message.mutable_detection_report()->set_state("lostInView");
+  SapientReader reader(kGeoid);
+  EXPECT_TRUE(reader.take(message.SerializeAsString()).empty());
+}
+
 TEST(SapientReader, SpeedsAreInTheUnitsOfTheRegistration) {
   SapientReader reader(kGeoid);
   auto registration = message_of_node();
@@ -184,6 +216,9 @@ TEST(SapientReader, WhatIsNoUseIsNamed) {
   EXPECT_TRUE(reader.take("").empty());
   auto message = detection();
   message.clear_timestamp();
+  EXPECT_EQ(refusal(read(message)), Refusal::kMalformed);
+  message = detection();
+  message.set_node_id(std::string(65, 'x'));
   EXPECT_EQ(refusal(read(message)), Refusal::kMalformed);
   message = detection();
   message.mutable_detection_report()->clear_object_id();
