@@ -25,7 +25,8 @@ const std::vector<FormatRow>& formats() {
       {Format::kCot, "cot", {Carrier::kUdp, Carrier::kTcp}},
       {Format::kAircraftJson, "aircraft-json", {Carrier::kFile, Carrier::kHttp}},
       {Format::kSbs, "sbs", {Carrier::kTcp}},
-      {Format::kJson, "json", {Carrier::kUdp, Carrier::kTcp}}};
+      {Format::kJson, "json", {Carrier::kUdp, Carrier::kTcp}},
+      {Format::kSapient, "sapient", {Carrier::kTcp}}};
   return kFormats;
 }
 
@@ -134,6 +135,10 @@ config::Section cue_section(CueConfig& c) {
           {config::text("lcm_url", c.lcm_url,
                         "The bus; ttl=0: only this host, ttl=1: also the other hosts of the site.",
                         [](const std::string& url) { parse_lcm_url(url); }),
+           config::text("geoid", c.geoid,
+                        "Grid of the geoid, by its name in PROJ's folders or by its path: of "
+                        "sources of SAPIENT whose heights count from it.",
+                        config::not_empty),
            config::text("status_file", c.status_file,
                         "JSON file that is rewritten every second; empty: none."),
            config::number("rate_hz", c.rate_hz, {2.0, 20.0}, "Hz",

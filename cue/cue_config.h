@@ -13,7 +13,7 @@ struct Section;
 }
 namespace ols::cues {
 
-enum class Format { kCot, kAircraftJson, kSbs, kJson };
+enum class Format { kCot, kAircraftJson, kSbs, kJson, kSapient };
 
 struct InputConfig {
   Format format = Format::kCot;
@@ -25,6 +25,7 @@ struct InputConfig {
 
 struct CueConfig {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string geoid = "egm96_15.gtx";
   std::string status_file;
   double rate_hz = 5.0;
   int most = 32;

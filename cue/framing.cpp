@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "export/sapient/frame.h"
+
 namespace ols::cues {
 namespace {
 
@@ -42,11 +44,7 @@ bool Framer::next_tak_message(std::string& message) {
     if (shift >= 28) length = kLongest_bytes + 1;
     if (length > kLongest_bytes) break;
   }
-  if (length > kLongest_bytes) {
-    ++overlong_;
-    drop_rest();
-    return false;
-  }
+  if (length > kLongest_bytes) return refuse_overlong();
   ++head;
   if (rest.size() < head + length) return false;
   message.assign(1, kMagic).append("\x01").append(1, kMagic);
@@ -55,7 +53,24 @@ bool Framer::next_tak_message(std::string& message) {
   return true;
 }
 
+bool Framer::next_sapient_message(std::string& message) {
+  const auto length = exports::framed_length(rest());
+  if (!length) return false;
+  if (*length > kLongest_bytes) return refuse_overlong();
+  if (rest().size() < exports::kFrameHead_bytes + *length) return false;
+  message = rest().substr(exports::kFrameHead_bytes, *length);
+  taken_ += exports::kFrameHead_bytes + *length;
+  return true;
+}
+
+bool Framer::refuse_overlong() {
+  ++overlong_;
+  drop_rest();
+  return false;
+}
+
 bool Framer::next(std::string& message) {
+  if (framing_ == Framing::kSapient) return next_sapient_message(message);
   if (framing_ == Framing::kLines) return next_line(message);
   if (framing_ == Framing::kCot) {
     const auto begin = rest().find_first_not_of(" \t\r\n");

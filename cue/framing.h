@@ -11,6 +11,7 @@ enum class Framing {
   kWhole,  // a datagram, a file
   kLines,
   kCot,  // events as XML, one behind the other, or messages of the TAK protocol with their length
+  kSapient,  // messages with their length, four bytes before them
 };
 
 class Framer {
@@ -32,6 +33,9 @@ class Framer {
   bool next_line(std::string& message);
   bool next_event(std::string& message);
   bool next_tak_message(std::string& message);
+  bool next_sapient_message(std::string& message);
+  // A message of such a length is none: where the next one begins is unknown.
+  bool refuse_overlong();
 
   void drop_rest();
   std::string_view rest() const { return std::string_view(bytes_).substr(taken_); }

@@ -13,13 +13,17 @@ namespace {
 // What comes by datagram or from a file is whole.
 Framing framing_of(Format format, bool is_stream) {
   if (!is_stream) return Framing::kWhole;
+  if (format == Format::kSapient) return Framing::kSapient;
   return format == Format::kCot ? Framing::kCot : Framing::kLines;
 }
 
 }  // namespace
 
-InputReader::InputReader(Format format, CotTypes types, bool is_stream)
-    : format_(format), types_(std::move(types)), framer_(framing_of(format, is_stream)) {}
+InputReader::InputReader(Format format, CotTypes types, bool is_stream, GeoidHeight geoid_m)
+    : format_(format),
+      types_(std::move(types)),
+      framer_(framing_of(format, is_stream)),
+      sapient_(std::move(geoid_m)) {}
 
 void InputReader::read(const std::string& message, std::int64_t now_us, Readings& readings) {
   Readings more;
@@ -35,6 +39,9 @@ void InputReader::read(const std::string& message, std::int64_t now_us, Readings
       break;
     case Format::kJson:
       more.push_back(json_reading(message, now_us));
+      break;
+    case Format::kSapient:
+      more = sapient_.take(message);
       break;
   }
   std::ranges::move(more, std::back_inserter(readings));

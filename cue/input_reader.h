@@ -8,13 +8,15 @@
 #include "cue/cot_reader.h"
 #include "cue/cue_config.h"
 #include "cue/framing.h"
+#include "cue/sapient_reader.h"
 
 namespace ols::cues {
 
 class InputReader {
  public:
-  // `is_stream`: messages come in any pieces; else each piece is whole.
-  InputReader(Format format, CotTypes types, bool is_stream);
+  // `is_stream`: messages come in any pieces; else each piece is whole. `geoid_m`: of SAPIENT's
+  // heights above it; none: those are refused.
+  InputReader(Format format, CotTypes types, bool is_stream, GeoidHeight geoid_m = {});
 
   Readings take(std::string_view bytes, std::int64_t now_us);
   // The connection begins anew.
@@ -27,6 +29,7 @@ class InputReader {
   CotTypes types_;
   Framer framer_;
   SbsReader sbs_;
+  SapientReader sapient_;
   int overlong_ = 0;  // of the framer's, told
 };
 

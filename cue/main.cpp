@@ -7,6 +7,7 @@
 #include <exception>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@
 #include "cue/input_reader.h"
 #include "cue/source.h"
 #include "cue/status.h"
+#include "export/geoid.h"
 
 namespace {
 
@@ -37,6 +39,19 @@ struct Arguments {
   bool check_config = false;
 };
 
+// Without a grid, heights above the geoid are refused one by one, and others are not.
+cues::GeoidHeight geoid_of(const cues::CueConfig& config) {
+  try {
+    return [geoid = std::make_shared<const ols::exports::Geoid>(config.geoid)](
+               double latitude_deg, double longitude_deg) {
+      return geoid->height_m(latitude_deg, longitude_deg);
+    };
+  } catch (const std::invalid_argument& missing) {
+    spdlog::warn("geoid {}", missing.what());
+    return {};
+  }
+}
+
 // The inputs with their readers, which feed the desk.
 class Inputs {
  public:
@@ -45,7 +60,8 @@ class Inputs {
       const cues::Source source = cues::parse_source(input.from);
       names_.push_back(input.rules.name);
       readers_.push_back(std::make_unique<cues::InputReader>(
-          input.format, input.types, source.carrier == cues::Carrier::kTcp));
+          input.format, input.types, source.carrier == cues::Carrier::kTcp,
+          input.format == cues::Format::kSapient ? geoid_of(config) : cues::GeoidHeight{}));
       inlets_.push_back(make_inlet(context_, source, input.poll_s, sink(readers_.size() - 1)));
     }
   }
@@ -178,7 +194,7 @@ int act(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Cues from outside for the fusion: TAK, ADS-B, or lines of JSON"};
+  CLI::App app{"Cues from outside for the fusion: TAK, SAPIENT, ADS-B, or lines of JSON"};
   app.set_version_flag("--version", OLS_VERSION);
   Arguments arguments;
   app.add_option("--config", arguments.config, "Configuration file (TOML); all keys have defaults");

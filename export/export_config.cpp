@@ -9,6 +9,7 @@
 
 #include "base/config_section.h"
 #include "base/lcm_url.h"
+#include "export/sapient/identifiers.h"
 
 namespace ols::exports {
 namespace {
@@ -29,7 +30,8 @@ const std::vector<FormatRow>& formats() {
       {Format::kGpx, "gpx", true, {Scheme::kFile}},
       {Format::kCourageous, "courageous", true, {Scheme::kFile}},
       {Format::kMqtt, "mqtt", false, {Scheme::kMqtt, Scheme::kMqtts}},
-      {Format::kAsterix, "asterix", false, {Scheme::kUdp}}};
+      {Format::kAsterix, "asterix", false, {Scheme::kUdp}},
+      {Format::kSapient, "sapient", false, {Scheme::kTcp, Scheme::kTls}}};
   return kFormats;
 }
 
@@ -140,6 +142,22 @@ config::Section asterix_section(AsterixSettings& a) {
           }};
 }
 
+void check_node(const std::string& id) {
+  if (!id.empty() && !is_uuid(id)) {
+    throw std::invalid_argument("is no UUID of version 4 in lower case");
+  }
+}
+
+config::Section sapient_section(SapientSettings& s) {
+  return {"sapient",
+          "SAPIENT, BSI Flex 335 v2.0.",
+          {config::text("node_id", s.node_id,
+                        "UUID by which others know this site; empty: computed from its name.",
+                        check_node),
+           config::number("status_s", s.status_s, {1.0, 60.0}, "s",
+                          "Between two reports of the stations' state.")}};
+}
+
 void check_names(const ExportConfig& config, ConfigTable& root) {
   std::set<std::string> names;
   for (const OutputConfig& output : config.outputs) {
@@ -210,7 +228,7 @@ config::Section export_section(ExportConfig& c) {
            config::number("history_min", c.history_min, {0.0, 1440.0}, "min",
                           "How much of the tracks stands in a file.")},
           {outputs_section(c), cot_section(c.cot), mqtt_section(c.home), asterix_section(c.asterix),
-           trust::trust_section(c.trust)},
+           sapient_section(c.sapient), trust::trust_section(c.trust)},
           [&c](ConfigTable& root) {
             c.has_own_geoid = root.has("geoid");
             check_names(c, root);

@@ -9,6 +9,7 @@
 #include "export/asterix/categories.h"
 #include "export/gate.h"
 #include "export/home/home_settings.h"
+#include "export/sapient/sapient_node.h"
 #include "export/tak/cot_event.h"
 
 namespace ols::config {
@@ -16,7 +17,17 @@ struct Section;
 }
 namespace ols::exports {
 
-enum class Format { kCot, kCotProtobuf, kGeoJson, kKml, kGpx, kCourageous, kMqtt, kAsterix };
+enum class Format {
+  kCot,
+  kCotProtobuf,
+  kGeoJson,
+  kKml,
+  kGpx,
+  kCourageous,
+  kMqtt,
+  kAsterix,
+  kSapient
+};
 
 struct OutputConfig {
   std::string name;
@@ -40,6 +51,7 @@ struct ExportConfig {
   CotSettings cot;
   HomeSettings home;
   AsterixSettings asterix;
+  SapientSettings sapient;  // without the site, which is above
   trust::TrustConfig trust;
 };
 

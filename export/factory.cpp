@@ -13,8 +13,10 @@
 #include "export/outlet/file_link.h"
 #include "export/outlet/mqtt_link.h"
 #include "export/outlet/queued_outlet.h"
+#include "export/outlet/sapient_link.h"
 #include "export/outlet/stream_link.h"
 #include "export/outlet/udp_outlet.h"
+#include "export/sapient/sapient_encoder.h"
 #include "export/tak/cot.h"
 
 namespace ols::exports {
@@ -51,6 +53,12 @@ std::unique_ptr<Encoder> live_document(const OutputConfig& output, const ExportC
   return std::make_unique<DocumentEncoder>(limits, writer, kLive, Packets{{"link", link}});
 }
 
+SapientSettings sapient_settings(const ExportConfig& config) {
+  SapientSettings settings = config.sapient;
+  settings.site = config.site;
+  return settings;
+}
+
 std::unique_ptr<Encoder> make_encoder(const OutputConfig& output, const ExportConfig& config) {
   switch (output.format) {
     case Format::kCot:
@@ -64,6 +72,8 @@ std::unique_ptr<Encoder> make_encoder(const OutputConfig& output, const ExportCo
       return std::make_unique<HomeEncoder>(config.home, config.site);
     case Format::kAsterix:
       return std::make_unique<AsterixEncoder>(config.asterix);
+    case Format::kSapient:
+      return std::make_unique<SapientEncoder>(sapient_settings(config));
     default:
       return live_document(output, config);
   }
@@ -82,6 +92,9 @@ std::unique_ptr<Link> make_link(const Address& address, const OutputConfig& outp
     case Scheme::kFile:
       return std::make_unique<FileLink>(address.path);
     default:
+      if (output.format == Format::kSapient) {
+        return std::make_unique<SapientLink>(address, files, sapient_settings(config));
+      }
       return std::make_unique<StreamLink>(address, files);
   }
 }

@@ -190,7 +190,9 @@ int act(Arguments& arguments) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Targets and stations for others' programs: TAK, ASTERIX, MQTT, GeoJSON, KML, GPX and more"};
+      "Targets and stations for others' programs: TAK, SAPIENT, ASTERIX, MQTT, GeoJSON, KML, GPX "
+      "and "
+      "more"};
   app.set_version_flag("--version", OLS_VERSION);
   Arguments arguments;
   app.add_option("--config", arguments.config, "Configuration file (TOML); all keys have defaults");

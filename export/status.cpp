@@ -22,7 +22,7 @@ std::string to_json(const ExportStatus& status) {
     outputs[name] = {{"open", report.is_open},        {"trouble", report.trouble},
                      {"sent", report.sent},           {"bytes", report.bytes},
                      {"displaced", report.displaced}, {"failures", report.failures},
-                     {"openings", report.openings}};
+                     {"openings", report.openings},   {"complaints", report.complaints}};
   }
   const Json json{{"utime_us", status.utime_us},
                   {"targets", status.targets},

@@ -1,6 +1,7 @@
 // A connection that may make its caller wait, for a thread of its own (queued_outlet.h).
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -27,6 +28,9 @@ class Link {
   virtual void close() = 0;
   // Whether what waited while it was closed is old news.
   virtual bool forgets() const { return true; }
+  // What the receiver finds wrong while the connection holds; empty: nothing.
+  virtual std::string trouble() const { return {}; }
+  virtual std::uint64_t complaints() const { return 0; }  // of the receiver; only goes up
 
   static constexpr double kPatience_s = 3.0;
 };

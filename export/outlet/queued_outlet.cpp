@@ -44,6 +44,12 @@ void QueuedOutlet::note_open() {
   ++report_.openings;
 }
 
+void QueuedOutlet::note_complaints() {
+  const std::lock_guard lock(mutex_);
+  report_.complaints = link_->complaints();
+  report_.trouble = link_->trouble();
+}
+
 void QueuedOutlet::note_failure(const std::string& why) {
   const std::lock_guard lock(mutex_);
   report_.is_open = false;
@@ -78,6 +84,7 @@ void QueuedOutlet::serve() {
     } else {
       link_->wait(wakeup_.descriptor(), kIdle_s);
     }
+    note_complaints();
   }
   link_->close();
 }

@@ -26,6 +26,7 @@ class QueuedOutlet : public Outlet {
   void run();
   void serve();
   void note_open();
+  void note_complaints();
   void note_failure(const std::string& why);
   std::optional<Packet> next();
   void pause(double seconds);

@@ -162,17 +162,27 @@ void StreamLink::send(const Packet& packet) {
   }
 }
 
-void StreamLink::drain() {
-  std::array<char, 4096> dropped{};
-  if (tls_) {
-    const int count = SSL_read(tls_->session.get(), dropped.data(), dropped.size());
-    if (count <= 0 && tls_->wants(count) == 0) {
+// All that is decoded: the socket does not tell of it any more.
+void StreamLink::drain_tls() {
+  std::array<char, 4096> bytes{};
+  do {
+    const int count = SSL_read(tls_->session.get(), bytes.data(), bytes.size());
+    if (count > 0) {
+      heard({bytes.data(), static_cast<std::size_t>(count)});
+    } else if (tls_->wants(count) == 0) {
       const std::string trouble = tls_->certificate_trouble();
       throw error(trouble.empty() ? "has closed the connection: " + last_openssl_error() : trouble);
+    } else {
+      return;
     }
-    return;
-  }
-  const ssize_t count = ::recv(socket_->descriptor(), dropped.data(), dropped.size(), MSG_DONTWAIT);
+  } while (SSL_pending(tls_->session.get()) > 0);
+}
+
+void StreamLink::drain() {
+  if (tls_) return drain_tls();
+  std::array<char, 4096> bytes{};
+  const ssize_t count = ::recv(socket_->descriptor(), bytes.data(), bytes.size(), MSG_DONTWAIT);
+  if (count > 0) heard({bytes.data(), static_cast<std::size_t>(count)});
   if (count == 0) throw error("has closed the connection");
   if (count < 0 && errno != EAGAIN && errno != EINTR) throw error(std::strerror(errno));
 }

@@ -1,10 +1,11 @@
-// A stream over TCP, or over TLS: packets one behind the other. What the receiver says is read and
-// dropped, so that it need not wait for us.
+// A stream over TCP, or over TLS: packets one behind the other. What the receiver says is read, and
+// dropped where nobody wants it, so that it need not wait for us.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "export/address.h"
 #include "export/outlet/link.h"
@@ -29,14 +30,19 @@ class StreamLink : public Link {
   void wait(int wake_fd, double seconds) override;
   void close() override;
 
+ protected:
+  // What the receiver says, in any pieces.
+  virtual void heard(std::string_view bytes) { static_cast<void>(bytes); }
+  LinkError error(const std::string& what) const;
+
  private:
   struct Tls;
   void shake_hands();
   bool wait_until(double end_s, bool to_write) const;
   long write_some(const std::string& bytes, std::size_t from);
-  // Drops what there is; throws if the receiver has ended.
+  // Takes what there is; throws if the receiver has ended.
   void drain();
-  LinkError error(const std::string& what) const;
+  void drain_tls();
 
   Address address_;
   TlsFiles files_;

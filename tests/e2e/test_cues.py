@@ -22,6 +22,7 @@ from ols_demo.bus import LIVE_URL, counters, decode
 from ols_demo.keys import members_of_environment
 from ols_demo.places import geodetic
 from ols_demo.site import Site
+from sapient_site import OBJECT, as_our_own, detection, framed
 
 DEADLINE_S = 20.0
 STATION = (49.2, 16.6, 250.0)
@@ -140,6 +141,8 @@ class Rig:
         self.ports = {name: self._free_port() for name in ("json", "cot")}
         self.tak = Server(lambda: event("TCP"))
         self.receiver = Server(sbs)
+        self.radar_says = lambda: framed(detection(*CUE))
+        self.radar = Server(lambda: self.radar_says())
         self.web = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Web)
         threading.Thread(target=self.web.serve_forever, daemon=True).start()
         self.file = folder / "aircraft.json"
@@ -156,6 +159,7 @@ class Rig:
             "cot": ("cot", f"udp://127.0.0.1:{self.ports['cot']}", ""),
             "server": ("cot", f"tcp://127.0.0.1:{self.tak.port}", ""),
             "sbs": ("sbs", f"tcp://127.0.0.1:{self.receiver.port}", ""),
+            "sapient": ("sapient", f"tcp://127.0.0.1:{self.radar.port}", ""),
             "file": ("aircraft-json", f"file://{self.file}", "poll_s = 0.2"),
             "web": (
                 "aircraft-json",
@@ -200,6 +204,7 @@ class Rig:
         self.station()
         self.tak.speak()
         self.receiver.speak()
+        self.radar.speak()
         timeout_ms = 50
         while self.lcm.handle_timeout(timeout_ms) > 0:
             timeout_ms = 0
@@ -285,7 +290,7 @@ def test_every_way_and_format_arrives(rig):
 
     says = [("json", line), ("cot", event), ("cot", tak_protocol)]
     wanted = ["json.J1", "cot.T1", "cot.MESH", "server.TCP", "sbs.abcdef", "web.aaaaaa"]
-    wanted.append("file.3c6444")
+    wanted += ["file.3c6444", f"sapient.{OBJECT}"]
     rig.until(lambda: all(rig.cue(name) is not None for name in wanted), "all of them", *says)
     cues = {cue.id: cue for cue in rig.heard}
     for name in wanted:
@@ -296,6 +301,8 @@ def test_every_way_and_format_arrives(rig):
     assert cues["cot.T1"].horizontal_sd_m == cues["cot.MESH"].horizontal_sd_m == 8.0
     assert cues["web.aaaaaa"].horizontal_sd_m == pytest.approx(10.0 / 2.45)
     assert cues["sbs.abcdef"].vertical_sd_m == 300.0  # by pressure
+    radar = cues[f"sapient.{OBJECT}"]
+    assert (radar.horizontal_sd_m, radar.vertical_sd_m) == pytest.approx((11.12, 12.0), abs=0.01)
 
 
 def test_bad_cues_are_refused_by_name_and_stop_nothing(rig):
@@ -314,18 +321,27 @@ def test_bad_cues_are_refused_by_name_and_stop_nothing(rig):
         "other_type": lambda: event(kind="b-m-p"),
         "stale": lambda: event(age_s=60.0),
     }
+    bad_detections = {
+        "malformed": lambda: len(RUBBISH).to_bytes(4, "little") + RUBBISH,
+        "not_finite": lambda: framed(detection(math.nan, *CUE[1:])),
+        "out_of_range": lambda: framed(detection(91.0, *CUE[1:])),
+        "no_height": lambda: framed(detection(*CUE, datum=0)),
+        "stale": lambda: framed(detection(*CUE, age_s=60)),
+        "own": lambda: framed(as_our_own(detection(*CUE))),
+    }
+    rig.radar_says = lambda: b"".join(words() for words in bad_detections.values())
     says = [("json", words) for words in bad_lines.values()]
     says += [("cot", words) for words in bad_events.values()]
 
     def all_counted():
         if not (rig.folder / "cue.json").exists():
             return False
-        return all(rig.refused("json")[why] for why in bad_lines) and all(
-            rig.refused("cot")[why] for why in bad_events
-        )
+        bad = {"json": bad_lines, "cot": bad_events, "sapient": bad_detections}
+        return all(rig.refused(name)[why] for name, reasons in bad.items() for why in reasons)
 
     rig.until(all_counted, "each is counted", *says)
-    assert {cue.id for cue in rig.heard} <= {"server.TCP", "sbs.abcdef", "web.aaaaaa"}
+    good = {"server.TCP", "sbs.abcdef", "web.aaaaaa", f"sapient.{OBJECT}"}
+    assert {cue.id for cue in rig.heard} <= good
     # What is somewhere else is for the fusion, which knows its stations.
     far = ("json", lambda: line("far", latitude_deg=-49.0))
     rig.until(lambda: rig.count("cues_out_of_area") > 0, "out of the site's area", far)

@@ -1,6 +1,7 @@
 """Files of ols-export as others' programs read them: live, of a log, of ols-fuse's positions."""
 
 import json
+import re
 import subprocess
 import xml.etree.ElementTree as ET
 
@@ -88,7 +89,20 @@ def check_xml(path):
     assert (done.returncode, done.stderr) == (0, b"")
 
 
+def place_by_gdal(path, place, *layer):
+    """What stands in the groups of `place` in what ogrinfo says; it complains about nothing."""
+    command = ["ogrinfo", "-ro", "-al" if not layer else "-q", path, *layer]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "Warning" not in done.stdout and "ERROR" not in done.stdout
+    found = re.search(place, done.stdout, re.DOTALL)
+    assert found, done.stdout
+    return [float(number) for group in found.groups() for number in group.split()]
+
+
 def check_geojson(path):
+    place = place_by_gdal(path, r"kind \(String\) = target.*?POINT Z \(([^)]*)\)")
+    assert place == pytest.approx([LONGITUDE_DEG, LATITUDE_DEG, HEIGHT_M], abs=0.005)
     features = json.loads(path.read_text())["features"]
     here = next(f for f in features if f["properties"]["kind"] == "target")
     assert here["geometry"]["coordinates"] == pytest.approx(
@@ -99,6 +113,8 @@ def check_geojson(path):
 
 def check_kml(path):
     check_xml(path)
+    place = place_by_gdal(path, r"Name \(String\) = OLS 7.*?(?:LINESTRING|POINT) Z \(([^,)]*)")
+    assert place == pytest.approx([LONGITUDE_DEG, LATITUDE_DEG, SEA_M], abs=0.02)
     coordinates = ET.parse(path).getroot().find(f".//{GX}coord").text.split()
     assert [float(c) for c in coordinates] == pytest.approx(
         [LONGITUDE_DEG, LATITUDE_DEG, SEA_M], abs=0.02
@@ -109,6 +125,8 @@ def check_kml(path):
 
 def check_gpx(path):
     check_xml(path)
+    place = place_by_gdal(path, r"ele \(Real\) = (\S+).*?POINT \(([^)]*)\)", "track_points")
+    assert place == pytest.approx([SEA_M, LONGITUDE_DEG, LATITUDE_DEG], abs=0.02)
     point = gpxpy.parse(path.read_text()).tracks[0].segments[0].points[0]
     assert (point.latitude, point.longitude) == pytest.approx(
         (LATITUDE_DEG, LONGITUDE_DEG), abs=1e-8

@@ -75,8 +75,9 @@ NOT_PURE = {
     "console/video_link.* console/video_puller.* edge/video/video_server.cpp "
     "edge/video/video_session.*",
     "receivers and their connections": "export/outlet/file_link.cpp export/outlet/mqtt_link.cpp "
-    "export/outlet/queued_outlet.* export/outlet/stream_link.* export/outlet/tcp_socket.cpp "
-    "export/outlet/mqtt_link.h export/outlet/udp_outlet.* export/factory.cpp "
+    "export/outlet/queued_outlet.* export/outlet/sapient_link.* export/outlet/stream_link.* "
+    "export/outlet/tcp_socket.cpp export/outlet/mqtt_link.h export/outlet/udp_outlet.* "
+    "export/factory.cpp "
     "cue/inlet/inlet.cpp cue/inlet/poll_inlet.* cue/inlet/tcp_inlet.* cue/inlet/udp_inlet.*",
     "simulated devices on real wires": "sim/camera_server.cpp sim/exposure_cue.* "
     "sim/gige_control.* sim/gige_device.* sim/gige_stream.* "

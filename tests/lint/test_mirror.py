@@ -29,8 +29,8 @@ WITHOUT: dict[str, str] = {
         console/console_bus.cpp console/handed_over_socket.cpp console/web_server.cpp
         tools/ctl/operator.cpp
         tools/doctor/bus_listener.cpp tools/doctor/probe_*.cpp tools/logger/bus_recorder.cpp
-        export/export_bus.cpp export/outlet/mqtt_link.cpp export/outlet/stream_link.cpp
-        export/outlet/tcp_socket.cpp export/outlet/udp_outlet.cpp
+        export/export_bus.cpp export/outlet/mqtt_link.cpp export/outlet/sapient_link.cpp
+        export/outlet/stream_link.cpp export/outlet/tcp_socket.cpp export/outlet/udp_outlet.cpp
         cue/cue_bus.cpp cue/inlet/*.cpp tools/ctl/cue_hand.cpp""",
     "Aravis and its peer: tested against each other (tests/unit/sim/camera_*_test.cpp)": """
         edge/camera/aravis_*.cpp tools/doctor/aravis_probe.cpp sim/camera_server.cpp

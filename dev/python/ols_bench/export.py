@@ -14,6 +14,7 @@ from pathlib import Path
 import export_site
 import numpy as np
 from ols_demo.site import bring_up_loopback
+from sapient_site import Receiver as SapientReceiver
 
 BROKER_PORT = 18830
 LATITUDE = re.compile(rb'lat="([0-9.]+)"')
@@ -54,7 +55,8 @@ def outputs(folder: Path, port: int, rate_hz: float) -> str:
     threading.Thread(target=drain, args=(server,), daemon=True).start()
     plain = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     plain.bind(("127.0.0.1", 0))
-    outputs.kept = (server, plain)  # type: ignore[attr-defined]
+    hub = SapientReceiver()
+    outputs.kept = (server, plain, hub)  # type: ignore[attr-defined]
     every = {"rate_hz": rate_hz, "lines": True}
     text = export_site.output("xml", "cot", f"udp://127.0.0.1:{port}", **every)
     mesh = f"udp://127.0.0.1:{plain.getsockname()[1]}"
@@ -62,6 +64,7 @@ def outputs(folder: Path, port: int, rate_hz: float) -> str:
     text += export_site.output("display", "asterix", mesh, **every)
     stream = f"tcp://127.0.0.1:{server.getsockname()[1]}"
     text += export_site.output("stream", "cot-protobuf", stream, **every)
+    text += export_site.output("hub", "sapient", f"tcp://127.0.0.1:{hub.port}", rate_hz=rate_hz)
     text += export_site.output("home", "mqtt", f"mqtt://127.0.0.1:{BROKER_PORT}", **every)
     for kind in ("geojson", "kml", "gpx", "courageous"):
         to = f"file://{folder}/site.{kind}"

@@ -55,6 +55,21 @@ TEST(Framing, AStreamWithoutAnEndIsDroppedAndCounted) {
   EXPECT_EQ(cot.overlong(), 2);
 }
 
+TEST(Framing, MessagesOfSapientComeByTheirLength) {
+  const std::string stream("\x03\0\0\0one\0\0\0\0\x03\0\0\0two", 18);
+  for (std::size_t step = 1; step <= stream.size(); ++step) {
+    Framer framer(Framing::kSapient);
+    Messages found;
+    for (std::size_t at = 0; at < stream.size(); at += step) {
+      for (const auto& message : framer.take(stream.substr(at, step))) found.push_back(message);
+    }
+    EXPECT_EQ(found, (Messages{"one", "two"})) << step;
+  }
+  Framer endless(Framing::kSapient);
+  EXPECT_TRUE(endless.take("HTTP/1.1 200 OK").empty());
+  EXPECT_EQ(endless.overlong(), 1);
+}
+
 // One copy of the rest for each message would take 13 s.
 TEST(Framing, ManyMessagesAtOnceTakeNoLongerThanTheirBytes) {
   constexpr std::size_t kLines = 700'000;

@@ -26,6 +26,7 @@ TEST(InputReader, GivesEachFormatToItsOwnReader) {
   EXPECT_EQ(malformed(Format::kSbs, true), "no line of SBS");
   EXPECT_EQ(malformed(Format::kAircraftJson, false), "is no aircraft.json");
   EXPECT_EQ(malformed(Format::kJson, true), "no JSON object");
+  EXPECT_EQ(malformed(Format::kSapient, false), "no SAPIENT");
 }
 
 TEST(InputReader, AStreamWithoutAnEndIsRefusedOnce) {

@@ -53,6 +53,9 @@ TEST(ExportConfig, SaysWhatIsWrongWhere) {
   EXPECT_THAT(complaint(good + "area_deg = [48.0, 13.0, 47.0, 14.0]\n"), HasSubstr("south"));
   EXPECT_THAT(complaint(good + "password_file = \"/a\"\n"), HasSubstr("user"));
   EXPECT_THAT(complaint("site = \"a b\"\n"), HasSubstr("site"));
+  EXPECT_THAT(complaint(output("format = \"sapient\"\nto = \"udp://1.1.1.1:1\"\n")),
+              HasSubstr("the format sapient does not go to udp://"));
+  EXPECT_THAT(complaint("[sapient]\nnode_id = \"brno\"\n"), HasSubstr("no UUID of version 4"));
   EXPECT_THAT(complaint("[mqtt]\nprefix = \"a/#\"\n"), HasSubstr("prefix"));
   EXPECT_THAT(complaint("[cot]\ntarget_type = \"a\\\"b\"\n"), HasSubstr("target_type"));
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 
+#include <atomic>
 #include <condition_variable>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct Receiver {
   int refusals = 0;
   bool breaks = false;
   std::vector<std::string> got;
+  std::atomic<bool> complains = false;
 };
 
 class MadeLink : public Link {
@@ -36,6 +38,8 @@ class MadeLink : public Link {
     ::poll(&wake, 1, static_cast<int>(1e3 * seconds));
   }
   void close() override {}
+  std::string trouble() const override { return receiver_.complains ? "complains" : ""; }
+  std::uint64_t complaints() const override { return receiver_.complains ? 1 : 0; }
 
  private:
   Receiver& receiver_;
@@ -62,6 +66,17 @@ TEST(QueuedOutlet, TriesAgainAndForgetsWhatWaited) {
   ASSERT_TRUE(eventually([&] { return outlet.report().sent == 1; }));
   EXPECT_EQ(receiver.got, (std::vector<std::string>{"new"}));
   EXPECT_EQ(outlet.report().displaced, 1U);
+}
+
+TEST(QueuedOutlet, SaysWhatAnOpenReceiverComplainsOf) {
+  Receiver receiver;
+  QueuedOutlet outlet(std::make_unique<MadeLink>(receiver));
+  ASSERT_TRUE(eventually([&] { return outlet.report().is_open; }));
+  receiver.complains = true;
+  outlet.put({{"a", "1"}});
+  ASSERT_TRUE(eventually([&] { return outlet.report().complaints == 1; }));
+  EXPECT_EQ(outlet.report().trouble, "complains");
+  EXPECT_TRUE(outlet.report().is_open);
 }
 
 TEST(QueuedOutlet, SaysThatAConnectionBroke) {

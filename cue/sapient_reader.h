@@ -1,0 +1,55 @@
+// SAPIENT, BSI Flex 335 v2.0: the detections of other nodes, as a middleware passes them on. Pure.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "cue/reading.h"
+#include "geometry/wgs84.h"
+
+namespace ols::exports::sapient {
+class DetectionReport;
+class Location;
+class RangeBearing;
+class Registration;
+}  // namespace ols::exports::sapient
+namespace ols::cues {
+
+// [m] above the ellipsoid, by latitude and longitude in degrees; not finite: not known there.
+using GeoidHeight = std::function<double(double, double)>;
+
+class SapientReader {
+ public:
+  // Without a geoid, heights above it are none.
+  explicit SapientReader(GeoidHeight geoid_m) : geoid_m_(std::move(geoid_m)) {}
+
+  // A message without its length. Nothing for one that is no detection.
+  Readings take(const std::string& message);
+
+ private:
+  // What is known of a node, which its detections count from.
+  struct Node {
+    std::optional<Geodetic> place;
+    double speed_unit_m_s = 1.0;
+    std::string utm_zone;  // of places that name none
+  };
+  Reading reading_of(const exports::sapient::DetectionReport& report, const std::string& node,
+                     std::int64_t utime_us) const;
+  static void note_registration(Node& node, const exports::sapient::Registration& registration);
+  // Puts where it is into the report; else why that is not known.
+  std::optional<Refusal> place(Report& report, const exports::sapient::Location& location,
+                               const Node& from) const;
+  std::optional<Refusal> set_height(Report& report,
+                                    const exports::sapient::Location& location) const;
+  static std::optional<Refusal> place(Report& report, const exports::sapient::RangeBearing& sight,
+                                      const Node& from);
+  Node& node(const std::string& id);
+
+  static constexpr std::size_t kMost = 1000;
+  GeoidHeight geoid_m_;
+  std::map<std::string, Node> nodes_;
+};
+
+}  // namespace ols::cues

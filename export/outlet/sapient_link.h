@@ -1,0 +1,28 @@
+// A connection to a receiver of SAPIENT: nothing is sent before it has accepted the registration.
+#pragma once
+
+#include "export/outlet/stream_link.h"
+#include "export/sapient/sapient_dialogue.h"
+#include "export/sapient/sapient_node.h"
+
+namespace ols::exports {
+
+class SapientLink : public StreamLink {
+ public:
+  SapientLink(const Address& address, TlsFiles files, SapientSettings settings);
+
+  void open() override;
+  void send(const Packet& packet) override;
+  // Of the messages that the receiver has called wrong, the newest, for some seconds.
+  std::string trouble() const override;
+  std::uint64_t complaints() const override { return dialogue_.complaints(); }
+
+ private:
+  void heard(std::string_view bytes) override;
+
+  SapientSettings settings_;
+  SapientDialogue dialogue_;
+  double complained_s_ = 0.0;
+};
+
+}  // namespace ols::exports

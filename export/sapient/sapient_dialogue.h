@@ -1,0 +1,45 @@
+// What a receiver of SAPIENT says, and our answers. Alerts and everything else that is meant for
+// others is passed over. Pure.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "export/sapient/sapient_node.h"
+
+namespace ols::exports {
+
+class SapientDialogue {
+ public:
+  explicit SapientDialogue(SapientSettings settings) : settings_(std::move(settings)) {}
+
+  // Bytes in any pieces; what is to be answered. Throws std::runtime_error, in words for a person,
+  // for what is no SAPIENT.
+  std::vector<std::string> take(std::string_view bytes, std::int64_t utime_us);
+  // The connection begins anew.
+  void clear();
+
+  // To our registration; nothing: none yet.
+  std::optional<bool> acceptance() const { return acceptance_; }
+  const std::string& refusal() const { return refusal_; }   // why, if it was refused
+  std::uint64_t complaints() const { return complaints_; }  // only goes up
+  const std::string& last_complaint() const { return complaint_; }
+
+  static constexpr std::size_t kLongest_bytes = 1 << 20;
+
+ private:
+  void read(const std::string& message, std::int64_t utime_us, std::vector<std::string>& answers);
+
+  SapientSettings settings_;
+  std::string bytes_;
+  std::optional<bool> acceptance_;
+  std::string refusal_;
+  std::uint64_t complaints_ = 0;
+  std::string complaint_;
+};
+
+}  // namespace ols::exports
