@@ -17,7 +17,14 @@ from helpers import VideoViewer
 from ols_demo.places import geodetic
 from ols_demo.site import Site
 from PIL import Image
-from tripod import SCENARIO, SIGNS, Tripod, references
+from tripod import (
+    SCENARIO,
+    SIGNS,
+    Tripod,
+    found_values,
+    heading_of_picture_deg,
+    references,
+)
 
 SWEEP_POSES = 10
 
@@ -83,14 +90,19 @@ def test_all_of_it_takes_five_minutes(tripod, accepted):
 
     def decide(state):
         seen.append(state)
-        return "keep"
+        return "accept"
 
-    assert tripod.operate(process, decide, deadline_s=600.0) == 1, tripod.log.read_text()
+    assert tripod.operate(process, decide, deadline_s=600.0) == 0, tripod.log.read_text()
     [result] = seen
-    print(f"{result.elapsed_s:.0f} s", result.text, sep="\n")
+    off = heading_of_picture_deg(found_values(tripod.store / "current"))
+    off_arcsec = 3600 * ((off - heading_of_picture_deg(tripod.truth()) + 180) % 360 - 180)
+    print(f"{result.elapsed_s:.0f} s; heading of the picture off by {off_arcsec:+.1f} arcsec")
+    print(result.text)
     assert result.elapsed_s < 300.0
+    assert abs(off_arcsec) < WHOLE_ARCSEC
 
 
+WHOLE_ARCSEC = 60.0  # 11 RMS are told, 22 in the worst direction
 UNSEEN = "barn"  # a sign that no calibration here has used
 MOST_ARCSEC = 150.0  # of ten poses of a sweep and two rounds over four signs: 40 to 70 were seen
 

@@ -211,7 +211,8 @@ void check_station(StationLink& link, const StationFiles& station, const Procedu
   wanted.status_gap_s = kReliedOn_s;
   wanted.absolute_time = options.stars > 0 || options.sun || !options.drone.empty();
   const StationModel model = prior_of(station.settings, station.instrument, station.config).model;
-  wanted.sun_kept_out = !options.overcast && SunKeepOut(model, clock_utime_us).is_up();
+  const bool may_see_sun = !options.overcast && options.name != "rectify";
+  wanted.sun_kept_out = may_see_sun && SunKeepOut(model, clock_utime_us).is_up();
   wanted.image_width_px = camera.width_px;
   wanted.image_height_px = camera.height_px;
   const auto all = preconditions(facts, wanted);
