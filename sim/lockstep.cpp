@@ -70,27 +70,27 @@ void Lockstep::advance(double time_s) {
     all_designated = all_designated && (stations_[i]->designated() || stations_[i]->left_alone());
   }
   if (all_designated && result_.designated_s < 0.0) result_.designated_s = time_s;
-  for (const fusion::BearingMeasurement& sighting : bearings_.receive(time_s))
-    fuse(sighting, time_s);
+  for (const fusion::BearingMeasurement& measurement : bearings_.receive(time_s))
+    fuse(measurement, time_s);
 }
 
 void Lockstep::send(std::size_t station, const station::Bearing& bearing, double time_s) {
   const StationTruth& truth = world_.stations()[station];
-  fusion::BearingMeasurement sighting;
-  sighting.station = truth.id;
+  fusion::BearingMeasurement measurement;
+  measurement.station = truth.id;
   // The station's clock is off; its times of frame and angles are consistent with each other.
   const double exposed_s = bearing.mid_exposure_s - monotonic_s(0.0);
-  sighting.utime_us = utime_us(exposed_s + truth.clock_offset_s);
-  sighting.sight = bearing.sight;
-  sighting.belief = bearing.belief;
-  sighting.clock_sd_s = std::hypot(truth.clock_sd_s, bearing.stamp_sd_s);
-  sighting.track_id = bearing.track_id;
-  sighting.calibration_id = bearing.pose_revision;
-  bearings_.send(sighting, time_s);
+  measurement.utime_us = utime_us(exposed_s + truth.clock_offset_s);
+  measurement.sight = bearing.sight;
+  measurement.belief = bearing.belief;
+  measurement.clock_sd_s = std::hypot(truth.clock_sd_s, bearing.stamp_sd_s);
+  measurement.track_id = bearing.track_id;
+  measurement.calibration_id = bearing.pose_revision;
+  bearings_.send(measurement, time_s);
 }
 
-void Lockstep::fuse(const fusion::BearingMeasurement& sighting, double time_s) {
-  const fusion::FusionOutput output = fusion_.add(sighting);
+void Lockstep::fuse(const fusion::BearingMeasurement& measurement, double time_s) {
+  const fusion::FusionOutput output = fusion_.add(measurement);
   if (result_.designated_s >= 0.0) {
     for (const fusion::FusedTarget& target : output.targets) record(target, time_s, result_.joint);
     for (const fusion::FusedTarget& target : output.targets_paper)

@@ -61,7 +61,7 @@ class Lockstep {
   void advance(double time_s);
   void know_station(std::size_t index);
   void send(std::size_t station, const station::Bearing& bearing, double time_s);
-  void fuse(const fusion::BearingMeasurement& sighting, double time_s);
+  void fuse(const fusion::BearingMeasurement& measurement, double time_s);
   void send(const std::vector<fusion::Slew>& slews, double time_s);
   void record(const fusion::FusedTarget& target, double time_s, std::vector<Fix>& fixes) const;
   void deliver(const AddressedSlew& addressed, double time_s);

@@ -79,10 +79,10 @@ double BiasModel::greatest_white_share(const std::string& station) const {
 
 // A noise with the correlation time T, sampled every dt, averages like that many times fewer white
 // samples: 1 + 2 T / dt.
-double BiasModel::inflation(const std::string& station, bool told, double interval_s) const {
+double BiasModel::inflation(const std::string& station, bool declared, double interval_s) const {
   if (!(interval_s > 0.0)) return 1.0;
   const double coloured = 1.0 - greatest_white_share(station);
-  const double time_s = told ? config_.colour_time_s : config_.untold_colour_time_s;
+  const double time_s = declared ? config_.colour_time_s : config_.undeclared_colour_time_s;
   return 1.0 + coloured * 2.0 * time_s / interval_s;
 }
 
@@ -117,16 +117,17 @@ void BiasModel::forget(const std::string& station) {
 
 Eigen::Array2d BiasModel::learnt(const std::string& station, const Eigen::Array2d& stated_rad2,
                                  const Eigen::Array2d& noise_rad2) const {
-  const bool told = states_anything(stated_rad2);
-  const double weight = told ? config_.stated_weight : config_.untold_weight;
+  const bool declared = states_anything(stated_rad2);
+  const double weight = declared ? config_.stated_weight : config_.undeclared_weight;
   const double least = config_.least_over_noise * config_.least_over_noise;
-  const Eigen::Array2d common = (config_.untold_weight * least + common_ratio_).max(0.0) /
-                                (config_.untold_weight + common_weight_);
+  const Eigen::Array2d common = (config_.undeclared_weight * least + common_ratio_).max(0.0) /
+                                (config_.undeclared_weight + common_weight_);
   const Seen* const seen = find(station);
   // What is stated, or shown beyond it, is either white or slow.
   const double scale = noise_scale(station);
   const double slow = std::max(1.0, scale) - scale * greatest_white_share(station);
-  const Eigen::Array2d prior = told ? stated_rad2 : Eigen::Array2d((common + slow) * noise_rad2);
+  const Eigen::Array2d prior =
+      declared ? stated_rad2 : Eigen::Array2d((common + slow) * noise_rad2);
   if (seen == nullptr) return prior;
   const Eigen::Array2d squared = weight * prior + seen->squared_rad2 + seen->squared_now_rad2;
   return (squared / (weight + seen->weight + seen->weight_now)).max(least * noise_rad2);
@@ -139,7 +140,7 @@ BiasPrior BiasModel::prior(const std::string& station, const LineOfSight& sight,
                   .position_states = position_states};
   const Eigen::Array2d stated = prior.covariance.diagonal();
   const Eigen::Array2d noise = sight.covariance_white.diagonal();
-  const bool told = states_anything(stated);
+  const bool declared = states_anything(stated);
   const Eigen::Array2d more = (learnt(station, stated, noise) - stated).max(0.0);
   const Eigen::Array2d pose =
       position_states ? sight.covariance_systematic.diagonal().array() : stated;
@@ -147,15 +148,15 @@ BiasPrior BiasModel::prior(const std::string& station, const LineOfSight& sight,
   const double elevation_rad = sight.direction.elevation_rad;
   prior.covariance.diagonal().array() += more;
   prior.rotation = rotation_variance((pose + more).max(least * noise), elevation_rad);
-  Eigen::Array2d declared = Eigen::Array2d::Zero();
-  if (told) declared = pose.max(least * noise);
-  const Eigen::Array3d unseen = rotation_variance(declared, elevation_rad);
+  Eigen::Array2d stated_pose = Eigen::Array2d::Zero();
+  if (declared) stated_pose = pose.max(least * noise);
+  const Eigen::Array3d unseen = rotation_variance(stated_pose, elevation_rad);
   prior.shown = (1.0 - unseen / prior.rotation.max(kNone)).max(0.0);
-  prior.time_s.setConstant(told ? config_.stated_time_s : config_.untold_time_s);
+  prior.time_s.setConstant(declared ? config_.stated_time_s : config_.undeclared_time_s);
   // The heading's excess over a tilt existed from the start: all axes drift alike.
   constexpr double kLongest = 100.0;
   const double ratio = prior.rotation(2) / std::max(kNone, prior.rotation(0));
-  if (told) prior.time_s(2) *= std::clamp(ratio, 1.0, kLongest);
+  if (declared) prior.time_s(2) *= std::clamp(ratio, 1.0, kLongest);
   prior.place_time_s = config_.stated_time_s;
   if (position_states) prior.place_m2 = sight.origin_sd_enu_m.array().square();
   return prior;
@@ -175,7 +176,7 @@ void BiasModel::observe(const std::string& station, const LineOfSight& sight,
   const double decay = std::exp(-dt_s / config_.memory_s);
   // A bias within one correlation time is one sample, however often it is estimated.
   const double news = std::min(
-      1.0, dt_s / (states_anything(stated) ? config_.stated_time_s : config_.untold_time_s));
+      1.0, dt_s / (states_anything(stated) ? config_.stated_time_s : config_.undeclared_time_s));
   constexpr double kNone = 1e-24;
   const Eigen::Array2d known = (1.0 - bias.variance / bias.prior.max(kNone)).max(0.0).min(1.0);
   seen.weight_now = known.square();

@@ -32,11 +32,11 @@
 namespace ols::fusion {
 
 struct BiasModelConfig {
-  double stated_time_s = 1800.0;  // correlation time of a declared pose error
-  double untold_time_s = 5.0;     // and of an undeclared one
-  double memory_s = 600.0;        // older evidence counts less than 1/e
-  double stated_weight = 20.0;    // weight of a declared bias, in estimated biases
-  double untold_weight = 1.0;     // and of the assumed one where none is declared
+  double stated_time_s = 1800.0;   // correlation time of a declared pose error
+  double undeclared_time_s = 5.0;  // and of an undeclared one
+  double memory_s = 600.0;         // older evidence counts less than 1/e
+  double stated_weight = 20.0;     // weight of a declared bias, in estimated biases
+  double undeclared_weight = 1.0;  // and of the assumed one where none is declared
   // Min sd of any bias, over sd of the noise: assumed where nothing is declared or shown.
   double least_over_noise = 0.2;
   double noise_weight = 20.0;   // weight of a stated noise, and that it is white, in bearings
@@ -48,7 +48,7 @@ struct BiasModelConfig {
   double clock_weight = 0.0;
   double colour_time_s = 0.3;  // and of coloured noise: between a frame and the slow bias
   // The same where no bias is declared: what is slower is in the bias.
-  double untold_colour_time_s = 0.05;
+  double undeclared_colour_time_s = 0.05;
   double colour_memory = 500.0;  // over which the white share is averaged [second differences]
 };
 
@@ -103,8 +103,8 @@ class BiasModel {
   // The most that it may be, as far as chance goes: what is taken as white.
   double greatest_white_share(const std::string& station) const;
   // By which factor to multiply a bearing's stated variance when bearings come at this interval: 1
-  // if the noise is white. told: the station declares a bias.
-  double inflation(const std::string& station, bool told, double interval_s) const;
+  // if the noise is white. declared: the station declares a bias.
+  double inflation(const std::string& station, bool declared, double interval_s) const;
   double clock_time_s() const { return config_.clock_time_s; }
   // A clock offset estimated by the filter, its variance and its prior, dt_s after the last report,
   // and the variance that the station states [s^2].

@@ -22,8 +22,8 @@ double ColouredNoise::observe(const BearingMeasurement& measurement, const RayFr
   utime_us_ = {utime_us_[1], measurement.utime_us};
   direction_ = {direction_[1], frame.direction};
   if (first_s + second_s >= kNearS) return 1.0;
-  const bool told = !measurement.sight.covariance_systematic.isZero(0.0);
-  return shown.inflation(measurement.station, told, second_s);
+  const bool declared = !measurement.sight.covariance_systematic.isZero(0.0);
+  return shown.inflation(measurement.station, declared, second_s);
 }
 
 }  // namespace ols::fusion

@@ -28,10 +28,10 @@ std::vector<const FilterStation*> that_count(const TrackFilter& filter) {
   int most = 0;
   filter.each_station([&](const FilterStation& s) { most = std::max(most, s.used); });
   filter.each_station([&](const FilterStation& station) {
-    const bool is_told = may_be_off(filter, station) == 0.0;
+    const bool declares = may_be_off(filter, station) == 0.0;
     const bool enough = station.used >= std::min(most, kTwice);
     const bool may_hold = enough && heard_lately(filter, station, Activity::kTeachesS);
-    if (is_told || may_hold) found.push_back(&station);
+    if (declares || may_hold) found.push_back(&station);
   });
   return found;
 }

@@ -159,8 +159,8 @@ void follow(const Way& way, const std::vector<fusion::BearingMeasurement>& beari
   fusion::FusionConfig config{.estimator = way.estimator, .paper_targets = 0};
   config.estimators.paper.moving_average = way.average;
   fusion::Fusion fusion(config);
-  for (const fusion::BearingMeasurement& sighting : bearings) {
-    const fusion::FusionOutput output = fusion.add(sighting);
+  for (const fusion::BearingMeasurement& measurement : bearings) {
+    const fusion::FusionOutput output = fusion.add(measurement);
     if (output.targets.empty()) continue;
     const fusion::FusedTarget& target = output.targets.front();
     if (target.estimate.solution != fusion::Solution::kOk) continue;

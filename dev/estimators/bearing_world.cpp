@@ -29,9 +29,9 @@ AzimuthElevation direction(const Vector3d& from_ecef, const Vector3d& to_ecef) {
   return azimuth_elevation_from_enu(R_ecef_enu(from_ecef).transpose() * (to_ecef - from_ecef));
 }
 
-fusion::BearingMeasurement sighting(const WorldConfig& config, const Station& station,
-                                    std::int64_t utime_us, AzimuthElevation d,
-                                    const Vector2d& off_rad) {
+fusion::BearingMeasurement measurement(const WorldConfig& config, const Station& station,
+                                       std::int64_t utime_us, AzimuthElevation d,
+                                       const Vector2d& off_rad) {
   fusion::BearingMeasurement s;
   s.station = station.id;
   s.utime_us = utime_us;
@@ -148,14 +148,14 @@ std::vector<fusion::BearingMeasurement> measure(const WorldConfig& config,
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::poisson_distribution<int> false_ones(std::max(1e-12, config.false_per_frame));
   std::vector<Station> stations = stations_of(config, random);
-  std::vector<fusion::BearingMeasurement> sightings;
+  std::vector<fusion::BearingMeasurement> measurements;
   const auto frames = static_cast<int>(duration_s * config.rate_hz);
   for (int frame = 0; frame < frames; ++frame) {
     for (std::size_t k = 0; k < stations.size(); ++k) {
       const double phase = static_cast<double>(k) / static_cast<double>(stations.size());
       const double time_s = (frame + phase) / config.rate_hz;
       const std::int64_t utime_us = kStartUs + std::llround(time_s * 1e6);
-      const std::size_t first = sightings.size();
+      const std::size_t first = measurements.size();
       wander(config, 1.0 / config.rate_hz, stations[k], random);
       for (const Path& path : targets) {
         if (uniform(random) < config.missed) continue;
@@ -163,17 +163,18 @@ std::vector<fusion::BearingMeasurement> measure(const WorldConfig& config,
             direction(stations[k].p_ecef, site().to_ecef(at(path, time_s).p_enu));
         const Vector2d off = shift_by_rotation(tangent_basis(there)) * stations[k].rotation_rad +
                              config.noise_rad * draw(random).head<2>();
-        sightings.push_back(sighting(config, stations[k], utime_us, there, off));
+        measurements.push_back(measurement(config, stations[k], utime_us, there, off));
       }
       for (int i = config.false_per_frame > 0.0 ? false_ones(random) : 0; i > 0; --i) {
         const double x = uniform(random), y = uniform(random);
         const Vector2d off = config.view_rad * (2.0 * Vector2d(x, y) - Vector2d(1.0, 1.0));
-        sightings.push_back(sighting(config, stations[k], utime_us, stations[k].aim, off));
+        measurements.push_back(measurement(config, stations[k], utime_us, stations[k].aim, off));
       }
-      std::shuffle(sightings.begin() + static_cast<std::ptrdiff_t>(first), sightings.end(), random);
+      std::shuffle(measurements.begin() + static_cast<std::ptrdiff_t>(first), measurements.end(),
+                   random);
     }
   }
-  return sightings;
+  return measurements;
 }
 
 std::vector<Vector3d> circle(int n, double radius_m) {

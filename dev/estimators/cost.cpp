@@ -96,10 +96,10 @@ void cost_of(const Load& load, double most_cores, double most_ms, Limits& limits
   fusion::Fusion fusion{fusion::FusionConfig{}};
   Spans born, later;
   double born_s = 0.0, later_s = 0.0;
-  for (const fusion::BearingMeasurement& sighting : bearings_of(load)) {
-    const bool first = sighting.utime_us - kStartUs <= std::llround(1e6 * kBornS);
+  for (const fusion::BearingMeasurement& measurement : bearings_of(load)) {
+    const bool first = measurement.utime_us - kStartUs <= std::llround(1e6 * kBornS);
     const double begun_s = used_s();
-    const fusion::FusionOutput output = fusion.add(sighting);
+    const fusion::FusionOutput output = fusion.add(measurement);
     const double span_s = used_s() - begun_s;
     (first ? born_s : later_s) += span_s;
     (first ? born : later).add(1e6 * span_s, output);

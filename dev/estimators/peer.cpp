@@ -49,7 +49,7 @@ fusion::TrackManagerConfig pinned() {
   config.errors.noise_weight = 1e9;
   config.errors.stated_weight = 1e9;
   config.errors.least_over_noise = 0.0;
-  config.errors.colour_time_s = config.errors.untold_colour_time_s = 0.0;
+  config.errors.colour_time_s = config.errors.undeclared_colour_time_s = 0.0;
   return config;
 }
 
@@ -59,8 +59,8 @@ std::vector<std::optional<Vector3d>> our_fixes(
   fixes.reserve(bearings.size());
   const double before_s = user_s();
   fusion::RecordedTrack track(pinned());
-  for (const fusion::BearingMeasurement& sighting : bearings) {
-    track.add(sighting);
+  for (const fusion::BearingMeasurement& measurement : bearings) {
+    track.add(measurement);
     const auto& tracks = track.tracks();
     const bool found = !tracks.empty() && fusion::is_established(tracks.front());
     fixes.push_back(found ? std::optional(tracks.front().filter.position()) : std::nullopt);

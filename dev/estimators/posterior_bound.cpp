@@ -25,9 +25,9 @@ std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
   P.diagonal().tail(3 * stations).setConstant(config.place_sd_m * config.place_sd_m);
   std::vector<double> bound;
   std::int64_t last_us = bearings.front().utime_us;
-  for (const fusion::BearingMeasurement& sighting : bearings) {
-    const double dt = 1e-6 * static_cast<double>(sighting.utime_us - last_us);
-    last_us = sighting.utime_us;
+  for (const fusion::BearingMeasurement& measurement : bearings) {
+    const double dt = 1e-6 * static_cast<double>(measurement.utime_us - last_us);
+    last_us = measurement.utime_us;
     Eigen::MatrixXd F = Eigen::MatrixXd::Identity(n, n);
     F.block<3, 3>(0, 3).diagonal().setConstant(dt);
     const double decay = std::exp(-dt / config.bias_time_s);
@@ -39,18 +39,18 @@ std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
     P.diagonal().segment<3>(3).array() += s * dt;
     P.block<3, 3>(0, 3).diagonal().array() += s * dt * dt / 2.0;
     P.block<3, 3>(3, 0).diagonal().array() += s * dt * dt / 2.0;
-    const double time_s = 1e-6 * static_cast<double>(sighting.utime_us - kStartUs);
+    const double time_s = 1e-6 * static_cast<double>(measurement.utime_us - kStartUs);
     const Eigen::Vector3d line =
-        site().to_ecef(at(path, time_s).p_enu) - sighting.sight.origin_ecef;
-    const fusion::RayFrame frame = fusion::ray_frame(sighting.sight);
-    const auto station = std::atoi(sighting.station.c_str() + 1);
+        site().to_ecef(at(path, time_s).p_enu) - measurement.sight.origin_ecef;
+    const fusion::RayFrame frame = fusion::ray_frame(measurement.sight);
+    const auto station = std::atoi(measurement.station.c_str() + 1);
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, n);
     H.leftCols<3>() = frame.tangent.transpose() / line.norm();
     H.middleCols<3>(rotations + 3 * station) =
-        shift_by_rotation(tangent_basis(sighting.sight.direction));
+        shift_by_rotation(tangent_basis(measurement.sight.direction));
     H.middleCols<3>(places + 3 * station) =
-        -tangent_basis(sighting.sight.direction).transpose() / line.norm();
-    const Eigen::Matrix2d S = H * P * H.transpose() + sighting.sight.covariance_white;
+        -tangent_basis(measurement.sight.direction).transpose() / line.norm();
+    const Eigen::Matrix2d S = H * P * H.transpose() + measurement.sight.covariance_white;
     P -= P * H.transpose() * S.inverse() * H * P;
     bound.push_back(P.topLeftCorner<3, 3>().trace());
   }

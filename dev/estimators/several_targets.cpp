@@ -102,13 +102,13 @@ IdentityScore run_several(const SeveralTargets& scenario, std::uint64_t seed) {
   world.stations_enu = circle(scenario.stations, 250.0);
   world.missed = scenario.missed;
   world.false_per_frame = scenario.false_per_frame;
-  const auto sightings = measure(world, truth, scenario.duration_s, random);
+  const auto measurements = measure(world, truth, scenario.duration_s, random);
   fusion::FusionConfig config;
   config.paper_targets = 0;
   fusion::Fusion fusion(config);
   Judge judge(truth);
-  for (const fusion::BearingMeasurement& sighting : sightings) {
-    const fusion::FusionOutput output = fusion.add(sighting);
+  for (const fusion::BearingMeasurement& measurement : measurements) {
+    const fusion::FusionOutput output = fusion.add(measurement);
     if (!output.targets.empty()) judge.see(output.targets);
   }
   return judge.score();

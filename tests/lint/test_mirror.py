@@ -44,9 +44,7 @@ WITHOUT: dict[str, str] = {
     "parts of the fusion, tested through it (tests/unit/central/fusion and /tracking)": """
         central/estimators/estimator.cpp
         central/fusion/association.cpp central/fusion/bearing_lines.cpp
-        central/fusion/fusion_health.cpp central/fusion/slew_schedule.cpp
-        central/fusion/target_schedule.cpp central/tracking/position_guard.cpp
-        central/tracking/track.cpp central/tracking/track_manager.cpp""",
+        central/fusion/fusion_health.cpp central/tracking/track.cpp""",
     "parts of ols-export, tested through it (exporter_test, home_encoder_test, cot_text_test)": """
         export/output.cpp export/home/discovery.cpp export/tak/cot.cpp""",
     "parts of the simulator, tested through it (test_scenario, test_world, test_lockstep)": """

@@ -34,7 +34,7 @@ double learnt_sd(double bias_sd, double error_sd) {
     const double x = normal(random), y = normal(random), z = normal(random), w = normal(random);
     seen.value = gain * (bias_sd * Eigen::Array2d(x, y) + error_sd * Eigen::Array2d(z, w));
     seen.variance = seen.prior * (1.0 - gain);
-    errors.observe("a", line, seen, BiasModelConfig{}.untold_time_s, 500.0);
+    errors.observe("a", line, seen, BiasModelConfig{}.undeclared_time_s, 500.0);
   }
   return std::sqrt(errors.prior("a", line, 500.0).covariance.trace() / 2.0);
 }
@@ -107,7 +107,7 @@ LineOfSight stated(double elevation_rad, double cross_rad2, double up_rad2) {
 TEST(BiasModel, WhatIsStatedLastsAndWhatNobodyToldDoesNot) {
   const BiasModelConfig config;
   const BiasModel errors(config);
-  EXPECT_TRUE((errors.prior("a", sight(), 500.0).time_s == config.untold_time_s).all());
+  EXPECT_TRUE((errors.prior("a", sight(), 500.0).time_s == config.undeclared_time_s).all());
   const BiasPrior told = errors.prior("a", stated(0.3, 1e-6, 1e-6), 500.0);
   EXPECT_TRUE(told.time_s.isApproxToConstant(config.stated_time_s, 1e-6));
 }
@@ -164,7 +164,7 @@ TEST(BiasModel, WhatIsStatedAndNotSeenAsNoiseIsABias) {
   EXPECT_NEAR(bias.mean() / (kNoise * kNoise), 0.7 + least, 0.05);
   BiasEstimate none{.variance = {1e-12, 1e-12}, .prior = bias};
   for (int i = 0; i < 20; ++i)
-    errors.observe("a", sight(), none, BiasModelConfig{}.untold_time_s, 500.0);
+    errors.observe("a", sight(), none, BiasModelConfig{}.undeclared_time_s, 500.0);
   const Eigen::Array2d shown = errors.prior("a", sight(), 500.0).covariance.diagonal();
   EXPECT_LT(shown.mean(), 0.1 * bias.mean());
 }

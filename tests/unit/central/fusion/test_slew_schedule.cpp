@@ -1,0 +1,184 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "central/fusion/slew_schedule.h"
+#include "tests/unit/central/given_tracks.h"
+
+namespace ols::fusion {
+namespace {
+
+using Eigen::Vector3d;
+using test::confirm_at;
+using test::GivenTracks;
+using test::kStart;
+using test::sight_of;
+using test::site;
+
+const Vector3d kPlace(0.0, 300.0, 50.0);
+constexpr double kGiveUp_s = 1.0;
+constexpr std::int64_t kPeriodUs = 100'000;  // of a round, by default
+
+class SlewScheduleTest : public testing::Test {
+ protected:
+  void know(const std::string& name, const Vector3d& p_enu) {
+    KnownStation& station = *stations.for_status(name, time).station;
+    station.traits.camera_ecef = site().to_ecef(p_enu);
+  }
+  // s00, s01, ...: all look for the one target.
+  void know_many(int count) {
+    for (int i = 0; i < count; ++i) {
+      char name[16];
+      std::snprintf(name, sizeof name, "s%02d", i);
+      know(name, {10.0 * i, -100.0, 0.0});
+    }
+    now_us = confirm_at(tracks, kPlace);
+    ASSERT_EQ(tracks.tracks().at(0).state, TrackState::kConfirmed);
+  }
+  std::vector<Slew> plan(const CueBook& book = CueBook({})) {
+    const BearingLines lines(tracks, pointing, alignment);
+    return schedule.plan(now_us, stations, lines, tracks.tracks(), book);
+  }
+  static std::vector<std::string> names(const std::vector<Slew>& slews) {
+    std::vector<std::string> found;
+    for (const Slew& slew : slews) found.push_back(slew.station);
+    return found;
+  }
+  // A station follows something of its own, by this local track.
+  void follow(std::size_t station, std::int64_t track_id, const Vector3d& p_enu) {
+    for (int i = 0; i < 4; ++i) {
+      BearingMeasurement measurement = sight_of(station, p_enu, now_us - 20'000 * (3 - i));
+      measurement.track_id = track_id;
+      tracks.keep_unassociated(measurement);
+    }
+  }
+
+  MessageTime time;
+  StationRegistry stations{{}, 100};
+  GivenTracks tracks;
+  PointingMonitor pointing;
+  AlignmentConfig alignment;
+  SlewSchedule schedule{SlewConfig{}, kGiveUp_s};
+  std::int64_t now_us = kStart;
+};
+
+TEST_F(SlewScheduleTest, ARoundIsSharedAmongBearingsAndHasEachStationOnce) {
+  know_many(40);
+  std::vector<std::string> all;
+  for (const std::size_t share : {16U, 16U, 8U}) {
+    now_us += 1000;
+    const auto slews = plan();
+    EXPECT_EQ(slews.size(), share);
+    for (const Slew& slew : slews) {
+      EXPECT_EQ(slew.target_id, 1);
+      EXPECT_EQ(slew.utime_us, now_us) << "for the time of its creation, not of the round";
+      all.push_back(slew.station);
+    }
+    EXPECT_EQ(schedule.is_in_round(), share == 16U);
+  }
+  EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), 40U);
+  EXPECT_TRUE(plan().empty()) << "until the next one is due";
+  now_us += kPeriodUs;
+  EXPECT_EQ(names(plan()).front(), "s00");
+}
+
+TEST_F(SlewScheduleTest, ARoundThatTakesTooLongIsBegunAnew) {
+  know_many(40);
+  plan();
+  now_us += std::llround(kGiveUp_s * 1e6) - 1000;
+  EXPECT_EQ(names(plan()).front(), "s16");
+  now_us += 2000;
+  EXPECT_EQ(names(plan()).front(), "s00");
+}
+
+TEST_F(SlewScheduleTest, AfterAStepBackOfTimeARoundBeginsAtOnce) {
+  know_many(20);
+  plan();
+  plan();
+  ASSERT_FALSE(schedule.is_in_round());
+  now_us -= 400'000;
+  EXPECT_TRUE(plan().empty()) << "cues and bearings differ by as much";
+  now_us -= 200'000;
+  EXPECT_EQ(names(plan()).front(), "s00");
+}
+
+TEST_F(SlewScheduleTest, AStationThatGoesInTheMiddleOfARoundEndsNothing) {
+  know_many(20);
+  plan();
+  stations.all().erase("s16");  // it would be the next
+  EXPECT_EQ(names(plan()), (std::vector<std::string>{"s17", "s18", "s19"}));
+}
+
+TEST_F(SlewScheduleTest, WhomTheOperatorHasGetsNoSlew) {
+  know_many(3);
+  stations.all().at("s01").traits.commandable = false;
+  EXPECT_EQ(names(plan()), (std::vector<std::string>{"s00", "s02"}));
+}
+
+TEST_F(SlewScheduleTest, WithoutATargetOrARayThereAreNone) {
+  know("a", {0.0, 0.0, 0.0});
+  EXPECT_TRUE(plan().empty());
+  EXPECT_FALSE(schedule.is_in_round());
+}
+
+// Another ray would begin all searches anew.
+TEST_F(SlewScheduleTest, StationsSearchAlongOneRayForAsLongAsItLasts) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    know(std::string(1, static_cast<char>('a' + k)), test::square()[k]);
+  }
+  follow(1, 7, kPlace);
+  EXPECT_EQ(names(plan()), (std::vector<std::string>{"a", "c", "d"})) << "b has it in view";
+  now_us += kPeriodUs;
+  follow(0, 3, {-300.0, 200.0, 90.0});
+  follow(1, 7, kPlace);
+  const auto slews = plan();
+  ASSERT_EQ(names(slews), (std::vector<std::string>{"c", "d"}));
+  for (const Slew& slew : slews) {
+    EXPECT_EQ(slew.target_id, 0);
+    EXPECT_FALSE(slew.line.isZero());
+    const BearingMeasurement seen = sight_of(1, kPlace, now_us);
+    const Vector3d camera = stations.all().at(slew.station).traits.camera_ecef;
+    const Vector3d look = R_ecef_enu(camera) * enu_from_azimuth_elevation(slew.direction);
+    const Vector3d base = (seen.sight.origin_ecef - camera).normalized();
+    const Vector3d plane = base.cross(direction_ecef(seen.sight)).normalized();
+    EXPECT_NEAR(look.dot(plane), 0.0, 0.02) << slew.station << ": in the plane with b's ray";
+  }
+  now_us += 2'000'000;
+  follow(0, 3, {-300.0, 200.0, 90.0});
+  EXPECT_EQ(names(plan()), (std::vector<std::string>{"b", "c", "d"})) << "b's has ended";
+}
+
+TEST_F(SlewScheduleTest, ACueIsAPlaceToLookAt) {
+  know("a", test::square()[0]);
+  CueBook book({.allow = CueAllowance::kAll});
+  Cue cue;
+  cue.id = "x";
+  cue.utime_us = cue.state_us = now_us;
+  cue.place = geodetic_from_ecef(site().to_ecef(kPlace));
+  cue.horizontal_sd_m = cue.vertical_sd_m = 1.0;
+  cue.velocity_sd_m_s = 1.0;
+  ASSERT_EQ(book.take(cue, now_us, stations), CueRefusal::kNone);
+  const auto slews = plan(book);
+  ASSERT_EQ(slews.size(), 1U);
+  EXPECT_EQ(slews[0].target_id, 0);
+  const auto wanted = test::direction_to(site().to_ecef(test::square()[0]), site().to_ecef(kPlace));
+  EXPECT_NEAR(slews[0].direction.azimuth_rad, wanted.azimuth_rad, 1e-3);
+  EXPECT_NEAR(slews[0].direction.elevation_rad, wanted.elevation_rad, 1e-3);
+}
+
+TEST_F(SlewScheduleTest, ClearedItBeginsARoundAtOnce) {
+  know_many(20);
+  plan();
+  ASSERT_TRUE(schedule.is_in_round());
+  schedule.clear();
+  EXPECT_FALSE(schedule.is_in_round());
+  EXPECT_EQ(names(plan()).front(), "s00");
+}
+
+}  // namespace
+}  // namespace ols::fusion
