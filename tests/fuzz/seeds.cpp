@@ -1,5 +1,5 @@
-// Writes valid LCM messages as seeds: fuzz_seeds FOLDER makes FOLDER/messages, FOLDER/fault_plan,
-// FOLDER/fusion_messages, FOLDER/station_commands and FOLDER/video_request.
+// Writes valid LCM messages as seeds: fuzz_seeds FOLDER makes FOLDER/messages, FOLDER/exporter,
+// FOLDER/fault_plan, FOLDER/fusion_messages, FOLDER/station_commands and FOLDER/video_request.
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -159,6 +159,12 @@ std::string framed(char kind, const std::string& bytes) {
   return {kind + std::string(1, static_cast<char>(bytes.size() & 255U)) + bytes};
 }
 
+// The same of `fuzz_exporter`, whose lengths have two bytes.
+std::string framed_long(char kind, const std::string& bytes) {
+  return {kind + std::string(1, static_cast<char>(bytes.size() >> 8U)) +
+          std::string(1, static_cast<char>(bytes.size() & 255U)) + bytes};
+}
+
 // Datagrams of `fuzz_datagrams`: as it is on the wire; or the payload of one of its channels.
 std::string whole(const std::string& bytes) {
   const std::size_t length = 2 * bytes.size();
@@ -204,6 +210,8 @@ int main(int argc, char** argv) {
   write(folder / "fusion_messages" / "cue",
         framed('\1', encoded(status())) + framed('\20', encoded(cue())) +
             framed('\40', encoded(cue_order())) + framed('\20', encoded(cue())));
+  write(folder / "exporter" / "site", std::string(1, '\0') + framed_long('\0', encoded(status())) +
+                                          framed_long('\1', encoded(fusion_status())));
   write(folder / "fault_plan" / "two", framed('\12', encoded(fault("ptu-garbled", 5.0, 0.01))) +
                                            framed('\12', encoded(fault("all", 0.0, 0.0))));
   // Of the two datagrams that end a program with liblcm 1.3.1, and of a message cut in the middle.

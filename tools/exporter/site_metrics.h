@@ -34,15 +34,18 @@ class SiteMetrics {
   std::vector<prometheus::MetricFamily> families(double now_s) const;
 
  private:
-  template <class Message>
-  struct Heard {
-    Message status;
+  struct HeardStation {
+    ols_msg::station_status_t status;
+    double at_s = 0.0;
+  };
+  struct HeardFusion {
+    ols_msg::fusion_status_t status;
     double at_s = 0.0;
   };
 
   std::string version_;
-  std::map<std::string, Heard<ols_msg::station_status_t>> stations_;
-  std::optional<Heard<ols_msg::fusion_status_t>> fusion_;
+  std::map<std::string, HeardStation> stations_;
+  std::optional<HeardFusion> fusion_;
   std::map<std::string, double> distrusted_;
 };
 
