@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "calibration/parameter_change.h"
 #include "calibration/snooping.h"
 #include "geometry/angles.h"
 
@@ -55,6 +56,15 @@ class Judge {
     closing();
     residuals("sweep", Kind::kScene, limits_.sweep_px);
     residuals("stars", Kind::kStar, limits_.stars_px);
+    return std::move(result_);
+  }
+
+  Acceptance run_instrument() {
+    global();
+    residuals("sweep", Kind::kScene, limits_.sweep_px);
+    against_known("focal length", kFocal, " px", 1.0);
+    against_known("backlash of pan", kPanBacklash, "″", arcsec(1.0));
+    against_known("backlash of tilt", kTiltBacklash, "″", arcsec(1.0));
     return std::move(result_);
   }
 
@@ -150,6 +160,25 @@ class Judge {
     add(at_most(name, std::sqrt(squares / count), limit_px, " px", name + ", residuals"));
   }
 
+  // `scale`: from the natural unit to the shown one.
+  void against_known(const std::string& name, int parameter, const char* unit, double scale) {
+    const ParameterChange change =
+        parameter_change(adjustment_.network(), found_.fit, station_, parameter);
+    char text[160];
+    const double value = scale * instrument_of(model_)[parameter];
+    std::snprintf(text, sizeof text, "%s: %.2f%s, by %+.2f%s from what was known, ", name.c_str(),
+                  value, unit, scale * change.by, unit);
+    Finding finding{name, Judgement::kGood, scale * change.by, scale * change.sd, text};
+    if (!change.is_told) {
+      finding.judgement = Judgement::kUnchecked;
+      finding.sentence += "of which the pictures say next to nothing";
+    } else {
+      if (change.is_large()) finding.judgement = Judgement::kBad;
+      finding.sentence += shown(change.sigmas(), " sigma");
+    }
+    add(std::move(finding));
+  }
+
   // Three sectors of azimuth and some elevation, or the volume is cut to what was seen.
   void coverage() {
     constexpr int kSectors = 6;
@@ -211,6 +240,12 @@ class Judge {
 bool Acceptance::acceptable() const {
   return std::ranges::none_of(findings,
                               [](const Finding& one) { return one.judgement == Judgement::kBad; });
+}
+
+Acceptance judge_instrument(const Problem& problem, const Adjustment& adjustment,
+                            const Calibration& found, std::size_t station,
+                            const AcceptanceLimits& limits) {
+  return Judge(problem, adjustment, found, station, limits).run_instrument();
 }
 
 Acceptance judge_calibration(const Problem& problem, const Adjustment& adjustment,

@@ -38,6 +38,11 @@ struct Acceptance {
   bool acceptable() const;  // no finding is bad
 };
 
+// Of an instrument without a setup: whether what was observed fits what was known of it, in its
+// residuals and in lens and gears. Nothing is said of a direction.
+Acceptance judge_instrument(const Problem& problem, const Adjustment& adjustment,
+                            const Calibration& found, std::size_t station,
+                            const AcceptanceLimits& limits = {});
 Acceptance judge_calibration(const Problem& problem, const Adjustment& adjustment,
                              const Calibration& found, std::size_t station,
                              const AcceptanceLimits& limits = {});

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "calibration/parameter_change.h"
 #include "calibration/snooping.h"
 #include "geometry/angles.h"
 #include "geometry/chi_square.h"
@@ -88,15 +89,17 @@ std::string listed(const std::vector<Group>& groups, const std::vector<std::size
   return text;
 }
 
-// Rectification targets alone: they are for the instrument.
-bool is_rectification(const Adjustment& adjustment) {
+// Nothing but rectification targets and scenery: they are for the instrument.
+bool tells_instrument_alone(const Adjustment& adjustment) {
   const auto& groups = adjustment.groups();
   const auto tells_heading = [](const Group& group) {
     return group.is_absolute() || group.kind == Kind::kTrack;
   };
+  const auto tells_instrument = [](const Group& group) {
+    return is_rectification_target(group.kind) || group.kind == Kind::kScene;
+  };
   return std::ranges::none_of(groups, tells_heading) &&
-         std::ranges::any_of(
-             groups, [](const Group& group) { return is_rectification_target(group.kind); });
+         std::ranges::any_of(groups, tells_instrument);
 }
 
 void check_heading(const Adjustment& adjustment, const Fit& fit) {
@@ -244,26 +247,17 @@ void remark_single(const Adjustment& adjustment, Calibration& result) {
 }
 
 // A lens that was refocused: its focal length changes by half a thousandth and more, and the
-// instrument says that it is known better. The change of a parameter from its prior has the
-// variance that the adjustment has taken off.
+// instrument says that it is known better.
 void remark_focal(const Adjustment& adjustment, Calibration& result) {
-  constexpr double kCritical = 3.29;  // one in a thousand
   const Network& network = adjustment.network();
   for (std::size_t s = 0; s < network.stations.size(); ++s) {
-    const int focal = network.layout.station(s) + kFocal;
-    const double prior = network.stations[s].covariance(kFocal, kFocal);
-    const double taken_off = prior - result.fit.covariance(focal, focal);
-    const double change_px = result.fit.state.stations[s].change[kFocal];
-    constexpr double kTold = 0.05;  // of the prior: else the observations say nothing of it
-    if (taken_off < kTold * prior || std::abs(change_px) < kCritical * std::sqrt(taken_off)) {
-      continue;
-    }
+    const ParameterChange change = parameter_change(network, result.fit, s, kFocal);
+    if (!change.is_large()) continue;
     char text[160];
     std::snprintf(
         text, sizeof text,
         "': its focal length is off by %.2f thousandths, %.1f sigma: was the lens refocused?",
-        1e3 * change_px / network.stations[s].model.geometry.camera.fx_px,
-        std::abs(change_px) / std::sqrt(taken_off));
+        1e3 * change.by / network.stations[s].model.geometry.camera.fx_px, change.sigmas());
     result.remarks.push_back("station '" + network.names[s] + text);
   }
 }
@@ -287,7 +281,7 @@ Calibration calibrate(const Adjustment& adjustment, const Levels& levels) {
   Calibration result;
   result.fit = Snooping(adjustment, levels).run();
   if (!is_settled(result.fit)) throw std::invalid_argument("the adjustment does not converge");
-  result.headings_known = !is_rectification(adjustment);
+  result.headings_known = !tells_instrument_alone(adjustment);
   if (result.headings_known) {
     check_heading(adjustment, result.fit);
   } else {

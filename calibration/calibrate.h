@@ -45,8 +45,8 @@ struct Calibration {
   // Of one station's parameters, enlarged by the variance factor if the global test fails.
   StationMatrix covariance(const Network& network, std::size_t station) const;
   double scaled_by = 1.0;  // the deviations
-  // Not where rectification targets were sighted and nothing that tells where the stations look:
-  // then only the instruments are a result.
+  // Not where rectification targets or scenery were sighted and nothing that tells where the
+  // stations look: then only the instruments are a result.
   bool headings_known = true;
 };
 

@@ -220,6 +220,17 @@ def test_serial_numbers_that_differ_are_refused(run):
     assert not run.output.exists()
 
 
+def test_a_station_that_sights_itself_is_refused(tmp_path):
+    run = Run(tmp_path, cases.other_stations)
+    lines = run.lines("observations.jsonl")
+    at = next(n for n, line in enumerate(lines, 1) if '"reference": "bravo"' in line)
+    run.change("observations.jsonl", at, '"bravo"', f'"{json.loads(lines[at - 1])["station"]}"')
+    done = run.adjust()
+    assert done.returncode == 2
+    assert f"observations.jsonl:{at}: reference: the station sights itself" in done.stderr
+    assert not run.output.exists()
+
+
 def test_a_board_that_is_not_level_is_named(tmp_path):
     """Of two boards one leans by a tenth of a degree; nothing says which."""
     run = Run(tmp_path, cases.rectification)

@@ -246,6 +246,29 @@ def test_a_loss_of_power_leaves_the_old_one_and_is_named(tripod, accepted):
     assert "sweep, picture 12 of 12" in done.stdout, "as it was begun"
 
 
+def sweep(tripod, answer, *options):
+    """What it said, and the folder in which its panorama is kept."""
+    script = tripod.folder / "script"
+    script.write_text(answer + "\n")
+    before = set(tripod.store.iterdir())
+    done = tripod.run("sweep", "--script", script, *options)
+    kept = {path for path in set(tripod.store.iterdir()) - before if not path.is_symlink()}
+    [folder] = [path for path in kept if (path / "frames.jsonl").is_file()]
+    return done, folder
+
+
+def see_that_lens_and_gears_were_checked(done, folder, poses):
+    assert "Lens and gears against the calibration in use:" in done.stdout, done.stderr
+    assert "sweep, residuals: " in done.stdout
+    for name in ("focal length", "backlash of pan", "backlash of tilt"):
+        [line] = [line for line in done.stdout.splitlines() if f" {name}: " in line]
+        assert "from what was known" in line
+    assert folder.name.lstrip("-").isdigit(), "by its id, not set aside"
+    assert len((folder / "frames.jsonl").read_text().splitlines()) >= poses // 2
+    assert (folder / "instrument.toml").is_file()
+    assert not (folder / "setup.toml").exists()
+
+
 def test_a_sweep_that_was_interrupted_goes_on(tripod, accepted):
     before = os.readlink(tripod.store / "current")
     process = tripod.begin("sweep", "--sweep-poses", 8)
@@ -260,12 +283,29 @@ def test_a_sweep_that_was_interrupted_goes_on(tripod, accepted):
     process.send_signal(signal.SIGINT)
     tripod.listener.wait(lambda: process.poll() is not None, "its end", 30.0)
     assert "go on with it: the same command with --resume" in tripod.log.read_text()
-    script = tripod.folder / "script"
-    script.write_text("keep\n")
-    done = tripod.run("sweep", "--resume", "--script", script)
+    done, folder = sweep(tripod, "keep", "--resume")
     assert "This is where it was interrupted; it goes on." in done.stdout, done.stderr
     assert "sweep, picture 8 of 8" in done.stdout, "as it was begun"
+    assert done.returncode == 1, "not accepted"
+    see_that_lens_and_gears_were_checked(done, folder, 8)
     assert os.readlink(tripod.store / "current") == before
+    assert not (tripod.store / "instrument").exists()
+
+
+def test_a_sweep_is_accepted_as_an_instrument_and_compared_with(tripod, accepted):
+    before = os.readlink(tripod.store / "current")
+    done, folder = sweep(tripod, "accept", "--sweep-poses", 20)
+    assert done.returncode == 0, done.stdout + done.stderr
+    see_that_lens_and_gears_were_checked(done, folder, 20)
+    assert os.readlink(tripod.store / "instrument") == folder.name
+    assert os.readlink(tripod.store / "current") == before, "it has no setup"
+    assert f"check --panorama {folder.name}" in done.stdout
+    looked = tripod.run("check", "--panorama", folder.name)
+    assert looked.returncode == 0, looked.stdout + looked.stderr
+    assert "The tripod stands" in looked.stdout
+    assert "has no 'another'" in tripod.run("check", "--panorama", "another").stderr
+    # What follows begins with the calibration in use.
+    (tripod.store / "instrument").unlink()
 
 
 def test_two_exchanged_signs_are_named(tripod, accepted):

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from calibrate_run import SEED, Run
 from ols_calibration import cases
-from ols_calibration.model import azimuth_elevation
+from ols_calibration.__main__ import errors_of, predict_text, volume
+from ols_calibration.model import ARCSEC, azimuth_elevation
 
 
 @pytest.fixture(name="run")
@@ -47,6 +48,28 @@ def test_a_landmark_that_is_wrong_by_a_metre_is_named(tmp_path):
     assert done.returncode == 0, done.stderr
     assert run.rejected() == ["landmark0"]
     assert "landmark 'landmark0' is rejected as mistaken" in done.stderr
+
+
+def test_stations_that_aim_at_each_other_find_their_headings(tmp_path):
+    """Three, whose only references are each other; the configured headings are 1 deg off."""
+    run = Run(tmp_path, cases.other_stations)
+    rows = volume(run.site, np.random.default_rng(SEED))
+    (tmp_path / "predict.csv").write_text(predict_text(rows))
+    done = run.adjust()
+    assert done.returncode == 0, done.stderr
+    assert run.rejected() == []
+    groups = {
+        (group["kind"], group["name"], group["sightings"]) for group in run.report()["groups"]
+    }
+    names = {one.name for one in run.site.stations}
+    assert {("station", name, 8) for name in names} <= groups
+    errors = list(errors_of(rows, run.output / "predictions.csv"))
+    for name in names:
+        actual = np.sqrt(np.mean([e @ e / 2 for station, e, _ in errors if station == name]))
+        told = np.sqrt(np.mean([np.trace(C) / 2 for station, _, C in errors if station == name]))
+        print(f"{name}: {actual / ARCSEC:.1f} arcsec, told {told / ARCSEC:.1f}")
+        assert actual < 40 * ARCSEC
+        assert 0.4 < told / actual < 2.5
 
 
 def test_one_landmark_alone_is_said_to_be_unchecked(run):

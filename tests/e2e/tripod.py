@@ -127,7 +127,7 @@ class Tripod:
 
     def command(self, name, *options):
         # Without a sun in the scenery it is overcast, whatever the time of day.
-        overcast = name in {"field", "check"} and "--sun" not in options
+        overcast = name in {"field", "sweep", "check"} and "--sun" not in options
         sun = ["--overcast"] if overcast else []
         return [
             *(str(BIN / "ols-calibrate"), name, "--station", str(self.config)),

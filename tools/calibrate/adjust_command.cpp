@@ -63,6 +63,8 @@ constexpr double kArcsec = EIGEN_PI / 648000.0;
 // What the paper's targets are good for.
 constexpr double kMostOfAngle_arcsec = 40.0;
 
+bool is_known(const RectifiedAngle& angle) { return angle.sd_rad <= kMostOfAngle_arcsec * kArcsec; }
+
 std::string sentence_of(const RectifiedAngle& angle) {
   const char* what =
       angle.kind == RectifiedAngle::Kind::kRoll      ? "rolled against the horizon, clockwise"
@@ -74,19 +76,36 @@ std::string sentence_of(const RectifiedAngle& angle) {
   return text;
 }
 
+// Of the scenery: whether lens and gears are what the calibration in use says.
+std::string scenery_for_person(const Adjusted& adjusted) {
+  const bool is_new = adjusted.what.options.instruments.empty();
+  std::string text = std::string("Lens and gears against ") +
+                     (is_new ? "a new unit" : "the calibration in use") + ":\n";
+  for (const Finding& one : adjusted.acceptance.findings) {
+    text += (is_limit(one) ? "  BAD  " : "       ") + one.sentence + "\n";
+  }
+  return text;
+}
+
+std::string angles_for_person(const Adjusted& adjusted) {
+  std::string text = "How the camera is mounted:\n";
+  for (const RectifiedAngle& angle : adjusted.angles) {
+    text += (is_known(angle) ? "       " : "  BAD  ") + sentence_of(angle) + "\n";
+  }
+  return text;
+}
+
 // Nothing tells a heading: the instrument alone is the result.
 AdjustedResult instrument_for_person(const Adjusted& adjusted) {
   AdjustedResult result;
-  result.text = "How the camera is mounted:\n";
-  for (const RectifiedAngle& angle : adjusted.angles) {
-    const bool is_known = angle.sd_rad <= kMostOfAngle_arcsec * kArcsec;
-    result.text += (is_known ? "       " : "  BAD  ") + sentence_of(angle) + "\n";
-  }
+  const bool has_scenery =
+      std::ranges::any_of(adjusted.what.problem.observations,
+                          [](const Observation& one) { return one.kind == Kind::kScene; });
+  if (has_scenery) result.text += scenery_for_person(adjusted);
+  if (!adjusted.angles.empty() || !has_scenery) result.text += angles_for_person(adjusted);
   for (const std::string& note : adjusted.notes) result.text += "  note " + note + "\n";
-  result.good = !adjusted.angles.empty() && adjusted.found.scaled_by == 1.0 &&
-                std::ranges::all_of(adjusted.angles, [](const RectifiedAngle& angle) {
-                  return angle.sd_rad <= kMostOfAngle_arcsec * kArcsec;
-                });
+  result.good = adjusted.found.scaled_by == 1.0 && std::ranges::all_of(adjusted.angles, is_known) &&
+                (has_scenery ? adjusted.acceptance.acceptable() : !adjusted.angles.empty());
   result.text += result.good ? "Good." : "Not within the limits. Nothing is accepted by itself.";
   return result;
 }
@@ -111,7 +130,8 @@ Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& fo
     }
   }
   adjusted.angles = rectified_angles(what.problem, adjustment, found, 0);
-  adjusted.acceptance = judge_calibration(what.problem, adjustment, found, 0);
+  adjusted.acceptance = found.headings_known ? judge_calibration(what.problem, adjustment, found, 0)
+                                             : judge_instrument(what.problem, adjustment, found, 0);
   adjusted.results = station_results(what, adjustment, found);
   write_folder(folder, output_files(what, adjustment, found));
   adjusted.notes = found.remarks;

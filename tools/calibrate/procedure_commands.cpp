@@ -227,12 +227,16 @@ void add_procedures(CLI::App& app, ProcedureOptions& options) {
       ->check(CLI::Range(1, 20));
   CLI::App* sweep = add(app, options, "sweep",
                         "Pictures all around, automatically: the panorama, and a check of lens and "
-                        "gears against the calibration in use.");
+                        "gears against the calibration in use. What it finds can be accepted as "
+                        "the instrument with which the next `field` begins.");
   add_live(*sweep, options);
   add_resume(*sweep, options);
   CLI::App* check = add(app, options, "check",
                         "Looks at four views of the panorama again: has the tripod moved?");
   add_live(*check, options);
+  check->add_option("--panorama", options.panorama,
+                    "id of a sweep or a calibration whose pictures are compared with; else those "
+                    "of the calibration in use");
   add(app, options, "history", "The calibrations of a station, and which one is in use.");
   add(app, options, "revert", "Goes back to the calibration before the one in use.")
       ->add_option("--to", options.to, "id of another one");

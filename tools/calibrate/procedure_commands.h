@@ -13,7 +13,7 @@ struct ProcedureOptions {
   std::string name;  // of the procedure
   std::string station, state_folder, lcm_url;
   trust::TrustConfig trust{};
-  std::string references, instrument, script, to, targets;
+  std::string references, instrument, script, to, targets, panorama;
   int sweep_poses = 60, rounds = 2, stars = 0;
   bool sun = false, overcast = false;
   std::string drone;

@@ -85,6 +85,10 @@ int finish(const Procedure& procedure, Outcome outcome, const StationFiles& stat
   const std::string id = std::to_string(number);
   const fs::path kept = store.keep(running, id);
   HistoryLine line{clock_utime_us(), "accepted", id, procedure.options.name, ""};
+  if (procedure.options.name == "sweep") {
+    person.tell("The panorama is kept: `ols-calibrate check --panorama " + id +
+                "` compares with it.");
+  }
   if (outcome == Outcome::kAccepted && !procedure.adjusted->found.headings_known) {
     line.event = "instrument";
     store.use_instrument(id, line);

@@ -276,6 +276,10 @@ AdjustedResult Procedure::adjust() {
   adjusted.reset();
   try {
     adjusted = adjust_into(files, folder);
+    if (!adjusted->found.headings_known && options.name != "sweep" && options.name != "rectify") {
+      adjusted.reset();
+      return {true, false, "nothing that was sighted tells where the station looks", ""};
+    }
     AdjustedResult result = result_for_person(*adjusted);
     if (!landmarks) result.worst.clear();
     return result;

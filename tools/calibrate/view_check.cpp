@@ -17,13 +17,22 @@ void announce(ProcedureRunner& runner, bool aborted, const ViewStage& looked) {
   runner.announce(looked.can_tell() ? M::STATE_ACCEPTED : M::STATE_FAILED, looked.verdict());
 }
 
+fs::path panorama_of(const ProcedureOptions& options, const CalibrationStore& store) {
+  if (!options.panorama.empty()) {
+    if (store.has(options.panorama)) return store.folder() / options.panorama;
+    throw std::invalid_argument("--panorama: " + store.folder().string() + " has no '" +
+                                options.panorama + "'");
+  }
+  const auto current = store.current();
+  if (!current) throw std::invalid_argument("no calibration is in use: there is nothing to check");
+  return store.folder() / *current;
+}
+
 }  // namespace
 
 int run_check(const ProcedureOptions& options, const StationFiles& station,
               CalibrationStore& store) {
-  const auto current = store.current();
-  if (!current) throw std::invalid_argument("no calibration is in use: there is nothing to check");
-  const fs::path calibration = store.folder() / *current;
+  const fs::path calibration = panorama_of(options, store);
   Person person(options.script);
   // Else two procedures would drive one unit.
   for (const fs::path& dead : store.lock()) {

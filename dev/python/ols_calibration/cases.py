@@ -1,12 +1,13 @@
 """The cases of the measure table: what is observed in each."""
 
+from copy import copy
 from functools import partial
 from pathlib import Path
 
 import erfa
 import numpy as np
 
-from .model import PAIRS, WORK, Place, from_azimuth_elevation, refracted
+from .model import PAIRS, WORK, Place, azimuth_elevation, from_azimuth_elevation, refracted
 from .rectification import put_up
 from .site import (
     PRESSURE_HPA,
@@ -177,6 +178,39 @@ def aircraft(rng):
     return site
 
 
+def surveyed(rng, one, sd_m=0.02):
+    """Its true place is where it was surveyed, but for the survey's error."""
+    one.true_place = copy(one.place)
+    one.true_place.origin = one.place.to_ecef(rng.normal(0, sd_m, 3))
+
+
+def other_stations(rng):
+    """Three stations some 800 m apart: each sights the axes of the two others, and nothing else."""
+    offsets = ((0, 0, 0), (0.005, 0.008, 25), (-0.004, 0.009, -10))
+    places = [Place(*np.add(PLACE, offset)) for offset in offsets]
+    units = [
+        station(rng, name, place, False)
+        for name, place in zip(("alfa", "bravo", "charlie"), places, strict=True)
+    ]
+    site = Site(rng, units)
+    middle = np.mean([place.origin for place in places], axis=0)
+    for one in units:
+        # It sees both others: they are not behind its limits.
+        towards, _ = azimuth_elevation(one.place.to_enu(middle))
+        turned = towards + rng.uniform(-1.7, 1.7)
+        one.unit.heading = np.arctan2(np.sin(turned), np.cos(turned))
+        one.level()
+        surveyed(rng, one)
+    for _ in range(4):
+        for one in units:
+            for other in units:
+                if other is one:
+                    continue
+                crossing = other.true_place.to_ecef(other.unit.crossing())
+                one.sight("station", one.true_place.to_enu(crossing), other.name)
+    return site
+
+
 def joint_track(rng, work=WORK):
     """Two stations 2.2 km apart follow what flies across the line through both of them."""
     places = [Place(*PLACE), Place(PLACE[0], PLACE[1] + 0.03, PLACE[2] + 4)]
@@ -189,9 +223,7 @@ def joint_track(rng, work=WORK):
         # Either sees east and west: neither is behind its limits.
         one.unit.heading = rng.choice([0, np.pi]) + rng.uniform(-0.7, 0.7)
         one.level()
-        one.true_place = Place(*PLACE)
-        one.true_place.axes = one.place.axes
-        one.true_place.origin = one.place.to_ecef(rng.normal(0, 0.02, 3))
+        surveyed(rng, one)
         point = anywhere(rng, one.unit, (-1, 3)) * 500
         name = f"mark-{one.name}"
         site.refer(name, one.true_place.to_ecef(point) + rng.normal(0, 0.14, 3), 0.14)
@@ -296,6 +328,7 @@ CASES = {
     "sweep + 5 by RTK, new unit": (sweep, 20.0, "systematic"),
     "joint track across both stations' line": (joint_track, 4.0, "difference"),
     "20 passes of aircraft: heading, workshop": (aircraft, 10.0, "heading"),
+    "3 stations that aim at each other: heading, workshop": (other_stations, 10.0, "heading"),
     "5 landmarks by RTK, gears 5″ in amplitude": (
         partial(rtk_landmarks, work=PAIRS),
         *(9.0, "systematic"),

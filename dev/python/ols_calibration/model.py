@@ -133,19 +133,21 @@ class Unit:
         noise = np.sqrt(ANGLE_SD**2 - self.wave**2 / 2)
         return np.array(self.shafts(pan, tilt, approach)) + wave + rng.normal(0, noise, 2)
 
+    def stand(self):
+        """Rotation of the tripod's head to east-north-up."""
+        return rz(np.pi / 2 - self.heading) @ rx(self.tilt[0]) @ ry(self.tilt[1])
+
+    def crossing(self):
+        """Where its axes cross [m]: what another station sights."""
+        return np.array([0, 0, 1.5]) + self.stand() @ [0, 0, 0.09]
+
     def camera(self, shafts):
         """Rotation from OpenCV's camera axes to east-north-up, and the camera's centre [m]."""
         v = self.values
-        origin = rz(np.pi / 2 - self.heading) @ rx(self.tilt[0]) @ ry(self.tilt[1])
-        azi = origin @ rz(shafts[0])
+        azi = self.stand() @ rz(shafts[0])
         ele = azi @ rx(v["trunnion"]) @ ry(-shafts[1])
         focus = ele @ rz(v["mount_z"]) @ rx(v["mount_x"]) @ ry(v["mount_y"])
-        centre = (
-            np.array([0, 0, 1.5])
-            + origin @ [0, 0, 0.09]
-            + ele @ [0, 0, 0.06]
-            + focus @ [0.05, 0, 0]
-        )
+        centre = self.crossing() + ele @ [0, 0, 0.06] + focus @ [0.05, 0, 0]
         axes = np.array([[0, 0, 1.0], [-1, 0, 0], [0, -1, 0]])
         return focus @ axes, centre
 

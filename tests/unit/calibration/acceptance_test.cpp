@@ -90,5 +90,35 @@ TEST(Acceptance, WhatIsNotKnownIsBad) {
   }
 }
 
+// A workshop's instrument, by scenery alone.
+Acceptance judged_by_scenery(const StationModel& truth) {
+  Problem problem = test::scenery_around(truth, 24);
+  problem.stations[0].covariance.topLeftCorner<kInstrumentParameters, kInstrumentParameters>() *=
+      0.01;
+  const Adjustment adjustment(network_of(problem));
+  return judge_instrument(problem, adjustment, calibrate(adjustment), 0);
+}
+
+TEST(Acceptance, SceneryFindsAnInstrumentAsItIsKnown) {
+  const Acceptance acceptance = judged_by_scenery(hill());
+  EXPECT_TRUE(acceptance.acceptable());
+  for (const char* name : {"sweep", "focal length", "backlash of pan", "backlash of tilt"}) {
+    EXPECT_EQ(finding(acceptance, name).judgement, Judgement::kGood) << name;
+  }
+}
+
+TEST(Acceptance, SceneryFindsALensThatWasRefocused) {
+  StationModel truth = hill();
+  truth.geometry.camera.fx_px *= 1.002;  // known to 0.3 thousandths
+  const Acceptance acceptance = judged_by_scenery(truth);
+  EXPECT_FALSE(acceptance.acceptable());
+  const Finding& focal = finding(acceptance, "focal length");
+  EXPECT_EQ(focal.judgement, Judgement::kBad);
+  // Of 26.7 px; the distances of the points, which nobody knows, are taken to be the rest.
+  EXPECT_GT(focal.value, 13.0);
+  EXPECT_LT(focal.value, 27.0);
+  EXPECT_EQ(finding(acceptance, "backlash of pan").judgement, Judgement::kGood);
+}
+
 }  // namespace
 }  // namespace ols::calibration

@@ -96,9 +96,36 @@ TEST(Calibrate, WhatIsNoNumberIsNotAccepted) {
   EXPECT_THROW(calibrate(Adjustment(network_of(problem))), std::invalid_argument);
 }
 
-TEST(Calibrate, WithoutAReferenceTheHeadingIsUnknown) {
-  Problem problem = landmarks_around(hill(), hill(), 3);
-  for (Observation& one : problem.observations) one.kind = Kind::kScene;
+// What scenery tells of a lens and of gears that were known by a workshop.
+Problem seen_around(const StationModel& truth) {
+  Problem problem = test::scenery_around(truth, 24);
+  problem.stations[0].covariance.topLeftCorner<kInstrumentParameters, kInstrumentParameters>() *=
+      0.01;
+  return problem;
+}
+
+TEST(Calibrate, SceneryTellsTheInstrumentAlone) {
+  StationModel truth = hill();
+  truth.geometry.camera.fx_px *= 1.0001;
+  truth.pan.backlash_rad = 3.0 * kArcsec;
+  const Adjustment adjustment(network_of(seen_around(truth)));
+  const Calibration found = calibrate(adjustment);
+  EXPECT_FALSE(found.headings_known);
+  EXPECT_EQ(found.scaled_by, 1.0);
+  const StationModel& model = found.fit.state.stations[0].model;
+  // Nobody knows how far the points are, which leaves some of the focal length to the prior.
+  const double focal_sd_px = std::sqrt(found.covariance(adjustment.network(), 0)(kFocal, kFocal));
+  EXPECT_LT(focal_sd_px, 3.0);  // 4 before
+  EXPECT_NEAR(model.geometry.camera.fx_px, truth.geometry.camera.fx_px, 0.5 * focal_sd_px);
+  EXPECT_NEAR(model.pan.backlash_rad, truth.pan.backlash_rad, 1.0 * kArcsec);
+}
+
+TEST(Calibrate, OnlyALevelTellsNothing) {
+  Problem problem = landmarks_around(hill(), hill(), 2);
+  problem.observations.resize(1);
+  problem.observations[0] = {};
+  problem.observations[0].kind = Kind::kInclinometer;
+  problem.observations[0].tilt_sd_rad = problem.observations[0].zero_sd_rad = kArcsec;
   EXPECT_THROW(calibrate(Adjustment(network_of(problem))), std::invalid_argument);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/calibrate.h"
+#include "calibration/guidance.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration::test {
@@ -67,6 +68,32 @@ inline Problem landmarks_around(const StationModel& truth, const StationModel& r
     problem.references[name] = place_seen(truth, one, 800.0 + 100.0 * i);
     for (int k = 0; k < 2; ++k) {
       one.line = static_cast<unsigned>(problem.observations.size() + 1);
+      problem.observations.push_back(one);
+    }
+  }
+  return problem;
+}
+
+// Points at infinity all around, each seen in both halves of the picture and from both sides, by a
+// unit whose angles are good.
+inline Problem scenery_around(const StationModel& truth, int count) {
+  Problem problem;
+  problem.names = {"alfa"};
+  problem.stations = {prior_of(hill())};
+  problem.stations[0].pose_sd_rad = kArcsec;
+  for (int i = 0; i < count; ++i) {
+    UnitReading reading;
+    reading.pan.counts = std::round((-140.0 + 280.0 * i / (count - 1)) / 360.0 * 112000.0);
+    const auto seen = predict_direction(truth, reading, {640.0, 480.0});
+    const HomogeneousPoint point{enu_from_azimuth_elevation(seen->direction), 0.0};
+    for (int k = 0; k < 4; ++k) {
+      Observation one;
+      one.kind = Kind::kScene;
+      one.reference = std::to_string(i);
+      one.pixel = {k < 2 ? 200.0 : 1080.0, 480.0};
+      one.sd_px = 0.1;
+      const int pan = k % 2 == 0 ? 1 : -1, tilt = k == 0 || k == 3 ? 1 : -1;
+      one.reading = reading_towards(truth, point, one.pixel, pan, tilt).value();
       problem.observations.push_back(one);
     }
   }
