@@ -27,7 +27,7 @@ std::string age(double seconds) {
 }
 
 std::string age_at(const station_status_t& s, std::int64_t utime_us) {
-  return age(1e-6 * static_cast<double>(s.utime - utime_us));
+  return age(1e-6 * (static_cast<double>(s.utime) - static_cast<double>(utime_us)));
 }
 
 std::string calibration(const station_status_t& s) {

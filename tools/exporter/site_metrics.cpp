@@ -43,8 +43,9 @@ class Collection {
   std::vector<MetricFamily> families_;
 };
 
+// As doubles: a member may state any two times, whose difference no integer holds.
 double seconds_since(std::int64_t utime_us, std::int64_t now_us) {
-  return 1e-6 * static_cast<double>(now_us - utime_us);
+  return 1e-6 * (static_cast<double>(now_us) - static_cast<double>(utime_us));
 }
 
 void add_state(Collection& all, const std::string& id, const station_status_t& s, double age_s) {

@@ -121,6 +121,8 @@ class Watch:
             self._bus.handle_timeout(max(1, int(1e3 * min(left_s, 0.05))))
 
     def begin(self) -> None:
+        while self._bus.handle_timeout(0) > 0:
+            pass  # of before
         self.phase = Phase(time.time_ns() // 1000)
 
     def eavesdropped(self) -> dict[str, list[bytes]]:

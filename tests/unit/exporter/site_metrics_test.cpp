@@ -66,6 +66,17 @@ TEST(SiteMetrics, AStationIsToldInBaseUnits) {
   EXPECT_NE(told.find("reading=\"disk_free_bytes\"} 5000000000"), std::string::npos) << told;
 }
 
+TEST(SiteMetrics, AnyTwoTimesHaveADifference) {
+  SiteMetrics metrics("1");
+  Station s = status_of("alfa");
+  s.utime = std::numeric_limits<std::int64_t>::min();
+  s.calibration_utime = std::numeric_limits<std::int64_t>::max();
+  metrics.hear(s, 1.0);
+  const std::string told = text(metrics, 1.0);
+  EXPECT_NE(told.find("ols_station_calibration_age_seconds{station=\"alfa\"} -"), std::string::npos)
+      << told;
+}
+
 TEST(SiteMetrics, TheFusionAndWhatWasNotBelievedAreTold) {
   SiteMetrics metrics("1");
   ols_msg::fusion_status_t fusion{};
