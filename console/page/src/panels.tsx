@@ -5,6 +5,7 @@ import { useState } from "preact/hooks";
 import type { Link } from "./link";
 import type { Cue, SiteEvent, Station, Target } from "./site";
 import { adviceFor } from "./advice";
+import { calibrationText } from "./calibration";
 import { bearing, clockError, DASH, fixed, utc } from "./format";
 import { named, t, Word } from "./words";
 
@@ -276,6 +277,7 @@ function Details(props: StationProps) {
         <Row word="clock">
           {named("v", s.clock?.state ?? "unknown")} {clockError(s.clock?.error_s ?? null)}
         </Row>
+        <Row word="calibration">{calibrationText(s.calibration)}</Row>
         <Row word="latency">{fixed(s.frame_latency_s == null ? null : s.frame_latency_s * 1000, 0, " ms")}</Row>
         <Row word="devices">
           <ul class="devices">
