@@ -5,6 +5,7 @@
 #include "base/boot_id.h"
 #include "base/channel_names.h"
 #include "console/messages.h"
+#include "console/messages_pictures.h"
 
 namespace ols::console {
 namespace {

@@ -8,15 +8,14 @@
 #include "base/plain_text.h"
 #include "command/messages.h"
 #include "console/map_geometry.h"
+#include "console/messages_calibration.h"
 #include "console/messages_cues.h"
+#include "console/rounded.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
-#include "ols_msg/preview_t.hpp"
 #include "ols_msg/target_t.hpp"
-#include "ols_msg/video_frame_t.hpp"
-#include "ols_msg/video_request_t.hpp"
 
 namespace ols::console {
 namespace {
@@ -26,23 +25,6 @@ using Target = ols_msg::target_t;
 
 constexpr std::size_t kMostBorders = 16;  // of a station, and points of each
 constexpr std::size_t kMostListed = 300;  // of counters and the like; a forged message has more
-
-// Null where it is unknown. Rounded: a browser needs no 17 digits, ten times a second.
-Json rounded(double value, int decimals) {
-  if (!std::isfinite(value) || std::abs(value) > 1e15) return nullptr;
-  const double scale = std::pow(10.0, decimals);
-  return std::round(value * scale) / scale;
-}
-Json angle_deg(double rad) { return rounded(degrees(rad), 4); }
-
-template <std::size_t count>
-Json rounded_all(const double (&values)[count], int decimals) {
-  Json result = Json::array();
-  for (const double value : values) result.push_back(rounded(value, decimals));
-  return result;
-}
-
-std::string number_text(std::int64_t number) { return std::to_string(number); }
 
 Json named(const std::vector<std::string>& names, const std::vector<double>& values) {
   Json result = Json::object();
@@ -217,35 +199,10 @@ Json fusion_stations(const ols_msg::fusion_status_t& f) {
                         {"age_s", rounded(f.age_s[i], 2)},
                         {"residual", rounded(f.residual[i], 2)},
                         {"clock_offset_s", rounded(f.clock_offset_s[i], 4)},
-                        {"quarantine", plain_text(f.quarantine[i])}});
+                        {"quarantine", plain_text(f.quarantine[i])},
+                        {"calibration", calibration_of(f, i)}});
   }
   return stations;
-}
-
-// What a preview and a frame of the video have in common.
-template <class Message>
-Json header_of(const Message& m) {
-  Json box = nullptr;
-  if (m.has_box) {
-    box = {rounded(m.box_px[0], 1), rounded(m.box_px[1], 1), rounded(m.box_px[2], 1),
-           rounded(m.box_px[3], 1)};
-  }
-  return {{"station", m.station},
-          {"utime_us", m.utime},
-          {"boot", number_text(m.boot_id)},
-          {"sequence", m.sequence},
-          {"full_px", {m.full_width_px, m.full_height_px}},
-          {"scale", rounded(m.scale, 6)},
-          {"box_px", box}};
-}
-
-// Null while the unit's angles are unknown.
-Json camera_of(const ols_msg::video_frame_t& f) {
-  if (!std::isfinite(f.camera_from_ecef[0])) return nullptr;
-  return {{"ecef_m", rounded_all(f.camera_ecef_m, 3)},
-          {"from_ecef", rounded_all(f.camera_from_ecef, 9)},
-          {"matrix_px", rounded_all(f.camera_matrix_px, 4)},
-          {"distortion", rounded_all(f.distortion, 6)}};
 }
 
 // The address of a station's video socket; empty without one that works.
@@ -273,9 +230,7 @@ std::optional<StationHeard> station_from(const BusMessage& message) {
       {"devices", devices_of(s)},
       {"clock",
        {{"state", command::clock_name(s.clock_state)}, {"error_s", rounded(s.clock_error_s, 6)}}},
-      {"calibration",
-       {{"state", command::calibration_name(s.calibration_state)},
-        {"utime_us", s.calibration_utime}}},
+      {"calibration", calibration_of(s)},
       {"frame_latency_s", rounded(s.frame_latency_s, 3)},
       {"alarms", plain(s.alarm)},
       {"readings", named(s.reading_name, s.reading_value)},
@@ -357,41 +312,6 @@ std::optional<FusionHeard> fusion_from(const BusMessage& message) {
               {"alarms", plain(f.alarm)},
               {"last_error", plain_text(f.last_error)}};
   return FusionHeard{f.boot_id, std::move(fields), plain(f.alarm), plain_text(f.last_error)};
-}
-
-std::optional<Picture> picture_from(const BusMessage& message) {
-  ols_msg::preview_t p;
-  if (!decode_exactly(message, p) || p.schema_version != ols_msg::preview_t::SCHEMA_VERSION ||
-      message.channel != station_channel(kPreviewChannel, p.station)) {
-    return std::nullopt;
-  }
-  return Picture{p.station, header_of(p), std::string(p.jpeg.begin(), p.jpeg.end())};
-}
-
-std::vector<std::uint8_t> video_request(std::int64_t after_utime_us, int max_width_px,
-                                        int quality) {
-  ols_msg::video_request_t request{};
-  request.schema_version = ols_msg::video_request_t::SCHEMA_VERSION;
-  request.after_utime = after_utime_us;
-  request.max_width_px = max_width_px;
-  request.quality = quality;
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(request.getEncodedSize()));
-  request.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
-
-std::optional<Picture> video_picture_from(std::span<const std::uint8_t> bytes) {
-  ols_msg::video_frame_t f;
-  const auto size = static_cast<int>(bytes.size());
-  if (f.decode(bytes.data(), 0, size) != size ||
-      f.schema_version != ols_msg::video_frame_t::SCHEMA_VERSION) {
-    return std::nullopt;
-  }
-  Json header = header_of(f);
-  header["belief"] = rounded(f.belief, 3);
-  header["track"] = f.track_id;
-  header["camera"] = camera_of(f);
-  return Picture{f.station, std::move(header), std::string(f.jpeg.begin(), f.jpeg.end()), true};
 }
 
 }  // namespace ols::console

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <utility>
 
-#include "console/messages.h"
+#include "console/messages_pictures.h"
 
 namespace ols::console {
 namespace asio = boost::asio;

@@ -11,7 +11,7 @@
 
 #include "base/ip_endpoint.h"
 #include "base/ip_networks.h"
-#include "console/messages.h"
+#include "console/messages_pictures.h"
 
 namespace ols::console {
 namespace asio = boost::asio;

@@ -11,6 +11,7 @@
 #include "base/plain_text.h"
 #include "command/messages.h"
 #include "console/messages.h"
+#include "console/messages_pictures.h"
 
 namespace ols::console {
 namespace {

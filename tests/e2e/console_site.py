@@ -129,6 +129,10 @@ class PaperSite(threading.Thread):
         m.station, m.boot_id, m.state, m.belief = station, 5, self.states[station], 0.9
         m.latitude_deg, m.longitude_deg = PLACES[station]
         m.height_m = 300.0
+        m.calibration_sd_rad = math.nan
+        if station == "alfa":
+            m.calibration_state, m.calibration_id = m.CALIBRATION_IN_USE, 1 << 60
+            m.calibration_utime, m.calibration_sd_rad = 1_780_000_000_000_000, 5e-5
         m.azimuth_rad, m.elevation_rad = 1.0, 0.2
         m.field_of_view_rad = [0.1, 0.08]
         m.image_width_px, m.image_height_px = FULL_PX
@@ -177,6 +181,15 @@ class PaperSite(threading.Thread):
         m = ols_msg.fusion_status_t()
         m.utime = self.utime_us()
         m.schema_version, m.boot_id, m.last_error = m.SCHEMA_VERSION, 9, ""
+        m.station = ["alfa", "bravo"]
+        m.stations = 2
+        m.bearings, m.quarantine = [1, 1], ["", ""]
+        for name in ("rate_hz", "age_s", "residual", "clock_offset_s"):
+            setattr(m, name, [0.0, 0.0])
+        m.clock_found_s = m.clock_found_sd_s = [math.nan, math.nan]
+        m.bias_rad = m.bias_sd_rad = [[math.nan, math.nan]] * 2
+        m.calibration_state = [STATUS.CALIBRATION_DOUBTED, STATUS.CALIBRATION_NONE]
+        m.calibration_utime, m.calibration_sd_rad = [1_780_000_000_000_000, 0], [2e-4, math.nan]
         self._publish("OLS_FUSION_STATUS", m)
 
     def _send_all(self) -> None:

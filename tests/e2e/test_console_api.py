@@ -3,6 +3,7 @@
 import contextlib
 import http.client
 import json
+import math
 import re
 import socket
 import ssl
@@ -75,6 +76,18 @@ def test_the_state_is_that_of_the_bus(api):
     assert target["ellipse95"]["semi_major_m"] > target["ellipse95"]["semi_minor_m"] > 0
     status, health, _ = api.ask("/api/health")
     assert status == 200 and health["stations"] == 3 and health["fusion"]
+
+
+def test_which_stations_are_calibrated_since_when_and_how_well(api):
+    state = wait_for(lambda: (s := api.state())["fusion"] and s, "the fusion")
+    alfa, bravo, _ = (one["calibration"] for one in state["stations"])
+    assert alfa.pop("sd_deg") == pytest.approx(math.degrees(5e-5), abs=1e-6)
+    assert alfa == {"state": "in use", "id": str(1 << 60), "utime_us": 1_780_000_000_000_000}
+    assert bravo == {"state": "none", "id": "0", "utime_us": None, "sd_deg": None}
+    alfa, bravo = (one["calibration"] for one in state["fusion"]["stations"])
+    assert alfa.pop("sd_deg") == pytest.approx(math.degrees(2e-4), abs=1e-6)
+    assert alfa == {"state": "doubted", "utime_us": 1_780_000_000_000_000}
+    assert bravo == {"state": "none", "utime_us": None, "sd_deg": None}
 
 
 def test_a_silent_station_is_marked(api, paper):

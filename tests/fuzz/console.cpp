@@ -8,6 +8,7 @@
 
 #include "console/map_geometry.h"
 #include "console/messages.h"
+#include "console/messages_pictures.h"
 #include "console/web_api.h"
 #include "tests/fuzz/fuzz_input.h"
 

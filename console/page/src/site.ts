@@ -51,7 +51,7 @@ export type Station = {
   lens?: { zoom: number | null; focus: number | null; iris: number | null; focal_length_px: number | null; focal_length_sd_px: number | null } | null;
   devices: Device[];
   clock: { state: string; error_s: number | null };
-  calibration?: { state: string; utime_us: number }; // 0: not stated
+  calibration?: StationCalibration;
   frame_latency_s: number | null;
   alarms: string[];
   readings: Record<string, number | null>;
@@ -62,6 +62,8 @@ export type Station = {
   control?: { by: string; viewer: number } | null;
   procedure?: Procedure;
 };
+// Of one axis of a direction, 1-sigma; utime_us of the last observation.
+export type StationCalibration = { state: string; id: string; utime_us: number | null; sd_deg: number | null };
 export type Ellipse = { semi_major_m: number; semi_minor_m: number; azimuth_deg: number };
 export type Target = {
   id: string;

@@ -3,6 +3,7 @@
 import { h, Fragment } from "preact";
 import { useState } from "preact/hooks";
 import { adviceFor } from "./advice";
+import { calibrationText } from "./calibration";
 import { Fleet } from "./fleet";
 import { bearing, clockError, DASH, fixed, utc } from "./format";
 import type { Link } from "./link";
@@ -161,6 +162,7 @@ function Details(props: StationProps) {
         <Row word="clock">
           {named("v", s.clock?.state ?? "unknown")} {clockError(s.clock?.error_s ?? null)}
         </Row>
+        <Row word="calibration">{calibrationText(s.calibration)}</Row>
         <Row word="latency">{fixed(s.frame_latency_s == null ? null : s.frame_latency_s * 1000, 0, " ms")}</Row>
         <Row word="devices">
           <ul class="devices">

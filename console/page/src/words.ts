@@ -76,6 +76,7 @@ const WORDS = {
   fleet: ["Fleet", "Flotte"],
   version: ["Version", "Version"],
   calibration: ["Calibration", "Kalibrierung"],
+  calibrated_at: ["of", "vom"],
   disk: ["Disk", "Platte"],
   temperature: ["Processor", "Prozessor"],
   latency: ["Exposure to bearing", "Belichtung bis Peilung"],

@@ -4,33 +4,17 @@
 
 #include <limits>
 
-#include "base/lcm_bus.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
-#include "ols_msg/preview_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
-#include "ols_msg/video_frame_t.hpp"
-#include "ols_msg/video_request_t.hpp"
+#include "tests/unit/console/on_the_bus.h"
 
 namespace ols::console {
 namespace {
 
-template <class Message>
-BusMessage on(const std::string& channel, const Message& content) {
-  BusMessage message;
-  message.channel = channel;
-  message.payload.resize(static_cast<std::size_t>(content.getEncodedSize()));
-  content.encode(message.payload.data(), 0, static_cast<int>(message.payload.size()));
-  return message;
-}
-
-template <class Message>
-Message made() {
-  Message message{};
-  message.schema_version = Message::SCHEMA_VERSION;
-  return message;
-}
+using test::made;
+using test::on;
 
 TEST(ConsoleMessages, AStatusInDegreesWithNullForTheUnknown) {
   auto status = made<ols_msg::station_status_t>();
@@ -106,24 +90,6 @@ TEST(ConsoleMessages, ABearingIsOfTheStationOfItsChannel) {
   EXPECT_FALSE(bearing_from(on("OLS_BEARING_alfa", bearing)));
 }
 
-TEST(ConsoleMessages, APictureKeepsItsFramesTimeAndBox) {
-  auto preview = made<ols_msg::preview_t>();
-  preview.station = "alfa";
-  preview.utime = 1'700'000'000'000'001;
-  preview.full_width_px = 1280;
-  preview.full_height_px = 960;
-  preview.scale = 0.25;
-  preview.has_box = 1;
-  preview.box_px[0] = 10.0;
-  preview.jpeg_bytes = 3;
-  preview.jpeg = {1, 2, 3};
-  const auto picture = picture_from(on("OLS_PREVIEW_alfa", preview));
-  ASSERT_TRUE(picture);
-  EXPECT_EQ(picture->header.at("utime_us"), preview.utime);
-  EXPECT_EQ(picture->header.at("box_px")[0], 10.0);
-  EXPECT_EQ(picture->jpeg.size(), 3U);
-}
-
 TEST(ConsoleMessages, TheFusionsStatus) {
   auto status = made<ols_msg::fusion_status_t>();
   status.boot_id = 9;
@@ -145,37 +111,6 @@ TEST(ConsoleMessages, WhereAStationsVideoIsToBeHad) {
   EXPECT_EQ(station_from(on("OLS_STATUS_alfa", status))->video_address, "10.0.0.11:7790");
   status.device_state = {ols_msg::station_status_t::DEVICE_ABSENT};
   EXPECT_EQ(station_from(on("OLS_STATUS_alfa", status))->video_address, "");
-}
-
-TEST(ConsoleMessages, ARequestForVideo) {
-  const auto bytes = video_request(7, 640, 60);
-  ols_msg::video_request_t request;
-  ASSERT_EQ(request.decode(bytes.data(), 0, static_cast<int>(bytes.size())),
-            static_cast<int>(bytes.size()));
-  EXPECT_EQ(request.after_utime, 7);
-  EXPECT_EQ(request.max_width_px, 640);
-  EXPECT_EQ(request.quality, 60);
-}
-
-TEST(ConsoleMessages, APictureOfTheVideoHasItsCameraUnlessThatIsUnknown) {
-  auto frame = made<ols_msg::video_frame_t>();
-  frame.station = "alfa";
-  frame.utime = 9;
-  frame.belief = 0.5;
-  frame.camera_from_ecef[0] = 1.0;
-  frame.jpeg = {1, 2, 3};
-  frame.jpeg_bytes = 3;
-  const auto picture = [&frame] { return video_picture_from(on("", frame).payload); };
-  ASSERT_TRUE(picture());
-  EXPECT_TRUE(picture()->is_video);
-  EXPECT_EQ(picture()->jpeg, "\1\2\3");
-  EXPECT_EQ(picture()->header.at("utime_us"), 9);
-  EXPECT_EQ(picture()->header.at("camera").at("from_ecef").at(0), 1.0);
-  frame.camera_from_ecef[0] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(picture()->header.at("camera").is_null());
-  frame.schema_version = 99;
-  EXPECT_FALSE(picture());
-  EXPECT_FALSE(video_picture_from({}));
 }
 
 }  // namespace

@@ -1,0 +1,79 @@
+#include "console/messages_pictures.h"
+
+#include <cmath>
+#include <string>
+
+#include "base/channel_names.h"
+#include "base/lcm_bus.h"
+#include "console/rounded.h"
+#include "ols_msg/preview_t.hpp"
+#include "ols_msg/video_frame_t.hpp"
+#include "ols_msg/video_request_t.hpp"
+
+namespace ols::console {
+namespace {
+
+// What a preview and a frame of the video have in common.
+template <class Message>
+Json header_of(const Message& m) {
+  Json box = nullptr;
+  if (m.has_box) {
+    box = {rounded(m.box_px[0], 1), rounded(m.box_px[1], 1), rounded(m.box_px[2], 1),
+           rounded(m.box_px[3], 1)};
+  }
+  return {{"station", m.station},
+          {"utime_us", m.utime},
+          {"boot", number_text(m.boot_id)},
+          {"sequence", m.sequence},
+          {"full_px", {m.full_width_px, m.full_height_px}},
+          {"scale", rounded(m.scale, 6)},
+          {"box_px", box}};
+}
+
+// Null while the unit's angles are unknown.
+Json camera_of(const ols_msg::video_frame_t& f) {
+  if (!std::isfinite(f.camera_from_ecef[0])) return nullptr;
+  return {{"ecef_m", rounded_all(f.camera_ecef_m, 3)},
+          {"from_ecef", rounded_all(f.camera_from_ecef, 9)},
+          {"matrix_px", rounded_all(f.camera_matrix_px, 4)},
+          {"distortion", rounded_all(f.distortion, 6)}};
+}
+
+}  // namespace
+
+std::optional<Picture> picture_from(const BusMessage& message) {
+  ols_msg::preview_t p;
+  if (!decode_exactly(message, p) || p.schema_version != ols_msg::preview_t::SCHEMA_VERSION ||
+      message.channel != station_channel(kPreviewChannel, p.station)) {
+    return std::nullopt;
+  }
+  return Picture{p.station, header_of(p), std::string(p.jpeg.begin(), p.jpeg.end())};
+}
+
+std::vector<std::uint8_t> video_request(std::int64_t after_utime_us, int max_width_px,
+                                        int quality) {
+  ols_msg::video_request_t request{};
+  request.schema_version = ols_msg::video_request_t::SCHEMA_VERSION;
+  request.after_utime = after_utime_us;
+  request.max_width_px = max_width_px;
+  request.quality = quality;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(request.getEncodedSize()));
+  request.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+std::optional<Picture> video_picture_from(std::span<const std::uint8_t> bytes) {
+  ols_msg::video_frame_t f;
+  const auto size = static_cast<int>(bytes.size());
+  if (f.decode(bytes.data(), 0, size) != size ||
+      f.schema_version != ols_msg::video_frame_t::SCHEMA_VERSION) {
+    return std::nullopt;
+  }
+  Json header = header_of(f);
+  header["belief"] = rounded(f.belief, 3);
+  header["track"] = f.track_id;
+  header["camera"] = camera_of(f);
+  return Picture{f.station, std::move(header), std::string(f.jpeg.begin(), f.jpeg.end()), true};
+}
+
+}  // namespace ols::console

@@ -1,0 +1,20 @@
+// Pictures of the bus and of a station's video socket (docs/video.md) as the console's own values.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/bus_inbox.h"
+#include "console/heard.h"
+
+namespace ols::console {
+
+std::optional<Picture> picture_from(const BusMessage& message);
+
+// Of a station's video socket, not of the bus: a request and its answer.
+std::vector<std::uint8_t> video_request(std::int64_t after_utime_us, int max_width_px, int quality);
+std::optional<Picture> video_picture_from(std::span<const std::uint8_t> bytes);
+
+}  // namespace ols::console

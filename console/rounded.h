@@ -1,0 +1,32 @@
+// Numbers of messages as a browser gets them.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "console/heard.h"
+#include "geometry/angles.h"
+
+namespace ols::console {
+
+// Null where it is unknown. Rounded: a browser needs no 17 digits, ten times a second.
+inline Json rounded(double value, int decimals) {
+  if (!std::isfinite(value) || std::abs(value) > 1e15) return nullptr;
+  const double scale = std::pow(10.0, decimals);
+  return std::round(value * scale) / scale;
+}
+inline Json angle_deg(double rad) { return rounded(degrees(rad), 4); }
+
+template <std::size_t count>
+Json rounded_all(const double (&values)[count], int decimals) {
+  Json result = Json::array();
+  for (const double value : values) result.push_back(rounded(value, decimals));
+  return result;
+}
+
+// No browser's number holds 64 bits.
+inline std::string number_text(std::int64_t number) { return std::to_string(number); }
+
+}  // namespace ols::console
