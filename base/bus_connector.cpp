@@ -10,10 +10,6 @@ namespace ols {
 BusConnector::BusConnector(std::string url, std::shared_ptr<trust::BusTrust> trust)
     : url_(std::move(url)), trust_(std::move(trust)) {}
 
-trust::SiteSettings BusConnector::site_settings() const {
-  return trust_ == nullptr ? trust::SiteSettings{} : trust_->site_settings();
-}
-
 std::int64_t BusConnector::site_settings_number() const {
   return trust_ == nullptr ? 0 : trust_->site_settings_number();
 }

@@ -20,7 +20,6 @@ class BusConnector {
   static constexpr double kLongest_s = 12.0;
 
   // The site's settings that the process has; number 0: none.
-  trust::SiteSettings site_settings() const;
   std::int64_t site_settings_number() const;
 
   // Why the last attempt failed; empty after a success or before the first.

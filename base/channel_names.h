@@ -31,4 +31,10 @@ inline std::string station_channel(std::string_view channel, std::string_view st
   return std::string(channel).append(station);
 }
 
+// The kind of message on a station's channel, as its name says: PTU on OLS_PTU_.
+inline std::string message_kind(std::string_view channel) {
+  constexpr std::string_view kPrefix = "OLS_";
+  return std::string(channel.substr(kPrefix.size(), channel.size() - kPrefix.size() - 1));
+}
+
 }  // namespace ols

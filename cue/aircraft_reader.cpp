@@ -1,11 +1,10 @@
 #include "cue/aircraft_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "base/sbs_line.h"
 #include "geometry/angles.h"
 
 namespace ols::cues {
@@ -74,27 +73,6 @@ std::optional<Reading> reading_of(const Json& one, double now_s) {
   return report;
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream rest(line);
-  for (std::string cell; std::getline(rest, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-std::optional<double> number(const std::vector<std::string>& cells, std::size_t index) {
-  if (index >= cells.size()) return std::nullopt;
-  const std::string& cell = cells[index];
-  double value = 0.0;
-  const auto [end, bad] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  const bool is_whole = bad == std::errc{} && end == cell.data() + cell.size();
-  return is_whole ? std::optional(value) : std::nullopt;
-}
-
-bool is_icao(const std::string& text) {
-  return text.size() == 6 &&
-         std::ranges::all_of(text, [](unsigned char c) { return std::isxdigit(c) != 0; });
-}
-
 }  // namespace
 
 Readings aircraft_json_readings(const std::string& text) {
@@ -130,38 +108,35 @@ SbsReader::Aircraft& SbsReader::aircraft(const std::string& icao, std::int64_t n
   return found;
 }
 
-// Cells: 0 MSG, 1 kind, 4 address, 10 call sign, 11 height [ft, by pressure], 12 speed [kt],
-// 13 track [deg], 14 latitude, 15 longitude, 16 climb [ft/min].
 Readings SbsReader::take(const std::string& line, std::int64_t now_us) {
   constexpr std::int64_t kVelocityLasts_us = 10'000'000;
-  const auto cells = cells_of(line);
-  if (cells.empty() || cells[0] != "MSG") {
+  const SbsLine sbs(line);
+  const std::string& type = sbs.text(SbsLine::kType);
+  if (type != "MSG") {
     const bool is_other =
-        !cells.empty() && (cells[0] == "SEL" || cells[0] == "ID" || cells[0] == "AIR" ||
-                           cells[0] == "STA" || cells[0] == "CLK");
+        type == "SEL" || type == "ID" || type == "AIR" || type == "STA" || type == "CLK";
     return is_other ? Readings{} : Readings{Refused{Refusal::kMalformed, "no line of SBS"}};
   }
-  if (cells.size() < 5 || !is_icao(cells[4])) {
-    return {Refused{Refusal::kMalformed, "no address in a line of SBS"}};
-  }
-  std::string icao = cells[4];
-  std::ranges::transform(icao, icao.begin(), [](unsigned char c) { return std::tolower(c); });
-  Aircraft& known = aircraft(icao, now_us);
-  if (cells.size() > 10 && !cells[10].empty()) {
-    known.callsign = cells[10].substr(0, kLongestCallsign);
+  const auto icao = sbs.icao();
+  if (!icao) return {Refused{Refusal::kMalformed, "no address in a line of SBS"}};
+  Aircraft& known = aircraft(*icao, now_us);
+  if (const std::string& callsign = sbs.text(SbsLine::kCallsign); !callsign.empty()) {
+    known.callsign = callsign.substr(0, kLongestCallsign);
     known.callsign.erase(known.callsign.find_last_not_of(' ') + 1);
   }
-  const auto speed_kt = number(cells, 12), track_deg = number(cells, 13);
+  const auto speed_kt = sbs.number(SbsLine::kSpeedKt), track_deg = sbs.number(SbsLine::kTrackDeg);
   if (speed_kt && track_deg) {
-    known.velocity_enu_m_s = velocity(*speed_kt, *track_deg, number(cells, 16).value_or(0.0));
+    known.velocity_enu_m_s =
+        velocity(*speed_kt, *track_deg, sbs.number(SbsLine::kClimbFtMin).value_or(0.0));
     known.velocity_us = now_us;
   }
-  const auto latitude = number(cells, 14), longitude = number(cells, 15);
+  const auto latitude = sbs.number(SbsLine::kLatitudeDeg),
+             longitude = sbs.number(SbsLine::kLongitudeDeg);
   if (!latitude || !longitude) return {};
-  const auto height_ft = number(cells, 11);
-  if (!height_ft) return {Refused{Refusal::kNoHeight, icao}};
+  const auto height_ft = sbs.number(SbsLine::kHeightFt);
+  if (!height_ft) return {Refused{Refusal::kNoHeight, *icao}};
   Report report;
-  report.name = icao;
+  report.name = *icao;
   report.label = known.callsign;
   report.utime_us = now_us;
   report.latitude_deg = *latitude;

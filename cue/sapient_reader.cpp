@@ -36,11 +36,11 @@ bool has_own(const Informations& informations) {
       informations, [](const auto& one) { return one.type().starts_with(exports::kSapientOwn); });
 }
 
-// The standard has deviations in the units of what they belong to; some nodes write metres. A
-// hundredth of a degree is a kilometre, to which nobody is led; a hundredth of a metre is less than
-// any sensor's deviation.
+// The standard has deviations in the units of what they belong to; some nodes write metres. From
+// one on they can only be metres. What is less is taken as the standard has it: at the worst a cue
+// is too uncertain to be led to, never surer than its sensor.
 std::optional<double> angular_sd_m(double error, double metres_per_unit) {
-  constexpr double kMetres = 0.01;
+  constexpr double kMetres = 1.0;
   if (!std::isfinite(error) || error <= 0.0) return std::nullopt;
   return error >= kMetres ? error : error * metres_per_unit;
 }
@@ -217,16 +217,29 @@ void SapientReader::note_registration(Node& node, const sapient::Registration& r
   for (const auto& mode : registration.mode_definition()) {
     for (const auto& detections : mode.detection_definition()) {
       const auto& units = detections.velocity_type().enu_velocity_units();
-      const bool is_kph = units.east_north_rate_units() == sapient::SPEED_UNITS_KPH;
-      node.speed_unit_m_s = is_kph ? kKilometreAnHour_m_s : 1.0;
-      node.utm_zone = detections.location_type().zone().substr(0, kLongestZone);
+      const auto unit = units.east_north_rate_units();
+      if (unit != sapient::SPEED_UNITS_UNSPECIFIED) {
+        node.speed_unit_m_s = unit == sapient::SPEED_UNITS_KPH ? kKilometreAnHour_m_s : 1.0;
+      }
+      const std::string zone = detections.location_type().zone().substr(0, kLongestZone);
+      if (!zone.empty()) node.utm_zone = zone;
     }
   }
 }
 
-SapientReader::Node& SapientReader::node(const std::string& id) {
-  if (nodes_.size() >= kMost && !nodes_.contains(id)) nodes_.clear();
-  return nodes_[id];
+// Where a place cannot be used, none is known: the former one may be far from where it is now.
+void SapientReader::note_place(Node& node, const sapient::Location& where) {
+  Report at;
+  node.place.reset();
+  if (place(at, where, node) || !std::isfinite(at.height_m)) return;
+  node.place = Geodetic{radians(at.latitude_deg), radians(at.longitude_deg), at.height_m};
+}
+
+// Null: a newcomer beyond as many as are kept, who must not push out who is known.
+SapientReader::Node* SapientReader::node(const std::string& id) {
+  const auto known = nodes_.find(id);
+  if (known != nodes_.end()) return &known->second;
+  return nodes_.size() < kMost ? &nodes_[id] : nullptr;
 }
 
 Readings SapientReader::take(const std::string& message) {
@@ -236,14 +249,13 @@ Readings SapientReader::take(const std::string& message) {
   constexpr std::size_t kLongestName = 64;
   if (said.node_id().size() > kLongestName) return {Refused{Refusal::kMalformed, "a node's name"}};
   if (said.has_registration()) {
-    note_registration(node(said.node_id()), said.registration());
+    Node* sender = node(said.node_id());
+    if (!sender) return {Refused{Refusal::kMalformed, "a node too many"}};
+    note_registration(*sender, said.registration());
   } else if (said.has_status_report() && said.status_report().has_node_location()) {
-    Node& sender = node(said.node_id());
-    Report at;
-    if (place(at, said.status_report().node_location(), sender) || !std::isfinite(at.height_m)) {
-      return {};
-    }
-    sender.place = Geodetic{radians(at.latitude_deg), radians(at.longitude_deg), at.height_m};
+    Node* sender = node(said.node_id());
+    if (!sender) return {Refused{Refusal::kMalformed, "a node too many"}};
+    note_place(*sender, said.status_report().node_location());
   } else if (said.has_detection_report()) {
     const auto utime_us = utime_of(said);
     if (!utime_us) return {Refused{Refusal::kMalformed, "a message without a time"}};

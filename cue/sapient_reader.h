@@ -45,7 +45,8 @@ class SapientReader {
                                     const exports::sapient::Location& location) const;
   static std::optional<Refusal> place(Report& report, const exports::sapient::RangeBearing& sight,
                                       const Node& from);
-  Node& node(const std::string& id);
+  void note_place(Node& node, const exports::sapient::Location& where);
+  Node* node(const std::string& id);
 
   static constexpr std::size_t kMost = 1000;
   GeoidHeight geoid_m_;

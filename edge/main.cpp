@@ -35,19 +35,6 @@ StationSettings load(const std::string& config, const ols::trust::SiteSettings& 
   return settings;
 }
 
-// A file that a person is just editing must not end a station that runs.
-StationSettings loaded_again(const std::string& config, const ols::trust::SiteSettings& site,
-                             const StationSettings& before) {
-  try {
-    return load(config, site);
-  } catch (const ols::ConfigError& error) {
-    spdlog::warn("site settings {} are not taken: {}", site.number, error.what());
-    StationSettings settings = before;
-    settings.site.number = site.number;
-    return settings;
-  }
-}
-
 void say_site(const StationSettings& settings) {
   if (settings.site.number == 0) return;
   std::string own;
@@ -58,17 +45,14 @@ void say_site(const StationSettings& settings) {
 
 int run(const std::string& config, const StationSettings& own) {
   cv::setNumThreads(1);  // a frame is small; the other core is for the camera's stream
-  StationSettings settings =
+  const StationSettings settings =
       load(config, ols::trust::settings_at_start(own.trust, trust_environment(own), own.id,
                                                  ols::station::site_check(config)));
-  for (std::optional<ols::trust::SiteSettings> newer = ols::trust::SiteSettings{}; newer;) {
-    ols::station::StationProcess process(settings, ols::draw_boot_id());
-    spdlog::info("station {} ready: camera {}, PTU {}, bus {}", settings.id, settings.camera.device,
-                 settings.ptu.device, settings.lcm_url);
-    say_site(settings);
-    newer = process.run(ols::shutdown_requested);
-    if (newer) settings = loaded_again(config, *newer, settings);
-  }
+  ols::station::StationProcess process(settings, ols::draw_boot_id());
+  spdlog::info("station {} ready: camera {}, PTU {}, bus {}", settings.id, settings.camera.device,
+               settings.ptu.device, settings.lcm_url);
+  say_site(settings);
+  process.run(ols::shutdown_requested);
   spdlog::info("station {} stops", own.id);
   return 0;
 }

@@ -1,11 +1,8 @@
 #include "edge/messages.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "edge/messages_borders.h"
 #include "edge/messages_lens.h"
@@ -15,7 +12,6 @@ namespace ols::station {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kDatagram_bytes = 60000;  // leaves space for the header, below 65 000
 
 void symmetric(const Eigen::Matrix2d& matrix, double (&out)[3]) {
   out[0] = matrix(0, 0);
@@ -267,9 +263,9 @@ ols_msg::station_status_t to_message(const StationReport& report, const Sender& 
   return message;
 }
 
-std::optional<ols_msg::preview_t> to_preview(const camera::Frame& frame,
-                                             const std::optional<cv::Rect2d>& box,
-                                             const Sender& sender, std::int64_t sequence) {
+ols_msg::preview_t to_message(const video::PreviewPicture& picture, const camera::Frame& frame,
+                              const std::optional<cv::Rect2d>& box, const Sender& sender,
+                              std::int64_t sequence) {
   ols_msg::preview_t message;
   message.utime = sender.utime_us(frame.mid_exposure_s);
   message.schema_version = ols_msg::preview_t::SCHEMA_VERSION;
@@ -284,15 +280,10 @@ std::optional<ols_msg::preview_t> to_preview(const camera::Frame& frame,
   message.box_px[1] = shown.y;
   message.box_px[2] = shown.width;
   message.box_px[3] = shown.height;
-  for (const double width_px : {480.0, 320.0, 160.0}) {
-    message.scale = std::min(1.0, width_px / frame.gray.cols);
-    cv::Mat small;
-    cv::resize(frame.gray, small, {}, message.scale, message.scale, cv::INTER_AREA);
-    cv::imencode(".jpg", small, message.jpeg, {cv::IMWRITE_JPEG_QUALITY, 70});
-    message.jpeg_bytes = static_cast<std::int32_t>(message.jpeg.size());
-    if (message.jpeg.size() < kDatagram_bytes) return message;
-  }
-  return std::nullopt;
+  message.scale = picture.scale;
+  message.jpeg = picture.jpeg;
+  message.jpeg_bytes = static_cast<std::int32_t>(picture.jpeg.size());
+  return message;
 }
 
 ols_msg::frame_part_t to_message(const FramePart& part, const Sender& sender,

@@ -10,6 +10,7 @@
 #include "edge/frame_desk.h"
 #include "edge/station.h"
 #include "edge/station_report.h"
+#include "edge/video/preview_picture.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/designate_t.hpp"
 #include "ols_msg/frame_part_t.hpp"
@@ -40,10 +41,9 @@ ols_msg::station_status_t to_message(const StationReport& report, const Sender& 
                                      const StationSettings& settings, double now_s,
                                      std::int64_t sequence);
 
-// A JPEG that fits into one datagram; empty when even the smallest image does not.
-std::optional<ols_msg::preview_t> to_preview(const camera::Frame& frame,
-                                             const std::optional<cv::Rect2d>& box,
-                                             const Sender& sender, std::int64_t sequence);
+ols_msg::preview_t to_message(const video::PreviewPicture& picture, const camera::Frame& frame,
+                              const std::optional<cv::Rect2d>& box, const Sender& sender,
+                              std::int64_t sequence);
 
 ols_msg::frame_part_t to_message(const FramePart& part, const Sender& sender,
                                  std::int64_t sequence);

@@ -37,22 +37,23 @@ StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, St
       connector_(settings.lcm_url, open_trust(settings, boot_id)) {
   sender_.station = settings.id;
   sender_.boot_id = boot_id;
-  on_command<ols_msg::designate_t>("DESIGNATE", [this](const ols_msg::designate_t& message) {
+  on_command<ols_msg::designate_t>(kDesignateChannel, [this](const ols_msg::designate_t& message) {
     turn_.designate(from_message(message, sender_));
     return Refusal::kNone;
   });
-  on_command<ols_msg::slew_t>("SLEW", [this](const ols_msg::slew_t& message) {
+  on_command<ols_msg::slew_t>(kSlewChannel, [this](const ols_msg::slew_t& message) {
     return station_.slew(from_message(message, sender_, now_s_), now_s_);
   });
   on_command<ols_msg::ptu_command_t>(
-      "PTU", [this](const ols_msg::ptu_command_t& message) { return command_ptu(message); });
-  on_command<ols_msg::lens_command_t>(
-      "LENS", [this](const ols_msg::lens_command_t& message) { return command_lens(message); });
-  on_command<ols_msg::record_t>("RECORD", [this](const ols_msg::record_t& message) {
+      kPtuChannel, [this](const ols_msg::ptu_command_t& message) { return command_ptu(message); });
+  on_command<ols_msg::lens_command_t>(kLensChannel, [this](const ols_msg::lens_command_t& message) {
+    return command_lens(message);
+  });
+  on_command<ols_msg::record_t>(kRecordChannel, [this](const ols_msg::record_t& message) {
     record(message);
     return Refusal::kNone;
   });
-  on_command<ols_msg::frame_request_t>("FRAME_REQUEST",
+  on_command<ols_msg::frame_request_t>(kFrameRequestChannel,
                                        [this](const ols_msg::frame_request_t& message) {
                                          want_frame(message);
                                          return Refusal::kNone;
@@ -157,8 +158,9 @@ void StationBus::take(const BusMessage& message) {
 }
 
 template <class Message>
-void StationBus::on_command(const std::string& kind,
+void StationBus::on_command(std::string_view channel,
                             const std::function<Refusal(const Message&)>& execute) {
+  const std::string kind = message_kind(channel);
   gates_.emplace(kind, CommandGate(given_.gate, clock_utime_us()));
   const auto receive = [this, kind, execute](const BusMessage& received) {
     Message message;
@@ -170,7 +172,7 @@ void StationBus::on_command(const std::string& kind,
     if (refusal) return refused_.refuse_at_gate(kind, to_string(*refusal), now_s_);
     note(kind, execute(message));
   };
-  subscriptions_.emplace_back("OLS_" + kind + "_" + settings_.id, receive);
+  subscriptions_.emplace_back(station_channel(channel, settings_.id), receive);
 }
 
 void StationBus::record(const ols_msg::record_t& message) {
@@ -220,6 +222,11 @@ void StationBus::receive() {
 std::vector<std::string> StationBus::alarms() const {
   auto alarms = refused_.alarms(now_s_);
   for (std::string& alarm : monitor_.alarms(now_s_)) alarms.push_back(std::move(alarm));
+  const std::int64_t newest = connector_.site_settings_number();
+  if (newest > settings_.site.number) {
+    alarms.push_back("trust: the site's settings " + std::to_string(newest) +
+                     " wait until the station is started again");
+  }
   return alarms;
 }
 
@@ -250,9 +257,11 @@ void StationBus::send(const FramePart& part) {
 }
 
 void StationBus::send_preview(const camera::Frame& frame, const std::optional<cv::Rect2d>& box) {
-  const auto message = to_preview(frame, box, sender_, ++sequences_["preview"]);
-  if (message) {
-    publish(station_channel(kPreviewChannel, settings_.id), *message);
+  const std::int64_t sequence = ++sequences_["preview"];
+  const auto picture = video::preview_picture(frame.gray);
+  if (picture) {
+    publish(station_channel(kPreviewChannel, settings_.id),
+            to_message(*picture, frame, box, sender_, sequence));
   } else {
     counters_["previews_too_large"] += 1;
   }

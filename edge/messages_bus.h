@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -51,8 +52,6 @@ class StationBus {
   void end_turn();
 
   // Of the site, as they were heard last.
-  trust::SiteSettings site_settings() const { return connector_.site_settings(); }
-  std::int64_t site_settings_number() const { return connector_.site_settings_number(); }
 
   // Why there is no connection; empty: connected.
   const std::string& trouble() const { return trouble_; }
@@ -60,7 +59,7 @@ class StationBus {
   const std::string& last_refusal() const { return refused_.last(); }
   std::uint64_t refusals() const { return refused_.number(); }
   // Conditions of the bus that a person should know: commands that keep being refused as not fresh,
-  // invalid datagrams.
+  // invalid datagrams, newer settings of the site.
   std::vector<std::string> alarms() const;
   // Messages refused before they reached the station, and messages not sent; part of each status.
   std::map<std::string, double> counters() const;
@@ -74,7 +73,7 @@ class StationBus {
   template <class Message>
   void publish(const std::string& channel, const Message& message);
   template <class Message>
-  void on_command(const std::string& kind, const std::function<Refusal(const Message&)>& execute);
+  void on_command(std::string_view channel, const std::function<Refusal(const Message&)>& execute);
   void subscribe();
   void disconnect(const std::string& why);
   std::string ptu_channel() const;

@@ -61,23 +61,14 @@ StationProcess::StationProcess(const StationSettings& configured, std::int64_t b
   bus_.connect(BusConnector::kLongest_s);
 }
 
-std::optional<trust::SiteSettings> StationProcess::run(const std::function<bool()>& ends) {
+void StationProcess::run(const std::function<bool()>& ends) {
   bool ready = false;
   while (!ends()) {
-    if (has_newer_settings()) return bus_.site_settings();
     turn();
     if (!ready) service_.ready("station " + settings().id + " begins");
     ready = true;
   }
   service_.stopping();
-  return std::nullopt;
-}
-
-bool StationProcess::has_newer_settings() const {
-  // To begin anew permits no motion: a station that was stopped stays so.
-  const bool rests =
-      station_.state() == StationState::kIdle || station_.state() == StationState::kStopped;
-  return rests && bus_.site_settings_number() > settings().site.number;
 }
 
 void StationProcess::turn() {

@@ -25,16 +25,14 @@ class StationProcess {
   StationProcess(const StationSettings& configured, std::int64_t boot_id);
 
   // Runs until `ends` returns true; notifies systemd. Ready after the first turn, whatever devices
-  // are present. Or until the site has newer settings and the station is idle: returns those, and
-  // is to be begun anew with them.
-  std::optional<trust::SiteSettings> run(const std::function<bool()>& ends);
+  // are present.
+  void run(const std::function<bool()>& ends);
 
  private:
   // One turn of the control loop: commands, PTU angles, the newest frame, bearings, the PTU's goal,
   // and at intervals a status and a preview. Takes a few milliseconds, or as long as the tracker
   // needs for a frame.
   void turn();
-  bool has_newer_settings() const;
   clock::ClockPair look_at_clocks();
   void resume_hold(double now_s);
   void heed_emergency_stop(double now_s);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
 #include <stdexcept>
@@ -34,7 +35,6 @@ class Round {
         count_rad_(radians(world.ptu_unit_config().resolution_arcsec / 3600.0)),
         mechanics_(station_.unit, count_rad_),
         generator_(derived_seed(world.seed(), kRoundTag + station)) {
-    observations_.precision(12);
     references_.precision(15);
     references_ << "landmark,latitude_deg,longitude_deg,height_m,sd_m,utime_us,ra_deg,dec_deg\n";
   }
@@ -76,13 +76,20 @@ class Round {
 
 void Round::note(const char* kind, const Stop& stop, const Vector2d& pixel, double sd_px,
                  const std::string& reference, std::int64_t utime_us) {
-  observations_ << "{\"kind\": \"" << kind << "\", \"pose\": " << pose_
-                << ", \"utime_us\": " << utime_us << ", \"pan_counts\": " << stop.pan
-                << ", \"tilt_counts\": " << stop.tilt << ", \"approach_pan\": " << stop.side_pan
-                << ", \"approach_tilt\": " << stop.side_tilt
-                << ", \"x_px\": " << pixel.x() + normal(sd_px)
-                << ", \"y_px\": " << pixel.y() + normal(sd_px) << ", \"sd_px\": " << sd_px
-                << ", \"reference\": \"" << reference << "\"}\n";
+  const double x_px = pixel.x() + normal(sd_px);
+  const double y_px = pixel.y() + normal(sd_px);
+  const nlohmann::ordered_json observation = {{"kind", kind},
+                                              {"pose", pose_},
+                                              {"utime_us", utime_us},
+                                              {"pan_counts", stop.pan},
+                                              {"tilt_counts", stop.tilt},
+                                              {"approach_pan", stop.side_pan},
+                                              {"approach_tilt", stop.side_tilt},
+                                              {"x_px", x_px},
+                                              {"y_px", y_px},
+                                              {"sd_px", sd_px},
+                                              {"reference", reference}};
+  observations_ << observation.dump() << '\n';
 }
 
 // The star that appears there: ERFA's own inverse. The air is not quite what the barometer says.

@@ -1,7 +1,7 @@
 #include "sim/station_truth_file.h"
 
 #include <filesystem>
-#include <sstream>
+#include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
 
@@ -9,33 +9,23 @@ namespace ols::sim {
 
 std::string station_truth(const StationTruth& station) {
   const StationGeometry& g = station.truth;
-  const std::pair<const char*, double> values[] = {
-      {"latitude_deg", degrees(g.position.latitude_rad)},
-      {"longitude_deg", degrees(g.position.longitude_rad)},
-      {"height_m", g.position.height_m},
-      {"heading_deg", degrees(g.chain.heading_rad)},
-      {"tilt_x_deg", degrees(g.chain.tilt_x_rad)},
-      {"tilt_y_deg", degrees(g.chain.tilt_y_rad)},
-      {"mount_z_deg", degrees(g.chain.mount_z_rad)},
-      {"mount_x_deg", degrees(g.chain.mount_x_rad)},
-      {"mount_y_deg", degrees(g.chain.mount_y_rad)},
-      {"trunnion_deg", degrees(station.unit.trunnion_rad)},
-      {"focal_px", g.camera.fx_px},
-      {"aspect", g.camera.fy_px / g.camera.fx_px},
-      {"cx_px", g.camera.cx_px},
-      {"cy_px", g.camera.cy_px},
-      {"k1", g.camera.k1},
-      {"k2", g.camera.k2}};
-  std::ostringstream text;
-  text.precision(15);
-  text << "{\n";
-  const char* separator = "";
-  for (const auto& [name, value] : values) {
-    text << separator << "  \"" << name << "\": " << value;
-    separator = ",\n";
-  }
-  text << "\n}\n";
-  return text.str();
+  const nlohmann::ordered_json truth = {{"latitude_deg", degrees(g.position.latitude_rad)},
+                                        {"longitude_deg", degrees(g.position.longitude_rad)},
+                                        {"height_m", g.position.height_m},
+                                        {"heading_deg", degrees(g.chain.heading_rad)},
+                                        {"tilt_x_deg", degrees(g.chain.tilt_x_rad)},
+                                        {"tilt_y_deg", degrees(g.chain.tilt_y_rad)},
+                                        {"mount_z_deg", degrees(g.chain.mount_z_rad)},
+                                        {"mount_x_deg", degrees(g.chain.mount_x_rad)},
+                                        {"mount_y_deg", degrees(g.chain.mount_y_rad)},
+                                        {"trunnion_deg", degrees(station.unit.trunnion_rad)},
+                                        {"focal_px", g.camera.fx_px},
+                                        {"aspect", g.camera.fy_px / g.camera.fx_px},
+                                        {"cx_px", g.camera.cx_px},
+                                        {"cy_px", g.camera.cy_px},
+                                        {"k1", g.camera.k1},
+                                        {"k2", g.camera.k2}};
+  return truth.dump(2) + "\n";
 }
 
 void write_station_truths(const World& world, const std::string& folder) {

@@ -52,11 +52,14 @@ SiteFiles site_files(const TrustConfig& config, const Environment& environment,
   return {settings_path(config, environment), kept_path(environment, "site", name)};
 }
 
+// systemd names all folders of StateDirectory=, with colons between them.
+std::string first_of(const std::string& folders) { return folders.substr(0, folders.find(':')); }
+
 }  // namespace
 
 Environment process_environment() {
   return {from_environment("OLS_TRUST"), from_environment("OLS_KEYS"),
-          from_environment("CREDENTIALS_DIRECTORY"), from_environment("STATE_DIRECTORY")};
+          from_environment("CREDENTIALS_DIRECTORY"), first_of(from_environment("STATE_DIRECTORY"))};
 }
 
 SiteSettings settings_at_start(const TrustConfig& config, const Environment& environment,

@@ -17,7 +17,7 @@ SiteKeeper::SiteKeeper(const PublicKey& root, SiteFiles files, SettingsCheck che
   } catch (const std::system_error&) {
     // None was heard yet.
   } catch (const ConfigError& problem) {
-    file_trouble_ = problem.what();
+    heard_trouble_ = problem.what();
   }
   written_ = settings_.number;
   read_given();
@@ -40,12 +40,17 @@ void SiteKeeper::offer(const std::string& text, const std::string& name) {
     if (text == text_) return;
   }
   const SiteSettings offered = read_settings(text, name, root_);
+  {
+    const std::lock_guard lock(mutex_);
+    if (offered.number < highest_ || offered.number == settings_.number) {
+      throw ConfigError(name + ": number " + std::to_string(offered.number) + " does not replace " +
+                        std::to_string(highest_) + ", which the root has signed since");
+    }
+    highest_ = offered.number;
+  }
   if (check_) check_(offered, name);
   const std::lock_guard lock(mutex_);
-  if (offered.number <= settings_.number) {
-    throw ConfigError(name + ": number " + std::to_string(offered.number) + " does not replace " +
-                      std::to_string(settings_.number) + ", which is in force");
-  }
+  if (offered.number < highest_) return;  // newer ones came meanwhile
   settings_ = offered;
   text_ = text;
 }
@@ -74,7 +79,8 @@ void SiteKeeper::read_given() {
     offer(text, files_.given);
   } catch (const std::system_error& problem) {
     // One that never was there: the settings are heard instead.
-    if (!read_.empty()) trouble = problem.what();
+    const bool never_was = problem.code() == std::errc::no_such_file_or_directory && read_.empty();
+    if (!never_was) trouble = problem.what();
   } catch (const ConfigError& problem) {
     trouble = problem.what();
   }

@@ -47,7 +47,8 @@ class SiteKeeper {
   std::int64_t written_ = 0;  // number of the kept ones; likewise
   mutable std::mutex mutex_;  // of what follows
   SiteSettings settings_;
-  std::string text_;  // of `settings_`, as signed
+  std::int64_t highest_ = 0;  // number that the root has signed, whether it could be used or not
+  std::string text_;          // of `settings_`, as signed
   std::string file_trouble_, heard_trouble_;
   int calm_ = 0;  // tellings in a row that were good
   double tell_s_ = 0.0;

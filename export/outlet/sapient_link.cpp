@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kTroubled_s = 10.0;  // after a complaint
 constexpr int kNoWakeup = -1;
+// To what is heard at once: each waits for a receiver that reads slowly.
+constexpr std::size_t kMostAnswers = 16;
 
 }  // namespace
 
@@ -46,6 +48,7 @@ void SapientLink::heard(std::string_view bytes) {
   if (dialogue_.complaints() != complaints) complained_s_ = clock_monotonic_s();
   if (dialogue_.acceptance() == false)
     throw error("refuses the registration: " + dialogue_.refusal());
+  if (answers.size() > kMostAnswers) throw error("floods tasks");
   for (const std::string& answer : answers) StreamLink::send({"", answer});
 }
 

@@ -1,5 +1,5 @@
-"""A site's settings, signed at the centre, reach a station by the bus: it takes them while idle,
-keeps them over a restart, and refuses what is older or nobody's."""
+"""A site's settings, signed at the centre, reach a station by the bus: it keeps them, works with
+them from its next start on, and refuses what is older or nobody's."""
 
 import subprocess
 import time
@@ -69,22 +69,36 @@ def test_settings_reach_the_stations_and_the_own_file_wins(site, tmp_path, monke
         )
         return readings.get("site_settings_number", 0)
 
+    def says(words):
+        status = listener.observer.status.get("alfa")
+        return status is not None and any(words in alarm for alarm in status.alarm)
+
+    def again(name):
+        listener.wait(lambda: says("wait until the station is started again"), "that they wait")
+        site.stop(name)
+        listener.observer.status.pop("alfa", None)
+        site.start_and_wait(f"{name}-again", command, "ready", tripod)
+        listener.wait_for_status("alfa")
+        return f"{name}-again"
+
     listener.wait_for_status("alfa")
     assert number() == 0
     assert "site settings 1" in centre.sign(
         "[station]\nwatchdog.cpu_alarm_degC = 70\nlogic.max_age_s = 0.5\n"
     )
-    listener.wait(lambda: number() == 1, "that they are taken")
+    running = again("alfa")
+    listener.wait(lambda: number() == 1, "that they are used")
     assert (
         "this station's file says otherwise for watchdog.cpu_alarm_degC"
-        in (tmp_path / "logs" / "alfa.log").read_text()
+        in (tmp_path / "logs" / f"{running}.log").read_text()
     )
     assert "wanted.toml:2: station.logic.max_age_s" in centre.sign(
         "[station]\nlogic.max_age_s = 99\n", status=2
     )
     first = centre.made.read_bytes()
     centre.sign("[station]\nlogic.max_age_s = 0.25\n")
-    listener.wait(lambda: number() == 2, "that newer ones are taken")
+    running = again(running)
+    listener.wait(lambda: number() == 2, "that newer ones are used")
     # An older one, told by a member, and one that is changed: both are named, nothing happens.
     member = ols.Trust(str(tmp_path / "keys"), "logger", 7)
     for sequence, (text, reason) in enumerate(
@@ -95,15 +109,11 @@ def test_settings_reach_the_stations_and_the_own_file_wins(site, tmp_path, monke
         message.utime = time.time_ns() // 1000
         message.sequence, message.text = sequence, text.decode()
 
-        def says(reason=reason):
-            status = listener.observer.status.get("alfa")
-            return status is not None and any(reason in alarm for alarm in status.alarm)
-
         listener.bus.lcm.publish("OLS_SITE", member.sign("OLS_SITE", message.encode()))
-        listener.wait(says, f"{reason!r} among the alarms")
+        listener.wait(lambda words=reason: says(words), f"{reason!r} among the alarms")
     assert number() == 2
     # What it has heard outlasts a restart without the centre.
     site.stop("fusion")
-    site.stop("alfa")
-    site.start_and_wait("again", command, "site settings 2 in use", tripod)
+    site.stop(running)
+    site.start_and_wait("at-last", command, "site settings 2 in use", tripod)
     site.check()

@@ -1,5 +1,6 @@
 """The documents: every link leads somewhere; troubleshooting.md knows what the sources can say."""
 
+import fnmatch
 import functools
 import re
 import shutil
@@ -48,6 +49,51 @@ def broken_links(root: Path) -> list[str]:
 
 def test_every_link_leads_somewhere():
     assert broken_links(ROOT) == []
+
+
+# ---- paths -------------------------------------------------------------------------------------
+
+# `sim/trajectory.*`; of one folder the next name may stand alone: `trajectory_file.*`.
+PATH = re.compile(r"`([\w./*-]+)`")
+FOLDERS = {path.name for path in ROOT.iterdir() if path.is_dir()} - {"build"}
+
+
+def files_of(root: Path) -> set[str]:
+    """Names of the files in the project's own folders."""
+    return {path.name for folder in FOLDERS for path in (root / folder).rglob("*")}
+
+
+def missing_paths(text: str) -> list[str]:
+    """Paths in backticks of which the tree has none."""
+    missing = []
+    names = files_of(ROOT)
+    for path in dict.fromkeys(PATH.findall(text)):
+        first, inner, _ = path.partition("/")
+        if inner and first in FOLDERS:
+            found = any(ROOT.glob(path.rstrip("/")))
+        elif not inner and re.fullmatch(r"[a-z][\w-]*\.(\*|h|cpp|py|ts|tsx|toml|lcm)", path):
+            found = any(fnmatch.fnmatch(name, path) for name in names)
+        else:
+            continue
+        if not found:
+            missing.append(path)
+    return missing
+
+
+def test_the_paths_of_the_architecture_exist():
+    text = (ROOT / "docs/architecture.md").read_text()
+    assert len(PATH.findall(text)) > 100
+    assert missing_paths(text) == []
+
+
+def test_a_path_that_is_gone_is_found():
+    assert missing_paths("`edge/messages.*` `edge/gone.*` `slew_planner.*` `gone_too.cpp`") == [
+        "edge/gone.*",
+        "gone_too.cpp",
+    ]
+
+
+# ---- where documents are installed ---------------------------------------------------------------
 
 
 @pytest.fixture(name="installed", scope="module")

@@ -74,6 +74,7 @@ NOT_PURE = {
     "edge/sensors/gpsd_link.* edge/sensors/inclinometer.cpp "
     "console/video_link.* console/video_puller.* edge/video/video_server.cpp "
     "edge/video/video_session.*",
+    "in memory only, but with OpenCV's header of files": "edge/video/preview_picture.cpp",
     "receivers and their connections": "export/outlet/file_link.cpp export/outlet/mqtt_link.cpp "
     "export/outlet/queued_outlet.* export/outlet/sapient_link.* export/outlet/stream_link.* "
     "export/outlet/tcp_socket.cpp export/outlet/mqtt_link.h export/outlet/udp_outlet.* "

@@ -1,13 +1,12 @@
 #include "tools/calibrate/aircraft_feed.h"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
+
+#include "base/sbs_line.h"
 
 namespace ols::calibration {
 namespace {
@@ -27,22 +26,6 @@ std::size_t length_of(std::uint8_t type) {
     default:
       return 0;
   }
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream rest(line);
-  for (std::string cell; std::getline(rest, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-std::optional<double> number_of(const std::string& cell) {
-  double value = 0.0;
-  const auto [rest, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || rest != cell.data() + cell.size() || !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
 }
 
 // "2026/05/28" and "20:26:40.123": days by the civil calendar.
@@ -107,21 +90,18 @@ std::int64_t TickClock::take(std::uint64_t ticks, std::int64_t arrival_utime_us)
 }
 
 std::optional<AircraftPosition> sbs_position(const std::string& line) {
-  const auto cells = cells_of(line);
-  if (cells.size() < 16 || cells[0] != "MSG") return std::nullopt;
-  const auto height_ft = number_of(cells[11]), latitude = number_of(cells[14]),
-             longitude = number_of(cells[15]);
-  const auto utime_us = utime_of(cells[6], cells[7]);
-  if (!height_ft || !latitude || !longitude || !utime_us || !is_place(*latitude, *longitude)) {
+  const SbsLine sbs(line);
+  if (sbs.text(SbsLine::kType) != "MSG") return std::nullopt;
+  const auto icao = sbs.icao();
+  const auto height_ft = sbs.number(SbsLine::kHeightFt),
+             latitude = sbs.number(SbsLine::kLatitudeDeg),
+             longitude = sbs.number(SbsLine::kLongitudeDeg);
+  const auto utime_us = utime_of(sbs.text(SbsLine::kDate), sbs.text(SbsLine::kTime));
+  if (!icao || !height_ft || !latitude || !longitude || !utime_us ||
+      !is_place(*latitude, *longitude)) {
     return std::nullopt;
   }
-  std::string icao = cells[4];
-  std::ranges::transform(icao, icao.begin(), [](unsigned char c) { return std::tolower(c); });
-  const bool is_hex = icao.size() == 6 && std::ranges::all_of(icao, [](unsigned char c) {
-                        return std::isxdigit(c) != 0;
-                      });
-  if (!is_hex) return std::nullopt;
-  return AircraftPosition{icao, *utime_us, *latitude, *longitude, *height_ft * kFoot_m};
+  return AircraftPosition{*icao, *utime_us, *latitude, *longitude, *height_ft * kFoot_m};
 }
 
 AircraftSnapshot aircraft_json(const std::string& text) {

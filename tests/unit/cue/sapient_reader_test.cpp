@@ -92,6 +92,9 @@ TEST(SapientReader, DeviationsAreInDegreesOrInMetres) {
   place_in(message).set_x_error(20.0);
   place_in(message).set_y_error(15.0);
   EXPECT_EQ(report_of(read(message)).horizontal_sd_m, 20.0);
+  place_in(message).set_x_error(0.02);
+  place_in(message).set_y_error(0.02);
+  EXPECT_GT(report_of(read(message)).horizontal_sd_m, 2000.0) << "never surer than its sensor";
 }
 
 TEST(SapientReader, AHeightAboveTheGeoidNeedsOne) {

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "sim/calibration_round.h"
 
@@ -12,23 +16,30 @@ World world() {
   return {scenario, 5};
 }
 
-long lines_with(const std::string& text, const std::string& word) {
-  long count = 0;
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
-    ++count;
+std::vector<nlohmann::json> observations_of(const CalibrationRound& round) {
+  std::vector<nlohmann::json> observations;
+  std::istringstream lines(round.observations);
+  for (std::string line; std::getline(lines, line);) {
+    observations.push_back(nlohmann::json::parse(line));
   }
-  return count;
+  return observations;
 }
 
 TEST(CalibrationRound, HasFramesOfStarsAndLandmarksFromBothSides) {
   const CalibrationRound round = calibration_round(world(), 0);
-  EXPECT_EQ(lines_with(round.observations, "\"star\""), 24 * 12);
-  EXPECT_GE(lines_with(round.observations, "\"landmark\""), 8);
-  for (const char* side : {"\"approach_pan\": 1,", "\"approach_pan\": -1,", "\"approach_tilt\": 1,",
-                           "\"approach_tilt\": -1,"}) {
-    EXPECT_GT(lines_with(round.observations, side), 20) << side;
+  const auto observations = observations_of(round);
+  const auto with = [&](const char* key, const nlohmann::json& value) {
+    return std::ranges::count_if(observations, [&](const auto& one) { return one[key] == value; });
+  };
+  EXPECT_EQ(with("kind", "star"), 24 * 12);
+  EXPECT_GE(with("kind", "landmark"), 8);
+  for (const char* axis : {"approach_pan", "approach_tilt"}) {
+    for (const int side : {1, -1}) EXPECT_GT(with(axis, side), 20) << axis << ' ' << side;
   }
-  EXPECT_EQ(lines_with(round.references, "\nstar"), 24 * 12);
+  for (const auto& one : observations) {
+    const std::string name = one["reference"];
+    EXPECT_NE(round.references.find("\n" + name + ","), std::string::npos) << name;
+  }
 }
 
 TEST(CalibrationRound, IsTheSameForTheSameSeedAndAnotherForEachStation) {

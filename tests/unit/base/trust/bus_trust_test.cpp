@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -231,6 +232,13 @@ TEST_F(BusTrustTest, AListThatTheConfigurationNamesMustBeThere) {
 TEST_F(BusTrustTest, AKeyThatIsNotEnrolledIsSaid) {
   write_key("charlie", 6);
   EXPECT_THAT(open({.name = "charlie"})->trouble(), HasSubstr("is not in trust list 1"));
+}
+
+TEST(ProcessEnvironment, OfTheFoldersThatSystemdNamesTheFirstIsTheState) {
+  ::setenv("STATE_DIRECTORY", "/var/lib/ols:/var/lib/ols/exports", 1);
+  EXPECT_EQ(process_environment().state, "/var/lib/ols");
+  ::unsetenv("STATE_DIRECTORY");
+  EXPECT_EQ(process_environment().state, "");
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+// A line of SBS, which receivers of aircraft write: cells between commas, the first says of what.
+// Pure.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ols {
+
+class SbsLine {
+ public:
+  // Cells with a use: when the message was made, as text, and what it says of the aircraft.
+  enum Cell : std::size_t {
+    kType = 0,
+    kAddress = 4,
+    kDate = 6,
+    kTime = 7,
+    kCallsign = 10,
+    kHeightFt = 11,  // by pressure
+    kSpeedKt = 12,
+    kTrackDeg = 13,
+    kLatitudeDeg = 14,
+    kLongitudeDeg = 15,
+    kClimbFtMin = 16,
+  };
+
+  explicit SbsLine(const std::string& line);
+
+  // Empty if the line has no such cell.
+  const std::string& text(Cell cell) const;
+  // nullopt: it is empty, or no finite number.
+  std::optional<double> number(Cell cell) const;
+  // The aircraft's address, of six hexadecimal digits, in lower case; nullopt: there is none.
+  std::optional<std::string> icao() const;
+
+ private:
+  std::vector<std::string> cells_;
+};
+
+}  // namespace ols

@@ -1,0 +1,19 @@
+// A frame as small as a datagram has room for.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+namespace ols::video {
+
+struct PreviewPicture {
+  double scale = 1.0;  // of the frame, at most 1
+  std::vector<std::uint8_t> jpeg;
+};
+
+// The largest of some widths at which it fits; nullopt: it does not fit at any.
+std::optional<PreviewPicture> preview_picture(const cv::Mat& gray);
+
+}  // namespace ols::video
