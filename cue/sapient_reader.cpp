@@ -8,7 +8,6 @@
 #include "export/sapient/sapient_messages.h"
 #include "geometry/angles.h"
 #include "geometry/utm.h"
-#include "sapient/sapient.pb.h"
 
 namespace ols::cues {
 namespace {

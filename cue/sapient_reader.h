@@ -8,13 +8,8 @@
 
 #include "cue/reading.h"
 #include "geometry/wgs84.h"
+#include "sapient/sapient.pb.h"
 
-namespace ols::exports::sapient {
-class DetectionReport;
-class Location;
-class RangeBearing;
-class Registration;
-}  // namespace ols::exports::sapient
 namespace ols::cues {
 
 // [m] above the ellipsoid, by latitude and longitude in degrees; not finite: not known there.

@@ -178,6 +178,17 @@ void add_root_and_list(CLI::App& command, Words& words) {
   command.add_option("--list", words.list, "File of the trust list")->capture_default_str();
 }
 
+CLI::App* add_settings(CLI::App& app, Words& words, std::int64_t& above) {
+  auto* set = app.add_subcommand("settings", "Sign what is the same on all hosts of the site");
+  set->add_option("file", words.settings, "TOML file with geoid and [station]")->required();
+  set->add_option("--root", words.root, "File of the site's root key")->capture_default_str();
+  set->add_option("--output", words.output, "File of the signed settings")->capture_default_str();
+  set->add_option("--above", above,
+                  "Number that the stations have, if the file of the last ones is lost")
+      ->check(CLI::Range(0, 999'999'999));
+  return set;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -208,14 +219,8 @@ int main(int argc, char** argv) {
   auto* revoked = app.add_subcommand("revoke", "Take a member's key out of use");
   revoked->add_option("name", words.name, "Name of the member")->required();
   add_root_and_list(*revoked, words);
-  auto* set = app.add_subcommand("settings", "Sign what is the same on all hosts of the site");
-  set->add_option("file", words.settings, "TOML file with geoid and [station]")->required();
-  set->add_option("--root", words.root, "File of the site's root key")->capture_default_str();
-  set->add_option("--output", words.output, "File of the signed settings")->capture_default_str();
   std::int64_t above = 0;
-  set->add_option("--above", above,
-                  "Number that the stations have, if the file of the last ones is lost")
-      ->check(CLI::Range(0, 999'999'999));
+  auto* set = add_settings(app, words, above);
   auto* listed = app.add_subcommand("list", "Show the list");
   listed->add_option("--list", words.list, "File of the trust list")->capture_default_str();
   listed->add_option("--root-public", words.root_public, "The root's public key, to be sure");
