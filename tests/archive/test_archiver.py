@@ -84,7 +84,7 @@ def test_every_message_with_a_sequence_is_archived_or_a_picture():
     """A new message is not forgotten."""
     pictures = {"preview_t", "frame_part_t", "procedure_t", "video_frame_t"}
     asked = {"frame_request_t", "procedure_answer_t"}  # of a procedure, whose result is a file
-    own = {"trust_list_t"}  # kept beside the logs by its own signature
+    own = {"trust_list_t", "site_settings_t"}  # files, kept by their own signature
     known = {kind.message for kind in KINDS} | pictures | asked | own
     defined = {
         path.stem
