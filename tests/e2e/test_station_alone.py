@@ -61,8 +61,8 @@ def refused(station, name, channel, data):
 def test_absent_devices_are_reported(station):
     status = station.wait_for_status("lone")
     devices = dict(zip(status.device_name, status.device_state, strict=True))
-    absent = ols_msg.station_status_t.DEVICE_ABSENT
-    assert devices == {"camera": absent, "ptu": absent}
+    absent, ok = ols_msg.station_status_t.DEVICE_ABSENT, ols_msg.station_status_t.DEVICE_OK
+    assert devices == {"camera": absent, "ptu": absent, "software": ok}  # which has the version
     assert math.isnan(status.pan_rad)
     assert status.last_error != ""
 
