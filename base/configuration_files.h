@@ -8,8 +8,8 @@
 
 namespace ols {
 
-inline constexpr std::array<std::string_view, 6> kProgramFiles{"fusion",   "logger", "console",
-                                                               "exporter", "export", "cue"};
+inline constexpr std::array<std::string_view, 7> kProgramFiles{
+    "fusion", "logger", "console", "exporter", "export", "cue", "bridge"};
 inline constexpr std::array<std::string_view, 2> kSignedFiles{"trust", "site"};
 
 inline bool is_program_file(std::string_view name) {

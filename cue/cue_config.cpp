@@ -1,14 +1,10 @@
 #include "cue/cue_config.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <set>
 #include <span>
 #include <stdexcept>
 
-#include "base/config_section.h"
-#include "base/lcm_url.h"
+#include "base/config_common.h"
 #include "cue/source.h"
 
 namespace ols::cues {
@@ -40,15 +36,6 @@ config::Words<Format> format_words() {
   return words;
 }
 
-// Cues' names begin with it.
-void check_word(const std::string& word) {
-  const bool is_good =
-      !word.empty() && word.size() <= 30 && std::ranges::all_of(word, [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '-' || c == '_';
-      });
-  if (!is_good) throw std::invalid_argument("must be 1 to 30 letters, digits, - or _");
-}
-
 void check_input(const InputConfig& input, ConfigTable& table) {
   const FormatRow& format = row_of(input.format);
   try {
@@ -60,10 +47,7 @@ void check_input(const InputConfig& input, ConfigTable& table) {
   } catch (const std::invalid_argument& bad) {
     throw table.error("from", bad.what());
   }
-  const auto& [south, west, north, east] = input.rules.area_deg;
-  if (south > north || std::abs(south) > 90.0 || std::abs(north) > 90.0) {
-    throw table.error("area_deg", "must be south, west, north, east within 90 and 180 degrees");
-  }
+  config::check_area(input.rules.area_deg, "area_deg", table);
   if (input.format == Format::kCot && input.types.empty()) {
     throw table.error("types", "without any, nothing is wanted");
   }
@@ -78,18 +62,9 @@ config::Section inputs_section(CueConfig& config) {
 }
 
 void check_names(const CueConfig& config, ConfigTable& root) {
-  std::set<std::string> names;
-  for (const InputConfig& input : config.inputs) {
-    if (!names.insert(input.rules.name).second) {
-      throw root.error("input", "two have the name \"" + input.rules.name + "\"");
-    }
-  }
-}
-
-CueConfig read(ConfigFile& file) {
-  CueConfig config;
-  config::read(cue_section(config), file.root());
-  return config;
+  std::vector<std::string> names;
+  for (const InputConfig& input : config.inputs) names.push_back(input.rules.name);
+  config::check_distinct(names, "input", root);
 }
 
 }  // namespace
@@ -100,7 +75,8 @@ config::Section input_section(CueConfig& config) {
   return {
       "",
       "",
-      {config::text("name", r.name, "Of the input; its cues' names begin with it.", check_word)
+      {config::text("name", r.name, "Of the input; its cues' names begin with it.",
+                    config::word_up_to(30))
            .required_with_section(),
        config::word("format", i.format, format_words(), "docs/cues.md says what is read of each.")
            .required_with_section(),
@@ -132,15 +108,12 @@ config::Section input_section(CueConfig& config) {
 config::Section cue_section(CueConfig& c) {
   return {"",
           "",
-          {config::text("lcm_url", c.lcm_url,
-                        "The bus; ttl=0: only this host, ttl=1: also the other hosts of the site.",
-                        [](const std::string& url) { parse_lcm_url(url); }),
+          {config::bus_url(c.lcm_url),
            config::text("geoid", c.geoid,
                         "Grid of the geoid, by its name in PROJ's folders or by its path: of "
                         "sources of SAPIENT whose heights count from it.",
                         config::not_empty),
-           config::text("status_file", c.status_file,
-                        "JSON file that is rewritten every second; empty: none."),
+           config::status_file(c.status_file),
            config::number("rate_hz", c.rate_hz, {2.0, 20.0}, "Hz",
                           "How often each cue is sent to the fusion."),
            config::integer("most", c.most, 1, 64, "",
@@ -149,14 +122,10 @@ config::Section cue_section(CueConfig& c) {
           [&c](ConfigTable& root) { check_names(c, root); }};
 }
 
-CueConfig load_cue_config(const std::string& path) {
-  ConfigFile file(path);
-  return read(file);
-}
+CueConfig load_cue_config(const std::string& path) { return config::load(path, cue_section); }
 
 CueConfig parse_cue_config(const std::string& text, const std::string& name) {
-  ConfigFile file(text, name);
-  return read(file);
+  return config::parse(text, name, cue_section);
 }
 
 const char* to_string(Format format) { return row_of(format).name; }

@@ -1,22 +1,18 @@
 // ols-cue: parses the command line, loads the configuration, wires the parts and loops.
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <boost/asio/io_context.hpp>
-#include <cstdio>
-#include <exception>
-#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "base/clocks.h"
 #include "base/command_line.h"
+#include "base/service_frame.h"
 #include "base/service_notifier.h"
-#include "base/shutdown.h"
-#include "base/toml_config.h"
+#include "base/status_file.h"
+#include "base/trouble_log.h"
 #include "cue/cue_bus.h"
 #include "cue/cue_config.h"
 #include "cue/cue_desk.h"
@@ -25,6 +21,7 @@
 #include "cue/source.h"
 #include "cue/status.h"
 #include "export/geoid.h"
+#include "export/protobuf_log.h"
 
 namespace {
 
@@ -33,11 +30,6 @@ namespace cues = ols::cues;
 constexpr int kTurn_ms = 20;
 constexpr double kReading_s = 0.02;  // of a turn: a flood must not keep the loop
 constexpr double kStatus_s = 1.0;
-
-struct Arguments {
-  std::string config, lcm_url;
-  bool check_config = false;
-};
 
 // Without a grid, heights above the geoid are refused one by one, and others are not.
 cues::GeoidHeight geoid_of(const cues::CueConfig& config) {
@@ -98,41 +90,6 @@ class Inputs {
   std::vector<std::unique_ptr<cues::Inlet>> inlets_;
 };
 
-// A failure to write the status must not end the process.
-void write_status(const std::string& path, const cues::CueStatus& status) {
-  if (path.empty()) return;
-  static bool is_reported = false;
-  try {
-    ols::AtomicFile file(path);
-    file.stream() << to_json(status) << '\n';
-    file.commit();
-    is_reported = false;
-  } catch (const std::exception& failure) {
-    if (!is_reported) spdlog::warn("status: {}", failure.what());
-    is_reported = true;
-  }
-}
-
-// Logs what begins and what ends.
-class Journal {
- public:
-  void look(const cues::CueStatus& status) {
-    for (const cues::InputStatus& input : status.inputs) {
-      std::string& last = trouble_[input.name];
-      if (input.trouble == last) continue;
-      if (input.trouble.empty()) {
-        spdlog::info("input {}: works again", input.name);
-      } else {
-        spdlog::warn("input {}: {}", input.name, input.trouble);
-      }
-      last = input.trouble;
-    }
-  }
-
- private:
-  std::map<std::string, std::string> trouble_;
-};
-
 std::vector<cues::InputRules> rules_of(const cues::CueConfig& config) {
   std::vector<cues::InputRules> rules;
   for (const cues::InputConfig& input : config.inputs) rules.push_back(input.rules);
@@ -144,6 +101,7 @@ cues::CueStatus status_of(const Inputs& inputs, const cues::CueBus& bus, std::si
   status.utime_us = ols::clock_utime_us();
   status.cues = live;
   bus.count(status.counters);
+  status.counters["protobuf_warnings"] = static_cast<double>(ols::exports::protobuf_warnings());
   status.alarms = bus.alarms(ols::clock_monotonic_s());
   if (const std::string trouble = bus.trouble(); !trouble.empty()) {
     status.alarms.insert(status.alarms.begin(), trouble);
@@ -154,6 +112,7 @@ cues::CueStatus status_of(const Inputs& inputs, const cues::CueBus& bus, std::si
 
 int run(const cues::CueConfig& config) {
   if (config.inputs.empty()) spdlog::warn("no [[input]] is configured: nothing comes in");
+  ols::exports::count_protobuf_warnings();
   cues::CueDesk desk(rules_of(config), config.most);
   cues::CueBus bus(config.lcm_url, config.trust);
   bus.connect(ols::clock_monotonic_s(), ols::BusConnector::kLongest_s);
@@ -161,34 +120,24 @@ int run(const cues::CueConfig& config) {
   ols::ServiceNotifier service_manager;
   service_manager.ready("cues");
   spdlog::info("ready: {} inputs", config.inputs.size());
-  Journal journal;
-  double send_due_s = 0.0, status_due_s = 0.0;
-  while (!ols::shutdown_requested()) {
-    const double now_s = ols::clock_monotonic_s();
+  ols::TroubleLog troubles("input");
+  ols::StatusFile status_file(config.status_file);
+  double send_due_s = 0.0;
+  const auto turn = [&](double now_s) {
     bus.turn(now_s, kTurn_ms);
     inputs.turn();
-    service_manager.alive(now_s);
-    if (now_s >= send_due_s) {
-      send_due_s = now_s + 1.0 / config.rate_hz;
-      bus.send(desk.live(ols::clock_utime_us()), ols::clock_utime_us());
-    }
-    if (now_s < status_due_s) continue;
-    status_due_s = now_s + kStatus_s;
+    if (now_s < send_due_s) return;
+    send_due_s = now_s + 1.0 / config.rate_hz;
+    bus.send(desk.live(ols::clock_utime_us()), ols::clock_utime_us());
+  };
+  const auto report = [&] {
     const cues::CueStatus status = status_of(inputs, bus, desk.live(ols::clock_utime_us()).size());
-    journal.look(status);
-    service_manager.status(in_one_line(status));
-    write_status(config.status_file, status);
-  }
-  service_manager.stopping();
-  spdlog::info("stops");
+    for (const cues::InputStatus& input : status.inputs) troubles.look(input.name, input.trouble);
+    status_file.write(to_json(status));
+    return in_one_line(status);
+  };
+  serve(service_manager, kStatus_s, turn, report);
   return 0;
-}
-
-int act(const Arguments& arguments) {
-  cues::CueConfig config;
-  if (!arguments.config.empty()) config = cues::load_cue_config(arguments.config);
-  if (!arguments.lcm_url.empty()) config.lcm_url = arguments.lcm_url;
-  return arguments.check_config ? 0 : run(config);
 }
 
 }  // namespace
@@ -196,20 +145,11 @@ int act(const Arguments& arguments) {
 int main(int argc, char** argv) {
   CLI::App app{"Cues from outside for the fusion: TAK, SAPIENT, ADS-B, or lines of JSON"};
   app.set_version_flag("--version", OLS_VERSION);
-  Arguments arguments;
-  app.add_option("--config", arguments.config, "Configuration file (TOML); all keys have defaults");
-  app.add_option("--lcm-url", arguments.lcm_url, "Bus, in place of the configuration's");
-  app.add_flag("--check-config", arguments.check_config, "Only read and check the configuration");
+  ols::ServiceOptions options;
+  add_service_options(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-cue")) return *status;
-  spdlog::set_default_logger(spdlog::stderr_color_mt("ols-cue"));
-  ols::install_shutdown_handler();
-  try {
-    return act(arguments);
-  } catch (const ols::ConfigError& error) {
-    std::fprintf(stderr, "ols-cue: %s\n", error.what());
-    return ols::kExitBadInput;
-  } catch (const std::exception& error) {
-    spdlog::critical("{}", error.what());
-    return 1;
-  }
+  return ols::run_service("ols-cue", ols::InvalidArgument::kFailure, [&options] {
+    const cues::CueConfig config = configuration_of(options, cues::load_cue_config);
+    return options.check_config ? 0 : run(config);
+  });
 }

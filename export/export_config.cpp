@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <set>
 #include <span>
 #include <stdexcept>
 
-#include "base/config_section.h"
-#include "base/lcm_url.h"
+#include "base/config_common.h"
 #include "export/sapient/identifiers.h"
 
 namespace ols::exports {
@@ -45,15 +42,6 @@ config::Words<Format> format_words() {
   return words;
 }
 
-// It stands in topics, in names of files and in XML.
-void check_word(const std::string& word) {
-  const bool is_good =
-      !word.empty() && word.size() <= 40 && std::ranges::all_of(word, [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '-' || c == '_';
-      });
-  if (!is_good) throw std::invalid_argument("must be 1 to 40 letters, digits, - or _");
-}
-
 void check_topic(const std::string& topic) {
   const bool is_good = !topic.empty() && topic.size() <= 200 && !topic.ends_with('/') &&
                        topic.find_first_of("+#\"\\ ") == std::string::npos;
@@ -68,14 +56,6 @@ void check_cot_type(const std::string& type) {
   if (!is_good) throw std::invalid_argument("is no type of an event, as a-u-A");
 }
 
-void check_area(const OutputConfig& output, ConfigTable& table) {
-  const auto& [south, west, north, east] = output.gate.area_deg;
-  if (south > north || std::abs(south) > 90.0 || std::abs(north) > 90.0 || std::abs(west) > 180.0 ||
-      std::abs(east) > 180.0) {
-    throw table.error("area_deg", "must be south, west, north, east within 90 and 180 degrees");
-  }
-}
-
 void check_output(const OutputConfig& output, ConfigTable& table) {
   try {
     const Address address = parse_address(output.to);
@@ -87,7 +67,7 @@ void check_output(const OutputConfig& output, ConfigTable& table) {
   } catch (const std::invalid_argument& bad) {
     throw table.error("to", bad.what());
   }
-  check_area(output, table);
+  config::check_area(output.gate.area_deg, "area_deg", table);
   if (output.certificate.empty() != output.key.empty()) {
     throw table.error(output.key.empty() ? "certificate" : "key",
                       "certificate and key belong together");
@@ -122,6 +102,9 @@ config::Section mqtt_section(HomeSettings& h) {
           {config::text("prefix", h.prefix, "Topics begin with it.", check_topic),
            config::text("discovery_prefix", h.discovery_prefix,
                         "Home Assistant's own prefix of discovery.", check_topic),
+           config::number("stale_s", h.stale_s, {0.0, 3600.0}, "s",
+                          "After this long without news Home Assistant shows an entity as "
+                          "unavailable; 0: never."),
            config::integer("slots", h.slots, 1, 64, "",
                            "Targets that have entities at the same time.")}};
 }
@@ -159,18 +142,9 @@ config::Section sapient_section(SapientSettings& s) {
 }
 
 void check_names(const ExportConfig& config, ConfigTable& root) {
-  std::set<std::string> names;
-  for (const OutputConfig& output : config.outputs) {
-    if (!names.insert(output.name).second) {
-      throw root.error("output", "two have the name \"" + output.name + "\"");
-    }
-  }
-}
-
-ExportConfig read(ConfigFile& file) {
-  ExportConfig config;
-  config::read(export_section(config), file.root());
-  return config;
+  std::vector<std::string> names;
+  for (const OutputConfig& output : config.outputs) names.push_back(output.name);
+  config::check_distinct(names, "output", root);
 }
 
 }  // namespace
@@ -179,7 +153,7 @@ config::Section output_section(ExportConfig& config) {
   OutputConfig& o = config.outputs.emplace_back();
   return {"",
           "",
-          {config::text("name", o.name, "Of the output, in status and log.", check_word)
+          {config::text("name", o.name, "Of the output, in status and log.", config::word_up_to(40))
                .required_with_section(),
            config::word("format", o.format, format_words(), "docs/exports.md says what is in each.")
                .required_with_section(),
@@ -213,16 +187,13 @@ config::Section output_section(ExportConfig& config) {
 config::Section export_section(ExportConfig& c) {
   return {"",
           "",
-          {config::text("lcm_url", c.lcm_url,
-                        "The bus; ttl=0: only this host, ttl=1: also the other hosts of the site.",
-                        [](const std::string& url) { parse_lcm_url(url); }),
-           config::text("site", c.site, "Names of objects begin with it.", check_word),
+          {config::bus_url(c.lcm_url),
+           config::text("site", c.site, "Names of objects begin with it.", config::word_up_to(40)),
            config::text("geoid", c.geoid,
                         "Grid of the geoid, by its name in PROJ's folders or by its path; formats "
                         "whose heights count from the sea need it.",
                         config::not_empty),
-           config::text("status_file", c.status_file,
-                        "JSON file that is rewritten every second; empty: none."),
+           config::status_file(c.status_file),
            config::number("max_age_s", c.max_age_s, {0.1, 3600.0}, "s",
                           "What is older by this host's clock is not sent."),
            config::number("history_min", c.history_min, {0.0, 1440.0}, "min",
@@ -236,13 +207,11 @@ config::Section export_section(ExportConfig& c) {
 }
 
 ExportConfig load_export_config(const std::string& path) {
-  ConfigFile file(path);
-  return read(file);
+  return config::load(path, export_section);
 }
 
 ExportConfig parse_export_config(const std::string& text, const std::string& name) {
-  ConfigFile file(text, name);
-  return read(file);
+  return config::parse(text, name, export_section);
 }
 
 bool needs_geoid(Format format) { return row_of(format).needs_geoid; }

@@ -1,28 +1,27 @@
 // ols-export: parses the command line, loads the configuration, wires the parts and loops.
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "base/clocks.h"
 #include "base/command_line.h"
+#include "base/service_frame.h"
 #include "base/service_notifier.h"
-#include "base/shutdown.h"
-#include "base/toml_config.h"
+#include "base/status_file.h"
+#include "base/trouble_log.h"
 #include "base/trust/bus_trust.h"
 #include "export/conversion.h"
 #include "export/export_bus.h"
 #include "export/export_config.h"
 #include "export/exporter.h"
 #include "export/factory.h"
+#include "export/protobuf_log.h"
 #include "export/readiness.h"
 #include "export/status.h"
 
@@ -33,57 +32,20 @@ namespace exports = ols::exports;
 constexpr int kTurn_ms = 20;
 constexpr double kStatus_s = 1.0;
 
-struct Arguments {
-  std::string config, lcm_url, format;
+struct Arguments : ols::ServiceOptions {
+  std::string format;
   exports::Conversion conversion;
   double rate_hz = 100.0;
-  bool check_config = false, stations = true, lines = false, tentative = false;
+  bool stations = true, lines = false, tentative = false;
 };
 
 exports::ExportConfig configuration(const Arguments& arguments) {
-  exports::ExportConfig config;
-  if (!arguments.config.empty()) config = exports::load_export_config(arguments.config);
-  if (!arguments.lcm_url.empty()) config.lcm_url = arguments.lcm_url;
+  exports::ExportConfig config = configuration_of(arguments, exports::load_export_config);
   const ols::trust::SiteSettings site = ols::trust::settings_at_start(
       config.trust, ols::trust::process_environment(), exports::kMemberName, {});
   if (!config.has_own_geoid && !site.geoid.empty()) config.geoid = site.geoid;
   return config;
 }
-
-// A failure to write the status must not end the export.
-void write_status(const std::string& path, const exports::ExportStatus& status) {
-  if (path.empty()) return;
-  static bool is_reported = false;
-  try {
-    ols::AtomicFile file(path);
-    file.stream() << to_json(status) << '\n';
-    file.commit();
-    is_reported = false;
-  } catch (const std::exception& failure) {
-    if (!is_reported) spdlog::warn("status: {}", failure.what());
-    is_reported = true;
-  }
-}
-
-// Logs what begins and what ends.
-class Journal {
- public:
-  void look(const exports::ExportStatus& status) {
-    for (const auto& [name, report] : status.outputs) {
-      std::string& last = trouble_[name];
-      if (report.trouble == last) continue;
-      if (report.trouble.empty()) {
-        spdlog::info("output {}: works again", name);
-      } else {
-        spdlog::warn("output {}: {}", name, report.trouble);
-      }
-      last = report.trouble;
-    }
-  }
-
- private:
-  std::map<std::string, std::string> trouble_;
-};
 
 exports::ExportStatus status_of(const exports::Exporter& exporter, const exports::ExportBus& bus) {
   exports::ExportStatus status;
@@ -91,6 +53,7 @@ exports::ExportStatus status_of(const exports::Exporter& exporter, const exports
   status.targets = exporter.targets();
   status.counters = exporter.counters();
   bus.count(status.counters);
+  status.counters["protobuf_warnings"] = static_cast<double>(exports::protobuf_warnings());
   status.alarms = bus.alarms(ols::clock_monotonic_s());
   if (const std::string trouble = bus.trouble(); !trouble.empty()) {
     status.alarms.insert(status.alarms.begin(), trouble);
@@ -102,6 +65,7 @@ exports::ExportStatus status_of(const exports::Exporter& exporter, const exports
 }
 
 int run(const exports::ExportConfig& config) {
+  exports::count_protobuf_warnings();
   const exports::SiteContext site = site_context(config, formats_of(config));
   std::vector<std::unique_ptr<exports::Output>> outputs;
   for (const exports::OutputConfig& output : config.outputs) {
@@ -116,22 +80,19 @@ int run(const exports::ExportConfig& config) {
   ols::ServiceNotifier service_manager;
   service_manager.ready("exports");
   spdlog::info("ready: {} outputs", exporter.outputs().size());
-  Journal journal;
-  double status_due_s = 0.0;
-  while (!ols::shutdown_requested()) {
-    const double now_s = ols::clock_monotonic_s();
+  ols::TroubleLog troubles("output");
+  ols::StatusFile status_file(config.status_file);
+  const auto turn = [&](double now_s) {
     bus.turn(now_s, kTurn_ms);
     exporter.turn(now_s, ols::clock_utime_us());
-    service_manager.alive(now_s);
-    if (now_s < status_due_s) continue;
-    status_due_s = now_s + kStatus_s;
+  };
+  const auto report = [&] {
     const exports::ExportStatus status = status_of(exporter, bus);
-    journal.look(status);
-    service_manager.status(in_one_line(status));
-    write_status(config.status_file, status);
-  }
-  service_manager.stopping();
-  spdlog::info("stops");
+    for (const auto& [name, output] : status.outputs) troubles.look(name, output.trouble);
+    status_file.write(to_json(status));
+    return in_one_line(status);
+  };
+  serve(service_manager, kStatus_s, turn, report);
   return 0;
 }
 
@@ -195,24 +156,10 @@ int main(int argc, char** argv) {
       "more"};
   app.set_version_flag("--version", OLS_VERSION);
   Arguments arguments;
-  app.add_option("--config", arguments.config, "Configuration file (TOML); all keys have defaults");
-  app.add_option("--lcm-url", arguments.lcm_url, "Bus, in place of the configuration's");
-  app.add_flag("--check-config", arguments.check_config, "Only read and check the configuration");
+  add_service_options(app, arguments);
   add_conversion(app, arguments);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-export")) return *status;
-  spdlog::set_default_logger(spdlog::stderr_color_mt("ols-export"));
-  ols::install_shutdown_handler();
   std::signal(SIGPIPE, SIG_IGN);  // a receiver that has gone is an error of its own connection
-  try {
-    return act(arguments);
-  } catch (const ols::ConfigError& error) {
-    std::fprintf(stderr, "ols-export: %s\n", error.what());
-    return ols::kExitBadInput;
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "ols-export: %s\n", error.what());
-    return ols::kExitBadInput;
-  } catch (const std::exception& error) {
-    spdlog::critical("{}", error.what());
-    return 1;
-  }
+  return ols::run_service("ols-export", ols::InvalidArgument::kBadInput,
+                          [&arguments] { return act(arguments); });
 }

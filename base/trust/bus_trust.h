@@ -71,7 +71,6 @@ class BusTrust {
   // The list in force, and its number: for who keeps it beside the logs.
   std::string list_text() const;
   std::int64_t list_number() const;
-  SiteSettings site_settings() const { return site_.settings(); }
   std::int64_t site_settings_number() const { return site_.number(); }
 
   std::int64_t boot_id() const { return self_.boot_id; }

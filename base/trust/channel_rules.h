@@ -17,7 +17,7 @@ enum class Role {
   kOperator,   // commands, procedures
   kSimulator,  // what only the simulator says
   kCue,        // cues from outside
-  kListener,   // nothing: a logger or a doctor, whose key file opens the site tag to it
+  kListener,   // only what the root has signed: a logger or a doctor, whose key opens the tag
   kUnknown,    // of a list that is newer than this program: nothing at all
 };
 const char* to_string(Role role);

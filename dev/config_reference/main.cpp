@@ -11,6 +11,7 @@
 #include "base/command_line.h"
 #include "base/config_section.h"
 #include "base/small_file.h"
+#include "bridge/bridge_config.h"
 #include "central/app/fusion_settings.h"
 #include "console/console_config.h"
 #include "cue/cue_config.h"
@@ -51,6 +52,7 @@ std::string reference() {
          chapter("Console: `ols-console --config`", ols::console::console_section) +
          chapter("Exports: `ols-export --config`", ols::exports::export_section) +
          chapter("Cues: `ols-cue --config`", ols::cues::cue_section) +
+         chapter("Bridge: `ols-bridge --config`", ols::bridge::bridge_section) +
          chapter("Exporter: `ols-exporter --config`", ols::exporter::exporter_section) +
          chapter("Scenario: `ols-sim --scenario`", scenario_section);
 }
@@ -189,6 +191,17 @@ std::vector<Generated> generated() {
                "ols-console --add-user (docs/console.md), then\n# address, certificate and key.\n",
                ols::console::console_section,
                {{"lcm_url", kSiteBus}, {"address", "\"127.0.0.1\""}, {"port", "8080"}})},
+      {folder + "bridge.toml",
+       example(
+           "# Between this site and others: copy to /etc/ols/bridge.toml. docs/configuration.md "
+           "lists every key,\n# docs/bridge.md says what belongs into the server's files.\n",
+           ols::bridge::bridge_section,
+           {{"lcm_url", kSiteBus},
+            {"status_file", "\"/run/ols/bridge.json\""},
+            {"role", "\"site\""},
+            {"region", "\"moravia\""},
+            {"site", "\"airfield\""},
+            {"archive.keep", "true"}})},
       {folder + "cue.toml", cue_example()},
       {folder + "export.toml", export_example()},
       {folder + "exporter.toml",

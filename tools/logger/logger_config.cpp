@@ -1,12 +1,7 @@
 #include "tools/logger/logger_config.h"
 
-#include <algorithm>
-#include <cctype>
-#include <stdexcept>
-
 #include "base/channel_pattern.h"
-#include "base/config_section.h"
-#include "base/lcm_url.h"
+#include "base/config_common.h"
 
 namespace ols::logger {
 namespace {
@@ -14,63 +9,44 @@ namespace {
 // Space for the current and the next file besides the kept ones.
 constexpr double kLeastSplits = 4.0;
 
-void check_name(const std::string& name) {
-  const bool good =
-      !name.empty() && name.size() <= 40 && std::ranges::all_of(name, [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '-' || c == '_';
-      });
-  if (!good) throw std::invalid_argument("must be 1 to 40 letters, digits, - or _");
-}
-
-LoggerConfig read(ConfigFile& file) {
-  LoggerConfig config;
-  config::read(logger_section(config), file.root());
-  return config;
-}
-
 }  // namespace
 
 config::Section logger_section(LoggerConfig& c) {
-  return {
-      "",
-      "",
-      {config::text("folder", c.folder, "Folder of the logs.", config::not_empty),
-       config::text("name", c.name,
-                    "Files are NAME-<UTC>.lcmlog.NN; no other file is ever removed.", check_name),
-       config::text("lcm_url", c.lcm_url,
-                    "The bus; ttl=0: only this host, ttl=1: also the other hosts of the site.",
-                    [](const std::string& url) { parse_lcm_url(url); }),
-       config::text("channels", c.channels, "Channels to record, a regular expression.",
-                    [](const std::string& pattern) { ChannelPattern{pattern}; }),
-       config::flag("invert", c.invert, "Records all channels but those."),
-       config::number("split_mb", c.split_bytes, {0.01, 1e4}, config::kMegabytes,
-                      "Size at which a new file is begun."),
-       config::number("quota_gb", c.quota_bytes, {1e-5, 1e5}, config::kGigabytes,
-                      "Maximum size of all files, at least four times split_mb; the oldest are "
-                      "removed."),
-       config::number("disk_reserve_gb", c.disk_reserve_bytes, {0.0, 1e5}, config::kGigabytes,
-                      "With less free space the oldest files are removed; then recording "
-                      "pauses."),
-       config::number("max_unwritten_mb", c.max_unwritten_mb, {0.1, 1e4}, "MB",
-                      "Maximum size in memory while the disk is slow; more is lost and "
-                      "counted."),
-       config::text("status_file", c.status_file,
-                    "JSON file that is rewritten every second; empty: none.")},
-      {trust::trust_section(c.trust)},
-      [&c](ConfigTable& root) {
-        if (c.quota_bytes < kLeastSplits * c.split_bytes)
-          throw root.error("quota_gb", "must be at least four times split_mb");
-      }};
+  return {"",
+          "",
+          {config::text("folder", c.folder, "Folder of the logs.", config::not_empty),
+           config::text("name", c.name,
+                        "Files are NAME-<UTC>.lcmlog.NN; no other file is ever removed.",
+                        config::word_up_to(40)),
+           config::bus_url(c.lcm_url),
+           config::text("channels", c.channels, "Channels to record, a regular expression.",
+                        [](const std::string& pattern) { ChannelPattern{pattern}; }),
+           config::flag("invert", c.invert, "Records all channels but those."),
+           config::number("split_mb", c.split_bytes, {0.01, 1e4}, config::kMegabytes,
+                          "Size at which a new file is begun."),
+           config::number("quota_gb", c.quota_bytes, {1e-5, 1e5}, config::kGigabytes,
+                          "Maximum size of all files, at least four times split_mb; the oldest are "
+                          "removed."),
+           config::number("disk_reserve_gb", c.disk_reserve_bytes, {0.0, 1e5}, config::kGigabytes,
+                          "With less free space the oldest files are removed; then recording "
+                          "pauses."),
+           config::number("max_unwritten_mb", c.max_unwritten_mb, {0.1, 1e4}, "MB",
+                          "Maximum size in memory while the disk is slow; more is lost and "
+                          "counted."),
+           config::status_file(c.status_file)},
+          {trust::trust_section(c.trust)},
+          [&c](ConfigTable& root) {
+            if (c.quota_bytes < kLeastSplits * c.split_bytes)
+              throw root.error("quota_gb", "must be at least four times split_mb");
+          }};
 }
 
 LoggerConfig load_logger_config(const std::string& path) {
-  ConfigFile file(path);
-  return read(file);
+  return config::load(path, logger_section);
 }
 
 LoggerConfig parse_logger_config(const std::string& text, const std::string& name) {
-  ConfigFile file(text, name);
-  return read(file);
+  return config::parse(text, name, logger_section);
 }
 
 }  // namespace ols::logger

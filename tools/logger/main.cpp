@@ -8,12 +8,12 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "base/atomic_file.h"
 #include "base/clocks.h"
 #include "base/command_line.h"
 #include "base/lcm_url.h"
 #include "base/service_notifier.h"
 #include "base/shutdown.h"
+#include "base/status_file.h"
 #include "base/toml_config.h"
 #include "tools/logger/bus_recorder.h"
 #include "tools/logger/supervisor.h"
@@ -29,21 +29,6 @@ std::string status_line(const ols::logger::LoggerStatus& status) {
                 status.files, status.free_bytes * 1e-9);
   return (status.recording ? "recording " : "NOT recording: ") + status.text + room +
          (status.bus_alarm.empty() ? "" : "; " + status.bus_alarm);
-}
-
-// A failure to write the status must not end the recording.
-void write_status(const std::string& path, const ols::logger::LoggerStatus& status) {
-  if (path.empty()) return;
-  static bool is_reported = false;
-  try {
-    ols::AtomicFile file(path);
-    file.stream() << ols::logger::to_json(status, ols::clock_utime_us()) << '\n';
-    file.commit();
-    is_reported = false;
-  } catch (const std::exception& failure) {
-    if (!is_reported) spdlog::warn("status: {}", failure.what());
-    is_reported = true;
-  }
 }
 
 // Records into one file until the program is ended.
@@ -63,6 +48,7 @@ int run_into(const std::string& file, const ols::logger::LoggerConfig& config) {
 
 int run(const ols::logger::LoggerConfig& config) {
   ols::logger::Supervisor supervisor(config);
+  ols::StatusFile status_file(config.status_file);
   ols::ServiceNotifier service_manager;
   double status_due_s = 0.0;
   bool ready = false;
@@ -75,7 +61,7 @@ int run(const ols::logger::LoggerConfig& config) {
       ready ? service_manager.status(status_line(status))
             : service_manager.ready(status_line(status));
       ready = true;
-      write_status(config.status_file, status);
+      status_file.write(ols::logger::to_json(status, ols::clock_utime_us()));
       status_due_s = now_s + kStatus_s;
     }
     service_manager.alive(now_s);

@@ -90,6 +90,28 @@ TEST_F(SiteKeeperTest, WhatCannotBeUsedIsRefusedWithItsReason) {
   EXPECT_EQ(one.number(), 6);
 }
 
+// Otherwise whoever records the bus could play the older settings back until the next start.
+TEST_F(SiteKeeperTest, ANumberThatTheRootHasSignedIsNotUndercutThoughItCouldNotBeUsed) {
+  SiteKeeper one = keeper([](const SiteSettings& site, const std::string& name) {
+    if (site.geoid == "g5") throw ConfigError(name + ":4: geoid: is bad");
+  });
+  one.hear(told(5));
+  EXPECT_EQ(one.number(), 0);
+  one.hear(told(4));
+  EXPECT_EQ(one.number(), 0);
+  EXPECT_THAT(one.trouble(), HasSubstr("number 4 does not replace 5"));
+}
+
+TEST_F(SiteKeeperTest, AGivenFileThatCannotBeReadIsSaid) {
+  put(given_, told(1));
+  SiteKeeper one = keeper();
+  std::filesystem::remove(given_);
+  std::filesystem::create_directory(given_);
+  one.look();
+  EXPECT_THAT(one.trouble(), HasSubstr("site.toml"));
+  EXPECT_EQ(one.number(), 1);
+}
+
 TEST_F(SiteKeeperTest, TheFileAtTheCentreIsWatchedAndTold) {
   put(given_, told(1));
   SiteKeeper one = keeper();

@@ -1,0 +1,47 @@
+// What the configurations of several programs share: rows, checks, and how a file becomes a
+// configuration.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/config_section.h"
+
+namespace ols::config {
+
+Row bus_url(std::string& field);
+Row status_file(std::string& field);
+
+// Letters, digits, - and _: it stands in names of files, in topics and in XML.
+Check word_up_to(std::size_t longest);
+// South, west, north, east; the range of the numbers is the row's.
+void check_area(const std::array<double, 4>& area_deg, const char* key, const ConfigTable& table);
+
+// Of the elements of an array of tables: refuses two of one name.
+void check_distinct(const std::vector<std::string>& names, const char* array,
+                    const ConfigTable& root);
+
+template <class Config>
+Config read(ConfigFile& file, Section (*section)(Config&)) {
+  Config config;
+  read(section(config), file.root());
+  return config;
+}
+
+// Throws ConfigError.
+template <class Config>
+Config load(const std::string& path, Section (*section)(Config&)) {
+  ConfigFile file(path);
+  return read(file, section);
+}
+
+// The same from text, `name` standing for the path in errors.
+template <class Config>
+Config parse(const std::string& text, const std::string& name, Section (*section)(Config&)) {
+  ConfigFile file(text, name);
+  return read(file, section);
+}
+
+}  // namespace ols::config

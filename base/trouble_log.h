@@ -1,0 +1,22 @@
+// Logs of each of a program's inputs or outputs what goes wrong, once, and that it works again.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace ols {
+
+class TroubleLog {
+ public:
+  // kind: "input", "output".
+  explicit TroubleLog(std::string kind);
+
+  // Call regularly; trouble: empty: none.
+  void look(const std::string& name, const std::string& trouble);
+
+ private:
+  const std::string kind_;
+  std::map<std::string, std::string> last_;
+};
+
+}  // namespace ols
