@@ -1,5 +1,6 @@
 #include "export/home/discovery.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "export/home/home_encoder.h"
@@ -25,6 +26,10 @@ Packet entity(const Device& device, const std::string& component, const std::str
       {"availability_topic", status_topic(device.settings)},
       {"device", {{"identifiers", {device.id}}, {"name", device.name}, {"manufacturer", "OLS"}}}};
   config.update(more);
+  // Home Assistant knows no such thing of places on the map.
+  if (device.settings.stale_s > 0.0 && component != "device_tracker") {
+    config["expire_after"] = std::llround(device.settings.stale_s);
+  }
   const std::string topic =
       device.settings.discovery_prefix + "/" + component + "/" + id + "/config";
   return {topic, config.dump(-1, ' ', false, Json::error_handler_t::replace), topic, true};

@@ -15,6 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostStations = 500;
+constexpr double kSaidInTime = 3.0;  // times before it is stale: one may be lost
 
 Json number(double value, int decimals) {
   if (!std::isfinite(value)) return nullptr;
@@ -135,12 +136,24 @@ Packets HomeEncoder::encode(const Line& line) {
   return {{topic, text_of(json_of(line)), topic}};
 }
 
-Packets HomeEncoder::turn(std::int64_t) {
+bool HomeEncoder::is_free_slot_due(std::int64_t utime_us) const {
+  if (!slots_are_told_) return true;
+  if (settings_.stale_s <= 0.0) return false;
+  // A clock that was set back must not silence them.
+  const double early_s = 1e-6 * static_cast<double>(free_due_us_ - utime_us);
+  return early_s <= 0.0 || early_s > settings_.stale_s / kSaidInTime;
+}
+
+Packets HomeEncoder::turn(std::int64_t utime_us) {
   Packets packets;
-  if (std::exchange(slots_are_told_, true)) return packets;
+  if (!is_free_slot_due(utime_us)) return packets;
+  free_due_us_ = utime_us + std::llround(1e6 * settings_.stale_s / kSaidInTime);
+  const bool is_new = !std::exchange(slots_are_told_, true);
   for (std::size_t slot = 0; slot < slots_.count(); ++slot) {
-    for (Packet& packet : discover_slot(settings_, site_, slot)) {
-      packets.push_back(std::move(packet));
+    if (is_new) {
+      for (Packet& packet : discover_slot(settings_, site_, slot)) {
+        packets.push_back(std::move(packet));
+      }
     }
     if (slots_.is_free(slot)) packets.push_back(free_slot(slot_topic(settings_, slot)));
   }

@@ -3,11 +3,13 @@
 //
 //   PREFIX/status           "online" or "offline" (the last will)
 //   PREFIX/targets          every target
-//   PREFIX/target/SLOT      the target in this slot, retained; {"state": "none"} while it is free
+//   PREFIX/target/SLOT      the target in this slot, retained; {"state": "none"} while it is free,
+//                           said again before that is old news
 //   PREFIX/station/NAME     retained
 //   PREFIX/line/NAME        what this station sees
 #pragma once
 
+#include <cstdint>
 #include <set>
 #include <string>
 
@@ -28,10 +30,13 @@ class HomeEncoder : public Encoder {
   void begin_again() override;
 
  private:
+  bool is_free_slot_due(std::int64_t utime_us) const;
+
   HomeSettings settings_;
   std::string site_;
   TargetSlots slots_;
   bool slots_are_told_ = false;
+  std::int64_t free_due_us_ = 0;  // when it is said again which slots are free
   std::set<std::string> told_stations_;
 };
 

@@ -26,6 +26,8 @@ class Link {
   // receiver says.
   virtual void wait(int wake_fd, double seconds) = 0;
   virtual void close() = 0;
+  // Before an open connection is closed because the program ends; throws as the others do.
+  virtual void say_goodbye() {}
   // Whether what waited while it was closed is old news.
   virtual bool forgets() const { return true; }
   // What the receiver finds wrong while the connection holds; empty: nothing.

@@ -86,6 +86,7 @@ void QueuedOutlet::serve() {
     }
     note_complaints();
   }
+  link_->say_goodbye();
   link_->close();
 }
 

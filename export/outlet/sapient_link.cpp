@@ -5,6 +5,7 @@
 
 #include "base/clocks.h"
 #include "export/sapient/registration.h"
+#include "export/sapient/sapient_messages.h"
 
 namespace ols::exports {
 namespace {
@@ -29,6 +30,10 @@ void SapientLink::open() {
     if (left_s <= 0.0) throw error("does not acknowledge the registration");
     wait(kNoWakeup, left_s);
   }
+}
+
+void SapientLink::say_goodbye() {
+  StreamLink::send({"", sapient_goodbye(settings_, clock_utime_us())});
 }
 
 // What the receiver has to say it says to a busy sender too.

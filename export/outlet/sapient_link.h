@@ -13,6 +13,7 @@ class SapientLink : public StreamLink {
 
   void open() override;
   void send(const Packet& packet) override;
+  void say_goodbye() override;
   // Of the messages that the receiver has called wrong, the newest, for some seconds.
   std::string trouble() const override;
   std::uint64_t complaints() const override { return dialogue_.complaints(); }

@@ -140,17 +140,23 @@ void add_station(StatusReport& report, const Station& station) {
   if (!is_well) report.set_system(StatusReport::SYSTEM_WARNING);
 }
 
+// It is new each time: a heartbeat that says everything fits whatever its receiver knows.
+StatusReport& begin_report(SapientMessage& message, const SapientSettings& settings,
+                           const char* kind, std::int64_t utime_us) {
+  StatusReport& report = *message.mutable_status_report();
+  report.set_report_id(report_id(utime_us, settings.site + "." + kind));
+  report.set_info(StatusReport::INFO_NEW);
+  report.set_mode("Default");
+  return report;
+}
+
 }  // namespace
 
-// It is new each time: a heartbeat that says everything fits whatever its receiver knows.
 std::string sapient_status(const SapientSettings& settings, const std::vector<Station>& stations,
                            std::int64_t utime_us) {
   SapientMessage message = message_of(settings, utime_us);
-  StatusReport& report = *message.mutable_status_report();
-  report.set_report_id(report_id(utime_us, settings.site + ".status"));
+  StatusReport& report = begin_report(message, settings, "status", utime_us);
   report.set_system(StatusReport::SYSTEM_OK);
-  report.set_info(StatusReport::INFO_NEW);
-  report.set_mode("Default");
   if (stations.empty()) {
     report.set_system(StatusReport::SYSTEM_WARNING);
     add_status(report, false, StatusReport::STATUS_TYPE_NOT_DETECTING, "no station is heard");
@@ -160,6 +166,12 @@ std::string sapient_status(const SapientSettings& settings, const std::vector<St
               middle.height_m);
   }
   for (const Station& station : stations) add_station(report, station);
+  return framed(message.SerializeAsString());
+}
+
+std::string sapient_goodbye(const SapientSettings& settings, std::int64_t utime_us) {
+  SapientMessage message = message_of(settings, utime_us);
+  begin_report(message, settings, "goodbye", utime_us).set_system(StatusReport::SYSTEM_GOODBYE);
   return framed(message.SerializeAsString());
 }
 

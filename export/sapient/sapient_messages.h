@@ -13,6 +13,9 @@ namespace ols::exports {
 std::string sapient_status(const SapientSettings& settings, const std::vector<Station>& stations,
                            std::int64_t utime_us);
 
+// The last one of a node that goes.
+std::string sapient_goodbye(const SapientSettings& settings, std::int64_t utime_us);
+
 // `stamp_us`: of the report; the target is told where it is then.
 std::string sapient_detection(const SapientSettings& settings, const Target& target,
                               std::int64_t stamp_us);

@@ -12,6 +12,7 @@ from sapient_msg.bsi_flex_335_v2_0.location_pb2 import (
 )
 from sapient_msg.bsi_flex_335_v2_0.location_pb2 import LOCATION_DATUM_WGS84_E as ELLIPSOID
 from sapient_msg.bsi_flex_335_v2_0.sapient_message_pb2 import SapientMessage
+from sapient_msg.bsi_flex_335_v2_0.status_report_pb2 import StatusReport
 from sapient_msg_pydantic.bsi_flex_335_v2_0.sapient_message import SapientMessage as Model
 
 RECEIVER = "5913c0f4-9f89-4c01-ab90-939099797c4f"
@@ -123,6 +124,12 @@ class Receiver:
 
     def of(self, kind):
         return [heard for heard in list(self.heard) if heard.message.HasField(kind)]
+
+    def reports(self, goodbye=False):
+        """Of state; or those with which a node goes."""
+        messages = (heard.message for heard in self.of("status_report"))
+        end = StatusReport.SYSTEM_GOODBYE
+        return [one for one in messages if (one.status_report.system == end) == goodbye]
 
     def end_connections(self):
         for connection in self.connections:

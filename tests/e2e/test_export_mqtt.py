@@ -142,6 +142,7 @@ def test_a_target_and_its_entities(tmp_path, subscriber):
         for topic in configs:
             config = subscriber.json(topic)
             jsonschema.validate(config, DISCOVERY)
+            assert config.get("expire_after") == (None if "device_tracker" in topic else 30)
             assert config["state_topic"] in subscriber.topics, "an entity without a state"
         assert subscriber.topics["ols/status"] == "online"
         dropped = target(track_state=target_t.TRACK_DROPPED)

@@ -16,8 +16,9 @@ from export_site import (
     received,
     target,
     udp_receiver,
+    wait,
 )
-from sapient_site import OBJECT, Receiver, check
+from sapient_site import OBJECT, Receiver, check, framed
 
 pytestmark = pytest.mark.usefixtures("unsigned")
 METRES = math.radians(1.0) * 6.371e6  # a degree of a great circle
@@ -44,7 +45,7 @@ def test_a_site_is_a_node_that_keeps_to_the_standard(tmp_path):
     registration = receiver.heard[0].message.registration
     assert registration.icd_version == "BSI Flex 335 v2.0"
     assert registration.status_definition.status_interval.value == 1.0
-    state = receiver.of("status_report")[-1].message.status_report
+    state = receiver.reports()[-1].status_report
     place = state.node_location
     assert (place.y, place.x, place.z) == (47.4, 13.2, 600.0)
     assert state.status[0].status_value.startswith("alfa: tracking")
@@ -93,6 +94,17 @@ def test_times_are_those_that_receivers_take(tmp_path):
     assert len({heard.message.detection_report.object_id for heard in detections}) >= 20
     reports = [heard.message.detection_report.report_id for heard in detections]
     assert len(set(reports)) == len(reports)
+
+
+def test_a_node_that_goes_says_so_last(tmp_path):
+    receiver, publisher = Receiver(), Publisher()
+    with Exporter(tmp_path, sapient(receiver)):
+        publisher.until(lambda: receiver.of("detection_report"), "a detection")
+    wait(lambda: receiver.reports(goodbye=True), "the goodbye")
+    last = receiver.heard[-1].message
+    assert last == receiver.reports(goodbye=True)[-1]
+    check(last)
+    assert len(receiver.reports(goodbye=True)) == 1
 
 
 def test_names_stay_over_a_restart(tmp_path):
@@ -180,6 +192,20 @@ def test_rubbish_is_named_and_harms_nothing(tmp_path):
     with Exporter(tmp_path, sapient(receiver)) as exporter:
         publisher.until(lambda: receiver.of("detection_report"), "a detection")
         receiver.connections[-1].sendall(b"HTTP/1.1 400 Bad Request\r\n\r\n")
+        publisher.until(lambda: exporter.output("hub").get("failures") == 1, "it is counted")
+        receiver.heard.clear()
+        publisher.until(lambda: receiver.of("detection_report"), "detections again", 5.0)
+
+
+def test_a_flood_of_tasks_ends_the_connection_for_a_moment(tmp_path):
+    """Each answer waits for a receiver that reads slowly: more than a few at once are not owed."""
+    receiver, publisher = Receiver(), Publisher()
+    with Exporter(tmp_path, sapient(receiver)) as exporter:
+        publisher.until(lambda: receiver.of("detection_report"), "a detection")
+        task = receiver.to_node()
+        task.task.task_id, task.task.control = OBJECT, 1
+        task.task.command.request = "Stop"
+        receiver.connections[-1].sendall(framed(task) * 20)
         publisher.until(lambda: exporter.output("hub").get("failures") == 1, "it is counted")
         receiver.heard.clear()
         publisher.until(lambda: receiver.of("detection_report"), "detections again", 5.0)

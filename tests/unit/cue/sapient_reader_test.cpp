@@ -213,6 +213,38 @@ TEST(SapientReader, SpeedsAreInTheUnitsOfTheRegistration) {
   EXPECT_NEAR((*found.velocity_enu_m_s)[0], 10.0, 1e-12);
 }
 
+// A mode may describe several detections, and only the first of them the units.
+TEST(SapientReader, ADefinitionWithoutUnitsKeepsThoseOfTheFirst) {
+  SapientReader reader(kGeoid);
+  auto registration = message_of_node();
+  auto& mode = *registration.mutable_registration()->add_mode_definition();
+  mode.add_detection_definition()
+      ->mutable_velocity_type()
+      ->mutable_enu_velocity_units()
+      ->set_east_north_rate_units(sapient::SPEED_UNITS_KPH);
+  mode.add_detection_definition()->mutable_location_type()->set_zone("33N");
+  reader.take(registration.SerializeAsString());
+  auto message = detection();
+  message.mutable_detection_report()->mutable_enu_velocity()->set_east_rate(36.0);
+  const Report found = report_of(reader.take(message.SerializeAsString()).at(0));
+  EXPECT_NEAR((*found.velocity_enu_m_s)[0], 10.0, 1e-12);
+}
+
+TEST(SapientReader, NewcomersPushNobodyOut) {
+  SapientReader reader(kGeoid);
+  reader.take(node_status().SerializeAsString());
+  for (int i = 0; i < 2000; ++i) {
+    auto newcomer = node_status();
+    newcomer.set_node_id("newcomer " + std::to_string(i));
+    reader.take(newcomer.SerializeAsString());
+  }
+  EXPECT_EQ(refusal(reader.take(sight().SerializeAsString()).at(0)), Refusal::kCount);
+  auto last = sight();
+  last.set_node_id("newcomer 1999");
+  EXPECT_EQ(refusal(reader.take(last.SerializeAsString()).at(0)), Refusal::kOtherType)
+      << "no room to keep where it is";
+}
+
 TEST(SapientReader, WhatIsNoUseIsNamed) {
   SapientReader reader(kGeoid);
   EXPECT_EQ(refusal(reader.take("\xff\xff").at(0)), Refusal::kMalformed);

@@ -43,6 +43,36 @@ TEST(HomeEncoder, EntitiesAreToldOnceAndAgainToANewBroker) {
   EXPECT_EQ(encoder.encode(made_station()).size(), 5U);
 }
 
+TEST(HomeEncoder, WhatIsOldNewsBecomesUnavailable) {
+  HomeEncoder encoder({.stale_s = 12.0, .slots = 1}, "brno");
+  Packets told = encoder.turn(0);
+  for (Packet& packet : encoder.encode(made_station())) told.push_back(std::move(packet));
+  int expiring = 0;
+  for (const Packet& packet : told) {
+    if (!packet.where.ends_with("/config")) continue;
+    const bool is_place = packet.where.find("device_tracker") != std::string::npos;
+    EXPECT_EQ(json_of(packet).contains("expire_after"), !is_place) << packet.where;
+    expiring += json_of(packet).value("expire_after", 0) == 12 ? 1 : 0;
+  }
+  EXPECT_EQ(expiring, 9);
+  HomeEncoder never({.stale_s = 0.0, .slots = 1}, "brno");
+  EXPECT_FALSE(json_of(never.turn(0)[1]).contains("expire_after"));
+  EXPECT_TRUE(never.turn(3'600'000'000).empty());
+}
+
+TEST(HomeEncoder, AFreeSlotIsSaidAgainBeforeItIsOldNews) {
+  HomeEncoder encoder({.stale_s = 12.0, .slots = 2}, "brno");
+  encoder.turn(0);
+  encoder.encode(made_target());
+  EXPECT_TRUE(encoder.turn(3'900'000).empty());
+  const Packets again = encoder.turn(4'000'000);
+  ASSERT_EQ(again.size(), 1U) << "the other one is taken";
+  EXPECT_EQ(again[0].where, "ols/target/2");
+  EXPECT_EQ(json_of(again[0]).at("state"), "none");
+  EXPECT_TRUE(encoder.turn(5'000'000).empty());
+  EXPECT_EQ(encoder.turn(-3'600'000'000).size(), 1U) << "the clock was set back";
+}
+
 TEST(HomeEncoder, NamesAreMadeFitForTopics) {
   EXPECT_EQ(topic_word("al/fa +#"), "al_fa___");
   Station station = made_station();

@@ -38,6 +38,10 @@ class MadeLink : public Link {
     ::poll(&wake, 1, static_cast<int>(1e3 * seconds));
   }
   void close() override {}
+  void say_goodbye() override {
+    const std::lock_guard lock(receiver_.mutex);
+    receiver_.got.emplace_back("goodbye");
+  }
   std::string trouble() const override { return receiver_.complains ? "complains" : ""; }
   std::uint64_t complaints() const override { return receiver_.complains ? 1 : 0; }
 
@@ -77,6 +81,19 @@ TEST(QueuedOutlet, SaysWhatAnOpenReceiverComplainsOf) {
   ASSERT_TRUE(eventually([&] { return outlet.report().complaints == 1; }));
   EXPECT_EQ(outlet.report().trouble, "complains");
   EXPECT_TRUE(outlet.report().is_open);
+}
+
+TEST(QueuedOutlet, SaysGoodbyeToAnOpenReceiverOnly) {
+  Receiver receiver, broken;
+  {
+    QueuedOutlet outlet(std::make_unique<MadeLink>(receiver));
+    ASSERT_TRUE(eventually([&] { return outlet.report().is_open; }));
+    broken.refusals = 1'000'000;
+    QueuedOutlet other(std::make_unique<MadeLink>(broken));
+    ASSERT_TRUE(eventually([&] { return other.report().failures > 0; }));
+  }
+  EXPECT_EQ(receiver.got, std::vector<std::string>{"goodbye"});
+  EXPECT_EQ(broken.got, std::vector<std::string>{});
 }
 
 TEST(QueuedOutlet, SaysThatAConnectionBroke) {
