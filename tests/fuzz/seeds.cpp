@@ -21,6 +21,7 @@
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
 #include "ols_msg/video_request_t.hpp"
+#include "ols_msg/video_stream_request_t.hpp"
 
 namespace {
 
@@ -178,6 +179,19 @@ std::string of_channel(char channel, const std::string& payload) {
           std::string(1, channel) + payload};
 }
 
+void write_video_requests(const std::filesystem::path& folder) {
+  ols_msg::video_request_t request{};
+  request.schema_version = ols_msg::video_request_t::SCHEMA_VERSION;
+  request.max_width_px = 32;
+  request.quality = 60;
+  write(folder / "video_request" / "whole", encoded(request));
+  ols_msg::video_stream_request_t stream{};
+  stream.schema_version = ols_msg::video_stream_request_t::SCHEMA_VERSION;
+  stream.max_width_px = 32;
+  stream.quality = 60;
+  write(folder / "video_request" / "stream", encoded(stream));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -231,10 +245,6 @@ int main(int argc, char** argv) {
           framed(static_cast<char>(kind), bytes));
     ++kind;
   }
-  ols_msg::video_request_t request{};
-  request.schema_version = ols_msg::video_request_t::SCHEMA_VERSION;
-  request.max_width_px = 32;
-  request.quality = 60;
-  write(folder / "video_request" / "whole", encoded(request));
+  write_video_requests(folder);
   return 0;
 }

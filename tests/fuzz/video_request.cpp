@@ -13,7 +13,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const cv::Rect region = ols::video::region_of(*request, kGray.size());
   ols::fuzz::require(!region.empty(), "the region has a pixel");
   ols::fuzz::require((region & cv::Rect({0, 0}, kGray.size())) == region, "and is in the frame");
-  const auto bytes = ols::video::encode_frame(frame, 1, {"a", 1}, *request);
+  ols::video::H264Encoder stream;
+  const auto bytes = ols::video::encode_frame(frame, 1, {"a", 1}, *request, stream);
+  ols::fuzz::require(!bytes.empty(), "any picture can be coded");
   ols_msg::video_frame_t answer;
   const auto length = static_cast<int>(bytes.size());
   ols::fuzz::require(answer.decode(bytes.data(), 0, length) == length, "the answer decodes");

@@ -1,0 +1,54 @@
+// Has the server keep a stream, and looks from time to time whether it grows. A thread of its own:
+// a server may take its time to answer.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bridge/nats_link.h"
+#include "bridge/stream_plan.h"
+
+namespace ols::bridge {
+
+// A copied site, by the newest message that the stream has of it.
+struct SourceReport {
+  std::string site;
+  std::int64_t newest_utime_us = 0;  // 0: none
+};
+
+struct ArchiveReport {
+  bool is_kept = false;
+  std::string trouble = "no answer yet";
+  std::uint64_t messages = 0, bytes = 0;
+  std::vector<SourceReport> sources;
+};
+
+class ArchiveStream {
+ public:
+  ArchiveStream(NatsLink& link, StreamPlan plan, const BridgeConfig& config);
+  ~ArchiveStream();
+  ArchiveStream(const ArchiveStream&) = delete;
+  ArchiveStream& operator=(const ArchiveStream&) = delete;
+
+  ArchiveReport report() const;
+
+ private:
+  void work();
+  ArchiveReport look();
+
+  NatsLink& link_;
+  const StreamPlan plan_;
+  const std::string domain_, region_;
+  bool is_made_ = false;  // of the thread
+  mutable std::mutex mutex_;
+  std::condition_variable end_;
+  bool ends_ = false;
+  ArchiveReport report_;
+  std::thread thread_;
+};
+
+}  // namespace ols::bridge

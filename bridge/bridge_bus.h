@@ -1,0 +1,31 @@
+// ols-bridge on the bus: hears and sends messages as they are, with their signatures, which it does
+// not judge. Sends from any thread.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "base/bus_client.h"
+#include "bridge/passage.h"
+
+namespace ols::bridge {
+
+class BridgeBus : public BusClient {
+ public:
+  // In the thread of turn(), with the message's bytes as received.
+  using Handler = std::function<void(const std::string& channel, Bytes bytes)>;
+
+  // channels: a regular expression; empty: it hears nothing.
+  BridgeBus(std::string url, const std::string& channels, const Handler& handler);
+
+  // False: there is no bus.
+  bool send(const std::string& channel, Bytes bytes);
+
+ private:
+  std::mutex mutex_;
+  std::unique_ptr<LcmBus> sender_;  // under the lock: another one, which hears nothing
+};
+
+}  // namespace ols::bridge

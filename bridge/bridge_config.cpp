@@ -1,0 +1,164 @@
+#include "bridge/bridge_config.h"
+
+#include <algorithm>
+#include <span>
+#include <stdexcept>
+
+#include "base/config_common.h"
+
+namespace ols::bridge {
+namespace {
+
+void check_name(const std::string& name) {
+  if (!is_name(name)) throw std::invalid_argument("must be 1 to 40 letters, digits, - or _");
+}
+
+void check_server(const std::string& url) {
+  if (!url.starts_with("nats://") && !url.starts_with("tls://")) {
+    throw std::invalid_argument("\"" + url + "\" is neither nats://HOST:PORT nor tls://HOST:PORT");
+  }
+}
+
+// Runs a check of one word on all of a list.
+template <class Check>
+void check_all(ConfigTable& table, const char* key, const std::vector<std::string>& words,
+               Check check) {
+  try {
+    for (const std::string& word : words) check(word);
+  } catch (const std::invalid_argument& bad) {
+    throw table.error(key, bad.what());
+  }
+}
+
+config::Section nats_section(NatsConfig& n) {
+  return {"nats",
+          "The server of NATS on this host, a leaf of the network of sites: docs/bridge.md.",
+          {config::texts("servers", n.servers, "nats://HOST:PORT or tls://HOST:PORT, any of them."),
+           config::text("credentials", n.credentials,
+                        "File of the user's credentials; empty: nkey and seed, if any."),
+           config::text("nkey", n.nkey, "The user's public key; empty: none."),
+           config::text("seed", n.seed,
+                        "File of that key's seed; empty: ols-nats of the service's credentials."),
+           config::text("authority", n.authority,
+                        "File of the certificates that a server's must be signed by."),
+           config::text("certificate", n.certificate, "File of the user's own; empty: none."),
+           config::text("key", n.key, "File of its private key.")},
+          {},
+          [&n](ConfigTable& table) {
+            if (n.servers.empty()) throw table.error("servers", "must name one");
+            check_all(table, "servers", n.servers, check_server);
+            if (n.certificate.empty() != n.key.empty()) {
+              throw table.error("key", "a certificate and its key belong together");
+            }
+            if (!n.credentials.empty() && !n.nkey.empty()) {
+              throw table.error("nkey", "either credentials or a key");
+            }
+          }};
+}
+
+config::Section archive_section(ArchiveConfig& a) {
+  return {"archive",
+          "A stream of the server keeps bearings, statuses and targets, never a command.",
+          {config::flag("keep", a.is_on, "Whether the bridge has the server keep one."),
+           config::number("hours", a.keep_h, {0.1, 24.0 * 366}, "h", "How long."),
+           config::text("domain", a.domain,
+                        "JetStream's domain of the server; empty: of the one that is connected."),
+           config::texts("sources", a.sources,
+                         "Of a region: domains of sites whose streams it copies.")},
+          {},
+          [&a](ConfigTable& table) { check_all(table, "sources", a.sources, check_name); }};
+}
+
+config::Section ownership_section(OwnershipConfig& o) {
+  return {
+      "ownership",
+      "Of regions whose fusions see the same targets: one of them owns each.",
+      {config::flag("share", o.is_on, "Whether there are others; alone, a fusion owns all it has."),
+       config::text("name", o.name, "Of this fusion among them; empty: the region's."),
+       config::text("domain", o.domain, "JetStream's domain of the server that keeps the owners."),
+       config::numbers("cell_deg", std::span<double>(o.cell_deg), {-180.0, 180.0}, "deg",
+                       "South, west, north, east: whose targets belong to this fusion."),
+       config::number("lease_s", o.lease_s, {0.5, 60.0}, "s",
+                      "A target whose owner is silent this long has another one by then."),
+       config::number("margin_m", o.margin_m, {0.0, 1e5}, "m",
+                      "How far a target is beyond the border, and 3 sigma, before it changes.")},
+      {},
+      [&o](ConfigTable& table) {
+        config::check_area(o.cell_deg, "cell_deg", table);
+        if (!o.name.empty()) {
+          check_all(table, "name", {o.name}, check_name);
+        }
+      }};
+}
+
+bool is_own_station(const BridgeConfig& config, const Selection& one) {
+  return std::ranges::count(config.stations, one.station) > 0;
+}
+
+void check(const BridgeConfig& c, ConfigTable& root) {
+  check_all(root, "stations", c.stations, check_name);
+  check_all(root, "takes", c.takes, [&c](const std::string& text) {
+    const Selection one = parse_selection(text);
+    if (c.role == Role::kSite && is_own_station(c, one)) {
+      throw std::invalid_argument("\"" + text + "\": a station of that name goes out");
+    }
+  });
+  check_all(root, "commands", c.commands, [](const std::string& word) {
+    if (std::ranges::count(commands(), word) == 0) {
+      throw std::invalid_argument("\"" + word + "\" is no command that crosses");
+    }
+  });
+  if (c.role == Role::kSite && c.ownership.is_on && !c.targets) {
+    throw root.error("targets", "without targets there is nothing to own");
+  }
+}
+
+}  // namespace
+
+config::Section bridge_section(BridgeConfig& c) {
+  return {
+      "",
+      "",
+      {config::bus_url(c.lcm_url), config::status_file(c.status_file),
+       config::word("role", c.role, {{"site", Role::kSite}, {"region", Role::kRegion}},
+                    "site: stations are on this bus; region: a fusion of several sites' stations."),
+       config::text("region", c.region, "Its name in the subjects.", check_name),
+       config::text("site", c.site, "Its name in the subjects.", check_name),
+       config::texts("stations", c.stations,
+                     "Of a site: those that cross; empty: all that are heard."),
+       config::texts("takes", c.takes,
+                     "Others' stations that come in: REGION.SITE.STATION, * for all of a part."),
+       config::texts("commands", c.commands,
+                     "That cross, from a region to a site: slew, ptu, lens, designate, record."),
+       config::flag("targets", c.targets, "Whether the targets of the fusion on this bus go out."),
+       config::number("command_age_s", c.command_age_s, {0.05, 10.0}, "s",
+                      "An older command is refused.")},
+      {nats_section(c.nats), archive_section(c.archive), ownership_section(c.ownership)},
+      [&c](ConfigTable& root) { check(c, root); }};
+}
+
+PassageConfig passage_of(const BridgeConfig& config) {
+  PassageConfig passage;
+  passage.role = config.role;
+  passage.region = config.region;
+  passage.site = config.site;
+  passage.stations = config.stations;
+  for (const std::string& text : config.takes) passage.takes.push_back(parse_selection(text));
+  if (config.role == Role::kRegion && config.takes.empty()) {
+    passage.takes.push_back({config.region, "*", "*"});
+  }
+  passage.commands = config.commands;
+  passage.targets = config.targets;
+  passage.command_age_s = config.command_age_s;
+  return passage;
+}
+
+BridgeConfig load_bridge_config(const std::string& path) {
+  return config::load(path, bridge_section);
+}
+
+BridgeConfig parse_bridge_config(const std::string& text, const std::string& name) {
+  return config::parse(text, name, bridge_section);
+}
+
+}  // namespace ols::bridge

@@ -1,0 +1,62 @@
+// What ols-bridge's configuration file holds: docs/configuration.md.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "bridge/passage.h"
+
+namespace ols::config {
+struct Section;
+}
+namespace ols::bridge {
+
+// The connection to a server of NATS.
+struct NatsConfig {
+  std::vector<std::string> servers{"nats://127.0.0.1:4222"};
+  std::string credentials;  // file of a user's JWT and seed
+  std::string nkey, seed;   // public key; file of its seed
+  std::string authority;    // file of certificates that are trusted
+  std::string certificate, key;
+};
+
+// What a server keeps, besides what is live.
+struct ArchiveConfig {
+  bool is_on = false;
+  double keep_h = 24.0;
+  std::string domain;                // of the server that keeps it; empty: the one connected to
+  std::vector<std::string> sources;  // sites whose streams a region copies
+};
+
+struct OwnershipConfig {
+  bool is_on = false;
+  std::string name;    // of this fusion among those that may own a target
+  std::string domain;  // of the server that keeps the owners
+  std::array<double, 4> cell_deg{-90.0, -180.0, 90.0, 180.0};  // south, west, north, east
+  double lease_s = 2.0;
+  double margin_m = 2000.0;
+};
+
+struct BridgeConfig {
+  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string status_file;
+  Role role = Role::kSite;
+  std::string region = "region", site = "site";
+  std::vector<std::string> stations, takes;
+  std::vector<std::string> commands{"slew"};
+  bool targets = false;
+  double command_age_s = 1.0;
+  NatsConfig nats;
+  ArchiveConfig archive;
+  OwnershipConfig ownership;
+};
+
+config::Section bridge_section(BridgeConfig& config);  // the whole file
+PassageConfig passage_of(const BridgeConfig& config);
+// Throws ConfigError.
+BridgeConfig load_bridge_config(const std::string& path);
+// The same from text, `name` standing for the path in errors.
+BridgeConfig parse_bridge_config(const std::string& text, const std::string& name);
+
+}  // namespace ols::bridge

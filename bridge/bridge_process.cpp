@@ -1,0 +1,242 @@
+#include "bridge/bridge_process.h"
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <utility>
+
+#include "base/boot_id.h"
+#include "base/clocks.h"
+#include "base/service_frame.h"
+#include "base/service_notifier.h"
+#include "base/trust/trailer.h"
+#include "bridge/messages.h"
+
+namespace ols::bridge {
+namespace {
+
+constexpr int kTurn_ms = 20;
+constexpr double kStatus_s = 1.0, kStep_s = 0.05;
+constexpr double kStanding_s = 30.0;
+
+Now now() { return {clock_utime_us(), clock_monotonic_s()}; }
+
+std::string name_of(const BridgeConfig& config) {
+  return "ols-bridge " + config.region + (config.role == Role::kSite ? "." + config.site : "");
+}
+
+// Targets are owned by a fusion and its start: one that starts again does not know what it had. It
+// becomes part of a key of the store.
+std::optional<Ownership> make_ownership(const BridgeConfig& config) {
+  if (!config.ownership.is_on) return std::nullopt;
+  OwnershipRules rules;
+  const std::string& name = config.ownership.name;
+  rules.name = (name.empty() ? config.region : name) + "=" + std::to_string(draw_boot_id());
+  rules.cell_deg = config.ownership.cell_deg;
+  rules.lease_s = config.ownership.lease_s;
+  rules.margin_m = config.ownership.margin_m;
+  return Ownership(rules);
+}
+
+std::vector<std::string> subjects_of(const Passage& passage, const BridgeConfig& config) {
+  std::vector<std::string> subjects = passage.subjects();
+  if (config.ownership.is_on) subjects.emplace_back("ols.v1.*.target");
+  return subjects;
+}
+
+std::unique_ptr<ArchiveStream> make_archive(NatsLink& link, const BridgeConfig& config) {
+  const auto plan = plan_stream(config);
+  return plan ? std::make_unique<ArchiveStream>(link, *plan, config) : nullptr;
+}
+
+}  // namespace
+
+BridgeProcess::BridgeProcess(const BridgeConfig& config)
+    : config_(config),
+      status_file_(config.status_file),
+      passage_(passage_of(config)),
+      ownership_(make_ownership(config)),
+      bus_(config.lcm_url, passage_.channels(),
+           [this](const std::string& channel, Bytes bytes) { send_out(channel, bytes); }),
+      link_(config.nats, name_of(config), subjects_of(passage_, config),
+            [this](std::string_view subject, const Headers& headers, Bytes bytes) {
+              take_in(subject, headers, bytes);
+            }),
+      archive_(make_archive(link_, config)) {
+  if (ownership_) store_ = std::make_unique<OwnerStore>(link_, config.ownership.domain, ears());
+}
+
+OwnerStore::Ears BridgeProcess::ears() {
+  OwnerStore::Ears ears;
+  ears.learn = [this](const std::string& target, const OwnerRecord& record,
+                      std::uint64_t revision) {
+    const std::lock_guard lock(mutex_);
+    ownership_->learn(target, record, revision, now());
+  };
+  ears.wish = [this](const std::string& target, const std::string& by) {
+    const std::lock_guard lock(mutex_);
+    ownership_->learn_wish(target, by, now());
+  };
+  ears.answer = [this](const std::string& target, StoreAnswer answer, std::uint64_t revision) {
+    const std::lock_guard lock(mutex_);
+    ownership_->answer(target, answer, revision, now());
+  };
+  ears.feel = [this](bool answers) {
+    const std::lock_guard lock(mutex_);
+    ownership_->feel_store(answers, now());
+  };
+  return ears;
+}
+
+// Asked under the lock, of each target and slew that is to go out.
+Owned BridgeProcess::owned() {
+  if (!ownership_) return {};
+  return [this](Kind kind, Bytes payload) -> std::optional<Grant> {
+    const auto target = target_id_of(kind, payload);
+    if (!target) return std::nullopt;
+    if (*target == 0) {
+      // A search leads to no target that another one could own; that there is none, each region
+      // would say.
+      return kind == Kind::kCommand ? std::optional(Grant{}) : std::nullopt;
+    }
+    if (kind == Kind::kTarget) {
+      if (const auto track = track_from(payload)) ownership_->hear(*track, now());
+    }
+    return ownership_->grant(*target, now());
+  };
+}
+
+// What another owner publishes: by it is known where its target is.
+void BridgeProcess::hear_owner(const Headers& headers, Bytes bytes) {
+  const auto name = headers.find(kTargetHeader);
+  const auto track = track_from(trust::without_trailer(bytes));
+  if (!ownership_ || name == headers.end() || !track) return;
+  const std::lock_guard lock(mutex_);
+  ownership_->hear(Sighting{name->second, track->position_m, track->velocity_m_s, track->sd_m},
+                   now());
+}
+
+void BridgeProcess::step_ownership() {
+  if (!ownership_) return;
+  std::vector<StoreRequest> requests;
+  {
+    const std::lock_guard lock(mutex_);
+    requests = ownership_->step(now());
+  }
+  if (!requests.empty()) store_->ask(std::move(requests));
+}
+
+void BridgeProcess::send_out(const std::string& channel, Bytes bytes) {
+  std::optional<Outgoing> outgoing;
+  {
+    const std::lock_guard lock(mutex_);
+    outgoing = passage_.out(channel, bytes, now(), owned());
+  }
+  if (outgoing) link_.send(*outgoing, bytes);
+}
+
+void BridgeProcess::take_in(std::string_view subject, const Headers& headers, Bytes bytes) {
+  if (subject.ends_with(".target")) {
+    hear_owner(headers, bytes);
+    return;
+  }
+  std::optional<std::string> channel;
+  {
+    const std::lock_guard lock(mutex_);
+    channel = passage_.in(subject, headers, bytes, now());
+  }
+  if (channel && !bus_.send(*channel, bytes)) ++unsent_to_bus_;
+}
+
+void BridgeProcess::describe_link(BridgeStatus& status) const {
+  const LinkReport link = link_.report();
+  status.link = {link.is_open, link.trouble, link.openings, link.losses,
+                 link.sent,    link.unsent,  link.displaced};
+}
+
+void BridgeProcess::describe_archive(BridgeStatus& status, std::map<std::string, double> heard,
+                                     double now_s) {
+  status.archive.is_wanted = archive_ != nullptr;
+  if (!archive_) return;
+  const ArchiveReport seen = archive_->report();
+  status.archive.is_kept = seen.is_kept;
+  status.archive.trouble = seen.trouble;
+  status.archive.messages = seen.messages;
+  status.archive.bytes = seen.bytes;
+  // The first messages of a site take a moment to be copied.
+  std::erase_if(live_since_s_, [&heard](const auto& one) { return !heard.contains(one.first); });
+  std::erase_if(heard, [this, now_s](const auto& one) {
+    const double since_s = live_since_s_.try_emplace(one.first, now_s).first->second;
+    return now_s - since_s < kStanding_s;
+  });
+  std::map<std::string, double> archived;
+  for (const SourceReport& source : seen.sources) {
+    archived[source.site] = 1e-6 * static_cast<double>(status.utime_us - source.newest_utime_us);
+  }
+  status.archive.standing = standing_still(heard, archived, kStanding_s);
+}
+
+BridgeStatus BridgeProcess::status() {
+  BridgeStatus status;
+  const Now at = now();
+  status.utime_us = at.utime_us;
+  status.bus_alarms = bus_.alarms(at.monotonic_s);
+  if (const std::string trouble = bus_.trouble(); !trouble.empty()) {
+    status.bus_alarms.insert(status.bus_alarms.begin(), trouble);
+  }
+  bus_.count(status.bus_counters);
+  status.unsent_to_bus = unsent_to_bus_;
+  describe_link(status);
+  std::map<std::string, double> heard;
+  {
+    const std::lock_guard lock(mutex_);
+    status.stations = passage_.stations();
+    status.out = passage_.out_counts();
+    status.in = passage_.in_counts();
+    status.missing = passage_.gaps().missing();
+    status.repeated = passage_.gaps().repeated();
+    status.gap = passage_.gaps().alarm(at.monotonic_s);
+    status.obeyed_epoch = passage_.greatest_epoch();
+    heard = passage_.sites_ago_s(at.monotonic_s);
+    if (ownership_) {
+      const Ownership::Counts own = ownership_->counts(at);
+      status.ownership = {true,      own.is_confirmed, own.owned, own.others,
+                          own.taken, own.handed_over,  own.lost,  own.epoch};
+    }
+  }
+  describe_archive(status, std::move(heard), at.monotonic_s);
+  return status;
+}
+
+std::string BridgeProcess::report() {
+  const BridgeStatus seen = status();
+  std::string text;
+  for (const std::string& alarm : alarms(seen)) text.append(text.empty() ? "" : "; ").append(alarm);
+  if (text != last_alarms_) {
+    if (text.empty()) {
+      spdlog::info("all is well again");
+    } else {
+      spdlog::warn("{}", text);
+    }
+    last_alarms_ = text;
+  }
+  status_file_.write(to_json(seen));
+  return in_one_line(seen);
+}
+
+void BridgeProcess::run() {
+  bus_.connect(clock_monotonic_s(), BusConnector::kLongest_s);
+  ServiceNotifier service_manager;
+  service_manager.ready("bridge");
+  spdlog::info("ready");
+  double step_due_s = 0.0;
+  const auto turn = [&](double now_s) {
+    bus_.turn(now_s, kTurn_ms);
+    if (now_s < step_due_s) return;
+    step_due_s = now_s + kStep_s;
+    step_ownership();
+  };
+  serve(service_manager, kStatus_s, turn, [this] { return report(); });
+}
+
+}  // namespace ols::bridge

@@ -1,0 +1,59 @@
+// ols-bridge at work: its parts, connected. Messages of the bus are handled in the thread of run(),
+// those of the network in the threads in which they arrive, so that neither waits for the other.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/status_file.h"
+#include "bridge/archive_stream.h"
+#include "bridge/bridge_bus.h"
+#include "bridge/bridge_config.h"
+#include "bridge/nats_link.h"
+#include "bridge/owner_store.h"
+#include "bridge/ownership/ownership.h"
+#include "bridge/passage.h"
+#include "bridge/status.h"
+
+namespace ols::bridge {
+
+class BridgeProcess {
+ public:
+  explicit BridgeProcess(const BridgeConfig& config);
+
+  // Until the process is asked to end.
+  void run();
+
+ private:
+  OwnerStore::Ears ears();
+  Owned owned();
+  void hear_owner(const Headers& headers, Bytes bytes);
+  void step_ownership();
+  void send_out(const std::string& channel, Bytes bytes);
+  void take_in(std::string_view subject, const Headers& headers, Bytes bytes);
+  BridgeStatus status();
+  void describe_link(BridgeStatus& status) const;
+  void describe_archive(BridgeStatus& status, std::map<std::string, double> heard, double now_s);
+  // Logs what begins and what ends, and writes the status: it in one line.
+  std::string report();
+
+  const BridgeConfig config_;
+  StatusFile status_file_;
+  std::mutex mutex_;
+  Passage passage_;                     // under the lock
+  std::optional<Ownership> ownership_;  // under the lock; nothing: nobody else owns targets
+  BridgeBus bus_;
+  std::atomic<std::uint64_t> unsent_to_bus_{0};
+  std::string last_alarms_;
+  std::map<std::string, double> live_since_s_;  // of sites
+  NatsLink link_;  // last of those that its threads use, so that they end first
+  std::unique_ptr<ArchiveStream> archive_;
+  std::unique_ptr<OwnerStore> store_;
+};
+
+}  // namespace ols::bridge

@@ -1,0 +1,61 @@
+// The store of owners: a bucket of keys and values at a server of NATS. Two threads, because it may
+// take its time: one that asks, one that hears what has changed.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bridge/nats_link.h"
+#include "bridge/ownership/ownership.h"
+
+struct __kvStore;
+struct __jsCtx;
+
+namespace ols::bridge {
+
+class OwnerStore {
+ public:
+  // Called in the two threads.
+  struct Ears {
+    std::function<void(const std::string& target, const OwnerRecord&, std::uint64_t)> learn;
+    std::function<void(const std::string& target, const std::string& by)> wish;
+    std::function<void(const std::string& target, StoreAnswer, std::uint64_t)> answer;
+    std::function<void(bool answers)> feel;
+  };
+
+  OwnerStore(NatsLink& link, std::string domain, Ears ears);
+  ~OwnerStore();
+  OwnerStore(const OwnerStore&) = delete;
+  OwnerStore& operator=(const OwnerStore&) = delete;
+
+  // Asked one after the other; too many at once are answered with kNone.
+  void ask(std::vector<StoreRequest> requests);
+
+ private:
+  void work();
+  void watch();
+  bool open();
+  void close();
+  bool probe();
+  void carry_out(const StoreRequest& request);
+  void tell(const std::string& key, const std::string& value, std::uint64_t revision) const;
+
+  NatsLink& link_;
+  const std::string domain_;
+  const Ears ears_;
+  __jsCtx* js_ = nullptr;  // both of the working thread, until the watching one has begun
+  __kvStore* store_ = nullptr;
+  std::mutex mutex_;
+  std::condition_variable asked_;
+  std::deque<StoreRequest> requests_;  // under the lock
+  std::atomic<bool> ends_{false};
+  std::thread worker_, watcher_;
+};
+
+}  // namespace ols::bridge

@@ -1,0 +1,144 @@
+// What passes between a bus and the network of sites: judges each message, changes none. Pure.
+//
+// It holds no keys: where the bus is signed, signatures are judged by who receives. What it does
+// know is whose message may go where, how large, how many, and how old a command may be.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/trust/message_head.h"
+#include "base/trust/rate_limit.h"
+#include "bridge/epoch_book.h"
+#include "bridge/sequence_watch.h"
+#include "bridge/subject.h"
+
+namespace ols::bridge {
+
+using Bytes = std::span<const std::uint8_t>;
+using Headers = std::map<std::string, std::string>;
+
+inline constexpr const char* kIdHeader = "Nats-Msg-Id";  // by which a stream stores once
+inline constexpr const char* kTargetHeader = "Ols-Target";
+inline constexpr const char* kEpochHeader = "Ols-Epoch";
+inline constexpr const char* kUnconfirmedHeader = "Ols-Unconfirmed";
+inline constexpr const char* kOwnerHeader = "Ols-Owner";
+
+enum class Role {
+  kSite,    // sends its stations' messages, takes commands for them
+  kRegion,  // takes stations' messages for its fusion, sends that one's targets and commands
+};
+
+// Why a message does not pass.
+enum class Refusal {
+  kShape,  // a channel or subject that never crosses, or not in this direction
+  kSize,
+  kMalformed,  // no head of such a message
+  kName,       // a station of another place, or one that the message does not name itself
+  kRate,
+  kStale,   // a command too old by this host's clock, or from its future
+  kOwn,     // it came in over the bridge: it never goes out again
+  kEpoch,   // a command of an owner that has been replaced
+  kNobody,  // a command to a station that has not been heard
+  kNotOwned,
+  kCount,  // not a reason: how many there are
+};
+const char* to_string(Refusal reason);
+
+struct PassageConfig {
+  Role role = Role::kSite;
+  std::string region = "region", site = "site";
+  std::vector<std::string> stations{};  // of a site that go out; empty: all that are heard
+  std::vector<Selection> takes{};       // others' stations that come in
+  std::vector<std::string> commands{};  // that cross
+  bool targets = false;                 // of the fusion on this bus go out
+  double command_age_s = 1.0;
+};
+
+struct Now {
+  std::int64_t utime_us = 0;  // this host's UTC
+  double monotonic_s = 0.0;
+};
+
+struct Outgoing {
+  std::string subject;
+  Headers headers;
+};
+
+struct Counts {
+  std::uint64_t passed = 0;
+  std::array<std::uint64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};
+  std::string last_refusal{};
+};
+
+// Of a target that goes out, or whose command does: under which id and epoch.
+struct Grant {
+  std::string id;            // region-wide; empty: it is nobody's (a search, no target)
+  std::uint64_t epoch = 0;   // 0: without ownership
+  bool is_confirmed = true;  // false: the store of owners does not answer
+};
+// Nothing: another one owns the target of this message.
+using Owned = std::function<std::optional<Grant>(Kind, Bytes)>;
+
+class Passage {
+ public:
+  explicit Passage(PassageConfig config) : config_(std::move(config)) {}
+
+  // `bytes`: with their signature, as received. `owned`: asked of targets and slews of a region.
+  std::optional<Outgoing> out(std::string_view channel, Bytes bytes, const Now& now,
+                              const Owned& owned = {});
+  // The channel on which the same bytes go on.
+  std::optional<std::string> in(std::string_view subject, const Headers& headers, Bytes bytes,
+                                const Now& now);
+
+  // What to subscribe to on either side.
+  std::string channels() const;
+  std::vector<std::string> subjects() const;
+
+  const Counts& out_counts() const { return out_; }
+  const Counts& in_counts() const { return in_; }
+  // With which a command came in; 0: none with an owner.
+  std::uint64_t greatest_epoch() const { return epochs_.greatest(); }
+  const SequenceWatch& gaps() const { return gaps_; }
+  std::size_t stations() const { return places_.size(); }
+  // Of each site: how long ago a station of it was heard.
+  std::map<std::string, double> sites_ago_s(double now_s) const;
+
+ private:
+  struct Place {
+    std::string region, site;
+    double heard_s = 0.0;
+  };
+  using Judged = std::optional<Refusal>;
+
+  // They fill what is known so far.
+  Judged judge_out(std::string_view channel, Bytes bytes, const Now& now, const Owned& owned,
+                   Outgoing& outgoing);
+  Judged judge_in(std::string_view text, const Headers& headers, Bytes bytes, const Now& now,
+                  std::string& channel);
+  Judged address(const Content& content, const Now& now, Subject& subject);
+  Judged judge_message(const Content& content, std::string_view channel, Bytes bytes,
+                       const Now& now, trust::MessageHead& head);
+  Judged take(const Subject& subject, const Now& now);
+  Judged obey(const Subject& subject, const Headers& headers, const Now& now);
+  bool settle(const std::string& station, const std::string& region, const std::string& site,
+              double now_s);
+  bool is_ours(const std::string& station) const;
+
+  const PassageConfig config_;
+  std::map<std::string, Place, std::less<>> places_;  // where each station is
+  std::map<std::string, trust::RateLimit, std::less<>> rates_;
+  EpochBook epochs_;
+  SequenceWatch gaps_;
+  Counts out_, in_;
+};
+
+}  // namespace ols::bridge

@@ -1,0 +1,23 @@
+// A message that is passed on as it came, with its signature; as a type of LCM only what sending
+// needs.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "bridge/passage.h"
+
+namespace ols::bridge {
+
+struct RawMessage {
+  Bytes bytes;
+
+  int getEncodedSize() const { return static_cast<int>(bytes.size()); }
+  int encode(void* buffer, int offset, int) const {
+    std::ranges::copy(bytes, static_cast<std::uint8_t*>(buffer) + offset);
+    return getEncodedSize();
+  }
+};
+
+}  // namespace ols::bridge

@@ -1,0 +1,37 @@
+// Gaps in what came over a link: of each sender, what its own sequence says is missing. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace ols::bridge {
+
+class SequenceWatch {
+ public:
+  // `stream`: a station and a kind of message.
+  void hear(const std::string& stream, std::int64_t boot_id, std::int64_t sequence, double now_s);
+
+  // Of all streams: sequences that never came. One that came late is taken off again.
+  std::uint64_t missing() const { return missing_; }
+  // Came twice, or so late that it cannot be told.
+  std::uint64_t repeated() const { return repeated_; }
+  // The last stream with a gap, while that is no longer ago than kAlarm_s; else empty.
+  std::string alarm(double now_s) const;
+  static constexpr double kAlarm_s = 10.0;
+
+ private:
+  struct Mark {
+    std::int64_t boot_id = 0;
+    std::int64_t newest = 0;
+    std::uint64_t heard = 0;  // bit n: sequence newest - n
+  };
+  void advance(const std::string& stream, Mark& mark, std::int64_t sequence, double now_s);
+
+  std::map<std::string, Mark> marks_;
+  std::uint64_t missing_ = 0, repeated_ = 0;
+  std::string last_;
+  double gap_s_ = -1e9;
+};
+
+}  // namespace ols::bridge

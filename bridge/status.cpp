@@ -1,0 +1,111 @@
+#include "bridge/status.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace ols::bridge {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::uint64_t refused(const Counts& counts) {
+  const auto none = static_cast<std::size_t>(Refusal::kOwn);
+  const auto others = static_cast<std::size_t>(Refusal::kNotOwned);
+  const std::uint64_t all =
+      std::accumulate(counts.refused.begin(), counts.refused.end(), std::uint64_t{0});
+  return all - counts.refused[none] - counts.refused[others];
+}
+
+Json json_of(const Counts& counts) {
+  Json reasons = Json::object();
+  for (std::size_t i = 0; i < counts.refused.size(); ++i) {
+    reasons[to_string(static_cast<Refusal>(i))] = counts.refused[i];
+  }
+  return {{"passed", counts.passed}, {"refused", reasons}, {"last_refusal", counts.last_refusal}};
+}
+
+std::string direction(const char* name, const Counts& counts) {
+  std::string line = std::string(name) + " " + std::to_string(counts.passed);
+  if (refused(counts) == 0) return line;
+  return line + ", " + std::to_string(refused(counts)) + " refused (last " + counts.last_refusal +
+         ")";
+}
+
+}  // namespace
+
+std::vector<std::string> alarms(const BridgeStatus& status) {
+  std::vector<std::string> all = status.bus_alarms;
+  if (!status.link.is_open) all.push_back("bridge: no server: " + status.link.trouble);
+  if (!status.gap.empty()) all.push_back("bridge: messages are missing: " + status.gap);
+  if (status.archive.is_wanted && !status.archive.is_kept) {
+    all.push_back("bridge: nothing is archived: " + status.archive.trouble);
+  }
+  for (const std::string& site : status.archive.standing) {
+    all.push_back("bridge: the archive of " + site + " stands still");
+  }
+  if (status.ownership.is_wanted && !status.ownership.is_confirmed) {
+    all.push_back("bridge: owners of targets are not known, nothing is handed over");
+  }
+  return all;
+}
+
+std::string in_one_line(const BridgeStatus& status) {
+  std::string line = status.link.is_open ? "connected" : "not connected";
+  line.append("; ").append(direction("out", status.out));
+  line.append("; ").append(direction("in", status.in));
+  for (const std::string& alarm : alarms(status)) line.append("; ").append(alarm);
+  return line;
+}
+
+std::string to_json(const BridgeStatus& status) {
+  const LinkStatus& link = status.link;
+  const OwnershipStatus& own = status.ownership;
+  const Json json{{"utime_us", status.utime_us},
+                  {"alarms", alarms(status)},
+                  {"counters", status.bus_counters},
+                  {"stations", status.stations},
+                  {"out", json_of(status.out)},
+                  {"in", json_of(status.in)},
+                  {"missing", status.missing},
+                  {"repeated", status.repeated},
+                  {"unsent_to_bus", status.unsent_to_bus},
+                  {"link",
+                   {{"open", link.is_open},
+                    {"trouble", link.trouble},
+                    {"openings", link.openings},
+                    {"losses", link.losses},
+                    {"sent", link.sent},
+                    {"unsent", link.unsent},
+                    {"displaced", link.displaced}}},
+                  {"archive",
+                   {{"kept", status.archive.is_kept},
+                    {"trouble", status.archive.trouble},
+                    {"messages", status.archive.messages},
+                    {"bytes", status.archive.bytes},
+                    {"standing_still", status.archive.standing}}},
+                  {"ownership",
+                   {{"confirmed", own.is_confirmed},
+                    {"owned", own.owned},
+                    {"others", own.others},
+                    {"taken", own.taken},
+                    {"handed_over", own.handed_over},
+                    {"lost", own.lost},
+                    {"epoch", own.epoch},
+                    {"obeyed_epoch", status.obeyed_epoch}}}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<std::string> standing_still(const std::map<std::string, double>& heard_ago_s,
+                                        const std::map<std::string, double>& archived_ago_s,
+                                        double patience_s) {
+  std::vector<std::string> sites;
+  for (const auto& [site, ago_s] : heard_ago_s) {
+    const auto archived = archived_ago_s.find(site);
+    if (archived == archived_ago_s.end() || ago_s > patience_s / 2.0) continue;
+    if (archived->second > patience_s) sites.push_back(site);
+  }
+  return sites;
+}
+
+}  // namespace ols::bridge

@@ -1,0 +1,59 @@
+// How the bridge is, for people and for programs. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bridge/passage.h"
+
+namespace ols::bridge {
+
+struct LinkStatus {
+  bool is_open = false;
+  std::string trouble;
+  std::uint64_t openings = 0, losses = 0, sent = 0, unsent = 0, displaced = 0;
+};
+
+struct ArchiveStatus {
+  bool is_wanted = false, is_kept = false;
+  std::string trouble;
+  std::uint64_t messages = 0, bytes = 0;
+  std::vector<std::string> standing;  // sites that are heard live and not copied
+};
+
+struct OwnershipStatus {
+  bool is_wanted = false, is_confirmed = true;
+  std::size_t owned = 0, others = 0;
+  std::uint64_t taken = 0, handed_over = 0, lost = 0;
+  std::uint64_t epoch = 0;  // the greatest of those that are owned
+};
+
+struct BridgeStatus {
+  std::int64_t utime_us = 0;
+  std::size_t stations = 0;
+  std::vector<std::string> bus_alarms;
+  std::map<std::string, double> bus_counters;
+  LinkStatus link;
+  ArchiveStatus archive;
+  OwnershipStatus ownership;
+  Counts out, in;
+  std::uint64_t missing = 0, repeated = 0, unsent_to_bus = 0;
+  std::uint64_t obeyed_epoch = 0;  // the greatest with which a command came in
+  std::string gap;                 // the stream with the last gap, while that is recent
+};
+
+// One condition each; empty if all is well.
+std::vector<std::string> alarms(const BridgeStatus& status);
+// "connected; out 120, in 3; 2 refused (last x: stale)".
+std::string in_one_line(const BridgeStatus& status);
+std::string to_json(const BridgeStatus& status);
+
+// Which sites are live now, but have not come into the archive for `patience_s`: a server whose
+// copying has stopped says that all is well.
+std::vector<std::string> standing_still(const std::map<std::string, double>& heard_ago_s,
+                                        const std::map<std::string, double>& archived_ago_s,
+                                        double patience_s);
+
+}  // namespace ols::bridge

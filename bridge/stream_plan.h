@@ -1,0 +1,31 @@
+// What a server keeps of a site or a region: bearings, statuses, targets, and never a command. A
+// queued command is a stale command. Pure.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bridge/bridge_config.h"
+
+namespace ols::bridge {
+
+struct StreamSource {
+  std::string stream, domain;
+};
+
+struct StreamPlan {
+  std::string name;
+  std::vector<std::string> subjects;  // that this server itself hears; none where it copies
+  std::vector<StreamSource> sources;
+  std::int64_t keep_ns = 0;
+};
+
+// Nothing where no stream is configured.
+std::optional<StreamPlan> plan_stream(const BridgeConfig& config);
+
+// Whether a subject with wildcards covers this one, as NATS has it.
+bool covers(const std::string& pattern, const std::string& subject);
+
+}  // namespace ols::bridge

@@ -1,0 +1,175 @@
+"""ols-bridge between two buses over real servers of NATS, hub and leaf, with the permissions of
+the shipped examples: bytes unchanged, no command late, no loop, a link that is cut and returns."""
+
+import itertools
+import json
+import signal
+import subprocess
+import time
+
+import pytest
+from bridge_site import (
+    DEADLINE_S,
+    Listener,
+    Network,
+    bearing,
+    needs_server,
+    slew,
+    status,
+    wait,
+)
+from conftest import BIN
+from ols_demo.keys import members_of_environment
+
+pytestmark = needs_server
+
+
+@pytest.fixture
+def net(network, tmp_path):
+    net = Network(tmp_path)
+    yield net
+    net.close()
+
+
+class Talk:
+    """Says a message again and again until something is heard."""
+
+    def __init__(self, net):
+        self.site, self.region = Listener(net.site_url), Listener(net.region_url)
+        self.numbers = itertools.count(1)
+        self.members = members_of_environment()
+
+    def station(self, name="alfa"):
+        """A signed bearing and a signed status; what was sent is returned."""
+        number = next(self.numbers)
+        sent = {}
+        for channel, data in (
+            (f"OLS_STATUS_{name}", status(name, number)),
+            (f"OLS_BEARING_{name}", bearing(name, number)),
+        ):
+            sent[channel] = self.members.sign(channel, data)
+            self.members.hear(channel, sent[channel])
+            self.site.bus.publish(channel, sent[channel])
+        return sent
+
+    def until_through(self, name="alfa"):
+        before = len(self.region.on(f"OLS_BEARING_{name}"))
+
+        def look():
+            self.station(name)
+            return len(self.region.on(f"OLS_BEARING_{name}")) > before
+
+        wait(look, f"bearings of {name} at the region")
+
+    def slew(self, age_s=0.0, name="alfa"):
+        channel = f"OLS_SLEW_{name}"
+        data = self.members.sign(channel, slew(name, next(self.numbers), age_s))
+        self.region.bus.publish(channel, data)
+        return data
+
+
+def test_bytes_pass_unchanged_both_ways(net):
+    talk = Talk(net)
+    talk.until_through()
+    sent = talk.station()
+    for channel, data in sent.items():
+        wait(lambda c=channel, d=data: d in talk.region.on(c), f"{channel} as it was")
+    said = talk.slew()
+    wait(lambda: said in talk.site.on("OLS_SLEW_alfa"), "the slew as it was", 5.0)
+    # The signature is whole: 96 bytes at the end, and the fusion's key made it.
+    assert said.endswith(b"OLST") and len(said) > 96
+    assert net.region.status()["missing"] == 0
+
+
+def test_what_a_station_may_not_say_the_servers_refuse(net):
+    """The bridge of the site would pass charlie on; the server's permissions do not name it."""
+    talk = Talk(net)
+    talk.until_through()
+    for _ in range(5):
+        talk.station("charlie")
+    talk.until_through("bravo")
+    assert talk.region.on("OLS_BEARING_charlie") == []
+
+
+def test_nothing_comes_back_to_where_it_was_said(net):
+    talk = Talk(net)
+    talk.until_through()
+    numbers = [talk.station() for _ in range(20)]
+    last = numbers[-1]["OLS_BEARING_alfa"]
+    wait(lambda: last in talk.region.on("OLS_BEARING_alfa"), "all of them")
+    for data in (sent["OLS_BEARING_alfa"] for sent in numbers):
+        assert talk.region.on("OLS_BEARING_alfa").count(data) == 1
+        wait(lambda d=data: talk.site.on("OLS_BEARING_alfa").count(d) == 1, "once at the site")
+    refused = net.site.status()["in"]["refused"]
+    assert refused["own"] == refused["name"] == 0
+
+
+def test_a_stale_command_is_refused_and_none_is_kept(net):
+    talk = Talk(net)
+    talk.until_through()
+    old = talk.slew(age_s=5.0)
+    wait(lambda: talk.slew() and talk.site.on("OLS_SLEW_alfa"), "fresh ones")
+    assert old not in talk.site.on("OLS_SLEW_alfa")
+    net.region.until(lambda s: s["out"]["refused"]["stale"] >= 1, "it is counted")
+    # The link is gone: slews of that time are nobody's, also when it is back.
+    net.leaf.signal(signal.SIGSTOP)
+    held = [talk.slew() for _ in range(20)]
+    end = time.monotonic() + 2.0  # older than command_age_s when the link is back
+    while time.monotonic() < end:
+        talk.site.handle()
+    net.leaf.signal(signal.SIGCONT)
+
+    fresh = []
+
+    def through():
+        talk.station()
+        fresh.append(talk.slew())
+        return set(fresh) & set(talk.site.on("OLS_SLEW_alfa"))
+
+    wait(through, "slews pass again")
+    heard = talk.site.on("OLS_SLEW_alfa")
+    assert [data for data in held if data in heard] == []
+
+
+def test_the_server_dies_and_the_bridge_comes_back(net):
+    talk = Talk(net)
+    talk.until_through()
+    net.leaf.stop()
+    net.site.until(lambda s: not s["link"]["open"], "the loss is seen")
+    said = talk.station()
+    wait(lambda: said["OLS_BEARING_alfa"] in talk.site.on("OLS_BEARING_alfa"), "the site goes on")
+    assert any("no server" in alarm for alarm in net.site.status()["alarms"])
+    net.leaf.start()
+    talk.until_through()
+    net.site.until(lambda s: s["link"]["open"] and s["link"]["openings"] >= 2, "it is back")
+    state = net.site.status()
+    assert state["link"]["losses"] >= 1 and state["link"]["unsent"] >= 1
+    assert said["OLS_BEARING_alfa"] not in talk.region.on("OLS_BEARING_alfa"), "not queued"
+
+
+def test_a_wrong_key_is_said(net, tmp_path):
+    text = net.site.config.read_text().replace(net.keys["site"], net.keys["region"])
+    config = tmp_path / "wrong.toml"
+    config.write_text(
+        text.replace(str(net.seeds["site"]), str(net.seeds["region"])).replace(
+            str(net.site.status_file), str(tmp_path / "wrong.json")
+        )
+    )
+    process = subprocess.Popen([str(BIN / "ols-bridge"), "--config", str(config)])
+    try:
+        file = tmp_path / "wrong.json"
+        wait(file.exists, "a status")
+        alarms = json.loads(file.read_text())["alarms"]
+        assert any(alarm.startswith("bridge: no server: ") for alarm in alarms)
+    finally:
+        process.terminate()
+        assert process.wait(DEADLINE_S) == 0
+
+
+def test_a_bad_configuration_is_named(tmp_path):
+    config = tmp_path / "bridge.toml"
+    config.write_text('region = "a.b"\n')
+    command = [str(BIN / "ols-bridge"), "--config", str(config), "--check-config"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=DEADLINE_S)
+    assert done.returncode == 2
+    assert "bridge.toml:1: region" in done.stderr

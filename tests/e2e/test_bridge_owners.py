@@ -1,0 +1,178 @@
+"""Two fusions that see the same target, on the real store of owners: one publishes it, a hand-over
+at the border, a killed owner replaced, and a store that does not answer."""
+
+import itertools
+import signal
+import time
+
+import ols
+import ols_msg
+import pytest
+from bridge_site import (
+    Bridge,
+    Listener,
+    Network,
+    Watcher,
+    bearing,
+    bus_url,
+    needs_server,
+    slew,
+    wait,
+)
+from ols_demo.places import geodetic
+
+pytestmark = needs_server
+
+BORDER_DEG, LATITUDE_DEG, HEIGHT_M = 17.0, 49.5, 500.0
+METRES_PER_DEGREE = 72216.0
+WEST, EAST = (11, "[49.0, 16.0, 50.0, 17.0]"), (22, "[49.0, 17.0, 50.0, 18.0]")
+OWNERS = '[ownership]\nshare = true\nname = "{}"\ndomain = "hub"\ncell_deg = {}\n'
+# The lease, and what a busy machine adds.
+GAP_S = 2.0 + 1.0
+
+
+def target(target_id, east_m, sequence):
+    message = ols_msg.target_t()
+    message.utime = time.time_ns() // 1000
+    message.schema_version = message.SCHEMA_VERSION
+    message.boot_id, message.sequence, message.target_id = target_id, sequence, target_id
+    message.track_state = message.TRACK_CONFIRMED
+    message.latitude_deg = LATITUDE_DEG
+    message.longitude_deg = BORDER_DEG + east_m / METRES_PER_DEGREE
+    message.height_m = HEIGHT_M
+    place = geodetic(message.latitude_deg, message.longitude_deg, HEIGHT_M)
+    message.position_ecef_m = list(ols.ecef_from_geodetic(place))
+    message.velocity_ecef_m_s = [0.0] * 3
+    message.position_covariance_enu_m2 = [4.0, 0.0, 0.0, 4.0, 0.0, 4.0]
+    return message.encode()
+
+
+class Sky:
+    """A target that flies, both fusions, and what receivers hear."""
+
+    def __init__(self, folder):
+        self.net = Network(folder, region_tail=OWNERS.format("west", WEST[1]))
+        self.west, self.east = self.net.region, None
+        self.east = Bridge(
+            *(folder, "east", bus_url(7669), self.net.seeds["region"], self.net.keys["region"]),
+            port=4222,
+            head='role = "region"\nregion = "r"\ntargets = true\n',
+            tail=OWNERS.format("east", EAST[1]),
+        )
+        self.buses = [Listener(self.net.region_url), Listener(bus_url(7669))]
+        self.watcher = Watcher(4222, "ols.v1.*.target", "ols.v1.r.s.*.cmd.slew")
+        self.numbers, self.east_m = itertools.count(1), -3000.0
+
+    def say(self):
+        number = next(self.numbers)
+        for bus, (name, _) in zip(self.buses, (WEST, EAST), strict=True):
+            bus.bus.publish("OLS_TARGET", target(name, self.east_m, number))
+            bus.bus.publish("OLS_SLEW_alfa", slew("alfa", number, target_id=name))
+            bus.handle(10)
+
+    def heard(self):
+        """(when, of which fusion, region-wide id, epoch, confirmed) of each published target."""
+        for at, subject, headers, data in list(self.watcher.heard):
+            if subject.endswith(".target"):
+                who = ols_msg.target_t.decode(data).target_id
+                epoch = int(headers["Ols-Epoch"])
+                yield at, who, headers["Ols-Target"], epoch, "Ols-Unconfirmed" not in headers
+
+    def until(self, condition, what, deadline_s=30.0):
+        wait(lambda: self.say() or condition(list(self.heard())), what, deadline_s)
+
+    def fly(self, to_m, speed_m_s=1500.0):
+        last = time.monotonic()
+        step = 1.0 if to_m > self.east_m else -1.0
+        while (to_m - self.east_m) * step > 0:
+            self.say()
+            now = time.monotonic()
+            self.east_m += step * min(speed_m_s * (now - last), 40.0)
+            last = now
+
+    def close(self):
+        self.watcher.close()
+        self.east.process.send_signal(signal.SIGCONT)
+        assert self.east.stop() == 0
+        self.net.close()
+
+
+@pytest.fixture
+def sky(network, tmp_path):
+    sky = Sky(tmp_path)
+    yield sky
+    sky.close()
+
+
+def never_two(heard):
+    """A receiver that obeys the greatest epoch hears one owner after the other."""
+    greatest = 0
+    for _, _, _, epoch, is_confirmed in heard:
+        if is_confirmed:
+            assert epoch >= greatest, "an owner that had been replaced"
+        greatest = max(greatest, epoch)
+
+
+def gaps(heard, after):
+    times = [at for at, *_ in heard if at >= after]
+    return max((b - a for a, b in itertools.pairwise(times)), default=0.0)
+
+
+def test_one_publishes_and_hands_over_at_the_border(sky):
+    sky.until(lambda heard: len(heard) > 10, "an owner")
+    before = list(sky.heard())
+    assert {who for _, who, *_ in before} == {WEST[0]}, "whose region it is in"
+    since = time.monotonic()
+    sky.fly(3000.0)
+    sky.until(lambda heard: heard[-1][1] == EAST[0], "the other one has it")
+    sky.fly(-3000.0)
+    sky.until(lambda heard: heard[-1][1] == WEST[0], "and back")
+    heard = list(sky.heard())
+    never_two(heard)
+    assert {name for _, _, name, *_ in heard} == {before[0][2]}, "the same target all the time"
+    assert len({epoch for *_, epoch, _ in heard}) >= 3
+    assert gaps(heard, since) < GAP_S
+    assert sky.west.status()["ownership"]["handed_over"] >= 1
+
+
+def test_a_killed_owner_is_replaced_and_only_the_greatest_epoch_slews(sky):
+    # The station is heard, so that slews know the way.
+    site = Listener(sky.net.site_url)
+    sky.until(lambda heard: len(heard) > 10, "an owner")
+
+    def slewed():
+        site.bus.publish("OLS_BEARING_alfa", bearing("alfa", next(sky.numbers)))
+        sky.say()
+        return site.on("OLS_SLEW_alfa")
+
+    wait(slewed, "slews of the owner")
+    first = ols_msg.slew_t.decode(site.on("OLS_SLEW_alfa")[0]).target_id
+    assert first == WEST[0]
+    sky.west.process.kill()
+    sky.west.process.wait()
+    since = time.monotonic() - 0.5
+    sky.until(lambda heard: heard[-1][1] == EAST[0], "the other one has it")
+
+    def other():
+        slewed()
+        return ols_msg.slew_t.decode(site.on("OLS_SLEW_alfa")[-1]).target_id == EAST[0]
+
+    wait(other, "slews of the new owner")
+    heard = list(sky.heard())
+    never_two(heard)
+    assert len({name for _, _, name, *_ in heard}) == 1
+    assert gaps(heard, since) < GAP_S
+    sky.west.start()  # the fusion is back, and the target stays with who has it
+
+
+def test_a_store_that_does_not_answer_leaves_the_owner(sky):
+    sky.until(lambda heard: len(heard) > 10, "an owner")
+    watcher = Watcher(4222)
+    # JetStream is gone, the rest of the server is not.
+    assert watcher.request("$JS.API.STREAM.DELETE.KV_OLS_OWNERS", {})["success"]
+    sky.until(lambda heard: not heard[-1][4], "it goes on, marked")
+    sky.fly(3000.0)
+    heard = list(sky.heard())
+    assert {who for _, who, *_ in heard} == {WEST[0]}, "no hand-over"
+    assert any("not known" in alarm for alarm in sky.west.status()["alarms"])
+    watcher.close()

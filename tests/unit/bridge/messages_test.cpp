@@ -1,0 +1,65 @@
+#include "bridge/messages.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "bridge_messages.h"
+
+namespace ols::bridge {
+namespace {
+
+ols_msg::target_t placed() {
+  ols_msg::target_t message{};
+  message.target_id = 5;
+  message.track_state = ols_msg::target_t::TRACK_CONFIRMED;
+  message.position_ecef_m[0] = 4e6;
+  message.velocity_ecef_m_s[1] = 7.0;
+  message.latitude_deg = 49.0;
+  message.longitude_deg = 16.0;
+  message.position_covariance_enu_m2[0] = 4.0;
+  message.position_covariance_enu_m2[3] = 4.0;
+  message.position_covariance_enu_m2[5] = 1.0;
+  return message;
+}
+
+TEST(BridgeMessages, ATargetsPlaceIsRead) {
+  const auto track = track_from(encoded(placed()));
+  ASSERT_TRUE(track);
+  EXPECT_EQ(track->id, 5);
+  EXPECT_EQ(track->position_m[0], 4e6);
+  EXPECT_EQ(track->velocity_m_s[1], 7.0);
+  EXPECT_EQ(track->sd_m, 3.0);
+  EXPECT_EQ(track->latitude_deg, 49.0);
+}
+
+TEST(BridgeMessages, WhatHasNoPlaceIsNoTrack) {
+  ols_msg::target_t message = placed();
+  message.target_id = 0;
+  EXPECT_FALSE(track_from(encoded(message)));
+  message = placed();
+  message.solution = ols_msg::target_t::SOLUTION_BEARING_ONLY;
+  EXPECT_FALSE(track_from(encoded(message)));
+  message = placed();
+  message.track_state = ols_msg::target_t::TRACK_DROPPED;
+  EXPECT_FALSE(track_from(encoded(message)));
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), 1e300}) {
+    message = placed();
+    message.position_ecef_m[1] = bad;
+    EXPECT_FALSE(track_from(encoded(message)));
+    message = placed();
+    message.latitude_deg = bad;
+    EXPECT_FALSE(track_from(encoded(message)));
+  }
+  EXPECT_FALSE(track_from(std::vector<std::uint8_t>(20)));
+}
+
+TEST(BridgeMessages, AMessageNamesItsTarget) {
+  EXPECT_EQ(target_id_of(Kind::kTarget, target(8)), 8);
+  EXPECT_EQ(target_id_of(Kind::kCommand, slew("alfa", 0.0, 9)), 9);
+  EXPECT_EQ(target_id_of(Kind::kCommand, target(8)), std::nullopt);
+  EXPECT_EQ(target_id_of(Kind::kTarget, {}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace ols::bridge

@@ -1,0 +1,222 @@
+// Two regions with a standby each, a target that crosses their border, and a store of owners that
+// answers late, or not at all; for the tests of ownership.
+#pragma once
+
+#include <cmath>
+#include <deque>
+#include <map>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "bridge/ownership/ownership.h"
+
+namespace ols::bridge {
+
+inline constexpr double kLatitude_deg = 49.5, kBorder_deg = 17.0;
+inline constexpr double kMetresPerDegree = 72'216.0;  // of longitude, there
+inline constexpr std::int64_t kStart_us = 1'700'000'000'000'000;
+
+// As the key-value store of NATS: each write has the next revision, of all keys together.
+class Store {
+ public:
+  struct Kept {
+    OwnerRecord record;
+    std::uint64_t revision = 0;
+  };
+  StoreAnswer write(const StoreRequest& request, std::uint64_t& revision) {
+    if (is_down) return StoreAnswer::kNone;
+    const auto at = records.find(request.target);
+    const std::uint64_t is = at == records.end() ? 0 : at->second.revision;
+    if (is != request.revision) return StoreAnswer::kRefused;
+    revision = ++last;
+    records[request.target] = {request.record, revision};
+    return StoreAnswer::kDone;
+  }
+
+  bool is_down = false;
+  std::uint64_t last = 0;
+  std::map<std::string, Kept> records;
+};
+
+// A fusion with its bridge: sees the target with an error of its own, under ids of its own.
+struct Node {
+  Node(const std::string& node_name, const Cell& node_cell, std::uint64_t seed)
+      : name(node_name), cell(node_cell), random(seed) {
+    start();
+  }
+  void start() {
+    ++starts;
+    ownership = std::make_unique<Ownership>(
+        OwnershipRules{name + ":" + std::to_string(starts), cell, 2.0, 2000.0});
+    track_id = static_cast<std::int64_t>(random() % 100'000 + 1);
+    is_alive = true;
+    heard_revision = 0;
+  }
+
+  std::string name;
+  Cell cell;
+  std::mt19937_64 random;
+  std::unique_ptr<Ownership> ownership;
+  std::int64_t track_id = 0;
+  bool is_alive = true;
+  int starts = 0;
+  std::uint64_t heard_revision = 0;
+  double offset_s = 0.0;  // of its clocks
+};
+
+// What waits for its time: an answer, a word of the store.
+struct Later {
+  double due_s = 0.0;
+  Node* node = nullptr;
+  int start = 0;
+  std::string target;
+  bool is_answer = false;
+  StoreAnswer answer = StoreAnswer::kNone;
+  OwnerRecord record;
+  std::uint64_t revision = 0;
+  std::string wish;
+};
+
+class Border {
+ public:
+  explicit Border(std::uint64_t seed) : random_(seed) {
+    const Cell west{49.0, 16.0, 50.0, kBorder_deg}, east{49.0, kBorder_deg, 50.0, 18.0};
+    nodes.emplace_back("west-a", west, seed + 1);
+    nodes.emplace_back("west-b", west, seed + 2);
+    nodes.emplace_back("east-a", east, seed + 3);
+    nodes.emplace_back("east-b", east, seed + 4);
+    for (Node& node : nodes) node.offset_s = 100.0 * uniform();
+  }
+
+  double uniform() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
+  Now at(const Node& node) const {
+    return {kStart_us + static_cast<std::int64_t>(now_s * 1e6), now_s + node.offset_s};
+  }
+
+  // One turn of 10 ms.
+  void turn(double east_m, double speed_m_s);
+  // Who publishes the target now without a mark.
+  std::vector<Node*> owners(std::vector<Grant>* grants = nullptr);
+
+  double now_s = 1.0;
+  std::deque<Node> nodes;
+  Store store;
+
+ private:
+  void see(Node& node, double east_m, double speed_m_s);
+  void send(Node& node, const StoreRequest& request);
+  void deliver();
+  double delay_s() { return 0.001 + 0.01 * uniform(); }
+
+  std::mt19937_64 random_;
+  std::deque<Later> later_;
+  long turns_ = 0;
+};
+
+inline void Border::see(Node& node, double east_m, double speed_m_s) {
+  std::normal_distribution<double> error(0.0, 2.0);
+  Track track;
+  track.id = node.track_id;
+  track.position_m = {east_m + error(node.random), error(node.random), error(node.random)};
+  track.velocity_m_s = {speed_m_s, 0.0, 0.0};
+  track.sd_m = 2.0;
+  track.latitude_deg = kLatitude_deg;
+  track.longitude_deg = kBorder_deg + east_m / kMetresPerDegree;
+  node.ownership->hear(track, at(node));
+}
+
+inline void Border::send(Node& node, const StoreRequest& request) {
+  if (request.is_wish) {
+    if (store.is_down) return;
+    for (Node& other : nodes) {
+      later_.push_back({now_s + delay_s(),
+                        &other,
+                        other.starts,
+                        request.target,
+                        false,
+                        StoreAnswer::kNone,
+                        {},
+                        0,
+                        request.record.owner});
+    }
+    return;
+  }
+  std::uint64_t revision = 0;
+  const StoreAnswer answer = store.write(request, revision);
+  const double late_s = answer == StoreAnswer::kNone ? 1.0 : delay_s();
+  later_.push_back({now_s + late_s, &node, node.starts, request.target, true, answer,
+                    request.record, revision, ""});
+  if (answer != StoreAnswer::kDone) return;
+  for (Node& other : nodes) {
+    later_.push_back({now_s + delay_s(), &other, other.starts, request.target, false, answer,
+                      request.record, revision, ""});
+  }
+}
+
+inline void Border::deliver() {
+  for (std::size_t i = 0; i < later_.size();) {
+    if (later_[i].due_s > now_s) {
+      ++i;
+      continue;
+    }
+    const Later one = later_[i];
+    later_.erase(later_.begin() + static_cast<std::ptrdiff_t>(i));
+    if (!one.node->is_alive || one.node->starts != one.start) continue;
+    Ownership& ownership = *one.node->ownership;
+    const Now now = at(*one.node);
+    if (one.is_answer) {
+      ownership.answer(one.target, one.answer, one.revision, now);
+    } else if (!one.wish.empty()) {
+      ownership.learn_wish(one.target, one.wish, now);
+    } else {
+      ownership.learn(one.target, one.record, one.revision, now);
+    }
+  }
+}
+
+inline void Border::turn(double east_m, double speed_m_s) {
+  now_s += 0.01;
+  ++turns_;
+  deliver();
+  for (Node& node : nodes) {
+    if (!node.is_alive) continue;
+    // A new process reads what there is.
+    if (node.heard_revision == 0 && !store.is_down) {
+      node.heard_revision = 1;
+      for (const auto& [target, kept] : store.records) {
+        node.ownership->learn(target, kept.record, kept.revision, at(node));
+      }
+    }
+    if (turns_ % 20 == 0) node.ownership->feel_store(!store.is_down, at(node));
+    if (turns_ % 6 == 0) see(node, east_m, speed_m_s);
+    if (turns_ % 5 != 0) continue;
+    for (const StoreRequest& request : node.ownership->step(at(node))) send(node, request);
+  }
+  // What an owner publishes, all the others hear.
+  if (turns_ % 6 != 0) return;
+  std::vector<Grant> grants;
+  const auto who = owners(&grants);
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    for (Node& other : nodes) {
+      if (&other == who[i] || !other.is_alive) continue;
+      other.ownership->hear(Sighting{grants[i].id, {east_m, 0, 0}, {speed_m_s, 0, 0}, 2.0},
+                            at(other));
+    }
+  }
+}
+
+inline std::vector<Node*> Border::owners(std::vector<Grant>* grants) {
+  std::vector<Node*> who;
+  for (Node& node : nodes) {
+    if (!node.is_alive) continue;
+    const auto grant = node.ownership->grant(node.track_id, at(node));
+    if (!grant || !grant->is_confirmed) continue;
+    who.push_back(&node);
+    if (grants != nullptr) grants->push_back(*grant);
+  }
+  return who;
+}
+
+}  // namespace ols::bridge
