@@ -17,8 +17,11 @@ TOLD = re.compile(r"^(\w+)(?:\{(.*)\})? (\S+)$", re.MULTILINE)
 @pytest.fixture
 def exporter(network, tmp_path):
     """The address of its page, and the site that it runs in."""
+    config = tmp_path / "exporter.toml"
+    config.write_text(f'bridge_status = "{tmp_path / "bridge.json"}"\n')
     with Site(tmp_path / "logs") as site:
-        command = [str(BIN / "ols-exporter"), "--lcm-url", LIVE_URL, "--address", "127.0.0.1:19316"]
+        command = [str(BIN / "ols-exporter"), "--config", str(config), "--lcm-url", LIVE_URL]
+        command += ["--address", "127.0.0.1:19316"]
         site.start_and_wait("exporter", command, "ready")
         yield "http://127.0.0.1:19316/metrics", site
         site.check()
@@ -66,3 +69,19 @@ def test_strangers_are_counted_and_not_told(exporter):
     reason = ("ols_bus_distrusted_total", 'reason="unsigned"')
     listener.wait(lambda: samples(address).get(reason, 0.0) >= 20.0, "that they are counted")
     assert not [labels for _, labels in samples(address) if "bravo" in labels]
+
+
+def test_the_bridge_is_told_by_its_status(exporter, tmp_path):
+    address, site = exporter
+    assert samples(address)["ols_bridge_up", ""] == 0.0
+    config = tmp_path / "bridge.toml"
+    config.write_text(
+        f'lcm_url = "{LIVE_URL}"\nstatus_file = "{tmp_path / "bridge.json"}"\n'
+        '[nats]\nservers = ["nats://127.0.0.1:1"]\n'
+    )
+    site.start_and_wait("bridge", [str(BIN / "ols-bridge"), "--config", str(config)], "ready")
+    Listener().wait(lambda: samples(address)["ols_bridge_up", ""] == 1.0, "the bridge")
+    told = samples(address)
+    assert told["ols_bridge_link_up", ""] == 0.0
+    assert told["ols_bridge_alarms", ""] == 1.0
+    assert told["ols_bridge_refused_total", 'direction="out",reason="stale"'] == 0.0

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/clocks.h"
 #include "base/configuration_files.h"
 #include "base/small_file.h"
 #include "base/toml_config.h"
+#include "bridge/bridge_config.h"
 #include "central/app/fusion_settings.h"
 #include "console/add_user.h"
 #include "console/console_config.h"
@@ -14,6 +16,7 @@
 #include "export/export_config.h"
 #include "export/readiness.h"
 #include "tools/doctor/bus_listener.h"
+#include "tools/doctor/judge_bridge.h"
 #include "tools/doctor/judge_devices.h"
 #include "tools/doctor/judge_host.h"
 #include "tools/doctor/judge_site.h"
@@ -197,11 +200,32 @@ Findings examine_cue(const std::string& path) {
   }
 }
 
+// Empty if there is none.
+std::string text_of_status(const std::string& path) {
+  try {
+    return path.empty() ? "" : read_small_file(path, 1 << 20);
+  } catch (const std::exception&) {
+    return "";
+  }
+}
+
+Findings examine_bridge(const std::string& path) {
+  try {
+    const bridge::BridgeConfig config = bridge::load_bridge_config(path);
+    Findings findings{ok("configuration: " + path)};
+    append(findings, judge_bridge(text_of_status(config.status_file), clock_utime_us()));
+    return findings;
+  } catch (const ConfigError& error) {
+    return {refused(error)};
+  }
+}
+
 // Of the exporter the state of its service alone is examined.
 Findings examine_program(const std::string& name, const std::string& path, const Request& request) {
   if (name == "fusion") return examine_fusion(path, request);
   if (name == "logger") return examine_logger(path);
   if (name == "console") return examine_console(path);
+  if (name == "bridge") return examine_bridge(path);
   if (name == "export") return examine_export(path);
   if (name == "cue") return examine_cue(path);
   return {};

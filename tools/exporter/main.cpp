@@ -4,11 +4,16 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include "base/bus_connector.h"
 #include "base/channel_names.h"
@@ -16,7 +21,9 @@
 #include "base/command_line.h"
 #include "base/service_notifier.h"
 #include "base/shutdown.h"
+#include "base/small_file.h"
 #include "command/messages.h"
+#include "tools/exporter/bridge_metrics.h"
 #include "tools/exporter/exporter_config.h"
 #include "tools/exporter/site_metrics.h"
 
@@ -27,9 +34,13 @@ constexpr int kTurn_ms = 200;
 // Heard by the main thread, told by those of the web server.
 class Told : public prometheus::Collectable {
  public:
+  explicit Told(std::string bridge_status) : bridge_status_(std::move(bridge_status)) {}
+
   std::vector<prometheus::MetricFamily> Collect() const override {
+    std::vector<prometheus::MetricFamily> all = of_bridge();
     const std::lock_guard lock(mutex_);
-    return metrics_.families(ols::clock_monotonic_s());
+    std::ranges::move(metrics_.families(ols::clock_monotonic_s()), std::back_inserter(all));
+    return all;
   }
   template <class Status>
   void hear(const Status& status) {
@@ -47,6 +58,18 @@ class Told : public prometheus::Collectable {
   }
 
  private:
+  std::vector<prometheus::MetricFamily> of_bridge() const {
+    if (bridge_status_.empty()) return {};
+    std::string text;
+    try {
+      text = ols::read_small_file(bridge_status_, 1 << 20);
+    } catch (const std::system_error&) {
+      // Without its status it counts as not running.
+    }
+    return ols::exporter::bridge_metrics(text, ols::clock_utime_us());
+  }
+
+  const std::string bridge_status_;
   mutable std::mutex mutex_;
   ols::exporter::SiteMetrics metrics_{OLS_VERSION};
 };
@@ -70,7 +93,7 @@ void listen(ols::LcmBus& bus, Told& told) {
 }
 
 void run(const ols::exporter::ExporterConfig& config) {
-  const auto told = std::make_shared<Told>();
+  const auto told = std::make_shared<Told>(config.bridge_status);
   prometheus::Exposer server(config.address, 1);
   server.RegisterCollectable(told);
   ols::BusConnector connector(config.lcm_url, open_trust(config.trust));

@@ -6,49 +6,22 @@
 
 #include "command/messages.h"
 #include "ols_msg/bearing_t.hpp"
+#include "tools/exporter/metric_collection.h"
 
 namespace ols::exporter {
 namespace {
 
 using ols_msg::fusion_status_t;
 using ols_msg::station_status_t;
-using prometheus::ClientMetric;
 using prometheus::MetricFamily;
-using prometheus::MetricType;
-using Labels = std::vector<std::pair<std::string, std::string>>;
-
-// Collects samples of one metric after another, in the order in which they are first named.
-class Collection {
- public:
-  void gauge(const char* name, const char* help, const Labels& labels, double value) {
-    add(name, help, MetricType::Gauge, labels).gauge.value = value;
-  }
-  void counter(const char* name, const char* help, const Labels& labels, double value) {
-    add(name, help, MetricType::Counter, labels).counter.value = value;
-  }
-  std::vector<MetricFamily> take() { return std::move(families_); }
-
- private:
-  ClientMetric& add(const char* name, const char* help, MetricType type, const Labels& labels) {
-    auto family = std::ranges::find(families_, name, &MetricFamily::name);
-    if (family == families_.end()) {
-      families_.push_back({name, help, type, {}});
-      family = families_.end() - 1;
-    }
-    ClientMetric& metric = family->metric.emplace_back();
-    for (const auto& [label, value] : labels) metric.label.push_back({label, value});
-    return metric;
-  }
-
-  std::vector<MetricFamily> families_;
-};
 
 // As doubles: a member may state any two times, whose difference no integer holds.
 double seconds_since(std::int64_t utime_us, std::int64_t now_us) {
   return 1e-6 * (static_cast<double>(now_us) - static_cast<double>(utime_us));
 }
 
-void add_state(Collection& all, const std::string& id, const station_status_t& s, double age_s) {
+void add_state(MetricCollection& all, const std::string& id, const station_status_t& s,
+               double age_s) {
   all.gauge("ols_station_status_age_seconds", "Since its last status was heard.", {{"station", id}},
             age_s);
   all.gauge("ols_station_state", "1 for what the station does now.",
@@ -65,7 +38,7 @@ void add_state(Collection& all, const std::string& id, const station_status_t& s
 }
 
 // One at a time for each station: after an update the former is not told any more.
-void add_version(Collection& all, const std::string& id, const station_status_t& s) {
+void add_version(MetricCollection& all, const std::string& id, const station_status_t& s) {
   all.gauge("ols_station_build_info", "1; the version of the station's program.",
             {{"station", id}, {"version", command::software(s)}}, 1.0);
   if (s.last_error.empty()) return;
@@ -73,7 +46,7 @@ void add_version(Collection& all, const std::string& id, const station_status_t&
             {{"station", id}}, seconds_since(s.last_error_utime, s.utime));
 }
 
-void add_calibration(Collection& all, const std::string& id, const station_status_t& s) {
+void add_calibration(MetricCollection& all, const std::string& id, const station_status_t& s) {
   const bool doubted = s.calibration_state == station_status_t::CALIBRATION_DOUBTED;
   const bool used = doubted || s.calibration_state == station_status_t::CALIBRATION_IN_USE;
   all.gauge("ols_station_calibration_in_use", "1 while an adjusted calibration is in use.",
@@ -90,7 +63,7 @@ void first_names(const std::vector<std::string>& names, const Use& use) {
   for (std::size_t i = 0; i < std::min(names.size(), SiteMetrics::kMostNames); ++i) use(i);
 }
 
-void add_named(Collection& all, const std::string& id, const station_status_t& s) {
+void add_named(MetricCollection& all, const std::string& id, const station_status_t& s) {
   first_names(s.device_name, [&](std::size_t i) {
     if (s.device_name[i] == "software") return;  // no device
     const bool works = s.device_state[i] == station_status_t::DEVICE_OK;
@@ -107,7 +80,7 @@ void add_named(Collection& all, const std::string& id, const station_status_t& s
   });
 }
 
-void add_fusion(Collection& all, const fusion_status_t& s, double age_s) {
+void add_fusion(MetricCollection& all, const fusion_status_t& s, double age_s) {
   all.gauge("ols_fusion_status_age_seconds", "Since its last status was heard.", {}, age_s);
   all.gauge("ols_fusion_alarms", "Alarms that are active.", {},
             static_cast<double>(s.alarm.size()));
@@ -145,7 +118,7 @@ void SiteMetrics::hear_distrusted(std::map<std::string, double> by_reason) {
 }
 
 std::vector<MetricFamily> SiteMetrics::families(double now_s) const {
-  Collection all;
+  MetricCollection all;
   all.gauge("ols_build_info", "1; the version of the exporter.", {{"version", version_}}, 1.0);
   for (const auto& [reason, count] : distrusted_) {
     all.counter("ols_bus_distrusted_total", "Messages that the exporter did not believe.",

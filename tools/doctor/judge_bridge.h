@@ -1,0 +1,14 @@
+// Is the bridge to other sites well: by its own status. Pure.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "tools/doctor/finding.h"
+
+namespace ols::doctor {
+
+// `status`: the text of its status file; empty: there is none.
+Findings judge_bridge(const std::string& status, std::int64_t utime_us);
+
+}  // namespace ols::doctor
