@@ -269,8 +269,8 @@ def test_what_is_merged_is_by_key_alone():
     [
         (["a"], "--region"),
         (["a", "--region", "../b", "x.lcmlog"], "--region ../b"),
-        (["a", "--region", "b"], "logs or --live"),
-        (["a", "--region", "b", "x.lcmlog", "--live", "udpm://"], "logs or --live"),
+        (["a", "--region", "b"], "logs, --live or --stream"),
+        (["a", "--region", "b", "x.lcmlog", "--live", "udpm://"], "logs, --live or --stream"),
         (["a", "--region", "b", "--live", "udpm://", "--flush-s", "0"], "--flush-s"),
     ],
 )

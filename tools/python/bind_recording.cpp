@@ -8,9 +8,11 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "base/lcm_bus.h"
 #include "base/log_reader.h"
+#include "base/trust/trailer.h"
 #include "tools/python/bindings.h"
 
 namespace ols::python {
@@ -50,6 +52,14 @@ std::map<std::string, std::uint64_t> refused(const LcmBus& bus) {
   return counts;
 }
 
+py::tuple split_signature(const py::bytes& message) {
+  const std::string_view text = message;
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(text.data());
+  const std::size_t payload = trust::without_trailer({begin, text.size()}).size();
+  return py::make_tuple(py::bytes(text.data(), payload),
+                        py::bytes(text.data() + payload, text.size() - payload));
+}
+
 py::tuple next_of(LogReader& reader) {
   const auto message = reader.next();
   if (!message) throw py::stop_iteration();
@@ -60,6 +70,9 @@ py::tuple next_of(LogReader& reader) {
 
 void bind_recording(py::module_& m) {
   py::register_exception<BusError>(m, "BusError", PyExc_OSError);
+  m.def("split_signature", &split_signature, arg("message"),
+        "(the LCM message, its signature) of bytes as they were on the bus; without one, all of it "
+        "is the message.");
   py::class_<LogReader>(m, "LogReader",
                         "The messages of an LCM log in the order of the file, each as (recorded "
                         "utime [us], channel, message, its signature). What is no record is "

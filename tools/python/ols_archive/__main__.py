@@ -1,4 +1,5 @@
-"""ols-archive: messages from logs and from the bus into hourly Parquet files, each once.
+"""ols-archive: messages from logs, from the bus and from a bridge's stream into hourly Parquet
+files, each once.
 
 Running it again adds nothing. Exit code: 0; 1 if something was damaged (it is named, the rest is
 archived); 2 if it could not work at all.
@@ -28,6 +29,10 @@ def parse_arguments(words: list[str] | None) -> argparse.Namespace:
         "--region", help="letters, digits and -: the first part of each file's path"
     )
     parser.add_argument("--live", metavar="URL", help="LCM URL of a bus: until a signal ends it")
+    parser.add_argument(
+        "--stream", help="of the bridge, OLS_REGION: what is new in it since the last run"
+    )
+    add_server(parser)
     parser.add_argument("--flush-s", type=float, default=60.0, help="[s] between writes when live")
     parser.add_argument("--keys", help="folder of keys: when live, only what is signed is archived")
     parser.add_argument("--name", default="archive", help="of the member in that folder")
@@ -42,6 +47,16 @@ def parse_arguments(words: list[str] | None) -> argparse.Namespace:
     return arguments
 
 
+def add_server(parser: argparse.ArgumentParser) -> None:
+    server = parser.add_argument_group("the server of a stream (docs/bridge.md)")
+    server.add_argument("--server", default="nats://127.0.0.1:4222", help="nats:// or tls://")
+    server.add_argument("--domain", help="JetStream's, of the server that keeps the stream")
+    server.add_argument("--seed", type=Path, help="file of the seed of our key there")
+    server.add_argument("--credentials", type=Path, help="file of our credentials, in its place")
+    server.add_argument("--authority", type=Path, help="PEM file that the server's is signed by")
+    server.add_argument("--again", action="store_true", help="all of it, not only what is new")
+
+
 def check(parser: argparse.ArgumentParser, arguments: argparse.Namespace) -> None:
     from ols_archive.partitions import REGION
 
@@ -49,8 +64,10 @@ def check(parser: argparse.ArgumentParser, arguments: argparse.Namespace) -> Non
         parser.error("a folder and --region are needed")
     if not REGION.fullmatch(arguments.region):
         parser.error(f"--region {arguments.region}: small letters, digits and - only")
-    if bool(arguments.logs) == bool(arguments.live):
-        parser.error("logs or --live, one of them")
+    if [bool(arguments.logs), bool(arguments.live), bool(arguments.stream)].count(True) != 1:
+        parser.error("logs, --live or --stream, one of them")
+    if arguments.seed and arguments.credentials:
+        parser.error("--seed or --credentials")
     if arguments.flush_s <= 0.0:
         parser.error("--flush-s must be more than 0")
     if arguments.archive.exists() and not arguments.archive.is_dir():
@@ -93,6 +110,15 @@ def run_logs(arguments: argparse.Namespace, archiver) -> None:
     archiver.flush()
 
 
+def run_stream(arguments: argparse.Namespace, archiver) -> None:
+    from ols_archive.streams import Position, Server, archive_stream
+
+    given = ("domain", "seed", "credentials", "authority")
+    server = Server(arguments.server, **{name: getattr(arguments, name) for name in given})
+    position = Position(arguments.archive, arguments.region, server, arguments.stream)
+    archive_stream(server, arguments.stream, archiver, position, arguments.again)
+
+
 def tell(arguments: argparse.Namespace, archiver) -> None:
     tally = archiver.tally.report()
     counts = ", ".join(f"{count} {reason}" for reason, count in tally["counts"].items())
@@ -115,7 +141,8 @@ def main(words: list[str] | None = None) -> int:
 
     archiver = Archiver(arguments.archive, arguments.region, not arguments.without_signatures)
     try:
-        (run_live if arguments.live else run_logs)(arguments, archiver)
+        run = run_live if arguments.live else run_stream if arguments.stream else run_logs
+        run(arguments, archiver)
     except (OSError, ValueError) as error:
         print(f"ols-archive: {error}", file=sys.stderr)
         return UNUSABLE

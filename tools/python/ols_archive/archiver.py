@@ -42,6 +42,7 @@ DAMAGE = (
     "unreadable",
     "contradictions",
     "damaged_files",
+    "expired",
 )
 
 
