@@ -47,6 +47,18 @@ std::string CalibrationInUse::conflict(const CalibrationFiles& files,
   return same ? "" : "the unit has other counts to a turn";
 }
 
+std::vector<std::string> CalibrationInUse::other_devices(
+    const InstrumentSerials& configured, const std::vector<device::DeviceReport>& devices) {
+  std::vector<std::string> alarms;
+  for (const device::DeviceReport& device : devices) {
+    if (other_serial(configured, device).empty()) continue;
+    const std::string& there = device.name == "camera" ? configured.camera : configured.ptu;
+    alarms.push_back("calibration: another " + device.name + " than configured: it says '" +
+                     device.serial + "', [serials] has '" + there + "'");
+  }
+  return alarms;
+}
+
 bool CalibrationInUse::refuses(const std::vector<device::DeviceReport>& devices) {
   const std::string why = files_ ? conflict(*files_, devices, {}) : "";
   if (!why.empty()) drop(configured_.calibration_folder + "/" + why);

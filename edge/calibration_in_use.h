@@ -34,6 +34,10 @@ class CalibrationInUse {
   static std::string conflict(const CalibrationFiles& files,
                               const std::vector<device::DeviceReport>& devices,
                               const PanTilt& count_rad);
+  // Of each device that says another serial number than is configured; the serial numbers of an
+  // instrument are the configured ones.
+  static std::vector<std::string> other_devices(const InstrumentSerials& configured,
+                                                const std::vector<device::DeviceReport>& devices);
   // From now on the station works with these: settings() are others.
   void adopt(const CalibrationFiles& files);
 

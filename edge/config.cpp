@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/lcm_url.h"
+#include "base/config_common.h"
 #include "edge/config_units.h"
 #include "edge/sensors/pose_estimator_config.h"
 
@@ -273,9 +273,7 @@ Section station_section(StationSettings& s) {
        config::word("kind", s.station.overview, {{"tracking", false}, {"overview", true}},
                     "tracking: follows by itself and by slews; overview: driven by a person, with "
                     "a zoom lens."),
-       config::text("lcm_url", s.lcm_url,
-                    "The bus; ttl=0: only this host, ttl=1: also the other hosts of the site.",
-                    [](const std::string& url) { parse_lcm_url(url); }),
+       config::bus_url(s.lcm_url),
        config::text("state_folder", s.state_folder,
                     "Folder of the state that survives a restart; it must exist.")
            .default_is("$STATE_DIRECTORY"),

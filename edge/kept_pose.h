@@ -1,4 +1,5 @@
-// The station's pose from survey and sensors, persisted in a file.
+// The station's pose from survey and sensors, as it was before the restart until they have told
+// anew (pose_store.h has the file).
 #pragma once
 
 #include <optional>

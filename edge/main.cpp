@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <exception>
 #include <opencv2/core/utility.hpp>
-#include <optional>
 #include <string>
 
 #include "base/boot_id.h"

@@ -5,6 +5,7 @@ namespace ols::station {
 void ManualMotion::point(const PanTilt& angles, double now_s, double until_s) {
   rate_.reset();
   point_ = ptu::ServoGoal{now_s, angles, {}, until_s};
+  point_->rests = true;
 }
 
 void ManualMotion::turn(const RateCommand& command) {

@@ -290,7 +290,7 @@ ols_msg::frame_part_t to_message(const FramePart& part, const Sender& sender,
                                  std::int64_t sequence) {
   const RequestedFrame& of = part.frame->frame;
   ols_msg::frame_part_t message;
-  message.utime = sender.utime_us(of.frame.mid_exposure_s);
+  message.utime = part.utime_us;
   message.schema_version = ols_msg::frame_part_t::SCHEMA_VERSION;
   message.station = sender.station;
   message.boot_id = sender.boot_id;

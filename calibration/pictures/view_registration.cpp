@@ -110,7 +110,8 @@ double vertex(double before, double at, double after) {
   return bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
 }
 
-// Where a tile's score is greatest; nothing at the border of the search.
+// Where a tile's score is greatest; nothing at the border of the search, or where nothing of the
+// reference is in the view: a dark one scores zero everywhere, and so best where it is.
 std::optional<Vector2d> tile_shift(const std::vector<cv::Mat>& scores, int row, int column) {
   const auto at = [&](int dx, int dy) {
     return scores[static_cast<std::size_t>((dy + kReach_px) * kSide + dx + kReach_px)].at<float>(
@@ -122,7 +123,7 @@ std::optional<Vector2d> tile_shift(const std::vector<cv::Mat>& scores, int row, 
       if (at(dx, dy) > at(x, y)) x = dx, y = dy;
     }
   }
-  if (std::max(std::abs(x), std::abs(y)) == kReach_px) return std::nullopt;
+  if (std::max(std::abs(x), std::abs(y)) == kReach_px || at(x, y) <= 0.0F) return std::nullopt;
   return Vector2d(x + vertex(at(x - 1, y), at(x, y), at(x + 1, y)),
                   y + vertex(at(x, y - 1), at(x, y), at(x, y + 1)));
 }

@@ -53,6 +53,7 @@ Shot LandmarkStage::shot() const {
                     : aim_at(model_.geometry, here.landmark.ecef).value_or(PanTilt{});
   shot.angles = plus(shot.angles, turned_);
   shot.approach_pan = shot.approach_tilt = visit().approach;
+  shot.is_view = true;
   return shot;
 }
 
@@ -120,7 +121,17 @@ void LandmarkStage::confirm() {
   learn_heading(confirmed.picture, confirmed.pixel);
   confirmed.picture.gray.release();
   entry().confirmed = std::move(confirmed);
+  close_here();
   next_visit();
+}
+
+// The round is closed at the first landmark that was sighted, whichever were skipped before it.
+void LandmarkStage::close_here() {
+  const bool is_first = std::ranges::count_if(entries_, [](const Entry& one) {
+                          return one.confirmed.has_value();
+                        }) == 1;
+  const auto closing = std::ranges::find_if(visits_, &Visit::closing);
+  if (is_first && closing != visits_.end()) closing->entry = visit().entry;
 }
 
 void LandmarkStage::learn_heading(const Taken& picture, const Vector2d& pixel) {

@@ -65,6 +65,7 @@ class LandmarkStage : public Stage {
   Shot shot() const;
   std::optional<Eigen::Vector2d> predicted(const Taken& picture) const;
   void confirm();
+  void close_here();
   void find_again(const Taken& picture);
   void learn_heading(const Taken& picture, const Eigen::Vector2d& pixel);
   void next_visit();

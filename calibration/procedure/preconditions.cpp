@@ -24,6 +24,18 @@ Precondition clock_of(const StationFacts& facts, const Wanted& wanted) {
   return one;
 }
 
+// What is found is of the instrument with the configured serial numbers.
+Precondition devices_of(const StationFacts& facts) {
+  const std::string prefix = kAnotherDevice;
+  const auto other = std::ranges::find_if(
+      facts.alarms, [&](const std::string& alarm) { return alarm.starts_with(prefix); });
+  if (other == facts.alarms.end()) {
+    return {true, true, "no device says another serial number than configured"};
+  }
+  return {false, true,
+          other->substr(prefix.find("another")) + ": correct [serials], or connect the right one"};
+}
+
 // Where the sun stands in the unit's angles is known as well as the heading; SunKeepOut's margin
 // allows for a compass.
 Precondition heading_of(const StationFacts& facts) {
@@ -64,6 +76,7 @@ std::vector<Precondition> preconditions(const StationFacts& facts, const Wanted&
       true, "the pictures have the configured size",
       printed("the camera sends %d x %d px, the configuration says %d x %d", facts.image_width_px,
               facts.image_height_px, wanted.image_width_px, wanted.image_height_px));
+  all.push_back(devices_of(facts));
   add(facts.has_position, true, printed("position known to %.2f m", facts.position_sd_m),
       "the position is not known: wait for a GNSS fix, or survey it");
   add(facts.has_tilt, false, printed("levelled, tilt known to %.3f deg", facts.tilt_sd_deg),

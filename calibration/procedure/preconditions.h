@@ -7,6 +7,9 @@
 
 namespace ols::calibration {
 
+// How a station's alarm begins that a device says another serial number than is configured.
+inline constexpr const char* kAnotherDevice = "calibration: another ";
+
 // Of a station's status.
 struct StationFacts {
   std::string state;  // "idle", "manual", ...

@@ -21,6 +21,8 @@ struct Shot {
   int approach_pan = 1, approach_tilt = 1;
   bool may_detour = true;  // else straight there, from wherever the unit is
   bool lossless = true;
+  // Of scenery that stays: with such a picture it is compared later whether the tripod has moved.
+  bool is_view = false;
 };
 
 struct Question {

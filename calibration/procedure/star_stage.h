@@ -2,6 +2,8 @@
 // adjustment finds. Pure.
 #pragma once
 
+#include <numbers>
+
 #include "calibration/procedure/stage.h"
 
 namespace ols::calibration {
@@ -11,10 +13,11 @@ struct StarPlanOptions {
   double pan_min_rad = -2.6, pan_max_rad = 2.6;
   double lowest_rad = 0.21;  // 12 degrees: refraction below 10 is not known well enough
   double highest_rad = 0.5;
+  double worm_turn_rad = 2.0 * std::numbers::pi / 70.0;  // of pan and tilt
 };
 
-// Uneven steps of pan, over all elevations, alternately from both sides of the gears.
-// std::invalid_argument where the unit does not reach the lowest elevation.
+// All around, alternately low and high, from all sides of the gears, and over all phases of the
+// worms. std::invalid_argument where the unit does not reach the lowest elevation.
 std::vector<Shot> plan_stars(const StarPlanOptions& options);
 
 class StarStage : public Stage {

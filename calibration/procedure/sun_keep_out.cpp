@@ -24,16 +24,17 @@ Eigen::Vector3d SunKeepOut::sun_enu() const {
   return LocalFrame(place).R_ecef_enu().transpose() * sun.ecef;
 }
 
-std::string SunKeepOut::hindrance(const PanTilt& angles) const {
+std::string SunKeepOut::hindrance(const PanTilt& angles, double doubt_rad) const {
   if (lifted_) return {};
   const Eigen::Vector3d sun = sun_enu();
   if (!calibration::is_up(sun)) return {};
   const Eigen::Vector3d axis = enu_from_azimuth_elevation(optical_axis(model_.geometry, angles));
   const double apart_deg = degrees(std::acos(std::clamp(axis.dot(sun), -1.0, 1.0)));
-  if (apart_deg >= kRadius_deg) return {};
+  const double kept_deg = kRadius_deg + degrees(doubt_rad);
+  if (apart_deg >= kept_deg) return {};
   char text[120];
   std::snprintf(text, sizeof text, "the sun stands %.0f degrees beside it: %.0f are kept",
-                apart_deg, kRadius_deg);
+                apart_deg, kept_deg);
   return text;
 }
 

@@ -20,8 +20,9 @@ class SunKeepOut {
   using UtcNow = std::function<std::int64_t()>;  // [us]
   SunKeepOut(const StationModel& model, UtcNow now) : model_(model), now_(std::move(now)) {}
 
-  // In words why the unit must not look there (reported angles) now; empty: it may.
-  std::string hindrance(const PanTilt& angles) const;
+  // In words why the unit must not look there (reported angles) now; empty: it may. `doubt_rad`: by
+  // how much more the tripod may have turned than a compass is wrong.
+  std::string hindrance(const PanTilt& angles, double doubt_rad = 0.0) const;
   // Some of it may be seen: it is not far below the horizon.
   bool is_up() const;
   // A filter is on the lens: a person has said so, and a picture beside the sun has proved it.

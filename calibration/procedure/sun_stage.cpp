@@ -79,16 +79,23 @@ std::optional<Shot> SunStage::beside() const {
   return std::nullopt;
 }
 
+// In words why the sun cannot be sighted now; empty: it can.
+std::string SunStage::hindrance() const {
+  const double elevation_deg = degrees(std::asin(keep_out_->sun_enu().z()));
+  const bool low = elevation_deg < kLeastElevation_deg;
+  if (!low && at_sun() && beside()) return {};
+  return "it stands " + std::to_string(std::lround(elevation_deg)) + " degrees high: " +
+         (low ? "below 10 the refraction is not known well enough"
+              : "the unit cannot look there, or not beside it");
+}
+
 std::optional<Order> SunStage::next() {
   if (step_ == Step::kDone) return std::nullopt;
   if (step_ == Step::kAskFilter) {
-    const double elevation_deg = degrees(std::asin(keep_out_->sun_enu().z()));
-    const bool low = elevation_deg < kLeastElevation_deg;
-    if (low || !at_sun() || !beside()) {
-      give_up("it stands " + std::to_string(std::lround(elevation_deg)) + " degrees high: " +
-              (low ? "below 10 the refraction is not known well enough"
-                   : "the unit cannot look there, or not beside it"));
-      return std::nullopt;
+    const std::string why = hindrance();
+    if (!why.empty()) {
+      give_up(why);
+      return next();
     }
   }
   Order order;
@@ -121,13 +128,7 @@ void SunStage::taken(const Taken& picture) {
     step_ = Step::kSight;
     return;
   }
-  if (step_ == Step::kLeave) {
-    step_ = Step::kAskOff;
-    question_ = {};
-    question_.text = "Take the sun filter off the lens, then confirm.";
-    question_.choices = {"filter_off"};
-    return;
-  }
+  if (step_ == Step::kLeave) return ask_off(true);
   const SunDisc disc = find_sun(picture.gray, model_.geometry.camera.fx_px);
   if (disc) {
     observations_.push_back(observation_of(Kind::kSun, picture, disc.centre_px, disc.sd_px, "sun"));
@@ -149,7 +150,7 @@ void SunStage::not_taken(const std::string& why) {
   if (step_ == Step::kProve) {
     give_up("the picture beside it is missing: " + why);
   } else if (step_ == Step::kLeave) {
-    taken({});
+    ask_off(false);
   } else {
     remark("sun: picture " + std::to_string(at_ + 1) + " is missing: " + why);
     next_sighting();
@@ -162,13 +163,30 @@ void SunStage::next_sighting() {
   step_ = Step::kLeave;
 }
 
+// What was sighted of it before stands: each sighting has its own time.
 void SunStage::give_up(const std::string& why) {
-  remark("sun: left out: " + why);
+  remark(observations_.empty()
+             ? "sun: left out: " + why
+             : "sun: no more pictures than " + std::to_string(observations_.size()) + ": " + why);
   step_ = Step::kDone;
+  if (!filter_is_on_) return;
+  // The unit may still look there: not before it has turned away does the filter come off.
+  step_ = Step::kLeave;
+  if (keep_out_->sun_enu().z() < 0.0) ask_off(true);
+}
+
+void SunStage::ask_off(bool looks_away) {
+  step_ = Step::kAskOff;
+  question_ = {};
+  question_.text = looks_away ? "Take the sun filter off the lens, then confirm."
+                              : "The unit could not be turned away from the sun: cover the lens "
+                                "before you take the sun filter off, then confirm.";
+  question_.choices = {"filter_off"};
 }
 
 void SunStage::answered(const Answer& answer) {
   if (step_ == Step::kAskFilter && answer.choice == "filter_on") {
+    filter_is_on_ = true;
     step_ = Step::kProve;
   } else if (step_ == Step::kAskFilter && answer.choice == "skip") {
     give_up("skipped");
@@ -184,6 +202,7 @@ void SunStage::answered(const Answer& answer) {
     step_ = Step::kLeave;
   } else if (step_ == Step::kAskOff && answer.choice == "filter_off") {
     keep_out_->restore();
+    filter_is_on_ = false;
     step_ = Step::kDone;
   }
 }

@@ -34,6 +34,8 @@ class SunStage : public Stage {
   std::optional<Shot> at_sun() const;
   void ask_filter(const std::string& trouble);
   void give_up(const std::string& why);
+  void ask_off(bool looks_away);
+  std::string hindrance() const;
   void next_sighting();
 
   StationModel model_;
@@ -41,8 +43,9 @@ class SunStage : public Stage {
   MayGo may_go_;
   Step step_ = Step::kAskFilter;
   Question question_;
-  PanTilt turned_;      // by the person
-  std::size_t at_ = 0;  // sighting
+  bool filter_is_on_ = false;  // as the person said last
+  PanTilt turned_;             // by the person
+  std::size_t at_ = 0;         // sighting
   std::vector<Observation> observations_;
 };
 

@@ -13,6 +13,8 @@ class CheckRecord {
   void note_judged();
   // A round whose pictures said nothing: night, fog, another scene.
   void note_unrecognised() { reason_ = "its reference views are not recognised"; }
+  // So many views were left out because of the sun that nothing could be told.
+  void note_sun() { reason_ = "the sun stands in its reference views"; }
   // The unit did not come to a view in time, in so many rounds in a row.
   void note_late(int rounds);
   // The travel and the keep-out regions leave so many views that nothing can be told.

@@ -42,10 +42,9 @@ double DriftWatch::size_rad(const DriftFinding& finding) const {
   if (finding.cause == DriftCause::kLostSteps || finding.cause == DriftCause::kUnclear) {
     return config_.red_rad;
   }
-  double size = 0.0;
-  if (shown(finding.heading_rad, finding.heading_sd_rad)) size = std::abs(finding.heading_rad);
-  if (shown(finding.tilt_rad, finding.tilt_sd_rad)) size = std::max(size, finding.tilt_rad);
-  return size;
+  const bool turned = shown(finding.heading_rad, finding.heading_sd_rad);
+  const bool tilted = shown(finding.tilt_rad, finding.tilt_sd_rad);
+  return std::hypot(turned ? finding.heading_rad : 0.0, tilted ? finding.tilt_rad : 0.0);
 }
 
 DriftLevel DriftWatch::judge(const DriftFinding& finding) const {

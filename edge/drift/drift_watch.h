@@ -25,6 +25,8 @@ class DriftWatch {
   bool add(const DriftFinding& finding);
 
   DriftLevel level() const { return level_; }
+  // The views agreed on nothing: by how much it has turned is not known.
+  bool is_unclear() const { return finding_.cause == DriftCause::kUnclear; }
   // What bearings must allow for, 1-sigma; zero without an alarm.
   double heading_doubt_rad() const;
   double tilt_doubt_rad() const;

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "calibration/procedure/sun_keep_out.h"
+
 namespace ols::station {
 
-KeptCalibration::KeptCalibration(const StationSettings& configured)
-    : next_(configured), in_use_(configured) {
+KeptCalibration::KeptCalibration(const StationSettings& configured, UtcNow now)
+    : now_(std::move(now)), next_(configured), in_use_(configured) {
   begin();
 }
 
@@ -21,6 +23,11 @@ void KeptCalibration::begin() {
   config.station = now.id;
   config.calibration_id = now.calibration_id;
   config.tour.interval_s = now.view_check_s;
+  // No filter is on the lens when nobody is there.
+  const calibration::SunKeepOut sun(now.station.calibration->model, now_);
+  config.sun = [sun](const PanTilt& at, double turned_rad) {
+    return !sun.hindrance(at, turned_rad).empty();
+  };
   views_ = std::make_unique<ReferenceViews>(config, *now.station.calibration);
 }
 
@@ -106,6 +113,7 @@ std::map<std::string, double> KeptCalibration::counters() const {
   if (!views_) return counters;
   counters["view_checks"] = static_cast<double>(views_->checks());
   counters["views_unrecognised"] = static_cast<double>(views_->unrecognised());
+  counters["views_left_out"] = static_cast<double>(views_->left_out());
   return counters;
 }
 

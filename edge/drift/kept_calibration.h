@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/clocks.h"
 #include "edge/calibration_in_use.h"
 #include "edge/drift/next_calibration.h"
 #include "edge/drift/reference_views.h"
@@ -16,7 +18,8 @@ namespace ols::station {
 
 class KeptCalibration {
  public:
-  explicit KeptCalibration(const StationSettings& configured);
+  using UtcNow = std::function<std::int64_t()>;  // [us]: where the sun stands
+  explicit KeptCalibration(const StationSettings& configured, UtcNow now = clock_utime_us);
 
   const StationSettings& settings() const { return in_use_.settings(); }
   // True if the calibration is of other devices and was dropped just now: settings() are others.
@@ -49,6 +52,7 @@ class KeptCalibration {
  private:
   void begin();
 
+  UtcNow now_;
   NextCalibration next_;  // first: what changes while the folder is read is another one
   CalibrationInUse in_use_;
   std::unique_ptr<ReferenceViews> views_;  // null: no calibration in use, or no checks configured

@@ -9,6 +9,7 @@
 #include "base/small_file.h"
 #include "calibration/pictures/view_registration.h"
 #include "edge/drift/view_offset.h"
+#include "geometry/angles.h"
 
 namespace ols::station {
 namespace {
@@ -43,7 +44,7 @@ std::vector<cv::Mat> load(const std::vector<std::string>& paths) {
 ReferenceViews::ReferenceViews(const Config& config, const StationCalibration& calibration)
     : config_(config),
       calibration_(calibration),
-      tour_(config.tour),
+      tour_(tour_config()),
       watch_(config.drift, config.calibration_id),
       file_(drift_file(config)) {
   const std::string path = drift_file(config);
@@ -54,6 +55,23 @@ ReferenceViews::ReferenceViews(const Config& config, const StationCalibration& c
   } catch (const std::exception& problem) {
     unreadable_ = problem.what();
   }
+}
+
+ViewTour::Config ReferenceViews::tour_config() const {
+  ViewTour::Config tour = config_.tour;
+  if (config_.sun) {
+    tour.forbidden = [this](const PanTilt& at) { return config_.sun(at, turned_rad()); };
+  }
+  return tour;
+}
+
+// By how much the tripod may have turned since it was calibrated. One that no longer recognises its
+// views may have been turned by whoever ran into it; further only by someone who sets it up anew.
+double ReferenceViews::turned_rad() const {
+  constexpr double kSigmas = 3.0, kAstray_rad = 30.0 * kPi / 180.0;
+  const bool unclear = watch_.level() == DriftLevel::kRed && watch_.is_unclear();
+  if (astray_ || unclear) return kAstray_rad;
+  return kSigmas * std::hypot(watch_.heading_doubt_rad(), watch_.tilt_doubt_rad());
 }
 
 std::string ReferenceViews::picture(std::size_t view) const {
@@ -108,7 +126,10 @@ std::optional<ptu::ServoGoal> ReferenceViews::step(const ViewTour::Situation& si
   const auto goal = tour_.step(situation);
   if (!was && tour_.under_way()) looks_.clear();
   record_.note_late(tour_.late());
-  if (tour_.take_finished()) judged_ = false;
+  if (tour_.take_finished()) {
+    judged_ = false;
+    tally_.left_out += tour_.left_out().size();
+  }
   if (!judged_) finish();
   return goal;
 }
@@ -140,7 +161,7 @@ std::vector<ViewOffset> ReferenceViews::take_looks() {
   for (Look& look : looks_) {
     const Seen seen = look.result.get();
     if (seen.offset) offsets.push_back(*seen.offset);
-    if (!look.storing && !seen.offset) ++unrecognised_;
+    if (!look.storing && !seen.offset) ++tally_.unrecognised;
     if (seen.picture.empty()) continue;
     pictures_[look.view] = seen.picture;
     ++stored_;
@@ -155,13 +176,16 @@ void ReferenceViews::finish() {
     if (look.result.wait_for(seconds(0)) != std::future_status::ready) return;
   }
   judged_ = true;
+  const std::uint64_t unrecognised = tally_.unrecognised;
   const std::vector<ViewOffset> offsets = take_looks();
+  const bool by_sun = views() - tour_.left_out().size() < kFewest;
+  if (!by_sun) astray_ = offsets.size() < kFewest && tally_.unrecognised > unrecognised;
   if (offsets.size() < kFewest) {
-    record_.note_unrecognised();
+    by_sun ? record_.note_sun() : record_.note_unrecognised();
     return;
   }
   record_.note_judged();
-  ++checks_;
+  ++tally_.checks;
   if (watch_.add(find_drift(offsets, kMotorStep_rad))) tour_.request();
   file_.write(watch_.to_text());
 }
@@ -170,7 +194,7 @@ std::vector<std::string> ReferenceViews::alarms() const {
   std::vector<std::string> alarms;
   if (const std::string alarm = watch_.alarm(); !alarm.empty()) alarms.push_back(alarm);
   if (std::string alarm = record_.alarm(); !alarm.empty()) alarms.push_back(std::move(alarm));
-  if (!unreadable_.empty() && checks_ == 0) {
+  if (!unreadable_.empty() && tally_.checks == 0) {
     alarms.push_back("calibration: what earlier checks found is unknown (" + unreadable_ +
                      "): wait for the next one");
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -27,8 +28,12 @@ class ReferenceViews {
     std::int64_t calibration_id = 0;
     ViewTour::Config tour;
     DriftWatch::Config drift;
+    // Whether the sun stands there (reported angles), if the tripod may have turned by this [rad]
+    // since it was calibrated. Empty: it stands nowhere.
+    std::function<bool(const PanTilt&, double)> sun;
   };
   ReferenceViews(const Config& config, const StationCalibration& calibration);
+  ReferenceViews(const ReferenceViews&) = delete;  // its tour asks it where the sun stands
 
   // The unit's travel, once it is known. Begins to read the stored pictures.
   void set_limits(const ptu::PtuLimits& limits);
@@ -40,9 +45,11 @@ class ReferenceViews {
   bool loaded();
   const DriftWatch& watch() const { return watch_; }
   bool stored() const { return stored_ == views(); }
-  std::uint64_t checks() const { return checks_; }
+  std::uint64_t checks() const { return tally_.checks; }
   // Views in which the stored picture was not recognised: night, fog, another scene.
-  std::uint64_t unrecognised() const { return unrecognised_; }
+  std::uint64_t unrecognised() const { return tally_.unrecognised; }
+  // Views that rounds have left out because of the sun.
+  std::uint64_t left_out() const { return tally_.left_out; }
   std::vector<std::string> alarms() const;
 
  private:
@@ -51,12 +58,17 @@ class ReferenceViews {
     std::optional<ViewOffset> offset;
     cv::Mat picture;
   };
+  struct Tally {
+    std::uint64_t checks = 0, unrecognised = 0, left_out = 0;
+  };
   struct Look {
     std::size_t view = 0;
     bool storing = false;
     std::future<Seen> result;
   };
   std::size_t views() const { return tour_.views().size(); }
+  ViewTour::Config tour_config() const;
+  double turned_rad() const;
   std::string picture(std::size_t view) const;
   void finish();
   std::vector<ViewOffset> take_looks();
@@ -72,8 +84,9 @@ class ReferenceViews {
   CheckRecord record_;
   std::vector<Look> looks_;
   std::string unreadable_;
-  std::uint64_t checks_ = 0, unrecognised_ = 0;
+  Tally tally_;
   bool judged_ = true;
+  bool astray_ = false;           // the last round did not recognise what it had stored
   std::optional<PanTilt> count_;  // once the views are planned
 };
 

@@ -28,6 +28,7 @@ double whole(double angle_rad, double count_rad) {
 void ViewTour::plan(const ptu::PtuLimits& limits, const PanTilt& count) {
   count_ = count;
   views_.clear();
+  left_out_.clear();
   const double low_rad = limits.pan_min_rad + kMargin_rad + kBeside_rad;
   const double span_rad = limits.pan_max_rad - kMargin_rad - low_rad;
   const double apart_rad = std::min(0.5 * kPi, span_rad / (kViews - 1));
@@ -49,6 +50,7 @@ void ViewTour::begin(double now_s) {
   stands_since_s_.reset();
   leg_since_s_ = now_s;
   requested_ = false;
+  leaving_out_.clear();
 }
 
 void ViewTour::give_up(double now_s) {
@@ -78,8 +80,14 @@ std::optional<ptu::ServoGoal> ViewTour::step(const Situation& situation) {
     return std::nullopt;
   }
   if (!free_since_s_) free_since_s_ = now_s;
+  if (!view_ && comes_back(now_s)) requested_ = true;
   if (!view_ && !is_due(now_s)) return std::nullopt;
   if (!view_) begin(now_s);
+  while (view_ && config_.forbidden && config_.forbidden(views_[*view_])) {
+    leaving_out_.push_back(*view_);
+    go_on(now_s);
+  }
+  if (!view_) return std::nullopt;
   if (now_s - leg_since_s_ > config_.leg_s) {
     ++late_;
     give_up(now_s);
@@ -93,6 +101,15 @@ bool ViewTour::is_due(double now_s) const {
   const double free_s = now_s - *free_since_s_;
   const double idle_s = std::min(free_s, now_s - ended_s_.value_or(*free_since_s_));
   return (requested_ && free_s >= kFree_s) || idle_s >= config_.interval_s;
+}
+
+// One that the last round left out may be looked at again. The sun is slow: asked now and then.
+bool ViewTour::comes_back(double now_s) {
+  constexpr double kAgain_s = 10.0;
+  if (left_out_.empty() || now_s < looks_again_s_) return false;
+  looks_again_s_ = now_s + kAgain_s;
+  return std::ranges::any_of(left_out_,
+                             [this](std::size_t view) { return !config_.forbidden(views_[view]); });
 }
 
 void ViewTour::note_arrival(const Situation& situation) {
@@ -117,17 +134,21 @@ std::optional<std::size_t> ViewTour::see(double mid_exposure_s) {
     return std::nullopt;
   }
   const std::size_t seen = *view_;
+  go_on(mid_exposure_s);
+  return seen;
+}
+
+// To the next view; after the last one the round is over.
+void ViewTour::go_on(double now_s) {
   from_start_ = false;
   stands_since_s_.reset();
-  leg_since_s_ = mid_exposure_s;
-  view_ = seen + 1;
-  if (*view_ == views_.size()) {
-    view_.reset();
-    finished_ = true;
-    late_ = 0;
-    ended_s_ = mid_exposure_s;
-  }
-  return seen;
+  leg_since_s_ = now_s;
+  if (++*view_ < views_.size()) return;
+  view_.reset();
+  finished_ = true;
+  left_out_ = leaving_out_;
+  late_ = 0;
+  ended_s_ = now_s;
 }
 
 }  // namespace ols::station

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,10 @@ class ViewTour {
     double interval_s = 600.0;  // of idleness, from one check to the next
     double settle_s = 1.0;      // it stands so long before mid-exposure
     double leg_s = 40.0;        // a view that takes longer is out of reach: the round is given up
+    // Whether the unit must not look there now (reported angles): the sun stands there. Such a view
+    // is left out of the round; when it may be looked at again, a round is made. Empty: it may look
+    // everywhere.
+    std::function<bool(const PanTilt&)> forbidden;
   };
   struct Situation {
     double now_s = 0.0;
@@ -33,8 +38,10 @@ class ViewTour {
   const std::vector<PanTilt>& views() const { return views_; }  // reported angles
   // A check soon: after homing, on request, to confirm a finding.
   void request() { requested_ = true; }
-  // All views have been seen; asked once.
+  // All views have been seen but those left out; asked once.
   bool take_finished();
+  // Of the last round that was finished.
+  const std::vector<std::size_t>& left_out() const { return left_out_; }
   // Rounds in a row that were given up because the unit did not come to a view in time.
   int late() const { return late_; }
   bool under_way() const { return view_.has_value(); }
@@ -46,7 +53,9 @@ class ViewTour {
 
  private:
   bool is_due(double now_s) const;
+  bool comes_back(double now_s);
   void begin(double now_s);
+  void go_on(double now_s);
   void note_arrival(const Situation& situation);
   void give_up(double now_s);
   PanTilt target() const;
@@ -62,6 +71,8 @@ class ViewTour {
   std::optional<double> stands_since_s_;
   double leg_since_s_ = 0.0;
   int late_ = 0;
+  std::vector<std::size_t> left_out_, leaving_out_;  // of the last round; of the one under way
+  double looks_again_s_ = 0.0;
 };
 
 }  // namespace ols::station

@@ -12,6 +12,7 @@ namespace {
 struct AxisGoal {
   double angle_rad;
   double rate_rad_s;
+  bool rests;
 };
 
 struct AxisCommand {
@@ -23,15 +24,21 @@ struct AxisCommand {
 AxisGoal goal_at(double angle_rad, double rate_rad_s, double dt_s, double min, double max) {
   const double angle = angle_rad + rate_rad_s * dt_s;
   const bool outward = (angle >= max && rate_rad_s > 0.0) || (angle <= min && rate_rad_s < 0.0);
-  return {std::clamp(angle, min, max), outward ? 0.0 : rate_rad_s};
+  return {std::clamp(angle, min, max), outward ? 0.0 : rate_rad_s, false};
 }
 
-// The speed that closes the error: proportional near the goal; further away the speed from which
-// the unit can still brake with a margin in acceleration.
+// The speed from which the unit can still brake before the goal, with a margin in acceleration.
+double brakable_speed(const ServoConfig& config, double error_rad) {
+  const double speed = std::sqrt(2.0 * 0.8 * config.max_acceleration_rad_s2 * std::abs(error_rad));
+  return std::copysign(speed, error_rad);
+}
+
+// The speed that closes the error: proportional near the goal, so that the measured error of a goal
+// that moves is not answered with jerks; further away the speed from which the unit can brake.
 double closing_speed(const ServoConfig& config, double error_rad) {
-  const double brakable =
-      std::sqrt(2.0 * 0.8 * config.max_acceleration_rad_s2 * std::abs(error_rad));
-  return std::copysign(std::min(config.gain_hz * std::abs(error_rad), brakable), error_rad);
+  const double proportional = config.gain_hz * error_rad;
+  const double brakable = brakable_speed(config, error_rad);
+  return std::abs(proportional) < std::abs(brakable) ? proportional : brakable;
 }
 
 // How far ahead a unit at this speed is commanded: the travel during the look-ahead plus the
@@ -41,12 +48,38 @@ double reach_ahead(const ServoConfig& config, double speed_rad_s, double look_ah
          speed_rad_s * speed_rad_s / (2.0 * config.max_acceleration_rad_s2);
 }
 
+// How far ahead a unit may be sent that is at `now_rad_s` and may speed up to `speed_rad_s`: what
+// it travels during the look-ahead, and what it then brakes over. Left alone there it stands after
+// the look-ahead and v/a, at whatever speed it was.
+double reach_from(const ServoConfig& config, double now_rad_s, double speed_rad_s) {
+  const double begins = std::clamp(now_rad_s, 0.0, speed_rad_s);
+  const double gained = config.max_acceleration_rad_s2 * config.look_ahead_s;
+  const double ends = std::min(begins + gained, speed_rad_s);
+  const double speeding_s = (ends - begins) / config.max_acceleration_rad_s2;
+  return 0.5 * (begins + ends) * speeding_s +
+         reach_ahead(config, ends, config.look_ahead_s - speeding_s);
+}
+
+// Where the unit is to rest it brakes by itself, in the time that its own ramp takes: a
+// proportional speed would let it creep for seconds. The goal is commanded as soon as it is within
+// reach.
+AxisCommand resting_step(const ServoConfig& config, double error_rad, double now_rad,
+                         double now_rad_s) {
+  const double speed =
+      std::max(config.min_speed_rad_s,
+               std::min(std::abs(brakable_speed(config, error_rad)), config.max_speed_rad_s));
+  const double furthest_rad = reach_from(config, std::copysign(1.0, error_rad) * now_rad_s, speed);
+  return {now_rad + std::clamp(error_rad, -furthest_rad, furthest_rad), speed};
+}
+
 // The commanded position is where the goal would come to rest if it continued for the look-ahead
 // and then braked. So the unit does not brake while commands arrive, and when they stop it stands
 // after the look-ahead plus v/a. A goal that rests, or is slower than the unit's minimum speed, is
 // commanded exactly, from far away in stages.
-AxisCommand axis_step(const ServoConfig& config, const AxisGoal& goal, double now_rad) {
+AxisCommand axis_step(const ServoConfig& config, const AxisGoal& goal, double now_rad,
+                      double now_rad_s) {
   const double error_rad = goal.angle_rad - now_rad;
+  if (goal.rests) return resting_step(config, error_rad, now_rad, now_rad_s);
   const double speed = std::clamp(goal.rate_rad_s + closing_speed(config, error_rad),
                                   -config.max_speed_rad_s, config.max_speed_rad_s);
   const double rate = std::clamp(goal.rate_rad_s, -config.max_speed_rad_s, config.max_speed_rad_s);
@@ -145,12 +178,13 @@ std::optional<ServoCommand> servo_step(const ServoConfig& config, const PtuLimit
   AxisGoal tilt_goal = goal_at(goal->angles.tilt_rad, goal->rate.tilt_rad, dt_s,
                                limits.tilt_min_rad, limits.tilt_max_rad);
   const auto turn = corner(limits, now, {pan_goal.angle_rad, tilt_goal.angle_rad});
+  pan_goal.rests = tilt_goal.rests = goal->rests;
   if (turn) {
-    pan_goal = {turn->pan_rad, 0.0};
-    tilt_goal = {turn->tilt_rad, 0.0};
+    pan_goal = {turn->pan_rad, 0.0, goal->rests};
+    tilt_goal = {turn->tilt_rad, 0.0, goal->rests};
   }
-  const AxisCommand pan = axis_step(config, pan_goal, now.pan_rad);
-  const AxisCommand tilt = axis_step(config, tilt_goal, now.tilt_rad);
+  const AxisCommand pan = axis_step(config, pan_goal, now.pan_rad, now_rate.pan_rad);
+  const AxisCommand tilt = axis_step(config, tilt_goal, now.tilt_rad, now_rate.tilt_rad);
   ServoCommand command;
   command.position = clamped(limits, {pan.position_rad, tilt.position_rad});
   command.speed = {pan.speed_rad_s, tilt.speed_rad_s};

@@ -4,7 +4,8 @@
 // *positions*: in every cycle the goal a short look-ahead in the future, at the speed that arrives
 // there in time. While commands arrive, the unit never reaches the commanded position and moves
 // smoothly; when they stop, it brakes and stops after at most the look-ahead (or 1/gain, if longer)
-// plus its braking time.
+// plus its braking time. Where it is to come to rest it goes on its own ramp: the goal itself is
+// commanded, as soon as it is within that reach.
 #pragma once
 
 #include <optional>
@@ -31,6 +32,7 @@ struct ServoGoal {
   PanTilt rate;                // [rad/s] feed-forward; 0 for a fixed goal
   double valid_until_s = 0.0;  // the servo halts after this
   bool rate_only = false;      // only the rates are wanted, from wherever the unit is
+  bool rests = false;          // a fixed goal that nothing moves: the unit is to come to rest there
 };
 
 // Target position and speed of each axis.

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge/tracker/belief.h"
+
 namespace ols::tracker {
 namespace {
 
 constexpr double kFallTime_s = 0.12;
 constexpr double kRiseTime_s = 0.15;
 constexpr double kSure = 0.8;
-constexpr double kBelieved = 0.5;
 constexpr double kDoubted = 0.2;
 constexpr double kLetsGo_s = 0.5;
 constexpr double kLeast = 2.0;  // of the prominence: noise

@@ -246,12 +246,12 @@ def test_a_loss_of_power_leaves_the_old_one_and_is_named(tripod, accepted):
     assert "sweep, picture 12 of 12" in done.stdout, "as it was begun"
 
 
-def sweep(tripod, answer, *options):
+def sweep(tripod, answer, *options, **more):
     """What it said, and the folder in which its panorama is kept."""
     script = tripod.folder / "script"
     script.write_text(answer + "\n")
     before = set(tripod.store.iterdir())
-    done = tripod.run("sweep", "--script", script, *options)
+    done = tripod.run("sweep", "--script", script, *options, **more)
     kept = {path for path in set(tripod.store.iterdir()) - before if not path.is_symlink()}
     [folder] = [path for path in kept if (path / "frames.jsonl").is_file()]
     return done, folder
@@ -306,6 +306,26 @@ def test_a_sweep_is_accepted_as_an_instrument_and_compared_with(tripod, accepted
     assert "has no 'another'" in tripod.run("check", "--panorama", "another").stderr
     # What follows begins with the calibration in use.
     (tripod.store / "instrument").unlink()
+
+
+@pytest.mark.skipif(
+    os.environ.get("OLS_WHOLE_FIELD") != "1",
+    reason="takes some minutes: OLS_WHOLE_FIELD=1 runs it",
+)
+def test_how_long_ninety_pictures_take(tripod, accepted):
+    """What is measured stands in docs/benchmarks.md."""
+    _, folder = sweep(tripod, "keep", "--sweep-poses", 90, deadline_s=400.0)
+    frames = [json.loads(line) for line in (folder / "frames.jsonl").read_text().splitlines()]
+    times_s = 1e-6 * np.array([frame["utime_us"] for frame in frames])
+    ways_deg = np.degrees(np.abs(np.diff([[f["pan_rad"], f["tilt_rad"]] for f in frames], axis=0)))
+    steps_s = np.diff(times_s)
+    print(
+        f"{len(frames)} pictures in {times_s[-1] - times_s[0]:.0f} s; from one to the next"
+        f" {np.median(steps_s):.2f} s in the median, {steps_s.max():.1f} s at most,"
+        f" over {np.median(ways_deg.max(axis=1)):.1f} degrees"
+    )
+    assert len(frames) >= 88
+    assert times_s[-1] - times_s[0] <= 120.0
 
 
 def test_two_exchanged_signs_are_named(tripod, accepted):

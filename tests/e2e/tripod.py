@@ -134,12 +134,12 @@ class Tripod:
             *("--state", str(self.store), *sun, *map(str, options)),
         ]
 
-    def run(self, name, *options):
+    def run(self, name, *options, deadline_s=DEADLINE_S):
         return subprocess.run(
             self.command(name, *options),
             capture_output=True,
             text=True,
-            timeout=DEADLINE_S,
+            timeout=deadline_s,
             stdin=subprocess.DEVNULL,
             check=False,
         )

@@ -7,22 +7,44 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
+#include <thread>
 #include <tuple>
 
 #include "base/atomic_file.h"
+#include "base/clocks.h"
 #include "base/output_check.h"
+#include "edge/clock/clock_source.h"
 #include "tools/calibrate/aircraft_feed.h"
 
 namespace ols::calibration {
 namespace {
 
-std::int64_t utime_now() {
-  using namespace std::chrono;
-  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
+// An aircraft flies 10 m in this time.
+constexpr double kClock_s = 0.05;
+
+// By this host's clock a position gets its time, or is judged.
+void check_clock() {
+  constexpr double kPatience_s = 5.0;  // chronyd answers within two
+  clock::ClockSource source;
+  clock::ClockWatch watch{{}};
+  const double end_s = clock_monotonic_s() + kPatience_s;
+  std::optional<clock::ClockReading> reading;
+  while (!reading && clock_monotonic_s() < end_s) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    reading = source.take();
+  }
+  if (reading) watch.add(*reading);
+  const clock::ClockQuality quality = watch.quality(clock_monotonic_s());
+  if (quality.state == clock::ClockState::kSynchronised && quality.error_s < kClock_s) return;
+  throw std::runtime_error("the clock of this computer is not synchronised (" + quality.text +
+                           "): aircraft cannot be used; wait for GNSS or a time server, or give "
+                           "--clock-is-right if it is right all the same");
 }
 
 // One input's bytes to positions.
@@ -31,15 +53,22 @@ class Feed {
   explicit Feed(const AircraftOptions& options) : options_(options) {}
 
   void take(std::span<const std::uint8_t> bytes) {
+    arrival_utime_us_ = clock_utime_us();
     if (options_.format == "beast") {
-      const std::int64_t arrival_utime_us = utime_now();
       for (const BeastFrames::Frame& frame : frames_.take(bytes)) {
-        take_frame(frame, arrival_utime_us);
+        take_frame(frame, arrival_utime_us_);
       }
       return;
     }
+    if (text_.empty()) text_utime_us_ = arrival_utime_us_;
     text_.append(bytes.begin(), bytes.end());
     if (options_.format == "sbs") take_lines();
+  }
+  // What has come so far is from a receiver that is live: of its clock.
+  void check_receiver() const {
+    if (!delay_.least_us() || options_.clock_is_right) return;
+    const std::string trouble = receiver_clock_trouble(*delay_.least_us());
+    if (!trouble.empty()) throw std::runtime_error(trouble);
   }
   void end() {
     if (options_.format == "beast") {
@@ -52,6 +81,7 @@ class Feed {
     }
     if (options_.format != "json") return;
     AircraftSnapshot snapshot = aircraft_json(text_);
+    delay_.note(snapshot.utime_us, text_utime_us_);
     positions.insert(positions.end(), snapshot.positions.begin(), snapshot.positions.end());
     barometric_only += snapshot.barometric_only;
   }
@@ -73,6 +103,7 @@ class Feed {
     for (std::size_t end = 0; (end = text_.find('\n', begin)) != std::string::npos;
          begin = end + 1) {
       if (auto position = sbs_position(text_.substr(begin, end - begin))) {
+        delay_.note(position->utime_us, arrival_utime_us_);
         positions.push_back(std::move(*position));
       }
     }
@@ -83,7 +114,10 @@ class Feed {
   TickClock ticks_;
   BeastFrames frames_;
   AdsbDecoder decoder_;
+  ReceiverDelay delay_;
   std::string text_;
+  std::int64_t arrival_utime_us_ = 0,
+               text_utime_us_ = 0;  // of the newest bytes, of the text's first
 };
 
 class Connection {
@@ -141,14 +175,17 @@ void read_file(const std::string& path, Feed& feed) {
 
 void read_input(const std::string& input, const AircraftOptions& options, Feed& feed) {
   const std::size_t colon = input.rfind(':');
-  if (std::filesystem::exists(input) || colon == std::string::npos) {
+  const bool is_file = std::filesystem::exists(input) || colon == std::string::npos;
+  if (is_file) {
     read_file(input, feed);
   } else {
+    if (!options.clock_is_right) check_clock();
     Connection(input.substr(0, colon), input.substr(colon + 1), input)
         .read(options.duration_s, feed);
   }
   try {
     feed.end();
+    if (!is_file && options.format != "beast") feed.check_receiver();
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(input + ": " + error.what());
   }
@@ -175,6 +212,21 @@ void check(const AircraftOptions& options) {
 }
 
 }  // namespace
+
+std::string receiver_clock_trouble(std::int64_t least_delay_us) {
+  // An aircraft.json is written once a second. What is slower than this would be the latency of
+  // every pass alike, of which the adjustment supposes one second, and each by itself.
+  constexpr double kLate_s = 2.0;
+  constexpr double kAhead_s = 2.0 * kClock_s;
+  const double late_s = 1e-6 * static_cast<double>(least_delay_us);
+  if (late_s > -kAhead_s && late_s < kLate_s) return {};
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "what the receiver stamps is at least %.1f s %s by this computer's clock: the "
+                "receiver's clock is not synchronised, or what it writes is held up on its way",
+                std::abs(late_s), late_s > 0.0 ? "old" : "ahead");
+  return text;
+}
 
 std::string reference_rows(std::vector<AircraftPosition> positions, double sd_m) {
   constexpr std::int64_t kGap_us = 30'000'000;

@@ -17,7 +17,12 @@ struct AircraftOptions {
   double duration_s = 600.0;                   // of a connection
   std::optional<std::int64_t> start_utime_us;  // of a Beast file's first frame
   bool heights_are_geometric = false;          // SBS says nothing of its heights
+  bool clock_is_right = false;                 // a person's word, where no time service says so
 };
+
+// In words what is wrong with the clock of a receiver that stamps by itself; empty: nothing.
+// `least_delay_us`: ReceiverDelay.
+std::string receiver_clock_trouble(std::int64_t least_delay_us);
 
 // The rows, by aircraft and time. One that was not heard for half a minute comes back under another
 // name, one that was heard once does not come at all.

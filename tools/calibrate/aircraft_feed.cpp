@@ -89,6 +89,11 @@ std::int64_t TickClock::take(std::uint64_t ticks, std::int64_t arrival_utime_us)
   return since_us;
 }
 
+void ReceiverDelay::note(std::int64_t stamp_utime_us, std::int64_t arrival_utime_us) {
+  const std::int64_t delay_us = arrival_utime_us - stamp_utime_us;
+  least_us_ = std::min(delay_us, least_us_.value_or(delay_us));
+}
+
 std::optional<AircraftPosition> sbs_position(const std::string& line) {
   const SbsLine sbs(line);
   if (sbs.text(SbsLine::kType) != "MSG") return std::nullopt;
@@ -111,6 +116,7 @@ AircraftSnapshot aircraft_json(const std::string& text) {
     const double now_s = root.at("now").get<double>();
     constexpr double kGreatest_s = 9e9;
     if (!(now_s > 0.0 && now_s < kGreatest_s)) throw std::runtime_error("now: is no time");
+    snapshot.utime_us = std::llround(1e6 * now_s);
     for (const auto& one : root.at("aircraft")) {
       if (!one.contains("lat") || !one.contains("lon") || !one.contains("seen_pos")) continue;
       if (!one.contains("alt_geom")) {

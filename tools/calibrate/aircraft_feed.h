@@ -40,11 +40,24 @@ class TickClock {
   std::int64_t first_utime_us_ = 0;
 };
 
+// How late a receiver's own stamps come here. Nothing comes before it was sent, and of many
+// messages one hardly waits on its way: the least delay is what one clock is ahead of the other by.
+class ReceiverDelay {
+ public:
+  void note(std::int64_t stamp_utime_us, std::int64_t arrival_utime_us);
+  // [us] Of all so far; empty: nothing was stamped.
+  std::optional<std::int64_t> least_us() const { return least_us_; }
+
+ private:
+  std::optional<std::int64_t> least_us_;
+};
+
 // A line of SBS, port 30003. Nothing unless it has a position. Its height is barometric: only where
 // the receiver is told to write geometric ones is it of use. Its times have no zone: taken as UTC.
 std::optional<AircraftPosition> sbs_position(const std::string& line);
 
 struct AircraftSnapshot {
+  std::int64_t utime_us = 0;  // its `now`: by the receiver's clock
   std::vector<AircraftPosition> positions;
   int barometric_only = 0;
 };

@@ -10,6 +10,7 @@
 #include "tools/calibrate/camera.h"
 #include "tools/calibrate/output_folder.h"
 #include "tools/calibrate/procedure_commands.h"
+#include "tools/calibrate/zoom_command.h"
 
 namespace {
 
@@ -57,6 +58,9 @@ void add_aircraft_options(CLI::App& app, calibration::AircraftOptions& o) {
                  "[us] UTC of the first frame of a Beast file, which has no time of day");
   app.add_flag("--geometric", o.heights_are_geometric,
                "the receiver is set up to write heights above the ellipsoid to SBS");
+  app.add_flag("--clock-is-right", o.clock_is_right,
+               "of a connection: the clocks of this computer and of the receiver are right, though "
+               "no time service says so");
 }
 
 void add_camera_options(CLI::App& app, calibration::CameraOptions& o) {
@@ -103,6 +107,8 @@ int main(int argc, char** argv) {
   add_options(*app.add_subcommand("adjust", "One adjustment of all observations."), options);
   calibration::ProcedureOptions procedure;
   calibration::add_procedures(app, procedure);
+  calibration::ZoomOptions zoom;
+  const CLI::App* zooms = calibration::add_zoom(app, zoom);
   calibration::AircraftOptions aircraft;
   const CLI::App* heard =
       app.add_subcommand("aircraft", "What a receiver has heard, as references.");
@@ -116,6 +122,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (!procedure.name.empty()) return calibration::run_procedure(procedure);
+    if (zooms->parsed()) return calibration::run_zoom(zoom);
     std::vector<std::string> remarks;
     if (heard->parsed()) {
       remarks = calibration::write_aircraft(aircraft);

@@ -12,6 +12,7 @@ using Event = JournalEntry::Kind;
 JournalEntry entry_of(const Json& line) {
   JournalEntry entry;
   entry.step = line.value("step", "");
+  entry.ordered_utime_us = line.value("ordered_utime_us", std::int64_t{0});
   if (line.contains("taken")) {
     entry.pose = line.at("taken").get<std::int64_t>();
   } else if (line.contains("not_taken")) {
@@ -39,6 +40,7 @@ std::string without_figures(const std::string& step) { return step.substr(0, ste
 
 std::string journal_line(const JournalEntry& entry) {
   Json line{{"step", entry.step}};
+  if (entry.ordered_utime_us != 0) line["ordered_utime_us"] = entry.ordered_utime_us;
   switch (entry.kind) {
     case Event::kTaken:
       line["taken"] = entry.pose;

@@ -12,10 +12,11 @@ namespace ols::calibration {
 struct JournalEntry {
   enum class Kind { kTaken, kNotTaken, kAnswered, kResumed };
   Kind kind = Kind::kTaken;
-  std::string step;       // of the order
-  std::int64_t pose = 0;  // kTaken: number of the picture
-  std::string why;        // kNotTaken
-  Answer answer;          // kAnswered
+  std::string step;                   // of the order
+  std::int64_t pose = 0;              // kTaken: number of the picture
+  std::string why;                    // kNotTaken
+  Answer answer;                      // kAnswered
+  std::int64_t ordered_utime_us = 0;  // when the order was given; 0: not known
 };
 
 // A line of JSON, without its end.

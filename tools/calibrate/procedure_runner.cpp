@@ -73,6 +73,7 @@ Outcome ProcedureRunner::run(FieldProcedure& procedure, const Adjust& adjust) {
   bool replays = session_ && session_->is_replaying();
   while (procedure.outcome() == Outcome::kRunning) {
     if (replays) replays = still_replays(procedure);
+    ordered_utime_us_ = clock_utime_us();
     const auto order = procedure.next();
     state_ = {};
     state_.progress = procedure.progress();
@@ -184,9 +185,16 @@ void ProcedureRunner::shoot(FieldProcedure& procedure, const Order& order) {
   if (!sides_known_) {
     return miss(procedure, order, "the station does not know from which side the unit came");
   }
-  Taken taken = session_ ? session_->add(std::move(*frame)) : std::move(frame->taken);
-  if (session_) session_->note({JournalEntry::Kind::kTaken, order.step, taken.pose, "", {}});
+  Taken taken =
+      session_ ? session_->add(std::move(*frame), order.shot.is_view) : std::move(frame->taken);
+  note({JournalEntry::Kind::kTaken, order.step, taken.pose, "", {}});
   procedure.taken(taken);
+}
+
+// With the time of the order: where the sun stood then decides what an order was.
+void ProcedureRunner::note(JournalEntry entry) {
+  entry.ordered_utime_us = ordered_utime_us_;
+  if (session_) session_->note(entry);
 }
 
 void ProcedureRunner::wait() {
@@ -196,7 +204,7 @@ void ProcedureRunner::wait() {
 
 void ProcedureRunner::miss(FieldProcedure& procedure, const Order& order, const std::string& why) {
   if (aborted_) return;
-  if (session_) session_->note({JournalEntry::Kind::kNotTaken, order.step, 0, why, {}});
+  note({JournalEntry::Kind::kNotTaken, order.step, 0, why, {}});
   procedure.not_taken(why);
 }
 
@@ -245,8 +253,8 @@ void ProcedureRunner::ask(FieldProcedure& procedure, const Order& order) {
     if (answer) {
       answer->utime_us = clock_utime_us();
       aborted_ = answer->choice == "abort";
-      if (session_ && !aborted_ && answer->choice != "accept" && answer->choice != "keep") {
-        session_->note({JournalEntry::Kind::kAnswered, order.step, 0, "", *answer});
+      if (!aborted_ && answer->choice != "accept" && answer->choice != "keep") {
+        note({JournalEntry::Kind::kAnswered, order.step, 0, "", *answer});
       }
       return procedure.answered(*answer);
     }

@@ -38,6 +38,7 @@ class ProcedureRunner {
   void shoot(FieldProcedure& procedure, const Order& order);
   void wait();
   void miss(FieldProcedure& procedure, const Order& order, const std::string& why);
+  void note(JournalEntry entry);
   // From the wanted side. Empty: aborted, or it did not come.
   std::optional<FrameFile> picture_of(FieldProcedure& procedure, const Shot& shot);
   // Stands there with a picture; the same.
@@ -60,6 +61,7 @@ class ProcedureRunner {
   ProcedureSession* session_;
   ols_msg::procedure_t state_{};
   double began_s_ = 0.0, published_s_ = 0.0;
+  std::int64_t ordered_utime_us_ = 0;  // when the stage gave the order
   std::int64_t questions_ = 0;
   std::optional<PanTilt> here_;  // of the last picture
   bool sides_known_ = false;     // from which the unit came there

@@ -33,7 +33,7 @@ std::string whole_lines(const fs::path& path) {
 
 }  // namespace
 
-Taken ProcedureSession::add(FrameFile frame) {
+Taken ProcedureSession::add(FrameFile frame, bool is_view) {
   frame.taken.pose = ++poses_;
   const fs::path frames = folder_ / "frames";
   fs::create_directories(frames);
@@ -53,7 +53,8 @@ Taken ProcedureSession::add(FrameFile frame) {
                                     {"approach_pan", reading.pan.approach},
                                     {"approach_tilt", reading.tilt.approach},
                                     {"pan_rad", frame.taken.angles.pan_rad},
-                                    {"tilt_rad", frame.taken.angles.tilt_rad}};
+                                    {"tilt_rad", frame.taken.angles.tilt_rad},
+                                    {"is_view", is_view}};
   append_line(folder_ / "frames.jsonl", line.dump());
   return std::move(frame.taken);
 }
@@ -109,6 +110,11 @@ bool ProcedureSession::take_resumed() {
   if (replay_.empty() || replay_.front().kind != JournalEntry::Kind::kResumed) return false;
   replay_.pop_front();
   return true;
+}
+
+std::optional<std::int64_t> ProcedureSession::replayed_utime_us() const {
+  if (replay_.empty() || replay_.front().ordered_utime_us == 0) return std::nullopt;
+  return replay_.front().ordered_utime_us;
 }
 
 JournalEntry ProcedureSession::replayed(const Order& order) {

@@ -6,6 +6,7 @@
 #include <deque>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ class ProcedureSession {
   bool is_replaying() const { return !replay_.empty(); }
   // The next thing that happened was that it was gone on with; takes it.
   bool take_resumed();
+  // [us] When the order was given then whose outcome is replayed next; nothing: none is, or the
+  // journal does not say.
+  std::optional<std::int64_t> replayed_utime_us() const;
   // What came of this order then; only while replaying. std::runtime_error where the journal is of
   // another procedure.
   JournalEntry replayed(const Order& order);
@@ -35,8 +39,8 @@ class ProcedureSession {
   void write(const std::string& name, const std::string& text) const;
 
   const std::filesystem::path& folder() const { return folder_; }
-  // Numbers the picture and stores it; returns it with its number.
-  Taken add(FrameFile frame);
+  // Numbers the picture and stores it; returns it with its number. `is_view`: as in Shot.
+  Taken add(FrameFile frame, bool is_view);
   void write_observations(const std::vector<Observation>& observations) const;
   std::filesystem::path observations_path() const { return folder_ / "observations.jsonl"; }
   // Of an adjustment: a new one each time.

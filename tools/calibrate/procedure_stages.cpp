@@ -73,6 +73,11 @@ std::string named_in(const std::string& text, const ReferenceFeed& references) {
   return named;
 }
 
+// While an interrupted procedure is told what happened in it, the sun stands where it stood then.
+SunKeepOut::UtcNow clock_of(const ProcedureSession& session) {
+  return [&session] { return session.replayed_utime_us().value_or(clock_utime_us()); };
+}
+
 // Puts the stages together.
 class Plan {
  public:
@@ -117,8 +122,9 @@ class Plan {
     };
   }
   void add_sun() {
-    auto keep_out = procedure_.sun ? procedure_.sun
-                                   : std::make_shared<SunKeepOut>(prior_.model, clock_utime_us);
+    auto keep_out = procedure_.sun
+                        ? procedure_.sun
+                        : std::make_shared<SunKeepOut>(prior_.model, clock_of(*procedure_.session));
     stages_.push_back(std::make_unique<SunStage>(prior_.model, std::move(keep_out), may_go()));
   }
   void add_stars() {
@@ -248,7 +254,7 @@ Procedure make_procedure(const ProcedureOptions& asked, const StationFiles& stat
   }
   procedure.references = references_of(options, session.folder());
   const StationModel model = prior_of(station.settings, station.instrument, station.config).model;
-  if (!options.overcast) procedure.sun = std::make_shared<SunKeepOut>(model, clock_utime_us);
+  if (!options.overcast) procedure.sun = std::make_shared<SunKeepOut>(model, clock_of(session));
   procedure.files = files_of(options, station, session);
   if (procedure.references) procedure.files.references = procedure.references->path().string();
   return procedure;

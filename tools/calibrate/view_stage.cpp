@@ -30,6 +30,8 @@ std::vector<StoredView> all_views(const fs::path& calibration) {
     const auto object = nlohmann::json::parse(line, nullptr, false);
     StoredView view;
     try {
+      // Stars, the sun behind its filter and a drone are no scenery that stays.
+      if (!object.value("is_view", true)) continue;
       view.file = (calibration / object.at("file").get<std::string>()).string();
       view.angles = {object.at("pan_rad").get<double>(), object.at("tilt_rad").get<double>()};
       view.approach_pan = object.at("approach_pan").get<int>();
@@ -39,7 +41,11 @@ std::vector<StoredView> all_views(const fs::path& calibration) {
     }
     views.push_back(std::move(view));
   }
-  if (views.empty()) throw std::runtime_error(path.string() + ": has no views to compare with");
+  if (views.empty()) {
+    throw std::runtime_error(path.string() +
+                             ": has no pictures of scenery to compare with: take them with "
+                             "`ols-calibrate sweep`, and check with --panorama");
+  }
   return views;
 }
 

@@ -18,7 +18,8 @@ struct StoredView {
   int approach_pan = 1, approach_tilt = 1;
 };
 
-// Of a calibration's folder (frames.jsonl): up to six pictures as far apart in pan as there are.
+// Of a calibration's folder (frames.jsonl): up to six pictures of scenery as far apart in pan as
+// there are.
 // std::runtime_error naming file and line.
 std::vector<StoredView> views_of(const std::filesystem::path& calibration);
 

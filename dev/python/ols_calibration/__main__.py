@@ -139,9 +139,12 @@ def judged(figure, limit, results):
     if not good:
         return row | {"ok": False}
     actual, told = np.sqrt(np.mean(np.array(good), axis=0)) / ARCSEC
+    # Of the root of the mean over the instruments drawn.
+    error = np.std(np.array(good)[:, 0]) / np.sqrt(len(good)) / (2 * actual * ARCSEC) / ARCSEC
     ratio = told / actual
     ok = not failures and actual <= limit and 0.8 <= ratio <= 1.3
-    return row | {"actual": actual, "told": told, "ratio": ratio, "ok": bool(ok)}
+    row |= {"actual": actual, "standard_error": error, "told": told}
+    return row | {"ratio": ratio, "ok": bool(ok)}
 
 
 def shown(name, row):
@@ -150,7 +153,8 @@ def shown(name, row):
     elif "actual" in row:
         unit, digits = (" ms", 3) if "[ms]" in name else ("″", 1)
         figures = (
-            f"{row['actual']:8.{digits}f}{unit} (≤ {row['limit']:g}{unit}) {row['ratio']:8.2f}"
+            f"{row['actual']:8.{digits + 1}f}{unit} ±{row['standard_error']:.{digits + 1}f}"
+            f" (≤ {row['limit']:g}{unit}) {row['ratio']:8.2f}"
         )
     else:
         figures = " " * 20

@@ -1,13 +1,25 @@
 """The cases of the measure table: what is observed in each."""
 
+import os
+import subprocess
 from copy import copy
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 import erfa
 import numpy as np
 
-from .model import PAIRS, WORK, Place, azimuth_elevation, from_azimuth_elevation, refracted
+from .model import (
+    FOCAL_PX,
+    HEIGHT,
+    PAIRS,
+    WIDTH,
+    WORK,
+    Place,
+    azimuth_elevation,
+    from_azimuth_elevation,
+    refracted,
+)
 from .rectification import put_up
 from .site import (
     PRESSURE_HPA,
@@ -21,6 +33,7 @@ from .site import (
 )
 
 ROOT = Path(__file__).resolve().parents[3]
+BIN = Path(os.environ.get("OLS_BIN", ROOT / "build/release/bin"))
 
 PLACE = (49.2266, 16.5969, 310.0)
 
@@ -55,15 +68,20 @@ def sight_landmarks(site, one, points, sd_m, times):
     one.unit.refraction = k_mean
 
 
+@cache
+def plan(*arguments):
+    """(pan, tilt, approach) of each picture [deg], as `ols-calibrate` lays them in the field."""
+    program = BIN / "ols-bench-plans"
+    command = [str(program), *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    rows = [tuple(map(float, line.split(","))) for line in done.stdout.splitlines()[1:]]
+    return [(pan, tilt, (int(by_pan), int(by_tilt))) for pan, tilt, by_pan, by_tilt in rows]
+
+
 def stars(rng):
     site, one = one_station(rng, is_new=True)
-    tilts = rng.permutation([*np.linspace(13, 17.5, 10), *np.linspace(26, 30.5, 10)])
-    approaches = rng.permutation(5 * [(1, 1), (1, -1), (-1, 1), (-1, -1)])
-    for frame, pan_deg in enumerate(np.linspace(-150, 150, 20)):
-        # All around, low and high, each over a turn of the worm, and in unequal steps: at equal
-        # ones the worm looks like an eccentricity.
-        pan_deg += rng.uniform(-7, 7)
-        tilt_deg, approach = tilts[frame], approaches[frame]
+    reach = ("--pan", 150, "--lowest", 12.1, "--highest", 30.5)
+    for frame, (pan_deg, tilt_deg, approach) in enumerate(plan("stars", 20, *reach)):
         counts = np.round(np.array([pan_deg, tilt_deg]) / 360 * 112000)
         shafts = one.unit.posed(rng, *counts, approach)
         utime_us = UTIME_US + 3_000_000 * frame
@@ -130,11 +148,10 @@ def sweep(rng):
     ]
     directions = np.array([point / np.linalg.norm(point) for point in scenery])
     degree = 112000 / 360
-    ring = [(pan, 1.0 if i % 2 else 0.0) for i, pan in enumerate(np.linspace(-150, 150, 70))]
-    block = [(rng.uniform(-2, 2), rng.uniform(-1.5, 3.5)) for _ in range(22)]
-    for pose, (pan, tilt) in enumerate(ring + block):
+    field_deg = 2 * np.degrees(np.arctan(np.array([WIDTH, HEIGHT]) / 2 / FOCAL_PX))
+    field = ("--across", field_deg[0], "--up", field_deg[1])
+    for pose, (pan, tilt, approach) in enumerate(plan("sweep", 92, *field)):
         counts = np.round(np.array([pan, tilt]) * degree)
-        approach = rng.choice([-1, 1], 2)
         shafts = one.unit.posed(rng, *counts, approach)
         inside = 0
         axis = one.unit.look(shafts, (640, 480))
@@ -153,13 +170,14 @@ def sweep(rng):
     return site
 
 
-def aircraft(rng):
+def aircraft(rng, slow_s=0.0):
+    """`slow_s`: of the receiver's clock, in all passes alike."""
     site, one = one_station(rng, is_new=False)
     for k in range(20):
         course, closest = rng.uniform(0, 2 * np.pi), rng.uniform(16e3, 35e3)
         along = np.array([np.sin(course), np.cos(course), 0])
         across = np.array([np.cos(course), -np.sin(course), 0]) * rng.choice([-1, 1])
-        latency_s, off = rng.uniform(0.1, 0.9), rng.normal(0, 10, 3)
+        latency_s, off = rng.uniform(0.1, 0.9) - slow_s, rng.normal(0, 10, 3)
         start_us = UTIME_US + 1_000_000_000 * k
 
         def at(seconds, along=along, across=across, closest=closest):
@@ -328,6 +346,7 @@ CASES = {
     "sweep + 5 by RTK, new unit": (sweep, 20.0, "systematic"),
     "joint track across both stations' line": (joint_track, 4.0, "difference"),
     "20 passes of aircraft: heading, workshop": (aircraft, 10.0, "heading"),
+    "20 passes, a receiver 2 s slow: heading": (partial(aircraft, slow_s=2.0), 10.0, "heading"),
     "3 stations that aim at each other: heading, workshop": (other_stations, 10.0, "heading"),
     "5 landmarks by RTK, gears 5″ in amplitude": (
         partial(rtk_landmarks, work=PAIRS),

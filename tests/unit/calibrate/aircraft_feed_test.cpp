@@ -62,6 +62,7 @@ TEST(AircraftJson, TakesTheTimeAtWhichThePositionWasSeen) {
       {"hex": "a,b", "lat": 49.5, "lon": 16.25, "alt_geom": 33000, "seen_pos": 0.1},
       {"hex": "4ca2d8"}]})");
   ASSERT_EQ(snapshot.positions.size(), 1U);
+  EXPECT_EQ(snapshot.utime_us, 1'780'000'010'500'000);
   EXPECT_EQ(snapshot.positions[0].utime_us, 1'780'000'008'000'000);
   EXPECT_EQ(snapshot.barometric_only, 1);
 }
@@ -86,6 +87,17 @@ TEST(TickClock, TheFirstFrameIsAsOldAsTheLeastDelaySays) {
   EXPECT_EQ(clock.take(6 * kTicks_s, kHeard_us + 1'000'000 + 3'000), 1'000'000);
   EXPECT_EQ(clock.take(7 * kTicks_s, kHeard_us + 2'000'000 + 40'000), 2'000'000);
   EXPECT_EQ(clock.first_utime_us(), kHeard_us + 3'000);
+}
+
+// Messages wait on their way, some of them long: the clock shows in the one that waited least.
+TEST(ReceiverDelay, IsThatOfTheMessageThatHardlyWaited) {
+  constexpr std::int64_t kStamp_us = 1'780'000'000'000'000, kSlow_us = 2'500'000;
+  ReceiverDelay delay;
+  EXPECT_FALSE(delay.least_us());
+  for (const std::int64_t waited_us : {900'000, 20'000, 4'000'000}) {
+    delay.note(kStamp_us - kSlow_us, kStamp_us + waited_us);
+  }
+  EXPECT_EQ(delay.least_us(), kSlow_us + 20'000);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace ols::calibration {
 namespace {
 
@@ -22,6 +24,16 @@ TEST(ReferenceRows, ArePassesInTheOrderOfTime) {
             "aaaaaa,49.5000000,16.2500000,10000.0,12.0,1780000002000000\n"
             "aaaaaa-2,49.5000000,16.2500000,10000.0,12.0,1780000100000000\n"
             "aaaaaa-2,49.5000000,16.2500000,10000.0,12.0,1780000101000000\n");
+}
+
+TEST(ReceiverClock, WhatIsSlowOrAheadIsNamed) {
+  for (const double usual_s : {0.01, 0.3, 1.2}) {
+    EXPECT_EQ(receiver_clock_trouble(std::llround(1e6 * usual_s)), "") << usual_s;
+  }
+  EXPECT_NE(receiver_clock_trouble(3 * kSecond_us).find("3.0 s old"), std::string::npos);
+  EXPECT_NE(receiver_clock_trouble(59 * kSecond_us).find("59.0 s old"), std::string::npos);
+  EXPECT_NE(receiver_clock_trouble(-kSecond_us / 5).find("0.2 s ahead"), std::string::npos)
+      << "nothing comes before it was sent";
 }
 
 }  // namespace

@@ -3,10 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <opencv2/calib3d.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <random>
+#include <set>
 #include <stdexcept>
+#include <utility>
+
+#include "tools/calibrate/board_detection.h"
 
 namespace ols::calibration {
 namespace {
@@ -51,6 +62,102 @@ TEST(BoardFit, ItsCovarianceIsThatOfItsErrors) {
   // Chi-square with 180 degrees of freedom: within four deviations.
   EXPECT_NEAR(squares, 9.0 * kCameras, 4.0 * std::sqrt(2.0 * 9.0 * kCameras));
 }
+
+// The pictures that OpenCV comes with, from a folder that not everybody has: both cameras beside
+// what OpenCV 4.10 found (reference.json there, corners refined in a window of the same size).
+class Chessboards : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    const char* shared = std::getenv("OLS_SHARED");
+    folder_ = shared ? std::string(shared) + "/data/calibration/opencv_chessboard" : "";
+    if (!std::filesystem::is_directory(folder_)) GTEST_SKIP() << "OLS_SHARED is not set";
+    std::ifstream file(folder_ + "/reference.json");
+    reference_ = nlohmann::json::parse(file).at("measured").at("cornerSubPix_5");
+  }
+  std::vector<BoardView> views(const std::string& camera) const {
+    std::set<std::string> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      const bool is_of = entry.path().filename().string().starts_with(camera);
+      if (is_of && entry.path().extension() == ".jpg") paths.insert(entry.path());
+    }
+    std::vector<BoardView> all;
+    for (const std::string& path : paths) {
+      all.push_back(find_board(cv::imread(path, cv::IMREAD_GRAYSCALE), kBoard));
+    }
+    return all;
+  }
+  static constexpr int kPairs = 13;
+  const BoardShape kBoard{"chessboard", 9, 6, 0.025, 0.0};
+  std::string folder_;
+  nlohmann::json reference_;
+};
+
+// By OpenCV's own standard errors of the same corners, which are the reference's: its file has
+// none.
+TEST_P(Chessboards, AreWithinTheReferencesStandardErrors) {
+  const auto all = views(GetParam());
+  ASSERT_EQ(all.size(), static_cast<std::size_t>(kPairs));
+  const BoardCamera found = fit_boards(all, kPicture);
+  std::vector<std::vector<cv::Point3f>> boards;
+  std::vector<std::vector<cv::Point2f>> pixels;
+  for (const BoardView& one : all) {
+    boards.push_back(one.board);
+    pixels.push_back(one.pixels);
+  }
+  cv::Mat K, distortion, deviations, poses, errors;
+  std::vector<cv::Mat> turns, shifts;
+  cv::calibrateCamera(boards, pixels, kPicture, K, distortion, turns, shifts, deviations, poses,
+                      errors);
+  const auto there = reference_.at(GetParam() + "_free");
+  const double fx = found.values[0];
+  const std::array<std::pair<const char*, double>, 4> of{
+      {{"fx", fx}, {"fy", fx * found.values[1]}, {"cx", found.values[2]}, {"cy", found.values[3]}}};
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    const double sd_px = deviations.at<double>(static_cast<int>(k));
+    const double off_px = of.at(k).second - there.at(of.at(k).first).get<double>();
+    EXPECT_LT(std::abs(off_px), 0.1 * sd_px) << of.at(k).first;
+    std::printf("%s %s: off by %+.3f px, standard error of the reference %.3f px\n",
+                GetParam().c_str(), of.at(k).first, off_px, sd_px);
+  }
+  // What we tell is smaller: OpenCV 4.6 counts a corner as one observation, not as two.
+  constexpr double kCorners = 54.0 * kPairs, kUnknowns = 9.0 + 6.0 * kPairs;
+  const double as_opencv = std::sqrt((2.0 * kCorners - kUnknowns) / (kCorners - kUnknowns));
+  EXPECT_NEAR(as_opencv * std::sqrt(found.covariance(0, 0)) / deviations.at<double>(0), 1.0, 0.01);
+}
+INSTANTIATE_TEST_SUITE_P(Both, Chessboards, testing::Values("left", "right"));
+
+// The way from one camera to the other, by each pair of pictures; their scatter is its error.
+class ChessboardPairs : public Chessboards {};
+TEST_P(ChessboardPairs, TheirBaselineIsWithinItsStandardError) {
+  const auto left = views("left"), right = views("right");
+  ASSERT_EQ(left.size(), right.size());
+  const auto pose = [](const BoardCamera& camera, const BoardView& view, cv::Mat& turn,
+                       cv::Mat& shift) {
+    const auto& v = camera.values;
+    const cv::Matx33d K(v[0], 0.0, v[2], 0.0, v[0] * v[1], v[3], 0.0, 0.0, 1.0);
+    cv::Mat vector;
+    cv::solvePnP(view.board, view.pixels, K, cv::Vec<double, 5>(v[4], v[5], v[6], v[7], v[8]),
+                 vector, shift);
+    cv::Rodrigues(vector, turn);
+  };
+  const BoardCamera here = fit_boards(left, kPicture), there = fit_boards(right, kPicture);
+  std::vector<double> baselines_m;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    cv::Mat left_turn, left_shift, right_turn, right_shift;
+    pose(here, left[i], left_turn, left_shift);
+    pose(there, right[i], right_turn, right_shift);
+    baselines_m.push_back(cv::norm(right_shift - right_turn * left_turn.t() * left_shift));
+  }
+  double mean_m = 0.0, squares = 0.0;
+  for (const double one : baselines_m) mean_m += one / kPairs;
+  for (const double one : baselines_m) squares += std::pow(one - mean_m, 2);
+  const double error_m = std::sqrt(squares / (kPairs * (kPairs - 1)));
+  const double expected_m = reference_.at("stereo").at("baseline_m").get<double>();
+  std::printf("baseline %.5f m +- %.5f, reference %.5f m\n", mean_m, error_m, expected_m);
+  EXPECT_LT(error_m, 5e-4);
+  EXPECT_LT(std::abs(mean_m - expected_m), 2.0 * error_m);
+}
+INSTANTIATE_TEST_SUITE_P(Both, ChessboardPairs, testing::Values("both"));
 
 TEST(BoardFit, FewBoardsAreRefused) {
   EXPECT_THROW(fit_boards(boards(1, 4), kPicture), std::invalid_argument);

@@ -8,8 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 
+#include "calibration/procedure/sun_stage.h"
+#include "geometry/angles.h"
 #include "tests/unit/calibrate/bus_station.h"
+#include "tests/unit/calibration/scene.h"
 #include "tests/unit/logger/temporary_folder.h"
 #include "tools/calibrate/procedure_end.h"
 #include "tools/calibrate/procedure_runner.h"
@@ -228,6 +232,35 @@ TEST_F(ProcedureAtWork, AnInterruptedOneGoesOnWhereItWas) {
   EXPECT_TRUE(station_.ways.empty());
   EXPECT_EQ(walk_->answer_.choice, "confirm");
   EXPECT_EQ(walk_->resumptions, 2);
+}
+
+// What happened before sunset is told as it happened: then the sun could be looked at.
+TEST_F(ProcedureAtWork, ASunThatHasSetMeanwhileIsGoneOnWithout) {
+  constexpr std::int64_t kMorning_us = 1'773'991'800'000'000, kHour_us = 3'600'000'000;
+  StationModel model = test::hill();
+  model.geometry.chain.heading_rad = radians(130.0);
+  FrameFile black;
+  black.taken.utime_us = kMorning_us;
+  cv::imencode(".png", cv::Mat(960, 1280, CV_8U, cv::Scalar(2)), black.file);
+  for (int i = 0; i < 2; ++i) session_->add(black, false);
+  const auto note = [this](JournalEntry one) {
+    one.ordered_utime_us = kMorning_us;
+    session_->note(one);
+  };
+  note({JournalEntry::Kind::kAnswered, "sun", 0, "", {"filter_on", {}, {}, kMorning_us}});
+  note({JournalEntry::Kind::kTaken, "sun: a picture beside it, to prove the filter", 1, "", {}});
+  note({JournalEntry::Kind::kTaken, "sun, picture 1 of 8", 2, "", {}});
+  begin(session_->folder());
+  session_->resume();
+  const auto night = [this] {
+    return session_->replayed_utime_us().value_or(kMorning_us + 12 * kHour_us);
+  };
+  std::vector<std::unique_ptr<Stage>> stages;
+  stages.push_back(std::make_unique<SunStage>(model, std::make_shared<SunKeepOut>(model, night),
+                                              [](const PanTilt&) { return true; }));
+  procedure_.emplace(std::move(stages), FieldProcedure::Redo());
+  EXPECT_EQ(run("filter_off\nkeep\n"), Outcome::kKeptOld);
+  EXPECT_TRUE(station_.ways.empty());
 }
 
 TEST_F(ProcedureAtWork, AJournalOfAnotherProcedureIsRefused) {

@@ -13,6 +13,7 @@ TEST(ProcedureJournal, WhatIsWrittenIsRead) {
   JournalEntry pointed{Event::kAnswered, "mast: where is it?", 0, "", {}};
   pointed.answer = {"point", Eigen::Vector2d(640.25, 1.0 / 3.0), {0.1, -0.2}, 1790000000123456};
   JournalEntry plain{Event::kAnswered, "result", 0, "", {"redo", {}, {}}};
+  plain.ordered_utime_us = 1790000000654321;
   const JournalEntry resumed{Event::kResumed, "", 0, "", {}};
   std::string text;
   for (const JournalEntry& one : {taken, missed, pointed, plain, resumed}) {
@@ -28,6 +29,8 @@ TEST(ProcedureJournal, WhatIsWrittenIsRead) {
   EXPECT_EQ(read[2].answer.turn.tilt_rad, -0.2);
   EXPECT_EQ(read[2].answer.utime_us, 1790000000123456);
   EXPECT_FALSE(read[3].answer.pixel);
+  EXPECT_EQ(read[3].ordered_utime_us, 1790000000654321);
+  EXPECT_EQ(read[0].ordered_utime_us, 0) << "of a journal that does not say";
   EXPECT_EQ(read[4].kind, Event::kResumed);
 }
 

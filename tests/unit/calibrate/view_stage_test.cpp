@@ -108,6 +108,32 @@ TEST_F(CrowdedPanorama, ViewsAreAsFarApartAsThereAre) {
   EXPECT_EQ(pans, (std::vector<int>{0, 100, -90, 30}));
 }
 
+// The same folder has what `field` has seen at night and of the sun.
+TEST_F(CrowdedPanorama, OnlySceneryIsAView) {
+  std::ofstream list(folder_.path() + "/frames.jsonl", std::ios::app);
+  for (const double pan_deg : {-150.0, 60.0, 150.0}) {
+    list << R"({"file": "star.png", "pan_rad": )" << radians(pan_deg)
+         << R"(, "tilt_rad": 0.4, "approach_pan": 1, "approach_tilt": 1, "is_view": false})"
+         << '\n';
+  }
+  list.close();
+  for (const StoredView& one : views_of(folder_.path())) {
+    EXPECT_EQ(one.file.find("star"), std::string::npos) << degrees(one.angles.pan_rad);
+  }
+}
+
+TEST(ViewsOf, ACalibrationByStarsAloneHasNone) {
+  const logger::TemporaryFolder folder;
+  std::ofstream(folder.path() + "/frames.jsonl")
+      << R"({"file": "a.png", "pan_rad": 0, "tilt_rad": 0, "is_view": false})" << '\n';
+  try {
+    views_of(folder.path());
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("no pictures of scenery"), std::string::npos);
+  }
+}
+
 TEST(ViewsOf, ADamagedListIsNamedWithItsLine) {
   const logger::TemporaryFolder folder;
   std::ofstream(folder.path() + "/frames.jsonl") << "{\"file\": \"a.png\"}\n";

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "calibration/procedure/preconditions.h"
 #include "tests/unit/edge/calibration_files.h"
 
 namespace ols::station {
@@ -48,6 +49,22 @@ TEST_F(CalibrationInUseTest, AnUnreadableOneIsNamedAndTheStationGoesOn) {
   EXPECT_FALSE(refused.settings().station.calibration);
   ASSERT_EQ(refused.alarms().size(), 1U);
   EXPECT_NE(refused.alarms().front().find("instrument.toml:1: rubbish"), std::string::npos);
+}
+
+// Without a calibration, too: the next one would be stored under the configured serial numbers.
+TEST_F(CalibrationInUseTest, ADeviceThatSaysAnotherSerialNumberIsNamed) {
+  InstrumentSerials configured;
+  configured.camera = "C7";
+  EXPECT_TRUE(CalibrationInUse::other_devices(configured, {camera(""), camera("C7")}).empty());
+  EXPECT_TRUE(CalibrationInUse::other_devices(InstrumentSerials{}, {camera("C8")}).empty())
+      << "none is configured";
+  EXPECT_EQ(CalibrationInUse::other_devices(configured, {camera("C8")}),
+            std::vector<std::string>{"calibration: another camera than configured: it says 'C8', "
+                                     "[serials] has 'C7'"});
+  // By this a guided procedure knows the alarm.
+  EXPECT_TRUE(CalibrationInUse::other_devices(configured, {camera("C8")})
+                  .front()
+                  .starts_with(calibration::kAnotherDevice));
 }
 
 TEST_F(CalibrationInUseTest, ACameraThatIsAnotherEndsIt) {

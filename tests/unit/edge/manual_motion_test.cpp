@@ -40,6 +40,14 @@ TEST(ManualMotion, AnEarlierRateOfTheSameSenderDoesNotReplaceALaterOne) {
   EXPECT_FALSE(motion.overtakes(other, 10.1));
 }
 
+TEST(ManualMotion, TheUnitIsToRestAtAnglesAndNotAtTheEndOfARate) {
+  ManualMotion motion;
+  motion.point({0.5, 0.1}, 10.0, 25.0);
+  EXPECT_TRUE(motion.goal(10.2)->rests);
+  motion.turn(rate(0.2, 10.2));
+  EXPECT_FALSE(motion.goal(10.3)->rests);
+}
+
 TEST(ManualMotion, AnglesAndRatesReplaceEachOther) {
   ManualMotion motion;
   motion.turn(rate(0.2));

@@ -78,6 +78,7 @@ TEST(ViewRegistration, RefusesWhatItCannotTell) {
   const cv::Mat fog = Scenery::with_noise(cv::Mat(480, 640, CV_32F, cv::Scalar(150.0)), 4, 3.0);
   EXPECT_NE(refusal(fog), Refusal::kNone);
   EXPECT_EQ(register_view(fog, fog.clone()).refusal, Refusal::kNoStructure);
+  EXPECT_NE(refusal(cv::Mat(480, 640, CV_8U, cv::Scalar(0))), Refusal::kNone) << "a lens cap";
   EXPECT_EQ(refusal(reference(cv::Rect(0, 0, 600, 480))), Refusal::kSize);
   EXPECT_EQ(refusal(cv::Mat()), Refusal::kSize);
 }

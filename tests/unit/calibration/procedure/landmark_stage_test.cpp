@@ -111,8 +111,9 @@ TEST(LandmarkStage, OneIsSkippedAndWhatIsNoAnswerAsksAgain) {
   stage.answered({"skip", {}, {}});
   Field field(tripod, stage, tripod.signs(2));
   field.run();
-  EXPECT_EQ(stage.observations().size(), 2U);
-  EXPECT_FALSE(stage.closing_rad());  // the first was the one
+  EXPECT_EQ(stage.observations().size(), 3U);
+  ASSERT_TRUE(stage.closing_rad()) << "at the first one that was sighted";
+  EXPECT_LT(degrees(*stage.closing_rad()) * 3600.0, 5.0);
   EXPECT_EQ(stage.take_remarks().size(), 1U);
 }
 

@@ -40,6 +40,15 @@ TEST(Preconditions, EachHindranceIsNamed) {
   }
 }
 
+TEST(Preconditions, ADeviceOfAnotherSerialNumberIsNamed) {
+  StationFacts facts = good();
+  facts.alarms = {"disk: full", std::string(kAnotherDevice) +
+                                    "camera than configured: it says 'C8', [serials] has 'C7'"};
+  EXPECT_EQ(first_hindrance(preconditions(facts, kWanted))
+                .find("another camera than configured: it says 'C8', [serials] has 'C7': correct"),
+            0U);
+}
+
 TEST(Preconditions, TheClockMattersForTheSkyOnly) {
   StationFacts facts = good();
   facts.clock_synchronised = false;

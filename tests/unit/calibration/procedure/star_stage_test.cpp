@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
+
+#include "geometry/angles.h"
 
 namespace ols::calibration {
 namespace {
@@ -44,6 +49,31 @@ TEST(StarStage, CloudsAreNamed) {
     stage.taken(night(pose, pose == 1 ? 4 : 0));
   }
   EXPECT_NE(stage.take_remarks().at(0).find("2 of 3 pictures show none"), std::string::npos);
+}
+
+// Whatever the number of pictures and the span: in even steps of three turns of the worm all
+// pictures would be in one phase.
+TEST(StarStage, ThePlanSeesAllPhasesOfTheWorms) {
+  constexpr double kTurn_rad = 2.0 * kPi / 70.0;
+  const auto share_of_turn = [](double angle_rad) {
+    return angle_rad / kTurn_rad - std::floor(angle_rad / kTurn_rad);
+  };
+  for (const int pictures : {16, 19, 20, 24}) {
+    for (const double reach_rad : {2.4, 2.6, 2.74}) {
+      const auto shots =
+          plan_stars({.pictures = pictures, .pan_min_rad = -reach_rad, .pan_max_rad = reach_rad});
+      std::array<int, 4> pans{}, low{}, high{};
+      for (const Shot& one : shots) {
+        EXPECT_LE(std::abs(one.angles.pan_rad), reach_rad);
+        ++pans.at(static_cast<std::size_t>(4.0 * share_of_turn(one.angles.pan_rad)));
+        auto& band = one.angles.tilt_rad < 0.35 ? low : high;
+        ++band.at(static_cast<std::size_t>(4.0 * share_of_turn(one.angles.tilt_rad)));
+      }
+      for (const auto& quarters : {pans, low, high}) {
+        EXPECT_GE(*std::ranges::min_element(quarters), 1) << pictures << " over " << reach_rad;
+      }
+    }
+  }
 }
 
 TEST(StarStage, ThePlanIsUnevenFromBothSidesAndAboveTheHaze) {

@@ -40,6 +40,11 @@ TEST_F(SunKeepOutTest, TheUnitKeepsAwayFromTheSunAndSaysWhy) {
   EXPECT_TRUE(keep_out.hindrance(beside(-10.0)).empty());
 }
 
+TEST_F(SunKeepOutTest, WhoMayHaveBeenTurnedKeepsFurtherAway) {
+  EXPECT_TRUE(keep_out.hindrance(beside(12.0), radians(3.0)).empty());
+  EXPECT_NE(keep_out.hindrance(beside(12.0), radians(5.0)).find("13 are kept"), std::string::npos);
+}
+
 TEST_F(SunKeepOutTest, ItMovesWithTheSunAndEndsAtNight) {
   const PanTilt at = beside(0.0);
   now_us += 2LL * 3600 * 1'000'000;

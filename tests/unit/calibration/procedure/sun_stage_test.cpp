@@ -128,6 +128,60 @@ TEST_F(SunStageTest, AfterAnInterruptionTheFilterIsProvedAgain) {
   EXPECT_EQ(sun.observations().size(), 8U);
 }
 
+// What was sighted stands, each with its time; the others are aimed at where the sun is by now.
+TEST_F(SunStageTest, AfterHoursItGoesOnWithTheSunOfThatTime) {
+  highest_rad = radians(60.0);
+  SunStage sun = stage();
+  sun.answered({"filter_on", {}, {}});
+  for (int i = 0; i < 3; ++i) sun.taken(shoot(sun.next()->shot));
+  now_us += 3LL * 3600 * 1'000'000;
+  sun.resumed();
+  EXPECT_EQ(run(sun), 1 + 6 + 1);
+  const auto all = sun.observations();
+  ASSERT_EQ(all.size(), 8U);
+  EXPECT_GT(std::abs(all[2].reading.pan.counts - all[1].reading.pan.counts), 5000.0);
+  EXPECT_GT(all[2].utime_us, all[1].utime_us + 3LL * 3600 * 1'000'000);
+}
+
+TEST_F(SunStageTest, AfterSunsetItKeepsWhatItHasAndTheFilterComesOff) {
+  SunStage sun = stage();
+  sun.answered({"filter_on", {}, {}});
+  for (int i = 0; i < 3; ++i) sun.taken(shoot(sun.next()->shot));
+  now_us += 12LL * 3600 * 1'000'000;
+  sun.resumed();
+  EXPECT_EQ(run(sun), 0);
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_NE(asked[0].find("Take the sun filter off"), std::string::npos) << asked[0];
+  EXPECT_EQ(sun.observations().size(), 2U);
+  EXPECT_NE(sun.take_remarks().at(0).find("sun: no more pictures than 2: it stands"),
+            std::string::npos);
+}
+
+// Interrupted while it looks at the sun, it still looks there when a person gives up.
+TEST_F(SunStageTest, WhileTheSunIsUpTheUnitTurnsAwayBeforeTheFilterComesOff) {
+  for (const bool turns : {true, false}) {
+    SunStage of = stage();
+    of.answered({"filter_on", {}, {}});
+    of.taken(shoot(of.next()->shot));  // beside it
+    of.taken(shoot(of.next()->shot));  // at it
+    of.resumed();
+    of.answered({"skip", {}, {}});
+    const auto away = of.next();
+    ASSERT_TRUE(away);
+    ASSERT_EQ(away->kind, Order::Kind::kShoot);
+    EXPECT_EQ(keep_out->hindrance(away->shot.angles), "");
+    if (turns) {
+      of.taken(shoot(away->shot));
+    } else {
+      of.not_taken("the unit does not answer");
+    }
+    const std::string text = of.next()->question.text;
+    EXPECT_EQ(text.find("cover the lens") == std::string::npos, turns) << text;
+    of.answered({"filter_off", {}, {}});
+    EXPECT_FALSE(of.next());
+  }
+}
+
 TEST_F(SunStageTest, ASunThatIsNotInThePictureIsTurnedTo) {
   believed.geometry.chain.heading_rad += radians(5.0);
   keep_out = std::make_shared<SunKeepOut>(believed, [this] { return now_us; });

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
+#include <span>
 
 namespace ols::calibration {
 namespace {
@@ -19,10 +22,9 @@ TEST(SweepPlan, NeighboursShareTwoFifthsAndAreApproachedFromBothSides) {
   const auto shots = plan_sweep(options());
   EXPECT_EQ(shots.size(), 90U);
   std::vector<std::pair<double, int>> ring;
-  for (const Shot& shot : shots) {
-    if (std::abs(shot.angles.tilt_rad - 0.03) < 0.015) {
-      ring.emplace_back(shot.angles.pan_rad, shot.approach_pan);
-    }
+  for (const Shot& shot : std::span(shots).first(60)) {
+    EXPECT_NEAR(shot.angles.tilt_rad, 0.03, 0.015);
+    ring.emplace_back(shot.angles.pan_rad, shot.approach_pan);
   }
   std::ranges::sort(ring);
   int turns = 0;
@@ -41,6 +43,21 @@ TEST(SweepPlan, StepsAreUneven) {
     steps.insert(std::lround((shots[i].angles.pan_rad - shots[i - 1].angles.pan_rad) * 1e4));
   }
   EXPECT_GT(steps.size(), 20U);
+}
+
+TEST(SweepPlan, TheBlockSeesAllPhasesOfTheTiltsWorm) {
+  constexpr double kTurn_rad = 2.0 * std::numbers::pi / 70.0;
+  const auto shots = plan_sweep(options());
+  std::array<int, 8> eighths{};
+  double low_rad = 1.0, high_rad = -1.0;
+  for (std::size_t i = 60; i < shots.size(); ++i) {
+    const double turns = shots[i].angles.tilt_rad / kTurn_rad;
+    ++eighths.at(static_cast<std::size_t>(8.0 * (turns - std::floor(turns))));
+    low_rad = std::min(low_rad, shots[i].angles.tilt_rad);
+    high_rad = std::max(high_rad, shots[i].angles.tilt_rad);
+  }
+  EXPECT_GE(*std::ranges::min_element(eighths), 1);
+  EXPECT_GT(high_rad - low_rad, 2.5 * 0.072);
 }
 
 TEST(SweepPlan, TheStatedApproachIsThatOfTheWalk) {

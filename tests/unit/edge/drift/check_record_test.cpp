@@ -22,6 +22,14 @@ TEST(CheckRecord, ANightIsNothingToSayADayIs) {
   EXPECT_NE(record.alarm().find("never idle"), std::string::npos);
 }
 
+TEST(CheckRecord, ADayInWhichTheSunStoodInTheViewsIsSaid) {
+  CheckRecord record;
+  record.note(0.0);
+  record.note_sun();
+  record.note(25 * kHour_s);
+  EXPECT_NE(record.alarm().find("the sun stands in its reference views"), std::string::npos);
+}
+
 TEST(CheckRecord, AUnitThatDoesNotArriveIsSaidAfterThreeRounds) {
   CheckRecord record;
   record.note(0.0);

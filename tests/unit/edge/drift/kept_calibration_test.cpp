@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
+#include "calibration/procedure/sun_keep_out.h"
+#include "geometry/angles.h"
 #include "tests/unit/edge/calibration_files.h"
 #include "tests/unit/eventually.h"
 
@@ -19,16 +22,56 @@ class KeptCalibrationTest : public testing::Test {
   }
   // Whether the unit is moved within so many seconds.
   static bool moves(KeptCalibration& kept, double seconds) {
-    ptu::PtuLimits limits;
-    limits.count = {5.61e-5, 5.61e-5};
-    kept.set_limits(limits);
+    kept.set_limits(travel());
     for (double now_s = 0.0; now_s < seconds; now_s += 1.0) {
       if (kept.step({now_s, true, PanTilt{}})) return true;
     }
     return false;
   }
+  // Of one round; none is looked at where the sun stands.
+  static std::size_t views_seen(const StationSettings& settings, const KeptCalibration::UtcNow& now,
+                                const calibration::SunKeepOut& sun) {
+    KeptCalibration kept(settings, now);
+    kept.set_limits(travel());
+    PanTilt at;
+    std::set<long> pans;
+    for (double now_s = 0.0; now_s < 60.0; now_s += 0.5) {
+      const auto goal = kept.step({now_s, true, at});
+      if (!goal) continue;
+      at = goal->angles;
+      EXPECT_EQ(sun.hindrance(at), "");
+      pans.insert(std::lround(std::floor(degrees(at.pan_rad) / 60.0)));
+      camera::Frame frame;
+      frame.mid_exposure_s = now_s;
+      frame.gray = cv::Mat::zeros(48, 64, CV_8U);
+      kept.see(frame);
+    }
+    return pans.size();
+  }
+  static ptu::PtuLimits travel() {
+    ptu::PtuLimits limits;
+    limits.count = {5.61e-5, 5.61e-5};
+    return limits;
+  }
   test::CalibrationFolder files_{"kept_calibration"};
 };
+
+// The sun rises in one of the views, and no filter is on the lens.
+TEST_F(KeptCalibrationTest, WhereTheSunStandsItDoesNotLook) {
+  const StationSettings settings = configured();
+  const StationModel model = read_calibration(files_.path, settings).calibration.model;
+  std::int64_t utime_us = 1'773'964'800'000'000;  // 2026-03-20, midnight
+  const auto now = [&utime_us] { return utime_us; };
+  const calibration::SunKeepOut sun(model, now);
+  EXPECT_EQ(views_seen(settings, now, sun), 4U) << "at night";
+  // One of the views is at azimuth 78.
+  const auto kept_out = [&](double azimuth_deg) {
+    const auto there = aim_along(model.geometry, {radians(azimuth_deg), radians(2.0)});
+    return !sun.hindrance(*there).empty();
+  };
+  while (!kept_out(75.0) || !kept_out(82.0)) utime_us += 600'000'000;
+  EXPECT_EQ(views_seen(settings, now, sun), 3U) << "soon after sunrise";
+}
 
 TEST_F(KeptCalibrationTest, AStationWithoutOneNeverMovesByItself) {
   KeptCalibration none(test::settings());

@@ -72,6 +72,15 @@ class ReferenceViewsTest : public testing::Test {
     }
   }
 
+  // Until the pictures of a round are compared: its threads work in real time.
+  template <class Condition>
+  bool compared(ReferenceViews& views, const Condition& condition) {
+    return eventually([&] {
+      views.step({now_s_, false, PanTilt{}});
+      return condition();
+    });
+  }
+
   const cv::Mat& seen(int seed, double right_px) {
     if (night_) return dark_;
     cv::Mat& picture = scenes_[{seed, right_px}];
@@ -131,6 +140,42 @@ TEST_F(ReferenceViewsTest, StoresNoPictureInWhichNothingCouldBeRecognised) {
   round(views, 0.0);
   EXPECT_EQ(views.checks(), 1U);
   EXPECT_TRUE(views.alarms().empty());
+}
+
+// What the calibration says of the sun's place is no better than what is known of the tripod.
+TEST_F(ReferenceViewsTest, ATripodThatWasTurnedKeepsFurtherFromTheSun) {
+  double asked_rad = 0.0;
+  config_.sun = [&asked_rad](const PanTilt&, double turned_rad) {
+    asked_rad = turned_rad;
+    return false;
+  };
+  ReferenceViews views(config_, calibration_);
+  round(views, 0.0);
+  round(views, 0.0);
+  EXPECT_EQ(asked_rad, 0.0);
+  night_ = true;  // or somewhere else altogether
+  views.request();
+  once(views);
+  EXPECT_TRUE(compared(views, [&] { return views.unrecognised() > 0; }));
+  night_ = false;
+  views.request();
+  for (int i = 0; i < 2; ++i) views.step({now_s_ += 30.0, true, PanTilt{}});
+  EXPECT_NEAR(degrees(asked_rad), 30.0, 1e-9);
+  for (int i = 0; i < 3; ++i) round(views, 4.3);
+  ASSERT_EQ(views.watch().level(), DriftLevel::kRed);
+  EXPECT_GT(asked_rad, 2.9 * views.watch().heading_doubt_rad());
+  EXPECT_LT(degrees(asked_rad), 1.0);
+}
+
+TEST_F(ReferenceViewsTest, AViewBehindTheSunIsCountedAndStoredLater) {
+  bool shines = true;
+  config_.sun = [&shines](const PanTilt& at, double) { return shines && at.pan_rad > 2.0; };
+  ReferenceViews views(config_, calibration_);
+  once(views);
+  EXPECT_EQ(views.left_out(), 1U);
+  shines = false;
+  once(views);  // without being asked
+  EXPECT_TRUE(compared(views, [&] { return views.stored(); }));
 }
 
 TEST_F(ReferenceViewsTest, PicturesOfOtherViewsAreNotTheirs) {

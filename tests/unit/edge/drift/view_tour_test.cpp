@@ -103,6 +103,51 @@ TEST_F(ViewTourTest, AUnitThatDoesNotArriveEndsTheRound) {
   EXPECT_EQ(tour.late(), 0);
 }
 
+// The sun stands there, for some rounds.
+TEST_F(ViewTourTest, WhereTheSunStandsItDoesNotLook) {
+  PanTilt sun;
+  ViewTour::Config config;
+  config.forbidden = [&sun](const PanTilt& view) {
+    return std::abs(view.pan_rad - sun.pan_rad) < radians(8.0);
+  };
+  tour = ViewTour(config);
+  tour.plan(travel(), {kCount, kCount});
+  sun = tour.views()[1];
+  tour.request();
+  run(120.0);
+  EXPECT_EQ(seen, (std::vector<std::size_t>{0, 2, 3}));
+  EXPECT_TRUE(tour.take_finished());
+  sun = tour.views()[3];
+  seen.clear();
+  tour.request();
+  run(120.0);
+  EXPECT_EQ(seen, (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_TRUE(tour.take_finished()) << "without its last view, too";
+  EXPECT_EQ(tour.late(), 0);
+}
+
+// Long before the next round is due, and once.
+TEST_F(ViewTourTest, WhatWasLeftOutIsSeenWhenTheSunHasGoneOn) {
+  bool shines = true;
+  ViewTour::Config config;
+  config.forbidden = [&](const PanTilt& view) {
+    return shines && view.pan_rad == tour.views()[2].pan_rad;
+  };
+  tour = ViewTour(config);
+  tour.plan(travel(), {kCount, kCount});
+  tour.request();
+  run(120.0);
+  EXPECT_EQ(seen, (std::vector<std::size_t>{0, 1, 3}));
+  EXPECT_EQ(tour.left_out(), (std::vector<std::size_t>{2}));
+  shines = false;
+  seen.clear();
+  run(120.0);
+  EXPECT_EQ(seen, (std::vector<std::size_t>{0, 1, 2, 3}));
+  EXPECT_TRUE(tour.left_out().empty());
+  run(200.0);
+  EXPECT_EQ(seen.size(), 4U);
+}
+
 TEST_F(ViewTourTest, WhatIsForbiddenIsNoView) {
   ptu::PtuLimits limits = travel();
   limits.keep_out.push_back({radians(-50), radians(-40), radians(-10), radians(31)});

@@ -99,6 +99,62 @@ TEST(Servo, CommandsNothingWithinLimitsThatContradictEachOther) {
   }
 }
 
+ServoGoal resting(const PanTilt& angles) {
+  ServoGoal goal{100.0, angles, {}, 100.4};
+  goal.rests = true;
+  return goal;
+}
+
+// On its own ramp: a proportional speed near the goal would take seconds for the last tenths of a
+// degree.
+TEST(Servo, ARestingGoalIsApproachedAsFastAsTheUnitCanBrake) {
+  const ServoConfig servo = config();
+  for (const double way_rad : {1e-3, 1e-2, -0.05, 0.2, -0.4}) {
+    const double brakable = std::sqrt(2.0 * servo.max_acceleration_rad_s2 * std::abs(way_rad));
+    const PanTilt now_rate{0.85 * std::copysign(brakable, way_rad), 0.0};
+    const auto command =
+        servo_step(servo, kLimits, resting({way_rad, 0.0}), {0.0, 0.0}, 100.0, now_rate);
+    ASSERT_TRUE(command);
+    EXPECT_DOUBLE_EQ(command->position.pan_rad, way_rad) << "itself, so that the unit stops there";
+    EXPECT_LE(command->speed.pan_rad, brakable);
+    EXPECT_GT(command->speed.pan_rad, 0.85 * brakable);
+  }
+}
+
+// From rest: what it speeds up over during the look-ahead, and brakes over then.
+TEST(Servo, AStandingUnitIsNotSentFarAtOnce) {
+  const ServoConfig servo = config();
+  const auto command = servo_step(servo, kLimits, resting({2.0, 0.0}), {0.0, 0.0}, 100.0);
+  ASSERT_TRUE(command);
+  const double ramp_rad =
+      0.5 * servo.max_acceleration_rad_s2 * servo.look_ahead_s * servo.look_ahead_s;
+  EXPECT_NEAR(command->position.pan_rad, 2.0 * ramp_rad, 1e-12);
+  EXPECT_DOUBLE_EQ(command->speed.pan_rad, servo.max_speed_rad_s);
+}
+
+// A host that dies leaves the unit with this command: with the look-ahead's travel and the braking
+// distance before it, never with the whole way.
+TEST(Servo, ARestingGoalFarAwayIsCommandedInStages) {
+  ServoConfig servo = config();
+  for (const double max_speed_rad_s : {0.2, 0.5, 1.0}) {
+    servo.max_speed_rad_s = max_speed_rad_s;
+    for (const double now_rad_s : {-1.0, 0.0, 0.1, max_speed_rad_s}) {
+      for (const double way_rad : {-2.6, -1.5, -0.3, 0.05, 0.7, 2.6}) {
+        const PanTilt now_rate{std::copysign(now_rad_s, now_rad_s * way_rad), 0.0};
+        const auto command =
+            servo_step(servo, kLimits, resting({way_rad, 0.0}), {0.0, 0.0}, 100.0, now_rate);
+        ASSERT_TRUE(command);
+        const double speed = command->speed.pan_rad;
+        EXPECT_LE(speed, max_speed_rad_s);
+        EXPECT_LE(std::abs(command->position.pan_rad),
+                  speed * servo.look_ahead_s +
+                      speed * speed / (2.0 * servo.max_acceleration_rad_s2) + 1e-12);
+        EXPECT_GT(command->position.pan_rad * way_rad, 0.0);
+      }
+    }
+  }
+}
+
 ServoGoal rates(const PanTilt& rate) {
   ServoGoal goal{100.0, {}, rate, 100.4};
   goal.rate_only = true;

@@ -188,6 +188,57 @@ TEST(Tracking, StopsByItselfOnALongWayToARestingGoal) {
   EXPECT_LT(degrees(loop.truth().pan_rad), at_deg + 50.0);
 }
 
+ServoGoal resting_at(const ClosedLoop& loop, double pan_deg) {
+  ServoGoal goal = loop.goal({radians(pan_deg), 0.0});
+  goal.rests = true;
+  return goal;
+}
+
+// How long a unit that speeds up and brakes evenly needs at least for a way from rest to rest.
+double ideal_s(double way_rad, double max_speed_rad_s, double acceleration_rad_s2) {
+  const double ramps_rad = max_speed_rad_s * max_speed_rad_s / acceleration_rad_s2;
+  if (way_rad < ramps_rad) return 2.0 * std::sqrt(way_rad / acceleration_rad_s2);
+  return way_rad / max_speed_rad_s + max_speed_rad_s / acceleration_rad_s2;
+}
+
+TEST(Tracking, RestsHardlyLaterThanTheUnitsOwnRampTakes) {
+  for (const double way_deg : {1.0, 4.0, 15.0, 60.0, 140.0}) {
+    const PtuConfig config = brisk();
+    ClosedLoop loop(config, quick_unit());
+    ASSERT_TRUE(loop.start());
+    const double began_s = loop.time_s;
+    double moved_s = 0.0, last_rad = 0.0, furthest_rad = 0.0;
+    loop.run(8.0, [&] {
+      loop.driver.set_goal(resting_at(loop, way_deg));
+      if (loop.truth().pan_rad != last_rad) moved_s = loop.time_s - began_s;
+      last_rad = loop.truth().pan_rad;
+      furthest_rad = std::max(furthest_rad, last_rad);
+    });
+    EXPECT_NEAR(degrees(last_rad), way_deg, 0.0033);
+    EXPECT_LT(degrees(furthest_rad), way_deg + 0.0033) << "no overshoot";
+    const double least_s = ideal_s(radians(way_deg), config.servo.max_speed_rad_s, radians(60.0));
+    EXPECT_LT(moved_s, 1.2 * least_s + 0.15) << way_deg;
+  }
+}
+
+// Whenever the master dies: at the start, at full speed, while the unit brakes.
+TEST(Tracking, StopsByItselfOnItsWayToRest) {
+  for (const double way_deg : {2.0, 10.0, 150.0}) {
+    for (const double died_s : {0.1, 0.2, 0.4, 0.7, 1.0, 1.6, 2.4}) {
+      ClosedLoop loop(brisk(), quick_unit());
+      ASSERT_TRUE(loop.start());
+      loop.run(died_s, [&] { loop.driver.set_goal(resting_at(loop, way_deg)); });
+      const double at_rad = loop.truth().pan_rad;
+      const ServoConfig servo{.max_acceleration_rad_s2 = radians(60.0)};
+      const double braking_rad =
+          servo.max_speed_rad_s * servo.max_speed_rad_s / (2.0 * radians(60.0));
+      EXPECT_LE(moves_on(loop), runs_on_s(servo, servo.max_speed_rad_s)) << way_deg << died_s;
+      EXPECT_LE(loop.truth().pan_rad - at_rad,
+                servo.max_speed_rad_s * servo.look_ahead_s + braking_rad + 0.1);
+    }
+  }
+}
+
 // A host that looks at the line every 80 ms cannot tell when a reply came: the link is up, but the
 // angles grow old, and the servo does not steer by old ones.
 TEST(Tracking, AHostThatReadsLateLetsTheUnitStand) {

@@ -1,0 +1,54 @@
+"""The table of the overview station's zoom lens, measured live, against the lens as it is."""
+
+import subprocess
+import tomllib
+
+import pytest
+from conftest import BIN, ROOT
+from helpers import Listener
+from ols_demo.bus import LIVE_URL
+from ols_demo.site import Site, bring_up_loopback
+from ols_demo.wiring import Wiring
+
+SCENARIO = ROOT / "sim/scenarios/overview.toml"
+STATION = "overview"
+WIDEST_PX, RATIO, BEND = 8.0 / 3.75e-3, 10.0, 0.2  # of the scenario, and of sim/zoom_truth.cpp
+
+
+def true_focal_px(position):
+    return WIDEST_PX * RATIO ** (position + BEND * position * (1.0 - position))
+
+
+@pytest.fixture
+def config(network, tmp_path):
+    wiring = Wiring(BIN, SCENARIO, 3, tmp_path)
+    bring_up_loopback(wiring.prepare())
+    listener = Listener()
+    with Site(tmp_path / "logs") as started:
+        sim = [wiring.program("ols-sim"), "--scenario", str(SCENARIO), "--seed", "3"]
+        sim += ["--lcm-url", LIVE_URL, "--directory", str(tmp_path / "lines")]
+        started.start_and_wait("ols-sim", sim, "ready")
+        wiring.start_station(started, STATION)
+        listener.wait(
+            lambda: abs(listener.wait_for_status(STATION).pan_limits_rad[0]) > 0.0, "homing", 60.0
+        )
+        yield wiring.configs[STATION]
+        started.check()
+
+
+def test_the_table_is_that_of_the_lens(config, tmp_path):
+    """The simulated scenery has no structure that is finer than the longest end would need: there
+    it must be said, and the other points stand."""
+    table = tmp_path / "zoom.toml"
+    command = [BIN / "ols-calibrate", "zoom", "--station", config, "--lcm-url", LIVE_URL]
+    command += ["--positions", "5", "--output", table]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
+    print(done.stdout, done.stderr)
+    points = tomllib.loads(table.read_text())["lens_motor"]["point"]
+    assert [round(point["position"], 2) for point in points][:3] == [0.0, 0.25, 0.5]
+    assert done.stderr.count("too little of the scenery") == 5 - len(points)
+    assert done.returncode == (0 if len(points) == 5 else 1)
+    for point in points:
+        truth, sd = true_focal_px(point["position"]), point["focal_sd_px"]
+        assert sd < 0.004 * truth
+        assert abs(point["focal_px"] - truth) < 3.5 * sd
