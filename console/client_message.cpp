@@ -164,14 +164,31 @@ CommandRequest read_command(const Json& message, std::int64_t number) {
   return request;
 }
 
-WatchRequest read_watch(const Json& message) {
-  refuse_unknown(message, {"do", "number", "pictures"});
+std::vector<std::string> stations_of(const Json& message) {
   const Json& pictures = field(message, "pictures");
   if (!pictures.is_array() || pictures.size() > kMostWatched) {
     throw Wrong("pictures must be a list of at most 64 stations");
   }
+  std::vector<std::string> stations;
+  for (const Json& station : pictures) stations.push_back(name_of(station, "pictures"));
+  return stations;
+}
+
+TakenRequest read_taken(const Json& message) {
+  refuse_unknown(message, {"do", "number", "pictures", "state"});
+  const Json& state = field(message, "state");
+  if (!state.is_boolean()) throw Wrong("state must be true or false");
+  return {stations_of(message), state.get<bool>()};
+}
+
+WatchRequest read_watch(const Json& message) {
+  refuse_unknown(message, {"do", "number", "pictures", "codec"});
   WatchRequest request;
-  for (const Json& station : pictures) request.stations.push_back(name_of(station, "pictures"));
+  request.stations = stations_of(message);
+  if (!message.contains("codec")) return request;
+  const Json& codec = message.at("codec");
+  if (codec != "jpeg" && codec != "h264") throw Wrong("codec must be jpeg or h264");
+  request.codec = codec == "h264" ? Codec::kH264 : Codec::kJpeg;
   return request;
 }
 
@@ -229,6 +246,7 @@ ClientMessage read(const Json& message, std::int64_t number) {
   const std::string what = text(message, "do");
   if (what == "command") return read_command(message, number);
   if (what == "watch") return read_watch(message);
+  if (what == "taken") return read_taken(message);
   if (what == "replay") return read_replay(message, number);
   if (what == "answer") return read_answer(message, number);
   if (what == "cue") return read_cue(message, number);
@@ -240,7 +258,7 @@ ClientMessage read(const Json& message, std::int64_t number) {
     refuse_unknown(message, {"do", "number", "station"});
     return ControlRequest{number, text(message, "station"), what == "take"};
   }
-  throw Wrong("do must be command, stop_all, take, give_up, watch, answer, cue or replay");
+  throw Wrong("do must be command, stop_all, take, give_up, watch, taken, answer, cue or replay");
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "command/order.h"
 #include "console/cue_orders.h"
+#include "console/heard.h"
 #include "console/procedures.h"
 
 namespace ols::console {
@@ -33,6 +34,12 @@ struct ControlRequest {
 // Pictures of these stations are wanted from now on; of no others.
 struct WatchRequest {
   std::vector<std::string> stations;
+  Codec codec = Codec::kJpeg;
+};
+// The browser has dealt with the last picture of these stations, or with the last state.
+struct TakenRequest {
+  std::vector<std::string> stations;
+  bool state = false;
 };
 // Of a replay: where it is to go, whether it runs, how fast. What is missing stays.
 struct ReplayRequest {
@@ -57,7 +64,7 @@ struct Refused {
 };
 
 using ClientMessage = std::variant<CommandRequest, StopAllRequest, ControlRequest, WatchRequest,
-                                   ReplayRequest, AnswerRequest, CueRequest, Refused>;
+                                   TakenRequest, ReplayRequest, AnswerRequest, CueRequest, Refused>;
 
 inline constexpr std::size_t kMostMessageBytes = 8192;
 inline constexpr std::size_t kMostWatched = 64;

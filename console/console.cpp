@@ -1,10 +1,6 @@
 #include "console/console.h"
 
-#include <algorithm>
 #include <utility>
-
-#include "base/length_prefix.h"
-
 namespace ols::console {
 namespace {
 
@@ -24,16 +20,6 @@ std::string words(const command::Order& order) {
   std::string text(command::name(order.kind));
   if (order.kind == command::Kind::kRecord) text += " " + order.label;
   return text;
-}
-
-// Pictures of the video are larger and more; the preview is for stations without.
-bool is_preview_beside_video(const Picture& picture, const Picture& newest) {
-  constexpr std::int64_t kVideoIsAlive_us = 3'000'000;
-  if (picture.is_video || !newest.is_video) return false;
-  const auto utime_us = [](const Picture& p) {
-    return p.header.value("utime_us", std::int64_t{0});
-  };
-  return utime_us(picture) - utime_us(newest) < kVideoIsAlive_us;
 }
 
 }  // namespace
@@ -59,10 +45,7 @@ void Console::hear_bearing(const std::string& station, const Json& bearing) {
 
 void Console::hear(Picture picture) {
   if (!site_.knows(picture.station)) return;
-  Kept& kept = pictures_[picture.station];
-  if (is_preview_beside_video(picture, kept.picture)) return;
-  kept.number = ++picture_numbers_;
-  kept.picture = std::move(picture);
+  pictures_.hear(std::move(picture));
 }
 
 void Console::hear(ProcedureHeard procedure) {
@@ -81,13 +64,12 @@ void Console::hear(const command::Order& order, const Now& now) {
   }
 }
 
-std::map<std::string, std::string> Console::watched_video() const {
-  std::map<std::string, std::string> watched;
-  for (const auto& video : video_addresses_) {
-    const bool is_watched = std::ranges::any_of(viewers_, [&video](const auto& viewer) {
-      return viewer.second.watched.contains(video.first);
-    });
-    if (is_watched) watched.insert(video);
+WatchedVideos Console::watched_video() const {
+  WatchedVideos watched;
+  for (const auto& [id, viewer] : viewers_) {
+    for (const auto& [station, address] : video_addresses_) {
+      if (viewer.view.watched.contains(station)) watched[{station, viewer.view.codec}] = address;
+    }
   }
   return watched;
 }
@@ -163,7 +145,19 @@ void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
 }
 
 void Console::act(std::uint64_t id, const WatchRequest& request, const Now&) {
-  viewers_.at(id).watched = {request.stations.begin(), request.stations.end()};
+  PictureDesk::View& view = viewers_.at(id).view;
+  view.watched = {request.stations.begin(), request.stations.end()};
+  // A browser that begins with a stream has had nothing of it.
+  if (view.codec != request.codec) view.sent.clear();
+  std::erase_if(view.sent,
+                [&view](const auto& sent) { return !view.watched.contains(sent.first); });
+  view.codec = request.codec;
+}
+
+void Console::act(std::uint64_t id, const TakenRequest& request, const Now&) {
+  UnderWay& under_way = viewers_.at(id).view.under_way;
+  for (const std::string& station : request.stations) under_way.taken(station);
+  if (request.state) under_way.taken(UnderWay::kState);
 }
 
 void Console::act(std::uint64_t id, const ControlRequest& request, const Now& now) {
@@ -257,10 +251,10 @@ void Console::forget_gone() {
   const auto is_known = [this](const std::string& id) { return site_.knows(id); };
   desk_.keep_only(is_known);
   procedures_.keep_only(is_known);
-  std::erase_if(pictures_, [&](const auto& kept) { return !is_known(kept.first); });
+  pictures_.keep_only(is_known);
   std::erase_if(video_addresses_, [&](const auto& video) { return !is_known(video.first); });
   for (auto& [id, viewer] : viewers_) {
-    std::erase_if(viewer.pictures_sent, [&](const auto& sent) { return !is_known(sent.first); });
+    std::erase_if(viewer.view.sent, [&](const auto& sent) { return !is_known(sent.first); });
   }
 }
 
@@ -290,19 +284,12 @@ void Console::replay_is(const Json& state, bool is_urgent) {
   for (auto& [id, viewer] : viewers_) viewer.sent_s = -1e9;
 }
 
-Moment Console::moment() const {
-  Moment moment{site_, desk_, {}};
-  for (const auto& [station, kept] : pictures_) moment.pictures.emplace(station, kept.picture);
-  return moment;
-}
+Moment Console::moment() const { return {site_, desk_, pictures_.newest()}; }
 
 void Console::show(const Moment& moment) {
   site_ = moment.site;
   desk_ = moment.desk;
-  pictures_.clear();
-  for (const auto& [station, picture] : moment.pictures) {
-    pictures_[station] = {picture, ++picture_numbers_};
-  }
+  pictures_.show(moment.pictures);
   for (auto& [id, viewer] : viewers_) {
     viewer.sent = 0;
     viewer.sent_s = -1e9;
@@ -329,22 +316,6 @@ Outgoing Console::greeting(std::uint64_t id, Viewer& viewer, const Now& now) con
                          {"time_us", now.utime_us}})};
 }
 
-// Of the stations with a new picture the one that was sent longest ago: over a slow link each gets
-// its turn.
-std::optional<Outgoing> Console::next_picture(Viewer& viewer) const {
-  const Kept* next = nullptr;
-  for (const auto& [station, kept] : pictures_) {
-    const std::uint64_t sent = viewer.pictures_sent[station];
-    if (!viewer.watched.contains(station) || sent >= kept.number) continue;
-    if (next == nullptr || sent < viewer.pictures_sent[next->picture.station]) next = &kept;
-  }
-  if (next == nullptr) return std::nullopt;
-  viewer.pictures_sent[next->picture.station] = next->number;
-  const std::string header = dumped(next->picture.header);
-  const LengthPrefix prefix = length_prefix(static_cast<std::uint32_t>(header.size()));
-  return Outgoing{true, std::string(prefix.begin(), prefix.end()) + header + next->picture.jpeg};
-}
-
 std::optional<Outgoing> Console::next(std::uint64_t id, const Now& now) {
   const auto found = viewers_.find(id);
   if (found == viewers_.end()) return std::nullopt;
@@ -357,14 +328,17 @@ std::optional<Outgoing> Console::next(std::uint64_t id, const Now& now) {
   }
   const double since_s = now.monotonic_s - viewer.sent_s;
   const bool has_news = viewer.sent < site_.revision() && since_s >= kDeltaPeriod_s;
-  if (has_news || since_s >= kHeartbeat_s) {
+  UnderWay& under_way = viewer.view.under_way;
+  if ((has_news || since_s >= kHeartbeat_s) && under_way.may(UnderWay::kState)) {
+    under_way.sent(UnderWay::kState);
     Json message = viewer.sent == 0 ? site_.snapshot() : site_.changes(viewer.sent);
     add_time(message, now);
     viewer.sent = site_.revision();
     viewer.sent_s = now.monotonic_s;
     return Outgoing{false, dumped(message)};
   }
-  return next_picture(viewer);
+  if (auto picture = pictures_.next(viewer.view)) return Outgoing{true, std::move(*picture)};
+  return std::nullopt;
 }
 
 // The time that is shown: of a replay that of the recording.

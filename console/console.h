@@ -15,6 +15,7 @@
 #include "console/client_message.h"
 #include "console/command_desk.h"
 #include "console/control_desk.h"
+#include "console/picture_desk.h"
 #include "console/procedures.h"
 #include "console/site_state.h"
 #include "console/users.h"
@@ -58,8 +59,8 @@ class Console {
   // Operators' words on cues since the last call.
   std::vector<CueOrder> take_cue_orders() { return cues_.take(); }
 
-  // Where the pictures are to be had that somebody looks at: "10.0.0.11:7790", by station.
-  std::map<std::string, std::string> watched_video() const;
+  // The videos that somebody looks at.
+  WatchedVideos watched_video() const;
 
   // A browser that has opened its WebSocket; its number.
   std::uint64_t open(const std::string& name, Role role);
@@ -110,13 +111,8 @@ class Console {
     bool is_greeted = false;
     Revision sent = 0;
     double sent_s = -1e9;
-    std::set<std::string> watched;
-    std::map<std::string, std::uint64_t> pictures_sent;
+    PictureDesk::View view;
     std::deque<std::string> answers;
-  };
-  struct Kept {
-    Picture picture;
-    std::uint64_t number = 0;
   };
   struct ReplayDesk {
     Json state, timeline;  // null: what is shown is now
@@ -127,6 +123,7 @@ class Console {
   void act(std::uint64_t id, const StopAllRequest& request, const Now& now);
   void act(std::uint64_t id, const ControlRequest& request, const Now& now);
   void act(std::uint64_t id, const WatchRequest& request, const Now& now);
+  void act(std::uint64_t id, const TakenRequest& request, const Now& now);
   void act(std::uint64_t id, const ReplayRequest& request, const Now& now);
   void act(std::uint64_t id, const AnswerRequest& request, const Now& now);
   void act(std::uint64_t id, const CueRequest& request, const Now& now);
@@ -139,7 +136,6 @@ class Console {
                   const Now& now);
   void forget_gone();
   void add_time(Json& message, const Now& now) const;
-  std::optional<Outgoing> next_picture(Viewer& viewer) const;
   Outgoing greeting(std::uint64_t id, Viewer& viewer, const Now& now) const;
 
   SiteState site_;
@@ -148,9 +144,9 @@ class Console {
   Procedures procedures_;
   CueOrders cues_;
   std::map<std::uint64_t, Viewer> viewers_;
-  std::map<std::string, Kept> pictures_;
+  PictureDesk pictures_;
   std::map<std::string, std::string> video_addresses_;
-  std::uint64_t viewer_numbers_ = 0, picture_numbers_ = 0;
+  std::uint64_t viewer_numbers_ = 0;
   std::uint64_t messages_refused_ = 0;
   double stop_until_s_ = -1e9;
   std::string stopped_by_, bus_trouble_;

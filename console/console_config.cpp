@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "base/config_section.h"
+#include "base/config_common.h"
 #include "base/ip_networks.h"
-#include "base/lcm_url.h"
 
 namespace ols::console {
 namespace {
@@ -17,12 +16,6 @@ void check_address(const std::string& address) {
   if (const auto problem = address_problem(address); !problem.empty()) {
     throw std::invalid_argument(problem);
   }
-}
-
-ConsoleConfig read(ConfigFile& file) {
-  ConsoleConfig config;
-  config::read(console_section(config), file.root());
-  return config;
 }
 
 // Without the port, and without the brackets of an IPv6 address.
@@ -37,9 +30,7 @@ config::Section console_section(ConsoleConfig& c) {
   return {
       "",
       "",
-      {config::text("lcm_url", c.lcm_url,
-                    "The bus; ttl=0: only this host, ttl=1: also the other hosts of the site.",
-                    [](const std::string& url) { parse_lcm_url(url); }),
+      {config::bus_url(c.lcm_url),
        config::text("address", c.address,
                     "IP address to serve on; 0.0.0.0: every interface. Away from loopback, TLS and "
                     "users are required.",
@@ -85,13 +76,11 @@ config::Section console_section(ConsoleConfig& c) {
 }
 
 ConsoleConfig load_console_config(const std::string& path) {
-  ConfigFile file(path);
-  return read(file);
+  return config::load(path, console_section);
 }
 
 ConsoleConfig parse_console_config(const std::string& text, const std::string& name) {
-  ConfigFile file(text, name);
-  return read(file);
+  return config::parse(text, name, console_section);
 }
 
 std::string address_problem(const std::string& address) {

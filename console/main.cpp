@@ -1,11 +1,9 @@
 // ols-console: parses the command line, loads the configuration, wires the parts and loops.
 #include <sodium.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <array>
 #include <cstdio>
-#include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -14,9 +12,8 @@
 
 #include "base/clocks.h"
 #include "base/command_line.h"
+#include "base/service_frame.h"
 #include "base/service_notifier.h"
-#include "base/shutdown.h"
-#include "base/toml_config.h"
 #include "console/add_user.h"
 #include "console/console.h"
 #include "console/console_bus.h"
@@ -32,11 +29,10 @@ namespace {
 constexpr double kTurn_s = 0.01;
 constexpr double kStatus_s = 1.0;
 
-struct Arguments {
-  std::string config, lcm_url, address, users, add_user, role = "operator", replay;
+struct Arguments : ols::ServiceOptions {
+  std::string address, users, add_user, role = "operator", replay;
   std::vector<std::string> frames;  // "STATION=FOLDER"
   int port = -1;
-  bool check_config = false;
 };
 
 std::string draw_token() {
@@ -55,9 +51,7 @@ std::string web_address(const ols::console::ConsoleConfig& config, int port) {
 }
 
 ols::console::ConsoleConfig configuration(const Arguments& arguments) {
-  ols::console::ConsoleConfig config;
-  if (!arguments.config.empty()) config = ols::console::load_console_config(arguments.config);
-  if (!arguments.lcm_url.empty()) config.lcm_url = arguments.lcm_url;
+  auto config = configuration_of(arguments, ols::console::load_console_config);
   if (!arguments.address.empty()) config.address = arguments.address;
   if (!arguments.users.empty()) config.users = arguments.users;
   if (arguments.port >= 0) config.port = arguments.port;
@@ -169,20 +163,24 @@ int run(const Arguments& arguments, ols::console::ConsoleConfig config) {
                  config.users);
   }
   spdlog::info("ready: {}", address);
-  double status_due_s = 0.0;
-  while (!ols::shutdown_requested()) {
+  const auto turn = [&](double) {
     server.serve_for(kTurn_s);
-    const ols::console::Now now{ols::clock_monotonic_s(), ols::clock_utime_us()};
-    site->turn(now);
+    site->turn({ols::clock_monotonic_s(), ols::clock_utime_us()});
     server.pump();
-    service_manager.alive(now.monotonic_s);
-    if (now.monotonic_s < status_due_s) continue;
-    status_due_s = now.monotonic_s + kStatus_s;
-    service_manager.status(address + ", " + std::to_string(console.viewers()) + " browsers; " +
-                           site->in_one_line());
-  }
-  service_manager.stopping();
-  spdlog::info("stops");
+  };
+  serve(service_manager, kStatus_s, turn, [&] {
+    return address + ", " + std::to_string(console.viewers()) + " browsers; " + site->in_one_line();
+  });
+  return 0;
+}
+
+int act(const Arguments& arguments) {
+  const ols::console::ConsoleConfig config = configuration(arguments);
+  if (arguments.check_config) return 0;
+  if (arguments.add_user.empty()) return run(arguments, config);
+  as_bad_input([&] { ols::console::add_user(config.users, arguments.add_user, arguments.role); });
+  std::fprintf(stderr, "ols-console: %s may log in; restart the console\n",
+               arguments.add_user.c_str());
   return 0;
 }
 
@@ -192,8 +190,7 @@ int main(int argc, char** argv) {
   CLI::App app{"The console: a live map of the site and the operator's hand, in a browser"};
   app.set_version_flag("--version", OLS_VERSION);
   Arguments arguments;
-  app.add_option("--config", arguments.config, "Configuration file (TOML); all keys have defaults");
-  app.add_option("--lcm-url", arguments.lcm_url, "Bus, in place of the configuration's");
+  add_service_options(app, arguments);
   app.add_option("--address", arguments.address, "IP address, in place of the configuration's")
       ->check(ols::console::address_problem);
   app.add_option("--port", arguments.port, "TCP port, in place of the configuration's; 0: any")
@@ -206,30 +203,11 @@ int main(int argc, char** argv) {
                  "STATION=FOLDER: show the frames that this station's recorder kept there; may be "
                  "repeated")
       ->needs(replay);
-  app.add_flag("--check-config", arguments.check_config, "Only read and check the configuration");
   auto* add = app.add_option("--add-user", arguments.add_user,
                              "Enter this user into the file of users, with a password from the "
                              "terminal or from standard input, and end");
   app.add_option("--role", arguments.role, "Of that user: viewer, operator or admin")->needs(add);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-console")) return *status;
-  spdlog::set_default_logger(spdlog::stderr_color_mt("ols-console"));
-  ols::install_shutdown_handler();
-  try {
-    const ols::console::ConsoleConfig config = configuration(arguments);
-    if (arguments.check_config) return 0;
-    if (arguments.add_user.empty()) return run(arguments, config);
-    as_bad_input([&] { ols::console::add_user(config.users, arguments.add_user, arguments.role); });
-    std::fprintf(stderr, "ols-console: %s may log in; restart the console\n",
-                 arguments.add_user.c_str());
-    return 0;
-  } catch (const ols::ConfigError& error) {
-    std::fprintf(stderr, "ols-console: %s\n", error.what());
-    return ols::kExitBadInput;
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "ols-console: %s\n", error.what());
-    return ols::kExitBadInput;
-  } catch (const std::exception& error) {
-    spdlog::critical("{}", error.what());
-    return 1;
-  }
+  return ols::run_service("ols-console", ols::InvalidArgument::kBadInput,
+                          [&arguments] { return act(arguments); });
 }

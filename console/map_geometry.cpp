@@ -10,6 +10,7 @@
 #include "geometry/angles.h"
 #include "geometry/chi_square.h"
 #include "geometry/geodesic.h"
+#include "geometry/mgrs.h"
 #include "geometry/utm.h"
 
 namespace ols::console {
@@ -57,6 +58,26 @@ Json grid_line(Utm corner, double at_m, const Span& along, bool is_easting) {
   return {{"at_m", at_m}, {"is_easting", is_easting}, {"path", std::move(path)}};
 }
 
+// The names of the squares of 100 km in view, each in the middle of what is seen of it.
+Json grid_squares(Utm corner, const Span& easting, const Span& northing) {
+  constexpr double kSquare_m = 1e5;
+  const auto part = [](const Span& all, double from) {
+    return (std::max(all.least, from) + std::min(all.greatest, from + kSquare_m)) / 2;
+  };
+  const auto first = [](const Span& all) { return std::floor(all.least / kSquare_m) * kSquare_m; };
+  Json squares = Json::array();
+  for (double east = first(easting); east < easting.greatest; east += kSquare_m) {
+    for (double north = first(northing); north < northing.greatest; north += kSquare_m) {
+      corner.easting_m = part(easting, east);
+      corner.northing_m = part(northing, north);
+      const Geodetic middle = geodetic_from_utm(corner, 0.0);
+      squares.push_back({{"name", mgrs(middle, 0)},
+                         {"at", {degrees(middle.longitude_rad), degrees(middle.latitude_rad)}}});
+    }
+  }
+  return squares;
+}
+
 Json grid_of(const std::vector<double>& box) {
   const Utm middle =
       utm_from_geodetic(geodetic((box[1] + box[3]) / 2, (box[0] + box[2]) / 2)).position;
@@ -81,7 +102,8 @@ Json grid_of(const std::vector<double>& box) {
   return {{"zone", middle.zone},
           {"northern", middle.northern},
           {"step_m", step_m},
-          {"lines", std::move(lines)}};
+          {"lines", std::move(lines)},
+          {"squares", grid_squares(middle, easting, northing)}};
 }
 
 }  // namespace

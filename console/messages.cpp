@@ -12,6 +12,7 @@
 #include "console/messages_cues.h"
 #include "console/rounded.h"
 #include "geometry/angles.h"
+#include "geometry/mgrs.h"
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
@@ -24,6 +25,7 @@ using Status = ols_msg::station_status_t;
 using Target = ols_msg::target_t;
 
 constexpr std::size_t kMostBorders = 16;  // of a station, and points of each
+constexpr int kMgrsDigits = 5;            // to the metre
 constexpr std::size_t kMostListed = 300;  // of counters and the like; a forged message has more
 
 Json named(const std::vector<std::string>& names, const std::vector<double>& values) {
@@ -175,6 +177,8 @@ void add_position(const Target& t, Json& fields) {
   fields["latitude_deg"] = rounded(t.latitude_deg, 8);
   fields["longitude_deg"] = rounded(t.longitude_deg, 8);
   fields["height_m"] = rounded(t.height_m, 2);
+  fields["mgrs"] =
+      mgrs(Geodetic{radians(t.latitude_deg), radians(t.longitude_deg), t.height_m}, kMgrsDigits);
   fields["sd_enu_m"] = {rounded(std::sqrt(covariance[0]), 3), rounded(std::sqrt(covariance[3]), 3),
                         rounded(std::sqrt(covariance[5]), 3)};
   fields["covariance_enu_m2"] = rounded_all(t.position_covariance_enu_m2, 4);

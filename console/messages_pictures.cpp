@@ -1,6 +1,9 @@
 #include "console/messages_pictures.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "base/channel_names.h"
@@ -9,6 +12,7 @@
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/video_frame_t.hpp"
 #include "ols_msg/video_request_t.hpp"
+#include "ols_msg/video_stream_request_t.hpp"
 
 namespace ols::console {
 namespace {
@@ -39,6 +43,34 @@ Json camera_of(const ols_msg::video_frame_t& f) {
           {"distortion", rounded_all(f.distortion, 6)}};
 }
 
+template <class Request>
+Request request_for(std::int64_t after_utime_us, int max_width_px, int quality) {
+  Request request{};
+  request.schema_version = Request::SCHEMA_VERSION;
+  request.after_utime = after_utime_us;
+  request.max_width_px = max_width_px;
+  request.quality = quality;
+  return request;
+}
+
+template <class Message>
+std::vector<std::uint8_t> encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+// Whether an access unit (Annex B) can be decoded without those before it: it then has the stream's
+// parameters first (H.264, table 7-1: 7 is a sequence parameter set).
+bool begins_a_stream(std::span<const std::uint8_t> unit) {
+  constexpr std::array<std::uint8_t, 3> kStart{0, 0, 1};
+  constexpr int kTypeBits = 0x1f, kSequenceParameters = 7;
+  // Not std::ranges::search: clang 14 cannot read what it returns.
+  const auto found = std::search(unit.begin(), unit.end(), kStart.begin(), kStart.end());
+  if (unit.end() - found <= std::ssize(kStart)) return false;
+  return (found[std::ssize(kStart)] & kTypeBits) == kSequenceParameters;
+}
+
 }  // namespace
 
 std::optional<Picture> picture_from(const BusMessage& message) {
@@ -52,17 +84,18 @@ std::optional<Picture> picture_from(const BusMessage& message) {
 
 std::vector<std::uint8_t> video_request(std::int64_t after_utime_us, int max_width_px,
                                         int quality) {
-  ols_msg::video_request_t request{};
-  request.schema_version = ols_msg::video_request_t::SCHEMA_VERSION;
-  request.after_utime = after_utime_us;
-  request.max_width_px = max_width_px;
-  request.quality = quality;
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(request.getEncodedSize()));
-  request.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
+  return encoded(request_for<ols_msg::video_request_t>(after_utime_us, max_width_px, quality));
 }
 
-std::optional<Picture> video_picture_from(std::span<const std::uint8_t> bytes) {
+std::vector<std::uint8_t> stream_request(std::int64_t after_utime_us, int max_width_px, int quality,
+                                         bool key_frame) {
+  auto request =
+      request_for<ols_msg::video_stream_request_t>(after_utime_us, max_width_px, quality);
+  request.key_frame = static_cast<std::int8_t>(key_frame);
+  return encoded(request);
+}
+
+std::optional<Picture> video_picture_from(std::span<const std::uint8_t> bytes, Codec codec) {
   ols_msg::video_frame_t f;
   const auto size = static_cast<int>(bytes.size());
   if (f.decode(bytes.data(), 0, size) != size ||
@@ -73,7 +106,12 @@ std::optional<Picture> video_picture_from(std::span<const std::uint8_t> bytes) {
   header["belief"] = rounded(f.belief, 3);
   header["track"] = f.track_id;
   header["camera"] = camera_of(f);
-  return Picture{f.station, std::move(header), std::string(f.jpeg.begin(), f.jpeg.end()), true};
+  return Picture{f.station,
+                 std::move(header),
+                 std::string(f.jpeg.begin(), f.jpeg.end()),
+                 true,
+                 codec,
+                 codec == Codec::kH264 && begins_a_stream(f.jpeg)};
 }
 
 }  // namespace ols::console

@@ -54,7 +54,10 @@ void VideoLink::connect() {
 
 void VideoLink::ask() {
   expect_within(kPatience_s);
-  request_ = video_request(last_utime_us_, wish_.max_width_px, wish_.quality);
+  const bool wants_key = taken_ % kUnitsOfKeyFrame == 0;
+  request_ = wish_.codec == Codec::kH264
+                 ? stream_request(last_utime_us_, wish_.max_width_px, wish_.thin_quality, wants_key)
+                 : video_request(last_utime_us_, wish_.max_width_px, wish_.quality);
   prefix_ = length_prefix(static_cast<std::uint32_t>(request_.size()));
   const std::array<asio::const_buffer, 2> parts{asio::buffer(prefix_), asio::buffer(request_)};
   asio::async_write(socket_, parts, unless_it_fails([](VideoLink& link) { link.receive(); }));
@@ -78,6 +81,7 @@ void VideoLink::taken() {
   const auto utime_us = take_(std::exchange(answer_, {}));
   if (!utime_us) return fail();
   last_utime_us_ = *utime_us;
+  ++taken_;
   timer_.expires_after(duration(wish_.interval_s));
   timer_.async_wait([self = shared_from_this()](const Error& error) {
     if (!error && !self->has_ended_) self->ask();
@@ -89,6 +93,7 @@ void VideoLink::fail() {
   Error ignored;
   socket_.close(ignored);
   last_utime_us_ = 0;  // it may have restarted with another clock
+  taken_ = 0;
   timer_.expires_after(duration(kRetry_s));
   timer_.async_wait([self = shared_from_this()](const Error& error) {
     if (!error && !self->has_ended_) self->connect();

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/length_prefix.h"
+#include "console/heard.h"
 
 namespace ols::console {
 
@@ -20,7 +21,10 @@ namespace ols::console {
 struct VideoWish {
   int max_width_px = 960;
   int quality = 65;
+  // Of H.264: a tenth of the JPEGs' rate in the demo (tools/bench-console --thin).
+  int thin_quality = 45;
   double interval_s = 0.0;  // from one picture to the next request
+  Codec codec = Codec::kJpeg;
 };
 
 class VideoLink : public std::enable_shared_from_this<VideoLink> {
@@ -57,6 +61,7 @@ class VideoLink : public std::enable_shared_from_this<VideoLink> {
   LengthPrefix prefix_{};
   std::vector<std::uint8_t> request_, answer_;
   std::int64_t last_utime_us_ = 0;
+  int taken_ = 0;  // of this connection
   bool has_ended_ = false;
 };
 

@@ -1,8 +1,10 @@
 #include "console/video_puller.h"
 
+#include <algorithm>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
+#include <iterator>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -12,6 +14,7 @@
 #include "base/ip_endpoint.h"
 #include "base/ip_networks.h"
 #include "console/messages_pictures.h"
+#include "console/unit_chain.h"
 
 namespace ols::console {
 namespace asio = boost::asio;
@@ -29,19 +32,19 @@ struct VideoPuller::Impl {
 
   // --- of the pulling thread
 
-  void follow(const std::map<std::string, std::string>& addresses) {
+  void follow(const WatchedVideos& addresses) {
     std::erase_if(links, [&](auto& pulled) {
       const auto wanted = addresses.find(pulled.first);
       const bool stays = wanted != addresses.end() && wanted->second == pulled.second.address;
       if (!stays) pulled.second.link->end();
       return !stays;
     });
-    for (const auto& [station, address] : addresses) {
-      if (!links.contains(station)) begin(station, address);
+    for (const auto& [video, address] : addresses) {
+      if (!links.contains(video)) begin(video, address);
     }
   }
 
-  void begin(const std::string& station, const std::string& address) {
+  void begin(const WatchedVideo& video, const std::string& address) {
     std::optional<asio::ip::tcp::endpoint> endpoint;
     try {
       endpoint = parse_endpoint(address);
@@ -49,19 +52,26 @@ struct VideoPuller::Impl {
       return;  // a forged status
     }
     if (!networks.contain(endpoint->address())) return;
-    const auto link = std::make_shared<VideoLink>(io, *endpoint, wish,
-                                                  [this, station](std::vector<std::uint8_t> bytes) {
-                                                    return keep(station, video_picture_from(bytes));
-                                                  });
-    links[station] = {address, link};
+    VideoWish of_link = wish;
+    of_link.codec = video.codec;
+    const auto link = std::make_shared<VideoLink>(
+        io, *endpoint, of_link, [this, video](std::vector<std::uint8_t> bytes) {
+          return keep(video, video_picture_from(bytes, video.codec));
+        });
+    links[video] = {address, link};
     link->begin();
   }
 
-  std::optional<std::int64_t> keep(const std::string& station, std::optional<Picture> picture) {
-    if (!picture || picture->station != station) return std::nullopt;
+  std::optional<std::int64_t> keep(const WatchedVideo& video, std::optional<Picture> picture) {
+    if (!picture || picture->station != video.station) return std::nullopt;
     const std::int64_t utime_us = picture->header.at("utime_us");
     const std::lock_guard lock(mutex);
-    newest[station] = std::move(*picture);
+    std::vector<Picture>& kept = newest[video];
+    const bool is_full = kept.size() >= UnitChain::kMostUnits;
+    if (video.codec == Codec::kJpeg || is_full) kept.clear();
+    // Without these the next ones mean nothing: another connection begins with a key frame.
+    if (video.codec == Codec::kH264 && is_full) return std::nullopt;
+    kept.push_back(std::move(*picture));
     return utime_us;
   }
 
@@ -69,10 +79,10 @@ struct VideoPuller::Impl {
   const VideoWish wish;
   asio::io_context io{1};
   asio::executor_work_guard<asio::io_context::executor_type> work;
-  std::map<std::string, Pulled> links;
+  std::map<WatchedVideo, Pulled> links;
 
   std::mutex mutex;
-  std::map<std::string, Picture> newest;
+  std::map<WatchedVideo, std::vector<Picture>> newest;
 
   std::jthread thread;  // last: it uses the rest
 };
@@ -82,20 +92,20 @@ VideoPuller::VideoPuller(const std::vector<std::string>& networks, const VideoWi
 
 VideoPuller::~VideoPuller() { impl_->io.stop(); }
 
-void VideoPuller::watch(const std::map<std::string, std::string>& addresses) {
-  if (addresses == watched_) return;
-  watched_ = addresses;
-  asio::post(impl_->io, [impl = impl_.get(), addresses] { impl->follow(addresses); });
+void VideoPuller::watch(const WatchedVideos& videos) {
+  if (videos == watched_) return;
+  watched_ = videos;
+  asio::post(impl_->io, [impl = impl_.get(), videos] { impl->follow(videos); });
 }
 
 std::vector<Picture> VideoPuller::take() {
-  std::map<std::string, Picture> taken;
+  std::map<WatchedVideo, std::vector<Picture>> taken;
   {
     const std::lock_guard lock(impl_->mutex);
     taken.swap(impl_->newest);
   }
   std::vector<Picture> pictures;
-  for (auto& [station, picture] : taken) pictures.push_back(std::move(picture));
+  for (auto& [video, newest] : taken) std::ranges::move(newest, std::back_inserter(pictures));
   return pictures;
 }
 

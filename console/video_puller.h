@@ -1,8 +1,7 @@
-// Pulls the pictures of the stations that somebody looks at, once each, in a thread of its own; of
-// each station only the newest is kept.
+// Pulls the pictures of the stations that somebody looks at, once each and codec, in a thread of
+// its own; of each station only the newest is kept, of H.264 what it takes to decode that.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,15 +20,15 @@ class VideoPuller {
   VideoPuller(const VideoPuller&) = delete;
   VideoPuller& operator=(const VideoPuller&) = delete;
 
-  // From now on these stations, by their addresses ("10.0.0.11:7790"), and no others.
-  void watch(const std::map<std::string, std::string>& addresses);
-  // The newest picture of each station since the last call.
+  // From now on these, and no others.
+  void watch(const WatchedVideos& videos);
+  // Since the last call: the newest picture of each station; of H.264 all, the oldest first.
   std::vector<Picture> take();
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
-  std::map<std::string, std::string> watched_;
+  WatchedVideos watched_;
 };
 
 }  // namespace ols::console

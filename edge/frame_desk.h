@@ -1,11 +1,13 @@
 // Requested frames on their way: from the request to the parts that fit into datagrams.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "edge/clock/clock_pair.h"
 #include "edge/frame_post.h"
 #include "edge/frame_service.h"
 
@@ -13,6 +15,7 @@ namespace ols::station {
 
 struct FramePart {
   std::shared_ptr<const EncodedFrame> frame;
+  std::int64_t utime_us = 0;  // mid-exposure; of all parts the same, by which they are put together
   std::size_t part = 0, parts = 0;
   std::size_t first_byte = 0, bytes = 0;
 };
@@ -25,7 +28,7 @@ class FrameDesk {
 
   FrameService& service() { return service_; }
   // Passes on what is complete; never waits.
-  void look(double now_s);
+  void look(const clock::ClockPair& now);
   std::optional<FramePart> next();
 
  private:

@@ -88,7 +88,7 @@ void StationProcess::turn() {
   for (const Bearing& bearing : output.bearings) bus_.send(bearing);
   devices_.ptu().set_goal(goal(output, now.monotonic_s));
   trigger_camera(now.monotonic_s);
-  send_requested_frames(now.monotonic_s);
+  send_requested_frames(now);
   send_reports(now);
   host_.note_turn(now.monotonic_s - start.monotonic_s);
   service_.alive(now.monotonic_s);
@@ -218,9 +218,9 @@ void StationProcess::trigger_camera(double now_s) {
 }
 
 // A few parts in a turn: a frame of a megabyte is on its way for some tens of milliseconds.
-void StationProcess::send_requested_frames(double now_s) {
+void StationProcess::send_requested_frames(const clock::ClockPair& now) {
   constexpr int kParts = 2;
-  frames_.look(now_s);
+  frames_.look(now);
   for (int i = 0; i < kParts; ++i) {
     const auto part = frames_.next();
     if (!part) return;
@@ -266,6 +266,10 @@ StationReport StationProcess::report(const clock::ClockPair& now) {
     report.alarms.emplace_back("ptu: the image motion contradicts the reported angles");
   }
   for (const std::string& alarm : calibration_.alarms()) report.alarms.push_back(alarm);
+  for (const std::string& alarm :
+       CalibrationInUse::other_devices(settings().serials, report.devices)) {
+    report.alarms.push_back(alarm);
+  }
   for (const std::string& alarm : persisted_.alarms()) report.alarms.push_back(alarm);
   for (const std::string& alarm : bus_.alarms()) report.alarms.push_back(alarm);
   add_pose_and_clock(now.monotonic_s, report);

@@ -45,7 +45,7 @@ class StationProcess {
   std::optional<ptu::ServoGoal> goal(const StationOutput& output, double now_s);
   void trigger_camera(double now_s);
   void check_calibration(const StationReport& report, double now_s);
-  void send_requested_frames(double now_s);
+  void send_requested_frames(const clock::ClockPair& now);
   void send_reports(const clock::ClockPair& now);
   StationReport report(const clock::ClockPair& now);
   device::DeviceReport software() const;

@@ -9,7 +9,7 @@ namespace {
 std::size_t size_of(const Moment& moment) {
   std::size_t size =
       moment.site.snapshot().dump(-1, ' ', false, Json::error_handler_t::replace).size();
-  for (const auto& [station, picture] : moment.pictures) size += picture.jpeg.size();
+  for (const auto& [station, picture] : moment.pictures) size += picture.bytes.size();
   return size;
 }
 

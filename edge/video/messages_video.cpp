@@ -8,6 +8,7 @@
 
 #include "ols_msg/video_frame_t.hpp"
 #include "ols_msg/video_request_t.hpp"
+#include "ols_msg/video_stream_request_t.hpp"
 
 namespace ols::video {
 namespace {
@@ -36,28 +37,26 @@ void fill_camera(const std::optional<CameraView>& camera, ols_msg::video_frame_t
   }
 }
 
-void fill_picture(const VideoFrame& frame, const VideoRequest& request,
+void fill_picture(const VideoFrame& frame, const VideoRequest& request, H264Encoder& stream,
                   ols_msg::video_frame_t& message) {
   const cv::Rect region = region_of(request, frame.gray.size());
   fill_rect(region, message.region_px);
   cv::Mat picture = frame.gray(region);
-  message.scale = std::min(1.0, static_cast<double>(request.max_width_px) / region.width);
-  if (message.scale < 1.0) {
-    const cv::Size size(request.max_width_px,
-                        std::max(1, static_cast<int>(std::lround(region.height * message.scale))));
-    cv::resize(picture, picture, size, 0.0, 0.0, cv::INTER_AREA);
+  const cv::Size size = picture_size(request, region.size());
+  message.scale = static_cast<double>(size.width) / region.width;
+  if (size != picture.size()) cv::resize(picture, picture, size, 0.0, 0.0, cv::INTER_AREA);
+  if (request.codec == VideoCodec::kH264) {
+    message.jpeg = stream.encode(picture, request.quality, request.key_frame, frame.utime_us);
+  } else {
+    cv::imencode(".jpg", picture, message.jpeg, {cv::IMWRITE_JPEG_QUALITY, request.quality});
   }
-  cv::imencode(".jpg", picture, message.jpeg, {cv::IMWRITE_JPEG_QUALITY, request.quality});
   message.jpeg_bytes = static_cast<std::int32_t>(message.jpeg.size());
 }
 
-}  // namespace
-
-std::optional<VideoRequest> decode_request(std::span<const std::uint8_t> bytes) {
-  ols_msg::video_request_t message;
-  const auto size = static_cast<int>(bytes.size());
-  if (message.decode(bytes.data(), 0, size) != size) return std::nullopt;
-  if (message.schema_version != ols_msg::video_request_t::SCHEMA_VERSION) return std::nullopt;
+// What both kinds of requests have.
+template <class Message>
+std::optional<VideoRequest> checked(const Message& message) {
+  if (message.schema_version != Message::SCHEMA_VERSION) return std::nullopt;
   if (message.max_width_px < 1 || message.max_width_px > kMaxWidth_px) return std::nullopt;
   if (message.quality < 1 || message.quality > 100) return std::nullopt;
   for (const double edge : message.region_px) {
@@ -68,8 +67,24 @@ std::optional<VideoRequest> decode_request(std::span<const std::uint8_t> bytes) 
       message.after_utime, message.max_width_px, message.quality, {r[0], r[1], r[2], r[3]}};
 }
 
+}  // namespace
+
+std::optional<VideoRequest> decode_request(std::span<const std::uint8_t> bytes) {
+  const auto size = static_cast<int>(bytes.size());
+  ols_msg::video_request_t message{};
+  if (message.decode(bytes.data(), 0, size) == size) return checked(message);
+  ols_msg::video_stream_request_t of_stream{};
+  if (of_stream.decode(bytes.data(), 0, size) != size) return std::nullopt;
+  auto request = checked(of_stream);
+  if (!request) return std::nullopt;
+  request->codec = VideoCodec::kH264;
+  request->key_frame = of_stream.key_frame != 0;
+  return request;
+}
+
 std::vector<std::uint8_t> encode_frame(const VideoFrame& frame, std::int64_t sequence,
-                                       const VideoSender& sender, const VideoRequest& request) {
+                                       const VideoSender& sender, const VideoRequest& request,
+                                       H264Encoder& stream) {
   ols_msg::video_frame_t message;
   message.utime = frame.utime_us;
   message.schema_version = ols_msg::video_frame_t::SCHEMA_VERSION;
@@ -83,7 +98,8 @@ std::vector<std::uint8_t> encode_frame(const VideoFrame& frame, std::int64_t seq
   message.belief = frame.box ? frame.belief : kNaN;
   message.track_id = frame.track_id;
   fill_camera(frame.camera, message);
-  fill_picture(frame, request, message);
+  fill_picture(frame, request, stream, message);
+  if (message.jpeg.empty()) return {};
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   return bytes;

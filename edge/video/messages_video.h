@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "edge/video/h264_encoder.h"
 #include "edge/video/video_frame.h"
 
 namespace ols::video {
@@ -17,8 +18,10 @@ inline constexpr std::uint32_t kLargestRequest_bytes = 256;
 std::optional<VideoRequest> decode_request(std::span<const std::uint8_t> bytes);
 
 // The answer to a request: the picture is cut, scaled and compressed here, which takes
-// milliseconds.
+// milliseconds. `stream`: of the viewer that has asked, for requests of H.264. Empty: the picture
+// cannot be coded.
 std::vector<std::uint8_t> encode_frame(const VideoFrame& frame, std::int64_t sequence,
-                                       const VideoSender& sender, const VideoRequest& request);
+                                       const VideoSender& sender, const VideoRequest& request,
+                                       H264Encoder& stream);
 
 }  // namespace ols::video

@@ -34,15 +34,23 @@ struct VideoSender {
   std::int64_t boot_id = 0;
 };
 
+enum class VideoCodec { kJpeg, kH264 };
+
 struct VideoRequest {
   std::int64_t after_utime_us = 0;
   int max_width_px = 0;
-  int quality = 0;
+  int quality = 0;         // 1..100, of JPEG
   cv::Rect2d region = {};  // [px]; without width: the whole frame
+  VideoCodec codec = VideoCodec::kJpeg;
+  bool key_frame = false;  // of H.264: decodable without what came before
 };
 
 // The part of a frame that a request means, in whole pixels and within the frame; at least one
 // pixel.
 cv::Rect region_of(const VideoRequest& request, const cv::Size& frame);
+
+// How large the picture of such a region becomes: never larger than the region, but for H.264,
+// whose pictures have even sides of at least 16 pixels, and at most 1920.
+cv::Size picture_size(const VideoRequest& request, const cv::Size& region);
 
 }  // namespace ols::video

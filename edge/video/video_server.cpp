@@ -51,7 +51,8 @@ struct VideoServer::Impl {
   };
 
   struct Counters {
-    std::atomic<std::uint64_t> requests = 0, sent = 0, turned_away = 0, malformed = 0, stalled = 0;
+    std::atomic<std::uint64_t> requests = 0, sent = 0, turned_away = 0, malformed = 0, stalled = 0,
+                               uncoded = 0;
   };
 
   Impl(const VideoConfig& config, VideoSender video_sender)
@@ -129,6 +130,7 @@ struct VideoServer::Impl {
   void forget(const VideoSession& session, VideoSession::End end) {
     if (end == VideoSession::End::kMalformed) ++counters.malformed;
     if (end == VideoSession::End::kStalled) ++counters.stalled;
+    if (end == VideoSession::End::kUncoded) ++counters.uncoded;
     std::erase_if(sessions, [&](const auto& one) { return one.get() == &session; });
     viewers = static_cast<int>(sessions.size());
   }
@@ -156,12 +158,23 @@ struct VideoServer::Impl {
     // Each frame once: a viewer of a camera that stands still does not make it busy.
     if (!frame || frame->utime_us <= request.after_utime_us || session.had() == number) return;
     session.note_had(number);
+    const auto bytes = request.codec == VideoCodec::kH264
+                           ? made(*frame, number, request, session)
+                           : encoded(*frame, number, request, session);
+    if (bytes->empty()) return session.close(VideoSession::End::kUncoded);
     ++counters.sent;
-    session.answer(encoded(*frame, number, request));
+    session.answer(bytes);
   }
 
+  VideoSession::Bytes made(const VideoFrame& frame, std::int64_t number,
+                           const VideoRequest& request, VideoSession& session) const {
+    return std::make_shared<const std::vector<std::uint8_t>>(
+        encode_frame(frame, number, sender, request, session.stream()));
+  }
+
+  // JPEGs are the same for all who ask for the same.
   VideoSession::Bytes encoded(const VideoFrame& frame, std::int64_t number,
-                              const VideoRequest& request) {
+                              const VideoRequest& request, VideoSession& session) {
     const cv::Rect region = region_of(request, frame.gray.size());
     if (!cache.empty() && cache.front().sequence != number) cache.clear();
     const auto same = std::ranges::find_if(cache, [&](const Encoded& one) {
@@ -169,8 +182,7 @@ struct VideoServer::Impl {
              one.region == region;
     });
     if (same != cache.end()) return same->bytes;
-    const auto bytes = std::make_shared<const std::vector<std::uint8_t>>(
-        encode_frame(frame, number, sender, request));
+    const auto bytes = made(frame, number, request, session);
     if (cache.size() >= kMaxViewers) cache.erase(cache.begin());
     cache.push_back({number, request.max_width_px, request.quality, region, bytes});
     return bytes;
@@ -229,6 +241,7 @@ device::DeviceReport VideoServer::report() const {
   report.counters["video_turned_away"] = impl_->counters.turned_away;
   report.counters["video_malformed"] = impl_->counters.malformed;
   report.counters["video_stalled"] = impl_->counters.stalled;
+  report.counters["video_uncoded"] = impl_->counters.uncoded;
   return report;
 }
 

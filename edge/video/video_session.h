@@ -24,6 +24,7 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
     kIdle,       // asked for nothing
     kStalled,    // took nothing
     kMalformed,  // sent what is no request
+    kUncoded,    // asked for a picture that cannot be coded
   };
   struct Callbacks {
     // A request has come: answer() it, now or later.
@@ -41,6 +42,8 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
   // The number of the last frame that it was sent; -1: none yet.
   std::int64_t had() const { return had_; }
   void note_had(std::int64_t frame) { had_ = frame; }
+  // Of its stream: every unit that it makes is sent here, and to nobody else.
+  H264Encoder& stream() { return stream_; }
   void close(End end);
 
  private:
@@ -57,6 +60,7 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
   std::array<std::uint8_t, kLargestRequest_bytes> body_{};
   std::optional<VideoRequest> request_;
   Bytes sent_;  // being sent
+  H264Encoder stream_;
   std::int64_t had_ = -1;
   bool ended_ = false;
 };

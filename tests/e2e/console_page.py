@@ -1,13 +1,15 @@
-"""The console's page in a browser: two consoles, a page that is watched, what is where on it."""
+"""The console's page in a browser: two consoles, a page that is watched, what is where on it, and
+whether everybody can use it."""
 
 import contextlib
 import re
 
-from console_site import DEADLINE_S, add_user, console_command
+from conftest import ROOT
+from console_site import DEADLINE_S, PASSWORD, add_user, address_of, console_command
 from ols_demo.site import Site
 from playwright.sync_api import expect
 
-PASSWORD = "correct horse"  # of ana, an operator
+AXE = ROOT / "build/page-libraries/node_modules/axe-core/axe.min.js"
 expect.set_options(timeout=DEADLINE_S * 1000)
 
 
@@ -20,8 +22,7 @@ def two_consoles(folder):
         for name, users in (("open", "nobody"), ("closed", "users")):
             command = console_command(folder / users, "--port", "0")
             site.start_and_wait(name, command, "ready")
-            log = (site.logs / f"{name}.log").read_text()
-            addresses.append(re.findall(r"ready: (\S+)", log)[-1])
+            addresses.append(address_of(site, name))
         yield addresses
         site.check()
 
@@ -48,5 +49,12 @@ def region(page, name):
 def picture(page, station):
     """The station's video, once it shows something."""
     canvas = region(page, "Video").get_by_role("img", name=station, exact=True)
-    expect(canvas.locator("xpath=..")).to_contain_text(re.compile(r"\d\.\d s"))
+    expect(canvas.locator("xpath=..")).to_contain_text(re.compile(r"\d m?s"))
     return canvas
+
+
+def axe_finds(page):
+    """What axe-core has against the page as it is now."""
+    page.evaluate(AXE.read_text())
+    found = page.evaluate("axe.run({resultTypes: ['violations']})")["violations"]
+    return [(v["id"], [n["html"][:120] for n in v["nodes"]][:3]) for v in found]

@@ -6,6 +6,7 @@ import io
 import itertools
 import json
 import math
+import re
 import subprocess
 import threading
 import time
@@ -31,6 +32,7 @@ PLACES = {"alfa": (49.225, 16.594), "bravo": (49.225, 16.600), "charlie": (49.22
 TARGET = geodetic(49.2265, 16.597, 380.0)
 FULL_PX = (1280, 960)
 DEADLINE_S = 15.0
+PASSWORD = "correct horse"  # of ana
 STATUS, PTU = ols_msg.station_status_t, ols_msg.ptu_command_t
 COMMANDS = {
     PTU.COMMAND_POINT: "point",
@@ -252,6 +254,11 @@ def add_user(users: Path, name: str, password: str, role: str) -> None:
 def console_command(users: Path, *options: str) -> list[str]:
     command = [str(BIN / "ols-console"), "--lcm-url", LIVE_URL, "--users", str(users)]
     return [*command, *options]
+
+
+def address_of(site, name: str) -> str:
+    """Where the console that was started under this name serves."""
+    return re.findall(r"ready: (\S+)", (site.logs / f"{name}.log").read_text())[-1]
 
 
 class Api:

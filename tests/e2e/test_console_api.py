@@ -4,7 +4,6 @@ import contextlib
 import http.client
 import json
 import math
-import re
 import socket
 import ssl
 import subprocess
@@ -12,21 +11,10 @@ from urllib.parse import urlsplit
 
 import pytest
 from conftest import BIN, ROOT
-from console_site import Api, add_user, console_command, paper_site, wait_for
+from console_site import PASSWORD, Api, add_user, address_of, console_command, wait_for
 from ols_demo.site import Site
 
-PASSWORD = "correct horse"
-
-
-def address_of(site):
-    log = (site.logs / "ols-console.log").read_text()
-    return re.findall(r"ready: (\S+)", log)[-1]
-
-
-@pytest.fixture(scope="module")
-def paper(network):
-    with paper_site() as site:
-        yield site
+pytest_plugins = ["console_fixtures"]
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +23,7 @@ def api(paper, tmp_path_factory):
     with Site(folder / "logs") as site:
         command = console_command(folder / "users", "--port", "0")
         site.start_and_wait("ols-console", command, "ready")
-        client = Api(address_of(site))
+        client = Api(address_of(site, "ols-console"))
         wait_for(lambda: len(client.state()["stations"]) == 3, "three stations")
         yield client
         site.check()
@@ -54,7 +42,7 @@ def closed(paper, tmp_path_factory):
     with Site(folder / "logs") as site:
         command = console_command(folder / "users", "--config", str(config))
         site.start_and_wait("ols-console", command, "ready")
-        port = urlsplit(address_of(site)).port
+        port = urlsplit(address_of(site, "ols-console")).port
         trust = ssl.create_default_context(cafile=str(folder / "tls/site-ca.pem"))
 
         def connect():

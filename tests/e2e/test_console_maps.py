@@ -3,19 +3,21 @@ maps, the accuracy, keep-outs, three dimensions; and what an admin does."""
 
 import io
 import math
-import re
 import sqlite3
 import subprocess
 
 import pytest
-from conftest import BIN, ROOT
+from conftest import BIN
+from console_page import axe_finds
 from console_site import (
     CHROMIUM,
     DEADLINE_S,
     LIVE_URL,
+    PASSWORD,
     PLACES,
     Api,
     add_user,
+    address_of,
     console_command,
     paper_site,
     wait_for,
@@ -24,8 +26,6 @@ from ols_demo.site import Site
 from PIL import Image
 from playwright.sync_api import expect, sync_playwright
 
-AXE = ROOT / "build/page-libraries/node_modules/axe-core/axe.min.js"
-PASSWORD = "correct horse"
 MAGENTA = (255, 0, 255)
 KEEP_OUT = [
     *[(math.radians(40 + 10 * i), 0.0) for i in range(4)],
@@ -84,8 +84,7 @@ def address(network, folder):
         paper.borders["alfa"] = [KEEP_OUT]
         command = console_command(folder / "users", "--config", str(config), "--port", "0")
         site.start_and_wait("console", command, "ready")
-        log = (site.logs / "console.log").read_text()
-        yield re.findall(r"ready: (\S+)", log)[-1]
+        yield address_of(site, "console")
         site.check()
 
 
@@ -105,9 +104,6 @@ def page(address):
         expect(map_of(opened)).to_be_visible()
         yield opened
         browser.close()
-
-
-expect.set_options(timeout=DEADLINE_S * 1000)
 
 
 def map_of(page):
@@ -220,9 +216,7 @@ def test_three_dimensions_need_no_webgl(page):
     page.keyboard.press("+")
     wait_for(lambda: colours(page, ".view-3d canvas") != before, "another view")
     map_of(page).get_by_label("95 % ellipsoids").select_option("100")
-    page.evaluate(AXE.read_text())
-    found = page.evaluate("axe.run({resultTypes: ['violations']})")["violations"]
-    assert [(v["id"], [n["html"][:120] for n in v["nodes"]][:3]) for v in found] == []
+    assert axe_finds(page) == []
     map_of(page).get_by_role("button", name="3-D").click()
 
 
@@ -230,9 +224,7 @@ def test_three_dimensions_need_no_webgl(page):
 def test_axe_finds_nothing_in_any_theme(page, theme):
     open_layers(page)
     page.get_by_label("Theme").select_option(theme)
-    page.evaluate(AXE.read_text())
-    found = page.evaluate("axe.run({resultTypes: ['violations']})")["violations"]
-    assert [(v["id"], [n["html"][:120] for n in v["nodes"]][:3]) for v in found] == []
+    assert axe_finds(page) == []
     page.get_by_label("Theme").select_option("Night")
 
 
@@ -252,9 +244,7 @@ def test_an_admin_enters_and_removes_a_user(page, address):
     users.get_by_label("Password").fill("long enough")
     users.get_by_role("button", name="Enter").click()
     expect(users.get_by_role("row", name="bob")).to_be_visible()
-    page.evaluate(AXE.read_text())
-    found = page.evaluate("axe.run({resultTypes: ['violations']})")["violations"]
-    assert [(v["id"], [n["html"][:120] for n in v["nodes"]][:3]) for v in found] == []
+    assert axe_finds(page) == []
     body = {"name": "bob", "password": "long enough"}
     status, said, headers = Api(address).ask("/api/session", body)
     assert (status, said["role"]) == (200, "viewer")

@@ -6,35 +6,11 @@ import time
 
 import pytest
 from conftest import ROOT
-from console_page import PASSWORD, picture, region, two_consoles, watched_page
-from console_site import DEADLINE_S, FULL_PX, Api, browser, paper_site, wait_for
+from console_page import axe_finds, picture, region
+from console_site import DEADLINE_S, FULL_PX, PASSWORD, Api, wait_for
 from playwright.sync_api import expect
 
-AXE = ROOT / "build/page-libraries/node_modules/axe-core/axe.min.js"
-
-
-@pytest.fixture(scope="module")
-def paper(network):
-    with paper_site() as site:
-        yield site
-
-
-@pytest.fixture(scope="module")
-def consoles(paper, tmp_path_factory):
-    with two_consoles(tmp_path_factory.mktemp("console")) as addresses:
-        yield addresses
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    with browser() as started:
-        yield started
-
-
-@pytest.fixture
-def page(chromium, consoles):
-    with watched_page(chromium, consoles[0]) as opened:
-        yield opened
+pytest_plugins = ["console_fixtures"]
 
 
 def test_shows_stations_targets_and_pictures(page):
@@ -148,9 +124,7 @@ def test_axe_finds_nothing(chromium, consoles, theme):
     page.goto(consoles[0])
     region(page, "Stations").get_by_role("button", name="alfa").click()
     picture(page, "alfa")
-    page.evaluate(AXE.read_text())
-    found = page.evaluate("axe.run({resultTypes: ['violations']})")["violations"]
-    assert [(v["id"], [n["html"][:120] for n in v["nodes"]][:3]) for v in found] == []
+    assert axe_finds(page) == []
     context.close()
 
 

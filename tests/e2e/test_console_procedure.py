@@ -1,7 +1,6 @@
 """A guided calibration in the console's page: a real browser, and a procedure that exists only as
 messages."""
 
-import re
 import threading
 import time
 
@@ -11,6 +10,7 @@ import pytest
 from console_site import (
     DEADLINE_S,
     FULL_PX,
+    address_of,
     browser,
     console_command,
     jpeg,
@@ -86,7 +86,7 @@ def fixture_panel(procedure, tmp_path):
     """The page's part that shows the procedure."""
     with Site(tmp_path / "logs") as site, browser() as chromium:
         site.start_and_wait("open", console_command(tmp_path / "nobody", "--port", "0"), "ready")
-        address = re.findall(r"ready: (\S+)", (site.logs / "open.log").read_text())[-1]
+        address = address_of(site, "open")
         page = chromium.new_page(viewport={"width": 1280, "height": 900}, locale="en-GB")
         page.set_default_timeout(DEADLINE_S * 1000)
         page.on("dialog", lambda dialog: dialog.accept())

@@ -7,23 +7,20 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import BIN, ROOT
-from console_site import DEADLINE_S, Api, PaperSite, browser, wait_for
+from conftest import BIN
+from console_page import axe_finds
+from console_site import DEADLINE_S, Api, PaperSite, address_of, wait_for
 from ols_demo.site import Site
 from PIL import Image
 from playwright.sync_api import expect
 
 SECONDS = 60
-AXE = ROOT / "build/page-libraries/node_modules/axe-core/axe.min.js"
+pytest_plugins = ["console_fixtures"]
 
 
 def command(log, *options):
     users = ["--users", str(log.parent / "nobody")]
     return [str(BIN / "ols-console"), "--replay", str(log), *users, "--port", "0", *options]
-
-
-def address_of(site, name):
-    return re.findall(r"ready: (\S+)", (site.logs / f"{name}.log").read_text())[-1]
 
 
 def write_event(folder, utime_us):
@@ -49,12 +46,6 @@ def replay(network, tmp_path_factory):
         site.start_and_wait("replay", command(folder / "run.lcmlog", *options), "ready")
         yield address_of(site, "replay"), start_us
         site.check()
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    with browser() as started:
-        yield started
 
 
 @pytest.fixture
@@ -159,9 +150,7 @@ def test_recorded_frames_are_shown(page, replay):
 
 
 def test_axe_finds_nothing(page):
-    page.evaluate(AXE.read_text())
-    found = page.evaluate("axe.run({resultTypes: ['violations']})")["violations"]
-    assert [(v["id"], [n["html"][:120] for n in v["nodes"]][:3]) for v in found] == []
+    assert axe_finds(page) == []
 
 
 def test_a_damaged_log_is_said_and_the_rest_shown(network, tmp_path):

@@ -31,3 +31,11 @@ export function clockError(s: number | null): string {
   if (s < 1e-3) return `±${(s * 1e6).toFixed(0)} µs`;
   return s < 1 ? `±${(s * 1e3).toFixed(1)} ms` : `±${s.toFixed(1)} s`;
 }
+
+// "33U XQ 16432 51958".
+export function spacedMgrs(name: string | undefined): string {
+  const parts = /^(.*?[A-Z])([A-Z]{2})(\d*)$/.exec(name ?? "");
+  if (!parts) return DASH;
+  const half = parts[3].length / 2;
+  return [parts[1], parts[2], parts[3].slice(0, half), parts[3].slice(half)].join(" ").trim();
+}

@@ -35,7 +35,7 @@ export function ringShapes(link: Link, c: Colours, view_m: number): Feature[] {
   return out;
 }
 
-export type Grid = { zone: number; northern: boolean; step_m: number; lines: { at_m: number; is_easting: boolean; path: [number, number][] }[] };
+export type Grid = { zone: number; northern: boolean; step_m: number; lines: { at_m: number; is_easting: boolean; path: [number, number][] }[]; squares: { name: string; at: [number, number] }[] };
 
 export function gridShapes(grid: Grid | null, c: Colours): Feature[] {
   if (!grid) return [];
@@ -48,5 +48,6 @@ export function gridShapes(grid: Grid | null, c: Colours): Feature[] {
     const text = (grid.step_m >= 1000 ? km.toFixed(0) : km.toFixed(grid.step_m >= 100 ? 1 : 2)) + (line.is_easting ? " E" : " N");
     out.push(shape(new Point(path[1]), new Style({ text: label(text, c["rule-text"], c.halo, 3, -6, SMALL_FONT) })));
   }
+  for (const { name, at } of grid.squares) out.push(shape(new Point(fromLonLat(at)), new Style({ text: label(name, c["rule-text"], c.halo, 0, 0) })));
   return out;
 }

@@ -1,5 +1,6 @@
 // The connection to the server: state in, commands out, pictures. Reconnects by itself.
 
+import { H264Stream, type Unit } from "./h264";
 import type { Camera } from "./projection";
 import type { ReplayState } from "./replay";
 import { apply, emptySite, Site } from "./site";
@@ -11,12 +12,14 @@ export type Picture = {
   box_px: [number, number, number, number] | null; // in the full frame
   belief?: number | null; // of the tracker in this frame
   camera?: Camera | null; // where it was and looked; null while that is unknown, missing in a preview
+  codec?: string; // h264; missing: a JPEG
   image: ImageBitmap;
 };
+export type Codec = "jpeg" | "h264";
 
 // Where pictures come from; the views know nothing else of it.
 export interface PictureSource {
-  watch(stations: string[]): void;
+  watch(stations: string[], codec: Codec): void;
   onPicture: (picture: Picture) => void;
 }
 
@@ -26,9 +29,10 @@ export type StopAnswer = { stopping: string[]; problem?: string } | "log_in" | n
 export type Answer = { number: number; station: string; accepted: boolean; why: string };
 export type Session = { name: string; role: string; open: boolean };
 
-type Coded = { header: Omit<Picture, "image">; jpeg: Uint8Array<ArrayBuffer> };
+type StreamHeader = Omit<Picture, "image"> & { units: Unit[] };
 
 const RETRY_MS = 1000;
+const TAKEN_MS = 20; // what is taken meanwhile is said in one message
 const STOP_PATIENCE_MS = 2000;
 const SILENT_MS = 3500; // the server says something each second
 
@@ -39,6 +43,7 @@ export class Link implements PictureSource {
   replay: ReplayState | null = null; // what is shown was recorded
   onChange: () => void = () => {};
   onPicture: (picture: Picture) => void = () => {};
+  onNoStream: () => void = () => {}; // this browser has failed to decode H.264
   onAnswer: (answer: Answer) => void = () => {};
   onUnconfirmed: (stations: string[]) => void = () => {}; // of a stop of all, anybody's
   onLoggedOut: () => void = () => {};
@@ -51,8 +56,9 @@ export class Link implements PictureSource {
   private heard_ms = 0;
   time_us = 0; // the server's, when it was last said
   private timeHeard_ms = 0;
-  private watched: string[] = [];
-  private decoding = new Map<string, Coded | null>(); // the picture that waits meanwhile
+  private watched: { pictures: string[]; codec: Codec } = { pictures: [], codec: "jpeg" };
+  private streams = new Map<string, H264Stream<StreamHeader>>();
+  private taken = { pictures: new Set<string>(), state: false, timer: 0 };
 
   start() {
     this.timer = window.setInterval(() => this.look(), 500);
@@ -62,6 +68,7 @@ export class Link implements PictureSource {
   // With the session: nothing is heard, said or tried again from now on.
   end() {
     this.isOver = true;
+    this.closeStreams(() => true);
     clearInterval(this.timer);
     this.socket?.close();
     this.socket = null;
@@ -122,9 +129,11 @@ export class Link implements PictureSource {
     if (message.kind === "hello") {
       this.viewer = message.viewer;
       this.isUp = true;
-      this.say({ do: "watch", pictures: this.watched });
+      this.closeStreams(() => true); // the server begins anew, with key frames
+      this.say({ do: "watch", ...this.watched });
     } else {
       apply(this.site, message);
+      this.took({ state: true });
     }
     this.onChange();
   }
@@ -134,21 +143,37 @@ export class Link implements PictureSource {
     if (!this.stops.has(answer.number) || !answer.accepted) this.onAnswer(answer);
   }
 
-  // Four bytes with the length of the header, the header, a JPEG. Of each station one is decoded at a
-  // time, and the newest waits: a device that is slower than the video shows fewer pictures, not older.
+  // Four bytes with the length of the header, the header, a JPEG or units of a stream.
   private async showPicture(data: ArrayBuffer) {
     const length = new DataView(data).getUint32(0);
     const header = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)));
-    const picture = { header, jpeg: new Uint8Array(data, 4 + length) };
+    const bytes = new Uint8Array(data, 4 + length);
     const { station } = header;
-    if (this.decoding.has(station)) return void this.decoding.set(station, picture);
-    for (let next: Coded | null = picture; next; next = this.decoding.get(station) ?? null) {
-      this.decoding.set(station, null);
-      const image = await createImageBitmap(new Blob([next.jpeg], { type: "image/jpeg" })).catch(() => null);
+    if (header.codec === "h264") {
+      this.streamOf(station).take(header, bytes);
+    } else {
+      const image = await createImageBitmap(new Blob([bytes], { type: "image/jpeg" })).catch(() => null);
       if (image && (this.isOver || !this.site.stations.has(station))) image.close();
-      else if (image) this.onPicture({ ...next.header, image });
+      else if (image) this.onPicture({ ...header, image });
     }
-    this.decoding.delete(station);
+    this.took({ picture: station });
+  }
+
+  // The server sends the next state, and the next picture of a station, when this one has been dealt with:
+  // a device that is slower than the site shows less, not older.
+  private took({ picture, state }: { picture?: string; state?: boolean }) {
+    if (picture) this.taken.pictures.add(picture);
+    if (state) this.taken.state = true;
+    if (document.hidden) this.sayTaken(); // it draws nothing, and its timers hardly run
+    // Otherwise once the page has drawn what it was given.
+    else this.taken.timer ||= window.setTimeout(() => this.sayTaken(), TAKEN_MS);
+  }
+
+  private sayTaken() {
+    clearTimeout(this.taken.timer);
+    const { pictures, state } = this.taken;
+    this.taken = { pictures: new Set(), state: false, timer: 0 };
+    this.say({ do: "taken", pictures: [...pictures], state });
   }
 
   private say(message: object): boolean {
@@ -157,10 +182,32 @@ export class Link implements PictureSource {
     return true;
   }
 
-  watch(stations: string[]) {
-    if (stations.join() === this.watched.join()) return;
-    this.watched = stations;
-    this.say({ do: "watch", pictures: stations });
+  private streamOf(station: string): H264Stream<StreamHeader> {
+    const known = this.streams.get(station);
+    if (known) return known;
+    const show = (header: StreamHeader, image: ImageBitmap) => {
+      if (this.isOver || !this.site.stations.has(station) || this.watched.codec !== "h264") image.close();
+      else this.onPicture({ ...header, image });
+    };
+    const stream = new H264Stream<StreamHeader>(show, () => this.onNoStream());
+    this.streams.set(station, stream);
+    return stream;
+  }
+
+  private closeStreams(isOver: (station: string) => boolean) {
+    for (const [station, stream] of this.streams) {
+      if (!isOver(station)) continue;
+      stream.close();
+      this.streams.delete(station);
+    }
+  }
+
+  watch(pictures: string[], codec: Codec) {
+    const wanted = { pictures, codec };
+    if (JSON.stringify(wanted) === JSON.stringify(this.watched)) return;
+    this.watched = wanted;
+    this.closeStreams((station) => codec !== "h264" || !pictures.includes(station));
+    this.say({ do: "watch", ...wanted });
   }
 
   // The answer comes by onAnswer with the number returned; 0: not connected.

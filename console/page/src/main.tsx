@@ -14,26 +14,11 @@ import { Procedures } from "./procedure";
 import { ReplayBar } from "./replay";
 import { Users } from "./users";
 import { utc } from "./format";
+import { remember, remembered } from "./memory";
 import { Language, LANGUAGES, named, setLanguage, t } from "./words";
 
 const NOTICE_MS = 6000;
 const THEMES = ["night", "day", "sunlight"] as const;
-
-function remembered(key: string, fallback: string): string {
-  try {
-    return localStorage.getItem(key) ?? fallback;
-  } catch {
-    return fallback;
-  }
-}
-
-function remember(key: string, value: string) {
-  try {
-    localStorage.setItem(key, value);
-  } catch {
-    // a browser that keeps nothing
-  }
-}
 
 function LogIn({ onSession }: { onSession: (session: Session) => void }) {
   const [problem, setProblem] = useState("");

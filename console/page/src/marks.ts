@@ -2,7 +2,7 @@
 // picture sees them.
 
 import type { Picture } from "./link";
-import { ecef, moved, pixelOf, towards } from "./projection";
+import { azimuthOf, ecef, moved, pixelOf, towards } from "./projection";
 import type { Border, Site, Target } from "./site";
 
 export type Mark = { kind: "target" | "station"; name: string; at: [number, number] };
@@ -35,8 +35,8 @@ export function marksOf(site: Site, picture: Picture): Mark[] {
   return marks;
 }
 
-// Where the optical axis may not go, as lines in the picture.
-export type BorderLine = { keepOut: boolean; points: [number, number][] };
+// Lines in the picture: where the optical axis may not go, and the horizon.
+export type PictureLine = { kind: "keep-out" | "travel" | "horizon"; points: [number, number][] };
 
 const PARTS = 8; // of the way from one point of an outline to the next
 
@@ -54,15 +54,15 @@ export function fineOutline(border: Border): [number, number][] {
   return fine;
 }
 
-export function bordersOf(site: Site, picture: Picture): BorderLine[] {
+export function bordersOf(site: Site, picture: Picture): PictureLine[] {
   const camera = picture.camera;
   const station = site.stations.get(picture.station);
   if (!camera || station?.latitude_deg == null) return [];
-  const lines: BorderLine[] = [];
+  const lines: PictureLine[] = [];
   for (const border of station.borders ?? []) {
     let points: [number, number][] = [];
     const end = () => {
-      if (points.length > 1) lines.push({ keepOut: border.keep_out, points });
+      if (points.length > 1) lines.push({ kind: border.keep_out ? "keep-out" : "travel", points });
       points = [];
     };
     for (const [azimuth, elevation] of fineOutline(border)) {
@@ -73,4 +73,24 @@ export function bordersOf(site: Site, picture: Picture): BorderLine[] {
     end();
   }
   return lines;
+}
+
+const HORIZON_PARTS = 24;
+
+// Elevation 0 as this camera sees it, across the picture; null while the camera's attitude is unknown.
+export function horizonOf(site: Site, picture: Picture): PictureLine | null {
+  const camera = picture.camera;
+  const station = site.stations.get(picture.station);
+  if (!camera || station?.latitude_deg == null) return null;
+  const [width, height] = picture.full_px;
+  // As far to each side as the picture's corners are from its middle, however the camera is rolled.
+  const half_deg = (Math.atan(Math.hypot(width, height) / 2 / camera.matrix_px[0]) * 180) / Math.PI;
+  const middle_deg = azimuthOf(camera, station.latitude_deg, station.longitude_deg!);
+  const points: [number, number][] = [];
+  for (let i = 0; i <= HORIZON_PARTS; i++) {
+    const azimuth_deg = middle_deg + half_deg * ((2 * i) / HORIZON_PARTS - 1);
+    const at = pixelOf(camera, towards(camera, station.latitude_deg, station.longitude_deg!, azimuth_deg, 0));
+    if (at) points.push(at);
+  }
+  return points.some(([, y]) => y >= 0 && y <= height) ? { kind: "horizon", points } : null;
 }

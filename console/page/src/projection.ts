@@ -38,6 +38,15 @@ export function towards(camera: Camera, latitude_deg: number, longitude_deg: num
   return moved(camera.ecef_m, latitude_deg, longitude_deg, [across * Math.sin(a), across * Math.cos(a), far_m * Math.sin(e)]);
 }
 
+// Of the optical axis, clockwise from north, at this latitude and longitude.
+export function azimuthOf(camera: Camera, latitude_deg: number, longitude_deg: number): number {
+  const [lat, lon] = [(latitude_deg * Math.PI) / 180, (longitude_deg * Math.PI) / 180];
+  const [x, y, z] = camera.from_ecef.slice(6, 9);
+  const east = -x * Math.sin(lon) + y * Math.cos(lon);
+  const north = -Math.sin(lat) * (x * Math.cos(lon) + y * Math.sin(lon)) + z * Math.cos(lat);
+  return (Math.atan2(east, north) * 180) / Math.PI;
+}
+
 // The pixel in the full frame; null behind the camera or far outside of its lens.
 export function pixelOf(camera: Camera, place: number[]): [number, number] | null {
   const d = place.map((value, i) => value - camera.ecef_m[i]);

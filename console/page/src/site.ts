@@ -75,6 +75,7 @@ export type Target = {
   latitude_deg: number;
   longitude_deg: number;
   height_m: number;
+  mgrs?: string;
   sd_enu_m: (number | null)[];
   covariance_enu_m2?: (number | null)[]; // ee, en, eu, nn, nu, uu
   ellipse95: Ellipse | null;

@@ -2,7 +2,7 @@
 
 import { h } from "preact";
 import { useState } from "preact/hooks";
-import { bearing, DASH, fixed } from "./format";
+import { bearing, DASH, fixed, spacedMgrs } from "./format";
 import type { Link } from "./link";
 import type { Cue, Target } from "./site";
 import { named, t, Word } from "./words";
@@ -22,6 +22,7 @@ const COLUMNS: Column[] = [
   { word: "seen_by", of: used, text: (x) => `${used(x)} ${t("of")} ${x.stations?.length ?? 0}` },
   { word: "age", of: (x) => -x.utime_us, text: (x, link) => fixed(age_s(x.utime_us, link), 1, " s") },
   { word: "position", of: (x) => x.latitude_deg, text: (x) => `${fixed(x.latitude_deg, 6)}° ${fixed(x.longitude_deg, 6)}°` },
+  { word: "mgrs", of: (x) => x.mgrs ?? null, text: (x) => spacedMgrs(x.mgrs) },
 ];
 const STATES = ["confirmed", "born", "coasted"];
 

@@ -1,16 +1,18 @@
-// The stations' pictures. Picture and overlay are drawn in the same call, from the same message: they
-// always belong together. A box that is dragged belongs to the picture it was dragged on.
+// The stations' pictures, and the hand on them. A box that is dragged belongs to the picture it was
+// dragged on.
 
 import { h } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { steerByGamepad } from "./gamepad";
 import { Hand, HOLD_MS, magnified, Pinch, STILL_PX, type Region } from "./hand";
-import type { Link, Picture } from "./link";
-import { bordersOf, marksOf, type BorderLine, type Mark } from "./marks";
+import { decodesH264 } from "./h264";
+import type { Codec, Link, Picture } from "./link";
+import { drawPicture, type Box } from "./overlay";
 import type { Station } from "./site";
 import { fixed } from "./format";
+import { remember, remembered } from "./memory";
 import { named, t } from "./words";
 
-type Box = [number, number, number, number]; // x, y, width, height in the full frame [px]
 const LEAST_DRAG_PX = 4;
 const OLD_S = 5;
 const MOST_WATCHED = 64; // kMostWatched of console/client_message.h
@@ -26,97 +28,8 @@ function free(picture: Picture) {
   if (!drawnOn.has(picture)) picture.image.close();
 }
 
-function colour(name: string): string {
-  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-}
-
-function drawCorners(g: CanvasRenderingContext2D, [x, y, w, h]: Box, unit: number, stroke: string) {
-  const arm = Math.max(6 * unit, Math.min(w, h) * 0.28);
-  const pad = 3 * unit;
-  const [l, r, o, u] = [x - pad, x + w + pad, y - pad, y + h + pad];
-  g.beginPath();
-  for (const [cx, cy, dx, dy] of [[l, o, 1, 1], [r, o, -1, 1], [l, u, 1, -1], [r, u, -1, -1]]) {
-    g.moveTo(cx + dx * arm, cy);
-    g.lineTo(cx, cy);
-    g.lineTo(cx, cy + dy * arm);
-  }
-  g.lineWidth = 4 * unit;
-  g.strokeStyle = "rgba(0,0,0,.55)";
-  g.stroke();
-  g.lineWidth = 2 * unit;
-  g.strokeStyle = stroke;
-  g.stroke();
-}
-
-function drawCross(g: CanvasRenderingContext2D, width: number, height: number, unit: number) {
-  const [x, y, inner, outer] = [width / 2, height / 2, 6 * unit, 15 * unit];
-  g.beginPath();
-  for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
-    g.moveTo(x + dx * inner, y + dy * inner);
-    g.lineTo(x + dx * outer, y + dy * outer);
-  }
-  g.lineWidth = 1.5 * unit;
-  g.strokeStyle = "rgba(255,255,255,.55)";
-  g.stroke();
-}
-
-function drawMark(g: CanvasRenderingContext2D, { kind, name, at: [x, y] }: Mark, unit: number) {
-  const r = (kind === "target" ? 9 : 6) * unit;
-  g.beginPath();
-  if (kind === "target") {
-    for (const [dx, dy] of [[0, -1], [1, 0], [0, 1], [-1, 0]]) g.lineTo(x + dx * r, y + dy * r);
-    g.closePath();
-  } else {
-    g.rect(x - r, y - r, 2 * r, 2 * r);
-  }
-  g.lineWidth = 3.5 * unit;
-  g.strokeStyle = "rgba(0,0,0,.55)";
-  g.stroke();
-  g.lineWidth = 1.5 * unit;
-  g.strokeStyle = colour(kind === "target" ? "--mark-target" : "--mark-station");
-  g.stroke();
-  g.font = `${12 * unit}px sans-serif`;
-  g.lineWidth = 3 * unit;
-  g.strokeStyle = "rgba(0,0,0,.7)";
-  g.strokeText(name, x + 1.3 * r, y - 0.6 * r);
-  g.fillStyle = "#fff";
-  g.fillText(name, x + 1.3 * r, y - 0.6 * r);
-}
-
-function drawBorder(g: CanvasRenderingContext2D, { keepOut, points }: BorderLine, unit: number) {
-  g.save();
-  g.beginPath();
-  for (const [x, y] of points) g.lineTo(x, y);
-  g.lineWidth = 2 * unit;
-  g.strokeStyle = colour(keepOut ? "--mark-keep-out" : "--mark-travel");
-  g.setLineDash(keepOut ? [10 * unit, 5 * unit] : [3 * unit, 6 * unit]);
-  g.stroke();
-  g.restore();
-}
-
-// Everything in the coordinates of the full frame.
-function draw(canvas: HTMLCanvasElement, picture: Picture, region: Region | null, drawn: Box | null, isTracking: boolean, marks: Mark[], borders: BorderLine[]) {
-  if (!picture.image.width) return; // replaced, and freed: the next one is about to be drawn
-  const [width, height] = picture.full_px;
-  const across = Math.min(1600, Math.max(320, Math.round(canvas.clientWidth * devicePixelRatio)));
-  canvas.width = across;
-  canvas.height = Math.round((across * height) / width);
-  const g = canvas.getContext("2d")!;
-  const [left, top, wide] = region ?? [0, 0, width];
-  const scale = across / wide;
-  g.setTransform(scale, 0, 0, scale, -left * scale, -top * scale);
-  g.drawImage(picture.image, 0, 0, width, height);
-  const unit = devicePixelRatio / scale;
-  drawCross(g, width, height, unit);
-  for (const border of borders) drawBorder(g, border, unit);
-  for (const mark of marks) drawMark(g, mark, unit);
-  if (picture.box_px) drawCorners(g, picture.box_px, unit, colour(isTracking ? "--tracking" : "--warn"));
-  if (!drawn) return;
-  g.lineWidth = 2 * unit;
-  g.strokeStyle = colour("--accent");
-  g.setLineDash([6 * unit, 4 * unit]);
-  g.strokeRect(...drawn);
-}
+// From the exposure until now: in ms while the picture is live.
+const delay = (age_s: number) => (age_s < 1 ? `${fixed(Math.max(0, 1000 * age_s), 0)} ms` : `${fixed(age_s, 1)} s`);
 
 type Held = { picture: Picture; from: [number, number]; size: string };
 type EyeProps = {
@@ -124,13 +37,14 @@ type EyeProps = {
   station: Station;
   picture: Picture | undefined;
   large: boolean;
+  isThin: boolean;
   mayCommand: boolean;
   onSelect: () => void;
   onDesignate: Designate;
   onPoint: Point;
 };
 
-function Eye({ link, station, picture, large, mayCommand, onSelect, onDesignate, onPoint }: EyeProps) {
+function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDesignate, onPoint }: EyeProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const held = useRef<Held | null>(null);
   const [box, setBox] = useState<Box | null>(null);
@@ -144,7 +58,7 @@ function Eye({ link, station, picture, large, mayCommand, onSelect, onDesignate,
   const pressed = useRef<{ at: [number, number]; stamp: number; what: "" | "box" | "joystick" } | null>(null);
   const shown = held.current?.picture ?? picture;
   useEffect(() => {
-    if (canvas.current && shown) draw(canvas.current, shown, region, box, station.state === "tracking", marksOf(link.site, shown), bordersOf(link.site, shown));
+    if (canvas.current && shown) drawPicture(canvas.current, link.site, shown, region, box, station.state === "tracking");
   }, [shown, region, box, station.state === "tracking", large]);
   const place = (event: MouseEvent): [number, number] => {
     const rect = canvas.current!.getBoundingClientRect();
@@ -270,6 +184,7 @@ function Eye({ link, station, picture, large, mayCommand, onSelect, onDesignate,
     else setBox([x + step[0] * by, y + step[1] * by, w, hgt]);
   };
   useEffect(() => () => let_go(), []);
+  useEffect(() => (large && mayCommand ? steerByGamepad(hand.current!) : undefined), [large, mayCommand]);
   const age_s = shown ? (link.now_us() - shown.utime_us) / 1e6 : NaN;
   const state = station.stale ? "silent" : station.state;
   return (
@@ -300,8 +215,9 @@ function Eye({ link, station, picture, large, mayCommand, onSelect, onDesignate,
             {t("look_here")}
           </button>
         )}
+        {isThin && shown && <span class="codec">{shown.codec === "h264" ? "H.264" : "JPEG"}</span>}
         {station.lens?.zoom != null && <span class="age">{`${Math.round(station.lens.zoom * 100)} %`}</span>}
-        <span class={age_s > OLD_S ? "age old" : "age"}>{shown ? `${fixed(Math.max(0, age_s), 1)} s` : t("no_picture")}</span>
+        <span class={age_s > OLD_S ? "age old" : "age"}>{shown ? delay(age_s) : t("no_picture")}</span>
       </figcaption>
     </figure>
   );
@@ -327,7 +243,12 @@ type Props = {
 export function VideoView({ link, selected, mayCommand, onSelect, onDesignate, onPoint }: Props) {
   const pictures = useRef(new Map<string, Picture>());
   const [, redraw] = useState(0);
+  const [isThin, setThin] = useState(remembered("thin", "no") === "yes");
+  const [decodes, setDecodes] = useState<boolean | null>(null);
+  const codec: Codec = isThin && decodes ? "h264" : "jpeg";
   useEffect(() => {
+    void decodesH264().then(setDecodes);
+    link.onNoStream = () => setDecodes(false);
     link.onPicture = (picture) => {
       const replaced = pictures.current.get(picture.station);
       pictures.current.set(picture.station, picture);
@@ -338,7 +259,7 @@ export function VideoView({ link, selected, mayCommand, onSelect, onDesignate, o
   const stations = [...link.site.stations.values()].sort((a, b) => a.id.localeCompare(b.id));
   const ids = stations.map((s) => s.id);
   const wanted = mostWanted(stations, selected);
-  useEffect(() => link.watch(wanted), [wanted.join()]);
+  useEffect(() => link.watch(wanted, codec), [wanted.join(), codec]);
   useEffect(() => {
     for (const [id, picture] of pictures.current) {
       if (ids.includes(id)) continue;
@@ -358,6 +279,7 @@ export function VideoView({ link, selected, mayCommand, onSelect, onDesignate, o
             station={station}
             picture={pictures.current.get(station.id)}
             large={station.id === large}
+            isThin={isThin}
             mayCommand={mayCommand}
             onSelect={() => onSelect(station.id)}
             onDesignate={onDesignate}
@@ -365,6 +287,19 @@ export function VideoView({ link, selected, mayCommand, onSelect, onDesignate, o
           />
         ))}
       </div>
+      {stations.length > 0 && !link.replay && (
+        <label class="thin">
+          <input
+            type="checkbox"
+            checked={isThin}
+            onChange={(event) => {
+              setThin(event.currentTarget.checked);
+              remember("thin", event.currentTarget.checked ? "yes" : "no");
+            }}
+          />
+          {t("thin_link")} <span role="status">{isThin && decodes === false ? t("thin_no") : ""}</span>
+        </label>
+      )}
       {mayCommand && stations.length > 0 && <p class="hint">{`${t("designate_hint")} ${t("hand_hint")}`}</p>}
     </section>
   );

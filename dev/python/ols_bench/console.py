@@ -12,6 +12,8 @@ import numpy as np
 from console_site import PLACES, Api, PaperSite, browser, console_command
 from ols_demo.site import Site, bring_up_loopback
 
+from ols_bench import console_live
+from ols_bench.line import line
 from ols_bench.paper_video import BIT_PX, BITS, BOX_PX, CODE_Y_PX, FULL_PX, PaperVideo
 from ols_bench.plain_viewer import PlainViewer
 
@@ -74,10 +76,6 @@ def cpu_s(pid: int) -> float:
 
 def resident_kb(pid: int) -> int:
     return int(re.findall(r"VmRSS:\s+(\d+)", Path(f"/proc/{pid}/status").read_text())[0])
-
-
-def line(what: str, figure: str, wanted: str) -> None:
-    print(f"{what:58s} {figure:28s} {wanted}", flush=True)
 
 
 class Bench:
@@ -242,21 +240,30 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--viewers", type=int, default=10)
     parser.add_argument("--seconds", type=float, default=20.0, help="of the viewers' measure")
     parser.add_argument("--memory", type=float, default=60.0, help="seconds of visits")
+    parser.add_argument("--only-memory", action="store_true", help="nothing but the visits")
+    parser.add_argument("--live", action="store_true", help="with the demo's site instead")
+    parser.add_argument("--drags", type=int, default=20, help="of a box, live")
+    parser.add_argument("--looks", type=int, default=3, help="clicks in the overview's picture")
+    parser.add_argument("--rounds", type=int, default=4, help="without and with viewers, live")
+    parser.add_argument("--seed", type=int, default=1, help="of the live site")
     return parser.parse_args()
 
 
 def main() -> int:
     options = arguments()
+    if options.live:
+        return console_live.main(options)
     bring_up_loopback([])
     load = os.getloadavg()[0]
     with tempfile.TemporaryDirectory() as folder, Site(Path(folder) / "logs") as site:
         bench = Bench(site, Path(folder), options.rate)
         print(f"load of this computer before: {load:.1f} on {os.cpu_count()} processors")
-        bench.size()
-        bench.viewers(options.viewers, options.seconds)
-        bench.drags(20)
-        bench.focus(options.frames)
-        bench.targets(options.targets)
+        if not options.only_memory:
+            bench.size()
+            bench.viewers(options.viewers, options.seconds)
+            bench.drags(options.drags)
+            bench.focus(options.frames)
+            bench.targets(options.targets)
         bench.memory(options.memory)
         site.check()
     return 0

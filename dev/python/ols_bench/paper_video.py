@@ -2,11 +2,13 @@
 can tell which frame it shows, and where its overlay belongs."""
 
 import io
+import math
 import socket
 import socketserver
 import struct
 import threading
 import time
+from dataclasses import dataclass, field
 
 import numpy as np
 import ols_msg
@@ -15,6 +17,7 @@ from PIL import Image
 FULL_PX = (1280, 960)
 BITS, BIT_PX, CODE_Y_PX = 16, 60, 40  # a row of squares, the most significant first
 BOX_PX = 80
+BELIEF = 0.87
 
 
 def box_of(number: int) -> tuple[int, int]:
@@ -33,15 +36,25 @@ def picture_of(number: int) -> bytes:
     return buffer.getvalue()
 
 
+@dataclass
+class PaperCamera:
+    """Where the pictures were taken; unknown, as while a unit's angles are."""
+
+    ecef_m: list[float] = field(default_factory=lambda: [math.nan] * 3)
+    from_ecef: list[float] = field(default_factory=lambda: [math.nan] * 9)  # by rows
+    focal_length_px: float = 4000.0
+
+
 class PaperVideo(socketserver.ThreadingTCPServer):
     """One station's; a new frame each `period_s`, exposed when it is made."""
 
     daemon_threads = True
     allow_reuse_address = True
 
-    def __init__(self, station: str, period_s: float):
+    def __init__(self, station: str, period_s: float, camera: PaperCamera | None = None):
         super().__init__(("127.0.0.1", 0), Viewer)
         self.station, self.period_s = station, period_s
+        self.camera = camera or PaperCamera()
         self.exposed_us: dict[int, int] = {}  # number of a frame -> its time
         self.sent = 0
         self._numbers = 0
@@ -76,8 +89,10 @@ class PaperVideo(socketserver.ThreadingTCPServer):
         m.boot_id, m.sequence, m.scale = 5, number, 0.5
         m.full_width_px, m.full_height_px = FULL_PX
         m.has_box, m.box_px = True, [*map(float, box_of(number)), BOX_PX, BOX_PX]
-        m.camera_ecef_m = [float("nan")] * 3
-        m.camera_from_ecef = [float("nan")] * 9
+        m.belief = BELIEF
+        m.camera_ecef_m, m.camera_from_ecef = self.camera.ecef_m, self.camera.from_ecef
+        f_px, (width, height) = self.camera.focal_length_px, FULL_PX
+        m.camera_matrix_px = [f_px, f_px, width / 2, height / 2, 0.0]
         m.jpeg_bytes, m.jpeg = len(jpeg), jpeg
         self.sent += 1
         return m.encode()

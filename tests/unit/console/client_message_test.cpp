@@ -84,6 +84,11 @@ TEST(ClientMessage, TheOthers) {
                 .stations.size(),
             2U);
   EXPECT_EQ(
+      std::get<WatchRequest>(parse_client_message(R"({"do":"watch","pictures":[],"codec":"h264"})"))
+          .codec,
+      Codec::kH264);
+  EXPECT_EQ(refusal(R"({"do":"watch","pictures":[],"codec":"av1"})"), "codec must be jpeg or h264");
+  EXPECT_EQ(
       std::get<CommandRequest>(
           parse_client_message(R"({"do":"command","station":"a","command":"record","before_s":5,)"
                                R"("after_s":1,"label":"bird"})"))
@@ -91,12 +96,21 @@ TEST(ClientMessage, TheOthers) {
       "bird");
 }
 
+TEST(ClientMessage, SaysWhatItHasTaken) {
+  const auto taken = std::get<TakenRequest>(
+      parse_client_message(R"({"do":"taken","pictures":["alfa"],"state":true})"));
+  EXPECT_EQ(taken.stations, std::vector<std::string>{"alfa"});
+  EXPECT_TRUE(taken.state);
+  EXPECT_EQ(refusal(R"({"do":"taken","pictures":[]})"), "state is missing");
+  EXPECT_EQ(refusal(R"({"do":"taken","pictures":[],"state":1})"), "state must be true or false");
+}
+
 TEST(ClientMessage, WhatIsWrongIsSaid) {
   EXPECT_EQ(refusal("{"), "not JSON");
   EXPECT_EQ(refusal("[]"), "not a JSON object");
   EXPECT_EQ(refusal("{}"), "do is missing");
   EXPECT_EQ(refusal(R"({"do":"dance"})"),
-            "do must be command, stop_all, take, give_up, watch, answer, cue or replay");
+            "do must be command, stop_all, take, give_up, watch, taken, answer, cue or replay");
   EXPECT_EQ(refusal(R"({"do":"stop_all","station":"a"})"), "unknown key \"station\"");
   EXPECT_EQ(refusal(R"({"do":"command","station":"a","command":"fly"})"), "unknown command");
   EXPECT_EQ(refusal(R"({"do":"command","station":"a b","command":"stop"})"),

@@ -77,6 +77,31 @@ TEST(Console, OnlyTheNewestPictureThatIsWatchedIsSent) {
   EXPECT_FALSE(console.next(viewer, {0.04, 0}));
 }
 
+TEST(Console, ABrowserThatSaysWhatItHasTakenIsSentTheNextOnlyThen) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  const auto viewer = console.open("ana", Role::kViewer);
+  console.take(viewer, R"({"do":"watch","pictures":["alfa"]})", {0.0, 0});
+  const auto show = [&](const std::string& jpeg) {
+    console.hear(Picture{"alfa", {{"station", "alfa"}}, jpeg});
+  };
+  show("1");
+  EXPECT_EQ(received(console, viewer, {0.0, 0}).size(), 3U) << "greeting, snapshot, picture";
+  console.take(viewer, R"({"do":"taken","pictures":["bravo"],"state":false})", {0.0, 0});
+  show("2"), show("3");
+  console.hear_bearing("alfa", {{"azimuth_deg", 1.0}});
+  EXPECT_TRUE(received(console, viewer, {5.0, 0}).empty()) << "both are under way";
+  console.take(viewer, R"({"do":"taken","pictures":["alfa"],"state":false})", {5.0, 0});
+  const auto picture = console.next(viewer, {5.0, 0});
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->bytes.back(), '3') << "the newest";
+  EXPECT_TRUE(received(console, viewer, {6.0, 0}).empty());
+  console.take(viewer, R"({"do":"taken","pictures":[],"state":true})", {6.0, 0});
+  const auto state = received(console, viewer, {6.0, 0});
+  ASSERT_EQ(state.size(), 1U);
+  EXPECT_EQ(state[0].at("stations")[0].at("bearing").at("azimuth_deg"), 1.0);
+}
+
 TEST(Console, ACommandIsAnsweredWithTheStationsOwnWord) {
   Console console(60.0);
   console.hear(station("alfa"), {0.0, 0});
@@ -217,22 +242,8 @@ TEST(Console, AnswersToAViewerThatDoesNotReadAreBounded) {
   EXPECT_LE(received(console, viewer, {0.0, 0}).size(), 70U);
 }
 
-Picture picture(const std::string& id, std::int64_t utime_us, bool is_video) {
-  return {id, {{"station", id}, {"utime_us", utime_us}}, "jpeg", is_video};
-}
-
 void watch(Console& console, std::uint64_t viewer, const std::string& stations) {
   console.take(viewer, R"({"do": "watch", "pictures": )" + stations + "}", {0.0, 0});
-}
-
-// The station and instant of the next picture that this viewer is sent; empty: none.
-std::string next_picture(Console& console, std::uint64_t viewer) {
-  while (const auto next = console.next(viewer, {0.0, 0})) {
-    if (!next->is_binary) continue;
-    const Json header = Json::parse(next->bytes.substr(4, next->bytes.find('}') - 3));
-    return header.at("station").get<std::string>() + header.at("utime_us").dump();
-  }
-  return "";
 }
 
 TEST(Console, PullsTheVideoOfStationsThatSomebodyLooksAt) {
@@ -245,38 +256,11 @@ TEST(Console, PullsTheVideoOfStationsThatSomebodyLooksAt) {
   EXPECT_TRUE(console.watched_video().empty());
   const auto viewer = console.open("ana", Role::kViewer);
   watch(console, viewer, R"(["bravo", "charlie"])");
-  EXPECT_EQ(console.watched_video(),
-            (std::map<std::string, std::string>{{"bravo", "10.0.0.1:bravo"}}));
+  EXPECT_EQ(console.watched_video(), (WatchedVideos{{{"bravo", Codec::kJpeg}, "10.0.0.1:bravo"}}));
+  console.take(viewer, R"({"do": "watch", "pictures": ["bravo"], "codec": "h264"})", {0.0, 0});
+  EXPECT_EQ(console.watched_video(), (WatchedVideos{{{"bravo", Codec::kH264}, "10.0.0.1:bravo"}}));
   console.hear(station("bravo"), {0.0, 0});  // it serves none any more
   EXPECT_TRUE(console.watched_video().empty());
-}
-
-TEST(Console, APreviewIsShownOnlyWhereNoVideoComes) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
-  const auto viewer = console.open("ana", Role::kViewer);
-  watch(console, viewer, R"(["alfa"])");
-  console.hear(picture("alfa", 1'000'000, true));
-  EXPECT_EQ(next_picture(console, viewer), "alfa1000000");
-  console.hear(picture("alfa", 2'000'000, false));
-  EXPECT_EQ(next_picture(console, viewer), "");
-  console.hear(picture("alfa", 5'000'000, false));
-  EXPECT_EQ(next_picture(console, viewer), "alfa5000000") << "the video has ended";
-}
-
-TEST(Console, EachStationGetsItsTurnOverASlowLink) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
-  console.hear(station("bravo"), {0.0, 0});
-  const auto viewer = console.open("ana", Role::kViewer);
-  watch(console, viewer, R"(["alfa", "bravo"])");
-  std::string seen;
-  for (int i = 1; i <= 4; ++i) {
-    console.hear(picture("alfa", i, true));
-    console.hear(picture("bravo", i, true));
-    seen += next_picture(console, viewer) + " ";  // one for each two that come
-  }
-  EXPECT_EQ(seen, "alfa1 bravo2 alfa3 bravo4 ");
 }
 
 ProcedureHeard asking(const std::string& station) {

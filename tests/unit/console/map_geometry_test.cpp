@@ -50,6 +50,19 @@ TEST(MapGeometry, TheGridOfASmallBoxHasSomeLinesOfARoundStep) {
   }
 }
 
+TEST(MapGeometry, TheGridNamesTheSquaresInView) {
+  const auto names = [](const char* box) {
+    std::vector<std::string> all;
+    const auto grid = utm_grid(box);
+    for (const Json& square : grid->at("squares")) all.push_back(square.at("name"));
+    return all;
+  };
+  EXPECT_EQ(names("?box=16.59,49.22,16.61,49.235"), std::vector<std::string>{"33UXQ"});
+  // Brno lies near the corner of four.
+  EXPECT_EQ(names("?box=16.2,48.5,16.6,48.9"),
+            (std::vector<std::string>{"33UWP", "33UWQ", "33UXP", "33UXQ"}));
+}
+
 TEST(MapGeometry, NoGridOfWhatIsNoBoxOrTooLarge) {
   for (const char* wrong : {"", "?box=1,2,3", "?box=2,2,1,3", "?box=0,0,60,60", "?box=0,85,1,86"}) {
     EXPECT_FALSE(utm_grid(wrong)) << wrong;

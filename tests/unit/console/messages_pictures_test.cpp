@@ -7,6 +7,7 @@
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/video_frame_t.hpp"
 #include "ols_msg/video_request_t.hpp"
+#include "ols_msg/video_stream_request_t.hpp"
 #include "tests/unit/console/on_the_bus.h"
 
 namespace ols::console {
@@ -30,7 +31,7 @@ TEST(ConsolePictures, APictureKeepsItsFramesTimeAndBox) {
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->header.at("utime_us"), preview.utime);
   EXPECT_EQ(picture->header.at("box_px")[0], 10.0);
-  EXPECT_EQ(picture->jpeg.size(), 3U);
+  EXPECT_EQ(picture->bytes.size(), 3U);
 }
 
 TEST(ConsolePictures, ARequestForVideo) {
@@ -43,6 +44,18 @@ TEST(ConsolePictures, ARequestForVideo) {
   EXPECT_EQ(request.quality, 60);
 }
 
+TEST(ConsolePictures, ARequestForAStream) {
+  for (const bool key_frame : {false, true}) {
+    const auto bytes = stream_request(7, 640, 60, key_frame);
+    ols_msg::video_stream_request_t request;
+    ASSERT_EQ(request.decode(bytes.data(), 0, static_cast<int>(bytes.size())),
+              static_cast<int>(bytes.size()));
+    EXPECT_EQ(request.after_utime, 7);
+    EXPECT_EQ(request.quality, 60);
+    EXPECT_EQ(request.key_frame != 0, key_frame);
+  }
+}
+
 TEST(ConsolePictures, APictureOfTheVideoHasItsCameraUnlessThatIsUnknown) {
   auto frame = made<ols_msg::video_frame_t>();
   frame.station = "alfa";
@@ -51,17 +64,31 @@ TEST(ConsolePictures, APictureOfTheVideoHasItsCameraUnlessThatIsUnknown) {
   frame.camera_from_ecef[0] = 1.0;
   frame.jpeg = {1, 2, 3};
   frame.jpeg_bytes = 3;
-  const auto picture = [&frame] { return video_picture_from(on("", frame).payload); };
+  const auto picture = [&frame] { return video_picture_from(on("", frame).payload, Codec::kJpeg); };
   ASSERT_TRUE(picture());
   EXPECT_TRUE(picture()->is_video);
-  EXPECT_EQ(picture()->jpeg, "\1\2\3");
+  EXPECT_EQ(picture()->bytes, "\1\2\3");
   EXPECT_EQ(picture()->header.at("utime_us"), 9);
   EXPECT_EQ(picture()->header.at("camera").at("from_ecef").at(0), 1.0);
   frame.camera_from_ecef[0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(picture()->header.at("camera").is_null());
   frame.schema_version = 99;
   EXPECT_FALSE(picture());
-  EXPECT_FALSE(video_picture_from({}));
+  EXPECT_FALSE(video_picture_from({}, Codec::kJpeg));
+}
+
+TEST(ConsolePictures, AnAccessUnitWithTheStreamsParametersIsAKeyFrame) {
+  auto frame = made<ols_msg::video_frame_t>();
+  const auto is_key = [&frame](const std::vector<std::uint8_t>& unit) {
+    frame.jpeg = unit;
+    frame.jpeg_bytes = static_cast<std::int32_t>(unit.size());
+    return video_picture_from(on("", frame).payload, Codec::kH264)->is_key;
+  };
+  EXPECT_TRUE(is_key({0, 0, 0, 1, 0x67, 0x4d}));
+  EXPECT_TRUE(is_key({0, 0, 1, 0x27, 0x4d}));
+  EXPECT_FALSE(is_key({0, 0, 0, 1, 0x61, 0x67}));
+  EXPECT_FALSE(is_key({0, 0, 1}));
+  EXPECT_FALSE(is_key({}));
 }
 
 }  // namespace

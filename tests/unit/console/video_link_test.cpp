@@ -8,6 +8,8 @@
 #include <chrono>
 #include <functional>
 
+#include "ols_msg/video_stream_request_t.hpp"
+
 namespace ols::console {
 namespace {
 
@@ -23,7 +25,7 @@ struct VideoLinkTest : testing::Test {
   }
 
   void begin(std::function<std::optional<std::int64_t>(Bytes)> take) {
-    link = std::make_shared<VideoLink>(io, acceptor.local_endpoint(), VideoWish{}, std::move(take));
+    link = std::make_shared<VideoLink>(io, acceptor.local_endpoint(), wish, std::move(take));
     link->begin();
   }
   void accept() {
@@ -40,12 +42,18 @@ struct VideoLinkTest : testing::Test {
                             [this](const boost::system::error_code& error, std::size_t) {
                               if (error) return;
                               request.resize(message_length(prefix, 1000).value_or(0));
+                              note_key();
                               boost::system::error_code failed;
                               boost::asio::read(*peer, boost::asio::buffer(request), failed);
                               boost::asio::write(*peer, boost::asio::buffer(answer), failed);
                               ++requests;
                               if (!failed) serve();
                             });
+  }
+  void note_key() {
+    ols_msg::video_stream_request_t asked;
+    const auto size = static_cast<int>(request.size());
+    if (asked.decode(request.data(), 0, size) == size) keys.push_back(asked.key_frame != 0);
   }
   template <typename Condition>
   bool until(Condition condition) {
@@ -61,6 +69,8 @@ struct VideoLinkTest : testing::Test {
   tcp::acceptor acceptor;
   std::optional<tcp::socket> peer;
   std::shared_ptr<VideoLink> link;
+  VideoWish wish;
+  std::vector<bool> keys;  // of a stream: which requests were for a key frame
   LengthPrefix prefix{};
   Bytes request, answer = {0, 0, 0, 2, 7, 8};
   int connections = 0, requests = 0, taken = 0;
@@ -84,6 +94,14 @@ TEST_F(VideoLinkTest, ConnectsAgainAfterAnAnswerThatIsNone) {
 TEST_F(VideoLinkTest, ConnectsAgainAfterAPictureThatNobodyWants) {
   begin([](const Bytes&) { return std::nullopt; });
   EXPECT_TRUE(until([this] { return connections == 2; }));
+}
+
+TEST_F(VideoLinkTest, AsksForAKeyFrameOfAStreamAtItsBeginningAndFromTimeToTime) {
+  wish.codec = Codec::kH264;
+  begin([this](const Bytes&) { return ++taken; });
+  const std::size_t many = 2 * kUnitsOfKeyFrame + 1;
+  ASSERT_TRUE(until([&] { return keys.size() >= many; }));
+  for (std::size_t i = 0; i < many; ++i) EXPECT_EQ(keys[i], i % kUnitsOfKeyFrame == 0) << i;
 }
 
 TEST_F(VideoLinkTest, CallsNothingAfterItsEnd) {

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <iterator>
 
 #include "edge/video/video_server.h"
 #include "tests/unit/eventually.h"
@@ -51,14 +53,33 @@ TEST(VideoPuller, TheNewestPictureOfEachStationThatIsWatched) {
   alfa.server.offer(frame_at(1));
   bravo.server.offer(frame_at(2));
   VideoPuller puller({"127.0.0.0/8"}, {});
-  puller.watch({{"alfa", alfa.address}});
+  puller.watch({{{"alfa"}, alfa.address}});
   EXPECT_TRUE(eventually([&] { return newest(puller, "alfa") == 1; }));
   EXPECT_FALSE(bravo.server.has_viewers());
   alfa.server.offer(frame_at(3));
   EXPECT_TRUE(eventually([&] { return newest(puller, "alfa") == 3; }));
-  puller.watch({{"bravo", bravo.address}});
+  puller.watch({{{"bravo"}, bravo.address}});
   EXPECT_TRUE(eventually([&] { return newest(puller, "bravo") == 2; }));
   EXPECT_TRUE(eventually([&] { return !alfa.server.has_viewers(); }));
+}
+
+TEST(VideoPuller, OfAStreamEachUnitFromAKeyFrameOn) {
+  Station alfa("alfa", "127.0.0.91");
+  VideoPuller puller({"127.0.0.0/8"}, {});
+  puller.watch({{{"alfa", Codec::kH264}, alfa.address}});
+  std::vector<Picture> units;
+  for (std::int64_t i = 1; i <= 3; ++i) {
+    alfa.server.offer(frame_at(i));
+    ASSERT_TRUE(eventually([&] {
+      std::ranges::move(puller.take(), std::back_inserter(units));
+      return units.size() == static_cast<std::size_t>(i);
+    }));
+  }
+  EXPECT_TRUE(units[0].is_key);
+  EXPECT_FALSE(units[1].is_key);
+  EXPECT_FALSE(units[2].is_key);
+  EXPECT_EQ(units[2].codec, Codec::kH264);
+  EXPECT_EQ(units[2].header.at("utime_us"), 3);
 }
 
 TEST(VideoPuller, AStationThatComesBackIsPulledAgain) {
@@ -67,7 +88,7 @@ TEST(VideoPuller, AStationThatComesBackIsPulledAgain) {
   auto alfa = std::make_unique<Station>("alfa", "127.0.0.91", port);
   const std::string address = alfa->address;
   alfa->server.offer(frame_at(9));
-  puller.watch({{"alfa", address}});
+  puller.watch({{{"alfa"}, address}});
   EXPECT_TRUE(eventually([&] { return newest(puller, "alfa") == 9; }));
   alfa.reset();
   alfa = std::make_unique<Station>("alfa", "127.0.0.91", port);
@@ -80,7 +101,7 @@ TEST(VideoPuller, AddressesThatAreForgedAreNotAsked) {
   alfa.server.offer(frame_at(1));
   bravo.server.offer(frame_at(1));
   VideoPuller puller({"127.0.0.92/32"}, {});
-  puller.watch({{"alfa", alfa.address}, {"bravo", bravo.address}, {"charlie", "nonsense"}});
+  puller.watch({{{"alfa"}, alfa.address}, {{"bravo"}, bravo.address}, {{"charlie"}, "nonsense"}});
   EXPECT_TRUE(eventually([&] { return newest(puller, "bravo") == 1; }));
   EXPECT_FALSE(alfa.server.has_viewers());
 }
@@ -89,7 +110,7 @@ TEST(VideoPuller, AStationThatGivesItselfOutForAnotherIsNotBelieved) {
   Station alfa("alfa", "127.0.0.91");
   alfa.server.offer(frame_at(1));
   VideoPuller puller({"127.0.0.0/8"}, {});
-  puller.watch({{"bravo", alfa.address}});
+  puller.watch({{{"bravo"}, alfa.address}});
   // Once it has connected again, the first picture has been judged.
   EXPECT_TRUE(
       eventually([&] { return alfa.server.report().counters.at("video_frames_sent") >= 2; }));

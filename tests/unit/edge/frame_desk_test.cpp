@@ -31,7 +31,7 @@ TEST(FrameDesk, AFrameComesInPartsThatFitIntoDatagramsAndMakeItWhole) {
   std::vector<std::uint8_t> file;
   std::optional<FramePart> part;
   ASSERT_TRUE(eventually([&] {
-    desk.look(0.1);
+    desk.look({0.1, 1'000'000'000});
     return (part = desk.next()).has_value();
   }));
   const std::size_t parts = part->parts;
@@ -39,12 +39,14 @@ TEST(FrameDesk, AFrameComesInPartsThatFitIntoDatagramsAndMakeItWhole) {
   for (std::size_t i = 0; i < parts; ++i) {
     ASSERT_TRUE(part);
     EXPECT_EQ(part->part, i);
+    EXPECT_EQ(part->utime_us, 999'930'000) << "mid-exposure, although UTC was read again meanwhile";
     EXPECT_LE(part->bytes, FrameDesk::kPart_bytes);
     const auto first = part->frame->file.begin() + static_cast<std::ptrdiff_t>(part->first_byte);
     file.insert(file.end(), first, first + static_cast<std::ptrdiff_t>(part->bytes));
     if (i + 1 == parts) {
       EXPECT_EQ(file, part->frame->file);
     }
+    desk.look({0.2, 1'000'100'007});
     part = desk.next();
   }
   EXPECT_FALSE(part);
@@ -68,13 +70,13 @@ TEST(FrameDesk, HoldsNoMoreThanAFewFramesHoweverManyAreAskedFor) {
     desk.service().on_angles(sample);
     frame.mid_exposure_s = sample.time_s - 0.01;
     desk.service().on_frame(frame);
-    desk.look(0.0);
+    desk.look({});
     std::this_thread::yield();
   }
   int held = 0;
   EXPECT_TRUE(eventually([&] {
-    desk.look(0.0);
-    for (; desk.next(); desk.look(0.0)) ++held;
+    desk.look({});
+    for (; desk.next(); desk.look({})) ++held;
     return held >= 3;
   }));
   EXPECT_LE(held, 4) << "one in parts, three in the post";

@@ -8,6 +8,7 @@
 
 #include "ols_msg/video_frame_t.hpp"
 #include "ols_msg/video_request_t.hpp"
+#include "ols_msg/video_stream_request_t.hpp"
 
 namespace ols::video {
 namespace {
@@ -27,7 +28,8 @@ std::optional<VideoRequest> decoded(const ols_msg::video_request_t& message) {
 }
 
 ols_msg::video_frame_t answer(const VideoFrame& frame, const VideoRequest& request) {
-  const auto bytes = encode_frame(frame, 7, {"alfa", 42}, request);
+  H264Encoder stream;
+  const auto bytes = encode_frame(frame, 7, {"alfa", 42}, request, stream);
   ols_msg::video_frame_t message;
   EXPECT_EQ(message.decode(bytes.data(), 0, static_cast<int>(bytes.size())),
             static_cast<int>(bytes.size()));
@@ -53,6 +55,25 @@ TEST(VideoRequestMessage, OneThatFitsTheLimitsIsTaken) {
   EXPECT_EQ(request->max_width_px, 640);
   EXPECT_EQ(request->quality, 90);
   EXPECT_EQ(request->region.width, 10.0);
+}
+
+TEST(VideoRequestMessage, OneForAStream) {
+  ols_msg::video_stream_request_t message{};
+  message.schema_version = ols_msg::video_stream_request_t::SCHEMA_VERSION;
+  message.max_width_px = 640;
+  message.quality = 60;
+  message.key_frame = 1;
+  const auto decoded_one = [&message] {
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    return decode_request(bytes);
+  };
+  ASSERT_TRUE(decoded_one());
+  EXPECT_EQ(decoded_one()->codec, VideoCodec::kH264);
+  EXPECT_TRUE(decoded_one()->key_frame);
+  EXPECT_LE(message.getEncodedSize(), static_cast<int>(kLargestRequest_bytes));
+  message.quality = 101;
+  EXPECT_FALSE(decoded_one());
 }
 
 TEST(VideoRequestMessage, ItFitsTheLargestRequest) {
@@ -94,6 +115,15 @@ TEST(VideoFrameMessage, ARegionInFullResolution) {
   const cv::Mat picture = cv::imdecode(message.jpeg, cv::IMREAD_GRAYSCALE);
   ASSERT_EQ(picture.size(), cv::Size(32, 16));
   EXPECT_NEAR(picture.at<std::uint8_t>(8, 0), 100, 3.0);
+}
+
+TEST(VideoFrameMessage, AnAccessUnitOfAStreamHasEvenSides) {
+  const VideoRequest request{.max_width_px = 51, .quality = 50, .codec = VideoCodec::kH264};
+  const auto message = answer(a_frame(), request);
+  EXPECT_DOUBLE_EQ(message.scale, 0.25);
+  ASSERT_GT(message.jpeg.size(), 5U);
+  EXPECT_EQ(std::vector<std::uint8_t>(message.jpeg.begin(), message.jpeg.begin() + 5),
+            (std::vector<std::uint8_t>{0, 0, 0, 1, 0x67}));
 }
 
 TEST(VideoFrameMessage, WhatIsNotKnownIsNotANumber) {

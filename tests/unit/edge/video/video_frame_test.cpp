@@ -36,5 +36,23 @@ TEST(VideoRegion, ItStaysWithinTheFrameAndIsNeverEmpty) {
   EXPECT_EQ(region(-100, -100, 200, 200), cv::Rect(0, 0, 100, 100));
 }
 
+cv::Size size_of(VideoCodec codec, int max_width_px, const cv::Size& region_px) {
+  return picture_size({.max_width_px = max_width_px, .codec = codec}, region_px);
+}
+
+TEST(VideoPictureSize, AsWideAsAskedAndNeverEnlarged) {
+  EXPECT_EQ(size_of(VideoCodec::kJpeg, 640, kFrame), cv::Size(640, 480));
+  EXPECT_EQ(size_of(VideoCodec::kJpeg, 4000, {31, 7}), cv::Size(31, 7));
+  EXPECT_EQ(size_of(VideoCodec::kJpeg, 1, {1000, 10}), cv::Size(1, 1));
+}
+
+TEST(VideoPictureSize, OfAStreamEvenAndWhatADecoderTakes) {
+  EXPECT_EQ(size_of(VideoCodec::kH264, 640, kFrame), cv::Size(640, 480));
+  EXPECT_EQ(size_of(VideoCodec::kH264, 641, {1280, 962}), cv::Size(640, 480));
+  EXPECT_EQ(size_of(VideoCodec::kH264, 640, {31, 7}), cv::Size(30, 16));
+  EXPECT_EQ(size_of(VideoCodec::kH264, 5000, {4096, 2160}), cv::Size(1920, 1012));
+  EXPECT_EQ(size_of(VideoCodec::kH264, 5000, {100, 4000}), cv::Size(48, 1920));
+}
+
 }  // namespace
 }  // namespace ols::video

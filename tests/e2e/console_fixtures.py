@@ -1,0 +1,31 @@
+"""Fixtures of the console's tests: `pytest_plugins = ["console_fixtures"]`."""
+
+import pytest
+from console_page import two_consoles, watched_page
+from console_site import browser, paper_site
+
+
+@pytest.fixture(scope="module")
+def paper(network):
+    with paper_site() as site:
+        yield site
+
+
+@pytest.fixture(scope="module")
+def consoles(paper, tmp_path_factory):
+    """Addresses of two consoles of the paper site: of one that is open, of one with users."""
+    with two_consoles(tmp_path_factory.mktemp("console")) as addresses:
+        yield addresses
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    with browser() as started:
+        yield started
+
+
+@pytest.fixture
+def page(chromium, consoles):
+    """The open console's."""
+    with watched_page(chromium, consoles[0]) as opened:
+        yield opened
