@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <span>
@@ -19,9 +20,15 @@ struct Whole {
 // Added so that it can be inverted: 10 ns, 10 nrad, 10 nm.
 constexpr double kLeast = 1e-16;
 
-// Instants of which both runs are stored, and parts of which the backward run is: a part has a
-// part's part, or a block.
-constexpr std::size_t kBlock = 128, kParts = 96;
+// Instants of which both runs are stored, beside the backward run at the end of each block: so many
+// that least is stored in all.
+std::size_t block_of(std::size_t epochs) {
+  constexpr std::size_t kLeastBlock = 128;
+  // A whole run (72 kB of four stations, its recent bearings among it) beside both at an instant.
+  constexpr double kRunOverInstant = 3.0;
+  return std::max(kLeastBlock, static_cast<std::size_t>(
+                                   std::sqrt(kRunOverInstant * static_cast<double>(epochs))));
+}
 
 using Order = std::map<std::string, Eigen::Index>;  // station -> first of its states
 
@@ -186,7 +193,13 @@ class Smoother {
 
   void run(std::span<const std::int64_t> epochs) const {
     Runner forward{learnt_, &bearings_, &beside_, output_.tell};
-    run(epochs, {learnt_, &bearings_, &beside_, output_.tell, about_us_}, forward);
+    std::vector<Runner> ends = ends_of(epochs);
+    const std::size_t block = block_of(epochs.size());
+    for (std::size_t first = 0; first < epochs.size(); first += block) {
+      run_block(epochs.subspan(first, std::min(block, epochs.size() - first)),
+                std::move(ends.back()), forward);
+      ends.pop_back();
+    }
   }
 
  private:
@@ -200,9 +213,7 @@ class Smoother {
   Whole both(const std::optional<Side>& from_past, const std::optional<Side>& from_future,
              const Eigen::Vector3d& p_ecef) const;
   Smoothed at(std::int64_t epoch_us, Passed& past, Passed& future) const;
-  std::vector<Runner> ends_of(std::span<const std::int64_t> epochs, std::size_t part,
-                              Runner end) const;
-  void run(std::span<const std::int64_t> epochs, Runner end, Runner& forward) const;
+  std::vector<Runner> ends_of(std::span<const std::int64_t> epochs) const;
   void run_block(std::span<const std::int64_t> epochs, Runner end, Runner& forward) const;
 
   const BearingPointers& bearings_;
@@ -330,27 +341,16 @@ void Smoother::run_block(std::span<const std::int64_t> epochs, Runner end, Runne
   for (Smoothed& fix : fixes) output_.take(std::move(fix));
 }
 
-// The backward run at the end of each part, the last part's first.
-std::vector<Runner> Smoother::ends_of(std::span<const std::int64_t> epochs, std::size_t part,
-                                      Runner end) const {
+// The backward run at the end of each block, the last block's first.
+std::vector<Runner> Smoother::ends_of(std::span<const std::int64_t> epochs) const {
+  const std::size_t block = block_of(epochs.size());
   std::vector<Runner> ends;
-  for (std::size_t first = (epochs.size() - 1) / part * part;; first -= part) {
+  ends.reserve((epochs.size() - 1) / block + 1);  // to grow would copy them all
+  Runner end{learnt_, &bearings_, &beside_, output_.tell, about_us_};
+  for (std::size_t first = (epochs.size() - 1) / block * block;; first -= block) {
     ends.push_back(end);
     if (first == 0) return ends;
     end.run(about_us_ - epochs[first], false);
-  }
-}
-
-// `end`: the backward run after these instants.
-void Smoother::run(std::span<const std::int64_t> epochs, Runner end, Runner& forward) const {
-  if (epochs.size() <= kBlock) return run_block(epochs, std::move(end), forward);
-  std::size_t part = kBlock;
-  while (part * kParts < epochs.size()) part *= kParts;
-  std::vector<Runner> ends = ends_of(epochs, part, std::move(end));
-  for (std::size_t first = 0; first < epochs.size(); first += part) {
-    Runner last = std::move(ends.back());
-    ends.pop_back();
-    run(epochs.subspan(first, std::min(part, epochs.size() - first)), std::move(last), forward);
   }
 }
 
@@ -363,10 +363,6 @@ void smooth(const BearingPointers& bearings, const std::vector<std::int64_t>& ep
   Smoother(bearings, config, known, output).run(epochs);
 }
 
-std::size_t smoother_runs(std::size_t epochs) {
-  std::size_t runs = 2;
-  for (std::size_t part = kBlock; part < epochs; part *= kParts) ++runs;
-  return runs;
-}
+std::size_t smoother_runs(std::size_t epochs) { return epochs > block_of(epochs) ? 3 : 2; }
 
 }  // namespace ols::fusion

@@ -41,7 +41,7 @@ struct SmootherOutput {
 std::size_t smoother_runs(std::size_t epochs);
 
 // One object's bearings and the instants, both in order of time. The backward filter is stored at
-// the ends of parts, and run again in each: its memory hardly grows with the number of instants.
+// the ends of blocks, and run again in each: memory grows as the root of the number of instants.
 void smooth(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
             const TrackManagerConfig& config, const KnownStations& known,
             const SmootherOutput& output);
