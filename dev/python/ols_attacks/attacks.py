@@ -26,6 +26,7 @@ class Attack:
     victim: str  # the process whose counters must account for it: "fusion" or a station
     messages: Messages
     most_hz: float = math.inf
+    may_be_believed: bool = False  # it has the key of whom it speaks for
 
 
 @dataclass
@@ -36,6 +37,7 @@ class Known:
     stations: list[str]
     heard: dict[str, list[bytes]]  # genuine messages, by channel
     names: int = 100_000  # of the attack with invented names
+    seconds: float = 10.0  # of an attack
 
     @property
     def victim(self) -> str:
@@ -158,6 +160,26 @@ def invented_names(k: Known) -> Messages:
     return bearings_as(k, (f"n{n}" for n in range(k.names)), aside)
 
 
+MAD_HZ = 2000.0
+
+
+def bearings_of_a_stolen_key(k: Known) -> Messages:
+    """A member that has gone mad: signed by its own key, each a new message of its time, each
+    pointing elsewhere. Its name alone must pay for it."""
+    name, begin_us = k.other, now_us() + 1_000_000  # when all are signed
+    count = int(MAD_HZ * k.seconds)
+    boot_id = k.newest("STATUS", name, ols_msg.station_status_t).boot_id
+    mad = k.member(name, boot_id)
+
+    def anywhere(message: Any, number: int) -> None:
+        message.utime = begin_us + int(1e6 * number / MAD_HZ)
+        message.sequence += 1_000_000
+        message.azimuth_rad = 2.0 * math.pi * (0.618 * number % 1.0)
+
+    made = bearings_as(k, itertools.repeat(name, count), anywhere)
+    return [(channel, mad.sign(channel, data)) for channel, data in made]
+
+
 HOSTILE = (math.nan, math.inf, -math.inf, 1e308, -1e308, 0.0, 5e-324)
 
 
@@ -230,3 +252,9 @@ def all_attacks(names: int) -> list[Callable[[Known], Attack]]:
     flood = "flood of 50 000 unsigned/s"
     attacks.append(lambda k: Attack(flood, "fusion", bearings_in_real_names(k), FLOOD_HZ))
     return attacks
+
+
+def stolen_key(k: Known) -> Attack:
+    """The last one: its name stays silent."""
+    name = "a stolen key gone mad"
+    return Attack(name, "fusion", bearings_of_a_stolen_key(k), MAD_HZ, may_be_believed=True)
