@@ -1,7 +1,6 @@
 #include "central/app/fusion_settings.h"
 
-#include "base/config_section.h"
-#include "base/lcm_url.h"
+#include "base/config_common.h"
 
 namespace ols::fusion {
 namespace {
@@ -62,9 +61,9 @@ Section tracks_section(TrackManagerConfig& c) {
            config::number("confirm_s", c.confirm_s, {0.0, 60.0}, "s",
                           "Minimum age of a track that only two stations confirm."),
            config::number("coast_s", c.coast_s, {0.05, 60.0}, "s",
-                          "Without a bearing for this long, a track is coasting."),
+                          "A track that no two stations have seen for this long is coasting."),
            config::number("drop_s", c.drop_s, {0.05, 600.0}, "s",
-                          "Without a bearing for this long, a track is dropped.")}};
+                          "A track that no two stations have seen for this long is dropped.")}};
 }
 
 Section slew_section(SlewConfig& c) {
@@ -141,30 +140,24 @@ std::vector<config::Row> admission_rows(FusionConfig& c) {
 
 Section fusion_section(FusionSettings& s) {
   FusionConfig& fusion = s.fusion;
-  Section root{
-      "",
-      "",
-      {config::text("lcm_url", s.lcm_url,
-                    "The bus; ttl=0: only this host, ttl=1: also the other hosts of the site.",
-                    [](const std::string& url) { parse_lcm_url(url); }),
-       config::number("status_interval_s", s.status_interval_s, {0.05, 60.0}, "s",
-                      "Interval of the status messages."),
-       config::number("slew_clock_tolerance_s", s.slew_clock_tolerance_s, {0.1, 60.0}, "s",
-                      "Targets and slews further from this host's clock are withheld.")},
-      {alignment_section(fusion.estimators.alignment), paper_section(fusion.estimators.paper),
-       motion_section(fusion.tracks.filter.motion), station_errors_section(fusion.tracks.errors),
-       tracks_section(fusion.tracks), slew_section(fusion.slew),
-       clocks_section(fusion.admission.clocks), cues_section(fusion.cues),
-       trust::trust_section(s.trust)}};
+  Section root{"",
+               "",
+               {config::bus_url(s.lcm_url),
+                config::number("status_interval_s", s.status_interval_s, {0.05, 60.0}, "s",
+                               "Interval of the status messages."),
+                config::number("slew_clock_tolerance_s", s.slew_clock_tolerance_s, {0.1, 60.0}, "s",
+                               "Targets and slews further from this host's clock are withheld.")},
+               {alignment_section(fusion.estimators.alignment),
+                paper_section(fusion.estimators.paper), motion_section(fusion.tracks.filter.motion),
+                station_errors_section(fusion.tracks.errors), tracks_section(fusion.tracks),
+                slew_section(fusion.slew), clocks_section(fusion.admission.clocks),
+                cues_section(fusion.cues), trust::trust_section(s.trust)}};
   std::ranges::move(admission_rows(fusion), std::back_inserter(root.rows));
   return root;
 }
 
 FusionSettings load_fusion_settings(const std::string& path) {
-  ConfigFile file(path);
-  FusionSettings settings;
-  config::read(fusion_section(settings), file.root());
-  return settings;
+  return config::load(path, fusion_section);
 }
 
 }  // namespace ols::fusion

@@ -96,13 +96,13 @@ void insert_states(Eigen::Index before, Eigen::Index more, FilterGaussian& state
 FilterGaussian mixture(std::span<const FilterGaussian> parts, std::span<const double> weights,
                        Eigen::Index states) {
   if (parts.size() == 1) {
-    FilterGaussian one(parts[0].mean.head(states),
-                       parts[0].covariance.topLeftCorner(states, states));
+    FilterGaussian one{parts[0].mean.head(states),
+                       parts[0].covariance.topLeftCorner(states, states)};
     one.covariance.triangularView<Eigen::StrictlyUpper>() = one.covariance.transpose();
     return one;
   }
   const Mixture all(parts, weights, states);
-  FilterGaussian result(all.mean, FilterMatrix(states, states));
+  FilterGaussian result{all.mean, FilterMatrix(states, states)};
   FilterVector column;
   for (Eigen::Index j = 0; j < states; ++j) {
     all.column(j, states - j, parts, column);

@@ -22,14 +22,12 @@ inline constexpr int kStationStates = kPoseStates + kPlaceStates;
 inline constexpr int kFilterStates = 9 + kStationStates * kFilterStations;
 
 using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
-using FilterMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kFilterStates, kFilterStates>;
+// On the heap: for the greatest number of states it takes 70 kB, for a few stations' a tenth, and
+// filters are copied and kept by the thousand.
+using FilterMatrix = Eigen::MatrixXd;
 using FilterMatrix2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
 
 struct FilterGaussian {
-  FilterGaussian() {}  // without states; its 70 kB are not set to zero
-  FilterGaussian(FilterVector m, FilterMatrix P) : mean(std::move(m)), covariance(std::move(P)) {}
-
   FilterVector mean;
   FilterMatrix covariance;  // lower triangle
 };

@@ -1,11 +1,12 @@
 // The instant for which targets are published: as new as the bearings allow. The filter predicts
 // every target to it, so it need not be one that most stations have passed. Pure.
 //
-// It is the newest stamp, and it is published with the first bearing after which fewer than half of
-// the delivering stations are due: those that have an older frame on its way, by their frame
-// interval. Stations that expose together are thus heard before it, and those that expose in turn
-// keep nobody waiting. One that misses a frame is not waited for until it delivers again, and no
-// epoch waits for longer than 20 ms of message time.
+// It is the newest stamp. A station is delivering if it has sent a bearing lately, and due if its
+// next frame, a frame interval after its newest one, is older than that stamp: it is on its way.
+// Published is as soon as fewer than half of the delivering stations are due. Stations that expose
+// together are thus heard before it, and those that expose in turn keep nobody waiting. One that
+// misses a frame is not waited for until it delivers again, and no epoch waits for longer than 20
+// ms of message time.
 #pragma once
 
 #include <cstddef>
