@@ -9,6 +9,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = (
     *("geometry", "calibration", "base", "command", "edge", "central", "console", "export", "cue"),
+    "bridge",
     *("sim", "tools", "dev"),
 )
 

@@ -12,7 +12,9 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 TROUBLESHOOTING = ROOT / "docs/troubleshooting.md"
 SOURCES = sorted(
-    p for folder in ("base", "central", "cue", "edge") for p in (ROOT / folder).rglob("*.cpp")
+    p
+    for folder in ("base", "bridge", "central", "cue", "edge")
+    for p in (ROOT / folder).rglob("*.cpp")
 )
 
 # ---- links ---------------------------------------------------------------------------------------
@@ -127,6 +129,7 @@ def test_a_unit_names_a_document_that_is_installed(installed):
 def test_sources_name_documents_that_exist():
     for folder in (
         "base",
+        "bridge",
         "central",
         "command",
         "console",
@@ -150,8 +153,8 @@ def test_sources_name_documents_that_exist():
 
 # Texts that begin with one of these are alarms, wherever they stand.
 SUBJECT = re.compile(
-    r"(bus|calibration|camera|clock|commands|computer|emergency stop|gnss|gpio|inclinometer|pose"
-    r"|ptu|recorder|stop|target|trust): (?=\S)"
+    r"(bridge|bus|calibration|camera|clock|commands|computer|emergency stop|gnss|gpio|inclinometer"
+    r"|pose|ptu|recorder|stop|target|trust): (?=\S)"
 )
 # Texts and files whose texts become alarms elsewhere, with what is put before them there.
 CARRIED_ON = {

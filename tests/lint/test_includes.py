@@ -19,13 +19,35 @@ ALLOWED = {
     "console": {"console", "command", "geometry", "base"},
     "export": {"export", "geometry", "base"},
     "cue": {"cue", "export", "geometry", "base"},
+    "bridge": {"bridge", "geometry", "base"},
     "sim": {"sim", "edge", "central", "geometry", "base"},
     "tools": {
-        *("tools", "command", "console", "cue", "export", "edge", "central", "calibration"),
+        *(
+            "tools",
+            "bridge",
+            "command",
+            "console",
+            "cue",
+            "export",
+            "edge",
+            "central",
+            "calibration",
+        ),
         *("geometry", "base"),
     },
     "dev": {
-        *("dev", "tools", "sim", "console", "cue", "export", "edge", "central", "calibration"),
+        *(
+            "dev",
+            "tools",
+            "bridge",
+            "sim",
+            "console",
+            "cue",
+            "export",
+            "edge",
+            "central",
+            "calibration",
+        ),
         *("geometry", "base"),
     },
 }
@@ -40,28 +62,32 @@ SOURCES = sorted(
 # or configuration file, and no header of what is not pure.
 PURE_FOLDERS = (
     *("geometry", "calibration", "base", "command", "edge", "central", "console", "export", "cue"),
-    "sim",
+    *("bridge", "sim"),
 )
 # All but these.
 NOT_PURE = {
     "files": "base/append_line.* base/atomic_file.* base/background_file.cpp "
     "base/calibration_csv.cpp base/csv_files.cpp base/csv_rows.h "
     "base/fix_writer.* base/log_reader.* base/output_check.cpp "
-    "base/small_file.cpp base/toml_config.cpp base/toml_merge.cpp base/persisted_word.cpp "
+    "base/small_file.cpp base/status_file.cpp base/toml_config.cpp base/toml_merge.cpp "
+    "base/persisted_word.cpp "
     "base/trust/key_file.cpp base/trust/site_keeper.* "
     "edge/calibration/*.cpp edge/drift/reference_views.* edge/drift/kept_calibration.* "
     "edge/drift/next_calibration.* "
     "edge/recorder/event_folder.cpp edge/recorder/event_store.cpp "
     "export/conversion.cpp export/fixes.cpp export/geoid.cpp sim/report.cpp "
     "sim/station_files.cpp sim/station_truth_file.cpp",
-    "the message bus": "base/bus_* base/channel_pattern.cpp base/lcm_bus.* base/lcm_url.* "
+    "the message bus": "base/bus_* base/channel_pattern.cpp base/config_common.cpp "
+    "base/lcm_bus.* base/lcm_url.* "
     "base/multicast_socket.* base/trust/bus_trust.* base/trust/messages_trust.* "
     "base/trust/trust_options.h command/messages.* console/console_bus.* console/messages* "
     "edge/messages* edge/video/messages_video.* central/app/messages* "
     "central/app/fusion_bus.* export/export_bus.* export/exporter.* export/messages.* "
-    "export/fixes.h export/readiness.* cue/cue_bus.* cue/messages.* sim/*flood.cpp",
+    "export/fixes.h export/readiness.* cue/cue_bus.* cue/messages.* "
+    "bridge/bridge_bus.* bridge/messages.* sim/*flood.cpp",
     "the operating system": "base/boot_id.cpp base/clocks.h base/command_line.h "
-    "base/plain_text.cpp base/progress.cpp base/service_notifier.cpp base/shutdown.cpp "
+    "base/plain_text.cpp base/progress.cpp base/service_frame.* base/service_notifier.cpp "
+    "base/shutdown.cpp base/trouble_log.cpp "
     "base/wakeup.cpp "
     "edge/host_monitor.cpp edge/rearm_signal.cpp edge/clock/clock_pair.cpp "
     "edge/clock/clock_source.cpp edge/clock/command_output.cpp",
@@ -81,25 +107,27 @@ NOT_PURE = {
     "export/outlet/tcp_socket.cpp export/outlet/mqtt_link.h export/outlet/udp_outlet.* "
     "export/factory.cpp "
     "cue/inlet/inlet.cpp cue/inlet/poll_inlet.* cue/inlet/tcp_inlet.* cue/inlet/udp_inlet.*",
+    "servers of NATS": "bridge/archive_stream.* bridge/nats_link.* bridge/owner_store.*",
     "simulated devices on real wires": "sim/camera_server.cpp sim/exposure_cue.* "
     "sim/gige_control.* sim/gige_device.* sim/gige_stream.* "
     "sim/gnss_line.cpp sim/gpio_socket.cpp sim/inclinometer_line.cpp sim/lens_line.cpp "
     "sim/live_site.* sim/nmea.cpp "
     "sim/ptu_line.cpp sim/ptu_tap.cpp sim/pty.cpp sim/stepped_clock.cpp",
-    "programs": "console/add_user.cpp console/console_config.cpp console/handed_over_socket.cpp "
+    "programs": "console/add_user.cpp console/handed_over_socket.cpp "
     "console/live_socket.h console/main.cpp "
     "console/maps/map_library.cpp console/maps/mbtiles.cpp console/maps/pmtiles.* "
     "console/maps/tile_folder.cpp console/replay/recorded_frames.cpp "
-    "console/replay/replay.* console/web_server.cpp edge/main.cpp edge/config.cpp "
+    "console/replay/replay.* console/web_server.cpp edge/main.cpp "
     "edge/station_process.* edge/kept_pose.cpp edge/station_journal.cpp central/app/main.cpp "
-    "central/app/fusion_process.* central/app/fusion_settings.cpp "
-    "export/main.cpp export/export_config.cpp cue/main.cpp cue/cue_config.cpp sim/*main.cpp",
+    "central/app/fusion_process.* "
+    "export/main.cpp cue/main.cpp "
+    "bridge/main.cpp bridge/bridge_process.* sim/*main.cpp",
 }
 FORBIDDEN_IN_PURE = re.compile(
     r"^(lcm/|ols_msg/|arv|boost/beast|glib|gio|gpiod|gps\.h|systemd/|spdlog/|CLI/|toml\+\+|"
     r"fstream$|iostream$|filesystem$|thread$|mutex$|condition_variable$|chrono$|ctime$|csignal$|"
     r"signal\.h$|unistd\.h$|fcntl\.h$|poll\.h$|termios\.h$|pty\.h$|time\.h$|ifaddrs\.h$|"
-    r"mosquitto\.h$|openssl/|proj\.h$|netdb\.h$|boost/asio/(io_context|ip/udp)|"
+    r"mosquitto\.h$|nats/|openssl/|proj\.h$|netdb\.h$|boost/asio/(io_context|ip/udp)|"
     r"sys/|net/|netinet/|arpa/|linux/|opencv2/(videoio|imgcodecs))"
 )
 CLOCK_OR_GLOBAL = re.compile(

@@ -12,7 +12,8 @@ ROOT = Path(__file__).resolve().parents[2]
 EXPORTER = ROOT / "tools/exporter"
 ALERTS = EXPORTER / "prometheus/alerts.yml"
 METRIC = re.compile(r"\bols_[a-z_]+\b")
-EXISTING = set(METRIC.findall((EXPORTER / "site_metrics.cpp").read_text())) - {"ols_msg"}
+SOURCES = "".join(path.read_text() for path in sorted(EXPORTER.glob("*_metrics.cpp")))
+EXISTING = set(METRIC.findall(SOURCES)) - {"ols_msg"}
 needs_promtool = pytest.mark.skipif(
     shutil.which("promtool") is None, reason="promtool (package prometheus) is not installed"
 )

@@ -26,6 +26,7 @@ NAMESPACES: dict[str, str | None] = {
     "console": "ols::console",
     "export": "ols::exports",  # export is a word of C++
     "cue": "ols::cues",
+    "bridge": "ols::bridge",
     "sim": "ols::sim",
     "tools/calibrate": "ols::calibration",
     "tools/ctl": "ols::ctl",

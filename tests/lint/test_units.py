@@ -86,6 +86,7 @@ def test_a_service_never_opens_packet_sockets(service):
         ("ols-station@.service", 5),
         ("ols-fusion.service", 5),
         ("ols-console.service", 10),
+        ("ols-bridge.service", 10),
         ("ols-cue.service", 10),
         ("ols-export.service", 10),
         ("ols-exporter.service", 10),
@@ -183,7 +184,7 @@ def test_the_installed_tree_is_complete(tmp_path):
     ):
         assert (usr / path).exists(), path
     assert sorted(path.name for path in (usr / "bin").glob("ols-sim*")) == []
-    for program in ("station", "fusion", "logger", "console", "export", "exporter"):
+    for program in ("station", "fusion", "logger", "console", "export", "exporter", "bridge"):
         config = usr / "share/ols/examples" / f"{program}.toml"
         done = run(usr / "bin" / f"ols-{program}", "--config", config, "--check-config")
         assert done.returncode == 0, done.stderr
