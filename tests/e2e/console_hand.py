@@ -112,10 +112,11 @@ class Hand:
         return is_around
 
     def look(self, station):
-        """Shift and a click; true when the object was there in the picture that was clicked."""
+        """Shift and a click; whether the object was there in the picture that was clicked, None
+        while nothing can be clicked."""
         shown = self._shown(station)
         if shown is None:
-            return False
+            return None
         (x, y, width, height), seen_us = shown
         x, y = x + width / 2, y + height / 2
         self._go(station, x, y)

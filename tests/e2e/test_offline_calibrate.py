@@ -1,5 +1,6 @@
 """`ols-calibrate adjust` as a surveyor meets it: what it finds, and what it says of it."""
 
+import datetime
 import tomllib
 
 import numpy as np
@@ -8,6 +9,11 @@ from calibrate_run import SEED, Run
 from ols_calibration import cases
 from ols_calibration.__main__ import errors_of, predict_text, volume
 from ols_calibration.model import ARCSEC, azimuth_elevation
+from ols_calibration.site import UTIME_US
+
+
+def day_of(utime_us):
+    return f"{datetime.datetime.fromtimestamp(utime_us / 1e6, datetime.UTC):%Y-%m-%d}"
 
 
 @pytest.fixture(name="run")
@@ -137,6 +143,21 @@ def test_without_ut1_its_uncertainty_is_in_the_result(tmp_path):
     assert done.returncode == 0
     assert "UT1 - UTC is not stated" in done.stderr
     assert run.report()["stations"][0]["systematic_rms_arcsec"] > stated + 0.4
+
+
+def test_an_old_ut1_is_named_and_its_age_is_in_the_result(tmp_path):
+    run = Run(tmp_path, cases.stars)
+    assert run.adjust("--ut1-date", day_of(UTIME_US)).returncode == 0
+    fresh = run.report()["stations"][0]["systematic_rms_arcsec"]
+    run.output = run.folder / "old"
+    done = run.adjust("--ut1-date", day_of(UTIME_US - 200 * 86400 * 10**6))
+    assert done.returncode == 0, done.stderr
+    assert "UT1 - UTC is old" in done.stderr
+    assert run.report()["stations"][0]["systematic_rms_arcsec"] > fresh + 0.2
+    run.output = run.folder / "none"
+    done = run.adjust("--ut1-date", "29.5.2026")
+    assert done.returncode != 0 and "is no day" in done.stderr
+    assert not run.output.exists()
 
 
 def test_stars_get_their_names_without_a_heading(tmp_path):

@@ -74,27 +74,21 @@ void read_stations(const CaseOptions& options, Case& what) {
 }
 
 void read_sky(const CaseOptions& options, Case& what) {
-  constexpr double kStatedUt1_s = 1e-3;
   Problem& problem = what.problem;
-  if (options.ut1_minus_utc_s) {
-    problem.earth.ut1_minus_utc_s = *options.ut1_minus_utc_s;
-    problem.ut1_sd_s = kStatedUt1_s;
-  }
   if (options.pressure_hPa || options.temperature_degC) {
     Air air = standard_air(problem.stations.front().model.geometry.position.height_m);
     air.pressure_hPa = options.pressure_hPa.value_or(air.pressure_hPa);
     air.temperature_degC = options.temperature_degC.value_or(air.temperature_degC);
     problem.air = air;
   }
-  const bool sky = std::ranges::any_of(problem.observations, [](const Observation& one) {
+  const auto sky = std::ranges::find_if(problem.observations, [](const Observation& one) {
     return one.kind == Kind::kStar || one.kind == Kind::kSun;
   });
-  if (!sky) return;
-  if (!options.ut1_minus_utc_s) {
-    what.warnings.emplace_back(
-        "UT1 - UTC is not stated (--ut1-utc): taken as 0 with a deviation of 0.3 s, 4.5 arc "
-        "seconds of heading");
-  }
+  if (sky == problem.observations.end()) return;
+  problem.earth.ut1_minus_utc_s = options.ut1.minus_utc_s.value_or(0.0);
+  problem.ut1_sd_s = ut1_sd_s(options.ut1, sky->utime_us);
+  const std::string remark = ut1_remark(options.ut1, sky->utime_us);
+  if (!remark.empty()) what.warnings.push_back(remark);
   if (!problem.air) {
     what.warnings.emplace_back(
         "the air is not stated (--pressure, --temperature): taken as the standard atmosphere");

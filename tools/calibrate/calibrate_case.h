@@ -7,6 +7,7 @@
 
 #include "calibration/groups.h"
 #include "edge/calibration/instrument_file.h"
+#include "tools/calibrate/ut1_value.h"
 
 namespace ols::calibration {
 
@@ -15,7 +16,7 @@ struct CaseOptions {
   std::vector<std::string> instruments;  // none, or one for each station
   std::vector<std::string> observations;
   std::string references, predict, output;
-  std::optional<double> ut1_minus_utc_s;
+  Ut1Value ut1;
   std::optional<double> resolution_arcsec;  // a count, as the units print it
   std::optional<double> pressure_hPa, temperature_degC;
 };

@@ -35,8 +35,7 @@ void add_options(CLI::App& app, calibration::CaseOptions& o) {
                  "[arcsec] of a count, as the unit prints it (PR, TR); 11.5714 if not stated; an "
                  "instrument's own counts of a turn come first")
       ->check(CLI::Range(0.1, 1000.0));
-  app.add_option("--ut1-utc", o.ut1_minus_utc_s, "[s] UT1 - UTC, for stars and the sun")
-      ->check(CLI::Range(-1.0, 1.0));
+  add_ut1(app, o.ut1);
   app.add_option("--pressure", o.pressure_hPa, "[hPa] at the station, for stars and the sun")
       ->check(CLI::Range(300.0, 1200.0));
   app.add_option("--temperature", o.temperature_degC, "[degC] for stars and the sun")

@@ -77,8 +77,7 @@ void add_references(CLI::App& app, ProcedureOptions& o) {
   app.add_option("--drone-points", o.drone_points, "where it is to hover; 40 are good")
       ->check(CLI::Range(1, 400));
   add_resume(app, o);
-  app.add_option("--ut1-utc", o.ut1_minus_utc_s, "[s] UT1 - UTC, for stars")
-      ->check(CLI::Range(-1.0, 1.0));
+  add_ut1(app, o.ut1);
   app.add_option("--pressure", o.pressure_hPa, "[hPa] at the station, for stars")
       ->check(CLI::Range(300.0, 1200.0));
   app.add_option("--temperature", o.temperature_degC, "[degC] for stars")
@@ -204,6 +203,13 @@ int run_live(const ProcedureOptions& asked, CalibrationStore& store) {
 }
 
 }  // namespace
+
+void add_ut1(CLI::App& app, Ut1Value& ut1) {
+  app.add_option("--ut1-utc", ut1.minus_utc_s, "[s] UT1 - UTC, for stars and the sun")
+      ->check(CLI::Range(-1.0, 1.0));
+  app.add_option("--ut1-date", ut1.date, "YYYY-MM-DD, the day which that value is of")
+      ->check(CLI::Validator(date_problem, "DAY"));
+}
 
 void add_procedures(CLI::App& app, ProcedureOptions& options) {
   CLI::App* field = add(app, options, "field",

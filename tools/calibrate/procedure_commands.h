@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/trust/trust_config.h"
+#include "tools/calibrate/ut1_value.h"
 
 namespace ols::calibration {
 
@@ -19,8 +20,12 @@ struct ProcedureOptions {
   std::string drone;
   int drone_points = 40;
   std::optional<std::string> resume;  // a folder; empty: the newest one
-  std::optional<double> ut1_minus_utc_s, pressure_hPa, temperature_degC;
+  Ut1Value ut1;
+  std::optional<double> pressure_hPa, temperature_degC;
 };
+
+// --ut1-utc and --ut1-date, which `adjust` has, too.
+void add_ut1(CLI::App& app, Ut1Value& ut1);
 
 // Adds the subcommands; the one that was chosen has its name in `options` after parsing.
 void add_procedures(CLI::App& app, ProcedureOptions& options);

@@ -235,7 +235,7 @@ CaseOptions files_of(const ProcedureOptions& options, const StationFiles& statio
   files.stations = {station.config};
   if (!station.instrument_file.empty()) files.instruments = {station.instrument_file};
   files.observations = {session.observations_path().string()};
-  files.ut1_minus_utc_s = options.ut1_minus_utc_s;
+  files.ut1 = options.ut1;
   files.pressure_hPa = options.pressure_hPa;
   files.temperature_degC = options.temperature_degC;
   return files;

@@ -27,7 +27,8 @@ std::string session_text(const ProcedureOptions& o) {
                     {"overcast", o.overcast},
                     {"drone", o.drone},
                     {"drone_points", o.drone_points},
-                    {"ut1_utc_s", value_of(o.ut1_minus_utc_s)},
+                    {"ut1_utc_s", value_of(o.ut1.minus_utc_s)},
+                    {"ut1_date", o.ut1.date},
                     {"pressure_hPa", value_of(o.pressure_hPa)},
                     {"temperature_degC", value_of(o.temperature_degC)}};
   return object.dump(2) + "\n";
@@ -49,7 +50,7 @@ ProcedureOptions resumed_options(const std::string& text, const ProcedureOptions
     o.overcast = object.at("overcast").get<bool>();
     o.drone = object.at("drone").get<std::string>();
     o.drone_points = object.at("drone_points").get<int>();
-    o.ut1_minus_utc_s = number_of(object.at("ut1_utc_s"));
+    o.ut1 = {number_of(object.at("ut1_utc_s")), object.value("ut1_date", "")};
     o.pressure_hPa = number_of(object.at("pressure_hPa"));
     o.temperature_degC = number_of(object.at("temperature_degC"));
   } catch (const nlohmann::json::exception& error) {

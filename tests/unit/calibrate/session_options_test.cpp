@@ -17,6 +17,7 @@ TEST(SessionOptions, WhatWasAskedForComesBackAndTheRestIsOfNow) {
   then.sun = then.overcast = true;
   then.drone = "drone";
   then.drone_points = 9;
+  then.ut1.date = "2026-05-29";
   then.pressure_hPa = 980.5;
   ProcedureOptions now;
   now.name = "field";
@@ -26,7 +27,7 @@ TEST(SessionOptions, WhatWasAskedForComesBackAndTheRestIsOfNow) {
   EXPECT_EQ(o.station, "alfa.toml");
   EXPECT_EQ(o.script, "answers");
   EXPECT_EQ(session_text(o), session_text(then));
-  EXPECT_FALSE(o.ut1_minus_utc_s);
+  EXPECT_FALSE(o.ut1.minus_utc_s);
 }
 
 TEST(SessionOptions, AnotherProcedureAndADamagedFileAreRefused) {
