@@ -108,4 +108,10 @@ bool decode_exactly(const BusMessage& received, Message& message) {
                         message);
 }
 
+// ... and of the schema that this program knows.
+template <class Message>
+bool decode_of_schema(const BusMessage& received, Message& message) {
+  return decode_exactly(received, message) && message.schema_version == Message::SCHEMA_VERSION;
+}
+
 }  // namespace ols

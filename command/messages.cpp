@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/channel_names.h"
+#include "base/message_stamp.h"
 #include "base/plain_text.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/cue_order_t.hpp"
@@ -49,8 +50,7 @@ std::optional<Kind> kind_of(std::int8_t command) {
 // Whether it is a message of this type and schema, on the channel of its station.
 template <class Message>
 bool is_heard(const BusMessage& bus_message, std::string_view channel, Message& message) {
-  return bus_message.channel.starts_with(channel) && decode_exactly(bus_message, message) &&
-         message.schema_version == Message::SCHEMA_VERSION &&
+  return bus_message.channel.starts_with(channel) && decode_of_schema(bus_message, message) &&
          bus_message.channel == station_channel(channel, message.station);
 }
 
@@ -92,8 +92,7 @@ std::optional<Order> heard_order(const BusMessage& message) {
 
 std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message) {
   ols_msg::station_status_t status;
-  if (!decode_exactly(message, status)) return std::nullopt;
-  if (status.schema_version != ols_msg::station_status_t::SCHEMA_VERSION) return std::nullopt;
+  if (!decode_of_schema(message, status)) return std::nullopt;
   // Channel names are printable (base/bus_datagram.h), hence the station's id too.
   if (message.channel != station_channel(kStatusChannel, status.station)) return std::nullopt;
   status.last_error = plain_text(status.last_error);
@@ -198,19 +197,17 @@ const char* calibration_name(std::int8_t state) {
   }
 }
 
-std::optional<CuesSaid> heard_cues(const BusMessage& message) {
+std::optional<FusionCues> heard_cues(const BusMessage& message) {
   using M = ols_msg::fusion_status_t;
   M status;
-  if (!decode_exactly(message, status) || status.schema_version != M::SCHEMA_VERSION) {
-    return std::nullopt;
-  }
+  if (!decode_of_schema(message, status)) return std::nullopt;
   const auto state_of = [](std::int8_t state) {
     return state == M::CUE_WAITING    ? "waiting"
            : state == M::CUE_SEARCHED ? "searched"
            : state == M::CUE_FOUND    ? "found"
                                       : "forbidden";
   };
-  CuesSaid said;
+  FusionCues said;
   for (std::size_t i = 0; i < status.cue_id.size(); ++i) {
     said.cues.push_back({plain_text(status.cue_id[i]), plain_text(status.cue_label[i]),
                          state_of(status.cue_state[i]), status.cue_target_id[i],
@@ -227,10 +224,7 @@ std::optional<CuesSaid> heard_cues(const BusMessage& message) {
 
 bool OrderSender::send(LcmBus& bus, const CueOrder& order, std::int64_t utime_us) {
   ols_msg::cue_order_t message{};
-  message.utime = utime_us;
-  message.schema_version = ols_msg::cue_order_t::SCHEMA_VERSION;
-  message.boot_id = boot_id_;
-  message.sequence = ++sequence_;
+  stamp_message(message, utime_us, boot_id_, ++sequence_);
   message.lease_s = kLease_s;
   message.cue = order.cue;
   message.allow = order.allow ? 1 : 0;
@@ -239,10 +233,7 @@ bool OrderSender::send(LcmBus& bus, const CueOrder& order, std::int64_t utime_us
 
 template <class Message>
 void OrderSender::address(Message& message, const Order& order, std::int64_t utime_us) {
-  message.utime = utime_us;
-  message.schema_version = Message::SCHEMA_VERSION;
-  message.boot_id = boot_id_;
-  message.sequence = ++sequence_;
+  stamp_message(message, utime_us, boot_id_, ++sequence_);
   message.station = order.station;
   message.lease_s = lease_s(order);
 }

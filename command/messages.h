@@ -41,18 +41,18 @@ const char* clock_name(std::int8_t state);
 const char* calibration_name(std::int8_t state);
 
 // A cue as the fusion's status has it.
-struct CueSaid {
+struct FusionCue {
   std::string id, label, state;  // "waiting", "searched", "found", "forbidden"
   std::int64_t target_id = 0;
   double age_s = 0.0, latitude_deg = 0.0, longitude_deg = 0.0, height_m = 0.0;
   double horizontal_sd_m = 0.0, vertical_sd_m = 0.0;
 };
-struct CuesSaid {
-  std::vector<CueSaid> cues;
+struct FusionCues {
+  std::vector<FusionCue> cues;
   double orders_refused = 0.0;  // a counter
 };
 // Nothing if it is not a fusion's status. Its texts are made safe for a terminal.
-std::optional<CuesSaid> heard_cues(const BusMessage& message);
+std::optional<FusionCues> heard_cues(const BusMessage& message);
 
 // An operator's word on a cue.
 struct CueOrder {

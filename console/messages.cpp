@@ -249,7 +249,7 @@ std::optional<StationHeard> station_from(const BusMessage& message) {
 
 std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& message) {
   ols_msg::bearing_t b;
-  if (!decode_exactly(message, b) || b.schema_version != ols_msg::bearing_t::SCHEMA_VERSION ||
+  if (!decode_of_schema(message, b) ||
       message.channel != station_channel(kBearingChannel, b.station)) {
     return std::nullopt;
   }
@@ -266,9 +266,7 @@ std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& messa
 std::optional<TargetHeard> target_from(const BusMessage& message) {
   using What = TargetHeard::What;
   Target t;
-  if (!decode_exactly(message, t) || t.schema_version != Target::SCHEMA_VERSION) {
-    return std::nullopt;
-  }
+  if (!decode_of_schema(message, t)) return std::nullopt;
   TargetHeard heard{.what = What::kNothing,
                     .boot_id = t.boot_id,
                     .id = number_text(t.target_id),
@@ -304,9 +302,7 @@ std::optional<TargetHeard> target_from(const BusMessage& message) {
 
 std::optional<FusionHeard> fusion_from(const BusMessage& message) {
   ols_msg::fusion_status_t f;
-  if (!decode_exactly(message, f) || f.schema_version != ols_msg::fusion_status_t::SCHEMA_VERSION) {
-    return std::nullopt;
-  }
+  if (!decode_of_schema(message, f)) return std::nullopt;
   Json fields{{"boot", number_text(f.boot_id)},
               {"utime_us", f.utime},
               {"stations", fusion_stations(f)},

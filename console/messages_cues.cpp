@@ -10,7 +10,7 @@ Json cues_of(const BusMessage& message) {
   Json cues = Json::array();
   const auto said = command::heard_cues(message);
   if (!said) return cues;
-  for (const command::CueSaid& cue : said->cues) {
+  for (const command::FusionCue& cue : said->cues) {
     if (cues.size() >= kMostCues) break;
     cues.push_back({{"id", cue.id},
                     {"label", cue.label},

@@ -75,7 +75,7 @@ bool begins_a_stream(std::span<const std::uint8_t> unit) {
 
 std::optional<Picture> picture_from(const BusMessage& message) {
   ols_msg::preview_t p;
-  if (!decode_exactly(message, p) || p.schema_version != ols_msg::preview_t::SCHEMA_VERSION ||
+  if (!decode_of_schema(message, p) ||
       message.channel != station_channel(kPreviewChannel, p.station)) {
     return std::nullopt;
   }

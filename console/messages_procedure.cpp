@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/channel_names.h"
+#include "base/message_stamp.h"
 #include "base/plain_text.h"
 #include "ols_msg/procedure_answer_t.hpp"
 #include "ols_msg/procedure_t.hpp"
@@ -52,7 +53,7 @@ Json lines_of(const std::string& text) {
 
 std::optional<ProcedureHeard> procedure_from(const BusMessage& message) {
   M p;
-  if (!decode_exactly(message, p) || p.schema_version != M::SCHEMA_VERSION ||
+  if (!decode_of_schema(message, p) ||
       message.channel != station_channel(kProcedureChannel, p.station)) {
     return std::nullopt;
   }
@@ -82,10 +83,7 @@ std::optional<ProcedureHeard> procedure_from(const BusMessage& message) {
 
 bool AnswerSender::send(LcmBus& bus, const ProcedureAnswer& answer, std::int64_t utime_us) {
   ols_msg::procedure_answer_t message{};
-  message.utime = utime_us;
-  message.schema_version = ols_msg::procedure_answer_t::SCHEMA_VERSION;
-  message.boot_id = boot_id_;
-  message.sequence = ++sequence_;
+  stamp_message(message, utime_us, boot_id_, ++sequence_);
   message.station = answer.station;
   message.lease_s = kLease_s;
   message.question = answer.question;

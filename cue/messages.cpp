@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
+#include "base/message_stamp.h"
+
 namespace ols::cues {
 
 ols_msg::cue_t to_message(const LiveCue& cue, const Stamp& stamp) {
   ols_msg::cue_t message{};
-  message.utime = stamp.utime_us;
-  message.schema_version = ols_msg::cue_t::SCHEMA_VERSION;
-  message.boot_id = stamp.boot_id;
-  message.sequence = stamp.sequence;
+  stamp_message(message, stamp.utime_us, stamp.boot_id, stamp.sequence);
   message.id = cue.id;
   message.label = cue.label;
   message.state_utime = cue.utime_us;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "base/message_stamp.h"
 #include "edge/messages_borders.h"
 #include "edge/messages_lens.h"
 #include "geometry/angles.h"
@@ -12,6 +13,12 @@ namespace ols::station {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+template <class Message>
+void stamp(Message& message, const Sender& sender, std::int64_t utime_us, std::int64_t sequence) {
+  stamp_message(message, utime_us, sender.boot_id, sequence);
+  message.station = sender.station;
+}
 
 void symmetric(const Eigen::Matrix2d& matrix, double (&out)[3]) {
   out[0] = matrix(0, 0);
@@ -210,11 +217,7 @@ double Sender::monotonic_s(std::int64_t utime_us) const {
 ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
                               const StationSettings& settings, std::int64_t sequence) {
   ols_msg::bearing_t message;
-  message.utime = sender.utime_us(bearing.mid_exposure_s);
-  message.schema_version = ols_msg::bearing_t::SCHEMA_VERSION;
-  message.station = sender.station;
-  message.boot_id = sender.boot_id;
-  message.sequence = sequence;
+  stamp(message, sender, sender.utime_us(bearing.mid_exposure_s), sequence);
   message.track_id = bearing.track_id;
   message.belief = bearing.belief;
   for (int i = 0; i < 3; ++i) {
@@ -240,11 +243,7 @@ ols_msg::station_status_t to_message(const StationReport& report, const Sender& 
                                      std::int64_t sequence) {
   const StationSnapshot& snapshot = report.snapshot;
   ols_msg::station_status_t message;
-  message.utime = sender.utime_us(now_s);
-  message.schema_version = ols_msg::station_status_t::SCHEMA_VERSION;
-  message.station = sender.station;
-  message.boot_id = sender.boot_id;
-  message.sequence = sequence;
+  stamp(message, sender, sender.utime_us(now_s), sequence);
   message.state = state_code(snapshot.state);
   message.track_id = snapshot.track_id;
   message.belief = snapshot.belief;
@@ -267,11 +266,7 @@ ols_msg::preview_t to_message(const video::PreviewPicture& picture, const camera
                               const std::optional<cv::Rect2d>& box, const Sender& sender,
                               std::int64_t sequence) {
   ols_msg::preview_t message;
-  message.utime = sender.utime_us(frame.mid_exposure_s);
-  message.schema_version = ols_msg::preview_t::SCHEMA_VERSION;
-  message.station = sender.station;
-  message.boot_id = sender.boot_id;
-  message.sequence = sequence;
+  stamp(message, sender, sender.utime_us(frame.mid_exposure_s), sequence);
   message.full_width_px = frame.gray.cols;
   message.full_height_px = frame.gray.rows;
   message.has_box = box.has_value();
@@ -290,11 +285,7 @@ ols_msg::frame_part_t to_message(const FramePart& part, const Sender& sender,
                                  std::int64_t sequence) {
   const RequestedFrame& of = part.frame->frame;
   ols_msg::frame_part_t message;
-  message.utime = part.utime_us;
-  message.schema_version = ols_msg::frame_part_t::SCHEMA_VERSION;
-  message.station = sender.station;
-  message.boot_id = sender.boot_id;
-  message.sequence = sequence;
+  stamp(message, sender, part.utime_us, sequence);
   message.request_boot_id = of.request.boot_id;
   message.request_sequence = of.request.sequence;
   message.utime_sd_s = of.frame.stamp_sd_s;

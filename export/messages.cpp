@@ -27,9 +27,7 @@ constexpr double kMostEarth_m = 1e8;  // of an ECEF component
 template <class Message>
 std::optional<Message> decoded(const BusMessage& message) {
   Message content{};
-  if (!decode_exactly(message, content) || content.schema_version != Message::SCHEMA_VERSION) {
-    return std::nullopt;
-  }
+  if (!decode_of_schema(message, content)) return std::nullopt;
   return content;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/channel_names.h"
+#include "base/message_stamp.h"
 #include "ols_msg/designate_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/slew_t.hpp"
@@ -40,10 +41,8 @@ int CommandFlood::below(int limit) {
 // A fresh command from an unknown sender.
 template <class Message>
 void CommandFlood::address(Message& message, std::int64_t utime_us) {
-  message.utime = utime_us;
-  message.schema_version = Message::SCHEMA_VERSION;
-  message.boot_id = static_cast<std::int64_t>(random_() >> 1U);
-  message.sequence = 1 + below(1000);
+  const auto boot_id = static_cast<std::int64_t>(random_() >> 1U);
+  stamp_message(message, utime_us, boot_id, 1 + below(1000));
   message.station = station_;
   message.lease_s = kLease_s;
 }

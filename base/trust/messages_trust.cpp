@@ -2,6 +2,8 @@
 
 #include <exception>
 
+#include "base/message_stamp.h"
+
 namespace ols::trust {
 namespace {
 
@@ -9,10 +11,7 @@ template <class Message>
 Message telling(const std::string& text, std::int64_t boot_id, std::int64_t sequence,
                 std::int64_t utime_us) {
   Message message;
-  message.utime = utime_us;
-  message.schema_version = Message::SCHEMA_VERSION;
-  message.boot_id = boot_id;
-  message.sequence = sequence;
+  stamp_message(message, utime_us, boot_id, sequence);
   message.text = text;
   return message;
 }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/lcm_bus.h"
+#include "base/message_stamp.h"
 #include "base/plain_text.h"
 #include "central/admission/bearing_check.h"
 #include "geometry/angles.h"
@@ -23,13 +24,19 @@ constexpr std::size_t kAlarms = 16;         // max number in a status
 constexpr std::size_t kLongestError = 500;  // in a status
 constexpr std::size_t kLongestId = 100;     // of a cue
 
+template <class Message>
+std::optional<MessageRefusal> decode(const void* data, int bytes, Message& message) {
+  if (!decode_exactly(data, bytes, message)) return MessageRefusal::kMalformed;
+  if (message.schema_version != Message::SCHEMA_VERSION) return MessageRefusal::kSchema;
+  return std::nullopt;
+}
+
 // Checks that apply to every message of a station.
 template <class Message>
 std::optional<MessageRefusal> decode_from_station(std::string_view prefix,
                                                   const std::string& channel, const void* data,
                                                   int bytes, Message& message) {
-  if (!decode_exactly(data, bytes, message)) return MessageRefusal::kMalformed;
-  if (message.schema_version != Message::SCHEMA_VERSION) return MessageRefusal::kSchema;
+  if (const auto refusal = decode(data, bytes, message)) return refusal;
   if (message.station.empty() || channel != std::string(prefix) + message.station) {
     return MessageRefusal::kOtherStation;
   }
@@ -214,17 +221,13 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
 
 std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, int bytes) {
   ols_msg::fusion_status_t message;
-  if (!decode_exactly(data, bytes, message)) return MessageRefusal::kMalformed;
-  if (message.schema_version != ols_msg::fusion_status_t::SCHEMA_VERSION) {
-    return MessageRefusal::kSchema;
-  }
+  if (const auto refusal = decode(data, bytes, message)) return *refusal;
   return message.boot_id;
 }
 
 std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes) {
   ols_msg::cue_t message;
-  if (!decode_exactly(data, bytes, message)) return MessageRefusal::kMalformed;
-  if (message.schema_version != ols_msg::cue_t::SCHEMA_VERSION) return MessageRefusal::kSchema;
+  if (const auto refusal = decode(data, bytes, message)) return *refusal;
   if (message.id.size() > kLongestId) return MessageRefusal::kMalformed;
   Cue cue;
   cue.id = plain_text(message.id);
@@ -241,10 +244,7 @@ std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes) {
 
 std::variant<CueOrder, MessageRefusal> cue_order_from(const void* data, int bytes) {
   ols_msg::cue_order_t message;
-  if (!decode_exactly(data, bytes, message)) return MessageRefusal::kMalformed;
-  if (message.schema_version != ols_msg::cue_order_t::SCHEMA_VERSION) {
-    return MessageRefusal::kSchema;
-  }
+  if (const auto refusal = decode(data, bytes, message)) return *refusal;
   if (!(message.lease_s > 0.0) || message.cue.size() > kLongestId) {
     return MessageRefusal::kOutOfRange;
   }
@@ -254,10 +254,7 @@ std::variant<CueOrder, MessageRefusal> cue_order_from(const void* data, int byte
 
 ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stamp) {
   ols_msg::target_t message;
-  message.utime = target.utime_us;
-  message.schema_version = ols_msg::target_t::SCHEMA_VERSION;
-  message.boot_id = stamp.boot_id;
-  message.sequence = stamp.sequence;
+  stamp_message(message, target.utime_us, stamp.boot_id, stamp.sequence);
   message.target_id = target.target_id;
   message.estimator = target.estimator;
   message.solution = static_cast<std::int8_t>(target.estimate.solution);
@@ -278,10 +275,7 @@ ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stam
 
 ols_msg::slew_t to_message(const Slew& slew, const MessageStamp& stamp) {
   ols_msg::slew_t message;
-  message.utime = slew.utime_us;
-  message.schema_version = ols_msg::slew_t::SCHEMA_VERSION;
-  message.boot_id = stamp.boot_id;
-  message.sequence = stamp.sequence;
+  stamp_message(message, slew.utime_us, stamp.boot_id, stamp.sequence);
   message.station = slew.station;
   message.lease_s = slew.lease_s;
   message.target_id = slew.target_id;
@@ -334,10 +328,7 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
                                     const MessageStamp& stamp) {
   ols_msg::fusion_status_t message;
   fill_cues(health.cues, message);
-  message.utime = health.now_us;
-  message.schema_version = ols_msg::fusion_status_t::SCHEMA_VERSION;
-  message.boot_id = stamp.boot_id;
-  message.sequence = stamp.sequence;
+  stamp_message(message, health.now_us, stamp.boot_id, stamp.sequence);
   message.stations_known = static_cast<std::int32_t>(health.stations.size());
   const auto told = in_turn(health.stations, stamp.sequence);
   message.stations = static_cast<std::int16_t>(told.size());

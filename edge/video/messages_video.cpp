@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "base/message_stamp.h"
 #include "ols_msg/video_frame_t.hpp"
 #include "ols_msg/video_request_t.hpp"
 #include "ols_msg/video_stream_request_t.hpp"
@@ -86,11 +87,8 @@ std::vector<std::uint8_t> encode_frame(const VideoFrame& frame, std::int64_t seq
                                        const VideoSender& sender, const VideoRequest& request,
                                        H264Encoder& stream) {
   ols_msg::video_frame_t message;
-  message.utime = frame.utime_us;
-  message.schema_version = ols_msg::video_frame_t::SCHEMA_VERSION;
+  stamp_message(message, frame.utime_us, sender.boot_id, sequence);
   message.station = sender.station;
-  message.boot_id = sender.boot_id;
-  message.sequence = sequence;
   message.full_width_px = frame.gray.cols;
   message.full_height_px = frame.gray.rows;
   message.has_box = frame.box.has_value();

@@ -8,6 +8,7 @@
 #include "base/boot_id.h"
 #include "base/channel_names.h"
 #include "base/clocks.h"
+#include "base/message_stamp.h"
 #include "command/messages.h"
 #include "geometry/angles.h"
 #include "ols_msg/bearing_t.hpp"
@@ -51,10 +52,7 @@ StationLink::StationLink(LcmBus& bus, std::string station)
 
 template <class Message>
 void StationLink::address(Message& message, double lease_s) {
-  message.utime = clock_utime_us();
-  message.schema_version = Message::SCHEMA_VERSION;
-  message.boot_id = boot_id_;
-  message.sequence = ++sequence_;
+  stamp_message(message, clock_utime_us(), boot_id_, ++sequence_);
   message.station = station_;
   message.lease_s = lease_s;
 }
@@ -158,8 +156,7 @@ void StationLink::ask_frame(Arrival arrival, bool lossless) {
 
 void StationLink::hear_part(const BusMessage& message) {
   ols_msg::frame_part_t part;
-  if (!decode_exactly(message, part)) return;
-  if (part.schema_version != ols_msg::frame_part_t::SCHEMA_VERSION) return;
+  if (!decode_of_schema(message, part)) return;
   auto file = awaited_.hear_part(part, clock_monotonic_s());
   if (file) complete(std::move(*file), part);
 }
@@ -182,11 +179,8 @@ std::optional<FrameFile> StationLink::take_frame() { return std::exchange(frame_
 
 void StationLink::publish(ols_msg::procedure_t message) {
   answers_.ask(message.state == ols_msg::procedure_t::STATE_ASKING ? message.question : 0);
-  message.utime = clock_utime_us();
-  message.schema_version = ols_msg::procedure_t::SCHEMA_VERSION;
+  stamp_message(message, clock_utime_us(), boot_id_, ++procedure_sequence_);
   message.station = station_;
-  message.boot_id = boot_id_;
-  message.sequence = ++procedure_sequence_;
   message.choices = static_cast<std::int16_t>(message.choice.size());
   message.jpeg_bytes = static_cast<std::int32_t>(message.jpeg.size());
   bus_.publish(station_channel(kProcedureChannel, station_), message);
@@ -194,11 +188,7 @@ void StationLink::publish(ols_msg::procedure_t message) {
 
 void StationLink::hear_answer(const BusMessage& message) {
   ols_msg::procedure_answer_t answer;
-  if (!decode_exactly(message, answer)) return;
-  if (answer.schema_version != ols_msg::procedure_answer_t::SCHEMA_VERSION ||
-      answer.station != station_) {
-    return;
-  }
+  if (!decode_of_schema(message, answer) || answer.station != station_) return;
   answers_.hear(answer, clock_utime_us());
 }
 

@@ -5,12 +5,12 @@
 
 namespace ols::ctl {
 
-std::string cue_table(const command::CuesSaid& said) {
+std::string cue_table(const command::FusionCues& said) {
   if (said.cues.empty()) return "no cues\n";
   std::string table =
       "cue                  state      target   age s   latitude deg  longitude deg   height m  "
       "1-sigma m  label\n";
-  for (const command::CueSaid& cue : said.cues) {
+  for (const command::FusionCue& cue : said.cues) {
     char row[160];
     std::snprintf(
         row, sizeof row, " %-9s %7s %7.1f  %13.6f  %13.6f  %9.1f  %4.0f %4.0f  ", cue.state.c_str(),

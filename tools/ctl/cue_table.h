@@ -7,6 +7,6 @@
 
 namespace ols::ctl {
 
-std::string cue_table(const command::CuesSaid& said);
+std::string cue_table(const command::FusionCues& said);
 
 }  // namespace ols::ctl

@@ -14,7 +14,7 @@
 #include "base/trust/trust_options.h"
 #include "geometry/angles.h"
 #include "geometry/slew_limits.h"
-#include "tools/ctl/cue_hand.h"
+#include "tools/ctl/cue_operator.h"
 #include "tools/ctl/cue_table.h"
 #include "tools/ctl/fleet_table.h"
 #include "tools/ctl/operator.h"
@@ -113,7 +113,7 @@ struct Words {
 };
 
 int run_cues(const Words& words) {
-  ols::ctl::CueHand hand(words.url, words.trust);
+  ols::ctl::CueOperator hand(words.url, words.trust);
   if (words.cue_order) {
     const auto refusal = hand.give(*words.cue_order, kPatience_s);
     std::printf("%s: %s\n", words.cue_order->cue.c_str(), refusal ? refusal->c_str() : "done");
@@ -192,11 +192,11 @@ void add_point_commands(CLI::App& app, Words& words) {
       };
     });
   };
-  at_point("centre", "Turn so that what is at a pixel comes to the middle",
+  at_point("centre", "Turn until a pixel is in the middle of the picture",
            ols::command::Kind::kCentre);
   at_point("look",
-           "Follow the object at a pixel; the others are led along that line of sight until they "
-           "see it",
+           "Follow the object at a pixel, and lead the other stations along that line of sight "
+           "until they see it",
            ols::command::Kind::kLook);
 }
 

@@ -12,8 +12,10 @@ namespace {
 
 constexpr int kPoll_ms = 50;
 
-std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config,
-                                            std::int64_t boot_id) {
+}  // namespace
+
+std::shared_ptr<trust::BusTrust> open_operator_trust(const trust::TrustConfig& config,
+                                                     std::int64_t boot_id) {
   trust::Self self;
   self.name = "operator";
   self.boot_id = boot_id;
@@ -21,12 +23,10 @@ std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config,
   return trust::BusTrust::open(config, trust::process_environment(), self);
 }
 
-}  // namespace
-
 Operator::Operator(const std::string& lcm_url, const trust::TrustConfig& trust, std::string station)
     : station_(std::move(station)),
       boot_id_(draw_boot_id()),
-      bus_(lcm_url, open_trust(trust, boot_id_)),
+      bus_(lcm_url, open_operator_trust(trust, boot_id_)),
       sender_(boot_id_) {
   const std::string which = station_ == "all" ? ".*" : station_;
   bus_.subscribe(station_channel(kStatusChannel, which),

@@ -2,7 +2,9 @@
 // status.
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -12,12 +14,15 @@
 
 namespace ols::ctl {
 
+// An operator's signature. Throws ConfigError.
+std::shared_ptr<trust::BusTrust> open_operator_trust(const trust::TrustConfig& config,
+                                                     std::int64_t boot_id);
+
 class Operator {
  public:
   using Statuses = std::map<std::string, ols_msg::station_status_t>;
 
-  // `station` or "all". Throws BusError.
-  // Throws BusError, or ConfigError if it cannot sign.
+  // `station` or "all". Throws BusError, or ConfigError if it cannot sign.
   Operator(const std::string& lcm_url, const trust::TrustConfig& trust, std::string station);
 
   // Listens and returns the newest status of each addressed station. One named station: until its

@@ -11,13 +11,13 @@
 
 namespace ols::ctl {
 
-class CueHand {
+class CueOperator {
  public:
   // Throws BusError, or ConfigError if it cannot sign.
-  CueHand(const std::string& lcm_url, const trust::TrustConfig& trust);
+  CueOperator(const std::string& lcm_url, const trust::TrustConfig& trust);
 
   // The fusion's next status; nothing within this time: there is no fusion.
-  std::optional<command::CuesSaid> listen(double timeout_s);
+  std::optional<command::FusionCues> listen(double timeout_s);
   // Waits for the status that shows it. Nothing if it was taken, otherwise why not.
   std::optional<std::string> give(const command::CueOrder& order, double timeout_s);
 
@@ -25,7 +25,7 @@ class CueHand {
   const std::int64_t boot_id_;
   LcmBus bus_;
   command::OrderSender sender_;
-  std::optional<command::CuesSaid> said_;
+  std::optional<command::FusionCues> said_;
 };
 
 }  // namespace ols::ctl
