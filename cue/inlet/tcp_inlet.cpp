@@ -1,14 +1,13 @@
 #include "cue/inlet/tcp_inlet.h"
 
-#include <netinet/tcp.h>
-#include <sys/socket.h>
-
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/error.hpp>
 #include <chrono>
 #include <string>
 #include <utility>
+
+#include "base/tcp_keepalive.h"
 
 namespace ols::cues {
 namespace {
@@ -18,18 +17,6 @@ using Error = boost::system::error_code;
 
 constexpr auto kPatience = std::chrono::seconds(3);
 constexpr std::size_t kPiece_bytes = 4096;  // what is read of it takes a few milliseconds at most
-
-// A server that has vanished without a word is noticed within 5 s: the kernel asks.
-void notice_when_gone(asio::ip::tcp::socket& socket) {
-  constexpr int kIdle_s = 2, kInterval_s = 1, kProbes = 3;
-  const auto set = [&socket](int level, int name, int value) {
-    ::setsockopt(socket.native_handle(), level, name, &value, sizeof value);
-  };
-  set(SOL_SOCKET, SO_KEEPALIVE, 1);
-  set(IPPROTO_TCP, TCP_KEEPIDLE, kIdle_s);
-  set(IPPROTO_TCP, TCP_KEEPINTVL, kInterval_s);
-  set(IPPROTO_TCP, TCP_KEEPCNT, kProbes);
-}
 
 }  // namespace
 
@@ -78,7 +65,8 @@ void TcpInlet::connect(const asio::ip::tcp::resolver::results_type& found) {
 
 void TcpInlet::connected() {
   timer_.cancel();
-  notice_when_gone(socket_);
+  // A server that has vanished without a word is noticed within 5 s.
+  keep_alive(socket_.native_handle(), {.idle_s = 2, .interval_s = 1, .probes = 3});
   back_off_.after_success();
   opened();
   sink_.begins();

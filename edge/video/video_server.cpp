@@ -1,15 +1,10 @@
 #include "edge/video/video_server.h"
 
-#include <netinet/tcp.h>
-#include <sys/socket.h>
-
 #include <algorithm>
 #include <atomic>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
-#include <map>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 #include <stop_token>
 #include <utility>
@@ -17,6 +12,7 @@
 #include "base/clocks.h"
 #include "base/ip_endpoint.h"
 #include "base/ip_networks.h"
+#include "base/tcp_keepalive.h"
 #include "edge/device/device_thread.h"
 #include "edge/video/messages_video.h"
 #include "edge/video/video_session.h"
@@ -24,22 +20,6 @@
 namespace ols::video {
 namespace asio = boost::asio;
 using Error = boost::system::error_code;
-
-namespace {
-
-// A viewer whose host has lost its power says nothing any more: the kernel asks.
-void notice_when_gone(asio::ip::tcp::socket& socket) {
-  constexpr int kIdle_s = 10, kInterval_s = 5, kProbes = 3;
-  const auto set = [&socket](int level, int name, int value) {
-    ::setsockopt(socket.native_handle(), level, name, &value, sizeof value);
-  };
-  set(SOL_SOCKET, SO_KEEPALIVE, 1);
-  set(IPPROTO_TCP, TCP_KEEPIDLE, kIdle_s);
-  set(IPPROTO_TCP, TCP_KEEPINTVL, kInterval_s);
-  set(IPPROTO_TCP, TCP_KEEPCNT, kProbes);
-}
-
-}  // namespace
 
 struct VideoServer::Impl {
   // One frame, and what was made of it for one request: viewers who want the same share it.
@@ -116,7 +96,7 @@ struct VideoServer::Impl {
       return;  // closes it
     }
     socket.set_option(asio::ip::tcp::no_delay(true), gone);
-    notice_when_gone(socket);
+    keep_alive(socket.native_handle(), {.idle_s = 10, .interval_s = 5, .probes = 3});
     const auto session = std::make_shared<VideoSession>(
         std::move(socket),
         VideoSession::Callbacks{

@@ -87,7 +87,7 @@ NOT_PURE = {
     "bridge/bridge_bus.* bridge/messages.* sim/*flood.cpp",
     "the operating system": "base/boot_id.cpp base/clocks.h base/command_line.h "
     "base/plain_text.cpp base/progress.cpp base/service_frame.* base/service_notifier.cpp "
-    "base/shutdown.cpp base/trouble_log.cpp "
+    "base/shutdown.cpp base/tcp_keepalive.cpp base/trouble_log.cpp "
     "base/wakeup.cpp "
     "edge/host_monitor.cpp edge/rearm_signal.cpp edge/clock/clock_pair.cpp "
     "edge/clock/clock_source.cpp edge/clock/command_output.cpp",
