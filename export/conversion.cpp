@@ -9,7 +9,7 @@
 #include "export/factory.h"
 #include "export/fixes.h"
 #include "export/readiness.h"
-#include "export/tak/cot.h"
+#include "export/tak/cot_encoder.h"
 #include "export/target_book.h"
 
 namespace ols::exports {

@@ -17,7 +17,7 @@
 #include "export/outlet/stream_link.h"
 #include "export/outlet/udp_outlet.h"
 #include "export/sapient/sapient_encoder.h"
-#include "export/tak/cot.h"
+#include "export/tak/cot_encoder.h"
 
 namespace ols::exports {
 namespace {

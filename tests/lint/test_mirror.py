@@ -33,7 +33,7 @@ WITHOUT: dict[str, str] = {
         export/outlet/stream_link.cpp export/outlet/tcp_socket.cpp export/outlet/udp_outlet.cpp
         bridge/archive_stream.cpp bridge/bridge_bus.cpp bridge/bridge_process.cpp
         bridge/nats_link.cpp bridge/owner_store.cpp
-        cue/cue_bus.cpp cue/inlet/*.cpp tools/ctl/cue_hand.cpp""",
+        cue/cue_bus.cpp cue/inlet/*.cpp tools/ctl/cue_operator.cpp""",
     "Aravis and its peer: tested against each other (tests/unit/sim/camera_*_test.cpp)": """
         edge/camera/aravis_*.cpp tools/doctor/aravis_probe.cpp sim/camera_server.cpp
         sim/gige_control.cpp sim/gige_device.cpp""",
@@ -47,7 +47,7 @@ WITHOUT: dict[str, str] = {
         central/fusion/association.cpp central/fusion/bearing_lines.cpp
         central/fusion/fusion_health.cpp central/tracking/track.cpp""",
     "parts of ols-export, tested through it (exporter_test, home_encoder_test, cot_text_test)": """
-        export/output.cpp export/home/discovery.cpp export/tak/cot.cpp""",
+        export/output.cpp export/home/discovery.cpp export/tak/cot_encoder.cpp""",
     "parts of the simulator, tested through it (test_scenario, test_world, test_lockstep)": """
         sim/lead_times.cpp sim/lockstep_station.cpp sim/panorama.cpp sim/report.cpp
         sim/scenario_places.cpp sim/scenario_trajectory.cpp sim/sighted_landmarks.cpp""",

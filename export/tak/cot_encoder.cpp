@@ -1,4 +1,4 @@
-#include "export/tak/cot.h"
+#include "export/tak/cot_encoder.h"
 
 namespace ols::exports {
 
