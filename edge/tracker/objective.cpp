@@ -90,7 +90,7 @@ Similarity Objective::operator()(const Patch& gray, const MaskPatch& candidate_m
   const float product = cv::v_reduce_sum(products);
   return {static_cast<double>(cv::v_reduce_sum(sums)) / greatest_,
           static_cast<double>(kNorm * std::max({product, learnt, -kInverted * learnt})),
-          static_cast<double>(kNorm * product), static_cast<double>(level.deviation / deviation_)};
+          static_cast<double>(level.deviation / deviation_)};
 }
 
 }  // namespace ols::tracker

@@ -22,10 +22,9 @@ const std::array<Number, 256>& exponentials() {
 }
 
 struct Similarity {
-  double similarity = 0.0;         // eq. (5), 0..1
-  double correlation = 0.0;        // of the grey values with the first or the learnt image, -1..1
-  double first_correlation = 0.0;  // with the first image
-  double contrast = 0.0;           // deviation of the grey values, relative to the template's
+  double similarity = 0.0;   // eq. (5), 0..1
+  double correlation = 0.0;  // of the grey values with the first or the learnt image, -1..1
+  double contrast = 0.0;     // deviation of the grey values, relative to the template's
 };
 
 // Eq. (5) divided by its maximum for this template, so 0..1. Each patch's intensities are relative

@@ -82,11 +82,6 @@ def moved_deg(recording: Recording, station: str, start_us: int, end_us: int) ->
     return float(np.abs(angles - angles[0]).max()) if len(angles) else float("nan")
 
 
-def fastest_deg_s(recording: Recording, station: str, start_us: int, end_us: int) -> float:
-    times, angles = ptu_track(recording, station, start_us, end_us)
-    return float(speeds(times, angles).max()) if len(times) else float("nan")
-
-
 def braking(recording: Recording, station: str, edge_us: int) -> tuple[float, float, float]:
     """Of a PTU that turns steadily and then brakes: its speed before [deg/s], when it begins to
     brake after the edge [s], and its deceleration [deg/s^2]. A line through the middle of the

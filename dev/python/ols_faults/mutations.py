@@ -240,10 +240,6 @@ def status_altered(
     return altering(what, f"OLS_STATUS_{station}", change, window)
 
 
-def statuses_lost(station: str, window: Window = ALWAYS) -> Mutation:
-    return lost(f"{station} sends no status", f"OLS_STATUS_{station}", window)
-
-
 def says_nothing(station: str, window: Window = ALWAYS) -> Mutation:
     """Removes all alarms and makes every device well."""
 
@@ -258,11 +254,6 @@ def says_nothing(station: str, window: Window = ALWAYS) -> Mutation:
         )
 
     return status_altered(f"{station} says nothing of it", station, change, window)
-
-
-def says_late(station: str, since_us: int, seconds: float) -> Mutation:
-    window = since_us, since_us + round((seconds + 0.6) * 1e6)
-    return together(f"{station} says so {seconds:g} s later", says_nothing(station, window))
 
 
 def alarm_instead(station: str, text: str, window: Window = ALWAYS) -> Mutation:

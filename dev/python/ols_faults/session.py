@@ -169,9 +169,6 @@ class Session:
     def state(self, station: str) -> str:
         return self.observer.state(station)
 
-    def state_since(self, station: str, since_us: int) -> set[str]:
-        return {STATES.get(s.state, "unknown") for s in self.statuses_since(station, since_us)}
-
     def counter(self, station: str, name: str) -> float:
         status = self.status(station)
         return counters(status).get(name, 0.0) if status else 0.0
