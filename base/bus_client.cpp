@@ -64,4 +64,10 @@ std::string BusClient::trouble() const {
   return "no bus: " + (trouble_.empty() ? "connecting" : trouble_);
 }
 
+std::vector<std::string> BusClient::all_alarms(double now_s) const {
+  std::vector<std::string> all = alarms(now_s);
+  if (!bus_) all.insert(all.begin(), trouble());
+  return all;
+}
+
 }  // namespace ols

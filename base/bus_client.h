@@ -30,7 +30,7 @@ class BusClient {
   // arrives at all; without a connection, tries to connect.
   void turn(double now_s, int wait_ms);
 
-  // The parts of a turn, for who does something between them. Only with a connection.
+  // The parts of a turn, for a caller that does something between them. Only with a connection.
   void handle(double now_s, int wait_ms);
   void end_if_deaf();
 
@@ -41,7 +41,10 @@ class BusClient {
   const std::string& url() const { return url_; }
   // Empty: there is a connection.
   std::string trouble() const;
+  // Of the traffic.
   std::vector<std::string> alarms(double now_s) const { return monitor_.alarms(now_s); }
+  // All that is wrong: that there is no connection, and the alarms of the traffic.
+  std::vector<std::string> all_alarms(double now_s) const;
   void count(std::map<std::string, double>& counters) const { monitor_.count(counters); }
 
  private:

@@ -14,6 +14,14 @@ namespace ols::config {
 Row bus_url(std::string& field);
 Row status_file(std::string& field);
 
+// Of a table's rows, each with a name and, among others, the value that it stands for.
+template <class Row, class T>
+Words<T> words_of(const std::vector<Row>& rows, T Row::*value) {
+  Words<T> words;
+  for (const Row& row : rows) words.emplace_back(row.name, row.*value);
+  return words;
+}
+
 // Letters, digits, - and _: it stands in names of files, in topics and in XML.
 Check word_up_to(std::size_t longest);
 // South, west, north, east; the range of the numbers is the row's.

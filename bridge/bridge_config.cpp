@@ -31,40 +31,42 @@ void check_all(ConfigTable& table, const char* key, const std::vector<std::strin
 }
 
 config::Section nats_section(NatsConfig& n) {
-  return {"nats",
-          "The server of NATS on this host, a leaf of the network of sites: docs/bridge.md.",
-          {config::texts("servers", n.servers, "nats://HOST:PORT or tls://HOST:PORT, any of them."),
-           config::text("credentials", n.credentials,
-                        "File of the user's credentials; empty: nkey and seed, if any."),
-           config::text("nkey", n.nkey, "The user's public key; empty: none."),
-           config::text("seed", n.seed,
-                        "File of that key's seed; empty: ols-nats of the service's credentials."),
-           config::text("authority", n.authority,
-                        "File of the certificates that a server's must be signed by."),
-           config::text("certificate", n.certificate, "File of the user's own; empty: none."),
-           config::text("key", n.key, "File of its private key.")},
-          {},
-          [&n](ConfigTable& table) {
-            if (n.servers.empty()) throw table.error("servers", "must name one");
-            check_all(table, "servers", n.servers, check_server);
-            if (n.certificate.empty() != n.key.empty()) {
-              throw table.error("key", "a certificate and its key belong together");
-            }
-            if (!n.credentials.empty() && !n.nkey.empty()) {
-              throw table.error("nkey", "either credentials or a key");
-            }
-          }};
+  return {
+      "nats",
+      "The server of NATS on this host, a leaf of the network of sites: docs/bridge.md.",
+      {config::texts("servers", n.servers, "nats://HOST:PORT or tls://HOST:PORT, any of them."),
+       config::text("credentials", n.credentials,
+                    "File of the user's credentials; empty: nkey and seed, if any."),
+       config::text("nkey", n.nkey, "The user's public key; empty: none."),
+       config::text("seed", n.seed,
+                    "File of that key's seed; empty: ols-nats of the service's credentials."),
+       config::text("authority", n.authority,
+                    "File of the authorities that may sign a server's certificate."),
+       config::text("certificate", n.certificate, "File of this user's certificate; empty: none."),
+       config::text("key", n.key, "File of its private key.")},
+      {},
+      [&n](ConfigTable& table) {
+        if (n.servers.empty()) throw table.error("servers", "must name one");
+        check_all(table, "servers", n.servers, check_server);
+        if (n.certificate.empty() != n.key.empty()) {
+          throw table.error("key", "a certificate and its key belong together");
+        }
+        if (!n.credentials.empty() && !n.nkey.empty()) {
+          throw table.error("nkey", "either credentials or a key");
+        }
+      }};
 }
 
 config::Section archive_section(ArchiveConfig& a) {
   return {"archive",
           "A stream of the server keeps bearings, statuses and targets, never a command.",
-          {config::flag("keep", a.is_on, "Whether the bridge has the server keep one."),
-           config::number("hours", a.keep_h, {0.1, 24.0 * 366}, "h", "How long."),
+          {config::flag("keep", a.is_on, "Whether the server keeps such a stream."),
+           config::number("hours", a.keep_h, {0.1, 24.0 * 366}, "h",
+                          "How long the stream keeps a message."),
            config::text("domain", a.domain,
-                        "JetStream's domain of the server; empty: of the one that is connected."),
+                        "JetStream domain of the server; empty: that of the connected server."),
            config::texts("sources", a.sources,
-                         "Of a region: domains of sites whose streams it copies.")},
+                         "For a region: JetStream domains of the sites whose streams it copies.")},
           {},
           [&a](ConfigTable& table) { check_all(table, "sources", a.sources, check_name); }};
 }
@@ -72,16 +74,17 @@ config::Section archive_section(ArchiveConfig& a) {
 config::Section ownership_section(OwnershipConfig& o) {
   return {
       "ownership",
-      "Of regions whose fusions see the same targets: one of them owns each.",
-      {config::flag("share", o.is_on, "Whether there are others; alone, a fusion owns all it has."),
-       config::text("name", o.name, "Of this fusion among them; empty: the region's."),
-       config::text("domain", o.domain, "JetStream's domain of the server that keeps the owners."),
+      "For regions whose fusions see the same targets: each target has one owner.",
+      {config::flag(
+           "share", o.is_on,
+           "Whether other fusions share the targets; otherwise this fusion owns all it has."),
+       config::text("name", o.name, "Name of this fusion among them; empty: the region's."),
+       config::text("domain", o.domain, "JetStream domain of the server that keeps the owners."),
        config::numbers("cell_deg", std::span<double>(o.cell_deg), {-180.0, 180.0}, "deg",
-                       "South, west, north, east: whose targets belong to this fusion."),
-       config::number("lease_s", o.lease_s, {0.5, 60.0}, "s",
-                      "A target whose owner is silent this long has another one by then."),
-       config::number("margin_m", o.margin_m, {0.0, 1e5}, "m",
-                      "How far a target is beyond the border, and 3 sigma, before it changes.")},
+                       "South, west, north, east: the area whose targets belong to this fusion."),
+       config::number(
+           "margin_m", o.margin_m, {0.0, 1e5}, "m",
+           "A target changes its owner when it is inside another cell by this and 3 sigma.")},
       {},
       [&o](ConfigTable& table) {
         config::check_area(o.cell_deg, "cell_deg", table);
@@ -105,7 +108,7 @@ void check(const BridgeConfig& c, ConfigTable& root) {
   });
   check_all(root, "commands", c.commands, [](const std::string& word) {
     if (std::ranges::count(commands(), word) == 0) {
-      throw std::invalid_argument("\"" + word + "\" is no command that crosses");
+      throw std::invalid_argument("\"" + word + "\" is not a command that crosses");
     }
   });
   if (c.role == Role::kSite && c.ownership.is_on && !c.targets) {
@@ -122,14 +125,15 @@ config::Section bridge_section(BridgeConfig& c) {
       {config::bus_url(c.lcm_url), config::status_file(c.status_file),
        config::word("role", c.role, {{"site", Role::kSite}, {"region", Role::kRegion}},
                     "site: stations are on this bus; region: a fusion of several sites' stations."),
-       config::text("region", c.region, "Its name in the subjects.", check_name),
-       config::text("site", c.site, "Its name in the subjects.", check_name),
+       config::text("region", c.region, "Its name in the subjects of NATS.", check_name),
+       config::text("site", c.site, "Its name in the subjects of NATS.", check_name),
        config::texts("stations", c.stations,
-                     "Of a site: those that cross; empty: all that are heard."),
+                     "Stations of this site whose messages pass; empty: all that are heard."),
        config::texts("takes", c.takes,
-                     "Others' stations that come in: REGION.SITE.STATION, * for all of a part."),
-       config::texts("commands", c.commands,
-                     "That cross, from a region to a site: slew, ptu, lens, designate, record."),
+                     "Other sites' stations to receive: REGION.SITE.STATION; * stands for any."),
+       config::texts(
+           "commands", c.commands,
+           "Commands that pass from a region to a site: slew, ptu, lens, designate, record."),
        config::flag("targets", c.targets, "Whether the targets of the fusion on this bus go out."),
        config::number("command_age_s", c.command_age_s, {0.05, 10.0}, "s",
                       "An older command is refused.")},

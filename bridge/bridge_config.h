@@ -34,7 +34,6 @@ struct OwnershipConfig {
   std::string name;    // of this fusion among those that may own a target
   std::string domain;  // of the server that keeps the owners
   std::array<double, 4> cell_deg{-90.0, -180.0, 90.0, 180.0};  // south, west, north, east
-  double lease_s = 2.0;
   double margin_m = 2000.0;
 };
 

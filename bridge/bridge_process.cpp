@@ -33,7 +33,6 @@ std::optional<Ownership> make_ownership(const BridgeConfig& config) {
   const std::string& name = config.ownership.name;
   rules.name = (name.empty() ? config.region : name) + "=" + std::to_string(draw_boot_id());
   rules.cell_deg = config.ownership.cell_deg;
-  rules.lease_s = config.ownership.lease_s;
   rules.margin_m = config.ownership.margin_m;
   return Ownership(rules);
 }
@@ -180,10 +179,7 @@ BridgeStatus BridgeProcess::status() {
   BridgeStatus status;
   const Now at = now();
   status.utime_us = at.utime_us;
-  status.bus_alarms = bus_.alarms(at.monotonic_s);
-  if (const std::string trouble = bus_.trouble(); !trouble.empty()) {
-    status.bus_alarms.insert(status.bus_alarms.begin(), trouble);
-  }
+  status.bus_alarms = bus_.all_alarms(at.monotonic_s);
   bus_.count(status.bus_counters);
   status.unsent_to_bus = unsent_to_bus_;
   describe_link(status);

@@ -51,12 +51,12 @@ int act(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Between a bus and the network of sites (NATS)"};
+  CLI::App app{"Passes messages between this site's bus and other sites, over NATS"};
   app.set_version_flag("--version", OLS_VERSION);
   Arguments arguments;
   add_service_options(app, arguments);
   app.add_option("--make-key", arguments.make_key,
-                 "Only make a key: its seed into this new file, the public key is printed");
+                 "Only make a key: write its seed into this new file and print the public key");
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-bridge")) return *status;
   return ols::run_service("ols-bridge", ols::InvalidArgument::kFailure,
                           [&arguments] { return act(arguments); });

@@ -39,13 +39,13 @@ std::vector<std::string> alarms(const BridgeStatus& status) {
   if (!status.link.is_open) all.push_back("bridge: no server: " + status.link.trouble);
   if (!status.gap.empty()) all.push_back("bridge: messages are missing: " + status.gap);
   if (status.archive.is_wanted && !status.archive.is_kept) {
-    all.push_back("bridge: nothing is archived: " + status.archive.trouble);
+    all.push_back("bridge: the archive does not work: " + status.archive.trouble);
   }
   for (const std::string& site : status.archive.standing) {
     all.push_back("bridge: the archive of " + site + " stands still");
   }
   if (status.ownership.is_wanted && !status.ownership.is_confirmed) {
-    all.push_back("bridge: owners of targets are not known, nothing is handed over");
+    all.push_back("bridge: the store of owners does not answer, no target changes its owner");
   }
   return all;
 }

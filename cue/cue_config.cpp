@@ -30,35 +30,26 @@ const FormatRow& row_of(Format format) {
   return *std::ranges::find(formats(), format, &FormatRow::format);
 }
 
-config::Words<Format> format_words() {
-  config::Words<Format> words;
-  for (const FormatRow& row : formats()) words.emplace_back(row.name, row.format);
-  return words;
-}
-
 void check_input(const InputConfig& input, ConfigTable& table) {
   const FormatRow& format = row_of(input.format);
   try {
     const Source source = parse_source(input.from);
     if (std::ranges::find(format.carriers, source.carrier) == format.carriers.end()) {
       throw std::invalid_argument(std::string("the format ") + format.name +
-                                  " does not come that way");
+                                  " cannot be received that way");
     }
   } catch (const std::invalid_argument& bad) {
     throw table.error("from", bad.what());
   }
   config::check_area(input.rules.area_deg, "area_deg", table);
   if (input.format == Format::kCot && input.types.empty()) {
-    throw table.error("types", "without any, nothing is wanted");
+    throw table.error("types", "must not be empty");
   }
 }
 
 config::Section inputs_section(CueConfig& config) {
-  config::Section section;
-  section.name = "input";
-  section.sentence = "One source each; none is there by default.";
-  section.append = [&config] { return input_section(config); };
-  return section;
+  return {"input", "A source; there is none by default.",      {}, {},
+          {},      [&config] { return input_section(config); }};
 }
 
 void check_names(const CueConfig& config, ConfigTable& root) {
@@ -75,32 +66,34 @@ config::Section input_section(CueConfig& config) {
   return {
       "",
       "",
-      {config::text("name", r.name, "Of the input; its cues' names begin with it.",
+      {config::text("name", r.name, "Name of the input; the ids of its cues begin with it.",
                     config::word_up_to(30))
            .required_with_section(),
-       config::word("format", i.format, format_words(), "docs/cues.md says what is read of each.")
+       config::word("format", i.format, config::words_of(formats(), &FormatRow::format),
+                    "Format of the source (docs/cues.md).")
            .required_with_section(),
        config::text("from", i.from,
                     "udp://ADDRESS:PORT?interface=ADDRESS, tcp://HOST:PORT, file:///PATH or "
                     "http://HOST/PATH.",
                     config::not_empty)
            .required_with_section(),
-       config::number("poll_s", i.poll_s, {0.1, 60.0}, "s", "Between two looks at a file."),
-       config::texts("types", i.types, "Events of CoT whose type begins with one of these."),
+       config::number("poll_s", i.poll_s, {0.1, 60.0}, "s",
+                      "Interval of reading a file or a web address."),
+       config::texts("types", i.types, "Types of CoT events to use, or the beginnings of types."),
        config::numbers("area_deg", std::span<double>(r.area_deg), {-180.0, 180.0}, "deg",
-                       "South, west, north, east: what is outside is refused."),
+                       "South, west, north, east: targets outside are refused."),
        config::number("max_age_s", r.max_age_s, {0.5, 60.0}, "s",
-                      "What is older by this host's clock is refused."),
+                      "Older reports, by this host's clock, are refused."),
        config::number("horizontal_sd_m", r.horizontal_sd_m, {0.1, 1e4}, "m",
-                      "1-sigma of a place, east and north each, where its source says none."),
+                      "1-sigma of a position, east and north each, where the source states none."),
        config::number("vertical_sd_m", r.vertical_sd_m, {0.1, 1e4}, "m",
-                      "1-sigma of a height where its source says none."),
+                      "1-sigma of a height where the source states none."),
        config::number("pressure_height_sd_m", r.pressure_height_sd_m, {0.1, 1e4}, "m",
                       "1-sigma of a height by pressure, taken as above the ellipsoid."),
        config::number("velocity_sd_m_s", r.velocity_sd_m_s, {0.1, 1e3}, "m/s",
-                      "1-sigma of a velocity where its source says none."),
+                      "1-sigma of a velocity where the source states none."),
        config::number("speed_sd_m_s", r.speed_sd_m_s, {0.1, 1e3}, "m/s",
-                      "1-sigma of the motion where its source says no velocity.")},
+                      "1-sigma of the speed along each axis where the source states no velocity.")},
       {},
       [&i](ConfigTable& table) { check_input(i, table); }};
 }
@@ -110,14 +103,13 @@ config::Section cue_section(CueConfig& c) {
           "",
           {config::bus_url(c.lcm_url),
            config::text("geoid", c.geoid,
-                        "Grid of the geoid, by its name in PROJ's folders or by its path: of "
-                        "sources of SAPIENT whose heights count from it.",
+                        "Grid of the geoid, by its name in PROJ's folders or by its path; for "
+                        "SAPIENT sources with heights above the geoid.",
                         config::not_empty),
            config::status_file(c.status_file),
-           config::number("rate_hz", c.rate_hz, {2.0, 20.0}, "Hz",
-                          "How often each cue is sent to the fusion."),
-           config::integer("most", c.most, 1, 64, "",
-                           "Cues at the same time, an equal share of them for each input.")},
+           config::integer(
+               "most", c.most, 1, 64, "",
+               "Maximum number of cues at the same time, shared equally among the inputs.")},
           {inputs_section(c), trust::trust_section(c.trust)},
           [&c](ConfigTable& root) { check_names(c, root); }};
 }

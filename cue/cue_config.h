@@ -27,7 +27,6 @@ struct CueConfig {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string geoid = "egm96_15.gtx";
   std::string status_file;
-  double rate_hz = 5.0;
   int most = 32;
   std::deque<InputConfig> inputs;  // whose places stay, as the configuration's table refers to them
   trust::TrustConfig trust;

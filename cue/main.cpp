@@ -30,6 +30,7 @@ namespace cues = ols::cues;
 constexpr int kTurn_ms = 20;
 constexpr double kReading_s = 0.02;  // of a turn: a flood must not keep the loop
 constexpr double kStatus_s = 1.0;
+constexpr double kSend_s = 0.2;  // the fusion ends a cue that has been silent for two seconds
 
 // Without a grid, heights above the geoid are refused one by one, and others are not.
 cues::GeoidHeight geoid_of(const cues::CueConfig& config) {
@@ -102,10 +103,7 @@ cues::CueStatus status_of(const Inputs& inputs, const cues::CueBus& bus, std::si
   status.cues = live;
   bus.count(status.counters);
   status.counters["protobuf_warnings"] = static_cast<double>(ols::exports::protobuf_warnings());
-  status.alarms = bus.alarms(ols::clock_monotonic_s());
-  if (const std::string trouble = bus.trouble(); !trouble.empty()) {
-    status.alarms.insert(status.alarms.begin(), trouble);
-  }
+  status.alarms = bus.all_alarms(ols::clock_monotonic_s());
   status.inputs = inputs.status();
   return status;
 }
@@ -127,7 +125,7 @@ int run(const cues::CueConfig& config) {
     bus.turn(now_s, kTurn_ms);
     inputs.turn();
     if (now_s < send_due_s) return;
-    send_due_s = now_s + 1.0 / config.rate_hz;
+    send_due_s = now_s + kSend_s;
     bus.send(desk.live(ols::clock_utime_us()), ols::clock_utime_us());
   };
   const auto report = [&] {

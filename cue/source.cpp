@@ -23,7 +23,8 @@ Source web_source(const std::string& text) {
   Source source{Carrier::kHttp, address.host, address.port, rest.substr(slash), ""};
   const bool is_plain =
       std::ranges::all_of(source.path, [](unsigned char c) { return c > ' ' && c < 127; });
-  if (!is_plain) throw std::invalid_argument("its path has a character that no address has");
+  if (!is_plain)
+    throw std::invalid_argument("its path has a character that is not allowed in an address");
   return source;
 }
 

@@ -36,16 +36,10 @@ const FormatRow& row_of(Format format) {
   return *std::ranges::find(formats(), format, &FormatRow::format);
 }
 
-config::Words<Format> format_words() {
-  config::Words<Format> words;
-  for (const FormatRow& row : formats()) words.emplace_back(row.name, row.format);
-  return words;
-}
-
 void check_topic(const std::string& topic) {
   const bool is_good = !topic.empty() && topic.size() <= 200 && !topic.ends_with('/') &&
                        topic.find_first_of("+#\"\\ ") == std::string::npos;
-  if (!is_good) throw std::invalid_argument("is no beginning of MQTT topics");
+  if (!is_good) throw std::invalid_argument("is not a prefix of MQTT topics");
 }
 
 // Of an event's type: it goes into XML as it is.
@@ -53,7 +47,7 @@ void check_cot_type(const std::string& type) {
   const bool is_good =
       !type.empty() && type.size() <= 60 &&
       std::ranges::all_of(type, [](unsigned char c) { return std::isalnum(c) != 0 || c == '-'; });
-  if (!is_good) throw std::invalid_argument("is no type of an event, as a-u-A");
+  if (!is_good) throw std::invalid_argument("is not a type of events such as a-u-A");
 }
 
 void check_output(const OutputConfig& output, ConfigTable& table) {
@@ -61,7 +55,7 @@ void check_output(const OutputConfig& output, ConfigTable& table) {
     const Address address = parse_address(output.to);
     const FormatRow& format = row_of(output.format);
     if (std::ranges::find(format.schemes, address.scheme) == format.schemes.end()) {
-      throw std::invalid_argument(std::string("the format ") + format.name + " does not go to " +
+      throw std::invalid_argument(std::string("the format ") + format.name + " cannot be sent to " +
                                   to_string(address.scheme) + "://");
     }
   } catch (const std::invalid_argument& bad) {
@@ -78,11 +72,8 @@ void check_output(const OutputConfig& output, ConfigTable& table) {
 }
 
 config::Section outputs_section(ExportConfig& config) {
-  config::Section section;
-  section.name = "output";
-  section.sentence = "One receiver each; none is there by default.";
-  section.append = [&config] { return output_section(config); };
-  return section;
+  return {"output", "A receiver; there is none by default.",     {}, {},
+          {},       [&config] { return output_section(config); }};
 }
 
 config::Section cot_section(CotSettings& c) {
@@ -92,21 +83,22 @@ config::Section cot_section(CotSettings& c) {
       {config::text("target_type", c.target_type, "Type of a target's events.", check_cot_type),
        config::text("station_type", c.station_type, "Type of a station's events.", check_cot_type),
        config::number("stale_s", c.stale_s, {1.0, 3600.0}, "s",
-                      "After this long without news clients fade an object."),
+                      "Clients fade an object after this long without news."),
        config::number("line_m", c.line_m, {10.0, 1e6}, "m", "How far lines and cones are drawn.")}};
 }
 
 config::Section mqtt_section(HomeSettings& h) {
-  return {"mqtt",
-          "MQTT with Home Assistant's discovery.",
-          {config::text("prefix", h.prefix, "Topics begin with it.", check_topic),
-           config::text("discovery_prefix", h.discovery_prefix,
-                        "Home Assistant's own prefix of discovery.", check_topic),
-           config::number("stale_s", h.stale_s, {0.0, 3600.0}, "s",
-                          "After this long without news Home Assistant shows an entity as "
-                          "unavailable; 0: never."),
-           config::integer("slots", h.slots, 1, 64, "",
-                           "Targets that have entities at the same time.")}};
+  return {
+      "mqtt",
+      "MQTT with Home Assistant's discovery.",
+      {config::text("prefix", h.prefix, "Prefix of the topics.", check_topic),
+       config::text("discovery_prefix", h.discovery_prefix,
+                    "Home Assistant's own prefix of discovery.", check_topic),
+       config::number(
+           "stale_s", h.stale_s, {0.0, 3600.0}, "s",
+           "Home Assistant shows an entity as unavailable after this long without news; 0: never."),
+       config::integer("slots", h.slots, 1, 64, "",
+                       "Number of targets that have entities at the same time.")}};
 }
 
 config::Section asterix_section(AsterixSettings& a) {
@@ -127,7 +119,7 @@ config::Section asterix_section(AsterixSettings& a) {
 
 void check_node(const std::string& id) {
   if (!id.empty() && !is_uuid(id)) {
-    throw std::invalid_argument("is no UUID of version 4 in lower case");
+    throw std::invalid_argument("is not a UUID of version 4 in lower case");
   }
 }
 
@@ -138,7 +130,7 @@ config::Section sapient_section(SapientSettings& s) {
                         "UUID by which others know this site; empty: computed from its name.",
                         check_node),
            config::number("status_s", s.status_s, {1.0, 60.0}, "s",
-                          "Between two reports of the stations' state.")}};
+                          "Interval of the reports of the stations' state.")}};
 }
 
 void check_names(const ExportConfig& config, ConfigTable& root) {
@@ -151,53 +143,57 @@ void check_names(const ExportConfig& config, ConfigTable& root) {
 
 config::Section output_section(ExportConfig& config) {
   OutputConfig& o = config.outputs.emplace_back();
-  return {"",
-          "",
-          {config::text("name", o.name, "Of the output, in status and log.", config::word_up_to(40))
-               .required_with_section(),
-           config::word("format", o.format, format_words(), "docs/exports.md says what is in each.")
-               .required_with_section(),
-           config::text("to", o.to,
-                        "udp://ADDRESS:PORT?ttl=1&interface=ADDRESS, tcp://HOST:PORT, "
-                        "tls://HOST:PORT, mqtt://HOST, mqtts://HOST or file:///PATH.",
-                        config::not_empty)
-               .required_with_section(),
-           config::number("rate_hz", o.gate.rate_hz, {0.01, 100.0}, "Hz",
-                          "Of each object, at most; of a file, how often it is written."),
-           config::flag("targets", o.gate.targets, "Sends targets."),
-           config::flag("tentative", o.gate.tentative, "Targets that are not confirmed yet, too."),
-           config::flag("stations", o.gate.stations, "Sends stations."),
-           config::flag("lines", o.gate.lines,
-                        "Sends the lines on which stations see what they follow."),
-           config::numbers("area_deg", std::span<double>(o.gate.area_deg), {-180.0, 180.0}, "deg",
-                           "South, west, north, east: what is outside is not sent."),
-           config::text("ca", o.ca,
-                        "PEM file with the authority of the receiver's certificate; empty: the "
-                        "system's authorities."),
-           config::text("certificate", o.certificate,
-                        "PEM file with our own certificate for the receiver; empty: none."),
-           config::text("key", o.key, "PEM file with its private key."),
-           config::text("user", o.user, "By which an MQTT broker knows us; empty: by none."),
-           config::text("password_file", o.password_file,
-                        "File whose first line is that user's password.")},
-          {},
-          [&o](ConfigTable& table) { check_output(o, table); }};
+  return {
+      "",
+      "",
+      {config::text("name", o.name, "Name of the output in status and log.", config::word_up_to(40))
+           .required_with_section(),
+       config::word("format", o.format, config::words_of(formats(), &FormatRow::format),
+                    "Format (docs/exports.md).")
+           .required_with_section(),
+       config::text("to", o.to,
+                    "udp://ADDRESS:PORT?ttl=1&interface=ADDRESS, tcp://HOST:PORT, tls://HOST:PORT, "
+                    "mqtt://HOST, mqtts://HOST or file:///PATH.",
+                    config::not_empty)
+           .required_with_section(),
+       config::number("rate_hz", o.gate.rate_hz, {0.01, 100.0}, "Hz",
+                      "Maximum rate of each object; of a file: how often it is written."),
+       config::flag("targets", o.gate.targets, "Sends targets."),
+       config::flag("tentative", o.gate.tentative,
+                    "Sends also targets that are not confirmed yet."),
+       config::flag("stations", o.gate.stations, "Sends stations."),
+       config::flag("lines", o.gate.lines,
+                    "Sends the stations' lines of sight to what they follow."),
+       config::numbers("area_deg", std::span<double>(o.gate.area_deg), {-180.0, 180.0}, "deg",
+                       "South, west, north, east: objects outside are not sent."),
+       config::text("ca", o.ca,
+                    "PEM file with the authority of the receiver's certificate; empty: the "
+                    "system's authorities."),
+       config::text("certificate", o.certificate,
+                    "PEM file with our own certificate for the receiver; empty: none."),
+       config::text("key", o.key, "PEM file with its private key."),
+       config::text("user", o.user, "User name for an MQTT broker; empty: none."),
+       config::text("password_file", o.password_file,
+                    "File whose first line is that user's password.")},
+      {},
+      [&o](ConfigTable& table) { check_output(o, table); }};
 }
 
 config::Section export_section(ExportConfig& c) {
   return {"",
           "",
           {config::bus_url(c.lcm_url),
-           config::text("site", c.site, "Names of objects begin with it.", config::word_up_to(40)),
+           config::text("site", c.site, "Name of the site; the names of objects begin with it.",
+                        config::word_up_to(40)),
            config::text("geoid", c.geoid,
-                        "Grid of the geoid, by its name in PROJ's folders or by its path; formats "
-                        "whose heights count from the sea need it.",
+                        "Grid of the geoid, by its name in PROJ's folders or by its path; needed "
+                        "for formats with heights above sea level.",
                         config::not_empty),
            config::status_file(c.status_file),
            config::number("max_age_s", c.max_age_s, {0.1, 3600.0}, "s",
-                          "What is older by this host's clock is not sent."),
+                          "Older data, by this host's clock, are not sent."),
            config::number("history_min", c.history_min, {0.0, 1440.0}, "min",
-                          "How much of the tracks stands in a file.")},
+                          "Length of the tracks in a file.")},
           {outputs_section(c), cot_section(c.cot), mqtt_section(c.home), asterix_section(c.asterix),
            sapient_section(c.sapient), trust::trust_section(c.trust)},
           [&c](ConfigTable& root) {
@@ -224,7 +220,7 @@ Format format_from(const std::string& name) {
   for (const FormatRow& known : formats()) {
     all.append(all.empty() ? "" : ", ").append(known.name);
   }
-  throw std::invalid_argument("\"" + name + "\" is no format: " + all);
+  throw std::invalid_argument("\"" + name + "\" is not a format: " + all);
 }
 
 }  // namespace ols::exports

@@ -54,10 +54,7 @@ exports::ExportStatus status_of(const exports::Exporter& exporter, const exports
   status.counters = exporter.counters();
   bus.count(status.counters);
   status.counters["protobuf_warnings"] = static_cast<double>(exports::protobuf_warnings());
-  status.alarms = bus.alarms(ols::clock_monotonic_s());
-  if (const std::string trouble = bus.trouble(); !trouble.empty()) {
-    status.alarms.insert(status.alarms.begin(), trouble);
-  }
+  status.alarms = bus.all_alarms(ols::clock_monotonic_s());
   for (const auto& output : exporter.outputs()) {
     status.outputs.emplace_back(output->name(), output->report());
   }

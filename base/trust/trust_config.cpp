@@ -18,9 +18,9 @@ config::Section trust_section(TrustConfig& c) {
   return {"trust",
           "Signatures on the bus (docs/security.md).",
           {config::word("mode", c.mode, kModes,
-                        "off; observe: signs, and counts what is not signed; require: believes "
-                        "only what a member of the site has signed. default: as the environment "
-                        "variable OLS_TRUST says, off without it."),
+                        "off; observe: signs, and counts unsigned messages; require: accepts only "
+                        "messages that a member of the site has signed. default: as the "
+                        "environment variable OLS_TRUST says, or off."),
            config::text("key", c.key, "File of this process's private key.")
                .default_is("the credential ols-key of its unit, NAME.key in OLS_KEYS, or "
                            "/etc/credstore/ols-NAME.key"),

@@ -19,7 +19,10 @@ constexpr double kSlack_m = 20.0, kSlack_m_s = 10.0;  // of two fusions' estimat
 constexpr double kOldest_s = 10.0;                    // extrapolated no further
 constexpr const char* kNobody = "-";                  // successor of a record that was one too many
 
-// Parts of the lease: an owner counts on the least, another fusion waits for the most.
+// An owner that died is replaced within the lease. It is the same for all: with leases of their own
+// two fusions could own a target at the same instant.
+constexpr double kLease_s = 2.0;
+// Parts of it: an owner counts on the least, another fusion waits for the most.
 constexpr double kHeld = 0.75, kInside = 0.8, kOutside = 0.875, kRenewed = 0.2;
 
 double distance_m(const Vector& a, const Vector& b) {
@@ -97,7 +100,7 @@ void Ownership::settle(Entry& entry, std::uint64_t revision) {
     entry.epoch = revision;
     ++counts_.taken;
   }
-  entry.held_until_s = entry.request.asked_s + kHeld * rules_.lease_s;
+  entry.held_until_s = entry.request.asked_s + kHeld * kLease_s;
 }
 
 void Ownership::answer(const std::string& target, StoreAnswer answer, std::uint64_t revision,
@@ -257,7 +260,7 @@ void Ownership::own(Entry& entry, const Seen& seen, const Now& now, Requests& re
   }
   if (now_s < entry.due_s) return;
   ask(entry, Asked::kRenewal, record_of(seen, now), now_s, requests);
-  entry.due_s = now_s + kRenewed * rules_.lease_s;
+  entry.due_s = now_s + kRenewed * kLease_s;
 }
 
 // Another fusion has a record of the same target, which is none of this one's other targets: that
@@ -281,7 +284,7 @@ bool Ownership::may_take(const Entry& entry, double depth_m, double now_s) const
   const double silent_s = now_s - entry.changed_s;
   const OwnerRecord& record = entry.record;
   if (!record.owner.empty()) {
-    return silent_s > (depth_m < 0.0 ? kOutside : kInside) * rules_.lease_s;
+    return silent_s > (depth_m < 0.0 ? kOutside : kInside) * kLease_s;
   }
   if (record.successor == rules_.name) return true;
   // First whom it was released to, then whose region it is in, then anybody.

@@ -24,7 +24,6 @@ namespace ols::bridge {
 struct OwnershipRules {
   std::string name;  // of this fusion and its start: no other has it, ever
   Cell cell_deg{-90.0, -180.0, 90.0, 180.0};
-  double lease_s = 2.0;      // an owner that died is replaced within it
   double margin_m = 2000.0;  // beyond the border, and 3 sigma, before a target changes
 };
 

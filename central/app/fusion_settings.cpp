@@ -76,9 +76,7 @@ Section slew_section(SlewConfig& c) {
                           "A station without a newer slew halts after this time; at most its "
                           "slew_lease_max_s."),
            config::number("coast_s", c.coast_s, {0.0, 60.0}, "s",
-                          "Slews continue for this long after a target's last bearings."),
-           config::number("rate_limit_rad_s", c.rate_limit_rad_s, {0.01, kSlewRateLimit_rad_s},
-                          "rad/s", "Maximum angular rate of a slew, about each axis.")}};
+                          "Slews continue for this long after a target's last bearings.")}};
 }
 
 Section clocks_section(ClockMonitorConfig& c) {
@@ -94,22 +92,22 @@ Section clocks_section(ClockMonitorConfig& c) {
 
 Section cues_section(CueConfig& c) {
   return {"cues",
-          "What others know of targets (docs/cues.md): stations may be led to it.",
+          "Targets that others know of (docs/cues.md), to which stations may be led.",
           {config::word("allow", c.allow,
                         {{"never", CueAllowance::kNever},
                          {"ask", CueAllowance::kAsk},
                          {"all", CueAllowance::kAll}},
-                        "never: cues are only shown; ask: stations are led to those that an "
-                        "operator allows; all: to every one that no operator forbids."),
+                        "never: cues are only shown; ask: stations are led to the cues that an "
+                        "operator allows; all: to all cues that no operator forbids."),
            config::number("range_m", c.range_m, {100.0, 1e6}, "m",
-                          "Of the nearest station: cues further away are refused."),
+                          "Cues farther than this from the nearest station are refused."),
            config::number("max_age_s", c.max_age_s, {0.5, 60.0}, "s",
-                          "Since its source knew its place: older cues are refused."),
+                          "Cues whose position is older are refused."),
            config::number("most_sd_m", c.most_sd_m, {1.0, 1e5}, "m",
-                          "1-sigma of a cue: less certain ones are refused."),
+                          "Cues with a larger 1-sigma are refused."),
            config::number("acceleration_sd_m_s2", c.acceleration_sd_m_s2, {0.0, 100.0}, "m/s^2",
-                          "1-sigma: how fast a cue becomes less certain."),
-           config::integer("most", c.most, 1, 64, "", "Cues at the same time.")}};
+                          "1-sigma of a cue's acceleration: how fast it becomes uncertain."),
+           config::integer("most", c.most, 1, 64, "", "Maximum number of cues at the same time.")}};
 }
 
 std::vector<config::Row> admission_rows(FusionConfig& c) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "central/measurement/time_span.h"
 #include "geometry/angles.h"
@@ -45,11 +44,11 @@ Slew slew_to(const KinematicState& target, const StationTraits& station, const S
   slew.direction = azimuth_elevation_from_enu(line_enu);
   const Eigen::Matrix<double, 3, 2> tangent = R * tangent_basis(slew.direction);
   const Eigen::Vector2d rate = tangent.transpose() * velocity / range_m;
-  const double limit = config.rate_limit_rad_s;
+  constexpr double kLimit = kSlewRateLimit_rad_s;
   // Near the zenith no PTU follows the azimuth; the rate stays finite.
   slew.azimuth_rate_rad_s =
-      std::clamp(rate(0) / std::max(0.01, std::cos(slew.direction.elevation_rad)), -limit, limit);
-  slew.elevation_rate_rad_s = std::clamp(rate(1), -limit, limit);
+      std::clamp(rate(0) / std::max(0.01, std::cos(slew.direction.elevation_rad)), -kLimit, kLimit);
+  slew.elevation_rate_rad_s = std::clamp(rate(1), -kLimit, kLimit);
   const Eigen::Matrix3d own = R * station.camera_sd_enu_m.cwiseAbs2().asDiagonal() * R.transpose();
   const Eigen::Matrix2d spread =
       tangent.transpose() * (target.covariance.topLeftCorner<3, 3>() + own) * tangent;
@@ -214,10 +213,11 @@ Slew SlewPlanner::along(const SlewRound& round, const SlewStation& station,
   slew.direction = look.direction;
   slew.direction_sd_rad = look.sd_rad;
   slew.line = look.line;
-  const double limit = config_.rate_limit_rad_s;
-  slew.azimuth_rate_rad_s = std::clamp(
-      look.rate_rad_s.x() / std::max(0.01, std::cos(look.direction.elevation_rad)), -limit, limit);
-  slew.elevation_rate_rad_s = std::clamp(look.rate_rad_s.y(), -limit, limit);
+  constexpr double kLimit = kSlewRateLimit_rad_s;
+  slew.azimuth_rate_rad_s =
+      std::clamp(look.rate_rad_s.x() / std::max(0.01, std::cos(look.direction.elevation_rad)),
+                 -kLimit, kLimit);
+  slew.elevation_rate_rad_s = std::clamp(look.rate_rad_s.y(), -kLimit, kLimit);
   return slew;
 }
 

@@ -34,10 +34,9 @@ namespace ols::fusion {
 
 struct SlewConfig {
   double rate_hz = 10.0;
-  double act_s = 0.1;    // from the command to its effect: transport, servo cycle
-  double lease_s = 0.5;  // without a newer command the station halts
-  double coast_s = 2.0;  // a target is predicted for this long after its last bearings
-  double rate_limit_rad_s = kSlewRateLimit_rad_s;
+  double act_s = 0.1;         // from the command to its effect: transport, servo cycle
+  double lease_s = 0.5;       // without a newer command the station halts
+  double coast_s = 2.0;       // a target is predicted for this long after its last bearings
   double view_share = 0.5;    // step of a search, over the field of view
   double dwell_s = 0.4;       // at each step
   double search_sigma = 2.5;  // radius of the spiral

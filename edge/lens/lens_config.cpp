@@ -43,9 +43,9 @@ config::Section lens_motor_section(LensMotorConfig& c) {
            config::one_of("baud", c.baud, {9600, 19200, 38400, 115200}, "baud",
                           "Rate of the serial line."),
            number("poll_interval_s", c.poll_interval_s, {0.02, 1.0}, "s",
-                  "Interval of the questions for its zoom position."),
+                  "Interval of asking for the zoom position."),
            number("position_sd", c.position_sd, {1e-5, 0.1}, "",
-                  "1-sigma of a zoom position that it says, its slack included.")},
+                  "1-sigma of the reported zoom position, backlash included.")},
           {point_section(c.points)},
           [&c](ConfigTable& table) {
             if (c.device.empty()) return;

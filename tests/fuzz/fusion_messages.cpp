@@ -18,7 +18,7 @@ void check_target(const ols::fusion::FusedTarget& target) {
 
 // What a station would refuse is not asked for.
 void check_slew(const ols::fusion::Slew& slew) {
-  const double rate_limit = ols::fusion::SlewConfig{}.rate_limit_rad_s;
+  const double rate_limit = ols::kSlewRateLimit_rad_s;
   const auto within = [](double value, double limit) { return std::abs(value) <= limit; };
   ols::fuzz::require(within(slew.direction.azimuth_rad, 2.0 * ols::kPi) &&
                          within(slew.direction.elevation_rad, ols::kPi / 2.0) &&

@@ -14,8 +14,8 @@ config::Section exporter_section(ExporterConfig& config) {
                     "ADDRESS:PORT to serve on; it has no log-in, so keep it from foreign networks.",
                     [](const std::string& text) { parse_endpoint(text); }),
        config::text("bridge_status", config.bridge_status,
-                    "Status file of the ols-bridge on this host, whose state is told, too; empty: "
-                    "none.")},
+                    "Status file of the ols-bridge on this host, whose state is then served as "
+                    "well; empty: none.")},
       {trust::trust_section(config.trust)}};
 }
 

@@ -52,6 +52,7 @@ TEST(BusClient, SubscribesAtEachConnectionAndTellsOfItsEndAndItsReturn) {
   client.end("the network is down");
   EXPECT_EQ(client.bus(), nullptr);
   EXPECT_EQ(client.trouble(), "no bus: the network is down");
+  EXPECT_THAT(client.all_alarms(100.2), ElementsAre("no bus: the network is down"));
   EXPECT_THAT(told, ElementsAre("the network is down"));
 
   client.connect(101.5, BusConnector::kLongest_s);

@@ -35,11 +35,12 @@ TEST(BridgeStatus, EachConditionIsAnAlarm) {
   status.archive.trouble = std::string("full");
   status.archive.standing = {"airfield"};
   status.ownership.is_confirmed = false;
-  EXPECT_THAT(alarms(status),
-              ElementsAre("bridge: no server: gone", "bridge: messages are missing: alfa",
-                          "bridge: nothing is archived: full",
-                          "bridge: the archive of airfield stands still",
-                          "bridge: owners of targets are not known, nothing is handed over"));
+  EXPECT_THAT(
+      alarms(status),
+      ElementsAre("bridge: no server: gone", "bridge: messages are missing: alfa",
+                  "bridge: the archive does not work: full",
+                  "bridge: the archive of airfield stands still",
+                  "bridge: the store of owners does not answer, no target changes its owner"));
   EXPECT_THAT(in_one_line(status), HasSubstr("not connected"));
 }
 

@@ -40,7 +40,7 @@ TEST(ExportConfig, OutputsKeepTheirOwnKeys) {
 
 TEST(ExportConfig, SaysWhatIsWrongWhere) {
   EXPECT_THAT(complaint(output("format = \"cot\"\nto = \"file:///a\"\n")),
-              HasSubstr("the format cot does not go to file://"));
+              HasSubstr("the format cot cannot be sent to file://"));
   EXPECT_THAT(complaint(output("format = \"cot\"\nto = \"udp://here:1\"\n")),
               HasSubstr("export.toml:4: output"));
   EXPECT_THAT(complaint(output("format = \"odt\"\nto = \"udp://1.1.1.1:1\"\n")),
@@ -54,7 +54,7 @@ TEST(ExportConfig, SaysWhatIsWrongWhere) {
   EXPECT_THAT(complaint(good + "password_file = \"/a\"\n"), HasSubstr("user"));
   EXPECT_THAT(complaint("site = \"a b\"\n"), HasSubstr("site"));
   EXPECT_THAT(complaint(output("format = \"sapient\"\nto = \"udp://1.1.1.1:1\"\n")),
-              HasSubstr("the format sapient does not go to udp://"));
+              HasSubstr("the format sapient cannot be sent to udp://"));
   EXPECT_THAT(complaint("[sapient]\nnode_id = \"brno\"\n"), HasSubstr("no UUID of version 4"));
   EXPECT_THAT(complaint("[mqtt]\nprefix = \"a/#\"\n"), HasSubstr("prefix"));
   EXPECT_THAT(complaint("[cot]\ntarget_type = \"a\\\"b\"\n"), HasSubstr("target_type"));

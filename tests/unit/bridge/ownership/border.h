@@ -49,7 +49,7 @@ struct Node {
   void start() {
     ++starts;
     ownership = std::make_unique<Ownership>(
-        OwnershipRules{name + ":" + std::to_string(starts), cell, 2.0, 2000.0});
+        OwnershipRules{name + ":" + std::to_string(starts), cell, 2000.0});
     track_id = static_cast<std::int64_t>(random() % 100'000 + 1);
     is_alive = true;
     heard_revision = 0;
