@@ -1,5 +1,5 @@
-// Reads the bus's messages out of an LCM log, from any record on. What is no record is skipped and
-// counted.
+// Reads the bus's messages out of an LCM log, beginning at any record. Bytes that are no record are
+// skipped and counted.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// A line of SBS, which receivers of aircraft write: cells between commas, the first says of what.
-// Pure.
+// A line of SBS, which receivers of aircraft write: cells between commas, the first is the type
+// of the message. Pure.
 #pragma once
 
 #include <cstddef>

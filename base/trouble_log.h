@@ -1,4 +1,4 @@
-// Logs of each of a program's inputs or outputs what goes wrong, once, and that it works again.
+// Logs the troubles of a program's inputs or outputs: each when it begins, and when it has ended.
 #pragma once
 
 #include <map>

@@ -1,6 +1,5 @@
-// Things of one kind that are known by an id, as JSON objects, each field with the revision at
-// which it last changed: what a viewer has not seen yet is found without a queue for each viewer.
-// Pure.
+// Entities of one kind by their ids, as JSON objects, each field with the revision at which it last
+// changed: so the news for a viewer are found without a queue for each viewer. Pure.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// What happened at the site: errors, alarms, commands, with who, when and what came of it. The
-// newest are kept. Pure.
+// The events at the site: errors, alarms, commands, each with who, when and the outcome. The newest
+// are kept. Pure.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@
 
 namespace ols::console {
 
-// Each may do what the one before may: look; command; say who may log in.
+// Each may do all that the one before may: look; command; manage the users.
 enum class Role { kViewer, kOperator, kAdmin };
 std::string_view name(Role role);
 std::optional<Role> role_named(std::string_view name);
@@ -24,8 +24,7 @@ using Users = std::map<std::string, User>;
 // Throws std::invalid_argument: "FILE:LINE: what is wrong".
 Users parse_users(const std::string& text, const std::string& file);
 std::string users_text(const Users& users);
-// The same users are not without anybody who may say who logs in; else what is wrong. Empty:
-// nothing.
+// What is wrong with a list of users, such as one without an admin; empty: nothing.
 std::string users_problem(const Users& users);
 // What is wrong with a name or a password for a new user; empty: nothing.
 std::string name_problem(std::string_view name);

@@ -16,21 +16,21 @@ namespace ols::station {
 
 class CalibrationInUse {
  public:
-  // Reads the configured folder, if there is one. Never throws for what is in it.
+  // Reads the configured folder, if there is one. Never throws, whatever it contains.
   explicit CalibrationInUse(const StationSettings& configured);
 
-  // What the station works with; the same object whatever is in use.
+  // The settings that the station works with; always the same object.
   const StationSettings& settings() const { return settings_; }
-  // The devices say who they are only once they are open. True if the calibration is of others and
-  // was dropped just now: settings() are others then.
+  // Serial numbers are known only once the devices are open. True if the calibration belongs to
+  // other devices and was dropped just now: settings() have changed then.
   bool refuses(const std::vector<device::DeviceReport>& devices);
-  // The same for what the unit says that a count is [rad]; zero: not known yet. A unit in another
-  // step mode has other errors than were calibrated, and nobody has stated those but the
-  // configuration. It stays so until a restart or another calibration.
+  // The same for the size of a count that the unit reports [rad]; zero: not known yet. A unit in
+  // another step mode has other errors than the calibrated ones, of which only the configuration
+  // says anything. This holds until a restart or another calibration.
   bool refuses(const PanTilt& count_rad);
 
-  // Why these files are not of the devices that are open, nor of such counts; empty: they are, as
-  // far as is known.
+  // Why these files do not belong to the open devices or to such counts; empty: nothing contradicts
+  // that they do.
   static std::string conflict(const CalibrationFiles& files,
                               const std::vector<device::DeviceReport>& devices,
                               const PanTilt& count_rad);

@@ -72,12 +72,12 @@ struct StationSettings {
 config::Section station_section(StationSettings& settings);  // the whole file
 // Throws ConfigError ("file:line: key: what").
 StationSettings load_station_settings(const std::string& path);
-// The same where the site has settings: they stand in for what the file does not state.
+// The same with the site's settings in place of the defaults of keys that the file does not have.
 StationSettings load_station_settings(const std::string& path, const trust::SiteSettings& site);
 // The keys that a site's settings may have in [station]: those that are the same on all stations.
 config::Section site_section(StationSettings& settings);
 
-// What the site's settings must be for the station with this configuration file. Empty: anything.
+// Checks whether the station with this configuration file can use the site's settings.
 trust::SettingsCheck site_check(const std::string& path);
 
 // What is configured, one line a subject, for --check-config.

@@ -24,7 +24,7 @@
 
 namespace ols::station {
 
-// Where the station's key and what it keeps are.
+// The places of the station's key and of its persisted state.
 trust::Environment trust_environment(const StationSettings& settings);
 
 class StationBus {

@@ -1,4 +1,4 @@
-// What a unit says of its counts, against a calibration. Pure.
+// Compares the size of a count that a unit reports with that of a calibration. Pure.
 #pragma once
 
 #include "geometry/station_model.h"

@@ -1,5 +1,5 @@
-// The targets that there are: an end is told once and where, even if it is not said (the fusion has
-// stopped) or said without a place. Pure.
+// The present targets. The end of each is reported once, with its last position, even if the fusion
+// did not report it (because it has stopped) or reported it without a position. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// What a process knows of trust on the bus: its own key, the site's trust list and settings, and
-// what it has heard. Signs what the process sends and judges what it receives; a thread of its own
-// looks after the files, so that no control loop waits for a disk.
+// Signs the messages that a process sends and verifies those that it receives. Holds the process's
+// key, the site's trust list and settings, and the marks against replays; a thread of its own reads
+// and writes the files, so that no control loop waits for a disk.
 #pragma once
 
 #include <condition_variable>

@@ -1,4 +1,4 @@
-// Which role may send on which channel, and what is known of each channel's messages. Pure.
+// Which role may send on which channel, how often, and the form of each channel's messages. Pure.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ enum class Role {
   kOperator,   // commands, procedures
   kSimulator,  // what only the simulator says
   kCue,        // cues from outside
-  kListener,   // only what the root has signed: a logger or a doctor, whose key opens the tag
-  kUnknown,    // of a list that is newer than this program: nothing at all
+  kListener,   // only what the root has signed; its key lets a logger or a doctor read the bus
+  kUnknown,    // in a list that is newer than this program: may send nothing
 };
 const char* to_string(Role role);
 // Nothing for a word that is none of them.

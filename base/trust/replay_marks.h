@@ -1,4 +1,4 @@
-// What has been heard from each key on each channel, so that nothing is heard twice. Pure.
+// The sequences received from each key on each channel, so that no message is accepted twice. Pure.
 //
 // A sender's sequence grows within its boot; datagrams may overtake each other by less than
 // kWindow. Each boot has a mark of its own, so that a recording of an earlier boot is refused
@@ -24,8 +24,7 @@ class ReplayMarks {
   static constexpr std::size_t kBoots = 32;
 
   bool is_replayed(const KeyId& key, const std::string& channel, const MessageHead& head) const;
-  // Only for what is not replayed and has been verified: the number of streams is that of what
-  // enrolled keys may send.
+  // Only for a verified message that is no replay: so enrolled keys bound the number of streams.
   void note(const KeyId& key, const std::string& channel, const MessageHead& head);
 
   // For a restart: one line a boot. read() ignores lines that are not such, and returns their

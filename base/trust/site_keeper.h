@@ -1,5 +1,5 @@
 // The site's settings as a process has them: from the file at the centre or from the bus, whichever
-// has the higher number. Knows the files, keeps what it has heard, says what it refused.
+// has the higher number. Reads and writes their files, and says which it refused.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 namespace ols::trust {
 
 struct SiteFiles {
-  std::string given;  // at the centre: what is told; it need not be there
-  std::string kept;   // the newest heard, for the next start; empty: not kept
+  std::string given;  // at the centre: the settings to publish; the file need not exist
+  std::string kept;   // the newest received, for the next start; empty: not kept
 };
 
 class SiteKeeper {
  public:
-  // Reads both files; one that cannot be used is said by trouble(). `check`: what this program
-  // makes of the settings; none: it only passes them on.
+  // Reads both files; trouble() names one that cannot be used. `check`: whether this program can
+  // use the settings; none: it only passes them on.
   SiteKeeper(const PublicKey& root, SiteFiles files, SettingsCheck check);
 
   SiteSettings settings() const;

@@ -1,5 +1,6 @@
-// What is the same on all hosts of a site, made at the centre by `ols-key settings` and signed by
-// the site's root. Each change has a higher number; a lower one never replaces a higher one.
+// The settings that are the same on all hosts of a site, made at the centre by `ols-key settings`
+// and signed by the site's root. Each change has a higher number; a lower one never replaces a
+// higher one.
 //
 //   site = "airfield"
 //   number = 3

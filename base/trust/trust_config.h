@@ -36,7 +36,7 @@ std::string key_path(const TrustConfig& config, const Environment& environment,
 std::string list_path(const TrustConfig& config, const Environment& environment);
 // Of the site's settings: beside the list.
 std::string settings_path(const TrustConfig& config, const Environment& environment);
-// What is kept of what was heard; empty: nothing, without a folder of state.
+// The file of what was received, for the next start; empty: none, without a folder of state.
 std::string kept_path(const Environment& environment, const std::string& what,
                       const std::string& name);
 

@@ -1,6 +1,6 @@
-// A guided procedure as a sequence of orders: drive there and take a picture, ask a person, or ask
-// the stage again in a moment, because what it needs is still to come. Whoever carries an order out
-// reports what came of it; clock, wires and files are his. Pure.
+// A guided procedure as a sequence of orders: point there and take a picture, ask a person, or ask
+// the stage again in a moment because something that it needs is still to come. The caller carries
+// an order out and reports the result; clock, devices and files are the caller's. Pure.
 #pragma once
 
 #include <Eigen/Core>

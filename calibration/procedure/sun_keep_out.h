@@ -1,7 +1,7 @@
-// Where the unit must not look because the sun stands there: until a filter is on the lens. Pure.
+// The region around the sun into which the unit must not point without a filter on the lens. Pure.
 //
-// It goes by the heading that is known: a compass' error of some degrees is within the margin, a
-// heading that nobody has stated is not.
+// It relies on the known heading: a compass error of some degrees is within the margin, a heading
+// that was never stated is not.
 #pragma once
 
 #include <cstdint>

@@ -129,7 +129,7 @@ void FusionProcess::on_cue(const BusMessage& message) {
   publish(fusion_.add(cue, options_.replay ? cue.utime_us : clock_utime_us()));
 }
 
-// Once, and only while it is fresh: what was recorded on the wire allows nothing later.
+// Each order counts once and only while it is fresh, so that a recorded one has no effect.
 void FusionProcess::on_cue_order(const BusMessage& message) {
   const auto decoded =
       cue_order_from(message.payload.data(), static_cast<int>(message.payload.size()));

@@ -21,7 +21,7 @@ struct Cue {
   double velocity_sd_m_s = 0.0;  // of each axis
 };
 
-// What an operator has to say before stations are led to cues.
+// Whether stations are led to cues: never, to those that an operator allows, to all not forbidden.
 enum class CueAllowance { kNever, kAsk, kAll };
 
 struct CueConfig {

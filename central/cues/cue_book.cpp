@@ -34,7 +34,7 @@ bool CueBook::is_silent(const Live& live, std::int64_t present_us) const {
          seconds(present_us - live.cue.state_us) > config_.max_age_s + kHold_s;
 }
 
-// One that is known needs no room, and what is over leaves its own.
+// A known cue needs no new place, and an ended one leaves its own.
 CueRefusal CueBook::take(const Cue& cue, std::int64_t present_us, const StationRegistry& stations) {
   const CueRefusal refusal = check(cue, present_us, config_);
   if (refusal != CueRefusal::kNone) return refusal;
@@ -45,7 +45,7 @@ CueRefusal CueBook::take(const Cue& cue, std::int64_t present_us, const StationR
   Live& live = cues_[cue.id];
   // Overtaken on the way.
   if (!is_new && cue.state_us < live.cue.state_us) return CueRefusal::kStale;
-  // An operator's word is for what was shown, not for whatever comes under its name.
+  // The operator allowed the cue that was shown, not any other under the same name.
   if (!is_new && live.allowed == true && leaps(CueAim{live.cue, config_.acceleration_sd_m_s2}, cue))
     live.allowed.reset();
   live.cue = cue;

@@ -100,7 +100,7 @@ class BiasModel {
   void observe_noise(const std::string& station, double squared_ratio);
   // The share of a station's noise variance that is new in each bearing, above 0 and at most 1.
   double white_share(const std::string& station) const;
-  // The most that it may be, as far as chance goes: what is taken as white.
+  // Its upper confidence limit.
   double greatest_white_share(const std::string& station) const;
   // By which factor to multiply a bearing's stated variance when bearings come at this interval: 1
   // if the noise is white. declared: the station declares a bias.

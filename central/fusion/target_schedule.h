@@ -1,5 +1,6 @@
-// What is published of an epoch: targets, then bearing-only tracks, then the paper's estimates; a
-// share with each bearing, so that no bearing waits long with many targets. Pure.
+// The order in which an epoch is published: targets, then bearing-only tracks, then the paper's
+// estimates; a part with each bearing, so that no bearing waits long when there are many targets.
+// Pure.
 #pragma once
 
 #include <cstdint>

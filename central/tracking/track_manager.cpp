@@ -90,7 +90,7 @@ void TrackManager::confirm(Track& track) {
   on_confirmed(track);
 }
 
-// What the other tracks have taught of a station remains true: they keep it.
+// Where another track has the station, too, what was learnt of it remains.
 void TrackManager::forget_what_it_taught(const Track& track) {
   const auto has_another = [&](const std::string& station) {
     return std::ranges::any_of(tracks_, [&](const Track& other) {

@@ -1,5 +1,5 @@
-// What has happened to a station since it was calibrated, by views of the same scenery: how far its
-// tripod has turned, or whether something else has moved. Pure.
+// Compares views of the same scenery with those stored at the calibration: how far the tripod has
+// turned since, or whether something else has moved. Pure.
 #pragma once
 
 #include <cstddef>

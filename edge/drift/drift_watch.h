@@ -1,5 +1,5 @@
-// What is known of a station's drift from check to check: nothing is believed that a second look
-// does not confirm, and nothing is corrected. Pure.
+// A station's drift, from check to check: a finding counts once a second check confirms it, and is
+// never used as a correction. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Whether what a box holds is the background: then it differs from an earlier image that shows the
-// background there no more than what surrounds it does.
+// Tells an object from the background in a box, by an earlier image that shows the background
+// there: the background differs from it no more than the surroundings do.
 #pragma once
 
 #include "edge/tracker/foreground_mask.h"

@@ -1,6 +1,5 @@
-// Whether what is followed by its learnt appearance is the target. Following and judging are two
-// things: the filter finds what it has learnt even where it has learnt the wrong thing, so its
-// response alone certifies itself.
+// Judges whether the object that is followed by its learnt appearance is the target. The filter's
+// response alone cannot tell: a filter that has learnt the wrong object finds that object.
 #pragma once
 
 #include <optional>
@@ -25,15 +24,15 @@ class FollowJudge {
  public:
   void start() { *this = {}; }
   void update(const FollowEvidence& evidence, double interval_s);
-  // It has been let go: the doubt about whatever is found next counts anew.
+  // The object has been let go: the time in doubt begins at zero for the next one.
   void start_search() { doubted_s_ = 0.0; }
   double value() const { return value_; }
   bool sure() const;
   bool believes() const;
   bool doubts() const;
-  // Has doubted, and not believed since: what is followed may be what covered the target.
+  // Has doubted, and not believed since: it may be following an object that covered the target.
   bool wary() const { return wary_; }
-  // So long in doubt that what is followed is hardly the target.
+  // In doubt for so long that the followed object is hardly the target.
   bool lets_go() const;
 
  private:

@@ -1,4 +1,5 @@
-// The target's learnt appearance, the judgement on what is followed by it, and the way back.
+// The target's learnt appearance, the judgement whether the followed object is still the target,
+// and the return to the target when it is not.
 #pragma once
 
 #include "edge/tracker/follow_judge.h"
@@ -15,9 +16,9 @@ class Recognition {
       : appearance_(frame, pixel, size_px) {}
 
   LearntAppearance& appearance() { return appearance_; }
-  // Probability that what is followed is the target.
+  // Probability that the followed object is the target.
   double belief() const { return judge_.value(); }
-  // Nothing is learnt of what may be something else.
+  // True: nothing is learnt, because it may be another object.
   bool doubts() const { return judge_.wary(); }
 
   // A caller says where the target is: earlier doubts and memories are of another place.
@@ -27,7 +28,7 @@ class Recognition {
   // Judges `followed` in this frame, which was searched last.
   void judge(const TrackerInput& frame, const ReferenceFrames& references, const Particle& followed,
              double interval_s);
-  // Keeps what is followed for later if it is surely the target.
+  // Remembers the followed object if it is surely the target.
   void remember(const Particle& followed, double time_s);
   // In doubt: returns to what had been learnt while it surely was the target, if that finds it
   // here, where the target was then, or where it would be had it gone on. After long doubt a weaker

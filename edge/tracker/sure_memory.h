@@ -1,5 +1,5 @@
-// The target as it was when last it was surely followed: to return to, once what is followed turns
-// out to be something else. What was learnt meanwhile is of that other thing.
+// The target's state when it was last followed with certainty. The tracker returns to it when it
+// turns out to follow something else, whose appearance it has learnt meanwhile.
 #pragma once
 
 #include <optional>

@@ -42,7 +42,7 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
   // The number of the last frame that it was sent; -1: none yet.
   std::int64_t had() const { return had_; }
   void note_had(std::int64_t frame) { had_ = frame; }
-  // Of its stream: every unit that it makes is sent here, and to nobody else.
+  // Of this connection: every unit that it makes must be sent here, and nowhere else.
   H264Encoder& stream() { return stream_; }
   void close(End end);
 

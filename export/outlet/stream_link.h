@@ -1,5 +1,5 @@
-// A stream over TCP, or over TLS: packets one behind the other. What the receiver says is read, and
-// dropped where nobody wants it, so that it need not wait for us.
+// A stream over TCP or TLS: one packet after the other. What the receiver sends is always read, and
+// dropped if it has no use, so that the receiver need not wait for us.
 #pragma once
 
 #include <memory>

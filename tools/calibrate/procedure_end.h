@@ -1,4 +1,4 @@
-// How a procedure ends: what is kept, which calibration is in use, what the person is told.
+// The end of a procedure: what is kept, which calibration is in use, the messages to the person.
 #pragma once
 
 #include <exception>

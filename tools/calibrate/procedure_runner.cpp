@@ -146,7 +146,7 @@ std::optional<FrameFile> ProcedureRunner::picture_at(FieldProcedure& procedure,
     if (auto frame = station_.take_frame()) return frame;
     const double now_s = clock_monotonic_s();
     if (now_s > station_.awaited().progress_s() + kPatience_s) break;
-    // Whatever has come meanwhile is handled: nothing ends a stop that has been heard of.
+    // All messages of the meantime are handled first: a stop that has arrived must count.
     const bool due =
         !asked_s || now_s >= std::max(*asked_s, station_.awaited().part_heard_s()) + kAskAgain_s;
     if (!aborted_ && due && station_.may_point()) {
