@@ -171,7 +171,7 @@ class Judge {
     Finding finding{name, Judgement::kGood, scale * change.by, scale * change.sd, text};
     if (!change.is_told) {
       finding.judgement = Judgement::kUnchecked;
-      finding.sentence += "of which the pictures say next to nothing";
+      finding.sentence += "hardly determined by the pictures";
     } else {
       if (change.is_large()) finding.judgement = Judgement::kBad;
       finding.sentence += shown(change.sigmas(), " sigma");

@@ -121,7 +121,7 @@ void check_majority(const Adjustment& adjustment, const Fit& fit) {
   }
   if (rejected.empty() || kept.size() > rejected.size()) return;
   throw Contradiction(
-      "the observations contradict each other: no more of them agree than do not: " +
+      "the observations contradict each other: at least as many of them disagree as agree: " +
       listed(groups, kept) + "; against " + listed(groups, rejected));
 }
 
@@ -286,7 +286,7 @@ Calibration calibrate(const Adjustment& adjustment, const Levels& levels) {
     check_heading(adjustment, result.fit);
   } else {
     result.remarks.emplace_back(
-        "nothing that was observed tells a heading: the result is an instrument without a setup");
+        "the observations do not determine a heading: the result is an instrument without a setup");
   }
   check_majority(adjustment, result.fit);
   check_ambiguity(adjustment, result.fit, levels);

@@ -9,7 +9,7 @@ constexpr std::size_t kMostAnswers = 64;
 // A link that was cut delivers late what was sent while it was: the hand has let go since.
 constexpr std::int64_t kLateRate_us = 1'500'000;
 constexpr const char* kAll = "all";
-constexpr const char* kReplay = "this is a replay: no command goes out";
+constexpr const char* kReplay = "this is a replay: commands are not sent";
 constexpr std::size_t kMostReplayRequests = 64;  // of one turn
 
 std::string dumped(const Json& json) {

@@ -187,7 +187,7 @@ int act(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"The console: a live map of the site and the operator's hand, in a browser"};
+  CLI::App app{"The site live in a browser: map, pictures, targets, and commands to the stations"};
   app.set_version_flag("--version", OLS_VERSION);
   Arguments arguments;
   add_service_options(app, arguments);

@@ -31,11 +31,11 @@ const std::string* Procedures::picture(const std::string& station) const {
 
 std::string Procedures::answer(const ProcedureAnswer& answer) {
   const auto kept = kept_.find(answer.station);
-  if (kept == kept_.end()) return "refused: no procedure of this station is heard";
+  if (kept == kept_.end()) return "refused: no procedure is running at this station";
   const ProcedureHeard& heard = kept->second.heard;
   if (answer.choice != kAbort) {
     if (heard.question == 0 || answer.question != heard.question) {
-      return "refused: this question does not stand any more";
+      return "refused: this question is no longer open";
     }
     if (std::ranges::find(heard.choices, answer.choice) == heard.choices.end()) {
       return "refused: the question has no such answer";

@@ -44,7 +44,7 @@ std::string CalibrationInUse::conflict(const CalibrationFiles& files,
   const StationModel& model = files.calibration.model;
   const bool same =
       is_count_of(model.pan, count_rad.pan_rad) && is_count_of(model.tilt, count_rad.tilt_rad);
-  return same ? "" : "the unit has other counts to a turn";
+  return same ? "" : "the unit has another number of counts per turn";
 }
 
 std::vector<std::string> CalibrationInUse::other_devices(

@@ -225,7 +225,7 @@ std::vector<std::string> StationBus::alarms() const {
   const std::int64_t newest = connector_.site_settings_number();
   if (newest > settings_.site.number) {
     alarms.push_back("trust: the site's settings " + std::to_string(newest) +
-                     " wait until the station is started again");
+                     " are used after the station's next start");
   }
   return alarms;
 }

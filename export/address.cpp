@@ -44,7 +44,7 @@ void check_host(const std::string& host) {
       !host.empty() && host.size() <= 253 && std::ranges::all_of(host, [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '.' || c == '-' || c == '_' || c == ':';
       });
-  if (!is_good) throw std::invalid_argument("\"" + host + "\" is no host");
+  if (!is_good) throw std::invalid_argument("\"" + host + "\" is not a host");
 }
 
 // Takes "HOST[:PORT]" apart.
@@ -84,7 +84,7 @@ void set_option(Address& address, const std::string& option) {
     check_ip(value, "interface");
     address.interface = value;
   } else {
-    throw std::invalid_argument("\"" + name + "\" is no option: ttl, interface");
+    throw std::invalid_argument("\"" + name + "\" is not an option: ttl, interface");
   }
 }
 
@@ -115,7 +115,7 @@ Address parse_address(const std::string& text) {
   std::string rest = text.substr(end + 3);
   if (address.scheme == Scheme::kFile) {
     if (!rest.starts_with('/') || rest.ends_with('/')) {
-      throw std::invalid_argument("must name a file by its whole path: file:///PATH");
+      throw std::invalid_argument("must have the absolute path of a file: file:///PATH");
     }
     address.path = rest;
     return address;

@@ -21,15 +21,15 @@ struct Geoid::Grid {
 
 Geoid::Geoid(const std::string& grid) : grid_(std::make_unique<Grid>()) {
   if (grid.empty() || grid.find_first_of(" ,+=\"") != std::string::npos) {
-    throw std::invalid_argument("\"" + grid + "\" is no name of a grid file");
+    throw std::invalid_argument("\"" + grid + "\" is not the name of a grid file");
   }
   proj_log_level(grid_->context, PJ_LOG_NONE);
   proj_context_set_enable_network(grid_->context, 0);
   grid_->shift = proj_create(grid_->context, ("+proj=vgridshift +grids=" + grid).c_str());
   if (grid_->shift == nullptr) {
-    throw std::invalid_argument("\"" + grid +
-                                "\" is not there or is no grid; egm96_15.gtx comes with Debian's "
-                                "proj-data");
+    throw std::invalid_argument(
+        "\"" + grid +
+        "\" does not exist or is not a grid; egm96_15.gtx comes with Debian's proj-data");
   }
 }
 

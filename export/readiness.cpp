@@ -31,7 +31,7 @@ SiteContext site_context(const ExportConfig& config, const std::vector<Format>& 
     const auto needy = std::ranges::find_if(formats, needs_geoid);
     if (needy == formats.end()) return site;
     throw std::invalid_argument(std::string("heights of ") + to_string(*needy) +
-                                " count from the sea: geoid " + missing.what());
+                                " are above sea level: geoid " + missing.what());
   }
   return site;
 }

@@ -258,7 +258,8 @@ std::string BusTrust::membership_trouble() const {
   const std::lock_guard lock(mutex_);
   if (!file_trouble_.empty()) return "trust: the list cannot be used: " + file_trouble_;
   if (list_.number == 0) {
-    return "trust: no list yet: the centre tells it, once " + key_.file.name + " is enrolled there";
+    return "trust: no trust list yet: the centre sends it once " + key_.file.name +
+           " is enrolled there";
   }
   for (const Member& member : list_.members) {
     if (member.key != key_.signing.public_key()) continue;

@@ -119,7 +119,7 @@ std::optional<std::string> SiteKeeper::to_tell(double now_s) {
 std::string SiteKeeper::trouble() const {
   const std::lock_guard lock(mutex_);
   const std::string& why = file_trouble_.empty() ? heard_trouble_ : file_trouble_;
-  return why.empty() ? "" : "trust: the site's settings are not taken: " + why;
+  return why.empty() ? "" : "trust: the site's settings are refused: " + why;
 }
 
 }  // namespace ols::trust

@@ -59,8 +59,8 @@ int main(int argc, char** argv) {
   add_service_options(app, arguments);
   app.get_option("--lcm-url")->check(url_problem);
   app.add_flag("--replay", arguments.replay,
-               "The messages are recorded ones: their time is not the present, and slews go to a "
-               "bus of their own, so that no real PTU moves");
+               "Take recorded messages, whose time is not the present; slews go to a bus of their "
+               "own, so that no real PTU moves");
   app.add_option(
          "--slew-url", arguments.slew_url,
          std::string("Bus for slews; default: the same, or with --replay ") + kReplaySlewUrl)

@@ -119,11 +119,11 @@ std::string DriftWatch::alarm() const {
           "tripod: nothing, or calibrate again to store it anew",
           finding_.view + 1);
     case DriftCause::kLostSteps:
-      return words("calibration: %s is %d motor steps beside its counts: home the unit",
+      return words("calibration: %s is %d motor steps off its counts: home the unit",
                    finding_.pan ? "pan" : "tilt", finding_.steps);
     case DriftCause::kUnclear:
-      return "calibration: the reference views agree on nothing: look at the camera and its mount, "
-             "then calibrate again";
+      return "calibration: the reference views contradict each other: look at the camera and its "
+             "mount, then calibrate again";
     case DriftCause::kNone:
       break;
   }

@@ -195,7 +195,7 @@ std::vector<std::string> ReferenceViews::alarms() const {
   if (const std::string alarm = watch_.alarm(); !alarm.empty()) alarms.push_back(alarm);
   if (std::string alarm = record_.alarm(); !alarm.empty()) alarms.push_back(std::move(alarm));
   if (!unreadable_.empty() && tally_.checks == 0) {
-    alarms.push_back("calibration: what earlier checks found is unknown (" + unreadable_ +
+    alarms.push_back("calibration: the results of earlier checks are unknown (" + unreadable_ +
                      "): wait for the next one");
   }
   if (const std::string trouble = file_.trouble(); !trouble.empty()) {

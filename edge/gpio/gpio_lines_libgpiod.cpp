@@ -90,7 +90,7 @@ class ChipLines : public GpioLines {
   void request_output(int offset) {
     gpiod_line* output = line(offset);
     if (gpiod_line_request_output(output, kConsumer, 0) != 0) {
-      fail("line " + std::to_string(offset) + " cannot be had as an output");
+      fail("line " + std::to_string(offset) + " cannot be used as an output");
     }
     outputs_[offset] = output;
   }

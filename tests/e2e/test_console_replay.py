@@ -94,7 +94,7 @@ def test_it_is_clearly_a_replay_without_commands(page):
 def test_no_command_goes_out(replay):
     status, said, _ = Api(replay[0]).ask("/api/stop", {})
     assert status == 409
-    assert said["error"] == "this is a replay: no command goes out"
+    assert said["error"] == "this is a replay: commands are not sent"
 
 
 def test_scrubbing_shows_the_state_of_the_instant(page, replay):

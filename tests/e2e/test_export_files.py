@@ -246,12 +246,12 @@ def test_without_a_geoid_no_height_above_the_sea_is_written(tmp_path):
         arguments = ("--config", config, "--fixes", fixes, "--format", kind, "--output", made)
         done = export(*arguments)
         assert done.returncode == 2 and not made.exists()
-        assert f"heights of {kind} count from the sea" in done.stderr
+        assert f"heights of {kind} are above sea level" in done.stderr
         config.write_text(
             'geoid = "no_such_grid.gtx"\n' + output("map", kind, f"file://{tmp_path}/a.{kind}")
         )
         done = export("--config", config)
-        assert done.returncode == 2 and "count from the sea" in done.stderr
+        assert done.returncode == 2 and "are above sea level" in done.stderr
     done = export("--config", config, "--fixes", fixes, "--format", "geojson", "--output", made)
     assert done.returncode == 0, done.stderr
 

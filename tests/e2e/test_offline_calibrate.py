@@ -204,4 +204,4 @@ def test_rectification_targets_give_an_instrument_without_a_setup(tmp_path):
     run.output = tmp_path / "predicted"
     done = run.adjust("--predict", tmp_path / "predict.csv")
     assert done.returncode == 2
-    assert "--predict: nothing that was observed tells a heading" in done.stderr
+    assert "--predict: the observations do not determine a heading" in done.stderr

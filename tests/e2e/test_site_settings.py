@@ -94,7 +94,7 @@ class Tripod:
         self.listener.wait(says, f"{words!r} among the alarms")
 
 
-WAIT = "wait until the station is started again"
+WAIT = "are used after the station's next start"
 
 
 @pytest.fixture

@@ -44,7 +44,7 @@ void check_clock() {
   if (quality.state == clock::ClockState::kSynchronised && quality.error_s < kClock_s) return;
   throw std::runtime_error("the clock of this computer is not synchronised (" + quality.text +
                            "): aircraft cannot be used; wait for GNSS or a time server, or give "
-                           "--clock-is-right if it is right all the same");
+                           "--clock-is-right if you know that it is right");
 }
 
 // One input's bytes to positions.
@@ -222,8 +222,8 @@ std::string receiver_clock_trouble(std::int64_t least_delay_us) {
   if (late_s > -kAhead_s && late_s < kLate_s) return {};
   char text[200];
   std::snprintf(text, sizeof text,
-                "what the receiver stamps is at least %.1f s %s by this computer's clock: the "
-                "receiver's clock is not synchronised, or what it writes is held up on its way",
+                "the receiver's time stamps are at least %.1f s %s by this computer's clock: the "
+                "receiver's clock is not synchronised, or its messages are delayed on their way",
                 std::abs(late_s), late_s > 0.0 ? "old" : "ahead");
   return text;
 }

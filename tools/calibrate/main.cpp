@@ -58,8 +58,8 @@ void add_aircraft_options(CLI::App& app, calibration::AircraftOptions& o) {
   app.add_flag("--geometric", o.heights_are_geometric,
                "the receiver is set up to write heights above the ellipsoid to SBS");
   app.add_flag("--clock-is-right", o.clock_is_right,
-               "of a connection: the clocks of this computer and of the receiver are right, though "
-               "no time service says so");
+               "of a connection: take the clocks of this computer and of the receiver as right, "
+               "although no time service says so");
 }
 
 void add_camera_options(CLI::App& app, calibration::CameraOptions& o) {
@@ -99,7 +99,7 @@ void adjust(const calibration::CaseOptions& options) {
 
 int main(int argc, char** argv) {
   ols::remove_temporary_files_on_signals();
-  CLI::App app{"A station's calibration: what its instrument is, and how it stands."};
+  CLI::App app{"Calibrates a station: its instrument, and how the tripod stands."};
   app.set_version_flag("--version", OLS_VERSION);
   app.require_subcommand(1);
   calibration::CaseOptions options;

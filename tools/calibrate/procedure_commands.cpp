@@ -56,8 +56,8 @@ void add_instrument(CLI::App& app, ProcedureOptions& o) {
 
 void add_resume(CLI::App& app, ProcedureOptions& o) {
   app.add_option("--resume", o.resume,
-                 "goes on with an interrupted procedure: its folder, or the newest one; all other "
-                 "options are those it was begun with")
+                 "resumes an interrupted procedure: its folder, or the newest one; all other "
+                 "options are those with which it was begun")
       ->expected(0, 1);
 }
 
@@ -110,7 +110,7 @@ int show_history(const CalibrationStore& store) {
   if (!current) std::printf("no calibration is in use\n");
   for (const fs::path& one : store.interrupted()) {
     const bool can_go_on = fs::exists(one / kSessionFile);
-    std::printf("interrupted: %s%s\n", one.c_str(), can_go_on ? " (go on with it: --resume)" : "");
+    std::printf("interrupted: %s%s\n", one.c_str(), can_go_on ? " (resume it: --resume)" : "");
   }
   return 0;
 }
@@ -126,7 +126,7 @@ int revert(CalibrationStore& store, const std::string& to) {
 
 void tell_dead(const std::vector<fs::path>& dead, Person& person) {
   for (const fs::path& one : dead) {
-    person.tell("! a procedure was interrupted; what it had is kept in " + one.string());
+    person.tell("! a procedure was interrupted; its observations are kept in " + one.string());
   }
 }
 
@@ -164,7 +164,7 @@ int carry_out(const ProcedureOptions& options, const StationFiles& station, Stat
     runner.announce(outcome == Outcome::kAccepted  ? M::STATE_ACCEPTED
                     : outcome == Outcome::kKeptOld ? M::STATE_KEPT_OLD
                                                    : M::STATE_ABORTED,
-                    status == 0 ? "accepted" : "the old calibration stands");
+                    status == 0 ? "accepted" : "the old calibration stays in use");
     return status;
   } catch (const StationStopped& stop) {  // whoever has stopped it releases it
     runner.announce(M::STATE_FAILED, stop.what());
@@ -187,7 +187,7 @@ int run_live(const ProcedureOptions& asked, CalibrationStore& store) {
     const fs::path file = interrupted / kSessionFile;
     if (!fs::exists(file)) {
       throw std::invalid_argument("--resume: " + interrupted.string() + " has no " + kSessionFile +
-                                  ": it cannot be gone on with");
+                                  ": it cannot be resumed");
     }
     options = resumed_options(text_of(file), asked, file.string());
   }
@@ -252,8 +252,7 @@ int run_procedure(const ProcedureOptions& options) {
   const bool absolute = options.name == "field" || options.name == "workshop";
   if (absolute && !options.resume && options.references.empty() && options.stars == 0 &&
       !options.sun) {
-    throw std::invalid_argument(
-        "--references, --stars or --sun: one is needed, else nothing tells north");
+    throw std::invalid_argument("--references, --stars or --sun: one is needed to find north");
   }
   if (!options.drone.empty() && options.references.empty()) {
     throw std::invalid_argument("--drone: needs --references with its positions");

@@ -15,7 +15,7 @@ constexpr int kExitNotAccepted = 1;
 std::string set_aside(const ProcedureSession& session, CalibrationStore& store) {
   const fs::path kept = store.interrupt(session.folder());
   const bool can_go_on = fs::exists(kept / kSessionFile);
-  return kept.string() + (can_go_on ? "; go on with it: the same command with --resume" : "");
+  return kept.string() + (can_go_on ? "; to resume it: the same command with --resume" : "");
 }
 
 // The running station says which calibration it works with.
@@ -63,7 +63,8 @@ void fail(const std::exception& error, const ProcedureSession& session, Calibrat
                              store.folder().string() +
                              ", `ols-calibrate history` tells which one is in use");
   }
-  throw std::runtime_error(what + "; the old calibration stands, what was observed is kept in " +
+  throw std::runtime_error(what +
+                           "; the old calibration stays in use, the observations are kept in " +
                            set_aside(session, store));
 }
 
@@ -71,13 +72,13 @@ int finish(const Procedure& procedure, Outcome outcome, const StationFiles& stat
            StationLink& link, CalibrationStore& store, Person& person) {
   const fs::path& running = procedure.session->folder();
   if (outcome == Outcome::kAborted) {
-    person.tell("Aborted. The old calibration stands; what was observed is kept in " +
+    person.tell("Aborted. The old calibration stays in use; the observations are kept in " +
                 set_aside(*procedure.session, store));
     return kExitNotAccepted;
   }
   if (!procedure.adjusted) {
     const fs::path kept = store.interrupt(running);
-    person.tell("Nothing came of it; what was observed is kept in " + kept.string());
+    person.tell("There is no result; the observations are kept in " + kept.string());
     return kExitNotAccepted;
   }
   procedure.session->take_result();
@@ -104,7 +105,7 @@ int finish(const Procedure& procedure, Outcome outcome, const StationFiles& stat
   line.event = "kept";
   line.previous = store.current().value_or("");
   store.note(line);
-  person.tell("The old calibration stands; this one is in " + kept.string());
+  person.tell("The old calibration stays in use; this one is in " + kept.string());
   return kExitNotAccepted;
 }
 

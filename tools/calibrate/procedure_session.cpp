@@ -120,8 +120,8 @@ std::optional<std::int64_t> ProcedureSession::replayed_utime_us() const {
 JournalEntry ProcedureSession::replayed(const Order& order) {
   const JournalEntry entry = replay_.front();
   if (!answers(entry, order)) {
-    throw std::runtime_error("the interrupted procedure went on with '" + entry.step +
-                             "', this one with '" + order.step +
+    throw std::runtime_error("the next step of the interrupted procedure was '" + entry.step +
+                             "', that of this one is '" + order.step +
                              "': the station or its references have changed; begin anew");
   }
   replay_.pop_front();

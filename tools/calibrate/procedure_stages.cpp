@@ -268,7 +268,7 @@ void Procedure::plan(const StationFiles& station, StationLink& link, Person& per
 }
 
 Outcome Procedure::run(ProcedureRunner& runner, Person& person) {
-  person.tell("What is observed is kept in " + session->folder().string());
+  person.tell("The observations are kept in " + session->folder().string());
   if (sun)
     runner.keep_away([keep_out = sun](const PanTilt& at) { return keep_out->hindrance(at); });
   return runner.run(*field, [this] { return adjust(); });
@@ -284,7 +284,7 @@ AdjustedResult Procedure::adjust() {
     adjusted = adjust_into(files, folder);
     if (!adjusted->found.headings_known && options.name != "sweep" && options.name != "rectify") {
       adjusted.reset();
-      return {true, false, "nothing that was sighted tells where the station looks", ""};
+      return {true, false, "the sightings do not determine where the station points", ""};
     }
     AdjustedResult result = result_for_person(*adjusted);
     if (!landmarks) result.worst.clear();

@@ -177,10 +177,10 @@ void write_parameters(std::ostream& out, const StationResult& result) {
   values << instrument_of(result.state.model), chain.heading_rad, chain.tilt_x_rad,
       chain.tilt_y_rad, result.state.change.segment<3>(kEast), result.state.refraction,
       result.state.air;
-  out << "<h2>Parameters</h2>\n<p class=\"note\">Deviations of single values may be large beside "
-         "directions that are known well: their errors are correlated, and covariance.csv has "
-         "that.</p>\n<table><tr><th>parameter</th><th>value</th><th>1-sigma</th><th>before</th>"
-         "</tr>\n";
+  out << "<h2>Parameters</h2>\n<p class=\"note\">The standard deviation of a single value may be "
+         "large although directions are known well: the errors are correlated, as covariance.csv "
+         "shows.</p>\n<table><tr><th>parameter</th><th>value</th><th>1-sigma</th><th>before</th></"
+         "tr>\n";
   for (int i = 0; i < kStationParameters; ++i) {
     const ParameterText& text = parameter_texts()[static_cast<std::size_t>(i)];
     const auto sd = [&](const StationMatrix& C) {
@@ -202,8 +202,9 @@ void write_rectification(std::ostream& out, const Case& what, const Adjustment& 
                          const Calibration& found, std::size_t station) {
   const auto angles = rectified_angles(what.problem, adjustment, found, station);
   if (angles.empty()) return;
-  out << "<h2>Rectification</h2>\n<p class=\"note\">The camera on its unit, as the paper's targets "
-         "tell it.</p>\n<table><tr><th>angle</th><th>value</th><th>1-sigma</th></tr>\n";
+  out << "<h2>Rectification</h2>\n<p class=\"note\">How the camera is mounted on its unit, "
+         "according to the paper's "
+         "targets.</p>\n<table><tr><th>angle</th><th>value</th><th>1-sigma</th></tr>\n";
   for (const RectifiedAngle& one : angles) {
     out << "<tr><td>" << to_string(one.kind) << "</td><td>" << std::setprecision(4)
         << degrees(one.rad) << "°</td><td>" << std::setprecision(0) << arcsec(one.sd_rad)
@@ -214,7 +215,7 @@ void write_rectification(std::ostream& out, const Case& what, const Adjustment& 
 
 void write_instrument_summary(std::ostream& out, const StationResult& result) {
   out << "<h1>Instrument of station " << escaped(result.id) << "</h1>\n<p class=\"note\">Without a "
-      << "setup: nothing that was observed tells where it looks.</p>\n";
+      << "setup: the observations do not determine where it points.</p>\n";
 }
 
 void write_summary(std::ostream& out, const StationResult& result, const Calibration& found) {

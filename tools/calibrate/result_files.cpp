@@ -129,7 +129,7 @@ std::string predictions(const Case& what, const std::vector<StationResult>& resu
 std::vector<OutputFile> output_files(const Case& what, const Adjustment& adjustment,
                                      const Calibration& found) {
   if (!found.headings_known && !what.options.predict.empty()) {
-    throw std::invalid_argument("--predict: nothing that was observed tells a heading");
+    throw std::invalid_argument("--predict: the observations do not determine a heading");
   }
   const auto results = station_results(what, adjustment, found);
   std::vector<OutputFile> files;

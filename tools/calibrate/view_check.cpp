@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 // The last message of a check: what it found, or that it found nothing out.
 void announce(ProcedureRunner& runner, bool aborted, const ViewStage& looked) {
   using M = ols_msg::procedure_t;
-  if (aborted) return runner.announce(M::STATE_ABORTED, "aborted: nothing is known");
+  if (aborted) return runner.announce(M::STATE_ABORTED, "aborted: no result");
   runner.announce(looked.can_tell() ? M::STATE_ACCEPTED : M::STATE_FAILED, looked.verdict());
 }
 
@@ -36,7 +36,7 @@ int run_check(const ProcedureOptions& options, const StationFiles& station,
   Person person(options.script);
   // Else two procedures would drive one unit.
   for (const fs::path& dead : store.lock()) {
-    person.tell("! a procedure was interrupted; what it had is kept in " + dead.string());
+    person.tell("! a procedure was interrupted; its observations are kept in " + dead.string());
   }
   auto views = views_of(calibration);
   LcmBus bus(options.lcm_url.empty() ? station.settings.lcm_url : options.lcm_url,
@@ -69,7 +69,7 @@ int run_check(const ProcedureOptions& options, const StationFiles& station,
     throw;
   }
   link.release();
-  person.tell(complete ? looked->verdict() : "Aborted: nothing is known of the tripod");
+  person.tell(complete ? looked->verdict() : "Aborted: no result about the tripod");
   announce(runner, !complete, *looked);
   return complete && looked->stands() ? 0 : 1;
 }

@@ -118,7 +118,7 @@ void ViewStage::end_round() {
   const bool look_again =
       can_tell_ && watch_.add(station::find_drift(offsets_, station::kMotorStep_rad));
   if (!look_again || again_) return;
-  remark("something differs: all views once more, before anything is said");
+  remark("something differs: all views are taken once more before anything is reported");
   again_ = true;
   at_ = 0;
   offsets_.clear();
@@ -134,8 +134,9 @@ bool ViewStage::stands() const {
 }
 
 std::string ViewStage::verdict() const {
-  if (!can_tell_) return "Cannot be told: fewer than three views could be compared";
-  if (watch_.level() == station::DriftLevel::kNone) return "The tripod stands as it was calibrated";
+  if (!can_tell_) return "No result: fewer than three views could be compared";
+  if (watch_.level() == station::DriftLevel::kNone)
+    return "The tripod stands as when it was calibrated";
   const bool red = watch_.level() == station::DriftLevel::kRed;
   return (red ? "RED: " : "AMBER: ") + watch_.alarm();
 }

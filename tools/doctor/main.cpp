@@ -19,8 +19,8 @@ constexpr const char* kConfiguration = "/etc/ols";
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Checks a station or the centre and says what to do about each fault. Disturbs nothing that "
-      "runs: it opens a station's devices only if the station does not run, and moves no PTU. "
+      "Checks a station or the centre and says what to do about each fault. It disturbs no running "
+      "program: it opens a station's devices only if the station is not running, and moves no PTU. "
       "Exit status: 0 ok, 1 warnings, 2 failures"};
   app.set_version_flag("--version", OLS_VERSION);
   std::vector<std::string> configs;
@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
   app.add_option("--config", configs, "Station's configuration; default: all of /etc/ols");
   app.add_flag("--json", json, "For programs");
   app.add_option("--bundle", bundle,
-                 "Also write what a helper from afar needs into this file (.tar.gz): findings, "
+                 "Also write a bundle for remote support into this file (.tar.gz): findings, "
                  "journal, configuration, versions, clock; without secrets");
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-doctor")) return *status;
   spdlog::set_level(spdlog::level::off);  // the drivers' messages are judged, not shown

@@ -38,7 +38,7 @@ ols::key::SiteFiles files_of(const Words& words) { return {words.root, words.lis
 void say_list(const Words& words, const trust::TrustList& list) {
   std::printf("%s: list %lld\n", words.list.c_str(), static_cast<long long>(list.number));
   if (fs::file_size(words.list) <= trust::kLargestList) return;
-  std::fprintf(stderr, "ols-key: the list is too large to be told on the bus: copy it to %s\n",
+  std::fprintf(stderr, "ols-key: the list is too large for the bus: copy it to %s\n",
                "/etc/ols/trust.toml of every host");
 }
 
@@ -179,12 +179,14 @@ void add_root_and_list(CLI::App& command, Words& words) {
 }
 
 CLI::App* add_settings(CLI::App& app, Words& words, std::int64_t& above) {
-  auto* set = app.add_subcommand("settings", "Sign what is the same on all hosts of the site");
+  auto* set = app.add_subcommand("settings",
+                                 "Sign the settings that are the same on all hosts of the site");
   set->add_option("file", words.settings, "TOML file with geoid and [station]")->required();
   set->add_option("--root", words.root, "File of the site's root key")->capture_default_str();
   set->add_option("--output", words.output, "File of the signed settings")->capture_default_str();
-  set->add_option("--above", above,
-                  "Number that the stations have, if the file of the last ones is lost")
+  set->add_option(
+         "--above", above,
+         "Number of the settings that the stations have, if the file of the last ones is lost")
       ->check(CLI::Range(0, 999'999'999));
   return set;
 }
@@ -200,11 +202,11 @@ int main(int argc, char** argv) {
   auto* site = app.add_subcommand("site-new", "Make a site: its root key, its secret, its list");
   site->add_option("site", words.site, "Name of the site")->required();
   add_root_and_list(*site, words);
-  auto* invited = app.add_subcommand("invite", "Say what a member needs to make its own key");
+  auto* invited = app.add_subcommand("invite", "Print what a member needs to make its own key");
   invited->add_option("--root", words.root, "File of the site's root key")->capture_default_str();
   auto* made = app.add_subcommand("make", "Make a member's key on its own host");
   made->add_option("name", words.name, "Name of the member; of a station: its id")->required();
-  made->add_option("--invitation", invitation, "What ols-key invite says")->required();
+  made->add_option("--invitation", invitation, "What ols-key invite has printed")->required();
   made->add_option("--key", words.key, "File to write; else NAME.key");
   auto* enrolled = app.add_subcommand("enrol", "Enter a member into the list; make its key too");
   enrolled->add_option("name", words.name, "Name of the member; of a station: its id")->required();

@@ -190,7 +190,8 @@ TEST_F(ProcedureAtWork, AStopEndsItWithWhatItHasAndTheOldCalibrationStands) {
     fail(StationStopped("the station was stopped"), *session_, store_);
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("the old calibration stands"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("the old calibration stays in use"),
+              std::string::npos);
   }
   EXPECT_EQ(store_.current(), "11");
   ASSERT_EQ(store_.interrupted().size(), 1U);

@@ -93,7 +93,8 @@ TEST_F(CalibrationInUseTest, AUnitInAnotherStepModeEndsIt) {
   EXPECT_FALSE(used.settings().station.calibration);
   EXPECT_EQ(used.settings().station.geometry.sd.heading_rad, radians(0.5)) << "as configured";
   ASSERT_EQ(used.alarms().size(), 1U);
-  EXPECT_NE(used.alarms().front().find("the unit has other counts to a turn"), std::string::npos);
+  EXPECT_NE(used.alarms().front().find("the unit has another number of counts per turn"),
+            std::string::npos);
 }
 
 }  // namespace

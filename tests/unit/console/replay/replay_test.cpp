@@ -107,7 +107,7 @@ TEST_F(ReplayTest, NoCommandGoesOut) {
     const Json message = Json::parse(next->bytes);
     if (message.at("kind") != "answer") continue;
     EXPECT_FALSE(message.at("accepted"));
-    EXPECT_EQ(message.at("why"), "this is a replay: no command goes out");
+    EXPECT_EQ(message.at("why"), "this is a replay: commands are not sent");
     ++refusals;
   }
   EXPECT_EQ(refusals, 3);

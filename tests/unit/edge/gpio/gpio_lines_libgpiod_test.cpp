@@ -137,7 +137,7 @@ TEST_F(ChipLines, SaysWhatIsWrong) {
   EXPECT_THAT(error_of([this] { open(); }), HasSubstr("/dev/gpiochip9: has no line 99"));
   use.outputs = {kLed};
   fake::chip().refuses = true;
-  EXPECT_THAT(error_of([this] { open(); }), HasSubstr("line 22 cannot be had as an output"));
+  EXPECT_THAT(error_of([this] { open(); }), HasSubstr("line 22 cannot be used as an output"));
   use.outputs = {};
   EXPECT_THAT(error_of([this] { open(); }), HasSubstr("line 17 cannot be watched"));
   EXPECT_EQ(fake::chip().open, 0);
