@@ -217,7 +217,7 @@ def test_a_script_that_aborts_leaves_the_old_one_and_what_was_observed(tripod, a
         *("--sweep-poses", 0, "--script", script),
     )
     assert done.returncode == 1, done.stdout + done.stderr
-    assert "The old calibration stands" in done.stdout
+    assert "The old calibration stays in use" in done.stdout
     assert os.readlink(tripod.store / "current") == before
     kept = [path for path in tripod.store.iterdir() if path.name.endswith(".interrupted")]
     assert kept and (kept[0] / "frames.jsonl").read_text().count("\n") == 1
@@ -241,7 +241,7 @@ def test_a_loss_of_power_leaves_the_old_one_and_is_named(tripod, accepted):
     script = tripod.folder / "script"
     script.write_text("abort\n")
     done = tripod.run("field", "--resume", "--script", script)
-    assert "a procedure was interrupted; what it had is kept in" in done.stdout
+    assert "a procedure was interrupted; its observations are kept in" in done.stdout
     assert "This is where it was interrupted; it goes on." in done.stdout
     assert "sweep, picture 12 of 12" in done.stdout, "as it was begun"
 
@@ -282,7 +282,7 @@ def test_a_sweep_that_was_interrupted_goes_on(tripod, accepted):
     assert process.poll() is None, tripod.log.read_text()
     process.send_signal(signal.SIGINT)
     tripod.listener.wait(lambda: process.poll() is not None, "its end", 30.0)
-    assert "go on with it: the same command with --resume" in tripod.log.read_text()
+    assert "to resume it: the same command with --resume" in tripod.log.read_text()
     done, folder = sweep(tripod, "keep", "--resume")
     assert "This is where it was interrupted; it goes on." in done.stdout, done.stderr
     assert "sweep, picture 8 of 8" in done.stdout, "as it was begun"

@@ -262,7 +262,7 @@ def test_without_a_geoid_no_height_above_the_sea_is_written(tmp_path):
         (("--format", "gpx", "--output", "a"), "--log or --fixes"),
         (("--fixes", "/no/such", "--format", "gpx", "--output", "a"), "/no/such"),
         (("--log", "/no/such", "--format", "gpx", "--output", "a"), "/no/such"),
-        (("--log", "/no/such", "--format", "doc", "--output", "a"), "is no format"),
+        (("--log", "/no/such", "--format", "doc", "--output", "a"), "is not a format"),
         (("--log", "/no/such", "--format", "mqtt", "--output", "a"), "makes no file"),
     ],
 )

@@ -111,7 +111,7 @@ def test_a_station_joins_by_one_command_on_each_side(network, tmp_path, centre, 
     with Site(tmp_path / "logs") as site:
         station = [str(BIN / "ols-station"), "--config", str(config)]
         site.start_and_wait("alfa", station, "ready", alone)
-        listener.wait(lambda: says("trust: no list yet"), "that it waits for the list")
+        listener.wait(lambda: says("trust: no trust list yet"), "that it waits for the list")
         fusion = [str(BIN / "ols-fusion"), "--config", str(folder / "etc/ols/fusion.toml")]
         site.start_and_wait("fusion", [*fusion, "--lcm-url", LIVE_URL], "ready", listed)
         listener.wait(lambda: says("trust: the own key, alfa, is not in"), "that it has the list")

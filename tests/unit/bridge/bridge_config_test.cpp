@@ -44,7 +44,7 @@ TEST(BridgeConfig, WhatCannotBeIsNamed) {
   EXPECT_THAT(error_of("stations = [\"*\"]\n"), HasSubstr("stations"));
   EXPECT_THAT(error_of("takes = [\"alfa\"]\n"), HasSubstr("REGION.SITE.STATION"));
   EXPECT_THAT(error_of("stations = [\"a\"]\ntakes = [\"r.s.a\"]\n"), HasSubstr("goes out"));
-  EXPECT_THAT(error_of("commands = [\"reboot\"]\n"), HasSubstr("no command that crosses"));
+  EXPECT_THAT(error_of("commands = [\"reboot\"]\n"), HasSubstr("is not a command that crosses"));
   EXPECT_THAT(error_of("[nats]\nservers = [\"http://a\"]\n"), HasSubstr("neither nats://"));
   EXPECT_THAT(error_of("[nats]\nservers = []\n"), HasSubstr("must name one"));
   EXPECT_THAT(error_of("[nats]\ncertificate = \"a\"\n"), HasSubstr("belong together"));

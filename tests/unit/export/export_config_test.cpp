@@ -55,7 +55,7 @@ TEST(ExportConfig, SaysWhatIsWrongWhere) {
   EXPECT_THAT(complaint("site = \"a b\"\n"), HasSubstr("site"));
   EXPECT_THAT(complaint(output("format = \"sapient\"\nto = \"udp://1.1.1.1:1\"\n")),
               HasSubstr("the format sapient cannot be sent to udp://"));
-  EXPECT_THAT(complaint("[sapient]\nnode_id = \"brno\"\n"), HasSubstr("no UUID of version 4"));
+  EXPECT_THAT(complaint("[sapient]\nnode_id = \"brno\"\n"), HasSubstr("not a UUID of version 4"));
   EXPECT_THAT(complaint("[mqtt]\nprefix = \"a/#\"\n"), HasSubstr("prefix"));
   EXPECT_THAT(complaint("[cot]\ntarget_type = \"a\\\"b\"\n"), HasSubstr("target_type"));
 }

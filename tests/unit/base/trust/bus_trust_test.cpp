@@ -164,7 +164,7 @@ TEST_F(BusTrustTest, ANewMemberLearnsItsFirstListFromTheBus) {
   {
     const auto station = alfa();
     EXPECT_EQ(station->list_number(), 0);
-    EXPECT_THAT(station->trouble(), HasSubstr("no list yet"));
+    EXPECT_THAT(station->trouble(), HasSubstr("no trust list yet"));
     const auto slew = centre->sign("OLS_SLEW_alfa", payload(kNow_us, 12, 1));
     EXPECT_EQ(hear(*station, "OLS_SLEW_alfa", slew).distrust, Distrust::kStranger)
         << "it knows nobody yet";
