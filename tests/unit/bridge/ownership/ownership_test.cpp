@@ -167,7 +167,7 @@ TEST(Ownership, AFusionThatLosesItsTargetGivesItUpAtOnce) {
 }
 
 TEST(Ownership, ARefusedRenewalIsNotConfirmed) {
-  Ownership ownership({"a:1", {-90.0, -180.0, 90.0, 180.0}, 2.0, 2000.0});
+  Ownership ownership({"a:1", {-90.0, -180.0, 90.0, 180.0}, 2000.0});
   Now now{kStart_us, 10.0};
   ownership.feel_store(true, now);
   const auto pass = [&](double time_s) {
