@@ -45,7 +45,8 @@ TEST(CueConfig, WhatCannotBeIsNamedWithItsLine) {
   EXPECT_THAT(error_of(input("sbs", "udp://0.0.0.0:1")), HasSubstr("cue.toml:4: input[0].from"));
   EXPECT_THAT(error_of(input("aircraft-json", "tcp://a:1")),
               HasSubstr("cannot be received that way"));
-  EXPECT_THAT(error_of(input("cot", "tcp://a:1", "types = []")), HasSubstr("types: must not be empty"));
+  EXPECT_THAT(error_of(input("cot", "tcp://a:1", "types = []")),
+              HasSubstr("types: must not be empty"));
   EXPECT_THAT(error_of(input("cot", "tcp://a:1", "area_deg = [50.0, 1.0, 49.0, 2.0]")),
               HasSubstr("south, west"));
   EXPECT_THAT(error_of(input("cot", "tcp://a:1") + input("cot", "tcp://a:2")),
