@@ -4,6 +4,7 @@ import { h, render, Fragment } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import "ol/ol.css";
 import "./page.css";
+import { AlarmSpoken } from "./alarms";
 import { Answer, Link, Session } from "./link";
 import { MapView } from "./map";
 import { History } from "./history";
@@ -187,6 +188,7 @@ function Console({ session, onLoggedOut, theme, onTheme, language, onLanguage }:
   return (
     <div class={`console ${link.replay ? "of-replay" : ""}`}>
       <Bar link={link} session={session} theme={theme} onTheme={onTheme} language={language} onLanguage={onLanguage} onStop={stopAll} onLogOut={onLoggedOut} onUsers={() => setUsersOpen(true)} />
+      <AlarmSpoken link={link} />
       {!link.isUp && <p class="lost" role="alert">{t("link_lost")}</p>}
       {link.replay && <ReplayBar link={link} />}
       {isUsersOpen && <Users self={session.name} onClose={() => setUsersOpen(false)} />}
@@ -204,15 +206,15 @@ function Console({ session, onLoggedOut, theme, onTheme, language, onLanguage }:
             selected={station}
             mayCommand={mayCommand}
             onSelect={setStation}
-            onPoint={(id, command, frame_utime_us, point_px) => send({ do: "command", command, station: id, frame_utime_us, point_px }, `${id} ${command}`)}
-            onDesignate={(id, frame_utime_us, box_px) => send({ do: "command", command: "designate", station: id, frame_utime_us, box_px }, `${id} designate`)}
+            onPoint={(id, command, frame_utime_us, point_px) => send({ do: "command", command, station: id, frame_utime_us, point_px }, `${id} ${named("o", command)}`)}
+            onDesignate={(id, frame_utime_us, box_px) => send({ do: "command", command: "designate", station: id, frame_utime_us, box_px }, `${id} ${named("o", "designate")}`)}
           />
           <Stations
             link={link}
             selected={station}
             mayCommand={mayCommand}
             onSelect={setStation}
-            onCommand={(id, command, more) => send({ do: "command", command, station: id, ...more }, `${id} ${command}`)}
+            onCommand={(id, command, more) => send({ do: "command", command, station: id, ...more }, `${id} ${named("o", command)}`)}
             onControl={(id, take) => send({ do: take ? "take" : "give_up", station: id }, `${id} ${t(take ? "take" : "give_up")}`)}
           />
         </div>
