@@ -14,7 +14,7 @@ import types
 import urllib.error
 import urllib.request
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -269,7 +269,7 @@ class PaperSite(threading.Thread):
         try:
             yield
         finally:
-            del self.targets[8]
+            self.targets[8] = replace(target, state=ols_msg.target_t.TRACK_DROPPED)
 
     def write_log(self, path: Path, seconds: float) -> int:
         """Records itself instead of sending: in the middle an alarm and a stop. Its start [us]."""

@@ -16,7 +16,7 @@ import { ReplayBar } from "./replay";
 import { Users } from "./users";
 import { utc } from "./format";
 import { remember, remembered } from "./memory";
-import { Language, LANGUAGES, named, setLanguage, t } from "./words";
+import { Language, LANGUAGES, named, setLanguage, t, type Word } from "./words";
 
 const NOTICE_MS = 6000;
 const THEMES = ["night", "day", "sunlight"] as const;
@@ -96,12 +96,12 @@ function Bar({ link, session, theme, onTheme, language, onLanguage, onStop, onLo
         </select>
         {session.open ? (
           <span class="user" title={t("local_user")}>
-            {session.role}
+            {t(`r_${session.role}` as Word)}
           </span>
         ) : (
           <Fragment>
             <span class="user">
-              {session.name} · {session.role}
+              {session.name} · {t(`r_${session.role}` as Word)}
             </span>
             {session.role === "admin" && (
               <button type="button" onClick={onUsers}>

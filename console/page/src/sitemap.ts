@@ -22,7 +22,7 @@ import { Grid, gridShapes, ringShapes } from "./gridshapes";
 import type { Link } from "./link";
 import { Colours, readColours, shape, SMALL_FONT, stretch } from "./mapfeatures";
 import { AccuracyChoice, AccuracyLayer, UserMap, UserMapLayers } from "./maplayers";
-import type { Target } from "./site";
+import { followed } from "./site";
 import { lineShapes, stationShapes } from "./stationshapes";
 import { cueShapes, targetShapes } from "./targetshapes";
 
@@ -86,9 +86,10 @@ export class SiteMap {
   restyle() {
     const c = (this.colours = readColours());
     this.land.setStyle(new Style({ fill: new Fill({ color: c.land }), stroke: new Stroke({ color: c.rule, width: 1 }) }));
+    const visible = this.graticule?.getVisible() ?? true;
     if (this.graticule) this.map.removeLayer(this.graticule);
     const text = () => new Text({ font: SMALL_FONT, fill: new Fill({ color: c["rule-text"] }), stroke: new Stroke({ color: c.halo, width: 3 }) });
-    this.graticule = new Graticule({ strokeStyle: new Stroke({ color: c.rule, width: 1 }), showLabels: true, wrapX: false, maxLines: 40, targetSize: 160, lonLabelStyle: text(), latLabelStyle: text() });
+    this.graticule = new Graticule({ visible, strokeStyle: new Stroke({ color: c.rule, width: 1 }), showLabels: true, wrapX: false, maxLines: 40, targetSize: 160, lonLabelStyle: text(), latLabelStyle: text() });
     this.map.getLayers().insertAt(1, this.graticule);
     this.drawStill();
     this.draw();
@@ -208,15 +209,7 @@ export class SiteMap {
       this.stationsFitted = placed;
       this.fit();
     }
-    const target = this.options.follow ? this.followed() : undefined;
+    const target = this.options.follow ? followed(this.link.site, this.selected) : undefined;
     if (target?.latitude_deg != null) this.map.getView().setCenter(fromLonLat([target.longitude_deg, target.latitude_deg]));
-  }
-
-  // The selected target; where none is, the only one.
-  private followed(): Target | undefined {
-    const { targets } = this.link.site;
-    if (this.selected.startsWith("target:")) return targets.get(this.selected.slice(7));
-    const heard = [...targets.values()].filter((target) => !target.stale);
-    return heard.length === 1 ? heard[0] : undefined;
   }
 }

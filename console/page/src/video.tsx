@@ -226,7 +226,7 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
         )}
         {isThin && shown && <span class="codec">{shown.codec === "h264" ? "H.264" : "JPEG"}</span>}
         {region && shown && <span class="magnified">{`${fixed(shown.full_px[0] / region[2], 1)}×`}</span>}
-        {station.lens?.zoom != null && <span class="age">{`${Math.round(station.lens.zoom * 100)} %`}</span>}
+        {station.lens?.zoom != null && <span class="zoom">{`${Math.round(station.lens.zoom * 100)} %`}</span>}
         <span class={age_s > OLD_S ? "age old" : "age"}>{shown ? delay(age_s) : t("no_picture")}</span>
       </figcaption>
     </figure>

@@ -7,7 +7,7 @@ import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { Pinch } from "./hand";
 import type { Link } from "./link";
 import { ecef } from "./projection";
-import type { Station, Target } from "./site";
+import { followed, type Station, type Target } from "./site";
 import { distance, fixed } from "./format";
 import { t } from "./words";
 
@@ -205,8 +205,8 @@ export function View3d({ link, version, theme, selected, follow }: Props) {
     const whole = around([...places, ...targets.flatMap(({ at }) => (at ? [at] : []))]);
     for (const station of stations) scene.addStation(station, Math.max(RAY_M, whole.away_m));
     shown.current = eye ?? { ...shown.current, ...whole };
-    const followed = follow && targets.find(({ target }) => selected === `target:${target.id}`)?.at;
-    if (followed) shown.current = { ...shown.current, at: followed };
+    const middle = follow && targets.find(({ target }) => target === followed(link.site, selected))?.at;
+    if (middle) shown.current = { ...shown.current, at: middle };
     draw(canvas.current, scene, groundStrokes(shown.current, colour("--map-grid")), shown.current, colour);
   }, [version, eye, larger, theme, selected, follow]);
   const turn = (azimuth: number, elevation: number, away = 1) => {
