@@ -1,7 +1,32 @@
 #include "command/outcome.h"
 
+#include <array>
+#include <string_view>
+#include <utility>
+
 namespace ols::command {
 namespace {
+
+// What an operator is told of a reason that a station counts; of others, the reason itself.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kWords{{
+    {"box_outside_or_too_small", "the box is not inside the picture, or too small"},
+    {"just_stopped", "it was stopped less than a second ago; try again"},
+    {"keep_out", "homing would sweep across a keep-out region"},
+    {"no_frame", "that picture is too old; try again on the one of now"},
+    {"no_lens", "it has no lens that moves"},
+    {"no_reference", "the unit's reference is missing or in doubt; home it, or reference ok"},
+    {"no_unit", "there is no pan-tilt unit; see its alarms"},
+    {"nothing_there", "nothing stands out there; draw a box"},
+    {"stopped", "it is stopped; release it first"},
+    {"unreachable", "outside the travel, or in a keep-out region"},
+}};
+
+std::string_view words_for(std::string_view reason) {
+  for (const auto& [one, words] : kWords) {
+    if (one == reason) return words;
+  }
+  return {};
+}
 
 // The refusal whose counter (`prefix` + reason) has grown; nothing if none has.
 std::optional<std::string> new_refusal(const Reply& before, const Reply& now,
@@ -9,9 +34,7 @@ std::optional<std::string> new_refusal(const Reply& before, const Reply& now,
   for (const auto& [name, value] : now.counters) {
     if (!name.starts_with(prefix) || value <= counter(before, name)) continue;
     const std::string why = name.substr(prefix.size());
-    if (why == "nothing_there") return "refused: nothing stands out there; draw a box";
-    if (why == "stopped") return "refused: it is stopped; release it first";
-    if (why == "just_stopped") return "refused: it was stopped less than a second ago; try again";
+    if (const auto words = words_for(why); !words.empty()) return "refused: " + std::string(words);
     // With the station's explanation if there is one ("RECORD refused: disk full").
     return "refused: " + why +
            (now.last_error != before.last_error ? " (" + now.last_error + ")" : "");

@@ -13,6 +13,8 @@ import time
 import types
 import urllib.error
 import urllib.request
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -38,7 +40,9 @@ COMMANDS = {
     PTU.COMMAND_POINT: "point",
     PTU.COMMAND_STOP: "stop",
     PTU.COMMAND_RELEASE: "release",
+    PTU.COMMAND_REARM: "rearm",
     PTU.COMMAND_HOME: "home",
+    PTU.COMMAND_REFERENCE_OK: "reference_ok",
     PTU.COMMAND_RATE: "rate",
     PTU.COMMAND_CENTRE: "centre",
 }
@@ -64,6 +68,13 @@ def jpeg() -> bytes:
     return buffer.getvalue()
 
 
+@dataclass
+class PaperTarget:
+    at: Callable[[float], Any] = lambda _time_s: TARGET
+    state: int = ols_msg.target_t.TRACK_CONFIRMED
+    covariance_m2: tuple[float, ...] = (4.0, 1.0, 0.0, 1.0, 0.0, 2.0)  # ee, en, eu, nn, nu, uu
+
+
 class PaperSite(threading.Thread):
     """Sends at the rates of a real site until it is ended."""
 
@@ -82,6 +93,12 @@ class PaperSite(threading.Thread):
         self.designations: list[ols_msg.designate_t] = []
         self.commands: list[tuple[str, str]] = []
         self.ptu_commands: list[ols_msg.ptu_command_t] = []
+        self.lens_commands: list[ols_msg.lens_command_t] = []
+        self.records: list[ols_msg.record_t] = []
+        self.lenses: dict[str, list[float]] = {}  # overview station -> zoom, focus, iris
+        self.targets = {7: PaperTarget()}
+        self.lines: dict[str, tuple[float, float]] = {}  # station -> azimuth, elevation [rad]
+        self.fusion_boot, self.fusion_alarms, self.is_fusion_silent = 9, [], False
         self.pictures: dict[int, str] = {}  # utime -> station
         self.utime_us = lambda: time.time_ns() // 1000
         self.borders: dict[str, list[list[tuple[float, float]]]] = {}  # keep-outs [rad]
@@ -89,6 +106,8 @@ class PaperSite(threading.Thread):
         self._jpeg = jpeg()
         self.lcm.subscribe("OLS_DESIGNATE_.+", self._designated)
         self.lcm.subscribe("OLS_PTU_.+", self._commanded)
+        self.lcm.subscribe("OLS_LENS_.+", self._lens_moved)
+        self.lcm.subscribe("OLS_RECORD_.+", self._recorded)
 
     def _publish(self, channel: str, message: Any) -> None:
         message.sequence = next(self._sequences)
@@ -124,6 +143,20 @@ class PaperSite(threading.Thread):
             stopped = name == "stop"
             self.states[message.station] = STATUS.STATE_STOPPED if stopped else STATUS.STATE_IDLE
 
+    def _lens_moved(self, _channel: str, data: bytes) -> None:
+        message = ols_msg.lens_command_t.decode(data)
+        self.lens_commands.append(message)
+        if self._judge(message.station, "lens") and message.command == message.COMMAND_POSITION:
+            wanted = (message.zoom, message.focus, message.iris)
+            now = self.lenses[message.station]
+            self.lenses[message.station] = [
+                n if math.isnan(w) else w for n, w in zip(now, wanted, strict=True)
+            ]
+
+    def _recorded(self, _channel: str, data: bytes) -> None:
+        self.records.append(ols_msg.record_t.decode(data))
+        self._judge(self.records[-1].station, "record")
+
     def _send_status(self, station: str) -> None:
         m = STATUS()
         m.utime = self.utime_us()
@@ -137,6 +170,9 @@ class PaperSite(threading.Thread):
             m.calibration_utime, m.calibration_sd_rad = 1_780_000_000_000_000, 5e-5
         m.azimuth_rad, m.elevation_rad = 1.0, 0.2
         m.field_of_view_rad = [0.1, 0.08]
+        if station in self.lenses:
+            m.kind, m.lens_position = m.KIND_OVERVIEW, list(self.lenses[station])
+            m.focal_length_px, m.focal_length_sd_px = 3000.0, 4.0
         m.image_width_px, m.image_height_px = FULL_PX
         devices = {"camera": "made of paper", "ptu": "", **self.devices.get(station, {})}
         m.devices, m.device_name, m.device_text = len(devices), list(devices), [*devices.values()]
@@ -163,18 +199,36 @@ class PaperSite(threading.Thread):
         m.jpeg_bytes, m.jpeg = len(self._jpeg), self._jpeg
         self._publish(f"OLS_PREVIEW_{station}", m)
 
-    def _send_target(self) -> None:
+    def _send_bearing(self, station: str) -> None:
+        m = ols_msg.bearing_t()
+        m.utime = self.utime_us()
+        m.schema_version, m.station, m.boot_id, m.belief = m.SCHEMA_VERSION, station, 5, 0.9
+        m.azimuth_rad, m.elevation_rad = 1.0, 0.2
+        self._publish(f"OLS_BEARING_{station}", m)
+
+    def _send_line(self, station: str) -> None:
+        """Of a station whose object has no position."""
         m = ols_msg.target_t()
         m.utime = self.utime_us()
-        m.schema_version, m.boot_id, m.target_id = m.SCHEMA_VERSION, 9, 7
-        m.track_state, m.estimator = m.TRACK_CONFIRMED, "filter"
-        m.position_ecef_m = list(ols.ecef_from_geodetic(TARGET))
-        m.latitude_deg, m.longitude_deg = map(
-            math.degrees, (TARGET.latitude_rad, TARGET.longitude_rad)
-        )
-        m.height_m = TARGET.height_m
-        m.velocity_ecef_m_s = list(ols.R_ecef_enu(ols.ecef_from_geodetic(TARGET)) @ [3.0, 4.0, 0.0])
-        m.position_covariance_enu_m2 = [4.0, 1.0, 0.0, 1.0, 0.0, 2.0]
+        m.schema_version, m.boot_id = m.SCHEMA_VERSION, self.fusion_boot
+        m.solution = m.SOLUTION_BEARING_ONLY
+        m.azimuth_rad, m.elevation_rad = self.lines[station]
+        m.stations, m.station = 1, [station]
+        m.used, m.weight, m.age_s = [True], [1.0], [0.0]
+        self._publish("OLS_TARGET", m)
+
+    def _send_target(self, target_id: int) -> None:
+        target = self.targets[target_id]
+        m = ols_msg.target_t()
+        m.utime = self.utime_us()
+        at = target.at(m.utime / 1e6)
+        m.schema_version, m.boot_id, m.target_id = m.SCHEMA_VERSION, self.fusion_boot, target_id
+        m.track_state, m.estimator = target.state, "filter"
+        m.position_ecef_m = list(ols.ecef_from_geodetic(at))
+        m.latitude_deg, m.longitude_deg = map(math.degrees, (at.latitude_rad, at.longitude_rad))
+        m.height_m = at.height_m
+        m.velocity_ecef_m_s = list(ols.R_ecef_enu(ols.ecef_from_geodetic(at)) @ [3.0, 4.0, 0.0])
+        m.position_covariance_enu_m2 = target.covariance_m2
         m.stations, m.station = 2, ["alfa", "bravo"]
         m.used, m.weight, m.age_s = [True, True], [1.0, 1.0], [0.0, 0.0]
         self._publish("OLS_TARGET", m)
@@ -182,7 +236,8 @@ class PaperSite(threading.Thread):
     def _send_fusion(self) -> None:
         m = ols_msg.fusion_status_t()
         m.utime = self.utime_us()
-        m.schema_version, m.boot_id, m.last_error = m.SCHEMA_VERSION, 9, ""
+        m.schema_version, m.boot_id, m.last_error = m.SCHEMA_VERSION, self.fusion_boot, ""
+        m.alarm, m.alarms = list(self.fusion_alarms), len(self.fusion_alarms)
         m.station = ["alfa", "bravo"]
         m.stations = 2
         m.bearings, m.quarantine = [1, 1], ["", ""]
@@ -198,8 +253,23 @@ class PaperSite(threading.Thread):
         for station in PLACES.keys() - self.silent:
             self._send_status(station)
             self._send_picture(station)
-        self._send_target()
+            if self.states[station] == STATUS.STATE_TRACKING:
+                self._send_bearing(station)
+        if self.is_fusion_silent:
+            return
+        for target_id in list(self.targets):
+            self._send_target(target_id)
+        for station in list(self.lines):
+            self._send_line(station)
         self._send_fusion()
+
+    @contextlib.contextmanager
+    def another_target(self, target: PaperTarget):
+        self.targets[8] = target
+        try:
+            yield
+        finally:
+            self.targets[8] = replace(target, state=ols_msg.target_t.TRACK_DROPPED)
 
     def write_log(self, path: Path, seconds: float) -> int:
         """Records itself instead of sending: in the middle an alarm and a stop. Its start [us]."""

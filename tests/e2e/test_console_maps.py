@@ -1,9 +1,7 @@
 """The map's layers on the console's page, in a browser without a graphics processor: users' own
 maps, the accuracy, keep-outs, three dimensions; and what an admin does."""
 
-import io
 import math
-import sqlite3
 import subprocess
 
 import pytest
@@ -23,36 +21,17 @@ from console_site import (
     wait_for,
 )
 from ols_demo.site import Site
-from PIL import Image
+from own_maps import write_folder, write_mbtiles, write_pmtiles
 from playwright.sync_api import expect, sync_playwright
 
-MAGENTA = (255, 0, 255)
+OWN_MAPS = {"Magenta": (255, 0, 255), "cyan": (0, 255, 255), "yellow": (255, 255, 0)}
+ATTRIBUTION = "© the <b>painter</b> <img src=x onerror=alert(1)>"
 KEEP_OUT = [
     *[(math.radians(40 + 10 * i), 0.0) for i in range(4)],
     *[(math.radians(80), 0.05 * i) for i in range(4)],
     *[(math.radians(80 - 10 * i), 0.2) for i in range(4)],
     *[(math.radians(40), 0.2 - 0.05 * i) for i in range(4)],
 ]
-
-
-def write_mbtiles(path):
-    """Magenta everywhere, at the zoom levels 0 to 2; a browser enlarges them."""
-    buffer = io.BytesIO()
-    Image.new("RGB", (256, 256), MAGENTA).save(buffer, "PNG")
-    with sqlite3.connect(path) as database:
-        database.execute("CREATE TABLE metadata (name text, value text)")
-        database.execute(
-            "CREATE TABLE tiles (zoom_level int, tile_column int, tile_row int, tile_data blob)"
-        )
-        rows = [("name", "Magenta"), ("minzoom", "0"), ("maxzoom", "2")]
-        database.executemany("INSERT INTO metadata VALUES (?, ?)", rows)
-        for zoom in range(3):
-            for column in range(2**zoom):
-                for row in range(2**zoom):
-                    database.execute(
-                        "INSERT INTO tiles VALUES (?, ?, ?, ?)",
-                        (zoom, column, row, buffer.getvalue()),
-                    )
 
 
 def write_plan(path):
@@ -73,7 +52,9 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def address(network, folder):
     (folder / "maps").mkdir()
-    write_mbtiles(folder / "maps/magenta.mbtiles")
+    write_mbtiles(folder / "maps/m.mbtiles", "Magenta", OWN_MAPS["Magenta"], ATTRIBUTION)
+    write_folder(folder / "maps/cyan", OWN_MAPS["cyan"])
+    write_pmtiles(folder / "maps/yellow.pmtiles", OWN_MAPS["yellow"])
     (folder / "maps/damaged.mbtiles").write_bytes(b"x" * 5000)
     write_plan(folder / "maps/plan.geojson")
     (folder / "maps/broken.geojson").write_text('{"type": "FeatureCollection", "features": [7]}')
@@ -128,10 +109,6 @@ def colours(page, selector):
     )
 
 
-def magenta(page):
-    return colours(page, ".map-canvas canvas").get("255,0,255", 0)
-
-
 def open_layers(page):
     if map_of(page).locator("details[open]").count() == 0:
         map_of(page).get_by_text("Layers").click()
@@ -144,13 +121,25 @@ def test_it_has_no_webgl(page):
     )
 
 
-def test_a_map_of_the_users_own_is_shown_and_hidden(page):
+@pytest.mark.parametrize("name", OWN_MAPS)
+def test_a_map_of_the_users_own_is_shown_and_hidden(page, name):
+    """MBTiles, a folder of tiles, PMTiles."""
+
+    def covered():
+        key = ",".join(map(str, OWN_MAPS[name]))
+        return colours(page, ".map-canvas canvas").get(key, 0)
+
     open_layers(page)
-    button = map_of(page).get_by_role("button", name="Magenta")
-    expect(button).to_have_attribute("aria-pressed", "true")
-    wait_for(lambda: magenta(page) > 10_000, "the map's tiles")
-    button.click()
-    wait_for(lambda: magenta(page) == 0, "the map to be hidden")
+    for other in OWN_MAPS:
+        button = map_of(page).get_by_role("button", name=other)
+        if (button.get_attribute("aria-pressed") == "true") != (other == name):
+            button.click()
+    wait_for(lambda: covered() > 10_000, "the map's tiles")
+    has_painter = name == "Magenta"
+    expect(map_of(page).get_by_text("© the painter")).to_be_visible(visible=has_painter)
+    assert map_of(page).locator(".ol-attribution :is(b, img)").count() == 0
+    map_of(page).get_by_role("button", name=name).click()
+    wait_for(lambda: covered() == 0, "the map to be hidden")
 
 
 def test_a_damaged_map_is_said(page):

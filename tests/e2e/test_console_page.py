@@ -163,6 +163,65 @@ def test_a_browser_that_does_not_read_costs_nobody(page, chromium, consoles, pap
     context.close()
 
 
+NONSENSE = """() => new Promise((done) => {
+  const socket = new WebSocket(`ws://${location.host}/api/live`);
+  const why = [];
+  const point = { do: "command", number: 1, station: "alfa", command: "point" };
+  socket.onopen = () => {
+    socket.send("{");
+    socket.send("[]");
+    socket.send(JSON.stringify({ do: "fly" }));
+    socket.send(JSON.stringify({ ...point, pan_deg: 1e9, tilt_deg: 0 }));
+  };
+  socket.onmessage = ({ data }) => {
+    const message = typeof data === "string" ? JSON.parse(data) : {};
+    if (message.kind === "answer") why.push(message.why);
+    if (why.length === 4) socket.send("x".repeat(9000));
+  };
+  socket.onclose = () => done(why);
+})"""
+
+
+def test_nonsense_is_answered_counted_and_costs_nobody(page, consoles):
+    picture(page, "alfa")
+    api = Api(consoles[0])
+    before = api.ask("/api/health")[1]
+    json, an_object, unknown, angle = page.evaluate(NONSENSE)
+    assert (json, an_object) == ("refused: not JSON", "refused: not a JSON object")
+    assert "do must be" in unknown and "pan_deg" in angle
+    after = wait_for(
+        lambda: (h := api.ask("/api/health")[1])["viewers"] == before["viewers"] and h,
+        "the oversize message to end its connection",
+    )
+    assert after["messages_refused"] == before["messages_refused"] + 4
+    first = page.locator(".utc").inner_text()
+    wait_for(lambda: page.locator(".utc").inner_text() != first, "the page to go on")
+
+
+TEN = """() => Promise.all(Array.from({ length: 10 }, () => new Promise((done) => {
+  const socket = new WebSocket(`ws://${location.host}/api/live`);
+  socket.binaryType = "arraybuffer";
+  const had = { alfa: 0, bravo: 0, charlie: 0 };
+  socket.onopen = () => socket.send(JSON.stringify({ do: "watch", pictures: Object.keys(had) }));
+  socket.onmessage = ({ data }) => {
+    if (typeof data === "string") return;
+    const length = new DataView(data).getUint32(0);
+    had[JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length))).station]++;
+    if (Math.min(...Object.values(had)) < 5) return;
+    socket.close();
+    done(true);
+  };
+})))"""
+
+
+def test_ten_browsers_see_every_station(page, paper):
+    picture(page, "alfa")
+    assert page.evaluate(TEN) == [True] * 10
+    first = page.locator(".utc").inner_text()
+    wait_for(lambda: page.locator(".utc").inner_text() != first, "the page to go on")
+    assert page.get_by_text("No connection to the console").count() == 0
+
+
 def test_nothing_comes_from_elsewhere(page, consoles):
     """The bundle names no other host but in comments of licences and namespaces of XML."""
     urls = set()

@@ -4,6 +4,7 @@ import { h, render, Fragment } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import "ol/ol.css";
 import "./page.css";
+import { AlarmSpoken } from "./alarms";
 import { Answer, Link, Session } from "./link";
 import { MapView } from "./map";
 import { History } from "./history";
@@ -15,7 +16,7 @@ import { ReplayBar } from "./replay";
 import { Users } from "./users";
 import { utc } from "./format";
 import { remember, remembered } from "./memory";
-import { Language, LANGUAGES, named, setLanguage, t } from "./words";
+import { Language, LANGUAGES, named, setLanguage, t, type Word } from "./words";
 
 const NOTICE_MS = 6000;
 const THEMES = ["night", "day", "sunlight"] as const;
@@ -95,12 +96,12 @@ function Bar({ link, session, theme, onTheme, language, onLanguage, onStop, onLo
         </select>
         {session.open ? (
           <span class="user" title={t("local_user")}>
-            {session.role}
+            {t(`r_${session.role}` as Word)}
           </span>
         ) : (
           <Fragment>
             <span class="user">
-              {session.name} · {session.role}
+              {session.name} · {t(`r_${session.role}` as Word)}
             </span>
             {session.role === "admin" && (
               <button type="button" onClick={onUsers}>
@@ -187,6 +188,7 @@ function Console({ session, onLoggedOut, theme, onTheme, language, onLanguage }:
   return (
     <div class={`console ${link.replay ? "of-replay" : ""}`}>
       <Bar link={link} session={session} theme={theme} onTheme={onTheme} language={language} onLanguage={onLanguage} onStop={stopAll} onLogOut={onLoggedOut} onUsers={() => setUsersOpen(true)} />
+      <AlarmSpoken link={link} />
       {!link.isUp && <p class="lost" role="alert">{t("link_lost")}</p>}
       {link.replay && <ReplayBar link={link} />}
       {isUsersOpen && <Users self={session.name} onClose={() => setUsersOpen(false)} />}
@@ -204,15 +206,15 @@ function Console({ session, onLoggedOut, theme, onTheme, language, onLanguage }:
             selected={station}
             mayCommand={mayCommand}
             onSelect={setStation}
-            onPoint={(id, command, frame_utime_us, point_px) => send({ do: "command", command, station: id, frame_utime_us, point_px }, `${id} ${command}`)}
-            onDesignate={(id, frame_utime_us, box_px) => send({ do: "command", command: "designate", station: id, frame_utime_us, box_px }, `${id} designate`)}
+            onPoint={(id, command, frame_utime_us, point_px) => send({ do: "command", command, station: id, frame_utime_us, point_px }, `${id} ${named("o", command)}`)}
+            onDesignate={(id, frame_utime_us, box_px) => send({ do: "command", command: "designate", station: id, frame_utime_us, box_px }, `${id} ${named("o", "designate")}`)}
           />
           <Stations
             link={link}
             selected={station}
             mayCommand={mayCommand}
             onSelect={setStation}
-            onCommand={(id, command, more) => send({ do: "command", command, station: id, ...more }, `${id} ${command}`)}
+            onCommand={(id, command, more) => send({ do: "command", command, station: id, ...more }, `${id} ${named("o", command)}`)}
             onControl={(id, take) => send({ do: take ? "take" : "give_up", station: id }, `${id} ${t(take ? "take" : "give_up")}`)}
           />
         </div>

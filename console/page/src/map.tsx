@@ -1,7 +1,7 @@
 // The map with its tools.
 
 import { h } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Link } from "./link";
 import { OwnMaps } from "./ownmaps";
 import { SiteMap } from "./sitemap";
@@ -29,9 +29,10 @@ export function MapView({ link, version, theme, selected, onPick }: Props) {
     if (!map.current) return;
     map.current.onPick = onPick;
     map.current.selected = selected;
-    map.current.draw(true);
+    map.current.draw();
   }, [selected, onPick]);
-  useEffect(() => map.current?.draw(), [version]);
+  // In the frame in which the news came: an effect and the map's own rendering would take two more.
+  useLayoutEffect(() => map.current?.drawNow(), [version]);
   const toggle = (name: keyof typeof options) => {
     const value = !options[name];
     setOptions({ ...options, [name]: value });

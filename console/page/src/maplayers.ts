@@ -18,6 +18,13 @@ export async function userMaps(): Promise<UserMaps> {
   return response?.ok ? response.json() : { maps: [], problem: "" };
 }
 
+// Of a file that anybody may have written, for a control that takes HTML: its words alone.
+function wordsOf(html: string): string {
+  const words = document.createElement("span");
+  words.textContent = new DOMParser().parseFromString(html, "text/html").body.textContent;
+  return words.innerHTML;
+}
+
 // The users' maps on the map: those that are chosen, by their ids.
 export class UserMapLayers {
   private layers = new Map<string, TileLayer<XYZ>>();
@@ -41,7 +48,7 @@ export class UserMapLayers {
 
   private add(one: UserMap) {
     const [minZoom, maxZoom] = one.zoom!;
-    const source = new XYZ({ url: `/api/maps/${encodeURIComponent(one.id)}/{z}/{x}/{y}`, minZoom, maxZoom, attributions: one.attribution || undefined });
+    const source = new XYZ({ url: `/api/maps/${encodeURIComponent(one.id)}/{z}/{x}/{y}`, minZoom, maxZoom, attributions: one.attribution && wordsOf(one.attribution) });
     source.on("tileloaderror", () => this.onTrouble());
     const layer = new TileLayer({ source, extent: transformExtent(one.bounds_deg!, "EPSG:4326", "EPSG:3857") });
     this.layers.set(one.id, layer);

@@ -138,6 +138,13 @@ export function emptySite(): Site {
   return { stations: new Map(), targets: new Map(), lines: new Map(), fusion: null, events: [] };
 }
 
+// The target that is to stay in the middle: the one that is selected; where none is, the only one.
+export function followed(site: Site, selected: string): Target | undefined {
+  if (selected.startsWith("target:")) return site.targets.get(selected.slice(7));
+  const heard = [...site.targets.values()].filter((target) => !target.stale);
+  return heard.length === 1 ? heard[0] : undefined;
+}
+
 type Entity = { id: string };
 
 function merge<T extends Entity>(known: Map<string, T>, changed: Partial<T>[] | undefined, gone: string[] | undefined) {

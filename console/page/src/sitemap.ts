@@ -9,9 +9,11 @@ import VectorSource from "ol/source/Vector";
 import TopoJSON from "ol/format/TopoJSON";
 import LineString from "ol/geom/LineString";
 import Point from "ol/geom/Point";
+import Attribution from "ol/control/Attribution";
 import ScaleLine from "ol/control/ScaleLine";
+import DoubleClickZoom from "ol/interaction/DoubleClickZoom";
 import { defaults as defaultInteractions } from "ol/interaction/defaults";
-import { createEmpty, extend, intersects, isEmpty, getCenter } from "ol/extent";
+import { createEmpty, extend, intersects, isEmpty } from "ol/extent";
 import { fromLonLat, toLonLat, transformExtent } from "ol/proj";
 import { Circle, Fill, Stroke, Style, Text } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
@@ -20,24 +22,22 @@ import { Grid, gridShapes, ringShapes } from "./gridshapes";
 import type { Link } from "./link";
 import { Colours, readColours, shape, SMALL_FONT, stretch } from "./mapfeatures";
 import { AccuracyChoice, AccuracyLayer, UserMap, UserMapLayers } from "./maplayers";
+import { followed } from "./site";
 import { lineShapes, stationShapes } from "./stationshapes";
 import { cueShapes, targetShapes } from "./targetshapes";
 
 const BORDER_PART = 0.17; // of the view: how far borders are drawn from their station
-
-// How fast the page may redraw its map.
-const FRAME_MS = 40;
 
 export class SiteMap {
   readonly map: OlMap;
   private moving = new VectorSource();
   private still = new VectorSource();
   private measured = new VectorSource();
+  private doubleClick = new DoubleClickZoom();
   private land: VectorLayer<any>;
   private graticule: Graticule | null = null;
   private grid: Grid | null = null;
   private colours: Colours = readColours();
-  private drawn_ms = 0;
   private newest_us = 0; // of the targets that are drawn
   private stationsFitted = 0;
   private hasMoved = false;
@@ -59,8 +59,8 @@ export class SiteMap {
     this.map = new OlMap({
       target: element,
       layers: [this.land, new VectorLayer({ source: this.still }), new VectorLayer({ source: this.moving, updateWhileInteracting: true, updateWhileAnimating: true }), new VectorLayer({ source: this.measured })],
-      controls: [new ScaleLine({ minWidth: 90 })],
-      interactions: defaultInteractions({ altShiftDragRotate: false, pinchRotate: false }),
+      controls: [new ScaleLine({ minWidth: 90 }), new Attribution({ collapsible: false })],
+      interactions: defaultInteractions({ altShiftDragRotate: false, pinchRotate: false, doubleClickZoom: false }).extend([this.doubleClick]),
       view: new View({ center: fromLonLat([15, 50]), zoom: 4, maxZoom: 24, enableRotation: false }),
     });
     this.userLayers = new UserMapLayers(this.map, () => this.onMapTrouble());
@@ -86,12 +86,13 @@ export class SiteMap {
   restyle() {
     const c = (this.colours = readColours());
     this.land.setStyle(new Style({ fill: new Fill({ color: c.land }), stroke: new Stroke({ color: c.rule, width: 1 }) }));
+    const visible = this.graticule?.getVisible() ?? true;
     if (this.graticule) this.map.removeLayer(this.graticule);
     const text = () => new Text({ font: SMALL_FONT, fill: new Fill({ color: c["rule-text"] }), stroke: new Stroke({ color: c.halo, width: 3 }) });
-    this.graticule = new Graticule({ strokeStyle: new Stroke({ color: c.rule, width: 1 }), showLabels: true, wrapX: false, maxLines: 40, targetSize: 160, lonLabelStyle: text(), latLabelStyle: text() });
+    this.graticule = new Graticule({ visible, strokeStyle: new Stroke({ color: c.rule, width: 1 }), showLabels: true, wrapX: false, maxLines: 40, targetSize: 160, lonLabelStyle: text(), latLabelStyle: text() });
     this.map.getLayers().insertAt(1, this.graticule);
     this.drawStill();
-    this.draw(true);
+    this.draw();
   }
 
   private pick(pixel: number[]) {
@@ -156,7 +157,7 @@ export class SiteMap {
 
   private async settled() {
     this.drawStill();
-    this.draw(true); // what is drawn at the size of the view
+    this.draw(); // what is drawn at the size of the view
     if (this.accuracyShown && this.accuracyShown.plan === undefined) void this.accuracy.show(this.accuracyShown);
     const box = transformExtent(this.map.getView().calculateExtent(), "EPSG:3857", "EPSG:4326");
     const isSmall = box[2] - box[0] < 3 && box[3] - box[1] < 3;
@@ -174,15 +175,21 @@ export class SiteMap {
 
   setOption(name: keyof SiteMap["options"], value: boolean) {
     this.options[name] = value;
-    if (name === "measuring" && !value) this.endMeasuring();
+    if (name === "measuring") {
+      if (!value) this.endMeasuring();
+      this.doubleClick.setActive(!value); // two points in quick succession are two points
+    }
     void this.settled();
-    this.draw(true);
+    this.draw();
   }
 
-  draw(now = false) {
-    const time = performance.now();
-    if (!now && time - this.drawn_ms < FRAME_MS) return;
-    this.drawn_ms = time;
+  // On the screen with the page's next frame.
+  drawNow() {
+    this.draw();
+    this.map.renderSync();
+  }
+
+  draw() {
     const { site } = this.link;
     const features: Feature[] = [];
     const border_m = this.options.limits ? BORDER_PART * this.view_m() : null;
@@ -202,12 +209,7 @@ export class SiteMap {
       this.stationsFitted = placed;
       this.fit();
     }
-    if (!this.options.follow || !this.selected.startsWith("target:")) return;
-    const target = this.link.site.targets.get(this.selected.slice(7));
+    const target = this.options.follow ? followed(this.link.site, this.selected) : undefined;
     if (target?.latitude_deg != null) this.map.getView().setCenter(fromLonLat([target.longitude_deg, target.latitude_deg]));
-  }
-
-  middle(): Coordinate {
-    return getCenter(this.map.getView().calculateExtent());
   }
 }

@@ -2,10 +2,11 @@
 
 import { h, Fragment } from "preact";
 import { useState } from "preact/hooks";
-import { adviceFor } from "./advice";
+import { Alarms } from "./alarms";
 import { calibrationText } from "./calibration";
 import { Fleet } from "./fleet";
 import { bearing, clockError, DASH, fixed, utc } from "./format";
+import { LensForm } from "./lensform";
 import type { Link } from "./link";
 import type { Station } from "./site";
 import { named, t, Word } from "./words";
@@ -21,30 +22,6 @@ function Row({ word, children }: { word: Word; children: any }) {
       <dt>{t(word)}</dt>
       <dd>{children}</dd>
     </Fragment>
-  );
-}
-
-function Alarms({ alarms }: { alarms: string[] }) {
-  if (!alarms?.length) return <p class="fine">{t("no_alarm")}</p>;
-  return (
-    <ul class="alarms">
-      {alarms.map((alarm) => {
-        const advice = adviceFor(alarm);
-        return (
-          <li>
-            <b>{alarm}</b>
-            {advice && (
-              <p>
-                {advice.meaning && <span lang="en">{advice.meaning}. </span>}
-                <em>
-                  {t("what_to_do")}: <span lang="en">{advice.action}</span>
-                </em>
-              </p>
-            )}
-          </li>
-        );
-      })}
-    </ul>
   );
 }
 
@@ -79,6 +56,7 @@ function Commands({ link, station, mayCommand, onCommand, onControl }: StationPr
           </Fragment>
         )}
       </div>
+      <LensForm station={station} onMove={mayCommand ? (axis, position) => onCommand(id, "lens", { is_rate: false, [axis]: position }) : null} />
       {mayCommand && (
         <Fragment>
           <form
@@ -191,6 +169,7 @@ type StationsProps = { link: Link; selected: string; mayCommand: boolean; onSele
 
 export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
   const stations = [...link.site.stations.values()].sort((a, b) => a.id.localeCompare(b.id));
+  const fusionAlarms = link.site.fusion?.alarms ?? [];
   return (
     <section class="stations" aria-label={t("stations")}>
       <header>
@@ -198,6 +177,12 @@ export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
       </header>
       <div class="scroll" tabIndex={0} role="group" aria-label={t("stations")}>
         {stations.length === 0 && <p class="nothing">{t("no_station")}</p>}
+        {fusionAlarms.length > 0 && (
+          <div class="fusion-alarms">
+            <h3>{t("fusion")}</h3>
+            <Alarms alarms={fusionAlarms} />
+          </div>
+        )}
         {stations.map((s) => {
           const isOpen = selected === s.id;
           const state = s.stale ? "silent" : s.state;

@@ -2,7 +2,7 @@
 // dragged on.
 
 import { h } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { steerByGamepad } from "./gamepad";
 import { Hand, HOLD_MS, magnified, Pinch, STILL_PX, type Region } from "./hand";
 import { decodesH264 } from "./h264";
@@ -57,7 +57,8 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
   const pinch = useRef(new Pinch());
   const pressed = useRef<{ at: [number, number]; stamp: number; what: "" | "box" | "joystick" } | null>(null);
   const shown = held.current?.picture ?? picture;
-  useEffect(() => {
+  // At once, and with the attributes that say which picture it is.
+  useLayoutEffect(() => {
     if (canvas.current && shown) drawPicture(canvas.current, link.site, shown, region, box, station.state === "tracking");
   }, [shown, region, box, station.state === "tracking", large]);
   const place = (event: MouseEvent): [number, number] => {
@@ -80,10 +81,11 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
   // another, with a box that nobody has drawn.
   const begin = (event: PointerEvent) => {
     if (!large) return onSelect();
-    if (!picture || !mayCommand || event.button !== 0) return;
+    if (!picture || event.button !== 0) return;
     canvas.current!.setPointerCapture(event.pointerId);
     pinch.current.down(event);
     if (pinch.current.isTwo) return let_go();
+    if (!mayCommand) return;
     const from = place(event);
     hold({ picture, from, size: size() });
     setBox([...from, 0, 0]);
@@ -101,12 +103,13 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
     hand.current!.release();
     send(null);
   };
+  // By the lens, where there is one and this person may; else of the picture that is there.
   const magnify = (event: MouseEvent, factor: number) => {
-    if (!shown || hand.current!.zoomBy(Math.log(factor) / 4)) return;
+    if (!shown || (mayCommand && hand.current!.zoomBy(Math.log(factor) / 4))) return;
     setRegion(magnified(region, shown.full_px, place(event), factor));
   };
   const wheel = (event: WheelEvent) => {
-    if (!large || !mayCommand) return;
+    if (!large) return;
     event.preventDefault();
     magnify(event, Math.exp(-event.deltaY / 400));
   };
@@ -145,16 +148,19 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
     onPoint(station.id, looks || event.shiftKey ? "look" : "centre", on.utime_us, point);
     setLooks(false);
   };
+  const zoomByKey = (key: string): boolean => {
+    const towards = { "+": 1, "=": 1, "-": -1 }[key];
+    if (!towards) return false;
+    const [width, height] = picture!.full_px;
+    if (mayCommand && station.lens?.zoom != null) hand.current!.zoom(towards);
+    else setRegion(magnified(region, [width, height], [width / 2, height / 2], towards > 0 ? 1.3 : 1 / 1.3));
+    return true;
+  };
   const steerByKey = (event: KeyboardEvent): boolean => {
     const arrows: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-    const zooms: Record<string, number> = { "+": 1, "=": 1, "-": -1 };
     const slow = event.shiftKey ? 0.4 : 0.8;
     if (arrows[event.key]) {
       if (!event.repeat) hand.current!.push(arrows[event.key][0] * slow, arrows[event.key][1] * slow);
-    } else if (event.key in zooms) {
-      const [width, height] = picture!.full_px;
-      if (station.lens?.zoom != null) hand.current!.zoom(zooms[event.key]);
-      else setRegion(magnified(region, [width, height], [width / 2, height / 2], zooms[event.key] > 0 ? 1.3 : 1 / 1.3));
     } else if (event.key === "l" || event.key === "L") {
       onPoint(station.id, "look", picture!.utime_us, [picture!.full_px[0] / 2, picture!.full_px[1] / 2]);
     } else {
@@ -163,7 +169,9 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
     return true;
   };
   const key = (event: KeyboardEvent) => {
-    if (!picture || !mayCommand) return;
+    if (!picture) return;
+    if (!held.current && zoomByKey(event.key)) return event.preventDefault();
+    if (!mayCommand) return;
     if (event.key === "Enter") {
       event.preventDefault();
       if (held.current) return send(box);
@@ -202,6 +210,7 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
         onPointerUp={end}
         onPointerCancel={(event: PointerEvent) => (pinch.current.up(event), let_go())}
         onWheel={wheel}
+        onContextMenu={(event: MouseEvent) => event.preventDefault()}
         onKeyUp={() => hand.current!.release()}
         onBlur={() => hand.current!.release()}
         onFocus={(event: FocusEvent) => (event.currentTarget as Element).matches(":focus-visible") && onSelect()}
@@ -216,7 +225,8 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
           </button>
         )}
         {isThin && shown && <span class="codec">{shown.codec === "h264" ? "H.264" : "JPEG"}</span>}
-        {station.lens?.zoom != null && <span class="age">{`${Math.round(station.lens.zoom * 100)} %`}</span>}
+        {region && shown && <span class="magnified">{`${fixed(shown.full_px[0] / region[2], 1)}×`}</span>}
+        {station.lens?.zoom != null && <span class="zoom">{`${Math.round(station.lens.zoom * 100)} %`}</span>}
         <span class={age_s > OLD_S ? "age old" : "age"}>{shown ? delay(age_s) : t("no_picture")}</span>
       </figcaption>
     </figure>

@@ -3,10 +3,11 @@
 // here and drawn on a plain canvas, which works in every browser.
 
 import { h } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
+import { Pinch } from "./hand";
 import type { Link } from "./link";
 import { ecef } from "./projection";
-import type { Station, Target } from "./site";
+import { followed, type Station, type Target } from "./site";
 import { distance, fixed } from "./format";
 import { t } from "./words";
 
@@ -191,7 +192,8 @@ export function View3d({ link, version, theme, selected, follow }: Props) {
   const [larger, setLarger] = useState(1);
   const held = useRef<[number, number] | null>(null);
   const shown = useRef<Eye>({ azimuth: 0.5, elevation: 0.45, away_m: 1000, at: [0, 0, 0] });
-  useEffect(() => {
+  const pinch = useRef(new Pinch());
+  useLayoutEffect(() => {
     const stations = [...link.site.stations.values()];
     const frame = frameOf(stations);
     if (!frame || !canvas.current) return;
@@ -203,14 +205,18 @@ export function View3d({ link, version, theme, selected, follow }: Props) {
     const whole = around([...places, ...targets.flatMap(({ at }) => (at ? [at] : []))]);
     for (const station of stations) scene.addStation(station, Math.max(RAY_M, whole.away_m));
     shown.current = eye ?? { ...shown.current, ...whole };
-    const followed = follow && targets.find(({ target }) => selected === `target:${target.id}`)?.at;
-    if (followed) shown.current = { ...shown.current, at: followed };
+    const middle = follow && targets.find(({ target }) => target === followed(link.site, selected))?.at;
+    if (middle) shown.current = { ...shown.current, at: middle };
     draw(canvas.current, scene, groundStrokes(shown.current, colour("--map-grid")), shown.current, colour);
   }, [version, eye, larger, theme, selected, follow]);
   const turn = (azimuth: number, elevation: number, away = 1) => {
     const now = shown.current;
     const steep = Math.max(-0.1, Math.min(1.55, now.elevation + elevation));
     setEye({ ...now, azimuth: now.azimuth + azimuth, elevation: steep, away_m: Math.max(20, Math.min(1e6, now.away_m * away)) });
+  };
+  const letGo = (event: PointerEvent) => {
+    pinch.current.up(event);
+    held.current = null;
   };
   const key = (event: KeyboardEvent) => {
     const turns: Record<string, [number, number, number?]> = { ArrowLeft: [0.1, 0], ArrowRight: [-0.1, 0], ArrowUp: [0, 0.08], ArrowDown: [0, -0.08], "+": [0, 0, 0.8], "-": [0, 0, 1.25] };
@@ -228,15 +234,17 @@ export function View3d({ link, version, theme, selected, follow }: Props) {
         onKeyDown={key}
         onPointerDown={(event) => {
           held.current = [event.clientX, event.clientY];
+          pinch.current.down(event);
           event.currentTarget.setPointerCapture(event.pointerId);
         }}
         onPointerMove={(event) => {
+          if (pinch.current.isTwo) return turn(0, 0, 1 / pinch.current.move(event));
           if (!held.current) return;
           turn((held.current[0] - event.clientX) * -0.006, (event.clientY - held.current[1]) * 0.005);
           held.current = [event.clientX, event.clientY];
         }}
-        onPointerUp={() => (held.current = null)}
-        onPointerCancel={() => (held.current = null)}
+        onPointerUp={letGo}
+        onPointerCancel={letGo}
         onWheel={(event) => {
           event.preventDefault();
           turn(0, 0, Math.exp(event.deltaY * 0.001));

@@ -110,6 +110,21 @@ const WORDS = {
   thin_link: ["Thin link (H.264)", "Schmale Leitung (H.264)"],
   thin_no: ["This browser cannot decode it: JPEG.", "Dieser Browser kann es nicht dekodieren: JPEG."],
   look_here: ["Look here", "Hierher schauen"],
+  lens: ["Lens", "Objektiv"],
+  zoom: ["Zoom", "Zoom"],
+  focus: ["Focus", "Schärfe"],
+  iris: ["Iris", "Blende"],
+  o_designate: ["designate", "bezeichnen"],
+  o_centre: ["centre", "zentrieren"],
+  o_look: ["look", "hinschauen"],
+  o_point: ["point", "richten"],
+  o_lens: ["lens", "Objektiv"],
+  o_stop: ["stop", "Halt"],
+  o_release: ["release", "freigeben"],
+  o_home: ["home", "Referenzfahrt"],
+  o_rearm: ["rearm", "scharf stellen"],
+  o_reference_ok: ["reference ok", "Referenz ok"],
+  o_record: ["record", "aufnehmen"],
   done: ["done", "erledigt"],
   sent: ["sent", "gesendet"],
   not_sent: ["not sent: no connection", "nicht gesendet: keine Verbindung"],
@@ -225,7 +240,7 @@ export function t(word: Word): string {
 }
 
 // A word for a value that comes from the server; itself if there is none.
-export function named(prefix: "s" | "k" | "v" | "c" | "p", value: string): string {
+export function named(prefix: "s" | "k" | "v" | "c" | "p" | "o", value: string): string {
   const word = `${prefix}_${value}` as Word;
   return word in WORDS ? t(word) : value;
 }

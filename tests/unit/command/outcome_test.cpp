@@ -24,6 +24,9 @@ TEST(Outcome, ARefusalIsInTheStationsWords) {
   const Reply stopped{.counters = {{"refused_just_stopped", 1}}};
   EXPECT_EQ(outcome(before, stopped, Kind::kPoint)->why,
             "refused: it was stopped less than a second ago; try again");
+  const Reply too_old{.counters = {{"refused_no_frame", 1}}, .last_error = "no_frame"};
+  EXPECT_EQ(outcome(before, too_old, Kind::kDesignate)->why,
+            "refused: that picture is too old; try again on the one of now");
 }
 
 TEST(Outcome, WithoutAnswerALostMessageIsTheReasonIfOneWasCounted) {

@@ -1,0 +1,169 @@
+"""Targets, stations and history on the console's page, in a real browser: sorting, filters, every
+command of a station, who has control, the fusion's state."""
+
+import ols_msg
+import pytest
+from console_page import picture, region, watched_page
+from console_site import PaperTarget, wait_for
+from ols_demo.places import geodetic
+from playwright.sync_api import expect
+
+pytest_plugins = ["console_fixtures"]
+
+TARGET_T, PTU = ols_msg.target_t, ols_msg.ptu_command_t
+
+
+def second_target(paper):
+    """Higher than the other, and only just found."""
+    place = geodetic(49.2270, 16.598, 500.0)
+    return paper.another_target(PaperTarget(lambda _time_s: place, TARGET_T.TRACK_BORN))
+
+
+def rows(page, name):
+    return region(page, name).locator("tbody tr")
+
+
+def test_targets_are_sorted_and_filtered(page, paper):
+    with second_target(paper):
+        targets = region(page, "Targets")
+        expect(rows(page, "Targets")).to_have_count(2)
+        heights = rows(page, "Targets").locator("td:nth-child(3)")
+        for wanted, order in ((["380.0 m", "500.0 m"], "asc"), (["500.0 m", "380.0 m"], "desc")):
+            targets.get_by_role("button", name="Height").click()
+            expect(heights).to_have_text(wanted)
+            heading = targets.get_by_role("columnheader", name="Height")
+            expect(heading).to_have_attribute("aria-sort", f"{order}ending")
+        targets.get_by_label("Filter").select_option("born")
+        expect(heights).to_have_text(["500.0 m"])
+        targets.get_by_label("Filter").select_option("all")
+        expect(rows(page, "Targets")).to_have_count(2)
+
+
+def test_history_is_filtered(page, paper):
+    paper.alarms["bravo"] = ["ptu: supply voltage low (11.2 V)"]
+    region(page, "Stations").get_by_role("button", name="alfa").click()
+    region(page, "Stations").get_by_role("button", name="Release").click()
+    history = region(page, "History")
+    expect(history).to_contain_text("release → done")
+    expect(history).to_contain_text("supply voltage low")
+    history.get_by_label("Filter").select_option("command")
+    expect(history).not_to_contain_text("supply voltage low")
+    history.get_by_label("Filter").select_option("alarm")
+    expect(history).to_contain_text("supply voltage low")
+    expect(history).not_to_contain_text("release")
+    paper.alarms.clear()
+
+
+def test_an_alarm_that_begins_is_told_to_who_cannot_see_it(page, paper):
+    picture(page, "alfa")
+    paper.alarms["alfa"] = ["camera: no frames for 3 s"]
+    expect(page.get_by_role("alert")).to_have_text("Alarm: alfa camera: no frames for 3 s")
+    paper.alarms.clear()
+
+
+@pytest.mark.parametrize(
+    ("button", "command"),
+    [
+        ("Home", PTU.COMMAND_HOME),
+        ("Re-arm", PTU.COMMAND_REARM),
+        ("Reference ok", PTU.COMMAND_REFERENCE_OK),
+        ("Stop", PTU.COMMAND_STOP),
+        ("Release", PTU.COMMAND_RELEASE),
+    ],
+)
+def test_each_command_of_a_station(page, paper, button, command):
+    page.on("dialog", lambda dialog: dialog.accept())
+    paper.ptu_commands.clear()
+    stations = region(page, "Stations")
+    stations.get_by_role("button", name="charlie").click()
+    stations.get_by_role("button", name=button, exact=True).click()
+    (first, *_) = wait_for(lambda: paper.ptu_commands, f"{button} on the bus")
+    assert (first.station, first.command) == ("charlie", command)
+    expect(page.locator("output.notice")).to_contain_text("done")
+
+
+def test_what_may_be_dangerous_is_asked_about_first(page, paper):
+    asked = []
+    page.on("dialog", lambda dialog: (asked.append(dialog.message), dialog.dismiss()))
+    paper.ptu_commands.clear()
+    stations = region(page, "Stations")
+    stations.get_by_role("button", name="charlie").click()
+    stations.get_by_role("button", name="Home", exact=True).click()
+    stations.get_by_role("button", name="Release", exact=True).click()
+    wait_for(lambda: paper.ptu_commands, "the release")
+    assert "Is the way clear?" in asked[0]
+    assert [m.command for m in paper.ptu_commands] == [PTU.COMMAND_RELEASE]
+
+
+def test_a_station_is_pointed_and_records(page, paper):
+    paper.ptu_commands.clear()
+    paper.records.clear()
+    stations = region(page, "Stations")
+    stations.get_by_role("button", name="bravo").click()
+    stations.get_by_label("Pan °").fill("-12.5")
+    stations.get_by_label("Tilt °").fill("4")
+    stations.get_by_role("button", name="Point", exact=True).click()
+    (pointed,) = wait_for(lambda: paper.ptu_commands, "the angles")
+    assert (pointed.station, pointed.command) == ("bravo", PTU.COMMAND_POINT)
+    assert pointed.pan_rad == pytest.approx(-0.218166, abs=1e-6)
+    assert pointed.tilt_rad == pytest.approx(0.069813, abs=1e-6)
+    stations.get_by_label("Label").fill("bird")
+    stations.get_by_role("button", name="Record").click()
+    (recorded,) = wait_for(lambda: paper.records, "the recording")
+    assert (recorded.station, recorded.label) == ("bravo", "bird")
+    assert (recorded.before_s, recorded.after_s) == (5.0, 5.0)
+
+
+def test_one_browser_has_control_until_another_takes_it_over(page, paper, chromium, consoles):
+    ours = region(page, "Stations")
+    ours.get_by_role("button", name="alfa").click()
+    ours.get_by_role("button", name="Release").click()
+    expect(ours).to_contain_text("you have control")
+    with watched_page(chromium, consoles[0]) as other:
+        theirs = region(other, "Stations")
+        theirs.get_by_role("button", name="alfa").click()
+        paper.ptu_commands.clear()
+        theirs.get_by_role("button", name="Release").click()
+        expect(other.locator("output.notice")).to_contain_text("has control")
+        theirs.get_by_role("button", name="Take over").click()
+        expect(theirs).to_contain_text("you have control")
+        assert paper.ptu_commands == [], "what was refused is not on the bus"
+        theirs.get_by_role("button", name="Release").click()
+        wait_for(lambda: paper.ptu_commands, "the command of who took over")
+        expect(ours.get_by_role("button", name="Take over")).to_be_visible()
+        theirs.get_by_role("button", name="Give up").click()
+        expect(ours).to_contain_text("nobody has control")
+
+
+def test_the_fusions_alarms_come_with_what_to_do(page, paper):
+    paper.fusion_alarms = ["another fusion is on the bus: stop one of them"]
+    expect(region(page, "Stations")).to_contain_text("What to do: stop one")
+    paper.fusion_alarms = []
+    expect(region(page, "Stations")).not_to_contain_text("another fusion")
+
+
+def test_a_fusion_that_falls_silent_and_restarts(page, paper):
+    """Said while it lasts; the numbers of the new one mean other objects."""
+    fusion = page.get_by_role("listitem").filter(has_text="Fusion")
+    with second_target(paper):
+        expect(fusion).to_have_text("Fusion ok")
+        expect(rows(page, "Targets")).to_have_count(2)
+        paper.is_fusion_silent = True
+        expect(fusion).to_have_text("Fusion silent")
+        expect(rows(page, "Targets").first).to_have_class("stale")
+    paper.fusion_boot, paper.is_fusion_silent = 10, False
+    expect(fusion).to_have_text("Fusion ok")
+    expect(rows(page, "Targets")).to_have_count(1)
+
+
+def test_a_designation_of_a_frame_that_is_too_old_is_refused_in_words(page, paper):
+    paper.refusing["alfa"] = "no_frame"
+    canvas = picture(page, "alfa")
+    canvas.scroll_into_view_if_needed()
+    box = canvas.bounding_box()
+    page.mouse.move(box["x"] + 0.4 * box["width"], box["y"] + 0.4 * box["height"])
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.6 * box["width"], box["y"] + 0.6 * box["height"], steps=3)
+    page.mouse.up()
+    expect(page.get_by_text("alfa designate: refused: that picture is too old")).to_be_visible()
+    paper.refusing.clear()
