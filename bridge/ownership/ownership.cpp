@@ -19,8 +19,9 @@ constexpr double kSlack_m = 20.0, kSlack_m_s = 10.0;  // of two fusions' estimat
 constexpr double kOldest_s = 10.0;                    // extrapolated no further
 constexpr const char* kNobody = "-";                  // successor of a record that was one too many
 
-// Parts of the lease: an owner counts on the least, another fusion waits for the most.
-constexpr double kHeld = 0.75, kInside = 0.8, kOutside = 0.875, kRenewed = 0.2;
+// Parts of the lease: an owner counts on the least, another fusion waits for the most; what is left
+// is for the store to write it, on a disk, and for the next fix.
+constexpr double kHeld = 0.65, kInside = 0.7, kOutside = 0.775, kRenewed = 0.2;
 
 double distance_m(const Vector& a, const Vector& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
